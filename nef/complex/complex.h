@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The selective Nef complex (thesis chapter 4): vertices with their sphere maps, and what synthesis
+// adds to them: edges, facets, shells and volumes. Flat arrays and 32-bit indices; a complex never
+// changes once it is synthesized, so it may be read from any number of threads.
+//
+// Conventions:
+//  - vertex v lies at point v of `points`; its sphere map is a contiguous range of each array of
+//    sphere items, with local indices inside (see nef/sphere_map/sphere_map.h);
+//  - an svertex of the whole complex is a halfedge; `twin` pairs them into edges;
+//  - halffacet 2f is facet f seen from the positive side of its (unflipped) plane, 2f+1 from the
+//    other side; the volume incident to a halffacet lies on the side it is seen from;
+//  - a corner is the shalfedge of a facet at a boundary vertex, oriented like halffacet 2f. The
+//    corners of a cycle are in boundary order with the facet to the left: from a corner the
+//    boundary goes on along the halfedge of the corner's source svertex;
+//  - volume 0 is the outer volume. In a complex with an infimaximal box its mark is kOutside.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "nef/geometry/point_table.h"
+#include "nef/sphere_map/sphere_map.h"
+
+namespace nef {
+
+using VertexId = Id<struct VertexTag>;
+using HalfedgeId = Id<struct HalfedgeTag>;    ///< = index into svertices
+using SHalfedgeId = Id<struct SHalfedgeTag>;  ///< = index into shalfedges
+using SLoopId = Id<struct SLoopTag>;
+using SFaceId = Id<struct SFaceTag>;
+using FacetId = Id<struct FacetTag>;          ///< both sides of a facet
+using HalffacetId = Id<struct HalffacetTag>;  ///< 2 * facet + side
+using ShellId = Id<struct ShellTag>;
+using VolumeId = Id<struct VolumeTag>;
+
+/// Where the sphere map of a vertex begins in each array; it ends where the next vertex's begins.
+struct VertexRecord {
+  std::uint32_t svertices = 0;
+  std::uint32_t shalfedges = 0;
+  std::uint32_t sloops = 0;
+  std::uint32_t sfaces = 0;
+  std::uint32_t entries = 0;
+  LabelId mark = 0;
+};
+
+/// A connected, relatively open piece of a plane with one mark.
+struct Facet {
+  PlaneId plane;                  ///< unflipped
+  LabelId mark = 0;
+  std::uint32_t first_cycle = 0;  ///< the outer cycle; holes follow
+  std::uint32_t cycle_count = 0;
+  std::uint32_t first_isolated = 0;  ///< vertices inside the facet, in isolated_vertices
+  std::uint32_t isolated_count = 0;
+  std::uint32_t volume_above = 0;    ///< on the positive side of the plane
+  std::uint32_t volume_below = 0;
+};
+
+/// A connected component of the boundary of a volume, as the sfaces that touch it.
+struct Shell {
+  std::uint32_t volume = 0;
+  std::uint32_t first_sface = 0;  ///< range in shell_sfaces
+  std::uint32_t sface_count = 0;
+};
+
+/// A connected open region of space with one mark.
+struct Volume {
+  LabelId mark = 0;
+  std::uint32_t first_shell = 0;  ///< shells of a volume are contiguous; the outer shell (none for volume 0) comes first
+  std::uint32_t shell_count = 0;
+};
+
+struct Complex {
+  PlaneTable planes;
+  PointTable points;
+
+  std::vector<VertexRecord> vertices{VertexRecord{}};  ///< one more than there are vertices
+
+  std::vector<SVertex> svertices;
+  std::vector<SHalfedge> shalfedges;
+  std::vector<SLoop> sloops;
+  std::vector<SFace> sfaces;
+  std::vector<SFaceEntry> entries;
+
+  // Added by synthesis, parallel to the arrays above.
+  std::vector<std::uint32_t> svertex_owner;     ///< vertex
+  std::vector<std::uint32_t> twin;              ///< halfedge at the other end of the edge
+  std::vector<std::uint32_t> shalfedge_owner;   ///< vertex
+  std::vector<std::uint32_t> shalfedge_facet;   ///< halffacet
+  std::vector<std::uint32_t> sloop_facet;       ///< halffacet
+  std::vector<std::uint32_t> sface_owner;       ///< vertex
+  std::vector<std::uint32_t> sface_shell;
+
+  std::vector<Facet> facets;
+  std::vector<std::uint32_t> cycle_begin{0};    ///< into corners; one more than there are cycles
+  std::vector<std::uint32_t> corners;           ///< shalfedges
+  std::vector<std::uint32_t> isolated_vertices;
+
+  std::vector<Shell> shells;
+  std::vector<std::uint32_t> shell_sfaces;
+  std::vector<Volume> volumes;
+
+  [[nodiscard]] std::size_t vertex_count() const { return vertices.size() - 1; }
+  [[nodiscard]] std::size_t edge_count() const { return svertices.size() / 2; }
+  [[nodiscard]] std::size_t facet_count() const { return facets.size(); }
+  [[nodiscard]] std::size_t volume_count() const { return volumes.size(); }
+
+  /// True if the set is unbounded in a way that needed an infimaximal box.
+  [[nodiscard]] bool has_box() const { return !volumes.empty() && volumes[0].mark == kOutside; }
+
+  /// The sphere map of a vertex.
+  [[nodiscard]] SphereMapView sphere_map(std::uint32_t vertex) const;
+
+  /// The vertex at the other end of a halfedge.
+  [[nodiscard]] std::uint32_t target(std::uint32_t halfedge) const { return svertex_owner[twin[halfedge]]; }
+
+  /// The halfedge that leaves the vertex of a corner along the facet boundary (facet to its left).
+  [[nodiscard]] std::uint32_t corner_halfedge(std::uint32_t corner) const {
+    return vertices[shalfedge_owner[corner]].svertices + shalfedges[corner].source;
+  }
+  /// The halfedge at the vertex of a corner that leads back along the facet boundary.
+  [[nodiscard]] std::uint32_t corner_back_halfedge(std::uint32_t corner) const {
+    return vertices[shalfedge_owner[corner]].svertices + shalfedges[corner ^ 1U].source;
+  }
+  /// Global index of the sface to the left of a shalfedge.
+  [[nodiscard]] std::uint32_t shalfedge_sface(std::uint32_t shalfedge) const {
+    return vertices[shalfedge_owner[shalfedge]].sfaces + shalfedges[shalfedge].sface;
+  }
+  [[nodiscard]] std::uint32_t sface_volume(std::uint32_t sface) const { return shells[sface_shell[sface]].volume; }
+
+  /// The volume on the side from which a halffacet is seen.
+  [[nodiscard]] std::uint32_t halffacet_volume(std::uint32_t halffacet) const {
+    const Facet& f = facets[halffacet >> 1U];
+    return (halffacet & 1U) != 0 ? f.volume_below : f.volume_above;
+  }
+
+  /// The corners of cycle `cycle` (a global cycle index: facet.first_cycle + i).
+  [[nodiscard]] std::span<const std::uint32_t> cycle(std::uint32_t cycle) const {
+    return {corners.data() + cycle_begin[cycle], cycle_begin[cycle + 1] - cycle_begin[cycle]};
+  }
+  /// All corners of a facet, cycle after cycle.
+  [[nodiscard]] std::span<const std::uint32_t> facet_corners(const Facet& facet) const {
+    const std::uint32_t first = cycle_begin[facet.first_cycle];
+    return {corners.data() + first, cycle_begin[facet.first_cycle + facet.cycle_count] - first};
+  }
+
+  /// Appends a vertex. Its point must have been pushed already; synthesis comes later.
+  void push_vertex(const SphereMapView& map);
+
+  /// Bytes in use, GMP limbs included.
+  [[nodiscard]] std::size_t bytes() const;
+};
+
+}  // namespace nef

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "nef/complex/complex.h"
+
+namespace nef {
+
+/// Synthesizes edges, facets, shells and volumes from points, sphere maps and planes (thesis
+/// 4.6). The sphere maps must be simplified and complete: every vertex of the complex is there.
+/// `outer` is the mark of the outer volume, needed where there are no vertices at all (otherwise
+/// the sphere maps tell). O(n log n).
+void synthesize(Complex& complex, LabelId outer);
+
+}  // namespace nef

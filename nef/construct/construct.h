@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Polyhedra from geometry.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "nef/polyhedron.h"
+
+namespace nef {
+
+/// A polygon mesh with exact coordinates. Face f has the vertices
+/// corners[face_begin[f]] .. corners[face_begin[f+1]-1], counterclockwise as seen from outside.
+struct Mesh {
+  std::vector<Rational3> vertices;
+  std::vector<std::uint32_t> face_begin{0};
+  std::vector<std::uint32_t> corners;
+
+  [[nodiscard]] std::size_t face_count() const { return face_begin.size() - 1; }
+  [[nodiscard]] std::span<const std::uint32_t> face(std::size_t f) const {
+    return {corners.data() + face_begin[f], face_begin[f + 1] - face_begin[f]};
+  }
+  void push_face(std::span<const std::uint32_t> face) {
+    corners.insert(corners.end(), face.begin(), face.end());
+    face_begin.push_back(static_cast<std::uint32_t>(corners.size()));
+  }
+};
+
+/// The closed box [low, high]. A box that is flat in some directions is a facet, segment or
+/// point; low > high in one gives the empty set.
+Polyhedron make_box(const Rational3& low, const Rational3& high);
+
+/// a x + b y + c z + d <= 0 (or < 0, if not closed). The normal must not be zero.
+Polyhedron make_halfspace(const Rational& a, const Rational& b, const Rational& c, const Rational& d,
+                          bool closed = true);
+
+/// The closed convex hull of any number of points, of whatever dimension it is.
+Polyhedron convex_hull(std::span<const Rational3> points);
+
+/// The closed convex hull as a mesh with planar faces (no two coplanar), for points that span
+/// space; throws InputError if they do not.
+Mesh convex_hull_mesh(std::span<const Rational3> points);
+
+Polyhedron make_point(const Rational3& point);
+Polyhedron make_segment(const Rational3& a, const Rational3& b);
+
+/// A closed planar polygon as a two-dimensional set; `rings` are simple cycles in one plane
+/// without common interior, combined by parity (outer cycles and holes in any order).
+/// Throws InputError if the points are not coplanar or a ring is degenerate.
+Polyhedron make_polygon(std::span<const std::vector<Rational3>> rings);
+
+/// How a mesh becomes a solid.
+struct MeshOptions {
+  bool strict = false;      ///< refuse faces that are not exactly planar instead of triangulating them
+  bool as_surface = false;  ///< the union of the faces as a two-dimensional set; any mesh will do
+  bool check = true;        ///< look for self-intersections (a closed mesh that is known to be clean may skip it)
+};
+
+/// Notes about what was done to the input (faces that were triangulated).
+using Messages = std::vector<std::string>;
+
+/// The closed solid bounded by a closed orientable mesh: any number of components and planar
+/// polygons of any shape, nested cavities by orientation. Vertices at equal coordinates are one.
+/// A mesh that touches itself is legal. Throws InputError for a mesh that is open, inconsistently
+/// oriented or crosses itself, naming the first guilty elements.
+Polyhedron from_mesh(const Mesh& mesh, const MeshOptions& options = {}, Messages* messages = nullptr);
+
+}  // namespace nef

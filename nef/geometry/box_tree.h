@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A bounding volume hierarchy over boxes of doubles. The boxes must enclose what they stand for
+// (outward-rounded), so that a miss is a proof.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace nef {
+
+/// A closed axis-parallel box of doubles. Starts empty. Infinite bounds are allowed.
+struct Box {
+  std::array<double, 3> low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
+                            std::numeric_limits<double>::infinity()};
+  std::array<double, 3> high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+                             -std::numeric_limits<double>::infinity()};
+
+  /// Adds a point whose true coordinates are within 2^-50 relative of these doubles.
+  void add_rounded(const std::array<double, 3>& point) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double margin = (point[i] < 0 ? -point[i] : point[i]) * 0x1p-50 + 1e-300;
+      const double slack = margin < std::numeric_limits<double>::infinity() ? margin : 0.0;
+      low[i] = std::min(low[i], point[i] - slack);
+      high[i] = std::max(high[i], point[i] + slack);
+    }
+  }
+  void add(const Box& other) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      low[i] = std::min(low[i], other.low[i]);
+      high[i] = std::max(high[i], other.high[i]);
+    }
+  }
+  [[nodiscard]] bool overlaps(const Box& other) const {
+    return low[0] <= other.high[0] && other.low[0] <= high[0] && low[1] <= other.high[1] && other.low[1] <= high[1] &&
+           low[2] <= other.high[2] && other.low[2] <= high[2];
+  }
+};
+
+/// Static tree over n boxes: O(n log n) to build, O(log n + hits) expected for a query.
+class BoxTree {
+ public:
+  BoxTree() = default;
+  explicit BoxTree(std::span<const Box> boxes);
+
+  /// Calls visit(index of box) for every box that overlaps `query`, in an order that depends
+  /// only on the boxes.
+  template <typename Visit>
+  void for_each_overlap(const Box& query, Visit&& visit) const {
+    for_each_if([&query](const Box& box) { return box.overlaps(query); }, visit);
+  }
+
+  /// Calls visit(index) for every box that `accept` takes; accept must take a box if it takes one
+  /// inside it.
+  template <typename Accept, typename Visit>
+  void for_each_if(Accept&& accept, Visit&& visit) const {
+    if (nodes_.empty()) return;
+    std::array<std::uint32_t, 64> stack{};
+    std::size_t depth = 0;
+    stack[depth++] = 0;
+    while (depth > 0) {
+      const Node& node = nodes_[stack[--depth]];
+      if (!accept(node.box)) continue;
+      if (node.count > 0) {
+        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+          if (accept(boxes_[i])) visit(order_[i]);
+        }
+      } else {
+        stack[depth++] = node.first + 1;
+        stack[depth++] = node.first;
+      }
+    }
+  }
+
+  [[nodiscard]] std::size_t size() const { return order_.size(); }
+  /// The box around everything; empty for an empty tree.
+  [[nodiscard]] Box bounds() const { return nodes_.empty() ? Box{} : nodes_[0].box; }
+
+ private:
+  struct Node {
+    Box box;
+    std::uint32_t first = 0;  // of the two children, or of the leaf's boxes
+    std::uint32_t count = 0;  // 0 for inner nodes
+  };
+  void build(std::uint32_t node, std::uint32_t first, std::uint32_t last, std::span<const Box> boxes);
+
+  std::vector<Node> nodes_;
+  std::vector<std::uint32_t> order_;
+  std::vector<Box> boxes_;  // in the order of the leaves
+};
+
+}  // namespace nef

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/geometry/plane_table.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "nef/base/error.h"
+
+namespace nef {
+namespace {
+
+constexpr std::uint32_t kEmpty = 0xffffffffU;
+
+// mantissa * 2^(exponent - top), for a coefficient of the row; truncation by GMP is within 2^-52.
+double scaled(mpz_srcptr value, long top) {
+  long exponent = 0;
+  const double mantissa = mpz_get_d_2exp(&exponent, value);
+  const long shift = exponent - top;
+  if (shift > 1023) return mantissa < 0 ? -HUGE_VAL : HUGE_VAL;
+  if (shift < -1060) return 0.0;
+  return std::ldexp(mantissa, static_cast<int>(shift));
+}
+
+}  // namespace
+
+void PlaneTable::reserve(std::size_t planes) {
+  rows_.reserve(planes, 8);
+  approximate_.reserve(planes);
+  hash_.reserve(planes);
+  while (slots_.size() < 2 * planes + 2) grow();
+}
+
+PlaneId PlaneTable::intern(const Integer& a, const Integer& b, const Integer& c, const Integer& d, const Integer& e) {
+  Integer divisor;
+  mpz_gcd(divisor.get_mpz_t(), a.get_mpz_t(), b.get_mpz_t());
+  mpz_gcd(divisor.get_mpz_t(), divisor.get_mpz_t(), c.get_mpz_t());
+  NEF_ASSERT(divisor != 0);
+  if (divisor != 1) mpz_gcd(divisor.get_mpz_t(), divisor.get_mpz_t(), d.get_mpz_t());
+  if (divisor != 1) mpz_gcd(divisor.get_mpz_t(), divisor.get_mpz_t(), e.get_mpz_t());
+  const int lead = sgn(a) != 0 ? sgn(a) : (sgn(b) != 0 ? sgn(b) : sgn(c));
+  if (lead < 0) divisor = -divisor;
+  if (divisor == 1) {
+    const std::array<mpz_srcptr, 5> row{a.get_mpz_t(), b.get_mpz_t(), c.get_mpz_t(), d.get_mpz_t(), e.get_mpz_t()};
+    rows_.push(row);
+  } else {
+    std::array<Integer, 5> q{a, b, c, d, e};
+    for (Integer& value : q) mpz_divexact(value.get_mpz_t(), value.get_mpz_t(), divisor.get_mpz_t());
+    const std::array<mpz_srcptr, 5> row{q[0].get_mpz_t(), q[1].get_mpz_t(), q[2].get_mpz_t(), q[3].get_mpz_t(),
+                                        q[4].get_mpz_t()};
+    rows_.push(row);
+  }
+  const PlaneId plane = find_or_add_last();
+  return lead < 0 ? plane.opposite() : plane;
+}
+
+PlaneId PlaneTable::intern_from(const PlaneTable& other, PlaneId plane) {
+  if (&other == this) return plane;
+  // The other row is normalized already; only its place in this table is in question.
+  rows_.push_from(other.rows_, plane.row());
+  const PlaneId found = find_or_add_last();
+  return plane.flipped() ? found.opposite() : found;
+}
+
+PlaneId PlaneTable::intern(const Rational3& normal, const Rational& offset) {
+  Integer denominator = offset.get_den();
+  for (const Rational& n : normal) mpz_lcm(denominator.get_mpz_t(), denominator.get_mpz_t(), n.get_den().get_mpz_t());
+  const auto scale = [&denominator](const Rational& value) {
+    return Integer(value.get_num() * (denominator / value.get_den()));
+  };
+  return intern(scale(normal[0]), scale(normal[1]), scale(normal[2]), scale(offset));
+}
+
+Integer PlaneTable::oriented_coefficient(PlaneId plane, std::size_t column) const {
+  Integer result;
+  mpz_set(result.get_mpz_t(), coefficient(plane, column));
+  return plane.flipped() ? Integer(-result) : result;
+}
+
+// The candidate is the last row; keep it only if no equal row exists.
+PlaneId PlaneTable::find_or_add_last() {
+  const auto candidate = static_cast<std::uint32_t>(rows_.size() - 1);
+  if (2 * rows_.size() > slots_.size()) grow();
+  const std::uint64_t hash = rows_.hash(candidate);
+  const std::size_t mask = slots_.size() - 1;
+  std::size_t slot = hash & mask;
+  while (slots_[slot] != kEmpty) {
+    const std::uint32_t row = slots_[slot];
+    if (hash_[row] == hash && rows_.equal(row, rows_, candidate)) {
+      rows_.pop();
+      return PlaneId{row << 1U};
+    }
+    slot = (slot + 1) & mask;
+  }
+  slots_[slot] = candidate;
+  hash_.push_back(hash);
+  long top = std::numeric_limits<long>::min();
+  for (std::size_t i = 0; i < 3; ++i) {
+    const IntegerView value = rows_.at(candidate, i);
+    if (value.sign() != 0) top = std::max(top, static_cast<long>(mpz_sizeinbase(value, 2)));
+  }
+  std::array<double, 4> approximate{};
+  for (std::size_t i = 0; i < 4; ++i) approximate[i] = scaled(rows_.at(candidate, i), top);
+  if (rows_.sign(candidate, 4) != 0) approximate[3] = rows_.sign(candidate, 4) > 0 ? HUGE_VAL : -HUGE_VAL;
+  approximate_.push_back(approximate);
+  return PlaneId{candidate << 1U};
+}
+
+void PlaneTable::grow() {
+  const std::size_t capacity = std::max<std::size_t>(16, slots_.size() * 2);
+  slots_.assign(capacity, kEmpty);
+  for (std::uint32_t row = 0; row < hash_.size(); ++row) {
+    std::size_t slot = hash_[row] & (capacity - 1);
+    while (slots_[slot] != kEmpty) slot = (slot + 1) & (capacity - 1);
+    slots_[slot] = row;
+  }
+}
+
+std::size_t PlaneTable::bytes() const {
+  return rows_.bytes() + approximate_.capacity() * sizeof(approximate_[0]) + hash_.capacity() * sizeof(hash_[0]) +
+         slots_.capacity() * sizeof(slots_[0]);
+}
+
+}  // namespace nef

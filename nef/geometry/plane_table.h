@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Interned planes: each plane is held once, so that coplanar means same row and no arithmetic is
+// ever spent on that question (shared design note, section 2; the thesis' own bottleneck, 9.6.3).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "nef/geometry/ids.h"
+#include "nef/number/integer_rows.h"
+
+namespace nef {
+
+/// The set of planes a*x + b*y + c*z + d + e*R = 0 that a polyhedron uses, each with integer
+/// coefficients without common factor and a positive first non-zero normal component. R is the
+/// infimaximal number (greater than every number there is, thesis 3.3); e is zero but for the
+/// planes of an infimaximal box and what transformations make of them.
+class PlaneTable {
+ public:
+  PlaneTable() : rows_(5) {}
+
+  /// The oriented plane with the given coefficients; its positive side is where the form is
+  /// positive. Adds it if it is new. The normal must not be zero. Expected O(1).
+  PlaneId intern(const Integer& a, const Integer& b, const Integer& c, const Integer& d, const Integer& e = 0);
+
+  /// The same for a plane of another table (or of this one).
+  PlaneId intern_from(const PlaneTable& other, PlaneId plane);
+
+  /// The plane n.x + d = 0 for a rational normal and offset; scaled to integers.
+  PlaneId intern(const Rational3& normal, const Rational& offset);
+
+  [[nodiscard]] std::size_t size() const { return rows_.size(); }
+
+  /// Coefficient `column` (0..2 normal, 3 constant, 4 factor of R) of the *unflipped* plane.
+  [[nodiscard]] IntegerView coefficient(PlaneId plane, std::size_t column) const {
+    return rows_.at(plane.row(), column);
+  }
+
+  /// Coefficient with the sign of the oriented plane, as a number of its own.
+  [[nodiscard]] Integer oriented_coefficient(PlaneId plane, std::size_t column) const;
+
+  /// Doubles for filters, of the unflipped plane: the coefficients scaled by a power of two so
+  /// that the largest normal component lies in [1/2, 1); each within 2^-52 relative of the truth.
+  /// The offset is infinite for a plane with a factor of R.
+  [[nodiscard]] const std::array<double, 4>& approximate(PlaneId plane) const { return approximate_[plane.row()]; }
+
+  /// True if the plane has a part in R.
+  [[nodiscard]] bool infimaximal(PlaneId plane) const { return rows_.sign(plane.row(), 4) != 0; }
+
+  [[nodiscard]] std::size_t bytes() const;
+
+  void reserve(std::size_t planes);
+
+ private:
+  PlaneId find_or_add_last();
+  void grow();
+
+  IntegerRows rows_;
+  std::vector<std::array<double, 4>> approximate_;
+  std::vector<std::uint64_t> hash_;
+  std::vector<std::uint32_t> slots_;  // open addressing, a power of two, at most half full
+};
+
+}  // namespace nef

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/geometry/point_table.h"
+
+#include <cmath>
+
+#include "nef/base/error.h"
+
+namespace nef {
+
+PointId PointTable::push(const Rational3& point) {
+  std::array<Integer, 7> h;
+  h[3] = point[0].get_den();
+  for (std::size_t i = 1; i < 3; ++i) mpz_lcm(h[3].get_mpz_t(), h[3].get_mpz_t(), point[i].get_den().get_mpz_t());
+  for (std::size_t i = 0; i < 3; ++i) h[i] = point[i].get_num() * (h[3] / point[i].get_den());
+  return push_homogeneous(h);
+}
+
+PointId PointTable::push_homogeneous(std::array<Integer, 7>& h) {
+  NEF_ASSERT(h[3] != 0);
+  if (sgn(h[3]) < 0) {
+    for (Integer& value : h) mpz_neg(value.get_mpz_t(), value.get_mpz_t());
+  }
+  std::array<mpz_srcptr, 7> row{};
+  for (std::size_t i = 0; i < 7; ++i) row[i] = h[i].get_mpz_t();
+  const PointId id{rows_.push(row)};
+  push_approximation();
+  return id;
+}
+
+void PointTable::push_approximation() {
+  const auto row = static_cast<std::uint32_t>(rows_.size() - 1);
+  const IntegerView w = rows_.at(row, 3);
+  std::array<double, 3> approximate{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const int at_infinity = rows_.sign(row, 4 + i);
+    approximate[i] = at_infinity != 0 ? at_infinity * HUGE_VAL : approximate_quotient(rows_.at(row, i), w);
+  }
+  approximate_.push_back(approximate);
+}
+
+PointId PointTable::push_from(const PointTable& other, PointId point) {
+  const PointId id{rows_.push_from(other.rows_, point.value)};
+  approximate_.push_back(other.approximate_[point.value]);
+  return id;
+}
+
+void PointTable::append(const PointTable& other) {
+  rows_.append(other.rows_);
+  approximate_.insert(approximate_.end(), other.approximate_.begin(), other.approximate_.end());
+}
+
+std::optional<PointId> PointTable::push_intersection(const PlaneTable& planes, PlaneId p, PlaneId q, PlaneId r) {
+  // Cramer's rule with the adjugate's rows m_i = n_j x n_k: w = n_p . m_p, x = -(sum of d_i m_i).
+  struct Scratch {
+    Integer m[3][3];
+    Integer product;
+    std::array<Integer, 7> h;
+  };
+  thread_local Scratch s;
+  const std::array<PlaneId, 3> plane{p, q, r};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const PlaneId u = plane[(i + 1) % 3];
+    const PlaneId v = plane[(i + 2) % 3];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t k1 = (k + 1) % 3;
+      const std::size_t k2 = (k + 2) % 3;
+      mpz_ptr m = s.m[i][k].get_mpz_t();
+      mpz_mul(m, planes.coefficient(u, k1), planes.coefficient(v, k2));
+      mpz_submul(m, planes.coefficient(u, k2), planes.coefficient(v, k1));
+    }
+  }
+  mpz_ptr w = s.h[3].get_mpz_t();
+  mpz_set_ui(w, 0);
+  for (std::size_t k = 0; k < 3; ++k) mpz_addmul(w, planes.coefficient(p, k), s.m[0][k].get_mpz_t());
+  if (mpz_sgn(w) == 0) return std::nullopt;
+  for (std::size_t k = 0; k < 3; ++k) {
+    mpz_ptr x = s.h[k].get_mpz_t();
+    mpz_ptr xr = s.h[4 + k].get_mpz_t();
+    mpz_set_ui(x, 0);
+    mpz_set_ui(xr, 0);
+    for (std::size_t i = 0; i < 3; ++i) {
+      mpz_submul(x, planes.coefficient(plane[i], 3), s.m[i][k].get_mpz_t());
+      if (planes.infimaximal(plane[i])) mpz_submul(xr, planes.coefficient(plane[i], 4), s.m[i][k].get_mpz_t());
+    }
+  }
+  return push_homogeneous(s.h);
+}
+
+Rational3 PointTable::rational(PointId point) const {
+  NEF_ASSERT(finite(point));
+  Rational3 result;
+  for (std::size_t i = 0; i < 3; ++i) {
+    mpz_set(result[i].get_num_mpz_t(), coordinate(point, i));
+    mpz_set(result[i].get_den_mpz_t(), coordinate(point, 3));
+    result[i].canonicalize();
+  }
+  return result;
+}
+
+std::size_t PointTable::bytes() const { return rows_.bytes() + approximate_.capacity() * sizeof(approximate_[0]); }
+
+void PointTable::reserve(std::size_t points) {
+  rows_.reserve(points, 8);
+  approximate_.reserve(points);
+}
+
+}  // namespace nef

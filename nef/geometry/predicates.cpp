@@ -1,0 +1,328 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Filters. u = 2^-53 is the unit roundoff. Plane and point doubles carry a relative error of at
+// most 4u (they are truncated by GMP, scaled by powers of two, and quotients round once more).
+#include "nef/geometry/predicates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "nef/base/error.h"
+
+namespace nef {
+namespace {
+
+constexpr double kUnit = 0x1p-53;
+
+int sign_of(double value) { return (value > 0) - (value < 0); }
+
+// Sign of constant + factor * R.
+int sign_with_infimaximal(mpz_srcptr constant, mpz_srcptr factor) {
+  const int sign = mpz_sgn(factor);
+  return sign != 0 ? sign : mpz_sgn(constant);
+}
+
+int side_of_plane_exact(const PlaneTable& planes, PlaneId plane, const PointTable& points, PointId point) {
+  thread_local Integer constant;
+  thread_local Integer factor;
+  mpz_ptr c = constant.get_mpz_t();
+  mpz_ptr r = factor.get_mpz_t();
+  const IntegerView w = points.coordinate(point, 3);
+  mpz_mul(c, planes.coefficient(plane, 3), w);
+  mpz_mul(r, planes.coefficient(plane, 4), w);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const IntegerView n = planes.coefficient(plane, i);
+    if (n.sign() == 0) continue;
+    mpz_addmul(c, n, points.coordinate(point, i));
+    const IntegerView at_infinity = points.coordinate(point, 4 + i);
+    if (at_infinity.sign() != 0) mpz_addmul(r, n, at_infinity);
+  }
+  return sign_with_infimaximal(c, r);
+}
+
+int compare_coordinate_exact(const PointTable& points, PointId p, PointId q, int axis) {
+  thread_local Integer difference;
+  mpz_ptr d = difference.get_mpz_t();
+  const IntegerView wp = points.coordinate(p, 3);
+  const IntegerView wq = points.coordinate(q, 3);
+  const auto k = static_cast<std::size_t>(axis);
+  mpz_mul(d, points.coordinate(p, 4 + k), wq);
+  mpz_submul(d, points.coordinate(q, 4 + k), wp);
+  if (mpz_sgn(d) != 0) return mpz_sgn(d);
+  mpz_mul(d, points.coordinate(p, k), wq);
+  mpz_submul(d, points.coordinate(q, k), wp);
+  return mpz_sgn(d);
+}
+
+}  // namespace
+
+PredicateCounts& predicate_counts() {
+  thread_local PredicateCounts counts;
+  return counts;
+}
+
+int side_of_plane(const PlaneTable& planes, PlaneId plane, const PointTable& points, PointId point) {
+  const std::array<double, 4>& n = planes.approximate(plane);
+  const std::array<double, 3>& x = points.approximate(point);
+  const double t0 = n[0] * x[0];
+  const double t1 = n[1] * x[1];
+  const double t2 = n[2] * x[2];
+  const double value = t0 + t1 + t2 + n[3];
+  // Each product has a relative error under 4u + 4u + u plus higher terms, the offset 4u, and
+  // three additions contribute 3u of the sum of magnitudes: 13u in all; 16u is safe. The
+  // absolute term covers underflow. Infinities and NaNs fail the comparison and go on.
+  const double bound = 16 * kUnit * (std::fabs(t0) + std::fabs(t1) + std::fabs(t2) + std::fabs(n[3])) + 1e-300;
+  int sign = 0;
+  if (std::fabs(value) > bound && std::fabs(value) < std::numeric_limits<double>::infinity()) {
+    ++predicate_counts().filter;
+    sign = sign_of(value);
+  } else {
+    ++predicate_counts().exact;
+    sign = side_of_plane_exact(planes, plane, points, point);
+  }
+  return plane.flipped() ? -sign : sign;
+}
+
+int compare_coordinate(const PointTable& points, PointId p, PointId q, int axis) {
+  if (p == q) return 0;
+  const auto k = static_cast<std::size_t>(axis);
+  const double a = points.approximate(p)[k];
+  const double b = points.approximate(q)[k];
+  const double difference = a - b;
+  // 4u relative on each coordinate, u on the difference.
+  const double bound = 6 * kUnit * (std::fabs(a) + std::fabs(b)) + 1e-300;
+  if (std::fabs(difference) > bound && std::fabs(difference) < std::numeric_limits<double>::infinity()) {
+    ++predicate_counts().filter;
+    return sign_of(difference);
+  }
+  ++predicate_counts().exact;
+  return compare_coordinate_exact(points, p, q, axis);
+}
+
+int compare_lexicographic(const PointTable& points, PointId p, PointId q) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (const int sign = compare_coordinate(points, p, q, axis); sign != 0) return sign;
+  }
+  return 0;
+}
+
+Direction Direction::normal(const PlaneTable& planes, PlaneId plane) {
+  Direction result;
+  result.planes_ = &planes;
+  result.p = plane;
+  result.negative_ = plane.flipped();
+  const std::array<double, 4>& n = planes.approximate(plane);
+  for (std::size_t i = 0; i < 3; ++i) result.approximate[i] = plane.flipped() ? -n[i] : n[i];
+  result.error = 4 * kUnit;
+  return result;
+}
+
+Direction Direction::cross(const PlaneTable& planes, PlaneId p, PlaneId q) {
+  Direction result;
+  result.planes_ = &planes;
+  result.p = p;
+  result.q = q;
+  result.negative_ = p.flipped() != q.flipped();
+  const std::array<double, 4>& a = planes.approximate(p);
+  const std::array<double, 4>& b = planes.approximate(q);
+  double largest = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3;
+    const std::size_t k = (i + 2) % 3;
+    result.approximate[i] = a[j] * b[k] - a[k] * b[j];
+    largest = std::max(largest, std::fabs(result.approximate[i]));
+  }
+  // Entries are below 1 in magnitude, so each of the two products is within 10u and their
+  // difference within 21u; 24u is safe. Where that is not small beside the vector itself (planes
+  // that are nearly parallel), the integers are worth their cost at once.
+  if (largest > 0x1p-20) {
+    const double scale = (result.negative_ ? -1.0 : 1.0) / largest;
+    for (double& value : result.approximate) value *= scale;
+    result.error = 26 * kUnit / largest;
+    return result;
+  }
+  static_cast<void>(result.integers());
+  result.set_approximation_from_integers();
+  return result;
+}
+
+Direction Direction::exact(const Integer& x, const Integer& y, const Integer& z) {
+  Direction result;
+  result.known_ = true;
+  result.integers_ = {x, y, z};
+  result.set_approximation_from_integers();
+  return result;
+}
+
+Direction Direction::cross(const Direction& u, const Direction& v) {
+  const std::array<Integer, 3>& a = u.integers();
+  const std::array<Integer, 3>& b = v.integers();
+  return exact(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]);
+}
+
+Direction Direction::negated() const {
+  Direction result = *this;
+  for (double& value : result.approximate) value = -value;
+  if (known_) {
+    for (Integer& value : result.integers_) mpz_neg(value.get_mpz_t(), value.get_mpz_t());
+  }
+  if (q.valid()) {
+    std::swap(result.p, result.q);  // q x p is the other direction already
+  } else {
+    result.negative_ = !negative_;
+    if (p.valid()) result.p = p.opposite();
+  }
+  return result;
+}
+
+bool Direction::is_zero() const {
+  const std::array<Integer, 3>& v = integers();
+  return v[0] == 0 && v[1] == 0 && v[2] == 0;
+}
+
+const std::array<Integer, 3>& Direction::integers() const {
+  if (known_) return integers_;
+  NEF_ASSERT(planes_ != nullptr);
+  for (std::size_t i = 0; i < 3; ++i) {
+    mpz_ptr out = integers_[i].get_mpz_t();
+    if (!q.valid()) {
+      mpz_set(out, planes_->coefficient(p, i));
+    } else {
+      const std::size_t j = (i + 1) % 3;
+      const std::size_t k = (i + 2) % 3;
+      mpz_mul(out, planes_->coefficient(p, j), planes_->coefficient(q, k));
+      mpz_submul(out, planes_->coefficient(p, k), planes_->coefficient(q, j));
+    }
+    if (negative_) mpz_neg(out, out);
+  }
+  known_ = true;
+  return integers_;
+}
+
+void Direction::set_approximation_from_integers() {
+  std::array<long, 3> exponent{};
+  long top = std::numeric_limits<long>::min();
+  for (std::size_t i = 0; i < 3; ++i) {
+    approximate[i] = mpz_get_d_2exp(&exponent[i], integers_[i].get_mpz_t());
+    if (approximate[i] != 0) top = std::max(top, exponent[i]);
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (approximate[i] == 0) continue;
+    const long shift = exponent[i] - top;
+    approximate[i] = shift < -1000 ? 0.0 : std::ldexp(approximate[i], static_cast<int>(shift));
+  }
+  error = 4 * kUnit;
+}
+
+namespace {
+
+mpz_srcptr at(const Direction& v, std::size_t i) { return v.integers()[i].get_mpz_t(); }
+
+// out = (v x w)[i]
+void cross_component(mpz_ptr out, const Direction& v, const Direction& w, std::size_t i) {
+  const std::size_t j = (i + 1) % 3;
+  const std::size_t k = (i + 2) % 3;
+  mpz_mul(out, at(v, j), at(w, k));
+  mpz_submul(out, at(v, k), at(w, j));
+}
+
+}  // namespace
+
+int sign_of_dot(const Direction& u, const Direction& v) {
+  const double value = u.approximate[0] * v.approximate[0] + u.approximate[1] * v.approximate[1] +
+                       u.approximate[2] * v.approximate[2];
+  // Components are at most 1: a component's error e moves the sum by at most 3e (both at once by
+  // the product of errors, far below), rounding by 3 products and 2 sums, under 8u.
+  const double bound = 3.1 * (u.error + v.error) + 16 * kUnit;
+  if (std::fabs(value) > bound) {
+    ++predicate_counts().filter;
+    return sign_of(value);
+  }
+  ++predicate_counts().exact;
+  thread_local Integer sum;
+  mpz_ptr s = sum.get_mpz_t();
+  mpz_mul(s, at(u, 0), at(v, 0));
+  mpz_addmul(s, at(u, 1), at(v, 1));
+  mpz_addmul(s, at(u, 2), at(v, 2));
+  return mpz_sgn(s);
+}
+
+int sign_of_determinant(const Direction& u, const Direction& v, const Direction& w) {
+  const std::array<double, 3>& a = u.approximate;
+  const std::array<double, 3>& b = v.approximate;
+  const std::array<double, 3>& c = w.approximate;
+  const double value = a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
+                       a[2] * (b[0] * c[1] - b[1] * c[0]);
+  // Components are at most 1, cofactors at most 2: an error e in one vector moves the value by at
+  // most 6e; rounding: 6 terms of 3 operations and 5 sums, under 40u.
+  const double bound = 6.2 * (u.error + v.error + w.error) + 64 * kUnit;
+  if (std::fabs(value) > bound) {
+    ++predicate_counts().filter;
+    return sign_of(value);
+  }
+  ++predicate_counts().exact;
+  thread_local Integer sum;
+  thread_local Integer component;
+  mpz_ptr s = sum.get_mpz_t();
+  mpz_ptr t = component.get_mpz_t();
+  mpz_set_ui(s, 0);
+  for (std::size_t i = 0; i < 3; ++i) {
+    cross_component(t, v, w, i);
+    mpz_addmul(s, at(u, i), t);
+  }
+  return mpz_sgn(s);
+}
+
+bool same_direction(const Direction& u, const Direction& v) {
+  if (u.p.valid() && u.p == v.p && u.q.valid() && u.q == v.q) {
+    ++predicate_counts().identity;
+    return true;
+  }
+  // Both have largest component about 1 in max norm, but are scaled differently only within the
+  // rounding of that; compare after a normalization that the errors dominate.
+  double lu = 0;
+  double lv = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    lu = std::max(lu, std::fabs(u.approximate[i]));
+    lv = std::max(lv, std::fabs(v.approximate[i]));
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    // Each side is within (error of component + error of the norm, relative) of its truth.
+    const double difference = u.approximate[i] / lu - v.approximate[i] / lv;
+    if (std::fabs(difference) > 2.1 * (u.error / lu + v.error / lv) + 16 * kUnit) {
+      ++predicate_counts().filter;
+      return false;
+    }
+  }
+  ++predicate_counts().exact;
+  thread_local Integer component;
+  mpz_ptr t = component.get_mpz_t();
+  for (std::size_t i = 0; i < 3; ++i) {
+    cross_component(t, u, v, i);
+    if (mpz_sgn(t) != 0) return false;
+  }
+  return sign_of_dot(u, v) > 0;
+}
+
+int side_of_circle(const PlaneTable& planes, PlaneId plane, const Direction& direction) {
+  if (direction.q.valid() && (direction.p.row() == plane.row() || direction.q.row() == plane.row())) {
+    ++predicate_counts().identity;
+    return 0;
+  }
+  return sign_of_dot(Direction::normal(planes, plane), direction);
+}
+
+int orientation_on_circle(const PlaneTable& planes, PlaneId plane, const Direction& u, const Direction& v) {
+  return sign_of_determinant(Direction::normal(planes, plane), u, v);
+}
+
+int orientation_around(const PlaneTable& planes, const Direction& d, PlaneId plane1, PlaneId plane2) {
+  if (plane1.row() == plane2.row()) {
+    ++predicate_counts().identity;
+    return 0;
+  }
+  return sign_of_determinant(d, Direction::normal(planes, plane1), Direction::normal(planes, plane2));
+}
+
+}  // namespace nef

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The few questions that everything above asks of coordinates. Each is a sign, answered by a named
+// ladder: by identity (same row of the plane table), then by a double filter whose bound is
+// derived beside its constant, then exactly. All answers are exact; only their cost differs.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "nef/geometry/plane_table.h"
+#include "nef/geometry/point_table.h"
+
+namespace nef {
+
+/// How many signs each stage of the ladder has answered, on this thread.
+struct PredicateCounts {
+  std::uint64_t identity = 0;
+  std::uint64_t filter = 0;
+  std::uint64_t exact = 0;
+};
+
+/// The counts of the calling thread since it started. Take the difference of two readings.
+/// This is the library's only state outside of objects; it feeds reports, never an answer.
+PredicateCounts& predicate_counts();
+
+/// The sign of the plane's form at the point: +1 on its positive side, 0 on the plane.
+int side_of_plane(const PlaneTable& planes, PlaneId plane, const PointTable& points, PointId point);
+
+/// The sign of p[axis] - q[axis].
+int compare_coordinate(const PointTable& points, PointId p, PointId q, int axis);
+
+/// Lexicographic comparison of coordinates; 0 iff the points are the same.
+int compare_lexicographic(const PointTable& points, PointId p, PointId q);
+
+/// A vector that matters up to a positive factor: a plane's normal, the direction of an edge, or
+/// one that was computed. Holds doubles with a proven error, and exact integers once they are
+/// asked for. Not to be shared between threads while it is asked.
+class Direction {
+ public:
+  Direction() = default;
+
+  /// The normal of an oriented plane.
+  static Direction normal(const PlaneTable& planes, PlaneId plane);
+
+  /// n_p x n_q for two planes that are not parallel: the direction of an svertex. The planes
+  /// must outlive the result.
+  static Direction cross(const PlaneTable& planes, PlaneId p, PlaneId q);
+
+  /// An explicit non-zero vector.
+  static Direction exact(const Integer& x, const Integer& y, const Integer& z);
+
+  /// u x v. May be the zero vector.
+  static Direction cross(const Direction& u, const Direction& v);
+
+  [[nodiscard]] Direction negated() const;
+
+  [[nodiscard]] bool is_zero() const;
+
+  /// Integer components; computed at the first call.
+  [[nodiscard]] const std::array<Integer, 3>& integers() const;
+
+  /// The planes that make a direction of an svertex; invalid for others.
+  PlaneId p, q;
+
+  /// Components scaled so that the largest is about 1; each within `error` of the truth.
+  std::array<double, 3> approximate{};
+  double error = 0;
+
+ private:
+  void set_approximation_from_integers();
+
+  const PlaneTable* planes_ = nullptr;
+  mutable bool known_ = false;
+  bool negative_ = false;  // of a plane's normal, or of p x q
+  mutable std::array<Integer, 3> integers_;
+};
+
+/// sign(u . v)
+int sign_of_dot(const Direction& u, const Direction& v);
+
+/// sign(u . (v x w))
+int sign_of_determinant(const Direction& u, const Direction& v, const Direction& w);
+
+/// True if u and v are positive multiples of each other.
+bool same_direction(const Direction& u, const Direction& v);
+
+/// The sign of a plane's form at a direction: which open half-sphere of the great circle of
+/// `plane` the svertex lies in. By identity where `plane` made `direction`.
+int side_of_circle(const PlaneTable& planes, PlaneId plane, const Direction& direction);
+
+/// sign(n . (u x v)) for two directions on the great circle of `plane`: +1 if v comes within a
+/// half-turn after u, counterclockwise as seen from the positive side.
+int orientation_on_circle(const PlaneTable& planes, PlaneId plane, const Direction& u, const Direction& v);
+
+/// sign(d . (n1 x n2)) for two planes through the line of d: how the half-planes that leave d
+/// along them are turned about d.
+int orientation_around(const PlaneTable& planes, const Direction& d, PlaneId plane1, PlaneId plane2);
+
+}  // namespace nef

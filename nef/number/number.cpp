@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/number/number.h"
+
+#include <cctype>
+#include <cmath>
+
+#include "nef/base/error.h"
+
+namespace nef {
+namespace {
+
+[[noreturn]] void refuse(std::string_view text) {
+  throw InputError("'" + std::string(text.substr(0, 60)) + "' is not a number (write it like -3, 0.25, 1e-3 or 1/3)");
+}
+
+Integer power_of_ten(unsigned long exponent) {
+  Integer result;
+  mpz_ui_pow_ui(result.get_mpz_t(), 10, exponent);
+  return result;
+}
+
+// A decimal without '/': sign, digits with at most one point, optional exponent.
+Rational parse_decimal(std::string_view text, std::string_view whole) {
+  std::size_t i = 0;
+  bool negative = false;
+  if (i < text.size() && (text[i] == '+' || text[i] == '-')) negative = text[i++] == '-';
+  std::string digits;
+  long scale = 0;
+  bool point = false;
+  for (; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '.' && !point) {
+      point = true;
+    } else if (std::isdigit(static_cast<unsigned char>(c)) != 0) {
+      digits.push_back(c);
+      if (point) --scale;
+    } else {
+      break;
+    }
+  }
+  if (digits.empty()) refuse(whole);
+  if (i < text.size() && (text[i] == 'e' || text[i] == 'E')) {
+    ++i;
+    bool negative_exponent = false;
+    if (i < text.size() && (text[i] == '+' || text[i] == '-')) negative_exponent = text[i++] == '-';
+    const std::size_t first = i;
+    long exponent = 0;
+    for (; i < text.size() && std::isdigit(static_cast<unsigned char>(text[i])) != 0; ++i) {
+      // Five digits keep a hostile "1e999999999" from filling the memory with one number.
+      if (i - first >= 5) refuse(whole);
+      exponent = exponent * 10 + (text[i] - '0');
+    }
+    if (i == first) refuse(whole);
+    scale += negative_exponent ? -exponent : exponent;
+  }
+  if (i != text.size()) refuse(whole);
+  Rational value{Integer(digits, 10)};
+  if (scale > 0) {
+    value *= power_of_ten(static_cast<unsigned long>(scale));
+  } else if (scale < 0) {
+    value /= power_of_ten(static_cast<unsigned long>(-scale));
+  }
+  return negative ? Rational(-value) : value;
+}
+
+}  // namespace
+
+Rational parse_rational(std::string_view text) {
+  const std::size_t slash = text.find('/');
+  if (slash == std::string_view::npos) return parse_decimal(text, text);
+  const Rational numerator = parse_decimal(text.substr(0, slash), text);
+  const Rational denominator = parse_decimal(text.substr(slash + 1), text);
+  if (denominator == 0) refuse(text);
+  return numerator / denominator;
+}
+
+Rational exact_rational(double value) {
+  if (!std::isfinite(value)) throw InputError("a coordinate is not a finite number");
+  return Rational(value);
+}
+
+double nearest_double(const Rational& value) {
+  const int sign = sgn(value);
+  if (sign == 0) return 0.0;
+  Integer numerator = abs(value.get_num());
+  const Integer& denominator = value.get_den();
+  // Scale so that the integer quotient has 55 or 56 bits: 53 to keep, the rest and the remainder
+  // to decide the rounding.
+  const long excess = static_cast<long>(mpz_sizeinbase(numerator.get_mpz_t(), 2)) -
+                      static_cast<long>(mpz_sizeinbase(denominator.get_mpz_t(), 2));
+  const long shift = 55 - excess;
+  Integer quotient;
+  Integer remainder;
+  if (shift >= 0) {
+    numerator <<= static_cast<unsigned long>(shift);
+    mpz_tdiv_qr(quotient.get_mpz_t(), remainder.get_mpz_t(), numerator.get_mpz_t(), denominator.get_mpz_t());
+  } else {
+    const Integer scaled = denominator << static_cast<unsigned long>(-shift);
+    mpz_tdiv_qr(quotient.get_mpz_t(), remainder.get_mpz_t(), numerator.get_mpz_t(), scaled.get_mpz_t());
+  }
+  const long bits = static_cast<long>(mpz_sizeinbase(quotient.get_mpz_t(), 2));
+  // Below 2^-1022 fewer bits remain: the last kept bit is never under 2^-1074.
+  long drop = bits - 53;
+  if (bits - 1 - shift < -1022) drop = -1074 + shift;
+  if (drop > bits + 1) return sign > 0 ? 0.0 : -0.0;
+  Integer kept = quotient >> static_cast<unsigned long>(drop);
+  const Integer rest = quotient - (kept << static_cast<unsigned long>(drop));
+  const Integer half = Integer(1) << static_cast<unsigned long>(drop - 1);
+  const int order = cmp(rest, half);
+  const bool above = order > 0 || (order == 0 && remainder != 0);
+  const bool tie = order == 0 && remainder == 0;
+  if (above || (tie && mpz_odd_p(kept.get_mpz_t()) != 0)) kept += 1;
+  const double magnitude = std::ldexp(kept.get_d(), static_cast<int>(drop - shift));
+  return sign > 0 ? magnitude : -magnitude;
+}
+
+std::string to_string(const Rational& value) { return value.get_str(); }
+
+double approximate_quotient(mpz_srcptr numerator, mpz_srcptr denominator) {
+  long numerator_exponent = 0;
+  long denominator_exponent = 0;
+  // mpz_get_d_2exp truncates: each mantissa is within 2^-52 relative, their quotient rounds once.
+  const double n = mpz_get_d_2exp(&numerator_exponent, numerator);
+  const double d = mpz_get_d_2exp(&denominator_exponent, denominator);
+  const long exponent = numerator_exponent - denominator_exponent;
+  if (exponent > 1100) return n < 0 ? -HUGE_VAL : HUGE_VAL;
+  if (exponent < -1200) return 0.0;
+  return std::ldexp(n / d, static_cast<int>(exponent));
+}
+
+}  // namespace nef

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The value type of the library: a Nef polyhedron, i.e. any set made from half-spaces by
+// intersection and complement. Open or closed, bounded or not, of mixed dimension, non-manifold:
+// nothing is excluded and nothing is rounded.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "nef/complex/complex.h"
+#include "nef/number/number.h"
+
+namespace nef {
+
+class QueryStructure;
+
+/// An exact point set. Copies share the same immutable complex, so copying is O(1), and a const
+/// Polyhedron may be read from several threads at once.
+class Polyhedron {
+ public:
+  /// The empty set.
+  Polyhedron();
+  /// All of space.
+  static Polyhedron everything();
+  /// Takes over a synthesized complex.
+  explicit Polyhedron(Complex&& complex);
+
+  [[nodiscard]] const Complex& complex() const;
+
+  /// The representation is unique, so these are O(1).
+  [[nodiscard]] bool is_empty() const;
+  [[nodiscard]] bool is_everything() const;
+  /// True if the set (not its complement) fits into some ball.
+  [[nodiscard]] bool is_bounded() const;
+  /// O(number of items).
+  [[nodiscard]] bool is_open() const;
+  [[nodiscard]] bool is_closed() const;
+  /// True if the set is the closure of its interior.
+  [[nodiscard]] bool is_regular() const;
+
+  /// The structure for point location and ray shooting; built at the first call, thread-safe.
+  [[nodiscard]] const QueryStructure& queries() const;
+
+ private:
+  struct Body;
+  std::shared_ptr<const Body> body_;
+};
+
+// Boolean operations (thesis chapter 5): exact, total, O((n + k) log n) for n items and k
+// crossings on well-shaped input.
+Polyhedron unite(const Polyhedron& a, const Polyhedron& b);
+Polyhedron intersect(const Polyhedron& a, const Polyhedron& b);
+Polyhedron subtract(const Polyhedron& a, const Polyhedron& b);
+Polyhedron symmetric_difference(const Polyhedron& a, const Polyhedron& b);
+
+/// The union (intersection) of any number of sets: nothing (everything) for none.
+Polyhedron unite_all(std::span<const Polyhedron> sets);
+Polyhedron intersect_all(std::span<const Polyhedron> sets);
+
+/// A \ B etc. for marks of any kind: the result is marked f(mark in a, mark in b) everywhere.
+/// f is asked once for each pair of labels that occur.
+Polyhedron overlay(const Polyhedron& a, const Polyhedron& b, const std::function<LabelId(LabelId, LabelId)>& f);
+
+// Unary operations: O(n).
+Polyhedron complement(const Polyhedron& a);
+Polyhedron interior(const Polyhedron& a);
+Polyhedron closure(const Polyhedron& a);
+Polyhedron boundary(const Polyhedron& a);
+/// The interior of the complement.
+Polyhedron exterior(const Polyhedron& a);
+/// The closure of the interior.
+Polyhedron regularize(const Polyhedron& a);
+
+/// True if the two are the same set.
+bool equal(const Polyhedron& a, const Polyhedron& b);
+
+/// An affine map x -> m x + t with rational entries.
+struct AffineMap {
+  std::array<std::array<Rational, 3>, 3> linear;
+  Rational3 translation;
+
+  static AffineMap identity();
+  static AffineMap translate(const Rational3& by);
+  static AffineMap scale(const Rational3& factors);
+  /// A rotation about an axis through the origin by an angle within `tolerance` degrees of the
+  /// given one, exactly orthogonal with rational entries. The axis must be one whose length is
+  /// rational (a coordinate axis, (1,2,2), ...); otherwise it is approximated likewise.
+  static AffineMap rotate(const Rational3& axis, double degrees, double tolerance = 1e-9);
+  [[nodiscard]] Rational determinant() const;
+  [[nodiscard]] Rational3 operator()(const Rational3& p) const;
+  /// First `first`, then this.
+  [[nodiscard]] AffineMap after(const AffineMap& first) const;
+};
+
+/// The image under an invertible map. Throws InputError if the determinant is zero. O(n) for
+/// bounded sets; unbounded ones are clipped to their box anew, by one Boolean operation.
+Polyhedron transform(const Polyhedron& a, const AffineMap& map);
+
+/// What holds a point.
+struct Location {
+  enum class Kind : std::uint8_t { kVertex, kEdge, kFacet, kVolume };
+  Kind kind = Kind::kVolume;
+  std::uint32_t index = 0;  ///< vertex, halfedge, facet or volume
+  LabelId mark = 0;
+};
+
+/// Exact point location. O(log n) expected after the structure is built.
+Location locate(const Polyhedron& a, const Rational3& point);
+bool contains(const Polyhedron& a, const Rational3& point);
+
+/// The local pyramid of the set at any point of space, in the planes of a.complex().
+SphereMapBuffer local_pyramid(const Polyhedron& a, const Rational3& point);
+
+/// What an open ray meets first. `location` never is a volume.
+struct RayHit {
+  Location location;
+  Rational3 point;
+};
+/// The first vertex, edge or facet on the ray from `origin` (excluded) in `direction` (not zero)
+/// that `accept` takes; all are if it is empty.
+std::optional<RayHit> shoot_ray(const Polyhedron& a, const Rational3& origin, const Rational3& direction,
+                                const std::function<bool(const Location&)>& accept = {});
+
+/// Volume of the set, if finite.
+std::optional<Rational> volume(const Polyhedron& a);
+/// Area of the facets of the set's boundary (each facet once), in double precision; infinite for
+/// unbounded facets.
+double surface_area(const Polyhedron& a);
+/// Smallest and largest coordinates of the vertices; nothing for a set without finite vertices.
+/// The box of infimaximal vertices is ignored.
+std::optional<std::array<Rational3, 2>> bounding_box(const Polyhedron& a);
+/// V - E + F of each shell, in the order of complex().shells (a facet with h holes and i
+/// isolated vertices counts 1 - h - i).
+std::vector<long> euler_numbers(const Polyhedron& a);
+
+/// Checks every invariant of the complex. Returns the name of the first broken one with the
+/// guilty items, or an empty string.
+std::string validate(const Complex& complex);
+
+/// Vertices, edges, facets, volumes, shells without the items of an infimaximal box (as CGAL
+/// counts: each edge and facet once, the outer volume included).
+struct Counts {
+  std::size_t vertices = 0;
+  std::size_t edges = 0;
+  std::size_t facets = 0;
+  std::size_t volumes = 0;
+  std::size_t shells = 0;
+};
+Counts counts(const Polyhedron& a);
+
+}  // namespace nef

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/sphere_map/arrangement.h"
+
+#include <algorithm>
+
+#include "nef/base/error.h"
+#include "nef/sphere_map/components.h"
+#include "nef/sphere_map/sphere_geometry.h"
+
+namespace nef {
+
+void Arrangement::clear() {
+  nodes.clear();
+  arcs.clear();
+  circle = {};
+  background = 0;
+  centre = 0;
+}
+
+void Arrangement::sort_around_nodes(const PlaneTable& planes) {
+  for (Node& node : nodes) node.degree = 0;
+  for (const Arc& arc : arcs) {
+    ++nodes[arc.source].degree;
+    ++nodes[arc.target].degree;
+  }
+  std::uint32_t offset = 0;
+  for (Node& node : nodes) {
+    node.first_half = offset;
+    offset += node.degree;
+    node.degree = 0;
+  }
+  halves_.resize(offset);
+  for (std::uint32_t half = 0; half < 2 * arcs.size(); ++half) {
+    Node& node = nodes[source(half)];
+    halves_[node.first_half + node.degree++] = half;
+  }
+  for (const Node& node : nodes) {
+    if (node.degree <= 2) continue;  // any two are in cyclic order
+    const auto first = halves_.begin() + node.first_half;
+    const Direction reference = Direction::normal(planes, plane(*first));
+    std::sort(first + 1, first + node.degree, [&](std::uint32_t a, std::uint32_t b) {
+      return compare_around(node.direction, reference, Direction::normal(planes, plane(a)),
+                            Direction::normal(planes, plane(b))) < 0;
+    });
+  }
+}
+
+void Arrangement::drop_redundant_arcs() {
+  const auto redundant = [this](std::uint32_t half) {
+    const Arc& arc = arcs[half >> 1U];
+    return arc.mark == arc.left && arc.mark == arc.right;
+  };
+  for (Node& node : nodes) {
+    const auto first = halves_.begin() + node.first_half;
+    const auto last = first + node.degree;
+    if (first != last && redundant(*first)) node.around = arcs[*first >> 1U].mark;
+    node.degree = static_cast<std::uint32_t>(std::remove_if(first, last, redundant) - first);
+  }
+}
+
+bool Arrangement::passes_through(std::uint32_t index) const {
+  const Node& node = nodes[index];
+  if (node.degree != 2) return false;
+  const std::uint32_t a = halves_[node.first_half];
+  const std::uint32_t b = halves_[node.first_half + 1];
+  return plane(a) == plane(b).opposite() && arcs[a >> 1U].mark == node.mark && arcs[b >> 1U].mark == node.mark;
+}
+
+// Walks from each half that leaves an essential node through nodes that are not. Both directions
+// of a chain are walked at once by symmetry: the chain that starts with h and ends with e is, seen
+// from its other end, the chain that starts with e^1 and ends with h^1.
+void Arrangement::trace_chains() {
+  chain_end_.assign(2 * arcs.size(), kNone);
+  for (std::uint32_t n = 0; n < nodes.size(); ++n) {
+    if (!essential_[n]) continue;
+    for (const std::uint32_t half : around(n)) {
+      if (chain_end_[half] != kNone) continue;
+      std::uint32_t end = half;
+      while (!essential_[target(end)]) {
+        const std::span<const std::uint32_t> two = around(target(end));
+        end = two[0] == (end ^ 1U) ? two[1] : two[0];
+      }
+      chain_end_[half] = end;
+      chain_end_[end ^ 1U] = half ^ 1U;
+    }
+  }
+}
+
+void Arrangement::simplify_and_assemble(const PlaneTable& planes, SphereMapBuffer& out) {
+  out.clear();
+  out.mark = centre;
+  drop_redundant_arcs();
+  essential_.assign(nodes.size(), false);
+  std::uint32_t passed = kNone;
+  LabelId whole = background;
+  for (std::uint32_t n = 0; n < nodes.size(); ++n) {
+    const Node& node = nodes[n];
+    if (node.degree == 0) {
+      essential_[n] = node.mark != node.around;
+      whole = node.around;
+    } else if (passes_through(n)) {
+      passed = n;
+    } else {
+      essential_[n] = true;
+    }
+  }
+  trace_chains();
+  Circle loop = circle;
+  if (loop.present && loop.mark == loop.left && loop.mark == loop.right) {
+    whole = loop.mark;
+    loop = {};
+  }
+  // A passed node that no chain has reached lies on a circle of such nodes: it becomes the loop.
+  for (std::uint32_t n = 0; n < nodes.size() && passed != kNone && !loop.present; ++n) {
+    if (essential_[n] || nodes[n].degree != 2) continue;
+    const std::uint32_t half = halves_[nodes[n].first_half];
+    std::uint32_t h = half;
+    bool closed = false;
+    for (;;) {
+      if (essential_[target(h)]) break;
+      const std::span<const std::uint32_t> two = around(target(h));
+      h = two[0] == (h ^ 1U) ? two[1] : two[0];
+      if (h == half) {
+        closed = true;
+        break;
+      }
+    }
+    if (closed) loop = Circle{true, plane(half), nodes[n].mark, left(half), left(half ^ 1U)};
+    // One walk suffices when it ends at an essential node: then this node is inside a chain, and
+    // others may still lie on the circle.
+  }
+  build_incidences(planes, out);
+  if (loop.present) {
+    out.sloops.push_back({loop.plane, kNone, loop.mark});
+    out.sloops.push_back({loop.plane.opposite(), kNone, loop.mark});
+    out.sfaces.push_back({0, 0, loop.left});  // marks for build_faces, which replaces these
+    out.sfaces.push_back({0, 0, loop.right});
+  }
+  if (out.svertices.empty() && !loop.present) {
+    out.sfaces.push_back({0, 0, whole});
+    return;
+  }
+  build_faces(planes, out);
+}
+
+void Arrangement::build_incidences(const PlaneTable& planes, SphereMapBuffer& out) {
+  node_svertex_.assign(nodes.size(), kNone);
+  for (std::uint32_t n = 0; n < nodes.size(); ++n) {
+    if (!essential_[n]) continue;
+    node_svertex_[n] = static_cast<std::uint32_t>(out.svertices.size());
+    SVertex v;
+    v.p = nodes[n].direction.p;
+    v.q = nodes[n].direction.q;
+    v.mark = nodes[n].mark;
+    out.svertices.push_back(v);
+  }
+  final_half_.assign(2 * arcs.size(), kNone);
+  for (std::uint32_t n = 0; n < nodes.size(); ++n) {
+    if (!essential_[n]) continue;
+    for (const std::uint32_t half : around(n)) {
+      if (final_half_[half] != kNone) continue;
+      const auto even = static_cast<std::uint32_t>(out.shalfedges.size());
+      const std::uint32_t back = chain_end_[half] ^ 1U;
+      final_half_[half] = even;
+      final_half_[back] = even + 1;
+      SHalfedge e;
+      e.mark = arcs[half >> 1U].mark;
+      e.plane = plane(half);
+      e.source = node_svertex_[n];
+      out.shalfedges.push_back(e);
+      e.plane = plane(back);
+      e.source = node_svertex_[source(back)];
+      out.shalfedges.push_back(e);
+    }
+  }
+  for (std::uint32_t n = 0; n < nodes.size(); ++n) {
+    if (!essential_[n]) continue;
+    const std::span<const std::uint32_t> ring = around(n);
+    if (ring.empty()) continue;
+    out.svertices[node_svertex_[n]].out = final_half_[ring[0]];
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      // The sface left of the shalfedge that arrives along ring[i] continues with its clockwise
+      // neighbour.
+      const std::uint32_t arriving = final_half_[ring[i]] ^ 1U;
+      const std::uint32_t leaving = final_half_[ring[(i + ring.size() - 1) % ring.size()]];
+      out.shalfedges[arriving].next = leaving;
+      out.shalfedges[leaving].prev = arriving;
+    }
+  }
+  choose_incident_planes(planes, out);
+}
+
+// An svertex should be the meeting of two planes of facets that are there: then no plane outlives
+// its facets, and both ends of an edge use planes of the same facets.
+void Arrangement::choose_incident_planes(const PlaneTable& planes, SphereMapBuffer& out) const {
+  for (std::uint32_t n = 0; n < nodes.size(); ++n) {
+    if (!essential_[n]) continue;
+    const std::span<const std::uint32_t> ring = around(n);
+    if (ring.size() < 2) continue;
+    PlaneId first = plane(ring[0]);
+    PlaneId second;
+    for (const std::uint32_t half : ring) {
+      const PlaneId candidate = plane(half);
+      if (candidate.row() < first.row()) first = candidate;
+    }
+    for (const std::uint32_t half : ring) {
+      const PlaneId candidate = plane(half);
+      if (candidate.row() != first.row() && (!second.valid() || candidate.row() < second.row())) second = candidate;
+    }
+    if (!second.valid()) continue;
+    first = PlaneId{first.row() << 1U};
+    second = PlaneId{second.row() << 1U};
+    SVertex& v = out.svertices[node_svertex_[n]];
+    if (v.p == first && v.q == second) continue;
+    const bool same_pair = (v.p.row() == first.row() && v.q.row() == second.row()) ||
+                           (v.p.row() == second.row() && v.q.row() == first.row());
+    bool positive = false;
+    if (same_pair) {
+      positive = (v.p.flipped() != v.q.flipped()) == (v.p.row() != first.row());
+    } else {
+      positive = sign_of_dot(nodes[n].direction, Direction::cross(planes, first, second)) > 0;
+    }
+    v.p = first;
+    v.q = positive ? second : second.opposite();
+  }
+}
+
+void Arrangement::build_faces(const PlaneTable& planes, SphereMapBuffer& out) {
+  struct Cycle {
+    SFaceEntry entry;
+    LabelId mark;
+  };
+  std::vector<Cycle> cycles;
+  std::vector<std::uint32_t> of_half(out.shalfedges.size(), kNone);
+  std::vector<std::uint32_t> of_vertex(out.svertices.size(), kNone);
+  std::vector<std::uint32_t> of_loop;
+  for (std::uint32_t n = 0; n < nodes.size(); ++n) {
+    if (!essential_[n]) continue;
+    for (const std::uint32_t half : around(n)) {
+      const std::uint32_t start = final_half_[half];
+      if (of_half[start] != kNone) continue;
+      const auto cycle = static_cast<std::uint32_t>(cycles.size());
+      cycles.push_back({{SFaceEntry::Kind::kCycle, start}, left(half)});
+      for (std::uint32_t e = start; of_half[e] == kNone; e = out.shalfedges[e].next) of_half[e] = cycle;
+    }
+    if (nodes[n].degree == 0) {
+      of_vertex[node_svertex_[n]] = static_cast<std::uint32_t>(cycles.size());
+      cycles.push_back({{SFaceEntry::Kind::kIsolatedVertex, node_svertex_[n]}, nodes[n].around});
+    }
+  }
+  for (std::uint32_t side = 0; side < out.sloops.size(); ++side) {
+    of_loop.push_back(static_cast<std::uint32_t>(cycles.size()));
+    cycles.push_back({{SFaceEntry::Kind::kLoop, side}, out.sfaces[side].mark});
+  }
+  out.sfaces.clear();
+  const std::vector<std::uint32_t> representative =
+      join_cycles(planes, out.view(), of_half, of_vertex, of_loop, static_cast<std::uint32_t>(cycles.size()));
+  std::vector<std::uint32_t> face_of(cycles.size(), kNone);
+  for (std::uint32_t c = 0; c < cycles.size(); ++c) {
+    if (representative[c] != c) continue;
+    face_of[c] = static_cast<std::uint32_t>(out.sfaces.size());
+    SFace face{static_cast<std::uint32_t>(out.entries.size()), 0, cycles[c].mark};
+    for (std::uint32_t other = c; other < cycles.size(); ++other) {
+      if (representative[other] != c) continue;
+      NEF_ASSERT(cycles[other].mark == face.mark);
+      out.entries.push_back(cycles[other].entry);
+      ++face.entry_count;
+      face_of[other] = face_of[c];
+    }
+    out.sfaces.push_back(face);
+  }
+  for (std::uint32_t e = 0; e < out.shalfedges.size(); ++e) out.shalfedges[e].sface = face_of[of_half[e]];
+  for (std::uint32_t v = 0; v < out.svertices.size(); ++v) {
+    if (of_vertex[v] != kNone) out.svertices[v].sface = face_of[of_vertex[v]];
+  }
+  for (std::uint32_t l = 0; l < out.sloops.size(); ++l) out.sloops[l].sface = face_of[of_loop[l]];
+}
+
+}  // namespace nef

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Each component is joined to the first (or to the sloop, if there is one) by a walk along great
+// circle segments. Between two consecutive things that the walk meets it stays in one sface, so
+// the cycles on both sides of such a gap bound the same sface. The walk ends at the first
+// component, so the gaps of all walks together connect all components; and on a sphere that is
+// all there is to join.
+#include "nef/sphere_map/components.h"
+
+#include <algorithm>
+
+#include "nef/base/error.h"
+#include "nef/base/union_find.h"
+#include "nef/sphere_map/sphere_geometry.h"
+
+namespace nef {
+namespace {
+
+class CycleJoiner {
+ public:
+  CycleJoiner(const PlaneTable& planes, const SphereMapView& map, const std::vector<std::uint32_t>& of_half,
+              const std::vector<std::uint32_t>& of_vertex, UnionFind& cycles)
+      : planes_(planes), map_(map), of_half_(of_half), of_vertex_(of_vertex), cycles_(cycles) {}
+
+  // From svertex `start` to svertex `goal`.
+  void walk_to_vertex(std::uint32_t start, std::uint32_t goal) {
+    const Direction u = direction_of(planes_, map_.svertices[start]);
+    const Direction v = direction_of(planes_, map_.svertices[goal]);
+    if (!same_direction(u, v.negated())) {
+      const std::uint32_t last = segment(u, v, cycle_at(start, Direction::cross(u, v)), goal);
+      cycles_.unite(last, cycle_at(goal, Direction::cross(v, u)));
+      return;
+    }
+    // Antipodes: by way of a point of some sface.
+    const Direction middle = free_direction();
+    const std::uint32_t half_way = segment(u, middle, cycle_at(start, Direction::cross(u, middle)), kNone);
+    const std::uint32_t last = segment(middle, v, half_way, goal);
+    cycles_.unite(last, cycle_at(goal, Direction::cross(v, middle)));
+  }
+
+  // From svertex `start` to the nearest point of the great circle of a sloop.
+  void walk_to_loop(std::uint32_t start, const std::vector<std::uint32_t>& of_loop) {
+    const Direction u = direction_of(planes_, map_.svertices[start]);
+    const Direction n = Direction::normal(planes_, map_.sloops[0].plane);
+    const int side = sign_of_dot(n, u);
+    NEF_ASSERT(side != 0);
+    // u x n is zero where u is the pole; then any direction on the circle is as near.
+    const Direction axis = Direction::cross(u, n);
+    const Direction foot = axis.is_zero() ? any_orthogonal(n) : Direction::cross(n, axis);
+    const std::uint32_t last = segment(u, foot, cycle_at(start, Direction::cross(u, foot)), kNone);
+    cycles_.unite(last, of_loop[side > 0 ? 0 : 1]);
+  }
+
+ private:
+  struct Hit {
+    Direction at;
+    bool is_vertex;
+    std::uint32_t index;  // svertex, or the shalfedge on whose left the walk arrives
+  };
+
+  static Direction any_orthogonal(const Direction& n) {
+    const std::array<Integer, 3>& v = n.integers();
+    return v[0] == 0 && v[1] == 0 ? Direction::exact(1, 0, 0) : Direction::exact(Integer(-v[1]), v[0], 0);
+  }
+
+  // The cycle of the wedge of svertex i that the half-plane of `normal` enters; where it runs
+  // along a shalfedge, the cycle to the left of someone who walks along it.
+  std::uint32_t cycle_at(std::uint32_t i, const Direction& normal) const {
+    if (map_.svertices[i].out == kNone) return of_vertex_[i];
+    return of_half_[locate_wedge(planes_, map_, i, normal).shalfedge];
+  }
+  // The same for someone who arrives: `back` points where he comes from.
+  std::uint32_t cycle_arriving(std::uint32_t i, const Direction& back) const {
+    if (map_.svertices[i].out == kNone) return of_vertex_[i];
+    const Wedge wedge = locate_wedge(planes_, map_, i, back);
+    return wedge.on ? of_half_[wedge.shalfedge ^ 1U] : of_half_[wedge.shalfedge];
+  }
+
+  // Unites along the open segment from u to v; returns the cycle in whose sface it ends.
+  std::uint32_t segment(const Direction& u, const Direction& v, std::uint32_t current, std::uint32_t goal) {
+    const Direction circle = Direction::cross(u, v);
+    std::vector<Hit> hits;
+    for (std::uint32_t i = 0; i < map_.svertices.size(); ++i) {
+      Direction x = direction_of(planes_, map_.svertices[i]);
+      if (i == goal || sign_of_dot(circle, x) != 0) continue;
+      if (sign_of_determinant(circle, u, x) <= 0 || sign_of_determinant(circle, x, v) <= 0) continue;
+      hits.push_back({std::move(x), true, i});
+    }
+    for (std::uint32_t i = 0; i < map_.shalfedges.size(); i += 2) {
+      const SHalfedge& arc = map_.shalfedges[i];
+      const Direction n = Direction::normal(planes_, arc.plane);
+      const int side = sign_of_dot(n, u);
+      if (side * sign_of_dot(n, v) >= 0) continue;
+      Direction x = Direction::cross(circle, n);
+      if (side < 0) x = x.negated();
+      const std::uint32_t t = map_.target(i);
+      const Direction from = direction_of(planes_, map_.svertices[arc.source]);
+      const Direction to = direction_of(planes_, map_.svertices[t]);
+      if (same_direction(x, from) || same_direction(x, to)) continue;
+      if (!strictly_between_on_circle(planes_, arc.plane, from, x, to, arc.source == t)) continue;
+      hits.push_back({std::move(x), false, side > 0 ? i : i + 1});
+    }
+    std::sort(hits.begin(), hits.end(),
+              [&](const Hit& a, const Hit& b) { return sign_of_determinant(circle, a.at, b.at) > 0; });
+    for (const Hit& hit : hits) {
+      if (hit.is_vertex) {
+        cycles_.unite(current, cycle_arriving(hit.index, Direction::cross(hit.at, u)));
+        current = cycle_at(hit.index, Direction::cross(hit.at, v));
+      } else {
+        cycles_.unite(current, of_half_[hit.index]);
+        current = of_half_[hit.index ^ 1U];
+      }
+    }
+    return current;
+  }
+
+  // A direction on no item of the map: among enough small vectors of which no great circle holds
+  // more than a few, one is free.
+  [[nodiscard]] Direction free_direction() const {
+    for (int k = 1;; ++k) {
+      Direction candidate = Direction::exact(1, k, k * k);
+      bool free = true;
+      for (std::uint32_t i = 0; i < map_.shalfedges.size() && free; i += 2) {
+        free = side_of_circle(planes_, map_.shalfedges[i].plane, candidate) != 0;
+      }
+      for (std::uint32_t i = 0; i < map_.svertices.size() && free; ++i) {
+        const Direction x = direction_of(planes_, map_.svertices[i]);
+        free = !same_direction(x, candidate) && !same_direction(x.negated(), candidate);
+      }
+      if (free) return candidate;
+    }
+  }
+
+  const PlaneTable& planes_;
+  const SphereMapView& map_;
+  const std::vector<std::uint32_t>& of_half_;
+  const std::vector<std::uint32_t>& of_vertex_;
+  UnionFind& cycles_;
+};
+
+}  // namespace
+
+std::vector<std::uint32_t> join_cycles(const PlaneTable& planes, const SphereMapView& map,
+                                       const std::vector<std::uint32_t>& of_half,
+                                       const std::vector<std::uint32_t>& of_vertex,
+                                       const std::vector<std::uint32_t>& of_loop, std::uint32_t cycle_count) {
+  UnionFind cycles(cycle_count);
+  UnionFind components(map.svertices.size());
+  std::size_t count = map.svertices.size();
+  for (std::uint32_t i = 0; i < map.shalfedges.size(); i += 2) {
+    if (components.unite(map.shalfedges[i].source, map.target(i))) --count;
+  }
+  if (count + (of_loop.empty() ? 0 : 1) > 1) {
+    CycleJoiner joiner(planes, map, of_half, of_vertex, cycles);
+    for (std::uint32_t v = 0; v < map.svertices.size(); ++v) {
+      if (components.find(v) != v) continue;
+      if (!of_loop.empty()) {
+        joiner.walk_to_loop(v, of_loop);
+      } else if (v != 0) {
+        joiner.walk_to_vertex(v, 0);
+      }
+    }
+  }
+  std::vector<std::uint32_t> representative(cycle_count);
+  for (std::uint32_t c = 0; c < cycle_count; ++c) representative[c] = cycles.find(c);
+  return representative;
+}
+
+}  // namespace nef

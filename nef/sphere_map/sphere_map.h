@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Sphere maps: planar Nef polyhedra on a small sphere (thesis chapter 3 and 4.1). The same flat
+// arrays serve a stand-alone spherical polyhedron and the local pyramids of a complex.
+//
+// Conventions, valid everywhere:
+//  - a direction (svertex) is n_p x n_q for its two oriented planes p, q;
+//  - a shalfedge runs counterclockwise about the normal n of its oriented plane, so its sface lies
+//    on the positive side of that plane; an arc may be longer than a half circle, up to the full
+//    circle if its two ends are one svertex;
+//  - shalfedges and sloops come in twin pairs: the twin of i is i ^ 1, with the opposite plane;
+//  - inside one sphere map all indices are local: they count from the map's first element.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "nef/geometry/predicates.h"
+
+namespace nef {
+
+inline constexpr std::uint32_t kNone = 0xffffffffU;
+
+/// A point of the sphere: an edge of the complex as it leaves a vertex.
+struct SVertex {
+  PlaneId p, q;                    ///< direction n_p x n_q
+  std::uint32_t out = kNone;       ///< a shalfedge that starts here; kNone if isolated
+  std::uint32_t sface = kNone;     ///< the sface around it, if isolated
+  LabelId mark = 0;
+};
+
+/// One side of an arc of a great circle: the corner of a facet at a vertex.
+struct SHalfedge {
+  PlaneId plane;                   ///< positive side = the side of its sface
+  std::uint32_t source = kNone;    ///< svertex; the target is the source of the twin
+  std::uint32_t next = kNone;      ///< next on the boundary of its sface, which lies to the left
+  std::uint32_t prev = kNone;
+  std::uint32_t sface = kNone;
+  LabelId mark = 0;                ///< the same on both twins
+};
+
+/// One side of a whole great circle without svertices: a vertex inside a facet.
+struct SLoop {
+  PlaneId plane;
+  std::uint32_t sface = kNone;
+  LabelId mark = 0;
+};
+
+/// One entry into the boundary of an sface.
+struct SFaceEntry {
+  enum class Kind : std::uint8_t { kCycle, kIsolatedVertex, kLoop };
+  Kind kind = Kind::kCycle;
+  std::uint32_t index = kNone;     ///< a shalfedge, svertex or sloop
+};
+
+/// A connected open region of the sphere: a volume of the complex as seen from a vertex.
+struct SFace {
+  std::uint32_t entries = 0;       ///< first of its entries
+  std::uint32_t entry_count = 0;   ///< none for the whole sphere
+  LabelId mark = 0;
+};
+
+/// A sphere map in somebody's arrays. Valid as long as those do not change.
+struct SphereMapView {
+  std::span<const SVertex> svertices;
+  std::span<const SHalfedge> shalfedges;
+  std::span<const SLoop> sloops;
+  std::span<const SFace> sfaces;
+  std::span<const SFaceEntry> entries;
+  LabelId mark = 0;                ///< of the centre
+
+  [[nodiscard]] std::uint32_t target(std::uint32_t shalfedge) const { return shalfedges[shalfedge ^ 1U].source; }
+
+  /// The next shalfedge that leaves the same svertex, counterclockwise as seen from outside.
+  [[nodiscard]] std::uint32_t next_around(std::uint32_t shalfedge) const { return shalfedges[shalfedge].prev ^ 1U; }
+
+  /// True if nothing but one sface is there: a point inside a volume.
+  [[nodiscard]] bool trivial() const { return svertices.empty() && sloops.empty(); }
+};
+
+/// A sphere map with arrays of its own.
+struct SphereMapBuffer {
+  std::vector<SVertex> svertices;
+  std::vector<SHalfedge> shalfedges;
+  std::vector<SLoop> sloops;
+  std::vector<SFace> sfaces;
+  std::vector<SFaceEntry> entries;
+  LabelId mark = 0;
+
+  void clear();
+  [[nodiscard]] SphereMapView view() const { return {svertices, shalfedges, sloops, sfaces, entries, mark}; }
+
+  /// The whole sphere is one sface; the centre has the same mark: a point inside a volume.
+  void assign_trivial(LabelId label);
+
+  /// A great circle with its two sides: the local pyramid of a point inside a facet.
+  /// `positive` and `negative` are the marks on the sides of the oriented plane.
+  void assign_circle(PlaneId plane, LabelId facet, LabelId positive, LabelId negative);
+};
+
+}  // namespace nef

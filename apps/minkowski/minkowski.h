@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Minkowski sums of any two bounded Nef polyhedra, the vertical decomposition they are made from
+// (thesis 10.2), and configuration spaces of translating robots. Open and closed sets, missing
+// points, lower-dimensional parts: everything is exact, nothing is regularized.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "apps/minkowski/convex_cell.h"
+#include "nef/base/error.h"
+#include "nef/geometry/predicates.h"
+#include "nef/polyhedron.h"
+
+namespace nef::minkowski {
+
+/// How the sums of the pairs of cells are united. The set is the same for each.
+enum class UnionStrategy : std::uint8_t {
+  kTrivial,   ///< one after the other onto one growing result
+  kQueue,     ///< always the two oldest (the thesis' choice), in bounded memory
+  kPriority,  ///< always the two smallest, by number of vertices
+  kNary       ///< all at once, in batches of bounded size
+};
+
+/// Thrown out of a sum whose progress function returned false.
+class Cancelled : public Error {
+ public:
+  Cancelled() : Error("cancelled") {}
+};
+
+struct MinkowskiOptions {
+  UnionStrategy strategy = UnionStrategy::kNary;
+  /// Called after each pair of cells with (pairs done, pairs in all); false stops the sum.
+  std::function<bool(std::size_t, std::size_t)> progress;
+};
+
+/// What was done, for people who measure.
+struct MinkowskiReport {
+  std::size_t cells_a = 0;
+  std::size_t cells_b = 0;
+  std::size_t pairs = 0;
+  std::size_t pairs_dropped = 0;  ///< sums that lie inside another one, found before the union
+  double seconds_decomposition = 0;
+  double seconds_convex_sums = 0;
+  double seconds_union = 0;
+  double seconds_total = 0;
+  PredicateCounts predicates_decomposition;
+  PredicateCounts predicates_convex_sums;
+  PredicateCounts predicates_union;
+};
+
+/// A + B = { a + b : a in A, b in B } for any two bounded sets, exactly (shared design note,
+/// section 5): open and closed parts, lower-dimensional parts, cavities. Empty if one is empty.
+/// Throws UnsupportedError for an unbounded operand (the sum with an empty or a one-point set,
+/// and the sum of a half-space and a bounded set, are computed nevertheless).
+/// Cost: decompositions into k and l cells, k l convex sums and their union.
+Polyhedron minkowski_sum(const Polyhedron& a, const Polyhedron& b, const MinkowskiOptions& options = {},
+                         MinkowskiReport* report = nullptr);
+
+/// The vertical decomposition of a bounded set (thesis 10.2.2): convex cells whose union is
+/// exactly `a`. The cells of dimension 3 have disjoint interiors and cover the interior's closure;
+/// they carry the marks of their walls and sides. What marks keep out of them (a selected part of
+/// a side that is not selected whole, an antenna) follows as cells of dimension 2, 1, 0.
+/// A convex set is one cell. Throws UnsupportedError for an unbounded set.
+std::vector<ConvexCell> decompose(const Polyhedron& a);
+
+/// True if the set is convex (marks included: a closed box without one point of an edge is not).
+/// O(n) for sets with one volume; bounded sets only, others throw UnsupportedError.
+bool is_convex(const Polyhedron& a);
+
+/// The set of the points -x, x in a.
+Polyhedron negate(const Polyhedron& a);
+
+/// The free positions of the reference point (the origin) of a translating robot R: the closed set
+///   B \ ( (O + -int R) u (int O + -R) ),  O = the union of the obstacles, B = the box or all space.
+/// Contact is free; forbidden is what overlaps inside. For a robot that is the closure of its
+/// interior this is "open robot against closed obstacles", so passages as narrow as the robot
+/// remain as facets, edges and vertices; a robot that is a point, a segment or a facet may slide
+/// on obstacles but not enter them, nor a seam between two that touch.
+/// Obstacles are taken closed. The reference point may lie outside the robot.
+Polyhedron configuration_space(const Polyhedron& robot, std::span<const Polyhedron> obstacles,
+                               const std::optional<std::array<Rational3, 2>>& box = std::nullopt,
+                               const MinkowskiOptions& options = {}, MinkowskiReport* report = nullptr);
+
+}  // namespace nef::minkowski

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The validator's parts: sphere maps, and what synthesis adds to them. The whole complex is
+// checked by validate(const Complex&) in nef/polyhedron.h.
+#pragma once
+
+#include <initializer_list>
+#include <string>
+
+#include "nef/complex/complex.h"
+
+namespace nef {
+
+/// Checks every invariant of a sphere map: index ranges, twins, next and prev, directions on
+/// their circles, cyclic order around svertices, arcs that cross nothing, boundary entries of
+/// sfaces, and that it is simplified (no redundant arc, sloop or svertex). Returns the name of
+/// the first broken one with the guilty items (local indices), or an empty string.
+/// O(k^2) for k arcs and svertices.
+std::string validate(const PlaneTable& planes, const SphereMapView& map);
+
+namespace detail {
+
+/// Thrown by the checks to the validate function that runs them; never leaves it.
+struct BrokenInvariant {
+  std::string what;
+};
+
+struct GuiltyItem {
+  const char* kind;
+  std::size_t index;
+};
+
+/// Throws BrokenInvariant with the name and the guilty items unless `holds`.
+inline void require(bool holds, const char* name, std::initializer_list<GuiltyItem> guilty) {
+  if (holds) return;
+  std::string what = name;
+  for (const GuiltyItem& item : guilty) what += std::string(", ") + item.kind + " " + std::to_string(item.index);
+  throw BrokenInvariant{what};
+}
+
+/// Facets: cycles closed, planar, oriented and nested; marks and volumes equal all around.
+void check_facets(const Complex& complex);
+
+/// Shells and volumes: shells partition the sfaces by connection, nest as geometry says.
+void check_volumes(const Complex& complex);
+
+}  // namespace detail
+}  // namespace nef

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/construct/planar_hull.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace nef::detail {
+
+Rational3 difference(const Rational3& a, const Rational3& b) {
+  return {Rational(a[0] - b[0]), Rational(a[1] - b[1]), Rational(a[2] - b[2])};
+}
+
+Rational3 cross_product(const Rational3& a, const Rational3& b) {
+  return {Rational(a[1] * b[2] - a[2] * b[1]), Rational(a[2] * b[0] - a[0] * b[2]),
+          Rational(a[0] * b[1] - a[1] * b[0])};
+}
+
+Rational dot_product(const Rational3& a, const Rational3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+bool is_zero(const Rational3& v) { return sgn(v[0]) == 0 && sgn(v[1]) == 0 && sgn(v[2]) == 0; }
+
+std::vector<std::uint32_t> linear_hull(std::span<const Rational3> points, const Rational3& direction) {
+  // Order along a line is the order of any coordinate in which it is not constant.
+  std::size_t axis = 0;
+  while (sgn(direction[axis]) == 0) ++axis;
+  std::uint32_t low = 0;
+  std::uint32_t high = 0;
+  for (std::uint32_t i = 1; i < points.size(); ++i) {
+    if (points[i][axis] < points[low][axis]) low = i;
+    if (points[i][axis] > points[high][axis]) high = i;
+  }
+  return {low, high};
+}
+
+std::vector<std::uint32_t> planar_hull(std::span<const Rational3> points, const Rational3& normal) {
+  // Drop a coordinate in which the normal is not zero; keep the orientation.
+  std::size_t axis = 0;
+  while (sgn(normal[axis]) == 0) ++axis;
+  std::size_t u = (axis + 1) % 3;
+  std::size_t v = (axis + 2) % 3;
+  if (sgn(normal[axis]) < 0) std::swap(u, v);
+
+  std::vector<std::uint32_t> order(points.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    const int sign = cmp(points[a][u], points[b][u]);
+    if (sign != 0) return sign < 0;
+    const int sign_v = cmp(points[a][v], points[b][v]);
+    return sign_v != 0 ? sign_v < 0 : a < b;
+  });
+  order.erase(std::unique(order.begin(), order.end(),
+                          [&](std::uint32_t a, std::uint32_t b) {
+                            return points[a][u] == points[b][u] && points[a][v] == points[b][v];
+                          }),
+              order.end());
+
+  // Andrew's monotone chain: the lower side from left to right, then the upper one back.
+  const auto left_turn = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    const Rational left = (points[b][u] - points[a][u]) * (points[c][v] - points[a][v]);
+    const Rational right = (points[b][v] - points[a][v]) * (points[c][u] - points[a][u]);
+    return left > right;
+  };
+  std::vector<std::uint32_t> hull;
+  const auto extend = [&](std::uint32_t i, std::size_t keep) {
+    while (hull.size() >= keep + 2 && !left_turn(hull[hull.size() - 2], hull.back(), i)) hull.pop_back();
+    hull.push_back(i);
+  };
+  for (const std::uint32_t i : order) extend(i, 0);
+  const std::size_t lower = hull.size() - 1;
+  for (std::size_t k = order.size() - 1; k-- > 0;) extend(order[k], lower);
+  hull.pop_back();
+  return hull;
+}
+
+}  // namespace nef::detail

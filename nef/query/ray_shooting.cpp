@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Ray shooting: candidates come from the box tree, roughly from near to far; each is decided
+// exactly, and the nearest hit so far cuts off what lies behind it.
+#include <cmath>
+#include <limits>
+
+#include "nef/base/error.h"
+#include "nef/query/facet_search.h"
+#include "nef/query/query_structure.h"
+#include "nef/sphere_map/sphere_geometry.h"
+
+namespace nef {
+namespace {
+
+// Conservative test of boxes against a ray in doubles: never refuses a box that the ray meets.
+class RayFilter {
+ public:
+  explicit RayFilter(const QueryRay& ray) : origin_(point_box(ray.origin)) {
+    const std::array<Integer, 3>& exact = ray.direction.integers();
+    for (std::size_t i = 0; i < 3; ++i) {
+      direction_[i] = ray.direction.approximate[i];
+      sign_[i] = sgn(exact[i]);
+      if (std::fabs(direction_[i]) > std::fabs(direction_[main_])) main_ = i;
+    }
+  }
+
+  // The axis along which the ray moves fastest, and whether it goes up or down there.
+  [[nodiscard]] std::size_t main_axis() const { return main_; }
+  [[nodiscard]] int main_sign() const { return sign_[main_]; }
+
+  // Nothing behind this point matters any more.
+  void cut(const PointRef& hit) { limit_ = point_box(hit); }
+
+  [[nodiscard]] bool may_meet(const Box& box) const {
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (sign_[i] >= 0 && box.high[i] < origin_.low[i]) return false;
+      if (sign_[i] <= 0 && box.low[i] > origin_.high[i]) return false;
+    }
+    if (sign_[main_] > 0 ? box.low[main_] > limit_.high[main_] : box.high[main_] < limit_.low[main_]) return false;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = (i + 1) % 3;
+      if (sign_[i] != 0 && sign_[j] != 0 && !may_meet_projected(box, i, j)) return false;
+    }
+    return true;
+  }
+
+ private:
+  // In the plane of axes i and j: f(x) = D_i (x_j - o_j) - D_j (x_i - o_i) vanishes on the ray.
+  // Refuses only if f has one sign on the whole box. The relative errors of a coordinate, of a
+  // component of D and of the arithmetic are below 2^-50 each; 2^-46 of the sum of magnitudes
+  // covers them all. Infinities give NaNs or infinite bounds, which refuse nothing.
+  [[nodiscard]] bool may_meet_projected(const Box& box, std::size_t i, std::size_t j) const {
+    const double a = direction_[i];
+    const double b = direction_[j];
+    double low = 0;
+    double high = 0;
+    double size = 0;
+    const auto add = [&](double factor, double from, double to) {
+      const double x = factor * from;
+      const double y = factor * to;
+      low += x < y ? x : y;
+      high += x < y ? y : x;
+      size += std::fabs(x) + std::fabs(y);
+    };
+    add(a, box.low[j] - origin_.high[j], box.high[j] - origin_.low[j]);
+    add(-b, box.low[i] - origin_.high[i], box.high[i] - origin_.low[i]);
+    size += std::fabs(a) * (std::fabs(origin_.low[j]) + std::fabs(box.low[j]) + std::fabs(box.high[j]));
+    size += std::fabs(b) * (std::fabs(origin_.low[i]) + std::fabs(box.low[i]) + std::fabs(box.high[i]));
+    const double bound = size * 0x1p-46 + 1e-300;
+    return !(low > bound) && !(high < -bound);
+  }
+
+  Box origin_;
+  std::array<double, 3> direction_{};
+  std::array<int, 3> sign_{};
+  std::size_t main_ = 0;
+  Box limit_{{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, {HUGE_VAL, HUGE_VAL, HUGE_VAL}};
+};
+
+Box unmirrored(const Box& box) {
+  Box result;
+  for (std::size_t i = 0; i < 3; ++i) {
+    result.low[i] = -box.high[i];
+    result.high[i] = -box.low[i];
+  }
+  return result;
+}
+
+// Sign of (p - o) . D if p lies on the line of the ray, else nothing.
+std::optional<int> position_on_line(const QueryRay& ray, const PointRef& p) {
+  const std::array<Integer, 3>& d = ray.direction.integers();
+  std::array<std::array<Integer, 3>, 2> difference;  // constant part, factor of R
+  const IntegerView wo = ray.origin.coordinate(3);
+  const IntegerView wp = p.coordinate(3);
+  for (std::size_t part = 0; part < 2; ++part) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      mpz_ptr out = difference[part][i].get_mpz_t();
+      mpz_mul(out, p.coordinate(4 * part + i), wo);
+      mpz_submul(out, ray.origin.coordinate(4 * part + i), wp);
+    }
+  }
+  for (const std::array<Integer, 3>& v : difference) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = (i + 1) % 3;
+      if (v[i] * d[j] != v[j] * d[i]) return std::nullopt;
+    }
+  }
+  const auto dot = [&d](const std::array<Integer, 3>& v) -> int {
+    const Integer sum = v[0] * d[0] + v[1] * d[1] + v[2] * d[2];
+    return sgn(sum);
+  };
+  const int at_infinity = dot(difference[1]);
+  return at_infinity != 0 ? at_infinity : dot(difference[0]);
+}
+
+}  // namespace
+
+class RayShooter {
+ public:
+  RayShooter(const Complex& complex, const QueryStructure& structure, const QueryRay& ray,
+             const QueryStructure::Accept& accept)
+      : complex_(complex), structure_(structure), ray_(ray), accept_(accept), filter_(ray) {}
+
+  std::optional<ComplexHit> shoot(Rational3* at) {
+    structure_.tree_.for_each_if([&](const Box& box) { return filter_.may_meet(unmirrored(box)); },
+                                 [&](std::uint32_t i) { visit(structure_.items_[i]); });
+    if (!hit_) return hit_;
+    if (at != nullptr) *at = position_.table->rational(position_.id);
+    hit_->sface = entered_through(*hit_);
+    return hit_;
+  }
+
+ private:
+  void visit(std::uint32_t item) {
+    const std::uint32_t index = item / 4;
+    switch (item % 4) {
+      case QueryStructure::kVertexItem:
+        visit_vertex(index);
+        break;
+      case QueryStructure::kEdgeItem:
+        visit_edge(index);
+        break;
+      default:
+        visit_facet(index);
+    }
+  }
+
+  void visit_vertex(std::uint32_t vertex) {
+    const PointRef point{&complex_.points, PointId{vertex}};
+    const std::optional<int> position = position_on_line(ray_, point);
+    if (position && *position > 0) offer({ComplexHit::Kind::kVertex, vertex, kNone}, point);
+  }
+
+  void visit_edge(std::uint32_t halfedge) {
+    const SVertex& edge = complex_.svertices[halfedge];
+    PlaneId crossed = edge.p;
+    PlaneId other = edge.q;
+    if (side_of_circle(complex_.planes, crossed, ray_.direction) == 0) std::swap(crossed, other);
+    const std::uint32_t u = complex_.svertex_owner[halfedge];
+    const std::uint32_t v = complex_.target(halfedge);
+    if (side_of_circle(complex_.planes, crossed, ray_.direction) == 0) {
+      // Parallel: met at its ends, if at all.
+      visit_vertex(u);
+      visit_vertex(v);
+      return;
+    }
+    const std::optional<PointRef> meeting = meet(crossed);
+    if (!meeting || side_of_plane(complex_.planes, other, *meeting) != 0) return;
+    for (int axis = 0; axis < 3; ++axis) {
+      const int u_side = compare_coordinate(PointRef{&complex_.points, PointId{u}}, *meeting, axis);
+      const int v_side = compare_coordinate(PointRef{&complex_.points, PointId{v}}, *meeting, axis);
+      if (u_side == 0 && v_side == 0) continue;
+      if (u_side * v_side > 0) return;
+      if (u_side * v_side < 0) return offer({ComplexHit::Kind::kEdge, halfedge, kNone}, *meeting);
+      return offer({ComplexHit::Kind::kVertex, u_side == 0 ? u : v, kNone}, *meeting);
+    }
+  }
+
+  void visit_facet(std::uint32_t index) {
+    const Facet& facet = complex_.facets[index];
+    if (side_of_circle(complex_.planes, facet.plane, ray_.direction) == 0) {
+      if (side_of_plane(complex_.planes, facet.plane, ray_.origin) == 0) visit_boundary(index);
+      return;
+    }
+    const std::optional<PointRef> meeting = meet(facet.plane);
+    if (!meeting || (hit_ && !nearer(*meeting))) return;
+    const FacetPlace place = locate_in_facet(complex_, facet, *meeting, structure_.edge_tree(complex_, index));
+    switch (place.kind) {
+      case FacetPlace::Kind::kOutside:
+        return;
+      case FacetPlace::Kind::kEdge:
+        return offer({ComplexHit::Kind::kEdge, place.index, kNone}, *meeting);
+      case FacetPlace::Kind::kVertex:
+        return offer({ComplexHit::Kind::kVertex, place.index, kNone}, *meeting);
+      case FacetPlace::Kind::kInside:
+        break;
+    }
+    if (facet.isolated_count > 0) {
+      // What is met may be a vertex inside the facet.
+      if (const auto vertex = structure_.free_vertex_at(complex_, *meeting)) {
+        return offer({ComplexHit::Kind::kVertex, *vertex, kNone}, *meeting);
+      }
+    }
+    const bool from_above = side_of_plane(complex_.planes, facet.plane, ray_.origin) > 0;
+    offer({ComplexHit::Kind::kFacet, 2 * index + (from_above ? 0U : 1U), kNone}, *meeting);
+  }
+
+  // The ray runs in the plane of the facet.
+  void visit_boundary(std::uint32_t index) {
+    const std::span<const std::uint32_t> corners = complex_.facet_corners(complex_.facets[index]);
+    const BoxTree* edges = structure_.edge_tree(complex_, index);
+    if (edges == nullptr) {
+      for (const std::uint32_t corner : corners) visit_edge(complex_.corner_halfedge(corner));
+    } else {
+      edges->for_each_if([&](const Box& box) { return filter_.may_meet(box); },
+                         [&](std::uint32_t i) { visit_edge(complex_.corner_halfedge(corners[i])); });
+    }
+  }
+
+  // The point ahead on the ray where it crosses a plane that is not parallel to it.
+  // With m = n . D and s = the plane's form at the origin P / w: Q = (m P - s D) / (m w).
+  std::optional<PointRef> meet(PlaneId plane) {
+    const int side = side_of_plane(complex_.planes, plane, ray_.origin);
+    const Direction normal = Direction::normal(complex_.planes, plane);
+    if (side * sign_of_dot(normal, ray_.direction) >= 0) return std::nullopt;
+    const std::array<Integer, 3>& n = normal.integers();
+    const std::array<Integer, 3>& d = ray_.direction.integers();
+    const Integer m = n[0] * d[0] + n[1] * d[1] + n[2] * d[2];
+    std::array<Integer, 7> q;
+    const IntegerView w = ray_.origin.coordinate(3);
+    for (std::size_t part = 0; part < 2; ++part) {
+      Integer s = complex_.planes.oriented_coefficient(plane, 3 + part);
+      mpz_mul(s.get_mpz_t(), s.get_mpz_t(), w);
+      for (std::size_t i = 0; i < 3; ++i) {
+        mpz_addmul(s.get_mpz_t(), n[i].get_mpz_t(), ray_.origin.coordinate(4 * part + i));
+      }
+      for (std::size_t i = 0; i < 3; ++i) {
+        mpz_ptr out = q[4 * part + i].get_mpz_t();
+        mpz_mul(out, m.get_mpz_t(), ray_.origin.coordinate(4 * part + i));
+        mpz_submul(out, s.get_mpz_t(), d[i].get_mpz_t());
+      }
+    }
+    mpz_mul(q[3].get_mpz_t(), m.get_mpz_t(), w);
+    return PointRef{&scratch_, scratch_.push_homogeneous(q)};
+  }
+
+  [[nodiscard]] bool nearer(const PointRef& point) const {
+    return compare_coordinate(point, position_, static_cast<int>(filter_.main_axis())) * filter_.main_sign() < 0;
+  }
+
+  void offer(const ComplexHit& hit, const PointRef& position) {
+    if (hit_ && !nearer(position)) return;
+    if (accept_ && !accept_(hit)) return;
+    hit_ = hit;
+    position_ = position;
+    filter_.cut(position);
+  }
+
+  // The sface of the hit's sphere map that holds the direction back to the origin.
+  [[nodiscard]] std::uint32_t entered_through(const ComplexHit& hit) const {
+    if (hit.kind == ComplexHit::Kind::kFacet) return kNone;
+    const Direction back = ray_.direction.negated();
+    if (hit.kind == ComplexHit::Kind::kVertex) {
+      const SphereLocation place = locate(complex_.planes, complex_.sphere_map(hit.index), back);
+      return place.kind == SphereLocation::Kind::kSFace ? complex_.vertices[hit.index].sfaces + place.index : kNone;
+    }
+    const std::uint32_t vertex = complex_.svertex_owner[hit.index];
+    const SphereMapView map = complex_.sphere_map(vertex);
+    const VertexRecord& record = complex_.vertices[vertex];
+    const SVertex& edge = complex_.svertices[hit.index];
+    if (edge.out == kNone) return record.sfaces + edge.sface;
+    const Direction axis = direction_of(complex_.planes, edge);
+    const Wedge wedge = locate_wedge(complex_.planes, map, hit.index - record.svertices, Direction::cross(axis, back));
+    return wedge.on ? kNone : record.sfaces + map.shalfedges[wedge.shalfedge].sface;
+  }
+
+  const Complex& complex_;
+  const QueryStructure& structure_;
+  const QueryRay& ray_;
+  const QueryStructure::Accept& accept_;
+  RayFilter filter_;
+  PointTable scratch_;
+  std::optional<ComplexHit> hit_;
+  PointRef position_;
+};
+
+std::optional<ComplexHit> QueryStructure::first_hit(const Complex& complex, const QueryRay& ray, const Accept& accept,
+                                                    Rational3* at) const {
+  NEF_ASSERT(!ray.direction.is_zero());
+  return RayShooter(complex, *this, ray, accept).shoot(at);
+}
+
+}  // namespace nef

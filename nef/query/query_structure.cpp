@@ -129,6 +129,18 @@ std::optional<ComplexHit> QueryStructure::first_hit_minus_x(const Complex& compl
   return first_hit(complex, {{&complex.points, PointId{vertex}}, Direction::exact(-1, 0, 0)});
 }
 
+std::uint32_t QueryStructure::first_sface_minus_x(const Complex& complex, std::uint32_t vertex) const {
+  const std::optional<ComplexHit> hit = first_hit_minus_x(complex, vertex);
+  if (!hit) return kNone;
+  if (hit->kind == ComplexHit::Kind::kFacet) {
+    // A corner is oriented like the positive halffacet; its twin looks to the other side.
+    const std::uint32_t corner = complex.facet_corners(complex.facets[hit->index >> 1U])[0];
+    return complex.shalfedge_sface(corner ^ (hit->index & 1U));
+  }
+  NEF_ASSERT(hit->sface != kNone);
+  return hit->sface;
+}
+
 std::uint32_t QueryStructure::volume_at(const Complex& complex, const PointRef& point) const {
   const std::optional<ComplexHit> hit = first_hit(complex, {point, Direction::exact(-1, 0, 0)});
   return hit ? volume_before(complex, *hit) : 0;

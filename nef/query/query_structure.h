@@ -59,6 +59,10 @@ class QueryStructure {
   /// may be infimaximal.
   [[nodiscard]] std::optional<ComplexHit> first_hit_minus_x(const Complex& complex, std::uint32_t vertex) const;
 
+  /// The sface (global index) of that first item which bounds the region between it and the vertex;
+  /// kNone if there is no such item. The vertex must have nothing of its own in direction -x.
+  [[nodiscard]] std::uint32_t first_sface_minus_x(const Complex& complex, std::uint32_t vertex) const;
+
   /// The volume that holds a point which item_at does not find on anything.
   [[nodiscard]] std::uint32_t volume_at(const Complex& complex, const PointRef& point) const;
 

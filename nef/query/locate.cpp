@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The queries of nef/polyhedron.h: point location, local pyramids and rays.
+#include "nef/base/error.h"
+#include "nef/complex/local_pyramid.h"
+#include "nef/polyhedron.h"
+#include "nef/query/query_structure.h"
+
+namespace nef {
+namespace {
+
+Location location_of(const Complex& complex, const ComplexHit& hit) {
+  switch (hit.kind) {
+    case ComplexHit::Kind::kVertex:
+      return {Location::Kind::kVertex, hit.index, complex.vertices[hit.index].mark};
+    case ComplexHit::Kind::kEdge:
+      return {Location::Kind::kEdge, hit.index, complex.svertices[hit.index].mark};
+    case ComplexHit::Kind::kFacet:
+      break;
+  }
+  const std::uint32_t facet = hit.index >> 1U;
+  return {Location::Kind::kFacet, facet, complex.facets[facet].mark};
+}
+
+}  // namespace
+
+Location locate(const Polyhedron& a, const Rational3& point) {
+  const Complex& complex = a.complex();
+  if (complex.vertex_count() == 0) return {Location::Kind::kVolume, 0, complex.volumes[0].mark};
+  PointTable table;
+  const PointRef query{&table, table.push(point)};
+  const QueryStructure& structure = a.queries();
+  if (const std::optional<ComplexHit> hit = structure.item_at(complex, query)) return location_of(complex, *hit);
+  const std::uint32_t volume = structure.volume_at(complex, query);
+  return {Location::Kind::kVolume, volume, complex.volumes[volume].mark};
+}
+
+bool contains(const Polyhedron& a, const Rational3& point) { return locate(a, point).mark != 0; }
+
+SphereMapBuffer local_pyramid(const Polyhedron& a, const Rational3& point) {
+  const Complex& complex = a.complex();
+  const Location where = locate(a, point);
+  SphereMapBuffer result;
+  switch (where.kind) {
+    case Location::Kind::kVertex: {
+      const SphereMapView map = complex.sphere_map(where.index);
+      result.svertices.assign(map.svertices.begin(), map.svertices.end());
+      result.shalfedges.assign(map.shalfedges.begin(), map.shalfedges.end());
+      result.sloops.assign(map.sloops.begin(), map.sloops.end());
+      result.sfaces.assign(map.sfaces.begin(), map.sfaces.end());
+      result.entries.assign(map.entries.begin(), map.entries.end());
+      result.mark = map.mark;
+      break;
+    }
+    case Location::Kind::kEdge: {
+      const std::uint32_t vertex = complex.svertex_owner[where.index];
+      edge_pyramid(complex.sphere_map(vertex), where.index - complex.vertices[vertex].svertices, result);
+      break;
+    }
+    case Location::Kind::kFacet: {
+      const Facet& facet = complex.facets[where.index];
+      result.assign_circle(facet.plane, facet.mark, complex.volumes[facet.volume_above].mark,
+                           complex.volumes[facet.volume_below].mark);
+      break;
+    }
+    case Location::Kind::kVolume:
+      result.assign_trivial(where.mark);
+  }
+  return result;
+}
+
+std::optional<RayHit> shoot_ray(const Polyhedron& a, const Rational3& origin, const Rational3& direction,
+                                const std::function<bool(const Location&)>& accept) {
+  if (direction[0] == 0 && direction[1] == 0 && direction[2] == 0) {
+    throw InputError("a ray needs a direction other than 0,0,0");
+  }
+  const Complex& complex = a.complex();
+  if (complex.vertex_count() == 0) return std::nullopt;
+  // Scaled to integers by the common denominator.
+  Integer scale = 1;
+  for (const Rational& x : direction) scale = lcm(scale, x.get_den());
+  std::array<Integer, 3> d;
+  for (std::size_t i = 0; i < 3; ++i) d[i] = direction[i].get_num() * (scale / direction[i].get_den());
+  PointTable table;
+  const QueryRay ray{{&table, table.push(origin)}, Direction::exact(d[0], d[1], d[2])};
+  // The box of an unbounded set is at infinity, where no point is: it is not met.
+  const auto takes = [&](const ComplexHit& hit) {
+    const bool at_infinity = hit.kind == ComplexHit::Kind::kVertex ? !complex.points.finite(PointId{hit.index})
+                             : hit.kind == ComplexHit::Kind::kEdge
+                                 ? complex.planes.infimaximal(complex.svertices[hit.index].p) ||
+                                       complex.planes.infimaximal(complex.svertices[hit.index].q)
+                                 : complex.planes.infimaximal(complex.facets[hit.index >> 1U].plane);
+    return !at_infinity && (!accept || accept(location_of(complex, hit)));
+  };
+  RayHit result;
+  const std::optional<ComplexHit> hit = a.queries().first_hit(complex, ray, takes, &result.point);
+  if (!hit) return std::nullopt;
+  result.location = location_of(complex, *hit);
+  return result;
+}
+
+}  // namespace nef

@@ -100,6 +100,7 @@ struct Complex {
   std::vector<Shell> shells;
   std::vector<std::uint32_t> shell_sfaces;
   std::vector<Volume> volumes;
+  LabelId label_count = 2;                      ///< every mark but kOutside is below it; at least 2
 
   [[nodiscard]] std::size_t vertex_count() const { return vertices.size() - 1; }
   [[nodiscard]] std::size_t edge_count() const { return svertices.size() / 2; }

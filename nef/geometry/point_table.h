@@ -38,11 +38,21 @@ class PointTable {
   /// At most one determinant and three more; about a microsecond on ordinary input.
   std::optional<PointId> push_intersection(const PlaneTable& planes, PlaneId p, PlaneId q, PlaneId r);
 
+  /// Takes the last point off again.
+  void pop() {
+    rows_.pop();
+    approximate_.pop_back();
+  }
+
   /// Homogeneous coordinate: 0..2 for x, y, z; 3 for w; 4..6 for the factors of R.
   [[nodiscard]] IntegerView coordinate(PointId point, std::size_t column) const { return rows_.at(point.value, column); }
 
   /// The three doubles of a point.
   [[nodiscard]] const std::array<double, 3>& approximate(PointId point) const { return approximate_[point.value]; }
+
+  /// Equal for points with the same homogeneous coordinates (as push makes them of equal points).
+  [[nodiscard]] std::uint64_t hash(PointId point) const { return rows_.hash(point.value); }
+  [[nodiscard]] bool identical(PointId a, PointId b) const { return rows_.equal(a.value, rows_, b.value); }
 
   /// True if no coordinate has a part in R.
   [[nodiscard]] bool finite(PointId point) const {

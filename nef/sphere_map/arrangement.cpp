@@ -72,11 +72,12 @@ bool Arrangement::passes_through(std::uint32_t index) const {
 void Arrangement::trace_chains() {
   chain_end_.assign(2 * arcs.size(), kNone);
   for (std::uint32_t n = 0; n < nodes.size(); ++n) {
-    if (!essential_[n]) continue;
+    if (!essential(n)) continue;
     for (const std::uint32_t half : around(n)) {
       if (chain_end_[half] != kNone) continue;
       std::uint32_t end = half;
-      while (!essential_[target(end)]) {
+      while (!essential(target(end))) {
+        role_[target(end)] = Role::kInChain;
         const std::span<const std::uint32_t> two = around(target(end));
         end = two[0] == (end ^ 1U) ? two[1] : two[0];
       }
@@ -90,18 +91,18 @@ void Arrangement::simplify_and_assemble(const PlaneTable& planes, SphereMapBuffe
   out.clear();
   out.mark = centre;
   drop_redundant_arcs();
-  essential_.assign(nodes.size(), false);
+  role_.assign(nodes.size(), Role::kPassed);
   std::uint32_t passed = kNone;
   LabelId whole = background;
   for (std::uint32_t n = 0; n < nodes.size(); ++n) {
     const Node& node = nodes[n];
     if (node.degree == 0) {
-      essential_[n] = node.mark != node.around;
+      role_[n] = node.mark != node.around ? Role::kEssential : Role::kInChain;
       whole = node.around;
     } else if (passes_through(n)) {
       passed = n;
     } else {
-      essential_[n] = true;
+      role_[n] = Role::kEssential;
     }
   }
   trace_chains();
@@ -112,22 +113,9 @@ void Arrangement::simplify_and_assemble(const PlaneTable& planes, SphereMapBuffe
   }
   // A passed node that no chain has reached lies on a circle of such nodes: it becomes the loop.
   for (std::uint32_t n = 0; n < nodes.size() && passed != kNone && !loop.present; ++n) {
-    if (essential_[n] || nodes[n].degree != 2) continue;
+    if (role_[n] != Role::kPassed) continue;
     const std::uint32_t half = halves_[nodes[n].first_half];
-    std::uint32_t h = half;
-    bool closed = false;
-    for (;;) {
-      if (essential_[target(h)]) break;
-      const std::span<const std::uint32_t> two = around(target(h));
-      h = two[0] == (h ^ 1U) ? two[1] : two[0];
-      if (h == half) {
-        closed = true;
-        break;
-      }
-    }
-    if (closed) loop = Circle{true, plane(half), nodes[n].mark, left(half), left(half ^ 1U)};
-    // One walk suffices when it ends at an essential node: then this node is inside a chain, and
-    // others may still lie on the circle.
+    loop = Circle{true, plane(half), nodes[n].mark, left(half), left(half ^ 1U)};
   }
   build_incidences(planes, out);
   if (loop.present) {
@@ -146,7 +134,7 @@ void Arrangement::simplify_and_assemble(const PlaneTable& planes, SphereMapBuffe
 void Arrangement::build_incidences(const PlaneTable& planes, SphereMapBuffer& out) {
   node_svertex_.assign(nodes.size(), kNone);
   for (std::uint32_t n = 0; n < nodes.size(); ++n) {
-    if (!essential_[n]) continue;
+    if (!essential(n)) continue;
     node_svertex_[n] = static_cast<std::uint32_t>(out.svertices.size());
     SVertex v;
     v.p = nodes[n].direction.p;
@@ -156,7 +144,7 @@ void Arrangement::build_incidences(const PlaneTable& planes, SphereMapBuffer& ou
   }
   final_half_.assign(2 * arcs.size(), kNone);
   for (std::uint32_t n = 0; n < nodes.size(); ++n) {
-    if (!essential_[n]) continue;
+    if (!essential(n)) continue;
     for (const std::uint32_t half : around(n)) {
       if (final_half_[half] != kNone) continue;
       const auto even = static_cast<std::uint32_t>(out.shalfedges.size());
@@ -174,7 +162,7 @@ void Arrangement::build_incidences(const PlaneTable& planes, SphereMapBuffer& ou
     }
   }
   for (std::uint32_t n = 0; n < nodes.size(); ++n) {
-    if (!essential_[n]) continue;
+    if (!essential(n)) continue;
     const std::span<const std::uint32_t> ring = around(n);
     if (ring.empty()) continue;
     out.svertices[node_svertex_[n]].out = final_half_[ring[0]];
@@ -194,7 +182,7 @@ void Arrangement::build_incidences(const PlaneTable& planes, SphereMapBuffer& ou
 // its facets, and both ends of an edge use planes of the same facets.
 void Arrangement::choose_incident_planes(const PlaneTable& planes, SphereMapBuffer& out) const {
   for (std::uint32_t n = 0; n < nodes.size(); ++n) {
-    if (!essential_[n]) continue;
+    if (!essential(n)) continue;
     const std::span<const std::uint32_t> ring = around(n);
     if (ring.size() < 2) continue;
     PlaneId first = plane(ring[0]);
@@ -235,7 +223,7 @@ void Arrangement::build_faces(const PlaneTable& planes, SphereMapBuffer& out) {
   std::vector<std::uint32_t> of_vertex(out.svertices.size(), kNone);
   std::vector<std::uint32_t> of_loop;
   for (std::uint32_t n = 0; n < nodes.size(); ++n) {
-    if (!essential_[n]) continue;
+    if (!essential(n)) continue;
     for (const std::uint32_t half : around(n)) {
       const std::uint32_t start = final_half_[half];
       if (of_half[start] != kNone) continue;

@@ -81,7 +81,9 @@ class Arrangement {
 
   std::vector<std::uint32_t> halves_;
   // Scratch of step 2, kept to spare allocations when one object builds thousands of maps.
-  std::vector<bool> essential_;
+  enum class Role : std::uint8_t { kPassed, kEssential, kInChain };  // a passed node may be found in a chain
+  std::vector<Role> role_;
+  [[nodiscard]] bool essential(std::uint32_t node) const { return role_[node] == Role::kEssential; }
   std::vector<std::uint32_t> final_half_;     // half of the drawing -> shalfedge that starts with it
   std::vector<std::uint32_t> chain_end_;      // first half of a chain -> its last half
   std::vector<std::uint32_t> node_svertex_;

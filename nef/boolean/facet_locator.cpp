@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/boolean/facet_locator.h"
+
+#include <cmath>
+
+namespace nef {
+
+const BoxTree& FacetLocator::tree(std::uint32_t facet) {
+  const auto [entry, is_new] = trees_.try_emplace(facet);
+  if (is_new) {
+    std::vector<Box> boxes;
+    for (const std::uint32_t corner : corners_of(facet)) {
+      boxes.push_back(operand_.edge_box(operand_.complex().corner_halfedge(corner)));
+    }
+    entry->second = BoxTree(boxes);
+  }
+  return entry->second;
+}
+
+Item FacetLocator::locate(std::uint32_t facet, PointId point) {
+  const PlaneTable& planes = tables_.planes;
+  const PointTable& points = tables_.points;
+  const PlaneId plane = operand_.facet_plane(facet);
+  const PlaneAxes axes(planes, plane);
+  Box ray;
+  ray.add_rounded(points.approximate(point));
+  ray.low[static_cast<std::size_t>(axes.first)] = -HUGE_VAL;
+  Item found;
+  bool inside = false;
+  for_each_edge(facet, ray, [&](std::uint32_t halfedge) {
+    if (found.kind != Item::Kind::kNone) return;
+    const std::uint32_t a = operand_.source(halfedge);
+    const std::uint32_t b = operand_.target(halfedge);
+    const int a_height = compare_coordinate(points, operand_.point(a), point, axes.second);
+    const int b_height = compare_coordinate(points, operand_.point(b), point, axes.second);
+    if (a_height * b_height > 0) return;
+    if (a_height == 0 && compare_coordinate(points, operand_.point(a), point, axes.first) == 0) {
+      found = {Item::Kind::kVertex, a};
+      return;
+    }
+    if (b_height == 0 && compare_coordinate(points, operand_.point(b), point, axes.first) == 0) {
+      found = {Item::Kind::kVertex, b};
+      return;
+    }
+    if (a_height == 0 && b_height == 0) {
+      if (compare_coordinate(points, operand_.point(a), point, axes.first) !=
+          compare_coordinate(points, operand_.point(b), point, axes.first)) {
+        found = {Item::Kind::kEdge, operand_.edge(halfedge)};
+      }
+      return;
+    }
+    const EdgeSide edge = operand_.edge_side(planes, plane, halfedge);
+    const int side = edge.left * side_of_plane(planes, edge.other, points, point);
+    if (side == 0) {
+      // On the line, and strictly between the ends in height.
+      if (a_height * b_height < 0) found = {Item::Kind::kEdge, operand_.edge(halfedge)};
+      return;
+    }
+    // The ray runs a hair above the point: ends at its height count as below. An edge that rises
+    // has smaller values to its left.
+    const bool rises = b_height > 0;
+    if (rises == (a_height > 0)) return;
+    const int left = axes.positive ? side : -side;
+    if ((rises && left < 0) || (!rises && left > 0)) inside = !inside;
+  });
+  if (found.kind != Item::Kind::kNone || !inside) return found;
+  const Facet& f = operand_.complex().facets[facet];
+  for (std::uint32_t i = 0; i < f.isolated_count; ++i) {
+    const std::uint32_t v = operand_.complex().isolated_vertices[f.first_isolated + i];
+    if (compare_coordinate(points, operand_.point(v), point, axes.first) == 0 &&
+        compare_coordinate(points, operand_.point(v), point, axes.second) == 0) {
+      return {Item::Kind::kVertex, v};
+    }
+  }
+  return {Item::Kind::kFacet, facet};
+}
+
+}  // namespace nef

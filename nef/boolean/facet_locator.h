@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <unordered_map>
+
+#include "nef/boolean/operand.h"
+
+namespace nef {
+
+/// Locates points of common tables in the facets of one operand. Small facets are scanned; large
+/// ones get a tree over their edges when they are first asked, so that a query costs O(log n +
+/// edges met by a ray).
+class FacetLocator {
+ public:
+  FacetLocator(const Operand& operand, const CommonTables& tables) : operand_(operand), tables_(tables) {}
+
+  /// The item of the (closed) facet that holds a point of its plane: the facet itself, an edge or
+  /// a vertex of its boundary or an isolated vertex inside; kNone if the point lies outside.
+  [[nodiscard]] Item locate(std::uint32_t facet, PointId point);
+
+  /// The boundary edges of the facet (as halfedges of its corners) whose boxes meet `box`.
+  template <typename Visit>
+  void for_each_edge(std::uint32_t facet, const Box& box, Visit&& visit) {
+    const std::span<const std::uint32_t> corners = corners_of(facet);
+    if (corners.size() <= kSmall) {
+      for (const std::uint32_t corner : corners) visit(operand_.complex().corner_halfedge(corner));
+    } else {
+      tree(facet).for_each_overlap(
+          box, [&](std::uint32_t i) { visit(operand_.complex().corner_halfedge(corners[i])); });
+    }
+  }
+
+ private:
+  static constexpr std::size_t kSmall = 24;
+  [[nodiscard]] std::span<const std::uint32_t> corners_of(std::uint32_t facet) const {
+    return operand_.complex().facet_corners(operand_.complex().facets[facet]);
+  }
+  const BoxTree& tree(std::uint32_t facet);
+
+  const Operand& operand_;
+  const CommonTables& tables_;
+  std::unordered_map<std::uint32_t, BoxTree> trees_;
+};
+
+}  // namespace nef

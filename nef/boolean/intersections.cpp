@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Facets of one operand are put into a tree of boxes; vertices and edges of the other ask it.
+// "Bare" edges and vertices, which bound no facet, are invisible to facets and ask each other.
+#include "nef/boolean/intersections.h"
+
+#include <algorithm>
+#include <unordered_set>
+
+#include "nef/base/error.h"
+#include "nef/boolean/facet_locator.h"
+
+namespace nef {
+namespace {
+
+class IntersectionFinder {
+ public:
+  IntersectionFinder(const std::array<Operand, 2>& operands, CommonTables& tables)
+      : operands_(operands), tables_(tables), locators_{FacetLocator{operands[0], tables}, FacetLocator{operands[1], tables}} {
+    for (std::size_t x = 0; x < 2; ++x) result_.vertex_item[x].resize(operands[x].complex().vertex_count());
+  }
+
+  Intersections run() {
+    if (operands_[0].bounds().overlaps(operands_[1].bounds())) {
+      for (std::size_t x = 0; x < 2; ++x) collect(x);
+      for (std::size_t x = 0; x < 2; ++x) {
+        vertices_against_facets(x);
+        vertices_against_bare(x);
+      }
+      for (std::size_t x = 0; x < 2; ++x) edges_against_facets(x);
+      bare_edges();
+      for (std::size_t x = 0; x < 2; ++x) note_vertices_on_edges(x);
+    }
+    for (auto& contacts : result_.contacts) std::sort(contacts.begin(), contacts.end());
+    return std::move(result_);
+  }
+
+ private:
+  struct Near {
+    std::vector<std::uint32_t> facets;
+    BoxTree facet_tree;
+    std::vector<std::uint32_t> vertices;  // inside the other's bounds
+    std::vector<std::uint32_t> edges;
+    std::vector<std::uint32_t> bare_edges;
+    BoxTree bare_edge_tree;
+    std::vector<std::uint32_t> bare_vertices;
+    BoxTree bare_vertex_tree;
+  };
+
+  void collect(std::size_t x) {
+    const Operand& operand = operands_[x];
+    const Complex& c = operand.complex();
+    const Box& reach = operands_[1 - x].bounds();
+    Near& near = near_[x];
+    std::vector<Box> boxes;
+    for (std::uint32_t f = 0; f < c.facets.size(); ++f) {
+      const Box box = operand.facet_box(f);
+      if (!box.overlaps(reach)) continue;
+      near.facets.push_back(f);
+      boxes.push_back(box);
+    }
+    near.facet_tree = BoxTree(boxes);
+    std::vector<Box> bare_boxes;
+    for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
+      const Box box = operand.vertex_box(v);
+      if (!box.overlaps(reach)) continue;
+      near.vertices.push_back(v);
+      const SphereMapView map = c.sphere_map(v);
+      if (map.shalfedges.empty() && map.sloops.empty()) {
+        near.bare_vertices.push_back(v);
+        bare_boxes.push_back(box);
+      }
+    }
+    near.bare_vertex_tree = BoxTree(bare_boxes);
+    bare_boxes.clear();
+    for (std::uint32_t e = 0; e < c.svertices.size(); ++e) {
+      if (e > c.twin[e]) continue;
+      const Box box = operand.edge_box(e);
+      if (!box.overlaps(reach)) continue;
+      near.edges.push_back(e);
+      if (c.svertices[e].out == kNone) {
+        near.bare_edges.push_back(e);
+        bare_boxes.push_back(box);
+      }
+    }
+    near.bare_edge_tree = BoxTree(bare_boxes);
+  }
+
+  int side(PlaneId plane, PointId point) const { return side_of_plane(tables_.planes, plane, tables_.points, point); }
+
+  // A vertex of operand x has been found on an item of the other one.
+  void place_vertex(std::size_t x, std::uint32_t vertex, const Item& item) {
+    result_.vertex_item[x][vertex] = item;
+    if (item.kind == Item::Kind::kVertex) result_.vertex_item[1 - x][item.index] = {Item::Kind::kVertex, vertex};
+  }
+
+  void vertices_against_facets(std::size_t x) {
+    const Operand& other = operands_[1 - x];
+    for (const std::uint32_t v : near_[x].vertices) {
+      near_[1 - x].facet_tree.for_each_overlap(operands_[x].vertex_box(v), [&](std::uint32_t i) {
+        if (result_.vertex_item[x][v].kind != Item::Kind::kNone) return;
+        const std::uint32_t facet = near_[1 - x].facets[i];
+        if (side(other.facet_plane(facet), operands_[x].point(v)) != 0) return;
+        const Item item = locators_[1 - x].locate(facet, operands_[x].point(v));
+        if (item.kind != Item::Kind::kNone) place_vertex(x, v, item);
+      });
+    }
+  }
+
+  void vertices_against_bare(std::size_t x) {
+    const Operand& other = operands_[1 - x];
+    const Near& targets = near_[1 - x];
+    if (targets.bare_vertices.empty() && targets.bare_edges.empty()) return;
+    for (const std::uint32_t v : near_[x].vertices) {
+      const PointId p = operands_[x].point(v);
+      const Box box = operands_[x].vertex_box(v);
+      targets.bare_vertex_tree.for_each_overlap(box, [&](std::uint32_t i) {
+        if (result_.vertex_item[x][v].kind != Item::Kind::kNone) return;
+        const std::uint32_t w = targets.bare_vertices[i];
+        if (compare_lexicographic(tables_.points, p, other.point(w)) == 0) place_vertex(x, v, {Item::Kind::kVertex, w});
+      });
+      targets.bare_edge_tree.for_each_overlap(box, [&](std::uint32_t i) {
+        if (result_.vertex_item[x][v].kind != Item::Kind::kNone) return;
+        const std::uint32_t e = targets.bare_edges[i];
+        if (side(other.svertex(e).p, p) != 0 || side(other.svertex(e).q, p) != 0) return;
+        const int from = compare_lexicographic(tables_.points, p, other.point(other.source(e)));
+        const int to = compare_lexicographic(tables_.points, p, other.point(other.target(e)));
+        if (from * to < 0) place_vertex(x, v, {Item::Kind::kEdge, e});
+        if (from == 0) place_vertex(x, v, {Item::Kind::kVertex, other.source(e)});
+        if (to == 0) place_vertex(x, v, {Item::Kind::kVertex, other.target(e)});
+      });
+    }
+  }
+
+  void edges_against_facets(std::size_t x) {
+    const Operand& own = operands_[x];
+    const Operand& other = operands_[1 - x];
+    for (const std::uint32_t e : near_[x].edges) {
+      const PointId a = own.point(own.source(e));
+      const PointId b = own.point(own.target(e));
+      const Box box = own.edge_box(e);
+      near_[1 - x].facet_tree.for_each_overlap(box, [&](std::uint32_t i) {
+        const std::uint32_t facet = near_[1 - x].facets[i];
+        const PlaneId plane = other.facet_plane(facet);
+        const int side_a = side(plane, a);
+        const int side_b = side(plane, b);
+        if (side_a * side_b < 0) {
+          pierce(x, e, facet);
+        } else if (side_a == 0 && side_b == 0) {
+          locators_[1 - x].for_each_edge(facet, box, [&](std::uint32_t f) { cross_in_plane(x, e, other.edge(f), plane); });
+        }
+      });
+    }
+  }
+
+  // Edge e of operand x passes through the plane of a facet of the other.
+  void pierce(std::size_t x, std::uint32_t e, std::uint32_t facet) {
+    const SVertex& line = operands_[x].svertex(e);
+    const std::optional<PointId> point =
+        tables_.points.push_intersection(tables_.planes, line.p, line.q, operands_[1 - x].facet_plane(facet));
+    NEF_ASSERT(point.has_value());
+    const Item item = locators_[1 - x].locate(facet, *point);
+    const bool used = item.kind == Item::Kind::kFacet || item.kind == Item::Kind::kEdge;
+    if (!used || !add_crossing(x, e, item, *point)) tables_.points.pop();
+    if (item.kind == Item::Kind::kVertex) place_vertex(1 - x, item.index, {Item::Kind::kEdge, e});
+  }
+
+  // Both edges lie in `plane`; they cross iff each has the ends of the other strictly on both
+  // sides.
+  void cross_in_plane(std::size_t x, std::uint32_t e, std::uint32_t f, PlaneId plane) {
+    const Operand& own = operands_[x];
+    const Operand& other = operands_[1 - x];
+    const PlaneId through_f = other.edge_side(tables_.planes, plane, f).other;
+    if (side(through_f, own.point(own.source(e))) * side(through_f, own.point(own.target(e))) >= 0) return;
+    const PlaneId through_e = own.edge_side(tables_.planes, plane, e).other;
+    if (side(through_e, other.point(other.source(f))) * side(through_e, other.point(other.target(f))) >= 0) return;
+    const std::optional<PointId> point =
+        tables_.points.push_intersection(tables_.planes, plane, through_e, through_f);
+    NEF_ASSERT(point.has_value());
+    if (!add_crossing(x, e, {Item::Kind::kEdge, f}, *point)) tables_.points.pop();
+  }
+
+  bool add_crossing(std::size_t x, std::uint32_t e, const Item& item, PointId point) {
+    Crossing crossing;
+    crossing.point = point;
+    crossing.item[x] = {Item::Kind::kEdge, e};
+    crossing.item[1 - x] = item;
+    if (item.kind == Item::Kind::kEdge) {
+      // Found once for every facet around either edge.
+      const std::uint64_t key = static_cast<std::uint64_t>(crossing.item[0].index) << 32U | crossing.item[1].index;
+      if (!edge_pairs_.insert(key).second) return false;
+      result_.contacts[1 - x].push_back({item.index, point, crossing.item[x]});
+    }
+    result_.contacts[x].push_back({e, point, item});
+    result_.crossings.push_back(crossing);
+    return true;
+  }
+
+  void bare_edges() {
+    const Operand& a = operands_[0];
+    const Operand& b = operands_[1];
+    for (const std::uint32_t e : near_[0].bare_edges) {
+      const SVertex& line = a.svertex(e);
+      near_[1].bare_edge_tree.for_each_overlap(a.edge_box(e), [&](std::uint32_t i) {
+        const std::uint32_t f = near_[1].bare_edges[i];
+        const SVertex& other = b.svertex(f);
+        // The lines meet in a point iff it lies on all four planes; three of them that are
+        // independent give it.
+        for (const PlaneId plane : {other.p, other.q}) {
+          const std::optional<PointId> point =
+              tables_.points.push_intersection(tables_.planes, line.p, line.q, plane);
+          if (!point) continue;
+          const bool on_both = side(other.p, *point) == 0 && side(other.q, *point) == 0 && inside(a, e, *point) &&
+                               inside(b, f, *point);
+          if (!on_both || !add_crossing(0, e, {Item::Kind::kEdge, f}, *point)) tables_.points.pop();
+          return;
+        }
+      });
+    }
+  }
+
+  bool inside(const Operand& operand, std::uint32_t e, PointId point) const {
+    return compare_lexicographic(tables_.points, point, operand.point(operand.source(e))) *
+               compare_lexicographic(tables_.points, point, operand.point(operand.target(e))) <
+           0;
+  }
+
+  void note_vertices_on_edges(std::size_t x) {
+    for (const std::uint32_t v : near_[x].vertices) {
+      const Item& item = result_.vertex_item[x][v];
+      if (item.kind != Item::Kind::kEdge) continue;
+      result_.contacts[1 - x].push_back({item.index, operands_[x].point(v), {Item::Kind::kVertex, v}});
+    }
+  }
+
+  const std::array<Operand, 2>& operands_;
+  CommonTables& tables_;
+  std::array<FacetLocator, 2> locators_;
+  std::array<Near, 2> near_;
+  std::unordered_set<std::uint64_t> edge_pairs_;
+  Intersections result_;
+};
+
+}  // namespace
+
+Intersections intersect_boundaries(const std::array<Operand, 2>& operands, CommonTables& tables) {
+  return IntersectionFinder(operands, tables).run();
+}
+
+}  // namespace nef

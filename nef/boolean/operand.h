@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// An operand of a Boolean operation as the operation sees it: its complex with all planes and
+// points renamed to common tables.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "nef/complex/complex.h"
+#include "nef/complex/plane_ray.h"
+#include "nef/geometry/box_tree.h"
+
+namespace nef {
+
+/// Planes and points of both operands and of what the operation adds.
+struct CommonTables {
+  PlaneTable planes;
+  PointTable points;
+};
+
+/// What item of a complex a point lies on. A halfedge stands for its edge: the smaller of the two.
+struct Item {
+  enum class Kind : std::uint8_t { kNone, kVertex, kEdge, kFacet };
+  Kind kind = Kind::kNone;
+  std::uint32_t index = 0;
+  bool operator==(const Item&) const = default;
+};
+
+class Operand {
+ public:
+  /// Adds the complex to the tables. The first operand keeps its names, so pass it into empty
+  /// tables; the complex must outlive the operand.
+  Operand(const Complex& complex, CommonTables& tables);
+  Operand(const Operand&) = delete;  // holds views of its own arrays
+  Operand& operator=(const Operand&) = delete;
+
+  [[nodiscard]] const Complex& complex() const { return *complex_; }
+  [[nodiscard]] PlaneId plane(PlaneId own) const {
+    return rows_.empty() ? own : PlaneId{rows_[own.row()] << 1U | (own.value & 1U)};
+  }
+  [[nodiscard]] PointId point(std::uint32_t vertex) const { return PointId{first_point_ + vertex}; }
+  [[nodiscard]] const SVertex& svertex(std::uint32_t halfedge) const { return svertices_[halfedge]; }
+  [[nodiscard]] SphereMapView sphere_map(std::uint32_t vertex) const;
+  [[nodiscard]] PlaneId facet_plane(std::uint32_t facet) const { return plane(complex_->facets[facet].plane); }
+
+  /// The smaller halfedge of an edge.
+  [[nodiscard]] std::uint32_t edge(std::uint32_t halfedge) const {
+    return std::min(halfedge, complex_->twin[halfedge]);
+  }
+  [[nodiscard]] std::uint32_t source(std::uint32_t halfedge) const { return complex_->svertex_owner[halfedge]; }
+  [[nodiscard]] std::uint32_t target(std::uint32_t halfedge) const { return complex_->target(halfedge); }
+
+  [[nodiscard]] const Box& bounds() const { return bounds_; }
+  [[nodiscard]] Box vertex_box(std::uint32_t vertex) const;
+  [[nodiscard]] Box edge_box(std::uint32_t halfedge) const;
+  [[nodiscard]] Box facet_box(std::uint32_t facet) const;
+
+  /// The plane other than `plane` (a common name) that holds the edge, and the side of it to the
+  /// left of the halfedge in `plane`. See edge_side in nef/complex/plane_ray.h.
+  [[nodiscard]] EdgeSide edge_side(const PlaneTable& planes, PlaneId plane, std::uint32_t halfedge) const {
+    return nef::edge_side(planes, plane, svertices_[halfedge]);
+  }
+
+  /// The local pyramid at an item; the whole-space one of `label` for no item. `scratch` holds it
+  /// unless it is a vertex's.
+  SphereMapView pyramid(const Item& item, LabelId label, SphereMapBuffer& scratch) const;
+
+  /// The mark of the volume that `direction` leads into from a point on `item`. It must not lead
+  /// along a lower-dimensional item.
+  [[nodiscard]] LabelId volume_mark(const PlaneTable& planes, const Item& item, const Direction& direction) const;
+
+ private:
+  const Complex* complex_;
+  std::vector<std::uint32_t> rows_;  // own plane row -> common row; empty for the first operand
+  std::uint32_t first_point_ = 0;
+  std::vector<SVertex> renamed_svertices_;
+  std::vector<SHalfedge> renamed_shalfedges_;
+  std::vector<SLoop> renamed_sloops_;
+  std::span<const SVertex> svertices_;
+  std::span<const SHalfedge> shalfedges_;
+  std::span<const SLoop> sloops_;
+  Box bounds_;
+};
+
+}  // namespace nef

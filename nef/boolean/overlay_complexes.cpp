@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// candidate points -> local pyramid in each operand -> overlay -> simplify -> synthesize.
+// Vertices that the other operand does not touch see only one of its marks: they are dropped,
+// copied, or (for label functions that merge some marks) simplified on their own.
+#include "nef/boolean/overlay_complexes.h"
+
+#include <algorithm>
+
+#include "nef/base/error.h"
+#include "nef/complex/local_pyramid.h"
+#include "nef/complex/synthesis.h"
+#include "nef/sphere_map/overlay.h"
+
+namespace nef {
+namespace {
+
+class ComplexOverlay {
+ public:
+  ComplexOverlay(const Complex& a, const Complex& b, const LabelFunction& f)
+      : f_(f), operands_{Operand(a, tables_), Operand(b, tables_)} {}
+
+  Complex run(const std::function<const QueryStructure&()>& queries_a,
+              const std::function<const QueryStructure&()>& queries_b) {
+    const Intersections found = intersect_boundaries(operands_, tables_);
+    for (std::size_t x = 0; x < 2; ++x) {
+      const std::vector<LabelId> marks =
+          marks_of_untouched(operands_, x, tables_, found, x == 0 ? queries_b : queries_a);
+      const std::vector<Item>& items = found.vertex_item[x];
+      for (std::uint32_t v = 0; v < items.size(); ++v) {
+        if (items[v].kind == Item::Kind::kNone) {
+          push_untouched(x, v, marks[v]);
+        } else if (x == 0 || items[v].kind != Item::Kind::kVertex) {
+          std::array<Item, 2> pair;
+          pair[x] = {Item::Kind::kVertex, v};
+          pair[1 - x] = items[v];
+          push_overlay(operands_[x].point(v), pair);
+        }
+      }
+    }
+    for (const Crossing& crossing : found.crossings) push_overlay(crossing.point, crossing.item);
+    result_.planes = std::move(tables_.planes);
+    return std::move(result_);
+  }
+
+ private:
+  void push_overlay(PointId point, const std::array<Item, 2>& items) {
+    const SphereMapView a = operands_[0].pyramid(items[0], 0, scratch_[0]);
+    const SphereMapView b = operands_[1].pyramid(items[1], 0, scratch_[1]);
+    overlay_.overlay(tables_.planes, a, b, f_, out_);
+    push_result(point);
+  }
+
+  void push_result(PointId point) {
+    if (!is_vertex(tables_.planes, out_.view())) return;
+    result_.points.push_from(tables_.points, point);
+    result_.push_vertex(out_.view());
+  }
+
+  // What f does to the marks of operand x beside one mark of the other.
+  enum class Effect { kConstant, kIdentity, kInjective, kGeneral };
+  struct Restriction {
+    Effect effect = Effect::kGeneral;
+    std::vector<LabelId> map;
+  };
+
+  const Restriction& restriction(std::size_t x, LabelId other) {
+    auto& cache = restrictions_[x];
+    const auto known = std::find_if(cache.begin(), cache.end(), [other](const auto& r) { return r.first == other; });
+    if (known != cache.end()) return known->second;
+    Restriction r;
+    const LabelId labels = operands_[x].complex().label_count;
+    bool constant = true;
+    bool identity = true;
+    std::vector<LabelId> image;
+    for (LabelId label = 0; label < labels; ++label) {
+      r.map.push_back(x == 0 ? f_(label, other) : f_(other, label));
+      constant = constant && r.map.back() == r.map.front();
+      identity = identity && r.map.back() == label;
+    }
+    image = r.map;
+    std::sort(image.begin(), image.end());
+    const bool injective = std::adjacent_find(image.begin(), image.end()) == image.end();
+    // Beside the box's outside no mark survives; a constant drops everything but the box.
+    if (constant && !operands_[x].complex().has_box() && other != kOutside) {
+      r.effect = Effect::kConstant;
+    } else if (other == kOutside) {
+      r.effect = Effect::kConstant;
+    } else if (identity) {
+      r.effect = Effect::kIdentity;
+    } else if (injective) {
+      r.effect = Effect::kInjective;
+    }
+    cache.emplace_back(other, std::move(r));
+    return cache.back().second;
+  }
+
+  void push_untouched(std::size_t x, std::uint32_t v, LabelId other) {
+    const Restriction& r = restriction(x, other);
+    switch (r.effect) {
+      case Effect::kConstant:
+        return;
+      case Effect::kIdentity:
+        result_.points.push_from(tables_.points, operands_[x].point(v));
+        result_.push_vertex(operands_[x].sphere_map(v));
+        return;
+      case Effect::kInjective:
+        copy_with_marks(operands_[x].sphere_map(v), r.map);
+        result_.points.push_from(tables_.points, operands_[x].point(v));
+        result_.push_vertex(out_.view());
+        return;
+      case Effect::kGeneral: {
+        std::array<Item, 2> items;
+        items[x] = {Item::Kind::kVertex, v};
+        const SphereMapView a = operands_[0].pyramid(items[0], other, scratch_[0]);
+        const SphereMapView b = operands_[1].pyramid(items[1], other, scratch_[1]);
+        overlay_.overlay(tables_.planes, a, b, f_, out_);
+        push_result(operands_[x].point(v));
+        return;
+      }
+    }
+  }
+
+  void copy_with_marks(const SphereMapView& map, const std::vector<LabelId>& change) {
+    const auto apply = [&change](LabelId& mark) {
+      if (mark != kOutside) mark = change[mark];
+    };
+    out_.svertices.assign(map.svertices.begin(), map.svertices.end());
+    out_.shalfedges.assign(map.shalfedges.begin(), map.shalfedges.end());
+    out_.sloops.assign(map.sloops.begin(), map.sloops.end());
+    out_.sfaces.assign(map.sfaces.begin(), map.sfaces.end());
+    out_.entries.assign(map.entries.begin(), map.entries.end());
+    out_.mark = map.mark;
+    apply(out_.mark);
+    for (SVertex& item : out_.svertices) apply(item.mark);
+    for (SHalfedge& item : out_.shalfedges) apply(item.mark);
+    for (SLoop& item : out_.sloops) apply(item.mark);
+    for (SFace& item : out_.sfaces) apply(item.mark);
+  }
+
+  const LabelFunction& f_;
+  CommonTables tables_;
+  std::array<Operand, 2> operands_;
+  SphereOverlay overlay_;
+  std::array<SphereMapBuffer, 2> scratch_;
+  SphereMapBuffer out_;
+  std::array<std::vector<std::pair<LabelId, Restriction>>, 2> restrictions_;
+  Complex result_;
+};
+
+}  // namespace
+
+Complex overlay_complexes(const Complex& a, const Complex& b, const LabelFunction& f,
+                          const std::function<const QueryStructure&()>& queries_a,
+                          const std::function<const QueryStructure&()>& queries_b) {
+  Complex result = ComplexOverlay(a, b, f).run(queries_a, queries_b);
+  finish(result, f(a.volumes[0].mark, b.volumes[0].mark));
+  return result;
+}
+
+namespace {
+
+// A box whose walls hold nothing but its eight corners says only what the outer volume is: the
+// set is finitely bounded, or its complement is.
+void drop_idle_box(Complex& c, LabelId& outer) {
+  std::size_t infinite = 0;
+  std::uint32_t corner = kNone;
+  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
+    if (c.points.finite(PointId{v})) continue;
+    ++infinite;
+    corner = v;
+  }
+  if (infinite != 8) return;
+  const SphereMapView map = c.sphere_map(corner);
+  if (std::none_of(map.sfaces.begin(), map.sfaces.end(), [](const SFace& f) { return f.mark == kOutside; })) return;
+  outer = c.vertices[corner].mark;
+  Complex kept;
+  kept.planes = std::move(c.planes);
+  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
+    if (!c.points.finite(PointId{v})) continue;
+    kept.points.push_from(c.points, PointId{v});
+    kept.push_vertex(c.sphere_map(v));
+  }
+  c = std::move(kept);
+}
+
+// Cascades would otherwise carry the planes of everything that ever was.
+void drop_idle_planes(Complex& c) {
+  std::vector<bool> used(c.planes.size(), false);
+  for (const SVertex& v : c.svertices) used[v.p.row()] = used[v.q.row()] = true;
+  for (const SHalfedge& e : c.shalfedges) used[e.plane.row()] = true;
+  for (const SLoop& l : c.sloops) used[l.plane.row()] = true;
+  const auto count = static_cast<std::size_t>(std::count(used.begin(), used.end(), true));
+  if (count == used.size()) return;
+  PlaneTable planes;
+  planes.reserve(count);
+  std::vector<std::uint32_t> row(used.size(), kNone);
+  for (std::uint32_t i = 0; i < used.size(); ++i) {
+    if (used[i]) row[i] = planes.intern_from(c.planes, PlaneId{i << 1U}).row();
+  }
+  const auto rename = [&row](PlaneId& plane) { plane = PlaneId{row[plane.row()] << 1U | (plane.value & 1U)}; };
+  for (SVertex& v : c.svertices) {
+    rename(v.p);
+    rename(v.q);
+  }
+  for (SHalfedge& e : c.shalfedges) rename(e.plane);
+  for (SLoop& l : c.sloops) rename(l.plane);
+  c.planes = std::move(planes);
+}
+
+}  // namespace
+
+void finish(Complex& complex, LabelId outer) {
+  drop_idle_box(complex, outer);
+  drop_idle_planes(complex);
+  synthesize(complex, outer);
+}
+
+}  // namespace nef

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+
+#include "nef/boolean/untouched.h"
+#include "nef/sphere_map/label_function.h"
+
+namespace nef {
+
+/// The complex marked f(mark in a, mark in b) everywhere: the whole pipeline of a binary operation.
+/// The query structures are asked for only if some component of one operand lies apart from the
+/// other's boundary.
+Complex overlay_complexes(const Complex& a, const Complex& b, const LabelFunction& f,
+                          const std::function<const QueryStructure&()>& queries_a,
+                          const std::function<const QueryStructure&()>& queries_b);
+
+
+/// Removes an infimaximal box that nothing reaches, drops planes that nothing uses, synthesizes.
+/// `outer` is the mark of all of space if there are no vertices.
+void finish(Complex& complex, LabelId outer);
+
+}  // namespace nef

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/boolean/untouched.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "nef/base/error.h"
+#include "nef/base/union_find.h"
+#include "nef/sphere_map/sphere_geometry.h"
+
+namespace nef {
+namespace {
+
+class UntouchedMarks {
+ public:
+  UntouchedMarks(const std::array<Operand, 2>& operands, std::size_t x, const CommonTables& tables,
+                 const Intersections& intersections)
+      : own_(operands[x]),
+        other_(operands[1 - x]),
+        tables_(tables),
+        items_(intersections.vertex_item[x]),
+        contacts_(intersections.contacts[x]),
+        marks_(own_.complex().vertex_count(), 0),
+        known_(marks_.size(), false),
+        crossed_(own_.complex().svertices.size(), false) {
+    for (const EdgeContact& contact : contacts_) {
+      crossed_[contact.edge] = true;
+      crossed_[own_.complex().twin[contact.edge]] = true;
+    }
+  }
+
+  std::vector<LabelId> run(const std::function<const QueryStructure&()>& queries) {
+    const LabelId outer = other_.complex().volumes[0].mark;
+    const auto count = static_cast<std::uint32_t>(marks_.size());
+    for (std::uint32_t v = 0; v < count; ++v) {
+      if (!touched(v) && !own_.vertex_box(v).overlaps(other_.bounds())) settle(v, outer);
+    }
+    seed_from_touched_ends();
+    spread();
+    for (std::size_t i = 0; i < contacts_.size();) {
+      std::size_t j = i;
+      while (j < contacts_.size() && contacts_[j].edge == contacts_[i].edge) ++j;
+      seed_from_contacts(std::span(contacts_).subspan(i, j - i));
+      i = j;
+    }
+    spread();
+    for (std::uint32_t v = 0; v < count; ++v) {
+      if (touched(v) || known_[v]) continue;
+      const std::uint32_t volume =
+          queries().volume_at(other_.complex(), PointRef{&own_.complex().points, PointId{v}});
+      settle(v, other_.complex().volumes[volume].mark);
+      spread();
+    }
+    return std::move(marks_);
+  }
+
+ private:
+  bool touched(std::uint32_t v) const { return items_[v].kind != Item::Kind::kNone; }
+
+  void settle(std::uint32_t v, LabelId mark) {
+    if (known_[v]) return;
+    known_[v] = true;
+    marks_[v] = mark;
+    queue_.push_back(v);
+  }
+
+  void spread() {
+    while (!queue_.empty()) {
+      const std::uint32_t v = queue_.back();
+      queue_.pop_back();
+      const std::uint32_t last = own_.complex().vertices[v + 1].svertices;
+      for (std::uint32_t h = own_.complex().vertices[v].svertices; h < last; ++h) {
+        const std::uint32_t w = own_.target(h);
+        if (!known_[w] && !crossed_[h] && !touched(w)) settle(w, marks_[v]);
+      }
+    }
+  }
+
+  void seed_from_touched_ends() {
+    for (std::uint32_t v = 0; v < items_.size(); ++v) {
+      if (!touched(v)) continue;
+      const std::uint32_t last = own_.complex().vertices[v + 1].svertices;
+      for (std::uint32_t h = own_.complex().vertices[v].svertices; h < last; ++h) {
+        const std::uint32_t w = own_.target(h);
+        if (touched(w) || known_[w] || crossed_[h]) continue;
+        settle(w, mark_toward(items_[v], h, w));
+      }
+    }
+  }
+
+  // The mark of the other operand's volume that halfedge h leads into from `item`, toward w.
+  LabelId mark_toward(const Item& item, std::uint32_t h, std::uint32_t w) const {
+    if (item.kind == Item::Kind::kFacet) {
+      const Facet& facet = other_.complex().facets[item.index];
+      const int side = side_of_plane(tables_.planes, other_.plane(facet.plane), tables_.points, own_.point(w));
+      NEF_ASSERT(side != 0);
+      return other_.complex().volumes[side > 0 ? facet.volume_above : facet.volume_below].mark;
+    }
+    return other_.volume_mark(tables_.planes, item, direction_of(tables_.planes, own_.svertex(h)));
+  }
+
+  // All contacts of one edge: the extreme ones tell about its ends.
+  void seed_from_contacts(std::span<const EdgeContact> contacts) {
+    const std::uint32_t h = contacts.front().edge;
+    const std::uint32_t source = own_.source(h);
+    const std::uint32_t target = own_.target(h);
+    const bool want_source = !touched(source) && !known_[source];
+    const bool want_target = !touched(target) && !known_[target];
+    if (!want_source && !want_target) return;
+    const Direction direction = direction_of(tables_.planes, own_.svertex(h));
+    std::size_t axis = 0;
+    for (std::size_t i = 1; i < 3; ++i) {
+      if (std::fabs(direction.approximate[i]) > std::fabs(direction.approximate[axis])) axis = i;
+    }
+    const int rising = direction.approximate[axis] > 0 ? 1 : -1;
+    const auto before = [&](const EdgeContact& a, const EdgeContact& b) {
+      return rising * compare_coordinate(tables_.points, a.point, b.point, static_cast<int>(axis)) < 0;
+    };
+    if (want_source) {
+      const auto nearest = std::min_element(contacts.begin(), contacts.end(), before);
+      settle(source, mark_toward(nearest->other, own_.complex().twin[h], source));
+    }
+    if (want_target) {
+      const auto nearest = std::max_element(contacts.begin(), contacts.end(), before);
+      settle(target, mark_toward(nearest->other, h, target));
+    }
+  }
+
+  const Operand& own_;
+  const Operand& other_;
+  const CommonTables& tables_;
+  const std::vector<Item>& items_;
+  const std::vector<EdgeContact>& contacts_;
+  std::vector<LabelId> marks_;
+  std::vector<bool> known_;
+  std::vector<bool> crossed_;
+  std::vector<std::uint32_t> queue_;
+};
+
+}  // namespace
+
+std::vector<LabelId> marks_of_untouched(const std::array<Operand, 2>& operands, std::size_t x,
+                                        const CommonTables& tables, const Intersections& intersections,
+                                        const std::function<const QueryStructure&()>& queries_of_other) {
+  return UntouchedMarks(operands, x, tables, intersections).run(queries_of_other);
+}
+
+}  // namespace nef

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/complex/edge_linking.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "nef/base/error.h"
+
+namespace nef {
+namespace {
+
+// The name of a line: two plane rows, or kLine and the number of an interned line.
+struct LineKey {
+  std::uint32_t first = kNone;
+  std::uint32_t second = kNone;
+  bool operator==(const LineKey&) const = default;
+};
+constexpr std::uint32_t kLine = 0xfffffffeU;
+
+// Pluecker coordinates of the line p meets q, up to a factor: the direction n_p x n_q and the
+// moment d_q n_p - d_p n_q (with its part in R), normalized to no common factor and a positive
+// leading component.
+std::vector<std::string> line_coordinates(const PlaneTable& planes, PlaneId p, PlaneId q) {
+  std::array<Integer, 9> v;
+  const auto n = [&](PlaneId plane, std::size_t i) { return planes.oriented_coefficient(plane, i); };
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3;
+    const std::size_t k = (i + 2) % 3;
+    v[i] = n(p, j) * n(q, k) - n(p, k) * n(q, j);
+    v[3 + i] = n(q, 3) * n(p, i) - n(p, 3) * n(q, i);
+    v[6 + i] = n(q, 4) * n(p, i) - n(p, 4) * n(q, i);
+  }
+  Integer divisor = 0;
+  for (const Integer& value : v) mpz_gcd(divisor.get_mpz_t(), divisor.get_mpz_t(), value.get_mpz_t());
+  const auto lead = std::find_if(v.begin(), v.end(), [](const Integer& value) { return value != 0; });
+  if (*lead < 0) divisor = -divisor;
+  std::vector<std::string> result;
+  for (const Integer& value : v) result.push_back(Integer(value / divisor).get_str(62));
+  return result;
+}
+
+class Linker {
+ public:
+  explicit Linker(Complex& complex) : c_(complex), keys_(complex.svertices.size()) {}
+
+  void run() {
+    name_lines();
+    bucket();
+  }
+
+ private:
+  void name_lines() {
+    for (std::uint32_t e = 0; e < c_.shalfedges.size(); ++e) {
+      const std::uint32_t row = c_.shalfedges[e].plane.row();
+      LineKey& key = keys_[c_.vertices[c_.shalfedge_owner[e]].svertices + c_.shalfedges[e].source];
+      if (row < key.first) {
+        key.second = key.first;
+        key.first = row;
+      } else if (row != key.first && row < key.second) {
+        key.second = row;
+      }
+    }
+    std::map<std::vector<std::string>, std::uint32_t> lines;  // few: only dangling and isolated edges
+    for (std::uint32_t s = 0; s < keys_.size(); ++s) {
+      if (keys_[s].second != kNone) continue;
+      const SVertex& v = c_.svertices[s];
+      const auto [line, is_new] =
+          lines.try_emplace(line_coordinates(c_.planes, v.p, v.q), static_cast<std::uint32_t>(lines.size()));
+      keys_[s] = {kLine, line->second};
+    }
+  }
+
+  static std::uint64_t hash(const LineKey& key) {
+    std::uint64_t h = (static_cast<std::uint64_t>(key.first) << 32U | key.second) * 0x9e3779b97f4a7c15ULL;
+    return h ^ (h >> 29U);
+  }
+
+  void bucket() {
+    std::size_t capacity = 16;
+    while (capacity < keys_.size() + keys_.size() / 2) capacity *= 2;
+    std::vector<std::uint32_t> slots(capacity, kNone);   // first svertex of the group in this slot
+    std::vector<std::uint32_t> next(keys_.size(), kNone);  // the others, last come first
+    c_.twin.assign(keys_.size(), kNone);
+    std::vector<std::uint32_t> crowded;  // heads of groups with more than two
+    std::vector<std::uint32_t> size(keys_.size(), 0);
+    for (std::uint32_t s = 0; s < keys_.size(); ++s) {
+      std::size_t slot = hash(keys_[s]) & (capacity - 1);
+      while (slots[slot] != kNone && !(keys_[slots[slot]] == keys_[s])) slot = (slot + 1) & (capacity - 1);
+      if (slots[slot] == kNone) slots[slot] = s;
+      const std::uint32_t head = slots[slot];
+      if (++size[head] == 3) crowded.push_back(head);
+      if (head != s) {
+        next[s] = next[head];
+        next[head] = s;
+      }
+    }
+    std::vector<std::uint32_t> group;
+    for (std::uint32_t s = 0; s < keys_.size(); ++s) {
+      if (size[s] == 2) pair(s, next[s]);
+      NEF_ASSERT(size[s] != 1);
+    }
+    for (const std::uint32_t head : crowded) {
+      group.clear();
+      for (std::uint32_t s = head; s != kNone; s = next[s]) group.push_back(s);
+      pair_along_line(group);
+    }
+  }
+
+  void pair(std::uint32_t a, std::uint32_t b) {
+    c_.twin[a] = b;
+    c_.twin[b] = a;
+  }
+
+  // +1 if the svertex points along the line's reference direction.
+  int sense(std::uint32_t s, std::uint32_t reference, const Direction& direction) const {
+    const SVertex& v = c_.svertices[s];
+    const SVertex& r = c_.svertices[reference];
+    if (v.p.row() == r.p.row() && v.q.row() == r.q.row()) return ((v.p.value ^ v.q.value ^ r.p.value ^ r.q.value) & 1U) != 0 ? -1 : 1;
+    return sign_of_dot(direction, Direction::cross(c_.planes, v.p, v.q));
+  }
+
+  void pair_along_line(std::vector<std::uint32_t>& group) {
+    const std::uint32_t reference = group.front();
+    const Direction direction = Direction::cross(c_.planes, c_.svertices[reference].p, c_.svertices[reference].q);
+    int axis = 0;
+    for (int i = 1; i < 3; ++i) {
+      if (std::fabs(direction.approximate[static_cast<std::size_t>(i)]) >
+          std::fabs(direction.approximate[static_cast<std::size_t>(axis)])) {
+        axis = i;
+      }
+    }
+    const int rising = direction.approximate[static_cast<std::size_t>(axis)] > 0 ? 1 : -1;
+    struct Entry {
+      std::uint32_t svertex;
+      std::uint32_t vertex;
+      int sense;
+    };
+    std::vector<Entry> entries;
+    for (const std::uint32_t s : group) entries.push_back({s, c_.svertex_owner[s], sense(s, reference, direction)});
+    std::sort(entries.begin(), entries.end(), [&](const Entry& a, const Entry& b) {
+      if (a.vertex == b.vertex) return a.sense < b.sense;  // an edge ends before the next begins
+      return rising * compare_coordinate(c_.points, PointId{a.vertex}, PointId{b.vertex}, axis) < 0;
+    });
+    NEF_ASSERT(entries.size() % 2 == 0);
+    for (std::size_t i = 0; i < entries.size(); i += 2) {
+      NEF_ASSERT(entries[i].sense > 0 && entries[i + 1].sense < 0);
+      pair(entries[i].svertex, entries[i + 1].svertex);
+    }
+  }
+
+  Complex& c_;
+  std::vector<LineKey> keys_;
+};
+
+}  // namespace
+
+void link_edges(Complex& complex) { Linker(complex).run(); }
+
+}  // namespace nef

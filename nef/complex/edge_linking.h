@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "nef/complex/complex.h"
+
+namespace nef {
+
+/// First step of synthesis: pairs the svertices of all sphere maps into edges (fills
+/// complex.twin). Owners must be known. Both ends of an edge carry the same planes around them, so
+/// svertices are grouped by their two smallest planes (by their line where there are fewer), and
+/// only groups of more than two are sorted along their line. Expected O(n).
+void link_edges(Complex& complex);
+
+}  // namespace nef

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Local pyramids of points inside edges and facets, made from the sphere map of a vertex nearby.
+#pragma once
+
+#include <vector>
+
+#include "nef/complex/complex.h"
+
+namespace nef {
+
+/// The local pyramid of a point inside the edge that leaves along `svertex` of `map`: svertex 0 of
+/// the result has its direction, svertex 1 the opposite one; sface i of the result is sface
+/// `sfaces[i]` of `map`. O(number of facets around the edge).
+void edge_pyramid(const SphereMapView& map, std::uint32_t svertex, SphereMapBuffer& out,
+                  std::vector<std::uint32_t>* sfaces = nullptr);
+
+/// True if a point with this simplified sphere map is a vertex of the complex, and not a point
+/// inside a volume, facet or edge.
+bool is_vertex(const PlaneTable& planes, const SphereMapView& map);
+
+}  // namespace nef

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Take a connected component of the boundary (vertices joined by edges and facets) and its
+// lexicographically smallest vertex v. Nothing of the component lies in direction -x of v, so that
+// direction lies in an sface, whose shell bounds its volume from the inside: whatever a ray from v
+// in direction -x meets first bounds the same volume, and if it meets nothing, the volume is the
+// outer one. All other shells are the outer shells of volumes of their own.
+#include "nef/complex/volume_linking.h"
+
+#include <algorithm>
+
+#include "nef/base/error.h"
+#include "nef/base/union_find.h"
+#include "nef/query/query_structure.h"
+#include "nef/sphere_map/sphere_geometry.h"
+
+namespace nef {
+namespace {
+
+class VolumeLinker {
+ public:
+  explicit VolumeLinker(Complex& complex) : c_(complex) {}
+
+  void run() {
+    join_sfaces();
+    find_inner_shells();
+    number_volumes();
+  }
+
+ private:
+  void join_sfaces() {
+    sfaces_.reset(c_.sfaces.size());
+    vertices_.reset(c_.vertex_count());
+    for (const Facet& facet : c_.facets) {
+      const std::span<const std::uint32_t> corners = c_.facet_corners(facet);
+      const std::uint32_t above = c_.shalfedge_sface(corners[0]);
+      const std::uint32_t below = c_.shalfedge_sface(corners[0] ^ 1U);
+      const std::uint32_t vertex = c_.shalfedge_owner[corners[0]];
+      for (const std::uint32_t corner : corners.subspan(1)) {
+        sfaces_.unite(above, c_.shalfedge_sface(corner));
+        sfaces_.unite(below, c_.shalfedge_sface(corner ^ 1U));
+        vertices_.unite(vertex, c_.shalfedge_owner[corner]);
+      }
+      for (std::uint32_t i = 0; i < facet.isolated_count; ++i) {
+        const std::uint32_t v = c_.isolated_vertices[facet.first_isolated + i];
+        const VertexRecord& record = c_.vertices[v];
+        const std::uint32_t up = record.sloops + (c_.sloops[record.sloops].plane.flipped() ? 1U : 0U);
+        sfaces_.unite(above, record.sfaces + c_.sloops[up].sface);
+        sfaces_.unite(below, record.sfaces + c_.sloops[up == record.sloops ? up + 1 : up - 1].sface);
+        vertices_.unite(vertex, v);
+      }
+    }
+    for (std::uint32_t s = 0; s < c_.svertices.size(); ++s) {
+      if (c_.svertices[s].out != kNone || s > c_.twin[s]) continue;
+      const std::uint32_t t = c_.twin[s];
+      const std::uint32_t v = c_.svertex_owner[s];
+      const std::uint32_t w = c_.svertex_owner[t];
+      sfaces_.unite(c_.vertices[v].sfaces + c_.svertices[s].sface, c_.vertices[w].sfaces + c_.svertices[t].sface);
+      vertices_.unite(v, w);
+    }
+  }
+
+  void find_inner_shells() {
+    const auto count = static_cast<std::uint32_t>(c_.vertex_count());
+    std::vector<std::uint32_t> lowest(count, kNone);  // per component representative
+    std::vector<std::uint32_t> components;
+    for (std::uint32_t v = 0; v < count; ++v) {
+      std::uint32_t& low = lowest[vertices_.find(v)];
+      if (low == kNone) components.push_back(vertices_.find(v));
+      if (low == kNone || compare_lexicographic(c_.points, PointId{v}, PointId{low}) < 0) low = v;
+    }
+    volumes_.reset(c_.sfaces.size());
+    std::uint32_t unbounded = kNone;  // an sface of the outer volume
+    const Direction minus_x = Direction::exact(-1, 0, 0);
+    for (const std::uint32_t component : components) {
+      const std::uint32_t v = lowest[component];
+      const SphereMapView map = c_.sphere_map(v);
+      const SphereLocation where = locate(c_.planes, map, minus_x);
+      NEF_ASSERT(where.kind == SphereLocation::Kind::kSFace);
+      const std::uint32_t inner = sfaces_.find(c_.vertices[v].sfaces + where.index);
+      inner_.push_back(inner);
+      std::uint32_t seen = components.size() > 1 ? sface_seen_from(v) : kNone;
+      if (seen == kNone) {
+        if (unbounded == kNone) unbounded = inner;
+        seen = unbounded;
+      }
+      volumes_.unite(inner, sfaces_.find(seen));
+    }
+    outer_ = volumes_.find(unbounded);
+  }
+
+  // An sface of the volume that the ray from v in direction -x runs into, seen at its first hit.
+  std::uint32_t sface_seen_from(std::uint32_t v) {
+    if (!queries_) queries_ = std::make_unique<QueryStructure>(c_);
+    const std::optional<ComplexHit> hit = queries_->first_hit_minus_x(c_, v);
+    if (!hit) return kNone;
+    if (hit->kind != ComplexHit::Kind::kFacet) return hit->sface;
+    const std::uint32_t corner = c_.facet_corners(c_.facets[hit->index >> 1U])[0];
+    return c_.shalfedge_sface(corner ^ (hit->index & 1U));
+  }
+
+  void number_volumes() {
+    const auto count = static_cast<std::uint32_t>(c_.sfaces.size());
+    std::vector<std::uint32_t> shell_of(count, kNone);
+    std::vector<std::uint32_t> roots;
+    for (std::uint32_t f = 0; f < count; ++f) {
+      if (sfaces_.find(f) == f) roots.push_back(f);
+    }
+    std::vector<std::uint32_t> volume_number(count, kNone);
+    std::uint32_t volume_count = 0;
+    volume_number[outer_] = volume_count++;
+    for (const std::uint32_t root : roots) {
+      std::uint32_t& number = volume_number[volumes_.find(root)];
+      if (number == kNone) number = volume_count++;
+    }
+    std::vector<bool> is_inner(count, false);
+    for (const std::uint32_t root : inner_) is_inner[root] = true;
+    std::stable_sort(roots.begin(), roots.end(), [&](std::uint32_t a, std::uint32_t b) {
+      const std::uint32_t va = volume_number[volumes_.find(a)];
+      const std::uint32_t vb = volume_number[volumes_.find(b)];
+      return va != vb ? va < vb : is_inner[a] < is_inner[b];
+    });
+    c_.volumes.assign(volume_count, {});
+    c_.shells.clear();
+    for (const std::uint32_t root : roots) {
+      Volume& volume = c_.volumes[volume_number[volumes_.find(root)]];
+      if (volume.shell_count++ == 0) {
+        volume.first_shell = static_cast<std::uint32_t>(c_.shells.size());
+        volume.mark = c_.sfaces[root].mark;
+      }
+      NEF_ASSERT(volume.mark == c_.sfaces[root].mark);
+      shell_of[root] = static_cast<std::uint32_t>(c_.shells.size());
+      c_.shells.push_back({volume_number[volumes_.find(root)], 0, 0});
+    }
+    fill_shells(shell_of);
+  }
+
+  void fill_shells(const std::vector<std::uint32_t>& shell_of) {
+    const auto count = static_cast<std::uint32_t>(c_.sfaces.size());
+    c_.sface_shell.resize(count);
+    for (std::uint32_t f = 0; f < count; ++f) {
+      c_.sface_shell[f] = shell_of[sfaces_.find(f)];
+      ++c_.shells[c_.sface_shell[f]].sface_count;
+    }
+    std::uint32_t first = 0;
+    for (Shell& shell : c_.shells) {
+      shell.first_sface = first;
+      first += shell.sface_count;
+      shell.sface_count = 0;
+    }
+    c_.shell_sfaces.resize(count);
+    for (std::uint32_t f = 0; f < count; ++f) {
+      Shell& shell = c_.shells[c_.sface_shell[f]];
+      c_.shell_sfaces[shell.first_sface + shell.sface_count++] = f;
+    }
+    for (Facet& facet : c_.facets) {
+      const std::uint32_t corner = c_.facet_corners(facet)[0];
+      facet.volume_above = c_.sface_volume(c_.shalfedge_sface(corner));
+      facet.volume_below = c_.sface_volume(c_.shalfedge_sface(corner ^ 1U));
+    }
+  }
+
+  Complex& c_;
+  UnionFind sfaces_;
+  UnionFind vertices_;
+  UnionFind volumes_;  // over representatives of sfaces_
+  std::vector<std::uint32_t> inner_;
+  std::uint32_t outer_ = 0;
+  std::unique_ptr<QueryStructure> queries_;
+};
+
+}  // namespace
+
+void link_volumes(Complex& complex, LabelId outer) {
+  if (complex.vertex_count() == 0) {
+    complex.volumes.assign(1, Volume{outer, 0, 0});
+    complex.shells.clear();
+    return;
+  }
+  VolumeLinker(complex).run();
+}
+
+}  // namespace nef

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "nef/complex/complex.h"
+
+namespace nef {
+
+/// Last step of synthesis: sfaces that see each other across a facet or along an edge without
+/// facets form shells; shells that are nested form volumes (thesis 4.6.4). Facets must be linked.
+/// Near-linear, plus one ray for each connected component of the boundary after the first.
+void link_volumes(Complex& complex, LabelId outer);
+
+}  // namespace nef

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Points, segments and polygons as sets of their own dimension.
+#include <algorithm>
+
+#include "nef/base/error.h"
+#include "nef/boolean/overlay_complexes.h"
+#include "nef/complex/local_pyramid.h"
+#include "nef/construct/construct.h"
+#include "nef/sphere_map/arrangement.h"
+
+namespace nef {
+namespace {
+
+Rational3 minus(const Rational3& a, const Rational3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+
+Rational3 cross(const Rational3& a, const Rational3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+Rational dot(const Rational3& a, const Rational3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+bool is_zero(const Rational3& a) { return a[0] == 0 && a[1] == 0 && a[2] == 0; }
+
+PlaneId plane_through(PlaneTable& planes, const Rational3& normal, const Rational3& point) {
+  return planes.intern(normal, Rational(-dot(normal, point)));
+}
+
+Direction integer_direction(const Rational3& v) {
+  Integer scale = v[0].get_den();
+  for (std::size_t i = 1; i < 3; ++i) mpz_lcm(scale.get_mpz_t(), scale.get_mpz_t(), v[i].get_den_mpz_t());
+  const auto whole = [&scale](const Rational& x) { return Integer(x.get_num() * (scale / x.get_den())); };
+  return Direction::exact(whole(v[0]), whole(v[1]), whole(v[2]));
+}
+
+// The direction `v` as the meeting of two planes through it.
+Direction direction_in(const PlaneTable& planes, PlaneId p, PlaneId q, const Rational3& v) {
+  Direction d = Direction::cross(planes, p, q);
+  return sign_of_dot(d, integer_direction(v)) > 0 ? d : d.negated();
+}
+
+void push(Complex& c, const Rational3& point, Arrangement& drawing) {
+  SphereMapBuffer map;
+  drawing.sort_around_nodes(c.planes);
+  drawing.simplify_and_assemble(c.planes, map);
+  if (!is_vertex(c.planes, map.view())) return;
+  c.points.push(point);
+  c.push_vertex(map.view());
+}
+
+}  // namespace
+
+Polyhedron make_point(const Rational3& point) {
+  Complex c;
+  Arrangement drawing;
+  drawing.centre = 1;
+  push(c, point, drawing);
+  finish(c, 0);
+  return Polyhedron(std::move(c));
+}
+
+Polyhedron make_segment(const Rational3& a, const Rational3& b) {
+  const Rational3 d = minus(b, a);
+  if (is_zero(d)) return make_point(a);
+  Complex c;
+  const Rational3 n1 = d[0] == 0 && d[1] == 0 ? Rational3{1, 0, 0} : Rational3{Rational(-d[1]), d[0], 0};
+  const PlaneId p = plane_through(c.planes, n1, a);
+  const PlaneId q = plane_through(c.planes, cross(d, n1), a);
+  for (const bool at_a : {true, false}) {
+    Arrangement drawing;
+    drawing.centre = 1;
+    Arrangement::Node node;
+    node.direction = direction_in(c.planes, p, q, at_a ? d : minus(a, b));
+    node.mark = 1;
+    drawing.nodes.push_back(std::move(node));
+    push(c, at_a ? a : b, drawing);
+  }
+  finish(c, 0);
+  return Polyhedron(std::move(c));
+}
+
+Polyhedron make_polygon(std::span<const std::vector<Rational3>> rings) {
+  // The normal from the vector area of any ring.
+  Rational3 normal;
+  for (const std::vector<Rational3>& ring : rings) {
+    if (ring.size() < 3) throw InputError("a polygon needs at least three points");
+    for (std::size_t i = 1; i + 1 < ring.size() && is_zero(normal); ++i) {
+      normal = cross(minus(ring[i], ring[0]), minus(ring[i + 1], ring[0]));
+    }
+  }
+  if (is_zero(normal)) throw InputError("the points of the polygon lie on one line; write it as a segment");
+  const Rational offset = dot(normal, rings[0][0]);
+  for (const std::vector<Rational3>& ring : rings) {
+    for (const Rational3& p : ring) {
+      if (dot(normal, p) != offset) throw InputError("the points of the polygon do not lie in one plane");
+    }
+  }
+  // Each ring by itself; parity combines them.
+  Polyhedron result;
+  for (const std::vector<Rational3>& ring : rings) {
+    Complex c;
+    const PlaneId plane = plane_through(c.planes, normal, rings[0][0]);
+    Rational3 area;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Rational3 term = cross(minus(ring[i], ring[0]), minus(ring[(i + 1) % ring.size()], ring[0]));
+      for (std::size_t k = 0; k < 3; ++k) area[k] += term[k];
+    }
+    std::vector<Rational3> points(ring);
+    if (dot(area, normal) < 0) std::reverse(points.begin(), points.end());
+    if (dot(area, normal) == 0) throw InputError("a ring of the polygon has no area; it crosses itself or is flat");
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Rational3& here = points[i];
+      const Rational3 ahead = minus(points[(i + 1) % points.size()], here);
+      const Rational3 back = minus(points[(i + points.size() - 1) % points.size()], here);
+      if (is_zero(ahead)) throw InputError("a ring of the polygon repeats a point");
+      Arrangement drawing;
+      drawing.centre = 1;
+      for (const Rational3& v : {ahead, back}) {
+        Arrangement::Node node;
+        node.direction = direction_in(c.planes, plane, plane_through(c.planes, cross(v, normal), here), v);
+        node.mark = 1;
+        drawing.nodes.push_back(std::move(node));
+      }
+      drawing.arcs.push_back({plane, 0, 1, 1, 0, 0});
+      push(c, here, drawing);
+    }
+    finish(c, 0);
+    const Polyhedron piece{std::move(c)};
+    // Rings may touch: the parity of the closed sets loses points of the boundary, its closure has them.
+    result = result.is_empty() ? piece : closure(symmetric_difference(result, piece));
+  }
+  return result;
+}
+
+}  // namespace nef

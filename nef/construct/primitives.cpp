@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Boxes and half-spaces.
+#include "nef/base/error.h"
+#include "nef/construct/construct.h"
+#include "nef/construct/solid.h"
+
+namespace nef {
+
+Polyhedron make_box(const Rational3& low, const Rational3& high) {
+  int extent = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (low[i] > high[i]) return {};
+    if (low[i] < high[i]) ++extent;
+  }
+  if (extent < 3) {
+    std::vector<Rational3> corners;
+    for (int i = 0; i < 8; ++i) {
+      Rational3 p;
+      bool distinct = true;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const bool upper = ((i >> k) & 1) != 0;
+        if (upper && low[k] == high[k]) distinct = false;
+        p[k] = upper ? high[k] : low[k];
+      }
+      if (distinct) corners.push_back(p);
+    }
+    if (extent == 0) return make_point(corners[0]);
+    if (extent == 1) return make_segment(corners[0], corners[1]);
+    std::swap(corners[2], corners[3]);
+    const std::vector<std::vector<Rational3>> ring{corners};
+    return make_polygon(ring);
+  }
+  SolidFaces f;
+  for (int i = 0; i < 8; ++i) {
+    f.points.push({(i & 1) != 0 ? high[0] : low[0], (i & 2) != 0 ? high[1] : low[1], (i & 4) != 0 ? high[2] : low[2]});
+  }
+  constexpr std::array<std::array<std::uint32_t, 4>, 6> kSides{
+      {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}};
+  for (std::size_t i = 0; i < 6; ++i) {
+    Rational3 normal;
+    normal[i / 2] = i % 2 == 0 ? -1 : 1;
+    f.plane.push_back(f.planes.intern(normal, i % 2 == 0 ? low[i / 2] : Rational(-high[i / 2])));
+    f.corners.insert(f.corners.end(), kSides[i].begin(), kSides[i].end());
+    f.begin.push_back(static_cast<std::uint32_t>(f.corners.size()));
+  }
+  return Polyhedron(make_solid(std::move(f), {1, 1, 0}));
+}
+
+Polyhedron make_halfspace(const Rational& a, const Rational& b, const Rational& c, const Rational& d, bool closed) {
+  const Rational3 n{a, b, c};
+  if (a == 0 && b == 0 && c == 0) {
+    throw InputError("a half-space needs a normal that is not (0,0,0)");
+  }
+  // A map that takes z <= 0 to it: columns u, v orthogonal to n, then n; the origin goes to the
+  // plane's point nearest to it.
+  const Rational3 u = a == 0 && b == 0 ? Rational3{1, 0, 0} : Rational3{Rational(-b), a, 0};
+  const Rational3 v{n[1] * u[2] - n[2] * u[1], n[2] * u[0] - n[0] * u[2], n[0] * u[1] - n[1] * u[0]};
+  const Rational square = a * a + b * b + c * c;
+  AffineMap map;
+  for (std::size_t i = 0; i < 3; ++i) {
+    map.linear[i] = {u[i], v[i], n[i]};
+    map.translation[i] = -d * n[i] / square;
+  }
+  const Polyhedron result = transform(Polyhedron(make_lower_halfspace()), map);
+  return closed ? result : interior(result);
+}
+
+}  // namespace nef

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/construct/solid.h"
+
+#include <algorithm>
+
+#include "nef/base/error.h"
+#include "nef/boolean/overlay_complexes.h"
+#include "nef/complex/local_pyramid.h"
+#include "nef/query/query_structure.h"
+#include "nef/sphere_map/arrangement.h"
+
+namespace nef {
+namespace {
+
+// to - from as an integer vector, up to a positive factor (both finite or both with parts in R:
+// then the part in R decides unless it is equal).
+Direction vector_between(const PointTable& points, PointId from, PointId to) {
+  std::array<Integer, 3> v;
+  for (const std::size_t part : {std::size_t{4}, std::size_t{0}}) {
+    bool zero = true;
+    for (std::size_t i = 0; i < 3; ++i) {
+      mpz_mul(v[i].get_mpz_t(), points.coordinate(to, part + i), points.coordinate(from, 3));
+      mpz_submul(v[i].get_mpz_t(), points.coordinate(from, part + i), points.coordinate(to, 3));
+      zero = zero && v[i] == 0;
+    }
+    if (!zero) break;
+  }
+  return Direction::exact(v[0], v[1], v[2]);
+}
+
+class SolidBuilder {
+ public:
+  SolidBuilder(SolidFaces&& faces, const SolidMarks& marks) : f_(std::move(faces)), marks_(marks) {}
+
+  Complex run() {
+    collect_corners();
+    Complex result;
+    SphereMapBuffer map;
+    for (std::uint32_t v = 0; v < f_.points.size(); ++v) {
+      if (first_[v] == first_[v + 1]) continue;
+      draw(v);
+      drawing_.sort_around_nodes(f_.planes);
+      check_sides(v);
+      drawing_.simplify_and_assemble(f_.planes, map);
+      if (!is_vertex(f_.planes, map.view())) continue;
+      result.points.push_from(f_.points, PointId{v});
+      result.push_vertex(map.view());
+    }
+    result.planes = std::move(f_.planes);
+    finish(result, marks_.outside);
+    return result;
+  }
+
+ private:
+  struct Corner {
+    std::uint32_t face;
+    std::uint32_t next;      // vertex
+    std::uint32_t previous;
+  };
+
+  void collect_corners() {
+    first_.assign(f_.points.size() + 1, 0);
+    for (const std::uint32_t v : f_.corners) ++first_[v + 1];
+    for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
+    corners_.resize(f_.corners.size());
+    std::vector<std::uint32_t> at(first_.begin(), first_.end() - 1);
+    for (std::uint32_t face = 0; face + 1 < f_.begin.size(); ++face) {
+      const std::uint32_t begin = f_.begin[face];
+      const std::uint32_t size = f_.begin[face + 1] - begin;
+      for (std::uint32_t i = 0; i < size; ++i) {
+        const std::uint32_t v = f_.corners[begin + i];
+        corners_[at[v]++] = {face, f_.corners[begin + (i + 1) % size], f_.corners[begin + (i + size - 1) % size]};
+      }
+    }
+  }
+
+  std::uint32_t node_toward(std::uint32_t v, std::uint32_t w) {
+    for (std::uint32_t n = 0; n < neighbours_.size(); ++n) {
+      if (neighbours_[n] == w) return n;
+    }
+    neighbours_.push_back(w);
+    Arrangement::Node node;
+    node.direction = vector_between(f_.points, PointId{v}, PointId{w});
+    node.mark = marks_.boundary;
+    drawing_.nodes.push_back(std::move(node));
+    return static_cast<std::uint32_t>(neighbours_.size() - 1);
+  }
+
+  void draw(std::uint32_t v) {
+    drawing_.clear();
+    neighbours_.clear();
+    drawing_.centre = marks_.boundary;
+    for (std::uint32_t i = first_[v]; i < first_[v + 1]; ++i) {
+      const Corner& corner = corners_[i];
+      const std::uint32_t source = node_toward(v, corner.next);
+      const std::uint32_t target = node_toward(v, corner.previous);
+      drawing_.arcs.push_back(
+          {f_.plane[corner.face], source, target, marks_.boundary, marks_.outside, marks_.inside});
+    }
+  }
+
+  void check_sides(std::uint32_t v) const {
+    for (std::uint32_t n = 0; n < drawing_.nodes.size(); ++n) {
+      const std::span<const std::uint32_t> ring = drawing_.around(n);
+      for (std::size_t i = 0; i < ring.size(); ++i) {
+        const std::uint32_t next = ring[(i + 1) % ring.size()];
+        if (drawing_.left(ring[i]) != drawing_.left(next ^ 1U)) {
+          throw InputError("the faces around the edge from vertex " + std::to_string(v) + " to vertex " +
+                           std::to_string(neighbours_[n]) +
+                           " do not separate inside from outside; the mesh crosses itself or is not consistently oriented");
+        }
+      }
+    }
+  }
+
+  SolidFaces f_;
+  SolidMarks marks_;
+  std::vector<std::uint32_t> first_;
+  std::vector<Corner> corners_;
+  std::vector<std::uint32_t> neighbours_;
+  Arrangement drawing_;
+};
+
+// The box [-R, R]^2 x [-R, top], with top = R or 0.
+SolidFaces infimaximal_box_faces(bool half) {
+  SolidFaces f;
+  for (int i = 0; i < 8; ++i) {
+    std::array<Integer, 7> h;
+    h[3] = 1;
+    h[4] = (i & 1) != 0 ? 1 : -1;
+    h[5] = (i & 2) != 0 ? 1 : -1;
+    h[6] = (i & 4) != 0 ? (half ? 0 : 1) : -1;
+    f.points.push_homogeneous(h);
+  }
+  // Vertices of the six sides, counterclockwise from outside: -x, +x, -y, +y, -z, +z.
+  constexpr std::array<std::array<std::uint32_t, 4>, 6> kSides{
+      {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}};
+  for (std::size_t i = 0; i < 6; ++i) {
+    std::array<Integer, 3> n;
+    n[i / 2] = i % 2 == 0 ? -1 : 1;
+    f.plane.push_back(f.planes.intern(n[0], n[1], n[2], 0, half && i == 5 ? 0 : -1));
+    f.corners.insert(f.corners.end(), kSides[i].begin(), kSides[i].end());
+    f.begin.push_back(static_cast<std::uint32_t>(f.corners.size()));
+  }
+  return f;
+}
+
+}  // namespace
+
+Complex make_solid(SolidFaces&& faces, const SolidMarks& marks) { return SolidBuilder(std::move(faces), marks).run(); }
+
+Complex make_infimaximal_box() { return make_solid(infimaximal_box_faces(false), {1, 1, 0}); }
+
+Complex clip_to_infimaximal_box(const Complex& solid) {
+  const Complex box = make_infimaximal_box();
+  const LabelFunction clip(solid.label_count, 2, [](LabelId mark, LabelId in_box) { return in_box != 0 ? mark : kOutside; });
+  std::unique_ptr<const QueryStructure> of_solid;
+  std::unique_ptr<const QueryStructure> of_box;
+  const auto ask = [](const Complex& c, std::unique_ptr<const QueryStructure>& slot) -> const QueryStructure& {
+    if (!slot) slot = std::make_unique<const QueryStructure>(c);
+    return *slot;
+  };
+  return overlay_complexes(
+      solid, box, clip, [&]() -> const QueryStructure& { return ask(solid, of_solid); },
+      [&]() -> const QueryStructure& { return ask(box, of_box); });
+}
+
+Complex make_lower_halfspace() { return clip_to_infimaximal_box(make_solid(infimaximal_box_faces(true), {1, 1, 0})); }
+
+}  // namespace nef

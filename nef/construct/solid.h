@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "nef/complex/complex.h"
+
+namespace nef {
+
+/// The faces of a closed orientable surface over points of a table: face f has the corners
+/// corners[begin[f]] .. corners[begin[f+1]-1], counterclockwise about the normal of plane[f], which
+/// points away from the solid. Every vertex is there once.
+struct SolidFaces {
+  PlaneTable planes;
+  PointTable points;
+  std::vector<PlaneId> plane;
+  std::vector<std::uint32_t> begin{0};
+  std::vector<std::uint32_t> corners;
+};
+
+struct SolidMarks {
+  LabelId boundary = 1;
+  LabelId inside = 1;
+  LabelId outside = 0;
+};
+
+/// The complex of the solid. Coplanar neighbouring faces become one facet. The faces must not
+/// cross; throws InputError naming an edge (by vertex numbers) around which inside and outside do not alternate.
+/// O(n log n).
+Complex make_solid(SolidFaces&& faces, const SolidMarks& marks);
+
+/// The solid [-R, R]^3 in coordinates with parts in the infimaximal number R (thesis 3.3): an
+/// ordinary solid, whose outside is marked 0.
+Complex make_infimaximal_box();
+
+/// The complex with everything outside of that box replaced by kOutside: how an unbounded set is
+/// represented. On the walls of the box the marks of `solid` are taken as they are.
+Complex clip_to_infimaximal_box(const Complex& solid);
+
+/// z <= 0, clipped to the box.
+Complex make_lower_halfspace();
+
+}  // namespace nef

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Exact affine maps. Planes and points are mapped, incidences stay; a reflection turns every
+// sphere map inside out. The box of an unbounded set becomes a parallelepiped that no longer is
+// the standard box: R, of which only "large enough" is known, is replaced by K R with K so large
+// that the image contains the standard box, and the result is clipped to it.
+#include "nef/base/error.h"
+#include "nef/boolean/overlay_complexes.h"
+#include "nef/construct/solid.h"
+#include "nef/polyhedron.h"
+
+namespace nef {
+namespace {
+
+// x -> (m x + t) / w in integers.
+struct IntegerMap {
+  std::array<std::array<Integer, 3>, 3> m;
+  std::array<Integer, 3> t;
+  Integer w = 1;
+  std::array<std::array<Integer, 3>, 3> cofactor;
+  Integer determinant;
+
+  explicit IntegerMap(const AffineMap& map) {
+    const auto include = [this](const Rational& value) {
+      mpz_lcm(w.get_mpz_t(), w.get_mpz_t(), value.get_den_mpz_t());
+    };
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t j = 0; j < 3; ++j) include(map.linear[i][j]);
+      include(map.translation[i]);
+    }
+    const auto scale = [this](const Rational& value) { return Integer(value.get_num() * (w / value.get_den())); };
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t j = 0; j < 3; ++j) m[i][j] = scale(map.linear[i][j]);
+      t[i] = scale(map.translation[i]);
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t j = 0; j < 3; ++j) {
+        const auto& r1 = m[(i + 1) % 3];
+        const auto& r2 = m[(i + 2) % 3];
+        cofactor[i][j] = r1[(j + 1) % 3] * r2[(j + 2) % 3] - r1[(j + 2) % 3] * r2[(j + 1) % 3];
+      }
+    }
+    determinant = m[0][0] * cofactor[0][0] + m[0][1] * cofactor[0][1] + m[0][2] * cofactor[0][2];
+    if (determinant == 0) {
+      throw InputError("the transformation is not invertible (its determinant is zero); use one that is");
+    }
+  }
+
+  // n.x + d + e R = 0 becomes w (cof n).x' + (det d - (cof n).t) + det e R = 0, times sign(det) so
+  // that positive sides stay positive.
+  PlaneId map_plane(const PlaneTable& from, std::uint32_t row, const Integer& box_factor, PlaneTable& to) const {
+    const PlaneId plane{row << 1U};
+    std::array<Integer, 3> n;
+    Integer d = determinant * from.oriented_coefficient(plane, 3);
+    Integer e = determinant * from.oriented_coefficient(plane, 4) * box_factor;
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t j = 0; j < 3; ++j) n[i] += cofactor[i][j] * from.oriented_coefficient(plane, j);
+      d -= n[i] * t[i];
+      n[i] *= w;
+    }
+    if (determinant < 0) return to.intern(-n[0], -n[1], -n[2], -d, -e);
+    return to.intern(n[0], n[1], n[2], d, e);
+  }
+
+  void map_point(const PointTable& from, PointId point, const Integer& box_factor, PointTable& to) const {
+    std::array<Integer, 7> h;
+    std::array<Integer, 7> x;
+    for (std::size_t i = 0; i < 7; ++i) mpz_set(x[i].get_mpz_t(), from.coordinate(point, i));
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t j = 0; j < 3; ++j) {
+        h[i] += m[i][j] * x[j];
+        h[4 + i] += m[i][j] * x[4 + j];
+      }
+      h[i] += t[i] * x[3];
+      h[4 + i] *= box_factor;
+    }
+    h[3] = w * x[3];
+    Integer divisor = h[3];
+    for (const Integer& value : h) {
+      if (divisor == 1) break;
+      mpz_gcd(divisor.get_mpz_t(), divisor.get_mpz_t(), value.get_mpz_t());
+    }
+    if (divisor != 1) {
+      for (Integer& value : h) mpz_divexact(value.get_mpz_t(), value.get_mpz_t(), divisor.get_mpz_t());
+    }
+    to.push_homogeneous(h);
+  }
+
+  // A whole number greater than the largest row sum of |inverse|: then the image of the K-fold box
+  // holds the box strictly, whatever the translation, which is finite.
+  [[nodiscard]] Integer box_factor() const {
+    Integer largest;
+    for (std::size_t j = 0; j < 3; ++j) {
+      Integer sum;
+      for (std::size_t i = 0; i < 3; ++i) sum += abs(cofactor[i][j]);
+      if (sum > largest) largest = sum;
+    }
+    const Integer magnitude = abs(determinant);
+    return (largest * w) / magnitude + 2;
+  }
+};
+
+// The orientation of a plane's row may change: a flipped image swaps the parity of every use.
+Complex map_complex(const Complex& c, const IntegerMap& map, const Integer& box_factor) {
+  Complex result = c;
+  result.planes = PlaneTable();
+  result.points = PointTable();
+  std::vector<PlaneId> image(c.planes.size());
+  for (std::uint32_t row = 0; row < c.planes.size(); ++row) {
+    image[row] = map.map_plane(c.planes, row, box_factor, result.planes);
+  }
+  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) map.map_point(c.points, PointId{v}, box_factor, result.points);
+  const auto rename = [&image](PlaneId plane) {
+    const PlaneId to = image[plane.row()];
+    return plane.flipped() ? to.opposite() : to;
+  };
+  const bool reflect = map.determinant < 0;
+  for (SVertex& v : result.svertices) {
+    v.p = rename(v.p);
+    v.q = rename(v.q);
+    // m (a x b) is det(m) times the cross product of the images of the normals.
+    if (reflect) std::swap(v.p, v.q);
+  }
+  for (std::uint32_t e = 0; e < result.shalfedges.size(); ++e) {
+    SHalfedge& half = result.shalfedges[e];
+    half.plane = rename(half.plane);
+    if (reflect) {
+      // The same arc with the same sface on the positive side of its plane runs the other way.
+      half.source = c.shalfedges[e ^ 1U].source;
+      std::swap(half.next, half.prev);
+    }
+  }
+  if (reflect) {
+    for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
+      const VertexRecord& record = c.vertices[v];
+      for (std::uint32_t s = record.svertices; s < c.vertices[v + 1].svertices; ++s) {
+        if (result.svertices[s].out != kNone) result.svertices[s].out ^= 1U;
+      }
+    }
+  }
+  for (SLoop& loop : result.sloops) loop.plane = rename(loop.plane);
+  return result;
+}
+
+}  // namespace
+
+Polyhedron transform(const Polyhedron& a, const AffineMap& map) {
+  const IntegerMap exact(map);
+  const Complex& c = a.complex();
+  if (!c.has_box()) {
+    Complex result = map_complex(c, exact, 1);
+    finish(result, c.volumes[0].mark);
+    return Polyhedron(std::move(result));
+  }
+  Complex larger = map_complex(c, exact, exact.box_factor());
+  finish(larger, kOutside);
+  return Polyhedron(clip_to_infimaximal_box(larger));
+}
+
+}  // namespace nef

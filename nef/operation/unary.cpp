@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Unary operations change marks locally, simplify, and synthesize. In a simplified complex every
+// vertex, edge and facet is a boundary item, which makes the topological operations simple:
+// interior deselects all of them, closure and boundary select all of them (thesis 4.5, 5.2).
+#include "nef/base/error.h"
+#include "nef/boolean/overlay_complexes.h"
+#include "nef/complex/local_pyramid.h"
+#include "nef/polyhedron.h"
+#include "nef/sphere_map/arrangement.h"
+#include "nef/sphere_map/sphere_geometry.h"
+
+namespace nef {
+namespace {
+
+enum class Lower { kClear, kSelect };
+enum class Volumes { kKeep, kClear };
+
+class MarkChanger {
+ public:
+  MarkChanger(const Complex& c, Lower lower, Volumes volumes)
+      : c_(c), lower_(lower == Lower::kSelect ? 1 : 0), clear_volumes_(volumes == Volumes::kClear) {}
+
+  Complex run() {
+    Complex result;
+    result.planes = c_.planes;
+    for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) {
+      load(c_.sphere_map(v));
+      if (!c_.points.finite(PointId{v})) mark_trace_on_box();
+      drawing_.sort_around_nodes(c_.planes);
+      drawing_.simplify_and_assemble(c_.planes, out_);
+      if (!is_vertex(c_.planes, out_.view())) continue;
+      result.points.push_from(c_.points, PointId{v});
+      result.push_vertex(out_.view());
+    }
+    finish(result, volume_mark(c_.volumes[0].mark));
+    return result;
+  }
+
+ private:
+  LabelId volume_mark(LabelId mark) const {
+    if (mark == kOutside) return kOutside;
+    return clear_volumes_ ? LabelId{0} : mark;
+  }
+
+  void load(const SphereMapView& map) {
+    drawing_.clear();
+    drawing_.centre = lower_;
+    const auto face = [&](std::uint32_t sface) { return volume_mark(map.sfaces[sface].mark); };
+    drawing_.background = face(0);
+    for (const SVertex& v : map.svertices) {
+      Arrangement::Node node;
+      node.direction = direction_of(c_.planes, v);
+      node.mark = lower_;
+      node.around = v.out == kNone ? face(v.sface) : LabelId{0};
+      drawing_.nodes.push_back(std::move(node));
+    }
+    for (std::uint32_t e = 0; e < map.shalfedges.size(); e += 2) {
+      drawing_.arcs.push_back({map.shalfedges[e].plane, map.shalfedges[e].source, map.target(e), lower_,
+                               face(map.shalfedges[e].sface), face(map.shalfedges[e + 1].sface)});
+    }
+    if (!map.sloops.empty()) {
+      drawing_.circle = {true, map.sloops[0].plane, lower_, face(map.sloops[0].sface), face(map.sloops[1].sface)};
+    }
+  }
+
+  // Items on the infimaximal box are no boundary items: each is the trace of an item that would go
+  // on beyond the box, and has its mark.
+  void mark_trace_on_box() {
+    LabelId centre = 0;
+    int centre_rank = -1;  // dimension of the traced item decides: edge before facet before volume
+    const auto offer = [&](int rank, LabelId mark) {
+      if (rank <= centre_rank) return;
+      centre_rank = rank;
+      centre = mark;
+    };
+    std::vector<bool> on_wall(drawing_.nodes.size(), false);
+    for (Arrangement::Arc& arc : drawing_.arcs) {
+      if (!c_.planes.infimaximal(arc.plane)) {
+        offer(1, arc.mark);
+        continue;
+      }
+      arc.mark = arc.left == kOutside ? arc.right : arc.left;
+      on_wall[arc.source] = on_wall[arc.target] = true;
+      offer(0, arc.mark);
+    }
+    for (const Arrangement::Arc& arc : drawing_.arcs) {
+      for (const std::uint32_t end : {arc.source, arc.target}) {
+        if (on_wall[end] && c_.planes.infimaximal(arc.plane)) drawing_.nodes[end].mark = arc.mark;
+      }
+    }
+    for (const Arrangement::Arc& arc : drawing_.arcs) {
+      for (const std::uint32_t end : {arc.source, arc.target}) {
+        if (on_wall[end] && !c_.planes.infimaximal(arc.plane)) drawing_.nodes[end].mark = arc.mark;
+      }
+    }
+    for (std::uint32_t n = 0; n < drawing_.nodes.size(); ++n) {
+      if (!on_wall[n]) offer(2, drawing_.nodes[n].mark);
+    }
+    drawing_.centre = centre;
+  }
+
+  const Complex& c_;
+  LabelId lower_;
+  bool clear_volumes_;
+  Arrangement drawing_;
+  SphereMapBuffer out_;
+};
+
+}  // namespace
+
+Polyhedron complement(const Polyhedron& a) {
+  Complex c = a.complex();
+  const auto flip = [](LabelId& mark) {
+    if (mark != kOutside) mark = mark == 0 ? 1 : 0;
+  };
+  // Different marks stay different, so nothing but the marks changes.
+  for (VertexRecord& item : c.vertices) flip(item.mark);
+  for (SVertex& item : c.svertices) flip(item.mark);
+  for (SHalfedge& item : c.shalfedges) flip(item.mark);
+  for (SLoop& item : c.sloops) flip(item.mark);
+  for (SFace& item : c.sfaces) flip(item.mark);
+  for (Facet& item : c.facets) flip(item.mark);
+  for (Volume& item : c.volumes) flip(item.mark);
+  return Polyhedron(std::move(c));
+}
+
+Polyhedron interior(const Polyhedron& a) { return Polyhedron(MarkChanger(a.complex(), Lower::kClear, Volumes::kKeep).run()); }
+
+Polyhedron closure(const Polyhedron& a) {
+  return Polyhedron(MarkChanger(a.complex(), Lower::kSelect, Volumes::kKeep).run());
+}
+
+Polyhedron boundary(const Polyhedron& a) {
+  return Polyhedron(MarkChanger(a.complex(), Lower::kSelect, Volumes::kClear).run());
+}
+
+Polyhedron exterior(const Polyhedron& a) { return interior(complement(a)); }
+
+Polyhedron regularize(const Polyhedron& a) { return closure(interior(a)); }
+
+}  // namespace nef

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Exact predicates on the points of a mesh, by index: a double filter, then 128-bit integers where a small common
+// denominator exists (decimal files), then GMP.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "nef/geometry/box_tree.h"
+#include "nef/geometry/point_table.h"
+#include "nef/number/number.h"
+
+namespace nef {
+
+/// An immutable set of finite points that answers questions about their positions. All answers are exact.
+class MeshPoints {
+ public:
+  /// Copies what it needs. O(n).
+  explicit MeshPoints(std::span<const Rational3> points);
+  /// The same for points that a table holds; all must be finite.
+  explicit MeshPoints(PointTable points);
+
+  [[nodiscard]] std::size_t size() const { return approximate_.size(); }
+
+  /// The sign of det(b - a, c - a, d - a): +1 if a, b, c turn counterclockwise as seen from d's side.
+  [[nodiscard]] int orientation(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const;
+
+  /// The sign of component `axis` of (b - a) x (c - a): orientation of the three points in the projection along
+  /// that axis.
+  [[nodiscard]] int orientation_along(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::size_t axis) const;
+
+  /// True if the three points lie on one line.
+  [[nodiscard]] bool collinear(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
+
+  /// An axis along which the three points, not collinear, do not project to one line; usually the one along which
+  /// their triangle looks largest.
+  [[nodiscard]] std::size_t projection_axis(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
+
+  /// The sign of a[axis] - b[axis].
+  [[nodiscard]] int compare(std::uint32_t a, std::uint32_t b, std::size_t axis) const;
+  /// Lexicographic comparison.
+  [[nodiscard]] int compare(std::uint32_t a, std::uint32_t b) const;
+
+  /// Coordinates in a space that is scaled by one positive factor, each within margin(axis) of the truth.
+  [[nodiscard]] const std::array<double, 3>& approximate(std::uint32_t p) const { return approximate_[p]; }
+  [[nodiscard]] double margin(std::size_t axis) const { return margin_[axis]; }
+
+  /// Encloses the point, in the same scaled space.
+  void extend(Box& box, std::uint32_t p) const;
+
+ private:
+  struct Differences;
+
+  bool make_integers(std::span<const Rational3> points);
+  void find_margins(bool exact);
+  [[nodiscard]] int orientation_exact(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const;
+  [[nodiscard]] int orientation_along_exact(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::size_t axis) const;
+
+  std::vector<std::array<double, 3>> approximate_;
+  std::vector<std::array<std::int64_t, 3>> integers_;  // scaled coordinates below 2^40; empty if there are none
+  PointTable table_;                                   // filled only where integers_ is not
+  std::array<double, 3> margin_{};
+  bool filter_ = true;
+};
+
+}  // namespace nef

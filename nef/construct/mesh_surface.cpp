@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/construct/mesh_surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "nef/construct/triangulate.h"
+#include "nef/construct/vertex_merger.h"
+
+namespace nef {
+namespace {
+
+bool names_one_twice(std::vector<std::uint32_t> ring) {
+  std::sort(ring.begin(), ring.end());
+  return std::adjacent_find(ring.begin(), ring.end()) != ring.end();
+}
+
+bool on_one_line(const MeshPoints& points, const std::vector<std::uint32_t>& ring) {
+  for (std::size_t i = 2; i < ring.size(); ++i) {
+    if (!points.collinear(ring[0], ring[1], ring[i])) return false;
+  }
+  return true;
+}
+
+// Polygons go to the triangulator along the best axis that shows them as simple polygons.
+bool cut(const MeshPoints& points, Triangulator& triangulator, const std::vector<std::uint32_t>& ring,
+         std::vector<std::array<std::uint32_t, 3>>& out) {
+  for (const std::size_t axis : projection_axes(points, ring)) {
+    const int sign = ring_orientation(points, ring, axis);
+    if (sign != 0 && triangulator.triangulate(ring, axis, sign, out)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::array<std::size_t, 3> projection_axes(const MeshPoints& points, const std::vector<std::uint32_t>& ring) {
+  std::array<double, 3> area{};
+  const auto& origin = points.approximate(ring[0]);
+  for (std::size_t i = 0; i + 1 < ring.size(); ++i) {
+    const auto& p = points.approximate(ring[i]);
+    const auto& q = points.approximate(ring[i + 1]);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::size_t j = (axis + 1) % 3;
+      const std::size_t k = (axis + 2) % 3;
+      area[axis] += (p[j] - origin[j]) * (q[k] - origin[k]) - (p[k] - origin[k]) * (q[j] - origin[j]);
+    }
+  }
+  std::array<std::size_t, 3> order{0, 1, 2};
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t i, std::size_t j) { return std::abs(area[i]) > std::abs(area[j]); });
+  return order;
+}
+
+int ring_orientation(const MeshPoints& points, const std::vector<std::uint32_t>& ring, std::size_t axis) {
+  const std::size_t u = (axis + 1) % 3;
+  const std::size_t v = (axis + 2) % 3;
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < ring.size(); ++i) {
+    const int order = points.compare(ring[i], ring[best], u);
+    if (order < 0 || (order == 0 && points.compare(ring[i], ring[best], v) < 0)) best = i;
+  }
+  const std::size_t n = ring.size();
+  return points.orientation_along(ring[(best + n - 1) % n], ring[best], ring[(best + 1) % n], axis);
+}
+
+MeshSurface::MeshSurface(const Mesh& mesh)
+    : points(mesh.vertices), place(merge_equal(mesh.vertices)), defects(mesh.face_count(), FaceDefect::kNone) {
+  Triangulator triangulator(points);
+  std::vector<std::uint32_t> ring;
+  triangles.reserve(mesh.corners.size());
+  for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+    ring.clear();
+    bool bad = false;
+    for (const std::uint32_t v : mesh.face(f)) {
+      bad = bad || v >= mesh.vertices.size();
+      if (!bad) ring.push_back(place[v]);
+    }
+    if (bad) {
+      defects[f] = FaceDefect::kBadIndex;
+    } else if (ring.size() < 3) {
+      defects[f] = FaceDefect::kTooFewCorners;
+    } else if (ring.size() == 3 ? ring[0] == ring[1] || ring[1] == ring[2] || ring[2] == ring[0]
+                                : names_one_twice(ring)) {
+      defects[f] = FaceDefect::kRepeatedVertex;
+    } else if (on_one_line(points, ring)) {
+      defects[f] = FaceDefect::kNoArea;
+    } else if (ring.size() == 3) {
+      triangles.push_back({ring[0], ring[1], ring[2]});
+    } else if (!cut(points, triangulator, ring, triangles)) {
+      defects[f] = FaceDefect::kCrossesItself;
+    }
+    face_of.resize(triangles.size(), f);
+  }
+}
+
+}  // namespace nef

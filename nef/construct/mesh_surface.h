@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A mesh as the checks see it: equal vertices merged, faces cut into triangles.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "nef/construct/construct.h"
+#include "nef/construct/mesh_points.h"
+
+namespace nef {
+
+/// Why a face has no triangles.
+enum class FaceDefect : std::uint8_t { kNone, kBadIndex, kTooFewCorners, kRepeatedVertex, kNoArea, kCrossesItself };
+
+/// The triangulated surface of a mesh.
+struct MeshSurface {
+  explicit MeshSurface(const Mesh& mesh);
+
+  MeshPoints points;                                    ///< of all vertices of the mesh
+  std::vector<std::uint32_t> place;                     ///< of each vertex: the smallest vertex at the same point
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< of places; none is degenerate
+  std::vector<std::uint32_t> face_of;                   ///< of each triangle
+  std::vector<FaceDefect> defects;                      ///< of each face
+};
+
+/// The coordinate axes, the one along which a polygon looks largest first (by its area vector in doubles).
+std::array<std::size_t, 3> projection_axes(const MeshPoints& points, const std::vector<std::uint32_t>& ring);
+
+/// +1 if a ring of at least three points turns counterclockwise in the projection along `axis`, -1 if clockwise, 0 if
+/// its farthest corner there is flat (the projection, or the ring, is no simple polygon). Exact. O(n).
+int ring_orientation(const MeshPoints& points, const std::vector<std::uint32_t>& ring, std::size_t axis);
+
+}  // namespace nef

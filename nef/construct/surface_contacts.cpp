@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The line in which the planes of two triangles meet cuts each triangle in an interval whose ends lie on edges. With
+// p1 x an edge of the first and p2 y one of the second, p1 and p2 off the other's plane, the order of the
+// two ends along n1 x n2 is the sign of orientation(p1, x, p2, y) times the sides of p1 and p2 (expand the determinant
+// from the ends of the edges on the line). So no intersection point is ever computed.
+#include "nef/construct/surface_contacts.h"
+
+#include <algorithm>
+
+namespace nef {
+namespace {
+
+using Triangle = SurfaceContacts::Triangle;
+using Signs = std::array<int, 3>;
+
+bool one_sided(const Signs& s) {
+  const bool positive = s[0] > 0 || s[1] > 0 || s[2] > 0;
+  const bool negative = s[0] < 0 || s[1] < 0 || s[2] < 0;
+  return positive != negative;
+}
+int zeros(const Signs& s) { return (s[0] == 0 ? 1 : 0) + (s[1] == 0 ? 1 : 0) + (s[2] == 0 ? 1 : 0); }
+
+bool has(const Triangle& t, std::uint32_t v) { return t[0] == v || t[1] == v || t[2] == v; }
+
+}  // namespace
+
+// The part of a triangle on the common line: from the point on edge (apex, low) to that on (apex, high), ordered along
+// n1 x n2. A vertex that only touches the line has low == high.
+struct SurfaceContacts::Interval {
+  std::uint32_t apex = 0, low = 0, high = 0;
+  int side = 0;  // of the apex
+  Edge edge;     // if it is an edge of the triangle
+  [[nodiscard]] bool point() const { return low == high; }
+};
+
+namespace {
+
+template <typename Interval>
+Interval make_interval(const Triangle& t, const Signs& s, bool first) {
+  Interval result;
+  if (one_sided(s) && zeros(s) == 1) {
+    std::size_t on = 0;
+    while (s[on] != 0) ++on;
+    result.apex = t[(on + 1) % 3];
+    result.side = s[(on + 1) % 3];
+    result.low = result.high = t[on];
+    return result;
+  }
+  // The corner that is alone on its side: both others are on the other side or on the plane.
+  std::size_t alone = 0;
+  while (s[alone] == 0 || s[alone] * s[(alone + 1) % 3] > 0 || s[alone] * s[(alone + 2) % 3] > 0) ++alone;
+  const std::uint32_t q = t[(alone + 1) % 3];
+  const std::uint32_t r = t[(alone + 2) % 3];
+  result.apex = t[alone];
+  result.side = s[alone];
+  // From q's end to r's end runs against n1 x n2 for the first triangle if its apex is on the positive side, and along
+  // it for the second.
+  const bool swap = (result.side > 0) == first;
+  result.low = swap ? r : q;
+  result.high = swap ? q : r;
+  if (zeros(s) == 2) result.edge = {q, r, true};
+  return result;
+}
+
+}  // namespace
+
+SurfaceContacts::SurfaceContacts(const MeshPoints& points, std::span<const Triangle> triangles)
+    : points_(points), triangles_(triangles) {
+  half_edges_.reserve(3 * triangles.size());
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t u = triangles[t][i];
+      const std::uint32_t v = triangles[t][(i + 1) % 3];
+      const std::uint64_t key = (static_cast<std::uint64_t>(std::min(u, v)) << 32U) | std::max(u, v);
+      half_edges_.push_back({key, t, triangles[t][(i + 2) % 3], u < v ? 1 : -1});
+    }
+  }
+  std::sort(half_edges_.begin(), half_edges_.end(), [](const HalfEdge& a, const HalfEdge& b) {
+    return a.key != b.key ? a.key < b.key : a.triangle < b.triangle;
+  });
+}
+
+std::span<const SurfaceContacts::HalfEdge> SurfaceContacts::around(std::uint32_t u, std::uint32_t v) const {
+  const std::uint64_t key = (static_cast<std::uint64_t>(std::min(u, v)) << 32U) | std::max(u, v);
+  const auto less = [](const HalfEdge& a, const HalfEdge& b) { return a.key < b.key; };
+  const auto [first, last] = std::equal_range(half_edges_.begin(), half_edges_.end(), HalfEdge{key, 0, 0, 0}, less);
+  return {first, last};
+}
+
+bool SurfaceContacts::alternate(std::uint32_t u, std::uint32_t v, std::vector<Wing> wings) const {
+  if (wings.size() % 2 != 0) return false;
+  if (wings.size() <= 2) return wings.empty() || wings[0].direction != wings[1].direction;
+  const std::uint32_t base = wings[0].apex;
+  const std::size_t axis = points_.projection_axis(u, v, base);
+  // 0: with the first wing, 1: less than a half-turn after it, 2: opposite, 3: more.
+  const auto sector = [&](std::uint32_t apex) {
+    const int turn = apex == base ? 0 : points_.orientation(u, v, base, apex);
+    if (turn != 0) return turn > 0 ? 1 : 3;
+    return points_.orientation_along(u, v, base, axis) == points_.orientation_along(u, v, apex, axis) ? 0 : 2;
+  };
+  struct Sorted {
+    int sector = 0;
+    Wing wing;
+  };
+  std::vector<Sorted> sorted;
+  for (const Wing& wing : wings) sorted.push_back({sector(wing.apex), wing});
+  bool coincide = false;
+  std::stable_sort(sorted.begin(), sorted.end(), [&](const Sorted& a, const Sorted& b) {
+    if (a.sector != b.sector) return a.sector < b.sector;
+    if (a.sector % 2 == 0) return false;
+    return points_.orientation(u, v, a.wing.apex, b.wing.apex) > 0;
+  });
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    const Sorted& a = sorted[i];
+    const Sorted& b = sorted[(i + 1) % sorted.size()];
+    coincide = coincide || (a.sector == b.sector &&
+                            (a.sector % 2 == 0 || points_.orientation(u, v, a.wing.apex, b.wing.apex) == 0));
+    if (a.wing.direction == b.wing.direction) return false;
+  }
+  return !coincide;
+}
+
+void SurfaceContacts::for_each_bad_edge(
+    const std::function<bool(std::uint32_t, std::uint32_t, std::span<const std::uint32_t>)>& visit) const {
+  for (std::size_t first = 0; first < half_edges_.size();) {
+    std::size_t last = first;
+    int balance = 0;
+    std::vector<Wing> wings;
+    std::vector<std::uint32_t> triangles;
+    while (last < half_edges_.size() && half_edges_[last].key == half_edges_[first].key) {
+      balance += half_edges_[last].direction;
+      ++last;
+    }
+    if (last - first > 2 && balance == 0) {
+      for (std::size_t i = first; i < last; ++i) {
+        wings.push_back({half_edges_[i].apex, half_edges_[i].direction});
+        triangles.push_back(half_edges_[i].triangle);
+      }
+      const auto u = static_cast<std::uint32_t>(half_edges_[first].key >> 32U);
+      const auto v = static_cast<std::uint32_t>(half_edges_[first].key & 0xffffffffU);
+      if (!alternate(u, v, wings) && !visit(u, v, triangles)) return;
+    }
+    first = last;
+  }
+}
+
+// True if the two segments, on one line, run the same way.
+bool SurfaceContacts::same_direction(Edge a, Edge b) const {
+  return (points_.compare(a.u, a.v) < 0) == (points_.compare(b.u, b.v) < 0);
+}
+
+// Adds the triangles around the segment `along`: all at an edge of this triangle, or the two sides of the triangle
+// if the segment runs through it. Returns false if they are not balanced.
+bool SurfaceContacts::add_wings(std::uint32_t triangle, Edge own, Edge along, std::vector<Wing>& wings) const {
+  if (own.valid) {
+    const bool same = same_direction(own, along);
+    int balance = 0;
+    for (const HalfEdge& h : around(own.u, own.v)) {
+      const int direction = (own.u < own.v) == same ? h.direction : -h.direction;
+      wings.push_back({h.apex, direction});
+      balance += direction;
+    }
+    return balance == 0;
+  }
+  // Corners on either side of the segment, and whether the triangle turns like (u, v, corner).
+  const Triangle& t = triangles_[triangle];
+  const std::size_t axis = points_.projection_axis(t[0], t[1], t[2]);
+  const int orientation = points_.orientation_along(t[0], t[1], t[2], axis);
+  bool left = false;
+  bool right = false;
+  for (const std::uint32_t corner : t) {
+    const int turn = points_.orientation_along(along.u, along.v, corner, axis);
+    bool& done = turn > 0 ? left : right;
+    if (turn == 0 || done) continue;
+    done = true;
+    wings.push_back({corner, turn == orientation ? 1 : -1});
+  }
+  return left && right;
+}
+
+SurfaceContacts::Kind SurfaceContacts::resolve_segment(std::uint32_t t, Edge t_edge, std::uint32_t u,
+                                                       Edge u_edge) const {
+  std::vector<Wing> wings;
+  const Edge along = t_edge.valid ? t_edge : u_edge;
+  const bool balanced_t = add_wings(t, t_edge, along, wings);
+  const bool balanced_u = add_wings(u, u_edge, along, wings);
+  // An open or badly oriented surface bounds nothing that could be crossed; that is reported by itself.
+  if (!balanced_t || !balanced_u) return Kind::kTouch;
+  return alternate(along.u, along.v, std::move(wings)) ? Kind::kTouch : Kind::kCross;
+}
+
+SurfaceContacts::Kind SurfaceContacts::classify_general(std::uint32_t t, std::uint32_t u, int shared) const {
+  const Triangle& a = triangles_[t];
+  const Triangle& b = triangles_[u];
+  Signs sb{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    sb[i] = shared > 0 && has(a, b[i]) ? 0 : points_.orientation(a[0], a[1], a[2], b[i]);
+  }
+  if (one_sided(sb) && zeros(sb) == shared) return Kind::kNone;
+  if (zeros(sb) == 3) return classify_coplanar(t, u, shared);
+  Signs sa{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    sa[i] = shared > 0 && has(b, a[i]) ? 0 : points_.orientation(b[0], b[1], b[2], a[i]);
+  }
+  if (one_sided(sa) && zeros(sa) == shared) return Kind::kNone;
+  const auto ia = make_interval<Interval>(a, sa, true);
+  const auto ib = make_interval<Interval>(b, sb, false);
+  // Positive if the end on edge (b.apex, y) comes after the end on (a.apex, x).
+  const auto order = [&](std::uint32_t x, std::uint32_t y) {
+    if (x == y) return 0;  // a shared vertex on the line
+    return points_.orientation(ia.apex, x, ib.apex, y) * ia.side * ib.side;
+  };
+  const int low_high = order(ia.low, ib.high);
+  const int high_low = order(ia.high, ib.low);
+  if (low_high < 0 || high_low > 0) return Kind::kNone;
+  if (low_high == 0 || high_low == 0 || ia.point() || ib.point()) {
+    return shared > 0 ? Kind::kNone : Kind::kTouch;
+  }
+  if (!ia.edge.valid && !ib.edge.valid) return Kind::kCross;
+  return resolve_segment(t, ia.edge, u, ib.edge);
+}
+
+SurfaceContacts::Kind SurfaceContacts::classify_coplanar(std::uint32_t t, std::uint32_t u, int shared) const {
+  const Triangle& a = triangles_[t];
+  const Triangle& b = triangles_[u];
+  const std::size_t axis = points_.projection_axis(a[0], a[1], a[2]);
+  // Two convex sets have disjoint interiors iff an edge line of one separates them.
+  bool apart = false;
+  bool interiors_apart = false;
+  const auto separate = [&](const Triangle& x, const Triangle& y) {
+    const int inside = points_.orientation_along(x[0], x[1], x[2], axis);
+    for (std::size_t i = 0; i < 3; ++i) {
+      int largest = -1;
+      for (const std::uint32_t p : y) {
+        largest = std::max(largest, inside * points_.orientation_along(x[i], x[(i + 1) % 3], p, axis));
+      }
+      apart = apart || largest < 0;
+      interiors_apart = interiors_apart || largest <= 0;
+    }
+  };
+  separate(a, b);
+  separate(b, a);
+  if (apart) return Kind::kNone;
+  if (!interiors_apart) return Kind::kOverlap;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      const Edge e{a[i], a[(i + 1) % 3], true};
+      const Edge f{b[j], b[(j + 1) % 3], true};
+      if ((e.u == f.u && e.v == f.v) || (e.u == f.v && e.v == f.u)) continue;
+      if (points_.orientation_along(e.u, e.v, f.u, axis) != 0 || points_.orientation_along(e.u, e.v, f.v, axis) != 0) {
+        continue;
+      }
+      const bool e_up = points_.compare(e.u, e.v) < 0;
+      const bool f_up = points_.compare(f.u, f.v) < 0;
+      if (points_.compare(e_up ? e.u : e.v, f_up ? f.v : f.u) < 0 &&
+          points_.compare(f_up ? f.u : f.v, e_up ? e.v : e.u) < 0) {
+        return resolve_segment(t, e, u, f);
+      }
+    }
+  }
+  return shared > 0 ? Kind::kNone : Kind::kTouch;
+}
+
+SurfaceContacts::Kind SurfaceContacts::classify(std::uint32_t t, std::uint32_t u) const {
+  const Triangle& a = triangles_[t];
+  const Triangle& b = triangles_[u];
+  int shared = 0;
+  std::size_t a_free = 0;  // a corner that is not shared
+  std::size_t b_free = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (has(b, a[i])) {
+      ++shared;
+    } else {
+      a_free = i;
+    }
+    if (!has(a, b[i])) b_free = i;
+  }
+  if (shared < 2) return classify_general(t, u, shared);
+  if (shared == 3) return Kind::kOverlap;
+  if (points_.orientation(a[0], a[1], a[2], b[b_free]) != 0) return Kind::kNone;
+  // Coplanar neighbours overlap if they lie on one side of their edge.
+  const std::uint32_t p = a[(a_free + 1) % 3];
+  const std::uint32_t q = a[(a_free + 2) % 3];
+  const std::size_t axis = points_.projection_axis(a[0], a[1], a[2]);
+  const bool same_side =
+      points_.orientation_along(p, q, a[a_free], axis) == points_.orientation_along(p, q, b[b_free], axis);
+  return same_side ? Kind::kOverlap : Kind::kNone;
+}
+
+void SurfaceContacts::for_each(const std::function<bool(Kind, std::uint32_t, std::uint32_t)>& visit) const {
+  std::vector<Box> boxes(triangles_.size());
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    for (const std::uint32_t v : triangles_[t]) points_.extend(boxes[t], v);
+  }
+  const BoxTree tree(boxes);
+  std::vector<std::uint32_t> hits;
+  for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
+    hits.clear();
+    tree.for_each_overlap(boxes[t], [&](std::uint32_t u) {
+      if (u > t) hits.push_back(u);
+    });
+    std::sort(hits.begin(), hits.end());
+    for (const std::uint32_t u : hits) {
+      const Kind kind = classify(t, u);
+      if (kind != Kind::kNone && !visit(kind, t, u)) return;
+    }
+  }
+}
+
+}  // namespace nef

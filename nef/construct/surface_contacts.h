@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// How the triangles of a surface meet beyond the vertices and edges that they share.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "nef/construct/mesh_points.h"
+
+namespace nef {
+
+/// Finds where a triangulated surface crosses, overlaps or touches itself.
+///
+/// Two triangles cross if their relative interiors meet in a segment, and overlap if these meet in an area. What they
+/// have in common otherwise lies on the border of one of them. If that is a segment, the surface may still cross
+/// itself there: it does not iff the triangles around the segment, sorted by angle, alternate in orientation (going
+/// around means going in and out of a solid). If it is a point, it is harmless: wherever the surface crosses itself
+/// through a point, other triangles meet in segments that end there.
+class SurfaceContacts {
+ public:
+  using Triangle = std::array<std::uint32_t, 3>;
+
+  enum class Kind : std::uint8_t { kNone, kTouch, kEdge, kCross, kOverlap };
+
+  /// The triangles must not be degenerate and name each place by one index only. Both must outlive this object.
+  SurfaceContacts(const MeshPoints& points, std::span<const Triangle> triangles);
+
+  /// Calls visit(kind, t, u) for every pair t < u with a contact, in lexicographic order; kind is kTouch, kCross or
+  /// kOverlap. Stops when visit returns false.
+  void for_each(const std::function<bool(Kind, std::uint32_t, std::uint32_t)>& visit) const;
+
+  /// Calls visit(u, v, triangles) for every edge of more than two triangles which use it equally often in both
+  /// directions but do not alternate around it.
+  void for_each_bad_edge(
+      const std::function<bool(std::uint32_t, std::uint32_t, std::span<const std::uint32_t>)>& visit) const;
+
+  /// True if triangles around the segment from u to v alternate. Each is given by its corner beside the segment and
+  /// by +1 if it runs from u to v, -1 if from v to u.
+  struct Wing {
+    std::uint32_t apex = 0;
+    int direction = 0;
+  };
+  [[nodiscard]] bool alternate(std::uint32_t u, std::uint32_t v, std::vector<Wing> wings) const;
+
+ private:
+  struct HalfEdge {
+    std::uint64_t key = 0;  // smaller vertex, larger vertex
+    std::uint32_t triangle = 0;
+    std::uint32_t apex = 0;
+    int direction = 0;  // +1 if the triangle runs from the smaller to the larger vertex
+  };
+  struct Interval;
+  struct Edge {
+    std::uint32_t u = 0, v = 0;
+    bool valid = false;
+  };
+
+  [[nodiscard]] Kind classify(std::uint32_t t, std::uint32_t u) const;
+  [[nodiscard]] Kind classify_general(std::uint32_t t, std::uint32_t u, int shared) const;
+  [[nodiscard]] Kind classify_coplanar(std::uint32_t t, std::uint32_t u, int shared) const;
+  [[nodiscard]] Kind resolve_segment(std::uint32_t t, Edge t_edge, std::uint32_t u, Edge u_edge) const;
+  [[nodiscard]] std::span<const HalfEdge> around(std::uint32_t u, std::uint32_t v) const;
+  bool add_wings(std::uint32_t triangle, Edge own, Edge along, std::vector<Wing>& wings) const;
+  [[nodiscard]] bool same_direction(Edge a, Edge b) const;
+
+  const MeshPoints& points_;
+  std::span<const Triangle> triangles_;
+  std::vector<HalfEdge> half_edges_;  // sorted by key
+};
+
+}  // namespace nef

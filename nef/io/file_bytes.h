@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Whole files in and out: one read, one write beside the target and a rename.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "nef/base/error.h"
+
+namespace nef {
+
+/// What is wrong with a file, for programs that want to tell the kinds apart.
+enum class FileProblem {
+  kUnreadable,   ///< missing, a directory, no permission, unknown extension
+  kEmpty,        ///< no bytes, or nothing but white space
+  kSyntax,       ///< a word that the format does not allow there
+  kWrongCount,   ///< the header promises another number of items than there are
+  kTruncated,    ///< the file ends in the middle of an item
+  kNotANumber,   ///< NaN, infinity, or no number at all
+  kBadIndex,     ///< an index that names no element
+  kUnsupported,  ///< legal in the format, but nothing that this library can hold
+};
+
+/// "bad index", "not a number", ...
+const char* name(FileProblem problem);
+
+/// An InputError with the kind of the problem. what() is "path:line: what is wrong; how to mend it".
+class FileError : public InputError {
+ public:
+  FileError(FileProblem problem, const std::string& what) : InputError(what), problem_(problem) {}
+  [[nodiscard]] FileProblem problem() const { return problem_; }
+
+ private:
+  FileProblem problem_;
+};
+
+/// All bytes of a file. Throws FileError (kUnreadable, kEmpty).
+std::string read_file(const std::string& path);
+
+/// The extension of a path in lower case without the dot; empty if there is none.
+std::string lower_extension(const std::string& path);
+
+/// Writes `bytes` to a new file beside `path` and renames it, so that readers see the old file or the
+/// whole new one. A device such as /dev/stdout is written directly. Throws FileError (kUnreadable).
+void write_file(const std::string& path, std::string_view bytes);
+
+}  // namespace nef

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/io/text_cursor.h"
+
+#include <array>
+#include <bit>
+#include <charconv>
+
+namespace nef {
+namespace {
+
+constexpr int kMaxScale = 18;
+
+constexpr std::array<std::uint64_t, kMaxScale + 1> powers_of(std::uint64_t base) {
+  std::array<std::uint64_t, kMaxScale + 1> result{};
+  result[0] = 1;
+  for (std::size_t i = 1; i < result.size(); ++i) result[i] = result[i - 1] * base;
+  return result;
+}
+constexpr auto kPowerOfTen = powers_of(10);
+constexpr auto kPowerOfFive = powers_of(5);
+
+bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+// mantissa / 10^scale in lowest terms: ten has no prime factors but two and five.
+void assign_decimal(bool negative, std::uint64_t mantissa, int scale, Rational& value) {
+  if (mantissa == 0) scale = 0;
+  int twos = scale;
+  int fives = scale;
+  if (scale > 0) {
+    const int common = std::min(twos, std::countr_zero(mantissa));
+    mantissa >>= static_cast<unsigned>(common);
+    twos -= common;
+    while (fives > 0 && mantissa % 5 == 0) {
+      mantissa /= 5;
+      --fives;
+    }
+  }
+  mpz_set_ui(value.get_num_mpz_t(), mantissa);
+  if (negative) mpz_neg(value.get_num_mpz_t(), value.get_num_mpz_t());
+  mpz_set_ui(value.get_den_mpz_t(), kPowerOfFive[static_cast<std::size_t>(fives)] << static_cast<unsigned>(twos));
+}
+
+// True if `text` is a decimal that fits into 64-bit arithmetic; everything else is left to parse_rational.
+bool parse_short_decimal(std::string_view text, Rational& value) {
+  const char* p = text.data();
+  const char* const end = p + text.size();
+  bool negative = false;
+  if (p != end && (*p == '-' || *p == '+')) negative = *p++ == '-';
+  std::uint64_t mantissa = 0;
+  int digits = 0;
+  int scale = 0;
+  const char* const first = p;
+  for (; p != end && is_digit(*p); ++p) mantissa = mantissa * 10 + static_cast<std::uint64_t>(*p - '0');
+  digits = static_cast<int>(p - first);
+  if (p != end && *p == '.') {
+    const char* const point = ++p;
+    for (; p != end && is_digit(*p); ++p) mantissa = mantissa * 10 + static_cast<std::uint64_t>(*p - '0');
+    scale = static_cast<int>(p - point);
+    digits += scale;
+  }
+  // Leading zeros count as digits here: a longer word only takes the slow road.
+  if (digits == 0 || text.size() > 30 || digits > kMaxScale) return false;
+  if (p != end && (*p == 'e' || *p == 'E')) {
+    int exponent = 0;
+    const char* from = p + 1;
+    if (from != end && *from == '+') ++from;
+    const auto [stop, error] = std::from_chars(from, end, exponent);
+    if (error != std::errc() || stop != end || exponent > 100 || exponent < -100) return false;
+    p = end;
+    scale -= exponent;
+  }
+  if (p != end || scale > kMaxScale) return false;
+  if (scale < 0) {
+    if (digits - scale > kMaxScale) return false;
+    mantissa *= kPowerOfTen[static_cast<std::size_t>(-scale)];
+    scale = 0;
+  }
+  assign_decimal(negative, mantissa, scale, value);
+  return true;
+}
+
+}  // namespace
+
+bool parse_number(std::string_view text, Rational& value) {
+  if (parse_short_decimal(text, value)) return true;
+  try {
+    value = parse_rational(text);
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+std::string_view TextCursor::take() {
+  const std::size_t first = position_;
+  while (position_ < text_.size() && !is_space(text_[position_]) && text_[position_] != '\n' &&
+         text_[position_] != '#') {
+    ++position_;
+  }
+  return text_.substr(first, position_ - first);
+}
+
+std::string_view TextCursor::word_in_line() {
+  while (position_ < text_.size() && is_space(text_[position_])) ++position_;
+  if (position_ < text_.size() && text_[position_] == '#') {
+    const std::size_t end = text_.find('\n', position_);
+    position_ = end == std::string_view::npos ? text_.size() : end;
+  }
+  return take();
+}
+
+std::string_view TextCursor::word() {
+  for (;;) {
+    const std::string_view found = word_in_line();
+    if (!found.empty() || position_ >= text_.size()) return found;
+    skip_line();
+  }
+}
+
+void TextCursor::skip_line() {
+  const std::size_t end = text_.find('\n', position_);
+  if (end == std::string_view::npos) {
+    position_ = text_.size();
+  } else {
+    position_ = end + 1;
+    ++line_;
+  }
+}
+
+bool TextCursor::line_done() {
+  const std::size_t position = position_;
+  const bool done = word_in_line().empty();
+  position_ = position;
+  return done;
+}
+
+bool TextCursor::at_end() {
+  while (position_ < text_.size() && line_done()) {
+    skip_line();
+  }
+  return position_ >= text_.size();
+}
+
+void TextCursor::number(Rational& value, std::string_view what, std::size_t index) {
+  const std::string_view found = word();
+  if (found.empty()) {
+    fail(FileProblem::kTruncated, "the file ends where the " + std::string(what) + " " + std::to_string(index) +
+                                      " should be; it is cut off or its header promises too much");
+  }
+  parse(found, value, what, index);
+}
+
+void TextCursor::parse(std::string_view word, Rational& value, std::string_view what, std::size_t index) const {
+  if (parse_number(word, value)) return;
+  fail(FileProblem::kNotANumber, std::string(what) + " " + std::to_string(index) + " is '" +
+                                     std::string(word.substr(0, 40)) +
+                                     "', not a finite number; write it like -3, 0.25, 1e-3 or 1/3");
+}
+
+std::int64_t TextCursor::integer(std::string_view what) {
+  const std::string_view found = word();
+  if (found.empty()) {
+    fail(FileProblem::kTruncated,
+         "the file ends where the " + std::string(what) + " should be; it is cut off or its header promises too much");
+  }
+  return parse_integer(found, what);
+}
+
+std::int64_t TextCursor::parse_integer(std::string_view word, std::string_view what) const {
+  std::int64_t value = 0;
+  const char* first = word.data();
+  const char* const last = first + word.size();
+  if (first != last && *first == '+') ++first;
+  const auto [stop, error] = std::from_chars(first, last, value);
+  if (error != std::errc() || stop != last) {
+    fail(FileProblem::kSyntax,
+         "the " + std::string(what) + " is '" + std::string(word.substr(0, 40)) + "', not a whole number");
+  }
+  return value;
+}
+
+void TextCursor::fail(FileProblem problem, const std::string& what) const {
+  throw FileError(problem, path_ + ":" + std::to_string(line_) + ": " + what);
+}
+
+}  // namespace nef

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Visits the vertices, edges and facets of a shell, each once.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "nef/complex/complex.h"
+
+namespace nef {
+
+/// Walks shells one after the other. Keeps one stamp for every item of the complex, so that a walk
+/// over all shells is O(n).
+class ShellWalk {
+ public:
+  explicit ShellWalk(const Complex& complex)
+      : c_(complex),
+        vertex_(complex.vertex_count(), kNone),
+        edge_(complex.svertices.size(), kNone),
+        facet_(complex.facet_count(), kNone) {}
+
+  /// Calls vertex(v), edge(halfedge; the smaller of the two) and facet(f) for all items that the
+  /// sfaces of `shell` touch. A shell may be walked once.
+  template <typename OnVertex, typename OnEdge, typename OnFacet>
+  void visit(std::uint32_t shell, OnVertex&& vertex, OnEdge&& edge, OnFacet&& facet) {
+    const auto first_time = [shell](std::uint32_t& stamp) {
+      const bool fresh = stamp != shell;
+      stamp = shell;
+      return fresh;
+    };
+    const auto meet_edge = [&](std::uint32_t halfedge) {
+      const std::uint32_t e = std::min(halfedge, c_.twin[halfedge]);
+      if (first_time(edge_[e])) edge(e);
+    };
+    const auto meet_facet = [&](std::uint32_t f) {
+      if (first_time(facet_[f])) facet(f);
+    };
+    const Shell& range = c_.shells[shell];
+    for (std::uint32_t k = 0; k < range.sface_count; ++k) {
+      const std::uint32_t sface = c_.shell_sfaces[range.first_sface + k];
+      const std::uint32_t v = c_.sface_owner[sface];
+      const VertexRecord& at = c_.vertices[v];
+      if (first_time(vertex_[v])) vertex(v);
+      const SphereMapView map = c_.sphere_map(v);
+      const SFace& face = c_.sfaces[sface];
+      for (std::uint32_t i = face.entries; i < face.entries + face.entry_count; ++i) {
+        const SFaceEntry& entry = map.entries[i];
+        switch (entry.kind) {
+          case SFaceEntry::Kind::kIsolatedVertex:
+            meet_edge(at.svertices + entry.index);
+            break;
+          case SFaceEntry::Kind::kLoop:
+            meet_facet(c_.sloop_facet[at.sloops + entry.index] >> 1U);
+            break;
+          case SFaceEntry::Kind::kCycle: {
+            std::uint32_t e = entry.index;
+            do {
+              meet_edge(at.svertices + map.shalfedges[e].source);
+              meet_facet(c_.shalfedge_facet[at.shalfedges + e] >> 1U);
+              e = map.shalfedges[e].next;
+            } while (e != entry.index);
+          }
+        }
+      }
+    }
+  }
+
+ private:
+  const Complex& c_;
+  std::vector<std::uint32_t> vertex_;
+  std::vector<std::uint32_t> edge_;
+  std::vector<std::uint32_t> facet_;
+};
+
+}  // namespace nef

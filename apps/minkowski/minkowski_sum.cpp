@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Sums of two sets (shared design note, section 5). For relatively open convex cells c of S and d
+// of T, S + T is the union of relint(cl c + cl d), whatever the marks. Cells of the decomposition
+// carry the marks of their boundary, so for closed regular operands only the solids are left.
+//
+// If one operand is open and both lie in the closure of their interiors, the open solids suffice:
+// for x = s + t with a ball about t in the open set, s moves a little, by a generic vector, into the inside of a
+// solid of S, and t moves against it into the inside of a solid of T.
+#include <optional>
+
+#include "apps/minkowski/decomposition.h"
+#include "apps/minkowski/halfspace_sum.h"
+#include "apps/minkowski/minkowski.h"
+#include "apps/minkowski/pair_sums.h"
+
+namespace nef::minkowski {
+namespace {
+
+Polyhedron moved_by_point(const Polyhedron& a, const Polyhedron& point) {
+  return transform(a, AffineMap::translate(point.complex().points.rational(PointId(0U))));
+}
+
+// Sums that need no decomposition.
+std::optional<Polyhedron> simple_sum(const Polyhedron& a, const Polyhedron& b) {
+  if (a.is_empty() || b.is_empty()) return Polyhedron();
+  if (is_point(b)) return moved_by_point(a, b);
+  if (is_point(a)) return moved_by_point(b, a);
+  if (a.is_everything() || b.is_everything()) return Polyhedron::everything();
+  if (!a.is_bounded() && b.is_bounded()) return halfspace_sum(a, b);
+  if (!b.is_bounded() && a.is_bounded()) return halfspace_sum(b, a);
+  return std::nullopt;
+}
+
+}  // namespace
+
+Polyhedron minkowski_sum(const Polyhedron& a, const Polyhedron& b, const MinkowskiOptions& options,
+                         MinkowskiReport* report) {
+  MinkowskiReport unused;
+  MinkowskiReport& r = report != nullptr ? *report : unused;
+  PredicateCounts all;
+  const PhaseTimer total(r.seconds_total, all);
+  if (std::optional<Polyhedron> sum = simple_sum(a, b)) return *std::move(sum);
+  require_bounded(a, "the first operand");
+  require_bounded(b, "the second operand");
+
+  Operand cells_a;
+  Operand cells_b;
+  {
+    const PhaseTimer timer(r.seconds_decomposition, r.predicates_decomposition);
+    const bool only_open = (a.is_open() || b.is_open()) && is_full_dimensional(a) && is_full_dimensional(b);
+    cells_a = Operand(only_open ? decompose_open(a) : decompose(a));
+    cells_b = Operand(only_open ? decompose_open(b) : decompose(b));
+  }
+  r.cells_a += cells_a.size();
+  r.cells_b += cells_b.size();
+  PairSums sums(options, r);
+  sums.add_product(cells_a, cells_b);
+  return sums.run();
+}
+
+}  // namespace nef::minkowski

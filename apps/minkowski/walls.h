@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The two phases of the vertical decomposition, and cuts of facets, as overlays: walls and cuts
+// are lower-dimensional Nef sets, and inserting all of them is one operation each.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "nef/polyhedron.h"
+
+namespace nef::minkowski {
+
+// Labels of a decomposed set. Bit 0: the point is in the set; the others tell its parts apart.
+inline constexpr LabelId kSelected = 1;
+inline constexpr LabelId kWall = 2;
+inline constexpr LabelId kCut = 4;
+
+/// The bounded set with walls inserted so that each selected volume is convex. Marks are labels as
+/// above. First walls along z for every reflex edge that is not parallel to z (which leaves volumes
+/// that each vertical line meets in one piece), then walls along y for the vertical reflex edges
+/// that are left or were made. A set without reflex edges is returned as it is.
+Polyhedron erect_walls(const Polyhedron& a);
+
+/// The same set with cuts in the given facets, so that they become convex.
+Polyhedron cut_facets(const Polyhedron& a, std::span<const std::uint32_t> facets);
+
+}  // namespace nef::minkowski

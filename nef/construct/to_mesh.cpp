@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/construct/to_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "nef/base/error.h"
+#include "nef/construct/triangulate.h"
+
+namespace nef {
+namespace {
+
+constexpr std::uint32_t kUnused = 0xffffffffU;
+
+// Which sides of space an item sees.
+struct Sides {
+  bool selected = false;    // a volume that goes into the mesh
+  bool unselected = false;  // one that does not belong to the set
+  bool other = false;       // one that is lost as a whole, or lies beyond an infimaximal box
+
+  void add(const Sides& volume) {
+    selected = selected || volume.selected;
+    unselected = unselected || volume.unselected;
+    other = other || volume.other;
+  }
+};
+
+// How many facets, edges and vertices there are of something.
+struct Items {
+  std::size_t facets = 0;
+  std::size_t edges = 0;
+  std::size_t vertices = 0;
+  [[nodiscard]] bool any() const { return facets + edges + vertices > 0; }
+};
+
+std::string plural(std::size_t count, const char* one, const char* many) {
+  return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+std::string list(const Items& items) {
+  std::string text;
+  const auto add = [&text](std::size_t count, const char* one, const char* many) {
+    if (count == 0) return;
+    if (!text.empty()) text += ", ";
+    text += plural(count, one, many);
+  };
+  add(items.facets, "facet", "facets");
+  add(items.edges, "edge", "edges");
+  add(items.vertices, "vertex", "vertices");
+  return text;
+}
+
+class Exporter {
+ public:
+  Exporter(const Complex& complex, const MeshExportOptions& options)
+      : complex_(complex), options_(options), volumes_(complex.volume_count()) {}
+
+  MeshExport run() {
+    classify_volumes();
+    collect_facets();
+    number_vertices();
+    write_facets();
+    look_for_losses();
+    report_losses();
+    return std::move(result_);
+  }
+
+ private:
+  [[nodiscard]] bool is_selected(LabelId mark) const {
+    if (mark == kOutside) return false;
+    return options_.selected ? options_.selected(mark) : mark != 0;
+  }
+  [[nodiscard]] bool finite(std::uint32_t vertex) const { return complex_.points.finite(PointId{vertex}); }
+
+  // A selected volume is unbounded if it is the outer one, or has a facet on an infimaximal box.
+  void classify_volumes() {
+    std::vector<bool> unbounded(volumes_.size(), false);
+    if (!unbounded.empty()) unbounded[0] = true;
+    if (complex_.has_box()) {
+      for (const Facet& facet : complex_.facets) {
+        if (!complex_.planes.infimaximal(facet.plane)) continue;
+        unbounded[facet.volume_above] = true;
+        unbounded[facet.volume_below] = true;
+      }
+    }
+    for (std::size_t v = 0; v < volumes_.size(); ++v) {
+      const LabelId mark = complex_.volumes[v].mark;
+      if (mark == kOutside) {
+        volumes_[v].other = true;
+      } else if (!is_selected(mark)) {
+        volumes_[v].unselected = true;
+      } else if (unbounded[v]) {
+        volumes_[v].other = true;
+        ++lost_volumes_;
+      } else {
+        volumes_[v].selected = true;
+      }
+    }
+  }
+
+  void collect_facets() {
+    for (std::uint32_t f = 0; f < complex_.facet_count(); ++f) {
+      const Facet& facet = complex_.facets[f];
+      if (volumes_[facet.volume_above].selected != volumes_[facet.volume_below].selected) boundary_.push_back(f);
+    }
+  }
+
+  // Vertices keep their order; only those of the boundary get a number.
+  void number_vertices() {
+    number_.assign(complex_.vertex_count(), kUnused);
+    for (const std::uint32_t f : boundary_) {
+      for (const std::uint32_t corner : complex_.facet_corners(complex_.facets[f])) {
+        number_[complex_.shalfedge_owner[corner]] = 0;
+      }
+    }
+    for (std::uint32_t v = 0; v < number_.size(); ++v) {
+      if (number_[v] == kUnused) continue;
+      NEF_ASSERT(finite(v));
+      number_[v] = static_cast<std::uint32_t>(result_.mesh.vertices.size());
+      result_.mesh.vertices.push_back(complex_.points.rational(PointId{v}));
+    }
+  }
+
+  std::vector<std::vector<std::uint32_t>> rings_of(const Facet& facet) const {
+    std::vector<std::vector<std::uint32_t>> rings;
+    for (std::uint32_t i = 0; i < facet.cycle_count; ++i) {
+      std::vector<std::uint32_t>& ring = rings.emplace_back();
+      for (const std::uint32_t corner : complex_.cycle(facet.first_cycle + i)) {
+        ring.push_back(number_[complex_.shalfedge_owner[corner]]);
+      }
+    }
+    return rings;
+  }
+
+  static bool simple(std::vector<std::uint32_t> ring) {
+    std::sort(ring.begin(), ring.end());
+    return std::adjacent_find(ring.begin(), ring.end()) == ring.end();
+  }
+
+  void write_facets() {
+    const MeshPoints points(result_.mesh.vertices);
+    Triangulator triangulator(points);
+    std::vector<Triangulator::Triangle> triangles;
+    for (const std::uint32_t f : boundary_) {
+      const Facet& facet = complex_.facets[f];
+      // Cycles turn counterclockwise as seen from above, which is outside if the solid lies below.
+      const bool flip = volumes_[facet.volume_above].selected;
+      std::vector<std::vector<std::uint32_t>> rings = rings_of(facet);
+      if (options_.keep_polygons && rings.size() == 1 && simple(rings[0])) {
+        if (flip) std::reverse(rings[0].begin(), rings[0].end());
+        result_.mesh.push_face(rings[0]);
+        continue;
+      }
+      triangles.clear();
+      const auto [axis, sign] = projection(facet.plane);
+      const bool done = triangulator.triangulate(rings, axis, sign, triangles);
+      NEF_ASSERT(done);
+      for (auto& triangle : triangles) {
+        if (flip) std::swap(triangle[1], triangle[2]);
+        result_.mesh.push_face(triangle);
+      }
+    }
+  }
+
+  [[nodiscard]] std::pair<std::size_t, int> projection(PlaneId plane) const {
+    const auto& normal = complex_.planes.approximate(plane);
+    std::size_t axis = 0;
+    for (std::size_t i = 1; i < 3; ++i) {
+      if (std::abs(normal[i]) > std::abs(normal[axis])) axis = i;
+    }
+    return {axis, normal[axis] > 0 ? 1 : -1};
+  }
+
+  // Sorts an item by what its mark and the volumes around it say about the mesh.
+  void judge(const Sides& sides, LabelId mark, std::size_t Items::*member) {
+    const bool selected = is_selected(mark);
+    if (sides.selected && !selected) ++((sides.unselected ? open_ : cracks_).*member);
+    if (!sides.selected && !sides.other && selected) ++(flat_.*member);
+  }
+
+  void look_for_losses() {
+    for (const Facet& facet : complex_.facets) {
+      Sides sides = volumes_[facet.volume_above];
+      sides.add(volumes_[facet.volume_below]);
+      judge(sides, facet.mark, &Items::facets);
+    }
+    for (std::uint32_t v = 0; v < complex_.vertex_count(); ++v) {
+      if (!finite(v)) continue;
+      const VertexRecord& record = complex_.vertices[v];
+      const VertexRecord& end = complex_.vertices[v + 1];
+      Sides sides;
+      for (std::uint32_t s = record.sfaces; s < end.sfaces; ++s) sides.add(volumes_[complex_.sface_volume(s)]);
+      judge(sides, record.mark, &Items::vertices);
+      for (std::uint32_t h = record.svertices; h < end.svertices; ++h) {
+        const bool far_finite = finite(complex_.target(h));
+        if (far_finite && complex_.twin[h] < h) continue;  // each edge once
+        judge(sides_of_edge(v, h), complex_.svertices[h].mark, &Items::edges);
+      }
+    }
+  }
+
+  [[nodiscard]] Sides sides_of_edge(std::uint32_t vertex, std::uint32_t halfedge) const {
+    const SphereMapView map = complex_.sphere_map(vertex);
+    const VertexRecord& record = complex_.vertices[vertex];
+    const SVertex& svertex = complex_.svertices[halfedge];
+    if (svertex.out == kNone) return volumes_[complex_.sface_volume(record.sfaces + svertex.sface)];
+    Sides sides;
+    std::uint32_t e = svertex.out;
+    do {
+      sides.add(volumes_[complex_.sface_volume(record.sfaces + map.shalfedges[e].sface)]);
+      e = map.next_around(e);
+    } while (e != svertex.out);
+    return sides;
+  }
+
+  void report_losses() {
+    std::vector<std::string>& lost = result_.lost;
+    if (lost_volumes_ > 0) {
+      lost.push_back(plural(lost_volumes_, "unbounded volume is", "unbounded volumes are") + " not in the mesh");
+    }
+    if (flat_.any()) lost.push_back("parts outside the solids are not in the mesh: " + list(flat_));
+    if (open_.any()) {
+      lost.push_back("the mesh is closed where the boundary does not belong to the set: " + list(open_));
+    }
+    if (cracks_.any()) lost.push_back("what is missing inside the solids is filled in the mesh: " + list(cracks_));
+  }
+
+  const Complex& complex_;
+  const MeshExportOptions& options_;
+  std::vector<Sides> volumes_;
+  std::vector<std::uint32_t> boundary_;  // facets
+  std::vector<std::uint32_t> number_;    // in the mesh, of each vertex
+  std::size_t lost_volumes_ = 0;
+  Items flat_;
+  Items open_;
+  Items cracks_;
+  MeshExport result_;
+};
+
+}  // namespace
+
+MeshExport to_mesh(const Polyhedron& polyhedron, const MeshExportOptions& options) {
+  return Exporter(polyhedron.complex(), options).run();
+}
+
+}  // namespace nef

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/planner/segments.h"
+
+#include <cmath>
+
+namespace nef::planner {
+
+CellFilter::CellFilter(const FreeSpace& free) : allowed_(free.cells().size()) {
+  for (CellId cell = 0; cell < allowed_.size(); ++cell) allowed_[cell] = free.is_free(cell);
+}
+
+bool segment_allowed(const FreeSpace& free, const CellFilter& filter, const Rational3& a, const Rational3& b) {
+  const ExactPoint pa(a);
+  const ExactPoint pb(b);
+  if (a == b) return filter(free.locate(pa));
+  bool allowed = true;
+  free.tree().walk(pa, pb, [&](SegmentPart& part) { return allowed = filter(part.cell); });
+  return allowed;
+}
+
+std::optional<Contact> first_contact(const FreeSpace& free, const ExactPoint& a, const ExactPoint& b) {
+  const SpaceTree& tree = free.tree();
+  std::optional<Contact> contact;
+  tree.walk(a, b, [&](SegmentPart& part) {
+    if (free.is_free(part.cell)) return true;
+    contact = Contact{ExactSegment(tree.planes(), a, b).exact(part.begin), part.cell};
+    return false;
+  });
+  return contact;
+}
+
+std::vector<CellOnSegment> cells_along(const FreeSpace& free, const Rational3& a, const Rational3& b) {
+  std::vector<CellOnSegment> result;
+  const ExactPoint pa(a);
+  const ExactPoint pb(b);
+  if (a == b) return {{free.locate(pa), true}};
+  free.tree().walk(pa, pb, [&](SegmentPart& part) {
+    if (!result.empty() && result.back().cell == part.cell) {
+      result.back().is_point = result.back().is_point && part.is_point;
+    } else {
+      result.push_back({part.cell, part.is_point});
+    }
+    return true;
+  });
+  return result;
+}
+
+double distance(const Rational3& a, const Rational3& b) {
+  return std::hypot(nearest_double(a[0] - b[0]), nearest_double(a[1] - b[1]), nearest_double(a[2] - b[2]));
+}
+
+}  // namespace nef::planner

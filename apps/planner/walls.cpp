@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The polygon of a splitting plane inside its region is handed down: through the tree of the plane
+// itself, then through the trees below and above. What arrives in a pair of leaves is a wall.
+#include "apps/planner/walls.h"
+
+#include "nef/base/error.h"
+#include "nef/base/union_find.h"
+
+namespace nef::planner {
+
+class WallCollector {
+ public:
+  WallCollector(const SpaceTree& tree, const std::function<bool(CellId)>& wanted_facet, Walls& out)
+      : tree_(tree), planes_(tree.planes()), wanted_facet_(wanted_facet), out_(out) {}
+
+  void collect(std::uint32_t at) {
+    if (SpaceTree::is_leaf(at)) return;
+    const SpaceTree::Node& node = tree_.nodes()[at];
+    std::optional<ConvexPiece> polygon = plane_in_box(node.plane, tree_.box(), planes_, out_.points_);
+    for (const auto& [plane, side] : ancestors_) {
+      SplitPiece parts = split(std::move(*polygon), plane, planes_, out_.points_);
+      polygon = std::move(side < 0 ? parts.negative : parts.positive);
+      if (!polygon) break;
+    }
+    if (polygon) {
+      through_plane(node.child[1], std::move(*polygon),
+                    [&](LeafId on, ConvexPiece&& piece) { pair_up(node, 2, on, std::move(piece), out_.walls_); });
+    }
+    ancestors_.emplace_back(node.plane, -1);
+    collect(node.child[0]);
+    ancestors_.back().second = 1;
+    collect(node.child[2]);
+    ancestors_.pop_back();
+  }
+
+ private:
+  using Visit = std::function<void(LeafId, ConvexPiece&&)>;
+
+  // Hands a polygon down the tree of its own plane, and gathers the seams on the way.
+  void through_plane(std::uint32_t at, ConvexPiece&& polygon, const Visit& visit) {
+    if (SpaceTree::is_leaf(at)) {
+      visit(SpaceTree::leaf_of(at), std::move(polygon));
+      return;
+    }
+    const SpaceTree::Node& node = tree_.nodes()[at];
+    SplitPiece parts = split(std::move(polygon), node.plane, planes_, out_.points_);
+    if (parts.negative && parts.positive) {
+      NEF_ASSERT(parts.on.has_value());
+      down(node.child[1], std::move(*parts.on), 1, [&](LeafId on, ConvexPiece&& piece) {
+        const CellId cell = tree_.leaves()[on].cell;
+        if (cell != kNoCell && wanted_facet_(cell)) pair_up(node, 1, on, std::move(piece), out_.seams_);
+      });
+    }
+    if (parts.negative) through_plane(node.child[0], std::move(*parts.negative), visit);
+    if (parts.positive) through_plane(node.child[2], std::move(*parts.positive), visit);
+  }
+
+  // Hands a piece down any subtree; parts of its own dimension arrive at leaves.
+  void down(std::uint32_t at, ConvexPiece&& piece, int dimension, const Visit& visit) {
+    if (SpaceTree::is_leaf(at)) {
+      visit(SpaceTree::leaf_of(at), std::move(piece));
+      return;
+    }
+    const SpaceTree::Node& node = tree_.nodes()[at];
+    SplitPiece parts = split(std::move(piece), node.plane, planes_, out_.points_);
+    if (parts.negative) down(node.child[0], std::move(*parts.negative), dimension, visit);
+    if (parts.positive) down(node.child[2], std::move(*parts.positive), dimension, visit);
+    if (parts.on && parts.on->dimension == dimension) down(node.child[1], std::move(*parts.on), dimension, visit);
+  }
+
+  void pair_up(const SpaceTree::Node& node, int dimension, LeafId on, ConvexPiece&& piece, std::vector<Wall>& walls) {
+    down(node.child[0], std::move(piece), dimension, [&](LeafId below, ConvexPiece&& part) {
+      down(node.child[2], std::move(part), dimension, [&](LeafId above, ConvexPiece&& wall) {
+        walls.push_back({node.plane, on, below, above, static_cast<std::uint32_t>(out_.corners_.size()),
+                         static_cast<std::uint32_t>(wall.points.size())});
+        out_.corners_.insert(out_.corners_.end(), wall.points.begin(), wall.points.end());
+      });
+    });
+  }
+
+  const SpaceTree& tree_;
+  const PlaneTable& planes_;
+  const std::function<bool(CellId)>& wanted_facet_;
+  Walls& out_;
+  std::vector<std::pair<PlaneId, int>> ancestors_;
+};
+
+namespace {
+
+// Gives every 3-dimensional leaf its volume.
+void name_volumes(const Complex& complex, const CellNumbering& cells, const std::vector<Wall>& walls, SpaceTree& tree) {
+  const std::size_t count = tree.leaves().size();
+  UnionFind same(count);
+  for (const Wall& wall : walls) {
+    if (tree.leaves()[wall.on].cell == kNoCell) same.unite(wall.below, wall.above);
+  }
+  // Without any facet there is one volume only.
+  std::vector<CellId> volume(count, complex.facet_count() == 0 ? cells.volume(0) : kNoCell);
+  for (const Wall& wall : walls) {
+    const CellId cell = tree.leaves()[wall.on].cell;
+    if (cell == kNoCell || cells.dimension(cell) != 2) continue;
+    const Facet& facet = complex.facets[cells.index(cell)];
+    volume[same.find(wall.below)] = cells.volume(facet.volume_below);
+    volume[same.find(wall.above)] = cells.volume(facet.volume_above);
+  }
+  for (LeafId leaf = 0; leaf < count; ++leaf) {
+    if (tree.leaves()[leaf].dimension == 3) tree.set_volume(leaf, volume[same.find(leaf)]);
+  }
+}
+
+}  // namespace
+
+Walls::Walls(const Complex& complex, const CellNumbering& cells, SpaceTree& tree,
+             const std::function<bool(CellId)>& wanted_facet) {
+  WallCollector(tree, wanted_facet, *this).collect(tree.root());
+  name_volumes(complex, cells, walls_, tree);
+}
+
+Rational3 Walls::centre(const Wall& wall) const {
+  Rational3 sum;
+  for (std::uint32_t i = 0; i < wall.point_count; ++i) {
+    const Rational3 x = points_.rational(corners_[wall.first_point + i]);
+    for (std::size_t k = 0; k < 3; ++k) sum[k] += x[k];
+  }
+  for (Rational& value : sum) value /= Rational(static_cast<unsigned long>(wall.point_count));
+  return sum;
+}
+
+std::array<double, 3> Walls::approximate_centre(const Wall& wall) const {
+  std::array<double, 3> sum{};
+  for (std::uint32_t i = 0; i < wall.point_count; ++i) {
+    const std::array<double, 3>& x = points_.approximate(corners_[wall.first_point + i]);
+    for (std::size_t k = 0; k < 3; ++k) sum[k] += x[k];
+  }
+  for (double& value : sum) value /= static_cast<double>(wall.point_count);
+  return sum;
+}
+
+}  // namespace nef::planner

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The pipeline: masks, contours, a box, cones, intersection.
+#include <chrono>
+
+#include "apps/visual_hull/bounds.h"
+#include "apps/visual_hull/visual_hull.h"
+#include "nef/base/error.h"
+#include "nef/construct/construct.h"
+
+namespace visual_hull {
+namespace {
+
+struct LoadedMask {
+  cv::Mat mask;
+  cv::Mat unseen;
+};
+
+class Pipeline {
+ public:
+  Pipeline(const Scene& scene, const std::filesystem::path& folder, const Options& options, const Progress& progress)
+      : scene_(scene), folder_(folder), options_(options), silhouette_(options.silhouette), progress_(progress) {
+    if (scene.threshold && silhouette_.threshold.kind == ThresholdOptions::Kind::kDefault) {
+      const bool invert = silhouette_.threshold.invert || scene.threshold->invert;
+      silhouette_.threshold = *scene.threshold;
+      silhouette_.threshold.invert = invert;
+    }
+  }
+
+  Result run() {
+    timed(result_.phases, Phase::kLoad, [this] { load(); });
+    timed(result_.phases, Phase::kContours, [this] { trace(); });
+    timed(result_.phases, Phase::kCones, [this] {
+      choose_box();
+      make_parts();
+    });
+    timed(result_.phases, Phase::kIntersection, [this] { intersect(); });
+    if (options_.verify && !result_.vanished) {
+      timed(result_.phases, Phase::kVerify, [this] { verify(); });
+    }
+    return std::move(result_);
+  }
+
+ private:
+  void tell(Phase phase, const std::string& view, std::size_t done, std::size_t total) const {
+    if (progress_) progress_(phase, view, done, total);
+  }
+
+  void load() {
+    std::vector<std::filesystem::path> images;
+    if (options_.images) {
+      images = list_images(*options_.images);
+      if (images.size() != scene_.views.size()) {
+        throw nef::InputError(options_.images->string() + " holds " + std::to_string(images.size()) +
+                              " images, but the scene has " + std::to_string(scene_.views.size()) + " views");
+      }
+    }
+    masks_.resize(scene_.views.size());
+    for (std::size_t i = 0; i < scene_.views.size(); ++i) {
+      const View& view = scene_.views[i];
+      tell(Phase::kLoad, view.name, i, scene_.views.size());
+      ViewResult entry;
+      entry.name = view.name;
+      entry.camera = view.camera;
+      if (!view.polygons) {
+        if (images.empty() && view.image.empty()) {
+          throw nef::InputError("view " + view.name + ": the scene names no image; give --images DIR or --silhouette");
+        }
+        entry.image = images.empty() ? find_image(folder_, view.image.string()) : images[i];
+        masks_[i].mask = read_mask(entry.image, view, silhouette_, &masks_[i].unseen);
+      }
+      result_.views.push_back(std::move(entry));
+    }
+  }
+
+  void trace() {
+    for (std::size_t i = 0; i < scene_.views.size(); ++i) {
+      const View& view = scene_.views[i];
+      tell(Phase::kContours, view.name, i, scene_.views.size());
+      result_.views[i].silhouette = view.polygons
+                                        ? silhouette_of_polygons(*view.polygons, view.name, silhouette_)
+                                        : silhouette_of_mask(masks_[i].mask, masks_[i].unseen, view.name, silhouette_);
+      masks_[i] = {};
+    }
+  }
+
+  void choose_box() {
+    if (options_.box || scene_.box) {
+      result_.box = options_.box ? *options_.box : *scene_.box;
+      check_box(result_.box, "box");
+      return;
+    }
+    std::vector<HalfSpace> half_spaces;
+    for (const ViewResult& view : result_.views) {
+      if (view.silhouette.background) continue;
+      const std::vector<HalfSpace> cone = convex_cone(view.camera, view.silhouette.region);
+      half_spaces.insert(half_spaces.end(), cone.begin(), cone.end());
+    }
+    const Bounds bounds = bounds_of(half_spaces);
+    if (bounds.kind == Bounds::Kind::kUnbounded) {
+      throw nef::InputError("the cones of the views do not bound the scene: give a box with --box x0,y0,z0,x1,y1,z1");
+    }
+    result_.box_found = true;
+    if (bounds.kind == Bounds::Kind::kEmpty) {
+      report_empty_bounds();
+    } else {
+      result_.box = loosen(bounds.box);
+    }
+  }
+
+  // The convex hulls of the cones have no common point: find the view that takes the last one.
+  void report_empty_bounds() {
+    std::vector<HalfSpace> half_spaces;
+    for (const ViewResult& view : result_.views) {
+      if (view.silhouette.background) continue;
+      const std::vector<HalfSpace> cone = convex_cone(view.camera, view.silhouette.region);
+      half_spaces.insert(half_spaces.end(), cone.begin(), cone.end());
+      if (bounds_of(half_spaces).kind == Bounds::Kind::kEmpty) {
+        result_.vanished = Vanished{view.name, "its cone has no point in common with what the views before it left"};
+        return;
+      }
+    }
+  }
+
+  void make_parts() {
+    if (result_.vanished) return;
+    for (std::size_t i = 0; i < result_.views.size(); ++i) {
+      ViewResult& view = result_.views[i];
+      tell(Phase::kCones, view.name, i, result_.views.size());
+      nef::Polyhedron cone = make_cone(view.camera, view.silhouette.region, result_.box);
+      view.cone_facets = nef::counts(cone).facets;
+      if (view.silhouette.background) cone = nef::complement(nef::interior(cone));
+      const auto& row = view.camera.matrix()[2];
+      parts_.push_back({std::move(cone), {row[0], row[1], row[2]}});
+    }
+  }
+
+  void intersect() {
+    if (result_.vanished) return;
+    const nef::Polyhedron box = nef::make_box(result_.box.low, result_.box.high);
+    std::vector<Part> all = parts_;
+    // A box that was found is larger than what the cones leave, but for views that keep space.
+    bool needed = !result_.box_found;
+    for (const ViewResult& view : result_.views) needed = needed || view.silhouette.background;
+    if (needed) all.push_back({box, {}});
+    result_.hull = intersect_parts(
+        std::move(all), [this](std::size_t done, std::size_t total) { tell(Phase::kIntersection, "", done, total); });
+    if (result_.hull.is_empty()) {
+      const std::size_t view = vanishes_at(parts_, box, false).value_or(parts_.size() - 1);
+      result_.vanished = Vanished{result_.views[view].name, describe(view)};
+    } else if (nef::interior(result_.hull).is_empty()) {
+      const std::size_t view = vanishes_at(parts_, box, true).value_or(parts_.size() - 1);
+      result_.vanished =
+          Vanished{result_.views[view].name, "what it leaves has no volume (only points, edges or facets)"};
+    }
+  }
+
+  std::string describe(std::size_t index) const {
+    const ViewResult& view = result_.views[index];
+    if (sgn(depth_range(view.camera, result_.box).farthest) <= 0) {
+      return "the whole box lies behind its camera (a matrix of the other sign?)";
+    }
+    return "its cone has no point in common with what the views before it left of the box";
+  }
+
+  void verify() {
+    for (std::size_t i = 0; i < result_.views.size(); ++i) {
+      ViewResult& view = result_.views[i];
+      tell(Phase::kVerify, view.name, i, result_.views.size());
+      if (view.silhouette.background) {
+        Verification check;
+        check.inside = nef::subtract(result_.hull, parts_[i].solid).is_empty();
+        if (!check.inside) check.problem = "a part of the hull is seen as background";
+        check.area_known = false;
+        view.verification = check;
+      } else {
+        view.verification = verify_view(result_.hull, view.camera, view.silhouette.region);
+      }
+    }
+  }
+
+  const Scene& scene_;
+  std::filesystem::path folder_;
+  const Options& options_;
+  SilhouetteOptions silhouette_;
+  const Progress& progress_;
+  std::vector<LoadedMask> masks_;
+  std::vector<Part> parts_;
+  Result result_;
+};
+
+}  // namespace
+
+const char* phase_name(Phase phase) {
+  static constexpr std::array<const char*, kPhaseCount> kNames{"load",         "contours", "cones",
+                                                               "intersection", "verify",   "write"};
+  return kNames[static_cast<std::size_t>(phase)];
+}
+
+void timed(PhaseReports& reports, Phase phase, const std::function<void()>& work) {
+  const auto start = std::chrono::steady_clock::now();
+  const nef::PredicateCounts before = nef::predicate_counts();
+  work();
+  const nef::PredicateCounts& after = nef::predicate_counts();
+  PhaseReport& report = reports[static_cast<std::size_t>(phase)];
+  report.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  report.predicates.identity += after.identity - before.identity;
+  report.predicates.filter += after.filter - before.filter;
+  report.predicates.exact += after.exact - before.exact;
+}
+
+Result compute(const Scene& scene, const std::filesystem::path& folder, const Options& options,
+               const Progress& progress) {
+  return Pipeline(scene, folder, options, progress).run();
+}
+
+}  // namespace visual_hull

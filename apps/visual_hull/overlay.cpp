@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/visual_hull/overlay.h"
+
+#include <algorithm>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "apps/visual_hull/edge_grid.h"
+#include "nef/base/error.h"
+
+namespace visual_hull {
+namespace {
+
+using Vec = std::array<double, 2>;
+constexpr int kShift = 4;  // OpenCV draws to sixteenths of a pixel
+
+/// From image coordinates to those of OpenCV's drawing, whose whole numbers are centres of pixels.
+struct Frame {
+  double scale = 1;
+  double u0 = 0;
+  double v0 = 0;
+
+  cv::Point operator()(const Vec& p) const {
+    const auto fixed = [](double value) { return static_cast<int>(std::clamp(value, -1e5, 1e5) * (1 << kShift)); };
+    return {fixed((p[0] - u0) * scale), fixed((p[1] - v0) * scale)};
+  }
+};
+
+cv::Mat load_canvas(const ViewResult& view, PixelOrigin origin, Frame& frame) {
+  if (!view.image.empty()) {
+    cv::Mat image = cv::imread(view.image.string(), cv::IMREAD_COLOR);
+    if (!image.empty()) {
+      if (origin == PixelOrigin::kCorner) frame.u0 = frame.v0 = 0.5;
+      return image;
+    }
+  }
+  Rectangle box;
+  for (const Ring& ring : view.silhouette.region.rings) {
+    for (const Point2& p : ring) box.add(p.approximate);
+  }
+  const double width = box.high[0] - box.low[0];
+  const double height = box.high[1] - box.low[1];
+  constexpr double kLong = 760;
+  constexpr double kMargin = 20;
+  frame.scale = kLong / std::max(width, height);
+  frame.u0 = box.low[0] - kMargin / frame.scale;
+  frame.v0 = box.low[1] - kMargin / frame.scale;
+  return {static_cast<int>(height * frame.scale + 2 * kMargin), static_cast<int>(width * frame.scale + 2 * kMargin),
+          CV_8UC3, cv::Scalar(255, 255, 255)};
+}
+
+// Names of views may hold folders and what not.
+std::string file_name(const ViewResult& view, std::size_t index) {
+  std::string name = std::filesystem::path(view.name).filename().string();
+  for (char& c : name) {
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-' && c != '_' && c != '.') c = '_';
+  }
+  const std::string number = std::to_string(index + 1);
+  return std::string(number.size() < 3 ? 3 - number.size() : 0, '0') + number + "_" + name + ".png";
+}
+
+}  // namespace
+
+cv::Mat draw_overlay(const ViewResult& view, const nef::Polyhedron& hull, PixelOrigin origin) {
+  Frame frame;
+  cv::Mat canvas = load_canvas(view, origin, frame);
+  cv::Mat filled = canvas.clone();
+  std::vector<std::vector<cv::Point>> lines;
+  for (const auto& facet : project_facets(hull, view.camera)) {
+    std::vector<std::vector<cv::Point>> cycles;
+    for (const auto& cycle : facet) {
+      cycles.emplace_back();
+      for (const Vec& p : cycle) cycles.back().push_back(frame(p));
+    }
+    cv::fillPoly(filled, cycles, cv::Scalar(230, 120, 40), cv::LINE_8, kShift);
+    lines.insert(lines.end(), cycles.begin(), cycles.end());
+  }
+  cv::polylines(filled, lines, true, cv::Scalar(140, 60, 0), 1, cv::LINE_AA, kShift);
+  cv::addWeighted(canvas, 0.5, filled, 0.5, 0, canvas);
+  std::vector<std::vector<cv::Point>> outline;
+  for (const Ring& ring : view.silhouette.region.rings) {
+    outline.emplace_back();
+    for (const Point2& p : ring) outline.back().push_back(frame(p.approximate));
+  }
+  cv::polylines(canvas, outline, true, cv::Scalar(0, 0, 255), 1, cv::LINE_AA, kShift);
+  return canvas;
+}
+
+void write_overlays(const Result& result, PixelOrigin origin, const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (!std::filesystem::is_directory(folder, error)) {
+    throw nef::InputError("--overlay: cannot make the directory " + folder.string());
+  }
+  for (std::size_t i = 0; i < result.views.size(); ++i) {
+    const std::filesystem::path file = folder / file_name(result.views[i], i);
+    const cv::Mat picture = draw_overlay(result.views[i], result.hull, origin);
+    const std::filesystem::path temporary = folder / (".part_" + file.filename().string());
+    if (!cv::imwrite(temporary.string(), picture)) throw nef::InputError("cannot write " + file.string());
+    std::filesystem::rename(temporary, file, error);
+    if (error) throw nef::InputError("cannot write " + file.string() + ": " + error.message());
+  }
+}
+
+}  // namespace visual_hull

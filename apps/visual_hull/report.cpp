@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/visual_hull/report.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+
+namespace visual_hull {
+namespace {
+
+using json = nlohmann::ordered_json;
+
+json box_json(const WorldBox& box) {
+  json list = json::array();
+  for (const Rational3* corner : {&box.low, &box.high}) {
+    for (const Rational& c : *corner) list.push_back(nef::to_string(c));
+  }
+  return list;
+}
+
+json predicates_json(const nef::PredicateCounts& counts) {
+  return {{"identity", counts.identity}, {"filter", counts.filter}, {"exact", counts.exact}};
+}
+
+json view_json(const ViewResult& view) {
+  const ViewSilhouette& s = view.silhouette;
+  json entry{{"name", view.name},
+             {"image", view.image.string()},
+             {"contours", s.contours},
+             {"holes", s.holes},
+             {"contour_vertices", s.contour_vertices},
+             {"polygon_vertices", s.region.vertex_count()},
+             {"cone_facets", view.cone_facets},
+             {"cut_by_frame", s.cut_by_frame},
+             {"keeps_unseen", s.background}};
+  if (s.image_size.area() > 0) entry["image_size"] = {s.image_size.width, s.image_size.height};
+  return entry;
+}
+
+json result_json(const Result& result) {
+  const nef::Polyhedron& hull = result.hull;
+  const nef::Counts counts = nef::counts(hull);
+  json entry{{"vertices", counts.vertices}, {"edges", counts.edges},      {"facets", counts.facets},
+             {"volumes", counts.volumes},   {"shells", counts.shells},    {"bounded", hull.is_bounded()},
+             {"open", hull.is_open()},      {"closed", hull.is_closed()}, {"regular", hull.is_regular()}};
+  const std::optional<Rational> volume = nef::volume(hull);
+  entry["volume"] = volume ? json(nef::to_string(*volume)) : json(nullptr);
+  entry["volume_double"] = volume ? json(nef::nearest_double(*volume)) : json(nullptr);
+  entry["area"] = nef::surface_area(hull);
+  const auto box = nef::bounding_box(hull);
+  json corners = nullptr;
+  if (box) {
+    corners = json::array();
+    for (const Rational3& corner : *box) {
+      json point = json::array();
+      for (const Rational& c : corner) point.push_back(nef::nearest_double(c));
+      corners.push_back(point);
+    }
+  }
+  entry["bbox"] = corners;
+  const std::vector<long> euler = nef::euler_numbers(hull);
+  entry["euler_numbers"] = euler;
+  return entry;
+}
+
+json verify_json(const Result& result) {
+  json list = json::array();
+  for (const ViewResult& view : result.views) {
+    if (!view.verification) continue;
+    const Verification& v = *view.verification;
+    json entry{{"view", view.name}, {"inside", v.inside}};
+    if (!v.problem.empty()) entry["problem"] = v.problem;
+    entry["symmetric_difference_px"] = v.area_known ? json(v.difference_area) : json(nullptr);
+    entry["silhouette_px"] = v.area_known ? json(v.silhouette_area) : json(nullptr);
+    list.push_back(entry);
+  }
+  return list;
+}
+
+}  // namespace
+
+std::size_t peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
+}
+
+nlohmann::ordered_json make_report(const Result& result) {
+  json report;
+  report["views"] = json::array();
+  for (const ViewResult& view : result.views) report["views"].push_back(view_json(view));
+  report["box"] = box_json(result.box);
+  report["box_found"] = result.box_found;
+  nef::PredicateCounts total;
+  bool verified = false;
+  for (const ViewResult& view : result.views) verified = verified || view.verification.has_value();
+  for (std::size_t i = 0; i < kPhaseCount; ++i) {
+    const PhaseReport& phase = result.phases[i];
+    if (static_cast<Phase>(i) == Phase::kVerify && !verified) continue;
+    report["phases"][phase_name(static_cast<Phase>(i))] = {{"seconds", phase.seconds},
+                                                           {"predicates", predicates_json(phase.predicates)}};
+    total.identity += phase.predicates.identity;
+    total.filter += phase.predicates.filter;
+    total.exact += phase.predicates.exact;
+  }
+  report["predicates"] = predicates_json(total);
+  report["result"] = result_json(result);
+  if (result.vanished) report["vanished"] = {{"view", result.vanished->view}, {"reason", result.vanished->reason}};
+  if (verified) report["verify"] = verify_json(result);
+  report["peak_memory_bytes"] = peak_memory();
+  return report;
+}
+
+std::string summary(const Result& result) {
+  const nef::Counts counts = nef::counts(result.hull);
+  const std::optional<Rational> volume = nef::volume(result.hull);
+  double seconds = 0;
+  for (const PhaseReport& phase : result.phases) seconds += phase.seconds;
+  std::size_t vertices = 0;
+  for (const ViewResult& view : result.views) vertices += view.silhouette.region.vertex_count();
+  return fmt::format(
+      "{} views, {} polygon vertices -> hull with {} vertices, {} edges, {} facets, volume {:.6g} ({:.3g} s)",
+      result.views.size(), vertices, counts.vertices, counts.edges, counts.facets,
+      volume ? nef::nearest_double(*volume) : 0.0, seconds);
+}
+
+}  // namespace visual_hull

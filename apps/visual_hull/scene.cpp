@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/visual_hull/scene.h"
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include "apps/visual_hull/scene_json.h"
+#include "apps/visual_hull/scene_text.h"
+#include "apps/visual_hull/vsh.h"
+#include "nef/base/error.h"
+
+namespace visual_hull {
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::vector<std::string>& image_extensions() {
+  static const std::vector<std::string> extensions{".png",  ".pgm", ".pbm",  ".bmp", ".tif",
+                                                   ".tiff", ".jpg", ".jpeg", ".ppm", ".webp"};
+  return extensions;
+}
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text;
+}
+
+}  // namespace
+
+std::string read_text(const fs::path& file) {
+  std::error_code error;
+  if (fs::is_directory(file, error)) throw nef::InputError(file.string() + " is a directory, not a file");
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw nef::InputError(file.string() + ": cannot open the file");
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+ThresholdOptions parse_threshold(const std::string& text) {
+  ThresholdOptions options;
+  if (text == "otsu") {
+    options.kind = ThresholdOptions::Kind::kOtsu;
+    return options;
+  }
+  options.kind = ThresholdOptions::Kind::kValue;
+  try {
+    options.value = nef::nearest_double(nef::parse_rational(text));
+  } catch (const nef::InputError&) {
+    throw nef::InputError("threshold '" + text + "' is neither a number nor otsu");
+  }
+  return options;
+}
+
+void check_box(const WorldBox& box, const std::string& where) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (box.low[i] >= box.high[i]) {
+      throw nef::InputError(where + ": the box is empty or flat along " + std::string(1, "xyz"[i]) + " (" +
+                            nef::to_string(box.low[i]) + " to " + nef::to_string(box.high[i]) + ")");
+    }
+  }
+}
+
+WorldBox parse_box(const std::string& text) {
+  std::vector<Rational> numbers;
+  std::stringstream stream(text);
+  std::string token;
+  while (std::getline(stream, token, ',')) {
+    try {
+      numbers.push_back(nef::parse_rational(token));
+    } catch (const nef::InputError&) {
+      throw nef::InputError("--box: '" + token + "' is not a number");
+    }
+  }
+  if (numbers.size() != 6) {
+    throw nef::InputError("--box: six numbers x0,y0,z0,x1,y1,z1 are needed, not " + std::to_string(numbers.size()));
+  }
+  WorldBox box{{numbers[0], numbers[1], numbers[2]}, {numbers[3], numbers[4], numbers[5]}};
+  check_box(box, "--box");
+  return box;
+}
+
+fs::path find_image(const fs::path& folder, const std::string& name) {
+  const fs::path given(name);
+  for (const char* sub : {"", "masks", "silhouettes", "images"}) {
+    const fs::path base = folder / sub / given;
+    std::error_code error;
+    if (fs::is_regular_file(base, error)) return base;
+    for (const std::string& extension : image_extensions()) {
+      const fs::path candidate(base.string() + extension);
+      if (fs::is_regular_file(candidate, error)) return candidate;
+    }
+  }
+  throw nef::InputError("view " + name + ": there is no image " + (folder / given).string() +
+                        ", with or without a usual extension, nor one in masks/, silhouettes/ or images/ there");
+}
+
+std::vector<fs::path> list_images(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) throw nef::InputError(folder.string() + " is not a directory of images");
+  std::vector<fs::path> images;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const std::string extension = lower(entry.path().extension().string());
+    const auto& known = image_extensions();
+    if (entry.is_regular_file() && std::find(known.begin(), known.end(), extension) != known.end()) {
+      images.push_back(entry.path());
+    }
+  }
+  std::sort(images.begin(), images.end());
+  return images;
+}
+
+Scene read_scene(const fs::path& file) {
+  const std::string text = read_text(file);
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  if (first == std::string::npos) throw nef::InputError(file.string() + ": the file is empty");
+  if (text[first] == '{') return read_json_scene(text, file);
+  if (lower(file.extension().string()) == ".vsh") return read_vsh(text, file);
+  return read_text_scene(text, file);
+}
+
+}  // namespace visual_hull

@@ -56,15 +56,15 @@ TEST_CASE("the simplest rational of an interval is the one that brute force find
   CHECK(simplest_between(Rational(-7, 2), Rational(-10, 3)) == Rational(-7, 2));
   CHECK(simplest_between(Rational(-1, 5), Rational(1, 7)) == 0);
   CHECK_THROWS_AS(simplest_between(1, 0), InputError);
-  rc::check("simplest_between", [] {
+  CHECK(rc::check("simplest_between", [] {
     const Rational low = Rational(*rc::gen::inRange(-300, 300)) / *rc::gen::inRange(1, 40);
     const Rational high = low + Rational(*rc::gen::inRange(0, 30)) / *rc::gen::inRange(1, 40);
     RC_ASSERT(simplest_between(low, high) == brute_simplest(low, high));
-  });
+  }));
 }
 
 TEST_CASE("rotations are orthogonal and within tolerance, about any axis") {
-  rc::check("rotation", [] {
+  CHECK(rc::check("rotation", [] {
     Rational3 axis;
     for (Rational& x : axis) x = Rational(*rc::gen::inRange(-9, 10)) / *rc::gen::inRange(1, 5);
     RC_PRE(axis[0] != 0 || axis[1] != 0 || axis[2] != 0);
@@ -75,7 +75,7 @@ TEST_CASE("rotations are orthogonal and within tolerance, about any axis") {
     RC_ASSERT(map(axis) == axis);
     double error = std::fabs(std::remainder(angle_of(map, axis) - degrees, 360));
     RC_ASSERT(error <= tolerance + 1e-11);
-  });
+  }));
 }
 
 TEST_CASE("quarter turns are exact") {

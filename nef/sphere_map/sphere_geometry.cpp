@@ -128,10 +128,6 @@ SphereLocation locate(const PlaneTable& planes, const SphereMapView& map, const 
       return {Kind::kSHalfedge, i};
     }
   }
-  if (goal == kNone) {
-    // The antipode is the only svertex and no arc reaches the query: it is isolated.
-    return {Kind::kSFace, map.svertices[0].sface};
-  }
   if (!map.sloops.empty()) {
     // The walk may have to cross the loop's circle: then the loop may be what it meets first, and
     // an svertex on the query's own side is a better goal. If there is none, the loop bounds.
@@ -142,6 +138,10 @@ SphereLocation locate(const PlaneTable& planes, const SphereMapView& map, const 
     }
     if (same_side == kNone) return {Kind::kSFace, map.sloops[side > 0 ? 0 : 1].sface};
     goal = same_side;
+  }
+  if (goal == kNone) {
+    // The antipode is the only svertex and no arc reaches the query: it is isolated.
+    return {Kind::kSFace, map.svertices[0].sface};
   }
   const FirstHit hit = walk(planes, map, direction, goal);
   if (!hit.is_vertex) return {Kind::kSFace, map.shalfedges[hit.index].sface};

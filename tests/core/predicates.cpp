@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Predicates at and near their zeros: the answer is exact, and the counters tell which stage gave it.
+#include "nef/geometry/predicates.h"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+#include "nef/base/error.h"
+
+namespace nef::test {
+namespace {
+
+Integer power(unsigned long base, unsigned long exponent) {
+  Integer result;
+  mpz_ui_pow_ui(result.get_mpz_t(), base, exponent);
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("coplanar means the same row, whatever the scale and the side") {
+  PlaneTable planes;
+  const PlaneId a = planes.intern(2, 4, -6, 8);
+  CHECK(planes.intern(1, 2, -3, 4) == a);
+  CHECK(planes.intern(-3, -6, 9, -12) == a.opposite());
+  CHECK(planes.intern(Rational3{Rational(1, 6), Rational(1, 3), Rational(-1, 2)}, Rational(2, 3)) == a);
+  CHECK(planes.size() == 1);
+  CHECK(planes.intern(1, 2, -3, 5).row() != a.row());
+}
+
+TEST_CASE("side of plane: far by the filter, on it exactly, beside it exactly") {
+  PlaneTable planes;
+  PointTable points;
+  const PlaneId plane = planes.intern(1, 1, 1, -1);
+  const PointId on = points.push({Rational(1, 3), Rational(1, 3), Rational(1, 3)});
+  const Rational tiny(Integer(1), power(10, 40));
+  const PointId above = points.push({Rational(1, 3), Rational(1, 3), Rational(1, 3) + tiny});
+  const PointId below = points.push({Rational(1, 3), Rational(1, 3), Rational(1, 3) - tiny});
+  const PointId far = points.push({5, 6, 7});
+  const PredicateCounts before = predicate_counts();
+  CHECK(side_of_plane(planes, plane, points, far) == 1);
+  CHECK(predicate_counts().filter == before.filter + 1);
+  CHECK(predicate_counts().exact == before.exact);
+  CHECK(side_of_plane(planes, plane, points, on) == 0);
+  CHECK(side_of_plane(planes, plane, points, above) == 1);
+  CHECK(side_of_plane(planes, plane, points, below) == -1);
+  CHECK(side_of_plane(planes, plane.opposite(), points, above) == -1);
+  CHECK(predicate_counts().filter == before.filter + 1);
+  CHECK(predicate_counts().exact == before.exact + 4);
+}
+
+TEST_CASE("coordinates beyond the range of doubles are compared exactly") {
+  PlaneTable planes;
+  PointTable points;
+  const Integer huge = power(10, 400);
+  const PointId a = points.push({Rational(huge), 0, 0});
+  const PointId b = points.push({Rational(huge) + 1, 0, 0});
+  const PointId c = points.push({Rational(Integer(1), huge), 0, 0});
+  const PointId zero = points.push({0, 0, 0});
+  CHECK(compare_coordinate(points, a, b, 0) == -1);
+  CHECK(compare_coordinate(points, b, a, 0) == 1);
+  CHECK(compare_coordinate(points, c, zero, 0) == 1);
+  CHECK(compare_lexicographic(points, a, a) == 0);
+  CHECK(compare_lexicographic(points, zero, c) == -1);
+  const PlaneId plane = planes.intern(1, 0, 0, Integer(-huge));
+  CHECK(side_of_plane(planes, plane, points, a) == 0);
+  CHECK(side_of_plane(planes, plane, points, b) == 1);
+  CHECK(side_of_plane(planes, plane, points, c) == -1);
+}
+
+TEST_CASE("three planes meet in a point that lies on them") {
+  PlaneTable planes;
+  PointTable points;
+  const PlaneId p = planes.intern(3, 5, 7, 11);
+  const PlaneId q = planes.intern(2, -1, 4, 13);
+  const PlaneId r = planes.intern(1, 1, -9, 17);
+  const std::optional<PointId> point = points.push_intersection(planes, p, q.opposite(), r);
+  REQUIRE(point);
+  for (const PlaneId plane : {p, q, r}) CHECK(side_of_plane(planes, plane, points, *point) == 0);
+  const PlaneId parallel = planes.intern(3, 5, 7, 12);
+  CHECK_FALSE(points.push_intersection(planes, p, parallel, r));
+  const PlaneId through_line = planes.intern(5, 4, 11, 24);  // p + q
+  CHECK_FALSE(points.push_intersection(planes, p, q, through_line));
+}
+
+TEST_CASE("infimaximal points and planes: R is greater than every number") {
+  PlaneTable planes;
+  PointTable points;
+  const PlaneId wall = planes.intern(1, 0, 0, 0, -1);  // x = R
+  const PlaneId y = planes.intern(0, 1, 0, -5);
+  const PlaneId z = planes.intern(0, 0, 1, 0);
+  const std::optional<PointId> at_wall = points.push_intersection(planes, wall, y, z);
+  REQUIRE(at_wall);
+  CHECK_FALSE(points.finite(*at_wall));
+  CHECK(side_of_plane(planes, wall, points, *at_wall) == 0);
+  CHECK(side_of_plane(planes, y, points, *at_wall) == 0);
+  const PointId far = points.push({Rational(power(10, 100)), 5, 0});
+  CHECK(side_of_plane(planes, wall, points, far) == -1);
+  CHECK(compare_coordinate(points, *at_wall, far, 0) == 1);
+  CHECK(compare_coordinate(points, *at_wall, far, 1) == 0);
+  const PlaneId x = planes.intern(1, 0, 0, Integer(-power(10, 100)));
+  CHECK(side_of_plane(planes, x, points, *at_wall) == 1);
+}
+
+TEST_CASE("directions: equality by identity, by filter, exactly") {
+  PlaneTable planes;
+  const PlaneId p = planes.intern(1, 2, 3, 0);
+  const PlaneId q = planes.intern(3, -1, 2, 0);
+  const PlaneId r = planes.intern(4, 1, 5, 0);  // p + q: through the same line
+  const Direction d = Direction::cross(planes, p, q);
+  PredicateCounts before = predicate_counts();
+  CHECK(same_direction(d, Direction::cross(planes, p, q)));
+  CHECK(predicate_counts().identity == before.identity + 1);
+  before = predicate_counts();
+  CHECK(same_direction(d, Direction::cross(planes, p, r)));
+  CHECK(predicate_counts().exact > before.exact);
+  CHECK_FALSE(same_direction(d, Direction::cross(planes, r, p)));
+  CHECK(same_direction(d.negated(), Direction::cross(planes, q, p)));
+  CHECK(same_direction(d.negated(), Direction::cross(planes, p.opposite(), q)));
+  before = predicate_counts();
+  CHECK_FALSE(same_direction(d, Direction::exact(1, 0, 0)));
+  CHECK(predicate_counts().filter == before.filter + 1);
+  CHECK(side_of_circle(planes, p, d) == 0);
+  CHECK(side_of_circle(planes, r, d) == 0);
+}
+
+TEST_CASE("directions of nearly parallel planes are told apart") {
+  PlaneTable planes;
+  const Integer big = power(10, 40);
+  const PlaneId p = planes.intern(big, 0, 1, 0);
+  const PlaneId q = planes.intern(big, 1, 0, 0);
+  const PlaneId s = planes.intern(Integer(big + 1), 1, 0, 0);
+  const Direction pq = Direction::cross(planes, p, q);
+  const Direction ps = Direction::cross(planes, p, s);
+  CHECK_FALSE(pq.is_zero());
+  CHECK_FALSE(same_direction(pq, ps));
+  CHECK(sign_of_dot(Direction::normal(planes, p), pq) == 0);
+  CHECK(sign_of_dot(Direction::normal(planes, s), pq) != 0);
+  CHECK(sign_of_determinant(Direction::normal(planes, p), Direction::normal(planes, q), pq) > 0);
+}
+
+// The filters against the integers, on small vectors where zeros are common.
+TEST_CASE("signs of determinants agree with integer arithmetic") {
+  std::uint64_t state = 12345;
+  const auto next = [&state] {
+    state = state * 6364136223846793005ULL + 1442695040888963407ULL;
+    return static_cast<long>(state >> 33U) % 5 - 2;
+  };
+  for (int i = 0; i < 3000; ++i) {
+    long v[3][3];
+    for (auto& row : v) {
+      do {
+        for (long& x : row) x = next();
+      } while (row[0] == 0 && row[1] == 0 && row[2] == 0);
+    }
+    const Direction a = Direction::exact(v[0][0], v[0][1], v[0][2]);
+    const Direction b = Direction::exact(v[1][0], v[1][1], v[1][2]);
+    const Direction c = Direction::exact(v[2][0], v[2][1], v[2][2]);
+    const long det = v[0][0] * (v[1][1] * v[2][2] - v[1][2] * v[2][1]) -
+                     v[0][1] * (v[1][0] * v[2][2] - v[1][2] * v[2][0]) +
+                     v[0][2] * (v[1][0] * v[2][1] - v[1][1] * v[2][0]);
+    const long dot = v[0][0] * v[1][0] + v[0][1] * v[1][1] + v[0][2] * v[1][2];
+    REQUIRE(sign_of_determinant(a, b, c) == (det > 0) - (det < 0));
+    REQUIRE(sign_of_dot(a, b) == (dot > 0) - (dot < 0));
+    const bool parallel = v[0][1] * v[1][2] == v[0][2] * v[1][1] && v[0][2] * v[1][0] == v[0][0] * v[1][2] &&
+                          v[0][0] * v[1][1] == v[0][1] * v[1][0];
+    REQUIRE(same_direction(a, b) == (parallel && dot > 0));
+  }
+}
+
+}  // namespace nef::test

@@ -25,6 +25,10 @@ Item FacetLocator::locate(std::uint32_t facet, PointId point) {
   Box ray;
   ray.add_rounded(points.approximate(point));
   ray.low[static_cast<std::size_t>(axes.first)] = -HUGE_VAL;
+  // Along the ray the third coordinate follows the plane.
+  const auto third = static_cast<std::size_t>(3 - axes.first - axes.second);
+  ray.low[third] = -HUGE_VAL;
+  ray.high[third] = HUGE_VAL;
   Item found;
   bool inside = false;
   for_each_edge(facet, ray, [&](std::uint32_t halfedge) {

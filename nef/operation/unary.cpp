@@ -44,24 +44,21 @@ class MarkChanger {
   }
 
   void load(const SphereMapView& map) {
-    drawing_.clear();
+    drawing_.load(c_.planes, map);
     drawing_.centre = lower_;
-    const auto face = [&](std::uint32_t sface) { return volume_mark(map.sfaces[sface].mark); };
-    drawing_.background = face(0);
-    for (const SVertex& v : map.svertices) {
-      Arrangement::Node node;
-      node.direction = direction_of(c_.planes, v);
+    drawing_.background = volume_mark(drawing_.background);
+    for (Arrangement::Node& node : drawing_.nodes) {
       node.mark = lower_;
-      node.around = v.out == kNone ? face(v.sface) : LabelId{0};
-      drawing_.nodes.push_back(std::move(node));
+      node.around = volume_mark(node.around);
     }
-    for (std::uint32_t e = 0; e < map.shalfedges.size(); e += 2) {
-      drawing_.arcs.push_back({map.shalfedges[e].plane, map.shalfedges[e].source, map.target(e), lower_,
-                               face(map.shalfedges[e].sface), face(map.shalfedges[e + 1].sface)});
+    for (Arrangement::Arc& arc : drawing_.arcs) {
+      arc.mark = lower_;
+      arc.left = volume_mark(arc.left);
+      arc.right = volume_mark(arc.right);
     }
-    if (!map.sloops.empty()) {
-      drawing_.circle = {true, map.sloops[0].plane, lower_, face(map.sloops[0].sface), face(map.sloops[1].sface)};
-    }
+    drawing_.circle.mark = lower_;
+    drawing_.circle.left = volume_mark(drawing_.circle.left);
+    drawing_.circle.right = volume_mark(drawing_.circle.right);
   }
 
   // Items on the infimaximal box are no boundary items: each is the trace of an item that would go
@@ -125,7 +122,9 @@ Polyhedron complement(const Polyhedron& a) {
   return Polyhedron(std::move(c));
 }
 
-Polyhedron interior(const Polyhedron& a) { return Polyhedron(MarkChanger(a.complex(), Lower::kClear, Volumes::kKeep).run()); }
+Polyhedron interior(const Polyhedron& a) {
+  return Polyhedron(MarkChanger(a.complex(), Lower::kClear, Volumes::kKeep).run());
+}
 
 Polyhedron closure(const Polyhedron& a) {
   return Polyhedron(MarkChanger(a.complex(), Lower::kSelect, Volumes::kKeep).run());

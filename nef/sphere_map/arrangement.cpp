@@ -17,6 +17,27 @@ void Arrangement::clear() {
   centre = 0;
 }
 
+void Arrangement::load(const PlaneTable& planes, const SphereMapView& map) {
+  clear();
+  centre = map.mark;
+  const auto face = [&map](std::uint32_t sface) { return map.sfaces[sface].mark; };
+  background = face(0);
+  for (const SVertex& v : map.svertices) {
+    Node node;
+    node.direction = direction_of(planes, v);
+    node.mark = v.mark;
+    node.around = v.out == kNone ? face(v.sface) : LabelId{0};
+    nodes.push_back(std::move(node));
+  }
+  for (std::uint32_t e = 0; e < map.shalfedges.size(); e += 2) {
+    const SHalfedge& half = map.shalfedges[e];
+    arcs.push_back({half.plane, half.source, map.target(e), half.mark, face(half.sface), face(map.shalfedges[e + 1].sface)});
+  }
+  if (!map.sloops.empty()) {
+    circle = {true, map.sloops[0].plane, map.sloops[0].mark, face(map.sloops[0].sface), face(map.sloops[1].sface)};
+  }
+}
+
 void Arrangement::sort_around_nodes(const PlaneTable& planes) {
   for (Node& node : nodes) node.degree = 0;
   for (const Arc& arc : arcs) {

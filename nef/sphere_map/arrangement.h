@@ -46,6 +46,10 @@ class Arrangement {
 
   void clear();
 
+  /// Draws a finished map anew, with its marks, so that these can be changed before it is
+  /// simplified again.
+  void load(const PlaneTable& planes, const SphereMapView& map);
+
   /// Step 1: orders the halves that leave each node counterclockwise. Interiors of arcs must be
   /// disjoint and free of nodes.
   void sort_around_nodes(const PlaneTable& planes);

@@ -46,6 +46,7 @@ std::vector<ReflexEdge> reflex_edges(const Complex& complex) {
     edge.axis = vertical ? 1 : 2;
     if (sv.out == kNone) {
       if (!selected(complex.sfaces[vertex.sfaces + sv.sface].mark)) continue;
+      edge.volume = complex.sface_volume(vertex.sfaces + sv.sface);
       edge.inside = {true, true};
       result.push_back(edge);
       continue;
@@ -59,6 +60,7 @@ std::vector<ReflexEdge> reflex_edges(const Complex& complex) {
       const int turn = orientation_around(complex.planes, d, first, second);
       const bool reflex = turn < 0 || (turn == 0 && e == next);
       if (reflex && selected(map.sfaces[map.shalfedges[e].sface].mark)) {
+        edge.volume = complex.sface_volume(vertex.sfaces + map.shalfedges[e].sface);
         edge.inside = inside_wedge(complex, d, first, second, edge.axis);
         result.push_back(edge);
       }

@@ -15,6 +15,7 @@ namespace nef::minkowski {
 /// without such edges (and without missing points) is convex.
 struct ReflexEdge {
   std::uint32_t halfedge = 0;
+  std::uint32_t volume = 0;
   int axis = 2;                  ///< walls go along z; for an edge parallel to z, along y
   std::array<bool, 2> inside{};  ///< whether the volume goes on from the edge against / along the axis
 };

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "apps/minkowski/reflex.h"
-#include "apps/minkowski/sight_wall.h"
+#include "apps/minkowski/wall_builder.h"
 #include "nef/base/error.h"
 #include "nef/construct/construct.h"
 

@@ -62,6 +62,10 @@ std::vector<std::uint32_t> PlaneRay::owners_with_odd_parity(std::uint32_t vertex
   Box ray;
   ray.add_rounded(c_.points.approximate(v));
   ray.low[static_cast<std::size_t>(axes_.first)] = -HUGE_VAL;
+  // Along the ray the third coordinate follows the plane.
+  const auto third = static_cast<std::size_t>(3 - axes_.first - axes_.second);
+  ray.low[third] = -HUGE_VAL;
+  ray.high[third] = HUGE_VAL;
   std::vector<std::uint32_t> crossed;
   tree_.for_each_overlap(ray, [&](std::uint32_t i) {
     const PlaneRayEdge& edge = edges_[i];

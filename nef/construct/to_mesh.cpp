@@ -132,9 +132,20 @@ class Exporter {
     return rings;
   }
 
-  static bool simple(std::vector<std::uint32_t> ring) {
-    std::sort(ring.begin(), ring.end());
-    return std::adjacent_find(ring.begin(), ring.end()) == ring.end();
+  // A ring that meets itself is no polygon for most readers.
+  bool may_stay_polygon(const std::vector<std::uint32_t>& ring) {
+    if (options_.polygon_corner) {
+      passes_.resize(result_.mesh.vertices.size(), Answer::kUnknown);
+      for (const std::uint32_t v : ring) {
+        if (passes_[v] == Answer::kUnknown) {
+          passes_[v] = options_.polygon_corner(result_.mesh.vertices[v]) ? Answer::kYes : Answer::kNo;
+        }
+        if (passes_[v] == Answer::kNo) return false;
+      }
+    }
+    std::vector<std::uint32_t> sorted(ring);
+    std::sort(sorted.begin(), sorted.end());
+    return std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end();
   }
 
   void write_facets() {
@@ -146,7 +157,7 @@ class Exporter {
       // Cycles turn counterclockwise as seen from above, which is outside if the solid lies below.
       const bool flip = volumes_[facet.volume_above].selected;
       std::vector<std::vector<std::uint32_t>> rings = rings_of(facet);
-      if (options_.keep_polygons && rings.size() == 1 && simple(rings[0])) {
+      if (options_.keep_polygons && rings.size() == 1 && (rings[0].size() == 3 || may_stay_polygon(rings[0]))) {
         if (flip) std::reverse(rings[0].begin(), rings[0].end());
         result_.mesh.push_face(rings[0]);
         continue;
@@ -225,11 +236,14 @@ class Exporter {
     if (cracks_.any()) lost.push_back("what is missing inside the solids is filled in the mesh: " + list(cracks_));
   }
 
+  enum class Answer : std::uint8_t { kUnknown, kYes, kNo };
+
   const Complex& complex_;
   const MeshExportOptions& options_;
   std::vector<Sides> volumes_;
   std::vector<std::uint32_t> boundary_;  // facets
   std::vector<std::uint32_t> number_;    // in the mesh, of each vertex
+  std::vector<Answer> passes_;           // of each vertex of the mesh: may it be a corner of a polygon?
   std::size_t lost_volumes_ = 0;
   Items flat_;
   Items open_;

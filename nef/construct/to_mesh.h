@@ -14,6 +14,8 @@ namespace nef {
 struct MeshExportOptions {
   /// Keep facets without holes as polygons instead of cutting them into triangles.
   bool keep_polygons = false;
+  /// If set, keep only polygons all of whose corners pass: ones that stay planar when they are written, say.
+  std::function<bool(const Rational3&)> polygon_corner;
   /// Which marks count as belonging to the set; by default all but 0.
   std::function<bool(LabelId)> selected;
 };

@@ -8,6 +8,7 @@
 #include "nef/construct/vertex_merger.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/number_text.h"
+#include "nef/io/text_cursor.h"
 
 namespace nef {
 namespace {
@@ -206,6 +207,25 @@ std::string ply_bytes(const Mesh& mesh, const MeshWriteOptions& options) {
     bytes += '\n';
   }
   return bytes;
+}
+
+bool survives_writing(const Rational3& point, const std::string& extension, const MeshWriteOptions& options) {
+  if (options.exact) return true;
+  std::string text;
+  Rational back;
+  for (const Rational& x : point) {
+    const double rounded =
+        extension == "stl" && options.binary ? static_cast<double>(nearest_float(x)) : nearest_double(x);
+    if (!std::isfinite(rounded)) return false;
+    if (options.binary) {
+      if (cmp(x, exact_rational(rounded)) != 0) return false;
+      continue;
+    }
+    text.clear();
+    append_number(text, rounded);
+    if (!parse_number(text, back) || back != x) return false;
+  }
+  return true;
 }
 
 void write_mesh(const std::string& path, const Mesh& mesh, const MeshWriteOptions& options, Messages* messages) {

@@ -30,6 +30,10 @@ std::string obj_bytes(const Mesh& mesh, const MeshWriteOptions& options = {});
 std::string stl_bytes(const Mesh& mesh, const MeshWriteOptions& options = {});
 std::string ply_bytes(const Mesh& mesh, const MeshWriteOptions& options = {});
 
+/// True if a point is the same after it was written to the format of that extension (off, obj, stl, ply) and read
+/// again: its coordinates are short decimals in text, doubles or floats in binary. Polygons of such points stay planar.
+bool survives_writing(const Rational3& point, const std::string& extension, const MeshWriteOptions& options);
+
 /// The float nearest to a rational (half to even), rounded once.
 float nearest_float(const Rational& value);
 

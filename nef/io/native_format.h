@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The library's own text format: every mark, open boundaries, lower-dimensional and unbounded parts, nothing rounded.
+//
+// A file is a list of words; '#' begins a comment. Integers have any length. It holds what is needed to rebuild a
+// complex, namely its planes and the sphere maps of its vertices; edges, facets, shells and volumes are synthesized on
+// reading.
+//
+//   nef 1                                      the word nef and the version of the format
+//   planes P vertices V outer M                M is the mark of the outer volume
+//   a b c d e                                  P planes ax + by + cz + d + eR = 0 (R is the infimaximal number)
+//   vertex x y z w x' y' z' M  s e l f         V vertices at ((x + x'R) / w, ...), marked M, each followed by
+//     p q out sface M                            s svertices: direction n_p x n_q; '-' for no shalfedge or no sface
+//     p source next prev sface M                 e shalfedges; each even one and the next are twins
+//     p sface M                                  l sloops
+//     M  k item ...                              f sfaces: mark, number of boundary items; an item is
+//                                                c<shalfedge> (a cycle), v<svertex> or l<sloop>
+//   end
+//
+// Planes are numbered from 0 and written with a sign, +3 or -3, for the side that they are seen from; svertices,
+// shalfedges, sloops and sfaces are numbered from 0 within their vertex. Marks are numbers; 0 is "not in the set"; an
+// asterisk is the space beyond an infimaximal box.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "nef/polyhedron.h"
+
+namespace nef {
+
+/// The polyhedron as text in this format. O(n).
+std::string native_text(const Polyhedron& polyhedron);
+
+/// Reads that text; `path` is for error messages only. The result is checked by nef::validate, so that a corrupt file
+/// cannot make an object that breaks its promises. Throws FileError. The cost is that of synthesis and validation.
+Polyhedron read_native(std::string_view text, const std::string& path);
+
+}  // namespace nef

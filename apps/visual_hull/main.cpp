@@ -170,7 +170,7 @@ int run(const Arguments& a) {
                                                            std::size_t total) { bar.show(phase, view, done, total); });
   bar.clear();
   visual_hull::timed(result.phases, Phase::kWrite, [&] {
-    if (!a.output.empty() && !result.vanished) nef::write_polyhedron(result.hull, a.output);
+    if (!a.output.empty() && !result.vanished) nef::write_polyhedron(a.output, result.hull);
     if (!a.overlay.empty()) visual_hull::write_overlays(result, options.silhouette.origin, a.overlay);
   });
   if (!a.report.empty()) write_text(a.report, visual_hull::make_report(result).dump(2) + "\n");

@@ -16,6 +16,10 @@
 // x), and the originals between the matches of two neighbours lie within the tolerance of the edge
 // between them. The other direction follows: the chain of originals is connected, so it projects
 // onto the whole edge, up to its ends, which are near their matches.
+//
+// Without `outer`, the polygon of fewest vertices is known for each ring by itself; the vertices that it
+// leaves out go first, with the topology as the only condition, and the deviation is checked when they are
+// gone. A ring where that fails (others are in its way) starts anew with the greedy choice alone.
 #include "apps/visual_hull/simplify.h"
 
 #include <cmath>
@@ -23,6 +27,7 @@
 #include <queue>
 
 #include "apps/visual_hull/edge_grid.h"
+#include "apps/visual_hull/fewest_vertices.h"
 #include "nef/base/error.h"
 
 namespace visual_hull {
@@ -57,15 +62,6 @@ struct Move {
   }
 };
 
-double distance_to_segment(const Vec& p, const Vec& a, const Vec& b) {
-  const double dx = b[0] - a[0];
-  const double dy = b[1] - a[1];
-  const double length = dx * dx + dy * dy;
-  double t = length > 0 ? ((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / length : 0.0;
-  t = std::clamp(t, 0.0, 1.0);
-  return std::hypot(p[0] - a[0] - t * dx, p[1] - a[1] - t * dy);
-}
-
 class Simplifier {
  public:
   Simplifier(const Silhouette& silhouette, const SimplifyOptions& options)
@@ -78,8 +74,38 @@ class Simplifier {
     build();
   }
 
+  /// Rings for which the fewest vertices could not be had. They are to be tried with `greedy`.
+  std::vector<bool> remove_guided(const std::vector<bool>& greedy) {
+    std::vector<std::uint32_t> unwanted;
+    for (std::uint32_t r = 0, first = 0; r < original_.rings.size(); first += size_of_ring(r), ++r) {
+      if (greedy[r]) continue;
+      std::vector<bool> pinned;
+      for (std::uint32_t i = 0; i < size_of_ring(r); ++i) pinned.push_back(nodes_[first + i].pinned);
+      const std::vector<bool> keep = fewest_vertices(original_.rings[r], pinned, tolerance_);
+      if (std::count(keep.begin(), keep.end(), true) < 3) continue;
+      for (std::uint32_t i = 0; i < size_of_ring(r); ++i) {
+        if (!keep[i]) unwanted.push_back(first + i);
+      }
+    }
+    for (std::size_t before = unwanted.size() + 1; before != unwanted.size();) {
+      before = unwanted.size();
+      std::erase_if(unwanted, [this](std::uint32_t k) { return remove_if_free(k); });
+    }
+    std::vector<bool> failed(greedy.size(), false);
+    for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
+      const Node& node = nodes_[i];
+      if (!node.alive || failed[node.ring]) continue;
+      const Node& next = nodes_[node.next];
+      failed[node.ring] =
+          deviation(node.ring, node.match, next.match, node.point.approximate, next.point.approximate) > tolerance_;
+    }
+    return failed;
+  }
+
   Silhouette run() {
-    for (std::uint32_t i = 0; i < nodes_.size(); ++i) push(i);
+    for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
+      if (nodes_[i].alive) push(i);
+    }
     while (!queue_.empty()) {
       const Move move = queue_.top();
       queue_.pop();
@@ -281,19 +307,30 @@ class Simplifier {
     push(k);
   }
 
-  void try_remove(const Move& move) {
-    const Node k = nodes_[move.node];
-    if (size_[k.ring] <= 3) return;
+  std::uint32_t size_of_ring(std::uint32_t ring) const {
+    return static_cast<std::uint32_t>(original_.rings[ring].size());
+  }
+
+  // Removes a vertex if the topology allows it.
+  bool remove_if_free(std::uint32_t node) {
+    const Node k = nodes_[node];
+    if (size_[k.ring] <= 3) return false;
     const std::vector<const Point2*> path{&nodes_[k.prev].point, &nodes_[k.next].point};
-    if (blocked(path, {{{path[0], &nodes_[move.node].point, path[1]}}}, k.prev, k.next)) return;
+    if (blocked(path, {{{path[0], &nodes_[node].point, path[1]}}}, k.prev, k.next)) return false;
     grid_.remove(k.prev, edge_box(k.prev));
-    grid_.remove(move.node, edge_box(move.node));
-    nodes_[move.node].alive = false;
+    grid_.remove(node, edge_box(node));
+    nodes_[node].alive = false;
     nodes_[k.prev].next = k.next;
     nodes_[k.next].prev = k.prev;
     --size_[k.ring];
     grid_.insert(k.prev, edge_box(k.prev));
-    retouch_around(k.prev, k.next);
+    return true;
+  }
+
+  void try_remove(const Move& move) {
+    const std::uint32_t prev = nodes_[move.node].prev;
+    const std::uint32_t next = nodes_[move.node].next;
+    if (remove_if_free(move.node)) retouch_around(prev, next);
   }
 
   void try_collapse(const Move& move) {
@@ -365,7 +402,17 @@ Silhouette simplify(const Silhouette& silhouette, const SimplifyOptions& options
     throw nef::InputError("--simplify: the tolerance must be a number that is not negative");
   }
   if (silhouette.empty() || options.tolerance == 0) return silhouette;
-  return Simplifier(silhouette, options).run();
+  if (options.outer) return Simplifier(silhouette, options).run();
+  for (std::vector<bool> greedy(silhouette.rings.size(), false);;) {
+    Simplifier simplifier(silhouette, options);
+    const std::vector<bool> failed = simplifier.remove_guided(greedy);
+    bool any = false;
+    for (std::size_t r = 0; r < failed.size(); ++r) {
+      any = any || failed[r];
+      if (failed[r]) greedy[r] = true;
+    }
+    if (!any) return simplifier.run();
+  }
 }
 
 }  // namespace visual_hull

@@ -1,0 +1,29 @@
+#!/usr/bin/env bash
+# Installs what is missing of the Debian packages that the suite needs. Sourced by demo.sh and
+# test.sh; does nothing, and needs no rights, where everything is there.
+set -euo pipefail
+
+nef_packages=(
+  g++ cmake ninja-build ccache pkg-config python3
+  libgmp-dev libeigen3-dev libopenmesh-dev libopencv-dev libompl-dev libboost-dev
+  libassimp-dev libcli11-dev nlohmann-json3-dev libfmt-dev libtbb-dev libpng-dev zlib1g-dev
+)
+nef_test_packages=(catch2 librapidcheck-dev libcgal-dev chromium npm)
+nef_lint_packages=(clang-format clang-tidy)
+
+install_missing() {
+  local missing=() package
+  for package in "$@"; do
+    dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")
+  done
+  # Node.js may have come with an npm of its own.
+  if command -v npm >/dev/null; then missing=("${missing[@]/#%npm/}"); fi
+  local wanted=()
+  for package in "${missing[@]}"; do [ -n "$package" ] && wanted+=("$package"); done
+  [ ${#wanted[@]} -eq 0 ] && return 0
+  local run=()
+  if [ "$(id -u)" -ne 0 ]; then run=(sudo); fi
+  echo "Installing ${wanted[*]}"
+  "${run[@]}" apt-get update -qq
+  DEBIAN_FRONTEND=noninteractive "${run[@]}" apt-get install -y -qq --no-install-recommends "${wanted[@]}" >/dev/null
+}

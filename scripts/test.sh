@@ -1,0 +1,10 @@
+#!/usr/bin/env bash
+# Sets up, builds and runs all tests. From a bare Debian 12: bash scripts/test.sh
+set -euo pipefail
+cd "$(dirname "$0")/.."
+source scripts/setup.sh
+install_missing "${nef_packages[@]}" "${nef_test_packages[@]}"
+preset=${NEF_PRESET:-release}
+cmake --preset "$preset" >/dev/null
+cmake --build --preset "$preset"
+ctest --preset "$preset" --parallel "$(nproc)"

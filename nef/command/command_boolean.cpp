@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// nef union | intersection | difference | symdiff
+#include "nef/command/report.h"
+
+namespace nef {
+namespace {
+
+using Operation = Polyhedron (*)(std::span<const Polyhedron>);
+
+void add(CLI::App& app, Session& session, const std::string& name, const std::string& description, int most,
+         Operation operation) {
+  CLI::App* command = add_subcommand(app, session, name, description);
+  command->add_option("inputs", session.inputs, "the operands, as files")->required()->expected(2, most);
+  add_input_flags(command, session);
+  add_output_flags(command, session);
+  command->add_option("--repeat", session.repeat, "compute N times and report the median")
+      ->check(CLI::Range(1, 1000000));
+  command->callback([&session, name, operation] {
+    std::vector<Polyhedron> sets;
+    for (const std::string& path : session.inputs) sets.push_back(session.load(path));
+    finish(session, name, measure(session.repeat, [&] { return operation(sets); }));
+  });
+}
+
+}  // namespace
+
+void add_boolean_commands(CLI::App& app, Session& session) {
+  constexpr int kMany = 1 << 20;
+  add(app, session, "union", "The points of any of the sets", kMany,
+      [](std::span<const Polyhedron> s) { return s.size() == 2 ? unite(s[0], s[1]) : unite_all(s); });
+  add(app, session, "intersection", "The points of all of the sets", kMany,
+      [](std::span<const Polyhedron> s) { return s.size() == 2 ? intersect(s[0], s[1]) : intersect_all(s); });
+  add(app, session, "difference", "The points of the first set that are not in the second", 2,
+      [](std::span<const Polyhedron> s) { return subtract(s[0], s[1]); });
+  add(app, session, "symdiff", "The points of exactly one of two sets", 2,
+      [](std::span<const Polyhedron> s) { return symmetric_difference(s[0], s[1]); });
+}
+
+}  // namespace nef

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// nef check: what is wrong with a mesh, by name; or whether a native file holds a valid complex.
+#include "nef/command/report.h"
+#include "nef/construct/mesh_check.h"
+#include "nef/io/mesh_reader.h"
+#include "nef/io/polyhedron_file.h"
+
+namespace nef {
+namespace {
+
+Json problem_json(const MeshProblem& problem) {
+  return {{"name", name(problem.kind)}, {"legal", problem.legal}, {"vertices", problem.vertices},
+          {"edges", problem.edges},     {"faces", problem.faces}, {"text", problem.text}};
+}
+
+// A finding that has no mesh element: the file itself is at fault, or the complex in it.
+Json plain_problem(const std::string& kind, const std::string& text) {
+  return {{"name", kind},           {"legal", false},         {"vertices", Json::array()},
+          {"edges", Json::array()}, {"faces", Json::array()}, {"text", text}};
+}
+
+Json check_mesh_file(const std::string& path, bool self_intersections) {
+  Json problems = Json::array();
+  Mesh mesh;
+  try {
+    mesh = read_mesh(path);
+  } catch (const FileError& error) {
+    // Numbers and indices are part of what a mesh can have wrong; a file that cannot be read as one
+    // at all is an error.
+    if (error.problem() != FileProblem::kBadIndex && error.problem() != FileProblem::kNotANumber) throw;
+    problems.push_back(plain_problem(name(error.problem()), error.what()));
+    return problems;
+  }
+  MeshCheckOptions options;
+  options.max_per_kind = 1000;
+  options.self_intersections = self_intersections;
+  for (const MeshProblem& problem : check_mesh(mesh, options)) problems.push_back(problem_json(problem));
+  return problems;
+}
+
+Json check_complex_file(Session& session, const std::string& path) {
+  Json problems = Json::array();
+  const std::string broken = validate(session.load(path).complex());
+  if (!broken.empty()) problems.push_back(plain_problem("broken invariant", broken));
+  return problems;
+}
+
+}  // namespace
+
+void add_check_command(CLI::App& app, Session& session) {
+  CLI::App* command =
+      add_subcommand(app, session, "check", "What is wrong with a mesh? Exit code 0 if it bounds a solid, 1 if not");
+  command->add_option("input", session.inputs, "the mesh, as a file")->required()->expected(1);
+  command->add_flag("--no-check", session.no_check, "do not look for self-intersections");
+  command->callback([&session] {
+    const std::string& path = session.inputs[0];
+    const std::string extension = lower_extension(path);
+    const bool complex = extension == "nef" || extension == "nef3";
+    const Json problems = complex ? check_complex_file(session, path) : check_mesh_file(path, !session.no_check);
+    bool good = true;
+    for (const Json& problem : problems) {
+      good = good && problem["legal"].get<bool>();
+      session.say((problem["legal"].get<bool>() ? "note: " : "") + problem["name"].get<std::string>() + ": " +
+                  problem["text"].get<std::string>());
+    }
+    session.exit_code = good ? kYes : kNo;
+    if (session.json) {
+      session.print({{"ok", good}, {"problems", problems}});
+    } else if (problems.empty()) {
+      session.say("no problems");
+    }
+  });
+}
+
+}  // namespace nef

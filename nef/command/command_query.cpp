@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// nef locate | ray
+#include "nef/command/expression.h"
+#include "nef/command/report.h"
+
+namespace nef {
+namespace {
+
+const char* name(Location::Kind kind) {
+  switch (kind) {
+    case Location::Kind::kVertex:
+      return "vertex";
+    case Location::Kind::kEdge:
+      return "edge";
+    case Location::Kind::kFacet:
+      return "facet";
+    case Location::Kind::kVolume:
+      break;
+  }
+  return "volume";
+}
+
+Json location_json(const Rational3& point, const Location& location) {
+  return {{"point", point_json(point)},
+          {"kind", name(location.kind)},
+          {"index", location.index},
+          {"selected", location.mark != 0}};
+}
+
+std::string location_text(const Location& location) {
+  return std::string(name(location.kind)) + ", " + (location.mark != 0 ? "selected" : "not selected");
+}
+
+void add_locate(CLI::App& app, Session& session) {
+  CLI::App* command = add_subcommand(app, session, "locate", "Which vertex, edge, facet or volume holds a point?");
+  const auto points = std::make_shared<std::vector<std::string>>();
+  command->add_option("input", session.inputs, "the set, as a file")->required()->expected(1);
+  command->add_option("points", *points, "points x,y,z")->required()->type_name("X,Y,Z");
+  add_input_flags(command, session);
+  command->callback([&session, points] {
+    std::vector<Rational3> queries;
+    for (const std::string& text : *points) queries.push_back(parse_triple(text, "point"));
+    const Polyhedron set = session.load(session.inputs[0]);
+    const Stopwatch build;
+    static_cast<void>(set.queries());
+    const double build_s = build.seconds();
+    const Stopwatch watch;
+    Json results = Json::array();
+    for (const Rational3& point : queries) {
+      const Location location = locate(set, point);
+      results.push_back(location_json(point, location));
+      session.say(point_text(point) + ": " + location_text(location));
+    }
+    if (session.json) {
+      session.print({{"load_s", session.load_s},
+                     {"build_s", build_s},
+                     {"locate_s", watch.seconds()},
+                     {"points", std::move(results)}});
+    }
+  });
+}
+
+void add_ray(CLI::App& app, Session& session) {
+  CLI::App* command = add_subcommand(app, session, "ray", "What does a ray meet first?");
+  const auto ray = std::make_shared<std::vector<std::string>>(2);
+  command->add_option("input", session.inputs, "the set, as a file")->required()->expected(1);
+  command->add_option("origin", (*ray)[0], "where the ray begins; not part of it")->required()->type_name("X,Y,Z");
+  command->add_option("direction", (*ray)[1], "where it goes")->required()->type_name("DX,DY,DZ");
+  add_input_flags(command, session);
+  command->callback([&session, ray] {
+    const Rational3 origin = parse_triple((*ray)[0], "origin");
+    const Rational3 direction = parse_triple((*ray)[1], "direction");
+    const Polyhedron set = session.load(session.inputs[0]);
+    const std::optional<RayHit> hit = shoot_ray(set, origin, direction);
+    if (session.json) {
+      session.print({{"load_s", session.load_s}, {"hit", hit ? location_json(hit->point, hit->location) : Json()}});
+    } else {
+      session.say(hit ? point_text(hit->point) + ": " + location_text(hit->location) : "nothing");
+    }
+  });
+}
+
+}  // namespace
+
+void add_query_commands(CLI::App& app, Session& session) {
+  add_locate(app, session);
+  add_ray(app, session);
+}
+
+}  // namespace nef

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Evaluates syntax trees.
+#include "nef/command/expression.h"
+
+#include <cctype>
+
+#include "nef/command/syntax_tree.h"
+
+namespace nef {
+namespace {
+
+class Evaluator {
+ public:
+  Evaluator(std::string_view text, const ExpressionOptions& options) : text_(text), options_(options) {}
+
+  Polyhedron operator()(const SyntaxNode& node) const {
+    std::vector<Polyhedron> sets;
+    sets.reserve(node.sets.size());
+    for (const SyntaxNode& child : node.sets) sets.push_back((*this)(child));
+    if (node.term == Term::kFile) return file(node);
+    try {
+      return make(node, sets);
+    } catch (const InputError& error) {
+      throw ExpressionError(place_in_text(text_, node.offset) + ": " + error.what(), node.offset);
+    }
+  }
+
+ private:
+  [[nodiscard]] Polyhedron file(const SyntaxNode& node) const {
+    if (!options_.load) {
+      throw ExpressionError(place_in_text(text_, node.offset) + ": files cannot be read here", node.offset);
+    }
+    return options_.load(node.path);
+  }
+
+  static Polyhedron make(const SyntaxNode& node, std::span<const Polyhedron> sets) {
+    const std::vector<Rational>& n = node.numbers;
+    switch (node.term) {
+      case Term::kNothing:
+      case Term::kFile:  // made by file()
+        return Polyhedron();
+      case Term::kEverything:
+        return Polyhedron::everything();
+      case Term::kBox:
+        return make_box({n[0], n[1], n[2]}, {n[3], n[4], n[5]});
+      case Term::kHalfspace:
+        return make_halfspace(n[0], n[1], n[2], n[3]);
+      case Term::kPoint:
+        return make_point(node.rings[0][0]);
+      case Term::kSegment:
+        return make_segment(node.rings[0][0], node.rings[0][1]);
+      case Term::kHull:
+        return convex_hull(node.rings[0]);
+      case Term::kPolygon:
+        return make_polygon(node.rings);
+      case Term::kTranslate:
+      case Term::kScale:
+      case Term::kRotate:
+      case Term::kTransform:
+        return transform(sets[0], map_of(node));
+      default:
+        return combine(node.term, sets);
+    }
+  }
+
+  static AffineMap map_of(const SyntaxNode& node) {
+    const std::vector<Rational>& n = node.numbers;
+    switch (node.term) {
+      case Term::kTranslate:
+        return AffineMap::translate({n[0], n[1], n[2]});
+      case Term::kScale:
+        return n.size() == 1 ? AffineMap::scale({n[0], n[0], n[0]}) : AffineMap::scale({n[0], n[1], n[2]});
+      case Term::kRotate: {
+        const Rational3 axis{n[0], n[1], n[2]};
+        const double degrees = nearest_double(n[3]);
+        return n.size() == 4 ? AffineMap::rotate(axis, degrees)
+                             : AffineMap::rotate(axis, degrees, nearest_double(n[4]));
+      }
+      default:
+        return affine_map_of(n);
+    }
+  }
+
+  static Polyhedron combine(Term term, std::span<const Polyhedron> sets) {
+    switch (term) {
+      case Term::kUnion:
+        return unite_all(sets);
+      case Term::kIntersection:
+        return intersect_all(sets);
+      case Term::kDifference:
+        return subtract(sets[0], sets.size() == 2 ? sets[1] : unite_all(sets.subspan(1)));
+      case Term::kSymmetricDifference: {
+        Polyhedron result = sets[0];
+        for (const Polyhedron& set : sets.subspan(1)) result = symmetric_difference(result, set);
+        return result;
+      }
+      case Term::kInterior:
+        return interior(sets[0]);
+      case Term::kClosure:
+        return closure(sets[0]);
+      case Term::kBoundary:
+        return boundary(sets[0]);
+      case Term::kExterior:
+        return exterior(sets[0]);
+      case Term::kRegularize:
+        return regularize(sets[0]);
+      default:
+        return complement(sets[0]);
+    }
+  }
+
+  std::string_view text_;
+  const ExpressionOptions& options_;
+};
+
+bool is_space(char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; }
+
+}  // namespace
+
+Polyhedron evaluate_expression(std::string_view text, const ExpressionOptions& options) {
+  return Evaluator(text, options)(parse_expression(text));
+}
+
+std::vector<Rational> parse_numbers(std::string_view text, const std::string& what) {
+  std::vector<Rational> result;
+  std::size_t at = 0;
+  while (at < text.size()) {
+    while (at < text.size() && is_space(text[at])) ++at;
+    std::size_t end = at;
+    while (end < text.size() && text[end] != ',' && !is_space(text[end])) ++end;
+    const std::string_view word = text.substr(at, end - at);
+    try {
+      result.push_back(parse_rational(word));
+    } catch (const InputError&) {
+      throw InputError(what + ": '" + std::string(word) + "' in '" + std::string(text) + "' is no number");
+    }
+    while (end < text.size() && is_space(text[end])) ++end;
+    // A comma promises another number.
+    if (end < text.size() && text[end] == ',') {
+      if (++end == text.size()) throw InputError(what + ": '" + std::string(text) + "' ends with a comma");
+    }
+    at = end;
+  }
+  return result;
+}
+
+Rational3 parse_triple(std::string_view text, const std::string& what) {
+  const std::vector<Rational> n = parse_numbers(text, what);
+  if (n.size() != 3) throw InputError(what + ": expected three numbers x,y,z instead of '" + std::string(text) + "'");
+  return {n[0], n[1], n[2]};
+}
+
+AffineMap affine_map_of(std::span<const Rational> n) {
+  if (n.size() != 12 && n.size() != 16) {
+    throw InputError("a matrix has 12 or 16 numbers (rows of 3x4 or 4x4), not " + std::to_string(n.size()));
+  }
+  Rational w = 1;
+  if (n.size() == 16) {
+    w = n[15];
+    if (n[12] != 0 || n[13] != 0 || n[14] != 0 || w == 0) {
+      throw InputError("the last row of an affine 4x4 matrix is 0,0,0,w with w other than 0");
+    }
+  }
+  AffineMap map;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) map.linear[i][j] = n[4 * i + j] / w;
+    map.translation[i] = n[4 * i + 3] / w;
+  }
+  return map;
+}
+
+}  // namespace nef

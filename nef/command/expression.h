@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The expression language of `nef eval`: sets written as text, for the command line, tests and
+// scene files.
+//
+//   sum      := product (('+' | '-' | '^') product)*     union, difference, symmetric difference
+//   product  := factor ('*' factor)*                     intersection
+//   factor   := '!' factor | '(' sum ')' | primary       complement
+//   primary  := everything | nothing
+//             | file("path") | box(x0,y0,z0, x1,y1,z1) | halfspace(a,b,c,d)    ax+by+cz+d <= 0
+//             | point(x,y,z) | segment(points) | hull(points) | polygon(points; points...)
+//             | union(sum, ...) | intersection(sum, ...) | difference(sum, sum) | symdiff(sum, sum)
+//             | complement(sum) | interior(sum) | closure(sum) | boundary(sum) | exterior(sum)
+//             | regularize(sum)
+//             | translate(sum, x,y,z) | scale(sum, s) | scale(sum, sx,sy,sz)
+//             | rotate(sum, axis, degrees[, tolerance])    axis: x, y, z or a vector (a,b,c)
+//             | transform(sum, 12 or 16 numbers)           the rows of a matrix
+//   points   := coordinates, three for each point; a point may stand in parentheses
+//
+// Numbers are exact: 3, -0.1 (a tenth), 1e-3, 22/7. Operators of one line associate to the left.
+// Rings after ';' in a polygon are holes (or further pieces) by parity. '#' begins a comment that
+// ends with its line.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "nef/base/error.h"
+#include "nef/construct/construct.h"
+
+namespace nef {
+
+/// What is wrong with an expression, and where. what() is "column C: ..." ("line L, column C: ..."
+/// from the second line on).
+class ExpressionError : public InputError {
+ public:
+  ExpressionError(const std::string& what, std::size_t offset) : InputError(what), offset_(offset) {}
+  /// Bytes before the place of the error.
+  [[nodiscard]] std::size_t offset() const { return offset_; }
+
+ private:
+  std::size_t offset_;
+};
+
+struct ExpressionOptions {
+  /// Makes the set of `file("path")`. Without it, files are refused.
+  std::function<Polyhedron(const std::string& path)> load;
+};
+
+/// The set that `text` describes. The whole text is parsed before anything is computed. Throws
+/// ExpressionError for a wrong expression and for arguments that make no set (a polygon that is
+/// not planar, say); errors of `load` pass through.
+Polyhedron evaluate_expression(std::string_view text, const ExpressionOptions& options = {});
+
+/// Three numbers "x,y,z". Throws InputError that names `what` for anything else.
+Rational3 parse_triple(std::string_view text, const std::string& what);
+
+/// The numbers of a list separated by commas, spaces or both.
+std::vector<Rational> parse_numbers(std::string_view text, const std::string& what);
+
+/// The affine map given by 12 or 16 numbers, the rows of a 3x4 or 4x4 matrix. A 4x4 matrix must
+/// have the last row 0,0,0,w with w other than 0. Throws InputError.
+AffineMap affine_map_of(std::span<const Rational> numbers);
+
+}  // namespace nef

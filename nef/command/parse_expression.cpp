@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A recursive descent parser, one function for each rule of the grammar in expression.h.
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <optional>
+
+#include "nef/command/expression.h"
+#include "nef/command/syntax_tree.h"
+
+namespace nef {
+namespace {
+
+// How the arguments of a function look.
+enum class Shape : std::uint8_t { kBare, kPath, kNumbers, kPoints, kRings, kSets, kSetAndNumbers, kRotation };
+
+struct Function {
+  std::string_view name;
+  Term term;
+  Shape shape;
+  std::size_t least = 0;  // numbers or sets
+  std::size_t most = 0;
+  std::string_view usage;
+};
+
+constexpr std::size_t kMany = static_cast<std::size_t>(-1);
+constexpr std::size_t kMaxDepth = 2000;
+
+constexpr std::array kFunctions{
+    Function{"nothing", Term::kNothing, Shape::kBare, 0, 0, "nothing"},
+    Function{"everything", Term::kEverything, Shape::kBare, 0, 0, "everything"},
+    Function{"file", Term::kFile, Shape::kPath, 0, 0, "file(\"path\")"},
+    Function{"box", Term::kBox, Shape::kNumbers, 6, 6, "box(x0,y0,z0, x1,y1,z1)"},
+    Function{"halfspace", Term::kHalfspace, Shape::kNumbers, 4, 4, "halfspace(a,b,c,d)"},
+    Function{"point", Term::kPoint, Shape::kPoints, 1, 1, "point(x,y,z)"},
+    Function{"segment", Term::kSegment, Shape::kPoints, 2, 2, "segment(x0,y0,z0, x1,y1,z1)"},
+    Function{"hull", Term::kHull, Shape::kPoints, 0, kMany, "hull(x,y,z, x,y,z, ...)"},
+    Function{"polygon", Term::kPolygon, Shape::kRings, 3, kMany, "polygon(x,y,z, x,y,z, x,y,z, ...)"},
+    Function{"union", Term::kUnion, Shape::kSets, 0, kMany, "union(A, B, ...)"},
+    Function{"intersection", Term::kIntersection, Shape::kSets, 0, kMany, "intersection(A, B, ...)"},
+    Function{"difference", Term::kDifference, Shape::kSets, 2, 2, "difference(A, B)"},
+    Function{"symdiff", Term::kSymmetricDifference, Shape::kSets, 2, 2, "symdiff(A, B)"},
+    Function{"complement", Term::kComplement, Shape::kSets, 1, 1, "complement(A)"},
+    Function{"interior", Term::kInterior, Shape::kSets, 1, 1, "interior(A)"},
+    Function{"closure", Term::kClosure, Shape::kSets, 1, 1, "closure(A)"},
+    Function{"boundary", Term::kBoundary, Shape::kSets, 1, 1, "boundary(A)"},
+    Function{"exterior", Term::kExterior, Shape::kSets, 1, 1, "exterior(A)"},
+    Function{"regularize", Term::kRegularize, Shape::kSets, 1, 1, "regularize(A)"},
+    Function{"translate", Term::kTranslate, Shape::kSetAndNumbers, 3, 3, "translate(A, x,y,z)"},
+    Function{"scale", Term::kScale, Shape::kSetAndNumbers, 1, 3, "scale(A, s) or scale(A, sx,sy,sz)"},
+    Function{"rotate", Term::kRotate, Shape::kRotation, 4, 5, "rotate(A, axis, degrees[, tolerance])"},
+    Function{"transform", Term::kTransform, Shape::kSetAndNumbers, 12, 16, "transform(A, 12 or 16 numbers)"},
+};
+
+bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+
+class Parser {
+ public:
+  explicit Parser(std::string_view text) : text_(text) {}
+
+  SyntaxNode parse() {
+    SyntaxNode root = sum();
+    if (peek() != '\0') fail("expected an operator (+ * - ^) or the end, found " + here());
+    return root;
+  }
+
+ private:
+  // A place in the text is skipped over white space and comments before it is looked at.
+  char peek() {
+    while (at_ < text_.size()) {
+      if (text_[at_] == '#') {
+        while (at_ < text_.size() && text_[at_] != '\n') ++at_;
+      } else if (std::isspace(static_cast<unsigned char>(text_[at_])) != 0) {
+        ++at_;
+      } else {
+        return text_[at_];
+      }
+    }
+    return '\0';
+  }
+
+  bool take(char c) {
+    if (peek() != c) return false;
+    ++at_;
+    return true;
+  }
+
+  void expect(char c, std::string_view usage) {
+    if (!take(c)) fail("expected '" + std::string(1, c) + "', found " + here() + "; usage: " + std::string(usage));
+  }
+
+  std::string here() {
+    const char c = peek();
+    if (c == '\0') return "the end";
+    if (!is_letter(c)) return "'" + std::string(1, c) + "'";
+    return "'" + std::string(word()) + "'";
+  }
+
+  [[noreturn]] void fail(const std::string& what) { fail_at(at_, what); }
+  [[noreturn]] void fail_at(std::size_t offset, const std::string& what) const {
+    throw ExpressionError(place_in_text(text_, offset) + ": " + what, offset);
+  }
+
+  [[nodiscard]] std::string_view word() const {
+    std::size_t end = at_;
+    while (end < text_.size() && (is_letter(text_[end]) || std::isdigit(static_cast<unsigned char>(text_[end])) != 0)) {
+      ++end;
+    }
+    return text_.substr(at_, end - at_);
+  }
+
+  // All operators associate (A - B - C is A without B and C), so chains and parentheses of one operator
+  // become one node with many operands.
+  static SyntaxNode join(Term term, std::size_t offset, SyntaxNode&& left, SyntaxNode&& right) {
+    if (left.term == term) {
+      left.sets.push_back(std::move(right));
+      return std::move(left);
+    }
+    SyntaxNode node;
+    node.term = term;
+    node.offset = offset;
+    node.sets.push_back(std::move(left));
+    node.sets.push_back(std::move(right));
+    return node;
+  }
+
+  SyntaxNode sum() {
+    SyntaxNode left = product();
+    for (;;) {
+      peek();
+      const std::size_t offset = at_;
+      if (take('+')) {
+        left = join(Term::kUnion, offset, std::move(left), product());
+      } else if (take('-')) {
+        left = join(Term::kDifference, offset, std::move(left), product());
+      } else if (take('^')) {
+        left = join(Term::kSymmetricDifference, offset, std::move(left), product());
+      } else {
+        return left;
+      }
+    }
+  }
+
+  SyntaxNode product() {
+    SyntaxNode left = factor();
+    for (;;) {
+      peek();
+      const std::size_t offset = at_;
+      if (!take('*')) return left;
+      left = join(Term::kIntersection, offset, std::move(left), factor());
+    }
+  }
+
+  SyntaxNode factor() {
+    if (++depth_ > kMaxDepth) fail("the expression is nested too deeply");
+    const char c = peek();
+    const std::size_t offset = at_;
+    SyntaxNode node;
+    if (take('!')) {
+      node.term = Term::kComplement;
+      node.offset = offset;
+      node.sets.push_back(factor());
+    } else if (take('(')) {
+      node = sum();
+      if (!take(')')) fail("expected ')' for the '(' at " + place_in_text(text_, offset) + ", found " + here());
+    } else if (is_letter(c)) {
+      node = primary();
+    } else {
+      fail("expected a set, found " + here());
+    }
+    --depth_;
+    return node;
+  }
+
+  SyntaxNode primary() {
+    const std::size_t offset = at_;
+    const std::string_view name = word();
+    const auto* function =
+        std::find_if(kFunctions.begin(), kFunctions.end(), [name](const Function& f) { return f.name == name; });
+    if (function == kFunctions.end()) fail("there is no set or function '" + std::string(name) + "'");
+    at_ += name.size();
+    SyntaxNode node;
+    node.term = function->term;
+    node.offset = offset;
+    if (function->shape == Shape::kBare) return node;
+    expect('(', function->usage);
+    arguments(*function, node);
+    if (peek() == ',') fail("too many arguments; usage: " + std::string(function->usage));
+    expect(')', function->usage);
+    return node;
+  }
+
+  void arguments(const Function& function, SyntaxNode& node) {
+    switch (function.shape) {
+      case Shape::kBare:
+        break;
+      case Shape::kPath:
+        node.path = quoted(function);
+        break;
+      case Shape::kNumbers:
+        numbers(function, node);
+        break;
+      case Shape::kPoints:
+        node.rings.push_back(points(function));
+        break;
+      case Shape::kRings:
+        do node.rings.push_back(points(function));
+        while (take(';'));
+        break;
+      case Shape::kSets:
+        sets(function, node);
+        break;
+      case Shape::kSetAndNumbers:
+        node.sets.push_back(sum());
+        expect(',', function.usage);
+        numbers(function, node);
+        break;
+      case Shape::kRotation:
+        node.sets.push_back(sum());
+        expect(',', function.usage);
+        rotation(function, node);
+    }
+  }
+
+  void sets(const Function& function, SyntaxNode& node) {
+    if (peek() == ')') {
+      if (function.least > 0) fail("expected a set; usage: " + std::string(function.usage));
+      return;
+    }
+    do {
+      if (node.sets.size() == function.most) fail("too many arguments; usage: " + std::string(function.usage));
+      node.sets.push_back(sum());
+    } while (take(','));
+    if (node.sets.size() < function.least) fail("expected another set; usage: " + std::string(function.usage));
+  }
+
+  std::string quoted(const Function& function) {
+    expect('"', function.usage);
+    const std::size_t end = text_.find('"', at_);
+    if (end == std::string_view::npos) fail("the path has no closing '\"'");
+    std::string path(text_.substr(at_, end - at_));
+    if (path.empty()) fail("the path is empty");
+    at_ = end + 1;
+    return path;
+  }
+
+  Rational number(const Function& function) {
+    peek();
+    std::size_t end = at_;
+    while (end < text_.size() && std::string_view(",();#").find(text_[end]) == std::string_view::npos &&
+           std::isspace(static_cast<unsigned char>(text_[end])) == 0) {
+      ++end;
+    }
+    if (end == at_) fail("expected a number, found " + here() + "; usage: " + std::string(function.usage));
+    const std::string_view digits = text_.substr(at_, end - at_);
+    try {
+      Rational value = parse_rational(digits);
+      at_ = end;
+      return value;
+    } catch (const InputError&) {
+      fail("'" + std::string(digits) + "' is no number; usage: " + std::string(function.usage));
+    }
+  }
+
+  void numbers(const Function& function, SyntaxNode& node) {
+    do {
+      if (node.numbers.size() == function.most) fail("too many numbers; usage: " + std::string(function.usage));
+      node.numbers.push_back(number(function));
+    } while (take(','));
+    const std::size_t count = node.numbers.size();
+    // A scale has one number or three, a matrix twelve or sixteen.
+    const bool between = count > function.least && count < function.most && function.term != Term::kRotate;
+    if (count < function.least || between) {
+      fail("expected another number, found " + here() + "; usage: " + std::string(function.usage));
+    }
+  }
+
+  std::vector<Rational3> points(const Function& function) {
+    std::vector<Rational3> result;
+    if (function.least == 0 && peek() == ')') return result;
+    do {
+      if (result.size() == function.most) fail("too many numbers; usage: " + std::string(function.usage));
+      Rational3 point;
+      const bool parenthesized = take('(');
+      for (std::size_t i = 0; i < 3; ++i) {
+        if (i > 0) expect(',', "three numbers for each point");
+        point[i] = number(function);
+      }
+      if (parenthesized) expect(')', "(x,y,z)");
+      result.push_back(std::move(point));
+    } while (take(','));
+    if (result.size() < function.least) {
+      fail("expected another point, found " + here() + "; usage: " + std::string(function.usage));
+    }
+    return result;
+  }
+
+  void rotation(const Function& function, SyntaxNode& node) {
+    const char c = peek();
+    if (c == 'x' || c == 'y' || c == 'z') {
+      ++at_;
+      for (const char axis : {'x', 'y', 'z'}) node.numbers.emplace_back(c == axis ? 1 : 0);
+    } else if (take('(')) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        if (i > 0) expect(',', "(a,b,c)");
+        node.numbers.push_back(number(function));
+      }
+      expect(')', "(a,b,c)");
+    } else {
+      fail("expected an axis x, y, z or (a,b,c), found " + here());
+    }
+    expect(',', function.usage);
+    numbers(function, node);
+  }
+
+  std::string_view text_;
+  std::size_t at_ = 0;
+  std::size_t depth_ = 0;
+};
+
+}  // namespace
+
+SyntaxNode parse_expression(std::string_view text) { return Parser(text).parse(); }
+
+std::string place_in_text(std::string_view text, std::size_t offset) {
+  const std::string_view before = text.substr(0, offset);
+  const auto line = std::count(before.begin(), before.end(), '\n') + 1;
+  const std::size_t begin = before.rfind('\n');
+  const std::size_t column = begin == std::string_view::npos ? offset + 1 : offset - begin;
+  const std::string where = "column " + std::to_string(column);
+  return line == 1 ? where : "line " + std::to_string(line) + ", " + where;
+}
+
+}  // namespace nef

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/command/report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace nef {
+namespace {
+
+Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json corner_json(const Rational3& point) {
+  Json result = Json::array();
+  for (const Rational& x : point) result.push_back(number_or_null(nearest_double(x)));
+  return result;
+}
+
+}  // namespace
+
+Json info_json(const Polyhedron& set) {
+  const Counts count = counts(set);
+  Json info;
+  info["vertices"] = count.vertices;
+  info["edges"] = count.edges;
+  info["facets"] = count.facets;
+  info["volumes"] = count.volumes;
+  info["shells"] = count.shells;
+  info["bounded"] = set.is_bounded();
+  info["open"] = set.is_open();
+  info["closed"] = set.is_closed();
+  info["regular"] = set.is_regular();
+  const std::optional<Rational> content = volume(set);
+  info["volume"] = content ? Json(to_string(*content)) : Json(nullptr);
+  info["volume_double"] = content ? number_or_null(nearest_double(*content)) : Json(nullptr);
+  info["area"] = number_or_null(surface_area(set));
+  info["bbox"] = nullptr;
+  info["bbox_exact"] = nullptr;
+  if (const auto box = bounding_box(set)) {
+    info["bbox"] = {corner_json((*box)[0]), corner_json((*box)[1])};
+    info["bbox_exact"] = {point_json((*box)[0]), point_json((*box)[1])};
+  }
+  info["euler_numbers"] = euler_numbers(set);
+  return info;
+}
+
+std::string summary(const Polyhedron& set) {
+  if (set.is_empty()) return "the empty set";
+  if (set.is_everything()) return "all of space";
+  const Counts count = counts(set);
+  const auto part = [](std::size_t n, const std::string& one, const std::string& many) {
+    return std::to_string(n) + " " + (n == 1 ? one : many);
+  };
+  return part(count.vertices, "vertex", "vertices") + ", " + part(count.edges, "edge", "edges") + ", " +
+         part(count.facets, "facet", "facets") + ", " + part(count.volumes, "volume", "volumes") + ", " +
+         part(count.shells, "shell", "shells");
+}
+
+std::string point_text(const Rational3& point) {
+  return to_string(point[0]) + "," + to_string(point[1]) + "," + to_string(point[2]);
+}
+
+Json point_json(const Rational3& point) {
+  return Json::array({to_string(point[0]), to_string(point[1]), to_string(point[2])});
+}
+
+Measured measure(int repeat, const std::function<Polyhedron()>& operation) {
+  Measured result;
+  std::vector<double> times;
+  for (int i = 0; i < std::max(repeat, 1); ++i) {
+    const PredicateCounts before = predicate_counts();
+    const Stopwatch watch;
+    Polyhedron set = operation();
+    times.push_back(watch.seconds());
+    const PredicateCounts& after = predicate_counts();
+    result.predicates = {after.identity - before.identity, after.filter - before.filter, after.exact - before.exact};
+    // The set of an earlier round goes outside of the time that is taken.
+    result.set = std::move(set);
+  }
+  std::sort(times.begin(), times.end());
+  const std::size_t middle = times.size() / 2;
+  result.seconds = times.size() % 2 == 1 ? times[middle] : (times[middle - 1] + times[middle]) / 2;
+  return result;
+}
+
+void finish(Session& session, const std::string& command, const Measured& measured) {
+  session.store(measured.set);
+  if (!session.json) {
+    session.say(summary(measured.set));
+    return;
+  }
+  Json object;
+  object["command"] = command;
+  object["load_s"] = session.load_s;
+  object["op_s"] = measured.seconds;
+  object["write_s"] = session.write_s;
+  object["repeat"] = session.repeat;
+  object["predicates"] = {{"identity", measured.predicates.identity},
+                          {"filter", measured.predicates.filter},
+                          {"exact", measured.predicates.exact}};
+  object["result"] = info_json(measured.set);
+  session.print(std::move(object));
+}
+
+}  // namespace nef

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Sets and measurements as JSON and as text.
+#pragma once
+
+#include <functional>
+
+#include "nef/command/session.h"
+#include "nef/geometry/predicates.h"
+
+namespace nef {
+
+/// Everything that `nef info` tells about a set: counts, properties, exact measures. Numbers that
+/// are infinite or undefined are null.
+Json info_json(const Polyhedron& set);
+
+/// "8 vertices, 12 edges, 6 facets, 2 volumes, 2 shells"
+std::string summary(const Polyhedron& set);
+
+/// A point as three exact numbers: "x,y,z", and as a JSON array of strings.
+std::string point_text(const Rational3& point);
+Json point_json(const Rational3& point);
+
+/// A result with the median time of its computation and the predicates of the last one.
+struct Measured {
+  Polyhedron set;
+  double seconds = 0;
+  PredicateCounts predicates;
+};
+
+/// Computes `repeat` times.
+Measured measure(int repeat, const std::function<Polyhedron()>& operation);
+
+/// Writes the result and prints what the flags ask for: a summary or a JSON object with load_s,
+/// op_s, write_s, predicates and result.
+void finish(Session& session, const std::string& command, const Measured& measured);
+
+}  // namespace nef

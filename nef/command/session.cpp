@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/command/session.h"
+
+#include <algorithm>
+#include <ostream>
+
+#include "nef/io/polyhedron_file.h"
+
+namespace nef {
+namespace {
+
+// Messages are one line each, whatever they quote.
+std::string one_line(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  std::replace(text.begin(), text.end(), '\r', ' ');
+  return text;
+}
+
+}  // namespace
+
+Polyhedron Session::load(const std::string& path) {
+  const Stopwatch watch;
+  const std::size_t first = messages.size();
+  MeshOptions options = mesh;
+  options.check = !no_check;
+  Polyhedron set = read_polyhedron(path, options, &messages);
+  load_s += watch.seconds();
+  show_messages(first);
+  return set;
+}
+
+void Session::store(const Polyhedron& set) {
+  if (output.empty()) return;
+  const Stopwatch watch;
+  const std::size_t first = messages.size();
+  PolyhedronWriteOptions options;
+  options.exact = exact;
+  options.binary = binary;
+  write_polyhedron(output, set, options, &messages);
+  write_s += watch.seconds();
+  show_messages(first);
+}
+
+void Session::say(const std::string& line) {
+  if (!quiet && !json) out_ << one_line(line) << '\n';
+}
+
+void Session::print(Json object) {
+  if (!messages.empty()) object["messages"] = messages;
+  // Paths may hold bytes that are no UTF-8; they are replaced rather than refused.
+  out_ << object.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+}
+
+void Session::complain(const std::string& line) { err_ << "nef: " << one_line(line) << '\n'; }
+
+void Session::show_messages(std::size_t first) {
+  if (quiet) return;
+  for (std::size_t i = first; i < messages.size(); ++i) complain("note: " + messages[i]);
+}
+
+CLI::App* add_subcommand(CLI::App& app, Session& session, const std::string& name, const std::string& description) {
+  CLI::App* command = app.add_subcommand(name, description);
+  command->add_flag("--json", session.json, "print one JSON object on stdout and nothing else there");
+  command->add_flag("-q,--quiet", session.quiet, "print no notes and no summary");
+  return command;
+}
+
+void add_input_flags(CLI::App* command, Session& session) {
+  command->add_flag("--strict", session.mesh.strict, "refuse faces that are not exactly planar");
+  command->add_flag("--as-surface", session.mesh.as_surface, "take meshes as two-dimensional sets; they may be open");
+  command->add_flag("--no-check", session.no_check, "do not look for self-intersections of meshes");
+}
+
+CLI::Option* add_output_flags(CLI::App* command, Session& session) {
+  command->add_flag("--exact", session.exact, "write exact coordinates (p/q) to OFF, OBJ or PLY");
+  command->add_flag("--binary", session.binary, "write binary STL or PLY");
+  return command->add_option("-o,--output", session.output,
+                             "file to write; its extension (nef, nef3, off, obj, stl, ply) picks the format");
+}
+
+}  // namespace nef

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// An expression after parsing.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "nef/number/number.h"
+
+namespace nef {
+
+/// What a node of the tree makes.
+enum class Term : std::uint8_t {
+  kNothing,
+  kEverything,
+  kFile,
+  kBox,
+  kHalfspace,
+  kPoint,
+  kSegment,
+  kHull,
+  kPolygon,
+  kUnion,
+  kIntersection,
+  kDifference,
+  kSymmetricDifference,
+  kComplement,
+  kInterior,
+  kClosure,
+  kBoundary,
+  kExterior,
+  kRegularize,
+  kTranslate,
+  kScale,
+  kRotate,
+  kTransform,
+};
+
+/// A set, and how it is made from other sets and numbers.
+struct SyntaxNode {
+  Term term = Term::kNothing;
+  std::size_t offset = 0;  ///< bytes before its name or operator
+  std::vector<SyntaxNode> sets;
+  std::vector<Rational> numbers;  ///< all numbers but those of a polygon; a rotation: axis, degrees[, tolerance]
+  std::vector<std::vector<Rational3>> rings;  ///< of a polygon; the first one: the points of a hull or segment
+  std::string path;                           ///< of a file
+};
+
+/// Parses a whole text. Throws ExpressionError.
+SyntaxNode parse_expression(std::string_view text);
+
+/// "column C" or "line L, column C" of a byte of the text.
+std::string place_in_text(std::string_view text, std::size_t offset);
+
+}  // namespace nef

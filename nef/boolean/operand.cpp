@@ -13,7 +13,7 @@ Operand::Operand(const Complex& complex, CommonTables& tables)
       svertices_(complex.svertices),
       shalfedges_(complex.shalfedges),
       sloops_(complex.sloops) {
-  if (tables.planes.size() == 0) {
+  if (tables.planes.size() == 0 && tables.points.size() == 0) {
     tables.planes = complex.planes;
     tables.points = complex.points;
   } else {

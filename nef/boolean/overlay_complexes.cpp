@@ -160,6 +160,12 @@ Complex overlay_complexes(const Complex& a, const Complex& b, const LabelFunctio
 
 namespace {
 
+// A corner of a box where no plane of the set arrives: an octant of one mark.
+bool idle_corner(const SphereMapView& map) {
+  return map.svertices.size() == 3 && map.sfaces.size() == 2 &&
+         std::any_of(map.sfaces.begin(), map.sfaces.end(), [](const SFace& f) { return f.mark == kOutside; });
+}
+
 // A box whose walls hold nothing but its eight corners says only what the outer volume is: the
 // set is finitely bounded, or its complement is.
 void drop_idle_box(Complex& c, LabelId& outer) {
@@ -167,12 +173,12 @@ void drop_idle_box(Complex& c, LabelId& outer) {
   std::uint32_t corner = kNone;
   for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
     if (c.points.finite(PointId{v})) continue;
+    // Eight vertices are not enough: a plane may pass through edges of the box.
+    if (!idle_corner(c.sphere_map(v))) return;
     ++infinite;
     corner = v;
   }
   if (infinite != 8) return;
-  const SphereMapView map = c.sphere_map(corner);
-  if (std::none_of(map.sfaces.begin(), map.sfaces.end(), [](const SFace& f) { return f.mark == kOutside; })) return;
   outer = c.vertices[corner].mark;
   Complex kept;
   kept.planes = std::move(c.planes);

@@ -2,6 +2,8 @@
 #include "nef/construct/solid.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "nef/base/error.h"
 #include "nef/boolean/overlay_complexes.h"
@@ -58,6 +60,12 @@ class SolidBuilder {
     std::uint32_t previous;
   };
 
+  struct Spoke {
+    std::uint32_t to;  // vertex
+    PlaneId first;     // planes of faces around the edge; second differs from first
+    PlaneId second;
+  };
+
   void collect_corners() {
     first_.assign(f_.points.size() + 1, 0);
     for (const std::uint32_t v : f_.corners) ++first_[v + 1];
@@ -74,28 +82,58 @@ class SolidBuilder {
     }
   }
 
-  std::uint32_t node_toward(std::uint32_t v, std::uint32_t w) {
-    for (std::uint32_t n = 0; n < neighbours_.size(); ++n) {
-      if (neighbours_[n] == w) return n;
+  // The node of the edge from v to w, and one more plane around it.
+  std::uint32_t node_toward(std::uint32_t w, PlaneId plane) {
+    std::uint32_t n = 0;
+    while (n < spokes_.size() && spokes_[n].to != w) ++n;
+    if (n == spokes_.size()) {
+      spokes_.push_back({w, plane, PlaneId()});
+    } else if (!spokes_[n].second.valid() && spokes_[n].first.row() != plane.row()) {
+      spokes_[n].second = plane;
     }
-    neighbours_.push_back(w);
-    Arrangement::Node node;
-    node.direction = vector_between(f_.points, PointId{v}, PointId{w});
-    node.mark = marks_.boundary;
-    drawing_.nodes.push_back(std::move(node));
-    return static_cast<std::uint32_t>(neighbours_.size() - 1);
+    return n;
+  }
+
+  // An edge between two planes has the direction of their meeting, up to its sign, which the
+  // rounded coordinates tell unless its ends are very close to each other. An edge within one
+  // plane disappears when the map is simplified; until then its vector stands for it.
+  Direction direction_along(std::uint32_t v, const Spoke& spoke) const {
+    if (!spoke.second.valid()) return vector_between(f_.points, PointId{v}, PointId{spoke.to});
+    Direction d = Direction::cross(f_.planes, spoke.first, spoke.second);
+    const std::array<double, 3>& a = f_.points.approximate(PointId{v});
+    const std::array<double, 3>& b = f_.points.approximate(PointId{spoke.to});
+    double dot = 0;
+    double length = 0;
+    double magnitude = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      dot += d.approximate[i] * (b[i] - a[i]);
+      length = std::max(length, std::fabs(b[i] - a[i]));
+      magnitude = std::max({magnitude, std::fabs(a[i]), std::fabs(b[i])});
+    }
+    // Coordinates are within 2^-51 relative, so where the difference is over 2^-40 of them it is
+    // right to a thousandth, and so is d (its error is below 2^-30): parallel vectors then have a
+    // product of at least half their lengths' product.
+    const bool reliable = length > 0x1p-40 * magnitude && magnitude < std::numeric_limits<double>::infinity();
+    const int sign = reliable ? (dot > 0 ? 1 : -1)
+                              : sign_of_dot(d, vector_between(f_.points, PointId{v}, PointId{spoke.to}));
+    return sign > 0 ? std::move(d) : d.negated();
   }
 
   void draw(std::uint32_t v) {
     drawing_.clear();
-    neighbours_.clear();
+    spokes_.clear();
     drawing_.centre = marks_.boundary;
     for (std::uint32_t i = first_[v]; i < first_[v + 1]; ++i) {
       const Corner& corner = corners_[i];
-      const std::uint32_t source = node_toward(v, corner.next);
-      const std::uint32_t target = node_toward(v, corner.previous);
+      const std::uint32_t source = node_toward(corner.next, f_.plane[corner.face]);
+      const std::uint32_t target = node_toward(corner.previous, f_.plane[corner.face]);
       drawing_.arcs.push_back(
           {f_.plane[corner.face], source, target, marks_.boundary, marks_.outside, marks_.inside});
+    }
+    drawing_.nodes.resize(spokes_.size());
+    for (std::size_t n = 0; n < spokes_.size(); ++n) {
+      drawing_.nodes[n].direction = direction_along(v, spokes_[n]);
+      drawing_.nodes[n].mark = marks_.boundary;
     }
   }
 
@@ -106,7 +144,7 @@ class SolidBuilder {
         const std::uint32_t next = ring[(i + 1) % ring.size()];
         if (drawing_.left(ring[i]) != drawing_.left(next ^ 1U)) {
           throw InputError("the faces around the edge from vertex " + std::to_string(v) + " to vertex " +
-                           std::to_string(neighbours_[n]) +
+                           std::to_string(spokes_[n].to) +
                            " do not separate inside from outside; the mesh crosses itself or is not consistently oriented");
         }
       }
@@ -117,7 +155,7 @@ class SolidBuilder {
   SolidMarks marks_;
   std::vector<std::uint32_t> first_;
   std::vector<Corner> corners_;
-  std::vector<std::uint32_t> neighbours_;
+  std::vector<Spoke> spokes_;
   Arrangement drawing_;
 };
 

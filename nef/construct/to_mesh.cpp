@@ -185,7 +185,10 @@ class Exporter {
   // Sorts an item by what its mark and the volumes around it say about the mesh.
   void judge(const Sides& sides, LabelId mark, std::size_t Items::*member) {
     const bool selected = is_selected(mark);
-    if (sides.selected && !selected) ++((sides.unselected ? open_ : cracks_).*member);
+    if (sides.selected && !selected) {
+      Items& items = sides.unselected || sides.other ? open_ : cracks_;
+      ++(items.*member);
+    }
     if (!sides.selected && !sides.other && selected) ++(flat_.*member);
   }
 

@@ -34,7 +34,4 @@ std::string ply_bytes(const Mesh& mesh, const MeshWriteOptions& options = {});
 /// again: its coordinates are short decimals in text, doubles or floats in binary. Polygons of such points stay planar.
 bool survives_writing(const Rational3& point, const std::string& extension, const MeshWriteOptions& options);
 
-/// The float nearest to a rational (half to even), rounded once.
-float nearest_float(const Rational& value);
-
 }  // namespace nef

@@ -18,6 +18,8 @@ Polyhedron read_polyhedron(const std::string& path, const MeshOptions& options, 
     if (extension == "nef" || bytes.starts_with("nef ")) return read_native(bytes, path);
   }
   const Mesh mesh = read_mesh(path);
+  // What write_polyhedron makes of the empty set.
+  if (mesh.vertices.empty() && mesh.face_count() == 0) return Polyhedron();
   try {
     return from_mesh(mesh, options, messages);
   } catch (const InputError& error) {

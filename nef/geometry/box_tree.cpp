@@ -2,7 +2,6 @@
 #include "nef/geometry/box_tree.h"
 
 #include <cmath>
-#include <numeric>
 
 namespace nef {
 namespace {
@@ -19,51 +18,61 @@ double centre(const Box& box, std::size_t axis) {
 }  // namespace
 
 BoxTree::BoxTree(std::span<const Box> boxes) : order_(boxes.size()) {
-  std::iota(order_.begin(), order_.end(), 0U);
   if (boxes.empty()) return;
+  std::vector<Entry> entries(boxes.size());
+  for (std::uint32_t i = 0; i < boxes.size(); ++i) {
+    for (std::size_t axis = 0; axis < 3; ++axis) entries[i].centre[axis] = centre(boxes[i], axis);
+    entries[i].index = i;
+  }
   nodes_.reserve(boxes.size());
   nodes_.emplace_back();
-  build(0, 0, static_cast<std::uint32_t>(boxes.size()), boxes);
+  build(0, 0, entries);
   boxes_.reserve(boxes.size());
-  for (const std::uint32_t index : order_) boxes_.push_back(boxes[index]);
+  for (std::uint32_t i = 0; i < boxes.size(); ++i) {
+    order_[i] = entries[i].index;
+    boxes_.push_back(boxes[order_[i]]);
+  }
+  // Bounds from the leaves upward: children come after their parents.
+  for (std::size_t n = nodes_.size(); n-- > 0;) {
+    Node& node = nodes_[n];
+    if (node.count > 0) {
+      for (std::uint32_t i = node.first; i < node.first + node.count; ++i) node.box.add(boxes_[i]);
+    } else {
+      node.box.add(nodes_[node.first].box);
+      node.box.add(nodes_[node.first + 1].box);
+    }
+  }
 }
 
 // Median split along the axis on which the centres spread most: depth is at most log2(n) + 1.
-void BoxTree::build(std::uint32_t node, std::uint32_t first, std::uint32_t last, std::span<const Box> boxes) {
-  Box bounds;
+void BoxTree::build(std::uint32_t node, std::uint32_t first, std::span<Entry> entries) {
+  if (entries.size() <= kLeafSize) {
+    nodes_[node].first = first;
+    nodes_[node].count = static_cast<std::uint32_t>(entries.size());
+    return;
+  }
   std::array<double, 3> low{HUGE_VAL, HUGE_VAL, HUGE_VAL};
   std::array<double, 3> high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-  for (std::uint32_t i = first; i < last; ++i) {
-    const Box& box = boxes[order_[i]];
-    bounds.add(box);
+  for (const Entry& entry : entries) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double c = centre(box, axis);
-      low[axis] = std::min(low[axis], c);
-      high[axis] = std::max(high[axis], c);
+      low[axis] = std::min(low[axis], entry.centre[axis]);
+      high[axis] = std::max(high[axis], entry.centre[axis]);
     }
-  }
-  nodes_[node].box = bounds;
-  if (last - first <= kLeafSize) {
-    nodes_[node].first = first;
-    nodes_[node].count = last - first;
-    return;
   }
   std::size_t axis = 0;
   for (std::size_t i = 1; i < 3; ++i) {
     if (high[i] - low[i] > high[axis] - low[axis]) axis = i;
   }
-  const std::uint32_t middle = first + (last - first) / 2;
-  std::nth_element(order_.begin() + first, order_.begin() + middle, order_.begin() + last,
-                   [&](std::uint32_t a, std::uint32_t b) {
-                     const double ca = centre(boxes[a], axis);
-                     const double cb = centre(boxes[b], axis);
-                     return ca != cb ? ca < cb : a < b;
+  const std::size_t middle = entries.size() / 2;
+  std::nth_element(entries.begin(), entries.begin() + static_cast<std::ptrdiff_t>(middle), entries.end(),
+                   [axis](const Entry& a, const Entry& b) {
+                     return a.centre[axis] != b.centre[axis] ? a.centre[axis] < b.centre[axis] : a.index < b.index;
                    });
   const auto children = static_cast<std::uint32_t>(nodes_.size());
   nodes_[node].first = children;
   nodes_.resize(nodes_.size() + 2);
-  build(children, first, middle, boxes);
-  build(children + 1, middle, last, boxes);
+  build(children, first, entries.first(middle));
+  build(children + 1, first + static_cast<std::uint32_t>(middle), entries.subspan(middle));
 }
 
 }  // namespace nef

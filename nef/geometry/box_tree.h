@@ -86,7 +86,11 @@ class BoxTree {
     std::uint32_t first = 0;  // of the two children, or of the leaf's boxes
     std::uint32_t count = 0;  // 0 for inner nodes
   };
-  void build(std::uint32_t node, std::uint32_t first, std::uint32_t last, std::span<const Box> boxes);
+  struct Entry {
+    std::array<double, 3> centre;
+    std::uint32_t index;
+  };
+  void build(std::uint32_t node, std::uint32_t first, std::span<Entry> entries);
 
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> order_;

@@ -28,7 +28,9 @@ Polyhedron combine_all(std::span<const Polyhedron> sets, Polyhedron (*combine)(c
     std::size_t order;
     Polyhedron set;
   };
-  const auto later = [](const Entry& x, const Entry& y) { return x.size != y.size ? x.size > y.size : x.order > y.order; };
+  const auto later = [](const Entry& x, const Entry& y) {
+    return x.size != y.size ? x.size > y.size : x.order > y.order;
+  };
   std::priority_queue<Entry, std::vector<Entry>, decltype(later)> queue(later);
   std::size_t order = 0;
   for (const Polyhedron& set : sets) queue.push({set.complex().vertex_count(), order++, set});

@@ -25,8 +25,8 @@ class FacetLocator {
     if (corners.size() <= kSmall) {
       for (const std::uint32_t corner : corners) visit(operand_.complex().corner_halfedge(corner));
     } else {
-      tree(facet).for_each_overlap(
-          box, [&](std::uint32_t i) { visit(operand_.complex().corner_halfedge(corners[i])); });
+      tree(facet).for_each_overlap(box,
+                                   [&](std::uint32_t i) { visit(operand_.complex().corner_halfedge(corners[i])); });
     }
   }
 

@@ -16,7 +16,9 @@ namespace {
 class IntersectionFinder {
  public:
   IntersectionFinder(const std::array<Operand, 2>& operands, CommonTables& tables)
-      : operands_(operands), tables_(tables), locators_{FacetLocator{operands[0], tables}, FacetLocator{operands[1], tables}} {
+      : operands_(operands),
+        tables_(tables),
+        locators_{FacetLocator{operands[0], tables}, FacetLocator{operands[1], tables}} {
     for (std::size_t x = 0; x < 2; ++x) result_.vertex_item[x].resize(operands[x].complex().vertex_count());
   }
 
@@ -147,7 +149,8 @@ class IntersectionFinder {
         if (side_a * side_b < 0) {
           pierce(x, e, facet);
         } else if (side_a == 0 && side_b == 0) {
-          locators_[1 - x].for_each_edge(facet, box, [&](std::uint32_t f) { cross_in_plane(x, e, other.edge(f), plane); });
+          locators_[1 - x].for_each_edge(facet, box,
+                                         [&](std::uint32_t f) { cross_in_plane(x, e, other.edge(f), plane); });
         }
       });
     }
@@ -174,8 +177,7 @@ class IntersectionFinder {
     if (side(through_f, own.point(own.source(e))) * side(through_f, own.point(own.target(e))) >= 0) return;
     const PlaneId through_e = own.edge_side(tables_.planes, plane, e).other;
     if (side(through_e, other.point(other.source(f))) * side(through_e, other.point(other.target(f))) >= 0) return;
-    const std::optional<PointId> point =
-        tables_.points.push_intersection(tables_.planes, plane, through_e, through_f);
+    const std::optional<PointId> point = tables_.points.push_intersection(tables_.planes, plane, through_e, through_f);
     NEF_ASSERT(point.has_value());
     if (!add_crossing(x, e, {Item::Kind::kEdge, f}, *point)) tables_.points.pop();
   }
@@ -207,11 +209,10 @@ class IntersectionFinder {
         // The lines meet in a point iff it lies on all four planes; three of them that are
         // independent give it.
         for (const PlaneId plane : {other.p, other.q}) {
-          const std::optional<PointId> point =
-              tables_.points.push_intersection(tables_.planes, line.p, line.q, plane);
+          const std::optional<PointId> point = tables_.points.push_intersection(tables_.planes, line.p, line.q, plane);
           if (!point) continue;
-          const bool on_both = side(other.p, *point) == 0 && side(other.q, *point) == 0 && inside(a, e, *point) &&
-                               inside(b, f, *point);
+          const bool on_both =
+              side(other.p, *point) == 0 && side(other.q, *point) == 0 && inside(a, e, *point) && inside(b, f, *point);
           if (!on_both || !add_crossing(0, e, {Item::Kind::kEdge, f}, *point)) tables_.points.pop();
           return;
         }

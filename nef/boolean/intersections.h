@@ -22,7 +22,7 @@ struct Crossing {
 struct EdgeContact {
   std::uint32_t edge = 0;  ///< smaller halfedge
   PointId point;
-  Item other;              ///< the item of the other operand
+  Item other;  ///< the item of the other operand
   auto operator<=>(const EdgeContact& o) const { return edge <=> o.edge; }
 };
 

@@ -46,8 +46,7 @@ class UntouchedMarks {
     spread();
     for (std::uint32_t v = 0; v < count; ++v) {
       if (touched(v) || known_[v]) continue;
-      const std::uint32_t volume =
-          queries().volume_at(other_.complex(), PointRef{&own_.complex().points, PointId{v}});
+      const std::uint32_t volume = queries().volume_at(other_.complex(), PointRef{&own_.complex().points, PointId{v}});
       settle(v, other_.complex().volumes[volume].mark);
       spread();
     }

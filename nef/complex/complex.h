@@ -47,13 +47,13 @@ struct VertexRecord {
 
 /// A connected, relatively open piece of a plane with one mark.
 struct Facet {
-  PlaneId plane;                  ///< unflipped
+  PlaneId plane;  ///< unflipped
   LabelId mark = 0;
   std::uint32_t first_cycle = 0;  ///< the outer cycle; holes follow
   std::uint32_t cycle_count = 0;
   std::uint32_t first_isolated = 0;  ///< vertices inside the facet, in isolated_vertices
   std::uint32_t isolated_count = 0;
-  std::uint32_t volume_above = 0;    ///< on the positive side of the plane
+  std::uint32_t volume_above = 0;  ///< on the positive side of the plane
   std::uint32_t volume_below = 0;
 };
 
@@ -67,7 +67,8 @@ struct Shell {
 /// A connected open region of space with one mark.
 struct Volume {
   LabelId mark = 0;
-  std::uint32_t first_shell = 0;  ///< shells of a volume are contiguous; the outer shell (none for volume 0) comes first
+  std::uint32_t first_shell =
+      0;  ///< shells of a volume are contiguous; the outer shell (none for volume 0) comes first
   std::uint32_t shell_count = 0;
 };
 
@@ -84,23 +85,23 @@ struct Complex {
   std::vector<SFaceEntry> entries;
 
   // Added by synthesis, parallel to the arrays above.
-  std::vector<std::uint32_t> svertex_owner;     ///< vertex
-  std::vector<std::uint32_t> twin;              ///< halfedge at the other end of the edge
-  std::vector<std::uint32_t> shalfedge_owner;   ///< vertex
-  std::vector<std::uint32_t> shalfedge_facet;   ///< halffacet
-  std::vector<std::uint32_t> sloop_facet;       ///< halffacet
-  std::vector<std::uint32_t> sface_owner;       ///< vertex
+  std::vector<std::uint32_t> svertex_owner;    ///< vertex
+  std::vector<std::uint32_t> twin;             ///< halfedge at the other end of the edge
+  std::vector<std::uint32_t> shalfedge_owner;  ///< vertex
+  std::vector<std::uint32_t> shalfedge_facet;  ///< halffacet
+  std::vector<std::uint32_t> sloop_facet;      ///< halffacet
+  std::vector<std::uint32_t> sface_owner;      ///< vertex
   std::vector<std::uint32_t> sface_shell;
 
   std::vector<Facet> facets;
-  std::vector<std::uint32_t> cycle_begin{0};    ///< into corners; one more than there are cycles
-  std::vector<std::uint32_t> corners;           ///< shalfedges
+  std::vector<std::uint32_t> cycle_begin{0};  ///< into corners; one more than there are cycles
+  std::vector<std::uint32_t> corners;         ///< shalfedges
   std::vector<std::uint32_t> isolated_vertices;
 
   std::vector<Shell> shells;
   std::vector<std::uint32_t> shell_sfaces;
   std::vector<Volume> volumes;
-  LabelId label_count = 2;                      ///< every mark but kOutside is below it; at least 2
+  LabelId label_count = 2;  ///< every mark but kOutside is below it; at least 2
 
   [[nodiscard]] std::size_t vertex_count() const { return vertices.size() - 1; }
   [[nodiscard]] std::size_t edge_count() const { return svertices.size() / 2; }

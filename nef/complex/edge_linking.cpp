@@ -79,7 +79,7 @@ class Linker {
   void bucket() {
     std::size_t capacity = 16;
     while (capacity < keys_.size() + keys_.size() / 2) capacity *= 2;
-    std::vector<std::uint32_t> slots(capacity, kNone);   // first svertex of the group in this slot
+    std::vector<std::uint32_t> slots(capacity, kNone);     // first svertex of the group in this slot
     std::vector<std::uint32_t> next(keys_.size(), kNone);  // the others, last come first
     c_.twin.assign(keys_.size(), kNone);
     std::vector<std::uint32_t> crowded;  // heads of groups with more than two
@@ -116,7 +116,8 @@ class Linker {
   int sense(std::uint32_t s, std::uint32_t reference, const Direction& direction) const {
     const SVertex& v = c_.svertices[s];
     const SVertex& r = c_.svertices[reference];
-    if (v.p.row() == r.p.row() && v.q.row() == r.q.row()) return ((v.p.value ^ v.q.value ^ r.p.value ^ r.q.value) & 1U) != 0 ? -1 : 1;
+    if (v.p.row() == r.p.row() && v.q.row() == r.q.row())
+      return ((v.p.value ^ v.q.value ^ r.p.value ^ r.q.value) & 1U) != 0 ? -1 : 1;
     return sign_of_dot(direction, Direction::cross(c_.planes, v.p, v.q));
   }
 

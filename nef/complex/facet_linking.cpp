@@ -96,7 +96,8 @@ class FacetLinker {
       const auto first = isolated;
       while (isolated != isolated_.end() && isolated->first == row) ++isolated;
       const std::span<const std::uint32_t> cycles(order.data() + start[row], start[row + 1] - start[row]);
-      const std::span<const std::pair<std::uint32_t, std::uint32_t>> points(&*first, static_cast<std::size_t>(isolated - first));
+      const std::span<const std::pair<std::uint32_t, std::uint32_t>> points(&*first,
+                                                                            static_cast<std::size_t>(isolated - first));
       if (!cycles.empty()) link_plane(row, cycles, points);
       NEF_ASSERT(!cycles.empty() || points.empty());
     }
@@ -140,9 +141,9 @@ class FacetLinker {
       if (c_.shalfedge_owner[corner] != cycle.lowest) continue;
       const std::uint32_t ahead = c_.corner_halfedge(corner);
       const std::uint32_t back = c_.corner_back_halfedge(corner);
-      if (ahead == back || orientation_on_circle(c_.planes, c_.shalfedges[corner].plane,
-                                                 direction_of(c_.planes, c_.svertices[ahead]),
-                                                 direction_of(c_.planes, c_.svertices[back])) <= 0) {
+      if (ahead == back ||
+          orientation_on_circle(c_.planes, c_.shalfedges[corner].plane, direction_of(c_.planes, c_.svertices[ahead]),
+                                direction_of(c_.planes, c_.svertices[back])) <= 0) {
         cycle.outer = false;
         return;
       }

@@ -15,7 +15,7 @@ namespace nef {
 /// on the plane they are coordinates.
 struct PlaneAxes {
   PlaneAxes(const PlaneTable& planes, PlaneId plane);
-  int first = 0;   ///< rays go along it, toward smaller values
+  int first = 0;  ///< rays go along it, toward smaller values
   int second = 1;
   bool positive = true;  ///< (first, second) turns counterclockwise as seen from the unflipped normal's side
 
@@ -33,7 +33,8 @@ EdgeSide edge_side(const PlaneTable& planes, PlaneId plane, const SVertex& halfe
 
 /// Where a point of the plane lies, from an edge of the plane: +1 to the left of the halfedge, 0
 /// on its line, -1 to the right.
-int side_of_edge(const Complex& complex, PlaneId plane, std::uint32_t halfedge, const PointTable& points, PointId point);
+int side_of_edge(const Complex& complex, PlaneId plane, std::uint32_t halfedge, const PointTable& points,
+                 PointId point);
 
 /// An edge of some cycle of the plane, and the number of that cycle's owner.
 struct PlaneRayEdge {

@@ -149,8 +149,8 @@ class MeshSolid {
   }
 
   void triangulate(std::uint32_t face, const Rational3& area) {
-    const std::string name = "face " + std::to_string(face) + " is not planar (off by " +
-                             std::to_string(face_deviation(mesh_, face)) + ")";
+    const std::string name =
+        "face " + std::to_string(face) + " is not planar (off by " + std::to_string(face_deviation(mesh_, face)) + ")";
     if (options_.strict) throw InputError(name + "; triangulate it, or read the mesh without --strict");
     std::size_t axis = 0;
     for (std::size_t i = 1; i < 3; ++i) {

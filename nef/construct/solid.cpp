@@ -56,7 +56,7 @@ class SolidBuilder {
  private:
   struct Corner {
     std::uint32_t face;
-    std::uint32_t next;      // vertex
+    std::uint32_t next;  // vertex
     std::uint32_t previous;
   };
 
@@ -114,8 +114,8 @@ class SolidBuilder {
     // right to a thousandth, and so is d (its error is below 2^-30): parallel vectors then have a
     // product of at least half their lengths' product.
     const bool reliable = length > 0x1p-40 * magnitude && magnitude < std::numeric_limits<double>::infinity();
-    const int sign = reliable ? (dot > 0 ? 1 : -1)
-                              : sign_of_dot(d, vector_between(f_.points, PointId{v}, PointId{spoke.to}));
+    const int sign =
+        reliable ? (dot > 0 ? 1 : -1) : sign_of_dot(d, vector_between(f_.points, PointId{v}, PointId{spoke.to}));
     return sign > 0 ? std::move(d) : d.negated();
   }
 
@@ -127,8 +127,7 @@ class SolidBuilder {
       const Corner& corner = corners_[i];
       const std::uint32_t source = node_toward(corner.next, f_.plane[corner.face]);
       const std::uint32_t target = node_toward(corner.previous, f_.plane[corner.face]);
-      drawing_.arcs.push_back(
-          {f_.plane[corner.face], source, target, marks_.boundary, marks_.outside, marks_.inside});
+      drawing_.arcs.push_back({f_.plane[corner.face], source, target, marks_.boundary, marks_.outside, marks_.inside});
     }
     drawing_.nodes.resize(spokes_.size());
     for (std::size_t n = 0; n < spokes_.size(); ++n) {
@@ -143,9 +142,10 @@ class SolidBuilder {
       for (std::size_t i = 0; i < ring.size(); ++i) {
         const std::uint32_t next = ring[(i + 1) % ring.size()];
         if (drawing_.left(ring[i]) != drawing_.left(next ^ 1U)) {
-          throw InputError("the faces around the edge from vertex " + std::to_string(v) + " to vertex " +
-                           std::to_string(spokes_[n].to) +
-                           " do not separate inside from outside; the mesh crosses itself or is not consistently oriented");
+          throw InputError(
+              "the faces around the edge from vertex " + std::to_string(v) + " to vertex " +
+              std::to_string(spokes_[n].to) +
+              " do not separate inside from outside; the mesh crosses itself or is not consistently oriented");
         }
       }
     }
@@ -191,7 +191,8 @@ Complex make_infimaximal_box() { return make_solid(infimaximal_box_faces(false),
 
 Complex clip_to_infimaximal_box(const Complex& solid) {
   const Complex box = make_infimaximal_box();
-  const LabelFunction clip(solid.label_count, 2, [](LabelId mark, LabelId in_box) { return in_box != 0 ? mark : kOutside; });
+  const LabelFunction clip(solid.label_count, 2,
+                           [](LabelId mark, LabelId in_box) { return in_box != 0 ? mark : kOutside; });
   std::unique_ptr<const QueryStructure> of_solid;
   std::unique_ptr<const QueryStructure> of_box;
   const auto ask = [](const Complex& c, std::unique_ptr<const QueryStructure>& slot) -> const QueryStructure& {

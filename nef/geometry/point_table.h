@@ -45,7 +45,9 @@ class PointTable {
   }
 
   /// Homogeneous coordinate: 0..2 for x, y, z; 3 for w; 4..6 for the factors of R.
-  [[nodiscard]] IntegerView coordinate(PointId point, std::size_t column) const { return rows_.at(point.value, column); }
+  [[nodiscard]] IntegerView coordinate(PointId point, std::size_t column) const {
+    return rows_.at(point.value, column);
+  }
 
   /// The three doubles of a point.
   [[nodiscard]] const std::array<double, 3>& approximate(PointId point) const { return approximate_[point.value]; }

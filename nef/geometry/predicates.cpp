@@ -230,8 +230,8 @@ void cross_component(mpz_ptr out, const Direction& v, const Direction& w, std::s
 }  // namespace
 
 int sign_of_dot(const Direction& u, const Direction& v) {
-  const double value = u.approximate[0] * v.approximate[0] + u.approximate[1] * v.approximate[1] +
-                       u.approximate[2] * v.approximate[2];
+  const double value =
+      u.approximate[0] * v.approximate[0] + u.approximate[1] * v.approximate[1] + u.approximate[2] * v.approximate[2];
   // Components are at most 1: a component's error e moves the sum by at most 3e (both at once by
   // the product of errors, far below), rounding by 3 products and 2 sums, under 8u.
   const double bound = 3.1 * (u.error + v.error) + 16 * kUnit;
@@ -252,8 +252,8 @@ int sign_of_determinant(const Direction& u, const Direction& v, const Direction&
   const std::array<double, 3>& a = u.approximate;
   const std::array<double, 3>& b = v.approximate;
   const std::array<double, 3>& c = w.approximate;
-  const double value = a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
-                       a[2] * (b[0] * c[1] - b[1] * c[0]);
+  const double value =
+      a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
   // Components are at most 1, cofactors at most 2: an error e in one vector moves the value by at
   // most 6e; rounding: 6 terms of 3 operations and 5 sums, under 40u.
   const double bound = 6.2 * (u.error + v.error + w.error) + 64 * kUnit;

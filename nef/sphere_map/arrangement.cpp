@@ -31,7 +31,8 @@ void Arrangement::load(const PlaneTable& planes, const SphereMapView& map) {
   }
   for (std::uint32_t e = 0; e < map.shalfedges.size(); e += 2) {
     const SHalfedge& half = map.shalfedges[e];
-    arcs.push_back({half.plane, half.source, map.target(e), half.mark, face(half.sface), face(map.shalfedges[e + 1].sface)});
+    arcs.push_back(
+        {half.plane, half.source, map.target(e), half.mark, face(half.sface), face(map.shalfedges[e + 1].sface)});
   }
   if (!map.sloops.empty()) {
     circle = {true, map.sloops[0].plane, map.sloops[0].mark, face(map.sloops[0].sface), face(map.sloops[1].sface)};

@@ -27,7 +27,7 @@ class Arrangement {
     std::uint32_t source = kNone;
     std::uint32_t target = kNone;
     LabelId mark = 0;
-    LabelId left = 0;   ///< mark of the region on the positive side of the plane
+    LabelId left = 0;  ///< mark of the region on the positive side of the plane
     LabelId right = 0;
   };
   struct Circle {
@@ -40,9 +40,9 @@ class Arrangement {
 
   std::vector<Node> nodes;
   std::vector<Arc> arcs;
-  Circle circle;                 ///< a great circle without nodes; there is never room for two
-  LabelId background = 0;        ///< mark of the sphere if there are neither nodes, arcs nor circle
-  LabelId centre = 0;            ///< mark of the centre
+  Circle circle;           ///< a great circle without nodes; there is never room for two
+  LabelId background = 0;  ///< mark of the sphere if there are neither nodes, arcs nor circle
+  LabelId centre = 0;      ///< mark of the centre
 
   void clear();
 
@@ -88,8 +88,8 @@ class Arrangement {
   enum class Role : std::uint8_t { kPassed, kEssential, kInChain };  // a passed node may be found in a chain
   std::vector<Role> role_;
   [[nodiscard]] bool essential(std::uint32_t node) const { return role_[node] == Role::kEssential; }
-  std::vector<std::uint32_t> final_half_;     // half of the drawing -> shalfedge that starts with it
-  std::vector<std::uint32_t> chain_end_;      // first half of a chain -> its last half
+  std::vector<std::uint32_t> final_half_;  // half of the drawing -> shalfedge that starts with it
+  std::vector<std::uint32_t> chain_end_;   // first half of a chain -> its last half
   std::vector<std::uint32_t> node_svertex_;
 };
 

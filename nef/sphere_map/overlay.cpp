@@ -82,8 +82,8 @@ void SphereOverlay::load(const SphereMapView& map, std::uint8_t operand) {
   }
   if (operand == 1) merge_nodes(first_node);
   for (std::uint32_t i = 0; i < map.shalfedges.size(); i += 2) {
-    input_.push_back({map.shalfedges[i].plane, node_of_b_[map.shalfedges[i].source],
-                      node_of_b_[map.target(i)], i, operand});
+    input_.push_back(
+        {map.shalfedges[i].plane, node_of_b_[map.shalfedges[i].source], node_of_b_[map.target(i)], i, operand});
   }
   if (!map.sloops.empty()) input_.push_back({map.sloops[0].plane, kNone, kNone, 0, operand});
 }
@@ -146,8 +146,8 @@ void SphereOverlay::cross_arcs(std::uint32_t first_of_b) {
     if (orientation_on_circle(*planes_, arc.plane, s, t) <= 0) return everywhere;
     const std::array<double, 3> u = unit(s);
     const std::array<double, 3> v = unit(t);
-    const double chord = std::sqrt((u[0] - v[0]) * (u[0] - v[0]) + (u[1] - v[1]) * (u[1] - v[1]) +
-                                   (u[2] - v[2]) * (u[2] - v[2]));
+    const double chord =
+        std::sqrt((u[0] - v[0]) * (u[0] - v[0]) + (u[1] - v[1]) * (u[1] - v[1]) + (u[2] - v[2]) * (u[2] - v[2]));
     return box_around({(u[0] + v[0]) / 2, (u[1] + v[1]) / 2, (u[2] + v[2]) / 2}, chord / 2 + kSlack);
   };
   std::vector<Box> boxes;
@@ -433,8 +433,8 @@ void SphereOverlay::evaluate(const LabelFunction& f) {
   for (std::uint32_t k = 0; k < drawing_.arcs.size(); ++k) {
     std::array<LabelId, 2> mark{};
     for (std::size_t x = 0; x < 2; ++x) {
-      mark[x] = owners_[k][x] != kNone ? mark_of_owner(static_cast<int>(x), owners_[k][x])
-                                       : face_mark(x, face_[2 * k][x]);
+      mark[x] =
+          owners_[k][x] != kNone ? mark_of_owner(static_cast<int>(x), owners_[k][x]) : face_mark(x, face_[2 * k][x]);
     }
     drawing_.arcs[k].mark = f(mark[0], mark[1]);
     drawing_.arcs[k].left = left_label(2 * k);
@@ -472,8 +472,8 @@ void SphereOverlay::evaluate(const LabelFunction& f) {
     }
     // The whole circle lies in one sface of this operand: any of its points tells which.
     const std::array<Integer, 3>& v = n.integers();
-    const Direction point = v[0] == 0 && v[1] == 0 ? Direction::exact(1, 0, 0)
-                                                   : Direction::exact(Integer(-v[1]), v[0], 0);
+    const Direction point =
+        v[0] == 0 && v[1] == 0 ? Direction::exact(1, 0, 0) : Direction::exact(Integer(-v[1]), v[0], 0);
     const LabelId label = maps_[x].trivial() ? face_mark(x, 0) : mark_at(maps_[x], locate(*planes_, maps_[x], point));
     labels[0][x] = labels[1][x] = labels[2][x] = label;
   }

@@ -34,7 +34,7 @@ class SphereOverlay {
     PlaneId plane;
     std::uint32_t source = kNone;  // node
     std::uint32_t target = kNone;
-    std::uint32_t item = 0;        // even shalfedge or sloop 0 of its operand
+    std::uint32_t item = 0;  // even shalfedge or sloop 0 of its operand
     std::uint8_t operand = 0;
   };
   // For every arc of the drawing and both operands: the even or odd half of the operand's arc that
@@ -62,15 +62,15 @@ class SphereOverlay {
   std::array<SphereMapView, 2> maps_;
   Arrangement drawing_;
   std::vector<NodeSupport> support_;
-  std::vector<std::uint32_t> node_of_b_;               // svertex of b -> node
+  std::vector<std::uint32_t> node_of_b_;  // svertex of b -> node
   std::vector<InputArc> input_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> hits_;  // (input arc, node inside it)
   std::vector<Owners> owners_;
-  std::vector<std::uint32_t> first_piece_;             // per node: pieces that start there, as a list
+  std::vector<std::uint32_t> first_piece_;  // per node: pieces that start there, as a list
   std::vector<std::uint32_t> next_piece_;
-  std::vector<std::array<std::uint32_t, 2>> face_;     // per half of the drawing: sface to its left
+  std::vector<std::array<std::uint32_t, 2>> face_;       // per half of the drawing: sface to its left
   std::vector<std::array<std::uint32_t, 2>> node_face_;  // per node: the sface that holds it, if one does
-  std::vector<Owners> circle_owner_;                   // of the drawing's circle, if it has one
+  std::vector<Owners> circle_owner_;                     // of the drawing's circle, if it has one
 };
 
 }  // namespace nef

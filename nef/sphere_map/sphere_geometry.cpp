@@ -26,10 +26,10 @@ bool strictly_between_on_circle(const PlaneTable& planes, PlaneId plane, const D
 int compare_around(const Direction& d, const Direction& reference, const Direction& n1, const Direction& n2) {
   // Rank of the angle from the reference: 0 at it, 1 in (0, pi), 2 at pi, 3 in (pi, 2 pi).
   const auto rank = [&](const Direction& n) {
-    const int turn = n.p.valid() && !n.q.valid() && reference.p.valid() && !reference.q.valid() &&
-                             n.p.row() == reference.p.row()
-                         ? 0
-                         : sign_of_determinant(d, reference, n);
+    const int turn =
+        n.p.valid() && !n.q.valid() && reference.p.valid() && !reference.q.valid() && n.p.row() == reference.p.row()
+            ? 0
+            : sign_of_determinant(d, reference, n);
     if (turn != 0) return turn > 0 ? 1 : 3;
     return sign_of_dot(reference, n) > 0 ? 0 : 2;
   };

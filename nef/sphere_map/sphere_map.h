@@ -24,20 +24,20 @@ inline constexpr std::uint32_t kNone = 0xffffffffU;
 
 /// A point of the sphere: an edge of the complex as it leaves a vertex.
 struct SVertex {
-  PlaneId p, q;                    ///< direction n_p x n_q
-  std::uint32_t out = kNone;       ///< a shalfedge that starts here; kNone if isolated
-  std::uint32_t sface = kNone;     ///< the sface around it, if isolated
+  PlaneId p, q;                 ///< direction n_p x n_q
+  std::uint32_t out = kNone;    ///< a shalfedge that starts here; kNone if isolated
+  std::uint32_t sface = kNone;  ///< the sface around it, if isolated
   LabelId mark = 0;
 };
 
 /// One side of an arc of a great circle: the corner of a facet at a vertex.
 struct SHalfedge {
-  PlaneId plane;                   ///< positive side = the side of its sface
-  std::uint32_t source = kNone;    ///< svertex; the target is the source of the twin
-  std::uint32_t next = kNone;      ///< next on the boundary of its sface, which lies to the left
+  PlaneId plane;                 ///< positive side = the side of its sface
+  std::uint32_t source = kNone;  ///< svertex; the target is the source of the twin
+  std::uint32_t next = kNone;    ///< next on the boundary of its sface, which lies to the left
   std::uint32_t prev = kNone;
   std::uint32_t sface = kNone;
-  LabelId mark = 0;                ///< the same on both twins
+  LabelId mark = 0;  ///< the same on both twins
 };
 
 /// One side of a whole great circle without svertices: a vertex inside a facet.
@@ -51,13 +51,13 @@ struct SLoop {
 struct SFaceEntry {
   enum class Kind : std::uint8_t { kCycle, kIsolatedVertex, kLoop };
   Kind kind = Kind::kCycle;
-  std::uint32_t index = kNone;     ///< a shalfedge, svertex or sloop
+  std::uint32_t index = kNone;  ///< a shalfedge, svertex or sloop
 };
 
 /// A connected open region of the sphere: a volume of the complex as seen from a vertex.
 struct SFace {
-  std::uint32_t entries = 0;       ///< first of its entries
-  std::uint32_t entry_count = 0;   ///< none for the whole sphere
+  std::uint32_t entries = 0;      ///< first of its entries
+  std::uint32_t entry_count = 0;  ///< none for the whole sphere
   LabelId mark = 0;
 };
 
@@ -68,7 +68,7 @@ struct SphereMapView {
   std::span<const SLoop> sloops;
   std::span<const SFace> sfaces;
   std::span<const SFaceEntry> entries;
-  LabelId mark = 0;                ///< of the centre
+  LabelId mark = 0;  ///< of the centre
 
   [[nodiscard]] std::uint32_t target(std::uint32_t shalfedge) const { return shalfedges[shalfedge ^ 1U].source; }
 

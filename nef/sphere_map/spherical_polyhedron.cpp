@@ -81,9 +81,7 @@ SphericalPolyhedron SphericalPolyhedron::half_sphere(const Vector& normal, bool 
   return SphericalPolyhedron(std::move(body));
 }
 
-SphericalPolyhedron SphericalPolyhedron::great_circle(const Vector& normal) {
-  return boundary(half_sphere(normal));
-}
+SphericalPolyhedron SphericalPolyhedron::great_circle(const Vector& normal) { return boundary(half_sphere(normal)); }
 
 SphericalPolyhedron SphericalPolyhedron::great_arc(const Vector& a, const Vector& b) {
   require_direction(a);
@@ -147,9 +145,7 @@ SphericalPolyhedron symmetric_difference(const SphericalPolyhedron& a, const Sph
   return combine(a, b, [](LabelId x, LabelId y) { return static_cast<LabelId>(x ^ y); });
 }
 
-bool equal(const SphericalPolyhedron& a, const SphericalPolyhedron& b) {
-  return symmetric_difference(a, b).is_empty();
-}
+bool equal(const SphericalPolyhedron& a, const SphericalPolyhedron& b) { return symmetric_difference(a, b).is_empty(); }
 
 SphericalPolyhedron complement(const SphericalPolyhedron& a) {
   SphericalPolyhedron::Body body = *a.body_;

@@ -12,9 +12,7 @@ namespace {
 using nef::LabeledPolyhedron;
 using nef::make_box;
 
-std::string join(const std::string& a, const std::string& b) {
-  return a == "air" ? b : (b == "air" ? a : a + "+" + b);
-}
+std::string join(const std::string& a, const std::string& b) { return a == "air" ? b : (b == "air" ? a : a + "+" + b); }
 
 }  // namespace
 

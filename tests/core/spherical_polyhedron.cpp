@@ -4,9 +4,11 @@
 // circles and points with small integer normals, where coincidences are the rule.
 #include "nef/sphere_map/spherical_polyhedron.h"
 
+#include <rapidcheck.h>
 #include <catch2/catch.hpp>
 #include <functional>
-#include <rapidcheck.h>
+
+#include "nef/base/error.h"
 
 namespace {
 
@@ -46,8 +48,7 @@ Known random_simple() {
     case 2:
       return {SphericalPolyhedron::great_circle(big(n)), [n](const auto& x) { return dot(n, x) == 0; }};
     case 3:
-      return {SphericalPolyhedron::point(big(n)),
-              [n](const auto& x) { return is_zero(cross(n, x)) && dot(n, x) > 0; }};
+      return {SphericalPolyhedron::point(big(n)), [n](const auto& x) { return is_zero(cross(n, x)) && dot(n, x) > 0; }};
     default: {
       const std::array<int, 3> m = random_direction();
       const std::array<int, 3> plane = cross(n, m);
@@ -57,8 +58,7 @@ Known random_simple() {
       }
       return {SphericalPolyhedron::great_arc(big(n), big(m)), [n, m, plane](const auto& x) {
                 return dot(plane, x) == 0 && dot(cross(n, x), plane) >= 0 && dot(cross(x, m), plane) >= 0 &&
- !(is_zero(cross(n, x)) && dot(n, x) < 0) &&
-                       !(is_zero(cross(m, x)) && dot(m, x) < 0);
+                       !(is_zero(cross(n, x)) && dot(n, x) < 0) && !(is_zero(cross(m, x)) && dot(m, x) < 0);
               }};
     }
   }

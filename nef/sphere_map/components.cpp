@@ -28,14 +28,14 @@ class CycleJoiner {
     const Direction v = direction_of(planes_, map_.svertices[goal]);
     if (!same_direction(u, v.negated())) {
       const std::uint32_t last = segment(u, v, cycle_at(start, Direction::cross(u, v)), goal);
-      cycles_.unite(last, cycle_at(goal, Direction::cross(v, u)));
+      cycles_.unite(last, cycle_arriving(goal, Direction::cross(v, u)));
       return;
     }
     // Antipodes: by way of a point of some sface.
     const Direction middle = free_direction();
     const std::uint32_t half_way = segment(u, middle, cycle_at(start, Direction::cross(u, middle)), kNone);
     const std::uint32_t last = segment(middle, v, half_way, goal);
-    cycles_.unite(last, cycle_at(goal, Direction::cross(v, middle)));
+    cycles_.unite(last, cycle_arriving(goal, Direction::cross(v, middle)));
   }
 
   // From svertex `start` to the nearest point of the great circle of a sloop.

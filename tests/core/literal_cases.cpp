@@ -96,6 +96,18 @@ TEST_CASE("pairs of all dimensions") {
   }
 }
 
+// Found by the laws; each was a bug once.
+TEST_CASE("a walk between components of a sphere map that ends along an arc") {
+  CHECK(count_text(set("hull(0,0,0,1,0,1,1,0,0,1,1,1) + segment(0,0,0,0,1,0)")) == "5/7/4/2");
+}
+
+TEST_CASE("a half-space whose plane passes through edges of the box") {
+  const Polyhedron a = set("halfspace(-1,-1,0,0)");
+  CHECK(contains(a, {1, 1, 1}));
+  CHECK(contains(a, {-5, 5, 1}));
+  CHECK_FALSE(contains(a, {Rational(-1, 3), Rational(-1, 3), 7}));
+}
+
 TEST_CASE("single sets") {
   CHECK(count_text(set("nothing")) == "0/0/0/1");
   CHECK(count_text(set("everything")) == "0/0/0/1");

@@ -51,10 +51,10 @@ Json check_complex_file(Session& session, const std::string& path) {
 void add_check_command(CLI::App& app, Session& session) {
   CLI::App* command =
       add_subcommand(app, session, "check", "What is wrong with a mesh? Exit code 0 if it bounds a solid, 1 if not");
-  command->add_option("input", session.inputs, "the mesh, as a file")->required()->expected(1);
+  command->add_option("input", session.input, "the mesh, as a file")->required();
   command->add_flag("--no-check", session.no_check, "do not look for self-intersections");
   command->callback([&session] {
-    const std::string& path = session.inputs[0];
+    const std::string& path = session.input;
     const std::string extension = lower_extension(path);
     const bool complex = extension == "nef" || extension == "nef3";
     const Json problems = complex ? check_complex_file(session, path) : check_mesh_file(path, !session.no_check);

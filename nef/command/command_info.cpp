@@ -14,10 +14,10 @@ void print_info(Session& session, const Json& info) {
 
 void add_info(CLI::App& app, Session& session) {
   CLI::App* command = add_subcommand(app, session, "info", "Counts, properties and exact measures of a set");
-  command->add_option("input", session.inputs, "the set, as a file")->required()->expected(1);
+  command->add_option("input", session.input, "the set, as a file")->required();
   add_input_flags(command, session);
   command->callback([&session] {
-    Json info = info_json(session.load(session.inputs[0]));
+    Json info = info_json(session.load(session.input));
     if (session.json) {
       session.print(std::move(info));
     } else {
@@ -28,11 +28,11 @@ void add_info(CLI::App& app, Session& session) {
 
 void add_convert(CLI::App& app, Session& session) {
   CLI::App* command = add_subcommand(app, session, "convert", "Read a set and write it in another format");
-  command->add_option("input", session.inputs, "the set, as a file")->required()->expected(1);
+  command->add_option("input", session.input, "the set, as a file")->required();
   add_input_flags(command, session);
   add_output_flags(command, session)->required();
   command->callback([&session] {
-    const Polyhedron set = session.load(session.inputs[0]);
+    const Polyhedron set = session.load(session.input);
     session.store(set);
     if (!session.json) return session.say(summary(set));
     Json object;

@@ -51,7 +51,7 @@ void add_transform_command(CLI::App& app, Session& session) {
   const auto steps = std::make_shared<Steps>();
   CLI::App* command =
       add_subcommand(app, session, "transform", "The image under an affine map; steps are done in the order given");
-  command->add_option("input", session.inputs, "the set, as a file")->required()->expected(1);
+  command->add_option("input", session.input, "the set, as a file")->required();
   const auto step = [&](const std::string& flag, const std::string& type, Make make, const std::string& text) {
     // One text for each occurrence, so that steps may be repeated.
     CLI::Option* option = command->add_option_function<std::vector<std::string>>(
@@ -78,7 +78,7 @@ void add_transform_command(CLI::App& app, Session& session) {
       const std::size_t i = used[option]++;
       if (i < option->results().size()) map = found->second.first(option->results()[i]).after(map);
     }
-    const Polyhedron set = session.load(session.inputs[0]);
+    const Polyhedron set = session.load(session.input);
     finish(session, "transform", measure(1, [&] { return transform(set, map); }));
   });
 }

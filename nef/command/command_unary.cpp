@@ -11,13 +11,13 @@ using Operation = Polyhedron (*)(const Polyhedron&);
 void add(CLI::App& app, Session& session, const std::string& name, const std::string& description,
          Operation operation) {
   CLI::App* command = add_subcommand(app, session, name, description);
-  command->add_option("input", session.inputs, "the set, as a file")->required()->expected(1);
+  command->add_option("input", session.input, "the set, as a file")->required();
   add_input_flags(command, session);
   add_output_flags(command, session);
   command->add_option("--repeat", session.repeat, "compute N times and report the median")
       ->check(CLI::Range(1, 1000000));
   command->callback([&session, name, operation] {
-    const Polyhedron set = session.load(session.inputs[0]);
+    const Polyhedron set = session.load(session.input);
     finish(session, name, measure(session.repeat, [&] { return operation(set); }));
   });
 }

@@ -32,7 +32,8 @@ class Session {
   bool no_check = false;
   MeshOptions mesh;
   std::string output;
-  std::vector<std::string> inputs;
+  std::string input;                ///< of subcommands with one operand
+  std::vector<std::string> inputs;  ///< of others
   int repeat = 1;
 
   int exit_code = kYes;

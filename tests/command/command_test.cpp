@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The program as its users meet it: real files, exit codes, JSON.
+#include "command/process.h"
+
+namespace nef::test {
+namespace {
+
+using nlohmann::json;
+
+void check_cube_info(const json& info, const std::string& volume, double area) {
+  CHECK(info["vertices"] == 8);
+  CHECK(info["edges"] == 12);
+  CHECK(info["facets"] == 6);
+  CHECK(info["volumes"] == 2);
+  CHECK(info["shells"] == 2);
+  CHECK(info["bounded"] == true);
+  CHECK(info["closed"] == true);
+  CHECK(info["open"] == false);
+  CHECK(info["regular"] == true);
+  CHECK(info["volume"] == volume);
+  CHECK(info["area"].get<double>() == Approx(area));
+  CHECK(info["euler_numbers"] == json::array({2, 2}));
+}
+
+}  // namespace
+
+TEST_CASE("help and version everywhere") {
+  const Workplace here;
+  CHECK(here.nef("--version").code == 0);
+  CHECK(here.nef("--version").out.rfind("nef ", 0) == 0);
+  const Outcome help = here.nef("--help");
+  CHECK(help.code == 0);
+  CHECK(help.err.empty());
+  for (const std::string command :
+       {"union", "intersection", "difference", "symdiff", "complement", "interior", "closure", "boundary", "exterior",
+        "regularize", "transform", "info", "check", "equal", "locate", "ray", "convert", "eval"}) {
+    CHECK(help.out.find("  " + command) != std::string::npos);
+    const Outcome own = here.nef(command + " --help");
+    CHECK(own.code == 0);
+    CHECK(own.out.find("--json") != std::string::npos);
+  }
+}
+
+TEST_CASE("usage errors are one line and exit code 2") {
+  const Workplace here;
+  here.write("a.off", cube_off(0, 2));
+  check_refused(here.nef(""), "subcommand");
+  check_refused(here.nef("frobnicate a.off"), "frobnicate");
+  check_refused(here.nef("union a.off"), "nef union --help");
+  check_refused(here.nef("difference a.off a.off a.off"), "nef difference --help");
+  check_refused(here.nef("convert a.off"), "--output");
+  check_refused(here.nef("info a.off --frob"), "--frob");
+  check_refused(here.nef("locate a.off 1,2"), "1,2");
+  check_refused(here.nef("locate a.off 1,2,three"), "three");
+  check_refused(here.nef("ray a.off 0,0,0 0,0,0"), "direction");
+  check_refused(here.nef("transform a.off --rotate w,3 -o b.off"), "--rotate");
+  check_refused(here.nef("transform a.off --matrix 1,2,3 -o b.off"), "12 or 16");
+  check_refused(here.nef("transform a.off --scale 0 -o b.off"), "determinant");
+  check_refused(here.nef("convert a.off -o b.xyz"), "xyz");
+  check_refused(here.nef("convert a.off -o missing/b.off"), "missing");
+  check_refused(here.nef("info a.off --json --repeat 2"), "--repeat");
+  CHECK_FALSE(std::filesystem::exists(here / "b.off"));
+}
+
+TEST_CASE("Boolean operations on files, with the promised JSON") {
+  const Workplace here;
+  here.write("a.off", cube_off(0, 2));
+  here.write("b.off", cube_off(1, 3));
+  here.write("c.off", cube_off(2, 3));
+  const Outcome meet = here.nef("intersection a.off b.off -o meet.off --json --repeat 3");
+  REQUIRE(meet.code == 0);
+  const json report = meet.json();
+  for (const char* key : {"load_s", "op_s", "write_s"}) {
+    CHECK(report[key].is_number());
+    CHECK(report[key].get<double>() > 0);
+  }
+  CHECK(report["predicates"].is_object());
+  CHECK(report["predicates"]["filter"].is_number());
+  check_cube_info(report["result"], "1", 6);
+  check_cube_info(here.nef("info meet.off --json").json(), "1", 6);
+
+  CHECK(here.nef("union a.off b.off --json").json()["result"]["volume"] == "15");
+  CHECK(here.nef("difference a.off b.off --json").json()["result"]["volume"] == "7");
+  CHECK(here.nef("symdiff a.off b.off --json").json()["result"]["volume"] == "14");
+  CHECK(here.nef("union a.off b.off c.off --json").json()["result"]["volume"] == "15");
+  CHECK(here.nef("intersection a.off b.off c.off --json").json()["result"]["vertices"] == 1);
+}
+
+TEST_CASE("equality: exit code 0 or 1") {
+  const Workplace here;
+  here.write("a.off", cube_off(0, 2));
+  here.write("b.off", cube_off(1, 3));
+  REQUIRE(here.nef("transform a.off --translate 1,1,1 -o c.nef").code == 0);
+  CHECK(here.nef("equal b.off c.nef").code == 0);
+  CHECK(here.nef("equal a.off b.off").code == 1);
+  CHECK(here.nef("equal a.off b.off --json").json()["equal"] == false);
+  CHECK(here.nef("equal b.off c.nef --quiet").out.empty());
+  // An open cube is another set than a closed one.
+  REQUIRE(here.nef("interior a.off -o open.nef").code == 0);
+  CHECK(here.nef("equal a.off open.nef").code == 1);
+  REQUIRE(here.nef("closure open.nef -o closed.nef").code == 0);
+  CHECK(here.nef("equal a.off closed.nef").code == 0);
+}
+
+TEST_CASE("unary operations") {
+  const Workplace here;
+  here.write("a.off", cube_off(0, 2));
+  const json outside = here.nef("complement a.off --json").json()["result"];
+  CHECK(outside["bounded"] == false);
+  CHECK(outside["volume"].is_null());
+  CHECK(outside["volume_double"].is_null());
+  CHECK(outside["open"] == true);
+  CHECK(outside["vertices"] == 8);
+  CHECK(here.nef("interior a.off --json").json()["result"]["open"] == true);
+  const json shell = here.nef("boundary a.off --json").json()["result"];
+  CHECK(shell["closed"] == true);
+  CHECK(shell["regular"] == false);
+  CHECK(shell["volume"] == "0");
+  CHECK(shell["volumes"] == 2);
+  CHECK(here.nef("exterior a.off --json").json()["result"]["open"] == true);
+  CHECK(here.nef("regularize a.off --json").json()["result"]["regular"] == true);
+}
+
+TEST_CASE("transformations are done in the order given") {
+  const Workplace here;
+  here.write("a.off", cube_off(0, 2));
+  const auto box = [&](const std::string& steps) {
+    return here.nef("transform a.off " + steps + " --json").json()["result"]["bbox"];
+  };
+  CHECK(box("--translate 1,0,0 --scale 3") == json::parse("[[3,0,0],[9,6,6]]"));
+  CHECK(box("--scale 3 --translate 1,0,0") == json::parse("[[1,0,0],[7,6,6]]"));
+  CHECK(box("--translate 1,0,0 --scale 2 --translate -1,0,0") == json::parse("[[1,0,0],[5,4,4]]"));
+  CHECK(box("--rotate z,90") == json::parse("[[-2,0,0],[0,2,2]]"));
+  CHECK(box("--rotate 0,0,5,90,1e-3") == json::parse("[[-2,0,0],[0,2,2]]"));
+  CHECK(box("--scale 1/2,1,-1") == json::parse("[[0,0,-2],[1,2,0]]"));
+  CHECK(box("--matrix 1,0,0,5,0,1,0,0,0,0,1,0") == json::parse("[[5,0,0],[7,2,2]]"));
+  CHECK(box("--matrix '2 0 0 0  0 2 0 0  0 0 2 0  0 0 0 2'") == json::parse("[[0,0,0],[2,2,2]]"));
+  // A rotation changes no volume, not by a bit.
+  CHECK(here.nef("transform a.off --rotate 1,2,3,33.3,1e-6 --json").json()["result"]["volume"] == "8");
+}
+
+TEST_CASE("locate and ray") {
+  const Workplace here;
+  here.write("a.off", cube_off(0, 2));
+  const json found = here.nef("locate a.off 0,0,0 1,0,0 1,1,0 1,1,1 -1,-1,-1 1,1,1/3 --json").json()["points"];
+  const std::vector<std::string> kinds{"vertex", "edge", "facet", "volume", "volume", "volume"};
+  REQUIRE(found.size() == kinds.size());
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    CHECK(found[i]["kind"] == kinds[i]);
+    CHECK(found[i]["selected"] == (i != 4));
+  }
+  CHECK(found[5]["point"] == json::array({"1", "1", "1/3"}));
+  CHECK(here.nef("locate a.off 1,1,0").out == "1,1,0: facet, selected\n");
+  const json hit = here.nef("ray a.off -1,1/3,1 1,0,0 --json").json()["hit"];
+  CHECK(hit["kind"] == "facet");
+  CHECK(hit["point"] == json::array({"0", "1/3", "1"}));
+  CHECK(here.nef("ray a.off -1,0,0 -1,0,0 --json").json()["hit"].is_null());
+  CHECK(here.nef("ray a.off -1,0,0 1,0,0").out == "0,0,0: vertex, selected\n");
+}
+
+TEST_CASE("conversion keeps the set, through every format") {
+  const Workplace here;
+  here.write("a.off", cube_off(-1, 2));
+  std::string last = "a.off";
+  for (const char* extension : {"obj", "stl", "ply", "nef", "nef3", "off"}) {
+    const std::string next = std::string("copy.") + extension;
+    CAPTURE(next);
+    REQUIRE(here.nef("convert " + last + " -o " + next).code == 0);
+    CHECK(here.nef("equal a.off " + next).code == 0);
+    last = next;
+  }
+}
+
+TEST_CASE("what a mesh cannot hold is reported") {
+  const Workplace here;
+  here.write("a.off", cube_off(0, 2));
+  const Outcome open = here.nef("interior a.off -o open.off");
+  CHECK(open.code == 0);
+  CHECK(open.err.rfind("nef: note: ", 0) == 0);
+  const Outcome json = here.nef("interior a.off -o open.off --json --quiet");
+  CHECK(json.err.empty());
+  CHECK(json.json()["messages"].size() > 0);
+}
+
+TEST_CASE("expressions on the command line") {
+  const Workplace here;
+  here.write("a.off", cube_off(0, 2));
+  CHECK(here.nef("eval 'box(0,0,0,1,1,1) * halfspace(1,1,1,-1)' --json").json()["result"]["volume"] == "1/6");
+  CHECK(here.nef("eval 'file(\"a.off\") - box(0,0,0, 1,2,2)' --json").json()["result"]["volume"] == "4");
+  CHECK(here.nef("eval 'box(0,0,0, 0.1,0.1,0.1)' --json").json()["result"]["volume"] == "1/1000");
+  const json half = here.nef("eval 'halfspace(1,2,3,4)' --json").json()["result"];
+  CHECK(half["vertices"] == 0);
+  CHECK(half["edges"] == 0);
+  CHECK(half["facets"] == 1);
+  CHECK(half["volumes"] == 2);
+  CHECK(half["bounded"] == false);
+  CHECK(half["closed"] == true);
+  CHECK(half["volume"].is_null());
+  CHECK(half["area"].is_null());
+  CHECK(half["bbox"].is_null());
+  check_refused(here.nef("eval 'box(0,0,0,1,1,1) +'"), "column 21");
+  check_refused(here.nef("eval 'file(\"none.off\")'"), "none.off");
+}
+
+TEST_CASE("files are written whole or not at all") {
+  const Workplace here;
+  here.write("a.off", cube_off(0, 2));
+  here.write("out.off", "precious");
+  check_refused(here.nef("union a.off missing.off -o out.off"), "missing.off");
+  CHECK(here.read("out.off") == "precious");
+  REQUIRE(here.nef("convert a.off -o out.off").code == 0);
+  CHECK(here.nef("equal a.off out.off").code == 0);
+  std::size_t files = 0;
+  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(here / "")) ++files;
+  CHECK(files == 4);  // a.off, out.off, stdout.txt, stderr.txt: no temporary is left
+}
+
+}  // namespace nef::test

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The expression language: what it makes, and what its errors say.
+#include <catch2/catch.hpp>
+
+#include "nef/command/expression.h"
+
+namespace nef {
+namespace {
+
+Polyhedron eval(const std::string& text) { return evaluate_expression(text); }
+
+// The message of the error that a text gives.
+std::string refusal(const std::string& text) {
+  try {
+    eval(text);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+bool same(const std::string& a, const std::string& b) { return equal(eval(a), eval(b)); }
+
+}  // namespace
+
+TEST_CASE("operators and their precedence") {
+  CHECK(eval("nothing").is_empty());
+  CHECK(eval(" everything # all there is\n").is_everything());
+  CHECK(eval("!nothing").is_everything());
+  const std::string a = "box(0,0,0,2,2,2)";
+  const std::string b = "box(1,1,1,3,3,3)";
+  const std::string c = "box(0,0,0,1,3,3)";
+  CHECK(same(a + "+" + b + "*" + c, a + "+(" + b + "*" + c + ")"));
+  CHECK_FALSE(same(a + "+" + b + "*" + c, "(" + a + "+" + b + ")*" + c));
+  CHECK(same(a + "-" + b + "-" + c, "(" + a + "-" + b + ")-" + c));
+  CHECK_FALSE(same(a + "-" + b + "-" + c, a + "-(" + b + "-" + c + ")"));
+  CHECK(same(a + "-" + b + "+" + c, "(" + a + "-" + b + ")+" + c));
+  CHECK(same("!" + a + "*" + b, b + "-" + a));
+  CHECK(same("!!" + a, a));
+  CHECK(same(a + "^" + b + "^" + a, b));
+  CHECK(volume(eval(a + "+" + b)) == Rational(15));
+  CHECK(volume(eval(a + "-" + b)) == Rational(7));
+  CHECK(volume(eval(a + "*" + b)) == Rational(1));
+  CHECK(volume(eval(a + "^" + b)) == Rational(14));
+}
+
+TEST_CASE("functions are the operators by name") {
+  const std::string a = "box(0,0,0,2,2,2)";
+  const std::string b = "box(1,1,1,3,3,3)";
+  CHECK(same("union(" + a + "," + b + ")", a + "+" + b));
+  CHECK(same("union()", "nothing"));
+  CHECK(same("intersection()", "everything"));
+  CHECK(same("intersection(" + a + "," + b + "," + a + ")", a + "*" + b));
+  CHECK(same("difference(" + a + "," + b + ")", a + "-" + b));
+  CHECK(same("symdiff(" + a + "," + b + ")", a + "^" + b));
+  CHECK(same("complement(" + a + ")", "!" + a));
+  CHECK(same("closure(interior(" + a + "))", a));
+  CHECK(same("exterior(" + a + ")", "!" + a));
+  CHECK(same("boundary(" + a + ")", a + "-interior(" + a + ")"));
+  CHECK(same("regularize(" + a + "+segment(5,5,5,6,6,6))", a));
+}
+
+TEST_CASE("sets of all dimensions") {
+  CHECK(same("point(1,2,3)", "box(1,2,3,1,2,3)"));
+  CHECK(same("segment(0,0,0, 0,0,1)", "box(0,0,0,0,0,1)"));
+  CHECK(same("segment((0,0,0),(0,0,1))", "box(0,0,0,0,0,1)"));
+  CHECK(same("polygon(0,0,0, 1,0,0, 1,1,0, 0,1,0)", "box(0,0,0,1,1,0)"));
+  CHECK(same("hull(0,0,0, (1,0,0), (0,1,0), 1,1,0)", "box(0,0,0,1,1,0)"));
+  CHECK(eval("hull()").is_empty());
+  CHECK(surface_area(eval("polygon(0,0,0, 3,0,0, 3,3,0, 0,3,0; 1,1,0, 2,1,0, 2,2,0, 1,2,0)")) == Approx(8));
+  CHECK(volume(eval("hull(0,0,0, 1,0,0, 0,1,0, 0,0,1)")) == Rational(1, 6));
+  CHECK(
+      same("halfspace(1,0,0,-1) * halfspace(-1,0,0,0) * halfspace(0,1,0,-1) * halfspace(0,-1,0,0) *"
+           "halfspace(0,0,1,-1) * halfspace(0,0,-1,0)",
+           "box(0,0,0,1,1,1)"));
+}
+
+TEST_CASE("maps") {
+  CHECK(same("translate(box(0,0,0,1,1,1), 1/2,-3,1e1)", "box(1/2,-3,10, 3/2,-2,11)"));
+  CHECK(same("scale(box(1,1,1,2,2,2), 0.5)", "box(1/2,1/2,1/2,1,1,1)"));
+  CHECK(same("scale(box(1,1,1,2,2,2), 1,2,-3)", "box(1,2,-6,2,4,-3)"));
+  CHECK(same("rotate(box(0,0,0,1,2,3), z, 90)", "box(-2,0,0,0,1,3)"));
+  CHECK(same("rotate(box(0,0,0,1,2,3), (0,0,1), 90, 0.001)", "box(-2,0,0,0,1,3)"));
+  CHECK(same("transform(box(0,0,0,1,1,1), 0,-1,0,0, 1,0,0,0, 0,0,1,5)", "box(-1,0,5,0,1,6)"));
+}
+
+TEST_CASE("numbers are exact") {
+  CHECK(volume(eval("box(0,0,0, 0.1,0.1,0.1)")) == Rational(1, 1000));
+  CHECK(volume(eval("box(0,0,0, 1/3,1/7,1e-30)")) == Rational(1, Integer("21000000000000000000000000000000")));
+}
+
+TEST_CASE("files come from the caller") {
+  ExpressionOptions options;
+  std::vector<std::string> asked;
+  options.load = [&asked](const std::string& path) {
+    asked.push_back(path);
+    return make_point({1, 2, 3});
+  };
+  const Polyhedron set = evaluate_expression("file(\"a b.off\") + file(\"dir/c.stl\")", options);
+  CHECK(asked == std::vector<std::string>{"a b.off", "dir/c.stl"});
+  CHECK(equal(set, make_point({1, 2, 3})));
+  // Nothing is loaded before the whole text is understood.
+  asked.clear();
+  CHECK_THROWS_AS(evaluate_expression("file(\"a.off\") + box(1)", options), ExpressionError);
+  CHECK(asked.empty());
+  CHECK(refusal("file(\"a.off\")") == "column 1: files cannot be read here");
+}
+
+TEST_CASE("errors give the column and what was expected") {
+  CHECK(refusal("") == "column 1: expected a set, found the end");
+  CHECK(refusal("box(0,0,0,1,1,1) box(0,0,0,1,1,1)") ==
+        "column 18: expected an operator (+ * - ^) or the end, found 'box'");
+  CHECK(refusal("cube(1)") == "column 1: there is no set or function 'cube'");
+  CHECK(refusal("nothing + \n  (everything") ==
+        "line 2, column 14: expected ')' for the '(' at line 2, column 3, found the end");
+  CHECK(refusal("box(0,0,0,1,1)").rfind("column 14: expected another number, found ')'", 0) == 0);
+  CHECK(refusal("box(0,0,0,1,1,1,1)").rfind("column 17: too many numbers", 0) == 0);
+  CHECK(refusal("box(0,0,0,1,1,x)").rfind("column 15: 'x' is no number", 0) == 0);
+  CHECK(refusal("box(0,0,0,1,1,1/0)").rfind("column 15: '1/0' is no number", 0) == 0);
+  CHECK(refusal("point(nan,0,0)").rfind("column 7: 'nan' is no number", 0) == 0);
+  CHECK(refusal("file(a.off)").rfind("column 6: expected '\"'", 0) == 0);
+  CHECK(refusal("file(\"a.off)").find("closing") != std::string::npos);
+  CHECK(refusal("difference(nothing)").rfind("column 19: expected another set", 0) == 0);
+  CHECK(refusal("interior(nothing, nothing)").rfind("column 17: too many arguments", 0) == 0);
+  CHECK(refusal("scale(nothing, 1, 2)").rfind("column 20: expected another number", 0) == 0);
+  CHECK(refusal("rotate(nothing, w, 2)").rfind("column 17: expected an axis", 0) == 0);
+  CHECK(refusal("nothing + scale(everything, 0)").rfind("column 11: ", 0) == 0);
+  CHECK(refusal("halfspace(0,0,0,1)").rfind("column 1: ", 0) == 0);
+  CHECK(refusal("polygon(0,0,0, 1,0,0, 1,1,0, 0,1,1)").rfind("column 1: ", 0) == 0);
+  CHECK(refusal(std::string(100000, '(')).find("nested too deeply") != std::string::npos);
+}
+
+TEST_CASE("lists of numbers") {
+  CHECK(parse_triple("1,-2/3,0.5", "point") == Rational3{1, Rational(-2, 3), Rational(1, 2)});
+  CHECK(parse_triple(" 1 2 3 ", "point") == Rational3{1, 2, 3});
+  CHECK_THROWS_AS(parse_triple("1,2", "point"), InputError);
+  CHECK_THROWS_AS(parse_triple("1,2,3,", "point"), InputError);
+  CHECK_THROWS_AS(parse_triple("1,,3", "point"), InputError);
+  CHECK_THROWS_AS(parse_triple("", "point"), InputError);
+}
+
+}  // namespace nef

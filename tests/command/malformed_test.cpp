@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Bad files of every kind: one line on stderr, exit code 2; and what `check` calls by name.
+#include "command/process.h"
+
+namespace nef::test {
+namespace {
+
+// A cube with one line replaced.
+std::string with_line(std::size_t number, const std::string& line) {
+  std::istringstream in(cube_off(0, 2));
+  std::string text;
+  std::string part;
+  for (std::size_t i = 1; std::getline(in, part); ++i) text += (i == number ? line : part) + "\n";
+  return text;
+}
+
+std::string cube_without_last_face() {
+  std::string text = cube_off(0, 2);
+  text.replace(text.find("8 6 0"), 5, "8 5 0");
+  return text.substr(0, text.rfind("4 1 3 7 5"));
+}
+
+}  // namespace
+
+TEST_CASE("malformed files are refused in one line") {
+  const Workplace here;
+  here.write("empty.off", "");
+  here.write("blank.off", " \n\n");
+  here.write("count.off", with_line(2, "9 6 0"));
+  here.write("nan.off", with_line(4, "nan 0 0"));
+  here.write("word.off", with_line(4, "0 zero 0"));
+  here.write("index.off", with_line(12, "4 0 2 3 99"));
+  here.write("negative.off", with_line(12, "4 0 2 3 -1"));
+  here.write("short.off", cube_off(0, 2).substr(0, 60));
+  here.write("magic.off", "hello world\n");
+  here.write("short.stl", std::string(80, ' ') + std::string("\x0c\0\0\0", 4) + std::string(70, '\0'));
+  std::filesystem::create_directory(here / "dir.off");
+  for (const char* file : {"empty.off", "blank.off", "count.off", "nan.off", "word.off", "index.off", "negative.off",
+                           "short.off", "magic.off", "short.stl", "dir.off", "missing.off"}) {
+    CAPTURE(file);
+    check_refused(here.nef(std::string("info ") + file), file);
+    check_refused(here.nef(std::string("union ") + file + " " + file + " -o out.off --json"), file);
+  }
+}
+
+TEST_CASE("meshes that bound no solid are refused, with the guilty elements") {
+  const Workplace here;
+  here.write("open.off", cube_without_last_face());
+  check_refused(here.nef("info open.off"), "border");
+  CHECK(here.nef("info open.off --as-surface --json").json()["volume"] == "0");
+  CHECK(here.nef("info open.off --as-surface --json").json()["facets"] == 5);
+
+  here.write("turned.off", with_line(12, "4 1 3 2 0"));
+  check_refused(here.nef("info turned.off"), "turned.off");
+
+  // Two cubes in one file that cross.
+  here.write("crossing.obj", [] {
+    std::ostringstream text;
+    for (const int shift : {0, 1}) {
+      for (int i = 0; i < 8; ++i) {
+        text << "v " << 2 * (i & 1) + shift << ' ' << (i & 2) + shift << ' ' << (i & 4) / 2 + shift << '\n';
+      }
+    }
+    for (const int b : {0, 8}) {
+      const int faces[6][4] = {{1, 3, 4, 2}, {5, 6, 8, 7}, {1, 2, 6, 5}, {3, 7, 8, 4}, {1, 5, 7, 3}, {2, 4, 8, 6}};
+      for (const auto& f : faces) {
+        text << 'f';
+        for (const int v : f) text << ' ' << v + b;
+        text << '\n';
+      }
+    }
+    return text.str();
+  }());
+  const Outcome crossing = here.nef("info crossing.obj");
+  check_refused(crossing, "face");
+  const Outcome checked = here.nef("check crossing.obj --json");
+  CHECK(checked.code == 1);
+  CHECK(checked.json()["ok"] == false);
+  CHECK(checked.json()["problems"][0]["name"] == "self-intersection");
+  CHECK(checked.json()["problems"][0]["faces"].size() == 2);
+}
+
+TEST_CASE("faces that are not planar are triangulated and reported, or refused") {
+  const Workplace here;
+  here.write("bent.off", with_line(10, "2 2 2.001"));
+  const Outcome info = here.nef("info bent.off --json");
+  REQUIRE(info.code == 0);
+  CHECK(info.err.find("face") != std::string::npos);
+  CHECK(info.json()["messages"].size() >= 1);
+  CHECK(here.nef("info bent.off --quiet --json").err.empty());
+  check_refused(here.nef("info bent.off --strict"), "planar");
+}
+
+TEST_CASE("check names what is wrong") {
+  const Workplace here;
+  here.write("good.off", cube_off(0, 2));
+  const Outcome good = here.nef("check good.off");
+  CHECK(good.code == 0);
+  CHECK(here.nef("check good.off --json").json()["ok"] == true);
+
+  const auto first_problem = [&](const std::string& text) {
+    here.write("bad.off", text);
+    const Outcome outcome = here.nef("check bad.off --json");
+    CHECK(outcome.code == 1);
+    return outcome.json()["problems"][0]["name"].get<std::string>();
+  };
+  CHECK(first_problem(cube_without_last_face()) == "open border");
+  CHECK(first_problem(with_line(12, "4 0 2 3 99")) == "bad index");
+  CHECK(first_problem(with_line(4, "nan 0 0")) == "not a number");
+  CHECK(first_problem(with_line(12, "4 1 3 2 0")) == "inconsistent orientation");
+  check_refused(here.nef("check missing.off"), "missing.off");
+  // A face that is only bent is no obstacle.
+  here.write("bent.off", with_line(10, "2 2 2.001"));
+  CHECK(here.nef("check bent.off").code == 0);
+  CHECK(here.nef("check bent.off").out.find("note: non-planar face") != std::string::npos);
+}
+
+TEST_CASE("two cubes that share an edge or a vertex are legal") {
+  const Workplace here;
+  for (const std::string other : {"2,2,0, 4,4,2", "2,2,2, 4,4,4"}) {
+    CAPTURE(other);
+    REQUIRE(here.nef("eval 'box(0,0,0, 2,2,2) + box(" + other + ")' -o two.off").code == 0);
+    CHECK(here.nef("check two.off").code == 0);
+    CHECK(here.nef("info two.off --json").json()["volume"] == "16");
+  }
+}
+
+}  // namespace nef::test

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Runs the program `nef` and looks at everything it leaves behind.
+#pragma once
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+
+namespace nef::test {
+
+/// What a run of the program gave.
+struct Outcome {
+  int code = -1;
+  std::string out;
+  std::string err;
+
+  [[nodiscard]] nlohmann::json json() const { return nlohmann::json::parse(out); }
+};
+
+/// A directory of its own for each test, removed at its end.
+class Workplace {
+ public:
+  Workplace() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "nef_command_XXXXXX").string();
+    REQUIRE(mkdtemp(pattern.data()) != nullptr);
+    path_ = pattern;
+  }
+  ~Workplace() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  Workplace(const Workplace&) = delete;
+  Workplace& operator=(const Workplace&) = delete;
+
+  [[nodiscard]] std::string operator/(const std::string& name) const { return path_ / name; }
+
+  std::string write(const std::string& name, const std::string& text) const {
+    std::ofstream(path_ / name, std::ios::binary) << text;
+    return path_ / name;
+  }
+
+  /// Runs `nef ARGUMENTS` (quoted for the shell by the caller) in this directory.
+  [[nodiscard]] Outcome nef(const std::string& arguments) const {
+    const std::string command = "cd '" + path_.string() + "' && '" NEF_BINARY_DIR "/nef' " + arguments +
+                                " > stdout.txt 2> stderr.txt < /dev/null";
+    const int status = std::system(command.c_str());
+    Outcome outcome;
+    outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    outcome.out = read("stdout.txt");
+    outcome.err = read("stderr.txt");
+    return outcome;
+  }
+
+  [[nodiscard]] std::string read(const std::string& name) const {
+    std::ifstream file(path_ / name, std::ios::binary);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// The bytes of an OFF file of the box [low, high]^3.
+inline std::string cube_off(int low, int high) {
+  std::ostringstream text;
+  text << "OFF\n8 6 0\n";
+  for (int i = 0; i < 8; ++i) {
+    text << ((i & 1) != 0 ? high : low) << ' ' << ((i & 2) != 0 ? high : low) << ' ' << ((i & 4) != 0 ? high : low)
+         << '\n';
+  }
+  text << "4 0 2 3 1\n4 4 5 7 6\n4 0 1 5 4\n4 2 6 7 3\n4 0 4 6 2\n4 1 3 7 5\n";
+  return text.str();
+}
+
+/// One line that says something, exit code 2, nothing on stdout.
+inline void check_refused(const Outcome& outcome, const std::string& words) {
+  CAPTURE(outcome.out, outcome.err);
+  CHECK(outcome.code == 2);
+  CHECK(outcome.out.empty());
+  REQUIRE(!outcome.err.empty());
+  CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
+  CHECK(outcome.err.back() == '\n');
+  CHECK(outcome.err.rfind("nef: ", 0) == 0);
+  CHECK(outcome.err.find(words) != std::string::npos);
+}
+
+}  // namespace nef::test

@@ -21,9 +21,15 @@ bool segment_allowed(const FreeSpace& free, const CellFilter& filter, const Rati
 std::optional<Contact> first_contact(const FreeSpace& free, const ExactPoint& a, const ExactPoint& b) {
   const SpaceTree& tree = free.tree();
   std::optional<Contact> contact;
+  SegmentParameter before = ExactSegment::fixed(0);
   tree.walk(a, b, [&](SegmentPart& part) {
-    if (free.is_free(part.cell)) return true;
-    contact = Contact{ExactSegment(tree.planes(), a, b).exact(part.begin), part.cell};
+    if (free.is_free(part.cell)) {
+      before = part.begin;
+      return true;
+    }
+    const ExactSegment segment(tree.planes(), a, b);
+    contact = Contact{segment.exact(part.begin), segment.exact(part.begin), part.cell};
+    if (part.is_point) contact->last_free = (segment.exact(before) + contact->parameter) / 2;
     return false;
   });
   return contact;

@@ -29,6 +29,7 @@ bool segment_allowed(const FreeSpace& free, const CellFilter& filter, const Rati
 /// Where a motion from a to b hits what is not free.
 struct Contact {
   Rational parameter;     ///< the motion is free up to here (excluded if the hit point itself is not free)
+  Rational last_free;     ///< a free parameter: `parameter` itself if that is free, else one shortly before
   CellId cell = kNoCell;  ///< the cell that is hit
 };
 /// The first part of the segment that is not free; nothing if there is none.

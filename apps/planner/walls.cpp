@@ -18,10 +18,14 @@ class WallCollector {
     if (SpaceTree::is_leaf(at)) return;
     const SpaceTree::Node& node = tree_.nodes()[at];
     std::optional<ConvexPiece> polygon = plane_in_box(node.plane, tree_.box(), planes_, out_.points_);
+    for (std::size_t i = 0; i < 6 && polygon; ++i) {
+      SplitPiece parts = split(std::move(*polygon), tree_.box()[i], planes_, out_.points_);
+      polygon = std::move(i % 2 == 0 ? parts.positive : parts.negative);
+    }
     for (const auto& [plane, side] : ancestors_) {
+      if (!polygon) break;
       SplitPiece parts = split(std::move(*polygon), plane, planes_, out_.points_);
       polygon = std::move(side < 0 ? parts.negative : parts.positive);
-      if (!polygon) break;
     }
     if (polygon) {
       through_plane(node.child[1], std::move(*polygon),
@@ -135,6 +139,14 @@ std::array<double, 3> Walls::approximate_centre(const Wall& wall) const {
   }
   for (double& value : sum) value /= static_cast<double>(wall.point_count);
   return sum;
+}
+
+std::vector<std::array<double, 3>> Walls::approximate_corners(const Wall& wall) const {
+  std::vector<std::array<double, 3>> result;
+  for (std::uint32_t i = 0; i < wall.point_count; ++i) {
+    result.push_back(points_.approximate(corners_[wall.first_point + i]));
+  }
+  return result;
 }
 
 }  // namespace nef::planner

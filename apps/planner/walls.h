@@ -34,6 +34,8 @@ class Walls {
   /// The mean of the corners of a wall or seam.
   [[nodiscard]] Rational3 centre(const Wall& wall) const;
   [[nodiscard]] std::array<double, 3> approximate_centre(const Wall& wall) const;
+  /// The corners in order.
+  [[nodiscard]] std::vector<std::array<double, 3>> approximate_corners(const Wall& wall) const;
 
  private:
   friend class WallCollector;

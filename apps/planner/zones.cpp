@@ -239,12 +239,27 @@ ZoneId Zones::zone_at(const ExactPoint& point) const {
   return tree_->leaf_at(point, nudges);
 }
 
+ZoneId Zones::zone_in(CellId cell) const {
+  for (ZoneId zone = 0; zone < zone_count(); ++zone) {
+    if (!stations_of(zone).empty() && cell_of(zone) == cell) return zone;
+  }
+  // No station: the cell is a single leaf by itself.
+  for (LeafId leaf = 0; leaf < tree_->leaves().size(); ++leaf) {
+    if (tree_->leaves()[leaf].cell == cell && tree_->leaves()[leaf].dimension == cells_->dimension(cell)) return leaf;
+  }
+  NEF_ASSERT(cells_->dimension(cell) <= 1);
+  return static_cast<ZoneId>(tree_->leaves().size()) + cell;
+}
+
 Rational3 Zones::step_off(const Wall& wall, LeafId leaf) const {
   const Rational3 centre = walls_.centre(wall);
   Rational3 far = centre;
+  const Nudge n = Direction::normal(tree_->planes(), wall.plane).integers();
+  const Integer largest = std::max({Integer(abs(n[0])), Integer(abs(n[1])), Integer(abs(n[2]))});
   for (std::size_t i = 0; i < 3; ++i) {
-    const Rational n(mpz_class(mpz_srcptr(tree_->planes().coefficient(wall.plane, i))));
-    far[i] += wall.above == leaf ? n : -n;
+    Rational step(n[i], largest);
+    step.canonicalize();
+    far[i] += wall.above == leaf ? step : Rational(-step);
   }
   const ExactPoint a(centre);
   const ExactPoint b(far);

@@ -38,6 +38,7 @@ class Zones {
   Zones(const Complex& complex, const CellNumbering& cells, SpaceTree& tree,
         const std::function<bool(CellId)>& selected);
 
+  [[nodiscard]] const Walls& walls() const { return walls_; }
   [[nodiscard]] std::span<const Station> stations() const { return stations_; }
   [[nodiscard]] std::span<const ZoneId> zones_of(StationId station) const {
     return {station_zones_.data() + stations_[station].first_zone, stations_[station].zone_count};
@@ -52,6 +53,8 @@ class Zones {
   [[nodiscard]] Rational3 point(StationId station) const;
   /// The zone of a free point: it lies in the zone, or in its closure and in the same volume.
   [[nodiscard]] ZoneId zone_at(const ExactPoint& point) const;
+  /// Some zone in a free cell. O(zones).
+  [[nodiscard]] ZoneId zone_in(CellId cell) const;
   /// A point inside the zone.
   [[nodiscard]] Rational3 interior_point(ZoneId zone) const;
 

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// From a scene to the free positions of its robot, and from a forbidden position to its reason.
+#include "apps/minkowski/minkowski.h"
+#include "apps/planner/free_space.h"
+#include "apps/planner/scene.h"
+#include "nef/base/error.h"
+
+namespace nef::planner {
+namespace {
+
+// An unbounded obstacle, cut to what a robot in the box can reach, with a margin so that the cuts
+// stay away from it.
+Polyhedron bounded_obstacle(const Polyhedron& obstacle, const Scene& scene, std::size_t index) {
+  if (obstacle.is_bounded()) return obstacle;
+  if (!scene.box) {
+    throw InputError("obstacle " + std::to_string(index) + " (" + scene.obstacle_names[index] +
+                     ") is unbounded: give the scene a box");
+  }
+  const std::array<Rational3, 2> robot = *bounding_box(scene.robot);
+  Rational3 low = (*scene.box)[0];
+  Rational3 high = (*scene.box)[1];
+  for (std::size_t i = 0; i < 3; ++i) {
+    low[i] += robot[0][i] - 1;
+    high[i] += robot[1][i] + 1;
+  }
+  return intersect(obstacle, make_box(low, high));
+}
+
+bool all_regular(const Scene& scene, const std::vector<Polyhedron>& obstacles) {
+  if (!scene.robot.is_regular()) return false;
+  for (const Polyhedron& obstacle : obstacles) {
+    if (!obstacle.is_regular()) return false;
+  }
+  return true;
+}
+
+// Any point of a set that is not empty, as far inside as its dimension allows.
+Rational3 some_point(const Polyhedron& set) {
+  const FreeSpace space(set);
+  CellId best = kNoCell;
+  for (CellId cell = 0; cell < space.cells().size(); ++cell) {
+    if (space.is_free(cell)) best = cell;  // larger dimensions come later
+  }
+  NEF_ASSERT(best != kNoCell);
+  if (space.complex().vertex_count() == 0) return {};  // all of space
+  return space.zones().interior_point(space.zones().zone_in(best));
+}
+
+bool in_box(const Scene& scene, const Rational3& position) {
+  if (!scene.box) return true;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (position[i] < (*scene.box)[0][i] || position[i] > (*scene.box)[1][i]) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+Polyhedron free_positions(const Scene& scene) {
+  std::vector<Polyhedron> obstacles;
+  for (std::size_t i = 0; i < scene.obstacles.size(); ++i) {
+    obstacles.push_back(bounded_obstacle(scene.obstacles[i], scene, i));
+  }
+  if (scene.contact == ContactRule::kAllow) return minkowski::configuration_space(scene.robot, obstacles, scene.box);
+  Polyhedron free;
+  if (all_regular(scene, obstacles)) {
+    // closure(int O + -int R) = O + -R for closures of interiors, so the complement of the closed
+    // sum is the interior of the complement of the open one.
+    free = interior(minkowski::configuration_space(scene.robot, obstacles));
+  } else {
+    free = complement(minkowski::minkowski_sum(unite_all(obstacles), minkowski::negate(scene.robot)));
+  }
+  return scene.box ? intersect(free, make_box((*scene.box)[0], (*scene.box)[1])) : free;
+}
+
+std::optional<Collision> find_collision(const Scene& scene, const Rational3& position) {
+  if (!in_box(scene, position)) {
+    Collision collision;
+    collision.outside_box = true;
+    collision.point = position;
+    return collision;
+  }
+  const Polyhedron robot = transform(scene.robot, AffineMap::translate(position));
+  const bool allow = scene.contact == ContactRule::kAllow;
+  const Polyhedron inside = interior(robot);
+  // A robot without interior must not enter an obstacle's interior.
+  const bool flat = inside.is_empty();
+  for (std::size_t i = 0; i < scene.obstacles.size(); ++i) {
+    const Polyhedron& obstacle = scene.obstacles[i];
+    const Polyhedron overlap = !allow ? intersect(robot, obstacle)
+                               : flat ? intersect(robot, interior(obstacle))
+                                      : intersect(inside, obstacle);
+    if (overlap.is_empty()) continue;
+    Collision collision;
+    collision.obstacle = i;
+    // The boundary of the obstacle says more than its inside.
+    const Polyhedron surface = intersect(overlap, boundary(obstacle));
+    collision.point = some_point(surface.is_empty() ? overlap : surface);
+    collision.cell = locate(obstacle, collision.point);
+    return collision;
+  }
+  // Flat robots may be caught between touching obstacles.
+  if (allow && flat) {
+    const Polyhedron all = interior(unite_all(scene.obstacles));
+    const Polyhedron overlap = intersect(robot, all);
+    if (!overlap.is_empty()) {
+      Collision collision;
+      collision.point = some_point(overlap);
+      for (std::size_t i = 0; i < scene.obstacles.size(); ++i) {
+        if (!contains(scene.obstacles[i], collision.point)) continue;
+        collision.obstacle = i;
+        collision.cell = locate(scene.obstacles[i], collision.point);
+        return collision;
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+std::string describe(const Collision& collision, const Scene& scene) {
+  static constexpr std::array<const char*, 4> kKinds{"vertex", "edge", "facet", "volume"};
+  const std::string at = "(" + to_string(collision.point[0]) + ", " + to_string(collision.point[1]) + ", " +
+                         to_string(collision.point[2]) + ")";
+  if (collision.outside_box) return "outside the box at " + at;
+  return "overlaps obstacle " + std::to_string(collision.obstacle) + " (" + scene.obstacle_names[collision.obstacle] +
+         "), " + kKinds[static_cast<std::size_t>(collision.cell.kind)] + " " + std::to_string(collision.cell.index) +
+         ", at " + at;
+}
+
+}  // namespace nef::planner

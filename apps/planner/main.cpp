@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The command `planner`.
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <iostream>
+
+#include "apps/planner/ompl_runs.h"
+#include "apps/planner/question.h"
+#include "nef/base/error.h"
+#include "nef/command/expression.h"
+
+namespace {
+
+using namespace nef;           // NOLINT(google-build-using-namespace): this is the program
+using namespace nef::planner;  // NOLINT(google-build-using-namespace)
+
+struct Arguments {
+  std::string scene;
+  std::vector<std::string> outputs;
+  std::string start;
+  std::string goal;
+  std::string contact;
+  std::string prefer = "short";
+  std::string given_path;
+  std::string ompl;
+  std::string benchmark;
+  std::vector<std::string> planners{"RRTConnect", "PRMstar", "BITstar"};
+  PathOptions path;
+  double seconds = 10;
+  unsigned runs = 1;
+  bool tight = false;
+  bool json = false;
+  bool se3 = false;
+  bool quiet = false;
+};
+
+constexpr const char *kFooter = R"(
+A scene is JSON: {"robot": SHAPE, "obstacles": [SHAPE, ...], "start": [x, y, z], "goal": [x, y, z],
+"box": [[x, y, z], [x, y, z]], "reference": [x, y, z], "contact": "allow"|"forbid"}. SHAPE is the path of
+a mesh or nef file, or an expression such as "box(0,0,0, 9,3,3) - box(4,1,1, 5,2,2)".Numbers are exact : 0.1 is one
+                                    tenth,
+                     "1/3" a third.OMPL.app's .cfg files are read too.
+
+                     Exit codes : 0 a path;
+1 proved that there is none;
+2 bad input;
+3 start or goal not free;
+4 (--ompl only) no answer within the time.
+
+Examples:
+  planner scene.json -o path.json -o path.txt
+  planner --tight scene.json
+  planner scene.json --prefer roomy --json
+  planner scene.json --ompl RRTConnect --time 5
+  planner scene.json --benchmark bench.log --planners RRTConnect,PRMstar --runs 10)TEXT";
+
+void declare(CLI::App& app, Arguments& a) {
+  app.add_option("scene", a.scene, "Scene (.json, or OMPL.app .cfg)")->required();
+  app.add_option("-o,--output", a.outputs, "Write the path: .json, .path (OMPL matrix) or text; may be repeated");
+  app.add_flag("--json", a.json, "Print the report as JSON");
+  app.add_flag("--tight", a.tight, "List every tight passage; with --path those that a given path uses");
+  app.add_option("--path", a.given_path, "Check this path (a report or lines of numbers) instead of looking for one");
+  app.add_option("--start", a.start, "x,y,z in place of the scene's start");
+  app.add_option("--goal", a.goal, "x,y,z in place of the scene's goal");
+  app.add_option("--contact", a.contact, "May the robot touch obstacles?")->check(CLI::IsMember({"allow", "forbid"}));
+  app.add_option("--prefer", a.prefer, "short: any passage will do; roomy: thin passages only where needed")
+      ->check(CLI::IsMember({"short", "roomy"}));
+  app.add_option("--min-dimension", a.path.min_dimension, "Stay where free space is at least this thick")
+      ->check(CLI::Range(0, 3));
+  app.add_flag("--raw", a.path.raw, "The way-points of the roadmap, without shortcuts");
+  app.add_flag("--clearance", a.path.clearance, "Way-points inside volumes rather than in contact");
+  app.add_flag("--se3", a.se3, "Path matrix with seven columns x y z qx qy qz qw");
+  app.add_option("--ompl", a.ompl, "Use this planner of OMPL on the exact free space");
+  app.add_option("--time", a.seconds, "Seconds for each run of an OMPL planner")->check(CLI::PositiveNumber);
+  app.add_option("--runs", a.runs, "Runs of each OMPL planner")->check(CLI::Range(1U, 1000000U));
+  app.add_option("--benchmark", a.benchmark, "Write OMPL's benchmark log, our planner and --planners in it");
+  app.add_option("--planners", a.planners, "OMPL planners for --benchmark")->delimiter(',');
+  app.add_flag("--quiet", a.quiet, "Print nothing but errors");
+  app.set_version_flag("--version", std::string("planner 0.1.0"));
+  app.footer(kFooter);
+}
+
+Scene scene_of(const Arguments& a) {
+  Scene scene = read_scene(a.scene);
+  if (!a.start.empty()) scene.start = parse_triple(a.start, "--start");
+  if (!a.goal.empty()) scene.goal = parse_triple(a.goal, "--goal");
+  if (!a.contact.empty()) scene.contact = a.contact == "allow" ? ContactRule::kAllow : ContactRule::kForbid;
+  return scene;
+}
+
+std::string rendered(const std::string& file, const Answer& answer, const Problem& problem, bool se3) {
+  const std::string extension = std::filesystem::path(file).extension().string();
+  if (extension == ".json") return to_json(answer, problem.scene(), problem.free_space()).dump(2) + "\n";
+  if (extension == ".path" || se3) return path_matrix(*answer.path, se3);
+  return path_text(*answer.path);
+}
+
+// A report is written whatever the answer; path formats only if there is a path.
+void write_outputs(const Arguments& a, const Answer& answer, const Problem& problem) {
+  for (const std::string& file : a.outputs) {
+    const bool report = std::filesystem::path(file).extension() == ".json";
+    if (report || answer.path) write_file(file, rendered(file, answer, problem, a.se3));
+  }
+}
+
+void print(const Arguments& a, const Answer& answer, const Problem& problem) {
+  if (a.quiet) return;
+  if (a.json) {
+    std::cout << to_json(answer, problem.scene(), problem.free_space()).dump(2) << '\n';
+    return;
+  }
+  for (const std::string& message : problem.scene().messages) std::cout << "note: " << message << '\n';
+  std::cout << status_name(answer.status);
+  if (answer.collision) std::cout << ": " << describe(*answer.collision, problem.scene());
+  if (answer.status == Answer::Status::kInfeasible) {
+    std::cout << ": start is in component " << answer.start_component << ", goal in component "
+              << answer.goal_component;
+    if (answer.start_component == answer.goal_component) std::cout << ", joined only by thinner passages";
+  }
+  std::cout << '\n';
+  if (answer.path) {
+    std::cout << "length " << answer.path->length << ", thinnest piece " << answer.path->thinness.piece
+              << ", thinnest junction " << answer.path->thinness.junction << '\n';
+    if (a.outputs.empty()) std::cout << path_text(*answer.path);
+  }
+  if (a.tight) std::cout << passages_text(problem.free_space());
+}
+
+int check_given_path(const Arguments& a, const Problem& problem) {
+  Answer answer;
+  answer.phases = problem.phases();
+  answer.path = describe_path(problem.free_space(), read_waypoints(a.given_path));
+  answer.status = answer.path ? Answer::Status::kPath : Answer::Status::kInfeasible;
+  if (!answer.path) {
+    if (!a.quiet) std::cout << a.given_path << ": leaves free space\n";
+    return 1;
+  }
+  print(a, answer, problem);
+  if (a.tight && !a.json && !a.quiet) {
+    std::cout << "uses passages:";
+    for (const std::uint32_t passage : answer.path->passages) std::cout << ' ' << passage;
+    std::cout << '\n';
+  }
+  return 0;
+}
+
+int run(const Arguments& a) {
+  const Problem problem(scene_of(a));
+  if (!a.given_path.empty()) return check_given_path(a, problem);
+  if (!a.benchmark.empty()) return run_benchmark(problem, a.planners, a.seconds, a.runs, a.benchmark, a.quiet);
+  if (!a.ompl.empty()) {
+    OmplRequest request{a.ompl, a.seconds, a.runs};
+    const OmplOutcome outcome = run_ompl(problem, request);
+    write_outputs(a, outcome.answer, problem);
+    if (!a.quiet && !a.json) std::cout << outcome.summary << '\n';
+    if (a.json || outcome.answer.path) print(a, outcome.answer, problem);
+    return outcome.exit_code;
+  }
+  Answer answer;
+  const bool asked = problem.scene().start || problem.scene().goal || !a.tight;
+  answer.phases = problem.phases();
+  if (asked) {
+    PathOptions options = a.path;
+    options.roomy = a.prefer == "roomy";
+    answer = problem.solve(options);
+  }
+  write_outputs(a, answer, problem);
+  if (a.tight && !a.json) {
+    if (!a.quiet) std::cout << passages_text(problem.free_space());
+    return 0;
+  }
+  print(a, answer, problem);
+  return a.tight ? 0 : exit_code(answer);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Plans the motion of a translating robot exactly: a path, or a proof that there is none.", "planner");
+  Arguments arguments;
+  declare(app, arguments);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  try {
+    return run(arguments);
+  } catch (const std::exception& error) {
+    std::cerr << "planner: " << error.what() << '\n';
+    return 2;
+  }
+}

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/planner/number_json.h"
+
+#include "nef/base/error.h"
+
+namespace nef::planner {
+namespace {
+
+using nlohmann::json;
+
+// Builds a value from parser events; floats keep their spelling.
+class KeepText : public nlohmann::json_sax<json> {
+ public:
+  explicit KeepText(std::string name) : name_(std::move(name)) {}
+
+  bool null() override { return put(nullptr); }
+  bool boolean(bool value) override { return put(value); }
+  bool number_integer(number_integer_t value) override { return put(value); }
+  bool number_unsigned(number_unsigned_t value) override { return put(value); }
+  bool number_float(number_float_t /*value*/, const string_t& text) override { return put({{"$number", text}}); }
+  bool string(string_t& value) override { return put(value); }
+  bool binary(binary_t& /*value*/) override { return false; }
+  bool start_object(std::size_t /*size*/) override { return open(json::object()); }
+  bool key(string_t& value) override {
+    key_ = value;
+    return true;
+  }
+  bool end_object() override { return close(); }
+  bool start_array(std::size_t /*size*/) override { return open(json::array()); }
+  bool end_array() override { return close(); }
+  bool parse_error(std::size_t position, const std::string& token, const nlohmann::detail::exception& /*e*/) override {
+    throw InputError(name_ + ":" + std::to_string(position) + ": not valid JSON near '" + token + "'");
+  }
+
+  json result;
+
+ private:
+  struct Level {
+    json value;
+    std::string key;  // under which it goes into the level above
+  };
+  bool put(json value) {
+    if (levels_.empty()) {
+      result = std::move(value);
+    } else if (levels_.back().value.is_array()) {
+      levels_.back().value.push_back(std::move(value));
+    } else {
+      levels_.back().value[key_] = std::move(value);
+    }
+    return true;
+  }
+  bool open(json value) {
+    levels_.push_back({std::move(value), key_});
+    return true;
+  }
+  bool close() {
+    Level level = std::move(levels_.back());
+    levels_.pop_back();
+    key_ = level.key;
+    return put(std::move(level.value));
+  }
+
+  std::string name_;
+  std::string key_;
+  std::vector<Level> levels_;
+};
+
+}  // namespace
+
+json parse_exact_json(const std::string& text, const std::string& name) {
+  KeepText handler(name);
+  json::sax_parse(text, &handler);
+  return std::move(handler.result);
+}
+
+Rational rational_of(const json& value, const std::string& what) {
+  std::string text;
+  if (value.is_number_integer()) {
+    text = value.dump();
+  } else if (value.is_string()) {
+    text = value.get<std::string>();
+  } else if (value.is_object() && value.contains("$number")) {
+    text = value["$number"].get<std::string>();
+  } else {
+    throw InputError(what + ": expected a number or a string such as \"1/3\", not " + value.dump());
+  }
+  try {
+    return parse_rational(text);
+  } catch (const InputError& error) {
+    throw InputError(what + ": " + error.what());
+  }
+}
+
+Rational3 point_of(const json& value, const std::string& what) {
+  if (!value.is_array() || value.size() != 3)
+    throw InputError(what + ": expected three numbers, as in [0, 0.5, \"1/3\"]");
+  return {rational_of(value[0], what), rational_of(value[1], what), rational_of(value[2], what)};
+}
+
+json exact_json(const Rational3& point) { return {to_string(point[0]), to_string(point[1]), to_string(point[2])}; }
+
+json double_json(const Rational3& point) {
+  return {nearest_double(point[0]), nearest_double(point[1]), nearest_double(point[2])};
+}
+
+}  // namespace nef::planner

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// JSON whose numbers keep their text.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "nef/number/number.h"
+
+namespace nef::planner {
+
+/// Parses JSON; a number with a fraction or exponent becomes an object {"$number": "text"}, so that
+/// 0.1 can be read as one tenth. Throws InputError "name:byte: what" for malformed text.
+nlohmann::json parse_exact_json(const std::string& text, const std::string& name);
+
+/// The rational of an integer, a number from parse_exact_json or a string. Throws InputError naming
+/// `what`.
+Rational rational_of(const nlohmann::json& value, const std::string& what);
+
+/// Three of them from an array.
+Rational3 point_of(const nlohmann::json& value, const std::string& what);
+
+/// Arrays of exact strings and of nearest doubles.
+nlohmann::json exact_json(const Rational3& point);
+nlohmann::json double_json(const Rational3& point);
+
+}  // namespace nef::planner

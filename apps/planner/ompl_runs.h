@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// OMPL's own planners on the exact free space, and benchmarks of them beside ours.
+#pragma once
+
+#include <ompl/base/Planner.h>
+
+#include <string>
+#include <vector>
+
+#include "apps/planner/question.h"
+
+namespace nef::planner {
+
+/// Names of the OMPL planners that make_ompl_planner knows.
+std::vector<std::string> ompl_planner_names();
+
+/// A planner by its OMPL name, any case ("RRTConnect", "PRMstar", "TightPlanner", ...). Throws InputError
+/// with the known names for another one.
+ompl::base::PlannerPtr make_ompl_planner(const std::string& name, const ompl::base::SpaceInformationPtr& si);
+
+struct OmplRequest {
+  std::string planner;
+  double seconds = 10;
+  unsigned runs = 1;
+};
+
+struct OmplOutcome {
+  Answer answer;        ///< the best path over all runs
+  std::string summary;  ///< one line for people
+  unsigned solved = 0;
+  int exit_code = 4;  ///< 0 if a run was solved; 1 if our planner proved infeasibility; 3; 4 no answer in time
+};
+
+/// Runs a planner. Its paths are checked exactly again before they count.
+OmplOutcome run_ompl(const Problem& problem, const OmplRequest& request);
+
+/// Writes OMPL's benchmark log (for ompl_benchmark_statistics): our planner and the given ones. Returns 0.
+/// TightPlanner's runs include the construction of the free space from the scene.
+int run_benchmark(const Problem& problem, const std::vector<std::string>& planners, double seconds, unsigned runs,
+                  const std::string& log, bool quiet);
+
+}  // namespace nef::planner

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/planner/question.h"
+
+#include <chrono>
+
+#include "nef/base/error.h"
+
+namespace nef::planner {
+namespace {
+
+class Stopwatch {
+ public:
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    const double seconds = std::chrono::duration<double>(now - begin_).count();
+    begin_ = now;
+    return seconds;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
+Problem::Problem(Scene scene) : scene_(std::move(scene)) {
+  Stopwatch watch;
+  Polyhedron free = free_positions(scene_);
+  phases_["configuration_space"] = watch.lap();
+  free_ = std::make_shared<const FreeSpace>(std::move(free));
+  phases_["roadmap"] = watch.lap();
+}
+
+Answer Problem::solve(const PathOptions& options) const {
+  if (!scene_.start) throw InputError(scene_.name + ": the scene has no start");
+  if (!scene_.goal) throw InputError(scene_.name + ": the scene has no goal");
+  return solve(*scene_.start, *scene_.goal, options);
+}
+
+Answer Problem::solve(const Rational3& start, const Rational3& goal, const PathOptions& options) const {
+  Stopwatch watch;
+  Answer answer;
+  answer.phases = phases_;
+  const CellId start_cell = free_->locate(ExactPoint(start));
+  const CellId goal_cell = free_->locate(ExactPoint(goal));
+  if (!free_->is_free(start_cell) || !free_->is_free(goal_cell)) {
+    const bool at_start = !free_->is_free(start_cell);
+    answer.status = at_start ? Answer::Status::kInvalidStart : Answer::Status::kInvalidGoal;
+    answer.collision = find_collision(scene_, at_start ? start : goal);
+    answer.phases["query"] = watch.lap();
+    return answer;
+  }
+  answer.start_component = free_->component(start_cell);
+  answer.goal_component = free_->component(goal_cell);
+  answer.thinness = free_->thinness(start_cell, goal_cell);
+  answer.path = find_path(*free_, start, goal, options);
+  answer.status = answer.path ? Answer::Status::kPath : Answer::Status::kInfeasible;
+  answer.phases["query"] = watch.lap();
+  return answer;
+}
+
+}  // namespace nef::planner

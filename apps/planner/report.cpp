@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/planner/report.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iomanip>
+#include <sstream>
+
+#include "apps/planner/number_json.h"
+#include "nef/base/error.h"
+
+namespace nef::planner {
+namespace {
+
+using nlohmann::json;
+
+json cell_json(const FreeSpace& free, CellId cell) {
+  json vertices = json::array();
+  for (const Rational3& vertex : free.vertices(cell)) vertices.push_back(exact_json(vertex));
+  return {{"cell", free.name(cell)}, {"dimension", free.cells().dimension(cell)}, {"vertices", std::move(vertices)}};
+}
+
+json collision_json(const Collision& collision, const Scene& scene) {
+  json result{{"point", exact_json(collision.point)}, {"text", describe(collision, scene)}};
+  if (collision.outside_box) {
+    result["outside_box"] = true;
+    return result;
+  }
+  static constexpr std::array<const char*, 4> kKinds{"vertex", "edge", "facet", "volume"};
+  result["obstacle"] = collision.obstacle;
+  result["obstacle_name"] = scene.obstacle_names[collision.obstacle];
+  result["cell"] =
+      std::string(kKinds[static_cast<std::size_t>(collision.cell.kind)]) + " " + std::to_string(collision.cell.index);
+  return result;
+}
+
+void add_path(const ExactPath& path, json& result) {
+  json exact = json::array();
+  json doubles = json::array();
+  for (const Rational3& point : path.points) {
+    exact.push_back(exact_json(point));
+    doubles.push_back(double_json(point));
+  }
+  result["path"] = std::move(exact);
+  result["path_double"] = std::move(doubles);
+  result["length"] = path.length;
+  result["cells"] = path.segment_dimensions;
+  result["path_thinnest_piece"] = path.thinness.piece;
+  result["path_thinnest_junction"] = path.thinness.junction;
+  result["passages_used"] = path.passages;
+}
+
+}  // namespace
+
+int exit_code(const Answer& answer) {
+  switch (answer.status) {
+    case Answer::Status::kInfeasible:
+      return 1;
+    case Answer::Status::kInvalidStart:
+    case Answer::Status::kInvalidGoal:
+      return 3;
+    default:
+      return 0;
+  }
+}
+
+std::string status_name(Answer::Status status) {
+  static constexpr std::array<const char*, 5> kNames{"path", "infeasible", "invalid_start", "invalid_goal",
+                                                     "free_space"};
+  return kNames[static_cast<std::size_t>(status)];
+}
+
+json passages_json(const FreeSpace& free) {
+  json result = json::array();
+  for (const TightPassage& passage : free.passages()) {
+    json cells = json::array();
+    for (const CellId cell : passage.cells) cells.push_back(cell_json(free, cell));
+    json mouths = json::array();
+    for (const CellId cell : passage.mouths) mouths.push_back(cell_json(free, cell));
+    json rooms = json::array();
+    for (const CellId cell : passage.rooms) rooms.push_back(free.name(cell));
+    result.push_back({{"dimension", passage.dimension},
+                      {"component", passage.component},
+                      {"cells", std::move(cells)},
+                      {"mouths", std::move(mouths)},
+                      {"joins", std::move(rooms)}});
+  }
+  return result;
+}
+
+json to_json(const Answer& answer, const Scene& scene, const FreeSpace& free) {
+  json result{{"scene", scene.name}, {"status", status_name(answer.status)}};
+  if (answer.path) add_path(*answer.path, result);
+  if (answer.thinness) {
+    result["thinnest_piece"] = answer.thinness->piece;
+    result["thinnest_junction"] = answer.thinness->junction;
+  }
+  if (answer.collision) result["collision"] = collision_json(*answer.collision, scene);
+  if (answer.status == Answer::Status::kInfeasible) {
+    result["proof"] = {{"start_component", answer.start_component}, {"goal_component", answer.goal_component}};
+  }
+  json components = json::array();
+  for (const Component& component : free.components()) {
+    components.push_back(
+        {{"dimension", component.dimension}, {"bounded", component.bounded}, {"cells", component.cells}});
+  }
+  result["components"] = std::move(components);
+  result["tight"] = passages_json(free);
+  result["contact"] = scene.contact == ContactRule::kAllow ? "allow" : "forbid";
+  result["phases"] = answer.phases;
+  if (!scene.messages.empty()) result["messages"] = scene.messages;
+  return result;
+}
+
+std::string passages_text(const FreeSpace& free) {
+  std::ostringstream out;
+  if (free.passages().empty()) out << "no tight passage\n";
+  for (std::size_t i = 0; i < free.passages().size(); ++i) {
+    const TightPassage& passage = free.passages()[i];
+    out << "passage " << i << ": dimension " << passage.dimension << ", component " << passage.component;
+    if (!passage.rooms.empty()) {
+      out << ", joins";
+      for (const CellId room : passage.rooms) out << ' ' << free.name(room);
+    }
+    out << '\n';
+    for (const CellId cell : passage.cells) {
+      out << "  " << free.name(cell) << ':';
+      for (const Rational3& v : free.vertices(cell)) {
+        out << " (" << to_string(v[0]) << ", " << to_string(v[1]) << ", " << to_string(v[2]) << ')';
+      }
+      out << '\n';
+    }
+  }
+  return out.str();
+}
+
+std::string path_text(const ExactPath& path) {
+  std::ostringstream out;
+  out << std::setprecision(17);
+  for (const Rational3& p : path.points) {
+    out << nearest_double(p[0]) << ' ' << nearest_double(p[1]) << ' ' << nearest_double(p[2]) << '\n';
+  }
+  return out.str();
+}
+
+std::string path_matrix(const ExactPath& path, bool se3) {
+  std::ostringstream out;
+  out << std::setprecision(17);
+  for (const Rational3& p : path.points) {
+    for (const Rational& x : p) out << nearest_double(x) << ' ';
+    out << (se3 ? "0 0 0 1 \n" : "\n");
+  }
+  out << '\n';
+  return out.str();
+}
+
+std::vector<Rational3> read_waypoints(const std::string& file) {
+  std::ifstream in(file);
+  if (!in || std::filesystem::is_directory(file)) throw InputError(file + ": cannot be read");
+  std::ostringstream all;
+  all << in.rdbuf();
+  const std::string text = all.str();
+  std::vector<Rational3> points;
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  if (first != std::string::npos && text[first] == '{') {
+    const json root = parse_exact_json(text, file);
+    if (!root.contains("path") || !root["path"].is_array()) throw InputError(file + ": holds no 'path'");
+    for (const json& point : root["path"]) points.push_back(point_of(point, file + ": path"));
+  } else {
+    std::istringstream lines(text);
+    std::string line;
+    for (std::size_t number = 1; std::getline(lines, line); ++number) {
+      std::istringstream words(line);
+      std::array<std::string, 3> word;
+      if (!(words >> word[0])) continue;
+      words >> word[1] >> word[2];
+      Rational3 point;
+      for (std::size_t i = 0; i < 3; ++i) {
+        try {
+          point[i] = parse_rational(word[i]);
+        } catch (const InputError& error) {
+          throw InputError(file + ":" + std::to_string(number) + ": " + error.what());
+        }
+      }
+      points.push_back(point);
+    }
+  }
+  if (points.empty()) throw InputError(file + ": holds no way-points");
+  return points;
+}
+
+void write_file(const std::string& file, const std::string& text) {
+  const std::string temporary = file + ".tmp" + std::to_string(std::hash<std::string>{}(text) % 1000000);
+  {
+    std::ofstream out(temporary, std::ios::binary);
+    out << text;
+    out.close();
+    if (!out) {
+      std::remove(temporary.c_str());
+      throw InputError(file + ": cannot be written");
+    }
+  }
+  std::error_code error;
+  std::filesystem::rename(temporary, file, error);
+  if (error) {
+    std::remove(temporary.c_str());
+    throw InputError(file + ": cannot be written (" + error.message() + ")");
+  }
+}
+
+}  // namespace nef::planner

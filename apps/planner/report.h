@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Answers of the planner as data: JSON, text, OMPL's path matrix.
+#pragma once
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "apps/planner/path.h"
+#include "apps/planner/scene.h"
+
+namespace nef::planner {
+
+/// What came out of a question.
+struct Answer {
+  enum class Status : std::uint8_t { kPath, kInfeasible, kInvalidStart, kInvalidGoal, kNoQuestion };
+  Status status = Status::kNoQuestion;
+  std::optional<ExactPath> path;
+  std::optional<Thinness> thinness;    ///< the best T and J of any path from start to goal
+  std::optional<Collision> collision;  ///< of an invalid start or goal
+  std::uint32_t start_component = 0;   ///< infeasible: the two components
+  std::uint32_t goal_component = 0;
+  std::map<std::string, double> phases;  ///< seconds
+};
+
+/// Exit code of the command: 0 path (or no question), 1 infeasible, 3 invalid start or goal.
+int exit_code(const Answer& answer);
+/// "path", "infeasible", "invalid_start", "invalid_goal", "free_space".
+std::string status_name(Answer::Status status);
+
+/// All keys of the JSON report (see docs and `planner --help`).
+nlohmann::json to_json(const Answer& answer, const Scene& scene, const FreeSpace& free);
+/// The tight passages alone.
+nlohmann::json passages_json(const FreeSpace& free);
+/// The same for people.
+std::string passages_text(const FreeSpace& free);
+
+/// One way-point a line, three doubles with 17 digits.
+std::string path_text(const ExactPath& path);
+/// What PathGeometric::printAsMatrix prints, with 17 digits: a row per way-point, a blank at the end
+/// of each and a blank line after the last. With `se3`, seven columns x y z qx qy qz qw as OMPL.app reads.
+std::string path_matrix(const ExactPath& path, bool se3);
+
+/// Way-points from a file: the "path" of a JSON report (exact), or lines of three or more numbers.
+std::vector<Rational3> read_waypoints(const std::string& file);
+
+/// Writes a file by way of a temporary beside it. Throws InputError if that fails.
+void write_file(const std::string& file, const std::string& text);
+
+}  // namespace nef::planner

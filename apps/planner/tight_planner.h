@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The exact planner as an OMPL planner.
+#pragma once
+
+#include <ompl/base/Planner.h>
+#include <ompl/geometric/PathGeometric.h>
+
+#include <functional>
+#include <memory>
+
+#include "apps/planner/disconnection_proof.h"
+#include "apps/planner/exact_translation_space.h"
+#include "apps/planner/path.h"
+
+namespace nef::planner {
+
+/** \brief Complete planning for a translating robot, through passages of width zero too.
+
+    The free space is a Nef polyhedron; its cells and how they touch are the roadmap (see zones.h). A query
+    locates start and goal and walks through the cells between them, or proves that there is no way: then the
+    status is INFEASIBLE (ABORT before OMPL 1.6, which has no such status) and the problem definition holds a
+    DisconnectionProof. There is no time-out while there is an answer; the termination condition is respected
+    between pairs of start and goal states and before the free space is built.
+
+    The free space is built once (in setup) and serves all queries. clear() keeps it unless `keep_roadmap` is
+    set to 0, which gives single-query times in benchmarks.
+
+    \par External documentation
+    P. Hachenberger, Boolean Operations on 3D Selective Nef Complexes, PhD thesis, 2006, sections 1.1 and 10.2;
+    D. Halperin, Robust geometric computing in motion, IJRR 2002. */
+class TightPlanner : public ompl::base::Planner {
+ public:
+  /** \brief Computes a free space, at most once per setup. */
+  using FreeSpaceBuilder = std::function<std::shared_ptr<const FreeSpace>()>;
+
+  /** \brief The free space is that of the space information's NefStateValidityChecker, or of its
+      ExactTranslationSpace. */
+  explicit TightPlanner(const ompl::base::SpaceInformationPtr& si);
+  /** \brief The builder is called in setup(), so preprocessing is part of the planner's time. */
+  TightPlanner(const ompl::base::SpaceInformationPtr& si, FreeSpaceBuilder builder);
+  ~TightPlanner() override;
+
+  void setup() override;
+  void clear() override;
+  void clearQuery() override;
+  ompl::base::PlannerStatus solve(const ompl::base::PlannerTerminationCondition& ptc) override;
+  using ompl::base::Planner::solve;
+  /** \brief The roadmap: stations and the middles of the zones they join. */
+  void getPlannerData(ompl::base::PlannerData& data) const override;
+
+  /** \brief Only ways where free space is locally at least this thick (0: any). */
+  void setMinDimension(unsigned int dimension) { options_.min_dimension = static_cast<int>(dimension); }
+  unsigned int getMinDimension() const { return static_cast<unsigned int>(options_.min_dimension); }
+  /** \brief Prefer the thickest passages to the shortest path. */
+  void setRoomy(bool roomy) { options_.roomy = roomy; }
+  bool getRoomy() const { return options_.roomy; }
+  /** \brief Way-points inside volumes rather than in contact. */
+  void setClearance(bool clearance) { options_.clearance = clearance; }
+  bool getClearance() const { return options_.clearance; }
+  /** \brief Look for the shortest of several ways round, too (off: answers in a millisecond or two). */
+  void setThorough(bool thorough) { options_.thorough = thorough; }
+  bool getThorough() const { return options_.thorough; }
+  /** \brief Keep the free space when clear() is called. */
+  void setKeepRoadmap(bool keep) { keepRoadmap_ = keep; }
+  bool getKeepRoadmap() const { return keepRoadmap_; }
+
+  const std::shared_ptr<const FreeSpace>& getFreeSpace() const { return freeSpace_; }
+  /** \brief The last solution with rational way-points. */
+  const std::optional<ExactPath>& getExactPath() const { return exactPath_; }
+  /** \brief Seconds that the last construction of the free space took. */
+  double getPreprocessingTime() const { return preprocessing_; }
+
+ private:
+  struct Place {
+    Rational3 position;
+    CellId cell = kNoCell;
+  };
+  void declare();
+  void buildFreeSpace();
+  bool takeInput(const ompl::base::PlannerTerminationCondition& ptc, ompl::base::PlannerStatus& failure);
+  std::optional<ExactPath> bestPath(const ompl::base::PlannerTerminationCondition& ptc, bool& interrupted);
+  void addSolution(const ExactPath& path);
+  void proveInfeasible();
+  Place placeOf(const ompl::base::State* state) const;
+
+  FreeSpaceBuilder builder_;
+  std::shared_ptr<const FreeSpace> freeSpace_;
+  PathOptions options_;
+  bool keepRoadmap_ = true;
+  double preprocessing_ = 0;
+  std::vector<Place> starts_;
+  std::vector<Place> goals_;
+  bool allGoals_ = false;  // goals_ are all there are
+  std::optional<ExactPath> exactPath_;
+  mutable std::vector<ompl::base::State*> dataStates_;
+};
+
+/** \brief The exact path as an OMPL path whose states keep their rationals. */
+std::shared_ptr<ompl::geometric::PathGeometric> toPathGeometric(const ompl::base::SpaceInformationPtr& si,
+                                                                const ExactPath& path);
+
+}  // namespace nef::planner

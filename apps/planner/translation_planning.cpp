@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/planner/translation_planning.h"
+
+#include <ompl/base/goals/GoalState.h>
+#include <ompl/util/Console.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "apps/planner/cell_sampler.h"
+#include "apps/planner/nef_validity.h"
+#include "apps/planner/shapes.h"
+#include "nef/base/error.h"
+
+namespace nef::planner {
+
+namespace ob = ompl::base;
+
+TranslationPlanning::TranslationPlanning() : ompl::geometric::SimpleSetup(std::make_shared<ExactTranslationSpace>()) {
+  scene_.name = "TranslationPlanning";
+  setPlannerAllocator([](const ob::SpaceInformationPtr& si) { return std::make_shared<TightPlanner>(si); });
+  // The space needs bounds before anybody makes a state; real ones follow in setup().
+  ob::RealVectorBounds bounds(3);
+  bounds.setLow(-1);
+  bounds.setHigh(1);
+  space().setBounds(bounds);
+}
+
+TranslationPlanning::TranslationPlanning(const Problem& problem) : TranslationPlanning() {
+  scene_ = problem.scene();
+  useFreeSpace(problem.shared_free_space());
+  if (scene_.start && scene_.goal) setExactStartAndGoal(*scene_.start, *scene_.goal);
+  inferEnvironmentBounds();
+}
+
+ExactTranslationSpace& TranslationPlanning::space() const {
+  return *static_cast<ExactTranslationSpace*>(si_->getStateSpace().get());
+}
+
+bool TranslationPlanning::setMeshPath(const std::vector<std::string>& folders) {
+  folders_ = folders;
+  return std::all_of(folders.begin(), folders.end(), [](const std::string& folder) {
+    if (std::filesystem::is_directory(folder)) return true;
+    OMPL_WARN("%s is not a folder", folder.c_str());
+    return false;
+  });
+}
+
+std::string TranslationPlanning::find(const std::string& file) const {
+  if (std::filesystem::exists(file)) return file;
+  for (const std::string& folder : folders_) {
+    const std::filesystem::path path = std::filesystem::path(folder) / file;
+    if (std::filesystem::exists(path)) return path.string();
+  }
+  return file;
+}
+
+bool TranslationPlanning::readMesh(const std::string& file, Polyhedron& into, bool add) {
+  try {
+    const Polyhedron shape = closure(read_shape_file(find(file), &scene_.messages));
+    into = add ? unite(into, shape) : shape;
+    changed();
+    return true;
+  } catch (const Error& error) {
+    OMPL_ERROR("%s", error.what());
+    return false;
+  }
+}
+
+bool TranslationPlanning::setRobotMesh(const std::string& file) { return readMesh(file, scene_.robot, false); }
+
+bool TranslationPlanning::addRobotMesh(const std::string& file) { return readMesh(file, scene_.robot, true); }
+
+bool TranslationPlanning::setEnvironmentMesh(const std::string& file) {
+  scene_.obstacles.clear();
+  scene_.obstacle_names.clear();
+  return addEnvironmentMesh(file);
+}
+
+bool TranslationPlanning::addEnvironmentMesh(const std::string& file) {
+  Polyhedron shape;
+  if (!readMesh(file, shape, false)) return false;
+  scene_.obstacles.push_back(shape);
+  scene_.obstacle_names.push_back(file);
+  return true;
+}
+
+void TranslationPlanning::setRobot(const Polyhedron& robot) {
+  scene_.robot = closure(robot);
+  changed();
+}
+
+void TranslationPlanning::addObstacle(const Polyhedron& obstacle) {
+  scene_.obstacles.push_back(closure(obstacle));
+  scene_.obstacle_names.push_back("obstacle");
+  changed();
+}
+
+void TranslationPlanning::setContact(ContactRule contact) {
+  scene_.contact = contact;
+  changed();
+}
+
+void TranslationPlanning::setEnvironmentBounds(const Rational3& low, const Rational3& high) {
+  scene_.box = {low, high};
+  changed();
+}
+
+void TranslationPlanning::changed() {
+  freeSpace_.reset();
+  configured_ = false;
+  if (planner_) planner_->clear();
+}
+
+void TranslationPlanning::setExactStartAndGoal(const Rational3& start, const Rational3& goal) {
+  scene_.start = start;
+  scene_.goal = goal;
+  ob::ScopedState<> from(si_);
+  ob::ScopedState<> to(si_);
+  static_cast<ExactTranslationSpace::StateType*>(from.get())->setExact(start);
+  static_cast<ExactTranslationSpace::StateType*>(to.get())->setExact(goal);
+  setStartAndGoalStates(from, to);
+  if (freeSpace_) inferEnvironmentBounds();
+}
+
+void TranslationPlanning::inferEnvironmentBounds() {
+  ob::RealVectorBounds bounds(3);
+  const auto coordinate = [this](std::size_t plane) {
+    const PlaneTable& planes = freeSpace_->tree().planes();
+    return nearest_double(-Rational(mpz_class(mpz_srcptr(planes.coefficient(freeSpace_->tree().box()[plane], 3)))));
+  };
+  for (std::size_t i = 0; i < 3; ++i) {
+    double low = freeSpace_ ? coordinate(2 * i) - 1 : -1;
+    double high = freeSpace_ ? coordinate(2 * i + 1) + 1 : 1;
+    for (unsigned int s = 0; s < pdef_->getStartStateCount(); ++s) {
+      const double x = pdef_->getStartState(s)->as<ExactTranslationSpace::StateType>()->values[i];
+      low = std::min(low, x - 1);
+      high = std::max(high, x + 1);
+    }
+    if (const auto* goal = dynamic_cast<const ob::GoalState*>(pdef_->getGoal().get())) {
+      const double x = goal->getState()->as<ExactTranslationSpace::StateType>()->values[i];
+      low = std::min(low, x - 1);
+      high = std::max(high, x + 1);
+    }
+    if (scene_.box) {
+      // The box itself bounds free space; the state space is a hair larger, since it must not be flat.
+      low = nearest_double((*scene_.box)[0][i]);
+      high = nearest_double((*scene_.box)[1][i]);
+      const double slack = 1e-9 * std::max({1.0, std::fabs(low), std::fabs(high)});
+      low -= slack;
+      high += slack;
+    }
+    bounds.setLow(static_cast<unsigned int>(i), low);
+    bounds.setHigh(static_cast<unsigned int>(i), high);
+  }
+  space().setBounds(bounds);
+}
+
+void TranslationPlanning::useFreeSpace(std::shared_ptr<const FreeSpace> freeSpace) {
+  freeSpace_ = std::move(freeSpace);
+  space().setFreeSpace(freeSpace_);
+  setStateValidityChecker(std::make_shared<NefStateValidityChecker>(si_, freeSpace_));
+  si_->setMotionValidator(std::make_shared<NefMotionValidator>(si_, freeSpace_));
+  si_->setValidStateSamplerAllocator([free = freeSpace_](const ob::SpaceInformation* si) {
+    return std::make_shared<CellValidStateSampler>(si, free);
+  });
+  configured_ = false;
+}
+
+void TranslationPlanning::setup() {
+  if (!freeSpace_) {
+    if (scene_.robot.is_empty()) throw ompl::Exception("TranslationPlanning", "no robot is set");
+    useFreeSpace(std::make_shared<const FreeSpace>(free_positions(scene_)));
+    inferEnvironmentBounds();
+  }
+  ompl::geometric::SimpleSetup::setup();
+}
+
+}  // namespace nef::planner

@@ -1,0 +1,10 @@
+#!/usr/bin/env bash
+# Sets up, builds, and runs the main jobs on data/. Leaves demo/index.html with all results.
+# From a bare Debian 12: bash scripts/demo.sh
+set -euo pipefail
+cd "$(dirname "$0")/.."
+source scripts/setup.sh
+install_missing "${nef_packages[@]}" npm
+cmake --preset release -DNEF_BUILD_TESTS=OFF -DNEF_BUILD_BENCH=OFF >/dev/null
+cmake --build --preset release
+exec python3 scripts/demo.py build/release/bin demo

@@ -35,17 +35,13 @@ struct Arguments {
   bool quiet = false;
 };
 
-constexpr const char *kFooter = R"(
+constexpr const char* kFooter = R"TEXT(
 A scene is JSON: {"robot": SHAPE, "obstacles": [SHAPE, ...], "start": [x, y, z], "goal": [x, y, z],
 "box": [[x, y, z], [x, y, z]], "reference": [x, y, z], "contact": "allow"|"forbid"}. SHAPE is the path of
-a mesh or nef file, or an expression such as "box(0,0,0, 9,3,3) - box(4,1,1, 5,2,2)".Numbers are exact : 0.1 is one
-                                    tenth,
-                     "1/3" a third.OMPL.app's .cfg files are read too.
+a mesh or nef file, or an expression such as "box(0,0,0, 9,3,3) - box(4,1,1, 5,2,2)". Numbers are exact:
+0.1 is one tenth, "1/3" a third. OMPL.app's .cfg files are read too.
 
-                     Exit codes : 0 a path;
-1 proved that there is none;
-2 bad input;
-3 start or goal not free;
+Exit codes: 0 a path; 1 proved that there is none; 2 bad input; 3 start or goal not free;
 4 (--ompl only) no answer within the time.
 
 Examples:

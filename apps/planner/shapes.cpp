@@ -8,6 +8,7 @@
 #include "nef/base/error.h"
 #include "nef/command/expression.h"
 #include "nef/io/mesh_reader.h"
+#include "nef/io/polyhedron_file.h"
 
 namespace nef::planner {
 namespace {
@@ -49,6 +50,7 @@ Rational3 mean_of(const Mesh& mesh) {
 Polyhedron read_shape_file(const std::string& path, Messages* messages, Rational3* mean) {
   if (!std::filesystem::is_regular_file(path)) throw InputError(path + ": no such file");
   const std::string extension = extension_of(path);
+  if (extension == "nef" || extension == "nef3") return read_polyhedron(path, {}, messages);
   if (!is_mesh_extension(extension)) {
     const Mesh mesh = read_with_assimp(path, mean);
     return from_any_mesh(mesh, path, messages);

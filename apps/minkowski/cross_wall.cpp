@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Second phase of the vertical decomposition. In the slice with the plane x = const the volume is
-// the region between a floor and a ceiling; the wall is swept from the edge along y, interval by
+// Second phase of the vertical decomposition. In the slice with an upright plane the volume is the
+// region between a floor and a ceiling; the wall is swept from the edge along u, interval by
 // interval between the ends of segments, until floor and ceiling meet or an upright segment closes the gap.
 #include <algorithm>
 
@@ -60,19 +60,30 @@ bool WallBuilder::blocked(const Rational& at, Rational low, const Rational& high
   return low >= high;
 }
 
-void WallBuilder::erect_cross_wall(const ReflexEdge& edge, int way, Mesh& walls) {
+void WallBuilder::erect(const ReflexEdge& edge, const CrossWall& wall, Mesh& walls) {
+  if (wall.inside[0]) erect_cross_wall(edge, wall.plane, -1, walls);
+  if (wall.inside[1]) erect_cross_wall(edge, wall.plane, 1, walls);
+}
+
+void WallBuilder::erect_cross_wall(const ReflexEdge& edge, PlaneId plane, int way, Mesh& walls) {
   const Rational3& a = slicer_.point(complex_.svertex_owner[edge.halfedge]);
   const Rational3& b = slicer_.point(complex_.target(edge.halfedge));
   SliceFrame frame;
-  frame.u = 1;
+  frame.u = static_cast<std::size_t>(cross_axis(complex_, plane));
   frame.h = 2;
   frame.origin = a;
+  if (plane.valid()) {
+    // Along a x + b y = const one coordinate changes with the other.
+    frame.slope = Rational(complex_.planes.oriented_coefficient(plane, frame.u));
+    frame.slope /= Rational(complex_.planes.oriented_coefficient(plane, frame.w()));
+    frame.slope = -frame.slope;
+  }
   Rational low = std::min(a[2], b[2]);
   Rational high = std::max(a[2], b[2]);
 
   slicer_.begin(frame);
   for (const std::uint32_t f : facets_of_volume_[edge.volume]) slicer_.add_facet(f);
-  const std::vector<Rational> u = stops(a[1], way);
+  const std::vector<Rational> u = stops(a[frame.u], way);
   std::vector<FlatPoint> floor;
   std::vector<FlatPoint> ceiling;
   const auto push = [](std::vector<FlatPoint>& chain, FlatPoint p) {

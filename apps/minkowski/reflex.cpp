@@ -31,7 +31,20 @@ std::array<bool, 2> inside_wedge(const Complex& complex, const Direction& d, Pla
 
 bool selected(LabelId label) { return (label & 1U) != 0 && label != kOutside; }
 
+// A half-plane that leaves an edge with direction d = (0, 0, s) on the oriented plane of a shalfedge
+// there has direction n x d = s (n_y, -n_x, 0). A wall that prolongs it goes the other way.
+CrossWall prolonging(const Complex& complex, const Direction& d, PlaneId plane) {
+  const int up = sgn(d.integers()[2]);
+  const int leaves =
+      cross_axis(complex, plane) == 0 ? up * oriented_sign(complex, plane, 1) : -up * oriented_sign(complex, plane, 0);
+  return {plane, {leaves > 0, leaves < 0}};
+}
+
 }  // namespace
+
+int cross_axis(const Complex& complex, PlaneId plane) {
+  return plane.valid() && complex.planes.coefficient(plane, 1).sign() != 0 ? 0 : 1;
+}
 
 std::vector<ReflexEdge> reflex_edges(const Complex& complex) {
   std::vector<ReflexEdge> result;
@@ -42,12 +55,13 @@ std::vector<ReflexEdge> reflex_edges(const Complex& complex) {
     const Direction d = Direction::cross(complex.planes, sv.p, sv.q);
     ReflexEdge edge;
     edge.halfedge = h;
-    const bool vertical = same_direction(d, axis_direction(2)) || same_direction(d, axis_direction(2).negated());
-    edge.axis = vertical ? 1 : 2;
+    edge.vertical = oriented_sign(complex, sv.p, 2) == 0 && oriented_sign(complex, sv.q, 2) == 0;
     if (sv.out == kNone) {
-      if (!selected(complex.sfaces[vertex.sfaces + sv.sface].mark)) continue;
-      edge.volume = complex.sface_volume(vertex.sfaces + sv.sface);
+      const std::uint32_t sface = vertex.sfaces + sv.sface;
+      if (!selected(complex.sfaces[sface].mark)) continue;
+      edge.volume = complex.sface_volume(sface);
       edge.inside = {true, true};
+      edge.cross_wall = {CrossWall{PlaneId(), {true, true}}, CrossWall{PlaneId(), {true, true}}};
       result.push_back(edge);
       continue;
     }
@@ -61,7 +75,11 @@ std::vector<ReflexEdge> reflex_edges(const Complex& complex) {
       const bool reflex = turn < 0 || (turn == 0 && e == next);
       if (reflex && selected(map.sfaces[map.shalfedges[e].sface].mark)) {
         edge.volume = complex.sface_volume(vertex.sfaces + map.shalfedges[e].sface);
-        edge.inside = inside_wedge(complex, d, first, second, edge.axis);
+        if (edge.vertical) {
+          edge.cross_wall = {prolonging(complex, d, first), prolonging(complex, d, second)};
+        } else {
+          edge.inside = inside_wedge(complex, d, first, second, 2);
+        }
         result.push_back(edge);
       }
       e = next;

@@ -131,15 +131,10 @@ void WallBuilder::erect_sight_wall(const Rational3& from, const Rational3& to, b
 }
 
 void WallBuilder::erect(const ReflexEdge& edge, Mesh& walls) {
-  for (const int way : {-1, 1}) {
-    if (!edge.inside[way < 0 ? 0 : 1]) continue;
-    if (edge.axis == 2) {
-      erect_sight_wall(slicer_.point(complex_.svertex_owner[edge.halfedge]),
-                       slicer_.point(complex_.target(edge.halfedge)), way > 0, walls);
-    } else {
-      erect_cross_wall(edge, way, walls);
-    }
-  }
+  const Rational3& from = slicer_.point(complex_.svertex_owner[edge.halfedge]);
+  const Rational3& to = slicer_.point(complex_.target(edge.halfedge));
+  if (edge.inside[0]) erect_sight_wall(from, to, false, walls);
+  if (edge.inside[1]) erect_sight_wall(from, to, true, walls);
 }
 
 void WallBuilder::erect(const Rational3& from, const Rational3& to, Mesh& walls) {

@@ -5,8 +5,9 @@
 // First phase: the sight wall of a reflex edge is all points that can be seen from the edge along z
 // before the boundary of the volume is met. It depends on no other wall, so there is no order of erection and
 // there are no cyclic dependencies to resolve. Afterwards every vertical line meets a volume in one piece.
-// Second phase: a wall parallel to the yz-plane leaves a vertical reflex edge and fills the
-// volume's whole cut with that plane, up to where the volume's shadow on the xy-plane ends.
+// Second phase: a wall in an upright plane leaves a vertical reflex edge and fills the volume's
+// whole cut with that plane, up to where the volume's shadow on the xy-plane ends. (The thesis takes
+// planes x = const and two walls for most edges; prolonging a facet takes one.)
 #pragma once
 
 #include <array>
@@ -25,9 +26,12 @@ class WallBuilder {
  public:
   explicit WallBuilder(const Complex& complex);
 
-  /// Appends the walls of a reflex edge, one or two faces, to a mesh. First phase: O(k^2) for k
-  /// facets and edges over or under the edge. Second phase: O(k^2) for k facets of the volume.
+  /// Appends the sight walls of a reflex edge that is not vertical, one or two faces, to a mesh.
+  /// O(k^2) for k facets and edges over or under the edge.
   void erect(const ReflexEdge& edge, Mesh& walls);
+
+  /// Appends a wall of a vertical reflex edge. O(k^2) for k facets of the volume.
+  void erect(const ReflexEdge& edge, const CrossWall& wall, Mesh& walls);
 
   /// Appends both sight walls (along z) of a segment inside a volume that is not an edge.
   void erect(const Rational3& from, const Rational3& to, Mesh& walls);
@@ -47,7 +51,7 @@ class WallBuilder {
     const SliceSegment* low = nullptr;
     const SliceSegment* high = nullptr;
   };
-  void erect_cross_wall(const ReflexEdge& edge, int way, Mesh& walls);
+  void erect_cross_wall(const ReflexEdge& edge, PlaneId plane, int way, Mesh& walls);
   [[nodiscard]] std::vector<Rational> stops(const Rational& from, int way) const;
   [[nodiscard]] Gap find_gap(const Rational& from, const Rational& to, const Rational& low, const Rational& high) const;
   [[nodiscard]] bool blocked(const Rational& at, Rational low, const Rational& high) const;

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/minkowski/walls.h"
 
-#include <algorithm>
+#include <array>
+#include <functional>
+#include <map>
 #include <optional>
+#include <set>
+#include <utility>
+#include <vector>
 
 #include "apps/minkowski/reflex.h"
 #include "apps/minkowski/wall_builder.h"
@@ -30,19 +35,51 @@ void erect_for_point(const Polyhedron& a, std::uint32_t vertex, WallBuilder& bui
   builder.erect(left->point, right->point, walls);
 }
 
+// One wall for each vertical reflex edge. Walls in one plane are often one wall (a cross of two beams
+// has four such edges and needs two walls), so the plane that serves most edges of a volume is taken first.
+void erect_cross_walls(const std::vector<ReflexEdge>& edges, WallBuilder& builder, Mesh& walls) {
+  using Key = std::array<std::uint32_t, 2>;  // volume, row of the plane
+  const auto key = [&](std::uint32_t e, std::size_t k) {
+    const PlaneId plane = edges[e].cross_wall[k].plane;
+    return Key{edges[e].volume, plane.valid() ? plane.row() : PlaneId::kNone};
+  };
+  std::map<Key, std::vector<std::uint32_t>> users;
+  for (std::uint32_t e = 0; e < edges.size(); ++e) {
+    for (std::size_t k = 0; k < 2; ++k) users[key(e, k)].push_back(e);
+  }
+  std::map<Key, std::size_t> votes;
+  std::set<std::pair<std::size_t, Key>, std::greater<>> order;
+  for (const auto& [plane, list] : users) {
+    votes[plane] = list.size();
+    order.emplace(list.size(), plane);
+  }
+  std::vector<std::uint8_t> done(edges.size(), 0);
+  while (!order.empty()) {
+    const Key best = order.begin()->second;
+    order.erase(order.begin());
+    for (const std::uint32_t e : users[best]) {
+      if (done[e] != 0) continue;
+      done[e] = 1;
+      const std::size_t k = key(e, 0) == best ? 0 : 1;
+      builder.erect(edges[e], edges[e].cross_wall[k], walls);
+      const Key other = key(e, 1 - k);
+      if (order.erase({votes[other], other}) > 0) order.emplace(--votes[other], other);
+    }
+  }
+}
+
 // The walls of one phase; none if every selected volume is convex.
 Mesh next_walls(const Polyhedron& a) {
   std::vector<ReflexEdge> edges = reflex_edges(a.complex());
   const std::vector<std::uint32_t> points = lonely_vertices(a.complex());
   Mesh walls;
   if (edges.empty() && points.empty()) return walls;
-  const auto vertical = [](const ReflexEdge& e) { return e.axis != 2; };
-  const bool first_phase = !points.empty() || !std::all_of(edges.begin(), edges.end(), vertical);
   WallBuilder builder(a.complex());
   for (const std::uint32_t v : points) erect_for_point(a, v, builder, walls);
   for (const ReflexEdge& e : edges) {
-    if (!first_phase || !vertical(e)) builder.erect(e, walls);
+    if (!e.vertical) builder.erect(e, walls);
   }
+  if (walls.face_count() == 0) erect_cross_walls(edges, builder, walls);
   return walls;
 }
 

@@ -18,8 +18,8 @@ inline constexpr LabelId kCut = 4;
 
 /// The bounded set with walls inserted so that each selected volume is convex. Marks are labels as
 /// above. First walls along z for every reflex edge that is not parallel to z (which leaves volumes
-/// that each vertical line meets in one piece), then walls along y for the vertical reflex edges
-/// that are left or were made. A set without reflex edges is returned as it is.
+/// that each vertical line meets in one piece), then upright walls for the vertical reflex edges that
+/// are left or were made. A set without reflex edges is returned as it is.
 Polyhedron erect_walls(const Polyhedron& a);
 
 /// The same set with cuts in the given facets, so that they become convex.

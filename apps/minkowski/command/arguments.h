@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the command line of `minkowski` says.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/minkowski/minkowski.h"
+
+namespace nef::minkowski {
+
+/// The parsed command line.
+struct Arguments {
+  std::vector<std::string> operands;
+  std::string output, report;
+  std::string union_name = "nary";
+  bool open_a = false, open_b = false, negate_b = false;
+  bool as_surface = false, strict = false;
+  bool exact = false, binary = false, quiet = false, json = false;
+
+  std::string ball, box_tool;  ///< as written: "R,N", "x,y,z"
+  bool decompose = false;
+  std::string format = "off";  ///< of the files in a directory of cells
+
+  bool configuration_space = false;
+  std::string robot;
+  std::vector<std::string> obstacles;
+  std::vector<std::string> box;  ///< two corners "x,y,z"
+};
+
+/// Declares all options.
+void declare(CLI::App& app, Arguments& arguments);
+
+/// Checks what CLI11 cannot: which options go together. Throws InputError.
+void check(const Arguments& arguments);
+
+/// The numbers in "1,0.5,1/3". Throws InputError naming the option unless there are `count`.
+std::vector<Rational> parse_numbers(const std::string& text, std::size_t count, const std::string& option);
+
+UnionStrategy strategy(const Arguments& arguments);
+
+}  // namespace nef::minkowski

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/minkowski/command/write_cells.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+
+#include "nef/io/file_bytes.h"
+#include "nef/io/polyhedron_file.h"
+
+namespace nef::minkowski {
+namespace {
+
+using Colour = std::array<int, 3>;
+
+// Hues a golden angle apart, so that cells with near numbers differ.
+Colour colour_of(std::size_t cell) {
+  const double hue = std::fmod(static_cast<double>(cell) * 0.61803398875, 1.0) * 6;
+  Colour colour{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double distance = std::fabs(std::fmod(hue + 6 - 2.0 * static_cast<double>(i), 6) - 3) - 1;
+    colour[i] = static_cast<int>(std::lround(70 + 175 * std::min(1.0, std::max(0.0, distance))));
+  }
+  return colour;
+}
+
+std::string number(const Rational& value, bool exact) {
+  if (exact) return to_string(value);
+  std::array<char, 64> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), nearest_double(value)).ptr;
+  return {text.data(), end};
+}
+
+std::string point_line(const Rational3& p, bool exact) {
+  return number(p[0], exact) + " " + number(p[1], exact) + " " + number(p[2], exact) + "\n";
+}
+
+// The faces of a cell as vertex lists; an edge or a point counts as a face with two corners or one.
+std::vector<std::vector<std::uint32_t>> faces_of(const ConvexCell& cell) {
+  std::vector<std::vector<std::uint32_t>> faces;
+  for (std::size_t f = 0; f < cell.mesh.face_count(); ++f) {
+    const auto face = cell.mesh.face(f);
+    faces.emplace_back(face.begin(), face.end());
+  }
+  if (cell.dimension == 1) faces.push_back({0, 1});
+  if (cell.dimension == 0) faces.push_back({0});
+  return faces;
+}
+
+struct Bodies {
+  std::string points, faces;
+  std::size_t point_count = 0, face_count = 0;
+};
+
+// The vertices and faces of all cells that `format` holds, in its notation.
+Bodies bodies(std::span<const ConvexCell> cells, std::size_t first, const std::string& format, bool exact) {
+  Bodies b;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (format != "off" && cells[i].dimension < 2) continue;
+    const Colour colour = colour_of(first + i);
+    const std::string rgb =
+        std::to_string(colour[0]) + " " + std::to_string(colour[1]) + " " + std::to_string(colour[2]);
+    for (const Rational3& p : cells[i].mesh.vertices) b.points += (format == "obj" ? "v " : "") + point_line(p, exact);
+    if (format == "obj") b.faces += "g cell_" + std::to_string(first + i + 1) + "\n";
+    for (const std::vector<std::uint32_t>& face : faces_of(cells[i])) {
+      b.faces += format == "obj" ? "f" : std::to_string(face.size());
+      for (const std::uint32_t v : face) {
+        b.faces += " " + std::to_string(b.point_count + v + (format == "obj" ? 1 : 0));
+      }
+      b.faces += format == "obj" ? "\n" : " " + rgb + "\n";
+      ++b.face_count;
+    }
+    b.point_count += cells[i].mesh.vertices.size();
+  }
+  return b;
+}
+
+void write_mesh_file(const std::string& path, std::span<const ConvexCell> cells, std::size_t first,
+                     const std::string& format, bool exact) {
+  const Bodies b = bodies(cells, first, format, exact);
+  std::string head;
+  if (format == "off") {
+    head = "OFF\n" + std::to_string(b.point_count) + " " + std::to_string(b.face_count) + " 0\n";
+  } else if (format == "ply") {
+    head = "ply\nformat ascii 1.0\nelement vertex " + std::to_string(b.point_count) +
+           "\nproperty double x\nproperty double y\nproperty double z\nelement face " + std::to_string(b.face_count) +
+           "\nproperty list uchar int vertex_indices\nproperty uchar red\nproperty uchar green\n"
+           "property uchar blue\nend_header\n";
+  } else if (format != "obj") {
+    throw InputError(path + ": cells go to off, ply or obj, or into a directory (a path without extension)");
+  }
+  write_file(path, head + b.points + b.faces);
+}
+
+}  // namespace
+
+void write_cells(const std::string& path, std::span<const ConvexCell> cells, const std::string& format, bool exact) {
+  const bool is_directory = std::filesystem::is_directory(path);
+  if (const std::string extension = lower_extension(path); !extension.empty() && !is_directory) {
+    write_mesh_file(path, cells, 0, extension, exact);
+    return;
+  }
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (error) throw InputError(path + ": the directory cannot be made (" + error.message() + ")");
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    std::string digits = std::to_string(i + 1);
+    digits.insert(0, digits.size() < 4 ? 4 - digits.size() : 0, '0');
+    const std::string file = (std::filesystem::path(path) / ("cell_" + digits + "." + format)).string();
+    if (format == "nef") {
+      write_polyhedron(file, to_polyhedron(cells[i]));
+    } else if (format == "off" || cells[i].dimension >= 2) {
+      write_mesh_file(file, cells.subspan(i, 1), i, format, exact);
+    }
+  }
+}
+
+}  // namespace nef::minkowski

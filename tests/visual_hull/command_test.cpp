@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The command as a user runs it, on the data that comes with the project.
+#include <sys/wait.h>
+
+#include <catch2/catch.hpp>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "nef/base/error.h"
+#include "nef/io/polyhedron_file.h"
+#include "tests/visual_hull/helpers.h"
+#include "tests/visual_hull/scratch.h"
+
+namespace visual_hull {
+namespace {
+
+using Catch::Contains;
+using testing::Scratch;
+
+struct Outcome {
+  int code = -1;
+  std::string output;
+};
+
+// Runs the command; `output` is standard output and standard error together.
+Outcome run(const std::string& arguments) {
+  const std::string command = std::string(NEF_BINARY_DIR) + "/visual_hull " + arguments + " 2>&1";
+  Outcome outcome;
+  FILE* pipe = popen(command.c_str(), "r");
+  REQUIRE(pipe != nullptr);
+  std::array<char, 4096> buffer{};
+  for (std::size_t n = 0; (n = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
+    outcome.output.append(buffer.data(), n);
+  outcome.code = WEXITSTATUS(pclose(pipe));
+  return outcome;
+}
+
+std::string data(const std::string& name) { return std::string(NEF_SOURCE_DIR) + "/data/visual_hull/" + name; }
+
+nlohmann::json read_json(const std::filesystem::path& file) { return nlohmann::json::parse(read_text(file)); }
+
+TEST_CASE("Three letters: output, report and verification") {
+  const Scratch s;
+  const std::string off = (s.folder() / "hull.off").string();
+  const std::string nef = (s.folder() / "hull.nef").string();
+  const std::string report = (s.folder() / "report.json").string();
+  const Outcome outcome = run(data("letters/nef.vsh") + " -o " + nef + " --verify --report " + report + " --overlay " +
+                              (s.folder() / "views").string());
+  INFO(outcome.output);
+  REQUIRE(outcome.code == 0);
+  CHECK(outcome.output.find('\r') == std::string::npos);  // no bar in a pipe
+  CHECK(outcome.output.find('\x1b') == std::string::npos);
+  const nlohmann::json r = read_json(report);
+  REQUIRE(r["views"].size() == 3);
+  CHECK(r["views"][0]["contours"] == 1);
+  CHECK(r["views"][0]["holes"] == 0);
+  CHECK(r["views"][0]["polygon_vertices"] == 10);
+  CHECK(r["views"][0]["cone_facets"] == 12);  // ten sides and two caps
+  for (const char* phase : {"load", "contours", "cones", "intersection", "verify", "write"}) {
+    CHECK(r["phases"][phase]["seconds"] >= 0);
+    CHECK(r["phases"][phase]["predicates"].contains("exact"));
+  }
+  // CGAL 5.5 intersecting the same three cones gives the same counts (bench/visual_hull).
+  CHECK(r["result"]["vertices"] == 101);
+  CHECK(r["result"]["facets"] == 67);
+  CHECK(r["result"]["closed"] == true);
+  CHECK(r["result"]["bounded"] == true);
+  REQUIRE(r["verify"].size() == 3);
+  for (const auto& view : r["verify"]) CHECK(view["inside"] == true);
+  CHECK(r["peak_memory_bytes"] > 1000000);
+  std::size_t pictures = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(s.folder() / "views")) {
+    CHECK_FALSE(cv::imread(entry.path().string()).empty());
+    ++pictures;
+  }
+  CHECK(pictures == 3);
+  const nef::Polyhedron hull = nef::read_polyhedron(nef);
+  CHECK(nef::to_string(nef::volume(hull).value()) == r["result"]["volume"]);
+  CHECK(run(data("letters/nef.vsh") + " -q -o " + off).output.empty());
+  CHECK(std::filesystem::exists(off));
+}
+
+// The volume of the voxels whose centres project into all masks, in double precision.
+double voxel_volume(const Scene& scene, const std::string& folder, const WorldBox& box, int steps) {
+  std::vector<cv::Mat> masks;
+  std::vector<std::array<std::array<double, 4>, 3>> p;
+  for (const View& view : scene.views) {
+    masks.push_back(cv::imread(find_image(folder, view.image.string()).string(), cv::IMREAD_GRAYSCALE));
+    p.emplace_back();
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t j = 0; j < 4; ++j) p.back()[i][j] = nef::nearest_double(view.camera.matrix()[i][j]);
+    }
+  }
+  std::array<double, 3> low{};
+  std::array<double, 3> step{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    low[i] = nef::nearest_double(box.low[i]);
+    step[i] = (nef::nearest_double(box.high[i]) - low[i]) / steps;
+  }
+  std::size_t count = 0;
+  for (int a = 0; a < steps; ++a) {
+    for (int b = 0; b < steps; ++b) {
+      for (int c = 0; c < steps; ++c) {
+        const std::array<double, 3> x{low[0] + (a + 0.5) * step[0], low[1] + (b + 0.5) * step[1],
+                                      low[2] + (c + 0.5) * step[2]};
+        bool in = true;
+        for (std::size_t v = 0; v < masks.size() && in; ++v) {
+          std::array<double, 3> q{};
+          for (std::size_t i = 0; i < 3; ++i)
+            q[i] = p[v][i][0] * x[0] + p[v][i][1] * x[1] + p[v][i][2] * x[2] + p[v][i][3];
+          const int u = static_cast<int>(std::lround(q[0] / q[2]));
+          const int w = static_cast<int>(std::lround(q[1] / q[2]));
+          in = u >= 0 && w >= 0 && u < masks[v].cols && w < masks[v].rows && masks[v].at<std::uint8_t>(w, u) != 0;
+        }
+        count += in ? 1 : 0;
+      }
+    }
+  }
+  return static_cast<double>(count) * step[0] * step[1] * step[2];
+}
+
+TEST_CASE("Rendered silhouettes agree with their voxel hull, and every view with the hull") {
+  const std::string model = "eight";
+  const Scratch s;
+  const std::string report = (s.folder() / "report.json").string();
+  const Outcome outcome = run(data(model + "/" + model + ".json") + " --simplify 0.75 --verify --report " + report);
+  INFO(outcome.output);
+  REQUIRE(outcome.code == 0);
+  CHECK_THAT(outcome.output, Contains("box found: --box="));
+  const nlohmann::json r = read_json(report);
+  std::size_t holes = 0;
+  for (const auto& view : r["views"]) holes += view["holes"].get<std::size_t>();
+  CHECK(holes >= 4);
+  WorldBox box;
+  for (std::size_t i = 0; i < 3; ++i) {
+    box.low[i] = nef::parse_rational(r["box"][i].get<std::string>());
+    box.high[i] = nef::parse_rational(r["box"][3 + i].get<std::string>());
+  }
+  const Scene scene = read_scene(data(model + "/" + model + ".json"));
+  const double voxels = voxel_volume(scene, data(model), box, 100);
+  CHECK(r["result"]["volume_double"].get<double>() == Approx(voxels).epsilon(0.02));
+  // The figure eight has two holes, and the largest piece of the hull keeps them.
+  CHECK(r["result"]["euler_numbers"][0] == -2);
+}
+
+TEST_CASE("An outer hull contains the hull of the full contours") {
+  const Scene scene = read_scene(data("eight/eight.json"));
+  Scene few = scene;
+  few.views.resize(3);
+  Options full;
+  const Result exact = compute(few, data("eight"), full);
+  Options outer;
+  outer.silhouette.simplify = {1.5, true};
+  outer.box = exact.box;
+  const Result loose = compute(few, data("eight"), outer);
+  CHECK(testing::subset(exact.hull, loose.hull));
+  for (std::size_t i = 0; i < few.views.size(); ++i) {
+    CHECK(loose.views[i].silhouette.region.vertex_count() * 2 < exact.views[i].silhouette.region.vertex_count());
+  }
+}
+
+TEST_CASE("Bad use and bad input: one line, exit code 2") {
+  const Scratch s;
+  const auto fails = [](const Outcome& outcome, const std::string& part) {
+    INFO(outcome.output);
+    CHECK(outcome.code == 2);
+    CHECK_THAT(outcome.output, Contains(part));
+    CHECK(std::count(outcome.output.begin(), outcome.output.end(), '\n') == 1);
+  };
+  fails(run(""), "SCENE is required");
+  fails(run("nowhere.json"), "cannot open");
+  fails(run(s.folder().string()), "is a directory");
+  fails(run(data("letters/nef.vsh") + " --simplify -3"), "--simplify");
+  fails(run(data("letters/nef.vsh") + " --border maybe"), "--border");
+  fails(run(data("letters/nef.vsh") + " --box 0,0,0,1,1"), "six numbers");
+  fails(run(data("letters/nef.vsh") + " --box 0,0,0,0,1,1"), "flat along x");
+  fails(run(data("letters/nef.vsh") + " --frobnicate"), "--frobnicate");
+  fails(run(data("letters/nef.vsh") + " -o " + (s.folder() / "x.unknown").string()), "unknown");
+  fails(run(data("letters/nef.vsh") + " -o " + (s.folder() / "no/such/folder/x.off").string()), "x.off");
+  const std::string one = "a 100 0 0 0 0 100 0 0 0 0 1 10\n";
+  fails(run(s.write("p.txt", one).string()), "view a: there is no image");
+  cv::imwrite((s.folder() / "a.png").string(), cv::Mat(8, 8, CV_8U, cv::Scalar(0)));
+  fails(run((s.folder() / "p.txt").string()), "view a: the silhouette is empty");
+  cv::imwrite((s.folder() / "a.png").string(), cv::Mat(8, 8, CV_8U, cv::Scalar(255)));
+  fails(run((s.folder() / "p.txt").string()), "give a box with --box");
+  fails(run((s.folder() / "p.txt").string() + " --silhouette b=x.json"), "no view 'b'");
+  CHECK(run((s.folder() / "p.txt").string() + " --box -1,-1,-1,1,1,1").code == 0);
+  CHECK(run("--help").code == 0);
+}
+
+TEST_CASE("An empty hull is exit code 1 and names the view") {
+  const Scratch s;
+  const auto scene = s.write("p.txt", "a 10 0 0 0 0 10 0 0 0 0 1 10\nb 10 0 0 0 0 10 0 0 0 0 1 10\n");
+  const auto left = s.write("left.json", "[[[0,0],[1,0],[1,1],[0,1]]]");
+  const auto right = s.write("right.json", "{\"polygons\": [[[2,0],[\"7/2\",0],[3,1.5]]]}");
+  const Outcome outcome = run(scene.string() + " --silhouette " + left.string() + " --silhouette b=" + right.string() +
+                              " --box=-5,-5,-5,5,5,5");
+  CHECK(outcome.code == 1);
+  CHECK_THAT(outcome.output, Contains("the hull is empty: it vanished at view b"));
+}
+
+}  // namespace
+}  // namespace visual_hull

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/visual_hull/contour.h"
+
+#include <catch2/catch.hpp>
+
+#include "tests/visual_hull/helpers.h"
+
+namespace visual_hull {
+namespace {
+
+using testing::random_mask;
+
+cv::Mat picture(const std::vector<std::string>& rows) {
+  cv::Mat mask(static_cast<int>(rows.size()), static_cast<int>(rows[0].size()), CV_8U);
+  for (int y = 0; y < mask.rows; ++y) {
+    for (int x = 0; x < mask.cols; ++x) {
+      mask.at<std::uint8_t>(y, x) = rows[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)] == '#' ? 255 : 0;
+    }
+  }
+  return mask;
+}
+
+double area(const Silhouette& s) {
+  double sum = 0;
+  for (const Ring& ring : s.rings) sum += twice_area(ring) / 2;
+  return sum;
+}
+
+TEST_CASE("One pixel is a unit square around its centre or right of its corner") {
+  const cv::Mat mask = picture({"...", ".#.", "..."});
+  const Silhouette centre = trace_contours(mask, PixelOrigin::kCenter);
+  REQUIRE(centre.rings.size() == 1);
+  REQUIRE(centre.rings[0].size() == 4);
+  CHECK(locate(centre, Point2(Rational(1, 2), Rational(1, 2))) == Side::kBoundary);
+  CHECK(locate(centre, Point2(1, 1)) == Side::kInside);
+  CHECK(locate(centre, Point2(Rational(3, 2), 1)) == Side::kBoundary);
+  const Silhouette corner = trace_contours(mask, PixelOrigin::kCorner);
+  CHECK(locate(corner, Point2(1, 1)) == Side::kBoundary);
+  CHECK(locate(corner, Point2(Rational(3, 2), Rational(3, 2))) == Side::kInside);
+}
+
+TEST_CASE("Holes and islands in holes are nested") {
+  const Silhouette s = trace_contours(picture({"#########", "#.......#", "#.#####.#", "#.#...#.#", "#.#.#.#.#",
+                                               "#.#...#.#", "#.#####.#", "#.......#", "#########"}),
+                                      PixelOrigin::kCenter);
+  REQUIRE(s.rings.size() == 5);
+  std::vector<int> depth = s.depth;
+  std::sort(depth.begin(), depth.end());
+  CHECK(depth == std::vector<int>{0, 1, 2, 3, 4});
+  CHECK(s.hole_count() == 2);
+  for (std::size_t i = 0; i < s.rings.size(); ++i) {
+    if (s.depth[i] == 0) {
+      CHECK(s.parent[i] == -1);
+    } else {
+      CHECK(s.depth[static_cast<std::size_t>(s.parent[i])] == s.depth[i] - 1);
+    }
+  }
+  CHECK(check(s).empty());
+}
+
+TEST_CASE("Pixels that touch in a corner only make rings that touch there") {
+  const Silhouette diagonal = trace_contours(picture({"#.", ".#"}), PixelOrigin::kCorner);
+  CHECK(diagonal.rings.size() == 2);
+  CHECK(diagonal.vertex_count() == 8);
+  CHECK(check(diagonal).empty());
+  // The chain closes in a corner: an outer ring and a hole that touch there.
+  const Silhouette closed = trace_contours(picture({".##", "#.#", "###"}), PixelOrigin::kCorner);
+  CHECK(closed.rings.size() == 2);
+  CHECK(closed.hole_count() == 1);
+  CHECK(check(closed).empty());
+}
+
+TEST_CASE("A full image and a single row") {
+  const Silhouette full = trace_contours(cv::Mat(4, 7, CV_8U, cv::Scalar(255)), PixelOrigin::kCorner);
+  REQUIRE(full.rings.size() == 1);
+  CHECK(full.rings[0].size() == 4);
+  CHECK(area(full) == 28);
+  CHECK(touches_frame(cv::Mat(4, 7, CV_8U, cv::Scalar(255))));
+  const Silhouette row = trace_contours(picture({"##.#"}), PixelOrigin::kCorner);
+  CHECK(row.rings.size() == 2);
+  CHECK_FALSE(touches_frame(picture({"...", ".#.", "..."})));
+  CHECK(trace_contours(picture({"...", "..."}), PixelOrigin::kCorner).empty());
+}
+
+TEST_CASE("Contours hold exactly the pixels that are set") {
+  testing::property("every pixel, the area, and the promises of a silhouette", [] {
+    const int width = *rc::gen::inRange(1, 24);
+    const int height = *rc::gen::inRange(1, 24);
+    const int smoothing = *rc::gen::inRange(0, 3);
+    const cv::Mat mask = random_mask(width, height, smoothing, *rc::gen::arbitrary<std::uint64_t>());
+    const Silhouette s = trace_contours(mask, PixelOrigin::kCenter);
+    RC_ASSERT(check(s) == "");
+    RC_ASSERT(area(s) == cv::countNonZero(mask));
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        RC_ASSERT((locate(s, Point2(x, y)) == Side::kInside) == (mask.at<std::uint8_t>(y, x) != 0));
+      }
+    }
+  });
+}
+
+TEST_CASE("Polygons from outside are cleaned, and refused by name if they cannot mean a region") {
+  using testing::rectangle;
+  using testing::ring;
+  const auto problem = [](const std::vector<Ring>& rings) -> std::string {
+    try {
+      make_silhouette(rings, "view a");
+    } catch (const std::exception& error) {
+      return error.what();
+    }
+    return "";
+  };
+  CHECK(problem({ring({{0, 0}, {2, 2}, {2, 0}, {0, 2}})}).find("view a: polygon 1 crosses itself") == 0);
+  CHECK(problem({ring({{0, 0}, {1, 1}, {2, 2}})}) == "view a: polygon 1 has no area");
+  CHECK(problem({rectangle(0, 0, 4, 4), rectangle(2, 2, 6, 6)}).find("polygon 1 crosses polygon 2") !=
+        std::string::npos);
+  CHECK(problem({rectangle(0, 0, 4, 4), rectangle(4, 0, 6, 4)}).find("runs along") != std::string::npos);
+  CHECK(problem({rectangle(0, 0, 4, 4), rectangle(0, 0, 4, 4)}).find("runs along") != std::string::npos);
+  // Two triangles that cross in a common vertex.
+  CHECK(problem({ring({{0, 0}, {4, 0}, {2, 2}, {4, 4}, {0, 4}}), ring({{2, 2}, {1, 1.5}, {3, 1.9}})}) != "");
+
+  // Repeated and straight vertices go; orientation does not matter; a vertex may touch an edge.
+  const Silhouette cleaned = make_silhouette({ring({{0, 0}, {0, 0}, {0, 2}, {0, 4}, {4, 4}, {4, 0}})}, "x");
+  CHECK(cleaned.vertex_count() == 4);
+  CHECK(ring_orientation(cleaned.rings[0]) == 1);
+  const Silhouette touching = make_silhouette({rectangle(0, 0, 4, 4), ring({{0, 2}, {2, 1}, {2, 3}})}, "x");
+  CHECK(touching.vertex_count() == 8);
+  CHECK(touching.hole_count() == 1);
+  CHECK(check(touching).empty());
+}
+
+TEST_CASE("Orientation is exact where doubles are not") {
+  // Points on a line of slope one third: rounding puts each double off the line.
+  const Point2 a(Rational(1, 3), Rational(1, 9));
+  const Point2 b(Rational(4, 3), Rational(4, 9));
+  const Point2 c(Rational(1000000, 3), Rational(1000000, 9));
+  CHECK(orientation(a, b, c) == 0);
+  const Point2 above(c.x, c.y + Rational(1, Integer("1000000000000000000000000")));
+  CHECK(orientation(a, b, above) == 1);
+  CHECK(orientation(b, a, above) == -1);
+  CHECK(on_segment(a, c, b));
+  CHECK_FALSE(on_segment(a, b, c));
+}
+
+}  // namespace
+}  // namespace visual_hull

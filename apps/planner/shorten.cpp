@@ -97,6 +97,34 @@ bool slide(const FreeSpace& free, const CellFilter& filter, Waypoints& path, std
   return changed;
 }
 
+std::size_t bits(const Rational3& x) {
+  std::size_t sum = 0;
+  for (const Rational& value : x) sum += mpz_sizeinbase(value.get_den_mpz_t(), 2);
+  return sum;
+}
+
+// Where sliding has converged, an optimum with small numbers is most likely the true one: takes
+// the simplest point nearby if that costs nothing that doubles can see.
+void polish(const FreeSpace& free, const CellFilter& filter, Waypoints& path, std::size_t i) {
+  for (const CellId edge : edges_at(free, path[i])) {
+    const std::vector<Rational3> ends = free.vertices(edge);
+    const Vector e0 = to_double(ends[0]);
+    const Vector d = minus(to_double(ends[1]), e0);
+    const double t = best_parameter(e0, d, to_double(path[i - 1]), to_double(path[i + 1]));
+    if (!std::isfinite(t) || t < 0 || t > 1) continue;
+    const Rational low = std::max(Rational(0), Rational(t - 1e-6));
+    const Rational high = std::min(Rational(1), Rational(t + 1e-6));
+    const Rational3 x = on_line(ends[0], ends[1], simplest_between(low, high));
+    if (bits(x) >= bits(path[i])) continue;
+    const double before = distance(path[i - 1], path[i]) + distance(path[i], path[i + 1]);
+    const double after = distance(path[i - 1], x) + distance(x, path[i + 1]);
+    if (after > before * (1 + 1e-12)) continue;
+    if (!segment_allowed(free, filter, path[i - 1], x) || !segment_allowed(free, filter, x, path[i + 1])) continue;
+    path[i] = x;
+    return;
+  }
+}
+
 }  // namespace
 
 double length_of(const Waypoints& path) {
@@ -127,6 +155,9 @@ void tighten(const FreeSpace& free, const CellFilter& filter, Waypoints& path, i
     const double shorter = length_of(path);
     if (round > 4 && shorter > length * (1 - 1e-12)) break;
     length = shorter;
+  }
+  for (int pass = 0; pass < 2; ++pass) {
+    for (std::size_t i = 1; i + 1 < path.size(); ++i) polish(free, filter, path, i);
   }
 }
 

@@ -4,6 +4,8 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 source scripts/setup.sh
 install_missing "${nef_packages[@]}" "${nef_test_packages[@]}"
+# With ccache, a clone elsewhere finds what this one has compiled.
+export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1
 preset=${NEF_PRESET:-release}
 cmake --preset "$preset" >/dev/null
 cmake --build --preset "$preset"

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <unordered_map>
 
 #include "nef/base/error.h"
 
@@ -18,27 +18,51 @@ struct LineKey {
 };
 constexpr std::uint32_t kLine = 0xfffffffeU;
 
-// Pluecker coordinates of the line p meets q, up to a factor: the direction n_p x n_q and the
-// moment d_q n_p - d_p n_q (with its part in R), normalized to no common factor and a positive
-// leading component.
-std::vector<std::string> line_coordinates(const PlaneTable& planes, PlaneId p, PlaneId q) {
-  std::array<Integer, 9> v;
-  const auto n = [&](PlaneId plane, std::size_t i) { return planes.oriented_coefficient(plane, i); };
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t j = (i + 1) % 3;
-    const std::size_t k = (i + 2) % 3;
-    v[i] = n(p, j) * n(q, k) - n(p, k) * n(q, j);
-    v[3 + i] = n(q, 3) * n(p, i) - n(p, 3) * n(q, i);
-    v[6 + i] = n(q, 4) * n(p, i) - n(p, 4) * n(q, i);
+// Interns lines by their Pluecker coordinates: the direction n_p x n_q and the moment
+// d_q n_p - d_p n_q (with its part in R), without common factor and with a positive leading component.
+class LineTable {
+ public:
+  LineTable() : rows_(9) {}
+
+  std::uint32_t number(const PlaneTable& planes, PlaneId p, PlaneId q) {
+    std::array<Integer, 9> v;
+    const auto n = [&](PlaneId plane, std::size_t i) { return planes.coefficient(plane, i); };
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = (i + 1) % 3;
+      const std::size_t k = (i + 2) % 3;
+      subtract_products(v[i], n(p, j), n(q, k), n(p, k), n(q, j));
+      subtract_products(v[3 + i], n(q, 3), n(p, i), n(p, 3), n(q, i));
+      subtract_products(v[6 + i], n(q, 4), n(p, i), n(p, 4), n(q, i));
+    }
+    Integer divisor = 0;
+    for (const Integer& value : v) mpz_gcd(divisor.get_mpz_t(), divisor.get_mpz_t(), value.get_mpz_t());
+    const auto lead = std::find_if(v.begin(), v.end(), [](const Integer& value) { return value != 0; });
+    if (*lead < 0) divisor = -divisor;
+    std::array<mpz_srcptr, 9> row{};
+    for (std::size_t i = 0; i < 9; ++i) {
+      mpz_divexact(v[i].get_mpz_t(), v[i].get_mpz_t(), divisor.get_mpz_t());
+      row[i] = v[i].get_mpz_t();
+    }
+    const std::uint32_t candidate = rows_.push(row);
+    const auto [first, last] = by_hash_.equal_range(rows_.hash(candidate));
+    for (auto at = first; at != last; ++at) {
+      if (!rows_.equal(at->second, rows_, candidate)) continue;
+      rows_.pop();
+      return at->second;
+    }
+    by_hash_.emplace(rows_.hash(candidate), candidate);
+    return candidate;
   }
-  Integer divisor = 0;
-  for (const Integer& value : v) mpz_gcd(divisor.get_mpz_t(), divisor.get_mpz_t(), value.get_mpz_t());
-  const auto lead = std::find_if(v.begin(), v.end(), [](const Integer& value) { return value != 0; });
-  if (*lead < 0) divisor = -divisor;
-  std::vector<std::string> result;
-  for (const Integer& value : v) result.push_back(Integer(value / divisor).get_str(62));
-  return result;
-}
+
+ private:
+  static void subtract_products(Integer& out, mpz_srcptr a, mpz_srcptr b, mpz_srcptr c, mpz_srcptr d) {
+    mpz_mul(out.get_mpz_t(), a, b);
+    mpz_submul(out.get_mpz_t(), c, d);
+  }
+
+  IntegerRows rows_;
+  std::unordered_multimap<std::uint64_t, std::uint32_t> by_hash_;
+};
 
 class Linker {
  public:
@@ -61,13 +85,9 @@ class Linker {
         key.second = row;
       }
     }
-    std::map<std::vector<std::string>, std::uint32_t> lines;  // few: only dangling and isolated edges
+    LineTable lines;  // few: only dangling and isolated edges
     for (std::uint32_t s = 0; s < keys_.size(); ++s) {
-      if (keys_[s].second != kNone) continue;
-      const SVertex& v = c_.svertices[s];
-      const auto [line, is_new] =
-          lines.try_emplace(line_coordinates(c_.planes, v.p, v.q), static_cast<std::uint32_t>(lines.size()));
-      keys_[s] = {kLine, line->second};
+      if (keys_[s].second == kNone) keys_[s] = {kLine, lines.number(c_.planes, c_.svertices[s].p, c_.svertices[s].q)};
     }
   }
 

@@ -23,6 +23,7 @@ int run(int argc, char** argv, nef::Session& session) {
   nef::add_check_command(app, session);
   nef::add_query_commands(app, session);
   nef::add_eval_command(app, session);
+  nef::add_view_commands(app, session);
   const auto is_first = [argv](const CLI::App* command) { return command->get_name() == argv[1]; };
   if (argc > 1 && argv[1][0] != '-' && app.get_subcommands(is_first).empty()) {
     session.complain("there is no subcommand '" + std::string(argv[1]) + "' (see nef --help)");

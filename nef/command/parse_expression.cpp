@@ -97,9 +97,9 @@ class Parser {
     return "'" + std::string(word()) + "'";
   }
 
-  [[noreturn]] void fail(const std::string& what) { fail_at(at_, what); }
-  [[noreturn]] void fail_at(std::size_t offset, const std::string& what) const {
-    throw ExpressionError(place_in_text(text_, offset) + ": " + what, offset);
+  [[noreturn]] void fail(const std::string& what) {
+    peek();  // to the token that is wrong
+    throw ExpressionError(place_in_text(text_, at_) + ": " + what, at_);
   }
 
   [[nodiscard]] std::string_view word() const {

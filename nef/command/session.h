@@ -85,5 +85,6 @@ void add_info_commands(CLI::App& app, Session& session);
 void add_check_command(CLI::App& app, Session& session);
 void add_query_commands(CLI::App& app, Session& session);
 void add_eval_command(CLI::App& app, Session& session);
+void add_view_commands(CLI::App& app, Session& session);
 
 }  // namespace nef

@@ -199,7 +199,7 @@ TEST_CASE("expressions on the command line") {
   CHECK(half["volume"].is_null());
   CHECK(half["area"].is_null());
   CHECK(half["bbox"].is_null());
-  check_refused(here.nef("eval 'box(0,0,0,1,1,1) +'"), "column 21");
+  check_refused(here.nef("eval 'box(0,0,0,1,1,1) +'"), "column 19");
   check_refused(here.nef("eval 'file(\"none.off\")'"), "none.off");
 }
 

@@ -122,7 +122,7 @@ TEST_CASE("errors give the column and what was expected") {
   CHECK(refusal("file(a.off)").rfind("column 6: expected '\"'", 0) == 0);
   CHECK(refusal("file(\"a.off)").find("closing") != std::string::npos);
   CHECK(refusal("difference(nothing)").rfind("column 19: expected another set", 0) == 0);
-  CHECK(refusal("interior(nothing, nothing)").rfind("column 17: too many arguments", 0) == 0);
+  CHECK(refusal("interior(nothing, nothing)").rfind("column 19: too many arguments", 0) == 0);
   CHECK(refusal("scale(nothing, 1, 2)").rfind("column 20: expected another number", 0) == 0);
   CHECK(refusal("rotate(nothing, w, 2)").rfind("column 17: expected an axis", 0) == 0);
   CHECK(refusal("nothing + scale(everything, 0)").rfind("column 11: ", 0) == 0);

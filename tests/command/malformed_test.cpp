@@ -30,8 +30,8 @@ TEST_CASE("malformed files are refused in one line") {
   here.write("count.off", with_line(2, "9 6 0"));
   here.write("nan.off", with_line(4, "nan 0 0"));
   here.write("word.off", with_line(4, "0 zero 0"));
-  here.write("index.off", with_line(12, "4 0 2 3 99"));
-  here.write("negative.off", with_line(12, "4 0 2 3 -1"));
+  here.write("index.off", with_line(11, "4 0 2 3 99"));
+  here.write("negative.off", with_line(11, "4 0 2 3 -1"));
   here.write("short.off", cube_off(0, 2).substr(0, 60));
   here.write("magic.off", "hello world\n");
   here.write("short.stl", std::string(80, ' ') + std::string("\x0c\0\0\0", 4) + std::string(70, '\0'));
@@ -47,11 +47,11 @@ TEST_CASE("malformed files are refused in one line") {
 TEST_CASE("meshes that bound no solid are refused, with the guilty elements") {
   const Workplace here;
   here.write("open.off", cube_without_last_face());
-  check_refused(here.nef("info open.off"), "border");
+  check_refused(here.nef("info open.off"), "edge 3-1");
   CHECK(here.nef("info open.off --as-surface --json").json()["volume"] == "0");
   CHECK(here.nef("info open.off --as-surface --json").json()["facets"] == 5);
 
-  here.write("turned.off", with_line(12, "4 1 3 2 0"));
+  here.write("turned.off", with_line(11, "4 1 3 2 0"));
   check_refused(here.nef("info turned.off"), "turned.off");
 
   // Two cubes in one file that cross.
@@ -106,9 +106,9 @@ TEST_CASE("check names what is wrong") {
     return outcome.json()["problems"][0]["name"].get<std::string>();
   };
   CHECK(first_problem(cube_without_last_face()) == "open border");
-  CHECK(first_problem(with_line(12, "4 0 2 3 99")) == "bad index");
+  CHECK(first_problem(with_line(11, "4 0 2 3 99")) == "bad index");
   CHECK(first_problem(with_line(4, "nan 0 0")) == "not a number");
-  CHECK(first_problem(with_line(12, "4 1 3 2 0")) == "inconsistent orientation");
+  CHECK(first_problem(with_line(11, "4 1 3 2 0")) == "inconsistent orientation");
   check_refused(here.nef("check missing.off"), "missing.off");
   // A face that is only bent is no obstacle.
   here.write("bent.off", with_line(10, "2 2 2.001"));

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// nef view | picture
+#include <cmath>
+#include <filesystem>
+
+#include "nef/command/expression.h"
+#include "nef/command/session.h"
+#include "nef/io/file_bytes.h"
+#include "nef/view/glb.h"
+#include "nef/view/page.h"
+#include "nef/view/picture.h"
+
+namespace nef {
+namespace {
+
+// Each file as a layer with the file's name.
+std::vector<view::Layer> load_layers(Session& session, const view::SceneOptions& options) {
+  std::vector<view::Layer> layers;
+  for (const std::string& path : session.inputs) {
+    view::Layer& layer = layers.emplace_back();
+    layer.name = std::filesystem::path(path).filename().string();
+    layer.scene = view::build_scene(session.load(path), options);
+  }
+  return layers;
+}
+
+void report(Session& session, double view_s, const std::vector<view::Layer>& layers) {
+  if (!session.json) return;
+  std::size_t triangles = 0;
+  for (const view::Layer& layer : layers) triangles += layer.scene.triangles.size();
+  session.print({{"load_s", session.load_s},
+                 {"view_s", view_s},
+                 {"output", session.output},
+                 {"layers", layers.size()},
+                 {"triangles", triangles}});
+}
+
+CLI::Option* add_view_output(CLI::App* command, Session& session, const std::string& description) {
+  return command->add_option("-o,--output", session.output, description)->required()->type_name("FILE");
+}
+
+void add_view(CLI::App& app, Session& session) {
+  CLI::App* command = add_subcommand(app, session, "view", "Write a page to look at sets in a browser.");
+  command->add_option("inputs", session.inputs, "the sets, as files; each becomes a layer")->required()->expected(-1);
+  add_view_output(command, session, "the page (.html, nothing else is needed to show it) or a glTF file (.glb)");
+  add_input_flags(command, session);
+  command->callback([&session] {
+    const std::string extension = lower_extension(session.output);
+    if (extension != "html" && extension != "glb") {
+      throw InputError(session.output + ": the extension must be .html (a page) or .glb (glTF)");
+    }
+    const std::vector<view::Layer> layers = load_layers(session, {});
+    const Stopwatch watch;
+    if (extension == "glb") {
+      view::write_glb(layers, session.output);
+    } else {
+      view::PageOptions options;
+      options.title = layers.size() == 1 ? layers[0].name : std::to_string(layers.size()) + " sets";
+      view::write_page(layers, session.output, options);
+    }
+    session.say("wrote " + session.output);
+    report(session, watch.seconds(), layers);
+  });
+}
+
+// "1200x900"
+void parse_size(const std::string& text, view::PictureOptions& options) {
+  const std::size_t x = text.find('x');
+  const auto number = [&text](const std::string& part) {
+    if (part.empty() || part.size() > 5 || part.find_first_not_of("0123456789") != std::string::npos) {
+      throw InputError("size \"" + text + "\" is not WIDTHxHEIGHT, 1200x900 for example");
+    }
+    return static_cast<std::uint32_t>(std::stoul(part));
+  };
+  options.width = number(text.substr(0, x));
+  options.height = number(x == std::string::npos ? "" : text.substr(x + 1));
+}
+
+// Without --from a section is seen from the side that was cut away, a little from above and aside.
+view::Point towards_section(const std::array<Rational, 4>& section) {
+  view::Point normal{nearest_double(section[0]), nearest_double(section[1]), nearest_double(section[2])};
+  const double length = std::hypot(normal[0], normal[1], normal[2]);
+  const view::Point aside{0.3, -0.4, 0.35};
+  for (std::size_t i = 0; i < 3; ++i) normal[i] = normal[i] / length + aside[i];
+  return normal;
+}
+
+void add_picture(CLI::App& app, Session& session) {
+  CLI::App* command = add_subcommand(app, session, "picture", "Draw sets as a PNG picture, without a browser.");
+  struct Flags {
+    std::string from;
+    std::string size;
+    std::string section;
+  };
+  const auto flags = std::make_shared<Flags>();
+  command->add_option("inputs", session.inputs, "the sets, as files")->required()->expected(-1);
+  add_view_output(command, session, "the picture (.png)");
+  command->add_option("--from", flags->from, "direction from the middle to the eye")->type_name("X,Y,Z");
+  command->add_option("--size", flags->size, "pixels; 1200x900 if not given")->type_name("WxH");
+  command->add_option("--section", flags->section, "show only ax+by+cz+d <= 0, cut exactly")->type_name("A,B,C,D");
+  add_input_flags(command, session);
+  command->callback([&session, flags] {
+    if (lower_extension(session.output) != "png") throw InputError(session.output + ": the extension must be .png");
+    view::SceneOptions scene;
+    scene.indices = false;
+    view::PictureOptions picture;
+    if (!flags->size.empty()) parse_size(flags->size, picture);
+    if (!flags->section.empty()) {
+      const std::vector<Rational> numbers = parse_numbers(flags->section, "section");
+      if (numbers.size() != 4) throw InputError("section \"" + flags->section + "\" is not four numbers a,b,c,d");
+      scene.section = {numbers[0], numbers[1], numbers[2], numbers[3]};
+    }
+    if (!flags->from.empty()) {
+      const Rational3 from = parse_triple(flags->from, "from");
+      picture.from = {nearest_double(from[0]), nearest_double(from[1]), nearest_double(from[2])};
+    } else if (scene.section && ((*scene.section)[0] != 0 || (*scene.section)[1] != 0 || (*scene.section)[2] != 0)) {
+      picture.from = towards_section(*scene.section);
+    }
+    const std::vector<view::Layer> layers = load_layers(session, scene);
+    const Stopwatch watch;
+    view::write_picture(layers, session.output, picture);
+    session.say("wrote " + session.output);
+    report(session, watch.seconds(), layers);
+  });
+}
+
+}  // namespace
+
+void add_view_commands(CLI::App& app, Session& session) {
+  add_view(app, session);
+  add_picture(app, session);
+}
+
+}  // namespace nef

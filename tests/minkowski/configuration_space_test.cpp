@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Free spaces of translating robots: contact is free, so passages of no width remain.
+#include <catch2/catch.hpp>
+#include <vector>
+
+#include "apps/minkowski/minkowski.h"
+#include "tests/support/literals.h"
+
+namespace {
+
+using nef::Polyhedron;
+using nef::Rational;
+using nef::Rational3;
+using nef::minkowski::configuration_space;
+using nef::test::set;
+
+const std::optional<std::array<Rational3, 2>> kBox = {
+    {Rational3{Rational(-10), Rational(-10), Rational(-10)}, Rational3{Rational(10), Rational(10), Rational(10)}}};
+
+// What of the free space is not in the closure of its inside.
+Polyhedron tight(const Polyhedron& free) { return nef::subtract(free, nef::regularize(free)); }
+
+Polyhedron free_space(const std::string& robot, const std::vector<std::string>& obstacles) {
+  std::vector<Polyhedron> sets;
+  for (const std::string& text : obstacles) sets.push_back(set(text));
+  return nef::test::valid(configuration_space(set(robot), sets, kBox), "free space");
+}
+
+TEST_CASE("a slot as wide as the robot leaves a facet") {
+  const Polyhedron free = free_space("box(0,0,0,1,1,1)", {"box(-20,-20,0,-1,20,2)", "box(0,-20,0,20,20,2)"});
+  CHECK(free.is_closed());
+  // The robot's corner runs in x = -1 while its top is above 0 and its bottom below 2.
+  CHECK(nef::equal(nef::closure(tight(free)), set("polygon(-1,-10,-1, -1,10,-1, -1,10,2, -1,-10,2)")));
+}
+
+TEST_CASE("a hole as wide as the robot leaves an edge, a cavity of its size a vertex") {
+  const Polyhedron hole = free_space("box(0,0,0,1,1,1)", {"box(-20,-20,0,20,20,2) - interior(box(0,0,-1,1,1,3))"});
+  CHECK(nef::equal(nef::closure(tight(hole)), set("segment(0,0,-1, 0,0,2)")));
+  const Polyhedron cavity = free_space("box(0,0,0,1,1,1)", {"box(-5,-5,-5,5,5,5) - interior(box(2,2,2,3,3,3))"});
+  CHECK(nef::equal(tight(cavity), set("point(2,2,2)")));
+}
+
+TEST_CASE("narrower by any amount, the passage is gone; wider, it is solid") {
+  const Polyhedron narrow =
+      free_space("box(0,0,0,1,1,1)", {"box(-20,-20,0,-1,20,2)", "box(-1/1000000000,-20,0,20,20,2)"});
+  CHECK(tight(narrow).is_empty());
+  CHECK_FALSE(nef::contains(narrow, {Rational(-1), Rational(0), Rational(1, 2)}));
+  const Polyhedron wide = free_space("box(0,0,0,1,1,1)", {"box(-20,-20,0,-1,20,2)", "box(1/1000000000,-20,0,20,20,2)"});
+  CHECK(tight(wide).is_empty());
+  CHECK(nef::contains(wide, {Rational(-1), Rational(0), Rational(1, 2)}));
+}
+
+TEST_CASE("a point robot: walls of abutting boxes are no passage") {
+  const std::vector<std::string> boxes = {"box(-1,-1,-1,0,1,1)", "box(0,-1,-1,1,1,1)"};
+  const Polyhedron free = free_space("point(0,0,0)", boxes);
+  CHECK_FALSE(nef::contains(free, {Rational(0), Rational(0), Rational(0)}));
+  CHECK(nef::equal(free, set("box(-10,-10,-10,10,10,10) - interior(box(-1,-1,-1,1,1,1))")));
+  // An obstacle that needs walls to be cut into convex cells must not let a point through them either.
+  const Polyhedron bent = free_space("point(0,0,0)", {"box(0,0,0,3,1,1) + box(0,0,0,1,3,1)"});
+  CHECK(nef::equal(bent, set("box(-10,-10,-10,10,10,10) - interior(box(0,0,0,3,1,1) + box(0,0,0,1,3,1))")));
+}
+
+TEST_CASE("segments and facets as robots slide on obstacles but do not enter them") {
+  const Polyhedron along = free_space("segment(0,0,0,1,0,0)", {"box(0,0,0,2,2,2)", "box(0,2,0,2,4,2)"});
+  CHECK(nef::equal(along, set("box(-10,-10,-10,10,10,10) - interior(box(-1,0,0,2,4,2))")));
+  const Polyhedron plate = free_space("polygon(0,0,0, 1,0,0, 1,1,0, 0,1,0)", {"box(0,0,0,2,2,2)"});
+  CHECK(nef::equal(plate, set("box(-10,-10,-10,10,10,10) - interior(box(-1,-1,0,2,2,2))")));
+}
+
+TEST_CASE("flat obstacles block the inside of a solid robot") {
+  const Polyhedron sheet = free_space("box(0,0,0,1,1,1)", {"polygon(0,0,0, 2,0,0, 2,2,0, 0,2,0)"});
+  CHECK(nef::equal(sheet, set("box(-10,-10,-10,10,10,10) - interior(box(-1,-1,-1,2,2,0))")));
+  const Polyhedron needle = free_space("box(0,0,0,1,1,1)", {"point(0,0,0)"});
+  CHECK(nef::equal(needle, set("box(-10,-10,-10,10,10,10) - interior(box(-1,-1,-1,0,0,0))")));
+}
+
+TEST_CASE("the definition: a position is free iff the open robot misses the closed obstacles") {
+  const std::string robot = "box(0,0,0,2,1,1) + box(0,0,0,1,2,1)";
+  const std::string obstacle = "box(0,0,0,5,5,3) - interior(box(1,1,-1,4,3,4)) - interior(box(2,2,-1,4,4,4))";
+  const Polyhedron free = free_space(robot, {obstacle});
+  const Polyhedron open_robot = nef::interior(set(robot));
+  const Polyhedron closed = set(obstacle);
+  for (int x = 0; x <= 8; ++x) {
+    for (int y = 0; y <= 8; ++y) {
+      const Rational3 at = {Rational(x, 2), Rational(y, 2), Rational(1, 3)};
+      const bool misses = nef::intersect(nef::transform(open_robot, nef::AffineMap::translate(at)), closed).is_empty();
+      CAPTURE(x, y);
+      CHECK(nef::contains(free, at) == misses);
+    }
+  }
+}
+
+TEST_CASE("no obstacles, no box; robots that are nothing or endless are refused") {
+  CHECK(configuration_space(set("box(0,0,0,1,1,1)"), {}).is_everything());
+  CHECK(nef::equal(free_space("box(0,0,0,1,1,1)", {}), set("box(-10,-10,-10,10,10,10)")));
+  CHECK_THROWS_AS(configuration_space(Polyhedron(), {}), nef::InputError);
+  CHECK_THROWS_AS(configuration_space(set("halfspace(1,0,0,0)"), {}), nef::UnsupportedError);
+}
+
+}  // namespace

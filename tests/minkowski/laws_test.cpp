@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Laws of Minkowski sums over a zoo of sets of all kinds: open, closed, neither, with missing points
+// and slits, lower-dimensional, disconnected, hollow.
+#include <catch2/catch.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/minkowski/minkowski.h"
+#include "tests/support/literals.h"
+
+namespace {
+
+using nef::Polyhedron;
+using nef::Rational;
+using nef::Rational3;
+using nef::minkowski::minkowski_sum;
+using nef::test::set;
+using nef::test::valid;
+
+const std::vector<std::string>& zoo() {
+  static const std::vector<std::string> kSets = {
+      "box(0,0,0,2,2,2)",
+      "interior(box(0,0,0,2,1,1))",
+      "box(0,0,0,2,2,2) - point(1,1,1)",
+      "box(0,0,0,2,2,2) - polygon(1/2,1/2,1, 3/2,1/2,1, 3/2,3/2,1)",
+      "box(0,0,0,2,2,2) - segment(1,1,1/2, 1,1,3/2)",
+      "box(0,0,0,2,2,1) - interior(box(0,0,0,1,2,3))*box(0,0,1,2,2,1) - point(2,2,1)",
+      "box(0,0,0,2,2,1) - polygon(0,0,1, 1,0,1, 1,2,1, 0,2,1)",
+      "box(0,0,0,1,1,1) + segment(1,1,1, 3,2,1)",
+      "box(0,0,0,1,1,1) + polygon(1,0,1, 3,0,2, 1,1,1)",
+      "box(0,0,0,3,1,1) + box(0,0,0,1,3,1)",
+      "interior(box(0,0,0,3,1,1) + box(0,0,0,1,3,1))",
+      "box(0,0,0,3,3,3) - interior(box(1,1,1,2,2,2))",
+      "box(0,0,0,3,3,1) - box(1,1,-1,2,2,2)",
+      "hull(0,0,0, 2,0,0, 0,2,0, 0,0,2)",
+      "polygon(0,0,0, 2,0,0, 2,2,0, 0,2,0) - polygon(1/2,1/2,0, 1,1/2,0, 1,1,0)",
+      "polygon(0,0,0, 3,0,1, 1,1,1) - point(1,1,1)",
+      "segment(0,0,0, 1,2,1)",
+      "segment(0,0,0, 0,0,1) - point(0,0,1)",
+      "point(1,2,3) + point(-1,0,0)",
+      "box(0,0,0,1,1,1) + box(1,1,1,2,2,2)",
+      "box(0,0,0,1,1,1) + box(5,0,0,6,1,1)",
+  };
+  return kSets;
+}
+
+// A few partners, so that the number of pairs stays small.
+const std::vector<std::string>& partners() {
+  static const std::vector<std::string> kSets = {
+      "box(-1,-1,-1,1,1,1) - polygon(-1,-1,1, 0,-1,1, 0,1,1)",
+      "interior(hull(0,0,0, 1,0,0, 0,1,0, 0,0,1))",
+      "segment(0,0,0, 1,0,0) - point(1,0,0)",
+      "polygon(1,1,1, 2,1,1, 1,2,1)",
+      "box(4,0,0,5,1,1) - point(9/2,1/2,1/2)",
+  };
+  return kSets;
+}
+
+Rational3 plus(const Rational3& a, const Rational3& b) {
+  return {Rational(a[0] + b[0]), Rational(a[1] + b[1]), Rational(a[2] + b[2])};
+}
+
+Polyhedron moved(const Polyhedron& a, const Rational3& by) { return nef::transform(a, nef::AffineMap::translate(by)); }
+
+// Points that are hard for a sum: its vertices, and the middles of its edges and between vertices.
+std::vector<Rational3> adversarial_points(const Polyhedron& sum) {
+  const nef::Complex& c = sum.complex();
+  std::vector<Rational3> points;
+  std::vector<Rational3> vertices;
+  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) vertices.push_back(c.points.rational(nef::PointId(v)));
+  const auto middle = [](const Rational3& a, const Rational3& b) {
+    return Rational3{Rational((a[0] + b[0]) / 2), Rational((a[1] + b[1]) / 2), Rational((a[2] + b[2]) / 2)};
+  };
+  for (std::size_t v = 0; v < vertices.size(); v += 1 + vertices.size() / 12) {
+    points.push_back(vertices[v]);
+    points.push_back(middle(vertices[v], vertices[(v * 7 + 3) % vertices.size()]));
+  }
+  for (std::uint32_t h = 0; h < c.svertices.size(); h += 1 + static_cast<std::uint32_t>(c.svertices.size()) / 12) {
+    points.push_back(middle(vertices[c.svertex_owner[h]], vertices[c.target(h)]));
+  }
+  return points;
+}
+
+TEST_CASE("sums commute, and x is in A + B iff A meets x - B") {
+  for (std::size_t i = 0; i < zoo().size(); ++i) {
+    const std::string& text_b = partners()[i % partners().size()];
+    CAPTURE(zoo()[i], text_b);
+    const Polyhedron a = set(zoo()[i]);
+    const Polyhedron b = set(text_b);
+    const Polyhedron sum = valid(minkowski_sum(a, b), "sum");
+    CHECK(nef::equal(sum, minkowski_sum(b, a)));
+    const Polyhedron turned = nef::minkowski::negate(b);
+    std::vector<Rational3> points = adversarial_points(sum);
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      const bool meets = !nef::intersect(a, moved(turned, points[k])).is_empty();
+      CAPTURE(nef::to_string(points[k][0]), nef::to_string(points[k][1]), nef::to_string(points[k][2]));
+      CHECK(nef::contains(sum, points[k]) == meets);
+    }
+  }
+}
+
+TEST_CASE("a set plus a point is the set moved, one point or two, for every set") {
+  const Rational3 by = {Rational(1, 3), Rational(-7), Rational(2)};
+  for (const std::string& text : zoo()) {
+    CAPTURE(text);
+    const Polyhedron a = set(text);
+    CHECK(nef::equal(minkowski_sum(a, nef::make_point(by)), moved(a, by)));
+    // Two points do not take the short cut of one: cells and their union must give A back.
+    const Rational3 far = {Rational(100), Rational(0), Rational(0)};
+    const Polyhedron two = nef::unite(nef::make_point(by), nef::make_point(far));
+    CHECK(nef::equal(minkowski_sum(a, two), nef::unite(moved(a, by), moved(a, far))));
+  }
+}
+
+TEST_CASE("translating an operand translates the sum, wherever the origin is") {
+  const Rational3 by = {Rational(5), Rational(0), Rational(-1, 3)};
+  for (std::size_t i = 0; i < zoo().size(); ++i) {
+    const std::string& text_b = partners()[(i + 1) % partners().size()];
+    CAPTURE(zoo()[i], text_b);
+    const Polyhedron a = set(zoo()[i]);
+    const Polyhedron b = set(text_b);
+    CHECK(nef::equal(minkowski_sum(a, moved(b, by)), moved(minkowski_sum(a, b), by)));
+  }
+  const Polyhedron sum = minkowski_sum(set("box(0,0,0,1,1,1)"), set("box(5,0,0,6,1,1)"));
+  CHECK(nef::equal(sum, set("box(5,0,0,7,2,2)")));
+}
+
+TEST_CASE("sums distribute over unions, and the empty set gives the empty set") {
+  for (std::size_t i = 0; i < zoo().size(); i += 2) {
+    const Polyhedron a = set(zoo()[i]);
+    const Polyhedron b = set(partners()[i % partners().size()]);
+    const Polyhedron c = set(partners()[(i + 3) % partners().size()]);
+    CAPTURE(zoo()[i], i);
+    CHECK(nef::equal(minkowski_sum(a, nef::unite(b, c)), nef::unite(minkowski_sum(a, b), minkowski_sum(a, c))));
+    CHECK(minkowski_sum(a, Polyhedron()).is_empty());
+    CHECK(minkowski_sum(Polyhedron(), a).is_empty());
+  }
+}
+
+TEST_CASE("an open operand makes the sum open") {
+  const Polyhedron ball = set("interior(hull(0,0,0, 1,0,0, 0,1,0, 0,0,1))");
+  for (const std::string& text : zoo()) {
+    CAPTURE(text);
+    CHECK(minkowski_sum(set(text), ball).is_open());
+  }
+}
+
+TEST_CASE("two closed sets give a closed set") {
+  for (const std::string& text : zoo()) {
+    CAPTURE(text);
+    CHECK(minkowski_sum(nef::closure(set(text)), set("polygon(1,1,1, 2,1,1, 1,2,1)")).is_closed());
+  }
+}
+
+TEST_CASE("the four strategies give the same set") {
+  using nef::minkowski::UnionStrategy;
+  for (std::size_t i = 0; i < zoo().size(); i += 3) {
+    const Polyhedron a = set(zoo()[i]);
+    const Polyhedron b = set(partners()[(i + 2) % partners().size()]);
+    std::optional<Polyhedron> first;
+    for (const UnionStrategy strategy :
+         {UnionStrategy::kTrivial, UnionStrategy::kQueue, UnionStrategy::kPriority, UnionStrategy::kNary}) {
+      CAPTURE(zoo()[i], static_cast<int>(strategy));
+      nef::minkowski::MinkowskiOptions options;
+      options.strategy = strategy;
+      const Polyhedron sum = minkowski_sum(a, b, options);
+      if (!first) first = sum;
+      CHECK(nef::equal(*first, sum));
+    }
+  }
+}
+
+TEST_CASE("unbounded operands: a half-space has a sum, others are refused in one line") {
+  const Polyhedron half = set("halfspace(1,0,0,-1)");  // x <= 1
+  CHECK(nef::equal(minkowski_sum(half, set("box(0,0,0,2,2,2)")), set("halfspace(1,0,0,-3)")));
+  CHECK(nef::equal(minkowski_sum(set("interior(box(0,0,0,2,2,2))"), half), set("interior(halfspace(1,0,0,-3))")));
+  CHECK(nef::equal(minkowski_sum(half, set("box(0,0,0,2,2,2) - box(2,0,0,2,2,1)")), set("halfspace(1,0,0,-3)")));
+  CHECK(nef::equal(minkowski_sum(nef::interior(half), set("segment(0,0,0,1,1,1)")),
+                   set("interior(halfspace(1,0,0,-2))")));
+  CHECK_THROWS_AS(minkowski_sum(set("halfspace(1,0,0,0) * halfspace(0,1,0,0)"), set("box(0,0,0,1,1,1)")),
+                  nef::UnsupportedError);
+  CHECK_THROWS_AS(nef::minkowski::decompose(half), nef::UnsupportedError);
+}
+
+TEST_CASE("the progress function counts the pairs and can stop the sum") {
+  const Polyhedron a = set("box(0,0,0,3,1,1) + box(0,0,0,1,3,1)");
+  nef::minkowski::MinkowskiOptions options;
+  std::size_t last = 0;
+  options.progress = [&last](std::size_t done, std::size_t all) {
+    CHECK(done == last + 1);
+    CHECK(all == 4);
+    last = done;
+    return true;
+  };
+  minkowski_sum(a, a, options);
+  CHECK(last == 4);
+  options.progress = [](std::size_t, std::size_t) { return false; };
+  CHECK_THROWS_AS(minkowski_sum(a, a, options), nef::minkowski::Cancelled);
+}
+
+TEST_CASE("convexity with marks") {
+  using nef::minkowski::is_convex;
+  CHECK(is_convex(set("box(0,0,0,2,2,2)")));
+  CHECK(is_convex(set("interior(box(0,0,0,2,2,2))")));
+  CHECK(is_convex(set("box(0,0,0,2,2,2) - point(0,0,0)")));
+  CHECK(is_convex(set("interior(box(0,0,0,2,2,2)) + segment(1/2,1/2,2, 1,1,2)")));
+  CHECK_FALSE(is_convex(set("box(0,0,0,2,2,2) - point(1,0,0)")));
+  CHECK_FALSE(is_convex(set("box(0,0,0,2,2,2) - point(1,1,0)")));
+  CHECK_FALSE(is_convex(set("box(0,0,0,2,2,2) - point(1,1,1)")));
+  CHECK_FALSE(is_convex(set("box(0,0,0,3,1,1) + box(0,0,0,1,3,1)")));
+  CHECK_FALSE(is_convex(set("point(0,0,0) + point(1,0,0)")));
+  CHECK(is_convex(set("segment(0,0,0,1,1,1) - point(1,1,1)")));
+  CHECK_FALSE(is_convex(set("segment(0,0,0,2,2,2) - point(1,1,1)")));
+}
+
+}  // namespace

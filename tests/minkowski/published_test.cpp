@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Sums with known answers: published counts and volumes, closed forms.
+#include <catch2/catch.hpp>
+#include <string>
+#include <vector>
+
+#include "apps/minkowski/minkowski.h"
+#include "apps/minkowski/tools.h"
+#include "nef/construct/planar_hull.h"
+#include "nef/io/mesh_reader.h"
+#include "tests/support/literals.h"
+#include "tests/support/minkowski_shapes.h"
+
+namespace {
+
+using nef::Polyhedron;
+using nef::Rational;
+using nef::Rational3;
+using nef::minkowski::ConvexCell;
+using nef::minkowski::minkowski_sum;
+using nef::minkowski::MinkowskiOptions;
+using nef::minkowski::UnionStrategy;
+using nef::test::set;
+
+Polyhedron data(const std::string& name) {
+  return nef::from_mesh(nef::read_mesh(NEF_SOURCE_DIR "/data/meshes/" + name + ".off"));
+}
+
+struct Known {
+  std::string a, b;
+  std::size_t vertices, facets;
+  Rational volume;
+};
+
+TEST_CASE("published sums, exactly, by every strategy") {
+  const Polyhedron small_cube = set("box(-1/10,-1/10,-1/10,1/10,1/10,1/10)");
+  const Polyhedron unit = set("box(0,0,0,1,1,1)");
+  const std::vector<std::tuple<Polyhedron, Polyhedron, std::size_t, std::size_t, Rational>> known = {
+      {data("star"), data("star"), 50, 72, Rational(7, 8)},
+      {data("star"), small_cube, 32, 30, Rational(681, 2000)},
+      {data("P"), unit, 16, 10, Rational(38)},
+      {data("cross_quad"), data("star"), 88, 78, Rational(30)}};
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    const auto& [a, b, vertices, facets, content] = known[i];
+    for (const UnionStrategy strategy :
+         {UnionStrategy::kTrivial, UnionStrategy::kQueue, UnionStrategy::kPriority, UnionStrategy::kNary}) {
+      CAPTURE(i, static_cast<int>(strategy));
+      MinkowskiOptions options;
+      options.strategy = strategy;
+      const Polyhedron sum = nef::test::valid(minkowski_sum(a, b, options), "sum");
+      CHECK(nef::counts(sum).vertices == vertices);
+      CHECK(nef::counts(sum).facets == facets);
+      CHECK(nef::counts(sum).volumes == 2);
+      CHECK(*nef::volume(sum) == content);
+    }
+  }
+}
+
+TEST_CASE("two boxes; a prism and its mirror image") {
+  CHECK(nef::equal(minkowski_sum(set("box(1,2,3,4,5,6)"), set("box(-1,0,0,1,2,5)")), set("box(0,2,3,5,7,11)")));
+  // A triangle plus its mirror image is a hexagon of six times the area.
+  const Polyhedron prism = set("hull(0,0,0, 3,0,0, 0,3,0, 0,0,1, 3,0,1, 0,3,1)");
+  const Polyhedron sum = minkowski_sum(prism, nef::minkowski::negate(prism));
+  CHECK(nef::test::count_text(sum) == "12/18/8/2");
+  CHECK(*nef::volume(sum) == *nef::volume(prism) * 6 * 2);
+}
+
+// Twice the area of the shadow of a cell along an axis.
+Rational double_shadow(const ConvexCell& cell, std::size_t axis) {
+  std::vector<Rational3> flat = cell.mesh.vertices;
+  for (Rational3& p : flat) p[axis] = 0;
+  Rational3 normal;
+  normal[axis] = 1;
+  Rational area;
+  const std::vector<std::uint32_t> ring = nef::detail::planar_hull(flat, normal);
+  for (std::size_t k = 0; k < ring.size(); ++k) {
+    area += nef::detail::cross_product(flat[ring[k]], flat[ring[(k + 1) % ring.size()]])[axis];
+  }
+  return area;
+}
+
+TEST_CASE("Steiner's formula for a box and a polygonal ball, exactly") {
+  const Rational3 side = {Rational(3), Rational(5, 2), Rational(7, 3)};
+  for (const int splits : {1, 2, 3}) {
+    const ConvexCell ball = nef::minkowski::ball(Rational(2, 3), splits);
+    CHECK(ball.mesh.vertices.size() == static_cast<std::size_t>(4 * splits * splits + 2));
+    const Polyhedron sum =
+        minkowski_sum(nef::make_box({Rational(0), Rational(0), Rational(0)}, side), to_polyhedron(ball));
+    // Box, slabs on its faces (the ball's width is 4/3 along each axis), shadows along its edges, the ball.
+    Rational expected = side[0] * side[1] * side[2] + *nef::volume(to_polyhedron(ball));
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      expected += side[(axis + 1) % 3] * side[(axis + 2) % 3] * Rational(4, 3);
+      expected += side[axis] * double_shadow(ball, axis) / 2;
+    }
+    CHECK(*nef::volume(sum) == expected);
+  }
+}
+
+TEST_CASE("two geodesic spheres of 252 vertices: convex, and as many facets as the overlay has vertices") {
+  const Polyhedron a = nef::from_mesh(nef::test::geodesic_sphere(5, 1, 0));
+  const Polyhedron b = nef::from_mesh(nef::test::geodesic_sphere(5, 0.75, 0.3));
+  CHECK(nef::counts(a).vertices == 252);
+  nef::minkowski::MinkowskiReport report;
+  const Polyhedron sum = minkowski_sum(a, b, {}, &report);
+  CHECK(report.cells_a == 1);
+  CHECK(report.cells_b == 1);
+  std::vector<Rational3> points;
+  for (std::uint32_t i = 0; i < 252; i += 3) {
+    for (std::uint32_t j = 0; j < 252; j += 3) {
+      const Rational3 p = a.complex().points.rational(nef::PointId(i));
+      const Rational3 q = b.complex().points.rational(nef::PointId(j));
+      points.push_back({Rational(p[0] + q[0]), Rational(p[1] + q[1]), Rational(p[2] + q[2])});
+    }
+  }
+  CHECK(nef::subtract(nef::convex_hull(points), sum).is_empty());
+  CHECK(nef::counts(sum).volumes == 2);
+}
+
+TEST_CASE("a mushroom plus a box: every sum of vertices is in it, and its shadow is the shadow's sum") {
+  const Polyhedron a = nef::from_mesh(nef::test::mushroom());
+  const Polyhedron b = set("box(-1/10,-1/10,-1/10,1/10,1/10,1/10)");
+  nef::minkowski::MinkowskiReport report;
+  const Polyhedron sum = nef::test::valid(minkowski_sum(a, b, {}, &report), "sum");
+  CHECK(report.cells_b == 1);
+  CHECK(report.pairs == report.cells_a);
+  CHECK(sum.is_closed());
+  CHECK(sum.is_regular());
+  const auto box_a = *nef::bounding_box(a);
+  const auto box_sum = *nef::bounding_box(sum);
+  for (std::size_t i = 0; i < 3; ++i) {
+    CHECK(box_sum[0][i] == box_a[0][i] - Rational(1, 10));
+    CHECK(box_sum[1][i] == box_a[1][i] + Rational(1, 10));
+  }
+  for (std::uint32_t v = 0; v < 226; v += 5) {
+    Rational3 p = a.complex().points.rational(nef::PointId(v));
+    for (Rational& x : p) x += Rational(1, 10);
+    CHECK(nef::contains(sum, p));
+  }
+}
+
+}  // namespace

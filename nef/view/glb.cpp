@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/view/glb.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "nef/io/file_bytes.h"
+#include "nef/view/byte_text.h"
+
+namespace nef::view {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Numbers of the glTF 2.0 specification.
+constexpr int kFloat = 5126;
+constexpr int kUnsignedInt = 5125;
+constexpr int kArrayBuffer = 34962;
+constexpr int kElementArrayBuffer = 34963;
+constexpr int kPoints = 0;
+constexpr int kLines = 1;
+constexpr int kLineStrip = 3;
+constexpr int kTriangles = 4;
+
+constexpr Color kInk{31, 58, 90};
+constexpr Color kOrange{217, 102, 43};
+
+double linear(std::uint8_t channel) {
+  const double c = channel / 255.0;
+  return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+}
+
+class GlbWriter {
+ public:
+  explicit GlbWriter(const std::vector<Layer>& layers) : layers_(layers) {
+    if (const auto bounds = bounds_of(layers, false)) {
+      for (std::size_t i = 0; i < 3; ++i) center_[i] = (*bounds)[0][i] / 2 + (*bounds)[1][i] / 2;
+    }
+  }
+
+  std::string run() {
+    const double half = std::sqrt(0.5);
+    // A quarter turn about x takes z up to y up; the centre is turned with it.
+    nodes_.push_back({{"name", "scene"},
+                      {"translation", {center_[0], center_[2], -center_[1]}},
+                      {"rotation", {-half, 0, 0, half}},
+                      {"children", Json::array()}});
+    for (std::size_t i = 0; i < layers_.size(); ++i) {
+      const std::size_t node = add_layer(i);
+      nodes_[0]["children"].push_back(node);
+    }
+    if (layers_.empty()) nodes_[0].erase("children");
+    Json document{{"asset", {{"version", "2.0"}, {"generator", "nef"}}},
+                  {"scene", 0},
+                  {"scenes", {{{"nodes", {0}}}}},
+                  {"nodes", nodes_}};
+    const auto add = [&document](const char* key, const Json& list) {
+      if (!list.empty()) document[key] = list;
+    };
+    add("meshes", meshes_);
+    add("materials", materials_);
+    add("accessors", accessors_);
+    add("bufferViews", views_);
+    add("animations", animations_);
+    bytes_.resize((bytes_.size() + 3) / 4 * 4, '\0');
+    if (!bytes_.empty()) document["buffers"] = {{{"byteLength", bytes_.size()}}};
+    return container(document.dump());
+  }
+
+ private:
+  [[nodiscard]] std::string container(std::string json) const {
+    json.resize((json.size() + 3) / 4 * 4, ' ');
+    const auto chunk = [](std::uint32_t size, std::uint32_t type) { return std::array<std::uint32_t, 2>{size, type}; };
+    std::string out;
+    const std::size_t length = 12 + 8 + json.size() + (bytes_.empty() ? 0 : 8 + bytes_.size());
+    const std::array<std::uint32_t, 3> header{0x46546c67U, 2, static_cast<std::uint32_t>(length)};  // "glTF"
+    append_array<std::uint32_t>(out, header);
+    append_array<std::uint32_t>(out, chunk(static_cast<std::uint32_t>(json.size()), 0x4e4f534aU));  // "JSON"
+    out += json;
+    if (!bytes_.empty()) {
+      append_array<std::uint32_t>(out, chunk(static_cast<std::uint32_t>(bytes_.size()), 0x004e4942U));  // "BIN"
+      out += bytes_;
+    }
+    return out;
+  }
+
+  template <typename T>
+  std::size_t add_view(const std::vector<T>& values, int target) {
+    Json view{
+        {"buffer", 0}, {"byteOffset", append_array<T>(bytes_, values)}, {"byteLength", values.size() * sizeof(T)}};
+    if (target != 0) view["target"] = target;
+    views_.push_back(view);
+    return views_.size() - 1;
+  }
+
+  // Floats in groups of `width` (1 or 3) with their bounds.
+  std::size_t add_floats(const std::vector<float>& values, std::size_t width, int target) {
+    std::vector<float> low(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(width));
+    std::vector<float> high = low;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      low[i % width] = std::min(low[i % width], values[i]);
+      high[i % width] = std::max(high[i % width], values[i]);
+    }
+    accessors_.push_back({{"bufferView", add_view(values, target)},
+                          {"componentType", kFloat},
+                          {"count", values.size() / width},
+                          {"type", width == 1 ? "SCALAR" : "VEC3"},
+                          {"min", low},
+                          {"max", high}});
+    return accessors_.size() - 1;
+  }
+
+  std::size_t add_indices(const std::vector<std::uint32_t>& indices) {
+    accessors_.push_back({{"bufferView", add_view(indices, kElementArrayBuffer)},
+                          {"componentType", kUnsignedInt},
+                          {"count", indices.size()},
+                          {"type", "SCALAR"}});
+    return accessors_.size() - 1;
+  }
+
+  std::size_t add_material(const Color& color, double opacity, bool two_sided) {
+    Json material{{"pbrMetallicRoughness",
+                   {{"baseColorFactor", {linear(color[0]), linear(color[1]), linear(color[2]), opacity}},
+                    {"metallicFactor", 0},
+                    {"roughnessFactor", 0.85}}},
+                  {"doubleSided", two_sided}};
+    if (opacity < 1) material["alphaMode"] = "BLEND";
+    materials_.push_back(material);
+    return materials_.size() - 1;
+  }
+
+  std::size_t add_positions(const std::vector<Point>& points) {
+    std::vector<float> values;
+    for (const Point& point : points) {
+      for (std::size_t i = 0; i < 3; ++i) values.push_back(static_cast<float>(point[i] - center_[i]));
+    }
+    return add_floats(values, 3, kArrayBuffer);
+  }
+
+  // A node with one primitive on the points of an accessor, as child of another.
+  void add_part(std::size_t parent, const std::string& name, std::size_t positions,
+                const std::vector<std::uint32_t>& indices, int mode, std::size_t material) {
+    meshes_.push_back({{"name", name},
+                       {"primitives",
+                        {{{"attributes", {{"POSITION", positions}}},
+                          {"indices", add_indices(indices)},
+                          {"material", material},
+                          {"mode", mode}}}}});
+    nodes_.push_back({{"name", name}, {"mesh", meshes_.size() - 1}});
+    nodes_[parent]["children"].push_back(nodes_.size() - 1);
+  }
+
+  std::size_t add_layer(std::size_t index) {
+    const Layer& layer = layers_[index];
+    const std::size_t node = nodes_.size();
+    nodes_.push_back({{"name", layer.name}});
+    const Scene& scene = layer.scene;
+    if (!scene.vertices.empty()) {
+      std::vector<Point> points;
+      for (const SceneVertex& vertex : scene.vertices) points.push_back(vertex.position);
+      const std::size_t positions = add_positions(points);
+      const LayerColors colors = colors_of(layers_, index);
+      add_volumes(layer, node, positions, colors);
+      add_edges(layer, node, positions);
+      add_vertices(layer, node, positions);
+    }
+    for (const Polyline& line : layer.lines) {
+      if (line.points.size() < 2) continue;
+      std::vector<std::uint32_t> indices;
+      for (std::uint32_t i = 0; i < line.points.size(); ++i) indices.push_back(i);
+      add_part(node, line.name, add_positions(line.points), indices, kLineStrip, add_material(line.color, 1, true));
+    }
+    add_motion(layer, node);
+    return node;
+  }
+
+  void add_volumes(const Layer& layer, std::size_t node, std::size_t positions, const LayerColors& colors) {
+    const Scene& scene = layer.scene;
+    std::vector<std::vector<std::uint32_t>> parts(scene.volumes.size());
+    std::vector<std::uint32_t> flat;
+    const auto selected = [&scene](std::uint32_t v) { return Scene::selected(scene.volumes[v].mark); };
+    for (const SceneFacet& facet : scene.facets) {
+      const bool above = selected(facet.above);
+      const bool below = selected(facet.below);
+      for (std::uint32_t t = facet.first_triangle; t < facet.first_triangle + facet.triangle_count; ++t) {
+        const auto& [a, b, c] = scene.triangles[t];
+        // The eye that sees a triangle turn counterclockwise is outside the volume.
+        if (below) parts[facet.below].insert(parts[facet.below].end(), {a, b, c});
+        if (above) parts[facet.above].insert(parts[facet.above].end(), {a, c, b});
+        if (!above && !below) flat.insert(flat.end(), {a, b, c});
+      }
+    }
+    for (std::size_t v = 0; v < parts.size(); ++v) {
+      if (parts[v].empty()) continue;
+      const std::uint32_t number = scene.volumes[v].index;
+      const std::string name = "volume " + std::to_string(number == kArtificial ? v : number);
+      add_part(node, name, positions, parts[v], kTriangles, add_material(colors.volumes[v], layer.opacity, false));
+    }
+    if (!flat.empty()) {
+      add_part(node, "flat parts", positions, flat, kTriangles, add_material(colors.layer, layer.opacity, true));
+    }
+  }
+
+  void add_edges(const Layer& layer, std::size_t node, std::size_t positions) {
+    std::array<std::vector<std::uint32_t>, 2> ends;
+    for (const SceneEdge& edge : layer.scene.edges) {
+      if (edge.origin != Origin::kOwn) continue;
+      std::vector<std::uint32_t>& list = ends[Scene::selected(edge.mark) ? 1 : 0];
+      list.insert(list.end(), {edge.from, edge.to});
+    }
+    if (!ends[1].empty()) add_part(node, "edges", positions, ends[1], kLines, add_material(kInk, 1, true));
+    if (!ends[0].empty()) {
+      add_part(node, "edges, not selected", positions, ends[0], kLines, add_material(kOrange, 1, true));
+    }
+  }
+
+  void add_vertices(const Layer& layer, std::size_t node, std::size_t positions) {
+    std::vector<std::uint32_t> isolated;
+    for (std::uint32_t v = 0; v < layer.scene.vertices.size(); ++v) {
+      if (layer.scene.vertices[v].isolated) isolated.push_back(v);
+    }
+    if (!isolated.empty()) {
+      add_part(node, "isolated vertices", positions, isolated, kPoints, add_material(kInk, 1, true));
+    }
+  }
+
+  void add_motion(const Layer& layer, std::size_t node) {
+    if (layer.motion.empty()) return;
+    std::vector<float> times;
+    std::vector<float> offsets;
+    for (const double time : layer.motion.times) times.push_back(static_cast<float>(time));
+    for (const Point& offset : layer.motion.offsets) {
+      for (const double x : offset) offsets.push_back(static_cast<float>(x));
+    }
+    const std::size_t input = add_floats(times, 1, 0);
+    const std::size_t output = add_floats(offsets, 3, 0);
+    animations_.push_back({{"name", layer.name + " moves"},
+                           {"samplers", {{{"input", input}, {"output", output}, {"interpolation", "LINEAR"}}}},
+                           {"channels", {{{"sampler", 0}, {"target", {{"node", node}, {"path", "translation"}}}}}}});
+  }
+
+  const std::vector<Layer>& layers_;
+  Point center_{};
+  std::string bytes_;
+  Json nodes_ = Json::array();
+  Json meshes_ = Json::array();
+  Json materials_ = Json::array();
+  Json accessors_ = Json::array();
+  Json views_ = Json::array();
+  Json animations_ = Json::array();
+};
+
+}  // namespace
+
+std::string glb_bytes(const std::vector<Layer>& layers) { return GlbWriter(layers).run(); }
+
+void write_glb(const std::vector<Layer>& layers, const std::string& path) { write_file(path, glb_bytes(layers)); }
+
+}  // namespace nef::view

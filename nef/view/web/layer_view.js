@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// One layer of the scene as objects of three.js.
+import * as THREE from "three";
+import { isolated, originOf, ORIGIN_BOX, ORIGIN_OWN } from "./scene_data.js";
+import { facetMaterial, lineMaterial, dotMaterial } from "./materials.js";
+
+export const INK_HEX = "#1f3a5a";
+export const ORANGE_HEX = "#d9662b";
+const WHITE = [255, 255, 255];
+const GREY = [150, 162, 174];
+export const rgbOf = (hex) => [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16));
+
+const INK = rgbOf(INK_HEX);
+const ORANGE = rgbOf(ORANGE_HEX);
+const MANY = 3000; // vertices from which on dots and lines are drawn finer
+
+// The volume whose colour a facet shows to an eye above or below it, and whether it is seen from within; the same rule as
+// facet_side (nef/view/layer.h).
+export function facetSide(layer, facet, fromAbove) {
+  const { above, below } = layer.facets;
+  const front = (fromAbove ? above : below)[facet];
+  const behind = (fromAbove ? below : above)[facet];
+  if (layer.volumes[behind].mark) return { volume: behind, inner: false };
+  if (layer.volumes[front].mark) return { volume: front, inner: true };
+  return { volume: null, inner: false };
+}
+
+function sideColor(layer, facet, fromAbove) {
+  const { volume, inner } = facetSide(layer, facet, fromAbove);
+  const rgb = rgbOf(volume === null ? layer.color : layer.volumes[volume].color);
+  return inner ? rgb.map((c) => Math.round(c * 0.8)) : rgb;
+}
+
+function facetGeometry(layer) {
+  const { begin, corners, mark, flags } = layer.facets;
+  const { xyz } = layer.vertices;
+  const position = new Float32Array(corners.length * 3);
+  corners.forEach((vertex, i) => {
+    for (let k = 0; k < 3; ++k) position[3 * i + k] = xyz[3 * vertex + k];
+  });
+  const front = new Uint8Array(corners.length * 4);
+  const back = new Uint8Array(corners.length * 4);
+  for (let f = 0; f + 1 < begin.length; ++f) {
+    const style = originOf(flags[f]) === ORIGIN_BOX ? 128 : mark[f] ? 0 : 255;
+    const sides = [sideColor(layer, f, true), sideColor(layer, f, false)];
+    for (let i = 3 * begin[f]; i < 3 * begin[f + 1]; ++i) {
+      front.set([...sides[0], style], 4 * i);
+      back.set([...sides[1], style], 4 * i);
+    }
+  }
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.BufferAttribute(position, 3));
+  geometry.setAttribute("front", new THREE.BufferAttribute(front, 4, true));
+  geometry.setAttribute("back", new THREE.BufferAttribute(back, 4, true));
+  return geometry;
+}
+
+// segments: {start: [x, y, z], end: [x, y, z], rgb, width}
+export function lineMesh(segments, shared) {
+  const count = segments.length;
+  const start = new Float32Array(count * 3);
+  const end = new Float32Array(count * 3);
+  const color = new Uint8Array(count * 4);
+  const width = new Float32Array(count);
+  segments.forEach((segment, i) => {
+    start.set(segment.start, 3 * i);
+    end.set(segment.end, 3 * i);
+    color.set(segment.rgb, 4 * i);
+    width[i] = segment.width;
+  });
+  const geometry = new THREE.InstancedBufferGeometry();
+  geometry.instanceCount = count;
+  geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array([0, -1, 0, 0, 1, 0, 1, -1, 0, 1, 1, 0]), 3));
+  geometry.setIndex([0, 2, 1, 1, 2, 3]);
+  geometry.setAttribute("start", new THREE.InstancedBufferAttribute(start, 3));
+  geometry.setAttribute("end", new THREE.InstancedBufferAttribute(end, 3));
+  geometry.setAttribute("color", new THREE.InstancedBufferAttribute(color, 4, true));
+  geometry.setAttribute("width", new THREE.InstancedBufferAttribute(width, 1));
+  const material = lineMaterial(shared);
+  material.side = THREE.DoubleSide;
+  const mesh = new THREE.Mesh(geometry, material);
+  mesh.frustumCulled = false;
+  return mesh;
+}
+
+// dots: {at: [x, y, z], fill, rim, diameter}
+export function dotMesh(dots, shared) {
+  const position = new Float32Array(dots.length * 3);
+  const fill = new Uint8Array(dots.length * 4);
+  const rim = new Uint8Array(dots.length * 4);
+  const diameter = new Float32Array(dots.length);
+  dots.forEach((dot, i) => {
+    position.set(dot.at, 3 * i);
+    fill.set(dot.fill, 4 * i);
+    rim.set(dot.rim, 4 * i);
+    diameter[i] = dot.diameter;
+  });
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.BufferAttribute(position, 3));
+  geometry.setAttribute("fill", new THREE.BufferAttribute(fill, 4, true));
+  geometry.setAttribute("rim", new THREE.BufferAttribute(rim, 4, true));
+  geometry.setAttribute("diameter", new THREE.BufferAttribute(diameter, 1));
+  const points = new THREE.Points(geometry, dotMaterial(shared));
+  points.frustumCulled = false;
+  return points;
+}
+
+export const lineColor = (selected) => (selected ? INK : ORANGE);
+export const dotColors = (selected) => (selected ? { fill: INK, rim: INK } : { fill: WHITE, rim: ORANGE });
+
+function edgeSegments(layer) {
+  const { ends, mark, flags } = layer.edges;
+  const { xyz } = layer.vertices;
+  const at = (vertex) => xyz.subarray(3 * vertex, 3 * vertex + 3);
+  const fine = layer.vertices.mark.length > MANY;
+  return Array.from(mark, (m, e) => {
+    const own = originOf(flags[e]) === ORIGIN_OWN;
+    return {
+      start: at(ends[2 * e]),
+      end: at(ends[2 * e + 1]),
+      rgb: own ? lineColor(m) : GREY,
+      width: isolated(flags[e]) && own ? 3.2 : fine ? 1 : own ? 1.7 : 1.1,
+    };
+  });
+}
+
+function vertexDots(layer) {
+  const { xyz, mark, flags } = layer.vertices;
+  const fine = mark.length > MANY;
+  const dots = [];
+  mark.forEach((m, v) => {
+    if (originOf(flags[v]) !== ORIGIN_OWN) return;
+    dots.push({ at: xyz.subarray(3 * v, 3 * v + 3), ...dotColors(m), diameter: isolated(flags[v]) ? 11 : fine ? 3 : 8 });
+  });
+  return dots;
+}
+
+function boxSegments([low, high]) {
+  const corner = (i) => [i & 1 ? high[0] : low[0], i & 2 ? high[1] : low[1], i & 4 ? high[2] : low[2]];
+  const segments = [];
+  for (let i = 0; i < 8; ++i) {
+    for (const bit of [1, 2, 4]) {
+      if (i & bit) continue;
+      // Dashes, so that it is not taken for a part of the set.
+      const [a, b] = [corner(i), corner(i | bit)];
+      for (let k = 0; k < 24; k += 2) {
+        const between = (t) => a.map((x, j) => x + (b[j] - x) * t);
+        segments.push({ start: between(k / 24), end: between((k + 1) / 24), rgb: GREY, width: 1.2 });
+      }
+    }
+  }
+  return segments;
+}
+
+function photoMesh(photo, onLoad) {
+  const [a, b, c, d] = photo.corners;
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array([...a, ...b, ...c, ...d]), 3));
+  geometry.setAttribute("uv", new THREE.BufferAttribute(new Float32Array([0, 1, 1, 1, 1, 0, 0, 0]), 2));
+  geometry.setIndex([0, 3, 1, 1, 3, 2]);
+  const material = new THREE.MeshBasicMaterial({ side: THREE.DoubleSide });
+  material.map = new THREE.TextureLoader().load(photo.url, onLoad);
+  material.map.colorSpace = THREE.SRGBColorSpace;
+  return new THREE.Mesh(geometry, material);
+}
+
+function extraSegments(layer) {
+  const segments = [];
+  for (const line of layer.lines) {
+    const point = (i) => line.xyz.subarray(3 * i, 3 * i + 3);
+    for (let i = 0; 3 * (i + 1) < line.xyz.length; ++i) {
+      segments.push({ start: point(i), end: point(i + 1), rgb: rgbOf(line.color), width: 2.2 });
+    }
+  }
+  for (const photo of layer.photos) {
+    if (!photo.eye) continue;
+    for (const corner of photo.corners) segments.push({ start: photo.eye, end: corner, rgb: GREY, width: 1 });
+  }
+  return segments;
+}
+
+export class LayerView {
+  constructor(layer, shared, onLoad) {
+    this.layer = layer;
+    this.opacity = { value: layer.opacity };
+    this.group = new THREE.Group();
+    this.facets = new THREE.Mesh(facetGeometry(layer), facetMaterial(shared, this.opacity));
+    this.facets.frustumCulled = false;
+    this.edges = lineMesh(edgeSegments(layer), shared);
+    this.vertices = dotMesh(vertexDots(layer), shared);
+    this.extras = new THREE.Group();
+    const segments = extraSegments(layer);
+    if (layer.box) segments.push(...boxSegments(layer.box));
+    this.extras.add(lineMesh(segments, shared));
+    for (const photo of layer.photos) this.extras.add(photoMesh(photo, onLoad));
+    this.group.add(this.facets, this.edges, this.vertices, this.extras);
+    this.group.visible = layer.visible;
+    this.setOpacity(layer.opacity);
+  }
+
+  setOpacity(value) {
+    this.opacity.value = value;
+    const { material } = this.facets;
+    const transparent = value < 0.995;
+    if (material.transparent !== transparent) material.needsUpdate = true;
+    material.transparent = transparent;
+    material.depthWrite = !transparent;
+    this.facets.visible = this.wanted !== false && value > 0.005;
+  }
+
+  show(facets, edges, vertices) {
+    this.wanted = facets;
+    this.facets.visible = facets && this.opacity.value > 0.005;
+    this.edges.visible = edges;
+    this.vertices.visible = vertices;
+  }
+
+  // Moves the layer to where its motion is at a time.
+  setTime(time) {
+    const { motion } = this.layer;
+    if (!motion) return;
+    const { times, offsets } = motion;
+    let i = 0;
+    while (i + 2 < times.length && times[i + 1] < time) ++i;
+    const j = Math.min(i + 1, times.length - 1);
+    const span = times[j] - times[i];
+    const t = span > 0 ? Math.min(1, Math.max(0, (time - times[i]) / span)) : 0;
+    this.group.position.set(...offsets[i].map((x, k) => x + (offsets[j][k] - x) * t));
+  }
+}

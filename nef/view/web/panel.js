@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The controls beside the scene.
+import { INK_HEX, ORANGE_HEX } from "./layer_view.js";
+
+export const byId = (id) => document.getElementById(id);
+
+function layerRow(view, onChange) {
+  const row = document.createElement("div");
+  row.className = "layer";
+  const box = Object.assign(document.createElement("input"), { type: "checkbox", checked: view.layer.visible });
+  const name = document.createElement("label");
+  name.className = "name";
+  const swatch = document.createElement("span");
+  swatch.className = "swatch";
+  swatch.style.background = view.layer.color;
+  name.append(swatch, view.layer.name);
+  const opacity = Object.assign(document.createElement("input"),
+    { type: "range", min: 0, max: 1, step: 0.01, value: view.layer.opacity, title: "Opacity" });
+  opacity.setAttribute("aria-label", `Opacity of ${view.layer.name}`);
+  box.setAttribute("aria-label", `Show ${view.layer.name}`);
+  name.addEventListener("click", () => box.click());
+  box.addEventListener("change", () => {
+    view.group.visible = box.checked;
+    onChange();
+  });
+  opacity.addEventListener("input", () => {
+    view.setOpacity(Number(opacity.value));
+    onChange();
+  });
+  row.append(box, name, opacity);
+  return row;
+}
+
+export function makeLayerRows(views, onChange) {
+  byId("layers").append(...views.map((view) => layerRow(view, onChange)));
+}
+
+export function makeLegend() {
+  const icon = (inner) => `<svg width="46" height="14" viewBox="0 0 46 14">${inner}</svg>`;
+  const line = (color) => `<line x1="2" y1="7" x2="30" y2="7" stroke="${color}" stroke-width="2"/>`;
+  byId("legend").innerHTML =
+    `<div>${icon(`${line(INK_HEX)}<circle cx="39" cy="7" r="4.5" fill="${INK_HEX}"/>`)} selected edge, vertex</div>` +
+    `<div>${icon(`${line(ORANGE_HEX)}<circle cx="39" cy="7" r="4" fill="#fff" stroke="${ORANGE_HEX}" stroke-width="1.6"/>`)} not selected</div>` +
+    `<div>${icon('<defs><pattern id="s" width="6" height="6" patternUnits="userSpaceOnUse" patternTransform="rotate(45)"><rect width="6" height="6" fill="#fdf8f0"/><rect width="2.6" height="6" fill="#568fc4"/></pattern></defs><rect x="2" y="1" width="18" height="12" fill="#568fc4"/><rect x="24" y="1" width="18" height="12" fill="url(#s)"/>')} facet selected, not selected</div>`;
+}

@@ -29,6 +29,11 @@ bool DisconnectionProof::isRestricted() const {
 }
 
 std::vector<std::uint32_t> DisconnectionProof::separatingFacets() const {
+  std::vector<std::uint32_t> facets = boundaryFacets(startComponents_.front());
+  return facets.empty() ? boundaryFacets(goalComponents_.front()) : facets;
+}
+
+std::vector<std::uint32_t> DisconnectionProof::boundaryFacets(std::uint32_t component) const {
   const Complex& c = freeSpace_->complex();
   const CellNumbering& cells = freeSpace_->cells();
   std::vector<std::uint32_t> result;
@@ -41,7 +46,7 @@ std::vector<std::uint32_t> DisconnectionProof::separatingFacets() const {
       if (!freeSpace_->is_free(cell)) {
         obstacle = true;
       } else {
-        mine = mine || freeSpace_->component(cell) == startComponents_.front();
+        mine = mine || freeSpace_->component(cell) == component;
       }
     }
     if (mine && obstacle) result.push_back(f);

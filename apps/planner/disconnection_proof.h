@@ -31,8 +31,8 @@ class DisconnectionProof : public ompl::base::SolutionNonExistenceProof {
   /** \brief True if thinner passages, which were not wanted, would join them. */
   bool isRestricted() const;
 
-  /** \brief The facets of the configuration space obstacle that enclose the first start component: facets
-      with something that is not free on one side at least. */
+  /** \brief The facets between the first start component and the configuration space obstacle; between the
+      first goal component and it, if the start component has none (it is a mere edge, say). */
   std::vector<std::uint32_t> separatingFacets() const;
 
   /** \brief Checks the proof anew from the cells: no free cell of a start component touches one of another. */
@@ -41,6 +41,8 @@ class DisconnectionProof : public ompl::base::SolutionNonExistenceProof {
   void print(std::ostream& out) const;
 
  private:
+  std::vector<std::uint32_t> boundaryFacets(std::uint32_t component) const;
+
   std::shared_ptr<const FreeSpace> freeSpace_;
   std::vector<std::uint32_t> startComponents_;
   std::vector<std::uint32_t> goalComponents_;

@@ -91,7 +91,7 @@ void TightPlanner::clear() {
 }
 
 void TightPlanner::clearQuery() {
-  pis_.clear();
+  pis_.restart();
   starts_.clear();
   goals_.clear();
   allGoals_ = false;

@@ -51,7 +51,8 @@ cv::Mat load_canvas(const ViewResult& view, PixelOrigin origin, Frame& frame) {
 
 // Names of views may hold folders and what not.
 std::string file_name(const ViewResult& view, std::size_t index) {
-  std::string name = std::filesystem::path(view.name).filename().string();
+  const std::filesystem::path path(view.name);
+  std::string name = (path.extension() == view.image.extension() ? path.stem() : path.filename()).string();
   for (char& c : name) {
     if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-' && c != '_' && c != '.') c = '_';
   }

@@ -12,10 +12,10 @@
 // enters the region must end there, cross an old edge (impossible) or a new one (excluded). So rings
 // stay simple, and none jumps to another side of another.
 //
-// Deviation: each vertex is matched to an original one within the tolerance (itself, unless it is an
-// x), and the originals between the matches of two neighbours lie within the tolerance of the edge
-// between them. The other direction follows: the chain of originals is connected, so it projects
-// onto the whole edge, up to its ends, which are near their matches.
+// Deviation: each vertex is matched to a point of the original ring within the tolerance (itself, unless it
+// is an x), and the original vertices between the matches of two neighbours lie within the tolerance of the
+// edge between them. The other direction follows: the original chain is connected, so it projects onto the
+// whole edge, up to its ends, which are near their matches.
 //
 // Without `outer`, the polygon of fewest vertices is known for each ring by itself; the vertices that it
 // leaves out go first, with the topology as the only condition, and the deviation is checked when they are
@@ -40,7 +40,7 @@ struct Node {
   std::uint32_t prev = 0;
   std::uint32_t next = 0;
   std::uint32_t ring = 0;
-  std::uint32_t match = 0;  ///< vertex of the original ring
+  std::uint32_t match = 0;  ///< place on the original ring: 2i is vertex i, 2i + 1 on the edge that follows it
   std::uint32_t version = 0;
   bool pinned = false;  ///< another ring touches here
   bool alive = true;
@@ -54,7 +54,7 @@ struct Move {
   std::uint32_t version = 0;
   Kind kind = Kind::kNothing;
   Vec target{};             ///< x of a collapse
-  std::uint32_t match = 0;  ///< and its original vertex
+  std::uint32_t match = 0;  ///< and its place on the original ring
 
   bool operator<(const Move& other) const {  // for a queue with the cheapest on top
     if (cost != other.cost) return cost > other.cost;
@@ -132,7 +132,7 @@ class Simplifier {
       const auto first = static_cast<std::uint32_t>(nodes_.size());
       const auto n = static_cast<std::uint32_t>(ring.size());
       for (std::uint32_t i = 0; i < n; ++i) {
-        nodes_.push_back({ring[i], first + (i + n - 1) % n, first + (i + 1) % n, r, i, 0, false, true});
+        nodes_.push_back({ring[i], first + (i + n - 1) % n, first + (i + 1) % n, r, 2 * i, 0, false, true});
         const auto [it, is_new] = seen.emplace(ring[i].approximate, first + i);
         if (!is_new) nodes_[it->second].pinned = nodes_.back().pinned = true;
       }
@@ -152,12 +152,13 @@ class Simplifier {
     return original_.rings[ring][index].approximate;
   }
 
-  // The largest distance of the originals strictly between two matches from the segment a-b;
+  // The largest distance of the original vertices strictly between two matches from the segment a-b;
   // infinite as soon as it passes the tolerance.
   double deviation(std::uint32_t ring, std::uint32_t from, std::uint32_t to, const Vec& a, const Vec& b) const {
     const auto n = static_cast<std::uint32_t>(original_.rings[ring].size());
+    const std::uint32_t end = (to + 1) / 2 % n;
     double worst = 0;
-    for (std::uint32_t i = (from + 1) % n; i != to; i = (i + 1) % n) {
+    for (std::uint32_t i = (from / 2 + 1) % n; i != end; i = (i + 1) % n) {
       worst = std::max(worst, distance_to_segment(original(ring, i), a, b));
       if (worst > tolerance_) return INFINITY;
     }
@@ -229,15 +230,15 @@ class Simplifier {
     const Node& b = nodes_[q.next];
     if (!find_target(a, p, q, b, move.target)) return move;
     const auto n = static_cast<std::uint32_t>(original_.rings[p.ring].size());
+    const std::uint32_t last = (q.match + 2 * n - 1) / 2 % n;  // the last edge that begins before q's match
     double nearest = INFINITY;
-    for (std::uint32_t i = p.match;; i = (i + 1) % n) {
-      const Vec& o = original(p.ring, i);
-      const double distance = std::hypot(o[0] - move.target[0], o[1] - move.target[1]);
+    for (std::uint32_t i = p.match / 2;; i = (i + 1) % n) {
+      const double distance = distance_to_segment(move.target, original(p.ring, i), original(p.ring, (i + 1) % n));
       if (distance < nearest) {
         nearest = distance;
-        move.match = i;
+        move.match = 2 * i + 1;
       }
-      if (i == q.match) break;
+      if (i == last) break;
     }
     if (nearest > tolerance_) return move;
     const double cost = std::max({nearest, deviation(p.ring, a.match, move.match, a.point.approximate, move.target),

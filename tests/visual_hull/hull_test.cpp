@@ -149,7 +149,7 @@ TEST_CASE("A frame seen through its hole has a hull of genus one") {
   Views views{{front, convex_silhouette(front, corners).rings}};
   Ring hole;
   for (const auto& [x, y] : std::vector<std::array<int, 2>>{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) {
-    hole.emplace_back(Rational(4 * x, 110), Rational(4 * y, 110));
+    hole.emplace_back(Rational(2 * x, 55), Rational(2 * y, 55));
   }
   views[0].second.push_back(hole);
   views.push_back(view_of(towards_origin({100, 0, 0}), corners));
@@ -161,7 +161,7 @@ TEST_CASE("A frame seen through its hole has a hull of genus one") {
   const std::vector<long> euler = nef::euler_numbers(hull);
   CHECK(std::set<long>(euler.begin(), euler.end()) == std::set<long>{0});
   // The tunnel of the hull is the cone of the hole: narrower than the frame's at the near end.
-  CHECK(nef::contains(hull, {3, 0, 10}) == (Rational(3, 90) >= Rational(4, 110)));
+  CHECK(nef::contains(hull, {3, 0, 10}) == (Rational(1, 30) >= Rational(2, 55)));
   CHECK(nef::contains(hull, {Rational(36, 11) + Rational(1, 100), 0, 10}));
 }
 
@@ -207,7 +207,7 @@ TEST_CASE("A camera inside the scene sees one side of it") {
   const nef::Polyhedron both = hull_of({{axis_camera({0, 0, -5}, 2, 1), {rectangle(-1, -1, 1, 1)}},
                                         {axis_camera({0, 0, 5}, 2, -1), {rectangle(-1, -1, 1, 1)}}},
                                        cube(10));
-  CHECK(nef::volume(both).value() == 2 * Rational(100 * 5, 3));  // two pyramids base to base
+  CHECK(nef::volume(both).value() == Rational(1000, 3));  // two pyramids base to base
 }
 
 TEST_CASE("The view at which the hull vanishes is named") {
@@ -298,7 +298,7 @@ TEST_CASE("Random masks from three sides: the hull verifies in every view") {
     // Membership is that of the projections.
     for (int k = 0; k < 30; ++k) {
       const auto c = rc::gen::inRange(-60, 61);
-      const Rational3 p{Rational(*c, 4), Rational(*c, 4), Rational(*c, 4)};
+      const Rational3 p{Rational(*c) / 4, Rational(*c) / 4, Rational(*c) / 4};
       bool seen = true;
       for (const ViewResult& view : result.views) {
         const Projection q = view.camera.project(p);

@@ -59,7 +59,7 @@ TEST_CASE("Images that cannot be used name their view") {
 }
 
 TEST_CASE("Lens distortion is undone before the contour is taken") {
-  // What the lens makes of the rectangle 40..160 x 30..120: each pixel of the distorted image looks up where it
+  // What the lens makes of the rectangle 40.5..159.5 x 30.5..119.5: each pixel of the distorted image looks up where it
   // comes from.
   const cv::Size size(200, 150);
   const cv::Matx33d k(180, 0, 100, 0, 180, 75, 0, 0, 1);
@@ -72,7 +72,7 @@ TEST_CASE("Lens distortion is undone before the contour is taken") {
   cv::undistortPoints(pixels, straight, k, lens, cv::noArray(), k);
   cv::Mat distorted(size, CV_8U, cv::Scalar(0));
   for (std::size_t i = 0; i < pixels.size(); ++i) {
-    const bool in = straight[i].x > 40 && straight[i].x < 160 && straight[i].y > 30 && straight[i].y < 120;
+    const bool in = straight[i].x > 40.5 && straight[i].x < 159.5 && straight[i].y > 30.5 && straight[i].y < 119.5;
     distorted.at<std::uint8_t>(pixels[i]) = in ? 255 : 0;
   }
   const Scratch scratch;
@@ -89,8 +89,8 @@ TEST_CASE("Lens distortion is undone before the contour is taken") {
   cv::bitwise_xor(distorted, wanted, before);
   cv::Mat after;
   cv::bitwise_xor(mask, wanted, after);
-  CHECK(cv::countNonZero(before) > 500);  // the lens does something
-  CHECK(cv::countNonZero(after) < 120);   // of 416 pixels along the edge
+  CHECK(cv::countNonZero(before) > 300);  // the lens does something
+  CHECK(cv::countNonZero(after) < 60);    // of 416 pixels along the edge
 }
 
 // A disc-free scene: the object fills the lower half of a 20 x 20 image and is cut by three sides of the frame.
@@ -141,9 +141,9 @@ TEST_CASE("A silhouette that the frame cuts ends there, or leaves what is beyond
   REQUIRE(kept.views[0].verification.has_value());
   CHECK(kept.views[0].verification->inside);
   // The seen background has half of the frame's pyramid: 20 x 20 x 10 / 3 / 2.
-  CHECK(nef::volume(kept.hull).value() == Rational(60 * 60 * 15) - Rational(20 * 20 * 10, 6));
+  CHECK(nef::volume(kept.hull).value() == Rational(60 * 60 * 15) - Rational(2000, 3));
   run.silhouette.border = Border::kOutside;
-  CHECK(nef::volume(compute(scene, scratch.folder(), run).hull).value() == Rational(20 * 20 * 10, 6));
+  CHECK(nef::volume(compute(scene, scratch.folder(), run).hull).value() == Rational(2000, 3));
 }
 
 }  // namespace

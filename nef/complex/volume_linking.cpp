@@ -5,12 +5,15 @@
 // direction lies in an sface, whose shell bounds its volume from the inside: whatever a ray from v
 // in direction -x meets first bounds the same volume, and if it meets nothing, the volume is the
 // outer one. All other shells are the outer shells of volumes of their own.
+// No ray is needed where v lies in no other component's bounding box: what encloses v has v in its
+// box. So the parts of an assembly that lie side by side cost nothing.
 #include "nef/complex/volume_linking.h"
 
 #include <algorithm>
 
 #include "nef/base/error.h"
 #include "nef/base/union_find.h"
+#include "nef/geometry/box_tree.h"
 #include "nef/query/query_structure.h"
 #include "nef/sphere_map/sphere_geometry.h"
 
@@ -69,17 +72,18 @@ class VolumeLinker {
       if (low == kNone) components.push_back(vertices_.find(v));
       if (low == kNone || compare_lexicographic(c_.points, PointId{v}, PointId{low}) < 0) low = v;
     }
+    const std::vector<bool> enclosed = may_be_enclosed(components, lowest);
     volumes_.reset(c_.sfaces.size());
     std::uint32_t unbounded = kNone;  // an sface of the outer volume
     const Direction minus_x = Direction::exact(-1, 0, 0);
-    for (const std::uint32_t component : components) {
-      const std::uint32_t v = lowest[component];
+    for (std::size_t i = 0; i < components.size(); ++i) {
+      const std::uint32_t v = lowest[components[i]];
       const SphereMapView map = c_.sphere_map(v);
       const SphereLocation where = locate(c_.planes, map, minus_x);
       NEF_ASSERT(where.kind == SphereLocation::Kind::kSFace);
       const std::uint32_t inner = sfaces_.find(c_.vertices[v].sfaces + where.index);
       inner_.push_back(inner);
-      std::uint32_t seen = components.size() > 1 ? sface_seen_from(v) : kNone;
+      std::uint32_t seen = enclosed[i] ? sface_seen_from(v) : kNone;
       if (seen == kNone) {
         if (unbounded == kNone) unbounded = inner;
         seen = unbounded;
@@ -87,6 +91,28 @@ class VolumeLinker {
       volumes_.unite(inner, sfaces_.find(seen));
     }
     outer_ = volumes_.find(unbounded);
+  }
+
+  // Which components have their lowest vertex in the box of another one.
+  std::vector<bool> may_be_enclosed(const std::vector<std::uint32_t>& components,
+                                    const std::vector<std::uint32_t>& lowest) {
+    std::vector<bool> result(components.size(), false);
+    if (components.size() < 2) return result;
+    std::vector<std::uint32_t> number(c_.vertex_count(), kNone);
+    for (std::uint32_t i = 0; i < components.size(); ++i) number[components[i]] = i;
+    std::vector<Box> boxes(components.size());
+    for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) {
+      boxes[number[vertices_.find(v)]].add_rounded(c_.points.approximate(PointId{v}));
+    }
+    const BoxTree tree(boxes);
+    for (std::uint32_t i = 0; i < components.size(); ++i) {
+      Box point;
+      point.add_rounded(c_.points.approximate(PointId{lowest[components[i]]}));
+      tree.for_each_overlap(point, [&](std::uint32_t other) {
+        if (other != i) result[i] = true;
+      });
+    }
+    return result;
   }
 
   // An sface of the volume that the ray from v in direction -x runs into, seen at its first hit.

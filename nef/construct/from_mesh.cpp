@@ -55,6 +55,8 @@ class MeshSolid {
   }
 
  private:
+  using Integers = std::array<Integer, 3>;
+
   void number_points() {
     if (point_of_.empty()) {
       point_of_.resize(mesh_.vertices.size());
@@ -78,11 +80,9 @@ class MeshSolid {
       push(ring_, plane_of_triangle(ring_));
       return;
     }
-    const Rational3 area = vector_area();
+    const Integers area = vector_area();
     if (area[0] == 0 && area[1] == 0 && area[2] == 0) return;
-    const Rational3& origin = mesh_.vertices[mesh_.face(face)[0]];
-    const PlaneId plane =
-        f_.planes.intern(area, Rational(-(area[0] * origin[0] + area[1] * origin[1] + area[2] * origin[2])));
+    const PlaneId plane = plane_through(area, ring_[0]);
     const bool planar = std::all_of(ring_.begin(), ring_.end(), [&](std::uint32_t p) {
       return side_of_plane(f_.planes, plane, f_.points, PointId{p}) == 0;
     });
@@ -131,24 +131,48 @@ class MeshSolid {
     return f_.planes.intern(n_[0], n_[1], n_[2], offset_);
   }
 
-  [[nodiscard]] Rational3 vector_area() const {
-    Rational3 area;
-    const Rational3 a = f_.points.rational(PointId{ring_[0]});
-    for (std::size_t i = 1; i + 1 < ring_.size(); ++i) {
-      Rational3 u = f_.points.rational(PointId{ring_[i]});
-      Rational3 v = f_.points.rational(PointId{ring_[i + 1]});
+  // The plane of a normal through a point.
+  PlaneId plane_through(const Integers& normal, std::uint32_t p) {
+    Integer offset;
+    Integers n = normal;
+    for (std::size_t i = 0; i < 3; ++i) {
+      mpz_submul(offset.get_mpz_t(), normal[i].get_mpz_t(), f_.points.coordinate(PointId{p}, i));
+      mpz_mul(n[i].get_mpz_t(), n[i].get_mpz_t(), f_.points.coordinate(PointId{p}, 3));
+    }
+    return f_.planes.intern(n[0], n[1], n[2], offset);
+  }
+
+  // The vector area of the ring up to a positive factor: the same denominator for all corners.
+  [[nodiscard]] Integers vector_area() const {
+    Integer common = 1;
+    for (const std::uint32_t p : ring_) {
+      mpz_lcm(common.get_mpz_t(), common.get_mpz_t(), f_.points.coordinate(PointId{p}, 3));
+    }
+    Integer factor;
+    const auto scaled = [&](std::uint32_t p, Integers& out) {
+      mpz_divexact(factor.get_mpz_t(), common.get_mpz_t(), f_.points.coordinate(PointId{p}, 3));
       for (std::size_t k = 0; k < 3; ++k) {
-        u[k] -= a[k];
-        v[k] -= a[k];
+        mpz_mul(out[k].get_mpz_t(), f_.points.coordinate(PointId{p}, k), factor.get_mpz_t());
       }
-      for (std::size_t k = 0; k < 3; ++k) {
-        area[k] += u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3];
+    };
+    Integers origin;
+    Integers u;
+    Integers v;
+    Integers area;
+    scaled(ring_[0], origin);
+    for (std::size_t i = 1; i < ring_.size(); ++i) {
+      scaled(ring_[i], v);
+      for (std::size_t k = 0; k < 3; ++k) v[k] -= origin[k];
+      for (std::size_t k = 0; k < 3 && i > 1; ++k) {
+        mpz_addmul(area[k].get_mpz_t(), u[(k + 1) % 3].get_mpz_t(), v[(k + 2) % 3].get_mpz_t());
+        mpz_submul(area[k].get_mpz_t(), u[(k + 2) % 3].get_mpz_t(), v[(k + 1) % 3].get_mpz_t());
       }
+      std::swap(u, v);
     }
     return area;
   }
 
-  void triangulate(std::uint32_t face, const Rational3& area) {
+  void triangulate(std::uint32_t face, const Integers& area) {
     const std::string name =
         "face " + std::to_string(face) + " is not planar (off by " + std::to_string(face_deviation(mesh_, face)) + ")";
     if (options_.strict) throw InputError(name + "; triangulate it, or read the mesh without --strict");

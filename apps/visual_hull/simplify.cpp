@@ -103,9 +103,19 @@ class Simplifier {
   }
 
   Silhouette run() {
-    for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
-      if (nodes_[i].alive) push(i);
+    // Corners that a removal can take are not to be built over, so all removals come first.
+    for (const bool collapse : {false, true}) {
+      collapse_ = collapse && outer_;
+      for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
+        if (nodes_[i].alive) push(i);
+      }
+      work();
     }
+    return collect();
+  }
+
+ private:
+  void work() {
     while (!queue_.empty()) {
       const Move move = queue_.top();
       queue_.pop();
@@ -113,10 +123,8 @@ class Simplifier {
       if (!node.alive || node.version != move.version) continue;
       move.kind == Kind::kRemove ? try_remove(move) : try_collapse(move);
     }
-    return collect();
   }
 
- private:
   static Rectangle bounds_of(const Silhouette& silhouette) {
     Rectangle box;
     for (const Ring& ring : silhouette.rings) {
@@ -171,7 +179,7 @@ class Simplifier {
 
   void push(std::uint32_t k) {
     Move best = removal(k);
-    if (outer_ && tolerance_ > 0) {
+    if (collapse_) {
       const Move other = collapse(k);
       if (other.cost < best.cost) best = other;
     }
@@ -388,6 +396,7 @@ class Simplifier {
 
   const Silhouette& original_;
   bool outer_;
+  bool collapse_ = false;
   double tolerance_;
   double step_ = 0;
   std::vector<Node> nodes_;

@@ -36,11 +36,27 @@ class ParityCount {
     k_ = (l + 1) % 3;
     m_ = (l + 2) % 3;
     ray_sign_ = n[l] > 0 ? 1 : -1;
+    const std::array<double, 3>& x = point.approximate();
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double margin = std::fabs(x[i]) * 0x1p-48 + 1e-290;
+      low_[i] = x[i] - margin;
+      high_[i] = x[i] + margin;
+    }
   }
 
   // True if the edge in `box` can hold the point or meet the ray.
   [[nodiscard]] bool may_matter(const Box& box, const Box& query) const {
     return box.low[k_] <= query.high[k_] && query.low[k_] <= box.high[k_] && query.low[m_] <= box.high[m_];
+  }
+
+  // True if doubles tell that an edge neither holds the point nor meets the ray: both ends lie on one
+  // side in k, or behind the point in m. Doubles are within 2^-51 relative of the truth on both
+  // sides, so a gap of 2^-48 of the point's coordinate settles it; a NaN does not.
+  [[nodiscard]] bool clear(std::uint32_t u, std::uint32_t v) const {
+    const std::array<double, 3>& a = complex_.points.approximate(PointId{u});
+    const std::array<double, 3>& b = complex_.points.approximate(PointId{v});
+    return (a[k_] < low_[k_] && b[k_] < low_[k_]) || (a[k_] > high_[k_] && b[k_] > high_[k_]) ||
+           (a[m_] < low_[m_] && b[m_] < low_[m_]);
   }
 
   void add(std::uint32_t corner) {
@@ -55,13 +71,23 @@ class ParityCount {
       if ((u_side > 0) == (v_side > 0)) return;
     }
     const SVertex& edge = complex_.svertices[halfedge];
-    const PlaneId g = edge.p.row() == facet_.plane.row() ? edge.q : edge.p;
+    const bool facet_first = edge.p.row() == facet_.plane.row();
+    const PlaneId g = facet_first ? edge.q : edge.p;
     const int g_side = side_of_plane(complex_.planes, g, point_);
     if (g_side == 0) {
       place_ = {FacetPlace::Kind::kEdge, halfedge};
       return;
     }
-    const int turn = sign_of_cross_component(complex_.planes, g, facet_.plane, k_);
+    // The edge runs along n_p x n_q. If F is one of these planes, the way that the edge goes in k tells
+    // the sign of (n_G x n_F)_k.
+    int turn = v_side > u_side ? 1 : -1;
+    if (facet_first) {
+      if (!edge.p.flipped()) turn = -turn;
+    } else if (edge.q.row() == facet_.plane.row()) {
+      if (edge.q.flipped()) turn = -turn;
+    } else {
+      turn = sign_of_cross_component(complex_.planes, g, facet_.plane, k_);
+    }
     if (-g_side * turn * ray_sign_ > 0) inside_ = !inside_;
   }
 
@@ -98,6 +124,8 @@ class ParityCount {
   std::size_t k_ = 0;
   std::size_t m_ = 0;
   int ray_sign_ = 1;
+  std::array<double, 3> low_{};
+  std::array<double, 3> high_{};
   bool inside_ = false;
   FacetPlace place_;
 };
@@ -105,14 +133,19 @@ class ParityCount {
 }  // namespace
 
 FacetPlace locate_in_facet(const Complex& complex, const Facet& facet, const PointRef& point, const BoxTree* edges) {
-  const std::span<const std::uint32_t> corners = complex.facet_corners(facet);
   ParityCount count(complex, facet, point);
   if (edges == nullptr) {
-    for (const std::uint32_t corner : corners) {
-      count.add(corner);
-      if (count.on_boundary()) break;
+    for (std::uint32_t k = 0; k < facet.cycle_count && !count.on_boundary(); ++k) {
+      const std::span<const std::uint32_t> cycle = complex.cycle(facet.first_cycle + k);
+      std::uint32_t v = complex.shalfedge_owner[cycle.front()];
+      for (std::size_t i = 0; i < cycle.size() && !count.on_boundary(); ++i) {
+        const std::uint32_t u = v;
+        v = complex.shalfedge_owner[i + 1 < cycle.size() ? cycle[i + 1] : cycle.front()];
+        if (!count.clear(u, v)) count.add(cycle[i]);
+      }
     }
   } else {
+    const std::span<const std::uint32_t> corners = complex.facet_corners(facet);
     const Box query = point_box(point);
     edges->for_each_if([&](const Box& box) { return !count.on_boundary() && count.may_matter(box, query); },
                        [&](std::uint32_t i) { count.add(corners[i]); });
@@ -138,6 +171,15 @@ Box edge_box(const Complex& complex, std::uint32_t halfedge) {
   Box box = vertex_box(complex, complex.svertex_owner[halfedge]);
   box.add_rounded(complex.points.approximate(PointId{complex.target(halfedge)}));
   return box;
+}
+
+Box mirrored(const Box& box) {
+  Box result;
+  for (std::size_t i = 0; i < 3; ++i) {
+    result.low[i] = -box.high[i];
+    result.high[i] = -box.low[i];
+  }
+  return result;
 }
 
 Box point_box(const PointRef& point) {

@@ -33,4 +33,7 @@ Box edge_box(const Complex& complex, std::uint32_t halfedge);
 /// The box around a point.
 Box point_box(const PointRef& point);
 
+/// The box reflected at the origin.
+Box mirrored(const Box& box);
+
 }  // namespace nef

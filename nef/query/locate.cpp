@@ -82,7 +82,8 @@ std::optional<RayHit> shoot_ray(const Polyhedron& a, const Rational3& origin, co
   std::array<Integer, 3> d;
   for (std::size_t i = 0; i < 3; ++i) d[i] = direction[i].get_num() * (scale / direction[i].get_den());
   PointTable table;
-  const QueryRay ray{{&table, table.push(origin)}, Direction::exact(d[0], d[1], d[2])};
+  const Direction towards = Direction::exact(d[0], d[1], d[2]);
+  const QueryRay ray{{&table, table.push(origin)}, towards};
   // The box of an unbounded set is at infinity, where no point is: it is not met.
   const auto takes = [&](const ComplexHit& hit) {
     const bool at_infinity = hit.kind == ComplexHit::Kind::kVertex ? !complex.points.finite(PointId{hit.index})

@@ -13,13 +13,10 @@ namespace {
 // Facets with more corners than this get a tree over their edges.
 constexpr std::size_t kLargeFacet = 32;
 
-Box mirrored(const Box& box) {
-  Box result;
-  for (std::size_t i = 0; i < 3; ++i) {
-    result.low[i] = -box.high[i];
-    result.high[i] = -box.low[i];
-  }
-  return result;
+// Its integers are known from the start, so that threads may share it.
+const Direction& minus_x() {
+  static const Direction direction = Direction::exact(-1, 0, 0);
+  return direction;
 }
 
 bool on_edge(const Complex& complex, std::uint32_t halfedge, const PointRef& point) {
@@ -126,7 +123,7 @@ std::optional<ComplexHit> QueryStructure::item_at(const Complex& complex, const 
 }
 
 std::optional<ComplexHit> QueryStructure::first_hit_minus_x(const Complex& complex, std::uint32_t vertex) const {
-  return first_hit(complex, {{&complex.points, PointId{vertex}}, Direction::exact(-1, 0, 0)});
+  return first_hit(complex, {{&complex.points, PointId{vertex}}, minus_x()});
 }
 
 std::uint32_t QueryStructure::first_sface_minus_x(const Complex& complex, std::uint32_t vertex) const {
@@ -142,7 +139,7 @@ std::uint32_t QueryStructure::first_sface_minus_x(const Complex& complex, std::u
 }
 
 std::uint32_t QueryStructure::volume_at(const Complex& complex, const PointRef& point) const {
-  const std::optional<ComplexHit> hit = first_hit(complex, {point, Direction::exact(-1, 0, 0)});
+  const std::optional<ComplexHit> hit = first_hit(complex, {point, minus_x()});
   return hit ? volume_before(complex, *hit) : 0;
 }
 

@@ -32,7 +32,7 @@ struct ComplexHit {
 /// An open ray: from a point (excluded) in an exact direction (not zero).
 struct QueryRay {
   PointRef origin;
-  Direction direction;
+  const Direction& direction;  ///< must outlive the ray
 };
 
 /// Built from a complex with edges, facets and cycles; volumes and shells are needed only by

@@ -14,30 +14,38 @@ namespace nef {
 namespace {
 
 // Conservative test of boxes against a ray in doubles: never refuses a box that the ray meets.
+// Everything in it, boxes included, is mirrored at the origin like the tree of a QueryStructure.
 class RayFilter {
  public:
-  explicit RayFilter(const QueryRay& ray) : origin_(point_box(ray.origin)) {
+  explicit RayFilter(const QueryRay& ray) : origin_(mirrored(point_box(ray.origin))) {
     const std::array<Integer, 3>& exact = ray.direction.integers();
     for (std::size_t i = 0; i < 3; ++i) {
-      direction_[i] = ray.direction.approximate[i];
-      sign_[i] = sgn(exact[i]);
+      direction_[i] = -ray.direction.approximate[i];
+      sign_[i] = -sgn(exact[i]);
       if (std::fabs(direction_[i]) > std::fabs(direction_[main_])) main_ = i;
+      reach_.low[i] = sign_[i] >= 0 ? origin_.low[i] : -HUGE_VAL;
+      reach_.high[i] = sign_[i] <= 0 ? origin_.high[i] : HUGE_VAL;
     }
+    axis_parallel_ = (sign_[0] == 0) + (sign_[1] == 0) + (sign_[2] == 0) == 2;
   }
 
   // The axis along which the ray moves fastest, and whether it goes up or down there.
   [[nodiscard]] std::size_t main_axis() const { return main_; }
-  [[nodiscard]] int main_sign() const { return sign_[main_]; }
+  [[nodiscard]] int main_sign() const { return -sign_[main_]; }
 
   // Nothing behind this point matters any more.
-  void cut(const PointRef& hit) { limit_ = point_box(hit); }
+  void cut(const PointRef& hit) {
+    const Box box = mirrored(point_box(hit));
+    if (sign_[main_] > 0) {
+      reach_.high[main_] = box.high[main_];
+    } else {
+      reach_.low[main_] = box.low[main_];
+    }
+  }
 
   [[nodiscard]] bool may_meet(const Box& box) const {
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (sign_[i] >= 0 && box.high[i] < origin_.low[i]) return false;
-      if (sign_[i] <= 0 && box.low[i] > origin_.high[i]) return false;
-    }
-    if (sign_[main_] > 0 ? box.low[main_] > limit_.high[main_] : box.high[main_] < limit_.low[main_]) return false;
+    if (!box.overlaps(reach_)) return false;
+    if (axis_parallel_) return true;
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t j = (i + 1) % 3;
       if (sign_[i] != 0 && sign_[j] != 0 && !may_meet_projected(box, i, j)) return false;
@@ -72,20 +80,12 @@ class RayFilter {
   }
 
   Box origin_;
+  Box reach_;  // holds all of the ray that still matters
   std::array<double, 3> direction_{};
   std::array<int, 3> sign_{};
   std::size_t main_ = 0;
-  Box limit_{{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, {HUGE_VAL, HUGE_VAL, HUGE_VAL}};
+  bool axis_parallel_ = false;
 };
-
-Box unmirrored(const Box& box) {
-  Box result;
-  for (std::size_t i = 0; i < 3; ++i) {
-    result.low[i] = -box.high[i];
-    result.high[i] = -box.low[i];
-  }
-  return result;
-}
 
 // Sign of (p - o) . D if p lies on the line of the ray, else nothing.
 std::optional<int> position_on_line(const QueryRay& ray, const PointRef& p) {
@@ -123,7 +123,7 @@ class RayShooter {
       : complex_(complex), structure_(structure), ray_(ray), accept_(accept), filter_(ray) {}
 
   std::optional<ComplexHit> shoot(Rational3* at) {
-    structure_.tree_.for_each_if([&](const Box& box) { return filter_.may_meet(unmirrored(box)); },
+    structure_.tree_.for_each_if([&](const Box& box) { return filter_.may_meet(box); },
                                  [&](std::uint32_t i) { visit(structure_.items_[i]); });
     if (!hit_) return hit_;
     if (at != nullptr) *at = position_.table->rational(position_.id);
@@ -213,7 +213,7 @@ class RayShooter {
     if (edges == nullptr) {
       for (const std::uint32_t corner : corners) visit_edge(complex_.corner_halfedge(corner));
     } else {
-      edges->for_each_if([&](const Box& box) { return filter_.may_meet(box); },
+      edges->for_each_if([&](const Box& box) { return filter_.may_meet(mirrored(box)); },
                          [&](std::uint32_t i) { visit_edge(complex_.corner_halfedge(corners[i])); });
     }
   }
@@ -224,25 +224,31 @@ class RayShooter {
     const int side = side_of_plane(complex_.planes, plane, ray_.origin);
     const Direction normal = Direction::normal(complex_.planes, plane);
     if (side * sign_of_dot(normal, ray_.direction) >= 0) return std::nullopt;
-    const std::array<Integer, 3>& n = normal.integers();
+    struct Scratch {
+      Integer m, s;
+      std::array<Integer, 7> q;
+    };
+    thread_local Scratch scratch;
+    mpz_ptr m = scratch.m.get_mpz_t();
+    mpz_ptr s = scratch.s.get_mpz_t();
     const std::array<Integer, 3>& d = ray_.direction.integers();
-    const Integer m = n[0] * d[0] + n[1] * d[1] + n[2] * d[2];
-    std::array<Integer, 7> q;
     const IntegerView w = ray_.origin.coordinate(3);
+    mpz_set_ui(m, 0);
+    for (std::size_t i = 0; i < 3; ++i) mpz_addmul(m, complex_.planes.coefficient(plane, i), d[i].get_mpz_t());
     for (std::size_t part = 0; part < 2; ++part) {
-      Integer s = complex_.planes.oriented_coefficient(plane, 3 + part);
-      mpz_mul(s.get_mpz_t(), s.get_mpz_t(), w);
+      mpz_mul(s, complex_.planes.coefficient(plane, 3 + part), w);
       for (std::size_t i = 0; i < 3; ++i) {
-        mpz_addmul(s.get_mpz_t(), n[i].get_mpz_t(), ray_.origin.coordinate(4 * part + i));
+        mpz_addmul(s, complex_.planes.coefficient(plane, i), ray_.origin.coordinate(4 * part + i));
       }
       for (std::size_t i = 0; i < 3; ++i) {
-        mpz_ptr out = q[4 * part + i].get_mpz_t();
-        mpz_mul(out, m.get_mpz_t(), ray_.origin.coordinate(4 * part + i));
-        mpz_submul(out, s.get_mpz_t(), d[i].get_mpz_t());
+        mpz_ptr out = scratch.q[4 * part + i].get_mpz_t();
+        mpz_mul(out, m, ray_.origin.coordinate(4 * part + i));
+        mpz_submul(out, s, d[i].get_mpz_t());
       }
     }
-    mpz_mul(q[3].get_mpz_t(), m.get_mpz_t(), w);
-    return PointRef{&scratch_, scratch_.push_homogeneous(q)};
+    mpz_mul(scratch.q[3].get_mpz_t(), m, w);
+    if (scratch_.size() == 0) scratch_.reserve(4);
+    return PointRef{&scratch_, scratch_.push_homogeneous(scratch.q)};
   }
 
   [[nodiscard]] bool nearer(const PointRef& point) const {

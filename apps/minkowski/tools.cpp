@@ -9,17 +9,24 @@
 namespace nef::minkowski {
 namespace {
 
+Rational grid(double value) {
+  Rational result(Integer(std::lround(std::ldexp(value, 20))), Integer(1) << 20);
+  result.canonicalize();
+  return result;
+}
+
 // The rational point of the unit sphere next to (x, y, z), all >= 0, by stereographic projection
-// from (0, 0, -1): (2s, 2t, 1 - s^2 - t^2) / (1 + s^2 + t^2).
+// from (0, 0, -1): (2s, 2t, 1 - s^2 - t^2) / (1 + s^2 + t^2). On the circle z = 0 it is done from (-1, 0),
+// so that the point stays there.
 Rational3 on_sphere(double x, double y, double z) {
   const double length = std::sqrt(x * x + y * y + z * z);
-  const auto grid = [&](double value) {
-    return Rational(Integer(std::lround(std::ldexp(value / (length + z), 20))), Integer(1) << 20);
-  };
-  Rational s = grid(x);
-  Rational t = grid(y);
-  s.canonicalize();
-  t.canonicalize();
+  if (z == 0) {
+    const Rational t = grid(y / (length + x));
+    const Rational w = 1 + t * t;
+    return {Rational((1 - t * t) / w), Rational(2 * t / w), Rational(0)};
+  }
+  const Rational s = grid(x / (length + z));
+  const Rational t = grid(y / (length + z));
   const Rational square = s * s + t * t;
   const Rational w = 1 + square;
   return {Rational(2 * s / w), Rational(2 * t / w), Rational((1 - square) / w)};

@@ -86,11 +86,11 @@ TEST_CASE("the twisted prism of Schoenhardt, whose reflex edges depend on one an
   // Thesis figure 10.7: three reflex diagonals, each sight wall of which meets the next one's edge's shadow.
   nef::Mesh mesh;
   for (const auto& p :
-       std::vector<std::array<int, 3>>{{10, 0, 0}, {-5, 9, 0}, {-5, -9, 0}, {0, 10, 10}, {-9, -5, 10}, {9, -5, 10}}) {
+       std::vector<std::array<int, 3>>{{10, 0, 0}, {-5, 9, 0}, {-5, -9, 0}, {9, 5, 10}, {-9, 5, 10}, {0, -10, 10}}) {
     mesh.vertices.push_back({Rational(p[0]), Rational(p[1]), Rational(p[2])});
   }
-  const std::vector<std::array<std::uint32_t, 3>> faces = {{0, 2, 1}, {3, 4, 5}, {0, 1, 3}, {1, 4, 3},
-                                                           {1, 2, 4}, {2, 5, 4}, {2, 0, 5}, {0, 3, 5}};
+  const std::vector<std::array<std::uint32_t, 3>> faces = {{0, 2, 1}, {3, 4, 5}, {0, 1, 4}, {0, 4, 3},
+                                                           {1, 2, 5}, {1, 5, 4}, {2, 0, 3}, {2, 3, 5}};
   for (const auto& face : faces) mesh.push_face(face);
   const Polyhedron a = nef::from_mesh(mesh);
   const std::vector<ConvexCell> cells = decompose(a);

@@ -58,10 +58,6 @@ const std::vector<std::string>& partners() {
   return kSets;
 }
 
-Rational3 plus(const Rational3& a, const Rational3& b) {
-  return {Rational(a[0] + b[0]), Rational(a[1] + b[1]), Rational(a[2] + b[2])};
-}
-
 Polyhedron moved(const Polyhedron& a, const Rational3& by) { return nef::transform(a, nef::AffineMap::translate(by)); }
 
 // Points that are hard for a sum: its vertices, and the middles of its edges and between vertices.

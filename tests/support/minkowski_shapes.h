@@ -48,7 +48,7 @@ inline Mesh mushroom() {
     }
   }
   const auto bottom = static_cast<std::uint32_t>(mesh.vertices.size());
-  mesh.vertices.push_back({Rational(0), Rational(0), Rational(0)});
+  mesh.vertices.push_back({Rational(0), Rational(0), six_decimals(-0.02)});
   mesh.vertices.push_back({Rational(0), Rational(0), six_decimals(1.17)});
   const auto triangle = [&mesh](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     const std::array<std::uint32_t, 3> face = {a, b, c};
@@ -69,8 +69,8 @@ inline Mesh mushroom() {
   return mesh;
 }
 
-/// A star: a polyhedron with a spike on each facet of a small convex one. `facets` triangles give
-/// facets / 2 + 2 + facets vertices: 8 make the 14 vertices of the published star, 32 make 50.
+/// A star: a spike of length `spike` on each facet of an octahedron of radius 1 whose edges are split. 8
+/// facets give 14 vertices like the published star, two splits 32 facets and 50 vertices.
 inline Mesh star(int splits, double spike) {
   std::vector<Rational3> core;
   for (int i = -splits; i <= splits; ++i) {

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The program as a user runs it.
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "nef/io/mesh_reader.h"
+#include "nef/io/polyhedron_file.h"
+#include "tests/support/literals.h"
+
+namespace {
+
+using nef::test::set;
+using nlohmann::json;
+
+struct Outcome {
+  int code = -1;
+  std::string out, err;
+};
+
+// A directory of its own, removed at the end.
+class Place {
+ public:
+  Place() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "minkowski_XXXXXX").string();
+    REQUIRE(mkdtemp(pattern.data()) != nullptr);
+    path_ = pattern;
+  }
+  ~Place() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  Place(const Place&) = delete;
+  Place& operator=(const Place&) = delete;
+
+  [[nodiscard]] std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+
+  void write(const std::string& name, const std::string& literal) const {
+    nef::write_polyhedron(path_ / name, set(literal));
+  }
+
+  [[nodiscard]] std::string read(const std::string& name) const {
+    std::ifstream file(path_ / name, std::ios::binary);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+  }
+
+  [[nodiscard]] Outcome run(const std::string& arguments) const {
+    const std::string command = "cd '" + path_.string() + "' && '" NEF_BINARY_DIR "/minkowski' " + arguments +
+                                " > stdout.txt 2> stderr.txt < /dev/null";
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read("stdout.txt"), read("stderr.txt")};
+  }
+
+  [[nodiscard]] std::size_t file_count() const {
+    const std::filesystem::directory_iterator files(path_);
+    return static_cast<std::size_t>(std::distance(begin(files), end(files)));
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+const char* const kL = "box(0,0,0,3,1,1) + box(0,0,0,1,3,1)";
+
+TEST_CASE("command: a sum, and what its report says") {
+  const Place place;
+  place.write("a.nef", kL);
+  place.write("b.nef", "box(0,0,0,1,1,1)");
+  const Outcome outcome = place.run("a.nef b.nef -o sum.nef --report report.json --union queue");
+  CHECK(outcome.code == 0);
+  CHECK(outcome.err.empty());
+  CHECK(outcome.out == "12 vertices, 18 edges, 8 facets, 2 volumes, 2 shells\n");
+  const nef::Polyhedron expected = set("box(0,0,0,4,2,2) + box(0,0,0,2,4,2)");
+  CHECK(nef::equal(nef::read_polyhedron(place / "sum.nef"), expected));
+  const json report = json::parse(place.read("report.json"));
+  CHECK(report["cells"] == json({2, 1}));
+  CHECK(report["pairs"] == 2);
+  CHECK(report["union"] == "queue");
+  CHECK(report["result"]["volume"] == "24");
+  CHECK(report["result"]["closed"] == true);
+  CHECK(report["phases"]["op_s"].get<double>() > 0);
+  CHECK(report["predicates"]["union"].contains("filter"));
+  CHECK(report["peak_memory_bytes"].get<double>() > 1e6);
+}
+
+TEST_CASE("command: open operands, a mirrored one, offsets by a ball and a box") {
+  const Place place;
+  place.write("a.nef", kL);
+  place.write("b.nef", "box(1,1,1,2,3,4)");
+  const auto result = [&](const std::string& arguments) {
+    const Outcome outcome = place.run(arguments + " -o out.nef -q");
+    CAPTURE(arguments, outcome.err);
+    CHECK(outcome.code == 0);
+    CHECK(outcome.out.empty());
+    return nef::read_polyhedron(place / "out.nef");
+  };
+  const nef::Polyhedron open = set("interior(box(1,1,1,5,4,5) + box(1,1,1,3,6,5))");
+  CHECK(nef::equal(result("a.nef b.nef --open-a"), open));
+  CHECK(nef::equal(result("a.nef b.nef --open-b"), open));
+  CHECK(nef::equal(result("a.nef b.nef --negate-b"), set("box(-2,-3,-4,2,0,0) + box(-2,-3,-4,0,2,0)")));
+  CHECK(
+      nef::equal(result("a.nef --box-tool 1,1/2,0"), set("box(-1/2,-1/4,0,7/2,5/4,1) + box(-1/2,-1/4,0,3/2,13/4,1)")));
+  CHECK(nef::equal(result("b.nef --ball 1,1"),
+                   set("hull(0,1,1, 0,3,1, 0,1,4, 0,3,4, 3,1,1, 3,3,1, 3,1,4, 3,3,4, 1,0,1, 2,0,1, 1,0,4, 2,0,4,"
+                       "1,4,1, 2,4,1, 1,4,4, 2,4,4, 1,1,0, 2,1,0, 1,3,0, 2,3,0, 1,1,5, 2,1,5, 1,3,5, 2,3,5)")));
+}
+
+TEST_CASE("command: cells of a decomposition to a coloured file and into a directory") {
+  const Place place;
+  place.write("a.nef", std::string(kL) + " + segment(3,1,1, 5,5,5)");
+  CHECK(place.run("--decompose a.nef -o cells.off").out == "3 cells\n");
+  // Two hulls of 8 vertices and 6 faces, one edge.
+  const std::string off = place.read("cells.off");
+  CHECK(off.rfind("OFF\n18 13 0\n", 0) == 0);
+  CHECK(place.run("--decompose a.nef -o cells.ply").code == 0);
+  const nef::Mesh mesh = nef::read_mesh(place / "cells.ply");
+  CHECK(mesh.vertices.size() == 16);
+  CHECK(mesh.face_count() == 12);
+  CHECK(place.read("cells.ply").find("property uchar red") != std::string::npos);
+  CHECK(place.run("--decompose a.nef -o cells --format nef").code == 0);
+  std::vector<nef::Polyhedron> cells;
+  for (const char* name : {"cells/cell_0001.nef", "cells/cell_0002.nef", "cells/cell_0003.nef"}) {
+    cells.push_back(nef::read_polyhedron(place / name));
+  }
+  CHECK(nef::equal(nef::unite_all(cells), nef::read_polyhedron(place / "a.nef")));
+}
+
+TEST_CASE("command: free space with a tight passage") {
+  const Place place;
+  place.write("robot.nef", "box(0,0,0,1,1,1)");
+  place.write("left.nef", "box(-20,-20,-20,-1,20,20)");
+  place.write("right.nef", "box(0,-20,-20,20,20,20)");
+  const Outcome outcome = place.run(
+      "--configuration-space --robot robot.nef --obstacles left.nef right.nef --box -5,-5,-5 5,5,5 -o free.nef --json");
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.code == 0);
+  CHECK(json::parse(outcome.out)["result"]["volume"] == "0");
+  CHECK(nef::equal(nef::read_polyhedron(place / "free.nef"), set("polygon(-1,-5,-5, -1,5,-5, -1,5,5, -1,-5,5)")));
+}
+
+TEST_CASE("command: bad usage and bad input are one line on stderr, code 2, and no file") {
+  const Place place;
+  place.write("a.nef", kL);
+  place.write("half.nef", "halfspace(1,0,0,0) * halfspace(0,1,0,0)");
+  std::ofstream(place / "bad.off") << "OFF\n1 1 0\n0 0 nan\n";
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"a.nef -o out.nef", "two operands"},
+      {"a.nef a.nef", "--output"},
+      {"a.nef missing.nef -o out.nef", "missing.nef"},
+      {"a.nef bad.off -o out.nef", "bad.off"},
+      {"a.nef half.nef -o out.nef", "unbounded"},
+      {"a.nef a.nef -o out.nef --union best", "best"},
+      {"a.nef --ball 1 -o out.nef", "--ball"},
+      {"a.nef --ball 1,2.5 -o out.nef", "--ball"},
+      {"a.nef --ball -1,2 -o out.nef", "radius"},
+      {"a.nef --box-tool 1,x,1 -o out.nef", "--box-tool"},
+      {"a.nef --box-tool 1,1,1 --ball 1,1 -o out.nef", "one of them"},
+      {"a.nef a.nef --robot a.nef -o out.nef", "--configuration-space"},
+      {"--configuration-space --obstacles a.nef -o out.nef", "--robot"},
+      {"--decompose a.nef -o out.txt", "off, ply or obj"},
+      {"a.nef a.nef -o out.xyz", "out.xyz"}};
+  const std::size_t before = place.file_count();
+  for (const auto& [arguments, words] : cases) {
+    const Outcome outcome = place.run(arguments);
+    CAPTURE(arguments, outcome.err);
+    CHECK(outcome.code == 2);
+    CHECK(outcome.out.empty());
+    CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
+    CHECK(outcome.err.find(words) != std::string::npos);
+  }
+  CHECK(place.file_count() == before + 2);  // stdout.txt and stderr.txt
+}
+
+}  // namespace

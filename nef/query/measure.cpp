@@ -7,6 +7,7 @@
 // and the volume is a third of the sum of the latter over facets, with normals outward.
 #include "nef/query/measure.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -17,45 +18,106 @@
 namespace nef {
 namespace {
 
-// A_l / n_l of a facet with finite vertices; positive.
+// A_l / n_l of facets with finite vertices; positive. Not reduced: numerator and denominator stay
+// apart, so that only those who need a rational pay for one.
 class FacetRatio {
  public:
   explicit FacetRatio(const Complex& complex) : c_(complex) {}
 
-  Rational operator()(const Facet& facet) {
+  Integer numerator;
+  Integer denominator;
+
+  void set(const Facet& facet) {
     const std::array<double, 4>& n = c_.planes.approximate(facet.plane);
     std::size_t l = 0;
     for (std::size_t i = 1; i < 3; ++i) {
       if (std::fabs(n[i]) > std::fabs(n[l])) l = i;
     }
-    RationalSum sum;
-    for (const std::uint32_t corner : c_.facet_corners(facet)) {
-      const PointId u{c_.shalfedge_owner[corner]};
-      const PointId v{c_.target(c_.corner_halfedge(corner))};
-      sum.add(cross_component(u, v, (l + 1) % 3, (l + 2) % 3));
+    k_ = (l + 1) % 3;
+    m_ = (l + 2) % 3;
+    const std::span<const std::uint32_t> corners = c_.facet_corners(facet);
+    if (corners.size() <= kSmall) {
+      sum_small(corners);
+    } else {
+      sum_large(corners);
     }
-    Rational result = sum.total();
-    mpz_set(scratch_.get_num_mpz_t(), c_.planes.coefficient(facet.plane, l));
-    mpz_set_ui(scratch_.get_den_mpz_t(), 2);
-    scratch_.canonicalize();
-    result /= scratch_;
-    return result / 4;
+    mpz_mul(denominator.get_mpz_t(), denominator.get_mpz_t(), c_.planes.coefficient(facet.plane, l));
+    denominator *= 2;
+    if (sgn(denominator) < 0) {
+      mpz_neg(denominator.get_mpz_t(), denominator.get_mpz_t());
+      mpz_neg(numerator.get_mpz_t(), numerator.get_mpz_t());
+    }
   }
 
  private:
-  // u_k v_m - u_m v_k
-  Rational cross_component(PointId u, PointId v, std::size_t k, std::size_t m) {
-    Rational result;
-    mpz_mul(result.get_num_mpz_t(), c_.points.coordinate(u, k), c_.points.coordinate(v, m));
-    mpz_submul(result.get_num_mpz_t(), c_.points.coordinate(u, m), c_.points.coordinate(v, k));
-    mpz_mul(result.get_den_mpz_t(), c_.points.coordinate(u, 3), c_.points.coordinate(v, 3));
-    result.canonicalize();
-    return result;
+  static constexpr std::size_t kSmall = 16;
+
+  // Twice A_l over the least common denominator of the corners.
+  void sum_small(std::span<const std::uint32_t> corners) {
+    mpz_ptr common = scratch_.get_mpz_t();
+    mpz_set_ui(common, 1);
+    for (const std::uint32_t corner : corners) {
+      const IntegerView w = c_.points.coordinate(PointId{c_.shalfedge_owner[corner]}, 3);
+      if (mpz_divisible_p(common, w) == 0) mpz_lcm(common, common, w);
+    }
+    mpz_ptr sum = numerator.get_mpz_t();
+    mpz_set_ui(sum, 0);
+    for (const std::uint32_t corner : corners) {
+      const PointId u{c_.shalfedge_owner[corner]};
+      const PointId v{c_.target(c_.corner_halfedge(corner))};
+      mpz_divexact(factor_.get_mpz_t(), common, c_.points.coordinate(u, 3));
+      mpz_divexact(other_.get_mpz_t(), common, c_.points.coordinate(v, 3));
+      mpz_mul(factor_.get_mpz_t(), factor_.get_mpz_t(), other_.get_mpz_t());
+      cross(u, v);
+      mpz_addmul(sum, cross_.get_mpz_t(), factor_.get_mpz_t());
+    }
+    mpz_mul(denominator.get_mpz_t(), common, common);
+  }
+
+  // The same edge by edge: the common denominator of many corners may be far too long.
+  void sum_large(std::span<const std::uint32_t> corners) {
+    RationalSum sum;
+    for (const std::uint32_t corner : corners) {
+      const PointId u{c_.shalfedge_owner[corner]};
+      const PointId v{c_.target(c_.corner_halfedge(corner))};
+      cross(u, v);
+      mpz_mul(factor_.get_mpz_t(), c_.points.coordinate(u, 3), c_.points.coordinate(v, 3));
+      Rational term(cross_, factor_);
+      term.canonicalize();
+      sum.add(std::move(term));
+    }
+    const Rational total = sum.total();
+    numerator = total.get_num();
+    denominator = total.get_den();
+  }
+
+  // u_k v_m - u_m v_k, times the denominators of both.
+  void cross(PointId u, PointId v) {
+    mpz_mul(cross_.get_mpz_t(), c_.points.coordinate(u, k_), c_.points.coordinate(v, m_));
+    mpz_submul(cross_.get_mpz_t(), c_.points.coordinate(u, m_), c_.points.coordinate(v, k_));
   }
 
   const Complex& c_;
-  Rational scratch_;
+  std::size_t k_ = 0;
+  std::size_t m_ = 0;
+  Integer scratch_, factor_, other_, cross_;
 };
+
+// ratio * sqrt(square), without overflow of its parts.
+double times_root(const FacetRatio& ratio, const Integer& square) {
+  long e0 = 0;
+  long e1 = 0;
+  long e2 = 0;
+  const double numerator = mpz_get_d_2exp(&e0, ratio.numerator.get_mpz_t());
+  const double denominator = mpz_get_d_2exp(&e1, ratio.denominator.get_mpz_t());
+  double root = mpz_get_d_2exp(&e2, square.get_mpz_t());
+  if (e2 % 2 != 0) {
+    root *= 2;
+    --e2;
+  }
+  const long exponent = std::clamp(e0 - e1 + e2 / 2, -100000L, 100000L);
+  return std::ldexp(numerator / denominator * std::sqrt(root), static_cast<int>(exponent));
+}
 
 bool has_finite_vertices(const Complex& c, const Facet& facet) {
   for (const std::uint32_t corner : c.facet_corners(facet)) {
@@ -81,10 +143,12 @@ std::optional<Rational> volume(const Complex& c) {
     if (above == below) continue;
     // What bounds a volume from one side only and reaches infinity bounds an infinite volume.
     if (!has_finite_vertices(c, facet)) continue;
-    const Rational offset(c.planes.oriented_coefficient(facet.plane, 3));
+    const Integer offset = c.planes.oriented_coefficient(facet.plane, 3);
     if (offset == 0) continue;
-    const Rational part = ratio(facet) * offset;
-    sum.add(below ? Rational(-part) : part);
+    ratio.set(facet);
+    Rational part(below ? Integer(-ratio.numerator * offset) : Integer(ratio.numerator * offset), ratio.denominator);
+    part.canonicalize();
+    sum.add(std::move(part));
   }
   return sum.total() / 3;
 }
@@ -97,16 +161,13 @@ double surface_area(const Complex& c) {
     const Facet& facet = c.facets[f];
     if (is_box_facet(c, f)) continue;
     if (!has_finite_vertices(c, facet)) return std::numeric_limits<double>::infinity();
-    // |n| may leave the range of doubles where the area does not: put n^2 into the rational.
-    Rational square = ratio(facet);
-    square *= square;
     Integer length = 0;
     for (std::size_t i = 0; i < 3; ++i) {
       const IntegerView n = c.planes.coefficient(facet.plane, i);
       mpz_addmul(length.get_mpz_t(), n, n);
     }
-    square *= length;
-    const double term = std::sqrt(nearest_double(square)) - lost;
+    ratio.set(facet);
+    const double term = times_root(ratio, length) - lost;
     const double next = area + term;
     lost = (next - area) - term;
     area = next;

@@ -98,14 +98,14 @@ def main() -> None:
         "A configuration space with a tight passage",
         "The free positions of a unit cube between two rooms that a hole of exactly its size joins: two boxes and a segment.",
     )
-    demo.run("planner", "--tight", "data/planner/s1.json")
+    demo.run("planner", "--tight", "data/planner/s1_tight_hole.json")
 
     demo.section("Through the passage", "Our planner finds the only way; sampling planners cannot, whatever the time.")
-    demo.run("planner", "data/planner/s1.json", "-o", demo.path("path.txt"))
-    demo.run("planner", "data/planner/s1.json", "--ompl", "RRTConnect", "--time", "2", expect=(0, 1, 2))
+    demo.run("planner", "data/planner/s1_tight_hole.json", "-o", demo.path("path.txt"))
+    demo.run("planner", "data/planner/s1_tight_hole.json", "--ompl", "RRTConnect", "--time", "2", expect=(0, 1, 4))
 
     demo.section("No way", "A billionth less room, and the answer is a proof.")
-    demo.run("planner", "data/planner/s1_minus.json", expect=(1,))
+    demo.run("planner", "data/planner/s1_narrower.json", expect=(1,))
 
     demo.write_index()
 

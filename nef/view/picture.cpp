@@ -112,7 +112,7 @@ class PictureBuilder {
     if (!from_above) facing = {-facing[0], -facing[1], -facing[2]};
     const FacetSide side = facet_side(scene, facet, from_above);
     const Color base = side.volume == kArtificial ? colors.layer : colors.volumes[side.volume];
-    const double light = 0.42 + 0.42 * std::max(dot(facing, kLight), 0.0) + 0.18 * std::max(facing[2], 0.0);
+    const double light = 0.55 + 0.36 * std::max(dot(facing, kLight), 0.0) + 0.14 * std::max(facing[2], 0.0);
     const Color color = shaded(base, light * (side.inner ? 0.8 : 1.0));
     for (std::uint32_t t = facet.first_triangle; t < facet.first_triangle + facet.triangle_count; ++t) {
       const auto& [a, b, c] = scene.triangles[t];

@@ -7,8 +7,8 @@
 namespace nef::view {
 namespace {
 
-constexpr double kHalfAngle = 0.26;  // of the shorter side, in radians
-constexpr double kMargin = 1.05;
+constexpr double kHalfAngle = 0.22;  // of the shorter side, in radians
+constexpr double kMargin = 1.07;
 
 }  // namespace
 
@@ -34,17 +34,35 @@ PictureCamera::PictureCamera(const Point& from, const Point& middle, std::span<c
   const Point right = unit(cross(up, back));
   axes_ = {right, cross(back, right), back};
   focal_ = std::min(width, height) / 2 / std::tan(kHalfAngle);
-  const double across = width / 2 / focal_ / kMargin;  // tangents of the half angles that may be used
-  const double along = height / 2 / focal_ / kMargin;
-  double distance = 0;
   double extent = 0;
   for (const Point& point : points) {
-    const Point p = turned(minus(point, middle_));
-    distance = std::max({distance, p[2] + std::abs(p[0]) / across, p[2] + std::abs(p[1]) / along});
-    extent = std::max({extent, std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
+    for (const double x : turned(minus(point, middle_))) extent = std::max(extent, std::abs(x));
   }
-  // Never so near that things before the middle blow up; and somewhere if there is only one point.
-  distance_ = std::max(distance, extent > 0 ? 2 * extent : 1.0);
+  if (extent == 0) return;
+  // Never so near that things before the middle blow up. What fits from some distance fits from any larger one.
+  double low = 2 * extent;
+  double high = low;
+  while (!fits(points, high)) high *= 2;
+  for (int i = 0; i < 30 && high > low; ++i) {
+    const double between = (low + high) / 2;
+    (fits(points, between) ? high : low) = between;
+  }
+  // The picture of a thing in perspective is not in the middle where the thing is: the picture plane is shifted.
+  static_cast<void>(fits(points, high));
+}
+
+bool PictureCamera::fits(std::span<const Point> points, double distance) {
+  distance_ = distance;
+  shift_ = {0, 0};
+  std::array<double, 2> low{1e300, 1e300};
+  std::array<double, 2> high{-1e300, -1e300};
+  for (const Point& point : points) {
+    const Projected p = project(point);
+    low = {std::min(low[0], p.x), std::min(low[1], p.y)};
+    high = {std::max(high[0], p.x), std::max(high[1], p.y)};
+  }
+  shift_ = {width_ / 2 - (low[0] + high[0]) / 2, height_ / 2 - (low[1] + high[1]) / 2};
+  return (high[0] - low[0]) * kMargin <= width_ && (high[1] - low[1]) * kMargin <= height_;
 }
 
 Point PictureCamera::turned(const Point& vector) const {
@@ -60,7 +78,7 @@ Point PictureCamera::from_eye(const Point& point) const {
 Projected PictureCamera::project(const Point& point) const {
   const Point p = turned(minus(point, middle_));
   const double inverse = 1 / (distance_ - p[2]);
-  return {width_ / 2 + focal_ * p[0] * inverse, height_ / 2 - focal_ * p[1] * inverse, inverse};
+  return {width_ / 2 + shift_[0] + focal_ * p[0] * inverse, height_ / 2 + shift_[1] - focal_ * p[1] * inverse, inverse};
 }
 
 }  // namespace nef::view

@@ -18,10 +18,11 @@ struct Projected {
   double inverse_depth = 0;
 };
 
-/// A perspective camera that looks at a middle from a direction, just far enough to see all points.
+/// A perspective camera that looks from a direction, just far enough to see all points, with their picture in the
+/// middle.
 class PictureCamera {
  public:
-  /// `from` must not be zero; the size is in samples.
+  /// `from` must not be zero; `middle` is about the middle of the points; the size is in samples.
   PictureCamera(const Point& from, const Point& middle, std::span<const Point> points, double width, double height);
 
   [[nodiscard]] Projected project(const Point& point) const;
@@ -31,10 +32,14 @@ class PictureCamera {
   [[nodiscard]] Point from_eye(const Point& point) const;
 
  private:
+  // Takes a distance, moves the picture of the points to the middle, and tells whether all of it is seen.
+  bool fits(std::span<const Point> points, double distance);
+
   Point middle_;
   std::array<Point, 3> axes_{};  // right, up, towards the eye
   double distance_ = 1;
-  double focal_ = 1;  // samples for a unit at depth 1
+  std::array<double, 2> shift_{};  // of the picture, in samples
+  double focal_ = 1;               // samples for a unit at depth 1
   double width_;
   double height_;
 };

@@ -71,7 +71,10 @@ void Raster::paint(const PaintTriangle& triangle) {
     double right = -1e300;
     const auto cross_side = [&](const Projected& p, const Projected& q) {
       if ((p.y <= y) == (q.y <= y)) return;
-      const double x = p.x + (q.x - p.x) * (y - p.y) / (q.y - p.y);
+      // From the upper end, whichever way the triangle turns: neighbours must round alike, or cracks would open.
+      const Projected& upper = p.y < q.y ? p : q;
+      const Projected& lower = p.y < q.y ? q : p;
+      const double x = upper.x + (lower.x - upper.x) * (y - upper.y) / (lower.y - upper.y);
       left = std::min(left, x);
       right = std::max(right, x);
     };

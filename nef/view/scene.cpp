@@ -172,7 +172,8 @@ Scene build_scene(const Polyhedron& polyhedron, const SceneOptions& options) {
   scene.source = polyhedron;
   Polyhedron drawn = polyhedron;
   std::optional<std::array<Rational3, 2>> box;
-  if (polyhedron.complex().has_box() || polyhedron.is_everything()) {
+  const Complex& complex = polyhedron.complex();
+  if (complex.has_box() || Scene::selected(complex.volumes[0].mark)) {
     box = options.box ? *options.box : visible_box(polyhedron);
     drawn = intersect(drawn, make_box((*box)[0], (*box)[1]));
     scene.box = {rounded((*box)[0]), rounded((*box)[1])};

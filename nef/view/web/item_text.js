@@ -24,7 +24,8 @@ function pointRows(page, layer, vertex) {
 
 function planeText(line) {
   const terms = line.split(" ").map((factor, i) => [factor, [" x", " y", " z", ""][i]]).filter(([factor]) => factor !== "0");
-  return `${terms.map(([factor, name]) => factor + name).join(" + ").replaceAll("+ -", "- ")} = 0`;
+  const shown = ([factor, name]) => (name && /^-?1$/.test(factor) ? factor.replace("1", "") + name.trim() : factor + name);
+  return `${terms.map(shown).join(" + ").replaceAll("+ -", "- ")} = 0`;
 }
 
 function volumeText(layer, v) {

@@ -13,7 +13,6 @@ export const rgbOf = (hex) => [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2),
 
 const INK = rgbOf(INK_HEX);
 const ORANGE = rgbOf(ORANGE_HEX);
-const MANY = 3000; // vertices from which on dots and lines are drawn finer
 
 // The volume whose colour a facet shows to an eye above or below it, and whether it is seen from within; the same rule as
 // facet_side (nef/view/layer.h).
@@ -109,29 +108,41 @@ export function dotMesh(dots, shared) {
 export const lineColor = (selected) => (selected ? INK : ORANGE);
 export const dotColors = (selected) => (selected ? { fill: INK, rim: INK } : { fill: WHITE, rim: ORANGE });
 
-function edgeSegments(layer) {
+// The mean length of the edges in pixels, about, when the whole page is seen: dense meshes get finer lines and dots.
+function meanLength(layer, radius) {
+  const { ends } = layer.edges;
+  const { xyz } = layer.vertices;
+  let sum = 0;
+  for (let i = 0; i < ends.length; i += 2) {
+    const [a, b] = [3 * ends[i], 3 * ends[i + 1]];
+    sum += Math.hypot(xyz[a] - xyz[b], xyz[a + 1] - xyz[b + 1], xyz[a + 2] - xyz[b + 2]);
+  }
+  return ends.length === 0 ? Infinity : (sum / (ends.length / 2) / radius) * 350;
+}
+
+function edgeSegments(layer, length) {
   const { ends, mark, flags } = layer.edges;
   const { xyz } = layer.vertices;
   const at = (vertex) => xyz.subarray(3 * vertex, 3 * vertex + 3);
-  const fine = layer.vertices.mark.length > MANY;
+  const usual = Math.min(1.7, Math.max(0.7, length * 0.08));
   return Array.from(mark, (m, e) => {
     const own = originOf(flags[e]) === ORIGIN_OWN;
     return {
       start: at(ends[2 * e]),
       end: at(ends[2 * e + 1]),
       rgb: own ? lineColor(m) : GREY,
-      width: isolated(flags[e]) && own ? 3.2 : fine ? 1 : own ? 1.7 : 1.1,
+      width: isolated(flags[e]) && own ? 3.2 : own ? usual : Math.min(usual, 1.1),
     };
   });
 }
 
-function vertexDots(layer) {
+function vertexDots(layer, length) {
   const { xyz, mark, flags } = layer.vertices;
-  const fine = mark.length > MANY;
+  const usual = Math.min(8, Math.max(2, length * 0.24));
   const dots = [];
   mark.forEach((m, v) => {
     if (originOf(flags[v]) !== ORIGIN_OWN) return;
-    dots.push({ at: xyz.subarray(3 * v, 3 * v + 3), ...dotColors(m), diameter: isolated(flags[v]) ? 11 : fine ? 3 : 8 });
+    dots.push({ at: xyz.subarray(3 * v, 3 * v + 3), ...dotColors(m), diameter: isolated(flags[v]) ? 11 : usual });
   });
   return dots;
 }
@@ -181,14 +192,16 @@ function extraSegments(layer) {
 }
 
 export class LayerView {
-  constructor(layer, shared, onLoad) {
+  // radius: of the page, in which the layer is seen.
+  constructor(layer, shared, radius, onLoad) {
+    const length = meanLength(layer, radius);
     this.layer = layer;
     this.opacity = { value: layer.opacity };
     this.group = new THREE.Group();
     this.facets = new THREE.Mesh(facetGeometry(layer), facetMaterial(shared, this.opacity));
     this.facets.frustumCulled = false;
-    this.edges = lineMesh(edgeSegments(layer), shared);
-    this.vertices = dotMesh(vertexDots(layer), shared);
+    this.edges = lineMesh(edgeSegments(layer, length), shared);
+    this.vertices = dotMesh(vertexDots(layer, length), shared);
     this.extras = new THREE.Group();
     const segments = extraSegments(layer);
     if (layer.box) segments.push(...boxSegments(layer.box));

@@ -28,7 +28,7 @@ class Viewer {
     this.camera = new THREE.PerspectiveCamera(32, 1, 0.1, 100);
     this.shared = sharedUniforms();
     this.scene = new THREE.Scene();
-    this.views = page.layers.map((layer) => new LayerView(layer, this.shared, () => this.requestDraw()));
+    this.views = page.layers.map((layer) => new LayerView(layer, this.shared, this.radius, () => this.requestDraw()));
     this.scene.add(...this.views.map((view) => view.group));
     this.section = new Section(this.views, this.shared, this.radius);
     this.section.addTo(this.scene);
@@ -106,7 +106,7 @@ class Viewer {
     } else {
       this.highlight = lineMesh(this.#facetBoundary(view.layer, item).map(([a, b]) => segment(a, b)), this.shared);
     }
-    this.highlight.material.depthTest = kind === "facet";
+    this.highlight.material.depthTest = false; // seen through everything
     this.highlight.renderOrder = 1000;
     this.highlight.position.copy(view.group.position);
     this.scene.add(this.highlight);

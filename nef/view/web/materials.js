@@ -55,7 +55,7 @@ void main() {
   cutAway();
   vec4 side = gl_FrontFacing ? vFront : vBack;
   vec3 normal = normalize(cross(dFdx(vEye), dFdy(vEye)));
-  float light = 0.42 + 0.42 * max(dot(normal, normalize(vec3(0.35, 0.65, 0.7))), 0.0) + 0.18 * max(normal.z, 0.0);
+  float light = 0.55 + 0.36 * max(dot(normal, normalize(vec3(0.35, 0.65, 0.7))), 0.0) + 0.14 * max(normal.z, 0.0);
   vec3 color = side.rgb * light;
   float alpha = opacity;
   if (side.a > 0.75) {
@@ -97,7 +97,7 @@ void main() {
   vec4 here = position.x < 0.5 ? p : q;
   vec2 shift = vec2(-along.y, along.x) * position.y + along * (position.x * 2.0 - 1.0) * 0.5;
   here.xy += shift * width * ratio / size * here.w;
-  here.z -= 0.0004 * here.w;
+  here.z -= 0.0012 * here.w;
   gl_Position = here;
   vColor = color;
   vWorld = (modelMatrix * vec4(position.x < 0.5 ? start : end, 1.0)).xyz;
@@ -132,7 +132,7 @@ void main() {
   vRim = rim;
   vDiameter = diameter * ratio;
   gl_Position = projectionMatrix * viewMatrix * world;
-  gl_Position.z -= 0.0008 * gl_Position.w;
+  gl_Position.z -= 0.004 * gl_Position.w;
   gl_PointSize = vDiameter;
 }`,
     fragmentShader: `

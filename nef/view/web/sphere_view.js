@@ -40,6 +40,8 @@ function regionTexture(layer, map) {
 function ball(texture) {
   const material = new THREE.ShaderMaterial({
     uniforms: { regions: { value: texture } },
+    transparent: true, // what lies behind shines through a little
+    depthWrite: true,
     vertexShader: `
 varying vec3 vDirection;
 varying vec3 vNormal;
@@ -56,10 +58,12 @@ void main() {
   vec3 d = normalize(vDirection);
   vec2 uv = vec2(atan(d.y, d.x) / 6.28318530718 + 0.5, asin(clamp(d.z, -1.0, 1.0)) / 3.14159265359 + 0.5);
   float light = 0.72 + 0.28 * max(dot(normalize(vNormal), normalize(vec3(0.35, 0.65, 0.7))), 0.0);
-  gl_FragColor = vec4(textureLod(regions, uv, 0.0).rgb * light, 1.0);
+  gl_FragColor = vec4(textureLod(regions, uv, 0.0).rgb * light, 0.86);
 }`,
   });
-  return new THREE.Mesh(new THREE.SphereGeometry(1, 64, 48), material);
+  const mesh = new THREE.Mesh(new THREE.SphereGeometry(1, 64, 48), material);
+  mesh.renderOrder = 1;
+  return mesh;
 }
 
 function polylineSegments(points, selected, width) {
@@ -89,14 +93,30 @@ export class SphereView {
     this.map = sphereMap(layer, vertex);
     this.scene = new THREE.Scene();
     this.scene.add(ball(regionTexture(layer, this.map)));
+    // Once before the ball, and once after it, where only the front passes the test of depth.
+    const addTwice = (make) => [false, true].forEach((after) => {
+      const object = make();
+      object.material.transparent = after;
+      object.renderOrder = after ? 2 : 0;
+      this.scene.add(object);
+    });
     const segments = [];
     for (const arc of this.map.arcs) segments.push(...polylineSegments(arc.points, arc.mark, 3));
     for (const circle of this.map.circles) segments.push(...polylineSegments(circle.points, circle.mark, 3));
-    this.scene.add(lineMesh(segments, this.shared));
+    addTwice(() => lineMesh(segments, this.shared));
     const dots = this.map.dots.map((dot) => ({ at: scale3(dot.direction, 1.012), ...dotColors(dot.mark), diameter: 12 }));
-    this.scene.add(dotMesh(dots, this.shared));
-    this.control.frame(camera.position.clone().sub(target), camera.up, 1.15);
+    addTwice(() => dotMesh(dots, this.shared));
+    this.control.frame(this.#direction(camera.position.clone().sub(target)), camera.up, 1.15);
     return this.map;
+  }
+
+  // From where the main camera is, but turned towards the side where the items are.
+  #direction(fromCamera) {
+    const towards = new THREE.Vector3();
+    for (const { direction } of this.map.dots) towards.add(new THREE.Vector3(...direction));
+    const view = fromCamera.normalize();
+    if (towards.length() < 0.2) return view;
+    return view.addScaledVector(towards.normalize(), 1.4);
   }
 
   draw() {

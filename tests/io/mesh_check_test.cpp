@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <random>
+
+#include "nef/construct/mesh_check.h"
+#include "nef/io/mesh_reader.h"
+
+namespace nef {
+namespace {
+
+using Kind = MeshProblemKind;
+
+Mesh off(const std::string& body) { return read_off("OFF\n" + body, "test.off"); }
+
+// Six quads, counterclockwise as seen from outside.
+void add_box(Mesh& mesh, const Rational3& low, const Rational3& high) {
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  for (unsigned i = 0; i < 8; ++i) {
+    mesh.vertices.push_back(
+        {(i & 1U) != 0 ? high[0] : low[0], (i & 2U) != 0 ? high[1] : low[1], (i & 4U) != 0 ? high[2] : low[2]});
+  }
+  const std::uint32_t quads[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                                     {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+  for (const auto& quad : quads) {
+    const std::uint32_t face[4] = {first + quad[0], first + quad[1], first + quad[2], first + quad[3]};
+    mesh.push_face(face);
+  }
+}
+
+Mesh boxes(std::initializer_list<std::array<int, 6>> list) {
+  Mesh mesh;
+  for (const auto& b : list) add_box(mesh, {b[0], b[1], b[2]}, {b[3], b[4], b[5]});
+  return mesh;
+}
+
+std::vector<MeshProblem> of_kind(const Mesh& mesh, Kind kind) {
+  std::vector<MeshProblem> result;
+  for (const MeshProblem& problem : check_mesh(mesh)) {
+    if (problem.kind == kind) result.push_back(problem);
+  }
+  return result;
+}
+
+bool legal(const Mesh& mesh) {
+  const auto problems = check_mesh(mesh);
+  return std::all_of(problems.begin(), problems.end(), [](const MeshProblem& p) { return p.legal; });
+}
+
+TEST_CASE("A box is clean, also with a cavity and beside others") {
+  CHECK(check_mesh(boxes({{0, 0, 0, 1, 1, 1}})).empty());
+  CHECK(check_mesh(boxes({{0, 0, 0, 9, 9, 9}, {1, 1, 1, 2, 2, 2}, {11, 0, 0, 12, 1, 1}})).empty());
+}
+
+TEST_CASE("Solids that share a corner, an edge or a part of an edge are legal") {
+  const Mesh corner = boxes({{0, 0, 0, 1, 1, 1}, {1, 1, 1, 2, 2, 2}});
+  CHECK(check_mesh(corner).empty());
+  const Mesh edge = boxes({{0, 0, 0, 1, 1, 1}, {1, 1, 0, 2, 2, 1}});
+  const auto shared = of_kind(edge, Kind::kNonManifoldEdge);
+  REQUIRE(shared.size() == 1);
+  CHECK(shared[0].legal);
+  CHECK(shared[0].faces.size() == 4);
+  CHECK(shared[0].edges == std::vector<std::array<std::uint32_t, 2>>{{7, 3}});
+  CHECK(legal(edge));
+  CHECK_FALSE(first_self_intersection(edge));
+  const Mesh part = boxes({{0, 0, 0, 1, 1, 4}, {1, 1, 1, 2, 2, 2}});
+  CHECK(legal(part));
+  CHECK_FALSE(of_kind(part, Kind::kTouching).empty());
+  CHECK_FALSE(first_self_intersection(part));
+}
+
+TEST_CASE("A vertex or an edge that lies on a face touches it") {
+  // A pyramid with its apex in the middle of the top of a box.
+  Mesh apex = boxes({{0, 0, 0, 4, 4, 4}});
+  for (const Rational3& p : std::vector<Rational3>{{2, 2, 4}, {1, 1, 6}, {3, 1, 6}, {2, 3, 6}})
+    apex.vertices.push_back(p);
+  const std::uint32_t faces[4][3] = {{9, 10, 11}, {8, 10, 9}, {8, 11, 10}, {8, 9, 11}};
+  for (const auto& face : faces) apex.push_face(face);
+  CHECK(legal(apex));
+  CHECK(of_kind(apex, Kind::kTouching).size() == 3);
+  CHECK_FALSE(first_self_intersection(apex));
+  // A wedge standing on its edge, in the top of a box.
+  Mesh ridge = boxes({{0, 0, 0, 4, 4, 4}});
+  for (const Rational3& p : std::vector<Rational3>{{1, 2, 4}, {3, 2, 4}, {1, 1, 6}, {3, 1, 6}, {1, 3, 6}, {3, 3, 6}}) {
+    ridge.vertices.push_back(p);
+  }
+  const std::vector<std::vector<std::uint32_t>> wedge{
+      {8, 9, 11, 10}, {8, 12, 13, 9}, {10, 11, 13, 12}, {8, 10, 12}, {9, 13, 11}};
+  for (const auto& face : wedge) ridge.push_face(face);
+  CHECK(legal(ridge));
+  CHECK_FALSE(of_kind(ridge, Kind::kTouching).empty());
+  CHECK_FALSE(first_self_intersection(ridge));
+}
+
+TEST_CASE("Solids that cross are refused with the first pair of faces") {
+  const Mesh crossing = boxes({{0, 0, 0, 2, 2, 2}, {1, 1, 1, 3, 3, 3}});
+  const auto first = first_self_intersection(crossing);
+  REQUIRE(first);
+  CHECK(first->kind == Kind::kSelfIntersection);
+  CHECK(first->faces == std::vector<std::uint32_t>{1, 8});  // top of the first, front of the second
+  CHECK_FALSE(first->legal);
+  // Each of three faces of one crosses two of the other's.
+  CHECK(of_kind(crossing, Kind::kSelfIntersection).size() == 6);
+}
+
+TEST_CASE("Coplanar faces that overlap are refused, ones that meet in an edge are not") {
+  CHECK(first_self_intersection(boxes({{0, 0, 0, 2, 2, 2}, {1, 1, 2, 3, 3, 4}})));
+  CHECK(first_self_intersection(boxes({{0, 0, 0, 2, 2, 2}, {0, 0, 2, 2, 2, 4}})));
+  CHECK_FALSE(first_self_intersection(boxes({{0, 0, 0, 2, 2, 2}, {2, 2, 0, 4, 4, 2}})));
+}
+
+TEST_CASE("Crossings along edges only are found") {
+  // The edge of one wedge lies in the face of a box, its two faces on either side.
+  Mesh mesh = boxes({{0, 0, 0, 4, 4, 4}});
+  for (const Rational3& p : std::vector<Rational3>{{1, 2, 4}, {3, 2, 4}, {1, 1, 6}, {3, 1, 6}, {1, 1, 3}, {3, 1, 3}}) {
+    mesh.vertices.push_back(p);
+  }
+  const std::vector<std::vector<std::uint32_t>> wedge{
+      {8, 9, 11, 10}, {8, 12, 13, 9}, {10, 11, 13, 12}, {8, 10, 12}, {9, 13, 11}};
+  for (const auto& face : wedge) mesh.push_face(face);
+  CHECK(first_self_intersection(mesh));
+  // Two tetrahedra with a common edge, one inside the other there: they cross at the edge though no face crosses
+  // another.
+  Mesh nested =
+      off("6 8 0\n0 0 0\n0 0 4\n4 0 2\n0 4 2\n2 1 2\n1 2 2\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n"
+          "3 0 4 1\n3 0 1 5\n3 0 5 4\n3 1 4 5\n");
+  const auto found = first_self_intersection(nested);
+  REQUIRE(found);
+  CHECK(found->edges.size() == 1);
+  const auto edges = of_kind(nested, Kind::kNonManifoldEdge);
+  REQUIRE(edges.size() == 1);
+  CHECK_FALSE(edges[0].legal);
+}
+
+TEST_CASE("Every other problem has its name and its guilty elements") {
+  Mesh open = boxes({{0, 0, 0, 1, 1, 1}});
+  open.corners.resize(20);
+  open.face_begin.pop_back();
+  const auto border = of_kind(open, Kind::kOpenBorder);
+  CHECK(border.size() == 4);
+  CHECK(check_mesh(open).size() == 4);
+  CHECK(border[0].faces.size() == 1);
+
+  Mesh flipped = boxes({{0, 0, 0, 1, 1, 1}});
+  std::reverse(flipped.corners.begin(), flipped.corners.begin() + 4);
+  const auto turned = of_kind(flipped, Kind::kInconsistentOrientation);
+  CHECK(turned.size() == 4);
+  for (const MeshProblem& p : turned) CHECK(p.faces[0] == 0);
+
+  Mesh inside_out = boxes({{0, 0, 0, 1, 1, 1}});
+  for (std::size_t f = 0; f < 6; ++f) {
+    std::reverse(inside_out.corners.begin() + 4 * static_cast<long>(f),
+                 inside_out.corners.begin() + 4 * static_cast<long>(f) + 4);
+  }
+  REQUIRE(check_mesh(inside_out).size() == 1);
+  CHECK(check_mesh(inside_out)[0].kind == Kind::kInsideOut);
+
+  Mesh bad_index = boxes({{0, 0, 0, 1, 1, 1}});
+  bad_index.corners[5] = 77;
+  const auto bad = of_kind(bad_index, Kind::kBadIndex);
+  REQUIRE(bad.size() == 1);
+  CHECK(bad[0].faces == std::vector<std::uint32_t>{1});
+  CHECK(bad[0].vertices == std::vector<std::uint32_t>{77});
+  CHECK_FALSE(first_self_intersection(bad_index));
+
+  Mesh lonely = boxes({{0, 0, 0, 1, 1, 1}});
+  lonely.vertices.push_back({5, 5, 5});
+  const auto isolated = of_kind(lonely, Kind::kIsolatedVertex);
+  REQUIRE(isolated.size() == 1);
+  CHECK(isolated[0].vertices == std::vector<std::uint32_t>{8});
+  CHECK(isolated[0].legal);
+
+  const Mesh degenerate = off("5 3 0\n0 0 0\n1 0 0\n2 0 0\n0 1 0\n0 0 0\n3 0 1 2\n3 0 1 4\n4 0 1 3 1\n");
+  const auto flat = of_kind(degenerate, Kind::kDegenerateFace);
+  REQUIRE(flat.size() == 3);
+  CHECK(flat[0].faces == std::vector<std::uint32_t>{0});
+
+  const Mesh twice = off("4 5 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n3 1 0 2\n");
+  const auto duplicate = of_kind(twice, Kind::kDuplicateFace);
+  REQUIRE(duplicate.size() == 1);
+  CHECK(duplicate[0].faces == std::vector<std::uint32_t>{0, 4});
+  CHECK(of_kind(twice, Kind::kNonManifoldEdge).size() == 3);
+
+  const Mesh bowtie = off("4 1 0\n0 0 0\n1 1 0\n1 0 0\n0 1 0\n4 0 1 2 3\n");
+  const auto crossed = of_kind(bowtie, Kind::kSelfIntersection);
+  REQUIRE(crossed.size() == 1);
+  CHECK(crossed[0].faces == std::vector<std::uint32_t>{0});
+}
+
+TEST_CASE("A pentagram crosses itself though all its corners turn left") {
+  const Mesh star = off("5 1 0\n0 10 0\n-6 -8 0\n10 3 0\n-10 3 0\n6 -8 0\n5 0 1 2 3 4\n");
+  const auto crossed = of_kind(star, Kind::kSelfIntersection);
+  REQUIRE_FALSE(crossed.empty());
+  CHECK(crossed[0].faces == std::vector<std::uint32_t>{0});
+}
+
+TEST_CASE("A face that is not planar is reported with its deviation") {
+  const Mesh bent = off("4 1 0\n0 0 0\n1 0 0\n1 1 0.4\n0 1 0\n4 0 1 2 3\n");
+  CHECK_FALSE(face_is_planar(bent, 0));
+  // Area vector (-0.2, -0.2, 1) up to a factor, centroid (1/2, 1/2, 1/10): each corner is 0.1 / |n| off.
+  CHECK(face_deviation(bent, 0) == Approx(0.1 / std::sqrt(1.08)));
+  const auto found = of_kind(bent, Kind::kNonPlanarFace);
+  REQUIRE(found.size() == 1);
+  CHECK(found[0].legal);
+  // One part in 10^40 is not planar either.
+  const Mesh nearly = off("4 1 0\n0 0 0\n1 0 0\n1 1 1e-40\n0 1 0\n4 0 1 2 3\n");
+  CHECK_FALSE(face_is_planar(nearly, 0));
+  CHECK(face_deviation(nearly, 0) == Approx(2.5e-41));
+  CHECK(face_is_planar(off("5 1 0\n0 0 0\n1 0 1/3\n2 0 2/3\n2 1 1\n0 1 1/3\n5 0 1 2 3 4\n"), 0));
+}
+
+TEST_CASE("Tiny and huge crossings are decided exactly") {
+  for (const char* size : {"1e-40", "1e-200", "1e120", "1/3", "1e-7"}) {
+    INFO(size);
+    const Rational s = parse_rational(size);
+    // The second box reaches into the first by s, or stays away by s, or its corner touches.
+    for (const int sign : {-1, 0, 1}) {
+      Mesh mesh;
+      add_box(mesh, {0, 0, 0}, {1, 1, 1});
+      const Rational low = 1 - sign * s;
+      const Rational high = low + 2 + s;
+      add_box(mesh, {low, low, low}, {high, high, high});
+      if (s < 1) CHECK(first_self_intersection(mesh).has_value() == (sign > 0));
+    }
+  }
+}
+
+TEST_CASE("Random boxes: a pair of faces is reported iff the boxes' surfaces cross or overlap") {
+  std::mt19937 random(20240611);
+  const auto coordinate = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+  int crossing = 0;
+  for (int round = 0; round < 400; ++round) {
+    INFO("round " << round);
+    std::array<std::array<int, 6>, 2> b{};
+    for (auto& box : b) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        box[axis] = coordinate(5);
+        box[axis + 3] = box[axis] + 1 + coordinate(4);
+      }
+    }
+    // Closed-form: interiors meet in an area of both surfaces, or one surface enters the other's inside.
+    bool inside_out_of_reach = false;
+    bool first_in_second = true;
+    bool second_in_first = true;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (b[0][axis + 3] < b[1][axis] || b[1][axis + 3] < b[0][axis]) inside_out_of_reach = true;
+      if (!(b[1][axis] < b[0][axis] && b[0][axis + 3] < b[1][axis + 3])) first_in_second = false;
+      if (!(b[0][axis] < b[1][axis] && b[1][axis + 3] < b[0][axis + 3])) second_in_first = false;
+    }
+    int touching_axes = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (b[0][axis + 3] == b[1][axis] || b[1][axis + 3] == b[0][axis]) ++touching_axes;
+    }
+    // Boxes that are apart, nested strictly, or meet in an edge or a vertex only are fine; all others share an area or
+    // cross.
+    const bool fine = inside_out_of_reach || first_in_second || second_in_first || touching_axes >= 2;
+    const Mesh mesh = boxes({b[0], b[1]});
+    CHECK(first_self_intersection(mesh).has_value() == !fine);
+    crossing += fine ? 0 : 1;
+  }
+  CHECK(crossing > 50);
+  CHECK(crossing < 390);
+}
+
+TEST_CASE("Real meshes: shuffled faces are the only trouble of cube-shuffled, sphere is clean") {
+  const std::string folder = NEF_SOURCE_DIR "/data/meshes/";
+  CHECK(check_mesh(read_mesh(folder + "sphere.stl")).empty());
+  CHECK(check_mesh(read_mesh(folder + "hole.off")).empty());
+  const auto problems = check_mesh(read_mesh(folder + "cube-shuffled.off"));
+  REQUIRE_FALSE(problems.empty());
+  for (const MeshProblem& p : problems) CHECK(p.kind == Kind::kInconsistentOrientation);
+}
+
+TEST_CASE("The number of problems can be bounded") {
+  Mesh mesh;
+  for (int i = 0; i < 20; ++i) mesh.vertices.push_back({i, 0, 0});
+  MeshCheckOptions options;
+  options.max_per_kind = 3;
+  CHECK(check_mesh(mesh, options).size() == 3);
+}
+
+}  // namespace
+}  // namespace nef

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Meshes of polyhedra: the solid that they bound is the regularized bounded part, and what they lack is told.
+#include <catch2/catch.hpp>
+
+#include <random>
+
+#include "nef/construct/mesh_check.h"
+#include "nef/construct/to_mesh.h"
+#include "nef/construct/triangulate.h"
+#include "tests/support/random_polyhedra.h"
+
+namespace nef {
+namespace {
+
+using test::set;
+
+// Six times the enclosed volume, from fans of the faces.
+Rational six_volumes(const Mesh& mesh) {
+  Rational sum = 0;
+  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+    const auto face = mesh.face(f);
+    for (std::size_t i = 1; i + 1 < face.size(); ++i) {
+      const Rational3& a = mesh.vertices[face[0]];
+      const Rational3& b = mesh.vertices[face[i]];
+      const Rational3& c = mesh.vertices[face[i + 1]];
+      sum +=
+          a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
+    }
+  }
+  return sum;
+}
+
+bool is_closed(const Mesh& mesh) {
+  for (const MeshProblem& problem : check_mesh(mesh)) {
+    if (!problem.legal) {
+      UNSCOPED_INFO(problem.text);
+      return false;
+    }
+  }
+  return true;
+}
+
+bool mentions(const std::vector<std::string>& lines, const std::string& text) {
+  for (const std::string& line : lines) {
+    if (line.find(text) != std::string::npos) return true;
+  }
+  return false;
+}
+
+TEST_CASE("A box keeps its polygons or has twelve triangles; nothing is lost") {
+  const Polyhedron box = make_box({0, 0, 0}, {1, 2, Rational(1, 3)});
+  MeshExportOptions options;
+  options.keep_polygons = true;
+  const MeshExport polygons = to_mesh(box, options);
+  CHECK(polygons.mesh.face_count() == 6);
+  CHECK(polygons.lost.empty());
+  CHECK(six_volumes(polygons.mesh) == 4);
+  const MeshExport triangles = to_mesh(box);
+  CHECK(triangles.mesh.vertices.size() == 8);
+  CHECK(triangles.mesh.face_count() == 12);
+  CHECK(six_volumes(triangles.mesh) == 4);
+  CHECK(equal(from_mesh(triangles.mesh), box));
+}
+
+TEST_CASE("Facets with holes are triangulated without new vertices") {
+  // A plate with nine square holes.
+  Polyhedron plate = make_box({0, 0, 0}, {7, 7, 1});
+  for (int x = 1; x < 7; x += 2) {
+    for (int y = 1; y < 7; y += 2) plate = subtract(plate, interior(make_box({x, y, -1}, {x + 1, y + 1, 2})));
+  }
+  const MeshExport result = to_mesh(closure(plate));
+  CHECK(result.lost.empty());
+  CHECK(result.mesh.vertices.size() == 8 + 9 * 8);
+  // Two plates with 40 corners and 9 holes, four sides, nine tunnels of four: t = corners + 2 holes - 2.
+  CHECK(result.mesh.face_count() == 2 * (40 + 18 - 2) + 8 + 72);
+  CHECK(six_volumes(result.mesh) == 6 * (49 - 9));
+  CHECK(is_closed(result.mesh));
+}
+
+TEST_CASE("What a mesh cannot hold is told") {
+  CHECK(to_mesh(set("nothing")).lost.empty());
+  CHECK(mentions(to_mesh(set("everything")).lost, "1 unbounded volume"));
+  CHECK(mentions(to_mesh(set("halfspace(0,0,1,0)")).lost, "1 unbounded volume"));
+  CHECK(to_mesh(set("halfspace(0,0,1,0)")).mesh.face_count() == 0);
+  CHECK(mentions(to_mesh(set("! box(0,0,0,1,1,1)")).lost, "1 unbounded volume"));
+  const MeshExport open = to_mesh(set("interior(box(0,0,0,1,1,1))"));
+  CHECK(open.mesh.face_count() == 12);
+  CHECK(open.lost.size() == 1);
+  CHECK(mentions(open.lost, "does not belong to the set: 6 facets, 12 edges, 8 vertices"));
+  CHECK(mentions(to_mesh(set("box(0,0,0,1,1,1) - point(1,1,1)")).lost, "does not belong to the set: 1 vertex"));
+  const MeshExport flat = to_mesh(set("polygon(0,0,0, 1,0,0, 0,1,0) + point(5,5,5) + box(7,7,7,8,8,8)"));
+  CHECK(flat.mesh.face_count() == 12);
+  CHECK(mentions(flat.lost, "not in the mesh: 1 facet, 3 edges, 4 vertices"));
+  const MeshExport crack = to_mesh(set("box(0,0,0,4,4,4) - polygon(1,1,1, 2,1,1, 1,2,1) - point(3,3,3)"));
+  CHECK(crack.mesh.face_count() == 12);
+  CHECK(mentions(crack.lost, "missing inside the solids is filled in the mesh: 1 facet, 3 edges, 4 vertices"));
+  // A bounded cell beside an unbounded one is a solid by itself.
+  const MeshExport cell = to_mesh(set("halfspace(0,0,1,0) + box(0,0,1,1,1,2)"));
+  CHECK(cell.mesh.face_count() == 12);
+  CHECK(mentions(cell.lost, "1 unbounded volume"));
+}
+
+TEST_CASE("Marks of other kinds can be chosen") {
+  const Polyhedron box = make_box({0, 0, 0}, {1, 1, 1});
+  MeshExportOptions options;
+  options.selected = [](LabelId mark) { return mark == 7; };
+  CHECK(to_mesh(box, options).mesh.face_count() == 0);
+}
+
+TEST_CASE("The mesh of a random bounded set bounds its regularization") {
+  CHECK(rc::check("mesh of a bounded set", [] {
+    const test::Recipe recipe = *test::recipes(true, 5);
+    const Polyhedron whole = recipe.make();
+    const MeshExport result = to_mesh(whole);
+    const Polyhedron solid = regularize(whole);
+    RC_ASSERT(six_volumes(result.mesh) == 6 * *volume(solid));
+    RC_ASSERT(result.lost.empty() == equal(solid, whole));
+    if (result.mesh.face_count() == 0) {
+      RC_ASSERT(solid.is_empty());
+      return;
+    }
+    RC_ASSERT(is_closed(result.mesh));
+    RC_ASSERT(equal(from_mesh(result.mesh), solid));
+  }));
+}
+
+// Triangulates one ring in the plane z = 0 and checks what must hold: the number of triangles, their orientation, area.
+void check_ring(const std::vector<Rational3>& corners) {
+  const MeshPoints points(corners);
+  std::vector<std::uint32_t> ring;
+  Rational twice_area = 0;
+  for (std::uint32_t i = 0; i < corners.size(); ++i) {
+    ring.push_back(i);
+    const Rational3& p = corners[i];
+    const Rational3& q = corners[(i + 1) % corners.size()];
+    twice_area += p[0] * q[1] - p[1] * q[0];
+  }
+  REQUIRE(twice_area > 0);
+  std::vector<Triangulator::Triangle> triangles;
+  REQUIRE(Triangulator(points).triangulate(ring, 2, 1, triangles));
+  CHECK(triangles.size() == corners.size() - 2);
+  Rational sum = 0;
+  for (const auto& t : triangles) {
+    const Rational3& a = corners[t[0]];
+    const Rational3& b = corners[t[1]];
+    const Rational3& c = corners[t[2]];
+    const Rational area = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
+    CHECK(area > 0);
+    sum += area;
+  }
+  CHECK(sum == twice_area);
+}
+
+TEST_CASE("Polygons: straight corners, combs, spirals, stars with large numbers") {
+  check_ring({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 2, 0}, {1, 2, 0}, {0, 2, 0}, {0, 1, 0}});
+  check_ring({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {0, 3, 0}});
+  std::vector<Rational3> comb;
+  for (int i = 0; i < 400; ++i) comb.push_back({i, 0, 0});
+  for (int i = 399; i >= 0; --i) comb.push_back({i, i % 2 == 0 ? 1 : 100, 0});
+  check_ring(comb);
+  std::mt19937 random(5);
+  std::vector<Rational3> star;
+  for (int i = 0; i < 2000; ++i) {
+    // Points on rays in order of their angle, at wild distances: a simple polygon.
+    const int quarter = i / 500;
+    const int step = i % 500;
+    const Rational x = 500 - step;
+    const Rational y = step;
+    const Rational scale(1 + static_cast<int>(random() % 1000), 7);
+    const Rational px = scale * x;
+    const Rational py = scale * y;
+    star.push_back(quarter == 0   ? Rational3{px, py, 0}
+                   : quarter == 1 ? Rational3{Rational(-py), px, 0}
+                   : quarter == 2 ? Rational3{Rational(-px), Rational(-py), 0}
+                                  : Rational3{py, Rational(-px), 0});
+  }
+  check_ring(star);
+}
+
+TEST_CASE("Rings that cross themselves are refused") {
+  const std::vector<Rational3> corners{{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}};
+  const MeshPoints points(corners);
+  const std::vector<std::uint32_t> ring{0, 1, 2, 3};
+  std::vector<Triangulator::Triangle> triangles;
+  CHECK_FALSE(Triangulator(points).triangulate(ring, 2, 1, triangles));
+  CHECK(triangles.empty());
+}
+
+TEST_CASE("Holes that touch, and dangling edges") {
+  // Outer square, two square holes that share the corner 6, a dangling edge 10-11 as a hole of its own.
+  const std::vector<Rational3> p{{0, 0, 0}, {9, 0, 0}, {9, 9, 0}, {0, 9, 0}, {1, 1, 0}, {1, 3, 0}, {3, 3, 0},
+                                 {3, 1, 0}, {3, 5, 0}, {5, 5, 0}, {5, 3, 0}, {7, 7, 0}, {8, 6, 0}};
+  const MeshPoints points(p);
+  const std::vector<std::vector<std::uint32_t>> rings{{0, 1, 2, 3}, {4, 5, 6, 8, 9, 10, 6, 7}, {11, 12}};
+  std::vector<Triangulator::Triangle> triangles;
+  REQUIRE(Triangulator(points).triangulate(rings, 2, 1, triangles));
+  Rational sum = 0;
+  for (const auto& t : triangles) {
+    const Rational area =
+        (p[t[1]][0] - p[t[0]][0]) * (p[t[2]][1] - p[t[0]][1]) - (p[t[2]][0] - p[t[0]][0]) * (p[t[1]][1] - p[t[0]][1]);
+    CHECK(area > 0);
+    sum += area;
+  }
+  CHECK(sum == 2 * (81 - 4 - 4));
+}
+
+}  // namespace
+}  // namespace nef

@@ -86,7 +86,7 @@ Mesh next_walls(const Polyhedron& a) {
 // Where a ray inside a facet leaves it: the nearest point of the facet's boundary.
 class FacetRays {
  public:
-  FacetRays(const Complex& complex, std::uint32_t facet) : complex_(complex), facet_(complex.facets[facet]) {
+  FacetRays(const Complex& complex, std::uint32_t facet) : facet_(complex.facets[facet]) {
     while (complex.planes.coefficient(facet_.plane, drop_).sign() == 0) ++drop_;
     for (const std::uint32_t c : complex.facet_corners(facet_)) {
       edges_.push_back({complex.points.rational(PointId(complex.shalfedge_owner[c])),
@@ -128,7 +128,6 @@ class FacetRays {
     return top / bottom;
   }
 
-  const Complex& complex_;
   const Facet& facet_;
   std::size_t drop_ = 0;
   std::vector<std::array<Rational3, 2>> edges_;

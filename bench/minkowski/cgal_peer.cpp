@@ -7,8 +7,8 @@
 #include <CGAL/Polyhedron_incremental_builder_3.h>
 #include <CGAL/convex_decomposition_3.h>
 #include <CGAL/minkowski_sum_3.h>
+#include <time.h>
 
-#include <chrono>
 #include <sstream>
 
 namespace nef::bench {
@@ -64,9 +64,14 @@ PeerResult cgal_minkowski_sum(const Mesh& a, const Mesh& b) {
   for (auto volume = pieces.volumes_begin(); volume != pieces.volumes_end(); ++volume) {
     if (volume->mark()) ++result.pieces;
   }
-  const auto start = std::chrono::steady_clock::now();
+  const auto now = [] {
+    timespec t{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+  };
+  const double start = now();
   const Nef sum = CGAL::minkowski_sum_3(x, y);
-  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  result.seconds = now() - start;
   result.vertices = sum.number_of_vertices();
   result.facets = sum.number_of_facets();
   result.volumes = sum.number_of_volumes();

@@ -11,7 +11,7 @@ namespace nef::bench {
 
 /// What CGAL made of a sum.
 struct PeerResult {
-  double seconds = 0;
+  double seconds = 0;  ///< of the processor
   std::size_t vertices = 0, facets = 0, volumes = 0;
   std::size_t pieces = 0;  ///< convex pieces of the first operand
 };

@@ -15,12 +15,15 @@ namespace nef {
 namespace {
 
 // Each file as a layer with the file's name.
-std::vector<view::Layer> load_layers(Session& session, const view::SceneOptions& options) {
+std::vector<view::Layer> load_layers(Session& session, view::SceneOptions options) {
+  std::vector<Polyhedron> sets;
+  for (const std::string& path : session.inputs) sets.push_back(session.load(path));
+  options.box = view::visible_box(sets);
   std::vector<view::Layer> layers;
-  for (const std::string& path : session.inputs) {
+  for (std::size_t i = 0; i < sets.size(); ++i) {
     view::Layer& layer = layers.emplace_back();
-    layer.name = std::filesystem::path(path).filename().string();
-    layer.scene = view::build_scene(session.load(path), options);
+    layer.name = std::filesystem::path(session.inputs[i]).filename().string();
+    layer.scene = view::build_scene(sets[i], options);
   }
   return layers;
 }

@@ -174,7 +174,7 @@ Scene build_scene(const Polyhedron& polyhedron, const SceneOptions& options) {
   std::optional<std::array<Rational3, 2>> box;
   const Complex& complex = polyhedron.complex();
   if (complex.has_box() || Scene::selected(complex.volumes[0].mark)) {
-    box = options.box ? *options.box : visible_box(polyhedron);
+    box = options.box ? *options.box : visible_box({&polyhedron, 1});
     drawn = intersect(drawn, make_box((*box)[0], (*box)[1]));
     scene.box = {rounded((*box)[0]), rounded((*box)[1])};
   }

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "nef/polyhedron.h"
@@ -92,8 +93,8 @@ struct Scene {
 /// intersection. O(n) plus the triangulation for bounded sets without a section.
 Scene build_scene(const Polyhedron& polyhedron, const SceneOptions& options = {});
 
-/// A box around all finite vertices, and around the places where unbounded planes and lines are, with a margin of
-/// about a third; [-1,1]^3 for a set without any.
-std::array<Rational3, 2> visible_box(const Polyhedron& polyhedron);
+/// A box around all finite vertices of all sets, and around the places where their unbounded planes and lines are, with
+/// a margin of about a third; [-1,1]^3 for sets without any. Sets that are shown together should be cut at one box.
+std::array<Rational3, 2> visible_box(std::span<const Polyhedron> sets);
 
 }  // namespace nef::view

@@ -61,11 +61,7 @@ Rational floor_to(const Rational& value, const Rational& unit) {
   return quotient * unit;
 }
 
-}  // namespace
-
-std::array<Rational3, 2> visible_box(const Polyhedron& polyhedron) {
-  const Complex& complex = polyhedron.complex();
-  Extent extent;
+void extend(Extent& extent, const Complex& complex) {
   for (std::uint32_t v = 0; v < complex.vertex_count(); ++v) {
     if (!is_box_vertex(complex, v)) {
       extent.add(complex.points.rational(PointId{v}));
@@ -73,6 +69,13 @@ std::array<Rational3, 2> visible_box(const Polyhedron& polyhedron) {
       extent.add(finite_part(complex, v));
     }
   }
+}
+
+}  // namespace
+
+std::array<Rational3, 2> visible_box(std::span<const Polyhedron> sets) {
+  Extent extent;
+  for (const Polyhedron& set : sets) extend(extent, set.complex());
   if (!extent.any) return {Rational3{-1, -1, -1}, Rational3{1, 1, 1}};
   Rational size = 0;
   for (std::size_t i = 0; i < 3; ++i) size = std::max(size, Rational(extent.high[i] - extent.low[i]));

@@ -42,8 +42,12 @@ Layer terrain(std::uint32_t n) {
 void write_all(const std::string& folder) {
   write_page({layer_of("mixture", mixture())}, folder + "/mixture.html", {.title = "mixture"});
 
-  std::vector<Layer> layers{layer_of("hollow", subtract(cube(0, 6), interior(cube(2, 4)))),
-                            layer_of("halfspace", make_halfspace(0, 0, 1, 1)), layer_of("robot", cube(7, 8))};
+  const std::vector<Polyhedron> sets{subtract(cube(0, 6), interior(cube(2, 4))), make_halfspace(0, 0, 1, 1),
+                                     cube(7, 8)};
+  SceneOptions options;
+  options.box = visible_box(sets);
+  std::vector<Layer> layers{layer_of("hollow", sets[0], options), layer_of("halfspace", sets[1], options),
+                            layer_of("robot", sets[2], options)};
   layers[1].opacity = 0.5;
   layers[2].motion = {{0, 4}, {{0, 0, 0}, {0, -7, 0}}};
   layers[2].lines.push_back({"path", {{7.5, 7.5, 7.5}, {7.5, 0.5, 7.5}}, {200, 30, 30}});

@@ -35,23 +35,31 @@ function facetGeometry(layer) {
   const { begin, corners, mark, flags } = layer.facets;
   const { xyz } = layer.vertices;
   const position = new Float32Array(corners.length * 3);
-  corners.forEach((vertex, i) => {
-    for (let k = 0; k < 3; ++k) position[3 * i + k] = xyz[3 * vertex + k];
-  });
-  const front = new Uint8Array(corners.length * 4);
-  const back = new Uint8Array(corners.length * 4);
+  for (let i = 0; i < corners.length; ++i) {
+    for (let k = 0; k < 3; ++k) position[3 * i + k] = xyz[3 * corners[i] + k];
+  }
+  // Four bytes as one number, least significant first, as on every machine with WebGL.
+  const front = new Uint32Array(corners.length);
+  const back = new Uint32Array(corners.length);
+  const packed = new Map(); // the same colours come again and again
+  const colorOf = (f, fromAbove, style) => {
+    const { volume, inner } = facetSide(layer, f, fromAbove);
+    const key = ((volume ?? -1) * 2 + (inner ? 1 : 0)) * 256 + style;
+    if (!packed.has(key)) {
+      const [r, g, b] = sideColor(layer, f, fromAbove);
+      packed.set(key, ((style << 24) | (b << 16) | (g << 8) | r) >>> 0);
+    }
+    return packed.get(key);
+  };
   for (let f = 0; f + 1 < begin.length; ++f) {
     const style = originOf(flags[f]) === ORIGIN_BOX ? 128 : mark[f] ? 0 : 255;
-    const sides = [sideColor(layer, f, true), sideColor(layer, f, false)];
-    for (let i = 3 * begin[f]; i < 3 * begin[f + 1]; ++i) {
-      front.set([...sides[0], style], 4 * i);
-      back.set([...sides[1], style], 4 * i);
-    }
+    front.fill(colorOf(f, true, style), 3 * begin[f], 3 * begin[f + 1]);
+    back.fill(colorOf(f, false, style), 3 * begin[f], 3 * begin[f + 1]);
   }
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.BufferAttribute(position, 3));
-  geometry.setAttribute("front", new THREE.BufferAttribute(front, 4, true));
-  geometry.setAttribute("back", new THREE.BufferAttribute(back, 4, true));
+  geometry.setAttribute("front", new THREE.BufferAttribute(new Uint8Array(front.buffer), 4, true));
+  geometry.setAttribute("back", new THREE.BufferAttribute(new Uint8Array(back.buffer), 4, true));
   return geometry;
 }
 

@@ -4,25 +4,27 @@
 // and not hidden by a facet or cut away.
 import * as THREE from "three";
 import { originOf, ORIGIN_OWN } from "./scene_data.js";
-import { add3, cross3, dot3, scale3, sub3 } from "./vectors.js";
+import { add3, scale3, sub3 } from "./vectors.js";
 
 const VERTEX_REACH = 11;
 const EDGE_REACH = 7;
 
-// The ray's parameter where it meets a triangle; Infinity if it does not.
-export function hitTriangle(origin, direction, a, b, c) {
-  const ab = sub3(b, a);
-  const ac = sub3(c, a);
-  const p = cross3(direction, ac);
-  const determinant = dot3(ab, p);
+// The ray's parameter where it meets the triangle of three vertices; Infinity if it does not (Moeller and Trumbore 1997).
+// Written out in numbers: it runs for every triangle at every click.
+export function hitTriangle([ox, oy, oz], [dx, dy, dz], xyz, i, j, k) {
+  const ax = xyz[3 * i], ay = xyz[3 * i + 1], az = xyz[3 * i + 2];
+  const ux = xyz[3 * j] - ax, uy = xyz[3 * j + 1] - ay, uz = xyz[3 * j + 2] - az;
+  const vx = xyz[3 * k] - ax, vy = xyz[3 * k + 1] - ay, vz = xyz[3 * k + 2] - az;
+  const px = dy * vz - dz * vy, py = dz * vx - dx * vz, pz = dx * vy - dy * vx;
+  const determinant = ux * px + uy * py + uz * pz;
   if (determinant === 0) return Infinity;
-  const s = sub3(origin, a);
-  const u = dot3(s, p) / determinant;
+  const sx = ox - ax, sy = oy - ay, sz = oz - az;
+  const u = (sx * px + sy * py + sz * pz) / determinant;
   if (u < 0 || u > 1) return Infinity;
-  const q = cross3(s, ab);
-  const v = dot3(direction, q) / determinant;
+  const qx = sy * uz - sz * uy, qy = sz * ux - sx * uz, qz = sx * uy - sy * ux;
+  const v = (dx * qx + dy * qy + dz * qz) / determinant;
   if (v < 0 || u + v > 1) return Infinity;
-  const t = dot3(ac, q) / determinant;
+  const t = (vx * qx + vy * qy + vz * qz) / determinant;
   return t > 0 ? t : Infinity;
 }
 
@@ -37,6 +39,24 @@ export class Picker {
     const depth = -eye.z;
     eye.applyMatrix4(this.camera.projectionMatrix);
     return [((eye.x + 1) / 2) * this.canvas.clientWidth, ((1 - eye.y) / 2) * this.canvas.clientHeight, depth];
+  }
+
+  // The same for all vertices of a layer, three numbers each.
+  #projectAll(view) {
+    const matrix = new THREE.Matrix4().makeTranslation(view.group.position).premultiply(this.camera.matrixWorldInverse);
+    const m = matrix.elements;
+    const p = this.camera.projectionMatrix.elements;
+    const [w, h] = [this.canvas.clientWidth / 2, this.canvas.clientHeight / 2];
+    const { xyz } = view.layer.vertices;
+    const result = new Float64Array(xyz.length);
+    for (let i = 0; i < xyz.length; i += 3) {
+      const x = xyz[i], y = xyz[i + 1], z = xyz[i + 2];
+      const depth = -(m[2] * x + m[6] * y + m[10] * z + m[14]);
+      result[i] = w * (1 + (p[0] * (m[0] * x + m[4] * y + m[8] * z + m[12])) / depth);
+      result[i + 1] = h * (1 - (p[5] * (m[1] * x + m[5] * y + m[9] * z + m[13])) / depth);
+      result[i + 2] = depth;
+    }
+    return result;
   }
 
   vertexPoint(view, vertex) {
@@ -62,10 +82,9 @@ export class Picker {
       const { begin, corners } = view.layer.facets;
       const from = sub3(origin, view.group.position.toArray());
       const { xyz } = view.layer.vertices;
-      const at = (i) => [xyz[3 * corners[i]], xyz[3 * corners[i] + 1], xyz[3 * corners[i] + 2]];
       for (let f = 0; f + 1 < begin.length; ++f) {
         for (let i = 3 * begin[f]; i < 3 * begin[f + 1]; i += 3) {
-          const t = hitTriangle(from, direction, at(i), at(i + 1), at(i + 2));
+          const t = hitTriangle(from, direction, xyz, corners[i], corners[i + 1], corners[i + 2]);
           if (t >= best.depth || this.section.cuts(add3(origin, scale3(direction, t)))) continue;
           best = { kind: "facet", layer, item: f, depth: t, solid: view.opacity.value > 0.995 };
         }
@@ -87,12 +106,12 @@ export class Picker {
     let reach = VERTEX_REACH;
     this.views.forEach((view, layer) => {
       if (!view.group.visible || !view.vertices.visible) return;
+      const projected = this.#projectAll(view);
       view.layer.vertices.flags.forEach((flags, item) => {
-        if (originOf(flags) !== ORIGIN_OWN) return;
-        const point = this.vertexPoint(view, item);
-        const [px, py, depth] = this.project(point);
-        const distance = Math.hypot(px - x, py - y);
-        if (distance >= reach || depth <= 0 || depth > behind || this.section.cuts(point)) return;
+        const depth = projected[3 * item + 2];
+        if (originOf(flags) !== ORIGIN_OWN || !(depth > 0) || depth > behind) return;
+        const distance = Math.hypot(projected[3 * item] - x, projected[3 * item + 1] - y);
+        if (distance >= reach || this.section.cuts(this.vertexPoint(view, item))) return;
         reach = distance;
         best = { kind: "vertex", layer, item };
       });
@@ -106,15 +125,16 @@ export class Picker {
     this.views.forEach((view, layer) => {
       if (!view.group.visible || !view.edges.visible) return;
       const { ends } = view.layer.edges;
-      const projected = new Map();
-      const at = (vertex) => {
-        if (!projected.has(vertex)) projected.set(vertex, this.project(this.vertexPoint(view, vertex)));
-        return projected.get(vertex);
-      };
+      const projected = this.#projectAll(view);
       for (let item = 0; 2 * item < ends.length; ++item) {
-        const a = at(ends[2 * item]);
-        const b = at(ends[2 * item + 1]);
-        if (a[2] <= 0 || b[2] <= 0) continue;
+        const i = 3 * ends[2 * item];
+        const j = 3 * ends[2 * item + 1];
+        // Most edges are far away.
+        if (Math.min(projected[i], projected[j]) > x + reach || Math.max(projected[i], projected[j]) < x - reach ||
+          Math.min(projected[i + 1], projected[j + 1]) > y + reach || Math.max(projected[i + 1], projected[j + 1]) < y - reach) continue;
+        const a = projected.subarray(i, i + 3);
+        const b = projected.subarray(j, j + 3);
+        if (!(a[2] > 0 && b[2] > 0)) continue;
         const [dx, dy] = [b[0] - a[0], b[1] - a[1]];
         const square = dx * dx + dy * dy;
         const t = square > 0 ? Math.min(1, Math.max(0, ((x - a[0]) * dx + (y - a[1]) * dy) / square)) : 0;

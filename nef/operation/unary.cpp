@@ -71,6 +71,12 @@ class MarkChanger {
       centre_rank = rank;
       centre = mark;
     };
+    // A whole circle is a wall that an edge without facets meets.
+    Arrangement::Circle& circle = drawing_.circle;
+    if (circle.present && c_.planes.infimaximal(circle.plane)) {
+      circle.mark = circle.left == kOutside ? circle.right : circle.left;
+      offer(0, circle.mark);
+    }
     std::vector<bool> on_wall(drawing_.nodes.size(), false);
     for (Arrangement::Arc& arc : drawing_.arcs) {
       if (!c_.planes.infimaximal(arc.plane)) {

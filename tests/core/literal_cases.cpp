@@ -143,6 +143,13 @@ TEST_CASE("half-spaces make what they bound") {
   CHECK(equal(set("box(0,0,0,2,2,2) * halfspace(1,0,0,-1)"), set("box(0,0,0,1,2,2)")));
   // A line, as two planes meet; a point, as three do.
   const char* axis = "boundary(halfspace(1,0,0,0)) * boundary(halfspace(0,1,0,0))";
+  // Where the line meets the infimaximal box, the wall around it is a sloop: no boundary of the set.
+  for (const char* operation : {"closure(", "boundary("}) {
+    const Polyhedron line = set(operation + std::string(axis) + ")");
+    CHECK(validate(line.complex()).empty());
+    CHECK(equal(line, set(axis)));
+  }
+  CHECK(set("interior(" + std::string(axis) + ")").is_empty());
   CHECK(contains(set(axis), {0, 0, 1000000}));
   CHECK_FALSE(contains(set(axis), {0, 1, 1000000}));
   CHECK(equal(set(std::string(axis) + " * boundary(halfspace(0,0,1,-7))"), set("point(0,0,7)")));

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "nef/boolean/piercing_filter.h"
+
 namespace nef {
 
 const BoxTree& FacetLocator::tree(std::uint32_t facet) {
@@ -15,6 +17,22 @@ const BoxTree& FacetLocator::tree(std::uint32_t facet) {
     entry->second = BoxTree(boxes);
   }
   return entry->second;
+}
+
+bool FacetLocator::surely_misses(std::uint32_t facet, const Box& box) {
+  const PlaneAxes axes(tables_.planes, operand_.facet_plane(facet));
+  Box ray = box;
+  ray.low[static_cast<std::size_t>(axes.first)] = -HUGE_VAL;
+  const auto third = static_cast<std::size_t>(3 - axes.first - axes.second);
+  ray.low[third] = -HUGE_VAL;
+  ray.high[third] = HUGE_VAL;
+  RoughParity parity(box, axes.first, axes.second);
+  for_each_edge(facet, ray, [&](std::uint32_t halfedge) {
+    if (!parity.certain()) return;
+    parity.add(tables_.points.approximate(operand_.point(operand_.source(halfedge))),
+               tables_.points.approximate(operand_.point(operand_.target(halfedge))));
+  });
+  return parity.surely_outside();
 }
 
 Item FacetLocator::locate(std::uint32_t facet, PointId point) {

@@ -18,6 +18,10 @@ class FacetLocator {
   /// a vertex of its boundary or an isolated vertex inside; kNone if the point lies outside.
   [[nodiscard]] Item locate(std::uint32_t facet, PointId point);
 
+  /// True only if a point of the facet's plane that lies in `box` is not in the closed facet. In double
+  /// precision, with proven bounds.
+  [[nodiscard]] bool surely_misses(std::uint32_t facet, const Box& box);
+
   /// The boundary edges of the facet (as halfedges of its corners) whose boxes meet `box`.
   template <typename Visit>
   void for_each_edge(std::uint32_t facet, const Box& box, Visit&& visit) {

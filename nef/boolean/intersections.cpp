@@ -9,6 +9,7 @@
 
 #include "nef/base/error.h"
 #include "nef/boolean/facet_locator.h"
+#include "nef/boolean/piercing_filter.h"
 
 namespace nef {
 namespace {
@@ -158,7 +159,14 @@ class IntersectionFinder {
 
   // Edge e of operand x passes through the plane of a facet of the other.
   void pierce(std::size_t x, std::uint32_t e, std::uint32_t facet) {
-    const SVertex& line = operands_[x].svertex(e);
+    const Operand& own = operands_[x];
+    const Box rough = piercing_box(tables_.planes, operands_[1 - x].facet_plane(facet), tables_.points,
+                                   own.point(own.source(e)), own.point(own.target(e)));
+    if (locators_[1 - x].surely_misses(facet, rough)) {
+      ++predicate_counts().filter;
+      return;
+    }
+    const SVertex& line = own.svertex(e);
     const std::optional<PointId> point =
         tables_.points.push_intersection(tables_.planes, line.p, line.q, operands_[1 - x].facet_plane(facet));
     NEF_ASSERT(point.has_value());

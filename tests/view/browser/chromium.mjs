@@ -89,7 +89,7 @@ export class Browser {
     return result.value;
   }
 
-  async until(condition, seconds = 60) {
+  async until(condition, seconds = 150) {
     for (const end = Date.now() + 1000 * seconds; Date.now() < end;) {
       if (await this.evaluate(`Boolean(${condition})`).catch(() => false)) return;
       await new Promise((resolve) => setTimeout(resolve, 50));

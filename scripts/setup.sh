@@ -12,14 +12,12 @@ nef_test_packages=(catch2 librapidcheck-dev libcgal-dev chromium npm)
 nef_lint_packages=(clang-format clang-tidy)
 
 install_missing() {
-  local missing=() package
+  local wanted=() package
   for package in "$@"; do
-    dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")
+    # Node.js may have come from elsewhere, with an npm of its own.
+    if [ "$package" = npm ] && command -v npm >/dev/null; then continue; fi
+    dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || wanted+=("$package")
   done
-  # Node.js may have come with an npm of its own.
-  if command -v npm >/dev/null; then missing=("${missing[@]/#%npm/}"); fi
-  local wanted=()
-  for package in "${missing[@]}"; do [ -n "$package" ] && wanted+=("$package"); done
   [ ${#wanted[@]} -eq 0 ] && return 0
   local run=()
   if [ "$(id -u)" -ne 0 ]; then run=(sudo); fi

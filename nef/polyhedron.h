@@ -59,9 +59,10 @@ Polyhedron intersect(const Polyhedron& a, const Polyhedron& b);
 Polyhedron subtract(const Polyhedron& a, const Polyhedron& b);
 Polyhedron symmetric_difference(const Polyhedron& a, const Polyhedron& b);
 
-/// The union (intersection) of any number of sets: nothing (everything) for none.
-Polyhedron unite_all(std::span<const Polyhedron> sets);
-Polyhedron intersect_all(std::span<const Polyhedron> sets);
+/// The union (intersection) of any number of sets: nothing (everything) for none. Pairs of sets are
+/// combined smallest first on up to `threads` threads (0: as many as the machine has).
+Polyhedron unite_all(std::span<const Polyhedron> sets, unsigned threads = 1);
+Polyhedron intersect_all(std::span<const Polyhedron> sets, unsigned threads = 1);
 
 /// A \ B etc. for marks of any kind: the result is marked f(mark in a, mark in b) everywhere.
 /// f is asked once for each pair of labels that occur.

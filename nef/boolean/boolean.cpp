@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <queue>
 
+#include "nef/base/parallel.h"
 #include "nef/boolean/overlay_complexes.h"
 #include "nef/polyhedron.h"
 
@@ -21,8 +22,10 @@ bool apart(const Polyhedron& a, const Polyhedron& b) {
   return !bounds(a.complex()).overlaps(bounds(b.complex()));
 }
 
-// Combines neighbours pairwise, smallest first, so that no large result is copied many times.
-Polyhedron combine_all(std::span<const Polyhedron> sets, Polyhedron (*combine)(const Polyhedron&, const Polyhedron&)) {
+using Combine = Polyhedron (*)(const Polyhedron&, const Polyhedron&);
+
+// Combines pairwise, smallest first, so that no large result is copied many times.
+Polyhedron combine_smallest_first(std::span<const Polyhedron> sets, Combine combine) {
   struct Entry {
     std::size_t size;
     std::size_t order;
@@ -43,6 +46,28 @@ Polyhedron combine_all(std::span<const Polyhedron> sets, Polyhedron (*combine)(c
     queue.push({c.complex().vertex_count(), order++, std::move(c)});
   }
   return queue.top().set;
+}
+
+// The same in rounds: sets of similar size form pairs, all pairs of a round are combined at once.
+Polyhedron combine_in_rounds(std::span<const Polyhedron> sets, Combine combine, unsigned threads) {
+  std::vector<Polyhedron> left(sets.begin(), sets.end());
+  while (left.size() > 1) {
+    std::stable_sort(left.begin(), left.end(), [](const Polyhedron& x, const Polyhedron& y) {
+      return x.complex().vertex_count() < y.complex().vertex_count();
+    });
+    const std::size_t pairs = left.size() / 2;
+    std::vector<Polyhedron> next(pairs);
+    parallel_for(pairs, threads, [&](std::size_t i) { next[i] = combine(left[2 * i], left[2 * i + 1]); });
+    if (left.size() % 2 == 1) next.push_back(left.back());
+    left = std::move(next);
+  }
+  return left.front();
+}
+
+Polyhedron combine_all(std::span<const Polyhedron> sets, Combine combine, unsigned threads) {
+  // Rounds cost a little more in all, so a single thread, or one pair, goes without.
+  return threads == 1 || sets.size() < 4 ? combine_smallest_first(sets, combine)
+                                         : combine_in_rounds(sets, combine, threads);
 }
 
 }  // namespace
@@ -81,12 +106,12 @@ Polyhedron symmetric_difference(const Polyhedron& a, const Polyhedron& b) {
   return overlay(a, b, [](LabelId x, LabelId y) { return static_cast<LabelId>((x != 0) != (y != 0)); });
 }
 
-Polyhedron unite_all(std::span<const Polyhedron> sets) {
-  return sets.empty() ? Polyhedron() : combine_all(sets, unite);
+Polyhedron unite_all(std::span<const Polyhedron> sets, unsigned threads) {
+  return sets.empty() ? Polyhedron() : combine_all(sets, unite, threads);
 }
 
-Polyhedron intersect_all(std::span<const Polyhedron> sets) {
-  return sets.empty() ? Polyhedron::everything() : combine_all(sets, intersect);
+Polyhedron intersect_all(std::span<const Polyhedron> sets, unsigned threads) {
+  return sets.empty() ? Polyhedron::everything() : combine_all(sets, intersect, threads);
 }
 
 bool equal(const Polyhedron& a, const Polyhedron& b) {

@@ -6,7 +6,7 @@
 namespace nef {
 namespace {
 
-using Operation = Polyhedron (*)(std::span<const Polyhedron>);
+using Operation = Polyhedron (*)(std::span<const Polyhedron>, unsigned threads);
 
 void add(CLI::App& app, Session& session, const std::string& name, const std::string& description, int most,
          Operation operation) {
@@ -17,9 +17,8 @@ void add(CLI::App& app, Session& session, const std::string& name, const std::st
   command->add_option("--repeat", session.repeat, "compute N times and report the median")
       ->check(CLI::Range(1, 1000000));
   command->callback([&session, name, operation] {
-    std::vector<Polyhedron> sets;
-    for (const std::string& path : session.inputs) sets.push_back(session.load(path));
-    finish(session, name, measure(session.repeat, [&] { return operation(sets); }));
+    const std::vector<Polyhedron> sets = session.load_all(session.inputs);
+    finish(session, name, measure(session.repeat, [&] { return operation(sets, session.threads); }));
   });
 }
 
@@ -28,13 +27,15 @@ void add(CLI::App& app, Session& session, const std::string& name, const std::st
 void add_boolean_commands(CLI::App& app, Session& session) {
   constexpr int kMany = 1 << 20;
   add(app, session, "union", "The points of any of the sets", kMany,
-      [](std::span<const Polyhedron> s) { return s.size() == 2 ? unite(s[0], s[1]) : unite_all(s); });
+      [](std::span<const Polyhedron> s, unsigned n) { return s.size() == 2 ? unite(s[0], s[1]) : unite_all(s, n); });
   add(app, session, "intersection", "The points of all of the sets", kMany,
-      [](std::span<const Polyhedron> s) { return s.size() == 2 ? intersect(s[0], s[1]) : intersect_all(s); });
+      [](std::span<const Polyhedron> s, unsigned n) {
+        return s.size() == 2 ? intersect(s[0], s[1]) : intersect_all(s, n);
+      });
   add(app, session, "difference", "The points of the first set that are not in the second", 2,
-      [](std::span<const Polyhedron> s) { return subtract(s[0], s[1]); });
+      [](std::span<const Polyhedron> s, unsigned) { return subtract(s[0], s[1]); });
   add(app, session, "symdiff", "The points of exactly one of two sets", 2,
-      [](std::span<const Polyhedron> s) { return symmetric_difference(s[0], s[1]); });
+      [](std::span<const Polyhedron> s, unsigned) { return symmetric_difference(s[0], s[1]); });
 }
 
 }  // namespace nef

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <ostream>
 
+#include "nef/base/parallel.h"
 #include "nef/io/polyhedron_file.h"
 
 namespace nef {
@@ -18,15 +19,20 @@ std::string one_line(std::string text) {
 
 }  // namespace
 
-Polyhedron Session::load(const std::string& path) {
+Polyhedron Session::load(const std::string& path) { return load_all({path}).front(); }
+
+std::vector<Polyhedron> Session::load_all(const std::vector<std::string>& paths) {
   const Stopwatch watch;
   const std::size_t first = messages.size();
   MeshOptions options = mesh;
   options.check = !no_check;
-  Polyhedron set = read_polyhedron(path, options, &messages);
+  std::vector<Polyhedron> sets(paths.size());
+  std::vector<Messages> notes(paths.size());
+  parallel_for(paths.size(), threads, [&](std::size_t i) { sets[i] = read_polyhedron(paths[i], options, &notes[i]); });
+  for (const Messages& some : notes) messages.insert(messages.end(), some.begin(), some.end());
   load_s += watch.seconds();
   show_messages(first);
-  return set;
+  return sets;
 }
 
 void Session::store(const Polyhedron& set) {
@@ -62,6 +68,8 @@ CLI::App* add_subcommand(CLI::App& app, Session& session, const std::string& nam
   CLI::App* command = app.add_subcommand(name, description);
   command->add_flag("--json", session.json, "print one JSON object on stdout and nothing else there");
   command->add_flag("-q,--quiet", session.quiet, "print no notes and no summary");
+  command->add_option("--threads", session.threads, "threads to use at most; 0 (default): as many as the machine has")
+      ->check(CLI::Range(0U, 4096U));
   return command;
 }
 

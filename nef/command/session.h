@@ -35,6 +35,7 @@ class Session {
   std::string input;                ///< of subcommands with one operand
   std::vector<std::string> inputs;  ///< of others
   int repeat = 1;
+  unsigned threads = 0;  ///< 0: as many as the machine has
 
   int exit_code = kYes;
   double load_s = 0;
@@ -43,6 +44,8 @@ class Session {
 
   /// Reads a set; its time is added to load_s, notes go to stderr unless quiet.
   Polyhedron load(const std::string& path);
+  /// The same for many, several at once.
+  std::vector<Polyhedron> load_all(const std::vector<std::string>& paths);
   /// Writes a set to `output`, if there is one.
   void store(const Polyhedron& set);
 
@@ -70,7 +73,7 @@ class Stopwatch {
   Clock::time_point start_ = Clock::now();
 };
 
-/// Adds a subcommand with the flags that all have (--json, --quiet).
+/// Adds a subcommand with the flags that all have (--json, --quiet, --threads).
 CLI::App* add_subcommand(CLI::App& app, Session& session, const std::string& name, const std::string& description);
 /// Flags about reading meshes: --strict, --as-surface, --no-check.
 void add_input_flags(CLI::App* command, Session& session);

@@ -57,11 +57,6 @@ int compare_coordinate_exact(const PointTable& points, PointId p, PointId q, int
 
 }  // namespace
 
-PredicateCounts& predicate_counts() {
-  thread_local PredicateCounts counts;
-  return counts;
-}
-
 int side_of_plane(const PlaneTable& planes, PlaneId plane, const PointTable& points, PointId point) {
   const std::array<double, 4>& n = planes.approximate(plane);
   const std::array<double, 3>& x = points.approximate(point);

@@ -8,21 +8,11 @@
 #include <array>
 #include <cstdint>
 
+#include "nef/base/predicate_counts.h"
 #include "nef/geometry/plane_table.h"
 #include "nef/geometry/point_table.h"
 
 namespace nef {
-
-/// How many signs each stage of the ladder has answered, on this thread.
-struct PredicateCounts {
-  std::uint64_t identity = 0;
-  std::uint64_t filter = 0;
-  std::uint64_t exact = 0;
-};
-
-/// The counts of the calling thread since it started. Take the difference of two readings.
-/// This is the library's only state outside of objects; it feeds reports, never an answer.
-PredicateCounts& predicate_counts();
 
 /// The sign of the plane's form at the point: +1 on its positive side, 0 on the plane.
 int side_of_plane(const PlaneTable& planes, PlaneId plane, const PointTable& points, PointId point);

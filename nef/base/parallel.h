@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The one way in which this library uses several threads.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+namespace nef {
+
+/// Calls body(0) .. body(count - 1), each once, in any order, on up to `threads` threads (0: as many
+/// as the machine has); one thread is a plain loop in order. Returns when all are done. What the
+/// workers add to predicate_counts() is added to the caller's counts. If calls throw, one of the
+/// exceptions arrives in the caller and calls that have not begun may be left out.
+void parallel_for(std::size_t count, unsigned threads, const std::function<void(std::size_t)>& body);
+
+}  // namespace nef

@@ -55,21 +55,36 @@ bool in_box(const Scene& scene, const Rational3& position) {
   return true;
 }
 
+minkowski::MinkowskiOptions minkowski_options(const BuildOptions& build) {
+  minkowski::MinkowskiOptions options;
+  if (build.progress) {
+    options.progress = [&build](std::size_t done, std::size_t total) {
+      build.progress("configuration space", done, total);
+      return true;
+    };
+  }
+  return options;
+}
+
 }  // namespace
 
-Polyhedron free_positions(const Scene& scene) {
+Polyhedron free_positions(const Scene& scene, const BuildOptions& build) {
   std::vector<Polyhedron> obstacles;
   for (std::size_t i = 0; i < scene.obstacles.size(); ++i) {
     obstacles.push_back(bounded_obstacle(scene.obstacles[i], scene, i));
   }
-  if (scene.contact == ContactRule::kAllow) return minkowski::configuration_space(scene.robot, obstacles, scene.box);
+  const minkowski::MinkowskiOptions options = minkowski_options(build);
+  if (scene.contact == ContactRule::kAllow) {
+    return minkowski::configuration_space(scene.robot, obstacles, scene.box, options);
+  }
   Polyhedron free;
   if (all_regular(scene, obstacles)) {
     // closure(int O + -int R) = O + -R for closures of interiors, so the complement of the closed
     // sum is the interior of the complement of the open one.
-    free = interior(minkowski::configuration_space(scene.robot, obstacles));
+    free = interior(minkowski::configuration_space(scene.robot, obstacles, std::nullopt, options));
   } else {
-    free = complement(minkowski::minkowski_sum(unite_all(obstacles), minkowski::negate(scene.robot)));
+    free = complement(
+        minkowski::minkowski_sum(unite_all(obstacles, build.threads), minkowski::negate(scene.robot), options));
   }
   return scene.box ? intersect(free, make_box((*scene.box)[0], (*scene.box)[1])) : free;
 }

@@ -7,6 +7,7 @@
 
 #include "apps/planner/ompl_runs.h"
 #include "apps/planner/question.h"
+#include "apps/planner/scene_view.h"
 #include "nef/base/error.h"
 #include "nef/command/expression.h"
 
@@ -18,6 +19,7 @@ using namespace nef::planner;  // NOLINT(google-build-using-namespace)
 struct Arguments {
   std::string scene;
   std::vector<std::string> outputs;
+  std::string page;
   std::string start;
   std::string goal;
   std::string contact;
@@ -29,6 +31,7 @@ struct Arguments {
   PathOptions path;
   double seconds = 10;
   unsigned runs = 1;
+  unsigned threads = 0;
   bool tight = false;
   bool json = false;
   bool se3 = false;
@@ -41,19 +44,32 @@ A scene is JSON: {"robot": SHAPE, "obstacles": [SHAPE, ...], "start": [x, y, z],
 a mesh or nef file, or an expression such as "box(0,0,0, 9,3,3) - box(4,1,1, 5,2,2)". Numbers are exact:
 0.1 is one tenth, "1/3" a third. OMPL.app's .cfg files are read too.
 
-Exit codes: 0 a path; 1 proved that there is none; 2 bad input; 3 start or goal not free;
-4 (--ompl only) no answer within the time.
+Exit codes: 0 a path; 1 proved that there is none (with --path: the given path leaves free space);
+2 bad input or usage; 3 start or goal not free; 4 (--ompl only) no answer within the time.
+--tight without -o only lists: it exits with 0 whatever the answer.
 
 Examples:
   planner scene.json -o path.json -o path.txt
   planner --tight scene.json
+  planner scene.json --page scene.html -o scene.glb
   planner scene.json --prefer roomy --json
   planner scene.json --ompl RRTConnect --time 5
   planner scene.json --benchmark bench.log --planners RRTConnect,PRMstar --runs 10)TEXT";
 
+void declare_ompl(CLI::App& app, Arguments& a) {
+  app.add_option("--ompl", a.ompl, "Use this planner of OMPL on the exact free space");
+  app.add_option("--time", a.seconds, "Seconds for each run of an OMPL planner")->check(CLI::PositiveNumber);
+  app.add_option("--runs", a.runs, "Runs of each OMPL planner")->check(CLI::Range(1U, 1000000U));
+  app.add_option("--benchmark", a.benchmark, "Write OMPL's benchmark log, our planner and --planners in it");
+  app.add_option("--planners", a.planners, "OMPL planners for --benchmark")->delimiter(',');
+}
+
 void declare(CLI::App& app, Arguments& a) {
   app.add_option("scene", a.scene, "Scene (.json, or OMPL.app .cfg)")->required();
-  app.add_option("-o,--output", a.outputs, "Write the path: .json, .path (OMPL matrix) or text; may be repeated");
+  app.add_option(
+      "-o,--output", a.outputs,
+      "Write the answer: .json report, .path (OMPL matrix), .glb (animated glTF), else text; may be repeated");
+  app.add_option("--page", a.page, "Write a page (.html) in which the robot moves along the path");
   app.add_flag("--json", a.json, "Print the report as JSON");
   app.add_flag("--tight", a.tight, "List every tight passage; with --path those that a given path uses");
   app.add_option("--path", a.given_path, "Check this path (a report or lines of numbers) instead of looking for one");
@@ -67,12 +83,9 @@ void declare(CLI::App& app, Arguments& a) {
   app.add_flag("--raw", a.path.raw, "The way-points of the roadmap, without shortcuts");
   app.add_flag("--clearance", a.path.clearance, "Way-points inside volumes rather than in contact");
   app.add_flag("--se3", a.se3, "Path matrix with seven columns x y z qx qy qz qw");
-  app.add_option("--ompl", a.ompl, "Use this planner of OMPL on the exact free space");
-  app.add_option("--time", a.seconds, "Seconds for each run of an OMPL planner")->check(CLI::PositiveNumber);
-  app.add_option("--runs", a.runs, "Runs of each OMPL planner")->check(CLI::Range(1U, 1000000U));
-  app.add_option("--benchmark", a.benchmark, "Write OMPL's benchmark log, our planner and --planners in it");
-  app.add_option("--planners", a.planners, "OMPL planners for --benchmark")->delimiter(',');
-  app.add_flag("--quiet", a.quiet, "Print nothing but errors");
+  declare_ompl(app, a);
+  app.add_option("--threads", a.threads, "Threads for the configuration space (0: all cores)");
+  app.add_flag("--quiet", a.quiet, "Print nothing but errors, and no progress bar");
   app.set_version_flag("--version", std::string("planner 0.1.0"));
   app.footer(kFooter);
 }
@@ -85,6 +98,19 @@ Scene scene_of(const Arguments& a) {
   return scene;
 }
 
+// Found out before any work is done.
+void check_usage(const Arguments& a) {
+  if (!a.page.empty() && std::filesystem::path(a.page).extension() != ".html") {
+    throw InputError("--page " + a.page + ": the extension must be .html");
+  }
+  if (!a.ompl.empty() && !a.benchmark.empty()) throw InputError("--ompl and --benchmark exclude each other");
+  if (!a.given_path.empty() && !(a.ompl.empty() && a.benchmark.empty())) {
+    throw InputError("--path checks a given path; it excludes --ompl and --benchmark");
+  }
+  for (const std::string& name : a.planners) require_ompl_planner(name);
+  if (!a.ompl.empty()) require_ompl_planner(a.ompl);
+}
+
 std::string rendered(const std::string& file, const Answer& answer, const Problem& problem, bool se3) {
   const std::string extension = std::filesystem::path(file).extension().string();
   if (extension == ".json") return to_json(answer, problem.scene(), problem.free_space()).dump(2) + "\n";
@@ -92,22 +118,46 @@ std::string rendered(const std::string& file, const Answer& answer, const Proble
   return path_text(*answer.path);
 }
 
-// A report is written whatever the answer; path formats only if there is a path.
+// Reports and views are written whatever the answer; path formats only if there is a path.
 void write_outputs(const Arguments& a, const Answer& answer, const Problem& problem) {
+  std::vector<std::string> views;
+  if (!a.page.empty()) views.push_back(a.page);
   for (const std::string& file : a.outputs) {
     const bool report = std::filesystem::path(file).extension() == ".json";
-    if (report || answer.path) write_file(file, rendered(file, answer, problem, a.se3));
+    if (is_view_file(file)) {
+      views.push_back(file);
+    } else if (report || answer.path) {
+      write_file(file, rendered(file, answer, problem, a.se3));
+    }
   }
+  if (views.empty()) return;
+  const std::vector<view::Layer> layers = view_layers(answer, problem.scene(), problem.free_space());
+  for (const std::string& file : views) write_view(layers, problem.scene().name, file);
+}
+
+void print_path(const Arguments& a, const Answer& answer) {
+  const Thinness& of_path = answer.path->thinness;
+  std::cout << "length " << answer.path->length << ", thinnest piece " << of_path.piece << ", thinnest junction "
+            << of_path.junction;
+  const bool better =
+      answer.thinness && (answer.thinness->piece > of_path.piece || answer.thinness->junction > of_path.junction);
+  if (better) {
+    std::cout << " (another path: " << answer.thinness->piece << ", " << answer.thinness->junction
+              << "; try --prefer roomy)";
+  }
+  std::cout << '\n';
+  if (a.outputs.empty()) std::cout << path_text(*answer.path);
 }
 
 void print(const Arguments& a, const Answer& answer, const Problem& problem) {
-  if (a.quiet) return;
   if (a.json) {
     std::cout << to_json(answer, problem.scene(), problem.free_space()).dump(2) << '\n';
     return;
   }
+  if (a.quiet) return;
   for (const std::string& message : problem.scene().messages) std::cout << "note: " << message << '\n';
   std::cout << status_name(answer.status);
+  if (answer.blocked_segment) std::cout << ": segment " << *answer.blocked_segment << " leaves free space";
   if (answer.collision) std::cout << ": " << describe(*answer.collision, problem.scene());
   if (answer.status == Answer::Status::kInfeasible) {
     std::cout << ": start is in component " << answer.start_component << ", goal in component "
@@ -115,59 +165,60 @@ void print(const Arguments& a, const Answer& answer, const Problem& problem) {
     if (answer.start_component == answer.goal_component) std::cout << ", joined only by thinner passages";
   }
   std::cout << '\n';
-  if (answer.path) {
-    std::cout << "length " << answer.path->length << ", thinnest piece " << answer.path->thinness.piece
-              << ", thinnest junction " << answer.path->thinness.junction << '\n';
-    if (a.outputs.empty()) std::cout << path_text(*answer.path);
-  }
-  if (a.tight) std::cout << passages_text(problem.free_space());
+  if (answer.path) print_path(a, answer);
 }
 
 int check_given_path(const Arguments& a, const Problem& problem) {
-  Answer answer;
-  answer.phases = problem.phases();
-  answer.path = describe_path(problem.free_space(), read_waypoints(a.given_path));
-  answer.status = answer.path ? Answer::Status::kPath : Answer::Status::kInfeasible;
-  if (!answer.path) {
-    if (!a.quiet) std::cout << a.given_path << ": leaves free space\n";
-    return 1;
-  }
+  const Answer answer = problem.check(read_waypoints(a.given_path));
+  write_outputs(a, answer, problem);
   print(a, answer, problem);
-  if (a.tight && !a.json && !a.quiet) {
-    std::cout << "uses passages:";
+  if (answer.path && a.tight && !a.json && !a.quiet) {
+    std::cout << passages_text(problem.free_space()) << "uses passages:";
     for (const std::uint32_t passage : answer.path->passages) std::cout << ' ' << passage;
     std::cout << '\n';
   }
-  return 0;
+  return exit_code(answer);
 }
 
-int run(const Arguments& a) {
-  const Problem problem(scene_of(a));
-  if (!a.given_path.empty()) return check_given_path(a, problem);
-  if (!a.benchmark.empty()) return run_benchmark(problem, a.planners, a.seconds, a.runs, a.benchmark, a.quiet);
-  if (!a.ompl.empty()) {
-    OmplRequest request{a.ompl, a.seconds, a.runs};
-    const OmplOutcome outcome = run_ompl(problem, request);
-    write_outputs(a, outcome.answer, problem);
-    if (!a.quiet && !a.json) std::cout << outcome.summary << '\n';
-    if (a.json || outcome.answer.path) print(a, outcome.answer, problem);
-    return outcome.exit_code;
-  }
+int run_stock_planner(const Arguments& a, const Problem& problem) {
+  const OmplOutcome outcome = run_ompl(problem, {a.ompl, a.seconds, a.runs});
+  write_outputs(a, outcome.answer, problem);
+  if (!a.quiet && !a.json) std::cout << outcome.summary << '\n';
+  if (a.json || outcome.answer.path) print(a, outcome.answer, problem);
+  return outcome.exit_code;
+}
+
+int answer_question(const Arguments& a, const Problem& problem) {
+  const Scene& scene = problem.scene();
+  const bool list_only = a.tight && a.outputs.empty();
   Answer answer;
-  const bool asked = problem.scene().start || problem.scene().goal || !a.tight;
   answer.phases = problem.phases();
-  if (asked) {
+  if ((scene.start && scene.goal) || !(list_only || !a.page.empty())) {
     PathOptions options = a.path;
     options.roomy = a.prefer == "roomy";
     answer = problem.solve(options);
   }
   write_outputs(a, answer, problem);
-  if (a.tight && !a.json) {
-    if (!a.quiet) std::cout << passages_text(problem.free_space());
-    return 0;
-  }
-  print(a, answer, problem);
-  return a.tight ? 0 : exit_code(answer);
+  if (!list_only || a.json) print(a, answer, problem);
+  if (a.tight && !a.json && !a.quiet) std::cout << passages_text(problem.free_space());
+  return list_only ? 0 : exit_code(answer);
+}
+
+int run(const Arguments& a) {
+  check_usage(a);
+  ProgressBar bar(!a.quiet && !a.json);
+  BuildOptions build;
+  build.threads = a.threads;
+  build.progress = [&bar](const std::string& phase, std::size_t done, std::size_t total) {
+    bar.show(phase, done, total);
+  };
+  bar.show("reading " + a.scene, 0, 0);
+  const Problem problem(scene_of(a), build);
+  bar.clear();
+  if (!a.given_path.empty()) return check_given_path(a, problem);
+  if (!a.benchmark.empty()) return run_benchmark(problem, a.planners, a.seconds, a.runs, a.benchmark, a.quiet);
+  if (!a.ompl.empty()) return run_stock_planner(a, problem);
+  return answer_question(a, problem);
 }
 
 }  // namespace

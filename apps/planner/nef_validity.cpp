@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "apps/planner/segment_walk.h"
 #include "apps/planner/segments.h"
 
 namespace nef::planner {
@@ -48,7 +49,8 @@ bool NefMotionValidator::checkMotion(const ob::State* s1, const ob::State* s2) c
   if (si_->equalStates(s1, s2)) {
     valid = freeSpace_->is_free(b);
   } else {
-    freeSpace_->tree().walk(a, b, [&](SegmentPart& part) { return valid = freeSpace_->is_free(part.cell); });
+    walk_segment(freeSpace_->tree(), a, b,
+                 [&](const SegmentPart& part) { return valid = freeSpace_->is_free(part.cell); });
   }
   ++(valid ? valid_ : invalid_);
   return valid;

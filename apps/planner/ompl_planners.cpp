@@ -59,6 +59,16 @@ std::string lower(std::string text) {
   return text;
 }
 
+// Throws for a name that is not known.
+const ompl::base::PlannerAllocator& allocator_of(const std::string& name) {
+  std::string known;
+  for (const auto& [candidate, allocate] : table()) {
+    if (lower(candidate) == lower(name)) return allocate;
+    known += (known.empty() ? "" : ", ") + candidate;
+  }
+  throw InputError("unknown OMPL planner '" + name + "' (known: " + known + ")");
+}
+
 }  // namespace
 
 std::vector<std::string> ompl_planner_names() {
@@ -67,13 +77,10 @@ std::vector<std::string> ompl_planner_names() {
   return names;
 }
 
+void require_ompl_planner(const std::string& name) { static_cast<void>(allocator_of(name)); }
+
 ompl::base::PlannerPtr make_ompl_planner(const std::string& name, const ompl::base::SpaceInformationPtr& si) {
-  std::string known;
-  for (const auto& [candidate, allocate] : table()) {
-    if (lower(candidate) == lower(name)) return allocate(si);
-    known += (known.empty() ? "" : ", ") + candidate;
-  }
-  throw InputError("unknown OMPL planner '" + name + "' (known: " + known + ")");
+  return allocator_of(name)(si);
 }
 
 }  // namespace nef::planner

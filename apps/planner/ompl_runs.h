@@ -19,6 +19,9 @@ std::vector<std::string> ompl_planner_names();
 /// with the known names for another one.
 ompl::base::PlannerPtr make_ompl_planner(const std::string& name, const ompl::base::SpaceInformationPtr& si);
 
+/// Throws InputError with the known names unless the planner is one that make_ompl_planner knows.
+void require_ompl_planner(const std::string& name);
+
 struct OmplRequest {
   std::string planner;
   double seconds = 10;

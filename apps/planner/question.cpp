@@ -23,10 +23,11 @@ class Stopwatch {
 
 }  // namespace
 
-Problem::Problem(Scene scene) : scene_(std::move(scene)) {
+Problem::Problem(Scene scene, const BuildOptions& options) : scene_(std::move(scene)) {
   Stopwatch watch;
-  Polyhedron free = free_positions(scene_);
+  Polyhedron free = free_positions(scene_, options);
   phases_["configuration_space"] = watch.lap();
+  if (options.progress) options.progress("roadmap", 0, 0);
   free_ = std::make_shared<const FreeSpace>(std::move(free));
   phases_["roadmap"] = watch.lap();
 }
@@ -55,6 +56,24 @@ Answer Problem::solve(const Rational3& start, const Rational3& goal, const PathO
   answer.thinness = free_->thinness(start_cell, goal_cell);
   answer.path = find_path(*free_, start, goal, options);
   answer.status = answer.path ? Answer::Status::kPath : Answer::Status::kInfeasible;
+  answer.phases["query"] = watch.lap();
+  return answer;
+}
+
+Answer Problem::check(const std::vector<Rational3>& points) const {
+  Stopwatch watch;
+  Answer answer;
+  answer.phases = phases_;
+  answer.path = describe_path(*free_, points);
+  answer.status = answer.path ? Answer::Status::kPath : Answer::Status::kBlocked;
+  for (std::size_t i = 0; i < points.size() && !answer.path; ++i) {
+    const Rational3& next = points[std::min(i + 1, points.size() - 1)];
+    const std::optional<Rational3> hit = first_blocked_position(*free_, points[i], next);
+    if (!hit) continue;
+    answer.blocked_segment = i;
+    answer.collision = find_collision(scene_, *hit);
+    break;
+  }
   answer.phases["query"] = watch.lap();
   return answer;
 }

@@ -13,7 +13,7 @@ namespace nef::planner {
 class Problem {
  public:
   /// Computes the free positions and the roadmap. Throws InputError.
-  explicit Problem(Scene scene);
+  explicit Problem(Scene scene, const BuildOptions& options = {});
 
   [[nodiscard]] const Scene& scene() const { return scene_; }
   [[nodiscard]] const FreeSpace& free_space() const { return *free_; }
@@ -23,6 +23,10 @@ class Problem {
   /// if one is missing.
   [[nodiscard]] Answer solve(const PathOptions& options = {}) const;
   [[nodiscard]] Answer solve(const Rational3& start, const Rational3& goal, const PathOptions& options) const;
+
+  /// Checks a given path (at least one point): kPath with its description, or kBlocked with the first segment that
+  /// leaves free space and what it hits there.
+  [[nodiscard]] Answer check(const std::vector<Rational3>& points) const;
 
   /// Seconds per phase of the construction.
   [[nodiscard]] const std::map<std::string, double>& phases() const { return phases_; }

@@ -56,6 +56,7 @@ void add_path(const ExactPath& path, json& result) {
 int exit_code(const Answer& answer) {
   switch (answer.status) {
     case Answer::Status::kInfeasible:
+    case Answer::Status::kBlocked:
       return 1;
     case Answer::Status::kInvalidStart:
     case Answer::Status::kInvalidGoal:
@@ -66,8 +67,8 @@ int exit_code(const Answer& answer) {
 }
 
 std::string status_name(Answer::Status status) {
-  static constexpr std::array<const char*, 5> kNames{"path", "infeasible", "invalid_start", "invalid_goal",
-                                                     "free_space"};
+  static constexpr std::array<const char*, 6> kNames{"path",         "infeasible", "invalid_start",
+                                                     "invalid_goal", "free_space", "blocked"};
   return kNames[static_cast<std::size_t>(status)];
 }
 
@@ -97,6 +98,7 @@ json to_json(const Answer& answer, const Scene& scene, const FreeSpace& free) {
     result["thinnest_junction"] = answer.thinness->junction;
   }
   if (answer.collision) result["collision"] = collision_json(*answer.collision, scene);
+  if (answer.blocked_segment) result["blocked_segment"] = *answer.blocked_segment;
   if (answer.status == Answer::Status::kInfeasible) {
     result["proof"] = {{"start_component", answer.start_component}, {"goal_component", answer.goal_component}};
   }

@@ -14,19 +14,21 @@ namespace nef::planner {
 
 /// What came out of a question.
 struct Answer {
-  enum class Status : std::uint8_t { kPath, kInfeasible, kInvalidStart, kInvalidGoal, kNoQuestion };
+  enum class Status : std::uint8_t { kPath, kInfeasible, kInvalidStart, kInvalidGoal, kNoQuestion, kBlocked };
   Status status = Status::kNoQuestion;
   std::optional<ExactPath> path;
-  std::optional<Thinness> thinness;    ///< the best T and J of any path from start to goal
-  std::optional<Collision> collision;  ///< of an invalid start or goal
-  std::uint32_t start_component = 0;   ///< infeasible: the two components
+  std::optional<Thinness> thinness;            ///< the best T and J of any path from start to goal
+  std::optional<Collision> collision;          ///< of an invalid start or goal, or of a blocked path
+  std::optional<std::size_t> blocked_segment;  ///< of a given path: the first segment that leaves free space
+  std::uint32_t start_component = 0;           ///< infeasible: the two components
   std::uint32_t goal_component = 0;
   std::map<std::string, double> phases;  ///< seconds
 };
 
-/// Exit code of the command: 0 path (or no question), 1 infeasible, 3 invalid start or goal.
+/// Exit code of the command: 0 path (or no question), 1 infeasible (or a given path is blocked), 3 invalid start or
+/// goal.
 int exit_code(const Answer& answer);
-/// "path", "infeasible", "invalid_start", "invalid_goal", "free_space".
+/// "path", "infeasible", "invalid_start", "invalid_goal", "free_space", "blocked".
 std::string status_name(Answer::Status status);
 
 /// All keys of the JSON report (see docs and `planner --help`).

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/planner/progress.h"
 #include "nef/construct/construct.h"
 #include "nef/polyhedron.h"
 
@@ -53,9 +54,15 @@ Scene parse_scene(const std::string& text, const std::string& folder, const std:
 /// `contact` and exact numbers such as 1/3. A mesh that bounds no solid is taken as a surface.
 Scene read_cfg(const std::string& path);
 
+/// How a free space is computed.
+struct BuildOptions {
+  unsigned threads = 1;  ///< 0: as many as the machine has; the result does not depend on it
+  Progress progress;     ///< may be empty
+};
+
 /// The free positions of the robot's reference point: closed if contact is allowed, else open
 /// (but for the faces of the box). Robot and obstacles are taken closed.
-Polyhedron free_positions(const Scene& scene);
+Polyhedron free_positions(const Scene& scene, const BuildOptions& options = {});
 
 /// What a robot at a forbidden position hits.
 struct Collision {

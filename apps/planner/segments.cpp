@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "apps/planner/segment_walk.h"
+
 namespace nef::planner {
 
 CellFilter::CellFilter(const FreeSpace& free) : allowed_(free.cells().size()) {
@@ -14,25 +16,39 @@ bool segment_allowed(const FreeSpace& free, const CellFilter& filter, const Rati
   const ExactPoint pb(b);
   if (a == b) return filter(free.locate(pa));
   bool allowed = true;
-  free.tree().walk(pa, pb, [&](SegmentPart& part) { return allowed = filter(part.cell); });
+  walk_segment(free.tree(), pa, pb, [&](const SegmentPart& part) { return allowed = filter(part.cell); });
   return allowed;
 }
 
 std::optional<Contact> first_contact(const FreeSpace& free, const ExactPoint& a, const ExactPoint& b) {
-  const SpaceTree& tree = free.tree();
+  const ExactSegment segment(free.tree().planes(), a, b);
   std::optional<Contact> contact;
   SegmentParameter before = ExactSegment::fixed(0);
-  tree.walk(a, b, [&](SegmentPart& part) {
+  walk_segment(free.tree(), a, b, [&](const SegmentPart& part) {
     if (free.is_free(part.cell)) {
       before = part.begin;
       return true;
     }
-    const ExactSegment segment(tree.planes(), a, b);
-    contact = Contact{segment.exact(part.begin), segment.exact(part.begin), part.cell};
-    if (part.is_point) contact->last_free = (segment.exact(before) + contact->parameter) / 2;
+    const Rational begin = segment.exact(part.begin);
+    contact = Contact{begin, begin, part.cell};
+    if (part.is_point) contact->last_free = (segment.exact(before) + begin) / 2;
     return false;
   });
   return contact;
+}
+
+std::optional<Rational3> first_blocked_position(const FreeSpace& free, const Rational3& a, const Rational3& b) {
+  const ExactPoint pa(a);
+  const ExactPoint pb(b);
+  if (a == b) return free.is_free(pa) ? std::nullopt : std::optional<Rational3>(a);
+  const ExactSegment segment(free.tree().planes(), pa, pb);
+  std::optional<Rational3> result;
+  walk_segment(free.tree(), pa, pb, [&](const SegmentPart& part) {
+    if (free.is_free(part.cell)) return true;
+    result = segment.point((segment.exact(part.begin) + segment.exact(part.end)) / 2);
+    return false;
+  });
+  return result;
 }
 
 std::vector<CellOnSegment> cells_along(const FreeSpace& free, const Rational3& a, const Rational3& b) {
@@ -40,7 +56,7 @@ std::vector<CellOnSegment> cells_along(const FreeSpace& free, const Rational3& a
   const ExactPoint pa(a);
   const ExactPoint pb(b);
   if (a == b) return {{free.locate(pa), true}};
-  free.tree().walk(pa, pb, [&](SegmentPart& part) {
+  walk_segment(free.tree(), pa, pb, [&](const SegmentPart& part) {
     if (!result.empty() && result.back().cell == part.cell) {
       result.back().is_point = result.back().is_point && part.is_point;
     } else {

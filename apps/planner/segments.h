@@ -35,6 +35,9 @@ struct Contact {
 /// The first part of the segment that is not free; nothing if there is none.
 std::optional<Contact> first_contact(const FreeSpace& free, const ExactPoint& a, const ExactPoint& b);
 
+/// A position on the first part of the closed segment that is not free; nothing if all of it is free.
+std::optional<Rational3> first_blocked_position(const FreeSpace& free, const Rational3& a, const Rational3& b);
+
 /// The different cells along the closed segment in order.
 struct CellOnSegment {
   CellId cell = kNoCell;

@@ -4,7 +4,7 @@
 // exactly one leaf, a convex relatively open piece of one cell of a complex.
 //
 // The tree answers all questions of motion: where is a point (O(depth) signs), which cells does a
-// segment run through, and which convex pieces make up a volume or facet (see zones.h). Splits use
+// segment run through (segment_walk.h), and which convex pieces make up a volume or facet (see zones.h). Splits use
 // planes of the complex, and axis-parallel ones through isolated points; a vertex, edge or facet
 // that two leaves share is never lost, since what lies in a splitting plane has a tree of its own.
 //
@@ -13,7 +13,6 @@
 #pragma once
 
 #include <array>
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -28,16 +27,6 @@ inline constexpr LeafId kNoLeaf = 0xffffffffU;
 
 /// A direction in which a point is moved by an infinitely small amount.
 using Nudge = std::array<Integer, 3>;
-
-/// A part of a segment inside one leaf: a single parameter (begin == end) or the open interval
-/// between two.
-struct SegmentPart {
-  CellId cell = kNoCell;
-  LeafId leaf = kNoLeaf;
-  bool is_point = false;
-  SegmentParameter begin;
-  SegmentParameter end;
-};
 
 /// The ternary space partition of a complex without infimaximal box.
 class SpaceTree {
@@ -78,14 +67,9 @@ class SpaceTree {
   /// 3-dimensional leaf beside it.
   [[nodiscard]] LeafId leaf_at(const ExactPoint& point) const;
 
-  /// Calls visit for the parts of the segment from a to b in order, a and b included as points.
-  /// Stops when visit returns false. Consecutive parts may be in the same cell.
-  void walk(const ExactPoint& a, const ExactPoint& b, const std::function<bool(SegmentPart&)>& visit) const;
-
  private:
   static constexpr std::uint32_t kLeafBit = 0x80000000U;
   friend class SpaceTreeBuilder;
-  friend class SegmentWalk;
 
   std::vector<Node> nodes_;
   std::vector<Leaf> leaves_;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "apps/planner/segment_walk.h"
 #include "nef/base/error.h"
 #include "nef/sphere_map/sphere_geometry.h"
 
@@ -264,9 +265,9 @@ Rational3 Zones::step_off(const Wall& wall, LeafId leaf) const {
   const ExactPoint a(centre);
   const ExactPoint b(far);
   Rational3 result = centre;
-  tree_->walk(a, b, [&](SegmentPart& part) {
+  walk_segment(*tree_, a, b, [&](const SegmentPart& part) {
     if (part.is_point) return true;
-    ExactSegment segment(tree_->planes(), a, b);
+    const ExactSegment segment(tree_->planes(), a, b);
     result = segment.point(segment.exact(part.end) / 2);
     return false;
   });

@@ -12,6 +12,7 @@
 // one: a vertex, the middle of an edge, a wall in a facet; incidence does not change along a cell.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 

@@ -10,7 +10,7 @@
 #include <random>
 
 #include "apps/planner/question.h"
-#include "apps/planner/segments.h"
+#include "apps/planner/segment_walk.h"
 
 namespace {
 
@@ -53,7 +53,8 @@ void time_checks(const FreeSpace& free) {
   const double state = (now() - begin) / static_cast<double>(points.size());
   begin = now();
   for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-    free.tree().walk(points[i], points[i + 1], [&](SegmentPart& part) { return free.is_free(part.cell); });
+    walk_segment(free.tree(), points[i], points[i + 1],
+                 [&](const SegmentPart& part) { return free.is_free(part.cell); });
   }
   const double motion = (now() - begin) / static_cast<double>(points.size());
   std::printf("state check %.3f us, motion check %.3f us, %zu of %zu states free\n", 1e6 * state, 1e6 * motion, valid,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "nef/construct/edge_order.h"
 #include "nef/construct/mesh_surface.h"
 #include "nef/construct/surface_contacts.h"
 
@@ -95,12 +96,13 @@ void check_faces(const Mesh& mesh, const MeshSurface& surface, Report& report) {
 }
 
 void check_duplicates(const Mesh& mesh, const MeshSurface& surface, Report& report) {
-  // Faces by their sorted corners: first a hash, then the list.
+  // Faces by their sorted corners: first the smallest and a hash, then the list.
   struct Key {
-    std::uint64_t hash = 0;
+    std::uint64_t key = 0;
     std::uint32_t face = 0;
   };
   std::vector<Key> keys;
+  keys.reserve(mesh.face_count());
   const auto corners = [&](std::uint32_t f) {
     std::vector<std::uint32_t> result;
     for (const std::uint32_t v : mesh.face(f)) result.push_back(surface.place[v]);
@@ -109,19 +111,21 @@ void check_duplicates(const Mesh& mesh, const MeshSurface& surface, Report& repo
   };
   for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
     if (surface.defects[f] == FaceDefect::kBadIndex) continue;
+    if (mesh.face(f).empty()) continue;
     std::uint64_t hash = 0;
+    std::uint32_t smallest = surface.place[mesh.face(f)[0]];
     for (const std::uint32_t v : mesh.face(f)) {
+      smallest = std::min(smallest, surface.place[v]);
       std::uint64_t x = surface.place[v] + 0x9e3779b97f4a7c15U;
       x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9U;
       hash += x ^ (x >> 27U);
     }
-    keys.push_back({hash, f});
+    keys.push_back({pair_key(smallest, static_cast<std::uint32_t>(hash)), f});
   }
-  std::sort(keys.begin(), keys.end(),
-            [](const Key& a, const Key& b) { return a.hash != b.hash ? a.hash < b.hash : a.face < b.face; });
+  sort_by_pair(keys, mesh.vertices.size());
   std::vector<std::array<std::uint32_t, 2>> pairs;
   for (std::size_t i = 1; i < keys.size(); ++i) {
-    if (keys[i].hash == keys[i - 1].hash && corners(keys[i].face) == corners(keys[i - 1].face)) {
+    if (keys[i].key == keys[i - 1].key && corners(keys[i].face) == corners(keys[i - 1].face)) {
       pairs.push_back({keys[i - 1].face, keys[i].face});
     }
   }
@@ -152,14 +156,10 @@ std::vector<FaceEdge> face_edges(const Mesh& mesh, const MeshSurface& surface) {
       const std::uint32_t u = surface.place[face[i]];
       const std::uint32_t v = surface.place[face[(i + 1) % face.size()]];
       if (u == v) continue;
-      edges.push_back({(static_cast<std::uint64_t>(std::min(u, v)) << 32U) | std::max(u, v),
-                       f,
-                       u < v,
-                       {face[i], face[(i + 1) % face.size()]}});
+      edges.push_back({pair_key(std::min(u, v), std::max(u, v)), f, u < v, {face[i], face[(i + 1) % face.size()]}});
     }
   }
-  std::sort(edges.begin(), edges.end(),
-            [](const FaceEdge& a, const FaceEdge& b) { return a.key != b.key ? a.key < b.key : a.face < b.face; });
+  sort_by_pair(edges, mesh.vertices.size());
   return edges;
 }
 
@@ -167,7 +167,7 @@ std::vector<FaceEdge> face_edges(const Mesh& mesh, const MeshSurface& surface) {
 bool check_edges(const Mesh& mesh, const MeshSurface& surface, const SurfaceContacts& contacts, Report& report) {
   std::set<std::uint64_t> crossing;
   contacts.for_each_bad_edge([&](std::uint32_t u, std::uint32_t v, std::span<const std::uint32_t> /*triangles*/) {
-    crossing.insert((static_cast<std::uint64_t>(u) << 32U) | v);
+    crossing.insert(pair_key(u, v));
     return true;
   });
   bool balanced = true;
@@ -342,7 +342,7 @@ const char* name(MeshProblemKind kind) {
 std::vector<MeshProblem> check_mesh(const Mesh& mesh, const MeshCheckOptions& options) {
   Report report(options.max_per_kind);
   const MeshSurface surface(mesh);
-  const SurfaceContacts contacts(surface.points, surface.triangles);
+  const SurfaceContacts contacts(surface.points, surface.triangles, surface.pieces);
   check_faces(mesh, surface, report);
   check_duplicates(mesh, surface, report);
   const bool closed = check_edges(mesh, surface, contacts, report);
@@ -370,7 +370,7 @@ std::optional<MeshProblem> first_self_intersection(const Mesh& mesh) {
       offer(face_problem(Kind::kSelfIntersection, f, "crosses itself"));
     }
   }
-  const SurfaceContacts contacts(surface.points, surface.triangles);
+  const SurfaceContacts contacts(surface.points, surface.triangles, surface.pieces);
   contacts.for_each([&](SurfaceContacts::Kind kind, std::uint32_t t, std::uint32_t u) {
     const std::uint32_t f = surface.face_of[t];
     if (first && f > first->faces[0]) return false;

@@ -22,14 +22,33 @@ bool on_one_line(const MeshPoints& points, const std::vector<std::uint32_t>& rin
   return true;
 }
 
+// True if the ring looks convex along the axis: it never turns right and goes around only once (along one axis, it
+// rises once and falls once). Then its triangles lie over disjoint triangles there, planar or not.
+bool convex(const MeshPoints& points, const std::vector<std::uint32_t>& ring, std::size_t axis, int sign) {
+  const std::size_t n = ring.size();
+  std::size_t peaks = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::uint32_t p = ring[i];
+    const std::uint32_t q = ring[(i + 1) % n];
+    const std::uint32_t r = ring[(i + 2) % n];
+    if (sign * points.orientation_along(p, q, r, axis) <= 0) return false;
+    const std::size_t u = (axis + 1) % 3;
+    peaks += points.compare(p, q, u) <= 0 && points.compare(q, r, u) > 0 ? 1 : 0;
+  }
+  return peaks == 1;
+}
+
 // Polygons go to the triangulator along the best axis that shows them as simple polygons.
-bool cut(const MeshPoints& points, Triangulator& triangulator, const std::vector<std::uint32_t>& ring,
-         std::vector<std::array<std::uint32_t, 3>>& out) {
+enum class Cut : std::uint8_t { kFailed, kDone, kConvex };
+Cut cut(const MeshPoints& points, Triangulator& triangulator, const std::vector<std::uint32_t>& ring,
+        std::vector<std::array<std::uint32_t, 3>>& out) {
   for (const std::size_t axis : projection_axes(points, ring)) {
     const int sign = ring_orientation(points, ring, axis);
-    if (sign != 0 && triangulator.triangulate(ring, axis, sign, out)) return true;
+    if (sign != 0 && triangulator.triangulate(ring, axis, sign, out)) {
+      return convex(points, ring, axis, sign) ? Cut::kConvex : Cut::kDone;
+    }
   }
-  return false;
+  return Cut::kFailed;
 }
 
 }  // namespace
@@ -69,9 +88,12 @@ MeshSurface::MeshSurface(const Mesh& mesh)
   Triangulator triangulator(points);
   std::vector<std::uint32_t> ring;
   triangles.reserve(mesh.corners.size());
+  face_of.reserve(mesh.corners.size());
+  pieces.reserve(mesh.corners.size());
   for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
     ring.clear();
     bool bad = false;
+    bool in_one_piece = false;
     for (const std::uint32_t v : mesh.face(f)) {
       bad = bad || v >= mesh.vertices.size();
       if (!bad) ring.push_back(place[v]);
@@ -87,10 +109,16 @@ MeshSurface::MeshSurface(const Mesh& mesh)
       defects[f] = FaceDefect::kNoArea;
     } else if (ring.size() == 3) {
       triangles.push_back({ring[0], ring[1], ring[2]});
-    } else if (!cut(points, triangulator, ring, triangles)) {
-      defects[f] = FaceDefect::kCrossesItself;
+    } else {
+      const Cut done = cut(points, triangulator, ring, triangles);
+      if (done == Cut::kFailed) defects[f] = FaceDefect::kCrossesItself;
+      in_one_piece = done == Cut::kConvex;
     }
     face_of.resize(triangles.size(), f);
+    const auto first = static_cast<std::uint32_t>(pieces.size());
+    while (pieces.size() < triangles.size()) {
+      pieces.push_back(in_one_piece ? first : static_cast<std::uint32_t>(pieces.size()));
+    }
   }
 }
 

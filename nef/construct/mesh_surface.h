@@ -24,6 +24,7 @@ struct MeshSurface {
   std::vector<std::uint32_t> place;                     ///< of each vertex: the smallest vertex at the same point
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< of places; none is degenerate
   std::vector<std::uint32_t> face_of;                   ///< of each triangle
+  std::vector<std::uint32_t> pieces;                    ///< of each triangle: equal where a convex face was cut
   std::vector<FaceDefect> defects;                      ///< of each face
 };
 

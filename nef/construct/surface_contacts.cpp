@@ -7,6 +7,9 @@
 #include "nef/construct/surface_contacts.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "nef/construct/edge_order.h"
 
 namespace nef {
 namespace {
@@ -20,6 +23,57 @@ bool one_sided(const Signs& s) {
   return positive != negative;
 }
 int zeros(const Signs& s) { return (s[0] == 0 ? 1 : 0) + (s[1] == 0 ? 1 : 0) + (s[2] == 0 ? 1 : 0); }
+
+// Any vector proves two triangles disjoint if their images on it are disjoint, however the vector was come by. Tried
+// are the first triangle's normal, and in its plane and the other's those across their edges. For each point the
+// product is off by at most |d| times the margin of the points and 4 u |d| |p|.
+bool surely_apart(const MeshPoints& points, const Triangle& a, const Triangle& b) {
+  using Vector = std::array<double, 3>;
+  Vector reach{};
+  for (const Triangle* t : {&a, &b}) {
+    for (const std::uint32_t v : *t) {
+      for (std::size_t i = 0; i < 3; ++i) reach[i] = std::max(reach[i], std::abs(points.approximate(v)[i]));
+    }
+  }
+  for (std::size_t i = 0; i < 3; ++i) reach[i] = points.margin(i) + 0x1p-50 * reach[i];
+  const auto separates = [&](const Vector& d) {
+    const auto image = [&](const Triangle& t, double& low, double& high) {
+      low = HUGE_VAL;
+      high = -HUGE_VAL;
+      for (const std::uint32_t v : t) {
+        const Vector& p = points.approximate(v);
+        const double x = d[0] * p[0] + d[1] * p[1] + d[2] * p[2];
+        low = std::min(low, x);
+        high = std::max(high, x);
+      }
+    };
+    const double bound = 2 * (std::abs(d[0]) * reach[0] + std::abs(d[1]) * reach[1] + std::abs(d[2]) * reach[2]);
+    double low_a = 0;
+    double high_a = 0;
+    double low_b = 0;
+    double high_b = 0;
+    image(a, low_a, high_a);
+    image(b, low_b, high_b);
+    return low_a - high_b > bound || low_b - high_a > bound;
+  };
+  const auto cross = [](const Vector& u, const Vector& v) {
+    return Vector{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+  };
+  for (const Triangle* t : {&a, &b}) {
+    std::array<Vector, 3> edge;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vector& p = points.approximate((*t)[k]);
+      const Vector& q = points.approximate((*t)[(k + 1) % 3]);
+      edge[k] = {q[0] - p[0], q[1] - p[1], q[2] - p[2]};
+    }
+    const Vector normal = cross(edge[0], edge[1]);
+    if (separates(normal)) return true;
+    for (const Vector& e : edge) {
+      if (separates(cross(normal, e))) return true;
+    }
+  }
+  return false;
+}
 
 bool has(const Triangle& t, std::uint32_t v) { return t[0] == v || t[1] == v || t[2] == v; }
 
@@ -65,24 +119,22 @@ Interval make_interval(const Triangle& t, const Signs& s, bool first) {
 
 }  // namespace
 
-SurfaceContacts::SurfaceContacts(const MeshPoints& points, std::span<const Triangle> triangles)
-    : points_(points), triangles_(triangles) {
+SurfaceContacts::SurfaceContacts(const MeshPoints& points, std::span<const Triangle> triangles,
+                                 std::span<const std::uint32_t> pieces)
+    : points_(points), triangles_(triangles), pieces_(pieces) {
   half_edges_.reserve(3 * triangles.size());
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
     for (std::size_t i = 0; i < 3; ++i) {
       const std::uint32_t u = triangles[t][i];
       const std::uint32_t v = triangles[t][(i + 1) % 3];
-      const std::uint64_t key = (static_cast<std::uint64_t>(std::min(u, v)) << 32U) | std::max(u, v);
-      half_edges_.push_back({key, t, triangles[t][(i + 2) % 3], u < v ? 1 : -1});
+      half_edges_.push_back({pair_key(std::min(u, v), std::max(u, v)), t, triangles[t][(i + 2) % 3], u < v ? 1 : -1});
     }
   }
-  std::sort(half_edges_.begin(), half_edges_.end(), [](const HalfEdge& a, const HalfEdge& b) {
-    return a.key != b.key ? a.key < b.key : a.triangle < b.triangle;
-  });
+  sort_by_pair(half_edges_, points.size());
 }
 
 std::span<const SurfaceContacts::HalfEdge> SurfaceContacts::around(std::uint32_t u, std::uint32_t v) const {
-  const std::uint64_t key = (static_cast<std::uint64_t>(std::min(u, v)) << 32U) | std::max(u, v);
+  const std::uint64_t key = pair_key(std::min(u, v), std::max(u, v));
   const auto less = [](const HalfEdge& a, const HalfEdge& b) { return a.key < b.key; };
   const auto [first, last] = std::equal_range(half_edges_.begin(), half_edges_.end(), HalfEdge{key, 0, 0, 0}, less);
   return {first, last};
@@ -193,6 +245,7 @@ SurfaceContacts::Kind SurfaceContacts::resolve_segment(std::uint32_t t, Edge t_e
 SurfaceContacts::Kind SurfaceContacts::classify_general(std::uint32_t t, std::uint32_t u, int shared) const {
   const Triangle& a = triangles_[t];
   const Triangle& b = triangles_[u];
+  if (shared == 0 && surely_apart(points_, a, b)) return Kind::kNone;
   Signs sb{};
   for (std::size_t i = 0; i < 3; ++i) {
     sb[i] = shared > 0 && has(a, b[i]) ? 0 : points_.orientation(a[0], a[1], a[2], b[i]);
@@ -293,18 +346,20 @@ void SurfaceContacts::for_each(const std::function<bool(Kind, std::uint32_t, std
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     for (const std::uint32_t v : triangles_[t]) points_.extend(boxes[t], v);
   }
-  const BoxTree tree(boxes);
-  std::vector<std::uint32_t> hits;
-  for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
-    hits.clear();
-    tree.for_each_overlap(boxes[t], [&](std::uint32_t u) {
-      if (u > t) hits.push_back(u);
-    });
-    std::sort(hits.begin(), hits.end());
-    for (const std::uint32_t u : hits) {
-      const Kind kind = classify(t, u);
-      if (kind != Kind::kNone && !visit(kind, t, u)) return;
-    }
+  struct Contact {
+    std::uint32_t t = 0, u = 0;
+    Kind kind = Kind::kNone;
+  };
+  std::vector<Contact> contacts;
+  BoxTree(boxes).for_each_pair([&](std::uint32_t t, std::uint32_t u) {
+    if (!pieces_.empty() && pieces_[t] == pieces_[u]) return;
+    const Kind kind = classify(t, u);
+    if (kind != Kind::kNone) contacts.push_back({t, u, kind});
+  });
+  std::sort(contacts.begin(), contacts.end(),
+            [](const Contact& a, const Contact& b) { return a.t != b.t ? a.t < b.t : a.u < b.u; });
+  for (const Contact& contact : contacts) {
+    if (!visit(contact.kind, contact.t, contact.u)) return;
   }
 }
 

@@ -26,8 +26,11 @@ class SurfaceContacts {
 
   enum class Kind : std::uint8_t { kNone, kTouch, kEdge, kCross, kOverlap };
 
-  /// The triangles must not be degenerate and name each place by one index only. Both must outlive this object.
-  SurfaceContacts(const MeshPoints& points, std::span<const Triangle> triangles);
+  /// The triangles must not be degenerate and name each place by one index only. Triangles with the same number in
+  /// `pieces` (one for each triangle, or none at all) are known to meet properly; their pairs are left out. All must
+  /// outlive this object.
+  SurfaceContacts(const MeshPoints& points, std::span<const Triangle> triangles,
+                  std::span<const std::uint32_t> pieces = {});
 
   /// Calls visit(kind, t, u) for every pair t < u with a contact, in lexicographic order; kind is kTouch, kCross or
   /// kOverlap. Stops when visit returns false.
@@ -69,6 +72,7 @@ class SurfaceContacts {
 
   const MeshPoints& points_;
   std::span<const Triangle> triangles_;
+  std::span<const std::uint32_t> pieces_;
   std::vector<HalfEdge> half_edges_;  // sorted by key
 };
 

@@ -76,6 +76,38 @@ class BoxTree {
     }
   }
 
+  /// Calls visit(i, j), i < j, once for every pair of boxes that overlap, in no particular order. Descends into
+  /// pairs of nodes, so boxes that lie apart are told apart in bulk.
+  template <typename Visit>
+  void for_each_pair(Visit&& visit) const {
+    if (nodes_.empty()) return;
+    std::vector<std::array<std::uint32_t, 2>> stack{{0, 0}};
+    while (!stack.empty()) {
+      const auto [m, n] = stack.back();
+      stack.pop_back();
+      const Node& a = nodes_[m];
+      const Node& b = nodes_[n];
+      if (m != n && !a.box.overlaps(b.box)) continue;
+      if (a.count > 0 && b.count > 0) {
+        visit_pairs(a, b, visit);
+      } else if (m == n) {
+        stack.push_back({a.first, a.first + 1});
+        stack.push_back({a.first, a.first});
+        stack.push_back({a.first + 1, a.first + 1});
+      } else if (a.count > 0) {
+        stack.push_back({m, b.first});
+        stack.push_back({m, b.first + 1});
+      } else if (b.count > 0) {
+        stack.push_back({a.first, n});
+        stack.push_back({a.first + 1, n});
+      } else {
+        for (const std::uint32_t i : {0U, 1U}) {
+          for (const std::uint32_t j : {0U, 1U}) stack.push_back({a.first + i, b.first + j});
+        }
+      }
+    }
+  }
+
   [[nodiscard]] std::size_t size() const { return order_.size(); }
   /// The box around everything; empty for an empty tree.
   [[nodiscard]] Box bounds() const { return nodes_.empty() ? Box{} : nodes_[0].box; }
@@ -90,6 +122,15 @@ class BoxTree {
     std::array<double, 3> centre;
     std::uint32_t index;
   };
+  template <typename Visit>
+  void visit_pairs(const Node& a, const Node& b, Visit&& visit) const {
+    for (std::uint32_t i = a.first; i < a.first + a.count; ++i) {
+      if (!boxes_[i].overlaps(b.box)) continue;
+      for (std::uint32_t j = &a == &b ? i + 1 : b.first; j < b.first + b.count; ++j) {
+        if (boxes_[i].overlaps(boxes_[j])) visit(std::min(order_[i], order_[j]), std::max(order_[i], order_[j]));
+      }
+    }
+  }
   void build(std::uint32_t node, std::uint32_t first, std::span<Entry> entries);
 
   std::vector<Node> nodes_;

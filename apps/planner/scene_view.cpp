@@ -15,6 +15,7 @@ constexpr view::Color kObstacles{130, 140, 155};
 constexpr view::Color kFree{120, 190, 230};
 constexpr view::Color kTight{200, 30, 110};
 constexpr view::Color kPath{20, 90, 200};
+constexpr const char* kTightName = "tight passages";
 
 view::Point to_double(const Rational3& p) { return {nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2])}; }
 
@@ -35,6 +36,19 @@ Polyhedron at(const Polyhedron& robot, const Rational3& position) {
 Polyhedron tight_part(const FreeSpace& free) {
   if (free.passages().empty()) return {};
   return subtract(free.set(), closure(interior(free.set())));
+}
+
+// Edges show their marks by their colour, not their layer's; these lines do.
+std::vector<view::Polyline> tight_lines(const FreeSpace& free) {
+  std::vector<view::Polyline> lines;
+  for (const TightPassage& passage : free.passages()) {
+    for (const CellId cell : passage.cells) {
+      if (free.cells().dimension(cell) != 1) continue;
+      const std::vector<Rational3> ends = free.vertices(cell);
+      lines.push_back({"tight passage", {to_double(ends[0]), to_double(ends[1])}, kTight});
+    }
+  }
+  return lines;
 }
 
 std::optional<Rational3> first_position(const Answer& answer, const Scene& scene) {
@@ -58,7 +72,7 @@ std::vector<Part> parts_of(const Answer& answer, const Scene& scene, const FreeS
   const std::optional<Rational3> goal = answer.path ? answer.path->points.back() : scene.goal;
   if (goal) parts.push_back({"robot at the goal", at(scene.robot, *goal), kRobot, 0.3});
   parts.push_back({"obstacles", unite_all(scene.obstacles), kObstacles, 0.35});
-  parts.push_back({"tight passages", tight_part(free), kTight});
+  parts.push_back({kTightName, tight_part(free), kTight});
   parts.push_back({"free space", free.set(), kFree, 0.3, false});
   parts.push_back({answer.path ? "path" : "start and goal", ends(answer, scene), kPath});
   std::erase_if(parts, [](const Part& part) { return part.set.is_empty(); });
@@ -90,8 +104,11 @@ std::string lower_extension_of(const std::string& file) {
 
 std::vector<view::Layer> view_layers(const Answer& answer, const Scene& scene, const FreeSpace& free) {
   const std::vector<Part> parts = parts_of(answer, scene, free);
+  // The free space may be unbounded; it is cut where the rest is, so that this stays large.
   std::vector<Polyhedron> sets;
-  for (const Part& part : parts) sets.push_back(part.set);
+  for (const Part& part : parts) {
+    if (part.visible) sets.push_back(part.set);
+  }
   view::SceneOptions options;
   options.box = view::visible_box(sets);
   std::vector<view::Layer> layers;
@@ -102,6 +119,7 @@ std::vector<view::Layer> view_layers(const Answer& answer, const Scene& scene, c
     layer.color = part.color;
     layer.opacity = part.opacity;
     layer.visible = part.visible;
+    if (part.name == kTightName) layer.lines = tight_lines(free);
   }
   if (answer.path && answer.path->points.size() > 1) {
     layers.front().motion = motion_along(*answer.path);

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// node page_test.mjs PLANNER SCENES FOLDER: the planner writes a page, and a headless Chromium moves the robot in it
+// and switches the free space. Exit code 77 and a word if something that is needed is not installed.
+import assert from "node:assert/strict";
+import { spawnSync } from "node:child_process";
+import { mkdirSync, writeFileSync } from "node:fs";
+import { join, resolve } from "node:path";
+import { Browser, findChromium } from "../view/browser/chromium.mjs";
+
+const [planner, scenes, folderArgument] = process.argv.slice(2);
+const folder = resolve(folderArgument);
+
+function skip(reason) {
+  console.log(`skipped: ${reason}`);
+  process.exit(77);
+}
+
+const checkbox = (name) => `[...document.querySelectorAll(".layer")]
+  .find((row) => row.textContent.includes("${name}")).querySelector("input[type=checkbox]")`;
+const view = (name) => `nefViewer.views[nefViewer.page.layers.findIndex((layer) => layer.name === "${name}")]`;
+
+async function check(browser, page) {
+  await browser.open(page);
+  const names = await browser.evaluate("nefViewer.page.layers.map((layer) => layer.name)");
+  assert.deepEqual(names, ["robot", "robot at the goal", "obstacles", "tight passages", "free space", "path"]);
+  // Start (1, 1/2, 1/2), corners (3, 1, 1) and (5, 1, 1), goal (7, 3/2, 3/2): halfway it is at (4, 1, 1).
+  assert.equal(await browser.evaluate("document.querySelector('#time').hidden"), false);
+  const at = async (share) => {
+    await browser.evaluate(`(() => { const s = document.querySelector("#time-slider");
+      s.value = ${share}; s.dispatchEvent(new Event("input")); })()`);
+    return browser.evaluate(`${view("robot")}.group.position.toArray()`);
+  };
+  const near = (found, wanted) => found.forEach((x, i) => assert.ok(Math.abs(x - wanted[i]) < 0.01, `${found}`));
+  near(await at(0), [0, 0, 0]);
+  near(await at(0.5), [3, 0.5, 0.5]);
+  await browser.frame();
+  writeFileSync(join(folder, "halfway.png"), await browser.screenshot());
+  near(await at(1), [6, 1, 1]);
+  near(await browser.evaluate(`${view("path")}.group.position.toArray()`), [0, 0, 0]);
+  const shown = (name) => browser.evaluate(`${view(name)}.group.visible`);
+  assert.equal(await shown("free space"), false);
+  assert.equal(await shown("tight passages"), true);
+  await browser.evaluate(`${checkbox("free space")}.click()`);
+  await browser.evaluate(`${checkbox("tight passages")}.click()`);
+  assert.equal(await shown("free space"), true);
+  assert.equal(await shown("tight passages"), false);
+  assert.deepEqual(browser.errors, []);
+}
+
+const chromium = findChromium();
+if (!chromium) skip("Chromium is not installed (apt-get install chromium)");
+mkdirSync(folder, { recursive: true });
+const page = join(folder, "s1.html");
+const made = spawnSync(planner, [join(scenes, "s1_tight_hole.json"), "--page", page], { encoding: "utf8" });
+if (/viewer bundle|npm/.test(made.stderr)) skip("pages cannot be written: npm was missing when this was configured");
+assert.equal(made.status, 0, made.stderr);
+const browser = new Browser(chromium);
+try {
+  await check(browser, page);
+  console.log("the robot moves along its path");
+} finally {
+  await browser.close();
+}

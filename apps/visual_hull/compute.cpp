@@ -2,10 +2,12 @@
 //
 // The pipeline: masks, contours, a box, cones, intersection.
 #include <chrono>
+#include <mutex>
 
 #include "apps/visual_hull/bounds.h"
 #include "apps/visual_hull/visual_hull.h"
 #include "nef/base/error.h"
+#include "nef/base/parallel.h"
 #include "nef/construct/construct.h"
 
 namespace visual_hull {
@@ -20,11 +22,15 @@ class Pipeline {
  public:
   Pipeline(const Scene& scene, const std::filesystem::path& folder, const Options& options, const Progress& progress)
       : scene_(scene), folder_(folder), options_(options), silhouette_(options.silhouette), progress_(progress) {
-    if (scene.threshold && silhouette_.threshold.kind == ThresholdOptions::Kind::kDefault) {
-      const bool invert = silhouette_.threshold.invert || scene.threshold->invert;
-      silhouette_.threshold = *scene.threshold;
-      silhouette_.threshold.invert = invert;
+    if (!scene.threshold) return;
+    // What the command line does not say, the scene does.
+    ThresholdOptions& threshold = silhouette_.threshold;
+    if (threshold.kind == ThresholdOptions::Kind::kDefault) {
+      threshold.kind = scene.threshold->kind;
+      threshold.value = scene.threshold->value;
     }
+    if (threshold.channel == ThresholdOptions::Channel::kGray) threshold.channel = scene.threshold->channel;
+    threshold.invert = threshold.invert || scene.threshold->invert;
   }
 
   Result run() {
@@ -46,7 +52,30 @@ class Pipeline {
     if (progress_) progress_(phase, view, done, total);
   }
 
+  // body(i) for every view, on as many threads as the user allows.
+  void each_view(Phase phase, const std::function<void(std::size_t)>& body) const {
+    const std::size_t count = result_.views.size();
+    std::size_t begun = 0;
+    std::mutex telling;
+    nef::parallel_for(count, options_.threads, [&](std::size_t i) {
+      {
+        const std::lock_guard<std::mutex> lock(telling);
+        tell(phase, result_.views[i].name, begun++, count);
+      }
+      body(i);
+    });
+  }
+
   void load() {
+    find_images();
+    masks_.resize(scene_.views.size());
+    each_view(Phase::kLoad, [this](std::size_t i) {
+      if (result_.views[i].image.empty()) return;
+      masks_[i].mask = read_mask(result_.views[i].image, scene_.views[i], silhouette_, &masks_[i].unseen);
+    });
+  }
+
+  void find_images() {
     std::vector<std::filesystem::path> images;
     if (options_.images) {
       images = list_images(*options_.images);
@@ -55,33 +84,30 @@ class Pipeline {
                               " images, but the scene has " + std::to_string(scene_.views.size()) + " views");
       }
     }
-    masks_.resize(scene_.views.size());
     for (std::size_t i = 0; i < scene_.views.size(); ++i) {
       const View& view = scene_.views[i];
-      tell(Phase::kLoad, view.name, i, scene_.views.size());
       ViewResult entry;
       entry.name = view.name;
       entry.camera = view.camera;
+      entry.distortion = view.distortion;
       if (!view.polygons) {
         if (images.empty() && view.image.empty()) {
           throw nef::InputError("view " + view.name + ": the scene names no image; give --images DIR or --silhouette");
         }
         entry.image = images.empty() ? find_image(folder_, view.image.string()) : images[i];
-        masks_[i].mask = read_mask(entry.image, view, silhouette_, &masks_[i].unseen);
       }
       result_.views.push_back(std::move(entry));
     }
   }
 
   void trace() {
-    for (std::size_t i = 0; i < scene_.views.size(); ++i) {
+    each_view(Phase::kContours, [this](std::size_t i) {
       const View& view = scene_.views[i];
-      tell(Phase::kContours, view.name, i, scene_.views.size());
       result_.views[i].silhouette = view.polygons
                                         ? silhouette_of_polygons(*view.polygons, view.name, silhouette_)
                                         : silhouette_of_mask(masks_[i].mask, masks_[i].unseen, view.name, silhouette_);
       masks_[i] = {};
-    }
+    });
   }
 
   void choose_box() {
@@ -124,15 +150,15 @@ class Pipeline {
 
   void make_parts() {
     if (result_.vanished) return;
-    for (std::size_t i = 0; i < result_.views.size(); ++i) {
+    parts_.resize(result_.views.size());
+    each_view(Phase::kCones, [this](std::size_t i) {
       ViewResult& view = result_.views[i];
-      tell(Phase::kCones, view.name, i, result_.views.size());
       nef::Polyhedron cone = make_cone(view.camera, view.silhouette.region, result_.box);
       view.cone_facets = nef::counts(cone).facets;
       if (view.silhouette.background) cone = nef::complement(nef::interior(cone));
       const auto& row = view.camera.matrix()[2];
-      parts_.push_back({std::move(cone), {row[0], row[1], row[2]}});
-    }
+      parts_[i] = {std::move(cone), {row[0], row[1], row[2]}};
+    });
   }
 
   void intersect() {
@@ -143,8 +169,9 @@ class Pipeline {
     bool needed = !result_.box_found;
     for (const ViewResult& view : result_.views) needed = needed || view.silhouette.background;
     if (needed) all.push_back({box, {}});
-    result_.hull = intersect_parts(
-        std::move(all), [this](std::size_t done, std::size_t total) { tell(Phase::kIntersection, "", done, total); });
+    result_.hull = intersect_parts(std::move(all), options_.threads, [this](std::size_t done, std::size_t total) {
+      tell(Phase::kIntersection, "", done, total);
+    });
     if (result_.hull.is_empty()) {
       const std::size_t view = vanishes_at(parts_, box, false).value_or(parts_.size() - 1);
       result_.vanished = Vanished{result_.views[view].name, describe(view)};
@@ -164,19 +191,18 @@ class Pipeline {
   }
 
   void verify() {
-    for (std::size_t i = 0; i < result_.views.size(); ++i) {
+    each_view(Phase::kVerify, [this](std::size_t i) {
       ViewResult& view = result_.views[i];
-      tell(Phase::kVerify, view.name, i, result_.views.size());
-      if (view.silhouette.background) {
-        Verification check;
-        check.inside = nef::subtract(result_.hull, parts_[i].solid).is_empty();
-        if (!check.inside) check.problem = "a part of the hull is seen as background";
-        check.area_known = false;
-        view.verification = check;
-      } else {
+      if (!view.silhouette.background) {
         view.verification = verify_view(result_.hull, view.camera, view.silhouette.region);
+        return;
       }
-    }
+      Verification check;
+      check.inside = nef::subtract(result_.hull, parts_[i].solid).is_empty();
+      if (!check.inside) check.problem = "a part of the hull is seen as background";
+      check.area_known = false;
+      view.verification = check;
+    });
   }
 
   const Scene& scene_;

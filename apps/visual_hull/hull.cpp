@@ -2,6 +2,9 @@
 #include "apps/visual_hull/hull.h"
 
 #include <cmath>
+#include <mutex>
+
+#include "nef/base/parallel.h"
 
 namespace visual_hull {
 namespace {
@@ -51,20 +54,25 @@ std::vector<Part> pair_across(std::vector<Part> parts) {
 
 }  // namespace
 
-nef::Polyhedron intersect_parts(std::vector<Part> parts,
+nef::Polyhedron intersect_parts(std::vector<Part> parts, unsigned threads,
                                 const std::function<void(std::size_t, std::size_t)>& progress) {
   if (parts.empty()) return nef::Polyhedron::everything();
   std::vector<Part> level = pair_across(std::move(parts));
   const std::size_t total = level.size() - 1;
   std::size_t done = 0;
+  std::mutex telling;
   while (level.size() > 1) {
-    std::vector<Part> next;
-    for (std::size_t i = 0; i + 1 < level.size(); i += 2) {
-      next.push_back({nef::intersect(level[i].solid, level[i + 1].solid), level[i].axis});
-      level[i] = {};  // its memory is not needed any more
-      level[i + 1] = {};
+    const std::size_t pairs = level.size() / 2;
+    std::vector<Part> next(pairs);
+    nef::parallel_for(pairs, threads, [&](std::size_t i) {
+      next[i] = {nef::intersect(level[2 * i].solid, level[2 * i + 1].solid), level[2 * i].axis};
+      level[2 * i] = {};  // its memory is not needed any more
+      level[2 * i + 1] = {};
+      const std::lock_guard<std::mutex> lock(telling);
       if (progress) progress(++done, total);
-      if (next.back().solid.is_empty()) return {};
+    });
+    for (const Part& part : next) {
+      if (part.solid.is_empty()) return {};
     }
     if (level.size() % 2 == 1) next.push_back(std::move(level.back()));
     level = std::move(next);

@@ -8,10 +8,10 @@
 
 namespace visual_hull {
 
-/// A progress bar on standard error; silent unless that is a terminal.
+/// A progress bar on standard error; silent unless that is a terminal and the bar is wanted.
 class ProgressBar {
  public:
-  ProgressBar();
+  explicit ProgressBar(bool wanted);
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;

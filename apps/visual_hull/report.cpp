@@ -80,13 +80,51 @@ json verify_json(const Result& result) {
 
 }  // namespace
 
+double approximate_volume(const nef::Polyhedron& hull) {
+  using Vec = std::array<double, 3>;
+  const nef::Complex& c = hull.complex();
+  const auto at = [&c](std::uint32_t vertex) { return c.points.approximate(nef::PointId(vertex)); };
+  const auto cross = [](const Vec& a, const Vec& b) {
+    return Vec{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+  };
+  const auto dot = [](const Vec& a, const Vec& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
+  if (c.vertex_count() == 0) return 0;
+  // Relative to a point of the hull: little is lost by cancellation.
+  const Vec origin{at(0)[0], at(0)[1], at(0)[2]};
+  const auto from_origin = [&](std::uint32_t vertex) {
+    const auto& p = at(vertex);
+    return Vec{p[0] - origin[0], p[1] - origin[1], p[2] - origin[2]};
+  };
+  double sum = 0;
+  for (const nef::Facet& facet : c.facets) {
+    const bool above = c.volumes[facet.volume_above].mark != 0;
+    const bool below = c.volumes[facet.volume_below].mark != 0;
+    if (above == below) continue;
+    Vec area{};  // twice the facet's area vector
+    Vec place{};
+    for (std::uint32_t k = 0; k < facet.cycle_count; ++k) {
+      const auto corners = c.cycle(facet.first_cycle + k);
+      for (const std::uint32_t corner : corners) {
+        place = from_origin(c.shalfedge_owner[corner]);
+        const Vec part = cross(place, from_origin(c.target(c.corner_halfedge(corner))));
+        for (std::size_t i = 0; i < 3; ++i) area[i] += part[i];
+      }
+    }
+    const std::array<double, 4>& n = c.planes.approximate(facet.plane);
+    const bool upward = (area[0] * n[0] + area[1] * n[1] + area[2] * n[2] > 0) != facet.plane.flipped();
+    const double sign = upward == below ? 1 : -1;
+    sum += sign * dot(place, area);
+  }
+  return sum / 6;
+}
+
 std::size_t peak_memory() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
 }
 
-nlohmann::ordered_json make_report(const Result& result) {
+nlohmann::ordered_json make_report(const Result& result, const nef::Messages& messages) {
   json report;
   report["views"] = json::array();
   for (const ViewResult& view : result.views) report["views"].push_back(view_json(view));
@@ -109,20 +147,20 @@ nlohmann::ordered_json make_report(const Result& result) {
   if (result.vanished) report["vanished"] = {{"view", result.vanished->view}, {"reason", result.vanished->reason}};
   if (verified) report["verify"] = verify_json(result);
   report["peak_memory_bytes"] = peak_memory();
+  if (!messages.empty()) report["messages"] = messages;
   return report;
 }
 
 std::string summary(const Result& result) {
   const nef::Counts counts = nef::counts(result.hull);
-  const std::optional<Rational> volume = nef::volume(result.hull);
   double seconds = 0;
   for (const PhaseReport& phase : result.phases) seconds += phase.seconds;
   std::size_t vertices = 0;
   for (const ViewResult& view : result.views) vertices += view.silhouette.region.vertex_count();
   return fmt::format(
       "{} views, {} polygon vertices -> hull with {} vertices, {} edges, {} facets, volume {:.6g} ({:.3g} s)",
-      result.views.size(), vertices, counts.vertices, counts.edges, counts.facets,
-      volume ? nef::nearest_double(*volume) : 0.0, seconds);
+      result.views.size(), vertices, counts.vertices, counts.edges, counts.facets, approximate_volume(result.hull),
+      seconds);
 }
 
 }  // namespace visual_hull

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <fstream>
+#include <map>
 #include <sstream>
 
+#include "apps/visual_hull/scene_blocks.h"
 #include "apps/visual_hull/scene_json.h"
 #include "apps/visual_hull/scene_text.h"
 #include "apps/visual_hull/vsh.h"
@@ -53,6 +55,18 @@ ThresholdOptions parse_threshold(const std::string& text) {
   return options;
 }
 
+ThresholdOptions::Channel parse_channel(const std::string& text) {
+  using Channel = ThresholdOptions::Channel;
+  static const std::map<std::string, Channel> names{{"gray", Channel::kGray},
+                                                    {"red", Channel::kRed},
+                                                    {"green", Channel::kGreen},
+                                                    {"blue", Channel::kBlue},
+                                                    {"alpha", Channel::kAlpha}};
+  const auto found = names.find(text);
+  if (found == names.end()) throw nef::InputError("channel '" + text + "' is not gray, red, green, blue or alpha");
+  return found->second;
+}
+
 void check_box(const WorldBox& box, const std::string& where) {
   for (std::size_t i = 0; i < 3; ++i) {
     if (box.low[i] >= box.high[i]) {
@@ -83,13 +97,22 @@ WorldBox parse_box(const std::string& text) {
 
 fs::path find_image(const fs::path& folder, const std::string& name) {
   const fs::path given(name);
+  const auto exists = [](const fs::path& path) {
+    std::error_code error;
+    return fs::is_regular_file(path, error);
+  };
   for (const char* sub : {"", "masks", "silhouettes", "images"}) {
     const fs::path base = folder / sub / given;
-    std::error_code error;
-    if (fs::is_regular_file(base, error)) return base;
+    if (exists(base)) return base;
     for (const std::string& extension : image_extensions()) {
-      const fs::path candidate(base.string() + extension);
-      if (fs::is_regular_file(candidate, error)) return candidate;
+      if (exists(base.string() + extension)) return base.string() + extension;
+    }
+    // The mask of photo.jpg may be photo.png.
+    const auto& known = image_extensions();
+    if (std::find(known.begin(), known.end(), lower(base.extension().string())) == known.end()) continue;
+    for (const std::string& extension : known) {
+      const fs::path other = fs::path(base).replace_extension(extension);
+      if (exists(other)) return other;
     }
   }
   throw nef::InputError("view " + name + ": there is no image " + (folder / given).string() +
@@ -111,12 +134,20 @@ std::vector<fs::path> list_images(const fs::path& folder) {
   return images;
 }
 
+fs::path scene_folder(const fs::path& scene) {
+  std::error_code error;
+  return fs::is_directory(scene, error) ? scene : scene.parent_path();
+}
+
 Scene read_scene(const fs::path& file) {
+  std::error_code error;
+  if (fs::is_directory(file, error)) return read_camera_folder(file);
   const std::string text = read_text(file);
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   if (first == std::string::npos) throw nef::InputError(file.string() + ": the file is empty");
   if (text[first] == '{') return read_json_scene(text, file);
   if (lower(file.extension().string()) == ".vsh") return read_vsh(text, file);
+  if (has_parameter_blocks(text)) return read_parameter_blocks(text, file);
   return read_text_scene(text, file);
 }
 

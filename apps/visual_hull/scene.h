@@ -16,10 +16,15 @@ namespace visual_hull {
 /// How pixels become object or background.
 struct ThresholdOptions {
   enum class Kind { kDefault, kValue, kOtsu };
+  enum class Channel { kGray, kRed, kGreen, kBlue, kAlpha };
   Kind kind = Kind::kDefault;  ///< alpha where it varies, otherwise brighter than half of the type's range
   double value = 0;            ///< brighter than this is object (in the image's own units)
   bool invert = false;         ///< what is darker is object
+  Channel channel = Channel::kGray;
 };
+
+/// Parses "gray", "red", "green", "blue" or "alpha". Throws InputError.
+ThresholdOptions::Channel parse_channel(const std::string& text);
 
 /// Parses "otsu" or a number. Throws InputError.
 ThresholdOptions parse_threshold(const std::string& text);
@@ -46,6 +51,7 @@ struct Scene {
 };
 
 /// Reads a scene; the format is told by the content of the file:
+///  - a folder of camera files, and blocks of intrinsic and extrinsic parameters, see scene_blocks.h;
 ///  - JSON (first character '{'), see scene_json.h;
 ///  - `.vsh` by its extension, see vsh.h;
 ///  - Middlebury: optionally the number of views, then lines of a name, K (9 numbers), R (9), t (3);
@@ -55,8 +61,12 @@ struct Scene {
 /// Throws InputError.
 Scene read_scene(const std::filesystem::path& file);
 
-/// The image that a scene calls `name`: as it is or with a usual extension, beside the scene or in
-/// its folders masks, silhouettes or images. Throws InputError if there is none.
+/// The folder in which the images of a scene are looked up: the scene itself if it is one.
+std::filesystem::path scene_folder(const std::filesystem::path& scene);
+
+/// The image that a scene calls `name`: as it is, with a usual extension added, or with another
+/// usual extension, beside the scene or in its folders masks, silhouettes or images. Throws InputError if there is
+/// none.
 std::filesystem::path find_image(const std::filesystem::path& folder, const std::string& name);
 
 /// The images of a folder in the order of their names.

@@ -219,6 +219,10 @@ Scene read_json_scene(const std::string& text, const std::filesystem::path& file
   if (document.contains("threshold")) {
     scene.threshold = parse_threshold(text_of(document["threshold"], file.string() + ", threshold"));
   }
+  if (document.contains("channel")) {
+    if (!scene.threshold) scene.threshold.emplace();
+    scene.threshold->channel = parse_channel(text_of(document["channel"], file.string() + ", channel"));
+  }
   if (document.contains("invert")) {
     if (!document["invert"].is_boolean()) throw nef::InputError(file.string() + ", invert: true or false is needed");
     if (!scene.threshold) scene.threshold.emplace();

@@ -17,7 +17,7 @@ nlohmann::json parse_exact_json(const std::string& text, const std::string& wher
 ///   {"cameras": [{"image": "a.png" or "silhouette": "a.json" or "polygons": [[[u, v], ...], ...],
 ///                 "name": "...", "P": 3x4 or "K": 3x3, "R": 3x3, "t": 3, "distortion": [...]}, ...],
 ///    "box": [x0, y0, z0, x1, y1, z1] or [[x0, y0, z0], [x1, y1, z1]], "threshold": 127 or "otsu",
-///    "invert": true}
+///    "channel": "gray" or "red" or ..., "invert": true}
 /// Matrices may be nested by rows or flat. Paths are relative to the scene file. Throws InputError.
 Scene read_json_scene(const std::string& text, const std::filesystem::path& file);
 

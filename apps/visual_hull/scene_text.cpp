@@ -14,13 +14,20 @@ struct Line {
   std::vector<std::string> tokens;
 };
 
-// Comments go; the punctuation of matrices as other programs print them counts as space.
+// Comments go, and so do lines of other programs' languages that call a function (P = cat(3, P0, P1);); the
+// punctuation of matrices as these print them counts as space.
 std::vector<Line> split(const std::string& text) {
   std::vector<Line> lines;
   std::istringstream stream(text);
   std::string raw;
+  bool call = false;
   for (std::size_t number = 1; std::getline(stream, raw); ++number) {
     raw = raw.substr(0, raw.find('#'));
+    call = call || (raw.find('(') != std::string::npos && raw.find('=') < raw.find('('));
+    if (call) {
+      call = raw.find(')') == std::string::npos;  // it may take several lines
+      continue;
+    }
     std::replace_if(
         raw.begin(), raw.end(), [](char c) { return c == ',' || c == ';' || c == '[' || c == ']' || c == '='; }, ' ');
     std::istringstream words(raw);

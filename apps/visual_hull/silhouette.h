@@ -24,6 +24,7 @@ struct SilhouetteOptions {
   PixelOrigin origin = PixelOrigin::kCenter;
   Border border = Border::kOutside;
   SimplifyOptions simplify;
+  double min_area = 0;  ///< square pixels; contours around less are noise of photographs: islands go, holes are filled
 };
 
 /// What a view contributes.
@@ -43,7 +44,10 @@ struct ViewSilhouette {
 cv::Mat read_mask(const std::filesystem::path& image, const View& view, const SilhouetteOptions& options,
                   cv::Mat* unseen);
 
-/// The mask of an image that is loaded already.
+/// The intrinsics as OpenCV wants them, whose whole image coordinates are centres of pixels: 3x3, double.
+cv::Mat opencv_intrinsics(const Distortion& distortion, PixelOrigin origin);
+
+/// The mask of an image that is loaded already. Throws InputError if it has no such channel.
 cv::Mat make_mask(const cv::Mat& image, const ThresholdOptions& options);
 
 /// Traces and simplifies a mask. Throws InputError naming the view if nothing is set.

@@ -35,7 +35,8 @@ struct PhaseReport {
 };
 using PhaseReports = std::array<PhaseReport, kPhaseCount>;
 
-/// Told at every step: the phase, the view or step at work, how many are done and how many there are.
+/// Told at every step: the phase, the view or step at work, how many are done and how many there are. Called by one
+/// thread at a time, not always the same.
 using Progress = std::function<void(Phase, const std::string&, std::size_t, std::size_t)>;
 
 struct Options {
@@ -43,6 +44,7 @@ struct Options {
   std::optional<WorldBox> box;                  ///< instead of the scene's
   std::optional<std::filesystem::path> images;  ///< a folder: the i-th image is the i-th view's
   bool verify = false;
+  unsigned threads = 1;  ///< 0: as many as the machine has; the result is the same
 };
 
 /// What one view has come to.
@@ -50,6 +52,7 @@ struct ViewResult {
   std::string name;
   Camera camera;
   std::filesystem::path image;  ///< empty for polygons
+  Distortion distortion;        ///< of the image
   ViewSilhouette silhouette;
   std::size_t cone_facets = 0;
   std::optional<Verification> verification;

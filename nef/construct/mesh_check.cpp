@@ -237,9 +237,23 @@ void check_contacts(const MeshSurface& surface, const SurfaceContacts& contacts,
   }
 }
 
+// Planar, or without area.
+bool is_planar(const MeshSurface& surface, std::span<const std::uint32_t> corners) {
+  const auto place = [&](std::size_t i) { return surface.place[corners[i]]; };
+  std::size_t j = 1;
+  while (j < corners.size() && place(j) == place(0)) ++j;
+  std::size_t k = j + 1;
+  while (k < corners.size() && surface.points.collinear(place(0), place(j), place(k))) ++k;
+  for (std::size_t i = k + 1; i < corners.size(); ++i) {
+    if (surface.points.orientation(place(0), place(j), place(k), place(i)) != 0) return false;
+  }
+  return true;
+}
+
 void check_planarity(const Mesh& mesh, const MeshSurface& surface, Report& report) {
   for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
-    if (mesh.face(f).size() < 4 || surface.defects[f] == FaceDefect::kBadIndex || face_is_planar(mesh, f)) continue;
+    if (mesh.face(f).size() < 4 || surface.defects[f] == FaceDefect::kBadIndex) continue;
+    if (is_planar(surface, mesh.face(f))) continue;
     MeshProblem problem = face_problem(Kind::kNonPlanarFace, f, "is not planar: a corner is ");
     problem.text += std::to_string(face_deviation(mesh, f)) + " off its plane";
     problem.legal = true;
@@ -340,8 +354,11 @@ const char* name(MeshProblemKind kind) {
 }
 
 std::vector<MeshProblem> check_mesh(const Mesh& mesh, const MeshCheckOptions& options) {
+  return check_mesh(mesh, MeshSurface(mesh), options);
+}
+
+std::vector<MeshProblem> check_mesh(const Mesh& mesh, const MeshSurface& surface, const MeshCheckOptions& options) {
   Report report(options.max_per_kind);
-  const MeshSurface surface(mesh);
   const SurfaceContacts contacts(surface.points, surface.triangles, surface.pieces);
   check_faces(mesh, surface, report);
   check_duplicates(mesh, surface, report);

@@ -32,6 +32,8 @@ enum class MeshProblemKind : std::uint8_t {
 /// The name as a program prints it: "open border", "self-intersection", ...
 const char* name(MeshProblemKind kind);
 
+struct MeshSurface;  // nef/construct/mesh_surface.h
+
 struct MeshProblem {
   MeshProblemKind kind = MeshProblemKind::kBadIndex;
   bool legal = false;                               ///< true if a solid can be made in spite of it
@@ -51,6 +53,8 @@ struct MeshCheckOptions {
 /// or a vertex are legal: the edge has four faces that pair up, which is reported as legal. All decisions are exact.
 /// O(n log n) for meshes whose faces meet few others; 20000 triangles take about 50 ms.
 std::vector<MeshProblem> check_mesh(const Mesh& mesh, const MeshCheckOptions& options = {});
+/// The same for a mesh whose surface is there already.
+std::vector<MeshProblem> check_mesh(const Mesh& mesh, const MeshSurface& surface, const MeshCheckOptions& options);
 
 /// The first pair of faces that cross or overlap, in the order of their numbers; nothing if the mesh at most touches
 /// itself. Faces may be any polygons; ones that are not planar are taken as a triangulation of

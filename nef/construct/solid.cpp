@@ -64,6 +64,7 @@ class SolidBuilder {
     std::uint32_t to;  // vertex
     PlaneId first;     // planes of faces around the edge; second differs from first
     PlaneId second;
+    std::uint32_t arcs = 0;
   };
 
   void collect_corners() {
@@ -91,7 +92,26 @@ class SolidBuilder {
     } else if (!spokes_[n].second.valid() && spokes_[n].first.row() != plane.row()) {
       spokes_[n].second = plane;
     }
+    ++spokes_[n].arcs;
     return n;
+  }
+
+  // The border of a surface lies in one face only. Its direction needs a second plane: the one across the face.
+  PlaneId plane_across(std::uint32_t v, const Spoke& spoke) {
+    const Direction along = vector_between(f_.points, PointId{v}, PointId{spoke.to});
+    const Direction up = Direction::normal(f_.planes, spoke.first);
+    const std::array<Integer, 3>& edge = along.integers();
+    const std::array<Integer, 3>& normal = up.integers();
+    Integer offset;
+    std::array<Integer, 3> n;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = (i + 1) % 3;
+      const std::size_t k = (i + 2) % 3;
+      n[i] = normal[j] * edge[k] - normal[k] * edge[j];
+      mpz_submul(offset.get_mpz_t(), n[i].get_mpz_t(), f_.points.coordinate(PointId{v}, i));
+      mpz_mul(n[i].get_mpz_t(), n[i].get_mpz_t(), f_.points.coordinate(PointId{v}, 3));
+    }
+    return f_.planes.intern(n[0], n[1], n[2], offset);
   }
 
   // An edge between two planes has the direction of their meeting, up to its sign, which the
@@ -131,6 +151,7 @@ class SolidBuilder {
     }
     drawing_.nodes.resize(spokes_.size());
     for (std::size_t n = 0; n < spokes_.size(); ++n) {
+      if (spokes_[n].arcs == 1) spokes_[n].second = plane_across(v, spokes_[n]);
       drawing_.nodes[n].direction = direction_along(v, spokes_[n]);
       drawing_.nodes[n].mark = marks_.boundary;
     }
@@ -186,6 +207,8 @@ SolidFaces infimaximal_box_faces(bool half) {
 }  // namespace
 
 Complex make_solid(SolidFaces&& faces, const SolidMarks& marks) { return SolidBuilder(std::move(faces), marks).run(); }
+
+Complex make_surface(SolidFaces&& faces, LabelId mark) { return SolidBuilder(std::move(faces), {mark, 0, 0}).run(); }
 
 Complex make_infimaximal_box() { return make_solid(infimaximal_box_faces(false), {1, 1, 0}); }
 

@@ -30,6 +30,10 @@ struct SolidMarks {
 /// O(n log n).
 Complex make_solid(SolidFaces&& faces, const SolidMarks& marks);
 
+/// The union of the faces as a two-dimensional set of the given mark, 0 around it. The faces may have borders and may
+/// meet in any number around an edge, but nowhere else than in common vertices and edges. O(n log n).
+Complex make_surface(SolidFaces&& faces, LabelId mark);
+
 /// The solid [-R, R]^3 in coordinates with parts in the infimaximal number R (thesis 3.3): an
 /// ordinary solid, whose outside is marked 0.
 Complex make_infimaximal_box();

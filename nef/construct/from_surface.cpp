@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/construct/from_surface.h"
+
+#include <algorithm>
+
+#include "nef/base/error.h"
+#include "nef/construct/mesh_faces.h"
+#include "nef/construct/surface_contacts.h"
+
+namespace nef {
+namespace {
+
+// Faces in groups without improper contacts, and those that can not be in any.
+struct Groups {
+  std::vector<std::vector<std::uint32_t>> proper;
+  std::vector<std::uint32_t> single;
+};
+
+Groups group_faces(const Mesh& mesh, const MeshSurface& surface) {
+  const std::size_t count = mesh.face_count();
+  std::vector<std::vector<std::uint32_t>> contacts(count);
+  std::vector<bool> single(count, false);
+  for (std::uint32_t f = 0; f < count; ++f) single[f] = surface.defects[f] != FaceDefect::kNone;
+  SurfaceContacts(surface.points, surface.triangles, surface.pieces)
+      .for_each([&](SurfaceContacts::Kind /*kind*/, std::uint32_t t, std::uint32_t u) {
+        const std::uint32_t f = surface.face_of[t];
+        const std::uint32_t g = surface.face_of[u];
+        if (f == g) single[f] = true;
+        contacts[f].push_back(g);
+        contacts[g].push_back(f);
+        return true;
+      });
+  // Each face goes to the first group in which it touches nothing.
+  Groups groups;
+  std::vector<std::uint32_t> group_of(count, kNone);
+  std::vector<std::uint32_t> taken_by;  // the last face that found the group taken
+  for (std::uint32_t f = 0; f < count; ++f) {
+    if (single[f]) {
+      groups.single.push_back(f);
+      continue;
+    }
+    for (const std::uint32_t g : contacts[f]) {
+      if (group_of[g] != kNone) taken_by[group_of[g]] = f;
+    }
+    std::uint32_t group = 0;
+    while (group < taken_by.size() && taken_by[group] == f) ++group;
+    if (group == taken_by.size()) {
+      taken_by.push_back(kNone);
+      groups.proper.emplace_back();
+    }
+    groups.proper[group].push_back(f);
+    group_of[f] = group;
+  }
+  return groups;
+}
+
+// A face that is degenerate or touches or crosses itself.
+void add_single(const Mesh& mesh, std::uint32_t f, std::vector<Polyhedron>& out) {
+  std::vector<Rational3> ring;
+  for (const std::uint32_t v : mesh.face(f)) {
+    if (ring.empty() || ring.back() != mesh.vertices[v]) ring.push_back(mesh.vertices[v]);
+  }
+  while (ring.size() > 1 && ring.back() == ring.front()) ring.pop_back();
+  if (ring.size() < 3) return;
+  try {
+    out.push_back(make_polygon(std::span(&ring, 1)));
+    return;
+  } catch (const InputError&) {
+    // Any triangulation will do for a set that is no boundary; a fan keeps the corners.
+    for (std::size_t i = 1; i + 1 < ring.size(); ++i) {
+      const Rational3 triangle[3] = {ring[0], ring[i], ring[i + 1]};
+      out.push_back(convex_hull(triangle));
+    }
+  }
+}
+
+}  // namespace
+
+Polyhedron from_surface(const Mesh& mesh, const MeshOptions& options, Messages* messages) {
+  const MeshSurface surface(mesh);
+  for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+    if (surface.defects[f] != FaceDefect::kBadIndex) continue;
+    for (const std::uint32_t v : mesh.face(f)) {
+      if (v < mesh.vertices.size()) continue;
+      throw InputError("face " + std::to_string(f) + " names vertex " + std::to_string(v) + ", which does not exist");
+    }
+  }
+  const Groups groups = group_faces(mesh, surface);
+  std::vector<Polyhedron> parts;
+  MeshFaces faces(mesh, surface, options, messages);
+  for (const std::vector<std::uint32_t>& group : groups.proper) parts.emplace_back(faces.surface(group));
+  for (const std::uint32_t f : groups.single) add_single(mesh, f, parts);
+  return unite_all(parts);
+}
+
+}  // namespace nef

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "nef/construct/construct.h"
+
+namespace nef {
+
+/// The union of the faces of any mesh as a two-dimensional set: from_mesh with as_surface. Faces that cross, overlap or
+/// touch are told apart first, so that as few unions as possible are left to do: O(n log n) if the faces meet in common
+/// vertices and edges only. Throws InputError for a bad index.
+Polyhedron from_surface(const Mesh& mesh, const MeshOptions& options, Messages* messages);
+
+}  // namespace nef

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/construct/mesh_faces.h"
+
+#include <algorithm>
+
+#include "nef/base/error.h"
+#include "nef/base/union_find.h"
+#include "nef/construct/mesh_check.h"
+
+namespace nef {
+
+MeshFaces::MeshFaces(const Mesh& mesh, const MeshSurface& surface, const MeshOptions& options, Messages* messages)
+    : mesh_(mesh), surface_(surface), options_(options), messages_(messages) {}
+
+Complex MeshFaces::solid(std::span<const std::uint32_t> faces, bool reverse) {
+  return make_solid(collect(faces, reverse), {1, 1, 0});
+}
+
+Complex MeshFaces::surface(std::span<const std::uint32_t> faces) { return make_surface(collect(faces, false), 1); }
+
+std::vector<std::vector<std::uint32_t>> MeshFaces::components() const {
+  UnionFind vertices(mesh_.vertices.size());
+  for (std::uint32_t f = 0; f < mesh_.face_count(); ++f) {
+    for (const std::uint32_t v : mesh_.face(f)) vertices.unite(surface_.place[v], surface_.place[mesh_.face(f)[0]]);
+  }
+  std::vector<std::uint32_t> number(mesh_.vertices.size(), kNone);
+  std::vector<std::vector<std::uint32_t>> result;
+  for (std::uint32_t f = 0; f < mesh_.face_count(); ++f) {
+    if (mesh_.face(f).empty()) continue;
+    std::uint32_t& n = number[vertices.find(surface_.place[mesh_.face(f)[0]])];
+    if (n == kNone) {
+      n = static_cast<std::uint32_t>(result.size());
+      result.emplace_back();
+    }
+    result[n].push_back(f);
+  }
+  return result;
+}
+
+SolidFaces MeshFaces::collect(std::span<const std::uint32_t> faces, bool reverse) {
+  f_ = {};
+  reverse_ = reverse;
+  number_points();
+  const std::size_t count = faces.empty() ? mesh_.face_count() : faces.size();
+  f_.plane.reserve(count);
+  f_.planes.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) add_face(faces.empty() ? static_cast<std::uint32_t>(i) : faces[i]);
+  return std::move(f_);
+}
+
+void MeshFaces::number_points() {
+  if (point_of_.empty()) {
+    point_of_.resize(mesh_.vertices.size());
+    points_.reserve(mesh_.vertices.size());
+    for (std::uint32_t v = 0; v < mesh_.vertices.size(); ++v) {
+      point_of_[v] = surface_.place[v] == v ? points_.push(mesh_.vertices[v]).value : point_of_[surface_.place[v]];
+    }
+  }
+  f_.points = points_;
+}
+
+void MeshFaces::add_face(std::uint32_t face) {
+  ring_.clear();
+  for (const std::uint32_t v : mesh_.face(face)) {
+    const std::uint32_t p = point_of_[v];
+    if (ring_.empty() || (ring_.back() != p && ring_.front() != p)) ring_.push_back(p);
+  }
+  if (ring_.size() < 3) return;
+  if (reverse_) std::reverse(ring_.begin(), ring_.end());
+  if (ring_.size() == 3) {
+    const PlaneId plane = plane_of_triangle(ring_);
+    if (plane.valid()) push(ring_, plane);
+  } else if (!add_ring()) {
+    add_triangles(face);
+  }
+}
+
+// False if the ring is not planar.
+bool MeshFaces::add_ring() {
+  // At its smallest point a simple polygon is convex, so the plane through that corner has the right orientation.
+  std::size_t least = 0;
+  for (std::size_t i = 1; i < ring_.size(); ++i) {
+    if (compare_lexicographic(f_.points, PointId{ring_[i]}, PointId{ring_[least]}) < 0) least = i;
+  }
+  const std::size_t n = ring_.size();
+  const std::array<std::uint32_t, 3> corner{ring_[(least + n - 1) % n], ring_[least], ring_[(least + 1) % n]};
+  PlaneId plane = plane_of_triangle(corner);
+  if (!plane.valid()) {
+    // A spike there; the area tells.
+    const Integers area = vector_area();
+    if (area[0] == 0 && area[1] == 0 && area[2] == 0) return true;
+    plane = plane_through(area, ring_[0]);
+  }
+  for (const std::uint32_t p : ring_) {
+    const bool known = p == corner[0] || p == corner[1] || p == corner[2];
+    if (!known && side_of_plane(f_.planes, plane, f_.points, PointId{p}) != 0) return false;
+  }
+  push(ring_, plane);
+  return true;
+}
+
+void MeshFaces::push(std::span<const std::uint32_t> ring, PlaneId plane) {
+  f_.plane.push_back(plane);
+  f_.corners.insert(f_.corners.end(), ring.begin(), ring.end());
+  f_.begin.push_back(static_cast<std::uint32_t>(f_.corners.size()));
+}
+
+// (b - a) x (c - a) up to a positive factor, and the offset that puts a on it; no plane if the points are on one line.
+PlaneId MeshFaces::plane_of_triangle(std::span<const std::uint32_t> t) {
+  const auto difference = [&](std::uint32_t p, std::size_t i, Integer& out) {
+    mpz_mul(out.get_mpz_t(), f_.points.coordinate(PointId{p}, i), f_.points.coordinate(PointId{t[0]}, 3));
+    mpz_submul(out.get_mpz_t(), f_.points.coordinate(PointId{t[0]}, i), f_.points.coordinate(PointId{p}, 3));
+  };
+  for (std::size_t i = 0; i < 3; ++i) {
+    difference(t[1], i, u_[i]);
+    difference(t[2], i, v_[i]);
+  }
+  mpz_ptr offset = offset_.get_mpz_t();
+  mpz_set_ui(offset, 0);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3;
+    const std::size_t k = (i + 2) % 3;
+    mpz_ptr n = n_[i].get_mpz_t();
+    mpz_mul(n, u_[j].get_mpz_t(), v_[k].get_mpz_t());
+    mpz_submul(n, u_[k].get_mpz_t(), v_[j].get_mpz_t());
+  }
+  if (n_[0] == 0 && n_[1] == 0 && n_[2] == 0) return PlaneId();
+  // Short normals first: a common factor of the differences would go through all that follows.
+  Integer& divisor = u_[0];
+  mpz_gcd(divisor.get_mpz_t(), n_[0].get_mpz_t(), n_[1].get_mpz_t());
+  mpz_gcd(divisor.get_mpz_t(), divisor.get_mpz_t(), n_[2].get_mpz_t());
+  for (std::size_t i = 0; i < 3; ++i) {
+    mpz_ptr n = n_[i].get_mpz_t();
+    if (divisor > 1) mpz_divexact(n, n, divisor.get_mpz_t());
+    mpz_submul(offset, n, f_.points.coordinate(PointId{t[0]}, i));
+    mpz_mul(n, n, f_.points.coordinate(PointId{t[0]}, 3));
+  }
+  return f_.planes.intern(n_[0], n_[1], n_[2], offset_);
+}
+
+// The plane of a normal through a point.
+PlaneId MeshFaces::plane_through(const Integers& normal, std::uint32_t p) {
+  Integer offset;
+  Integers n = normal;
+  for (std::size_t i = 0; i < 3; ++i) {
+    mpz_submul(offset.get_mpz_t(), normal[i].get_mpz_t(), f_.points.coordinate(PointId{p}, i));
+    mpz_mul(n[i].get_mpz_t(), n[i].get_mpz_t(), f_.points.coordinate(PointId{p}, 3));
+  }
+  return f_.planes.intern(n[0], n[1], n[2], offset);
+}
+
+// The vector area of the ring up to a positive factor: the same denominator for all corners.
+MeshFaces::Integers MeshFaces::vector_area() const {
+  Integer common = 1;
+  for (const std::uint32_t p : ring_) {
+    mpz_lcm(common.get_mpz_t(), common.get_mpz_t(), f_.points.coordinate(PointId{p}, 3));
+  }
+  Integer factor;
+  const auto scaled = [&](std::uint32_t p, Integers& out) {
+    mpz_divexact(factor.get_mpz_t(), common.get_mpz_t(), f_.points.coordinate(PointId{p}, 3));
+    for (std::size_t k = 0; k < 3; ++k) {
+      mpz_mul(out[k].get_mpz_t(), f_.points.coordinate(PointId{p}, k), factor.get_mpz_t());
+    }
+  };
+  Integers origin;
+  Integers u;
+  Integers v;
+  Integers area;
+  scaled(ring_[0], origin);
+  for (std::size_t i = 1; i < ring_.size(); ++i) {
+    scaled(ring_[i], v);
+    for (std::size_t k = 0; k < 3; ++k) v[k] -= origin[k];
+    for (std::size_t k = 0; k < 3 && i > 1; ++k) {
+      mpz_addmul(area[k].get_mpz_t(), u[(k + 1) % 3].get_mpz_t(), v[(k + 2) % 3].get_mpz_t());
+      mpz_submul(area[k].get_mpz_t(), u[(k + 2) % 3].get_mpz_t(), v[(k + 1) % 3].get_mpz_t());
+    }
+    std::swap(u, v);
+  }
+  return area;
+}
+
+// A face that is not planar, as the check has cut it.
+void MeshFaces::add_triangles(std::uint32_t face) {
+  const std::string name =
+      "face " + std::to_string(face) + " is not planar (off by " + std::to_string(face_deviation(mesh_, face)) + ")";
+  if (options_.strict) throw InputError(name + "; triangulate it, or read the mesh without --strict");
+  if (surface_.defects[face] != FaceDefect::kNone) {
+    throw InputError(name + " and crosses itself when projected, so it cannot be triangulated; split it");
+  }
+  if (messages_ != nullptr && !reverse_) messages_->push_back(name + " and was triangulated");
+  const auto [first, last] = std::equal_range(surface_.face_of.begin(), surface_.face_of.end(), face);
+  for (auto i = first; i != last; ++i) {
+    std::array<std::uint32_t, 3> t = surface_.triangles[static_cast<std::size_t>(i - surface_.face_of.begin())];
+    for (std::uint32_t& v : t) v = point_of_[v];
+    if (reverse_) std::swap(t[1], t[2]);
+    const PlaneId plane = plane_of_triangle(t);
+    if (plane.valid()) push(t, plane);
+  }
+}
+
+}  // namespace nef

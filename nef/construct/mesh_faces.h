@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The faces of a mesh with exact planes, as complexes are built from them.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "nef/construct/construct.h"
+#include "nef/construct/mesh_surface.h"
+#include "nef/construct/solid.h"
+
+namespace nef {
+
+/// Finds the plane of every face (faces that are not planar are triangulated, which is noted, or refused if the options
+/// are strict) and builds complexes from any selection of faces. Faces without area are left out.
+class MeshFaces {
+ public:
+  /// All arguments must outlive this object; `messages` may be null. All indices in faces must be good.
+  MeshFaces(const Mesh& mesh, const MeshSurface& surface, const MeshOptions& options, Messages* messages);
+
+  /// The solid that the faces bound, or with `reverse` the one that they bound when turned over; of all faces if
+  /// `faces` is empty. The faces must be closed and must not cross. O(n log n).
+  Complex solid(std::span<const std::uint32_t> faces, bool reverse);
+
+  /// The union of the faces as a two-dimensional set. They must meet in common vertices and edges only. O(n log n).
+  Complex surface(std::span<const std::uint32_t> faces);
+
+  /// Faces that share a vertex belong together.
+  [[nodiscard]] std::vector<std::vector<std::uint32_t>> components() const;
+
+ private:
+  using Integers = std::array<Integer, 3>;
+
+  SolidFaces collect(std::span<const std::uint32_t> faces, bool reverse);
+  void number_points();
+  void add_face(std::uint32_t face);
+  bool add_ring();
+  void push(std::span<const std::uint32_t> ring, PlaneId plane);
+  PlaneId plane_of_triangle(std::span<const std::uint32_t> t);
+  PlaneId plane_through(const Integers& normal, std::uint32_t p);
+  [[nodiscard]] Integers vector_area() const;
+  void add_triangles(std::uint32_t face);
+
+  const Mesh& mesh_;
+  const MeshSurface& surface_;
+  MeshOptions options_;
+  Messages* messages_;
+  std::vector<std::uint32_t> point_of_;  // vertex of the mesh -> point
+  PointTable points_;
+  SolidFaces f_;
+  bool reverse_ = false;
+  std::vector<std::uint32_t> ring_;
+  std::array<Integer, 3> u_, v_, n_;
+  Integer offset_;
+};
+
+}  // namespace nef

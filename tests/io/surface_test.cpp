@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Meshes taken as two-dimensional sets are the unions of their faces, however these meet.
+#include <rapidcheck.h>
+#include <catch2/catch.hpp>
+
+#include "nef/complex/validate.h"
+#include "nef/construct/construct.h"
+#include "nef/polyhedron.h"
+
+using namespace nef;
+
+namespace {
+
+Mesh triangles(const std::vector<Rational3>& points, const std::vector<std::array<std::uint32_t, 3>>& faces) {
+  Mesh mesh;
+  mesh.vertices = points;
+  for (const auto& face : faces) {
+    mesh.corners.insert(mesh.corners.end(), face.begin(), face.end());
+    mesh.face_begin.push_back(static_cast<std::uint32_t>(mesh.corners.size()));
+  }
+  return mesh;
+}
+
+// Faces with fewer than three different corners in a row hold nothing.
+Polyhedron by_unions(const Mesh& mesh) {
+  Polyhedron sum;
+  for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+    std::vector<Rational3> ring;
+    for (const std::uint32_t v : mesh.face(f)) {
+      if (ring.empty() || ring.back() != mesh.vertices[v]) ring.push_back(mesh.vertices[v]);
+    }
+    while (ring.size() > 1 && ring.back() == ring.front()) ring.pop_back();
+    if (ring.size() >= 3) sum = unite(sum, convex_hull(ring));
+  }
+  return sum;
+}
+
+void check_same(const Mesh& mesh) {
+  const Polyhedron set = from_mesh(mesh, MeshOptions{.as_surface = true});
+  REQUIRE(validate(set.complex()).empty());
+  REQUIRE(equal(set, by_unions(mesh)));
+}
+
+}  // namespace
+
+TEST_CASE("A surface with a border keeps it, and coplanar neighbours become one facet", "[surface]") {
+  const Mesh square = triangles({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}});
+  const Polyhedron set = from_mesh(square, MeshOptions{.as_surface = true});
+  check_same(square);
+  CHECK(set.complex().vertex_count() == 4);
+  CHECK(contains(set, {Rational(1, 2), Rational(1, 2), 0}));
+  CHECK_FALSE(contains(set, {Rational(1, 2), Rational(1, 2), Rational(1, 1000)}));
+}
+
+TEST_CASE("Surfaces whose faces meet in every way", "[surface]") {
+  const std::vector<Rational3> p = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}, {2, 2, 2}, {1, 1, -1}};
+  check_same(triangles(p, {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}}));             // three around an edge
+  check_same(triangles(p, {{0, 1, 2}, {0, 1, 2}}));                        // the same twice
+  check_same(triangles(p, {{0, 1, 2}, {0, 2, 1}}));                        // and from both sides
+  check_same(triangles(p, {{0, 1, 2}, {0, 3, 4}}));                        // a common vertex
+  check_same(triangles(p, {{0, 1, 2}, {3, 4, 5}}));                        // crossing
+  check_same(triangles(p, {{0, 1, 2}, {0, 1, 1}, {3, 3, 3}, {1, 2, 4}}));  // degenerate ones
+  check_same(triangles({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 0, 0}, {2, 0, 0}, {1, 0, 3}}, {{0, 1, 2}, {3, 4, 5}}));
+  check_same(triangles({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 0}, {5, 1, 0}, {1, 5, 0}}, {{0, 1, 2}, {3, 4, 5}}));
+}
+
+TEST_CASE("Random triangles on a small grid: the surface is the union of its faces", "[surface]") {
+  CHECK(rc::check("surface = union of faces", [] {
+    const auto count = *rc::gen::inRange<std::size_t>(1, 9);
+    std::vector<Rational3> points;
+    for (int i = 0; i < 7; ++i) {
+      points.push_back({*rc::gen::inRange(0, 4), *rc::gen::inRange(0, 4), *rc::gen::inRange(0, 3)});
+    }
+    std::vector<std::array<std::uint32_t, 3>> faces(count);
+    for (auto& face : faces) {
+      for (std::uint32_t& v : face) v = *rc::gen::inRange<std::uint32_t>(0, 7);
+    }
+    const Mesh mesh = triangles(points, faces);
+    const Polyhedron set = from_mesh(mesh, MeshOptions{.as_surface = true});
+    RC_ASSERT(validate(set.complex()).empty());
+    RC_ASSERT(equal(set, by_unions(mesh)));
+  }));
+}

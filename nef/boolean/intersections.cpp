@@ -10,6 +10,7 @@
 #include "nef/base/error.h"
 #include "nef/boolean/facet_locator.h"
 #include "nef/boolean/piercing_filter.h"
+#include "nef/geometry/occupancy_grid.h"
 
 namespace nef {
 namespace {
@@ -25,7 +26,7 @@ class IntersectionFinder {
 
   Intersections run() {
     if (operands_[0].bounds().overlaps(operands_[1].bounds())) {
-      for (std::size_t x = 0; x < 2; ++x) collect(x);
+      collect();
       for (std::size_t x = 0; x < 2; ++x) {
         vertices_against_facets(x);
         vertices_against_bare(x);
@@ -39,10 +40,11 @@ class IntersectionFinder {
   }
 
  private:
+  // What of an operand can meet the other one.
   struct Near {
     std::vector<std::uint32_t> facets;
     BoxTree facet_tree;
-    std::vector<std::uint32_t> vertices;  // inside the other's bounds
+    std::vector<std::uint32_t> vertices;
     std::vector<std::uint32_t> edges;
     std::vector<std::uint32_t> bare_edges;
     BoxTree bare_edge_tree;
@@ -50,43 +52,88 @@ class IntersectionFinder {
     BoxTree bare_vertex_tree;
   };
 
-  void collect(std::size_t x) {
+  // Boxes of an operand's items that meet the other's bounds.
+  struct Items {
+    std::vector<std::uint32_t> index;
+    std::vector<Box> boxes;
+    void add(std::uint32_t i, const Box& box) {
+      index.push_back(i);
+      boxes.push_back(box);
+    }
+  };
+  struct Candidates {
+    Items facets, bare_edges, bare_vertices;
+  };
+
+  Candidates candidates(std::size_t x) const {
+    const Operand& operand = operands_[x];
+    const Complex& c = operand.complex();
+    const Box& reach = operands_[1 - x].bounds();
+    Candidates found;
+    for (std::uint32_t f = 0; f < c.facets.size(); ++f) {
+      const Box box = operand.facet_box(f);
+      if (box.overlaps(reach)) found.facets.add(f, box);
+    }
+    for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
+      const SphereMapView map = c.sphere_map(v);
+      if (!map.shalfedges.empty() || !map.sloops.empty()) continue;
+      const Box box = operand.vertex_box(v);
+      if (box.overlaps(reach)) found.bare_vertices.add(v, box);
+    }
+    for (std::uint32_t e = 0; e < c.svertices.size(); ++e) {
+      if (c.svertices[e].out != kNone || e > c.twin[e]) continue;
+      const Box box = operand.edge_box(e);
+      if (box.overlaps(reach)) found.bare_edges.add(e, box);
+    }
+    return found;
+  }
+
+  // Everything of an operand lies on the borders of its facets or is bare, so that a grid of these tells what of the
+  // other operand can be left out. Most surfaces come close to each other in few places.
+  void collect() {
+    std::array<Candidates, 2> found{candidates(0), candidates(1)};
+    Box region;
+    for (std::size_t i = 0; i < 3; ++i) {
+      region.low[i] = std::max(operands_[0].bounds().low[i], operands_[1].bounds().low[i]);
+      region.high[i] = std::min(operands_[0].bounds().high[i], operands_[1].bounds().high[i]);
+    }
+    const std::size_t count = found[0].facets.index.size() + found[1].facets.index.size();
+    std::array<OccupancyGrid, 2> grids{OccupancyGrid(region, count), OccupancyGrid(region, count)};
+    for (std::size_t x = 0; x < 2; ++x) {
+      for (const Items* items : {&found[x].facets, &found[x].bare_edges, &found[x].bare_vertices}) {
+        for (const Box& box : items->boxes) grids[x].mark(box);
+      }
+    }
+    for (std::size_t x = 0; x < 2; ++x) collect(x, found[x], grids[1 - x]);
+  }
+
+  static std::vector<std::uint32_t> keep(Items& items, const OccupancyGrid& other, BoxTree& tree) {
+    Items kept;
+    for (std::size_t i = 0; i < items.index.size(); ++i) {
+      if (other.touches(items.boxes[i])) kept.add(items.index[i], items.boxes[i]);
+    }
+    tree = BoxTree(kept.boxes);
+    return std::move(kept.index);
+  }
+
+  void collect(std::size_t x, Candidates& found, const OccupancyGrid& other) {
     const Operand& operand = operands_[x];
     const Complex& c = operand.complex();
     const Box& reach = operands_[1 - x].bounds();
     Near& near = near_[x];
-    std::vector<Box> boxes;
-    for (std::uint32_t f = 0; f < c.facets.size(); ++f) {
-      const Box box = operand.facet_box(f);
-      if (!box.overlaps(reach)) continue;
-      near.facets.push_back(f);
-      boxes.push_back(box);
-    }
-    near.facet_tree = BoxTree(boxes);
-    std::vector<Box> bare_boxes;
+    near.facets = keep(found.facets, other, near.facet_tree);
+    near.bare_edges = keep(found.bare_edges, other, near.bare_edge_tree);
+    near.bare_vertices = keep(found.bare_vertices, other, near.bare_vertex_tree);
+    // The ends of an edge that is near need not be.
     for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
       const Box box = operand.vertex_box(v);
-      if (!box.overlaps(reach)) continue;
-      near.vertices.push_back(v);
-      const SphereMapView map = c.sphere_map(v);
-      if (map.shalfedges.empty() && map.sloops.empty()) {
-        near.bare_vertices.push_back(v);
-        bare_boxes.push_back(box);
-      }
+      if (box.overlaps(reach) && other.touches(box)) near.vertices.push_back(v);
     }
-    near.bare_vertex_tree = BoxTree(bare_boxes);
-    bare_boxes.clear();
     for (std::uint32_t e = 0; e < c.svertices.size(); ++e) {
       if (e > c.twin[e]) continue;
       const Box box = operand.edge_box(e);
-      if (!box.overlaps(reach)) continue;
-      near.edges.push_back(e);
-      if (c.svertices[e].out == kNone) {
-        near.bare_edges.push_back(e);
-        bare_boxes.push_back(box);
-      }
+      if (box.overlaps(reach) && other.touches(box)) near.edges.push_back(e);
     }
-    near.bare_edge_tree = BoxTree(bare_boxes);
   }
 
   int side(PlaneId plane, PointId point) const { return side_of_plane(tables_.planes, plane, tables_.points, point); }

@@ -19,6 +19,7 @@ Operand::Operand(const Complex& complex, CommonTables& tables)
   } else {
     tables.points.append(complex.points);
     rows_.resize(complex.planes.size());
+    tables.planes.reserve(tables.planes.size() + complex.planes.size());
     for (std::uint32_t row = 0; row < rows_.size(); ++row) {
       rows_[row] = tables.planes.intern_from(complex.planes, PlaneId{row << 1U}).row();
     }

@@ -202,7 +202,7 @@ void drop_idle_planes(Complex& c) {
   planes.reserve(count);
   std::vector<std::uint32_t> row(used.size(), kNone);
   for (std::uint32_t i = 0; i < used.size(); ++i) {
-    if (used[i]) row[i] = planes.intern_from(c.planes, PlaneId{i << 1U}).row();
+    if (used[i]) row[i] = planes.append_new(c.planes, i);
   }
   const auto rename = [&row](PlaneId& plane) { plane = PlaneId{row[plane.row()] << 1U | (plane.value & 1U)}; };
   for (SVertex& v : c.svertices) {

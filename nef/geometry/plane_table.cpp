@@ -2,6 +2,7 @@
 #include "nef/geometry/plane_table.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "nef/base/error.h"
@@ -27,7 +28,6 @@ void PlaneTable::reserve(std::size_t planes) {
   rows_.reserve(planes, 8);
   approximate_.reserve(planes);
   hash_.reserve(planes);
-  while (slots_.size() < 2 * planes + 2) grow();
 }
 
 PlaneId PlaneTable::intern(const Integer& a, const Integer& b, const Integer& c, const Integer& d, const Integer& e) {
@@ -56,9 +56,29 @@ PlaneId PlaneTable::intern(const Integer& a, const Integer& b, const Integer& c,
 PlaneId PlaneTable::intern_from(const PlaneTable& other, PlaneId plane) {
   if (&other == this) return plane;
   // The other row is normalized already; only its place in this table is in question.
-  rows_.push_from(other.rows_, plane.row());
-  const PlaneId found = find_or_add_last();
-  return plane.flipped() ? found.opposite() : found;
+  make_room_for_one();
+  const std::uint64_t hash = other.hash_[plane.row()];
+  const std::size_t mask = slots_.size() - 1;
+  std::size_t slot = hash & mask;
+  while (slots_[slot] != kEmpty) {
+    const std::uint32_t row = slots_[slot];
+    if (hash_[row] == hash && rows_.equal(row, other.rows_, plane.row())) {
+      return PlaneId{row << 1U | (plane.value & 1U)};
+    }
+    slot = (slot + 1) & mask;
+  }
+  slots_[slot] = static_cast<std::uint32_t>(rows_.size());
+  const std::uint32_t row = rows_.push_from(other.rows_, plane.row());
+  hash_.push_back(hash);
+  approximate_.push_back(other.approximate_[plane.row()]);
+  return PlaneId{row << 1U | (plane.value & 1U)};
+}
+
+std::uint32_t PlaneTable::append_new(const PlaneTable& other, std::uint32_t row) {
+  slots_.clear();
+  hash_.push_back(other.hash_[row]);
+  approximate_.push_back(other.approximate_[row]);
+  return rows_.push_from(other.rows_, row);
 }
 
 PlaneId PlaneTable::intern(const Rational3& normal, const Rational& offset) {
@@ -79,7 +99,7 @@ Integer PlaneTable::oriented_coefficient(PlaneId plane, std::size_t column) cons
 // The candidate is the last row; keep it only if no equal row exists.
 PlaneId PlaneTable::find_or_add_last() {
   const auto candidate = static_cast<std::uint32_t>(rows_.size() - 1);
-  if (2 * rows_.size() > slots_.size()) grow();
+  make_room_for_one();
   const std::uint64_t hash = rows_.hash(candidate);
   const std::size_t mask = slots_.size() - 1;
   std::size_t slot = hash & mask;
@@ -105,8 +125,13 @@ PlaneId PlaneTable::find_or_add_last() {
   return PlaneId{candidate << 1U};
 }
 
-void PlaneTable::grow() {
-  const std::size_t capacity = std::max<std::size_t>(16, slots_.size() * 2);
+void PlaneTable::make_room_for_one() {
+  if (2 * (hash_.size() + 1) > slots_.size()) make_slots(std::max(2 * hash_.size() + 4, hash_.capacity()));
+}
+
+void PlaneTable::make_slots(std::size_t planes) {
+  const std::size_t capacity = std::bit_ceil(std::max<std::size_t>(16, 2 * planes));
+  if (capacity <= slots_.size()) return;
   slots_.assign(capacity, kEmpty);
   for (std::uint32_t row = 0; row < hash_.size(); ++row) {
     std::size_t slot = hash_[row] & (capacity - 1);

@@ -30,6 +30,10 @@ class PlaneTable {
   /// The same for a plane of another table (or of this one).
   PlaneId intern_from(const PlaneTable& other, PlaneId plane);
 
+  /// Appends a plane of another table that this one does not hold yet, and returns its row. Cheaper than intern_from:
+  /// nothing is looked up.
+  std::uint32_t append_new(const PlaneTable& other, std::uint32_t row);
+
   /// The plane n.x + d = 0 for a rational normal and offset; scaled to integers.
   PlaneId intern(const Rational3& normal, const Rational& offset);
 
@@ -57,12 +61,14 @@ class PlaneTable {
 
  private:
   PlaneId find_or_add_last();
-  void grow();
+  void make_slots(std::size_t planes);
+  void make_room_for_one();
 
   IntegerRows rows_;
   std::vector<std::array<double, 4>> approximate_;
   std::vector<std::uint64_t> hash_;
-  std::vector<std::uint32_t> slots_;  // open addressing, a power of two, at most half full
+  std::vector<std::uint32_t>
+      slots_;  // open addressing, a power of two, at most half full; none until a plane is looked for
 };
 
 }  // namespace nef

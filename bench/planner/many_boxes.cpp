@@ -4,20 +4,25 @@
 // cost of state and motion checks in a free space of that size.
 //
 //   bench_planner_many_boxes [boxes] [seed]
-#include <chrono>
+#include <ompl/util/Console.h>
+
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <random>
 
-#include "apps/planner/question.h"
+#include "apps/planner/ompl_runs.h"
 #include "apps/planner/segment_walk.h"
+#include "apps/planner/translation_planning.h"
+#include "bench/planner/timed_checks.h"
 
 namespace {
 
 using namespace nef;           // NOLINT(google-build-using-namespace): this is the program
 using namespace nef::planner;  // NOLINT(google-build-using-namespace)
 
-double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+// Processor seconds, so that a busy machine does not count.
+double processor() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 Scene scene_of(int boxes, unsigned seed) {
   std::mt19937 random(seed);
@@ -47,18 +52,40 @@ void time_checks(const FreeSpace& free) {
   for (int i = 0; i < 2000; ++i) {
     points.emplace_back(std::array<double, 3>{coordinate(random), coordinate(random), coordinate(random)});
   }
+  constexpr int kRounds = 20;
+  const double checks = kRounds * static_cast<double>(points.size());
   std::size_t valid = 0;
-  double begin = now();
-  for (const ExactPoint& point : points) valid += free.is_free(point) ? 1 : 0;
-  const double state = (now() - begin) / static_cast<double>(points.size());
-  begin = now();
-  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-    walk_segment(free.tree(), points[i], points[i + 1],
-                 [&](const SegmentPart& part) { return free.is_free(part.cell); });
+  double begin = processor();
+  for (int round = 0; round < kRounds; ++round) {
+    for (const ExactPoint& point : points) valid += free.is_free(point) ? 1 : 0;
   }
-  const double motion = (now() - begin) / static_cast<double>(points.size());
-  std::printf("state check %.3f us, motion check %.3f us, %zu of %zu states free\n", 1e6 * state, 1e6 * motion, valid,
-              points.size());
+  const double state = (processor() - begin) / checks;
+  begin = processor();
+  for (int round = 0; round < kRounds; ++round) {
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+      walk_segment(free.tree(), points[i], points[i + 1],
+                   [&](const SegmentPart& part) { return free.is_free(part.cell); });
+    }
+  }
+  const double motion = (processor() - begin) / checks;
+  std::printf("state check %.3f us, motion check between random states %.3f us; %zu of %zu states free\n", 1e6 * state,
+              1e6 * motion, valid / kRounds, points.size());
+}
+
+// How much of a stock planner's time its checks take in this scene.
+void share_of_checks(const Problem& problem, const char* name) {
+  TranslationPlanning setup(problem);
+  const ompl::base::SpaceInformationPtr& si = setup.getSpaceInformation();
+  CheckTime checks;
+  setup.setStateValidityChecker(std::make_shared<TimedState>(si, problem.shared_free_space(), checks));
+  si->setMotionValidator(std::make_shared<TimedMotion>(si, problem.shared_free_space(), checks));
+  setup.setPlanner(make_ompl_planner(name, si));
+  setup.setup();
+  const double begin = now();
+  setup.solve(2.0);
+  const double wall = now() - begin;
+  std::printf("%-12s %s in %.4f s, %.0f %% of it in checks\n", name,
+              setup.haveExactSolutionPath() ? "solved" : "no path", wall, 100 * checks.seconds / wall);
 }
 
 }  // namespace
@@ -66,17 +93,22 @@ void time_checks(const FreeSpace& free) {
 int main(int argc, char** argv) {
   const int boxes = argc > 1 ? std::atoi(argv[1]) : 200;
   const unsigned seed = argc > 2 ? static_cast<unsigned>(std::atoi(argv[2])) : 1;
+  ompl::msg::setLogLevel(ompl::msg::LOG_NONE);
+  const double begin = processor();
   const Problem problem(scene_of(boxes, seed));
   const FreeSpace& free = problem.free_space();
   PathOptions options;
   options.thorough = false;
   const Answer answer = problem.solve(options);
+  const double processor_all = processor() - begin;
   std::printf("%d boxes: %s, length %.4f\n", boxes, status_name(answer.status).c_str(),
               answer.path ? answer.path->length : 0.0);
   for (const auto& [phase, seconds] : answer.phases) std::printf("  %-20s %.3f s\n", phase.c_str(), seconds);
   std::printf("%zu cells, %zu leaves, %zu stations, %zu components, %zu tight passages\n", free.cells().size(),
               free.tree().leaves().size(), free.zones().stations().size(), free.components().size(),
               free.passages().size());
+  std::printf("%.3f processor seconds from the boxes to the path\n", processor_all);
   time_checks(free);
+  for (const char* name : {"RRTConnect", "PRM", "EST"}) share_of_checks(problem, name);
   return 0;
 }

@@ -12,13 +12,12 @@
 #include <ompl/util/Console.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
 
-#include "apps/planner/nef_validity.h"
 #include "apps/planner/ompl_runs.h"
+#include "bench/planner/timed_checks.h"
 
 namespace {
 
@@ -26,8 +25,6 @@ using namespace nef;           // NOLINT(google-build-using-namespace): this is 
 using namespace nef::planner;  // NOLINT(google-build-using-namespace)
 namespace ob = ompl::base;
 namespace og = ompl::geometric;
-
-double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
@@ -54,43 +51,6 @@ Scene scene_of(bool hole, const Rational& w) {
   scene.goal = Rational3{r("1.9"), r("0.75"), r("0.7")};
   return scene;
 }
-
-// Validity checkers that know how long they took.
-struct CheckTime {
-  double seconds = 0;
-};
-
-class TimedState : public NefStateValidityChecker {
- public:
-  TimedState(const ob::SpaceInformationPtr& si, std::shared_ptr<const FreeSpace> free, CheckTime& time)
-      : NefStateValidityChecker(si, std::move(free)), time_(time) {}
-  using NefStateValidityChecker::isValid;
-  bool isValid(const ob::State* state) const override {
-    const double begin = now();
-    const bool valid = NefStateValidityChecker::isValid(state);
-    time_.seconds += now() - begin;
-    return valid;
-  }
-
- private:
-  CheckTime& time_;
-};
-
-class TimedMotion : public NefMotionValidator {
- public:
-  TimedMotion(const ob::SpaceInformationPtr& si, std::shared_ptr<const FreeSpace> free, CheckTime& time)
-      : NefMotionValidator(si, std::move(free)), time_(time) {}
-  using NefMotionValidator::checkMotion;
-  bool checkMotion(const ob::State* a, const ob::State* b) const override {
-    const double begin = now();
-    const bool valid = NefMotionValidator::checkMotion(a, b);
-    time_.seconds += now() - begin;
-    return valid;
-  }
-
- private:
-  CheckTime& time_;
-};
 
 // Where the cube's centre can be at all: nothing else is sampled, so that every invalid state is in the wall, as the
 // bridge test likes it.

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Exact checks for OMPL that know how long they took.
+#pragma once
+
+#include <chrono>
+
+#include "apps/planner/nef_validity.h"
+
+namespace nef::planner {
+
+/// Seconds of the wall clock, since OMPL's limits are of the wall clock too.
+inline double now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// Shared by the checkers of one run.
+struct CheckTime {
+  double seconds = 0;
+};
+
+class TimedState : public NefStateValidityChecker {
+ public:
+  TimedState(const ompl::base::SpaceInformationPtr& si, std::shared_ptr<const FreeSpace> free, CheckTime& time)
+      : NefStateValidityChecker(si, std::move(free)), time_(time) {}
+  using NefStateValidityChecker::isValid;
+  bool isValid(const ompl::base::State* state) const override {
+    const double begin = now();
+    const bool valid = NefStateValidityChecker::isValid(state);
+    time_.seconds += now() - begin;
+    return valid;
+  }
+
+ private:
+  CheckTime& time_;
+};
+
+class TimedMotion : public NefMotionValidator {
+ public:
+  TimedMotion(const ompl::base::SpaceInformationPtr& si, std::shared_ptr<const FreeSpace> free, CheckTime& time)
+      : NefMotionValidator(si, std::move(free)), time_(time) {}
+  using NefMotionValidator::checkMotion;
+  bool checkMotion(const ompl::base::State* a, const ompl::base::State* b) const override {
+    const double begin = now();
+    const bool valid = NefMotionValidator::checkMotion(a, b);
+    time_.seconds += now() - begin;
+    return valid;
+  }
+
+ private:
+  CheckTime& time_;
+};
+
+}  // namespace nef::planner

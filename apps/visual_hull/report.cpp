@@ -49,16 +49,22 @@ json result_json(const Result& result) {
   entry["volume_double"] = volume ? json(nef::nearest_double(*volume)) : json(nullptr);
   entry["area"] = nef::surface_area(hull);
   const auto box = nef::bounding_box(hull);
-  json corners = nullptr;
+  entry["bbox"] = nullptr;
+  entry["bbox_exact"] = nullptr;
   if (box) {
-    corners = json::array();
+    entry["bbox"] = json::array();
+    entry["bbox_exact"] = json::array();
     for (const Rational3& corner : *box) {
       json point = json::array();
-      for (const Rational& c : corner) point.push_back(nef::nearest_double(c));
-      corners.push_back(point);
+      json exact = json::array();
+      for (const Rational& c : corner) {
+        point.push_back(nef::nearest_double(c));
+        exact.push_back(nef::to_string(c));
+      }
+      entry["bbox"].push_back(point);
+      entry["bbox_exact"].push_back(exact);
     }
   }
-  entry["bbox"] = corners;
   const std::vector<long> euler = nef::euler_numbers(hull);
   entry["euler_numbers"] = euler;
   return entry;

@@ -177,6 +177,28 @@ TEST_CASE("Bad use and bad input: one line, exit code 2") {
   fails(run(data("letters/nef.vsh") + " --box 0,0,0,1,1"), "six numbers");
   fails(run(data("letters/nef.vsh") + " --box 0,0,0,0,1,1"), "flat along x");
   fails(run(data("letters/nef.vsh") + " --frobnicate"), "--frobnicate");
+  fails(run(data("letters/nef.vsh") + " --threads -1"), "--threads");
+  fails(run(data("letters/nef.vsh") + " --simplify nan"), "--simplify");
+  fails(run(data("letters/nef.vsh") + " --box 0,0,0,nan,1,1"), "'nan' is not a number");
+  fails(run(data("letters/nef.vsh") + " --threshold bright"), "neither a number nor otsu");
+  fails(run(data("letters/nef.vsh") + " --channel infrared"), "--channel");
+  fails(run(data("letters/nef.vsh") + " --min-area -1"), "--min-area");
+  fails(run(data("letters/nef.vsh") + " --pixel-origin middle"), "--pixel-origin");
+  fails(run(data("letters/nef.vsh") + " --report " + s.folder().string()), "cannot write");
+  fails(run(data("letters/nef.vsh") + " --overlay " + data("letters/nef.vsh")), "cannot make the directory");
+  fails(run(data("letters/nef.vsh") + " --silhouette " + (s.folder() / "none.json").string()), "cannot open");
+  fails(run(data("eight/eight.json") + " --images " + data("letters")), "holds 0 images, but the scene has 12 views");
+  fails(run(data("eight/eight.json") + " --images /no/such/place"), "is not a directory of images");
+  fails(run(data("eight/eight.json") + " --channel red"), "1 channels only");
+  fails(run(data("eight/eight.json") + " --min-area 1e6"), "view eight_00.png: the silhouette is empty without");
+  fails(run(data("letters/nef.vsh") + " --silhouette " + s.write("eight.json", "[[[0,0],[1,1],[1,0],[0,1]]]").string()),
+        "view 1: polygon 1 crosses itself");
+  fails(run(data("letters/nef.vsh") + " --silhouette " + s.write("nan.json", "[[[0,0],[1,1],[1,NaN]]]").string()),
+        "not valid JSON");
+  fails(run(data("letters/nef.vsh") + " --silhouette " + s.write("line.json", "[[[0,0],[1,1],[2,2]]]").string()),
+        "has no area");
+  fails(run(data("letters/nef.vsh") + " --silhouette " + s.write("none.json", "[]").string()),
+        "view 1: the silhouette is empty");
   fails(run(data("letters/nef.vsh") + " -o " + (s.folder() / "x.unknown").string()), "unknown");
   fails(run(data("letters/nef.vsh") + " -o " + (s.folder() / "no/such/folder/x.off").string()), "x.off");
   const std::string one = "a 100 0 0 0 0 100 0 0 0 0 1 10\n";
@@ -188,6 +210,68 @@ TEST_CASE("Bad use and bad input: one line, exit code 2") {
   fails(run((s.folder() / "p.txt").string() + " --silhouette b=x.json"), "no view 'b'");
   CHECK(run((s.folder() / "p.txt").string() + " --box -1,-1,-1,1,1,1").code == 0);
   CHECK(run("--help").code == 0);
+}
+
+TEST_CASE("--json prints the report and nothing else, --quiet nothing at all") {
+  const Scratch s;
+  const std::string report = (s.folder() / "r.json").string();
+  const Outcome outcome = run(data("letters/mpi.vsh") + " --json --verify --threads 1 --report " + report);
+  REQUIRE(outcome.code == 0);
+  const nlohmann::json printed = nlohmann::json::parse(outcome.output);
+  CHECK(printed == read_json(report));
+  for (const char* key : {"views", "phases", "result", "verify", "box", "predicates", "peak_memory_bytes"}) {
+    CHECK(printed.contains(key));
+  }
+  for (const char* key : {"vertices", "edges", "facets", "volumes", "shells", "bounded", "open", "closed", "regular",
+                          "volume", "volume_double", "area", "bbox", "bbox_exact", "euler_numbers"}) {
+    CHECK(printed["result"].contains(key));  // the keys of nef info --json
+  }
+  CHECK(printed["result"]["volume_double"].get<double>() ==
+        nef::nearest_double(nef::parse_rational(printed["result"]["volume"].get<std::string>())));
+  CHECK(run(data("letters/mpi.vsh") + " --quiet --verify").output.empty());
+  CHECK(run(data("letters/mpi.vsh") + " --verify --report -").output.find("\"views\"") != std::string::npos);
+  const Outcome version = run("--version");
+  CHECK(version.code == 0);
+  CHECK_THAT(version.output, Contains("visual_hull 0."));
+}
+
+TEST_CASE("Help names every option") {
+  const std::string help = run("--help").output;
+  for (const char* option : {"--images", "--silhouette", "--threshold", "--channel", "--invert",  "--pixel-origin",
+                             "--border", "--min-area",   "--simplify",  "--outer",   "--box",     "--output",
+                             "--exact",  "--binary",     "--verify",    "--report",  "--overlay", "--preview",
+                             "--page",   "--threads",    "--json",      "--quiet",   "--version", "Exit codes"}) {
+    CHECK_THAT(help, Contains(option));
+  }
+}
+
+TEST_CASE("What a format does not hold is told, unless nobody listens") {
+  // One camera's two views agree in a square and touch along u = 3: a solid, and a facet that no mesh file holds.
+  const Scratch s;
+  const auto scene = s.write("p.txt", "a 10 0 0 0 0 10 0 0 0 0 1 0\nb 10 0 0 0 0 10 0 0 0 0 1 0\n");
+  const auto a = s.write("a.json", "[[[0,0],[1,0],[1,1],[0,1]], [[2,0],[3,0],[3,1],[2,1]]]");
+  const auto b = s.write("b.json", "[[[0,0],[1,0],[1,1],[0,1]], [[3,0],[4,0],[4,1],[3,1]]]");
+  const std::string arguments = scene.string() + " --silhouette " + a.string() + " --silhouette " + b.string() +
+                                " --box=-5,-5,1,5,5,2 -o " + (s.folder() / "x.off").string();
+  const Outcome loud = run(arguments);
+  CHECK(loud.code == 0);
+  CHECK_THAT(loud.output, Contains("visual_hull: note: "));
+  const Outcome json = run(arguments + " --json");
+  CHECK(nlohmann::json::parse(json.output)["messages"].size() >= 1);
+  CHECK(run(arguments + " -q").output.empty());
+  const Outcome exact = run(scene.string() + " --silhouette " + a.string() + " --silhouette " + b.string() +
+                            " --box=-5,-5,1,5,5,2 -o " + (s.folder() / "x.nef").string());
+  CHECK(exact.output.find("note") == std::string::npos);
+}
+
+TEST_CASE("Preview and page from the command line") {
+  const Scratch s;
+  const Outcome outcome = run(data("letters/mpi.vsh") + " --preview " + (s.folder() / "p").string());
+  CHECK(outcome.code == 0);
+  CHECK_FALSE(cv::imread((s.folder() / "p" / "hull_top.png").string()).empty());
+  const Outcome page = run(data("letters/mpi.vsh") + " --page " + (s.folder() / "x.htm").string());
+  CHECK(page.code == 2);
+  CHECK_THAT(page.output, Contains("the extension must be .html"));
 }
 
 TEST_CASE("An empty hull is exit code 1 and names the view") {

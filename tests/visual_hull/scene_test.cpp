@@ -66,6 +66,50 @@ TEST_CASE("Middlebury parameters are K [R | t]") {
   CHECK(scene.views[0].camera.centre() == Rational3{Rational(-1, 2), 0, -4});
 }
 
+TEST_CASE("Listings of other programs: a call at the end is no matrix") {
+  const Scratch scratch;
+  const Scene scene = read_scene(scratch.write("m.txt",
+                                               "P0 = [1 0 0 5;\n 0 1 0 6;\n 0 0 1 7];\n \n"
+                                               "P_all = cat(3, P0, ...\n     P0);\n"));
+  REQUIRE(scene.views.size() == 1);
+  CHECK(scene.views[0].camera.centre() == Rational3{-5, -6, -7});
+}
+
+TEST_CASE("Blocks of intrinsic and extrinsic parameters are K [R | t]") {
+  const Scratch scratch;
+  const std::string head = "A file by somebody\n\n#Intrinsic parameter\n2 0 10\n0 3 20\n0 0 1\n\n";
+  const Scene scene =
+      read_scene(scratch.write("c.txt", head + "#Extrinsic parameter for a.bmp\n1 0 0 0.5\n0 1 0 0\n0 0 1 4\n"
+                                               "# extrinsic\n\n1 0 0 1\n0 1 0 2\n0 0 1 3\n"));
+  REQUIRE(scene.views.size() == 2);
+  CHECK(scene.views[0].name == "a.bmp");
+  CHECK(scene.views[0].image == "a.bmp");
+  const Matrix34 expected{{{2, 0, 10, 41}, {0, 3, 20, 80}, {0, 0, 1, 4}}};
+  CHECK(scene.views[0].camera.matrix() == expected);
+  CHECK(scene.views[1].name == "2");
+  CHECK(scene.views[1].camera.centre() == Rational3{-1, -2, -3});
+  CHECK_THAT(refusal(scratch, "d.txt", head + "#Extrinsic\n1 0 0 0.5\n0 1 0 0\n"), Contains("ends inside a matrix"));
+  CHECK_THAT(refusal(scratch, "e.txt", head + "#Extrinsic\n1 0 0\n"), Contains("line 9: a row of 4 numbers"));
+  CHECK_THAT(refusal(scratch, "f.txt", "#Extrinsic\n1 0 0 1\n"), Contains("intrinsic parameters are missing"));
+  CHECK_THAT(refusal(scratch, "g.txt", head + "#Extrinsic\n1 0 0 x\n"), Contains("'x' is not a number"));
+}
+
+TEST_CASE("A folder of cameras has a view for each of its files") {
+  const Scratch s;
+  s.write("b.pa", "1 0 0 1\n0 1 0 2\n0 0 1 3\n");
+  s.write("a.pa", "1 0 0 5\n0 1 0 6\n0 0 1 7\n");
+  s.write("notes.txt", "no camera");
+  const Scene scene = read_scene(s.folder());
+  REQUIRE(scene.views.size() == 2);
+  CHECK(scene.views[0].name == "a");
+  CHECK(scene.views[0].image == "a");
+  CHECK(scene.views[1].camera.centre() == Rational3{-1, -2, -3});
+  CHECK(scene_folder(s.folder()) == s.folder());
+  CHECK(scene_folder(s.folder() / "scene.json") == s.folder());
+  s.write("c.pa", "1 0 0 5\n0 1 0 6\n0 0 1 7\n1 0 0 5\n0 1 0 6\n0 0 1 7\n");
+  CHECK_THROWS_WITH(read_scene(s.folder()), Contains("one 3x4 matrix is needed, not 2"));
+}
+
 TEST_CASE("JSON numbers and strings are the rationals that they spell") {
   const Scratch scratch;
   const Scene scene = read_scene(scratch.write("scene.json", R"({
@@ -74,7 +118,7 @@ TEST_CASE("JSON numbers and strings are the rationals that they spell") {
       {"name": "b", "K": [2, 0, 10, 0, 3, 20, 0, 0, 1], "R": [[1, 0, 0], [0, 1, 0], [0, 0, 1]], "t": [0.5, 0, 4],
        "distortion": [0.1, 0, 0, 0, 0], "polygons": [[[0, 0], ["1/7", 0], [0, 0.3]]]}
     ],
-    "box": [-1, -1, -1, 1, 1, 0.1], "threshold": "otsu", "invert": true})"));
+    "box": [-1, -1, -1, 1, 1, 0.1], "threshold": "otsu", "channel": "red", "invert": true})"));
   REQUIRE(scene.views.size() == 2);
   const Matrix34& m = scene.views[0].camera.matrix();
   CHECK(m[0][0] == Rational(1, 10));
@@ -89,6 +133,7 @@ TEST_CASE("JSON numbers and strings are the rationals that they spell") {
   REQUIRE(scene.threshold.has_value());
   CHECK(scene.threshold->kind == ThresholdOptions::Kind::kOtsu);
   CHECK(scene.threshold->invert);
+  CHECK(scene.threshold->channel == ThresholdOptions::Channel::kRed);
 }
 
 TEST_CASE("A .vsh camera maps the points of its polygon's plane to two of their coordinates") {
@@ -149,6 +194,7 @@ TEST_CASE("Images are found by name beside the scene") {
   std::filesystem::create_directories(s.folder() / "masks");
   s.write("masks/view.007.png", "x");
   CHECK(find_image(s.folder(), "a.png") == s.folder() / "a.png");
+  CHECK(find_image(s.folder(), "a.jpg") == s.folder() / "a.png");  // the mask of a photograph
   CHECK(find_image(s.folder(), "a") == s.folder() / "a.png");
   CHECK(find_image(s.folder(), "view.007") == s.folder() / "masks/view.007.png");
   CHECK_THROWS_WITH(find_image(s.folder(), "b"), Contains("view b: there is no image"));

@@ -46,6 +46,43 @@ TEST_CASE("Masks, photographs and alpha channels") {
   CHECK(cv::countNonZero(make_mask(opaque, {})) == 16);
 }
 
+TEST_CASE("A channel separates what brightness does not") {
+  using Kind = ThresholdOptions::Kind;
+  cv::Mat photo(8, 8, CV_8UC3, cv::Scalar(200, 60, 30));  // a blue screen
+  photo(cv::Rect(2, 2, 3, 3)).setTo(cv::Scalar(30, 60, 130));
+  ThresholdOptions options = threshold(Kind::kValue, 80);
+  options.channel = ThresholdOptions::Channel::kRed;
+  CHECK(cv::countNonZero(make_mask(photo, options)) == 9);
+  options.channel = ThresholdOptions::Channel::kBlue;
+  CHECK(cv::countNonZero(make_mask(photo, options)) == 64 - 9);
+  options.kind = Kind::kOtsu;
+  options.invert = true;
+  CHECK(cv::countNonZero(make_mask(photo, options)) == 9);
+  options.channel = ThresholdOptions::Channel::kAlpha;
+  CHECK_THROWS_AS(make_mask(photo, options), nef::InputError);
+}
+
+TEST_CASE("Specks go by their area; an outer silhouette keeps its islands") {
+  cv::Mat mask(40, 40, CV_8U, cv::Scalar(0));
+  mask(cv::Rect(5, 5, 20, 20)).setTo(255);
+  mask(cv::Rect(8, 8, 2, 2)).setTo(0);      // a hole of 4
+  mask(cv::Rect(12, 12, 6, 6)).setTo(0);    // a hole of 36 ...
+  mask(cv::Rect(14, 14, 1, 1)).setTo(255);  // ... with an island of 1
+  mask(cv::Rect(30, 30, 3, 1)).setTo(255);  // an island of 3
+  SilhouetteOptions options;
+  CHECK(silhouette_of_mask(mask, {}, "v", options).contours == 5);
+  options.min_area = 5;
+  const ViewSilhouette clean = silhouette_of_mask(mask, {}, "v", options);
+  CHECK(clean.contours == 2);
+  CHECK(clean.holes == 1);
+  options.simplify.outer = true;
+  const ViewSilhouette outer = silhouette_of_mask(mask, {}, "v", options);
+  CHECK(outer.contours == 4);
+  CHECK(outer.holes == 1);
+  options.min_area = 40;  // the large hole goes with the island in it
+  CHECK(silhouette_of_mask(mask, {}, "v", options).contours == 2);
+}
+
 TEST_CASE("Images that cannot be used name their view") {
   const Scratch scratch;
   View view;

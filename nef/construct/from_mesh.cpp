@@ -4,6 +4,7 @@
 // vertex's sphere map from the corners of the faces around it.
 #include "nef/base/error.h"
 #include "nef/construct/construct.h"
+#include "nef/construct/fill.h"
 #include "nef/construct/from_surface.h"
 #include "nef/construct/mesh_check.h"
 #include "nef/construct/mesh_faces.h"
@@ -21,29 +22,20 @@ Polyhedron from_mesh(const Mesh& mesh, const MeshOptions& options, Messages* mes
       if (problem.kind == MeshProblemKind::kTouching) touching = true;
     }
   }
-  MeshFaces faces(mesh, surface, options, messages);
-  std::vector<std::vector<std::uint32_t>> parts(1);
   if (touching) {
-    // Parts that touch without sharing vertices meet in points that are no vertices of each other's
-    // faces; a Boolean operation finds these. By parity, cavities stay cavities.
-    parts = faces.components();
-    if (parts.size() == 1) {
-      throw InputError("the mesh touches itself where it has no common vertices; split the faces there, or the mesh");
-    }
+    // Faces meet in points that are no vertices of both; the union of the faces finds these. By parity, cavities stay
+    // cavities, however their faces are oriented.
+    MeshOptions as_surface = options;
+    as_surface.as_surface = true;
+    return Polyhedron(fill_by_parity(from_surface(mesh, as_surface, messages).complex()));
   }
-  Polyhedron result;
-  for (const std::vector<std::uint32_t>& part : parts) {
-    Complex complex = faces.solid(part, false);
-    if (complex.vertex_count() > 0 && complex.volumes[0].mark == 1) {
-      if (parts.size() == 1 && messages != nullptr) {
-        messages->push_back("the faces were oriented inward and have been turned over");
-      }
-      complex = faces.solid(part, true);
-    }
-    Polyhedron piece{std::move(complex)};
-    result = result.is_empty() ? std::move(piece) : regularize(symmetric_difference(result, piece));
+  MeshFaces faces(mesh, surface, options, messages);
+  Complex complex = faces.solid(false);
+  if (complex.vertex_count() > 0 && complex.volumes[0].mark == 1) {
+    if (messages != nullptr) messages->push_back("the faces were oriented inward and have been turned over");
+    complex = faces.solid(true);
   }
-  return result;
+  return Polyhedron(std::move(complex));
 }
 
 }  // namespace nef

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "nef/base/error.h"
-#include "nef/base/union_find.h"
 #include "nef/construct/mesh_check.h"
 
 namespace nef {
@@ -12,30 +11,9 @@ namespace nef {
 MeshFaces::MeshFaces(const Mesh& mesh, const MeshSurface& surface, const MeshOptions& options, Messages* messages)
     : mesh_(mesh), surface_(surface), options_(options), messages_(messages) {}
 
-Complex MeshFaces::solid(std::span<const std::uint32_t> faces, bool reverse) {
-  return make_solid(collect(faces, reverse), {1, 1, 0});
-}
+Complex MeshFaces::solid(bool reverse) { return make_solid(collect({}, reverse), {1, 1, 0}); }
 
 Complex MeshFaces::surface(std::span<const std::uint32_t> faces) { return make_surface(collect(faces, false), 1); }
-
-std::vector<std::vector<std::uint32_t>> MeshFaces::components() const {
-  UnionFind vertices(mesh_.vertices.size());
-  for (std::uint32_t f = 0; f < mesh_.face_count(); ++f) {
-    for (const std::uint32_t v : mesh_.face(f)) vertices.unite(surface_.place[v], surface_.place[mesh_.face(f)[0]]);
-  }
-  std::vector<std::uint32_t> number(mesh_.vertices.size(), kNone);
-  std::vector<std::vector<std::uint32_t>> result;
-  for (std::uint32_t f = 0; f < mesh_.face_count(); ++f) {
-    if (mesh_.face(f).empty()) continue;
-    std::uint32_t& n = number[vertices.find(surface_.place[mesh_.face(f)[0]])];
-    if (n == kNone) {
-      n = static_cast<std::uint32_t>(result.size());
-      result.emplace_back();
-    }
-    result[n].push_back(f);
-  }
-  return result;
-}
 
 SolidFaces MeshFaces::collect(std::span<const std::uint32_t> faces, bool reverse) {
   f_ = {};

@@ -20,20 +20,17 @@ class MeshFaces {
   /// All arguments must outlive this object; `messages` may be null. All indices in faces must be good.
   MeshFaces(const Mesh& mesh, const MeshSurface& surface, const MeshOptions& options, Messages* messages);
 
-  /// The solid that the faces bound, or with `reverse` the one that they bound when turned over; of all faces if
-  /// `faces` is empty. The faces must be closed and must not cross. O(n log n).
-  Complex solid(std::span<const std::uint32_t> faces, bool reverse);
+  /// The solid that the faces bound, or with `reverse` the one that they bound when turned over. They must be closed
+  /// and must not cross. O(n log n).
+  Complex solid(bool reverse);
 
   /// The union of the faces as a two-dimensional set. They must meet in common vertices and edges only. O(n log n).
   Complex surface(std::span<const std::uint32_t> faces);
 
-  /// Faces that share a vertex belong together.
-  [[nodiscard]] std::vector<std::vector<std::uint32_t>> components() const;
-
  private:
   using Integers = std::array<Integer, 3>;
 
-  SolidFaces collect(std::span<const std::uint32_t> faces, bool reverse);
+  SolidFaces collect(std::span<const std::uint32_t> faces, bool reverse);  // all if empty
   void number_points();
   void add_face(std::uint32_t face);
   bool add_ring();

@@ -6,6 +6,7 @@
 
 #include "nef/complex/validate.h"
 #include "nef/construct/construct.h"
+#include "nef/construct/to_mesh.h"
 #include "nef/polyhedron.h"
 
 using namespace nef;
@@ -81,4 +82,36 @@ TEST_CASE("Random triangles on a small grid: the surface is the union of its fac
     RC_ASSERT(validate(set.complex()).empty());
     RC_ASSERT(equal(set, by_unions(mesh)));
   }));
+}
+
+TEST_CASE("A solid of one component that touches itself is the solid between its faces", "[surface]") {
+  // A bar that is bent into a hook, and from the hook's end a wedge back to the bar, which it touches with its edge
+  // inside a face: one closed surface, in contact with itself where it has no common vertices.
+  const auto box = [](int x0, int y0, int z0, int x1, int y1, int z1) { return make_box({x0, y0, z0}, {x1, y1, z1}); };
+  const Polyhedron hook = unite(unite(box(0, 0, 0, 1, 1, 6), box(1, 0, 5, 4, 1, 6)), box(3, 0, 2, 4, 1, 5));
+  const std::vector<Rational3> tip = {
+      {3, 0, 2}, {3, 1, 2}, {3, 0, 5}, {3, 1, 5}, {1, Rational(1, 4), 3}, {1, Rational(3, 4), 3}};
+  const Polyhedron solid = unite(hook, convex_hull(tip));
+  const Mesh bar = to_mesh(hook).mesh;
+  const Mesh wedge = to_mesh(convex_hull(tip)).mesh;
+  // Without their common square at x = 3.
+  const auto on_square = [](const Mesh& m, std::uint32_t f) {
+    for (const std::uint32_t v : m.face(f)) {
+      if (m.vertices[v][0] != 3) return false;
+    }
+    return true;
+  };
+  Mesh joined;
+  for (const Mesh* part : {&bar, &wedge}) {
+    const auto base = static_cast<std::uint32_t>(joined.vertices.size());
+    joined.vertices.insert(joined.vertices.end(), part->vertices.begin(), part->vertices.end());
+    for (std::uint32_t f = 0; f < part->face_count(); ++f) {
+      if (on_square(*part, f)) continue;
+      for (const std::uint32_t v : part->face(f)) joined.corners.push_back(base + v);
+      joined.face_begin.push_back(static_cast<std::uint32_t>(joined.corners.size()));
+    }
+  }
+  const Polyhedron read = from_mesh(joined);
+  CHECK(validate(read.complex()).empty());
+  CHECK(equal(read, solid));
 }

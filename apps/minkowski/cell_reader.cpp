@@ -49,6 +49,7 @@ bool CellReader::selected(LabelId label) const { return (label & kSelected) != 0
 
 void CellReader::collect_items(std::uint32_t volume) {
   ++turn_;
+  volume_ = volume;
   facets_ = facets_of_volume_[volume];
   halfedges_.clear();
   vertices_.clear();
@@ -158,13 +159,85 @@ void CellReader::set_marks(ConvexCell& cell) {
   for (std::size_t k = 0; k < vertices_.size(); ++k) vertex_taken_[vertices_[k]] |= belongs.at(on.of_vertex[k]) ? 1 : 0;
 }
 
-ConvexCell CellReader::solid() const {
-  std::vector<Rational3> points;
-  points.reserve(vertices_.size());
-  for (const std::uint32_t v : vertices_) points.push_back(complex_.points.rational(PointId(v)));
-  ConvexCell cell = hull_cell(points);
-  NEF_ASSERT(cell.dimension == 3);
+// No coordinate is compared. The facets of a convex volume in one plane make up one of its faces; a
+// vertex is extreme iff it lies in three such planes. The boundary of a face is what edges of its
+// facets remain when those inside the face, which occur in both directions, have cancelled out.
+ConvexCell CellReader::solid() {
+  std::vector<std::uint32_t> by_plane(facets_);
+  const auto row = [&](std::uint32_t f) { return complex_.facets[f].plane.row(); };
+  std::sort(by_plane.begin(), by_plane.end(),
+            [&](std::uint32_t f, std::uint32_t g) { return row(f) != row(g) ? row(f) < row(g) : f < g; });
+  count_planes(by_plane);
+
+  ConvexCell cell;
+  cell.dimension = 3;
+  std::vector<std::uint32_t> number(vertices_.size(), kNone);
+  std::vector<std::uint32_t> face;
+  for (std::size_t first = 0, last = 0; first < by_plane.size(); first = last) {
+    while (last < by_plane.size() && row(by_plane[last]) == row(by_plane[first])) ++last;
+    face.clear();
+    for (const std::uint32_t v : outline({by_plane.data() + first, last - first})) {
+      std::uint32_t& n = number[local_[v]];
+      if (planes_at_[local_[v]] < 3) continue;
+      if (n == kNone) {
+        n = static_cast<std::uint32_t>(cell.mesh.vertices.size());
+        cell.mesh.vertices.push_back(complex_.points.rational(PointId(v)));
+      }
+      // An edge that dangles into the face leaves its root twice in a row.
+      if (face.empty() || face.back() != n) face.push_back(n);
+    }
+    if (face.size() > 1 && face.front() == face.back()) face.pop_back();
+    NEF_ASSERT(face.size() >= 3);
+    // Corners run counterclockwise about the plane's normal, which points into a volume above.
+    if (complex_.facets[by_plane[first]].volume_above == volume_) std::reverse(face.begin(), face.end());
+    cell.mesh.push_face(face);
+  }
   return cell;
+}
+
+// How many planes of the volume meet at each of its vertices.
+void CellReader::count_planes(std::span<const std::uint32_t> by_plane) {
+  planes_at_.assign(vertices_.size(), 0);
+  std::vector<std::uint32_t> last_plane(vertices_.size(), kNone);
+  for (const std::uint32_t f : by_plane) {
+    const Facet& facet = complex_.facets[f];
+    const auto meet = [&](std::uint32_t v) {
+      if (last_plane[local_[v]] == facet.plane.row()) return;
+      last_plane[local_[v]] = facet.plane.row();
+      ++planes_at_[local_[v]];
+    };
+    for (const std::uint32_t c : complex_.facet_corners(facet)) meet(complex_.shalfedge_owner[c]);
+    for (std::uint32_t i = 0; i < facet.isolated_count; ++i) meet(complex_.isolated_vertices[facet.first_isolated + i]);
+  }
+}
+
+// The vertices around the union of some facets, all of one plane.
+std::vector<std::uint32_t> CellReader::outline(std::span<const std::uint32_t> facets) const {
+  std::vector<std::uint32_t> ring;
+  if (facets.size() == 1 && complex_.facets[facets[0]].cycle_count == 1) {
+    for (const std::uint32_t c : complex_.facet_corners(complex_.facets[facets[0]])) {
+      ring.push_back(complex_.shalfedge_owner[c]);
+    }
+    return ring;
+  }
+  std::map<std::uint32_t, std::uint32_t> open;  // halfedge -> its source, if its twin has not come yet
+  for (const std::uint32_t f : facets) {
+    for (const std::uint32_t c : complex_.facet_corners(complex_.facets[f])) {
+      const std::uint32_t h = complex_.corner_halfedge(c);
+      if (open.erase(complex_.twin[h]) == 0) open.emplace(h, complex_.shalfedge_owner[c]);
+    }
+  }
+  NEF_ASSERT(!open.empty());
+  std::map<std::uint32_t, std::uint32_t> next;
+  for (const auto& [h, from] : open) next.emplace(from, complex_.target(h));
+  const std::uint32_t start = next.begin()->first;
+  std::uint32_t v = start;
+  do {
+    ring.push_back(v);
+    v = next.at(v);
+  } while (v != start);
+  NEF_ASSERT(ring.size() == open.size());  // convex: one simple cycle
+  return ring;
 }
 
 void CellReader::set_boundary(ConvexCell& cell) {

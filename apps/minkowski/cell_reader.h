@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <map>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -38,7 +39,9 @@ class CellReader {
 
   [[nodiscard]] bool selected(LabelId label) const;
   void collect_items(std::uint32_t volume);
-  [[nodiscard]] ConvexCell solid() const;
+  ConvexCell solid();
+  void count_planes(std::span<const std::uint32_t> by_plane);
+  [[nodiscard]] std::vector<std::uint32_t> outline(std::span<const std::uint32_t> facets) const;
   void set_boundary(ConvexCell& cell);
   void set_marks(ConvexCell& cell);
   Carriers carriers(const ConvexCell& cell) const;
@@ -50,9 +53,11 @@ class CellReader {
   std::vector<std::vector<std::uint32_t>> facets_of_volume_;
   std::vector<std::uint8_t> facet_taken_, halfedge_taken_, vertex_taken_;
 
-  // The items on the boundary of the volume at hand.
+  // The volume at hand and the items on its boundary.
+  std::uint32_t volume_ = 0;
   std::vector<std::uint32_t> facets_, halfedges_, vertices_;
   std::vector<std::uint32_t> seen_halfedge_, seen_vertex_, local_;
+  std::vector<std::uint32_t> planes_at_;  // per vertex of the volume
   std::uint32_t turn_ = 0;
 };
 

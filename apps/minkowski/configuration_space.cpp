@@ -26,7 +26,7 @@ void append(std::vector<ConvexCell>& to, std::vector<ConvexCell> from) {
   std::move(from.begin(), from.end(), std::back_inserter(to));
 }
 
-Forbidden decompose_all(const Polyhedron& robot, std::span<const Polyhedron> obstacles) {
+Forbidden decompose_all(const Polyhedron& robot, std::span<const Polyhedron> obstacles, unsigned threads) {
   Forbidden result;
   const Polyhedron turned = negate(robot);
   const Polyhedron robot_inside = interior(turned);
@@ -51,11 +51,27 @@ Forbidden decompose_all(const Polyhedron& robot, std::span<const Polyhedron> obs
   if (!is_full_dimensional(turned)) {
     std::vector<Polyhedron> closed;
     for (const Polyhedron& obstacle : obstacles) closed.push_back(closure(obstacle));
-    const Polyhedron inside = interior(unite_all(closed));
+    const Polyhedron inside = interior(unite_all(closed, threads));
     result.inside = Operand(decompose(inside));
     result.robot = Operand(decompose(turned));
   }
   return result;
+}
+
+Polyhedron outside_of(const Polyhedron& forbidden, const std::optional<std::array<Rational3, 2>>& box) {
+  return box ? subtract(make_box((*box)[0], (*box)[1]), forbidden) : complement(forbidden);
+}
+
+// The definition, step by step.
+Polyhedron forbidden_of_unbounded(const Polyhedron& robot, std::span<const Polyhedron> obstacles,
+                                  const MinkowskiOptions& options, MinkowskiReport& report) {
+  std::vector<Polyhedron> closed;
+  for (const Polyhedron& obstacle : obstacles) closed.push_back(closure(obstacle));
+  const Polyhedron all = unite_all(closed, options.threads);
+  const Polyhedron turned = negate(robot);
+  const Polyhedron entered = minkowski_sum(all, interior(turned), options, &report);
+  if (is_full_dimensional(turned)) return entered;
+  return unite(entered, minkowski_sum(interior(all), turned, options, &report));
 }
 
 }  // namespace
@@ -68,14 +84,14 @@ Polyhedron configuration_space(const Polyhedron& robot, std::span<const Polyhedr
   PredicateCounts all;
   const PhaseTimer total(r.seconds_total, all);
   if (robot.is_empty()) throw InputError("the robot is the empty set: it has no reference point to move");
-  require_bounded(robot, "the robot");
-  for (std::size_t i = 0; i < obstacles.size(); ++i) {
-    require_bounded(obstacles[i], ("obstacle " + std::to_string(i + 1)).c_str());
+  const auto bounded = [](const Polyhedron& set) { return set.is_bounded(); };
+  if (!robot.is_bounded() || !std::all_of(obstacles.begin(), obstacles.end(), bounded)) {
+    return outside_of(forbidden_of_unbounded(robot, obstacles, options, r), box);
   }
   Forbidden parts;
   {
     const PhaseTimer timer(r.seconds_decomposition, r.predicates_decomposition);
-    parts = decompose_all(robot, obstacles);
+    parts = decompose_all(robot, obstacles, options.threads);
   }
   r.cells_a += parts.obstacles_open.size() + parts.obstacles_flat.size() + parts.inside.size();
   r.cells_b += std::max(parts.robot_open.size(), parts.robot_marked.size()) + parts.robot.size();
@@ -85,7 +101,7 @@ Polyhedron configuration_space(const Polyhedron& robot, std::span<const Polyhedr
   sums.add_product(parts.inside, parts.robot);
   const Polyhedron forbidden = sums.run();
   const PhaseTimer timer(r.seconds_union, r.predicates_union);
-  return box ? subtract(make_box((*box)[0], (*box)[1]), forbidden) : complement(forbidden);
+  return outside_of(forbidden, box);
 }
 
 }  // namespace nef::minkowski

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Minkowski sums of any two bounded Nef polyhedra, the vertical decomposition they are made from
+// Minkowski sums of any two Nef polyhedra, the vertical decomposition they are made from
 // (thesis 10.2), and configuration spaces of translating robots. Open and closed sets, missing
 // points, lower-dimensional parts: everything is exact, nothing is regularized.
 #pragma once
@@ -36,7 +36,9 @@ class Cancelled : public Error {
 
 struct MinkowskiOptions {
   UnionStrategy strategy = UnionStrategy::kNary;
-  /// Called after each pair of cells with (pairs done, pairs in all); false stops the sum.
+  unsigned threads = 1;  ///< 0: as many as the machine has; the result does not depend on it
+  /// Called after each pair of cells with (pairs done, pairs in all), always by the calling thread; false stops the
+  /// sum.
   std::function<bool(std::size_t, std::size_t)> progress;
 };
 
@@ -57,9 +59,9 @@ struct MinkowskiReport {
 
 /// A + B = { a + b : a in A, b in B } for any two bounded sets, exactly (shared design note,
 /// section 5): open and closed parts, lower-dimensional parts, cavities. Empty if one is empty.
-/// Throws UnsupportedError for an unbounded operand (the sum with an empty or a one-point set,
-/// and the sum of a half-space and a bounded set, are computed nevertheless).
-/// Cost: decompositions into k and l cells, k l convex sums and their union.
+/// Cost: decompositions into k and l cells, k l convex sums and their union. If an operand is unbounded,
+/// both are cut by whole planes through their reflex edges (see unbounded_sum.h), which is for sets with few
+/// of these; throws UnsupportedError if there are too many.
 Polyhedron minkowski_sum(const Polyhedron& a, const Polyhedron& b, const MinkowskiOptions& options = {},
                          MinkowskiReport* report = nullptr);
 

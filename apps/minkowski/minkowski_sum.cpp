@@ -10,9 +10,10 @@
 #include <optional>
 
 #include "apps/minkowski/decomposition.h"
-#include "apps/minkowski/halfspace_sum.h"
 #include "apps/minkowski/minkowski.h"
 #include "apps/minkowski/pair_sums.h"
+#include "apps/minkowski/unbounded_sum.h"
+#include "nef/base/parallel.h"
 
 namespace nef::minkowski {
 namespace {
@@ -27,8 +28,6 @@ std::optional<Polyhedron> simple_sum(const Polyhedron& a, const Polyhedron& b) {
   if (is_point(b)) return moved_by_point(a, b);
   if (is_point(a)) return moved_by_point(b, a);
   if (a.is_everything() || b.is_everything()) return Polyhedron::everything();
-  if (!a.is_bounded() && b.is_bounded()) return halfspace_sum(a, b);
-  if (!b.is_bounded() && a.is_bounded()) return halfspace_sum(b, a);
   return std::nullopt;
 }
 
@@ -41,16 +40,17 @@ Polyhedron minkowski_sum(const Polyhedron& a, const Polyhedron& b, const Minkows
   PredicateCounts all;
   const PhaseTimer total(r.seconds_total, all);
   if (std::optional<Polyhedron> sum = simple_sum(a, b)) return *std::move(sum);
-  require_bounded(a, "the first operand");
-  require_bounded(b, "the second operand");
+  if (!a.is_bounded() || !b.is_bounded()) return unbounded_sum(a, b, options, r);
 
   Operand cells_a;
   Operand cells_b;
   {
     const PhaseTimer timer(r.seconds_decomposition, r.predicates_decomposition);
     const bool only_open = (a.is_open() || b.is_open()) && is_full_dimensional(a) && is_full_dimensional(b);
-    cells_a = Operand(only_open ? decompose_open(a) : decompose(a));
-    cells_b = Operand(only_open ? decompose_open(b) : decompose(b));
+    parallel_for(2, options.threads, [&](std::size_t k) {
+      const Polyhedron& operand = k == 0 ? a : b;
+      (k == 0 ? cells_a : cells_b) = Operand(only_open ? decompose_open(operand) : decompose(operand));
+    });
   }
   r.cells_a += cells_a.size();
   r.cells_b += cells_b.size();

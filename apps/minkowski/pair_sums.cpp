@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/minkowski/pair_sums.h"
 
+#include <algorithm>
 #include <chrono>
 
 #include "nef/base/error.h"
+#include "nef/base/parallel.h"
 
 namespace nef::minkowski {
 namespace {
@@ -41,19 +43,27 @@ void PairSums::add_product(const Operand& a, const Operand& b) {
   report_.pairs += a.size() * b.size();
 }
 
+// Sums of a block of pairs are made at once, on several threads; they go into the union in order.
 Polyhedron PairSums::run() {
-  UnionBuilder builder(options_.strategy);
+  UnionBuilder builder(options_.strategy, options_.threads);
+  constexpr std::size_t kBlock = 256;
   std::size_t done = 0;
-  for (const auto& [a, b] : products_) {
-    for (std::size_t i = 0; i < a->size(); ++i) {
-      for (std::size_t j = 0; j < b->size(); ++j) {
-        ConvexCell sum;
-        {
-          const PhaseTimer timer(report_.seconds_convex_sums, report_.predicates_convex_sums);
-          sum = sum_of_pair(*a, i, *b, j);
-        }
-        const PhaseTimer timer(report_.seconds_union, report_.predicates_union);
-        builder.add(sum);
+  std::vector<ConvexCell> block;
+  for (const auto& product : products_) {
+    const Operand& a = *product.first;
+    const Operand& b = *product.second;
+    const std::size_t pairs = a.size() * b.size();
+    for (std::size_t first = 0; first < pairs; first += kBlock) {
+      block.assign(std::min(kBlock, pairs - first), {});
+      {
+        const PhaseTimer timer(report_.seconds_convex_sums, report_.predicates_convex_sums);
+        parallel_for(block.size(), options_.threads, [&](std::size_t k) {
+          block[k] = sum_of_pair(a, (first + k) / b.size(), b, (first + k) % b.size());
+        });
+      }
+      const PhaseTimer timer(report_.seconds_union, report_.predicates_union);
+      for (ConvexCell& sum : block) {
+        builder.add(std::move(sum));
         ++done;
         if (options_.progress && !options_.progress(done, report_.pairs)) throw Cancelled();
       }

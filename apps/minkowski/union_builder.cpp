@@ -5,13 +5,14 @@
 #include <utility>
 
 #include "apps/minkowski/containment.h"
+#include "apps/minkowski/solid_union.h"
 
 namespace nef::minkowski {
 namespace {
 
 // Sizes that keep a batch within some ten megabytes.
-constexpr std::size_t kBatchCells = 1024;
-constexpr std::size_t kBatchVertices = 40000;
+constexpr std::size_t kBatchCells = 4096;
+constexpr std::size_t kBatchVertices = 80000;
 constexpr std::size_t kHeapPieces = 512;
 
 bool larger(const Polyhedron& a, const Polyhedron& b) {
@@ -20,7 +21,7 @@ bool larger(const Polyhedron& a, const Polyhedron& b) {
 
 }  // namespace
 
-void UnionBuilder::add(const ConvexCell& cell) {
+void UnionBuilder::add(ConvexCell cell) {
   switch (strategy_) {
     case UnionStrategy::kTrivial:
       result_ = unite(result_, to_polyhedron(cell));
@@ -33,7 +34,7 @@ void UnionBuilder::add(const ConvexCell& cell) {
       return;
     case UnionStrategy::kNary:
       batch_vertices_ += cell.mesh.vertices.size();
-      batch_.push_back(cell);
+      batch_.push_back(std::move(cell));
       if (batch_.size() >= kBatchCells || batch_vertices_ >= kBatchVertices) flush();
       return;
   }
@@ -68,25 +69,31 @@ void UnionBuilder::merge_smallest() {
 
 void UnionBuilder::flush() {
   if (batch_.empty()) return;
-  const std::vector<std::uint8_t> held = held_by_others(batch_);
+  const auto first_flat =
+      std::stable_partition(batch_.begin(), batch_.end(), [](const ConvexCell& cell) { return cell.dimension == 3; });
   std::vector<Polyhedron> pieces;
-  for (std::size_t i = 0; i < batch_.size(); ++i) {
-    if (held[i] != 0) {
-      ++dropped_;
-    } else {
-      pieces.push_back(to_polyhedron(batch_[i]));
+  if (first_flat != batch_.end()) {
+    const std::vector<std::uint8_t> held = held_by_others(batch_);
+    for (auto i = static_cast<std::size_t>(first_flat - batch_.begin()); i < batch_.size(); ++i) {
+      if (held[i] != 0) {
+        ++dropped_;
+      } else {
+        pieces.push_back(to_polyhedron(batch_[i]));
+      }
     }
   }
+  batch_.erase(first_flat, batch_.end());
+  if (!batch_.empty()) pieces.push_back(unite_solids(batch_, &dropped_, threads_));
   batch_.clear();
   batch_vertices_ = 0;
-  add_queued(unite_all(pieces));
+  add_queued(unite_all(pieces, threads_));
 }
 
 Polyhedron UnionBuilder::finish() {
   flush();
   while (ranked_.size() > 1) merge_smallest();
   if (!ranked_.empty()) result_ = std::move(ranked_[0]);
-  if (strategy_ == UnionStrategy::kNary) return unite_all(levels_);
+  if (strategy_ == UnionStrategy::kNary) return unite_all(levels_, threads_);
   // Oldest last: the sets at higher levels were there first.
   for (const Polyhedron& level : levels_) result_ = unite(result_, level);
   return std::move(result_);

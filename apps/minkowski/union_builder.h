@@ -15,9 +15,9 @@ namespace nef::minkowski {
 /// strategies that need several pieces at once, a batch of bounded size.
 class UnionBuilder {
  public:
-  explicit UnionBuilder(UnionStrategy strategy) : strategy_(strategy) {}
+  explicit UnionBuilder(UnionStrategy strategy, unsigned threads = 1) : strategy_(strategy), threads_(threads) {}
 
-  void add(const ConvexCell& cell);
+  void add(ConvexCell cell);
   /// The union of everything added. Call once.
   Polyhedron finish();
 
@@ -31,6 +31,7 @@ class UnionBuilder {
   void merge_smallest();
 
   UnionStrategy strategy_;
+  unsigned threads_;
   Polyhedron result_;               // trivial
   std::vector<Polyhedron> levels_;  // queue: level i is empty or the union of 2^i pieces
   std::vector<Polyhedron> ranked_;  // priority: a heap, the smallest on top

@@ -54,6 +54,9 @@ struct Case {
 struct Settings {
   int repeat = 3;
   bool peer = true;
+  std::string only;  // run cases whose names hold this
+
+  [[nodiscard]] bool wants(const std::string& name) const { return name.find(only) != std::string::npos; }
 };
 
 void print_sum(const std::string& name, const Polyhedron& sum, const MinkowskiReport& r, double seconds) {
@@ -96,6 +99,7 @@ void run_peer([[maybe_unused]] const Case& test, [[maybe_unused]] const Settings
 }
 
 void run_case(const Case& test, const Settings& settings) {
+  if (!settings.wants(test.name)) return;
   const Polyhedron a = nef::from_mesh(test.a);
   const Polyhedron b = nef::from_mesh(test.b);
   const double closed = time_sum(test.name, a, b, UnionStrategy::kNary, settings);
@@ -105,6 +109,7 @@ void run_case(const Case& test, const Settings& settings) {
 }
 
 void run_table(const Settings& settings) {
+  if (!settings.wants("table")) return;
   std::printf("Table 10.1: the generated mushroom plus a cube, by union strategy\n");
   const Polyhedron a = nef::from_mesh(nef::test::mushroom());
   const Polyhedron b = nef::from_mesh(cube(Rational(1, 10)));
@@ -115,6 +120,7 @@ void run_table(const Settings& settings) {
 }
 
 void run_decomposition(const std::string& name, const Mesh& mesh, const Settings& settings) {
+  if (!settings.wants("decompose " + name)) return;
   const Polyhedron a = nef::from_mesh(mesh);
   double best = 1e300;
   std::size_t cells = 0;
@@ -136,6 +142,7 @@ int main(int argc, char** argv) {
   bool no_peer = false;
   app.add_option("--repeat", settings.repeat, "runs of each case; the best counts")->check(CLI::PositiveNumber);
   app.add_flag("--no-cgal", no_peer, "leave the peer out");
+  app.add_option("--only", settings.only, "run only cases whose names hold this: table, mushroom, star 50, ...");
   app.add_option("--decompose", meshes, "more meshes to decompose")->expected(-1);
   CLI11_PARSE(app, argc, argv);
   settings.peer = !no_peer;

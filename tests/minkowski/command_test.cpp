@@ -160,7 +160,7 @@ TEST_CASE("command: bad usage and bad input are one line on stderr, code 2, and 
       {"a.nef a.nef", "--output"},
       {"a.nef missing.nef -o out.nef", "missing.nef"},
       {"a.nef bad.off -o out.nef", "bad.off"},
-      {"a.nef half.nef -o out.nef", "unbounded"},
+      {"--decompose half.nef -o out.off", "unbounded"},
       {"a.nef a.nef -o out.nef --union best", "best"},
       {"a.nef --ball 1 -o out.nef", "--ball"},
       {"a.nef --ball 1,2.5 -o out.nef", "--ball"},
@@ -181,6 +181,50 @@ TEST_CASE("command: bad usage and bad input are one line on stderr, code 2, and 
     CHECK(outcome.err.find(words) != std::string::npos);
   }
   CHECK(place.file_count() == before + 2);  // stdout.txt and stderr.txt
+}
+
+TEST_CASE("command: an unbounded operand") {
+  const Place place;
+  place.write("half.nef", "halfspace(1,0,0,0) * halfspace(0,1,0,0)");
+  CHECK(place.run("half.nef --box-tool 2,2,2 -o out.nef --quiet").code == 0);
+  CHECK(nef::equal(nef::read_polyhedron(place / "out.nef"), set("halfspace(1,0,0,-1) * halfspace(0,1,0,-1)")));
+}
+
+TEST_CASE("command: pictures of operands, results and cells; the result does not depend on threads") {
+  const Place place;
+  place.write("a.nef", kL);
+  CHECK(place.run("a.nef a.nef -o one.nef --preview pictures --threads 1").code == 0);
+  CHECK(place.run("--decompose a.nef -o cells.off --preview pictures").code == 0);
+  CHECK(place.run("--configuration-space --robot a.nef --obstacles a.nef -o free.nef --preview pictures").code == 0);
+  for (const char* name : {"a", "b", "sum", "cells", "robot", "obstacles", "free_space"}) {
+    CAPTURE(name);
+    CHECK(place.read("pictures/" + std::string(name) + ".png").rfind("\x89PNG", 0) == 0);
+  }
+  CHECK(place.run("a.nef a.nef -o four.nef --threads 4").code == 0);
+  CHECK(place.read("one.nef") == place.read("four.nef"));
+}
+
+TEST_CASE("command: an interrupt stops at once and leaves a whole file or none") {
+  const Place place;
+  place.write("a.nef", kL);
+  const std::string program = "'" NEF_BINARY_DIR "/minkowski'";
+  const std::size_t before = place.file_count() + 2;  // stdout.txt and stderr.txt
+  // In the middle of work that takes long: nothing is written.
+  const auto interrupted = [&](const std::string& seconds, const std::string& arguments) {
+    const std::string command = "cd '" + (place / "") + "' && timeout --preserve-status -s INT " + seconds + " " +
+                                program + " " + arguments + " > stdout.txt 2> stderr.txt < /dev/null";
+    return std::system(command.c_str());
+  };
+  const std::string mushroom = NEF_SOURCE_DIR "/data/minkowski/mushroom.off";
+  CHECK(interrupted("0.2", mushroom + " " + mushroom + " -o out.nef") != 0);
+  CHECK(place.file_count() == before);
+  // At any moment of short work.
+  for (int i = 1; i <= 15; ++i) {
+    interrupted("0.0" + std::string(i < 10 ? "0" : "") + std::to_string(i), "a.nef --ball 1,6 -o out.nef");
+    const bool whole = std::filesystem::exists(place / "out.nef");
+    if (whole) CHECK_FALSE(nef::read_polyhedron(place / "out.nef").is_empty());
+    CHECK(place.file_count() == before + (whole ? 1 : 0));
+  }
 }
 
 }  // namespace

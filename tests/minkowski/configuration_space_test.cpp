@@ -91,11 +91,20 @@ TEST_CASE("the definition: a position is free iff the open robot misses the clos
   }
 }
 
-TEST_CASE("no obstacles, no box; robots that are nothing or endless are refused") {
+TEST_CASE("no obstacles, no box; a robot that is nothing is refused, one without end is not") {
   CHECK(configuration_space(set("box(0,0,0,1,1,1)"), {}).is_everything());
   CHECK(nef::equal(free_space("box(0,0,0,1,1,1)", {}), set("box(-10,-10,-10,10,10,10)")));
   CHECK_THROWS_AS(configuration_space(Polyhedron(), {}), nef::InputError);
-  CHECK_THROWS_AS(configuration_space(set("halfspace(1,0,0,0)"), {}), nef::UnsupportedError);
+  CHECK(configuration_space(set("halfspace(1,0,0,0)"), {}).is_everything());
+}
+
+TEST_CASE("obstacles without end") {
+  const std::vector<Polyhedron> wall = {set("interior(halfspace(1,0,0,0))")};
+  CHECK(nef::equal(configuration_space(set("box(0,0,0,1,1,1)"), wall), set("halfspace(-1,0,0,0)")));
+  // Between two walls there is just room for the robot.
+  const std::vector<Polyhedron> walls = {set("halfspace(1,0,0,0)"), set("halfspace(-1,0,0,1)")};
+  CHECK(nef::equal(configuration_space(set("box(0,0,0,1,1,1)"), walls), set("boundary(halfspace(1,0,0,0))")));
+  CHECK(nef::equal(configuration_space(set("point(0,0,0)"), walls), set("halfspace(-1,0,0,0) * halfspace(1,0,0,-1)")));
 }
 
 }  // namespace

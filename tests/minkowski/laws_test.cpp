@@ -168,16 +168,53 @@ TEST_CASE("the four strategies give the same set") {
   }
 }
 
-TEST_CASE("unbounded operands: a half-space has a sum, others are refused in one line") {
+TEST_CASE("unbounded operands with known sums") {
   const Polyhedron half = set("halfspace(1,0,0,-1)");  // x <= 1
   CHECK(nef::equal(minkowski_sum(half, set("box(0,0,0,2,2,2)")), set("halfspace(1,0,0,-3)")));
   CHECK(nef::equal(minkowski_sum(set("interior(box(0,0,0,2,2,2))"), half), set("interior(halfspace(1,0,0,-3))")));
   CHECK(nef::equal(minkowski_sum(half, set("box(0,0,0,2,2,2) - box(2,0,0,2,2,1)")), set("halfspace(1,0,0,-3)")));
+  CHECK(nef::equal(minkowski_sum(half, set("box(0,0,0,2,2,2) - polygon(2,0,0, 2,2,0, 2,2,2, 2,0,2)")),
+                   set("interior(halfspace(1,0,0,-3))")));
   CHECK(nef::equal(minkowski_sum(nef::interior(half), set("segment(0,0,0,1,1,1)")),
                    set("interior(halfspace(1,0,0,-2))")));
-  CHECK_THROWS_AS(minkowski_sum(set("halfspace(1,0,0,0) * halfspace(0,1,0,0)"), set("box(0,0,0,1,1,1)")),
-                  nef::UnsupportedError);
+  // Quadrants, a plane, lines, a beam.
+  CHECK(nef::equal(minkowski_sum(set("halfspace(1,0,0,0) * halfspace(0,1,0,0)"), set("box(0,0,0,1,2,1)")),
+                   set("halfspace(1,0,0,-1) * halfspace(0,1,0,-2)")));
+  CHECK(nef::equal(minkowski_sum(half, set("halfspace(-1,0,0,0)")), Polyhedron::everything()));
+  const Polyhedron plane = set("boundary(halfspace(0,0,1,0))");
+  CHECK(nef::equal(minkowski_sum(plane, set("segment(0,0,0,0,0,1) - point(0,0,0)")),
+                   set("halfspace(0,0,1,-1) - halfspace(0,0,1,0)")));
+  const Polyhedron line_x = nef::intersect(plane, set("boundary(halfspace(0,1,0,0))"));
+  const Polyhedron line_y = nef::intersect(plane, set("boundary(halfspace(1,0,0,0))"));
+  CHECK(nef::equal(minkowski_sum(line_x, line_y), plane));
+  CHECK(nef::equal(
+      minkowski_sum(nef::intersect(line_x, set("halfspace(-1,0,0,0)")), set("segment(0,0,0,0,1,0)")),
+      set("halfspace(-1,0,0,0) * boundary(halfspace(0,0,1,0)) * halfspace(0,-1,0,0) * halfspace(0,1,0,-1)")));
+  // Not convex: the outside of a cube plus a smaller cube, and of the same cube: a point is left.
+  const Polyhedron outside = set("!interior(box(0,0,0,2,2,2))");
+  CHECK(nef::equal(minkowski_sum(outside, set("box(0,0,0,1,1,1)")), set("!interior(box(1,1,1,2,2,2))")));
+  CHECK(nef::equal(minkowski_sum(set("!box(0,0,0,2,2,2)"), set("box(0,0,0,2,2,2)")), set("!point(2,2,2)")));
   CHECK_THROWS_AS(nef::minkowski::decompose(half), nef::UnsupportedError);
+}
+
+TEST_CASE("x is in A + B iff A meets x - B, for unbounded sets") {
+  const std::vector<std::string> sets = {
+      "halfspace(1,1,0,-2) + box(0,0,0,3,1,1)", "halfspace(1,0,0,0) * interior(halfspace(0,1,1,-1)) - point(-1,0,0)",
+      "!box(0,0,0,2,2,2) - segment(3,0,0,5,0,0)", "boundary(halfspace(1,1,1,-1)) - point(1,0,0)"};
+  const std::vector<std::string> others = {"box(0,0,0,1,1,1) + segment(1,1,1,2,1,1)", "point(0,0,0) + point(1,1,2)",
+                                           "interior(box(0,0,0,2,2,2))", "halfspace(0,1,0,0) * halfspace(1,0,0,0)"};
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    const std::string& text_b = others[i];
+    CAPTURE(sets[i], text_b);
+    const Polyhedron a = set(sets[i]);
+    const Polyhedron b = set(text_b);
+    const Polyhedron sum = valid(minkowski_sum(a, b), "sum");
+    const Polyhedron turned = nef::minkowski::negate(b);
+    for (int k = 0; k < 27; ++k) {
+      const Rational3 x = {Rational(k % 3 * 3 - 2, 2), Rational(k / 3 % 3 * 2 - 1), Rational(k / 9 * 3 - 1, 2)};
+      CHECK(nef::contains(sum, x) == !nef::intersect(a, moved(turned, x)).is_empty());
+    }
+  }
 }
 
 TEST_CASE("the progress function counts the pairs and can stop the sum") {

@@ -41,6 +41,9 @@ void declare(CLI::App& app, Arguments& a) {
   app.add_flag("--exact", a.exact, "exact coordinates in mesh files");
   app.add_flag("--binary", a.binary, "binary STL or PLY");
   app.add_option("--report", a.report, "write a JSON report: cells, pairs, times, predicates, memory, result");
+  app.add_option("--preview", a.preview, "write pictures (PNG) of the operands and the result into this directory")
+      ->type_name("DIR");
+  app.add_option("--threads", a.threads, "threads to use at most; 0 (default): as many as the machine has");
   app.add_flag("--json", a.json, "print the report to stdout");
   app.add_flag("-q,--quiet", a.quiet, "print nothing but errors");
 }

@@ -16,10 +16,11 @@ namespace nef::minkowski {
 /// The parsed command line.
 struct Arguments {
   std::vector<std::string> operands;
-  std::string output, report;
+  std::string output, report, preview;
   std::string union_name = "nary";
   bool open_a = false, open_b = false, negate_b = false;
   bool as_surface = false, strict = false;
+  unsigned threads = 0;  ///< 0: as many as the machine has
   bool exact = false, binary = false, quiet = false, json = false;
 
   std::string ball, box_tool;  ///< as written: "R,N", "x,y,z"

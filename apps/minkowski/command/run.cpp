@@ -4,9 +4,11 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <array>
 #include <csignal>
 #include <iostream>
 
+#include "apps/minkowski/command/preview.h"
 #include "apps/minkowski/command/write_cells.h"
 #include "apps/minkowski/tools.h"
 #include "nef/command/report.h"
@@ -17,21 +19,27 @@ namespace nef::minkowski {
 namespace {
 
 // Ctrl-C ends the program at once, except while a file is written: then it waits until the file is
-// whole (files are written beside their targets and renamed).
+// whole (files are written beside their targets and renamed). A handler and not a mask, since a mask of this
+// thread would leave the others to take the signal.
 class SignalsHeld {
  public:
   SignalsHeld() {
-    sigset_t held;
-    sigemptyset(&held);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&held, signal);
-    sigprocmask(SIG_BLOCK, &held, &before_);
+    held_signal_ = 0;
+    struct sigaction action {};
+    action.sa_handler = [](int signal) { held_signal_ = signal; };
+    for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &action, &before_[i]);
   }
-  ~SignalsHeld() { sigprocmask(SIG_SETMASK, &before_, nullptr); }
+  ~SignalsHeld() {
+    for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &before_[i], nullptr);
+    if (held_signal_ != 0) raise(held_signal_);
+  }
   SignalsHeld(const SignalsHeld&) = delete;
   SignalsHeld& operator=(const SignalsHeld&) = delete;
 
  private:
-  sigset_t before_{};
+  static constexpr std::array<int, 3> kSignals = {SIGINT, SIGTERM, SIGHUP};
+  static inline volatile std::sig_atomic_t held_signal_ = 0;
+  std::array<struct sigaction, 3> before_{};
 };
 
 // A bar over the pairs of cells, redrawn when a percent is done; only for people who watch a terminal.
@@ -78,6 +86,7 @@ class Task {
     } else {
       const Polyhedron result = a_.configuration_space ? free_space() : sum();
       store(result);
+      preview(result);
       print_report(report(result));
       if (!a_.quiet && !a_.json) std::cout << summary(result) << "\n";
     }
@@ -111,6 +120,13 @@ class Task {
     show(messages);
   }
 
+  void preview(const Polyhedron& result) {
+    if (a_.preview.empty()) return;
+    const SignalsHeld held;
+    shown_.emplace_back(a_.configuration_space ? "free_space" : "sum", result);
+    write_previews(a_.preview, shown_);
+  }
+
   Polyhedron second_operand() {
     if (!a_.ball.empty()) {
       const std::vector<Rational> numbers = parse_numbers(a_.ball, 2, "--ball");
@@ -128,6 +144,7 @@ class Task {
 
   MinkowskiOptions options(ProgressBar& bar) const {
     MinkowskiOptions options;
+    options.threads = a_.threads;
     options.strategy = strategy(a_);
     options.progress = [&bar](std::size_t done, std::size_t all) {
       bar.show(done, all);
@@ -142,6 +159,7 @@ class Task {
     if (a_.open_a) a = interior(a);
     if (a_.open_b) b = interior(b);
     if (a_.negate_b) b = negate(b);
+    shown_ = {{"a", a}, {"b", b}};
     ProgressBar bar(!a_.quiet);
     return minkowski_sum(a, b, options(bar), &report_);
   }
@@ -150,6 +168,7 @@ class Task {
     const Polyhedron robot = load(a_.robot);
     std::vector<Polyhedron> obstacles;
     for (const std::string& path : a_.obstacles) obstacles.push_back(load(path));
+    shown_ = {{"robot", robot}, {"obstacles", a_.preview.empty() ? Polyhedron() : unite_all(obstacles, a_.threads)}};
     std::optional<std::array<Rational3, 2>> box;
     if (!a_.box.empty()) {
       const std::vector<Rational> low = parse_numbers(a_.box[0], 3, "--box");
@@ -172,6 +191,10 @@ class Task {
       const SignalsHeld held;
       write_cells(a_.output, cells, a_.format, a_.exact);
       write_s_ = writing.seconds();
+      if (!a_.preview.empty()) {
+        write_previews(a_.preview, {{"a", a}});
+        write_cell_preview(a_.preview, cells);
+      }
     }
     Json object = report(a);
     std::array<std::size_t, 4> count{};
@@ -211,6 +234,7 @@ class Task {
 
   const Arguments& a_;
   MinkowskiReport report_;
+  std::vector<std::pair<std::string, Polyhedron>> shown_;  // for the preview
   double load_s_ = 0;
   double write_s_ = 0;
 };

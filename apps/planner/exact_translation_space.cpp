@@ -1,11 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/planner/exact_translation_space.h"
 
+#include <algorithm>
+
 #include "apps/planner/cell_sampler.h"
 
 namespace nef::planner {
 
 namespace ob = ompl::base;
+
+namespace {
+
+// An integer in a serialized state: its length with the sign in the highest bit, then its bytes, the lowest first.
+constexpr std::size_t kIntegerBytes = 32;
+constexpr std::size_t kRationalBytes = 3 * 2 * kIntegerBytes;
+constexpr unsigned char kNegative = 0x80;
+
+bool fits(const Integer& value) { return mpz_sizeinbase(value.get_mpz_t(), 256) < kIntegerBytes; }
+
+void put(const Integer& value, unsigned char* to) {
+  std::size_t count = 0;
+  mpz_export(to + 1, &count, -1, 1, 0, 0, value.get_mpz_t());
+  *to = static_cast<unsigned char>(count | (value < 0 ? kNegative : 0U));
+}
+
+Integer get(const unsigned char* from) {
+  Integer value;
+  mpz_import(value.get_mpz_t(), *from & ~kNegative, -1, 1, 0, 0, from + 1);
+  return (*from & kNegative) != 0 ? Integer(-value) : value;
+}
+
+}  // namespace
 
 void ExactTranslationSpace::StateType::setExact(const Rational3& position) {
   bool plain = true;
@@ -96,9 +121,41 @@ void ExactTranslationSpace::interpolate(const ob::State* from, const ob::State* 
   result->setExact({x[0] + s * (y[0] - x[0]), x[1] + s * (y[1] - x[1]), x[2] + s * (y[2] - x[2])});
 }
 
+unsigned int ExactTranslationSpace::getSerializationLength() const {
+  return ob::RealVectorStateSpace::getSerializationLength() + kRationalBytes;
+}
+
+void ExactTranslationSpace::serialize(void* serialization, const ob::State* state) const {
+  ob::RealVectorStateSpace::serialize(serialization, state);
+  auto* at = static_cast<unsigned char*>(serialization) + ob::RealVectorStateSpace::getSerializationLength();
+  std::fill(at, at + kRationalBytes, static_cast<unsigned char>(0));
+  const auto* exact = static_cast<const StateType*>(state);
+  if (!exact->hasExact()) return;
+  for (const Rational& value : *exact->exact_) {
+    if (!fits(value.get_num()) || !fits(value.get_den())) return;
+  }
+  for (const Rational& value : *exact->exact_) {
+    put(value.get_num(), at);
+    put(value.get_den(), at + kIntegerBytes);
+    at += 2 * kIntegerBytes;
+  }
+}
+
 void ExactTranslationSpace::deserialize(ob::State* state, const void* serialization) const {
   ob::RealVectorStateSpace::deserialize(state, serialization);
-  static_cast<StateType*>(state)->dropExact();
+  auto* exact = static_cast<StateType*>(state);
+  exact->dropExact();
+  const auto* at =
+      static_cast<const unsigned char*>(serialization) + ob::RealVectorStateSpace::getSerializationLength();
+  Rational3 position;
+  for (Rational& value : position) {
+    const Integer denominator = get(at + kIntegerBytes);
+    if (denominator == 0) return;  // no rationals were written
+    value = Rational(get(at), denominator);
+    value.canonicalize();
+    at += 2 * kIntegerBytes;
+  }
+  exact->setExact(position);
 }
 
 ob::StateSamplerPtr ExactTranslationSpace::allocDefaultStateSampler() const {

@@ -61,6 +61,10 @@ class ExactTranslationSpace : public ompl::base::RealVectorStateSpace {
   /** \brief The exact point at parameter t (a double is a rational) if an end is exact, else as the base class. */
   void interpolate(const ompl::base::State* from, const ompl::base::State* to, double t,
                    ompl::base::State* state) const override;
+  /** \brief Doubles and rationals. OMPL wants one length for all states, so a rational is kept only if its numerators
+      and denominators have at most 31 bytes (coordinates of ordinary scenes have a few); else the doubles remain. */
+  unsigned int getSerializationLength() const override;
+  void serialize(void* serialization, const ompl::base::State* state) const override;
   void deserialize(ompl::base::State* state, const void* serialization) const override;
   /** \brief A CellSampler if there is a free space. Informed samplers ask for this one directly. */
   ompl::base::StateSamplerPtr allocDefaultStateSampler() const override;

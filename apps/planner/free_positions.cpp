@@ -57,12 +57,10 @@ bool in_box(const Scene& scene, const Rational3& position) {
 
 minkowski::MinkowskiOptions minkowski_options(const BuildOptions& build) {
   minkowski::MinkowskiOptions options;
-  if (build.progress) {
-    options.progress = [&build](std::size_t done, std::size_t total) {
-      build.progress("configuration space", done, total);
-      return true;
-    };
-  }
+  options.progress = [&build](std::size_t done, std::size_t total) {
+    if (build.progress) build.progress("configuration space", done, total);
+    return !build.stop || !build.stop();
+  };
   return options;
 }
 

@@ -58,7 +58,7 @@ Examples:
 
 void declare_ompl(CLI::App& app, Arguments& a) {
   app.add_option("--ompl", a.ompl, "Use this planner of OMPL on the exact free space");
-  app.add_option("--time", a.seconds, "Seconds for each run of an OMPL planner")->check(CLI::PositiveNumber);
+  app.add_option("--time", a.seconds, "Seconds for each run of an OMPL planner")->check(CLI::Range(1e-3, 1e6));
   app.add_option("--runs", a.runs, "Runs of each OMPL planner")->check(CLI::Range(1U, 1000000U));
   app.add_option("--benchmark", a.benchmark, "Write OMPL's benchmark log, our planner and --planners in it");
   app.add_option("--planners", a.planners, "OMPL planners for --benchmark")->delimiter(',');
@@ -229,8 +229,11 @@ int main(int argc, char** argv) {
   declare(app, arguments);
   try {
     app.parse(argc, argv);
+  } catch (const CLI::Success& help) {
+    return app.exit(help);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
+    std::cerr << "planner: " << error.what() << " (see planner --help)\n";
+    return 2;
   }
   try {
     return run(arguments);

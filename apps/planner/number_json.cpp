@@ -23,6 +23,7 @@ class KeepText : public nlohmann::json_sax<json> {
   bool start_object(std::size_t /*size*/) override { return open(json::object()); }
   bool key(string_t& value) override {
     key_ = value;
+    if (levels_.back().value.contains(value)) throw InputError(name_ + ": '" + value + "' is given twice");
     return true;
   }
   bool end_object() override { return close(); }

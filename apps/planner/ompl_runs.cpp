@@ -89,9 +89,7 @@ int run_benchmark(const Problem& problem, const std::vector<std::string>& planne
   TranslationPlanning setup(problem);
   setup.setup();
   ompl::tools::Benchmark benchmark(setup, problem.scene().name);
-  const auto tight = std::make_shared<TightPlanner>(setup.getSpaceInformation(), [&problem] {
-    return std::make_shared<const FreeSpace>(free_positions(problem.scene()));
-  });
+  const auto tight = std::make_shared<TightPlanner>(setup.getSpaceInformation(), free_space_builder(problem.scene()));
   tight->setKeepRoadmap(false);
   benchmark.addPlanner(tight);
   for (const std::string& name : planners) {

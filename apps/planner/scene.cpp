@@ -53,6 +53,7 @@ void check_keys(const json& root, const std::string& name) {
                        "' (known: robot, obstacles, reference, box, start, goal, contact)");
     }
   }
+  if (root.contains("name") && !root["name"].is_string()) throw InputError(name + ": 'name' must be a string");
   for (const char* key : {"robot", "obstacles"}) {
     if (!root.contains(key)) throw InputError(name + ": '" + key + "' is missing");
   }

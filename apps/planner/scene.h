@@ -58,6 +58,8 @@ Scene read_cfg(const std::string& path);
 struct BuildOptions {
   unsigned threads = 1;  ///< 0: as many as the machine has; the result does not depend on it
   Progress progress;     ///< may be empty
+  /// If set, asked now and then; once it says true, free_positions throws minkowski::Cancelled.
+  std::function<bool()> stop;
 };
 
 /// The free positions of the robot's reference point: closed if contact is allowed, else open

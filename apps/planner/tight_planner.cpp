@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "apps/minkowski/minkowski.h"
 #include "apps/planner/nef_validity.h"
 
 namespace nef::planner {
@@ -63,15 +64,16 @@ void TightPlanner::declare() {
 
 void TightPlanner::setup() {
   ob::Planner::setup();
-  if (!freeSpace_) buildFreeSpace();
+  if (!freeSpace_) buildFreeSpace([] { return false; });
 }
 
-void TightPlanner::buildFreeSpace() {
+bool TightPlanner::buildFreeSpace(const std::function<bool()>& stop) {
   const auto begin = std::chrono::steady_clock::now();
   const auto* space = dynamic_cast<const ExactTranslationSpace*>(si_->getStateSpace().get());
   if (space == nullptr) throw ompl::Exception(name_, "the state space must be an ExactTranslationSpace");
   if (builder_) {
-    freeSpace_ = builder_();
+    freeSpace_ = builder_(stop);
+    if (!freeSpace_ && stop()) return false;
   } else if (const auto* checker = dynamic_cast<const NefStateValidityChecker*>(si_->getStateValidityChecker().get())) {
     freeSpace_ = checker->getFreeSpace();
   } else {
@@ -79,6 +81,7 @@ void TightPlanner::buildFreeSpace() {
   }
   if (!freeSpace_) throw ompl::Exception(name_, "there is no free space: use a NefStateValidityChecker");
   preprocessing_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return true;
 }
 
 void TightPlanner::clear() {
@@ -166,7 +169,7 @@ void TightPlanner::proveInfeasible() {
 }
 
 ob::PlannerStatus TightPlanner::solve(const ob::PlannerTerminationCondition& ptc) {
-  if (!freeSpace_ && ptc) return ob::PlannerStatus::TIMEOUT;
+  if (!freeSpace_ && (ptc || !buildFreeSpace([&ptc] { return ptc.eval(); }))) return ob::PlannerStatus::TIMEOUT;
   checkValidity();
   ob::PlannerStatus failure = ob::PlannerStatus::UNKNOWN;
   if (!takeInput(ptc, failure)) return failure;
@@ -202,6 +205,18 @@ void TightPlanner::getPlannerData(ob::PlannerData& data) const {
       data.addEdge(middle[zone], station);
     }
   }
+}
+
+TightPlanner::FreeSpaceBuilder free_space_builder(const Scene& scene) {
+  return [&scene](const std::function<bool()>& stop) -> std::shared_ptr<const FreeSpace> {
+    BuildOptions options;
+    options.stop = stop;
+    try {
+      return std::make_shared<const FreeSpace>(free_positions(scene, options));
+    } catch (const minkowski::Cancelled&) {
+      return nullptr;
+    }
+  };
 }
 
 std::shared_ptr<ompl::geometric::PathGeometric> toPathGeometric(const ob::SpaceInformationPtr& si,

@@ -12,6 +12,7 @@
 #include "apps/planner/disconnection_proof.h"
 #include "apps/planner/exact_translation_space.h"
 #include "apps/planner/path.h"
+#include "apps/planner/scene.h"
 
 namespace nef::planner {
 
@@ -21,7 +22,7 @@ namespace nef::planner {
     locates start and goal and walks through the cells between them, or proves that there is no way: then the
     status is INFEASIBLE (ABORT before OMPL 1.6, which has no such status) and the problem definition holds a
     DisconnectionProof. There is no time-out while there is an answer; the termination condition is respected
-    between pairs of start and goal states and before the free space is built.
+    between pairs of start and goal states and, by builders that ask, while the free space is built.
 
     The free space is built once (in setup) and serves all queries. clear() keeps it unless `keep_roadmap` is
     set to 0, which gives single-query times in benchmarks.
@@ -31,8 +32,8 @@ namespace nef::planner {
     D. Halperin, Robust geometric computing in motion, IJRR 2002. */
 class TightPlanner : public ompl::base::Planner {
  public:
-  /** \brief Computes a free space, at most once per setup. */
-  using FreeSpaceBuilder = std::function<std::shared_ptr<const FreeSpace>()>;
+  /** \brief Computes a free space, at most once per setup. It may ask whether to stop, and then return null. */
+  using FreeSpaceBuilder = std::function<std::shared_ptr<const FreeSpace>(const std::function<bool()>& stop)>;
 
   /** \brief The free space is that of the space information's NefStateValidityChecker, or of its
       ExactTranslationSpace. */
@@ -77,7 +78,7 @@ class TightPlanner : public ompl::base::Planner {
     CellId cell = kNoCell;
   };
   void declare();
-  void buildFreeSpace();
+  bool buildFreeSpace(const std::function<bool()>& stop);
   bool takeInput(const ompl::base::PlannerTerminationCondition& ptc, ompl::base::PlannerStatus& failure);
   std::optional<ExactPath> bestPath(const ompl::base::PlannerTerminationCondition& ptc, bool& interrupted);
   void addSolution(const ExactPath& path);
@@ -95,6 +96,9 @@ class TightPlanner : public ompl::base::Planner {
   std::optional<ExactPath> exactPath_;
   mutable std::vector<ompl::base::State*> dataStates_;
 };
+
+/** \brief A builder for a scene, which must outlive it. */
+TightPlanner::FreeSpaceBuilder free_space_builder(const Scene& scene);
 
 /** \brief The exact path as an OMPL path whose states keep their rationals. */
 std::shared_ptr<ompl::geometric::PathGeometric> toPathGeometric(const ompl::base::SpaceInformationPtr& si,

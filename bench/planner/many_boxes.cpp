@@ -8,7 +8,6 @@
 
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <random>
 
 #include "apps/planner/ompl_runs.h"
@@ -20,9 +19,6 @@ namespace {
 
 using namespace nef;           // NOLINT(google-build-using-namespace): this is the program
 using namespace nef::planner;  // NOLINT(google-build-using-namespace)
-
-// Processor seconds, so that a busy machine does not count.
-double processor() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 Scene scene_of(int boxes, unsigned seed) {
   std::mt19937 random(seed);

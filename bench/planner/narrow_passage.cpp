@@ -67,15 +67,15 @@ void run_ours(bool hole, const char* width, unsigned runs) {
   std::vector<double> again;
   std::string answer;
   for (unsigned i = 0; i < runs; ++i) {
-    const double begin = now();
+    const double begin = processor();
     const Problem problem(scene_of(hole, r(width)));
     PathOptions options;
     options.thorough = false;
     answer = status_name(problem.solve(options).status);
-    all.push_back(now() - begin);
-    const double second = now();
+    all.push_back(processor() - begin);
+    const double second = processor();
     static_cast<void>(problem.solve({r("0.31"), r("0.3"), r("0.3")}, {r("1.8"), r("0.7"), r("0.7")}, options));
-    again.push_back(now() - second);
+    again.push_back(processor() - second);
   }
   std::printf("| %s | %s | TightPlanner | %s, %u/%u | %.4f | %.5f (next query) | |\n", hole ? "hole" : "slot", width,
               answer.c_str(), runs, runs, median(all), median(again));

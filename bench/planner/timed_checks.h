@@ -4,6 +4,7 @@
 #pragma once
 
 #include <chrono>
+#include <ctime>
 
 #include "apps/planner/nef_validity.h"
 
@@ -13,6 +14,9 @@ namespace nef::planner {
 inline double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
+
+/// Processor seconds of this program, for what is ours: a busy machine does not count.
+inline double processor() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 /// Shared by the checkers of one run.
 struct CheckTime {

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Every sort of bad input: one line on stderr that names what is wrong, nothing on stdout, exit code 2.
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "tests/planner/command_helpers.h"
+
+namespace nef::planner::test {
+namespace {
+
+void check_refused(const Folder& folder, const std::string& arguments, const std::string& word) {
+  INFO(arguments);
+  const Run run = planner(folder, arguments);
+  CHECK(run.code == 2);
+  CHECK(run.out.empty());
+  CHECK(std::count(run.err.begin(), run.err.end(), '\n') == 1);
+  CHECK_THAT(run.err, Catch::Contains(word));
+}
+
+struct Bad {
+  std::string text;
+  std::string word;  // of the message
+};
+
+TEST_CASE("bad scenes") {
+  const Folder folder;
+  const std::string robot = R"J({"robot": "box(0,0,0, 1,1,1)", )J";
+  const std::string ends = R"J("start": [0, 0, 5], "goal": [1, 1, 5]})J";
+  const std::string free = R"J("obstacles": [], )J";
+  const std::vector<Bad> scenes{
+      {"", "not valid JSON"},
+      {"no scene", "not valid JSON"},
+      {"[1, 2]", "JSON object"},
+      {R"J({"robot": )J", "not valid JSON"},
+      {R"J({"obstacles": []})J", "'robot' is missing"},
+      {robot + ends, "'obstacles' is missing"},
+      {robot + R"J("obstacle": []})J", "unknown key 'obstacle'"},
+      {robot + R"J("robot": "box(0,0,0, 2,2,2)", )J" + free + ends, "'robot' is given twice"},
+      {robot + R"J("name": 5, )J" + free + ends, "'name' must be a string"},
+      {R"J({"robot": 5, )J" + free + ends, "robot: expected a file name or an expression"},
+      {R"J({"robot": "", )J" + free + ends, "robot: expression ''"},
+      {R"J({"robot": "halfspace(0,0,1,0)", )J" + free + ends, "robot must be bounded"},
+      {R"J({"robot": "box(0,0,0, 1,1,1) - box(0,0,0, 1,1,1)", )J" + free + ends, "robot is empty"},
+      {robot + R"J("obstacles": "box(0,0,0, 1,1,1)", )J" + ends, "'obstacles' must be a list"},
+      {robot + R"J("obstacles": [3], )J" + ends, "obstacle 0: expected a file name or an expression"},
+      {robot + R"J("obstacles": ["no_such.off"], )J" + ends, "no_such.off: no such file"},
+      {robot + R"J("obstacles": ["box(0,0"], )J" + ends, "expression 'box(0,0'"},
+      {robot + R"J("obstacles": ["halfspace(0,0,1,0)"], )J" + ends, "give the scene a box"},
+      {robot + R"J("obstacles": ["bad.off"], )J" + ends, "face 0 names vertex 7"},
+      {robot + R"J("obstacles": ["bad.dae"], )J" + ends, "bad.dae"},
+      {robot + R"J("obstacles": ["bad.xyz"], )J" + ends, "bad.xyz"},
+      {robot + free + R"J("box": [[1, 1, 1], [0, 0, 0]], )J" + ends, "box: its first point must be the lower one"},
+      {robot + free + R"J("box": [[1, 1, 1]], )J" + ends, "'box' must be [low point, high point]"},
+      {robot + free + R"J("contact": "maybe", )J" + ends, "'contact' must be"},
+      {robot + free + R"J("reference": [0, 0], )J" + ends, "reference: expected three numbers"},
+      {robot + free + R"J("goal": [1, 1, 1]})J", "has no start"},
+      {robot + free + R"J("start": [1, 1, 1]})J", "has no goal"},
+      {robot + free + R"J("start": [0, 0], "goal": [1, 1, 1]})J", "start: expected three numbers"},
+      {robot + free + R"J("start": "0,0,0", "goal": [1, 1, 1]})J", "start: expected three numbers"},
+      {robot + free + R"J("start": [0, 0, "x"], "goal": [1, 1, 1]})J", "'x' is not a number"},
+      {robot + free + R"J("start": [0, 0, "1/0"], "goal": [1, 1, 1]})J", "'1/0' is not a number"},
+      {robot + free + R"J("start": [0, 0, null], "goal": [1, 1, 1]})J", "start: expected a number"},
+  };
+  static_cast<void>(folder.write("bad.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n"));
+  static_cast<void>(folder.write("bad.dae", "<COLLADA>"));
+  static_cast<void>(folder.write("bad.xyz", "1 2 3"));
+  for (const Bad& bad : scenes) check_refused(folder, folder.write("scene.json", bad.text), bad.word);
+  check_refused(folder, folder.file("missing.json"), "cannot be read");
+  check_refused(folder, folder.file(""), "cannot be read");
+}
+
+TEST_CASE("bad .cfg files") {
+  const Folder folder;
+  const std::string cube = std::string(PLANNER_SCENES) + "/omplapp/cube.dae";
+  const std::string meshes = "[problem]\nrobot = " + cube + "\nworld = " + cube + "\n";
+  const std::string start = "start.x = 3\nstart.y = 3\nstart.z = 3\n";
+  const std::string goal = "goal.x = 4\ngoal.y = 3\ngoal.z = 3\n";
+  const std::string turned = "start.theta = 1\ngoal.theta = 1\n";
+  std::string upside_down;
+  for (const std::string axis : {"x", "y", "z"}) {
+    upside_down += "volume.min." + axis + " = 5\nvolume.max." + axis + " = 1\n";
+  }
+  const std::vector<Bad> problems{
+      {"", "has no [problem] section"},
+      {"[problem]\nrobot\n", "expected key = value"},
+      {"[problem]\nworld = " + cube + "\n", "has no key 'robot'"},
+      {"[problem]\nrobot = none.dae\nworld = none.dae\n", "none.dae: no such file"},
+      {meshes + start, "has no key 'goal.x'"},
+      {meshes + goal + "start.x = far\nstart.y = 0\nstart.z = 0\n", "'far' is not a number"},
+      {meshes + start + goal + upside_down, "volume.min is above volume.max"},
+      {meshes + start + goal + turned, "start.axis is the zero vector"},
+      {meshes + start + goal + "start.theta = 1\n", "turned differently"},
+      {meshes + start + goal + "contact = perhaps\n", "contact must be allow or forbid"},
+      {meshes + start + goal + "robot.origin = corner\n", "robot.origin must be"},
+  };
+  for (const Bad& bad : problems) check_refused(folder, folder.write("problem.cfg", bad.text), bad.word);
+}
+
+TEST_CASE("bad usage") {
+  const Folder folder;
+  const std::string good = scene("s1_tight_hole") + " ";
+  const std::string words = folder.write("words.txt", "hello world\n");
+  const std::string two = folder.write("two.txt", "1 2\n");
+  const std::string empty = folder.write("empty.txt", "");
+  const std::string object = folder.write("object.json", "{}");
+  for (const Bad& bad : std::vector<Bad>{
+           {"", "scene is required"},
+           {"--no-such-option " + good, "no-such-option"},
+           {good + "another.json", "another.json"},
+           {good + "--start 1,2", "--start: expected three numbers"},
+           {good + "--goal a,b,c", "--goal"},
+           {good + "--contact maybe", "--contact"},
+           {good + "--prefer fast", "--prefer"},
+           {good + "--min-dimension 7", "--min-dimension"},
+           {good + "--threads many", "--threads"},
+           {good + "--time -1", "--time"},
+           {good + "--runs 0", "--runs"},
+           {good + "--ompl Dijkstra", "unknown OMPL planner 'Dijkstra'"},
+           {good + "--benchmark x.log --planners PRM,Dijkstra", "unknown OMPL planner 'Dijkstra'"},
+           {good + "--benchmark x.log --ompl PRM", "exclude each other"},
+           {good + "--benchmark /no/such/folder/x.log --planners RRT --time 0.05 --runs 1", "cannot be written"},
+           {good + "--path " + words + " --ompl PRM", "excludes"},
+           {good + "--path missing.txt", "missing.txt: cannot be read"},
+           {good + "--path " + words, "'hello' is not a number"},
+           {good + "--path " + two, "'' is not a number"},
+           {good + "--path " + empty, "holds no way-points"},
+           {good + "--path " + object, "holds no 'path'"},
+           {good + "--page view.png", "must be .html"},
+           {good + "-o /no/such/folder/path.json", "cannot be written"},
+           {good + "-o /no/such/folder/view.glb", "cannot be written"},
+       }) {
+    check_refused(folder, bad.text, bad.word);
+  }
+}
+
+}  // namespace
+}  // namespace nef::planner::test

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Problems and meshes as OMPL.app has them: .cfg files, COLLADA through assimp.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "apps/planner/shapes.h"
+#include "nef/base/error.h"
+#include "tests/planner/command_helpers.h"
+#include "tests/planner/scene_helpers.h"
+
+namespace nef::planner::test {
+namespace {
+
+std::string problem(const std::string& name) { return std::string(PLANNER_SCENES) + "/omplapp/" + name; }
+
+TEST_CASE("a problem with COLLADA meshes: turned upright, double faces once, the robot re-centred") {
+  const Scene scene = read_scene(problem("wall.cfg"));
+  const Rational half(1, 2);
+  CHECK(equal(scene.robot, make_box({-half, -half, -half}, {half, half, half})));
+  // (x, y, z) has become (x, z, -y).
+  const Polyhedron hole = interior(make_box({3, 1, -2}, {6, 2, -1}));
+  CHECK(equal(scene.obstacles.at(0), subtract(make_box({4, -9, -9}, {5, 9, 9}), hole)));
+  const Problem solved(scene);
+  const Answer answer = solved.solve();
+  REQUIRE(answer.status == Answer::Status::kPath);
+  CHECK(answer.thinness->piece == 1);
+  CHECK(answer.path->points[1] == Rational3{Rational(7, 2), Rational(3, 2), Rational(-3, 2)});
+  CHECK(independent_complaint(scene, solved.free_space().set(), *answer.path, true) == "");
+}
+
+TEST_CASE("one rotation for start and goal turns the robot; two are an error") {
+  const Scene turned = read_scene(problem("wall_turned.cfg"));
+  CHECK(volume(turned.robot) == Rational(1));
+  CHECK(nearest_double((*bounding_box(turned.robot))[1][0]) == Approx((std::cos(0.3) + std::sin(0.3)) / 2));
+  CHECK(turned.messages.size() == 1);
+  CHECK(Problem(turned).solve().status == Answer::Status::kInfeasible);
+  const Folder folder;
+  const Run run = planner(folder, problem("wall_rotating.cfg"));
+  CHECK(run.code == 2);
+  CHECK(run.err.find("start and goal are turned differently") != std::string::npos);
+  CHECK(planner(folder, problem("wall.cfg") + " --json").code == 0);
+}
+
+TEST_CASE("scenes name COLLADA meshes too") {
+  const std::string text = R"J({"robot": "cube.dae", "obstacles": ["wall.dae"], "reference": [0.5, 0.5, -0.5]})J";
+  const Scene scene = parse_scene(text, problem(""), "test");
+  const Scene app = read_scene(problem("wall.cfg"));
+  CHECK(equal(scene.robot, app.robot));
+  CHECK(equal(scene.obstacles.at(0), app.obstacles.at(0)));
+}
+
+TEST_CASE("OMPL.app's .cfg with meshes: re-centred and turned once") {
+  const Folder folder;
+  const std::string vertices = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n";
+  const std::string faces = "4 0 3 2 1\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n";
+  static_cast<void>(folder.write("cube.off", "OFF\n8 6 0\n" + vertices + faces));
+  const std::string head = "[problem]\nname = test # a comment\nrobot = cube.off\nworld=cube.off\n";
+  const std::string start = "start.x=-3\nstart.y=0\nstart.z=0\nstart.theta=0\nstart.axis.x=1\n";
+  const std::string goal = "goal.x=3\ngoal.y=1/3\ngoal.z=0.1\ngoal.theta=0\ngoal.axis.x=1\n";
+  std::string bounds;
+  for (const char* axis : {"x", "y", "z"}) {
+    bounds += std::string("volume.min.") + axis + "=-4\nvolume.max." + axis + "=4\n";
+  }
+  const Scene scene = read_scene(folder.write("a.cfg", head + start + goal + bounds + "[benchmark]\ntime_limit=20\n"));
+  const Rational half(1, 2);
+  CHECK((*bounding_box(scene.robot))[0] == Rational3{-half, -half, -half});
+  CHECK((*bounding_box(scene.robot))[1] == Rational3{half, half, half});
+  CHECK(*scene.goal == Rational3{3, Rational(1, 3), Rational(1, 10)});
+  REQUIRE(scene.box.has_value());
+  CHECK(Problem(scene).solve().status == Answer::Status::kPath);
+
+  const Scene mesh = read_scene(folder.write("b.cfg", head + "robot.origin=mesh\n" + start + goal));
+  CHECK((*bounding_box(mesh.robot))[0] == Rational3{0, 0, 0});
+  const auto turned = [](const std::string& what) {
+    return what + ".x=-3\n" + what + ".y=0\n" + what + ".z=0\n" + what + ".theta=1.5\n" + what + ".axis.x=1\n";
+  };
+  CHECK_THROWS_AS(read_scene(folder.write("c.cfg", head + turned("start") + goal)), InputError);
+  const Scene rotated = read_scene(folder.write("d.cfg", head + turned("start") + turned("goal")));
+  CHECK(nearest_double((*bounding_box(rotated.robot))[1][1]) == Approx((std::cos(1.5) + std::sin(1.5)) / 2));
+  CHECK(volume(rotated.robot) == Rational(1));
+  CHECK_THROWS_AS(read_scene(folder.write("e.cfg", "[problem]\nrobot=cube.off\n")), InputError);
+}
+
+TEST_CASE("meshes come in through assimp; double faces are kept once") {
+  const Folder folder;
+  std::string text = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n";
+  text += "element face 8\nproperty list uchar int vertex_indices\nend_header\n";
+  text += "0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
+  for (const char* face : {"0 2 1", "0 1 3", "0 3 2", "1 2 3"}) text += std::string("3 ") + face + "\n";
+  for (const char* face : {"1 2 0", "3 1 0", "2 3 0", "3 2 1"}) text += std::string("3 ") + face + "\n";
+  Rational3 mean;
+  const Mesh mesh = read_with_assimp(folder.write("tetrahedron.ply", text), &mean);
+  CHECK(mesh.vertices.size() == 4);
+  CHECK(mesh.face_count() == 4);
+  CHECK(volume(from_mesh(mesh)) == Rational(1, 6));
+  CHECK_THROWS_AS(read_with_assimp(folder.write("bad.dae", "no mesh"), nullptr), InputError);
+}
+
+}  // namespace
+}  // namespace nef::planner::test

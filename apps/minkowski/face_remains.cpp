@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The polygon is cut along the faces of a cell; the part inside of all of them goes. A cell counts only
-// as far as its faces, moved inwards by `margin`, go: the rounding error of a cutting point is below 2^-48 of the
-// extent, a polygon is cut less than 64 times by each of a cell's faces, and the margin allows for 2^-30 of the extent.
+// as far as its faces, moved inwards to where the value is inside_, go: the rounding error of a cutting point is below
+// 2^-48 of the extent, a polygon is cut less than 64 times by each of a cell's faces, and inside_ allows for 2^-30 of
+// the extent.
 #include "apps/minkowski/face_remains.h"
 
 #include <algorithm>
@@ -11,8 +12,11 @@
 
 namespace nef::minkowski {
 
-double FaceRemains::margin(const RoundedFace& face) const {
-  return 4 * face.slack + face.weight * cells_.extent() * 0x1p-30;
+FaceRemains::FaceRemains(const RoundedCells& cells) : cells_(cells) {
+  inside_.reserve(cells.face_count());
+  for (std::uint32_t f = 0; f < cells.face_count(); ++f) {
+    inside_.push_back(-4 * cells.face(f).slack - cells.face(f).weight * cells.extent() * 0x1p-30);
+  }
 }
 
 Vector FaceRemains::Polygon::centre() const {
@@ -28,9 +32,14 @@ Vector FaceRemains::Polygon::centre() const {
 std::uint32_t FaceRemains::cell_around(const Vector& x, std::vector<std::uint32_t>& neighbours) const {
   for (std::size_t k = 0; k < neighbours.size(); ++k) {
     const std::uint32_t cell = neighbours[k];
+    const Box& box = cells_.box(cell);
+    if (x[0] < box.low[0] || x[0] > box.high[0] || x[1] < box.low[1] || x[1] > box.high[1] || x[2] < box.low[2] ||
+        x[2] > box.high[2]) {
+      continue;
+    }
     std::uint32_t h = cells_.first_face(cell);
     const std::uint32_t end = cells_.end_face(cell);
-    while (h < end && cells_.face(h).value(x) < -margin(cells_.face(h))) ++h;
+    while (h < end && cells_.face(h).value(x) < inside_[h]) ++h;
     if (h < end) continue;
     const auto begin = neighbours.begin();
     std::rotate(begin, begin + static_cast<std::ptrdiff_t>(k), begin + static_cast<std::ptrdiff_t>(k) + 1);
@@ -45,12 +54,11 @@ bool FaceRemains::subtract(const Polygon& polygon, std::uint32_t cell) {
   Polygon rest = polygon;
   for (std::uint32_t h = cells_.first_face(cell); h < cells_.end_face(cell); ++h) {
     const RoundedFace& face = cells_.face(h);
-    const double bound = -margin(face);
     bool in = false;
     bool out = false;
     values_.clear();
     for (std::size_t k = 0; k < rest.size; ++k) {
-      values_.push_back(face.value(rest.v[k]) - bound);
+      values_.push_back(face.value(rest.v[k]) - inside_[h]);
       (values_.back() < 0 ? in : out) = true;
     }
     if (!out) continue;

@@ -15,7 +15,7 @@ namespace nef::minkowski {
 class FaceRemains {
  public:
   /// The cells must outlive the object.
-  explicit FaceRemains(const RoundedCells& cells) : cells_(cells) {}
+  explicit FaceRemains(const RoundedCells& cells);
 
   /// The box around what may be left of the convex polygon `ring` (rounded corners of a face) without
   /// the insides of the `neighbours`; an empty box (low > high) if surely nothing is left. Cells that
@@ -31,9 +31,9 @@ class FaceRemains {
   };
   std::uint32_t cell_around(const Vector& x, std::vector<std::uint32_t>& neighbours) const;
   bool subtract(const Polygon& polygon, std::uint32_t cell);
-  [[nodiscard]] double margin(const RoundedFace& face) const;
 
   const RoundedCells& cells_;
+  std::vector<double> inside_;  // per face: a value below it is surely inside
   std::vector<Polygon> todo_, outside_;
   std::vector<double> values_;
 };

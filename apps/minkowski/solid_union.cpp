@@ -76,9 +76,10 @@ class SolidUnion {
   // Faces that are not inside of other cells.
   void find_faces(std::size_t* dropped, unsigned threads) {
     std::vector<std::vector<Rest>> rest(cells_.size());
-    constexpr std::size_t kChunk = 16;
+    constexpr std::size_t kChunk = 64;
+    const FaceRemains prototype(rounded_);
     parallel_for((cells_.size() + kChunk - 1) / kChunk, threads, [&](std::size_t chunk) {
-      FaceRemains remains(rounded_);
+      FaceRemains remains(prototype);
       const std::size_t end = std::min(cells_.size(), (chunk + 1) * kChunk);
       for (std::size_t cell = chunk * kChunk; cell < end; ++cell) {
         rest[cell] = rest_of(static_cast<std::uint32_t>(cell), remains);
@@ -368,7 +369,11 @@ class SolidUnion {
                                          [&](const Interval& t) { return at.low <= t.high && t.low <= at.high; });
         const bool is_end =
             (at.low <= 0 && vertices_.is_on(s.from_point, h)) || (at.high >= 1 && vertices_.is_on(s.to_point, h));
-        if (is_left && !is_end) vertices_.add_meeting(s.f, s.g, h);
+        if (!is_left || is_end) continue;
+        const double t = (at.low + at.high) / 2;
+        Vector guess{};
+        for (std::size_t i = 0; i < 3; ++i) guess[i] = s.from[i] + t * (s.to[i] - s.from[i]);
+        vertices_.add_meeting(s.f, s.g, h, guess);
       }
     }
   }

@@ -10,10 +10,9 @@
 namespace nef::minkowski {
 
 UnionVertices::UnionVertices(std::span<const ConvexCell> cells, const RoundedCells& rounded, const BoxTree& boxes)
-    : rounded_(rounded),
-      boxes_(boxes),
-      exact_(cells, rounded),
-      or_(2, 2, [](LabelId a, LabelId b) { return static_cast<LabelId>(a | b); }) {}
+    : cells_(cells), rounded_(rounded), boxes_(boxes), exact_(cells, rounded), or_(2, 2, [](LabelId a, LabelId b) {
+        return static_cast<LabelId>(a | b);
+      }) {}
 
 std::uint32_t UnionVertices::add_vertex(std::uint32_t cell, std::uint32_t vertex) {
   const PointId point = exact_.point(cell, vertex);
@@ -27,7 +26,19 @@ bool UnionVertices::is_on(std::uint32_t name, std::uint32_t face) const {
   return at != faces_at_.end() && std::binary_search(at->second.begin(), at->second.end(), face);
 }
 
-void UnionVertices::add_meeting(std::uint32_t f, std::uint32_t g, std::uint32_t h) {
+// Points next to each other are mostly in one cell; that they sometimes are not costs time only.
+std::uint64_t UnionVertices::grid_cell(const Vector& x) const {
+  const double scale = 0x1p20 / std::max(rounded_.extent(), 0x1p-900);
+  std::uint64_t key = 0;
+  for (const double value : x) key = key << 21U | (static_cast<std::uint64_t>((value * scale) + 0x1p20) & 0x1fffffU);
+  return key;
+}
+
+void UnionVertices::add_meeting(std::uint32_t f, std::uint32_t g, std::uint32_t h, const Vector& guess) {
+  const auto [first_near, last_near] = near_.equal_range(grid_cell(guess));
+  for (auto at = first_near; at != last_near; ++at) {
+    if (is_on(at->second, h) && is_on(at->second, f) && is_on(at->second, g)) return;
+  }
   const std::array<PlaneId, 3> planes = {exact_.plane(f), exact_.plane(g), exact_.plane(h)};
   std::array<std::uint32_t, 3> rows = {planes[0].row(), planes[1].row(), planes[2].row()};
   std::sort(rows.begin(), rows.end());
@@ -65,6 +76,41 @@ std::uint32_t UnionVertices::find_or_add(PointId point) {
   return point.value;
 }
 
+// A pyramid whose planes are among those of another one holds that one. Sums of cells that share a
+// facet are full of these.
+void UnionVertices::drop_covered(std::vector<CellLocation>& touched) {
+  if (touched.size() < 2) return;
+  using Boundary = ConvexCell::Boundary;
+  struct Pyramid {
+    std::vector<PlaneId> planes;  // sorted
+    Boundary boundary;
+    std::size_t index;
+  };
+  std::vector<Pyramid> pyramids;
+  for (std::size_t i = 0; i < touched.size(); ++i) {
+    Pyramid& p = pyramids.emplace_back();
+    for (const std::uint32_t f : touched[i].faces) p.planes.push_back(exact_.plane(f));
+    std::sort(p.planes.begin(), p.planes.end());
+    p.boundary = cells_[rounded_.cell_of_face(touched[i].faces[0])].boundary;
+    p.index = i;
+  }
+  std::stable_sort(pyramids.begin(), pyramids.end(),
+                   [](const Pyramid& a, const Pyramid& b) { return a.planes.size() < b.planes.size(); });
+  std::vector<const Pyramid*> kept;
+  std::vector<CellLocation> rest;
+  for (const Pyramid& p : pyramids) {
+    const bool covered = std::any_of(kept.begin(), kept.end(), [&p](const Pyramid* k) {
+      const bool marks =
+          k->boundary == Boundary::kClosed || (k->boundary == Boundary::kOpen && p.boundary == Boundary::kOpen);
+      return marks && std::includes(p.planes.begin(), p.planes.end(), k->planes.begin(), k->planes.end());
+    });
+    if (covered) continue;
+    kept.push_back(&p);
+    rest.push_back(std::move(touched[p.index]));
+  }
+  touched = std::move(rest);
+}
+
 void UnionVertices::add_point(PointId point) {
   Box box;
   box.add_rounded(exact_.points.approximate(point));
@@ -80,6 +126,8 @@ void UnionVertices::add_point(PointId point) {
   std::vector<std::uint32_t>& faces = faces_at_[point.value];
   for (const CellLocation& at : touched) faces.insert(faces.end(), at.faces.begin(), at.faces.end());
   std::sort(faces.begin(), faces.end());
+  near_.emplace(grid_cell(exact_.points.approximate(point)), point.value);
+  drop_covered(touched);
   SphereMapBuffer* map = &maps_[0];
   exact_.pyramid(touched[0], *map);
   SphereMapBuffer* next = &maps_[1];

@@ -31,8 +31,8 @@ class UnionVertices {
   /// True if a candidate is known to lie on a face; `name` may be kNone.
   [[nodiscard]] bool is_on(std::uint32_t name, std::uint32_t face) const;
   /// A candidate: where the planes of three faces meet, if they do in one point. Whether the faces
-  /// reach that point is found out here.
-  void add_meeting(std::uint32_t f, std::uint32_t g, std::uint32_t h);
+  /// reach that point is found out here. A good guess of the point saves time if it is known already.
+  void add_meeting(std::uint32_t f, std::uint32_t g, std::uint32_t h, const Vector& guess);
 
   /// The union. To be called once.
   Complex finish();
@@ -40,7 +40,10 @@ class UnionVertices {
  private:
   std::uint32_t find_or_add(PointId point);
   void add_point(PointId point);
+  [[nodiscard]] std::uint64_t grid_cell(const Vector& x) const;
+  void drop_covered(std::vector<CellLocation>& touched);
 
+  std::span<const ConvexCell> cells_;
   const RoundedCells& rounded_;
   const BoxTree& boxes_;
   ExactCells exact_;
@@ -55,6 +58,7 @@ class UnionVertices {
   };
   std::unordered_set<std::array<std::uint32_t, 3>, TripleHash> tried_;      // rows of planes
   std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> faces_at_;  // of candidates that are left
+  std::unordered_multimap<std::uint64_t, std::uint32_t> near_;              // grid cell -> such a candidate
   SphereOverlay overlay_;
   LabelFunction or_;
   CellLocation location_;

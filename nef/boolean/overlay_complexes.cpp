@@ -82,9 +82,7 @@ class ComplexOverlay {
     std::sort(image.begin(), image.end());
     const bool injective = std::adjacent_find(image.begin(), image.end()) == image.end();
     // Beside the box's outside no mark survives; a constant drops everything but the box.
-    if (constant && !operands_[x].complex().has_box() && other != kOutside) {
-      r.effect = Effect::kConstant;
-    } else if (other == kOutside) {
+    if (other == kOutside || (constant && !operands_[x].complex().has_box())) {
       r.effect = Effect::kConstant;
     } else if (identity) {
       r.effect = Effect::kIdentity;

@@ -26,6 +26,7 @@ void add_eval_command(CLI::App& app, Session& session) {
   command->callback([&session, text] {
     ExpressionOptions options;
     options.load = [&session](const std::string& path) { return session.load(path); };
+    session.show_phase("computing");
     const Measured measured = measure(session.repeat, [&] { return evaluate_expression(*text, options); });
     finish(session, "eval", measured);
   });

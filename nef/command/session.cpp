@@ -2,6 +2,7 @@
 #include "nef/command/session.h"
 
 #include <algorithm>
+#include <atomic>
 #include <ostream>
 
 #include "nef/base/parallel.h"
@@ -28,15 +29,22 @@ std::vector<Polyhedron> Session::load_all(const std::vector<std::string>& paths)
   options.check = !no_check;
   std::vector<Polyhedron> sets(paths.size());
   std::vector<Messages> notes(paths.size());
-  parallel_for(paths.size(), threads, [&](std::size_t i) { sets[i] = read_polyhedron(paths[i], options, &notes[i]); });
+  std::atomic<std::size_t> done = 0;
+  show_phase("reading", 0, paths.size());
+  parallel_for(paths.size(), threads, [&](std::size_t i) {
+    sets[i] = read_polyhedron(paths[i], options, &notes[i]);
+    show_phase("reading", ++done, paths.size());
+  });
   for (const Messages& some : notes) messages.insert(messages.end(), some.begin(), some.end());
   load_s += watch.seconds();
   show_messages(first);
+  show_phase("computing");
   return sets;
 }
 
 void Session::store(const Polyhedron& set) {
   if (output.empty()) return;
+  show_phase("writing " + output);
   const Stopwatch watch;
   const std::size_t first = messages.size();
   PolyhedronWriteOptions options;
@@ -47,17 +55,27 @@ void Session::store(const Polyhedron& set) {
   show_messages(first);
 }
 
+void Session::show_phase(const std::string& phase, std::size_t done, std::size_t total) {
+  if (!bar_) bar_ = std::make_unique<ProgressBar>(!quiet);
+  bar_->show(phase, done, total);
+}
+
 void Session::say(const std::string& line) {
+  if (bar_) bar_->clear();
   if (!quiet && !json) out_ << one_line(line) << '\n';
 }
 
 void Session::print(Json object) {
+  if (bar_) bar_->clear();
   if (!messages.empty()) object["messages"] = messages;
   // Paths may hold bytes that are no UTF-8; they are replaced rather than refused.
   out_ << object.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
 }
 
-void Session::complain(const std::string& line) { err_ << "nef: " << one_line(line) << '\n'; }
+void Session::complain(const std::string& line) {
+  if (bar_) bar_->clear();
+  err_ << "nef: " << one_line(line) << '\n';
+}
 
 void Session::show_messages(std::size_t first) {
   if (quiet) return;

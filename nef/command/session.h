@@ -6,10 +6,12 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <iosfwd>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "nef/command/progress_bar.h"
 #include "nef/construct/construct.h"
 
 namespace nef {
@@ -49,6 +51,9 @@ class Session {
   /// Writes a set to `output`, if there is one.
   void store(const Polyhedron& set);
 
+  /// Shows what is being done, to somebody at a terminal who wants to see it, until something else is printed.
+  void show_phase(const std::string& phase, std::size_t done = 0, std::size_t total = 0);
+
   /// Prints a line for people; nothing if quiet or --json.
   void say(const std::string& line);
   /// Prints the one JSON object of a run, with the notes added.
@@ -61,6 +66,7 @@ class Session {
 
   std::ostream& out_;
   std::ostream& err_;
+  std::unique_ptr<ProgressBar> bar_;  // made when first needed: the flags are known then
 };
 
 /// Seconds since its construction.

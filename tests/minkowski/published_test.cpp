@@ -52,6 +52,50 @@ TEST_CASE("published sums, exactly, by every strategy") {
   }
 }
 
+// A pyramid over a regular 16-gon of radius 1. The published data is cut to three decimals far from the origin, so
+// that coordinates along u on the side `longer` are a thousandth larger; the counts depend on it.
+Polyhedron dioctagonal_pyramid(std::size_t u, std::size_t v, int longer, const Rational3& apex) {
+  const std::array<Rational, 5> part = {Rational(1), Rational(923, 1000), Rational(707, 1000), Rational(382, 1000),
+                                        Rational(0)};
+  std::vector<Rational3> points = {apex};
+  for (std::size_t k = 0; k < 5; ++k) {
+    for (const int su : {-1, 1}) {
+      for (const int sv : {-1, 1}) {
+        Rational3 p;
+        p[u] = su * part[k];
+        if (su == longer && k > 0 && k < 4) p[u] += Rational(su, 1000);
+        p[v] = sv * part[4 - k];
+        points.push_back(p);
+      }
+    }
+  }
+  return nef::convex_hull(points);
+}
+
+TEST_CASE("the polytopes of Fogel and Halperin: published counts, exact volumes, by every strategy") {
+  const Polyhedron tetrahedron = set("hull(-1,-0.73,-0.73, 0,-0.73,1, 0,1,0, 1,-0.73,-0.73)");
+  const Polyhedron icosahedron =
+      set("hull(1.05,0,0.525, 0.85,0.618,-0.525, 0.85,-0.618,-0.525, 0.325,1,0.525, 0.325,-1,0.525, 0,0,1.175,"
+          "-1.05,0,-0.525, -0.85,-0.618,0.525, -0.85,0.618,0.525, -0.325,-1,-0.525, -0.325,1,-0.525, 0,0,-1.175)");
+  const Polyhedron pyramid = dioctagonal_pyramid(0, 1, 1, {Rational(0), Rational(0), Rational(-1)});
+  const Polyhedron orthogonal = dioctagonal_pyramid(0, 2, -1, {Rational(0), Rational(-1), Rational(0)});
+  const std::vector<std::tuple<Polyhedron, Polyhedron, std::string, Rational>> known = {
+      {tetrahedron, tetrahedron, "4/6/4/2", Rational(29929, 3750)},
+      {set("box(-1,-1,-1,1,1,1)"), tetrahedron, "16/28/14/2", Rational(305629, 7500)},
+      {icosahedron, icosahedron, "12/30/20/2", Rational(2467463, 75000)},
+      {pyramid, orthogonal, "131/261/132/2", Rational(mpz_class("23392576289"), mpz_class("1500000000"))}};
+  for (const auto& [a, b, counts, content] : known) {
+    for (const UnionStrategy strategy :
+         {UnionStrategy::kTrivial, UnionStrategy::kQueue, UnionStrategy::kPriority, UnionStrategy::kNary}) {
+      MinkowskiOptions options;
+      options.strategy = strategy;
+      const Polyhedron sum = nef::test::valid(minkowski_sum(a, b, options), "sum");
+      CHECK(nef::test::count_text(sum) == counts);
+      CHECK(*nef::volume(sum) == content);
+    }
+  }
+}
+
 TEST_CASE("two boxes; a prism and its mirror image") {
   CHECK(nef::equal(minkowski_sum(set("box(1,2,3,4,5,6)"), set("box(-1,0,0,1,2,5)")), set("box(0,2,3,5,7,11)")));
   // A triangle plus its mirror image is a hexagon of six times the area.

@@ -21,15 +21,14 @@ Groups group_faces(const Mesh& mesh, const MeshSurface& surface) {
   std::vector<std::vector<std::uint32_t>> contacts(count);
   std::vector<bool> single(count, false);
   for (std::uint32_t f = 0; f < count; ++f) single[f] = surface.defects[f] != FaceDefect::kNone;
-  SurfaceContacts(surface.points, surface.triangles, surface.pieces)
-      .for_each([&](SurfaceContacts::Kind /*kind*/, std::uint32_t t, std::uint32_t u) {
-        const std::uint32_t f = surface.face_of[t];
-        const std::uint32_t g = surface.face_of[u];
-        if (f == g) single[f] = true;
-        contacts[f].push_back(g);
-        contacts[g].push_back(f);
-        return true;
-      });
+  SurfaceContacts(surface).for_each([&](SurfaceContacts::Kind /*kind*/, std::uint32_t t, std::uint32_t u) {
+    const std::uint32_t f = surface.face_of[t];
+    const std::uint32_t g = surface.face_of[u];
+    if (f == g) single[f] = true;
+    contacts[f].push_back(g);
+    contacts[g].push_back(f);
+    return true;
+  });
   // Each face goes to the first group in which it touches nothing.
   Groups groups;
   std::vector<std::uint32_t> group_of(count, kNone);

@@ -237,23 +237,9 @@ void check_contacts(const MeshSurface& surface, const SurfaceContacts& contacts,
   }
 }
 
-// Planar, or without area.
-bool is_planar(const MeshSurface& surface, std::span<const std::uint32_t> corners) {
-  const auto place = [&](std::size_t i) { return surface.place[corners[i]]; };
-  std::size_t j = 1;
-  while (j < corners.size() && place(j) == place(0)) ++j;
-  std::size_t k = j + 1;
-  while (k < corners.size() && surface.points.collinear(place(0), place(j), place(k))) ++k;
-  for (std::size_t i = k + 1; i < corners.size(); ++i) {
-    if (surface.points.orientation(place(0), place(j), place(k), place(i)) != 0) return false;
-  }
-  return true;
-}
-
 void check_planarity(const Mesh& mesh, const MeshSurface& surface, Report& report) {
   for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
-    if (mesh.face(f).size() < 4 || surface.defects[f] == FaceDefect::kBadIndex) continue;
-    if (is_planar(surface, mesh.face(f))) continue;
+    if (surface.planar[f]) continue;
     MeshProblem problem = face_problem(Kind::kNonPlanarFace, f, "is not planar: a corner is ");
     problem.text += std::to_string(face_deviation(mesh, f)) + " off its plane";
     problem.legal = true;
@@ -359,7 +345,7 @@ std::vector<MeshProblem> check_mesh(const Mesh& mesh, const MeshCheckOptions& op
 
 std::vector<MeshProblem> check_mesh(const Mesh& mesh, const MeshSurface& surface, const MeshCheckOptions& options) {
   Report report(options.max_per_kind);
-  const SurfaceContacts contacts(surface.points, surface.triangles, surface.pieces);
+  const SurfaceContacts contacts(surface);
   check_faces(mesh, surface, report);
   check_duplicates(mesh, surface, report);
   const bool closed = check_edges(mesh, surface, contacts, report);
@@ -387,7 +373,7 @@ std::optional<MeshProblem> first_self_intersection(const Mesh& mesh) {
       offer(face_problem(Kind::kSelfIntersection, f, "crosses itself"));
     }
   }
-  const SurfaceContacts contacts(surface.points, surface.triangles, surface.pieces);
+  const SurfaceContacts contacts(surface);
   contacts.for_each([&](SurfaceContacts::Kind kind, std::uint32_t t, std::uint32_t u) {
     const std::uint32_t f = surface.face_of[t];
     if (first && f > first->faces[0]) return false;

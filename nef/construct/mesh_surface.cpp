@@ -39,6 +39,16 @@ bool convex(const MeshPoints& points, const std::vector<std::uint32_t>& ring, st
 }
 
 // Polygons go to the triangulator along the best axis that shows them as simple polygons.
+// Planar, or without area. The ring has no corner twice in a row.
+bool is_planar(const MeshPoints& points, const std::vector<std::uint32_t>& ring) {
+  std::size_t k = 2;
+  while (k < ring.size() && points.collinear(ring[0], ring[1], ring[k])) ++k;
+  for (std::size_t i = k + 1; i < ring.size(); ++i) {
+    if (points.orientation(ring[0], ring[1], ring[k], ring[i]) != 0) return false;
+  }
+  return true;
+}
+
 enum class Cut : std::uint8_t { kFailed, kDone, kConvex };
 Cut cut(const MeshPoints& points, Triangulator& triangulator, const std::vector<std::uint32_t>& ring,
         std::vector<std::array<std::uint32_t, 3>>& out) {
@@ -114,6 +124,7 @@ MeshSurface::MeshSurface(const Mesh& mesh)
       if (done == Cut::kFailed) defects[f] = FaceDefect::kCrossesItself;
       in_one_piece = done == Cut::kConvex;
     }
+    planar.push_back(bad || ring.size() < 4 || is_planar(points, ring));
     face_of.resize(triangles.size(), f);
     const auto first = static_cast<std::uint32_t>(pieces.size());
     while (pieces.size() < triangles.size()) {

@@ -26,6 +26,7 @@ struct MeshSurface {
   std::vector<std::uint32_t> face_of;                   ///< of each triangle
   std::vector<std::uint32_t> pieces;                    ///< of each triangle: equal where a convex face was cut
   std::vector<FaceDefect> defects;                      ///< of each face
+  std::vector<bool> planar;                             ///< of each face: all corners lie in one plane, or on a line
 };
 
 /// The coordinate axes, the one along which a polygon looks largest first (by its area vector in doubles).

@@ -119,9 +119,9 @@ Interval make_interval(const Triangle& t, const Signs& s, bool first) {
 
 }  // namespace
 
-SurfaceContacts::SurfaceContacts(const MeshPoints& points, std::span<const Triangle> triangles,
-                                 std::span<const std::uint32_t> pieces)
-    : points_(points), triangles_(triangles), pieces_(pieces) {
+SurfaceContacts::SurfaceContacts(const MeshSurface& surface)
+    : surface_(surface), points_(surface.points), triangles_(surface.triangles) {
+  const std::span<const Triangle> triangles = triangles_;
   half_edges_.reserve(3 * triangles.size());
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
     for (std::size_t i = 0; i < 3; ++i) {
@@ -130,7 +130,40 @@ SurfaceContacts::SurfaceContacts(const MeshPoints& points, std::span<const Trian
       half_edges_.push_back({pair_key(std::min(u, v), std::max(u, v)), t, triangles[t][(i + 2) % 3], u < v ? 1 : -1});
     }
   }
-  sort_by_pair(half_edges_, points.size());
+  sort_by_pair(half_edges_, points_.size());
+  note_corners_of_polygons();
+}
+
+void SurfaceContacts::note_corners_of_polygons() {
+  const std::size_t count = triangles_.size();
+  const auto cut = [&](std::size_t t) {
+    const std::uint32_t f = surface_.face_of[t];
+    const bool alone = (t == 0 || surface_.face_of[t - 1] != f) && (t + 1 == count || surface_.face_of[t + 1] != f);
+    return !alone && surface_.planar[f];
+  };
+  polygons_begin_.assign(points_.size() + 1, 0);
+  for (std::size_t t = 0; t < count; ++t) {
+    if (!cut(t)) continue;
+    for (const std::uint32_t v : triangles_[t]) ++polygons_begin_[v + 1];
+  }
+  for (std::size_t v = 1; v < polygons_begin_.size(); ++v) polygons_begin_[v] += polygons_begin_[v - 1];
+  polygons_.resize(polygons_begin_.back());
+  std::vector<std::uint32_t> at(polygons_begin_.begin(), polygons_begin_.end() - 1);
+  for (std::size_t t = 0; t < count; ++t) {
+    if (!cut(t)) continue;
+    for (const std::uint32_t v : triangles_[t]) polygons_[at[v]++] = surface_.face_of[t];
+  }
+}
+
+// The side of a triangle's plane on which a place lies. Corners of a planar face lie in it by definition, which spares
+// the exact arithmetic that finding a zero costs.
+int SurfaceContacts::side(std::uint32_t triangle, std::uint32_t place) const {
+  const std::uint32_t face = surface_.face_of[triangle];
+  for (std::uint32_t i = polygons_begin_[place]; i < polygons_begin_[place + 1]; ++i) {
+    if (polygons_[i] == face) return 0;
+  }
+  const Triangle& t = triangles_[triangle];
+  return points_.orientation(t[0], t[1], t[2], place);
 }
 
 std::span<const SurfaceContacts::HalfEdge> SurfaceContacts::around(std::uint32_t u, std::uint32_t v) const {
@@ -248,13 +281,13 @@ SurfaceContacts::Kind SurfaceContacts::classify_general(std::uint32_t t, std::ui
   if (shared == 0 && surely_apart(points_, a, b)) return Kind::kNone;
   Signs sb{};
   for (std::size_t i = 0; i < 3; ++i) {
-    sb[i] = shared > 0 && has(a, b[i]) ? 0 : points_.orientation(a[0], a[1], a[2], b[i]);
+    sb[i] = shared > 0 && has(a, b[i]) ? 0 : side(t, b[i]);
   }
   if (one_sided(sb) && zeros(sb) == shared) return Kind::kNone;
   if (zeros(sb) == 3) return classify_coplanar(t, u, shared);
   Signs sa{};
   for (std::size_t i = 0; i < 3; ++i) {
-    sa[i] = shared > 0 && has(b, a[i]) ? 0 : points_.orientation(b[0], b[1], b[2], a[i]);
+    sa[i] = shared > 0 && has(b, a[i]) ? 0 : side(u, a[i]);
   }
   if (one_sided(sa) && zeros(sa) == shared) return Kind::kNone;
   const auto ia = make_interval<Interval>(a, sa, true);
@@ -331,7 +364,7 @@ SurfaceContacts::Kind SurfaceContacts::classify(std::uint32_t t, std::uint32_t u
   }
   if (shared < 2) return classify_general(t, u, shared);
   if (shared == 3) return Kind::kOverlap;
-  if (points_.orientation(a[0], a[1], a[2], b[b_free]) != 0) return Kind::kNone;
+  if (side(t, b[b_free]) != 0) return Kind::kNone;
   // Coplanar neighbours overlap if they lie on one side of their edge.
   const std::uint32_t p = a[(a_free + 1) % 3];
   const std::uint32_t q = a[(a_free + 2) % 3];
@@ -352,7 +385,7 @@ void SurfaceContacts::for_each(const std::function<bool(Kind, std::uint32_t, std
   };
   std::vector<Contact> contacts;
   BoxTree(boxes).for_each_pair([&](std::uint32_t t, std::uint32_t u) {
-    if (!pieces_.empty() && pieces_[t] == pieces_[u]) return;
+    if (surface_.pieces[t] == surface_.pieces[u]) return;
     const Kind kind = classify(t, u);
     if (kind != Kind::kNone) contacts.push_back({t, u, kind});
   });

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "nef/construct/mesh_points.h"
+#include "nef/construct/mesh_surface.h"
 
 namespace nef {
 
@@ -26,11 +26,8 @@ class SurfaceContacts {
 
   enum class Kind : std::uint8_t { kNone, kTouch, kEdge, kCross, kOverlap };
 
-  /// The triangles must not be degenerate and name each place by one index only. Triangles with the same number in
-  /// `pieces` (one for each triangle, or none at all) are known to meet properly; their pairs are left out. All must
-  /// outlive this object.
-  SurfaceContacts(const MeshPoints& points, std::span<const Triangle> triangles,
-                  std::span<const std::uint32_t> pieces = {});
+  /// The surface must outlive this object.
+  explicit SurfaceContacts(const MeshSurface& surface);
 
   /// Calls visit(kind, t, u) for every pair t < u with a contact, in lexicographic order; kind is kTouch, kCross or
   /// kOverlap. Stops when visit returns false.
@@ -70,9 +67,14 @@ class SurfaceContacts {
   bool add_wings(std::uint32_t triangle, Edge own, Edge along, std::vector<Wing>& wings) const;
   [[nodiscard]] bool same_direction(Edge a, Edge b) const;
 
+  [[nodiscard]] int side(std::uint32_t triangle, std::uint32_t place) const;
+  void note_corners_of_polygons();
+
+  const MeshSurface& surface_;
   const MeshPoints& points_;
   std::span<const Triangle> triangles_;
-  std::span<const std::uint32_t> pieces_;
+  std::vector<std::uint32_t> polygons_begin_;  // planar faces that were cut, by place
+  std::vector<std::uint32_t> polygons_;
   std::vector<HalfEdge> half_edges_;  // sorted by key
 };
 

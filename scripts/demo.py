@@ -101,7 +101,9 @@ def main() -> None:
     demo.run("planner", "--tight", "data/planner/s1_tight_hole.json")
 
     demo.section("Through the passage", "Our planner finds the only way. Sampling in doubles cannot hit a set of measure zero, but with this suite's samplers and exact motion validator OMPL's planners get through too.")
-    demo.run("planner", "data/planner/s1_tight_hole.json", "-o", demo.path("path.txt"))
+    demo.run("planner", "data/planner/s1_tight_hole.json", "-o", demo.path("path.txt"), "-o", demo.path("planner.glb"),
+             "--page", demo.path("planner.html"))
+    demo.sections[-1] += '<p><a href="planner.html">move the robot</a>, or the same as <a href="planner.glb">glTF</a></p>'
     demo.run("planner", "data/planner/s1_tight_hole.json", "--ompl", "RRTConnect", "--time", "2", expect=(0, 1, 4))
 
     demo.section("No way", "A billionth less room, and the answer is a proof.")

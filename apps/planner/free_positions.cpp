@@ -57,6 +57,7 @@ bool in_box(const Scene& scene, const Rational3& position) {
 
 minkowski::MinkowskiOptions minkowski_options(const BuildOptions& build) {
   minkowski::MinkowskiOptions options;
+  options.threads = build.threads;
   options.progress = [&build](std::size_t done, std::size_t total) {
     if (build.progress) build.progress("configuration space", done, total);
     return !build.stop || !build.stop();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The command `planner` as users call it, the readers of scenes, and the example program.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
@@ -56,10 +57,101 @@ TEST_CASE("paths in all formats, and reading them back with their passages") {
   }
   const std::string straight = folder.write("straight.txt", "1 0.5 0.5\n7 1.5 1.5\n");
   CHECK(planner(folder, scene("s1_tight_hole") + " --path " + straight).code == 1);
+  const Run blocked = planner(folder, scene("s1_tight_hole") + " --json --path " + straight);
+  CHECK(blocked.code == 1);
+  const auto why = nlohmann::json::parse(blocked.out);
+  CHECK(why["status"] == "blocked");
+  CHECK(why["blocked_segment"] == 0);
+  CHECK(why["collision"]["obstacle"] == 1);
   const Run tight = planner(folder, "--tight " + scene("s2_tight_slot"));
   CHECK(tight.code == 0);
   CHECK(tight.out.find("passage 0: dimension 2") == 0);
   CHECK(planner(folder, scene("s1_tight_hole") + " --quiet").out.empty());
+}
+
+// The JSON of a binary glTF file.
+nlohmann::json gltf_of(const std::string& file) {
+  const std::string bytes = text_of(file);
+  REQUIRE(bytes.substr(0, 4) == "glTF");
+  const auto at = [&bytes](std::size_t i) { return static_cast<std::size_t>(static_cast<unsigned char>(bytes.at(i))); };
+  return nlohmann::json::parse(bytes.substr(20, at(12) | at(13) << 8 | at(14) << 16));
+}
+
+TEST_CASE("a glTF file with a robot that moves; without a path it stands still") {
+  const Folder folder;
+  REQUIRE(planner(folder, scene("s1_tight_hole") + " -o " + folder.file("s1.glb")).code == 0);
+  const auto moving = gltf_of(folder.file("s1.glb"));
+  REQUIRE(moving["animations"].size() == 1);
+  const auto& channel = moving["animations"][0]["channels"][0];
+  CHECK(channel["target"]["path"] == "translation");
+  CHECK(moving["nodes"][channel["target"]["node"].get<std::size_t>()]["name"] == "robot");
+  const auto& times = moving["accessors"][moving["animations"][0]["samplers"][0]["input"].get<std::size_t>()];
+  CHECK(times["count"] == 4);
+  CHECK(times["min"][0] == 0);
+  CHECK(times["max"][0] == 10);
+  std::vector<std::string> names;
+  for (const auto& node : moving["nodes"]) names.push_back(node["name"]);
+  for (const char* name : {"obstacles", "tight passages", "free space", "path", "robot at the goal"}) {
+    CHECK(std::count(names.begin(), names.end(), name) >= 1);
+  }
+  CHECK(planner(folder, scene("s1_narrower") + " -o " + folder.file("no.glb")).code == 1);
+  CHECK_FALSE(gltf_of(folder.file("no.glb")).contains("animations"));
+}
+
+TEST_CASE("--tight lists and exits with 0 whatever the answer, unless a path is asked for too") {
+  const Folder folder;
+  const Run no = planner(folder, "--tight " + scene("s1_narrower"));
+  CHECK(no.code == 0);
+  CHECK(no.out == "no tight passage\n");
+  const Run both = planner(folder, "--tight --json " + scene("s1_narrower"));
+  CHECK(both.code == 0);
+  CHECK(nlohmann::json::parse(both.out)["tight"].empty());
+  CHECK(planner(folder, "--tight " + scene("s1_narrower") + " -o " + folder.file("no.txt")).code == 1);
+  CHECK_FALSE(std::filesystem::exists(folder.file("no.txt")));
+  const std::string ends = folder.write(
+      "no_ends.json", R"J({"robot": "box(0,0,0, 1,1,1)", "obstacles": ["box(0,0,0, 3,3,1)", "box(0,0,2, 3,3,3)"]})J");
+  const Run listed = planner(folder, "--tight " + ends);
+  CHECK(listed.code == 0);
+  CHECK(listed.out.find("passage 0: dimension 2") == 0);
+  CHECK(planner(folder, ends).code == 2);
+}
+
+TEST_CASE("flags that all programs have") {
+  const Folder folder;
+  CHECK(planner(folder, "--version").out == "planner 0.1.0\n");
+  const std::string help = planner(folder, "--help").out;
+  for (const char* word :
+       {"--page", "--threads", "--quiet", "--json", "--tight", "--ompl", "--benchmark", "Exit codes"}) {
+    CHECK_THAT(help, Catch::Contains(word));
+  }
+  const auto without_times = [](const Run& run) {
+    auto report = nlohmann::json::parse(run.out);
+    report.erase("phases");
+    return report;
+  };
+  const std::string ask = scene("s9_gate_and_rail") + " --json --threads ";
+  CHECK(without_times(planner(folder, ask + "1")) == without_times(planner(folder, ask + "3")));
+  CHECK(planner(folder, scene("s1_narrower") + " --quiet").out.empty());
+  CHECK(planner(folder, scene("s1_narrower") + " --quiet").code == 1);
+  CHECK(planner(folder, scene("s1_tight_hole") + " --quiet --json").code == 0);
+}
+
+TEST_CASE("long work tells how far it is") {
+  const Scene rail = load("s9_gate_and_rail");
+  BuildOptions options;
+  std::vector<std::string> phases;
+  std::size_t last = 0;
+  options.progress = [&](const std::string& phase, std::size_t done, std::size_t total) {
+    if (phases.empty() || phases.back() != phase) phases.push_back(phase);
+    if (total > 0) {
+      CHECK(done <= total);
+      CHECK(done >= last);
+      last = done;
+    }
+  };
+  const Problem problem(rail, options);
+  CHECK(phases == std::vector<std::string>{"configuration space", "roadmap"});
+  CHECK(last > 0);
 }
 
 TEST_CASE("OMPL from the command line: a planner, and a benchmark log") {

@@ -162,37 +162,33 @@ void CellReader::set_marks(ConvexCell& cell) {
 // No coordinate is compared. The facets of a convex volume in one plane make up one of its faces; a
 // vertex is extreme iff it lies in three such planes. The boundary of a face is what edges of its
 // facets remain when those inside the face, which occur in both directions, have cancelled out.
-ConvexCell CellReader::solid() {
+CellBody CellReader::body() {
   std::vector<std::uint32_t> by_plane(facets_);
   const auto row = [&](std::uint32_t f) { return complex_.facets[f].plane.row(); };
   std::sort(by_plane.begin(), by_plane.end(),
             [&](std::uint32_t f, std::uint32_t g) { return row(f) != row(g) ? row(f) < row(g) : f < g; });
   count_planes(by_plane);
 
-  ConvexCell cell;
-  cell.dimension = 3;
-  std::vector<std::uint32_t> number(vertices_.size(), kNone);
-  std::vector<std::uint32_t> face;
+  CellBody body;
   for (std::size_t first = 0, last = 0; first < by_plane.size(); first = last) {
     while (last < by_plane.size() && row(by_plane[last]) == row(by_plane[first])) ++last;
-    face.clear();
+    CellBody::Face& face = body.faces.emplace_back();
+    std::vector<std::uint32_t>& ring = face.ring;
     for (const std::uint32_t v : outline({by_plane.data() + first, last - first})) {
-      std::uint32_t& n = number[local_[v]];
-      if (planes_at_[local_[v]] < 3) continue;
-      if (n == kNone) {
-        n = static_cast<std::uint32_t>(cell.mesh.vertices.size());
-        cell.mesh.vertices.push_back(complex_.points.rational(PointId(v)));
-      }
       // An edge that dangles into the face leaves its root twice in a row.
-      if (face.empty() || face.back() != n) face.push_back(n);
+      if (planes_at_[local_[v]] >= 3 && (ring.empty() || ring.back() != v)) ring.push_back(v);
     }
-    if (face.size() > 1 && face.front() == face.back()) face.pop_back();
-    NEF_ASSERT(face.size() >= 3);
+    if (ring.size() > 1 && ring.front() == ring.back()) ring.pop_back();
+    NEF_ASSERT(ring.size() >= 3);
     // Corners run counterclockwise about the plane's normal, which points into a volume above.
-    if (complex_.facets[by_plane[first]].volume_above == volume_) std::reverse(face.begin(), face.end());
-    cell.mesh.push_face(face);
+    const Facet& facet = complex_.facets[by_plane[first]];
+    face.plane = facet.plane;
+    if (facet.volume_above == volume_) {
+      std::reverse(ring.begin(), ring.end());
+      face.plane = face.plane.opposite();
+    }
   }
-  return cell;
+  return body;
 }
 
 // How many planes of the volume meet at each of its vertices.
@@ -257,23 +253,35 @@ void CellReader::set_boundary(ConvexCell& cell) {
 }
 
 std::vector<ConvexCell> CellReader::solids() {
-  std::vector<ConvexCell> cells;
+  std::vector<CellBody> closed;
+  std::vector<ConvexCell> others;
   for (std::uint32_t v = 0; v < complex_.volume_count(); ++v) {
     if (!selected(complex_.volumes[v].mark)) continue;
     collect_items(v);
-    cells.push_back(solid());
-    set_boundary(cells.back());
+    CellBody read = body();
+    ConvexCell cell = to_cell(complex_, read);
+    set_boundary(cell);
+    if (cell.boundary == ConvexCell::Boundary::kClosed) {
+      closed.push_back(std::move(read));
+    } else {
+      others.push_back(std::move(cell));
+    }
   }
+  std::vector<ConvexCell> cells;
+  for (const CellBody& body : merged(complex_, std::move(closed))) cells.push_back(to_cell(complex_, body));
+  std::move(others.begin(), others.end(), std::back_inserter(cells));
   return cells;
 }
 
 std::vector<ConvexCell> CellReader::open_solids() {
-  std::vector<ConvexCell> cells;
+  std::vector<CellBody> bodies;
   for (std::uint32_t v = 0; v < complex_.volume_count(); ++v) {
     if (!selected(complex_.volumes[v].mark)) continue;
     collect_items(v);
-    cells.push_back(opened(solid()));
+    bodies.push_back(body());
   }
+  std::vector<ConvexCell> cells;
+  for (const CellBody& body : merged(complex_, std::move(bodies))) cells.push_back(opened(to_cell(complex_, body)));
   return cells;
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/minkowski/cell_body.h"
 #include "apps/minkowski/convex_cell.h"
 #include "nef/complex/complex.h"
 
@@ -22,10 +23,12 @@ class CellReader {
   /// The complex must outlive the reader.
   explicit CellReader(const Complex& complex);
 
-  /// The cells of dimension 3, in the order of the volumes, with their marks. To be called first.
+  /// The cells of dimension 3 with their marks; closed ones are merged where their union is convex. To be
+  /// called first.
   std::vector<ConvexCell> solids();
 
-  /// The same cells without their boundaries; cheaper.
+  /// The insides of cells whose union is dense in the selected volumes, merged even across facets that are not
+  /// selected: enough for sums that only need open solids (see minkowski_sum.cpp). Cheaper.
   std::vector<ConvexCell> open_solids();
 
   /// Selected facets that no solid took and that are not convex: cut them and start over.
@@ -39,7 +42,7 @@ class CellReader {
 
   [[nodiscard]] bool selected(LabelId label) const;
   void collect_items(std::uint32_t volume);
-  ConvexCell solid();
+  CellBody body();
   void count_planes(std::span<const std::uint32_t> by_plane);
   [[nodiscard]] std::vector<std::uint32_t> outline(std::span<const std::uint32_t> facets) const;
   void set_boundary(ConvexCell& cell);

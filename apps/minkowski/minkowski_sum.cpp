@@ -6,7 +6,8 @@
 //
 // If one operand is open and both lie in the closure of their interiors, the open solids suffice:
 // for x = s + t with a ball about t in the open set, s moves a little, by a generic vector, into the inside of a
-// solid of S, and t moves against it into the inside of a solid of T.
+// solid of S, and t moves against it into the inside of a solid of T. By the same argument a point, segment or
+// facet that is missing inside may be filled in: solids on both sides of a missing facet may be merged.
 #include <optional>
 
 #include "apps/minkowski/decomposition.h"

@@ -69,7 +69,7 @@ Polyhedron forbidden_of_unbounded(const Polyhedron& robot, std::span<const Polyh
   for (const Polyhedron& obstacle : obstacles) closed.push_back(closure(obstacle));
   const Polyhedron all = unite_all(closed, options.threads);
   const Polyhedron turned = negate(robot);
-  const Polyhedron entered = minkowski_sum(all, interior(turned), options, &report);
+  Polyhedron entered = minkowski_sum(all, interior(turned), options, &report);
   if (is_full_dimensional(turned)) return entered;
   return unite(entered, minkowski_sum(interior(all), turned, options, &report));
 }

@@ -27,10 +27,18 @@ struct Interval {
 // A segment whose true ends are within `error` of these. Faces f and g hold it.
 struct Segment {
   Vector from{}, to{};
+  Box box;  // around it
   double error = 0;
   std::uint32_t f = 0, g = 0;
   std::uint32_t from_point = kNone, to_point = kNone;  // where it ends, if that is a candidate already
   std::vector<Interval> open;                          // what is not surely covered
+
+  void set_box() {
+    for (std::size_t i = 0; i < 3; ++i) {
+      box.low[i] = std::min(from[i], to[i]) - error;
+      box.high[i] = std::max(from[i], to[i]) + error;
+    }
+  }
 };
 
 // Where a face's plane is on a segment: value(t) = at + t * slope, each within `error`.
@@ -175,6 +183,7 @@ class SolidUnion {
     s.f = face;
     s.g = beyond;
     Interval whole{0, 1};
+    s.set_box();
     if (!clip_to_box(s, box, whole) || covered(s, whole)) return;
     const std::uint32_t cell = rounded_.cell_of_face(face);
     s.from_point = s.open.front().low <= 0 ? vertices_.add_vertex(cell, from) : kNone;
@@ -196,6 +205,7 @@ class SolidUnion {
     s.from = on_f.point[0];
     s.to = on_f.point[1];
     s.error = on_f.error;
+    s.set_box();
     Interval whole;
     if (!overlap(on_f, on_g, whole) || !clip_to_box(s, face_boxes_[i], whole) ||
         !clip_to_box(s, face_boxes_[j], whole) || covered(s, whole)) {
@@ -314,7 +324,7 @@ class SolidUnion {
     const std::uint32_t other = rounded_.cell_of_face(s.g);
     for (std::size_t k = 0; k < neighbours_.size(); ++k) {
       const std::uint32_t cell = neighbours_[k];
-      if (cell == own || cell == other) continue;
+      if (cell == own || cell == other || !s.box.overlaps(rounded_.box(cell))) continue;
       Interval inside{-1, 2};  // so that a cell which surely holds an end covers it
       for (std::uint32_t h = rounded_.first_face(cell); h < rounded_.end_face(cell) && inside.low < inside.high; ++h) {
         const Cut c(rounded_.face(h), s);
@@ -349,7 +359,7 @@ class SolidUnion {
   // Candidates: faces of neighbours that may cut what is left of a segment.
   void cut(const Segment& s, std::uint32_t own, std::uint32_t other) {
     for (const std::uint32_t cell : neighbours_) {
-      if (cell == own || cell == other) continue;
+      if (cell == own || cell == other || !s.box.overlaps(rounded_.box(cell))) continue;
       Interval near{0, 1};
       cuts_.clear();
       for (std::uint32_t h = rounded_.first_face(cell); h < rounded_.end_face(cell) && near.low <= near.high; ++h) {

@@ -10,6 +10,7 @@
 #include "apps/planner/scene_view.h"
 #include "nef/base/error.h"
 #include "nef/command/expression.h"
+#include "nef/command/progress_bar.h"
 
 namespace {
 
@@ -86,7 +87,7 @@ void declare(CLI::App& app, Arguments& a) {
   declare_ompl(app, a);
   app.add_option("--threads", a.threads, "Threads for the configuration space (0: all cores)");
   app.add_flag("--quiet", a.quiet, "Print nothing but errors, and no progress bar");
-  app.set_version_flag("--version", std::string("planner 0.1.0"));
+  app.set_version_flag("--version", std::string("planner " NEF_VERSION));
   app.footer(kFooter);
 }
 

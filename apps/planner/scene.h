@@ -4,11 +4,11 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "apps/planner/progress.h"
 #include "nef/construct/construct.h"
 #include "nef/polyhedron.h"
 
@@ -53,6 +53,10 @@ Scene parse_scene(const std::string& text, const std::string& folder, const std:
 /// mean of its vertices as OMPL.app computes it, unless `robot.origin = mesh`; our own keys are
 /// `contact` and exact numbers such as 1/3. A mesh that bounds no solid is taken as a surface.
 Scene read_cfg(const std::string& path);
+
+/// Called with what is being done and how much of it is done; a total of 0 means that it is not known. From one thread
+/// at a time.
+using Progress = std::function<void(const std::string& phase, std::size_t done, std::size_t total)>;
 
 /// How a free space is computed.
 struct BuildOptions {

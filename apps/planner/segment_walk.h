@@ -32,7 +32,7 @@ class SegmentWalk {
 
  private:
   [[nodiscard]] std::uint32_t child(std::uint32_t node, int side) const {
-    return tree_.nodes()[node].child[static_cast<std::size_t>(side + 1)];
+    return tree_.nodes()[node].child[static_cast<std::size_t>(side) + 1];
   }
   [[nodiscard]] int side(std::uint32_t node, const SegmentParameter& t) const {
     return segment_.side(segment_.forms(tree_.nodes()[node].plane), t);

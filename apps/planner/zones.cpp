@@ -22,7 +22,7 @@ const std::array<Nudge, 3>& axes() {
 // Some vector across n.
 Nudge across(const Nudge& n) {
   for (const Nudge& axis : axes()) {
-    const Nudge u = cross(n, axis);
+    Nudge u = cross(n, axis);
     if (u[0] != 0 || u[1] != 0 || u[2] != 0) return u;
   }
   return n;

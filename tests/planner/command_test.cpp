@@ -118,7 +118,7 @@ TEST_CASE("--tight lists and exits with 0 whatever the answer, unless a path is 
 
 TEST_CASE("flags that all programs have") {
   const Folder folder;
-  CHECK(planner(folder, "--version").out == "planner 0.1.0\n");
+  CHECK_THAT(planner(folder, "--version").out, Catch::StartsWith("planner 0."));
   const std::string help = planner(folder, "--help").out;
   for (const char* word :
        {"--page", "--threads", "--quiet", "--json", "--tight", "--ompl", "--benchmark", "Exit codes"}) {

@@ -68,7 +68,7 @@ TEST_CASE("sides of points and of crossings on segments are exact") {
     CHECK(segment.side(segment.forms(second), t) == expected);
     CHECK(segment.side(segment.forms(second), ExactSegment::fixed(0)) == sign_at(planes, second, a));
     CHECK(segment.side(segment.forms(second), ExactSegment::fixed(1)) == sign_at(planes, second, b));
-    ++seen[static_cast<std::size_t>(expected + 1)];
+    ++seen[static_cast<std::size_t>(expected) + 1];
   }
   for (const int count : seen) CHECK(count > 500);
 }

@@ -77,7 +77,8 @@ class Arrangement {
   }
 
   static std::size_t index(const Cell& c) {
-    return static_cast<std::size_t>(((c[0] - kLow) * kSpan + (c[1] - kLow)) * kSpan + (c[2] - kLow));
+    const int i = ((c[0] - kLow) * kSpan + (c[1] - kLow)) * kSpan + (c[2] - kLow);
+    return static_cast<std::size_t>(i);
   }
 
  private:

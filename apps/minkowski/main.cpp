@@ -18,7 +18,7 @@ int complain(const std::string& line) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Exact Minkowski sums of any two bounded polyhedral sets: minkowski A B -o OUT");
+  CLI::App app("Exact Minkowski sums of any two polyhedral sets: minkowski A B -o OUT");
   app.name("minkowski");
   app.set_version_flag("--version", std::string("minkowski ") + NEF_VERSION);
   app.footer("Exit codes: 0 done, 2 bad input or usage.");

@@ -4,6 +4,7 @@
 // parts, cavities, antennas, non-manifold contacts. A failure prints sets that can be pasted into a test.
 #include <rapidcheck.h>
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <functional>
 #include <string>
@@ -159,6 +160,35 @@ rc::Gen<ConvexCell> solids() {
       cell.vertex_marks.assign(cell.mesh.vertices.size(), 0);
     }
     return cell;
+  });
+}
+
+// The same cell turned, so that no plane is parallel to an axis, and moved by next to nothing, so that filters fail.
+ConvexCell disturbed(ConvexCell cell, int step) {
+  const Rational tiny = Rational(step, 3) / Rational(nef::Integer(1) << 60);
+  for (Rational3& p : cell.mesh.vertices) {
+    p = {Rational((p[0] + 2 * p[1] + 2 * p[2]) / 3 + tiny), Rational((2 * p[0] + p[1] - 2 * p[2]) / 3),
+         Rational((2 * p[0] - 2 * p[1] + p[2]) / 3 - tiny)};
+  }
+  // That was a reflection: the faces run the other way now.
+  for (std::size_t f = 0; f < cell.mesh.face_count(); ++f) {
+    const auto first = static_cast<std::ptrdiff_t>(cell.mesh.face_begin[f]);
+    const auto last = static_cast<std::ptrdiff_t>(cell.mesh.face_begin[f + 1]);
+    std::reverse(cell.mesh.corners.begin() + first, cell.mesh.corners.begin() + last);
+  }
+  return cell;
+}
+
+TEST_CASE("random: the union of solids that all but coincide") {
+  check("disturbed solid union", 200, [] {
+    const auto count = *rc::gen::inRange<std::size_t>(2, 8);
+    auto cells = *rc::gen::container<std::vector<ConvexCell>>(count, solids());
+    Polyhedron expected;
+    for (ConvexCell& cell : cells) {
+      cell = disturbed(std::move(cell), *rc::gen::inRange(-1, 2));
+      expected = nef::unite(expected, to_polyhedron(cell));
+    }
+    RC_ASSERT(nef::equal(valid(nef::minkowski::unite_solids(cells), "union"), expected));
   });
 }
 

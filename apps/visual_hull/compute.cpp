@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "apps/visual_hull/bounds.h"
+#include "apps/visual_hull/skeleton.h"
 #include "apps/visual_hull/visual_hull.h"
 #include "nef/base/error.h"
 #include "nef/base/parallel.h"
@@ -12,6 +13,11 @@
 
 namespace visual_hull {
 namespace {
+
+constexpr std::size_t kDirectVertices = 150;  // of all polygons: with fewer the general way is as fast
+
+constexpr std::size_t kDirectViews =
+    16;  // with more, pairs of views are so many that halving them step by step is faster
 
 struct LoadedMask {
   cv::Mat mask;
@@ -110,19 +116,26 @@ class Pipeline {
     });
   }
 
+  // The box to look at, and one that is known to hold the hull in its interior if there is one.
   void choose_box() {
-    if (options_.box || scene_.box) {
+    const bool given = options_.box || scene_.box;
+    if (given) {
       result_.box = options_.box ? *options_.box : *scene_.box;
       check_box(result_.box, "box");
-      return;
     }
     std::vector<HalfSpace> half_spaces;
+    std::size_t vertices = 0;
     for (const ViewResult& view : result_.views) {
       if (view.silhouette.background) continue;
+      vertices += view.silhouette.region.vertex_count();
       const std::vector<HalfSpace> cone = convex_cone(view.camera, view.silhouette.region);
       half_spaces.insert(half_spaces.end(), cone.begin(), cone.end());
     }
+    // For a few vertices it is not worth the time.
+    if (given && vertices < kDirectVertices) return;
     const Bounds bounds = bounds_of(half_spaces);
+    if (bounds.kind == Bounds::Kind::kBox) result_.enclosing = loosen(bounds.box);
+    if (given) return;
     if (bounds.kind == Bounds::Kind::kUnbounded) {
       throw nef::InputError("the cones of the views do not bound the scene: give a box with --box x0,y0,z0,x1,y1,z1");
     }
@@ -130,7 +143,7 @@ class Pipeline {
     if (bounds.kind == Bounds::Kind::kEmpty) {
       report_empty_bounds();
     } else {
-      result_.box = loosen(bounds.box);
+      result_.box = *result_.enclosing;
     }
   }
 
@@ -161,8 +174,30 @@ class Pipeline {
     });
   }
 
+  // Vertex by vertex, where the views allow that.
+  bool intersect_directly() {
+    std::size_t vertices = 0;
+    std::vector<SkeletonInput> inputs;
+    for (const ViewResult& view : result_.views) {
+      if (view.silhouette.background) return false;
+      vertices += view.silhouette.region.vertex_count();
+      inputs.push_back({&view.camera, &view.silhouette.region});
+    }
+    if (!result_.enclosing || vertices < kDirectVertices || inputs.size() > kDirectViews) return false;
+    for (std::size_t i = 0; i < 3 && !result_.box_found; ++i) {
+      if (result_.enclosing->low[i] <= result_.box.low[i] || result_.enclosing->high[i] >= result_.box.high[i])
+        return false;
+    }
+    tell(Phase::kIntersection, "edges", 0, 1);
+    std::optional<nef::Polyhedron> hull = direct_hull(inputs, *result_.enclosing, options_.threads);
+    if (!hull || hull->is_empty()) return false;  // the general way finds out why
+    result_.hull = std::move(*hull);
+    result_.direct = true;
+    return true;
+  }
+
   void intersect() {
-    if (result_.vanished) return;
+    if (result_.vanished || (options_.direct && intersect_directly())) return;
     const nef::Polyhedron box = nef::make_box(result_.box.low, result_.box.high);
     std::vector<Part> all = parts_;
     // A box that was found is larger than what the cones leave, but for views that keep space.

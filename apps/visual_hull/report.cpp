@@ -136,6 +136,7 @@ nlohmann::ordered_json make_report(const Result& result, const nef::Messages& me
   for (const ViewResult& view : result.views) report["views"].push_back(view_json(view));
   report["box"] = box_json(result.box);
   report["box_found"] = result.box_found;
+  report["direct"] = result.direct;
   nef::PredicateCounts total;
   bool verified = false;
   for (const ViewResult& view : result.views) verified = verified || view.verification.has_value();

@@ -44,6 +44,7 @@ struct Options {
   std::optional<WorldBox> box;                  ///< instead of the scene's
   std::optional<std::filesystem::path> images;  ///< a folder: the i-th image is the i-th view's
   bool verify = false;
+  bool direct = true;    ///< vertex by vertex where that is possible; false: always by intersecting cones
   unsigned threads = 1;  ///< 0: as many as the machine has; the result is the same
 };
 
@@ -68,8 +69,10 @@ struct Result {
   nef::Polyhedron hull;  ///< the intersection of all that the views keep, closed; within the box
   std::vector<ViewResult> views;
   WorldBox box;
-  bool box_found = false;            ///< the box comes from the cones
-  std::optional<Vanished> vanished;  ///< set if the hull has no interior
+  bool box_found = false;             ///< the box comes from the cones
+  std::optional<WorldBox> enclosing;  ///< holds the intersection of all cones in its interior; not always looked for
+  bool direct = false;                ///< the hull was found vertex by vertex
+  std::optional<Vanished> vanished;   ///< set if the hull has no interior
   PhaseReports phases;
 };
 

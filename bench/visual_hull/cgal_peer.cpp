@@ -6,7 +6,7 @@
 #include <CGAL/Polyhedron_3.h>
 #include <CGAL/Polyhedron_incremental_builder_3.h>
 
-#include <chrono>
+#include <ctime>
 #include <sstream>
 
 namespace visual_hull::bench {
@@ -92,11 +92,11 @@ Nef box_solid(const WorldBox& box) {
 PeerResult intersect_with_cgal(const std::vector<ViewResult>& views, const WorldBox& box) {
   std::vector<Nef> cones{box_solid(box)};
   for (const ViewResult& view : views) cones.push_back(cone(view, box));
-  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t start = std::clock();
   Nef hull = cones[0];
   for (std::size_t i = 1; i < cones.size(); ++i) hull = hull * cones[i];
   PeerResult result;
-  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  result.seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   result.vertices = hull.number_of_vertices();
   result.facets = hull.number_of_facets();
   return result;

@@ -33,6 +33,17 @@ TEST_CASE("An exception of a worker arrives in the caller", "[parallel]") {
     if (i == 5) throw std::runtime_error("five");
   };
   CHECK_THROWS_WITH(parallel_for(20, 3, body), "five");
+  // What the caller's thread has counted before is still there.
+  predicate_counts().filter += 1000;
+  const std::uint64_t before = predicate_counts().filter;
+  CHECK_THROWS_WITH(parallel_for(20, 3,
+                                 [](std::size_t) {
+                                   ++predicate_counts().filter;
+                                   throw std::runtime_error("at once");
+                                 }),
+                    "at once");
+  CHECK(predicate_counts().filter > before);
+  CHECK(predicate_counts().filter <= before + 20);
 }
 
 TEST_CASE("Unions and intersections of many sets do not depend on the number of threads", "[parallel]") {

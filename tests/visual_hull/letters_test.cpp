@@ -82,6 +82,7 @@ TEST_CASE("Any number of threads gives the same complex") {
   const Scene scene = read_scene(std::string(NEF_SOURCE_DIR) + "/data/visual_hull/eight/eight.json");
   Options options;
   options.silhouette.simplify.tolerance = 2;
+  options.direct = false;
   const std::filesystem::path folder = std::string(NEF_SOURCE_DIR) + "/data/visual_hull/eight";
   const Result one = compute(scene, folder, options);
   options.threads = 3;

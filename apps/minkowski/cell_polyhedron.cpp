@@ -8,10 +8,26 @@
 #include <utility>
 
 #include "apps/minkowski/convex_cell.h"
+#include "apps/minkowski/exact_cells.h"
 #include "nef/base/error.h"
+#include "nef/construct/solid.h"
 
 namespace nef::minkowski {
 namespace {
+
+// With normals at hand, planes need no more than an offset, and there is nothing to check.
+Polyhedron solid_with_normals(const ConvexCell& cell) {
+  SolidFaces faces;
+  faces.points.reserve(cell.mesh.vertices.size());
+  for (const Rational3& p : cell.mesh.vertices) faces.points.push(p);
+  faces.planes.reserve(cell.mesh.face_count());
+  for (std::size_t f = 0; f < cell.mesh.face_count(); ++f) {
+    faces.plane.push_back(plane_through(faces.planes, faces.points, cell.normals[f], PointId(cell.mesh.face(f)[0])));
+  }
+  faces.begin = cell.mesh.face_begin;
+  faces.corners = cell.mesh.corners;
+  return Polyhedron(make_solid(std::move(faces), {1, 1, 0}));
+}
 
 Polyhedron closed_polyhedron(const ConvexCell& cell) {
   const std::vector<Rational3>& v = cell.mesh.vertices;
@@ -26,6 +42,7 @@ Polyhedron closed_polyhedron(const ConvexCell& cell) {
       return make_polygon(std::span<const std::vector<Rational3>>(&ring, 1));
     }
     default:
+      if (!cell.normals.empty()) return solid_with_normals(cell);
       return from_mesh(cell.mesh, MeshOptions{.strict = true, .as_surface = false, .check = false});
   }
 }

@@ -2,6 +2,7 @@
 #include "apps/minkowski/convex_cell.h"
 
 #include <algorithm>
+#include <array>
 
 #include "nef/base/error.h"
 #include "nef/construct/convex_hull.h"
@@ -29,6 +30,9 @@ ConvexCell negated(const ConvexCell& cell) {
   ConvexCell result = cell;
   for (Rational3& p : result.mesh.vertices) {
     for (Rational& x : p) mpq_neg(x.get_mpq_t(), x.get_mpq_t());
+  }
+  for (std::array<Integer, 3>& n : result.normals) {
+    for (Integer& x : n) mpz_neg(x.get_mpz_t(), x.get_mpz_t());
   }
   // A reflection turns the surface inside out: run the faces backwards. The edge that started at
   // corner k of n then starts at the corner of its other end.

@@ -4,6 +4,7 @@
 // decomposition yields, what convex sums are made of, and what a union takes.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -25,6 +26,8 @@ struct ConvexCell {
   int dimension = 0;
   Mesh mesh;
   Boundary boundary = Boundary::kClosed;
+  /// Outward normals of the faces, of any length, if whoever made the cell had them (dimension 3 only); or none.
+  std::vector<std::array<Integer, 3>> normals;
 
   // Only for kMixed; empty otherwise.
   std::vector<std::uint8_t> facet_marks;   ///< per face of the mesh (dimension 3 only)

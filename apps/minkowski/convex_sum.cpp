@@ -54,7 +54,8 @@ class SolidSum {
   void walk(std::uint32_t corner);
   void merge(const Direction& normal, const Loop& p, const Loop& q);
   void add_corner(std::uint32_t i, std::uint32_t j);
-  void end_face(bool marked);
+  void end_face(bool marked, const std::array<Integer, 3>& normal);
+  [[nodiscard]] std::array<Integer, 3> normal_of_edges(std::uint32_t of_p, std::uint32_t of_q) const;
   void set_marks();
 
   const NormalDiagram& p_;
@@ -76,10 +77,28 @@ void SolidSum::add_corner(std::uint32_t i, std::uint32_t j) {
   face_.push_back(it->second);
 }
 
-void SolidSum::end_face(bool marked) {
+void SolidSum::end_face(bool marked, const std::array<Integer, 3>& normal) {
   sum_.mesh.push_face(face_);
+  sum_.normals.push_back(normal);
   sum_.facet_marks.push_back(marked ? 1 : 0);
   face_.clear();
+}
+
+// The normal of a parallelogram whose first side is the edge of q and whose second is that of p.
+std::array<Integer, 3> SolidSum::normal_of_edges(std::uint32_t of_p, std::uint32_t of_q) const {
+  const std::array<Integer, 3>& u = q_.line(of_q).integers();
+  const std::array<Integer, 3>& v = p_.line(of_p).integers();
+  std::array<Integer, 3> n;
+  Integer divisor;
+  for (std::size_t i = 0; i < 3; ++i) {
+    mpz_ptr x = n[i].get_mpz_t();
+    mpz_mul(x, u[(i + 1) % 3].get_mpz_t(), v[(i + 2) % 3].get_mpz_t());
+    mpz_submul(x, u[(i + 2) % 3].get_mpz_t(), v[(i + 1) % 3].get_mpz_t());
+    mpz_gcd(divisor.get_mpz_t(), divisor.get_mpz_t(), x);
+  }
+  if (p_.sign_of(of_p) * q_.sign_of(of_q) < 0) divisor = -divisor;
+  for (Integer& x : n) mpz_divexact(x.get_mpz_t(), x.get_mpz_t(), divisor.get_mpz_t());
+  return n;
 }
 
 // The sum of two parallel polygons (or a polygon and an edge): their edges in the order of their
@@ -152,7 +171,7 @@ void SolidSum::facets_of_p() {
       marked =
           marked && (e.dimension == 1 ? q_.cell().edge_marked(e.corner) : q_.cell().facet_marked(q_.face(e.corner)));
     }
-    end_face(marked);
+    end_face(marked, p_.normal(f).integers());
   }
 }
 
@@ -177,7 +196,7 @@ void SolidSum::facets_of_q() {
       merge(q_.normal(g), extreme_loop(p_, e), loop);
       marked = marked && p_.cell().edge_marked(e.corner);
     }
-    end_face(marked);
+    end_face(marked, q_.normal(g).integers());
   }
 }
 
@@ -274,7 +293,7 @@ void SolidSum::walk(std::uint32_t corner) {
       add_corner(i, q_.target(best));
       add_corner(k, q_.target(best));
       add_corner(k, v);
-      end_face(p_.cell().edge_marked(corner) && q_.cell().edge_marked(best));
+      end_face(p_.cell().edge_marked(corner) && q_.cell().edge_marked(best), normal_of_edges(corner, best));
     }
     v = q_.target(best);
   }

@@ -33,17 +33,22 @@ PlaneId plane_of_points(PlaneTable& planes, const PointTable& points, PointId o,
     mpz_submul(n[i].get_mpz_t(), u[k].get_mpz_t(), v[j].get_mpz_t());
     mpz_gcd(divisor.get_mpz_t(), divisor.get_mpz_t(), n[i].get_mpz_t());
   }
+  // Short normals first: a common factor of the differences would go through all that follows.
+  for (Integer& x : n) mpz_divexact(x.get_mpz_t(), x.get_mpz_t(), divisor.get_mpz_t());
+  return plane_through(planes, points, n, o);
+}
+
+}  // namespace
+
+PlaneId plane_through(PlaneTable& planes, const PointTable& points, const std::array<Integer, 3>& normal, PointId o) {
+  Integers n = normal;
   Integer offset;
   for (std::size_t i = 0; i < 3; ++i) {
-    // Short normals first: a common factor of the differences would go through all that follows.
-    mpz_divexact(n[i].get_mpz_t(), n[i].get_mpz_t(), divisor.get_mpz_t());
-    mpz_submul(offset.get_mpz_t(), n[i].get_mpz_t(), points.coordinate(o, i));
+    mpz_submul(offset.get_mpz_t(), normal[i].get_mpz_t(), points.coordinate(o, i));
     mpz_mul(n[i].get_mpz_t(), n[i].get_mpz_t(), points.coordinate(o, 3));
   }
   return planes.intern(n[0], n[1], n[2], offset);
 }
-
-}  // namespace
 
 ExactCells::ExactCells(std::span<const ConvexCell> cells, const RoundedCells& rounded)
     : cells_(cells), rounded_(rounded), plane_(rounded.face_count()) {
@@ -67,6 +72,8 @@ PlaneId ExactCells::plane(std::uint32_t face) {
     const std::uint32_t cell = rounded_.cell_of_face(face);
     const auto c = corners(face);
     const PointId o = point(cell, c[0]);
+    const std::vector<Integers>& normals = cells_[cell].normals;
+    if (!normals.empty()) return plane_[face] = plane_through(planes, points, normals[local(face)], o);
     const PointId p = point(cell, c[c.size() / 3]);
     const PointId q = point(cell, c[2 * c.size() / 3]);
     plane_[face] = plane_of_points(planes, points, o, p, q);

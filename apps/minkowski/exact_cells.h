@@ -3,6 +3,7 @@
 // Solid convex cells with exact planes and points, made only for those that somebody asks about.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -12,6 +13,9 @@
 #include "nef/sphere_map/arrangement.h"
 
 namespace nef::minkowski {
+
+/// The plane of a normal through a point, its positive side where the normal points. O(1).
+PlaneId plane_through(PlaneTable& planes, const PointTable& points, const std::array<Integer, 3>& normal, PointId o);
 
 /// Where a point lies in a closed convex solid.
 struct CellLocation {

@@ -114,8 +114,12 @@ void NormalDiagram::set_directions() {
   normals_.reserve(normals.size());
   for (std::uint32_t f = 0; f < normals.size(); ++f) {
     const auto face = mesh.face(f);
-    normals[f] = cross(edge(face[0], face[1]), edge(face[1], face[2]));
-    reduce(normals[f]);
+    if (!cell_->normals.empty()) {
+      normals[f] = cell_->normals[f];
+    } else {
+      normals[f] = cross(edge(face[0], face[1]), edge(face[1], face[2]));
+      reduce(normals[f]);
+    }
     normals_.push_back(Direction::exact(normals[f][0], normals[f][1], normals[f][2]));
   }
   lines_.reserve(corner_count() / 2);

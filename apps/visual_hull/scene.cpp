@@ -102,7 +102,7 @@ fs::path find_image(const fs::path& folder, const std::string& name) {
     return fs::is_regular_file(path, error);
   };
   for (const char* sub : {"", "masks", "silhouettes", "images"}) {
-    const fs::path base = folder / sub / given;
+    fs::path base = folder / sub / given;
     if (exists(base)) return base;
     for (const std::string& extension : image_extensions()) {
       if (exists(base.string() + extension)) return base.string() + extension;
@@ -111,7 +111,7 @@ fs::path find_image(const fs::path& folder, const std::string& name) {
     const auto& known = image_extensions();
     if (std::find(known.begin(), known.end(), lower(base.extension().string())) == known.end()) continue;
     for (const std::string& extension : known) {
-      const fs::path other = fs::path(base).replace_extension(extension);
+      fs::path other = fs::path(base).replace_extension(extension);
       if (exists(other)) return other;
     }
   }

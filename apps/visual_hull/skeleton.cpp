@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <tuple>
 
 #include "apps/visual_hull/skeleton_complex.h"
 #include "apps/visual_hull/skeleton_view.h"
@@ -149,7 +149,7 @@ class Skeleton : public ExactSpots {
     struct Meeting {
       std::array<std::uint32_t, 2> edges{};
       std::uint32_t spot = 0;
-      auto operator<=>(const Meeting&) const = default;
+      bool operator<(const Meeting& o) const { return std::tie(edges, spot) < std::tie(o.edges, o.spot); }
     };
 
     /// A ray as seen along the line through the two centres.

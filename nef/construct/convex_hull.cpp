@@ -367,8 +367,8 @@ Mesh convex_hull_mesh(std::span<const Rational3> points) {
   Hull hull = hull_of(points);
   if (hull.dimension < 3) {
     constexpr std::array<const char*, 4> kNames = {"are none", "are one point", "lie on a line", "lie in a plane"};
-    throw InputError(std::string("the convex hull of points that ") +
-                     kNames[static_cast<std::size_t>(hull.dimension + 1)] +
+    const int name = hull.dimension + 1;
+    throw InputError(std::string("the convex hull of points that ") + kNames[static_cast<std::size_t>(name)] +
                      " is not a solid: give four points that do not lie in a plane");
   }
   return std::move(hull.mesh);

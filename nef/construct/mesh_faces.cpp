@@ -2,6 +2,8 @@
 #include "nef/construct/mesh_faces.h"
 
 #include <algorithm>
+#include <cstdlib>
+#include <numeric>
 
 #include "nef/base/error.h"
 #include "nef/construct/mesh_check.h"
@@ -31,7 +33,9 @@ void MeshFaces::number_points() {
     point_of_.resize(mesh_.vertices.size());
     points_.reserve(mesh_.vertices.size());
     for (std::uint32_t v = 0; v < mesh_.vertices.size(); ++v) {
-      point_of_[v] = surface_.place[v] == v ? points_.push(mesh_.vertices[v]).value : point_of_[surface_.place[v]];
+      const bool first = surface_.place[v] == v;
+      point_of_[v] = first ? points_.push(mesh_.vertices[v]).value : point_of_[surface_.place[v]];
+      if (first) vertex_of_.push_back(v);
     }
   }
   f_.points = points_;
@@ -83,8 +87,48 @@ void MeshFaces::push(std::span<const std::uint32_t> ring, PlaneId plane) {
   f_.begin.push_back(static_cast<std::uint32_t>(f_.corners.size()));
 }
 
+// The same in machine integers, for points with a common denominator D whose differences are below 2^31: with
+// N = D^2 n, the plane is N.(x D) = N.(a D). The factors of N are divided out first; what then remains between N D and
+// the offset is a divisor of D.
+std::optional<PlaneId> MeshFaces::plane_of_small_triangle(std::span<const std::uint32_t> t) {
+  const auto integers = surface_.points.integers();
+  if (integers.empty()) return std::nullopt;
+  const std::array<std::int64_t, 3>& a = integers[vertex_of_[t[0]]];
+  const std::array<std::int64_t, 3>& b = integers[vertex_of_[t[1]]];
+  const std::array<std::int64_t, 3>& c = integers[vertex_of_[t[2]]];
+  std::array<std::int64_t, 3> u;
+  std::array<std::int64_t, 3> v;
+  constexpr std::int64_t kLimit = std::int64_t{1} << 30U;
+  for (std::size_t i = 0; i < 3; ++i) {
+    u[i] = b[i] - a[i];
+    v[i] = c[i] - a[i];
+    if (std::max(std::abs(u[i]), std::abs(v[i])) >= kLimit) return std::nullopt;
+  }
+  std::array<std::int64_t, 3> n;
+  for (std::size_t i = 0; i < 3; ++i) n[i] = u[(i + 1) % 3] * v[(i + 2) % 3] - u[(i + 2) % 3] * v[(i + 1) % 3];
+  const std::int64_t divisor = std::gcd(std::gcd(n[0], n[1]), n[2]);
+  if (divisor == 0) return PlaneId();
+  for (std::int64_t& x : n) x /= divisor;
+  mpz_ptr offset = offset_.get_mpz_t();
+  mpz_set_ui(offset, 0);
+  for (std::size_t i = 0; i < 3; ++i) {
+    mpz_set_si(n_[i].get_mpz_t(), n[i]);
+    mpz_set_si(u_[0].get_mpz_t(), a[i]);
+    mpz_submul(offset, n_[i].get_mpz_t(), u_[0].get_mpz_t());
+  }
+  const std::int64_t d = surface_.points.denominator();
+  const auto left = static_cast<std::int64_t>(
+      mpz_sgn(offset) == 0
+          ? d
+          : std::gcd(d, static_cast<std::int64_t>(mpz_fdiv_ui(offset, static_cast<unsigned long>(d)))));
+  for (std::size_t i = 0; i < 3; ++i) mpz_mul_si(n_[i].get_mpz_t(), n_[i].get_mpz_t(), d / left);
+  mpz_divexact_ui(offset, offset, static_cast<unsigned long>(left));
+  return f_.planes.intern_primitive({n_[0].get_mpz_t(), n_[1].get_mpz_t(), n_[2].get_mpz_t(), offset});
+}
+
 // (b - a) x (c - a) up to a positive factor, and the offset that puts a on it; no plane if the points are on one line.
 PlaneId MeshFaces::plane_of_triangle(std::span<const std::uint32_t> t) {
+  if (const std::optional<PlaneId> plane = plane_of_small_triangle(t)) return *plane;
   const auto difference = [&](std::uint32_t p, std::size_t i, Integer& out) {
     mpz_mul(out.get_mpz_t(), f_.points.coordinate(PointId{p}, i), f_.points.coordinate(PointId{t[0]}, 3));
     mpz_submul(out.get_mpz_t(), f_.points.coordinate(PointId{t[0]}, i), f_.points.coordinate(PointId{p}, 3));

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -36,6 +37,7 @@ class MeshFaces {
   bool add_ring();
   void push(std::span<const std::uint32_t> ring, PlaneId plane);
   PlaneId plane_of_triangle(std::span<const std::uint32_t> t);
+  std::optional<PlaneId> plane_of_small_triangle(std::span<const std::uint32_t> t);
   PlaneId plane_through(const Integers& normal, std::uint32_t p);
   [[nodiscard]] Integers vector_area() const;
   void add_triangles(std::uint32_t face);
@@ -44,7 +46,8 @@ class MeshFaces {
   const MeshSurface& surface_;
   MeshOptions options_;
   Messages* messages_;
-  std::vector<std::uint32_t> point_of_;  // vertex of the mesh -> point
+  std::vector<std::uint32_t> point_of_;   // vertex of the mesh -> point
+  std::vector<std::uint32_t> vertex_of_;  // point -> one vertex of the mesh
   PointTable points_;
   SolidFaces f_;
   bool reverse_ = false;

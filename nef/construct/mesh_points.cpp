@@ -72,6 +72,7 @@ bool MeshPoints::make_integers(std::span<const Rational3> points) {
       denominator = static_cast<std::int64_t>(common);
     }
   }
+  denominator_ = denominator;
   integers_.resize(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     for (std::size_t axis = 0; axis < 3; ++axis) {

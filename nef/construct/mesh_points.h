@@ -44,6 +44,11 @@ class MeshPoints {
   /// Lexicographic comparison.
   [[nodiscard]] int compare(std::uint32_t a, std::uint32_t b) const;
 
+  /// The integers x D, y D, z D of a point for one denominator D of all points, where these are below 2^40; empty if
+  /// they are not.
+  [[nodiscard]] std::span<const std::array<std::int64_t, 3>> integers() const { return integers_; }
+  [[nodiscard]] std::int64_t denominator() const { return denominator_; }
+
   /// Coordinates in a space that is scaled by one positive factor, each within margin(axis) of the truth.
   [[nodiscard]] const std::array<double, 3>& approximate(std::uint32_t p) const { return approximate_[p]; }
   [[nodiscard]] double margin(std::size_t axis) const { return margin_[axis]; }
@@ -60,6 +65,7 @@ class MeshPoints {
   [[nodiscard]] int orientation_along_exact(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::size_t axis) const;
 
   std::vector<std::array<double, 3>> approximate_;
+  std::int64_t denominator_ = 1;
   std::vector<std::array<std::int64_t, 3>> integers_;  // scaled coordinates below 2^40; empty if there are none
   PointTable table_;                                   // filled only where integers_ is not
   std::array<double, 3> margin_{};

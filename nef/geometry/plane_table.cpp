@@ -53,6 +53,29 @@ PlaneId PlaneTable::intern(const Integer& a, const Integer& b, const Integer& c,
   return lead < 0 ? plane.opposite() : plane;
 }
 
+PlaneId PlaneTable::intern_primitive(const std::array<mpz_srcptr, 4>& plane) {
+  std::size_t lead = 0;
+  while (mpz_sgn(plane[lead]) == 0) ++lead;
+  NEF_ASSERT(lead < 3);
+  mpz_t zero;
+  mpz_roinit_n(zero, nullptr, 0);
+  const bool flip = mpz_sgn(plane[lead]) < 0;
+  if (!flip) {
+    const std::array<mpz_srcptr, 5> row{plane[0], plane[1], plane[2], plane[3], zero};
+    rows_.push(row);
+    return find_or_add_last();
+  }
+  // Views of the same limbs with the other sign.
+  std::array<mpz_t, 4> negated;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto size = static_cast<mp_size_t>(mpz_size(plane[i]));
+    mpz_roinit_n(negated[i], mpz_limbs_read(plane[i]), mpz_sgn(plane[i]) > 0 ? -size : size);
+  }
+  const std::array<mpz_srcptr, 5> row{negated[0], negated[1], negated[2], negated[3], zero};
+  rows_.push(row);
+  return find_or_add_last().opposite();
+}
+
 PlaneId PlaneTable::intern_from(const PlaneTable& other, PlaneId plane) {
   if (&other == this) return plane;
   // The other row is normalized already; only its place in this table is in question.

@@ -27,6 +27,9 @@ class PlaneTable {
   /// positive. Adds it if it is new. The normal must not be zero. Expected O(1).
   PlaneId intern(const Integer& a, const Integer& b, const Integer& c, const Integer& d, const Integer& e = 0);
 
+  /// The same for coefficients that are known to have no common factor.
+  PlaneId intern_primitive(const std::array<mpz_srcptr, 4>& normal_and_offset);
+
   /// The same for a plane of another table (or of this one).
   PlaneId intern_from(const PlaneTable& other, PlaneId plane);
 

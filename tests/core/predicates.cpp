@@ -30,6 +30,29 @@ TEST_CASE("coplanar means the same row, whatever the scale and the side") {
   CHECK(planes.intern(1, 2, -3, 5).row() != a.row());
 }
 
+TEST_CASE("a plane is found again however it came into the table") {
+  PlaneTable planes;
+  const PlaneId a = planes.intern(0, -3, 5, 7);
+  const auto primitive = [&planes](const std::array<Integer, 4>& n) {
+    return planes.intern_primitive({n[0].get_mpz_t(), n[1].get_mpz_t(), n[2].get_mpz_t(), n[3].get_mpz_t()});
+  };
+  CHECK(primitive({0, -3, 5, 7}) == a);
+  CHECK(primitive({0, 3, -5, -7}) == a.opposite());
+  CHECK(primitive({0, 0, -1, 0}) == planes.intern(0, 0, -4, 0));
+  PlaneTable others;
+  for (int i = 1; i < 100; ++i) others.intern(i, 1, 2, 3);
+  PlaneTable copies;
+  for (std::uint32_t row = 0; row < others.size(); row += 2) CHECK(copies.append_new(others, row) == row / 2);
+  for (int i = 1; i < 100; ++i) {
+    const PlaneId other = others.intern(i, 1, 2, 3);
+    const PlaneId copy = copies.intern_from(others, other.opposite());
+    CHECK(copy == copies.intern(-i, -1, -2, -3));
+    CHECK(mpz_cmp_si(copies.coefficient(copy, 0), i) == 0);
+    CHECK(copies.approximate(copy) == others.approximate(other));
+  }
+  CHECK(copies.size() == others.size());
+}
+
 TEST_CASE("side of plane: far by the filter, on it exactly, beside it exactly") {
   PlaneTable planes;
   PointTable points;

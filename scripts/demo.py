@@ -83,11 +83,12 @@ def main() -> None:
 
     demo.section("A visual hull", "Twelve silhouettes with a hole in some views; every number on the way is rational.")
     demo.run("visual_hull", "data/visual_hull/eight/eight.json", "-o", demo.path("eight.nef"), "--simplify", "1",
-             "--verify")
+             "--verify", "--page", demo.path("eight_cameras.html"))
     demo.show(demo.path("eight.nef"))
+    demo.sections[-1] += '<p><a href="eight_cameras.html">the hull with its cameras and their images</a></p>'
 
-    demo.section("Three letters", "The thesis' kind of example: three cameras, one letter each.")
-    demo.run("visual_hull", "data/visual_hull/letters/nef.vsh", "-o", demo.path("letters.nef"))
+    demo.section("Three letters", "The thesis' example with letters of our own: three cameras see an M, a P and an I.")
+    demo.run("visual_hull", "data/visual_hull/letters/mpi.vsh", "-o", demo.path("letters.nef"))
     demo.show(demo.path("letters.nef"))
 
     demo.section("A Minkowski sum", "A mushroom of 226 vertices and a cube: 106 s in the thesis.")
@@ -98,6 +99,11 @@ def main() -> None:
         "A configuration space with a tight passage",
         "The free positions of a unit cube between two rooms that a hole of exactly its size joins: two boxes and a segment.",
     )
+    demo.run("nef", "eval", "box(0,0,0, 1,1,1)", "-o", demo.path("robot.nef"))
+    demo.run("nef", "eval", "box(4,0,0, 5,3,3) - box(4,1,1, 5,2,2)", "-o", demo.path("wall.nef"))
+    demo.run("minkowski", "--configuration-space", "--robot", demo.path("robot.nef"), "--obstacles",
+             demo.path("wall.nef"), "--box=0,0,0", "8,2,2", "-o", demo.path("free_space.nef"))
+    demo.show(demo.path("free_space.nef"), source="0.4,-1.6,0.7")
     demo.run("planner", "--tight", "data/planner/s1_tight_hole.json")
 
     demo.section("Through the passage", "Our planner finds the only way. Sampling in doubles cannot hit a set of measure zero, but with this suite's samplers and exact motion validator OMPL's planners get through too.")

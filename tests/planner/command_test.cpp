@@ -98,7 +98,7 @@ TEST_CASE("a glTF file with a robot that moves; without a path it stands still")
   CHECK_FALSE(gltf_of(folder.file("no.glb")).contains("animations"));
 }
 
-TEST_CASE("--tight lists and exits with 0 whatever the answer, unless a path is asked for too") {
+TEST_CASE("The option --tight lists and exits with 0 whatever the answer, unless a path is asked for too") {
   const Folder folder;
   const Run no = planner(folder, "--tight " + scene("s1_narrower"));
   CHECK(no.code == 0);

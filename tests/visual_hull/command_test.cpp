@@ -212,7 +212,7 @@ TEST_CASE("Bad use and bad input: one line, exit code 2") {
   CHECK(run("--help").code == 0);
 }
 
-TEST_CASE("--json prints the report and nothing else, --quiet nothing at all") {
+TEST_CASE("The option --json prints the report and nothing else, --quiet nothing at all") {
   const Scratch s;
   const std::string report = (s.folder() / "r.json").string();
   const Outcome outcome = run(data("letters/mpi.vsh") + " --json --verify --threads 1 --report " + report);

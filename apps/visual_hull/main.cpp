@@ -11,9 +11,9 @@
 #include "apps/visual_hull/arguments.h"
 #include "apps/visual_hull/overlay.h"
 #include "apps/visual_hull/pictures.h"
-#include "apps/visual_hull/progress.h"
 #include "apps/visual_hull/report.h"
 #include "nef/base/error.h"
+#include "nef/command/progress_bar.h"
 #include "nef/io/polyhedron_file.h"
 
 namespace {
@@ -90,12 +90,12 @@ int conclude(const Arguments& a, const visual_hull::Result& result) {
 
 // What is asked for, into files. A hull that vanished has pictures of its views only.
 nef::Messages write_files(const Arguments& a, const visual_hull::Options& options, const visual_hull::Result& result,
-                          visual_hull::ProgressBar& bar) {
+                          nef::ProgressBar& bar) {
   nef::Messages messages;
   const auto origin = options.silhouette.origin;
   const auto step = [&](const std::string& target, bool solid, const std::function<void()>& write) {
     if (target.empty() || (solid && result.vanished)) return;
-    bar.show(Phase::kWrite, target, 0, 1);
+    bar.show("write " + target);
     write();
   };
   step(a.output, true, [&] {
@@ -118,17 +118,19 @@ void check_page_name(const std::string& page) {
 
 int run(const Arguments& a) {
   check_page_name(a.page);
-  visual_hull::ProgressBar bar(!a.quiet);
+  nef::ProgressBar bar(!a.quiet);
   const visual_hull::Options options = visual_hull::to_options(a);
   visual_hull::Scene scene = visual_hull::read_scene(a.scene);
   visual_hull::take_silhouettes(scene, a.silhouettes);
-  visual_hull::Result result = visual_hull::compute(scene, visual_hull::scene_folder(a.scene), options,
-                                                    [&bar](Phase phase, const std::string& view, std::size_t done,
-                                                           std::size_t total) { bar.show(phase, view, done, total); });
+  visual_hull::Result result =
+      visual_hull::compute(scene, visual_hull::scene_folder(a.scene), options,
+                           [&bar](Phase phase, const std::string& view, std::size_t done, std::size_t total) {
+                             bar.show(std::string(visual_hull::phase_name(phase)) + " " + view, done, total);
+                           });
   nef::Messages messages;
   visual_hull::timed(result.phases, Phase::kWrite, [&] { messages = write_files(a, options, result, bar); });
   if (!a.report.empty() || a.json) {
-    bar.show(Phase::kWrite, "report", 0, 1);
+    bar.show("write report");
     const std::string text = visual_hull::make_report(result, messages).dump(2) + "\n";
     bar.clear();
     if (!a.report.empty()) write_text(a.report, text);

@@ -2,7 +2,6 @@
 #include "apps/minkowski/command/run.h"
 
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <array>
 #include <csignal>
@@ -11,6 +10,7 @@
 #include "apps/minkowski/command/preview.h"
 #include "apps/minkowski/command/write_cells.h"
 #include "apps/minkowski/tools.h"
+#include "nef/command/progress_bar.h"
 #include "nef/command/report.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/polyhedron_file.h"
@@ -40,30 +40,6 @@ class SignalsHeld {
   static constexpr std::array<int, 3> kSignals = {SIGINT, SIGTERM, SIGHUP};
   static inline volatile std::sig_atomic_t held_signal_ = 0;
   std::array<struct sigaction, 3> before_{};
-};
-
-// A bar over the pairs of cells, redrawn when a percent is done; only for people who watch a terminal.
-class ProgressBar {
- public:
-  explicit ProgressBar(bool on) : on_(on && isatty(STDERR_FILENO) != 0) {}
-  ~ProgressBar() {
-    if (shown_ >= 0) std::cerr << "\r\033[K" << std::flush;
-  }
-  ProgressBar(const ProgressBar&) = delete;
-  ProgressBar& operator=(const ProgressBar&) = delete;
-
-  void show(std::size_t done, std::size_t all) {
-    const int percent = static_cast<int>(100 * done / all);
-    if (!on_ || percent == shown_) return;
-    shown_ = percent;
-    const auto full = static_cast<std::size_t>(percent) * 40 / 100;
-    std::cerr << "\r[" << std::string(full, '#') << std::string(40 - full, ' ') << "] " << done << " of " << all
-              << " pairs" << std::flush;
-  }
-
- private:
-  bool on_;
-  int shown_ = -1;
 };
 
 Json predicates_json(const PredicateCounts& counts) {
@@ -147,7 +123,7 @@ class Task {
     options.threads = a_.threads;
     options.strategy = strategy(a_);
     options.progress = [&bar](std::size_t done, std::size_t all) {
-      bar.show(done, all);
+      bar.show("pairs of cells", done, all);
       return true;
     };
     return options;

@@ -96,8 +96,7 @@ class FacetLinker {
       const auto first = isolated;
       while (isolated != isolated_.end() && isolated->first == row) ++isolated;
       const std::span<const std::uint32_t> cycles(order.data() + start[row], start[row + 1] - start[row]);
-      const std::span<const std::pair<std::uint32_t, std::uint32_t>> points(&*first,
-                                                                            static_cast<std::size_t>(isolated - first));
+      const std::span<const std::pair<std::uint32_t, std::uint32_t>> points(first, isolated);
       if (!cycles.empty()) link_plane(row, cycles, points);
       NEF_ASSERT(!cycles.empty() || points.empty());
     }

@@ -7,6 +7,7 @@ install_missing "${nef_packages[@]}" "${nef_test_packages[@]}"
 # With ccache, a clone elsewhere finds what this one has compiled.
 export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1
 preset=${NEF_PRESET:-release}
-cmake --preset "$preset" >/dev/null
+# The demo leaves them out.
+cmake --preset "$preset" -DNEF_BUILD_TESTS=ON -DNEF_BUILD_BENCH=ON >/dev/null
 cmake --build --preset "$preset"
 ctest --preset "$preset" --parallel "$(nproc)"

@@ -19,6 +19,9 @@ int side_of_nudge(const PlaneTable& planes, PlaneId plane, const Nudge& nudge) {
 // Unflipped normals have a positive first component, so this generic direction is above each.
 int generic_side(int side) { return side == 0 ? 1 : side; }
 
+// Children stand in the order: below, on, above.
+std::size_t child_index(int side) { return side < 0 ? 0 : (side == 0 ? 1 : 2); }
+
 }  // namespace
 
 LeafId SpaceTree::leaf_at(const ExactPoint& point, std::span<const Nudge> nudges) const {
@@ -27,7 +30,7 @@ LeafId SpaceTree::leaf_at(const ExactPoint& point, std::span<const Nudge> nudges
     const Node& node = nodes_[at];
     int side = point.side(planes_, node.plane);
     for (std::size_t i = 0; i < nudges.size() && side == 0; ++i) side = side_of_nudge(planes_, node.plane, nudges[i]);
-    at = node.child[static_cast<std::size_t>(side + 1)];
+    at = node.child[child_index(side)];
   }
   return leaf_of(at);
 }
@@ -38,7 +41,7 @@ LeafId SpaceTree::leaf_at(const ExactPoint& point) const {
   std::uint32_t at = root_;
   while (!is_leaf(at)) {
     const Node& node = nodes_[at];
-    at = node.child[static_cast<std::size_t>(generic_side(point.side(planes_, node.plane)) + 1)];
+    at = node.child[child_index(generic_side(point.side(planes_, node.plane)))];
   }
   return leaf_of(at);
 }

@@ -81,8 +81,9 @@ class Tracer {
       const std::size_t here = path_[first + i];
       const std::size_t after = path_[first + (i + 1) % n];
       if (after - here == here - before) continue;  // straight on; wraps around alike for negative steps
-      ring.push_back(Point2::from_doubles(static_cast<double>(here % static_cast<std::size_t>(width_)) + shift_,
-                                          static_cast<double>(here / static_cast<std::size_t>(width_)) + shift_));
+      const std::size_t row = here / static_cast<std::size_t>(width_);
+      const std::size_t column = here % static_cast<std::size_t>(width_);
+      ring.push_back(Point2::from_doubles(static_cast<double>(column) + shift_, static_cast<double>(row) + shift_));
     }
     rings_.push_back(std::move(ring));
     for (std::size_t i = first + 1; i < path_.size(); ++i) position_[path_[i]] = -1;

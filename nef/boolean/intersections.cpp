@@ -91,7 +91,7 @@ class IntersectionFinder {
   // Everything of an operand lies on the borders of its facets or is bare, so that a grid of these tells what of the
   // other operand can be left out. Most surfaces come close to each other in few places.
   void collect() {
-    std::array<Candidates, 2> found{candidates(0), candidates(1)};
+    const std::array<Candidates, 2> found{candidates(0), candidates(1)};
     Box region;
     for (std::size_t i = 0; i < 3; ++i) {
       region.low[i] = std::max(operands_[0].bounds().low[i], operands_[1].bounds().low[i]);
@@ -107,7 +107,7 @@ class IntersectionFinder {
     for (std::size_t x = 0; x < 2; ++x) collect(x, found[x], grids[1 - x]);
   }
 
-  static std::vector<std::uint32_t> keep(Items& items, const OccupancyGrid& other, BoxTree& tree) {
+  static std::vector<std::uint32_t> keep(const Items& items, const OccupancyGrid& other, BoxTree& tree) {
     Items kept;
     for (std::size_t i = 0; i < items.index.size(); ++i) {
       if (other.touches(items.boxes[i])) kept.add(items.index[i], items.boxes[i]);
@@ -116,7 +116,7 @@ class IntersectionFinder {
     return std::move(kept.index);
   }
 
-  void collect(std::size_t x, Candidates& found, const OccupancyGrid& other) {
+  void collect(std::size_t x, const Candidates& found, const OccupancyGrid& other) {
     const Operand& operand = operands_[x];
     const Complex& c = operand.complex();
     const Box& reach = operands_[1 - x].bounds();

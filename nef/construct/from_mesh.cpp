@@ -12,7 +12,7 @@
 namespace nef {
 
 Polyhedron from_mesh(const Mesh& mesh, const MeshOptions& options, Messages* messages) {
-  if (options.as_surface) return from_surface(mesh, options, messages);
+  if (options.as_surface) return from_surface(mesh, MeshSurface(mesh), options, messages);
   if (mesh.face_count() == 0) throw InputError("the mesh has no faces, so it bounds no solid");
   const MeshSurface surface(mesh);
   bool touching = false;
@@ -25,9 +25,7 @@ Polyhedron from_mesh(const Mesh& mesh, const MeshOptions& options, Messages* mes
   if (touching) {
     // Faces meet in points that are no vertices of both; the union of the faces finds these. By parity, cavities stay
     // cavities, however their faces are oriented.
-    MeshOptions as_surface = options;
-    as_surface.as_surface = true;
-    return Polyhedron(fill_by_parity(from_surface(mesh, as_surface, messages).complex()));
+    return Polyhedron(fill_by_parity(from_surface(mesh, surface, options, messages).complex()));
   }
   MeshFaces faces(mesh, surface, options, messages);
   Complex complex = faces.solid(false);

@@ -75,8 +75,7 @@ void add_single(const Mesh& mesh, std::uint32_t f, std::vector<Polyhedron>& out)
 
 }  // namespace
 
-Polyhedron from_surface(const Mesh& mesh, const MeshOptions& options, Messages* messages) {
-  const MeshSurface surface(mesh);
+Polyhedron from_surface(const Mesh& mesh, const MeshSurface& surface, const MeshOptions& options, Messages* messages) {
   for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
     if (surface.defects[f] != FaceDefect::kBadIndex) continue;
     for (const std::uint32_t v : mesh.face(f)) {

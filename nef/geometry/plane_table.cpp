@@ -22,6 +22,17 @@ double scaled(mpz_srcptr value, long top) {
   return std::ldexp(mantissa, static_cast<int>(shift));
 }
 
+// The slot of a row of `other` in an open-addressing table over `rows`: it names an equal row, or is empty.
+std::uint32_t& slot_of(std::vector<std::uint32_t>& slots, const std::vector<std::uint64_t>& hashes,
+                       const IntegerRows& rows, std::uint64_t hash, const IntegerRows& other, std::uint32_t row) {
+  const std::size_t mask = slots.size() - 1;
+  std::size_t slot = hash & mask;
+  while (slots[slot] != kEmpty && (hashes[slots[slot]] != hash || !rows.equal(slots[slot], other, row))) {
+    slot = (slot + 1) & mask;
+  }
+  return slots[slot];
+}
+
 }  // namespace
 
 void PlaneTable::reserve(std::size_t planes) {
@@ -81,16 +92,9 @@ PlaneId PlaneTable::intern_from(const PlaneTable& other, PlaneId plane) {
   // The other row is normalized already; only its place in this table is in question.
   make_room_for_one();
   const std::uint64_t hash = other.hash_[plane.row()];
-  const std::size_t mask = slots_.size() - 1;
-  std::size_t slot = hash & mask;
-  while (slots_[slot] != kEmpty) {
-    const std::uint32_t row = slots_[slot];
-    if (hash_[row] == hash && rows_.equal(row, other.rows_, plane.row())) {
-      return PlaneId{row << 1U | (plane.value & 1U)};
-    }
-    slot = (slot + 1) & mask;
-  }
-  slots_[slot] = static_cast<std::uint32_t>(rows_.size());
+  std::uint32_t& slot = slot_of(slots_, hash_, rows_, hash, other.rows_, plane.row());
+  if (slot != kEmpty) return PlaneId{slot << 1U | (plane.value & 1U)};
+  slot = static_cast<std::uint32_t>(rows_.size());
   const std::uint32_t row = rows_.push_from(other.rows_, plane.row());
   hash_.push_back(hash);
   approximate_.push_back(other.approximate_[plane.row()]);
@@ -124,17 +128,12 @@ PlaneId PlaneTable::find_or_add_last() {
   const auto candidate = static_cast<std::uint32_t>(rows_.size() - 1);
   make_room_for_one();
   const std::uint64_t hash = rows_.hash(candidate);
-  const std::size_t mask = slots_.size() - 1;
-  std::size_t slot = hash & mask;
-  while (slots_[slot] != kEmpty) {
-    const std::uint32_t row = slots_[slot];
-    if (hash_[row] == hash && rows_.equal(row, rows_, candidate)) {
-      rows_.pop();
-      return PlaneId{row << 1U};
-    }
-    slot = (slot + 1) & mask;
+  std::uint32_t& slot = slot_of(slots_, hash_, rows_, hash, rows_, candidate);
+  if (slot != kEmpty) {
+    rows_.pop();
+    return PlaneId{slot << 1U};
   }
-  slots_[slot] = candidate;
+  slot = candidate;
   hash_.push_back(hash);
   long top = std::numeric_limits<long>::min();
   for (std::size_t i = 0; i < 3; ++i) {

@@ -14,9 +14,9 @@
 #include <cmath>
 #include <map>
 
+#include "apps/visual_hull/boundary_node.h"
 #include "nef/base/error.h"
 #include "nef/complex/synthesis.h"
-#include "nef/sphere_map/arrangement.h"
 
 namespace visual_hull {
 namespace {
@@ -130,13 +130,7 @@ class ConeBuilder {
     NEF_ASSERT(false);  // where rings touch they do not overlap, so they have different lines
   }
 
-  std::uint32_t add_node(PlaneId p, PlaneId q) {
-    nef::Arrangement::Node node;
-    node.direction = nef::Direction::cross(complex_.planes, p, q);
-    node.mark = 1;
-    map_.nodes.push_back(node);
-    return static_cast<std::uint32_t>(map_.nodes.size() - 1);
-  }
+  std::uint32_t add_node(PlaneId p, PlaneId q) { return add_boundary_node(map_, complex_.planes, p, q); }
 
   // `left` is the mark on the positive side of the plane; the order is for a camera that is not mirrored.
   void add_arc(PlaneId plane, std::uint32_t source, std::uint32_t target, nef::LabelId left) {

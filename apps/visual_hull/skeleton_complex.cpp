@@ -9,9 +9,9 @@
 // arcs of p and q; the arc of r takes the long way round, so its sense changes, too.
 #include "apps/visual_hull/skeleton_complex.h"
 
+#include "apps/visual_hull/boundary_node.h"
 #include "nef/base/error.h"
 #include "nef/complex/synthesis.h"
-#include "nef/sphere_map/arrangement.h"
 
 namespace visual_hull {
 namespace {
@@ -125,13 +125,7 @@ class ComplexWriter {
     return best->in_node;
   }
 
-  std::uint32_t add_node(PlaneId p, PlaneId q) {
-    nef::Arrangement::Node node;
-    node.direction = nef::Direction::cross(complex_.planes, p, q);
-    node.mark = 1;
-    map_.nodes.push_back(node);
-    return static_cast<std::uint32_t>(map_.nodes.size() - 1);
-  }
+  std::uint32_t add_node(PlaneId p, PlaneId q) { return add_boundary_node(map_, complex_.planes, p, q); }
 
   void add_arc(PlaneId plane, std::uint32_t source, std::uint32_t target) {
     nef::Arrangement::Arc arc;

@@ -90,9 +90,12 @@ Report run(const std::string& directory, int repeat) {
   const Case bench_case = read_case(directory);
   Report report;
   std::vector<Nef> operands;
-  const Stopwatch build;
-  for (const Operand& operand : bench_case.operands) operands.push_back(operand_of(operand));
-  report.build_s = build.seconds();
+  for (int i = 0; i < repeat; ++i) {
+    operands.clear();
+    const Stopwatch watch;
+    for (const Operand& operand : bench_case.operands) operands.push_back(operand_of(operand));
+    report.build_s.push_back(watch.seconds());
+  }
   Nef result;
   const bool locating = bench_case.operation == Operation::kLocate;
   const std::size_t base_count = operands.size() - (bench_case.operation == Operation::kDifference ? 1 : 0);

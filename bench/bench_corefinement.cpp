@@ -45,7 +45,7 @@ Report run(const std::string& directory, int repeat) {
   std::vector<Surface> operands;
   const Stopwatch build;
   for (const Operand& operand : bench_case.operands) operands.push_back(surface_of(operand));
-  report.build_s = build.seconds();
+  report.build_s.push_back(build.seconds());
   const bool difference = bench_case.operation == Operation::kDifference;
   const std::size_t before = difference ? operands.size() - 1 : 1;
   Surface base = operands[0];

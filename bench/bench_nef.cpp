@@ -22,13 +22,16 @@ Report run(const std::string& directory, int repeat) {
   const Case bench_case = read_case(directory);
   Report report;
   std::vector<Polyhedron> operands;
-  const Stopwatch build;
-  for (const Operand& operand : bench_case.operands) {
-    MeshOptions options;
-    options.as_surface = operand.surface;
-    operands.push_back(from_mesh(operand.mesh, options));
+  for (int i = 0; i < repeat; ++i) {
+    operands.clear();
+    const Stopwatch watch;
+    for (const Operand& operand : bench_case.operands) {
+      MeshOptions options;
+      options.as_surface = operand.surface;
+      operands.push_back(from_mesh(operand.mesh, options));
+    }
+    report.build_s.push_back(watch.seconds());
   }
-  report.build_s = build.seconds();
   Polyhedron result;
   if (bench_case.operation == Operation::kUnion) {
     for (int i = 0; i < repeat; ++i) {

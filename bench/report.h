@@ -45,8 +45,8 @@ inline double median(std::vector<double> values) {
 }
 
 struct Report {
-  double build_s = 0;        ///< mesh to operand, all operands
-  std::vector<double> op_s;  ///< of each repetition
+  std::vector<double> build_s;  ///< mesh to operand, all operands, of each repetition
+  std::vector<double> op_s;     ///< of each repetition
   std::size_t vertices = 0, edges = 0, facets = 0, volumes = 0;
   std::size_t inside = 0;  ///< of the located points
 
@@ -54,7 +54,7 @@ struct Report {
     std::printf(
         "{\"build_s\": %.6g, \"op_s\": %.6g, \"best_s\": %.6g, \"vertices\": %zu, \"edges\": %zu, "
         "\"facets\": %zu, \"volumes\": %zu, \"inside\": %zu, \"peak_kb\": %ld}\n",
-        build_s, median(op_s), op_s.empty() ? 0.0 : *std::min_element(op_s.begin(), op_s.end()), vertices, edges,
+        median(build_s), median(op_s), op_s.empty() ? 0.0 : *std::min_element(op_s.begin(), op_s.end()), vertices, edges,
         facets, volumes, inside, peak_kb());
   }
 };

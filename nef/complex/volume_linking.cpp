@@ -79,9 +79,7 @@ class VolumeLinker {
     for (std::size_t i = 0; i < components.size(); ++i) {
       const std::uint32_t v = lowest[components[i]];
       const SphereMapView map = c_.sphere_map(v);
-      const SphereLocation where = locate(c_.planes, map, minus_x);
-      NEF_ASSERT(where.kind == SphereLocation::Kind::kSFace);
-      const std::uint32_t inner = sfaces_.find(c_.vertices[v].sfaces + where.index);
+      const std::uint32_t inner = sfaces_.find(c_.vertices[v].sfaces + sface_toward(minus_x, map));
       inner_.push_back(inner);
       std::uint32_t seen = enclosed[i] ? sface_seen_from(v) : kNone;
       if (seen == kNone) {
@@ -91,6 +89,22 @@ class VolumeLinker {
       volumes_.unite(inner, sfaces_.find(seen));
     }
     outer_ = volumes_.find(unbounded);
+  }
+
+  // The sface of the lowest vertex of a component in direction -x. Where three facets meet there, the map is a
+  // triangle, which lies in the half-sphere of the directions to higher vertices; -x lies outside of it.
+  std::uint32_t sface_toward(const Direction& minus_x, const SphereMapView& map) const {
+    if (map.svertices.size() == 3 && map.shalfedges.size() == 6 && map.sfaces.size() == 2) {
+      const auto direction = [&](std::uint32_t shalfedge) {
+        return direction_of(c_.planes, map.svertices[map.shalfedges[shalfedge].source]);
+      };
+      const std::uint32_t second = map.shalfedges[0].next;
+      const int turn = sign_of_determinant(direction(0), direction(second), direction(map.shalfedges[second].next));
+      if (turn != 0) return map.shalfedges[turn > 0 ? 1 : 0].sface;
+    }
+    const SphereLocation where = locate(c_.planes, map, minus_x);
+    NEF_ASSERT(where.kind == SphereLocation::Kind::kSFace);
+    return where.index;
   }
 
   // Which components have their lowest vertex in the box of another one.

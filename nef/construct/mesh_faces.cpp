@@ -32,10 +32,15 @@ void MeshFaces::number_points() {
   if (point_of_.empty()) {
     point_of_.resize(mesh_.vertices.size());
     points_.reserve(mesh_.vertices.size());
+    const PointTable& known = surface_.points.table();
     for (std::uint32_t v = 0; v < mesh_.vertices.size(); ++v) {
-      const bool first = surface_.place[v] == v;
-      point_of_[v] = first ? points_.push(mesh_.vertices[v]).value : point_of_[surface_.place[v]];
-      if (first) vertex_of_.push_back(v);
+      if (surface_.place[v] != v) {
+        point_of_[v] = point_of_[surface_.place[v]];
+        continue;
+      }
+      const PointId p = known.size() > 0 ? points_.push_from(known, PointId{v}) : points_.push(mesh_.vertices[v]);
+      point_of_[v] = p.value;
+      vertex_of_.push_back(v);
     }
   }
   f_.points = points_;
@@ -52,30 +57,32 @@ void MeshFaces::add_face(std::uint32_t face) {
   if (ring_.size() == 3) {
     const PlaneId plane = plane_of_triangle(ring_);
     if (plane.valid()) push(ring_, plane);
-  } else if (!add_ring()) {
+  } else if (surface_.defects[face] != FaceDefect::kNone) {
+    if (!add_defective_ring()) add_triangles(face);
+  } else if (surface_.planar[face]) {
+    // Any triangle that it was cut into has its orientation.
+    const PlaneId plane = plane_of_triangle(corners_of(surface_.triangle_begin[face]));
+    push(ring_, plane);
+  } else {
     add_triangles(face);
   }
 }
 
-// False if the ring is not planar.
-bool MeshFaces::add_ring() {
-  // At its smallest point a simple polygon is convex, so the plane through that corner has the right orientation.
-  std::size_t least = 0;
-  for (std::size_t i = 1; i < ring_.size(); ++i) {
-    if (compare_lexicographic(f_.points, PointId{ring_[i]}, PointId{ring_[least]}) < 0) least = i;
-  }
-  const std::size_t n = ring_.size();
-  const std::array<std::uint32_t, 3> corner{ring_[(least + n - 1) % n], ring_[least], ring_[(least + 1) % n]};
-  PlaneId plane = plane_of_triangle(corner);
-  if (!plane.valid()) {
-    // A spike there; the area tells.
-    const Integers area = vector_area();
-    if (area[0] == 0 && area[1] == 0 && area[2] == 0) return true;
-    plane = plane_through(area, ring_[0]);
-  }
+// A triangle of the surface as points.
+std::array<std::uint32_t, 3> MeshFaces::corners_of(std::uint32_t triangle) const {
+  std::array<std::uint32_t, 3> t = surface_.triangles[triangle];
+  for (std::uint32_t& v : t) v = point_of_[v];
+  if (reverse_) std::swap(t[1], t[2]);
+  return t;
+}
+
+// A ring that was not cut, since it comes to a point twice, crosses itself or has no area. False if it is not planar.
+bool MeshFaces::add_defective_ring() {
+  const Integers area = vector_area();
+  if (area[0] == 0 && area[1] == 0 && area[2] == 0) return true;
+  const PlaneId plane = plane_through(area, ring_[0]);
   for (const std::uint32_t p : ring_) {
-    const bool known = p == corner[0] || p == corner[1] || p == corner[2];
-    if (!known && side_of_plane(f_.planes, plane, f_.points, PointId{p}) != 0) return false;
+    if (side_of_plane(f_.planes, plane, f_.points, PointId{p}) != 0) return false;
   }
   push(ring_, plane);
   return true;
@@ -210,11 +217,8 @@ void MeshFaces::add_triangles(std::uint32_t face) {
     throw InputError(name + " and crosses itself when projected, so it cannot be triangulated; split it");
   }
   if (messages_ != nullptr && !reverse_) messages_->push_back(name + " and was triangulated");
-  const auto [first, last] = std::equal_range(surface_.face_of.begin(), surface_.face_of.end(), face);
-  for (auto i = first; i != last; ++i) {
-    std::array<std::uint32_t, 3> t = surface_.triangles[static_cast<std::size_t>(i - surface_.face_of.begin())];
-    for (std::uint32_t& v : t) v = point_of_[v];
-    if (reverse_) std::swap(t[1], t[2]);
+  for (std::uint32_t i = surface_.triangle_begin[face]; i < surface_.triangle_begin[face + 1]; ++i) {
+    const std::array<std::uint32_t, 3> t = corners_of(i);
     const PlaneId plane = plane_of_triangle(t);
     if (plane.valid()) push(t, plane);
   }

@@ -34,7 +34,8 @@ class MeshFaces {
   SolidFaces collect(std::span<const std::uint32_t> faces, bool reverse);  // all if empty
   void number_points();
   void add_face(std::uint32_t face);
-  bool add_ring();
+  bool add_defective_ring();
+  [[nodiscard]] std::array<std::uint32_t, 3> corners_of(std::uint32_t triangle) const;
   void push(std::span<const std::uint32_t> ring, PlaneId plane);
   PlaneId plane_of_triangle(std::span<const std::uint32_t> t);
   std::optional<PlaneId> plane_of_small_triangle(std::span<const std::uint32_t> t);

@@ -16,21 +16,48 @@ constexpr std::int64_t kIntegerLimit = std::int64_t{1} << 40U;
 int sign_of(Int128 value) { return (value > 0) - (value < 0); }
 
 // b - a in homogeneous integers, scaled by the positive product of their denominators where these differ.
-Integer difference(const PointTable& table, std::uint32_t a, std::uint32_t b, std::size_t axis) {
+void difference(const PointTable& table, std::uint32_t a, std::uint32_t b, std::size_t axis, mpz_ptr out) {
   const IntegerView wa = table.coordinate(PointId{a}, 3);
   const IntegerView wb = table.coordinate(PointId{b}, 3);
-  Integer result;
   if (mpz_cmp(wa, wb) == 0) {
-    mpz_sub(result.get_mpz_t(), table.coordinate(PointId{b}, axis), table.coordinate(PointId{a}, axis));
-    return result;
+    mpz_sub(out, table.coordinate(PointId{b}, axis), table.coordinate(PointId{a}, axis));
+    return;
   }
-  mpz_mul(result.get_mpz_t(), table.coordinate(PointId{b}, axis), wa);
-  mpz_submul(result.get_mpz_t(), table.coordinate(PointId{a}, axis), wb);
-  return result;
+  mpz_mul(out, table.coordinate(PointId{b}, axis), wa);
+  mpz_submul(out, table.coordinate(PointId{a}, axis), wb);
 }
 
-std::array<Integer, 3> difference(const PointTable& table, std::uint32_t a, std::uint32_t b) {
-  return {difference(table, a, b, 0), difference(table, a, b, 1), difference(table, a, b, 2)};
+// Numbers that keep their memory from call to call.
+struct Scratch {
+  std::array<Integer, 3> u, v, normal;
+  Integer sum, step;
+
+  void normal_of(const PointTable& table, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      difference(table, a, b, i, u[i].get_mpz_t());
+      difference(table, a, c, i, v[i].get_mpz_t());
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = (i + 1) % 3;
+      const std::size_t k = (i + 2) % 3;
+      mpz_mul(normal[i].get_mpz_t(), u[j].get_mpz_t(), v[k].get_mpz_t());
+      mpz_submul(normal[i].get_mpz_t(), u[k].get_mpz_t(), v[j].get_mpz_t());
+    }
+  }
+  // The sign of normal . (p - a).
+  int side(const PointTable& table, std::uint32_t a, std::uint32_t p) {
+    mpz_set_ui(sum.get_mpz_t(), 0);
+    for (std::size_t i = 0; i < 3; ++i) {
+      difference(table, a, p, i, step.get_mpz_t());
+      mpz_addmul(sum.get_mpz_t(), normal[i].get_mpz_t(), step.get_mpz_t());
+    }
+    return sgn(sum);
+  }
+};
+
+Scratch& scratch() {
+  thread_local Scratch numbers;
+  return numbers;
 }
 
 }  // namespace
@@ -123,7 +150,7 @@ void MeshPoints::extend(Box& box, std::uint32_t p) const {
 // most 6 (ex sy sz + sx ey sz + sx sy ez) up to terms of second order, for which 7 instead of 6 is more than enough;
 // its own evaluation rounds each product at most eight times: 48 u sx sy sz. Underflow adds less than 1e-200
 // while all coordinates are below 1e100.
-int MeshPoints::orientation(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const {
+int MeshPoints::orientation_filtered(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const {
   if (filter_) {
     const auto& p = approximate_[a];
     const auto& q = approximate_[b];
@@ -147,7 +174,12 @@ int MeshPoints::orientation(std::uint32_t a, std::uint32_t b, std::uint32_t c, s
     if (value > bound) return 1;
     if (value < -bound) return -1;
   }
-  return orientation_exact(a, b, c, d);
+  return 0;
+}
+
+int MeshPoints::orientation(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const {
+  const int sign = orientation_filtered(a, b, c, d);
+  return sign != 0 ? sign : orientation_exact(a, b, c, d);
 }
 
 int MeshPoints::orientation_exact(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const {
@@ -162,12 +194,24 @@ int MeshPoints::orientation_exact(std::uint32_t a, std::uint32_t b, std::uint32_
                    m[0][1] * (m[1][2] * m[2][0] - m[1][0] * m[2][2]) +
                    m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]));
   }
-  const std::array<Integer, 3> u = difference(table_, a, b);
-  const std::array<Integer, 3> v = difference(table_, a, c);
-  const std::array<Integer, 3> w = difference(table_, a, d);
-  const Integer value =
-      u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) + u[2] * (v[0] * w[1] - v[1] * w[0]);
-  return sgn(value);
+  scratch().normal_of(table_, a, b, c);
+  return scratch().side(table_, a, d);
+}
+
+bool MeshPoints::coplanar(std::uint32_t a, std::uint32_t b, std::uint32_t c,
+                          std::span<const std::uint32_t> others) const {
+  bool known = false;
+  for (const std::uint32_t p : others) {
+    if (orientation_filtered(a, b, c, p) != 0) return false;
+    if (!integers_.empty()) {
+      if (orientation_exact(a, b, c, p) != 0) return false;
+      continue;
+    }
+    if (!known) scratch().normal_of(table_, a, b, c);
+    known = true;
+    if (scratch().side(table_, a, p) != 0) return false;
+  }
+  return true;
 }
 
 // The same filter with two products of two differences.
@@ -201,9 +245,14 @@ int MeshPoints::orientation_along_exact(std::uint32_t a, std::uint32_t b, std::u
     const auto& r = integers_[c];
     return sign_of(static_cast<Int128>(q[i] - p[i]) * (r[j] - p[j]) - static_cast<Int128>(r[i] - p[i]) * (q[j] - p[j]));
   }
-  const Integer value = difference(table_, a, b, i) * difference(table_, a, c, j) -
-                        difference(table_, a, c, i) * difference(table_, a, b, j);
-  return sgn(value);
+  Scratch& s = scratch();
+  for (std::size_t k = 0; k < 2; ++k) {
+    difference(table_, a, b, k == 0 ? i : j, s.u[k].get_mpz_t());
+    difference(table_, a, c, k == 0 ? i : j, s.v[k].get_mpz_t());
+  }
+  mpz_mul(s.sum.get_mpz_t(), s.u[0].get_mpz_t(), s.v[1].get_mpz_t());
+  mpz_submul(s.sum.get_mpz_t(), s.v[0].get_mpz_t(), s.u[1].get_mpz_t());
+  return sgn(s.sum);
 }
 
 bool MeshPoints::collinear(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
@@ -239,7 +288,8 @@ int MeshPoints::compare(std::uint32_t a, std::uint32_t b, std::size_t axis) cons
   if (!integers_.empty()) {
     return (integers_[a][axis] > integers_[b][axis]) - (integers_[a][axis] < integers_[b][axis]);
   }
-  return sgn(difference(table_, b, a, axis));
+  difference(table_, b, a, axis, scratch().step.get_mpz_t());
+  return sgn(scratch().step);
 }
 
 int MeshPoints::compare(std::uint32_t a, std::uint32_t b) const {

@@ -35,6 +35,10 @@ class MeshPoints {
   /// True if the three points lie on one line.
   [[nodiscard]] bool collinear(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
 
+  /// True if all of `others` lie in the plane of a, b and c, which are not on one line.
+  [[nodiscard]] bool coplanar(std::uint32_t a, std::uint32_t b, std::uint32_t c,
+                              std::span<const std::uint32_t> others) const;
+
   /// An axis along which the three points, not collinear, do not project to one line; usually the one along which
   /// their triangle looks largest.
   [[nodiscard]] std::size_t projection_axis(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
@@ -49,6 +53,9 @@ class MeshPoints {
   [[nodiscard]] std::span<const std::array<std::int64_t, 3>> integers() const { return integers_; }
   [[nodiscard]] std::int64_t denominator() const { return denominator_; }
 
+  /// The points as a table with the same numbers, where there are no small integers; empty if there are.
+  [[nodiscard]] const PointTable& table() const { return table_; }
+
   /// Coordinates in a space that is scaled by one positive factor, each within margin(axis) of the truth.
   [[nodiscard]] const std::array<double, 3>& approximate(std::uint32_t p) const { return approximate_[p]; }
   [[nodiscard]] double margin(std::size_t axis) const { return margin_[axis]; }
@@ -61,6 +68,8 @@ class MeshPoints {
 
   bool make_integers(std::span<const Rational3> points);
   void find_margins(bool exact);
+  // 0 if the filter can not tell.
+  [[nodiscard]] int orientation_filtered(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const;
   [[nodiscard]] int orientation_exact(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const;
   [[nodiscard]] int orientation_along_exact(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::size_t axis) const;
 

@@ -22,41 +22,50 @@ bool on_one_line(const MeshPoints& points, const std::vector<std::uint32_t>& rin
   return true;
 }
 
-// True if the ring looks convex along the axis: it never turns right and goes around only once (along one axis, it
-// rises once and falls once). Then its triangles lie over disjoint triangles there, planar or not.
-bool convex(const MeshPoints& points, const std::vector<std::uint32_t>& ring, std::size_t axis, int sign) {
+// The turn that all corners of the ring make along the axis; 0 if they do not make the same.
+int common_turn(const MeshPoints& points, const std::vector<std::uint32_t>& ring, std::size_t axis) {
   const std::size_t n = ring.size();
+  const int turn = points.orientation_along(ring[n - 1], ring[0], ring[1], axis);
+  for (std::size_t i = 1; i < n && turn != 0; ++i) {
+    if (points.orientation_along(ring[i - 1], ring[i], ring[i + 1 == n ? 0 : i + 1], axis) != turn) return 0;
+  }
+  return turn;
+}
+
+// True if a ring whose corners all make the same turn goes around only once (along one axis, it rises once and falls
+// once). Each corner turns by less than half a turn, so four can not go around twice.
+bool goes_around_once(const MeshPoints& points, const std::vector<std::uint32_t>& ring, std::size_t axis) {
+  if (ring.size() <= 4) return true;
+  const std::size_t u = (axis + 1) % 3;
   std::size_t peaks = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::uint32_t p = ring[i];
-    const std::uint32_t q = ring[(i + 1) % n];
-    const std::uint32_t r = ring[(i + 2) % n];
-    if (sign * points.orientation_along(p, q, r, axis) <= 0) return false;
-    const std::size_t u = (axis + 1) % 3;
-    peaks += points.compare(p, q, u) <= 0 && points.compare(q, r, u) > 0 ? 1 : 0;
+  bool rose = points.compare(ring.back(), ring[0], u) <= 0;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const bool rises = points.compare(ring[i], ring[i + 1 == ring.size() ? 0 : i + 1], u) <= 0;
+    peaks += rose && !rises ? 1 : 0;
+    rose = rises;
   }
   return peaks == 1;
 }
 
-// Polygons go to the triangulator along the best axis that shows them as simple polygons.
 // Planar, or without area. The ring has no corner twice in a row.
 bool is_planar(const MeshPoints& points, const std::vector<std::uint32_t>& ring) {
   std::size_t k = 2;
   while (k < ring.size() && points.collinear(ring[0], ring[1], ring[k])) ++k;
-  for (std::size_t i = k + 1; i < ring.size(); ++i) {
-    if (points.orientation(ring[0], ring[1], ring[k], ring[i]) != 0) return false;
-  }
-  return true;
+  return k + 1 >= ring.size() || points.coplanar(ring[0], ring[1], ring[k], std::span(ring).subspan(k + 1));
 }
 
+// Polygons are cut along the best axis that shows them as simple polygons.
 enum class Cut : std::uint8_t { kFailed, kDone, kConvex };
 Cut cut(const MeshPoints& points, Triangulator& triangulator, const std::vector<std::uint32_t>& ring,
         std::vector<std::array<std::uint32_t, 3>>& out) {
   for (const std::size_t axis : projection_axes(points, ring)) {
-    const int sign = ring_orientation(points, ring, axis);
-    if (sign != 0 && triangulator.triangulate(ring, axis, sign, out)) {
-      return convex(points, ring, axis, sign) ? Cut::kConvex : Cut::kDone;
+    // A ring that is convex there has its triangles over disjoint triangles there, planar or not.
+    if (common_turn(points, ring, axis) != 0 && goes_around_once(points, ring, axis)) {
+      triangulator.cut_convex(ring, out);
+      return Cut::kConvex;
     }
+    const int sign = ring_orientation(points, ring, axis);
+    if (sign != 0 && triangulator.triangulate(ring, axis, sign, out)) return Cut::kDone;
   }
   return Cut::kFailed;
 }
@@ -125,7 +134,12 @@ MeshSurface::MeshSurface(const Mesh& mesh)
       in_one_piece = done == Cut::kConvex;
     }
     planar.push_back(bad || ring.size() < 4 || is_planar(points, ring));
+    if (defects[f] == FaceDefect::kNone && planar[f] && ring.size() > 3) {
+      rings.insert(rings.end(), ring.begin(), ring.end());
+    }
+    ring_begin.push_back(static_cast<std::uint32_t>(rings.size()));
     face_of.resize(triangles.size(), f);
+    triangle_begin.push_back(static_cast<std::uint32_t>(triangles.size()));
     const auto first = static_cast<std::uint32_t>(pieces.size());
     while (pieces.size() < triangles.size()) {
       pieces.push_back(in_one_piece ? first : static_cast<std::uint32_t>(pieces.size()));

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -24,9 +25,17 @@ struct MeshSurface {
   std::vector<std::uint32_t> place;                     ///< of each vertex: the smallest vertex at the same point
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< of places; none is degenerate
   std::vector<std::uint32_t> face_of;                   ///< of each triangle
+  std::vector<std::uint32_t> triangle_begin{0};         ///< of each face, and the end
   std::vector<std::uint32_t> pieces;                    ///< of each triangle: equal where a convex face was cut
   std::vector<FaceDefect> defects;                      ///< of each face
   std::vector<bool> planar;                             ///< of each face: all corners lie in one plane, or on a line
+  std::vector<std::uint32_t> rings;                     ///< corners of the planar faces that were cut, as places
+  std::vector<std::uint32_t> ring_begin{0};             ///< of each face in `rings`, and the end
+
+  /// The corners of a planar face that was cut; none for others.
+  [[nodiscard]] std::span<const std::uint32_t> ring(std::uint32_t face) const {
+    return std::span(rings).subspan(ring_begin[face], ring_begin[face + 1] - ring_begin[face]);
+  }
 };
 
 /// The coordinate axes, the one along which a polygon looks largest first (by its area vector in doubles).

@@ -136,7 +136,7 @@ class SolidBuilder {
     const bool reliable = length > 0x1p-40 * magnitude && magnitude < std::numeric_limits<double>::infinity();
     const int sign =
         reliable ? (dot > 0 ? 1 : -1) : sign_of_dot(d, vector_between(f_.points, PointId{v}, PointId{spoke.to}));
-    return sign > 0 ? std::move(d) : d.negated();
+    return sign > 0 ? std::move(d) : Direction::cross(f_.planes, spoke.second, spoke.first);
   }
 
   void draw(std::uint32_t v) {

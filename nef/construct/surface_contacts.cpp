@@ -120,7 +120,7 @@ Interval make_interval(const Triangle& t, const Signs& s, bool first) {
 }  // namespace
 
 SurfaceContacts::SurfaceContacts(const MeshSurface& surface)
-    : surface_(surface), points_(surface.points), triangles_(surface.triangles) {
+    : points_(surface.points), triangles_(surface.triangles), patches_(surface) {
   const std::span<const Triangle> triangles = triangles_;
   half_edges_.reserve(3 * triangles.size());
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
@@ -131,37 +131,12 @@ SurfaceContacts::SurfaceContacts(const MeshSurface& surface)
     }
   }
   sort_by_pair(half_edges_, points_.size());
-  note_corners_of_polygons();
-}
-
-void SurfaceContacts::note_corners_of_polygons() {
-  const std::size_t count = triangles_.size();
-  const auto cut = [&](std::size_t t) {
-    const std::uint32_t f = surface_.face_of[t];
-    const bool alone = (t == 0 || surface_.face_of[t - 1] != f) && (t + 1 == count || surface_.face_of[t + 1] != f);
-    return !alone && surface_.planar[f];
-  };
-  polygons_begin_.assign(points_.size() + 1, 0);
-  for (std::size_t t = 0; t < count; ++t) {
-    if (!cut(t)) continue;
-    for (const std::uint32_t v : triangles_[t]) ++polygons_begin_[v + 1];
-  }
-  for (std::size_t v = 1; v < polygons_begin_.size(); ++v) polygons_begin_[v] += polygons_begin_[v - 1];
-  polygons_.resize(polygons_begin_.back());
-  std::vector<std::uint32_t> at(polygons_begin_.begin(), polygons_begin_.end() - 1);
-  for (std::size_t t = 0; t < count; ++t) {
-    if (!cut(t)) continue;
-    for (const std::uint32_t v : triangles_[t]) polygons_[at[v]++] = surface_.face_of[t];
-  }
 }
 
 // The side of a triangle's plane on which a place lies. Corners of a planar face lie in it by definition, which spares
 // the exact arithmetic that finding a zero costs.
 int SurfaceContacts::side(std::uint32_t triangle, std::uint32_t place) const {
-  const std::uint32_t face = surface_.face_of[triangle];
-  for (std::uint32_t i = polygons_begin_[place]; i < polygons_begin_[place + 1]; ++i) {
-    if (polygons_[i] == face) return 0;
-  }
+  if (patches_.on_plane(triangle, place)) return 0;
   const Triangle& t = triangles_[triangle];
   return points_.orientation(t[0], t[1], t[2], place);
 }
@@ -375,17 +350,12 @@ SurfaceContacts::Kind SurfaceContacts::classify(std::uint32_t t, std::uint32_t u
 }
 
 void SurfaceContacts::for_each(const std::function<bool(Kind, std::uint32_t, std::uint32_t)>& visit) const {
-  std::vector<Box> boxes(triangles_.size());
-  for (std::size_t t = 0; t < triangles_.size(); ++t) {
-    for (const std::uint32_t v : triangles_[t]) points_.extend(boxes[t], v);
-  }
   struct Contact {
     std::uint32_t t = 0, u = 0;
     Kind kind = Kind::kNone;
   };
   std::vector<Contact> contacts;
-  BoxTree(boxes).for_each_pair([&](std::uint32_t t, std::uint32_t u) {
-    if (surface_.pieces[t] == surface_.pieces[u]) return;
+  patches_.for_each_candidate([&](std::uint32_t t, std::uint32_t u) {
     const Kind kind = classify(t, u);
     if (kind != Kind::kNone) contacts.push_back({t, u, kind});
   });

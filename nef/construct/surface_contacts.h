@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "nef/construct/mesh_surface.h"
+#include "nef/construct/surface_patches.h"
 
 namespace nef {
 
@@ -68,13 +69,10 @@ class SurfaceContacts {
   [[nodiscard]] bool same_direction(Edge a, Edge b) const;
 
   [[nodiscard]] int side(std::uint32_t triangle, std::uint32_t place) const;
-  void note_corners_of_polygons();
 
-  const MeshSurface& surface_;
   const MeshPoints& points_;
   std::span<const Triangle> triangles_;
-  std::vector<std::uint32_t> polygons_begin_;  // planar faces that were cut, by place
-  std::vector<std::uint32_t> polygons_;
+  SurfacePatches patches_;
   std::vector<HalfEdge> half_edges_;  // sorted by key
 };
 

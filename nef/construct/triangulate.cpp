@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nef/construct/simple_ring.h"
+
 namespace nef {
 
 int Triangulator::turn_at(std::uint32_t node) const {
@@ -41,21 +43,6 @@ bool Triangulator::in_cone(std::uint32_t node, std::uint32_t point) const {
   return tip || left_of_next;
 }
 
-// True if the closed segments ab and cd have a point in common.
-bool Triangulator::segments_meet(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const {
-  const int c_side = turn(a, b, c);
-  const int d_side = turn(a, b, d);
-  if (c_side * d_side > 0) return false;
-  const int a_side = turn(c, d, a);
-  const int b_side = turn(c, d, b);
-  if (a_side * b_side > 0) return false;
-  if (c_side != 0 || d_side != 0 || a_side != 0 || b_side != 0) return true;
-  // All on one line: compare the intervals.
-  const auto [low1, high1] = points_.compare(a, b) < 0 ? std::pair{a, b} : std::pair{b, a};
-  const auto [low2, high2] = points_.compare(c, d) < 0 ? std::pair{c, d} : std::pair{d, c};
-  return points_.compare(low1, high2) <= 0 && points_.compare(low2, high1) <= 0;
-}
-
 bool Triangulator::sees(std::uint32_t hole, std::uint32_t target, std::uint32_t outer) const {
   const std::uint32_t p = nodes_[hole].point;
   const std::uint32_t q = nodes_[target].point;
@@ -72,7 +59,7 @@ bool Triangulator::sees(std::uint32_t hole, std::uint32_t target, std::uint32_t 
     points_.extend(edge, b);
     if (box.overlaps(edge)) {
       const bool touches = a == q || b == q;
-      if (!touches && segments_meet(p, q, a, b)) return false;
+      if (!touches && segments_meet(points_, p, q, a, b, axis_)) return false;
       // An edge at the target may only meet the segment there: not if it runs back along it.
       if (touches && a != b) {
         const std::uint32_t other = a == q ? b : a;
@@ -262,6 +249,20 @@ bool Triangulator::triangulate(std::span<const std::uint32_t> ring, std::size_t 
   if (clip(start, out)) return true;
   out.resize(old);
   return false;
+}
+
+// Cuts off every second corner, round after round, as clip does where nothing is in the way.
+void Triangulator::cut_convex(std::span<const std::uint32_t> ring, std::vector<Triangle>& out) {
+  nodes_.clear();
+  std::uint32_t node = append_ring(ring);
+  for (std::size_t count = ring.size(); count > 2; --count) {
+    const std::uint32_t before = nodes_[node].prev;
+    const std::uint32_t after = nodes_[node].next;
+    out.push_back({nodes_[before].point, nodes_[node].point, nodes_[after].point});
+    nodes_[before].next = after;
+    nodes_[after].prev = before;
+    node = nodes_[after].next;
+  }
 }
 
 }  // namespace nef

@@ -34,6 +34,9 @@ class Triangulator {
   /// The same for a single ring.
   bool triangulate(std::span<const std::uint32_t> ring, std::size_t axis, int sign, std::vector<Triangle>& out);
 
+  /// The same for a ring that is strictly convex (in some projection), which is not asked again. O(n).
+  void cut_convex(std::span<const std::uint32_t> ring, std::vector<Triangle>& out);
+
  private:
   struct Node {
     std::uint32_t point = 0;
@@ -51,7 +54,6 @@ class Triangulator {
   bool bridge(std::uint32_t hole, std::uint32_t outer);
   [[nodiscard]] bool sees(std::uint32_t hole, std::uint32_t target, std::uint32_t outer) const;
   [[nodiscard]] bool in_cone(std::uint32_t node, std::uint32_t point) const;
-  [[nodiscard]] bool segments_meet(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const;
   void join(std::uint32_t hole, std::uint32_t target);
   bool clip(std::uint32_t start, std::vector<Triangle>& out);
   [[nodiscard]] bool is_ear(std::uint32_t node);

@@ -2,17 +2,66 @@
 #include "nef/geometry/point_table.h"
 
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 #include "nef/base/error.h"
 
 namespace nef {
 
+namespace {
+
+__extension__ using Int128 = __int128;
+
+// The homogeneous coordinates x, y, z, w of a point whose fractions and common denominator are small.
+bool small_coordinates(const Rational3& point, std::array<std::int64_t, 4>& h) {
+  std::array<std::int64_t, 3> denominator{};
+  h[3] = 1;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const mpz_srcptr den = point[i].get_den_mpz_t();
+    if (mpz_fits_slong_p(den) == 0 || mpz_fits_slong_p(point[i].get_num_mpz_t()) == 0) return false;
+    denominator[i] = mpz_get_si(den);
+    if (h[3] % denominator[i] == 0) continue;
+    const Int128 common = static_cast<Int128>(h[3] / std::gcd(h[3], denominator[i])) * denominator[i];
+    if (common > std::numeric_limits<std::int64_t>::max()) return false;
+    h[3] = static_cast<std::int64_t>(common);
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Int128 x = static_cast<Int128>(mpz_get_si(point[i].get_num_mpz_t())) * (h[3] / denominator[i]);
+    if (x > std::numeric_limits<std::int64_t>::max() || x < -std::numeric_limits<std::int64_t>::max()) return false;
+    h[i] = static_cast<std::int64_t>(x);
+  }
+  return true;
+}
+
+}  // namespace
+
 PointId PointTable::push(const Rational3& point) {
-  std::array<Integer, 7> h;
-  h[3] = point[0].get_den();
-  for (std::size_t i = 1; i < 3; ++i) mpz_lcm(h[3].get_mpz_t(), h[3].get_mpz_t(), point[i].get_den().get_mpz_t());
-  for (std::size_t i = 0; i < 3; ++i) h[i] = point[i].get_num() * (h[3] / point[i].get_den());
+  if (std::array<std::int64_t, 4> small{}; small_coordinates(point, small)) return push_small(small);
+  thread_local std::array<Integer, 7> h;
+  mpz_ptr w = h[3].get_mpz_t();
+  mpz_lcm(w, point[0].get_den_mpz_t(), point[1].get_den_mpz_t());
+  mpz_lcm(w, w, point[2].get_den_mpz_t());
+  for (std::size_t i = 0; i < 3; ++i) {
+    mpz_ptr x = h[i].get_mpz_t();
+    mpz_divexact(x, w, point[i].get_den_mpz_t());
+    mpz_mul(x, x, point[i].get_num_mpz_t());
+  }
   return push_homogeneous(h);
+}
+
+PointId PointTable::push_small(const std::array<std::int64_t, 4>& h) {
+  std::array<mp_limb_t, 7> limbs{};
+  std::array<mpz_t, 7> numbers{};
+  std::array<mpz_srcptr, 7> row{};
+  for (std::size_t i = 0; i < 7; ++i) {
+    const std::int64_t value = i < 4 ? h[i] : 0;
+    limbs[i] = static_cast<mp_limb_t>(value < 0 ? -value : value);
+    row[i] = mpz_roinit_n(numbers[i], &limbs[i], (value > 0) - (value < 0));
+  }
+  const PointId id{rows_.push(row)};
+  push_approximation();
+  return id;
 }
 
 PointId PointTable::push_homogeneous(std::array<Integer, 7>& h) {

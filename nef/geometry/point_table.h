@@ -68,6 +68,7 @@ class PointTable {
   void reserve(std::size_t points);
 
  private:
+  PointId push_small(const std::array<std::int64_t, 4>& coordinates);  // x, y, z, w > 0
   void push_approximation();
 
   IntegerRows rows_;

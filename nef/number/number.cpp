@@ -117,6 +117,12 @@ double nearest_double(const Rational& value) {
 std::string to_string(const Rational& value) { return value.get_str(); }
 
 double approximate_quotient(mpz_srcptr numerator, mpz_srcptr denominator) {
+  if (mpz_size(numerator) <= 1 && mpz_size(denominator) == 1) {
+    // Both conversions and the quotient round once: within 3 * 2^-53 relative.
+    const double quotient =
+        static_cast<double>(mpz_getlimbn(numerator, 0)) / static_cast<double>(mpz_getlimbn(denominator, 0));
+    return mpz_sgn(numerator) == mpz_sgn(denominator) ? quotient : -quotient;
+  }
   long numerator_exponent = 0;
   long denominator_exponent = 0;
   // mpz_get_d_2exp truncates: each mantissa is within 2^-52 relative, their quotient rounds once.

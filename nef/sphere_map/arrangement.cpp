@@ -2,6 +2,7 @@
 #include "nef/sphere_map/arrangement.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "nef/base/error.h"
 #include "nef/sphere_map/components.h"
@@ -235,55 +236,75 @@ void Arrangement::choose_incident_planes(const PlaneTable& planes, SphereMapBuff
   }
 }
 
-void Arrangement::build_faces(const PlaneTable& planes, SphereMapBuffer& out) {
-  struct Cycle {
-    SFaceEntry entry;
-    LabelId mark;
-  };
-  std::vector<Cycle> cycles;
-  std::vector<std::uint32_t> of_half(out.shalfedges.size(), kNone);
-  std::vector<std::uint32_t> of_vertex(out.svertices.size(), kNone);
-  std::vector<std::uint32_t> of_loop;
+// Every cycle of shalfedges, every isolated svertex and every side of an sloop bounds an sface.
+void Arrangement::collect_cycles(const SphereMapBuffer& out) {
+  cycles_.clear();
+  cycle_of_half_.assign(out.shalfedges.size(), kNone);
+  cycle_of_vertex_.assign(out.svertices.size(), kNone);
+  cycle_of_loop_.clear();
   for (std::uint32_t n = 0; n < nodes.size(); ++n) {
     if (!essential(n)) continue;
     for (const std::uint32_t half : around(n)) {
       const std::uint32_t start = final_half_[half];
-      if (of_half[start] != kNone) continue;
-      const auto cycle = static_cast<std::uint32_t>(cycles.size());
-      cycles.push_back({{SFaceEntry::Kind::kCycle, start}, left(half)});
-      for (std::uint32_t e = start; of_half[e] == kNone; e = out.shalfedges[e].next) of_half[e] = cycle;
+      if (cycle_of_half_[start] != kNone) continue;
+      const auto cycle = static_cast<std::uint32_t>(cycles_.size());
+      cycles_.push_back({{SFaceEntry::Kind::kCycle, start}, left(half)});
+      for (std::uint32_t e = start; cycle_of_half_[e] == kNone; e = out.shalfedges[e].next) cycle_of_half_[e] = cycle;
     }
     if (nodes[n].degree == 0) {
-      of_vertex[node_svertex_[n]] = static_cast<std::uint32_t>(cycles.size());
-      cycles.push_back({{SFaceEntry::Kind::kIsolatedVertex, node_svertex_[n]}, nodes[n].around});
+      cycle_of_vertex_[node_svertex_[n]] = static_cast<std::uint32_t>(cycles_.size());
+      cycles_.push_back({{SFaceEntry::Kind::kIsolatedVertex, node_svertex_[n]}, nodes[n].around});
     }
   }
   for (std::uint32_t side = 0; side < out.sloops.size(); ++side) {
-    of_loop.push_back(static_cast<std::uint32_t>(cycles.size()));
-    cycles.push_back({{SFaceEntry::Kind::kLoop, side}, out.sfaces[side].mark});
+    cycle_of_loop_.push_back(static_cast<std::uint32_t>(cycles_.size()));
+    cycles_.push_back({{SFaceEntry::Kind::kLoop, side}, out.sfaces[side].mark});
   }
+}
+
+// Cycles of different components may bound one sface. By Euler's formula a component of v svertices and e edges has
+// e - v + 2 cycles (an isolated svertex, too), so the number of cycles tells the number of components: mostly one.
+void Arrangement::build_faces(const PlaneTable& planes, SphereMapBuffer& out) {
+  collect_cycles(out);
+  const auto count = static_cast<std::uint32_t>(cycles_.size());
+  const std::size_t components =
+      (count - out.sloops.size() + out.svertices.size() - out.shalfedges.size() / 2) / 2 + out.sloops.size() / 2;
   out.sfaces.clear();
-  const std::vector<std::uint32_t> representative =
-      join_cycles(planes, out.view(), of_half, of_vertex, of_loop, static_cast<std::uint32_t>(cycles.size()));
-  std::vector<std::uint32_t> face_of(cycles.size(), kNone);
-  for (std::uint32_t c = 0; c < cycles.size(); ++c) {
-    if (representative[c] != c) continue;
-    face_of[c] = static_cast<std::uint32_t>(out.sfaces.size());
-    SFace face{static_cast<std::uint32_t>(out.entries.size()), 0, cycles[c].mark};
-    for (std::uint32_t other = c; other < cycles.size(); ++other) {
-      if (representative[other] != c) continue;
-      NEF_ASSERT(cycles[other].mark == face.mark);
-      out.entries.push_back(cycles[other].entry);
-      ++face.entry_count;
-      face_of[other] = face_of[c];
+  if (components == 1) {
+    face_of_cycle_.resize(count);
+    std::iota(face_of_cycle_.begin(), face_of_cycle_.end(), 0U);
+  } else {
+    face_of_cycle_ = join_cycles(planes, out.view(), cycle_of_half_, cycle_of_vertex_, cycle_of_loop_, count);
+  }
+  // From representatives, each the smallest of its sface, to numbers of sfaces and their ranges of entries.
+  for (std::uint32_t c = 0; c < count; ++c) {
+    if (face_of_cycle_[c] == c) {
+      face_of_cycle_[c] = static_cast<std::uint32_t>(out.sfaces.size());
+      out.sfaces.push_back({0, 1, cycles_[c].mark});
+    } else {
+      face_of_cycle_[c] = face_of_cycle_[face_of_cycle_[c]];
+      ++out.sfaces[face_of_cycle_[c]].entry_count;
+      NEF_ASSERT(cycles_[c].mark == out.sfaces[face_of_cycle_[c]].mark);
     }
-    out.sfaces.push_back(face);
   }
-  for (std::uint32_t e = 0; e < out.shalfedges.size(); ++e) out.shalfedges[e].sface = face_of[of_half[e]];
+  std::uint32_t first = 0;
+  for (SFace& face : out.sfaces) {
+    face.entries = first;
+    first += face.entry_count;
+    face.entry_count = 0;
+  }
+  out.entries.resize(count);
+  for (std::uint32_t c = 0; c < count; ++c) {
+    SFace& face = out.sfaces[face_of_cycle_[c]];
+    out.entries[face.entries + face.entry_count++] = cycles_[c].entry;
+  }
+  for (std::uint32_t e = 0; e < out.shalfedges.size(); ++e) {
+    out.shalfedges[e].sface = face_of_cycle_[cycle_of_half_[e]];
+  }
   for (std::uint32_t v = 0; v < out.svertices.size(); ++v) {
-    if (of_vertex[v] != kNone) out.svertices[v].sface = face_of[of_vertex[v]];
+    if (cycle_of_vertex_[v] != kNone) out.svertices[v].sface = face_of_cycle_[cycle_of_vertex_[v]];
   }
-  for (std::uint32_t l = 0; l < out.sloops.size(); ++l) out.sloops[l].sface = face_of[of_loop[l]];
+  for (std::uint32_t l = 0; l < out.sloops.size(); ++l) out.sloops[l].sface = face_of_cycle_[cycle_of_loop_[l]];
 }
 
 }  // namespace nef

@@ -81,7 +81,13 @@ class Arrangement {
   void trace_chains();
   void build_incidences(const PlaneTable& planes, SphereMapBuffer& out);
   void choose_incident_planes(const PlaneTable& planes, SphereMapBuffer& out) const;
+  void collect_cycles(const SphereMapBuffer& out);
   void build_faces(const PlaneTable& planes, SphereMapBuffer& out);
+
+  struct Cycle {
+    SFaceEntry entry;
+    LabelId mark = 0;
+  };
 
   std::vector<std::uint32_t> halves_;
   // Scratch of step 2, kept to spare allocations when one object builds thousands of maps.
@@ -91,6 +97,11 @@ class Arrangement {
   std::vector<std::uint32_t> final_half_;  // half of the drawing -> shalfedge that starts with it
   std::vector<std::uint32_t> chain_end_;   // first half of a chain -> its last half
   std::vector<std::uint32_t> node_svertex_;
+  std::vector<Cycle> cycles_;
+  std::vector<std::uint32_t> cycle_of_half_;
+  std::vector<std::uint32_t> cycle_of_vertex_;
+  std::vector<std::uint32_t> cycle_of_loop_;
+  std::vector<std::uint32_t> face_of_cycle_;
 };
 
 }  // namespace nef

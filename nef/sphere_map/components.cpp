@@ -20,12 +20,21 @@ class CycleJoiner {
  public:
   CycleJoiner(const PlaneTable& planes, const SphereMapView& map, const std::vector<std::uint32_t>& of_half,
               const std::vector<std::uint32_t>& of_vertex, UnionFind& cycles)
-      : planes_(planes), map_(map), of_half_(of_half), of_vertex_(of_vertex), cycles_(cycles) {}
+      : planes_(planes), map_(map), of_half_(of_half), of_vertex_(of_vertex), cycles_(cycles) {
+    directions_.reserve(map.svertices.size());
+    for (const SVertex& v : map.svertices) directions_.push_back(direction_of(planes, v));
+    for (std::uint32_t e = 0; e < map.shalfedges.size(); e += 2) {
+      const SHalfedge& arc = map.shalfedges[e];
+      const std::uint32_t t = map.target(e);
+      short_.push_back(arc.source != t &&
+                       orientation_on_circle(planes, arc.plane, directions_[arc.source], directions_[t]) > 0);
+    }
+  }
 
   // From svertex `start` to svertex `goal`.
   void walk_to_vertex(std::uint32_t start, std::uint32_t goal) {
-    const Direction u = direction_of(planes_, map_.svertices[start]);
-    const Direction v = direction_of(planes_, map_.svertices[goal]);
+    const Direction& u = directions_[start];
+    const Direction& v = directions_[goal];
     if (!same_direction(u, v.negated())) {
       const std::uint32_t last = segment(u, v, cycle_at(start, Direction::cross(u, v)), goal);
       cycles_.unite(last, cycle_arriving(goal, Direction::cross(v, u)));
@@ -40,7 +49,7 @@ class CycleJoiner {
 
   // From svertex `start` to the nearest point of the great circle of a sloop.
   void walk_to_loop(std::uint32_t start, const std::vector<std::uint32_t>& of_loop) {
-    const Direction u = direction_of(planes_, map_.svertices[start]);
+    const Direction& u = directions_[start];
     const Direction n = Direction::normal(planes_, map_.sloops[0].plane);
     const int side = sign_of_dot(n, u);
     NEF_ASSERT(side != 0);
@@ -80,22 +89,26 @@ class CycleJoiner {
   std::uint32_t segment(const Direction& u, const Direction& v, std::uint32_t current, std::uint32_t goal) {
     const Direction circle = Direction::cross(u, v);
     std::vector<Hit> hits;
-    for (std::uint32_t i = 0; i < map_.svertices.size(); ++i) {
-      Direction x = direction_of(planes_, map_.svertices[i]);
-      if (i == goal || sign_of_dot(circle, x) != 0) continue;
+    side_.resize(directions_.size());
+    for (std::uint32_t i = 0; i < directions_.size(); ++i) {
+      const Direction& x = directions_[i];
+      side_[i] = sign_of_dot(circle, x);
+      if (i == goal || side_[i] != 0) continue;
       if (sign_of_determinant(circle, u, x) <= 0 || sign_of_determinant(circle, x, v) <= 0) continue;
-      hits.push_back({std::move(x), true, i});
+      hits.push_back({x, true, i});
     }
     for (std::uint32_t i = 0; i < map_.shalfedges.size(); i += 2) {
       const SHalfedge& arc = map_.shalfedges[i];
+      const std::uint32_t t = map_.target(i);
+      // Less than a half circle crosses another circle only if its ends lie on either side.
+      if (short_[i / 2] && side_[arc.source] * side_[t] >= 0) continue;
       const Direction n = Direction::normal(planes_, arc.plane);
       const int side = sign_of_dot(n, u);
       if (side * sign_of_dot(n, v) >= 0) continue;
       Direction x = Direction::cross(circle, n);
       if (side < 0) x = x.negated();
-      const std::uint32_t t = map_.target(i);
-      const Direction from = direction_of(planes_, map_.svertices[arc.source]);
-      const Direction to = direction_of(planes_, map_.svertices[t]);
+      const Direction& from = directions_[arc.source];
+      const Direction& to = directions_[t];
       if (same_direction(x, from) || same_direction(x, to)) continue;
       if (!strictly_between_on_circle(planes_, arc.plane, from, x, to, arc.source == t)) continue;
       hits.push_back({std::move(x), false, side > 0 ? i : i + 1});
@@ -124,7 +137,7 @@ class CycleJoiner {
         free = side_of_circle(planes_, map_.shalfedges[i].plane, candidate) != 0;
       }
       for (std::uint32_t i = 0; i < map_.svertices.size() && free; ++i) {
-        const Direction x = direction_of(planes_, map_.svertices[i]);
+        const Direction& x = directions_[i];
         free = !same_direction(x, candidate) && !same_direction(x.negated(), candidate);
       }
       if (free) return candidate;
@@ -136,6 +149,9 @@ class CycleJoiner {
   const std::vector<std::uint32_t>& of_half_;
   const std::vector<std::uint32_t>& of_vertex_;
   UnionFind& cycles_;
+  std::vector<Direction> directions_;  // of the svertices
+  std::vector<bool> short_;            // of each pair of shalfedges: less than a half circle
+  std::vector<int> side_;              // of each svertex beside the circle of the current walk
 };
 
 }  // namespace

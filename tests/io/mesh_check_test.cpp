@@ -2,9 +2,13 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <map>
+#include <numeric>
 #include <random>
+#include <set>
 
 #include "nef/construct/mesh_check.h"
+#include "nef/construct/mesh_surface.h"
 #include "nef/io/mesh_reader.h"
 
 namespace nef {
@@ -261,6 +265,123 @@ TEST_CASE("Random boxes: a pair of faces is reported iff the boxes' surfaces cro
   }
   CHECK(crossing > 50);
   CHECK(crossing < 390);
+}
+
+// A prism over a polygon of the xy-plane, z from low to high, its axes permuted and all turned by an oblique rotation
+// with rational entries.
+void add_prism(Mesh& mesh, const std::vector<std::array<int, 2>>& base, std::array<int, 3> at, int height,
+               std::size_t axis, bool oblique) {
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  const auto n = static_cast<std::uint32_t>(base.size());
+  for (const int z : {0, height}) {
+    for (const auto& [x, y] : base) {
+      Rational3 p;
+      p[axis] = at[axis] + z;
+      p[(axis + 1) % 3] = at[(axis + 1) % 3] + x;
+      p[(axis + 2) % 3] = at[(axis + 2) % 3] + y;
+      if (oblique) {
+        p = {Rational(2, 7) * p[0] + Rational(3, 7) * p[1] + Rational(6, 7) * p[2],
+             Rational(6, 7) * p[0] + Rational(2, 7) * p[1] - Rational(3, 7) * p[2],
+             Rational(-3, 7) * p[0] + Rational(6, 7) * p[1] + Rational(2, 7) * p[2]};
+        p[0] += Rational("1/1000000000000000000000");  // no small integers
+      }
+      mesh.vertices.push_back(p);
+    }
+  }
+  std::vector<std::uint32_t> bottom;
+  std::vector<std::uint32_t> top;
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const std::uint32_t j = (i + 1) % n;
+    const std::uint32_t side[4] = {first + i, first + j, first + n + j, first + n + i};
+    mesh.push_face(side);
+    bottom.push_back(first + n - 1 - i);
+    top.push_back(first + n + i);
+  }
+  mesh.push_face(bottom);
+  mesh.push_face(top);
+}
+
+// Pairs of faces that meet improperly, with the kind of the worst contact.
+using Contacts = std::set<std::array<std::uint32_t, 3>>;
+
+Contacts contacts_of(const Mesh& mesh, const std::vector<std::uint32_t>& face_of) {
+  std::map<std::array<std::uint32_t, 2>, Kind> worst;
+  for (const MeshProblem& p : check_mesh(mesh)) {
+    if ((p.kind != Kind::kSelfIntersection && p.kind != Kind::kTouching) || p.faces.size() != 2) continue;
+    const auto [f, g] = std::minmax(face_of[p.faces[0]], face_of[p.faces[1]]);
+    const auto [at, added] = worst.emplace(std::array{f, g}, p.kind);
+    if (p.kind == Kind::kSelfIntersection) at->second = p.kind;
+  }
+  Contacts result;
+  for (const auto& [faces, kind] : worst) result.insert({faces[0], faces[1], static_cast<std::uint32_t>(kind)});
+  return result;
+}
+
+TEST_CASE("Polygons meet where the triangles that they are cut into meet") {
+  const std::vector<std::vector<std::array<int, 2>>> bases{
+      {{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}},          // an L
+      {{0, 0}, {2, 0}, {3, 1}, {2, 3}, {0, 2}},                  // convex
+      {{0, 0}, {4, 0}, {4, 3}, {3, 3}, {2, 1}, {1, 3}, {0, 3}},  // a notch
+      {{0, 0}, {2, 0}, {2, 2}, {0, 2}},
+  };
+  std::mt19937 random(20261121);
+  const auto below = [&](unsigned n) { return static_cast<int>(random() % n); };
+  std::size_t touching = 0;
+  std::size_t crossing = 0;
+  for (int round = 0; round < 300; ++round) {
+    INFO("round " << round);
+    Mesh mesh;
+    const bool oblique = round % 3 == 0;
+    for (int k = 0; k < 2; ++k) {
+      add_prism(mesh, bases[static_cast<std::size_t>(below(4))], {below(4), below(4), below(4)}, 1 + below(3),
+                static_cast<std::size_t>(below(3)), oblique);
+    }
+    const MeshSurface surface(mesh);
+    Mesh cut;
+    cut.vertices = mesh.vertices;
+    for (const auto& t : surface.triangles) cut.push_face(t);
+    std::vector<std::uint32_t> faces(mesh.face_count());
+    std::iota(faces.begin(), faces.end(), 0U);
+    const Contacts of_faces = contacts_of(mesh, faces);
+    CHECK(of_faces == contacts_of(cut, surface.face_of));
+    for (const auto& contact : of_faces) {
+      ++(static_cast<Kind>(contact[2]) == Kind::kTouching ? touching : crossing);
+    }
+  }
+  CHECK(touching > 100);
+  CHECK(crossing > 100);
+}
+
+TEST_CASE("A needle through one of two faces with two hundred corners is found") {
+  std::vector<std::array<int, 2>> circle;
+  // A convex polygon with integer corners: slopes in order.
+  std::vector<std::array<int, 2>> steps;
+  for (int x = 1; x <= 12; ++x) {
+    for (int y = 0; y <= 12; ++y) {
+      if (std::gcd(x, y) == 1) steps.push_back({x, y});
+    }
+  }
+  std::sort(steps.begin(), steps.end(), [](const auto& a, const auto& b) { return a[1] * b[0] < b[1] * a[0]; });
+  std::array<int, 2> at{0, 0};
+  for (int quarter = 0; quarter < 4; ++quarter) {
+    for (auto& step : steps) {
+      circle.push_back(at);
+      at = {at[0] + step[0], at[1] + step[1]};
+      step = {-step[1], step[0]};
+    }
+  }
+  REQUIRE(at == std::array{0, 0});
+  REQUIRE(circle.size() > 200);
+  Mesh mesh;
+  add_prism(mesh, circle, {0, 0, 0}, 5, 2, false);
+  CHECK(check_mesh(mesh).empty());
+  add_box(mesh, {10, 300, 3}, {11, 301, 4});  // inside
+  CHECK(check_mesh(mesh).empty());
+  const auto last = static_cast<std::uint32_t>(circle.size() + 1);
+  add_box(mesh, {10, 310, 4}, {11, 311, 6});  // through the top
+  const auto crossings = of_kind(mesh, Kind::kSelfIntersection);
+  CHECK(crossings.size() == 4);
+  for (const MeshProblem& p : crossings) CHECK(p.faces[0] == last);
 }
 
 TEST_CASE("Real meshes: shuffled faces are the only trouble of cube-shuffled, sphere is clean") {

@@ -49,7 +49,7 @@ Polyhedron make_segment(const Rational3& a, const Rational3& b);
 
 /// A closed planar polygon as a two-dimensional set; `rings` are simple cycles in one plane
 /// without common interior, combined by parity (outer cycles and holes in any order).
-/// Throws InputError if the points are not coplanar or a ring is degenerate.
+/// Throws InputError if the points are not coplanar or a ring touches or crosses itself.
 Polyhedron make_polygon(std::span<const std::vector<Rational3>> rings);
 
 /// How a mesh becomes a solid.

@@ -6,6 +6,7 @@
 #include "nef/base/error.h"
 #include "nef/construct/mesh_faces.h"
 #include "nef/construct/surface_contacts.h"
+#include "nef/construct/triangulate.h"
 
 namespace nef {
 namespace {
@@ -53,23 +54,32 @@ Groups group_faces(const Mesh& mesh, const MeshSurface& surface) {
   return groups;
 }
 
+// Cuts a ring into triangles with union equal to the polygon, if it is one that touches itself at most from within.
+bool cut(const MeshPoints& points, const std::vector<std::uint32_t>& ring, std::vector<Triangulator::Triangle>& out) {
+  Triangulator triangulator(points);
+  for (const std::size_t axis : projection_axes(points, ring)) {
+    const int sign = ring_orientation(points, ring, axis);
+    if (sign != 0 && triangulator.triangulate(ring, axis, sign, out)) return true;
+  }
+  return false;
+}
+
 // A face that is degenerate or touches or crosses itself.
-void add_single(const Mesh& mesh, std::uint32_t f, std::vector<Polyhedron>& out) {
-  std::vector<Rational3> ring;
+void add_single(const Mesh& mesh, const MeshSurface& surface, std::uint32_t f, std::vector<Polyhedron>& out) {
+  std::vector<std::uint32_t> ring;
   for (const std::uint32_t v : mesh.face(f)) {
-    if (ring.empty() || ring.back() != mesh.vertices[v]) ring.push_back(mesh.vertices[v]);
+    if (ring.empty() || ring.back() != surface.place[v]) ring.push_back(surface.place[v]);
   }
   while (ring.size() > 1 && ring.back() == ring.front()) ring.pop_back();
   if (ring.size() < 3) return;
-  try {
-    out.push_back(make_polygon(std::span(&ring, 1)));
-    return;
-  } catch (const InputError&) {
+  std::vector<Triangulator::Triangle> triangles;
+  if (!cut(surface.points, ring, triangles)) {
     // Any triangulation will do for a set that is no boundary; a fan keeps the corners.
-    for (std::size_t i = 1; i + 1 < ring.size(); ++i) {
-      const Rational3 triangle[3] = {ring[0], ring[i], ring[i + 1]};
-      out.push_back(convex_hull(triangle));
-    }
+    for (std::size_t i = 1; i + 1 < ring.size(); ++i) triangles.push_back({ring[0], ring[i], ring[i + 1]});
+  }
+  for (const Triangulator::Triangle& t : triangles) {
+    const Rational3 corners[3] = {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
+    out.push_back(convex_hull(corners));
   }
 }
 
@@ -87,7 +97,7 @@ Polyhedron from_surface(const Mesh& mesh, const MeshSurface& surface, const Mesh
   std::vector<Polyhedron> parts;
   MeshFaces faces(mesh, surface, options, messages);
   for (const std::vector<std::uint32_t>& group : groups.proper) parts.emplace_back(faces.surface(group));
-  for (const std::uint32_t f : groups.single) add_single(mesh, f, parts);
+  for (const std::uint32_t f : groups.single) add_single(mesh, surface, f, parts);
   return unite_all(parts);
 }
 

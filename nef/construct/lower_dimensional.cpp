@@ -2,11 +2,13 @@
 //
 // Points, segments and polygons as sets of their own dimension.
 #include <algorithm>
+#include <numeric>
 
 #include "nef/base/error.h"
 #include "nef/boolean/overlay_complexes.h"
 #include "nef/complex/local_pyramid.h"
 #include "nef/construct/construct.h"
+#include "nef/construct/simple_ring.h"
 #include "nef/sphere_map/arrangement.h"
 
 namespace nef {
@@ -48,6 +50,70 @@ void push(Complex& c, const Rational3& point, Arrangement& drawing) {
   c.push_vertex(map.view());
 }
 
+// The normal from three corners of any ring, once all points are known to lie in one plane.
+Rational3 common_normal(std::span<const std::vector<Rational3>> rings) {
+  Rational3 normal;
+  for (const std::vector<Rational3>& ring : rings) {
+    if (ring.size() < 3) throw InputError("a polygon needs at least three points");
+    for (std::size_t i = 1; i + 1 < ring.size() && is_zero(normal); ++i) {
+      normal = cross(minus(ring[i], ring[0]), minus(ring[i + 1], ring[0]));
+    }
+  }
+  if (is_zero(normal)) throw InputError("the points of the polygon lie on one line; write it as a segment");
+  const Rational offset = dot(normal, rings[0][0]);
+  for (const std::vector<Rational3>& ring : rings) {
+    for (const Rational3& p : ring) {
+      if (dot(normal, p) != offset) throw InputError("the points of the polygon do not lie in one plane");
+    }
+  }
+  return normal;
+}
+
+void require_simple(const std::vector<Rational3>& ring, const Rational3& normal) {
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    if (ring[i] == ring[(i + 1) % ring.size()]) throw InputError("a ring of the polygon repeats a point");
+  }
+  const std::size_t axis = normal[0] != 0 ? 0 : normal[1] != 0 ? 1 : 2;
+  std::vector<std::uint32_t> corners(ring.size());
+  std::iota(corners.begin(), corners.end(), 0U);
+  const auto sides = sides_that_meet(MeshPoints(ring), corners, axis);
+  if (!sides) return;
+  const auto name = [&](std::uint32_t side) {
+    return std::to_string(side) + "-" + std::to_string((side + 1) % ring.size());
+  };
+  throw InputError("a ring of the polygon crosses or touches itself: its sides " + name((*sides)[0]) + " and " +
+                   name((*sides)[1]) + " meet (points counted from 0); split it into simple polygons");
+}
+
+// The closed polygon inside one ring that is simple.
+Polyhedron fill_ring(std::vector<Rational3> points, const Rational3& normal) {
+  Complex c;
+  const PlaneId plane = plane_through(c.planes, normal, points[0]);
+  Rational3 area;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Rational3 term = cross(minus(points[i], points[0]), minus(points[(i + 1) % points.size()], points[0]));
+    for (std::size_t k = 0; k < 3; ++k) area[k] += term[k];
+  }
+  if (dot(area, normal) < 0) std::reverse(points.begin(), points.end());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Rational3& here = points[i];
+    const Rational3 ahead = minus(points[(i + 1) % points.size()], here);
+    const Rational3 back = minus(points[(i + points.size() - 1) % points.size()], here);
+    Arrangement drawing;
+    drawing.centre = 1;
+    for (const Rational3& v : {ahead, back}) {
+      Arrangement::Node node;
+      node.direction = direction_in(c.planes, plane, plane_through(c.planes, cross(v, normal), here), v);
+      node.mark = 1;
+      drawing.nodes.push_back(std::move(node));
+    }
+    drawing.arcs.push_back({plane, 0, 1, 1, 0, 0});
+    push(c, here, drawing);
+  }
+  finish(c, 0);
+  return Polyhedron{std::move(c)};
+}
+
 }  // namespace
 
 Polyhedron make_point(const Rational3& point) {
@@ -80,52 +146,12 @@ Polyhedron make_segment(const Rational3& a, const Rational3& b) {
 }
 
 Polyhedron make_polygon(std::span<const std::vector<Rational3>> rings) {
-  // The normal from the vector area of any ring.
-  Rational3 normal;
-  for (const std::vector<Rational3>& ring : rings) {
-    if (ring.size() < 3) throw InputError("a polygon needs at least three points");
-    for (std::size_t i = 1; i + 1 < ring.size() && is_zero(normal); ++i) {
-      normal = cross(minus(ring[i], ring[0]), minus(ring[i + 1], ring[0]));
-    }
-  }
-  if (is_zero(normal)) throw InputError("the points of the polygon lie on one line; write it as a segment");
-  const Rational offset = dot(normal, rings[0][0]);
-  for (const std::vector<Rational3>& ring : rings) {
-    for (const Rational3& p : ring) {
-      if (dot(normal, p) != offset) throw InputError("the points of the polygon do not lie in one plane");
-    }
-  }
+  const Rational3 normal = common_normal(rings);
   // Each ring by itself; parity combines them.
   Polyhedron result;
   for (const std::vector<Rational3>& ring : rings) {
-    Complex c;
-    const PlaneId plane = plane_through(c.planes, normal, rings[0][0]);
-    Rational3 area;
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const Rational3 term = cross(minus(ring[i], ring[0]), minus(ring[(i + 1) % ring.size()], ring[0]));
-      for (std::size_t k = 0; k < 3; ++k) area[k] += term[k];
-    }
-    std::vector<Rational3> points(ring);
-    if (dot(area, normal) < 0) std::reverse(points.begin(), points.end());
-    if (dot(area, normal) == 0) throw InputError("a ring of the polygon has no area; it crosses itself or is flat");
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const Rational3& here = points[i];
-      const Rational3 ahead = minus(points[(i + 1) % points.size()], here);
-      const Rational3 back = minus(points[(i + points.size() - 1) % points.size()], here);
-      if (is_zero(ahead)) throw InputError("a ring of the polygon repeats a point");
-      Arrangement drawing;
-      drawing.centre = 1;
-      for (const Rational3& v : {ahead, back}) {
-        Arrangement::Node node;
-        node.direction = direction_in(c.planes, plane, plane_through(c.planes, cross(v, normal), here), v);
-        node.mark = 1;
-        drawing.nodes.push_back(std::move(node));
-      }
-      drawing.arcs.push_back({plane, 0, 1, 1, 0, 0});
-      push(c, here, drawing);
-    }
-    finish(c, 0);
-    const Polyhedron piece{std::move(c)};
+    require_simple(ring, normal);
+    const Polyhedron piece = fill_ring(ring, normal);
     // Rings may touch: the parity of the closed sets loses points of the boundary, its closure has them.
     result = result.is_empty() ? piece : closure(symmetric_difference(result, piece));
   }

@@ -362,61 +362,6 @@ std::vector<MeshProblem> check_mesh(const Mesh& mesh, const MeshSurface& surface
   return report.take();
 }
 
-std::optional<MeshProblem> first_self_intersection(const Mesh& mesh) {
-  const MeshSurface surface(mesh);
-  std::optional<MeshProblem> first;
-  const auto offer = [&](MeshProblem problem) {
-    if (!first || problem.faces < first->faces) first = std::move(problem);
-  };
-  for (std::uint32_t f = 0; f < mesh.face_count() && !first; ++f) {
-    if (surface.defects[f] == FaceDefect::kCrossesItself) {
-      offer(face_problem(Kind::kSelfIntersection, f, "crosses itself"));
-    }
-  }
-  const SurfaceContacts contacts(surface);
-  contacts.for_each([&](SurfaceContacts::Kind kind, std::uint32_t t, std::uint32_t u) {
-    const std::uint32_t f = surface.face_of[t];
-    if (first && f > first->faces[0]) return false;
-    if (kind != SurfaceContacts::Kind::kTouch) offer(contact_problem(kind, f, surface.face_of[u]));
-    return true;
-  });
-  contacts.for_each_bad_edge([&](std::uint32_t u, std::uint32_t v, std::span<const std::uint32_t> triangles) {
-    MeshProblem problem;
-    problem.kind = Kind::kSelfIntersection;
-    for (const std::uint32_t t : triangles) problem.faces.push_back(surface.face_of[t]);
-    problem.edges = {{u, v}};
-    problem.vertices = {u, v};
-    problem.text = face_list(problem.faces) + " cross each other at " + edge_text(problem.edges[0]);
-    offer(std::move(problem));
-    return true;
-  });
-  return first;
-}
-
-bool face_is_planar(const Mesh& mesh, std::size_t face) {
-  const auto corners = mesh.face(face);
-  if (corners.size() < 4) return true;
-  const Rational3& o = mesh.vertices[corners[0]];
-  const auto difference = [&](std::size_t i) {
-    const Rational3& p = mesh.vertices[corners[i]];
-    return Rational3{p[0] - o[0], p[1] - o[1], p[2] - o[2]};
-  };
-  // The first corner pair that is not collinear with corner 0 spans the plane.
-  Rational3 normal{};
-  Rational3 u{};
-  std::size_t i = 1;
-  for (; i < corners.size() && u == Rational3{}; ++i) u = difference(i);
-  for (; i < corners.size() && normal == Rational3{}; ++i) {
-    const Rational3 v = difference(i);
-    normal = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-  }
-  for (; i < corners.size(); ++i) {
-    const Rational3 v = difference(i);
-    if (normal[0] * v[0] + normal[1] * v[1] + normal[2] * v[2] != 0) return false;
-  }
-  return true;
-}
-
 double face_deviation(const Mesh& mesh, std::size_t face) {
   const auto corners = mesh.face(face);
   if (corners.size() < 4) return 0;

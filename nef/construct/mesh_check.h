@@ -6,7 +6,6 @@
 #include <array>
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -55,14 +54,6 @@ struct MeshCheckOptions {
 std::vector<MeshProblem> check_mesh(const Mesh& mesh, const MeshCheckOptions& options = {});
 /// The same for a mesh whose surface is there already.
 std::vector<MeshProblem> check_mesh(const Mesh& mesh, const MeshSurface& surface, const MeshCheckOptions& options);
-
-/// The first pair of faces that cross or overlap, in the order of their numbers; nothing if the mesh at most touches
-/// itself. Faces may be any polygons; ones that are not planar are taken as a triangulation of
-/// theirs. Degenerate faces are skipped. Cost as for check_mesh.
-std::optional<MeshProblem> first_self_intersection(const Mesh& mesh);
-
-/// True if all corners of a face lie in one plane (also for degenerate faces). Exact.
-bool face_is_planar(const Mesh& mesh, std::size_t face);
 
 /// How far the corners of a face are from the plane through their centroid whose normal is the area vector of the
 /// face: the largest distance. Zero iff the face is planar and not degenerate, or has no area vector.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <random>
 #include <set>
 
@@ -46,6 +47,18 @@ std::vector<MeshProblem> of_kind(const Mesh& mesh, Kind kind) {
   }
   return result;
 }
+
+// The first pair of faces that cross or overlap, be it along an edge of both only.
+std::optional<MeshProblem> first_self_intersection(const Mesh& mesh) {
+  for (const MeshProblem& problem : check_mesh(mesh)) {
+    const bool edge =
+        problem.kind == Kind::kNonManifoldEdge && problem.text.find("cross each other") != std::string::npos;
+    if (problem.kind == Kind::kSelfIntersection || edge) return problem;
+  }
+  return std::nullopt;
+}
+
+bool planar(const Mesh& mesh, std::size_t face) { return MeshSurface(mesh).planar[face]; }
 
 bool legal(const Mesh& mesh) {
   const auto problems = check_mesh(mesh);
@@ -201,7 +214,7 @@ TEST_CASE("A pentagram crosses itself though all its corners turn left") {
 
 TEST_CASE("A face that is not planar is reported with its deviation") {
   const Mesh bent = off("4 1 0\n0 0 0\n1 0 0\n1 1 0.4\n0 1 0\n4 0 1 2 3\n");
-  CHECK_FALSE(face_is_planar(bent, 0));
+  CHECK_FALSE(planar(bent, 0));
   // Area vector (-0.2, -0.2, 1) up to a factor, centroid (1/2, 1/2, 1/10): each corner is 0.1 / |n| off.
   CHECK(face_deviation(bent, 0) == Approx(0.1 / std::sqrt(1.08)));
   const auto found = of_kind(bent, Kind::kNonPlanarFace);
@@ -209,9 +222,9 @@ TEST_CASE("A face that is not planar is reported with its deviation") {
   CHECK(found[0].legal);
   // One part in 10^40 is not planar either.
   const Mesh nearly = off("4 1 0\n0 0 0\n1 0 0\n1 1 1e-40\n0 1 0\n4 0 1 2 3\n");
-  CHECK_FALSE(face_is_planar(nearly, 0));
+  CHECK_FALSE(planar(nearly, 0));
   CHECK(face_deviation(nearly, 0) == Approx(2.5e-41));
-  CHECK(face_is_planar(off("5 1 0\n0 0 0\n1 0 1/3\n2 0 2/3\n2 1 1\n0 1 1/3\n5 0 1 2 3 4\n"), 0));
+  CHECK(planar(off("5 1 0\n0 0 0\n1 0 1/3\n2 0 2/3\n2 1 1\n0 1 1/3\n5 0 1 2 3 4\n"), 0));
 }
 
 TEST_CASE("Tiny and huge crossings are decided exactly") {

@@ -120,7 +120,12 @@ class RayShooter {
  public:
   RayShooter(const Complex& complex, const QueryStructure& structure, const QueryRay& ray,
              const QueryStructure::Accept& accept)
-      : complex_(complex), structure_(structure), ray_(ray), accept_(accept), filter_(ray) {}
+      : complex_(complex),
+        structure_(structure),
+        ray_(ray),
+        accept_(accept),
+        filter_(ray),
+        finite_origin_(ray.origin.table->finite(ray.origin.id)) {}
 
   std::optional<ComplexHit> shoot(Rational3* at) {
     structure_.tree_.for_each_if([&](const Box& box) { return filter_.may_meet(box); },
@@ -234,8 +239,15 @@ class RayShooter {
     const std::array<Integer, 3>& d = ray_.direction.integers();
     const IntegerView w = ray_.origin.coordinate(3);
     mpz_set_ui(m, 0);
-    for (std::size_t i = 0; i < 3; ++i) mpz_addmul(m, complex_.planes.coefficient(plane, i), d[i].get_mpz_t());
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (sgn(d[i]) != 0) mpz_addmul(m, complex_.planes.coefficient(plane, i), d[i].get_mpz_t());
+    }
+    const bool finite = finite_origin_ && !complex_.planes.infimaximal(plane);
     for (std::size_t part = 0; part < 2; ++part) {
+      if (part == 1 && finite) {
+        for (std::size_t i = 4; i < 7; ++i) mpz_set_ui(scratch.q[i].get_mpz_t(), 0);
+        break;
+      }
       mpz_mul(s, complex_.planes.coefficient(plane, 3 + part), w);
       for (std::size_t i = 0; i < 3; ++i) {
         mpz_addmul(s, complex_.planes.coefficient(plane, i), ray_.origin.coordinate(4 * part + i));
@@ -243,7 +255,7 @@ class RayShooter {
       for (std::size_t i = 0; i < 3; ++i) {
         mpz_ptr out = scratch.q[4 * part + i].get_mpz_t();
         mpz_mul(out, m, ray_.origin.coordinate(4 * part + i));
-        mpz_submul(out, s, d[i].get_mpz_t());
+        if (sgn(d[i]) != 0) mpz_submul(out, s, d[i].get_mpz_t());
       }
     }
     mpz_mul(scratch.q[3].get_mpz_t(), m, w);
@@ -286,6 +298,7 @@ class RayShooter {
   const QueryRay& ray_;
   const QueryStructure::Accept& accept_;
   RayFilter filter_;
+  bool finite_origin_;
   PointTable scratch_;
   std::optional<ComplexHit> hit_;
   PointRef position_;

@@ -14,10 +14,14 @@ Json problem_json(const MeshProblem& problem) {
           {"edges", problem.edges},     {"faces", problem.faces}, {"text", problem.text}};
 }
 
-// A finding that has no mesh element: the file itself is at fault, or the complex in it.
-Json plain_problem(const std::string& kind, const std::string& text) {
-  return {{"name", kind},           {"legal", false},         {"vertices", Json::array()},
-          {"edges", Json::array()}, {"faces", Json::array()}, {"text", text}};
+// A finding outside of the mesh: the file itself is at fault (perhaps in one element), or the complex in it.
+Json plain_problem(const std::string& kind, const std::string& text, FileElement element = {}) {
+  Json vertices = Json::array();
+  Json faces = Json::array();
+  if (element.kind == FileElement::Kind::kVertex) vertices.push_back(element.index);
+  if (element.kind == FileElement::Kind::kFace) faces.push_back(element.index);
+  return {{"name", kind},           {"legal", false}, {"vertices", vertices},
+          {"edges", Json::array()}, {"faces", faces}, {"text", text}};
 }
 
 Json check_mesh_file(const std::string& path, bool self_intersections) {
@@ -29,7 +33,7 @@ Json check_mesh_file(const std::string& path, bool self_intersections) {
     // Numbers and indices are part of what a mesh can have wrong; a file that cannot be read as one
     // at all is an error.
     if (error.problem() != FileProblem::kBadIndex && error.problem() != FileProblem::kNotANumber) throw;
-    problems.push_back(plain_problem(name(error.problem()), error.what()));
+    problems.push_back(plain_problem(name(error.problem()), error.what(), error.element()));
     return problems;
   }
   MeshCheckOptions options;

@@ -26,12 +26,14 @@ AffineMap rotation_map(const std::string& text) {
     rest = text.substr(2);
     letters = 3;
   }
-  const std::vector<Rational> n = parse_numbers(rest, "--rotate");
-  const std::size_t count = n.size() + letters;
-  if (count != 4 && count != 5) {
+  const auto refuse = [&text] {
     throw InputError("--rotate: expected AXIS,DEGREES[,TOLERANCE] with an axis x, y, z or a,b,c instead of '" + text +
                      "'");
-  }
+  };
+  if (letters == 0 && rest.find(',') == std::string::npos) refuse();
+  const std::vector<Rational> n = parse_numbers(rest, "--rotate");
+  const std::size_t count = n.size() + letters;
+  if (count != 4 && count != 5) refuse();
   const std::size_t degrees = 3 - letters;
   if (letters == 0) axis = {n[0], n[1], n[2]};
   if (count == 4) return AffineMap::rotate(axis, nearest_double(n[degrees]));

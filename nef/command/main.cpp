@@ -59,7 +59,9 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     session.complain("out of memory");
   } catch (const std::exception& error) {
-    session.complain(std::string("internal error: ") + error.what());
+    // Broken invariants say so themselves.
+    const std::string what = error.what();
+    session.complain(what.rfind("internal error", 0) == 0 ? what : "internal error: " + what);
   }
   return nef::kBad;
 }

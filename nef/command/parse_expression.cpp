@@ -93,7 +93,11 @@ class Parser {
   std::string here() {
     const char c = peek();
     if (c == '\0') return "the end";
-    if (!is_letter(c)) return "'" + std::string(1, c) + "'";
+    if (!is_letter(c)) {
+      std::size_t end = at_ + 1;  // a whole character, if it is one of several bytes in UTF-8
+      while (end < text_.size() && (static_cast<unsigned char>(text_[end]) & 0xc0U) == 0x80U) ++end;
+      return "'" + std::string(text_.substr(at_, end - at_)) + "'";
+    }
     return "'" + std::string(word()) + "'";
   }
 

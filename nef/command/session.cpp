@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "nef/command/session.h"
 
-#include <algorithm>
 #include <atomic>
 #include <ostream>
+#include <string_view>
 
 #include "nef/base/parallel.h"
 #include "nef/io/polyhedron_file.h"
@@ -11,11 +11,23 @@
 namespace nef {
 namespace {
 
-// Messages are one line each, whatever they quote.
-std::string one_line(std::string text) {
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  std::replace(text.begin(), text.end(), '\r', ' ');
-  return text;
+// Messages are one line each that no terminal takes for commands, whatever they quote from a file.
+std::string one_line(const std::string& text) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string line;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '\n' || c == '\r') {
+      line += ' ';
+    } else if (byte < 0x20 || byte == 0x7f) {
+      line += "\\x";
+      line += kDigits[byte >> 4U];
+      line += kDigits[byte & 0xfU];
+    } else {
+      line += c;
+    }
+  }
+  return line;
 }
 
 }  // namespace
@@ -100,8 +112,10 @@ void add_input_flags(CLI::App* command, Session& session) {
 CLI::Option* add_output_flags(CLI::App* command, Session& session) {
   command->add_flag("--exact", session.exact, "write exact coordinates (p/q) to OFF, OBJ or PLY");
   command->add_flag("--binary", session.binary, "write binary STL or PLY");
-  return command->add_option("-o,--output", session.output,
-                             "file to write; its extension (nef, nef3, off, obj, stl, ply) picks the format");
+  return command
+      ->add_option("-o,--output", session.output,
+                   "file to write; its extension (nef, nef3, off, obj, stl, ply) picks the format")
+      ->check([](const std::string& path) { return std::string(path.empty() ? "the name of the file is empty" : ""); });
 }
 
 }  // namespace nef

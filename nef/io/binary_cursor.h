@@ -35,8 +35,8 @@ class BinaryCursor {
 
   [[nodiscard]] std::size_t left() const { return bytes_.size() - position_; }
 
-  [[noreturn]] void fail(FileProblem problem, const std::string& what) const {
-    throw FileError(problem, path_ + ": byte " + std::to_string(position_) + ": " + what);
+  [[noreturn]] void fail(FileProblem problem, const std::string& what, FileElement element = {}) const {
+    throw FileError(problem, path_ + ": byte " + std::to_string(position_) + ": " + what, element);
   }
 
  private:

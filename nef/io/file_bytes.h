@@ -3,6 +3,8 @@
 // Whole files in and out: one read, one write beside the target and a rename.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -26,14 +28,26 @@ enum class FileProblem {
 /// "bad index", "not a number", ...
 const char* name(FileProblem problem);
 
+/// The element of a mesh that a file gets wrong, if it is one; counted from 0, whatever the format counts from.
+struct FileElement {
+  enum class Kind : std::uint8_t { kNone, kVertex, kFace };
+  Kind kind = Kind::kNone;
+  std::size_t index = 0;
+  static FileElement vertex(std::size_t index) { return {Kind::kVertex, index}; }
+  static FileElement face(std::size_t index) { return {Kind::kFace, index}; }
+};
+
 /// An InputError with the kind of the problem. what() is "path:line: what is wrong; how to mend it".
 class FileError : public InputError {
  public:
-  FileError(FileProblem problem, const std::string& what) : InputError(what), problem_(problem) {}
+  FileError(FileProblem problem, const std::string& what, FileElement element = {})
+      : InputError(what), problem_(problem), element_(element) {}
   [[nodiscard]] FileProblem problem() const { return problem_; }
+  [[nodiscard]] FileElement element() const { return element_; }
 
  private:
   FileProblem problem_;
+  FileElement element_;
 };
 
 /// All bytes of a file. Throws FileError (kUnreadable, kEmpty).

@@ -39,7 +39,7 @@ void read_vertex(TextCursor& cursor, Mesh& mesh) {
     if (word.empty()) {
       cursor.fail(FileProblem::kTruncated, "vertex " + std::to_string(v) + " has fewer than three coordinates");
     }
-    cursor.parse(word, x, "coordinate of vertex", v);
+    cursor.parse(word, x, "coordinate of vertex", v, FileElement::vertex(v - 1));
   }
 }
 
@@ -52,9 +52,10 @@ void read_face(TextCursor& cursor, Mesh& mesh, std::vector<std::size_t>& lines) 
     const std::int64_t absolute = index < 0 ? count + index : index - 1;
     // A face may come before its vertices; only the sign and zero can be judged now.
     if (index == 0 || absolute < 0 || absolute > 0x7fffffff) {
-      cursor.fail(FileProblem::kBadIndex, "face " + std::to_string(face) + " names vertex " + std::to_string(index) +
-                                              ", but " + std::to_string(count) +
-                                              " vertices came before it (OBJ counts from 1)");
+      cursor.fail(FileProblem::kBadIndex,
+                  "face " + std::to_string(face) + " names vertex " + std::to_string(index) + ", but " +
+                      std::to_string(count) + " vertices came before it (OBJ counts from 1)",
+                  FileElement::face(face - 1));
     }
     mesh.corners.push_back(static_cast<std::uint32_t>(absolute));
   }
@@ -71,9 +72,11 @@ void check_indices(const TextCursor& cursor, const Mesh& mesh, const std::vector
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {
     for (const std::uint32_t v : mesh.face(f)) {
       if (v < mesh.vertices.size()) continue;
-      throw FileError(FileProblem::kBadIndex, cursor.path() + ":" + std::to_string(lines[f]) + ": face " +
-                                                  std::to_string(f + 1) + " names vertex " + std::to_string(v + 1) +
-                                                  ", but there are " + std::to_string(mesh.vertices.size()));
+      throw FileError(FileProblem::kBadIndex,
+                      cursor.path() + ":" + std::to_string(lines[f]) + ": face " + std::to_string(f + 1) +
+                          " names vertex " + std::to_string(v + 1) + ", but there are " +
+                          std::to_string(mesh.vertices.size()),
+                      FileElement::face(f));
     }
   }
 }

@@ -68,7 +68,7 @@ void read_vertices(TextCursor& cursor, const OffHeader& header, Mesh& mesh) {
   const bool attributes = header.attributes || has_hidden_attributes(cursor, header);
   for (std::size_t v = 0; v < header.vertices; ++v) {
     Rational3& point = mesh.vertices.emplace_back();
-    for (Rational& x : point) cursor.number(x, "coordinate of vertex", v);
+    for (Rational& x : point) cursor.number(x, "coordinate of vertex", v, FileElement::vertex(v));
     if (attributes) cursor.skip_line();
   }
 }
@@ -89,9 +89,10 @@ void read_faces(TextCursor& cursor, const OffHeader& header, Mesh& mesh) {
     for (std::int64_t i = 0; i < size; ++i) {
       const std::int64_t index = cursor.integer("corner of a face");
       if (index < 0 || index >= static_cast<std::int64_t>(header.vertices)) {
-        cursor.fail(FileProblem::kBadIndex, "face " + std::to_string(f) + " names vertex " + std::to_string(index) +
-                                                ", but vertices are 0 to " +
-                                                std::to_string(static_cast<std::int64_t>(header.vertices) - 1));
+        cursor.fail(FileProblem::kBadIndex,
+                    "face " + std::to_string(f) + " names vertex " + std::to_string(index) +
+                        ", but vertices are 0 to " + std::to_string(static_cast<std::int64_t>(header.vertices) - 1),
+                    FileElement::face(f));
       }
       mesh.corners.push_back(static_cast<std::uint32_t>(index));
     }

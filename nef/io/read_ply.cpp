@@ -111,7 +111,7 @@ class TextSource {
  public:
   explicit TextSource(TextCursor& cursor) : cursor_(cursor) {}
   void coordinate(Type /*type*/, Rational& value, std::size_t vertex) {
-    cursor_.number(value, "coordinate of vertex", vertex);
+    cursor_.number(value, "coordinate of vertex", vertex, FileElement::vertex(vertex));
   }
   std::int64_t integer(Type /*type*/) { return cursor_.integer("index or count"); }
   void skip(Type /*type*/) {
@@ -119,7 +119,9 @@ class TextSource {
   }
   bool done() { return cursor_.at_end(); }
   [[nodiscard]] std::size_t bytes_left() const { return cursor_.rest().size(); }
-  [[noreturn]] void fail(FileProblem problem, const std::string& what) const { cursor_.fail(problem, what); }
+  [[noreturn]] void fail(FileProblem problem, const std::string& what, FileElement element = {}) const {
+    cursor_.fail(problem, what, element);
+  }
 
  private:
   TextCursor& cursor_;
@@ -138,7 +140,8 @@ class BinarySource {
     const double number = type == Type::kFloat ? static_cast<double>(cursor_.take<float>("coordinate"))
                                                : cursor_.take<double>("coordinate");
     if (!std::isfinite(number)) {
-      fail(FileProblem::kNotANumber, "a coordinate of vertex " + std::to_string(vertex) + " is not a finite number");
+      fail(FileProblem::kNotANumber, "a coordinate of vertex " + std::to_string(vertex) + " is not a finite number",
+           FileElement::vertex(vertex));
     }
     value = number;
   }
@@ -177,7 +180,9 @@ class BinarySource {
 
   bool done() { return cursor_.left() == 0; }
   [[nodiscard]] std::size_t bytes_left() const { return cursor_.left(); }
-  [[noreturn]] void fail(FileProblem problem, const std::string& what) const { cursor_.fail(problem, what); }
+  [[noreturn]] void fail(FileProblem problem, const std::string& what, FileElement element = {}) const {
+    cursor_.fail(problem, what, element);
+  }
 
  private:
   BinaryCursor cursor_;
@@ -229,7 +234,8 @@ void read_face(Source& source, const Property& list, Mesh& mesh) {
     const std::int64_t index = source.integer(list.type);
     if (index < 0 || index > 0x7fffffff) {
       source.fail(FileProblem::kBadIndex,
-                  "face " + std::to_string(mesh.face_count()) + " names vertex " + std::to_string(index));
+                  "face " + std::to_string(mesh.face_count()) + " names vertex " + std::to_string(index),
+                  FileElement::face(mesh.face_count()));
     }
     mesh.corners.push_back(static_cast<std::uint32_t>(index));
   }
@@ -281,8 +287,10 @@ Mesh read_elements(Source& source, const Header& header) {
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {
     for (const std::uint32_t v : mesh.face(f)) {
       if (v < mesh.vertices.size()) continue;
-      source.fail(FileProblem::kBadIndex, "face " + std::to_string(f) + " names vertex " + std::to_string(v) +
-                                              ", but there are " + std::to_string(mesh.vertices.size()));
+      source.fail(FileProblem::kBadIndex,
+                  "face " + std::to_string(f) + " names vertex " + std::to_string(v) + ", but there are " +
+                      std::to_string(mesh.vertices.size()),
+                  FileElement::face(f));
     }
   }
   return mesh;

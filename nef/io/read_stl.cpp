@@ -23,6 +23,7 @@ std::size_t binary_count(std::string_view bytes, const std::string& path) {
 bool is_text(std::string_view bytes, const std::string& path) {
   if (bytes.size() >= kHeader && bytes.size() == kHeader + kTriangle * binary_count(bytes, path)) return false;
   const std::size_t first = bytes.find_first_not_of(" \t\r\n");
+  if (first == std::string_view::npos) return false;
   return bytes.substr(first).starts_with("solid") && bytes.substr(0, 1024).find('\0') == std::string_view::npos;
 }
 
@@ -53,7 +54,8 @@ Mesh read_binary(std::string_view bytes, const std::string& path) {
         const auto value = cursor.take<float>("corner");
         if (!std::isfinite(value)) {
           cursor.fail(FileProblem::kNotANumber,
-                      "a coordinate of triangle " + std::to_string(t) + " is not a finite number");
+                      "a coordinate of triangle " + std::to_string(t) + " is not a finite number",
+                      FileElement::face(t));
         }
         x = static_cast<double>(value);
       }
@@ -82,7 +84,8 @@ void read_facet(TextCursor& cursor, Mesh& mesh, VertexMerger& merger, Rational3&
   const std::size_t first = mesh.corners.size();
   std::string_view word = cursor.word();
   for (; word == "vertex"; word = cursor.word()) {
-    for (Rational& x : point) cursor.number(x, "coordinate of a corner of facet", mesh.face_count());
+    for (Rational& x : point)
+      cursor.number(x, "coordinate of a corner of facet", mesh.face_count(), FileElement::face(mesh.face_count()));
     mesh.corners.push_back(merger.add(point));
   }
   if (word != "endloop") {

@@ -142,20 +142,22 @@ bool TextCursor::at_end() {
   return position_ >= text_.size();
 }
 
-void TextCursor::number(Rational& value, std::string_view what, std::size_t index) {
+void TextCursor::number(Rational& value, std::string_view what, std::size_t index, FileElement element) {
   const std::string_view found = word();
   if (found.empty()) {
     fail(FileProblem::kTruncated, "the file ends where the " + std::string(what) + " " + std::to_string(index) +
                                       " should be; it is cut off or its header promises too much");
   }
-  parse(found, value, what, index);
+  parse(found, value, what, index, element);
 }
 
-void TextCursor::parse(std::string_view word, Rational& value, std::string_view what, std::size_t index) const {
+void TextCursor::parse(std::string_view word, Rational& value, std::string_view what, std::size_t index,
+                       FileElement element) const {
   if (parse_number(word, value)) return;
-  fail(FileProblem::kNotANumber, std::string(what) + " " + std::to_string(index) + " is '" +
-                                     std::string(word.substr(0, 40)) +
-                                     "', not a finite number; write it like -3, 0.25, 1e-3 or 1/3");
+  fail(FileProblem::kNotANumber,
+       std::string(what) + " " + std::to_string(index) + " is '" + std::string(word.substr(0, 40)) +
+           "', not a finite number; write it like -3, 0.25, 1e-3 or 1/3",
+       element);
 }
 
 std::int64_t TextCursor::integer(std::string_view what) {
@@ -180,8 +182,8 @@ std::int64_t TextCursor::parse_integer(std::string_view word, std::string_view w
   return value;
 }
 
-void TextCursor::fail(FileProblem problem, const std::string& what) const {
-  throw FileError(problem, path_ + ":" + std::to_string(line_) + ": " + what);
+void TextCursor::fail(FileProblem problem, const std::string& what, FileElement element) const {
+  throw FileError(problem, path_ + ":" + std::to_string(line_) + ": " + what, element);
 }
 
 }  // namespace nef

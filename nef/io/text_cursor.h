@@ -20,7 +20,9 @@ bool parse_number(std::string_view text, Rational& value);
 /// line. The text and the path must outlive the cursor.
 class TextCursor {
  public:
-  TextCursor(std::string_view text, const std::string& path) : text_(text), path_(path) {}
+  /// A byte order mark at the beginning, as some editors leave, is skipped.
+  TextCursor(std::string_view text, const std::string& path)
+      : text_(text), path_(path), position_(text.starts_with("\xef\xbb\xbf") ? 3 : 0) {}
 
   /// The next word in whatever line; empty at the end of the text.
   std::string_view word();
@@ -33,17 +35,19 @@ class TextCursor {
   /// True if the rest of the line is empty.
   bool line_done();
 
-  /// The next word as a number. `what` says what it should be ("coordinate of vertex 12").
+  /// The next word as a number. `what` and `index` say what it should be ("coordinate of vertex 12"), and `element`
+  /// where it belongs.
   /// Throws FileError (kTruncated, kNotANumber).
-  void number(Rational& value, std::string_view what, std::size_t index);
+  void number(Rational& value, std::string_view what, std::size_t index, FileElement element);
   /// The next word as a count or index. Throws FileError (kTruncated, kSyntax).
   std::int64_t integer(std::string_view what);
 
   /// Turns one word into a number or index with the same errors.
-  void parse(std::string_view word, Rational& value, std::string_view what, std::size_t index) const;
+  void parse(std::string_view word, Rational& value, std::string_view what, std::size_t index,
+             FileElement element = {}) const;
   [[nodiscard]] std::int64_t parse_integer(std::string_view word, std::string_view what) const;
 
-  [[noreturn]] void fail(FileProblem problem, const std::string& what) const;
+  [[noreturn]] void fail(FileProblem problem, const std::string& what, FileElement element = {}) const;
 
   [[nodiscard]] std::size_t line() const { return line_; }
   [[nodiscard]] std::size_t position() const { return position_; }
@@ -55,7 +59,7 @@ class TextCursor {
 
   std::string_view text_;
   const std::string& path_;
-  std::size_t position_ = 0;
+  std::size_t position_;
   std::size_t line_ = 1;
 };
 

@@ -55,9 +55,11 @@ TEST_CASE("usage errors are one line and exit code 2") {
   check_refused(here.nef("locate a.off 1,2,three"), "three");
   check_refused(here.nef("ray a.off 0,0,0 0,0,0"), "direction");
   check_refused(here.nef("transform a.off --rotate w,3 -o b.off"), "--rotate");
+  check_refused(here.nef("transform a.off --rotate z -o b.off"), "AXIS,DEGREES");
   check_refused(here.nef("transform a.off --matrix 1,2,3 -o b.off"), "12 or 16");
   check_refused(here.nef("transform a.off --scale 0 -o b.off"), "determinant");
   check_refused(here.nef("convert a.off -o b.xyz"), "xyz");
+  check_refused(here.nef("convert a.off -o ''"), "empty");
   check_refused(here.nef("convert a.off -o missing/b.off"), "missing");
   check_refused(here.nef("info a.off --json --repeat 2"), "--repeat");
   CHECK_FALSE(std::filesystem::exists(here / "b.off"));

@@ -44,6 +44,14 @@ TEST_CASE("malformed files are refused in one line") {
   }
 }
 
+TEST_CASE("what a message quotes from a file can not fool a terminal") {
+  const Workplace here;
+  here.write("escape.off", with_line(4, "\x1b[2J\x07 0 0"));
+  const Outcome outcome = here.nef("info escape.off");
+  check_refused(outcome, "'\\x1b[2J\\x07'");
+  check_refused(here.nef("eval 'nothing \xc3\x97 nothing'"), "found '\xc3\x97'");
+}
+
 TEST_CASE("meshes that bound no solid are refused, with the guilty elements") {
   const Workplace here;
   here.write("open.off", cube_without_last_face());
@@ -107,7 +115,9 @@ TEST_CASE("check names what is wrong") {
   };
   CHECK(first_problem(cube_without_last_face()) == "open border");
   CHECK(first_problem(with_line(11, "4 0 2 3 99")) == "bad index");
+  CHECK(here.nef("check bad.off --json").json()["problems"][0]["faces"] == nlohmann::json::array({0}));
   CHECK(first_problem(with_line(4, "nan 0 0")) == "not a number");
+  CHECK(here.nef("check bad.off --json").json()["problems"][0]["vertices"] == nlohmann::json::array({1}));
   CHECK(first_problem(with_line(11, "4 1 3 2 0")) == "inconsistent orientation");
   check_refused(here.nef("check missing.off"), "missing.off");
   // A face that is only bent is no obstacle.

@@ -44,6 +44,11 @@ TEST_CASE("OFF: numbers mean the rationals that they spell") {
   CHECK(mesh.vertices[2][2] == Rational("1/1000000000000000000000"));
 }
 
+TEST_CASE("A byte order mark is skipped") {
+  CHECK(read_off("\xef\xbb\xbfOFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "a.off").face_count() == 1);
+  CHECK(read_obj("\xef\xbb\xbfv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "a.obj").face_count() == 1);
+}
+
 TEST_CASE("OFF: short decimals are in lowest terms") {
   const Mesh mesh = read_off("OFF 3 1 0\n0.50 0.125 1.20\n-0.0 100 2.5e3\n12e-1 0.75e+1 0\n3 0 1 2\n", "a.off");
   CHECK(mesh.vertices[0] == point("1/2", "1/8", "6/5"));

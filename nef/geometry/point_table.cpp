@@ -12,6 +12,7 @@ namespace nef {
 namespace {
 
 __extension__ using Int128 = __int128;
+__extension__ using Unsigned128 = unsigned __int128;
 
 // The homogeneous coordinates x, y, z, w of a point whose fractions and common denominator are small.
 bool small_coordinates(const Rational3& point, std::array<std::int64_t, 4>& h) {
@@ -34,6 +35,61 @@ bool small_coordinates(const Rational3& point, std::array<std::int64_t, 4>& h) {
   return true;
 }
 
+// Appends x, y, z, w and no part in R; all below 2^127 in magnitude.
+std::uint32_t push_row(IntegerRows& rows, const std::array<Int128, 4>& h) {
+  static_assert(GMP_NUMB_BITS == 64);
+  std::array<std::array<mp_limb_t, 2>, 7> limbs{};
+  std::array<mpz_t, 7> numbers{};
+  std::array<mpz_srcptr, 7> row{};
+  for (std::size_t i = 0; i < 7; ++i) {
+    mp_size_t size = 0;
+    if (i < 4) {
+      const auto magnitude = static_cast<Unsigned128>(h[i] < 0 ? -h[i] : h[i]);
+      limbs[i] = {static_cast<mp_limb_t>(magnitude), static_cast<mp_limb_t>(magnitude >> 64U)};
+      size = limbs[i][1] != 0 ? 2 : limbs[i][0] != 0 ? 1 : 0;
+      if (h[i] < 0) size = -size;
+    }
+    row[i] = mpz_roinit_n(numbers[i], limbs[i].data(), size);
+  }
+  return rows.push(row);
+}
+
+// The coefficients of three finite planes, if all are below 2^40.
+bool small_coefficients(const PlaneTable& planes, const std::array<PlaneId, 3>& plane,
+                        std::array<std::array<std::int64_t, 4>, 3>& out) {
+  constexpr mp_limb_t kLimit = mp_limb_t{1} << 40U;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (planes.infimaximal(plane[i])) return false;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const IntegerView value = planes.coefficient(plane[i], k);
+      if (mpz_size(value) > 1 || mpz_getlimbn(value, 0) >= kLimit) return false;
+      const auto magnitude = static_cast<std::int64_t>(mpz_getlimbn(value, 0));
+      out[i][k] = value.sign() < 0 ? -magnitude : magnitude;
+    }
+  }
+  return true;
+}
+
+// Cramer's rule as in push_intersection: minors are below 2^81, determinants below 2^123.
+std::array<Int128, 4> small_intersection(const std::array<std::array<std::int64_t, 4>, 3>& n) {
+  std::array<Int128, 4> h{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto& u = n[(i + 1) % 3];
+    const auto& v = n[(i + 2) % 3];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t k1 = (k + 1) % 3;
+      const std::size_t k2 = (k + 2) % 3;
+      const Int128 minor = static_cast<Int128>(u[k1]) * v[k2] - static_cast<Int128>(u[k2]) * v[k1];
+      if (i == 0) h[3] += n[0][k] * minor;
+      h[k] -= n[i][3] * minor;
+    }
+  }
+  if (h[3] < 0) {
+    for (Int128& value : h) value = -value;
+  }
+  return h;
+}
+
 }  // namespace
 
 PointId PointTable::push(const Rational3& point) {
@@ -51,15 +107,7 @@ PointId PointTable::push(const Rational3& point) {
 }
 
 PointId PointTable::push_small(const std::array<std::int64_t, 4>& h) {
-  std::array<mp_limb_t, 7> limbs{};
-  std::array<mpz_t, 7> numbers{};
-  std::array<mpz_srcptr, 7> row{};
-  for (std::size_t i = 0; i < 7; ++i) {
-    const std::int64_t value = i < 4 ? h[i] : 0;
-    limbs[i] = static_cast<mp_limb_t>(value < 0 ? -value : value);
-    row[i] = mpz_roinit_n(numbers[i], &limbs[i], (value > 0) - (value < 0));
-  }
-  const PointId id{rows_.push(row)};
+  const PointId id{push_row(rows_, {h[0], h[1], h[2], h[3]})};
   push_approximation();
   return id;
 }
@@ -105,8 +153,15 @@ std::optional<PointId> PointTable::push_intersection(const PlaneTable& planes, P
     Integer product;
     std::array<Integer, 7> h;
   };
-  thread_local Scratch s;
   const std::array<PlaneId, 3> plane{p, q, r};
+  if (std::array<std::array<std::int64_t, 4>, 3> n{}; small_coefficients(planes, plane, n)) {
+    const std::array<Int128, 4> h = small_intersection(n);
+    if (h[3] == 0) return std::nullopt;
+    const PointId id{push_row(rows_, h)};
+    push_approximation();
+    return id;
+  }
+  thread_local Scratch s;
   for (std::size_t i = 0; i < 3; ++i) {
     const PlaneId u = plane[(i + 1) % 3];
     const PlaneId v = plane[(i + 2) % 3];

@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <random>
 
 #include "nef/base/error.h"
 
@@ -106,6 +107,53 @@ TEST_CASE("three planes meet in a point that lies on them") {
   CHECK_FALSE(points.push_intersection(planes, p, parallel, r));
   const PlaneId through_line = planes.intern(5, 4, 11, 24);  // p + q
   CHECK_FALSE(points.push_intersection(planes, p, q, through_line));
+}
+
+TEST_CASE("points of planes and of fractions are the same however wide their integers are") {
+  std::mt19937_64 random(7);
+  // Coefficients of up to 12, 40 and 41 bits: machine integers, the widest of these, and beyond.
+  for (const unsigned bits : {12U, 40U, 41U, 70U}) {
+    const auto number = [&] {
+      Integer value = Integer(static_cast<unsigned long>(random() >> 1U)) << (bits > 60 ? bits - 60 : 0);
+      value %= power(2, bits);
+      if (random() % 4 == 0) value = power(2, bits) - 1;
+      return random() % 2 == 0 ? value : Integer(-value);
+    };
+    for (int round = 0; round < 100; ++round) {
+      INFO(bits << " bits, round " << round);
+      PlaneTable planes;
+      PointTable points;
+      std::array<std::array<Integer, 4>, 3> n;
+      std::array<PlaneId, 3> plane;
+      for (std::size_t i = 0; i < 3; ++i) {
+        for (Integer& value : n[i]) value = number();
+        plane[i] = planes.intern(n[i][0], n[i][1], n[i][2], n[i][3]);
+      }
+      const auto det = [&](std::size_t a, std::size_t b, std::size_t c) {
+        return Integer(n[0][a] * (n[1][b] * n[2][c] - n[1][c] * n[2][b]) -
+                       n[0][b] * (n[1][a] * n[2][c] - n[1][c] * n[2][a]) +
+                       n[0][c] * (n[1][a] * n[2][b] - n[1][b] * n[2][a]));
+      };
+      const Integer w = det(0, 1, 2);
+      const std::optional<PointId> point = points.push_intersection(planes, plane[0], plane[1], plane[2]);
+      REQUIRE(point.has_value() == (w != 0));
+      if (!point) continue;
+      // Cramer's rule: the column of a coordinate is replaced by the negated offsets.
+      const Rational3 expected{Rational(Integer(-det(3, 1, 2)), w), Rational(Integer(-det(0, 3, 2)), w),
+                               Rational(Integer(-det(0, 1, 3)), w)};
+      Rational3 reduced = expected;
+      for (Rational& x : reduced) x.canonicalize();
+      CHECK(points.rational(*point) == reduced);
+      CHECK(sgn(Integer(points.coordinate(*point, 3))) > 0);
+      const PointId again = points.push(reduced);
+      CHECK(compare_lexicographic(points, *point, again) == 0);
+      for (std::size_t i = 0; i < 3; ++i) {
+        const double truth = nearest_double(reduced[i]);
+        CHECK(std::abs(points.approximate(*point)[i] - truth) <= std::abs(truth) * 0x1p-50);
+        CHECK(std::abs(points.approximate(again)[i] - truth) <= std::abs(truth) * 0x1p-50);
+      }
+    }
+  }
 }
 
 TEST_CASE("infimaximal points and planes: R is greater than every number") {

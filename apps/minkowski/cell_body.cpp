@@ -173,6 +173,7 @@ ConvexCell to_cell(const Complex& complex, const CellBody& body) {
 }
 
 std::vector<CellBody> merged(const Complex& complex, std::vector<CellBody> bodies) {
+  if (bodies.size() < 2) return bodies;
   Merger(complex, bodies).run();
   std::erase_if(bodies, [](const CellBody& body) { return body.faces.empty(); });
   return bodies;

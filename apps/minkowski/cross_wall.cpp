@@ -69,8 +69,8 @@ void WallBuilder::erect_cross_wall(const ReflexEdge& edge, PlaneId plane, int wa
   const Rational3& a = slicer_.point(complex_.svertex_owner[edge.halfedge]);
   const Rational3& b = slicer_.point(complex_.target(edge.halfedge));
   SliceFrame frame;
-  frame.u = static_cast<std::size_t>(cross_axis(complex_, plane));
-  frame.h = 2;
+  frame.u = cross_axis(complex_, plane, axis_);
+  frame.h = axis_;
   frame.origin = a;
   if (plane.valid()) {
     // Along a x + b y = const one coordinate changes with the other.
@@ -78,8 +78,8 @@ void WallBuilder::erect_cross_wall(const ReflexEdge& edge, PlaneId plane, int wa
     frame.slope /= Rational(complex_.planes.oriented_coefficient(plane, frame.w()));
     frame.slope = -frame.slope;
   }
-  Rational low = std::min(a[2], b[2]);
-  Rational high = std::max(a[2], b[2]);
+  Rational low = std::min(a[axis_], b[axis_]);
+  Rational high = std::max(a[axis_], b[axis_]);
 
   slicer_.begin(frame);
   for (const std::uint32_t f : facets_of_volume_[edge.volume]) slicer_.add_facet(f);

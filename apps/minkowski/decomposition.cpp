@@ -7,6 +7,7 @@
 
 #include "apps/minkowski/cell_reader.h"
 #include "apps/minkowski/minkowski.h"
+#include "apps/minkowski/wall_axis.h"
 #include "apps/minkowski/walls.h"
 #include "nef/base/error.h"
 
@@ -21,7 +22,12 @@ void require_bounded(const Polyhedron& a, const char* what) {
 
 std::vector<ConvexCell> decompose(const Polyhedron& a) {
   require_bounded(a, "the set to decompose");
-  Polyhedron walled = erect_walls(a);
+  return decompose_along(a, wall_axis(a.complex()));
+}
+
+std::vector<ConvexCell> decompose_along(const Polyhedron& a, std::size_t axis) {
+  require_bounded(a, "the set to decompose");
+  Polyhedron walled = erect_walls(a, axis);
   {
     CellReader reader(walled.complex());
     std::vector<ConvexCell> cells = reader.solids();
@@ -43,7 +49,7 @@ std::vector<ConvexCell> decompose(const Polyhedron& a) {
 
 std::vector<ConvexCell> decompose_open(const Polyhedron& a) {
   require_bounded(a, "the set to decompose");
-  const Polyhedron walled = erect_walls(a);
+  const Polyhedron walled = erect_walls(a, wall_axis(a.complex()));
   return CellReader(walled.complex()).open_solids();
 }
 

@@ -3,12 +3,16 @@
 // Parts of the decomposition that sums need and users do not.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "apps/minkowski/convex_cell.h"
 #include "nef/polyhedron.h"
 
 namespace nef::minkowski {
+
+/// decompose() with walls along a given axis, 0 to 2.
+std::vector<ConvexCell> decompose_along(const Polyhedron& a, std::size_t axis);
 
 /// The cells of dimension 3 of the decomposition, all open.
 std::vector<ConvexCell> decompose_open(const Polyhedron& a);

@@ -66,10 +66,10 @@ Polyhedron minkowski_sum(const Polyhedron& a, const Polyhedron& b, const Minkows
                          MinkowskiReport* report = nullptr);
 
 /// The vertical decomposition of a bounded set (thesis 10.2.2): convex cells whose union is
-/// exactly `a`. The cells of dimension 3 have disjoint interiors and cover the interior's closure;
-/// they carry the marks of their walls and sides. What marks keep out of them (a selected part of
-/// a side that is not selected whole, an antenna) follows as cells of dimension 2, 1, 0.
-/// A convex set is one cell. Throws UnsupportedError for an unbounded set.
+/// exactly `a`. Walls stand along the coordinate axis that is likely to need the fewest cells. The cells of dimension 3
+/// have disjoint interiors and cover the interior's closure; they carry the marks of their walls and sides. What marks
+/// keep out of them (a selected part of a side that is not selected whole, an antenna) follows as cells of dimension 2,
+/// 1, 0. A convex set is one cell. Throws UnsupportedError for an unbounded set.
 std::vector<ConvexCell> decompose(const Polyhedron& a);
 
 /// True if the set is convex (marks included: a closed box without one point of an edge is not).

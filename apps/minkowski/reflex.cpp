@@ -4,17 +4,20 @@
 namespace nef::minkowski {
 namespace {
 
-int oriented_sign(const Complex& complex, PlaneId plane, int axis) {
-  const int sign = complex.planes.coefficient(plane, static_cast<std::size_t>(axis)).sign();
+int oriented_sign(const Complex& complex, PlaneId plane, std::size_t axis) {
+  const int sign = complex.planes.coefficient(plane, axis).sign();
   return plane.flipped() ? -sign : sign;
 }
 
-Direction axis_direction(int axis) { return Direction::exact(axis == 0 ? 1 : 0, axis == 1 ? 1 : 0, axis == 2 ? 1 : 0); }
+Direction axis_direction(std::size_t axis) {
+  return Direction::exact(axis == 0 ? 1 : 0, axis == 1 ? 1 : 0, axis == 2 ? 1 : 0);
+}
 
 // Which of the directions -axis, +axis lie inside the wedge that begins at shalfedge `first` and
 // takes more than a half-turn to `second`. The rest, from `second` on to `first`, is less than a
 // half-turn: it is where the form of second's plane is >= 0 and that of first's is <= 0.
-std::array<bool, 2> inside_wedge(const Complex& complex, const Direction& d, PlaneId first, PlaneId second, int axis) {
+std::array<bool, 2> inside_wedge(const Complex& complex, const Direction& d, PlaneId first, PlaneId second,
+                                 std::size_t axis) {
   std::array<bool, 2> inside{true, true};
   for (int k = 0; k < 2; ++k) {
     const int way = k == 0 ? -1 : 1;
@@ -31,22 +34,26 @@ std::array<bool, 2> inside_wedge(const Complex& complex, const Direction& d, Pla
 
 bool selected(LabelId label) { return (label & 1U) != 0 && label != kOutside; }
 
-// A half-plane that leaves an edge with direction d = (0, 0, s) on the oriented plane of a shalfedge
-// there has direction n x d = s (n_y, -n_x, 0). A wall that prolongs it goes the other way.
-CrossWall prolonging(const Complex& complex, const Direction& d, PlaneId plane) {
-  const int up = sgn(d.integers()[2]);
-  const int leaves =
-      cross_axis(complex, plane) == 0 ? up * oriented_sign(complex, plane, 1) : -up * oriented_sign(complex, plane, 0);
+// A half-plane that leaves an edge of direction d = s e, e along the axis, on the oriented plane of a shalfedge there
+// has direction n x d = s (n_y, -n_x, 0) if the axis is z. A wall that prolongs it goes the other way.
+CrossWall prolonging(const Complex& complex, const Direction& d, PlaneId plane, std::size_t axis) {
+  const std::size_t x = (axis + 1) % 3;
+  const std::size_t y = (axis + 2) % 3;
+  const int up = sgn(d.integers()[axis]);
+  const int leaves = cross_axis(complex, plane, axis) == x ? up * oriented_sign(complex, plane, y)
+                                                           : -up * oriented_sign(complex, plane, x);
   return {plane, {leaves > 0, leaves < 0}};
 }
 
 }  // namespace
 
-int cross_axis(const Complex& complex, PlaneId plane) {
-  return plane.valid() && complex.planes.coefficient(plane, 1).sign() != 0 ? 0 : 1;
+std::size_t cross_axis(const Complex& complex, PlaneId plane, std::size_t axis) {
+  const std::size_t x = (axis + 1) % 3;
+  const std::size_t y = (axis + 2) % 3;
+  return plane.valid() && complex.planes.coefficient(plane, y).sign() != 0 ? x : y;
 }
 
-std::vector<ReflexEdge> reflex_edges(const Complex& complex) {
+std::vector<ReflexEdge> reflex_edges(const Complex& complex, std::size_t axis) {
   std::vector<ReflexEdge> result;
   for (std::uint32_t h = 0; h < complex.svertices.size(); ++h) {
     if (complex.twin[h] < h) continue;
@@ -55,7 +62,7 @@ std::vector<ReflexEdge> reflex_edges(const Complex& complex) {
     const Direction d = Direction::cross(complex.planes, sv.p, sv.q);
     ReflexEdge edge;
     edge.halfedge = h;
-    edge.vertical = oriented_sign(complex, sv.p, 2) == 0 && oriented_sign(complex, sv.q, 2) == 0;
+    edge.vertical = oriented_sign(complex, sv.p, axis) == 0 && oriented_sign(complex, sv.q, axis) == 0;
     if (sv.out == kNone) {
       const std::uint32_t sface = vertex.sfaces + sv.sface;
       if (!selected(complex.sfaces[sface].mark)) continue;
@@ -76,9 +83,9 @@ std::vector<ReflexEdge> reflex_edges(const Complex& complex) {
       if (reflex && selected(map.sfaces[map.shalfedges[e].sface].mark)) {
         edge.volume = complex.sface_volume(vertex.sfaces + map.shalfedges[e].sface);
         if (edge.vertical) {
-          edge.cross_wall = {prolonging(complex, d, first), prolonging(complex, d, second)};
+          edge.cross_wall = {prolonging(complex, d, first, axis), prolonging(complex, d, second, axis)};
         } else {
-          edge.inside = inside_wedge(complex, d, first, second, 2);
+          edge.inside = inside_wedge(complex, d, first, second, axis);
         }
         result.push_back(edge);
       }

@@ -11,11 +11,13 @@
 
 namespace nef::minkowski {
 
+// Walls stand along one axis, 0 to 2: "vertical" and "upright" mean parallel to it, "up" towards larger values.
+
 /// A way to divide the angle of a vertical reflex edge: an upright wall that prolongs one of the two
 /// facets at which the volume begins and ends; that leaves a half-turn on one side and less on the other.
 struct CrossWall {
-  PlaneId plane;                 ///< invalid for the plane x = const
-  std::array<bool, 2> inside{};  ///< towards smaller, larger values of cross_axis(plane)
+  PlaneId plane;                 ///< invalid for the plane where the coordinate after the axis is constant
+  std::array<bool, 2> inside{};  ///< towards smaller, larger values of cross_axis(plane, axis)
 };
 
 /// An edge about which a selected volume takes more than a half-turn. By Tietze's theorem a volume
@@ -23,16 +25,17 @@ struct CrossWall {
 struct ReflexEdge {
   std::uint32_t halfedge = 0;
   std::uint32_t volume = 0;
-  bool vertical = false;                ///< parallel to z; others get walls along z
+  bool vertical = false;                ///< parallel to the axis; others get walls along the axis
   std::array<bool, 2> inside{};         ///< if not vertical: whether the volume goes on below, above the edge
   std::array<CrossWall, 2> cross_wall;  ///< if vertical: either one will do
 };
 
-/// The coordinate along which a wall in an upright plane is swept: x, or y if x is constant there.
-int cross_axis(const Complex& complex, PlaneId plane);
+/// The coordinate along which a wall in an upright plane is swept: the one after `axis` in the order x, y, z, x; or
+/// the next if that is constant in the plane.
+std::size_t cross_axis(const Complex& complex, PlaneId plane, std::size_t axis);
 
-/// All reflex edges of volumes with a label for which (label & 1) is set. O(n).
-std::vector<ReflexEdge> reflex_edges(const Complex& complex);
+/// All reflex edges of volumes with a label for which (label & 1) is set, with regard to walls along `axis`. O(n).
+std::vector<ReflexEdge> reflex_edges(const Complex& complex, std::size_t axis);
 
 /// Vertices that are alone inside such a volume. O(n).
 std::vector<std::uint32_t> lonely_vertices(const Complex& complex);

@@ -31,10 +31,11 @@ class Ring {
   }
 };
 
-SliceFrame sight_frame(const Rational3& from, const Rational3& to) {
+SliceFrame sight_frame(const Rational3& from, const Rational3& to, std::size_t axis) {
   SliceFrame frame;
-  frame.h = 2;
-  frame.u = from[0] != to[0] ? 0 : 1;
+  frame.h = axis;
+  frame.u = (axis + 1) % 3;
+  if (from[frame.u] == to[frame.u]) frame.u = (axis + 2) % 3;
   frame.origin = from;
   const std::size_t w = frame.w();
   frame.slope = (to[w] - from[w]) / (to[frame.u] - from[frame.u]);
@@ -43,8 +44,8 @@ SliceFrame sight_frame(const Rational3& from, const Rational3& to) {
 
 }  // namespace
 
-WallBuilder::WallBuilder(const Complex& complex)
-    : complex_(complex), slicer_(complex), facets_of_volume_(complex.volume_count()) {
+WallBuilder::WallBuilder(const Complex& complex, std::size_t axis)
+    : complex_(complex), axis_(axis), slicer_(complex), facets_of_volume_(complex.volume_count()) {
   for (std::uint32_t f = 0; f < complex.facet_count(); ++f) {
     const Facet& facet = complex.facets[f];
     facets_of_volume_[facet.volume_above].push_back(f);
@@ -101,7 +102,7 @@ std::vector<WallBuilder::Run> WallBuilder::visible(const SliceSegment& base, con
 }
 
 void WallBuilder::erect_sight_wall(const Rational3& from, const Rational3& to, bool upwards, Mesh& walls) {
-  const SliceFrame frame = sight_frame(from, to);
+  const SliceFrame frame = sight_frame(from, to, axis_);
   const bool forth = from[frame.u] < to[frame.u];
   const Rational3& left = forth ? from : to;
   const Rational3& right = forth ? to : from;

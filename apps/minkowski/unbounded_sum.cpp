@@ -32,7 +32,7 @@ std::set<std::array<Rational, 4>> dividing_planes(const Complex& c) {
     for (std::size_t i = 0; i < 4; ++i) n[i] = Rational(c.planes.oriented_coefficient(PlaneId(plane.row() * 2U), i));
     return n;
   };
-  for (const ReflexEdge& edge : reflex_edges(c)) result.insert(coefficients(c.svertices[edge.halfedge].p));
+  for (const ReflexEdge& edge : reflex_edges(c, 2)) result.insert(coefficients(c.svertices[edge.halfedge].p));
   for (const std::uint32_t v : lonely_vertices(c))
     result.insert({1, 0, 0, Rational(-c.points.rational(PointId(v))[0])});
   for (std::uint32_t f = 0; f < c.facet_count(); ++f) {

@@ -2,6 +2,8 @@
 //
 // The walls of the vertical decomposition (thesis 10.2.2, after de Berg, Guibas and Halperin).
 //
+// Walls stand along one axis (see reflex.h); say, z.
+//
 // First phase: the sight wall of a reflex edge is all points that can be seen from the edge along z
 // before the boundary of the volume is met. It depends on no other wall, so there is no order of erection and
 // there are no cyclic dependencies to resolve. Afterwards every vertical line meets a volume in one piece.
@@ -24,7 +26,7 @@ namespace nef::minkowski {
 /// Erects walls in one complex, which must not change and must outlive it.
 class WallBuilder {
  public:
-  explicit WallBuilder(const Complex& complex);
+  WallBuilder(const Complex& complex, std::size_t axis);
 
   /// Appends the sight walls of a reflex edge that is not vertical, one or two faces, to a mesh.
   /// O(k^2) for k facets and edges over or under the edge.
@@ -33,7 +35,7 @@ class WallBuilder {
   /// Appends a wall of a vertical reflex edge. O(k^2) for k facets of the volume.
   void erect(const ReflexEdge& edge, const CrossWall& wall, Mesh& walls);
 
-  /// Appends both sight walls (along z) of a segment inside a volume that is not an edge.
+  /// Appends both sight walls of a segment inside a volume that is not an edge.
   void erect(const Rational3& from, const Rational3& to, Mesh& walls);
 
  private:
@@ -59,6 +61,7 @@ class WallBuilder {
   static void add_face(const SliceFrame& frame, const std::vector<FlatPoint>& ring, Mesh& walls);
 
   const Complex& complex_;
+  std::size_t axis_;
   PlaneSlicer slicer_;
   std::vector<std::vector<std::uint32_t>> facets_of_volume_;
 };

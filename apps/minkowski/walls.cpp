@@ -25,12 +25,15 @@ Polyhedron insert(const Polyhedron& a, const Polyhedron& parts, LabelId bit) {
   });
 }
 
-// A missing point inside a volume gets the widest segment along x through it; walls over and under
+// A missing point inside a volume gets the widest segment across the axis through it; walls over and under
 // that segment then put the point on their boundary.
-void erect_for_point(const Polyhedron& a, std::uint32_t vertex, WallBuilder& builder, Mesh& walls) {
+void erect_for_point(const Polyhedron& a, std::uint32_t vertex, std::size_t axis, WallBuilder& builder, Mesh& walls) {
   const Rational3 p = a.complex().points.rational(PointId(vertex));
-  const std::optional<RayHit> left = shoot_ray(a, p, {Rational(-1), Rational(0), Rational(0)});
-  const std::optional<RayHit> right = shoot_ray(a, p, {Rational(1), Rational(0), Rational(0)});
+  Rational3 way;
+  way[(axis + 1) % 3] = 1;
+  const std::optional<RayHit> right = shoot_ray(a, p, way);
+  way[(axis + 1) % 3] = -1;
+  const std::optional<RayHit> left = shoot_ray(a, p, way);
   NEF_ASSERT(left && right);  // the volume is bounded
   builder.erect(left->point, right->point, walls);
 }
@@ -69,13 +72,13 @@ void erect_cross_walls(const std::vector<ReflexEdge>& edges, WallBuilder& builde
 }
 
 // The walls of one phase; none if every selected volume is convex.
-Mesh next_walls(const Polyhedron& a) {
-  std::vector<ReflexEdge> edges = reflex_edges(a.complex());
+Mesh next_walls(const Polyhedron& a, std::size_t axis) {
+  const std::vector<ReflexEdge> edges = reflex_edges(a.complex(), axis);
   const std::vector<std::uint32_t> points = lonely_vertices(a.complex());
   Mesh walls;
   if (edges.empty() && points.empty()) return walls;
-  WallBuilder builder(a.complex());
-  for (const std::uint32_t v : points) erect_for_point(a, v, builder, walls);
+  WallBuilder builder(a.complex(), axis);
+  for (const std::uint32_t v : points) erect_for_point(a, v, axis, builder, walls);
   for (const ReflexEdge& e : edges) {
     if (!e.vertical) builder.erect(e, walls);
   }
@@ -135,16 +138,16 @@ class FacetRays {
 
 }  // namespace
 
-Polyhedron erect_walls(const Polyhedron& a) {
+Polyhedron erect_walls(const Polyhedron& a, std::size_t axis) {
   Polyhedron result = a;
   // Two phases do for what has no missing points; the walls of a phase may meet those of another
   // kind at points that were missing, hence some slack. Each round removes reflex edges for good.
   for (int round = 0; round < 8; ++round) {
-    const Mesh walls = next_walls(result);
+    const Mesh walls = next_walls(result, axis);
     if (walls.face_count() == 0) return result;
     result = insert(result, from_mesh(walls, MeshOptions{.strict = true, .as_surface = true, .check = false}), kWall);
   }
-  NEF_ASSERT(next_walls(result).face_count() == 0);
+  NEF_ASSERT(next_walls(result, axis).face_count() == 0);
   return result;
 }
 

@@ -4,6 +4,7 @@
 // are lower-dimensional Nef sets, and inserting all of them is one operation each.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -17,10 +18,10 @@ inline constexpr LabelId kWall = 2;
 inline constexpr LabelId kCut = 4;
 
 /// The bounded set with walls inserted so that each selected volume is convex. Marks are labels as
-/// above. First walls along z for every reflex edge that is not parallel to z (which leaves volumes
-/// that each vertical line meets in one piece), then upright walls for the vertical reflex edges that
+/// above. First walls along the axis (0 to 2) for every reflex edge that is not parallel to it (which leaves volumes
+/// that each line along it meets in one piece), then upright walls for the vertical reflex edges that
 /// are left or were made. A set without reflex edges is returned as it is.
-Polyhedron erect_walls(const Polyhedron& a);
+Polyhedron erect_walls(const Polyhedron& a, std::size_t axis);
 
 /// The same set with cuts in the given facets, so that they become convex.
 Polyhedron cut_facets(const Polyhedron& a, std::span<const std::uint32_t> facets);

@@ -3,12 +3,13 @@
 // OMPL.app's problem files. Not read: [benchmark] and [planner], which concern OMPL's own programs.
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <map>
+#include <sstream>
 
 #include "apps/planner/scene.h"
 #include "apps/planner/shapes.h"
 #include "nef/base/error.h"
+#include "nef/io/file_bytes.h"
 
 namespace nef::planner {
 namespace {
@@ -23,8 +24,9 @@ std::string trimmed(const std::string& text) {
 class ProblemKeys {
  public:
   explicit ProblemKeys(const std::string& path) : path_(path) {
-    std::ifstream in(path);
-    if (!in) throw InputError(path + ": cannot be read");
+    std::string text = read_file(path);
+    if (text.rfind("\xEF\xBB\xBF", 0) == 0) text.erase(0, 3);  // a byte order mark
+    std::istringstream in(text);
     std::string line;
     std::string section;
     for (std::size_t number = 1; std::getline(in, line); ++number) {
@@ -45,14 +47,20 @@ class ProblemKeys {
   }
 
   [[nodiscard]] bool has(const std::string& key) const { return values_.count(key) > 0; }
+  /// True if a key begins like this.
+  [[nodiscard]] bool has_any(const std::string& prefix) const {
+    const auto next = values_.lower_bound(prefix);
+    return next != values_.end() && next->first.compare(0, prefix.size(), prefix) == 0;
+  }
   [[nodiscard]] std::string text(const std::string& key) const {
     const auto found = values_.find(key);
     if (found == values_.end()) throw InputError(path_ + ": [problem] has no key '" + key + "'");
     return found->second;
   }
   [[nodiscard]] Rational number(const std::string& key) const {
+    const std::string spelled = text(key);
     try {
-      return parse_rational(text(key));
+      return parse_rational(spelled);
     } catch (const InputError& error) {
       throw InputError(path_ + ": " + key + ": " + error.what());
     }
@@ -67,25 +75,45 @@ class ProblemKeys {
   std::map<std::string, std::string> values_;
 };
 
-// The rotation both states share, as a map; the identity for angle zero.
-AffineMap common_rotation(const ProblemKeys& keys, const std::string& path, Messages& messages) {
-  std::array<Rational, 4> start;
-  std::array<Rational, 4> goal;
-  for (std::size_t i = 0; i < 4; ++i) {
-    static constexpr std::array<const char*, 4> kNames{".theta", ".axis.x", ".axis.y", ".axis.z"};
-    start[i] = keys.number_or_zero(std::string("start") + kNames[i]);
-    goal[i] = keys.number_or_zero(std::string("goal") + kNames[i]);
+/// A rotation as .cfg files give it: an angle about an axis of any length.
+struct Rotation {
+  Rational theta;  ///< in radians
+  Rational3 axis;
+};
+
+Rotation rotation_of(const ProblemKeys& keys, const std::string& state) {
+  return {keys.number_or_zero(state + ".theta"),
+          {keys.number_or_zero(state + ".axis.x"), keys.number_or_zero(state + ".axis.y"),
+           keys.number_or_zero(state + ".axis.z")}};
+}
+
+// Angles are compared as numbers, not modulo 2 pi, which is irrational.
+bool same(const Rotation& a, const Rotation& b) {
+  if (a.theta == 0 || b.theta == 0) return a.theta == b.theta;
+  Rational along;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3;
+    if (a.axis[i] * b.axis[j] != a.axis[j] * b.axis[i]) return false;
+    along += a.axis[i] * b.axis[i];
   }
-  if (start[0] == 0 && goal[0] == 0) return AffineMap::identity();
-  if (start != goal) {
+  return a.theta == (along < 0 ? Rational(-b.theta) : b.theta);
+}
+
+// The rotation that both states share, as a map; the identity for angle zero.
+AffineMap common_rotation(const ProblemKeys& keys, const std::string& path, Messages& messages) {
+  const Rotation start = rotation_of(keys, "start");
+  const Rotation goal = rotation_of(keys, "goal");
+  if (!same(start, goal)) {
     throw InputError(path +
                      ": start and goal are turned differently, and this planner only translates: "
                      "give both the same theta and axis");
   }
-  if (start[1] == 0 && start[2] == 0 && start[3] == 0) throw InputError(path + ": start.axis is the zero vector");
+  if (start.theta == 0) return AffineMap::identity();
+  for (const auto& [state, axis] : {std::pair("start", start.axis), std::pair("goal", goal.axis)}) {
+    if (axis == Rational3{}) throw InputError(path + ": " + state + ".axis is the zero vector or missing");
+  }
   messages.push_back(path + ": the robot is turned once by a rational rotation within 1e-9 degrees of theta");
-  const double degrees = nearest_double(start[0]) * 180 / M_PI;
-  return AffineMap::rotate({start[1], start[2], start[3]}, degrees);
+  return AffineMap::rotate(start.axis, nearest_double(start.theta) * 180 / M_PI);
 }
 
 std::string beside(const std::string& path, const std::string& file) {
@@ -114,7 +142,7 @@ Scene read_cfg(const std::string& path) {
   scene.obstacle_names.push_back(keys.text("world"));
   scene.start = keys.point("start");
   scene.goal = keys.point("goal");
-  if (keys.has("volume.min.x")) {
+  if (keys.has_any("volume.")) {
     scene.box = {keys.point("volume.min"), keys.point("volume.max")};
     for (std::size_t i = 0; i < 3; ++i) {
       if ((*scene.box)[0][i] > (*scene.box)[1][i]) throw InputError(path + ": volume.min is above volume.max");

@@ -7,11 +7,6 @@
 namespace nef::planner {
 namespace {
 
-using Vector = std::array<double, 3>;
-
-Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
 double squared_to_segment(const Vector& p, const Vector& a, const Vector& b) {
   const Vector ab = minus(b, a);
   const Vector ap = minus(p, a);
@@ -24,14 +19,12 @@ double squared_to_segment(const Vector& p, const Vector& a, const Vector& b) {
 double squared_to_triangle(const Vector& p, const std::array<Vector, 3>& t) {
   const Vector u = minus(t[1], t[0]);
   const Vector v = minus(t[2], t[0]);
-  const Vector n{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+  const Vector n = cross(u, v);
   const double size = dot(n, n);
   const Vector w = minus(p, t[0]);
   if (size > 0) {
-    const Vector wv{w[1] * v[2] - w[2] * v[1], w[2] * v[0] - w[0] * v[2], w[0] * v[1] - w[1] * v[0]};
-    const Vector uw{u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2], u[0] * w[1] - u[1] * w[0]};
-    const double a = dot(wv, n) / size;
-    const double b = dot(uw, n) / size;
+    const double a = dot(cross(w, v), n) / size;
+    const double b = dot(cross(u, w), n) / size;
     if (a >= 0 && b >= 0 && a + b <= 1) {
       const double height = dot(w, n);
       return height * height / size;
@@ -65,6 +58,14 @@ ClearanceField::ClearanceField(const FreeSpace& free) {
     const std::vector<Vector> corners = walls.approximate_corners(wall);
     for (std::size_t i = 2; i < corners.size(); ++i) triangles_.push_back({corners[0], corners[i - 1], corners[i]});
   }
+  // Forbidden edges and points may lie in no facet.
+  const CellNumbering& cells = free.cells();
+  for (CellId cell = 0; cell < cells.facet(0); ++cell) {
+    if (free.is_free(cell)) continue;
+    const std::vector<Rational3> ends = free.vertices(cell);
+    const Vector a = to_double(ends.front());
+    triangles_.push_back({a, a, to_double(ends.back())});
+  }
   std::vector<Box> boxes(triangles_.size());
   for (std::size_t i = 0; i < triangles_.size(); ++i) {
     for (const Vector& corner : triangles_[i]) boxes[i].add_rounded(corner);
@@ -72,7 +73,7 @@ ClearanceField::ClearanceField(const FreeSpace& free) {
   boxes_ = BoxTree(boxes);
 }
 
-double ClearanceField::distance(const std::array<double, 3>& point) const {
+double ClearanceField::distance(const Vector& point) const {
   double best = HUGE_VAL;
   boxes_.for_each_if([&](const Box& box) { return squared_to_box(point, box) < best; },
                      [&](std::uint32_t i) { best = std::min(best, squared_to_triangle(point, triangles_[i])); });

@@ -3,10 +3,10 @@
 // Distance to what is not free, in doubles.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "apps/planner/free_space.h"
+#include "apps/planner/vectors.h"
 #include "nef/geometry/box_tree.h"
 
 namespace nef::planner {
@@ -19,10 +19,9 @@ class ClearanceField {
 
   /// Distance from a point to the nearest boundary facet, infinite if there is none. Doubles: an
   /// estimate with an error of a few ulps of the coordinates. O(log n) expected.
-  [[nodiscard]] double distance(const std::array<double, 3>& point) const;
+  [[nodiscard]] double distance(const Vector& point) const;
 
  private:
-  using Vector = std::array<double, 3>;
   std::vector<std::array<Vector, 3>> triangles_;
   BoxTree boxes_;
 };

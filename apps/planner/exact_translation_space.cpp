@@ -2,6 +2,7 @@
 #include "apps/planner/exact_translation_space.h"
 
 #include <algorithm>
+#include <ostream>
 
 #include "apps/planner/cell_sampler.h"
 
@@ -119,6 +120,17 @@ void ExactTranslationSpace::interpolate(const ob::State* from, const ob::State* 
   const Rational3 y = b->exact();
   const Rational s = exact_rational(t);
   result->setExact({x[0] + s * (y[0] - x[0]), x[1] + s * (y[1] - x[1]), x[2] + s * (y[2] - x[2])});
+}
+
+void ExactTranslationSpace::printState(const ob::State* state, std::ostream& out) const {
+  const auto* exact = static_cast<const StateType*>(state);
+  if (exact == nullptr || !exact->hasExact()) {
+    ob::RealVectorStateSpace::printState(state, out);
+    return;
+  }
+  const Rational3& position = *exact->exact_;
+  out << "ExactTranslationState [" << to_string(position[0]) << ' ' << to_string(position[1]) << ' '
+      << to_string(position[2]) << "]\n";
 }
 
 unsigned int ExactTranslationSpace::getSerializationLength() const {

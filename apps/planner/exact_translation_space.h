@@ -66,6 +66,8 @@ class ExactTranslationSpace : public ompl::base::RealVectorStateSpace {
   unsigned int getSerializationLength() const override;
   void serialize(void* serialization, const ompl::base::State* state) const override;
   void deserialize(ompl::base::State* state, const void* serialization) const override;
+  /** \brief The rationals if they count, else the doubles. */
+  void printState(const ompl::base::State* state, std::ostream& out) const override;
   /** \brief A CellSampler if there is a free space. Informed samplers ask for this one directly. */
   ompl::base::StateSamplerPtr allocDefaultStateSampler() const override;
 

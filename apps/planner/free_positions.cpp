@@ -89,47 +89,37 @@ Polyhedron free_positions(const Scene& scene, const BuildOptions& build) {
 }
 
 std::optional<Collision> find_collision(const Scene& scene, const Rational3& position) {
+  Collision collision;
   if (!in_box(scene, position)) {
-    Collision collision;
     collision.outside_box = true;
     collision.point = position;
     return collision;
   }
   const Polyhedron robot = transform(scene.robot, AffineMap::translate(position));
   const bool allow = scene.contact == ContactRule::kAllow;
-  const Polyhedron inside = interior(robot);
-  // A robot without interior must not enter an obstacle's interior.
-  const bool flat = inside.is_empty();
+  // The points in which the robot must not meet obstacles. Its parts that are no solid must not enter their insides.
+  const Polyhedron solid = allow ? interior(robot) : robot;
+  const bool has_thin_parts = allow && !robot.is_regular();
   for (std::size_t i = 0; i < scene.obstacles.size(); ++i) {
     const Polyhedron& obstacle = scene.obstacles[i];
-    const Polyhedron overlap = !allow ? intersect(robot, obstacle)
-                               : flat ? intersect(robot, interior(obstacle))
-                                      : intersect(inside, obstacle);
+    Polyhedron overlap = intersect(solid, obstacle);
+    if (overlap.is_empty() && has_thin_parts) overlap = intersect(robot, interior(obstacle));
     if (overlap.is_empty()) continue;
-    Collision collision;
-    collision.obstacle = i;
     // The boundary of the obstacle says more than its inside.
     const Polyhedron surface = intersect(overlap, boundary(obstacle));
+    collision.obstacle = i;
     collision.point = some_point(surface.is_empty() ? overlap : surface);
     collision.cell = locate(obstacle, collision.point);
     return collision;
   }
-  // Flat robots may be caught between touching obstacles.
-  if (allow && flat) {
-    const Polyhedron all = interior(unite_all(scene.obstacles));
-    const Polyhedron overlap = intersect(robot, all);
-    if (!overlap.is_empty()) {
-      Collision collision;
-      collision.point = some_point(overlap);
-      for (std::size_t i = 0; i < scene.obstacles.size(); ++i) {
-        if (!contains(scene.obstacles[i], collision.point)) continue;
-        collision.obstacle = i;
-        collision.cell = locate(scene.obstacles[i], collision.point);
-        return collision;
-      }
-    }
-  }
-  return std::nullopt;
+  if (!has_thin_parts) return std::nullopt;
+  // Thin parts may also be caught in the seam between touching obstacles.
+  const Polyhedron overlap = intersect(robot, interior(unite_all(scene.obstacles)));
+  if (overlap.is_empty()) return std::nullopt;
+  collision.point = some_point(overlap);
+  while (!contains(scene.obstacles[collision.obstacle], collision.point)) ++collision.obstacle;
+  collision.cell = locate(scene.obstacles[collision.obstacle], collision.point);
+  return collision;
 }
 
 std::string describe(const Collision& collision, const Scene& scene) {

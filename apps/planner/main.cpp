@@ -6,11 +6,13 @@
 #include <iostream>
 
 #include "apps/planner/ompl_runs.h"
+#include "apps/planner/path_file.h"
 #include "apps/planner/question.h"
 #include "apps/planner/scene_view.h"
 #include "nef/base/error.h"
 #include "nef/command/expression.h"
 #include "nef/command/progress_bar.h"
+#include "nef/io/file_bytes.h"
 
 namespace {
 
@@ -192,9 +194,11 @@ int run_stock_planner(const Arguments& a, const Problem& problem) {
 int answer_question(const Arguments& a, const Problem& problem) {
   const Scene& scene = problem.scene();
   const bool list_only = a.tight && a.outputs.empty();
+  // There is something to show without a question, too.
+  const bool needs_no_question = a.tight || !a.page.empty();
   Answer answer;
   answer.phases = problem.phases();
-  if ((scene.start && scene.goal) || !(list_only || !a.page.empty())) {
+  if ((scene.start && scene.goal) || !needs_no_question) {
     PathOptions options = a.path;
     options.roomy = a.prefer == "roomy";
     answer = problem.solve(options);

@@ -13,6 +13,15 @@ namespace nef::planner {
 namespace ob = ompl::base;
 using StateType = ExactTranslationSpace::StateType;
 
+namespace {
+
+bool is_finite(const ob::State* state) {
+  const double* values = static_cast<const StateType*>(state)->values;
+  return std::isfinite(values[0]) && std::isfinite(values[1]) && std::isfinite(values[2]);
+}
+
+}  // namespace
+
 NefStateValidityChecker::NefStateValidityChecker(const ob::SpaceInformationPtr& si,
                                                  std::shared_ptr<const FreeSpace> freeSpace)
     : ob::StateValidityChecker(si), freeSpace_(std::move(freeSpace)) {
@@ -20,14 +29,11 @@ NefStateValidityChecker::NefStateValidityChecker(const ob::SpaceInformationPtr& 
 }
 
 bool NefStateValidityChecker::isValid(const ob::State* state) const {
-  const auto* exact = static_cast<const StateType*>(state);
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (!std::isfinite(exact->values[i])) return false;
-  }
-  return freeSpace_->is_free(exact->point());
+  return is_finite(state) && freeSpace_->is_free(static_cast<const StateType*>(state)->point());
 }
 
 double NefStateValidityChecker::clearance(const ob::State* state) const {
+  if (!is_finite(state)) return -HUGE_VAL;
   std::call_once(fieldBuilt_, [this] { field_ = std::make_unique<ClearanceField>(*freeSpace_); });
   const auto* exact = static_cast<const StateType*>(state);
   const ExactPoint point = exact->point();
@@ -43,6 +49,10 @@ NefMotionValidator::NefMotionValidator(const ob::SpaceInformationPtr& si, std::s
     : ob::MotionValidator(si), freeSpace_(std::move(freeSpace)) {}
 
 bool NefMotionValidator::checkMotion(const ob::State* s1, const ob::State* s2) const {
+  if (!is_finite(s1) || !is_finite(s2)) {
+    ++invalid_;
+    return false;
+  }
   const ExactPoint a = static_cast<const StateType*>(s1)->point();
   const ExactPoint b = static_cast<const StateType*>(s2)->point();
   bool valid = true;
@@ -59,11 +69,13 @@ bool NefMotionValidator::checkMotion(const ob::State* s1, const ob::State* s2) c
 bool NefMotionValidator::checkMotion(const ob::State* s1, const ob::State* s2,
                                      std::pair<ob::State*, double>& lastValid) const {
   if (checkMotion(s1, s2)) return true;
-  const auto* from = static_cast<const StateType*>(s1);
-  const auto* to = static_cast<const StateType*>(s2);
-  const ExactPoint a = from->point();
-  const ExactPoint b = to->point();
   lastValid.second = 0;
+  if (!is_finite(s1) || !is_finite(s2)) {
+    if (lastValid.first != nullptr) si_->copyState(lastValid.first, s1);
+    return false;
+  }
+  const ExactPoint a = static_cast<const StateType*>(s1)->point();
+  const ExactPoint b = static_cast<const StateType*>(s2)->point();
   std::optional<Contact> contact;
   if (!si_->equalStates(s1, s2)) contact = first_contact(*freeSpace_, a, b);
   if (contact) lastValid.second = nearest_double(contact->last_free);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/planner/number_json.h"
 
+#include <algorithm>
+
 #include "nef/base/error.h"
 
 namespace nef::planner {
@@ -8,29 +10,47 @@ namespace {
 
 using nlohmann::json;
 
+// The key under which the text of a number is kept.
+constexpr const char* kNumber = "$number";
+
+// nlohmann's id for a number that no double holds.
+constexpr int kNumberOverflow = 406;
+
+// The end of a text, which is where an error was noticed.
+std::string tail(const std::string& text) {
+  constexpr std::size_t kLength = 40;
+  return text.size() <= kLength ? text : "..." + text.substr(text.size() - kLength);
+}
+
 // Builds a value from parser events; floats keep their spelling.
 class KeepText : public nlohmann::json_sax<json> {
  public:
-  explicit KeepText(std::string name) : name_(std::move(name)) {}
+  KeepText(const std::string& text, std::string name) : text_(text), name_(std::move(name)) {}
 
   bool null() override { return put(nullptr); }
   bool boolean(bool value) override { return put(value); }
   bool number_integer(number_integer_t value) override { return put(value); }
   bool number_unsigned(number_unsigned_t value) override { return put(value); }
-  bool number_float(number_float_t /*value*/, const string_t& text) override { return put({{"$number", text}}); }
+  bool number_float(number_float_t /*value*/, const string_t& text) override { return put({{kNumber, text}}); }
   bool string(string_t& value) override { return put(value); }
   bool binary(binary_t& /*value*/) override { return false; }
   bool start_object(std::size_t /*size*/) override { return open(json::object()); }
   bool key(string_t& value) override {
     key_ = value;
+    if (value == kNumber) throw InputError(name_ + ": unknown key '" + value + "'");
     if (levels_.back().value.contains(value)) throw InputError(name_ + ": '" + value + "' is given twice");
     return true;
   }
   bool end_object() override { return close(); }
   bool start_array(std::size_t /*size*/) override { return open(json::array()); }
   bool end_array() override { return close(); }
-  bool parse_error(std::size_t position, const std::string& token, const nlohmann::detail::exception& /*e*/) override {
-    throw InputError(name_ + ":" + std::to_string(position) + ": not valid JSON near '" + token + "'");
+  bool parse_error(std::size_t position, const std::string& token, const nlohmann::detail::exception& e) override {
+    const auto end = text_.begin() + static_cast<std::ptrdiff_t>(std::min(position, text_.size()));
+    const std::string line = name_ + ":" + std::to_string(1 + std::count(text_.begin(), end, '\n')) + ": ";
+    if (e.id == kNumberOverflow) {
+      throw InputError(line + "the number " + tail(token) + " is too large for JSON: write it as a string");
+    }
+    throw InputError(line + "not valid JSON near '" + tail(token) + "'");
   }
 
   json result;
@@ -61,6 +81,7 @@ class KeepText : public nlohmann::json_sax<json> {
     return put(std::move(level.value));
   }
 
+  const std::string& text_;
   std::string name_;
   std::string key_;
   std::vector<Level> levels_;
@@ -69,9 +90,17 @@ class KeepText : public nlohmann::json_sax<json> {
 }  // namespace
 
 json parse_exact_json(const std::string& text, const std::string& name) {
-  KeepText handler(name);
+  KeepText handler(text, name);
   json::sax_parse(text, &handler);
   return std::move(handler.result);
+}
+
+std::string spelled(const json& value) {
+  if (value.is_object() && value.contains(kNumber)) return value[kNumber].get<std::string>();
+  if (!value.is_array()) return value.dump();
+  std::string list;
+  for (const json& item : value) list += (list.empty() ? "" : ", ") + spelled(item);
+  return "[" + list + "]";
 }
 
 Rational rational_of(const json& value, const std::string& what) {
@@ -80,10 +109,10 @@ Rational rational_of(const json& value, const std::string& what) {
     text = value.dump();
   } else if (value.is_string()) {
     text = value.get<std::string>();
-  } else if (value.is_object() && value.contains("$number")) {
-    text = value["$number"].get<std::string>();
+  } else if (value.is_object() && value.contains(kNumber)) {
+    text = value[kNumber].get<std::string>();
   } else {
-    throw InputError(what + ": expected a number or a string such as \"1/3\", not " + value.dump());
+    throw InputError(what + ": expected a number or a string such as \"1/3\", not " + spelled(value));
   }
   try {
     return parse_rational(text);

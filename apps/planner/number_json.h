@@ -11,8 +11,11 @@
 namespace nef::planner {
 
 /// Parses JSON; a number with a fraction or exponent becomes an object {"$number": "text"}, so that
-/// 0.1 can be read as one tenth. Throws InputError "name:byte: what" for malformed text.
+/// 0.1 can be read as one tenth. Throws InputError "name:line: what" for malformed text.
 nlohmann::json parse_exact_json(const std::string& text, const std::string& name);
+
+/// A parsed value as people wrote it, for messages: numbers keep their text.
+std::string spelled(const nlohmann::json& value);
 
 /// The rational of an integer, a number from parse_exact_json or a string. Throws InputError naming
 /// `what`.

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "apps/planner/translation_planning.h"
+#include "nef/io/file_bytes.h"
 
 namespace nef::planner {
 namespace {
@@ -57,7 +58,7 @@ OmplOutcome run_ompl(const Problem& problem, const OmplRequest& request) {
   double seconds = 0;
   bool proved = false;
   for (unsigned run = 0; run < request.runs && !invalid; ++run) {
-    setup.clear();
+    if (run > 0) setup.clear();  // not before the first: AITstar cannot be cleared before it is set up
     const auto begin = std::chrono::steady_clock::now();
     setup.solve(request.seconds);
     seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

@@ -33,8 +33,8 @@ Problem::Problem(Scene scene, const BuildOptions& options) : scene_(std::move(sc
 }
 
 Answer Problem::solve(const PathOptions& options) const {
-  if (!scene_.start) throw InputError(scene_.name + ": the scene has no start");
-  if (!scene_.goal) throw InputError(scene_.name + ": the scene has no goal");
+  if (!scene_.start) throw InputError(scene_.name + ": the scene has no start: give it one, or use --start x,y,z");
+  if (!scene_.goal) throw InputError(scene_.name + ": the scene has no goal: give it one, or use --goal x,y,z");
   return solve(*scene_.start, *scene_.goal, options);
 }
 
@@ -48,6 +48,7 @@ Answer Problem::solve(const Rational3& start, const Rational3& goal, const PathO
     const bool at_start = !free_->is_free(start_cell);
     answer.status = at_start ? Answer::Status::kInvalidStart : Answer::Status::kInvalidGoal;
     answer.collision = find_collision(scene_, at_start ? start : goal);
+    NEF_ASSERT(answer.collision.has_value());
     answer.phases["query"] = watch.lap();
     return answer;
   }

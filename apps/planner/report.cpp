@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/planner/report.h"
 
-#include <cstdio>
-#include <filesystem>
-#include <fstream>
-#include <iomanip>
 #include <sstream>
 
 #include "apps/planner/number_json.h"
@@ -117,6 +113,13 @@ json to_json(const Answer& answer, const Scene& scene, const FreeSpace& free) {
 
 std::string passages_text(const FreeSpace& free) {
   std::ostringstream out;
+  const auto list = [&](const char* before, CellId cell) {
+    out << before << free.name(cell) << ':';
+    for (const Rational3& v : free.vertices(cell)) {
+      out << " (" << to_string(v[0]) << ", " << to_string(v[1]) << ", " << to_string(v[2]) << ')';
+    }
+    out << '\n';
+  };
   if (free.passages().empty()) out << "no tight passage\n";
   for (std::size_t i = 0; i < free.passages().size(); ++i) {
     const TightPassage& passage = free.passages()[i];
@@ -126,89 +129,10 @@ std::string passages_text(const FreeSpace& free) {
       for (const CellId room : passage.rooms) out << ' ' << free.name(room);
     }
     out << '\n';
-    for (const CellId cell : passage.cells) {
-      out << "  " << free.name(cell) << ':';
-      for (const Rational3& v : free.vertices(cell)) {
-        out << " (" << to_string(v[0]) << ", " << to_string(v[1]) << ", " << to_string(v[2]) << ')';
-      }
-      out << '\n';
-    }
+    for (const CellId cell : passage.cells) list("  ", cell);
+    for (const CellId cell : passage.mouths) list("  mouth ", cell);
   }
   return out.str();
-}
-
-std::string path_text(const ExactPath& path) {
-  std::ostringstream out;
-  out << std::setprecision(17);
-  for (const Rational3& p : path.points) {
-    out << nearest_double(p[0]) << ' ' << nearest_double(p[1]) << ' ' << nearest_double(p[2]) << '\n';
-  }
-  return out.str();
-}
-
-std::string path_matrix(const ExactPath& path, bool se3) {
-  std::ostringstream out;
-  out << std::setprecision(17);
-  for (const Rational3& p : path.points) {
-    for (const Rational& x : p) out << nearest_double(x) << ' ';
-    out << (se3 ? "0 0 0 1 \n" : "\n");
-  }
-  out << '\n';
-  return out.str();
-}
-
-std::vector<Rational3> read_waypoints(const std::string& file) {
-  std::ifstream in(file);
-  if (!in || std::filesystem::is_directory(file)) throw InputError(file + ": cannot be read");
-  std::ostringstream all;
-  all << in.rdbuf();
-  const std::string text = all.str();
-  std::vector<Rational3> points;
-  const std::size_t first = text.find_first_not_of(" \t\r\n");
-  if (first != std::string::npos && text[first] == '{') {
-    const json root = parse_exact_json(text, file);
-    if (!root.contains("path") || !root["path"].is_array()) throw InputError(file + ": holds no 'path'");
-    for (const json& point : root["path"]) points.push_back(point_of(point, file + ": path"));
-  } else {
-    std::istringstream lines(text);
-    std::string line;
-    for (std::size_t number = 1; std::getline(lines, line); ++number) {
-      std::istringstream words(line);
-      std::array<std::string, 3> word;
-      if (!(words >> word[0])) continue;
-      words >> word[1] >> word[2];
-      Rational3 point;
-      for (std::size_t i = 0; i < 3; ++i) {
-        try {
-          point[i] = parse_rational(word[i]);
-        } catch (const InputError& error) {
-          throw InputError(file + ":" + std::to_string(number) + ": " + error.what());
-        }
-      }
-      points.push_back(point);
-    }
-  }
-  if (points.empty()) throw InputError(file + ": holds no way-points");
-  return points;
-}
-
-void write_file(const std::string& file, const std::string& text) {
-  const std::string temporary = file + ".tmp" + std::to_string(std::hash<std::string>{}(text) % 1000000);
-  {
-    std::ofstream out(temporary, std::ios::binary);
-    out << text;
-    out.close();
-    if (!out) {
-      std::remove(temporary.c_str());
-      throw InputError(file + ": cannot be written");
-    }
-  }
-  std::error_code error;
-  std::filesystem::rename(temporary, file, error);
-  if (error) {
-    std::remove(temporary.c_str());
-    throw InputError(file + ": cannot be written (" + error.message() + ")");
-  }
 }
 
 }  // namespace nef::planner

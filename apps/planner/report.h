@@ -38,16 +38,4 @@ nlohmann::json passages_json(const FreeSpace& free);
 /// The same for people.
 std::string passages_text(const FreeSpace& free);
 
-/// One way-point a line, three doubles with 17 digits.
-std::string path_text(const ExactPath& path);
-/// What PathGeometric::printAsMatrix prints, with 17 digits: a row per way-point, a blank at the end
-/// of each and a blank line after the last. With `se3`, seven columns x y z qx qy qz qw as OMPL.app reads.
-std::string path_matrix(const ExactPath& path, bool se3);
-
-/// Way-points from a file: the "path" of a JSON report (exact), or lines of three or more numbers.
-std::vector<Rational3> read_waypoints(const std::string& file);
-
-/// Writes a file by way of a temporary beside it. Throws InputError if that fails.
-void write_file(const std::string& file, const std::string& text);
-
 }  // namespace nef::planner

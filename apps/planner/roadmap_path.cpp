@@ -6,23 +6,27 @@
 #include <queue>
 
 #include "apps/planner/path.h"
+#include "apps/planner/vectors.h"
 #include "nef/base/error.h"
 
 namespace nef::planner {
 namespace {
 
-double span(const std::array<double, 3>& a, const std::array<double, 3>& b) {
-  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-}
-
 class Search {
  public:
   Search(const FreeSpace& free, const CellFilter& filter, const Rational3& start, const Rational3& goal, bool clearance)
-      : free_(free), zones_(free.zones()), filter_(filter), start_(start), goal_(goal), clearance_(clearance) {}
+      : free_(free),
+        zones_(free.zones()),
+        filter_(filter),
+        start_(start),
+        goal_(goal),
+        near_start_(free.tree().nearest_inside(start)),
+        near_goal_(free.tree().nearest_inside(goal)),
+        clearance_(clearance) {}
 
   std::optional<std::vector<Rational3>> run() {
-    const ExactPoint start(start_);
-    const ExactPoint goal(goal_);
+    const ExactPoint start(near_start_);
+    const ExactPoint goal(near_goal_);
     start_zone_ = zones_.zone_at(start);
     goal_zone_ = zones_.zone_at(goal);
     goal_approximate_ = goal.approximate();
@@ -52,7 +56,7 @@ class Search {
   static constexpr StationId kStart = 0xffffffffU;
   using Entry = std::pair<double, StationId>;
 
-  void enter_zone(ZoneId zone, StationId from, const std::array<double, 3>& place, double cost) {
+  void enter_zone(ZoneId zone, StationId from, const Vector& place, double cost) {
     for (const StationId next : zones_.stations_of(zone)) {
       const Zones::Station& station = zones_.stations()[next];
       if (!filter_(station.cell)) continue;
@@ -81,8 +85,10 @@ class Search {
   // straight segment may run along the boundary; a point inside the zone mends that.
   std::vector<Rational3> extract(const std::vector<StationId>& chain) {
     std::vector<Rational3> points{start_};
+    if (near_start_ != start_) points.push_back(near_start_);
     for (const StationId station : chain) append(points, zones_.point(station), by_zone_[station]);
-    append(points, goal_, goal_zone_);
+    append(points, near_goal_, goal_zone_);
+    if (near_goal_ != goal_) points.push_back(goal_);
     return points;
   }
 
@@ -105,10 +111,12 @@ class Search {
   const CellFilter& filter_;
   const Rational3& start_;
   const Rational3& goal_;
+  Rational3 near_start_;  // start and goal, or where one comes from them to where there are stations
+  Rational3 near_goal_;
   bool clearance_;
   ZoneId start_zone_ = 0;
   ZoneId goal_zone_ = 0;
-  std::array<double, 3> goal_approximate_{};
+  Vector goal_approximate_{};
   std::vector<double> cost_;
   std::vector<StationId> came_from_;
   std::vector<ZoneId> by_zone_;

@@ -2,25 +2,16 @@
 #include "apps/planner/scene.h"
 
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "apps/planner/number_json.h"
 #include "apps/planner/shapes.h"
 #include "nef/base/error.h"
+#include "nef/io/file_bytes.h"
 
 namespace nef::planner {
 namespace {
 
 using nlohmann::json;
-
-std::string read_text(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in || std::filesystem::is_directory(path)) throw InputError(path + ": cannot be read");
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
 
 // Shapes of one scene; errors say which key they come from.
 class ShapeReader {
@@ -35,7 +26,7 @@ class ShapeReader {
         throw InputError(what + ": " + error.what());
       }
     }
-    throw InputError(what + ": expected a file name or an expression in quotes, not " + value.dump());
+    throw InputError(what + ": expected a file name or an expression in quotes, not " + spelled(value));
   }
 
  private:
@@ -99,7 +90,7 @@ Scene parse_scene(const std::string& text, const std::string& folder, const std:
   if (root.contains("contact")) {
     const json& contact = root["contact"];
     if (contact != "allow" && contact != "forbid") {
-      throw InputError(name + R"(: 'contact' must be "allow" or "forbid", not )" + contact.dump());
+      throw InputError(name + R"(: 'contact' must be "allow" or "forbid", not )" + spelled(contact));
     }
     scene.contact = contact == "allow" ? ContactRule::kAllow : ContactRule::kForbid;
   }
@@ -107,9 +98,8 @@ Scene parse_scene(const std::string& text, const std::string& folder, const std:
 }
 
 Scene read_scene(const std::string& path) {
-  const std::filesystem::path file(path);
-  if (file.extension() == ".cfg") return read_cfg(path);
-  return parse_scene(read_text(path), file.parent_path().string(), path);
+  if (lower_extension(path) == "cfg") return read_cfg(path);
+  return parse_scene(read_file(path), std::filesystem::path(path).parent_path().string(), path);
 }
 
 }  // namespace nef::planner

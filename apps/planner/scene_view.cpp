@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "apps/planner/vectors.h"
 #include "nef/base/error.h"
 #include "nef/view/glb.h"
 #include "nef/view/page.h"
@@ -16,8 +17,6 @@ constexpr view::Color kFree{120, 190, 230};
 constexpr view::Color kTight{200, 30, 110};
 constexpr view::Color kPath{20, 90, 200};
 constexpr const char* kTightName = "tight passages";
-
-view::Point to_double(const Rational3& p) { return {nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2])}; }
 
 // A set with its place in the page; scenes come last, when the box that cuts all of them is known.
 struct Part {

@@ -2,27 +2,20 @@
 #include "apps/planner/shapes.h"
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 
 #include "nef/base/error.h"
 #include "nef/command/expression.h"
+#include "nef/io/file_bytes.h"
 #include "nef/io/mesh_reader.h"
 #include "nef/io/polyhedron_file.h"
 
 namespace nef::planner {
 namespace {
 
-std::string extension_of(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  if (!extension.empty()) extension.erase(0, 1);
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
-
 // As a solid if it bounds one, else as a surface.
 Polyhedron from_any_mesh(const Mesh& mesh, const std::string& path, Messages* messages) {
+  if (mesh.face_count() == 0) throw InputError(path + ": the mesh has no faces");
   MeshOptions options;
   try {
     return from_mesh(mesh, options, messages);
@@ -35,35 +28,46 @@ Polyhedron from_any_mesh(const Mesh& mesh, const std::string& path, Messages* me
   return from_mesh(mesh, options, messages);
 }
 
-Rational3 mean_of(const Mesh& mesh) {
+Rational3 mean_of(const std::vector<Rational3>& vertices) {
   Rational3 sum;
-  for (const Rational3& vertex : mesh.vertices) {
+  for (const Rational3& vertex : vertices) {
     for (std::size_t i = 0; i < 3; ++i) sum[i] += vertex[i];
   }
-  for (Rational& value : sum)
-    value /= Rational(static_cast<unsigned long>(std::max<std::size_t>(mesh.vertices.size(), 1)));
+  for (Rational& value : sum) value /= Rational(static_cast<unsigned long>(std::max<std::size_t>(vertices.size(), 1)));
   return sum;
+}
+
+std::vector<Rational3> vertices_of(const Polyhedron& set) {
+  std::vector<Rational3> result;
+  const Complex& complex = set.complex();
+  for (std::uint32_t v = 0; v < complex.vertex_count(); ++v) result.push_back(complex.points.rational(PointId{v}));
+  return result;
 }
 
 }  // namespace
 
 Polyhedron read_shape_file(const std::string& path, Messages* messages, Rational3* mean) {
+  if (std::filesystem::is_directory(path)) throw InputError(path + ": is a folder, not a file");
   if (!std::filesystem::is_regular_file(path)) throw InputError(path + ": no such file");
-  const std::string extension = extension_of(path);
-  if (extension == "nef" || extension == "nef3") return read_polyhedron(path, {}, messages);
+  const std::string extension = lower_extension(path);
+  if (extension == "nef" || extension == "nef3") {
+    Polyhedron set = read_polyhedron(path, {}, messages);
+    if (mean != nullptr) *mean = mean_of(vertices_of(set));
+    return set;
+  }
   if (!is_mesh_extension(extension)) {
     const Mesh mesh = read_with_assimp(path, mean);
     return from_any_mesh(mesh, path, messages);
   }
   const Mesh mesh = read_mesh(path);
-  if (mean != nullptr) *mean = mean_of(mesh);
+  if (mean != nullptr) *mean = mean_of(mesh.vertices);
   return from_any_mesh(mesh, path, messages);
 }
 
 Polyhedron shape_of_text(const std::string& text, const std::string& folder, Messages* messages) {
   const std::filesystem::path path = std::filesystem::path(folder) / text;
   std::error_code ignored;
-  if (text.find('\n') == std::string::npos && std::filesystem::is_regular_file(path, ignored)) {
+  if (!text.empty() && std::filesystem::exists(path, ignored)) {
     return read_shape_file(path.string(), messages);
   }
   ExpressionOptions options;
@@ -74,8 +78,10 @@ Polyhedron shape_of_text(const std::string& text, const std::string& folder, Mes
     return evaluate_expression(text, options);
   } catch (const ExpressionError& error) {
     // What looks like a file name is more likely a missing file than a wrong expression.
-    const bool file_like = text.find('(') == std::string::npos && path.has_extension();
-    if (file_like) throw InputError(path.string() + ": no such file");
+    if (text.find('(') == std::string::npos) {
+      if (path.has_extension()) throw InputError(path.string() + ": no such file");
+      throw InputError("'" + text + "' is neither a file nor an expression (" + error.what() + ")");
+    }
     throw InputError("expression '" + text + "': " + error.what());
   }
 }

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <assimp/Importer.hpp>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -18,7 +19,7 @@ namespace {
 
 class Collector {
  public:
-  explicit Collector(const aiScene& scene) : scene_(scene) {}
+  Collector(const aiScene& scene, const std::string& path) : scene_(scene), path_(path) {}
 
   void walk(const aiNode& node, const aiMatrix4x4& above) {
     const aiMatrix4x4 here = above * node.mTransformation;
@@ -39,6 +40,7 @@ class Collector {
     for (unsigned v = 0; v < source.mNumVertices; ++v) {
       const aiVector3D moved = matrix * source.mVertices[v];
       const std::array<double, 3> key{moved.x, moved.y, moved.z};
+      if (!std::isfinite(key[0] + key[1] + key[2])) throw InputError(path_ + ": a coordinate is not a finite number");
       const auto [place, is_new] = vertices_.emplace(key, static_cast<std::uint32_t>(mesh_.vertices.size()));
       const Rational3 exact{exact_rational(key[0]), exact_rational(key[1]), exact_rational(key[2])};
       if (is_new) mesh_.vertices.push_back(exact);
@@ -59,6 +61,7 @@ class Collector {
   }
 
   const aiScene& scene_;
+  const std::string& path_;
   Mesh mesh_;
   Rational3 sum_;
   std::size_t count_ = 0;
@@ -74,7 +77,7 @@ Mesh read_with_assimp(const std::string& path, Rational3* mean) {
       path, aiProcess_GenNormals | aiProcess_Triangulate | aiProcess_JoinIdenticalVertices | aiProcess_SortByPType);
   if (scene == nullptr) throw InputError(path + ": " + importer.GetErrorString());
   if (scene->mRootNode == nullptr || scene->mNumMeshes == 0) throw InputError(path + ": holds no mesh");
-  Collector collector(*scene);
+  Collector collector(*scene, path);
   collector.walk(*scene->mRootNode, aiMatrix4x4());
   if (mean != nullptr) *mean = collector.mean();
   return collector.take();

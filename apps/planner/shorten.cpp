@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "apps/planner/triangle_pull.h"
+#include "apps/planner/vectors.h"
 
 namespace nef::planner {
 namespace {
@@ -28,12 +29,6 @@ bool keeps_clearance(const FreeSpace& free, const Waypoints& path, std::size_t i
   }
   return direct <= before;
 }
-
-using Vector = std::array<double, 3>;
-
-Vector to_double(const Rational3& p) { return {nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2])}; }
-Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 // The parameter on the line e0 + t d at which |a - x| + |x - c| is least: unfold both about it.
 double best_parameter(const Vector& e0, const Vector& d, const Vector& a, const Vector& c) {

@@ -3,6 +3,8 @@
 // Queries of the tree; space_tree_builder.cpp makes it.
 #include "apps/planner/space_tree.h"
 
+#include <algorithm>
+
 #include "nef/base/error.h"
 
 namespace nef::planner {
@@ -44,6 +46,24 @@ LeafId SpaceTree::leaf_at(const ExactPoint& point) const {
     at = node.child[child_index(generic_side(point.side(planes_, node.plane)))];
   }
   return leaf_of(at);
+}
+
+std::array<Rational3, 2> SpaceTree::bounds() const {
+  std::array<Rational3, 2> result;
+  for (std::size_t i = 0; i < 6; ++i) {
+    // Its planes are x - c = 0.
+    result[i % 2][i / 2] = -Rational(mpz_class(mpz_srcptr(planes_.coefficient(box_[i], 3))));
+  }
+  return result;
+}
+
+Rational3 SpaceTree::nearest_inside(const Rational3& point) const {
+  const std::array<Rational3, 2> corners = bounds();
+  Rational3 result;
+  for (std::size_t i = 0; i < 3; ++i) {
+    result[i] = std::clamp(point[i], Rational(corners[0][i] + 1), Rational(corners[1][i] - 1));
+  }
+  return result;
 }
 
 CellId SpaceTree::locate(const ExactPoint& point) const { return leaves_[leaf_at(point)].cell; }

@@ -55,6 +55,12 @@ class SpaceTree {
   /// Planes of a box that holds the complex with room to spare: low x, high x, low y, ...
   [[nodiscard]] const std::array<PlaneId, 6>& box() const { return box_; }
 
+  /// The two corners of that box.
+  [[nodiscard]] std::array<Rational3, 2> bounds() const;
+  /// The nearest point of a box a little smaller than that one, which holds the complex too. So what is beyond it is
+  /// part of the outer volume, and so is the segment from there to the nearest point.
+  [[nodiscard]] Rational3 nearest_inside(const Rational3& point) const;
+
   /// Sets the cells of all 3-dimensional leaves; zones.h finds them out.
   void set_volume(LeafId leaf, CellId volume) { leaves_[leaf].cell = volume; }
 

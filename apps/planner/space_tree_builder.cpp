@@ -60,18 +60,19 @@ class SpaceTreeBuilder {
   // Twice as large as what it holds, and never flat.
   void make_box() {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      Rational low = -1;
-      Rational high = 1;
+      double least = -1;
+      double largest = 1;
       for (std::uint32_t v = 0; v < complex_.vertex_count(); ++v) {
         const double x = complex_.points.approximate(PointId{v})[axis];
-        if (x - 1 < low) low = exact_rational(x);
-        if (x + 1 > high) high = exact_rational(x);
+        least = std::min(least, x);
+        largest = std::max(largest, x);
       }
-      const Rational margin = (high - low) / 2 + 1;
+      // Much more than the rounding, and than the one that nearest_inside steps back.
+      const Rational margin = (exact_rational(largest) - exact_rational(least)) / 2 + 2;
+      const Rational low = exact_rational(least) - margin;
+      const Rational high = exact_rational(largest) + margin;
       Rational3 normal;
       normal[axis] = 1;
-      low -= margin;
-      high += margin;
       // Whole numbers keep the planes small.
       Integer floor_low;
       Integer ceil_high;

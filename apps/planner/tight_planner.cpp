@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/planner/tight_planner.h"
 
-#include <ompl/base/goals/GoalSampleableRegion.h>
+#include <ompl/base/goals/GoalLazySamples.h>
 #include <ompl/config.h>
 #include <ompl/util/Exception.h>
 
 #include <algorithm>
 #include <chrono>
+#include <thread>
 
 #include "apps/minkowski/minkowski.h"
 #include "apps/planner/nef_validity.h"
@@ -18,8 +19,14 @@ using StateType = ExactTranslationSpace::StateType;
 
 namespace {
 
-// Goals of a region that can be sampled for ever; a proof needs all goals, so there is none then.
-constexpr unsigned int kGoalsTried = 64;
+// So many goals are tried before the best of them is taken, and so many more while none is in reach.
+constexpr unsigned int kGoalsAtOnce = 64;
+
+// True if a thread still looks for goal states.
+bool is_growing(const ob::GoalSampleableRegion& region) {
+  const auto* lazy = dynamic_cast<const ob::GoalLazySamples*>(&region);
+  return lazy != nullptr && lazy->isSampling();
+}
 
 ob::PlannerStatus infeasible() {
 #if defined(OMPL_VERSION_VALUE) && OMPL_VERSION_VALUE >= 1006000
@@ -39,8 +46,11 @@ TightPlanner::TightPlanner(const ob::SpaceInformationPtr& si, FreeSpaceBuilder b
   declare();
 }
 
-TightPlanner::~TightPlanner() {
+TightPlanner::~TightPlanner() { freeDataStates(); }
+
+void TightPlanner::freeDataStates() {
   for (ob::State* state : dataStates_) si_->freeState(state);
+  dataStates_.clear();
 }
 
 void TightPlanner::declare() {
@@ -64,22 +74,27 @@ void TightPlanner::declare() {
 
 void TightPlanner::setup() {
   ob::Planner::setup();
-  if (!freeSpace_) buildFreeSpace([] { return false; });
+  updateFreeSpace([] { return false; });
 }
 
-bool TightPlanner::buildFreeSpace(const std::function<bool()>& stop) {
-  const auto begin = std::chrono::steady_clock::now();
+bool TightPlanner::updateFreeSpace(const std::function<bool()>& stop) {
   const auto* space = dynamic_cast<const ExactTranslationSpace*>(si_->getStateSpace().get());
   if (space == nullptr) throw ompl::Exception(name_, "the state space must be an ExactTranslationSpace");
+  if (builder_ && freeSpace_) return true;
+  const auto begin = std::chrono::steady_clock::now();
+  std::shared_ptr<const FreeSpace> present;
   if (builder_) {
-    freeSpace_ = builder_(stop);
-    if (!freeSpace_ && stop()) return false;
+    present = builder_(stop);
+    if (!present && stop()) return false;
   } else if (const auto* checker = dynamic_cast<const NefStateValidityChecker*>(si_->getStateValidityChecker().get())) {
-    freeSpace_ = checker->getFreeSpace();
+    present = checker->getFreeSpace();
   } else {
-    freeSpace_ = space->getFreeSpace();
+    present = space->getFreeSpace();
   }
-  if (!freeSpace_) throw ompl::Exception(name_, "there is no free space: use a NefStateValidityChecker");
+  if (!present) throw ompl::Exception(name_, "there is no free space: use a NefStateValidityChecker");
+  if (present == freeSpace_) return true;
+  clearQuery();  // its places are those of another free space
+  freeSpace_ = std::move(present);
   preprocessing_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return true;
 }
@@ -87,6 +102,7 @@ bool TightPlanner::buildFreeSpace(const std::function<bool()>& stop) {
 void TightPlanner::clear() {
   ob::Planner::clear();
   clearQuery();
+  freeDataStates();
   if (!keepRoadmap_ && builder_) {
     freeSpace_.reset();
     setup_ = false;
@@ -97,8 +113,12 @@ void TightPlanner::clearQuery() {
   pis_.restart();
   starts_.clear();
   goals_.clear();
-  allGoals_ = false;
   exactPath_.reset();
+}
+
+void TightPlanner::setProblemDefinition(const ob::ProblemDefinitionPtr& pdef) {
+  ob::Planner::setProblemDefinition(pdef);
+  clearQuery();
 }
 
 TightPlanner::Place TightPlanner::placeOf(const ob::State* state) const {
@@ -106,46 +126,37 @@ TightPlanner::Place TightPlanner::placeOf(const ob::State* state) const {
   return {exact->exact(), freeSpace_->locate(exact->point())};
 }
 
-bool TightPlanner::takeInput(const ob::PlannerTerminationCondition& ptc, ob::PlannerStatus& failure) {
-  const auto* region = dynamic_cast<const ob::GoalSampleableRegion*>(pdef_->getGoal().get());
-  if (region == nullptr) {
-    failure = ob::PlannerStatus::UNRECOGNIZED_GOAL_TYPE;
-    return false;
-  }
+void TightPlanner::takeStarts() {
   while (const ob::State* state = pis_.nextStart()) starts_.push_back(placeOf(state));
   std::erase_if(starts_, [this](const Place& place) { return !freeSpace_->is_free(place.cell); });
-  if (starts_.empty()) {
-    failure = ob::PlannerStatus::INVALID_START;
-    return false;
-  }
-  const unsigned int count = region->maxSampleCount();
-  while (!ptc && goals_.size() < kGoalsTried && pis_.getSampledGoalsCount() < count) {
-    const ob::State* state = goals_.empty() ? pis_.nextGoal(ptc) : pis_.nextGoal();
-    if (state == nullptr) break;
-    goals_.push_back(placeOf(state));
-  }
-  allGoals_ = pis_.getSampledGoalsCount() >= count;
-  std::erase_if(goals_, [this](const Place& place) { return !freeSpace_->is_free(place.cell); });
-  if (goals_.empty()) {
-    failure = ptc && !allGoals_ ? ob::PlannerStatus::TIMEOUT : ob::PlannerStatus::INVALID_GOAL;
-    return false;
-  }
-  return true;
 }
 
-std::optional<ExactPath> TightPlanner::bestPath(const ob::PlannerTerminationCondition& ptc, bool& interrupted) {
+bool TightPlanner::takeGoals(const ob::GoalSampleableRegion& region, const ob::PlannerTerminationCondition& ptc) {
+  const bool growing = is_growing(region);
+  const auto asked_all = [&] { return pis_.getSampledGoalsCount() >= region.maxSampleCount(); };
+  const auto known = static_cast<std::ptrdiff_t>(goals_.size());
+  for (unsigned int i = 0; i < kGoalsAtOnce && !asked_all() && (i == 0 || !ptc); ++i) {
+    const ob::State* state = pis_.nextGoal();
+    if (state == nullptr) continue;  // not valid
+    const Place goal = placeOf(state);
+    // Further goals are taken only if none was in reach, so another one in the same cell is out of reach, too.
+    const bool is_new = std::none_of(goals_.begin(), goals_.begin() + known,
+                                     [&](const Place& place) { return place.cell == goal.cell; });
+    if (is_new && freeSpace_->is_free(goal.cell)) goals_.push_back(goal);
+  }
+  return !growing && asked_all();
+}
+
+std::optional<ExactPath> TightPlanner::bestPath(std::size_t firstGoal, const ob::PlannerTerminationCondition& ptc,
+                                                bool& interrupted) {
   std::optional<ExactPath> best;
   interrupted = false;
-  bool first = true;
   for (const Place& start : starts_) {
-    for (const Place& goal : goals_) {
+    for (std::size_t i = firstGoal; i < goals_.size(); ++i) {
       // The first pair is always answered: it takes no longer than noticing the time.
-      if (!first && ptc) {
-        interrupted = true;
-        return best;
-      }
-      first = false;
-      std::optional<ExactPath> path = find_path(*freeSpace_, start.position, goal.position, options_);
+      interrupted = ptc && (i > firstGoal || &start != &starts_.front());
+      if (interrupted) return best;
+      std::optional<ExactPath> path = find_path(*freeSpace_, start.position, goals_[i].position, options_);
       if (path && (!best || path->length < best->length)) best = std::move(path);
     }
   }
@@ -169,42 +180,66 @@ void TightPlanner::proveInfeasible() {
 }
 
 ob::PlannerStatus TightPlanner::solve(const ob::PlannerTerminationCondition& ptc) {
-  if (!freeSpace_ && (ptc || !buildFreeSpace([&ptc] { return ptc.eval(); }))) return ob::PlannerStatus::TIMEOUT;
+  if (ptc || !updateFreeSpace([&ptc] { return ptc.eval(); })) return ob::PlannerStatus::TIMEOUT;
   checkValidity();
-  ob::PlannerStatus failure = ob::PlannerStatus::UNKNOWN;
-  if (!takeInput(ptc, failure)) return failure;
-  bool interrupted = false;
-  exactPath_ = bestPath(ptc, interrupted);
-  if (exactPath_) {
-    addSolution(*exactPath_);
-    return ob::PlannerStatus::EXACT_SOLUTION;
+  const auto* region = dynamic_cast<const ob::GoalSampleableRegion*>(pdef_->getGoal().get());
+  if (region == nullptr) return ob::PlannerStatus::UNRECOGNIZED_GOAL_TYPE;
+  takeStarts();
+  if (starts_.empty()) return ob::PlannerStatus::INVALID_START;
+  // A proof needs all goals. While there may be more, there is none, and the search goes on.
+  for (std::size_t asked = 0;; asked = goals_.size()) {
+    const bool all = takeGoals(*region, ptc);
+    bool interrupted = false;
+    exactPath_ = bestPath(asked, ptc, interrupted);
+    if (exactPath_) {
+      addSolution(*exactPath_);
+      return ob::PlannerStatus::EXACT_SOLUTION;
+    }
+    if (all && !interrupted) break;
+    if (interrupted || ptc) return ob::PlannerStatus::TIMEOUT;
+    if (goals_.size() == asked) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
-  if (interrupted || !allGoals_) return ob::PlannerStatus::TIMEOUT;
+  if (goals_.empty()) return ob::PlannerStatus::INVALID_GOAL;
   proveInfeasible();
   return infeasible();
+}
+
+ob::PlannerDataVertex TightPlanner::dataVertex(const Rational3& position) const {
+  ob::State* state = si_->allocState();
+  static_cast<StateType*>(state)->setExact(position);
+  dataStates_.push_back(state);
+  return ob::PlannerDataVertex(state);
 }
 
 void TightPlanner::getPlannerData(ob::PlannerData& data) const {
   ob::Planner::getPlannerData(data);
   if (!freeSpace_) return;
-  const auto make_state = [this](const Rational3& position) {
-    ob::State* state = si_->allocState();
-    static_cast<StateType*>(state)->setExact(position);
-    dataStates_.push_back(state);
-    return state;
-  };
   const Zones& zones = freeSpace_->zones();
-  std::vector<unsigned int> middle(zones.zone_count(), ob::PlannerData::INVALID_INDEX);
+  std::vector<unsigned int> middles(zones.zone_count(), ob::PlannerData::INVALID_INDEX);
+  // Zones are convex, so what is in the closure of one sees its middle.
+  const auto join_to_middle = [&](unsigned int vertex, ZoneId zone) {
+    unsigned int& middle = middles[zone];
+    if (middle == ob::PlannerData::INVALID_INDEX) middle = data.addVertex(dataVertex(zones.interior_point(zone)));
+    data.addEdge(vertex, middle);
+    data.addEdge(middle, vertex);
+  };
   for (StationId s = 0; s < zones.stations().size(); ++s) {
-    const unsigned int station = data.addVertex(ob::PlannerDataVertex(make_state(zones.point(s))));
-    for (const ZoneId zone : zones.zones_of(s)) {
-      if (middle[zone] == ob::PlannerData::INVALID_INDEX) {
-        middle[zone] = data.addVertex(ob::PlannerDataVertex(make_state(zones.interior_point(zone))));
-      }
-      data.addEdge(station, middle[zone]);
-      data.addEdge(middle[zone], station);
-    }
+    const unsigned int station = data.addVertex(dataVertex(zones.point(s)));
+    for (const ZoneId zone : zones.zones_of(s)) join_to_middle(station, zone);
   }
+  const auto join_end = [&](unsigned int vertex, const Rational3& position) {
+    const Rational3 near = freeSpace_->tree().nearest_inside(position);
+    if (near != position) {
+      const unsigned int between = data.addVertex(dataVertex(near));
+      data.addEdge(vertex, between);
+      data.addEdge(between, vertex);
+      vertex = between;
+    }
+    const ZoneId zone = zones.zone_at(ExactPoint(near));
+    if (!zones.stations_of(zone).empty()) join_to_middle(vertex, zone);
+  };
+  for (const Place& start : starts_) join_end(data.addStartVertex(dataVertex(start.position)), start.position);
+  for (const Place& goal : goals_) join_end(data.addGoalVertex(dataVertex(goal.position)), goal.position);
 }
 
 TightPlanner::FreeSpaceBuilder free_space_builder(const Scene& scene) {

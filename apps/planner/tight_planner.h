@@ -4,6 +4,7 @@
 #pragma once
 
 #include <ompl/base/Planner.h>
+#include <ompl/base/goals/GoalSampleableRegion.h>
 #include <ompl/geometric/PathGeometric.h>
 
 #include <functional>
@@ -22,7 +23,8 @@ namespace nef::planner {
     locates start and goal and walks through the cells between them, or proves that there is no way: then the
     status is INFEASIBLE (ABORT before OMPL 1.6, which has no such status) and the problem definition holds a
     DisconnectionProof. There is no time-out while there is an answer; the termination condition is respected
-    between pairs of start and goal states and, by builders that ask, while the free space is built.
+    before and between pairs of start and goal states and, by builders that ask, while the free space is built. A
+    proof needs all goal states: while a goal region may give more of them, the search goes on.
 
     The free space is built once (in setup) and serves all queries. clear() keeps it unless `keep_roadmap` is
     set to 0, which gives single-query times in benchmarks.
@@ -45,9 +47,12 @@ class TightPlanner : public ompl::base::Planner {
   void setup() override;
   void clear() override;
   void clearQuery() override;
+  /** \brief Another problem for the same free space; forgets start and goal states, as PRM does. */
+  void setProblemDefinition(const ompl::base::ProblemDefinitionPtr& pdef) override;
   ompl::base::PlannerStatus solve(const ompl::base::PlannerTerminationCondition& ptc) override;
   using ompl::base::Planner::solve;
-  /** \brief The roadmap: stations and the middles of the zones they join. */
+  /** \brief The roadmap: stations and the middles of the zones they join, and the start and goal states of the last
+      query. The states belong to the planner and are freed by clear(). */
   void getPlannerData(ompl::base::PlannerData& data) const override;
 
   /** \brief Only ways where free space is locally at least this thick (0: any). */
@@ -78,12 +83,19 @@ class TightPlanner : public ompl::base::Planner {
     CellId cell = kNoCell;
   };
   void declare();
-  bool buildFreeSpace(const std::function<bool()>& stop);
-  bool takeInput(const ompl::base::PlannerTerminationCondition& ptc, ompl::base::PlannerStatus& failure);
-  std::optional<ExactPath> bestPath(const ompl::base::PlannerTerminationCondition& ptc, bool& interrupted);
+  // Builds the free space, or takes that of the space information, which may have been replaced. False if stopped.
+  bool updateFreeSpace(const std::function<bool()>& stop);
+  void takeStarts();
+  // Takes some goals that are not there yet. True if there are no more, and will be none.
+  bool takeGoals(const ompl::base::GoalSampleableRegion& region, const ompl::base::PlannerTerminationCondition& ptc);
+  // The shortest path from a start to one of the goals from an index on.
+  std::optional<ExactPath> bestPath(std::size_t firstGoal, const ompl::base::PlannerTerminationCondition& ptc,
+                                    bool& interrupted);
   void addSolution(const ExactPath& path);
   void proveInfeasible();
   Place placeOf(const ompl::base::State* state) const;
+  ompl::base::PlannerDataVertex dataVertex(const Rational3& position) const;
+  void freeDataStates();
 
   FreeSpaceBuilder builder_;
   std::shared_ptr<const FreeSpace> freeSpace_;
@@ -92,7 +104,6 @@ class TightPlanner : public ompl::base::Planner {
   double preprocessing_ = 0;
   std::vector<Place> starts_;
   std::vector<Place> goals_;
-  bool allGoals_ = false;  // goals_ are all there are
   std::optional<ExactPath> exactPath_;
   mutable std::vector<ompl::base::State*> dataStates_;
 };

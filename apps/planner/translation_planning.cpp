@@ -2,6 +2,7 @@
 #include "apps/planner/translation_planning.h"
 
 #include <ompl/base/goals/GoalState.h>
+#include <ompl/base/goals/GoalStates.h>
 #include <ompl/util/Console.h>
 
 #include <algorithm>
@@ -124,22 +125,26 @@ void TranslationPlanning::setExactStartAndGoal(const Rational3& start, const Rat
   if (freeSpace_) inferEnvironmentBounds();
 }
 
+std::vector<const ob::State*> TranslationPlanning::endStates() const {
+  std::vector<const ob::State*> result;
+  for (unsigned int s = 0; s < pdef_->getStartStateCount(); ++s) result.push_back(pdef_->getStartState(s));
+  const ob::Goal* goal = pdef_->getGoal().get();
+  if (const auto* one = dynamic_cast<const ob::GoalState*>(goal)) result.push_back(one->getState());
+  if (const auto* several = dynamic_cast<const ob::GoalStates*>(goal)) {
+    for (unsigned int g = 0; g < several->getStateCount(); ++g) result.push_back(several->getState(g));
+  }
+  return result;
+}
+
 void TranslationPlanning::inferEnvironmentBounds() {
   ob::RealVectorBounds bounds(3);
-  const auto coordinate = [this](std::size_t plane) {
-    const PlaneTable& planes = freeSpace_->tree().planes();
-    return nearest_double(-Rational(mpz_class(mpz_srcptr(planes.coefficient(freeSpace_->tree().box()[plane], 3)))));
-  };
+  const std::array<Rational3, 2> corners =
+      freeSpace_ ? freeSpace_->tree().bounds() : std::array<Rational3, 2>{Rational3{0, 0, 0}, Rational3{0, 0, 0}};
   for (std::size_t i = 0; i < 3; ++i) {
-    double low = freeSpace_ ? coordinate(2 * i) - 1 : -1;
-    double high = freeSpace_ ? coordinate(2 * i + 1) + 1 : 1;
-    for (unsigned int s = 0; s < pdef_->getStartStateCount(); ++s) {
-      const double x = pdef_->getStartState(s)->as<ExactTranslationSpace::StateType>()->values[i];
-      low = std::min(low, x - 1);
-      high = std::max(high, x + 1);
-    }
-    if (const auto* goal = dynamic_cast<const ob::GoalState*>(pdef_->getGoal().get())) {
-      const double x = goal->getState()->as<ExactTranslationSpace::StateType>()->values[i];
+    double low = nearest_double(corners[0][i]) - 1;
+    double high = nearest_double(corners[1][i]) + 1;
+    for (const ob::State* state : endStates()) {
+      const double x = state->as<ExactTranslationSpace::StateType>()->values[i];
       low = std::min(low, x - 1);
       high = std::max(high, x + 1);
     }
@@ -173,6 +178,11 @@ void TranslationPlanning::setup() {
     if (scene_.robot.is_empty()) throw ompl::Exception("TranslationPlanning", "no robot is set");
     useFreeSpace(std::make_shared<const FreeSpace>(free_positions(scene_)));
     inferEnvironmentBounds();
+  } else {
+    // New start and goal states may lie far out in free space.
+    const std::vector<const ob::State*> ends = endStates();
+    const auto inside = [this](const ob::State* state) { return space().satisfiesBounds(state); };
+    if (!std::all_of(ends.begin(), ends.end(), inside)) inferEnvironmentBounds();
   }
   ompl::geometric::SimpleSetup::setup();
 }

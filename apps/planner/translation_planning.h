@@ -62,6 +62,7 @@ class TranslationPlanning : public ompl::geometric::SimpleSetup {
 
  private:
   ExactTranslationSpace& space() const;
+  std::vector<const ompl::base::State*> endStates() const;
   std::string find(const std::string& file) const;
   bool readMesh(const std::string& file, Polyhedron& into, bool add);
   void useFreeSpace(std::shared_ptr<const FreeSpace> freeSpace);

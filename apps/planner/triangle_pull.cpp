@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "apps/planner/vectors.h"
 #include "nef/geometry/box_tree.h"
 
 namespace nef::planner {
@@ -22,7 +23,7 @@ class Triangle {
     normal_ = cross(ac_, ab_);
     size_ = dot(normal_, normal_);
     for (const Rational3* p : {&a, &b, &c}) {
-      box_.add_rounded({nearest_double((*p)[0]), nearest_double((*p)[1]), nearest_double((*p)[2])});
+      box_.add_rounded(to_double(*p));
     }
   }
   [[nodiscard]] bool flat() const { return size_ == 0; }

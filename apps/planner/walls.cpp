@@ -11,8 +11,9 @@ namespace nef::planner {
 
 class WallCollector {
  public:
-  WallCollector(const SpaceTree& tree, const std::function<bool(CellId)>& wanted_facet, Walls& out)
-      : tree_(tree), planes_(tree.planes()), wanted_facet_(wanted_facet), out_(out) {}
+  WallCollector(const Complex& complex, const CellNumbering& cells, const SpaceTree& tree,
+                const std::function<bool(CellId)>& wanted_facet, Walls& out)
+      : complex_(complex), cells_(cells), tree_(tree), planes_(tree.planes()), wanted_facet_(wanted_facet), out_(out) {}
 
   void collect(std::uint32_t at) {
     if (SpaceTree::is_leaf(at)) return;
@@ -28,7 +29,7 @@ class WallCollector {
       polygon = std::move(side < 0 ? parts.negative : parts.positive);
     }
     if (polygon) {
-      through_plane(node.child[1], std::move(*polygon),
+      through_plane(node, node.child[1], std::move(*polygon),
                     [&](LeafId on, ConvexPiece&& piece) { pair_up(node, 2, on, std::move(piece), out_.walls_); });
     }
     ancestors_.emplace_back(node.plane, -1);
@@ -41,8 +42,8 @@ class WallCollector {
  private:
   using Visit = std::function<void(LeafId, ConvexPiece&&)>;
 
-  // Hands a polygon down the tree of its own plane, and gathers the seams on the way.
-  void through_plane(std::uint32_t at, ConvexPiece&& polygon, const Visit& visit) {
+  // Hands a polygon of the splitting plane of `cut` down the tree of that plane, and gathers the seams on the way.
+  void through_plane(const SpaceTree::Node& cut, std::uint32_t at, ConvexPiece&& polygon, const Visit& visit) {
     if (SpaceTree::is_leaf(at)) {
       visit(SpaceTree::leaf_of(at), std::move(polygon));
       return;
@@ -51,13 +52,20 @@ class WallCollector {
     SplitPiece parts = split(std::move(polygon), node.plane, planes_, out_.points_);
     if (parts.negative && parts.positive) {
       NEF_ASSERT(parts.on.has_value());
-      down(node.child[1], std::move(*parts.on), 1, [&](LeafId on, ConvexPiece&& piece) {
-        const CellId cell = tree_.leaves()[on].cell;
-        if (cell != kNoCell && wanted_facet_(cell)) pair_up(node, 1, on, std::move(piece), out_.seams_);
-      });
+      down(node.child[1], std::move(*parts.on), 1,
+           [&](LeafId on, ConvexPiece&& piece) { seam(cut, node, on, std::move(piece)); });
     }
-    if (parts.negative) through_plane(node.child[0], std::move(*parts.negative), visit);
-    if (parts.positive) through_plane(node.child[2], std::move(*parts.positive), visit);
+    if (parts.negative) through_plane(cut, node.child[0], std::move(*parts.negative), visit);
+    if (parts.positive) through_plane(cut, node.child[2], std::move(*parts.positive), visit);
+  }
+
+  // A segment of a facet where the plane of `cut` meets another one, that of `line`. If the facet lies in the plane of
+  // `cut`, its leaves beside the segment are those of that plane's tree; else they are in the trees below and above.
+  void seam(const SpaceTree::Node& cut, const SpaceTree::Node& line, LeafId on, ConvexPiece&& piece) {
+    const CellId cell = tree_.leaves()[on].cell;
+    if (cell == kNoCell || !wanted_facet_(cell)) return;
+    const bool in_plane = complex_.facets[cells_.index(cell)].plane.row() == cut.plane.row();
+    pair_up(in_plane ? line : cut, 1, on, std::move(piece), out_.seams_);
   }
 
   // Hands a piece down any subtree; parts of its own dimension arrive at leaves.
@@ -83,6 +91,8 @@ class WallCollector {
     });
   }
 
+  const Complex& complex_;
+  const CellNumbering& cells_;
   const SpaceTree& tree_;
   const PlaneTable& planes_;
   const std::function<bool(CellId)>& wanted_facet_;
@@ -99,8 +109,8 @@ void name_volumes(const Complex& complex, const CellNumbering& cells, const std:
   for (const Wall& wall : walls) {
     if (tree.leaves()[wall.on].cell == kNoCell) same.unite(wall.below, wall.above);
   }
-  // Without any facet there is one volume only.
-  std::vector<CellId> volume(count, complex.facet_count() == 0 ? cells.volume(0) : kNoCell);
+  // Leaves without walls lie beyond the box around everything, or there are no facets at all: the outer volume.
+  std::vector<CellId> volume(count, cells.volume(0));
   for (const Wall& wall : walls) {
     const CellId cell = tree.leaves()[wall.on].cell;
     if (cell == kNoCell || cells.dimension(cell) != 2) continue;
@@ -117,7 +127,7 @@ void name_volumes(const Complex& complex, const CellNumbering& cells, const std:
 
 Walls::Walls(const Complex& complex, const CellNumbering& cells, SpaceTree& tree,
              const std::function<bool(CellId)>& wanted_facet) {
-  WallCollector(tree, wanted_facet, *this).collect(tree.root());
+  WallCollector(complex, cells, tree, wanted_facet, *this).collect(tree.root());
   name_volumes(complex, cells, walls_, tree);
 }
 

@@ -8,21 +8,19 @@
 #include <queue>
 
 #include "apps/planner/shorten.h"
+#include "apps/planner/vectors.h"
 
 namespace nef::planner {
 namespace {
 
 struct Place {
   Rational3 exact;
-  std::array<double, 3> approximate{};
+  Vector approximate{};
 };
 
-double span(const Place& a, const Place& b) {
-  return std::hypot(a.approximate[0] - b.approximate[0], a.approximate[1] - b.approximate[1],
-                    a.approximate[2] - b.approximate[2]);
-}
+double span(const Place& a, const Place& b) { return planner::span(a.approximate, b.approximate); }
 
-Place make_place(const Rational3& p) { return {p, {nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2])}}; }
+Place make_place(const Rational3& p) { return {p, to_double(p)}; }
 
 // Vertices and three points on each edge; fewer if that would be too many.
 std::vector<Place> places(const FreeSpace& free, const CellFilter& filter, std::size_t limit) {

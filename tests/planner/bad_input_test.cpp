@@ -29,22 +29,30 @@ TEST_CASE("bad scenes") {
   const std::string ends = R"J("start": [0, 0, 5], "goal": [1, 1, 5]})J";
   const std::string free = R"J("obstacles": [], )J";
   const std::vector<Bad> scenes{
-      {"", "not valid JSON"},
+      {"", "the file is empty"},
       {"no scene", "not valid JSON"},
       {"[1, 2]", "JSON object"},
       {R"J({"robot": )J", "not valid JSON"},
+      {"{\n\"robot\": \"box(0,0,0, 1,1,1)\",\n oops}", "scene.json:3: not valid JSON near"},
+      {R"J({"robot": ")J" + std::string(100000, 'x'), "not valid JSON near '...xxxx"},
       {R"J({"obstacles": []})J", "'robot' is missing"},
       {robot + ends, "'obstacles' is missing"},
       {robot + R"J("obstacle": []})J", "unknown key 'obstacle'"},
       {robot + R"J("robot": "box(0,0,0, 2,2,2)", )J" + free + ends, "'robot' is given twice"},
       {robot + R"J("name": 5, )J" + free + ends, "'name' must be a string"},
       {R"J({"robot": 5, )J" + free + ends, "robot: expected a file name or an expression"},
-      {R"J({"robot": "", )J" + free + ends, "robot: expression ''"},
+      {R"J({"robot": 3.5, )J" + free + ends, "not 3.5"},
+      {R"J({"robot": ["a.off", 0.5], )J" + free + ends, "not [\"a.off\", 0.5]"},
+      {R"J({"robot": "", )J" + free + ends, "robot: '' is neither a file nor an expression"},
+      {R"J({"robot": "cube", )J" + free + ends, "robot: 'cube' is neither a file nor an expression"},
       {R"J({"robot": "halfspace(0,0,1,0)", )J" + free + ends, "robot must be bounded"},
       {R"J({"robot": "box(0,0,0, 1,1,1) - box(0,0,0, 1,1,1)", )J" + free + ends, "robot is empty"},
       {robot + R"J("obstacles": "box(0,0,0, 1,1,1)", )J" + ends, "'obstacles' must be a list"},
       {robot + R"J("obstacles": [3], )J" + ends, "obstacle 0: expected a file name or an expression"},
       {robot + R"J("obstacles": ["no_such.off"], )J" + ends, "no_such.off: no such file"},
+      {robot + R"J("obstacles": ["folder.off"], )J" + ends, "folder.off: is a folder"},
+      {robot + R"J("obstacles": ["none.off"], )J" + ends, "none.off: the mesh has no faces"},
+      {robot + R"J("obstacles": ["infinite.dae"], )J" + ends, "infinite.dae: a coordinate is not a finite number"},
       {robot + R"J("obstacles": ["box(0,0"], )J" + ends, "expression 'box(0,0'"},
       {robot + R"J("obstacles": ["halfspace(0,0,1,0)"], )J" + ends, "give the scene a box"},
       {robot + R"J("obstacles": ["bad.off"], )J" + ends, "face 0 names vertex 7"},
@@ -60,14 +68,23 @@ TEST_CASE("bad scenes") {
       {robot + free + R"J("start": "0,0,0", "goal": [1, 1, 1]})J", "start: expected three numbers"},
       {robot + free + R"J("start": [0, 0, "x"], "goal": [1, 1, 1]})J", "'x' is not a number"},
       {robot + free + R"J("start": [0, 0, "1/0"], "goal": [1, 1, 1]})J", "'1/0' is not a number"},
+      {robot + free + R"J("start": [0, 0, NaN], "goal": [1, 1, 1]})J", "not valid JSON"},
+      {robot + free + R"J("start": [0, 0, 1e999], "goal": [1, 1, 1]})J", "the number 1e999 is too large for JSON"},
+      {robot + free + R"J("start": [0, 0, {"$number": 5}], "goal": [1, 1, 1]})J", "unknown key '$number'"},
       {robot + free + R"J("start": [0, 0, null], "goal": [1, 1, 1]})J", "start: expected a number"},
   };
   static_cast<void>(folder.write("bad.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n"));
   static_cast<void>(folder.write("bad.dae", "<COLLADA>"));
   static_cast<void>(folder.write("bad.xyz", "1 2 3"));
+  static_cast<void>(folder.write("none.off", "OFF\n0 0 0\n"));
+  std::string collada = text_of(std::string(PLANNER_SCENES) + "/omplapp/cube.dae");
+  const std::string first = "count=\"24\">0";
+  collada.replace(collada.find(first), first.size(), "count=\"24\">1e99");
+  static_cast<void>(folder.write("infinite.dae", collada));
+  std::filesystem::create_directory(folder.file("folder.off"));
   for (const Bad& bad : scenes) check_refused(folder, folder.write("scene.json", bad.text), bad.word);
-  check_refused(folder, folder.file("missing.json"), "cannot be read");
-  check_refused(folder, folder.file(""), "cannot be read");
+  check_refused(folder, folder.file("missing.json"), "no such file");
+  check_refused(folder, folder.file(""), "is a directory");
 }
 
 TEST_CASE("bad .cfg files") {
@@ -82,14 +99,18 @@ TEST_CASE("bad .cfg files") {
     upside_down += "volume.min." + axis + " = 5\nvolume.max." + axis + " = 1\n";
   }
   const std::vector<Bad> problems{
-      {"", "has no [problem] section"},
+      {"", "the file is empty"},
+      {"[benchmark]\n", "has no [problem] section"},
       {"[problem]\nrobot\n", "expected key = value"},
       {"[problem]\nworld = " + cube + "\n", "has no key 'robot'"},
       {"[problem]\nrobot = none.dae\nworld = none.dae\n", "none.dae: no such file"},
       {meshes + start, "has no key 'goal.x'"},
       {meshes + goal + "start.x = far\nstart.y = 0\nstart.z = 0\n", "'far' is not a number"},
       {meshes + start + goal + upside_down, "volume.min is above volume.max"},
+      {meshes + "start.x = 1\nstart.y = 1\n" + goal, "problem.cfg: [problem] has no key 'start.z'"},
+      {meshes + start + goal + "volume.max.z = 1\n", "has no key 'volume.min.x'"},
       {meshes + start + goal + turned, "start.axis is the zero vector"},
+      {meshes + start + goal + turned + "start.axis.x = 1\n", "goal.axis is the zero vector"},
       {meshes + start + goal + "start.theta = 1\n", "turned differently"},
       {meshes + start + goal + "contact = perhaps\n", "contact must be allow or forbid"},
       {meshes + start + goal + "robot.origin = corner\n", "robot.origin must be"},
@@ -121,10 +142,10 @@ TEST_CASE("bad usage") {
            {good + "--benchmark x.log --ompl PRM", "exclude each other"},
            {good + "--benchmark /no/such/folder/x.log --planners RRT --time 0.05 --runs 1", "cannot be written"},
            {good + "--path " + words + " --ompl PRM", "excludes"},
-           {good + "--path missing.txt", "missing.txt: cannot be read"},
-           {good + "--path " + words, "'hello' is not a number"},
-           {good + "--path " + two, "'' is not a number"},
-           {good + "--path " + empty, "holds no way-points"},
+           {good + "--path missing.txt", "missing.txt: no such file"},
+           {good + "--path " + words, "words.txt:1: 'hello' in 'hello world' is no number"},
+           {good + "--path " + two, "two.txt:1: expected x y z, or x y z qx qy qz qw, not 2 numbers"},
+           {good + "--path " + empty, "the file is empty"},
            {good + "--path " + object, "holds no 'path'"},
            {good + "--page view.png", "must be .html"},
            {good + "-o /no/such/folder/path.json", "cannot be written"},

@@ -2,7 +2,7 @@
 //
 // Random scenes of boxes on a small grid against a decision that shares nothing with the planner: the planes, lines
 // and points of the grid cut space into cells that are free or not as a whole, and a breadth-first search over them
-// finds components, reachability and T. PLANNER_SEEDS in the environment asks for more seeds than the default.
+// finds components, reachability, T and J. PLANNER_SEEDS in the environment asks for more seeds than the default.
 #include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
@@ -49,6 +49,10 @@ class Arrangement {
       }
       local_[i] = best;
     });
+    freedom_.assign(free_.size(), -1);
+    for_each(kWhole[0], kWhole[1], [&](int i) {
+      if (free_[i] != 0) freedom_[i] = freedom_at(i);
+    });
   }
 
   [[nodiscard]] bool is_free(const Cell& c) const { return free_[index(c)] != 0; }
@@ -74,6 +78,26 @@ class Arrangement {
       ++count;
     }
     return component;
+  }
+
+  // The dimension of the cell of the simplified complex that holds this one: in how many directions one can go a
+  // little way without seeing any change. For unions of such cells the axes are enough.
+  [[nodiscard]] int freedom(const Cell& c) const { return freedom_[index(c)]; }
+
+  // True if a way leads from a to b through cells of that dimension or more and the simplified cells of a and b.
+  [[nodiscard]] bool joined_by(int dimension, const Cell& a, const Cell& b) const {
+    std::vector<char> open(free_.size(), 0);
+    for (std::size_t i = 0; i < free_.size(); ++i) open[i] = freedom_[i] >= dimension ? 1 : 0;
+    for (const Cell& end : {a, b}) {
+      const int same = freedom(end);
+      flood(
+          static_cast<int>(index(end)), [&](int i) { return freedom_[i] == same; }, [&](int i) { open[i] = 1; });
+    }
+    bool found = false;
+    const auto goal = static_cast<int>(index(b));
+    flood(
+        static_cast<int>(index(a)), [&](int i) { return open[i] != 0; }, [&](int i) { found = found || i == goal; });
+    return found;
   }
 
   static std::size_t index(const Cell& c) {
@@ -117,9 +141,47 @@ class Arrangement {
     }
   }
 
+  [[nodiscard]] int freedom_at(int i) const {
+    constexpr std::array<int, 3> kStep{kSpan * kSpan, kSpan, 1};
+    int dimension = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      bool same = true;
+      // Compare everything around the cell with its copies one step up and down along axis k.
+      for (int code = 0; code < 9 && same && (class_[i] >> k & 1) == 0; ++code) {
+        const std::size_t u = (k + 1) % 3;
+        const std::size_t v = (k + 2) % 3;
+        const int du = code / 3 - 1;
+        const int dv = code % 3 - 1;
+        // Along an odd coordinate there is nothing new one step away.
+        if ((du != 0 && (class_[i] >> u & 1) != 0) || (dv != 0 && (class_[i] >> v & 1) != 0)) continue;
+        const int at = i + du * kStep[u] + dv * kStep[v];
+        same = free_[at] == free_[at - kStep[k]] && free_[at] == free_[at + kStep[k]];
+      }
+      dimension += same ? 1 : 0;
+    }
+    return dimension;
+  }
+
+  template <typename Inside, typename Visit>
+  void flood(int seed, const Inside& inside, const Visit& visit) const {
+    std::vector<char> seen(free_.size(), 0);
+    std::vector<int> queue{seed};
+    seen[seed] = 1;
+    for (std::size_t next = 0; next < queue.size(); ++next) {
+      const int i = queue[next];
+      visit(i);
+      for (const int step : incident_[class_[i]]) {
+        if (seen[i + step] != 0 || !inside(i + step)) continue;
+        seen[i + step] = 1;
+        queue.push_back(i + step);
+      }
+    }
+  }
+
   std::vector<std::uint8_t> free_;
   std::vector<std::uint8_t> class_;
   std::vector<int> local_;
+  std::vector<int> freedom_;
   std::array<std::vector<int>, 8> incident_;
 };
 
@@ -196,8 +258,9 @@ GridScene make_scene(std::mt19937& random, bool forbid) {
   return result;
 }
 
-// What both sides say about every cell of the grid: free or not, local dimension, and components that are the same up
-// to their numbers, which is reachability between any two cells. Returns the cells where it is tight or enclosed.
+// What both sides say about every cell of the grid: free or not, its dimension and the local one, and components that
+// are the same up to their numbers, which is reachability between any two cells. Returns the cells where it is tight or
+// enclosed.
 std::vector<Cell> compare_all(const FreeSpace& free, const Arrangement& truth, const std::vector<int>& component,
                               int count) {
   CHECK(free.components().size() == static_cast<std::size_t>(count));
@@ -213,6 +276,7 @@ std::vector<Cell> compare_all(const FreeSpace& free, const Arrangement& truth, c
         if (free.is_free(cell) != truth.is_free(c)) ++wrong;
         if (!free.is_free(cell) || !truth.is_free(c)) continue;
         if (free.local_dimension(cell) != truth.local_dimension(c)) ++wrong;
+        if (free.cells().dimension(cell) != truth.freedom(c)) ++wrong;
         int& number = number_of[static_cast<std::size_t>(component[Arrangement::index(c)])];
         if (number < 0) number = static_cast<int>(free.component(cell));
         if (number != static_cast<int>(free.component(cell))) ++wrong;
@@ -261,6 +325,9 @@ void check_scene(unsigned seed, bool forbid) {
       if (at >= 0 && at == thick[Arrangement::index(b)]) break;
     }
     CHECK(answer.thinness->piece == thinnest);
+    int junction = 3;
+    while (junction > 0 && !truth.joined_by(junction, a, b)) --junction;
+    CHECK(answer.thinness->junction == junction);
     CHECK(answer.path->points.front() == point_of_cell(a));
     CHECK(answer.path->points.back() == point_of_cell(b));
     if (pair < 2) CHECK(independent_complaint(made.scene, free.set(), *answer.path, !forbid) == "");

@@ -42,6 +42,29 @@ TEST_CASE("one rotation for start and goal turns the robot; two are an error") {
   CHECK(planner(folder, problem("wall.cfg") + " --json").code == 0);
 }
 
+TEST_CASE("rotations are equal if they turn alike, however their axes are written") {
+  const Folder folder;
+  const std::string meshes = "\xEF\xBB\xBF[problem]\nrobot = " + problem("cube.dae") +
+                             "\nworld = " + problem("wall.dae") +
+                             "\nstart.x = 2\nstart.y = 1.5\nstart.z = -1.5\ngoal.x = 7\ngoal.y = 1.5\ngoal.z = -1.5\n";
+  const auto turn = [](const std::string& state, const std::string& theta, const std::string& z) {
+    return state + ".theta = " + theta + "\n" + state + ".axis.z = " + z + "\n";
+  };
+  const std::string quarter = "1.5707963267948966";
+  const std::string start = turn("start", quarter, "1");
+  for (const std::string& goal :
+       {turn("goal", quarter, "1"), turn("goal", quarter, "0.25"), turn("goal", "-" + quarter, "-3")}) {
+    // A quarter turn leaves the cube as it is.
+    const Scene scene = read_scene(folder.write("same.cfg", meshes + start + goal));
+    CHECK(equal(scene.robot, read_scene(problem("wall.cfg")).robot));
+    CHECK(Problem(scene).solve().status == Answer::Status::kPath);
+  }
+  for (const std::string& goal :
+       {turn("goal", quarter, "-1"), turn("goal", "0.5", "1"), turn("goal", quarter, "1") + "goal.axis.x = 1\n"}) {
+    CHECK_THROWS_AS(read_scene(folder.write("other.cfg", meshes + start + goal)), InputError);
+  }
+}
+
 TEST_CASE("scenes name COLLADA meshes too") {
   const std::string text = R"J({"robot": "cube.dae", "obstacles": ["wall.dae"], "reference": [0.5, 0.5, -0.5]})J";
   const Scene scene = parse_scene(text, problem(""), "test");

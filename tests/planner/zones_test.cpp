@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The roadmap's completeness, part by part: the leaves of one facet or volume are joined by stations inside that very
+// cell, whatever planes have cut it, and stations lead from somewhere to somewhere.
+#include <catch2/catch.hpp>
+#include <map>
+#include <random>
+
+#include "nef/base/union_find.h"
+#include "tests/planner/scene_table.h"
+
+namespace nef::planner::test {
+namespace {
+
+// Returns the number of facets that are cut into several leaves and thin.
+std::size_t check_zones(const FreeSpace& free) {
+  const Zones& zones = free.zones();
+  UnionFind inside(zones.zone_count());
+  for (StationId s = 0; s < zones.stations().size(); ++s) {
+    CHECK_FALSE(zones.zones_of(s).empty());
+    std::map<CellId, ZoneId> first;
+    for (const ZoneId zone : zones.zones_of(s)) {
+      inside.unite(zone, first.try_emplace(zones.cell_of(zone), zone).first->second);
+    }
+  }
+  std::map<CellId, std::vector<ZoneId>> leaves;
+  for (LeafId leaf = 0; leaf < free.tree().leaves().size(); ++leaf) {
+    const SpaceTree::Leaf& l = free.tree().leaves()[leaf];
+    if (l.dimension < 2 || l.cell == kNoCell || !free.is_free(l.cell)) continue;
+    // Seams are leaves of a facet, too, but no zones; leaves beyond everything have no stations.
+    if (l.dimension != free.cells().dimension(l.cell) || zones.stations_of(leaf).empty()) continue;
+    leaves[l.cell].push_back(leaf);
+  }
+  std::size_t cut = 0;
+  for (const auto& [cell, list] : leaves) {
+    INFO(free.name(cell));
+    for (const ZoneId leaf : list) CHECK(inside.find(leaf) == inside.find(list.front()));
+    if (list.size() > 1 && free.local_dimension(cell) == 2) ++cut;
+  }
+  return cut;
+}
+
+TEST_CASE("leaves of one cell are joined inside that cell: the known scenes") {
+  for (const Expected& expected : scene_table()) {
+    INFO(expected.file);
+    check_zones(FreeSpace(free_positions(load(expected.file))));
+  }
+}
+
+TEST_CASE("leaves of one cell are joined inside that cell: tight plates cut by many planes") {
+  AffineMap shear = AffineMap::identity();
+  shear.linear[0][1] = Rational(1, 2);
+  shear.linear[1][2] = Rational(-2, 3);
+  shear.linear[2][0] = Rational(1, 5);
+  std::size_t cut = 0;
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    INFO("seed " << seed);
+    std::mt19937 random(seed);
+    const auto number = [&](int low, int high) { return std::uniform_int_distribution<int>(low, high)(random); };
+    // A block with a slot as thick as the robot, holes across it, and things that stand in the slot.
+    const int y = number(-2, 3);
+    Polyhedron block = subtract(make_box({0, -4, -4}, {8, 6, 6}), make_box({0, y, -4}, {8, y + 1, 6}));
+    for (int i = number(1, 3); i > 0; --i) {
+      const Rational3 low{number(0, 6), number(-3, 4), number(-3, 4)};
+      block = subtract(block, make_box(low, {low[0] + number(1, 2), low[1] + number(1, 2), low[2] + number(1, 2)}));
+    }
+    Scene scene;
+    scene.robot = make_box({0, 0, 0}, {1, 1, 1});
+    scene.obstacles.push_back(block);
+    for (int i = number(0, 3); i > 0; --i) {
+      const int x = number(0, 7);
+      const int z = number(-4, 5);
+      scene.obstacles.push_back(make_box({x, y, z}, {x + 1, y + 1, z + 1}));
+    }
+    scene.obstacle_names.assign(scene.obstacles.size(), "");
+    cut += check_zones(FreeSpace(free_positions(seed % 2 == 0 ? scene : mapped(scene, shear))));
+  }
+  CHECK(cut > 30);
+}
+
+}  // namespace
+}  // namespace nef::planner::test

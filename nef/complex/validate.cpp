@@ -129,6 +129,20 @@ void check_edges(const Complex& c) {
   }
 }
 
+// Tables of label functions have label_count entries, so a mark beyond them would be read from somewhere else.
+void check_marks(const Complex& c) {
+  require(c.label_count >= 2, "there are at least two labels", {});
+  const auto known = [&c](LabelId mark) { return mark < c.label_count || mark == kOutside; };
+  const char* const name = "marks are below the number of labels";
+  for (std::size_t v = 0; v < c.vertex_count(); ++v) require(known(c.vertices[v].mark), name, {{"vertex", v}});
+  for (std::size_t h = 0; h < c.svertices.size(); ++h) require(known(c.svertices[h].mark), name, {{"halfedge", h}});
+  for (std::size_t e = 0; e < c.shalfedges.size(); ++e) require(known(c.shalfedges[e].mark), name, {{"shalfedge", e}});
+  for (std::size_t l = 0; l < c.sloops.size(); ++l) require(known(c.sloops[l].mark), name, {{"sloop", l}});
+  for (std::size_t s = 0; s < c.sfaces.size(); ++s) require(known(c.sfaces[s].mark), name, {{"sface", s}});
+  for (std::size_t f = 0; f < c.facets.size(); ++f) require(known(c.facets[f].mark), name, {{"facet", f}});
+  for (std::size_t v = 0; v < c.volumes.size(); ++v) require(known(c.volumes[v].mark), name, {{"volume", v}});
+}
+
 // Only a box has points and planes at infinity, and only beyond it is the mark kOutside.
 void check_box(const Complex& c) {
   require(!c.volumes.empty(), "there is an outer volume", {});
@@ -150,6 +164,7 @@ std::string validate(const Complex& complex) {
   try {
     check_array_sizes(complex);
     check_owners(complex);
+    check_marks(complex);
     check_vertices(complex);
     check_edges(complex);
     check_box(complex);

@@ -187,9 +187,9 @@ std::uint32_t volume_around(const Complex& c, const std::vector<Rational3>& poin
   const SphereMapView map = c.sphere_map(v);
   const Inward inward = inward_of(c.planes, map, map.sfaces[local]);
   for (unsigned attempt = 1; attempt < 256; ++attempt) {
-    // Ever closer to the boundary of the sface, and ever another way.
+    // Ever closer to the boundary of the sface, and ever another way; sfaces may be as thin as coordinates are long.
     const Vector bent = scaled_sum(64 * attempt, inward.inward, Vector{attempt, 3 * attempt * attempt, 7});
-    const Vector along = scaled_sum(Integer(1) << (4 * attempt), inward.on, bent);
+    const Vector along = scaled_sum(Integer(1) << (4 * attempt + attempt * attempt / 4), inward.on, bent);
     const SphereLocation place = locate(c.planes, map, Direction::exact(along[0], along[1], along[2]));
     if (place.kind != SphereLocation::Kind::kSFace || place.index != local) continue;
     const FirstFacet first = shoot(c, points, points[v], along);

@@ -5,8 +5,10 @@
 #include "nef/sphere_map/spherical_polyhedron.h"
 
 #include <rapidcheck.h>
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <functional>
+#include <vector>
 
 #include "nef/base/error.h"
 
@@ -19,6 +21,7 @@ using Vector = SphericalPolyhedron::Vector;
 struct Known {
   SphericalPolyhedron set;
   std::function<bool(const std::array<int, 3>&)> holds;
+  std::vector<std::array<int, 3>> circles;  // normals of all great circles on which its boundary can lie
 };
 
 int dot(const std::array<int, 3>& a, const std::array<int, 3>& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
@@ -42,24 +45,28 @@ Known random_simple() {
   const std::array<int, 3> n = random_direction();
   switch (*rc::gen::inRange(0, 5)) {
     case 0:
-      return {SphericalPolyhedron::half_sphere(big(n)), [n](const auto& x) { return dot(n, x) <= 0; }};
+      return {SphericalPolyhedron::half_sphere(big(n)), [n](const auto& x) { return dot(n, x) <= 0; }, {n}};
     case 1:
-      return {SphericalPolyhedron::half_sphere(big(n), false), [n](const auto& x) { return dot(n, x) < 0; }};
+      return {SphericalPolyhedron::half_sphere(big(n), false), [n](const auto& x) { return dot(n, x) < 0; }, {n}};
     case 2:
-      return {SphericalPolyhedron::great_circle(big(n)), [n](const auto& x) { return dot(n, x) == 0; }};
+      return {SphericalPolyhedron::great_circle(big(n)), [n](const auto& x) { return dot(n, x) == 0; }, {n}};
     case 3:
-      return {SphericalPolyhedron::point(big(n)), [n](const auto& x) { return is_zero(cross(n, x)) && dot(n, x) > 0; }};
+      return {
+          SphericalPolyhedron::point(big(n)), [n](const auto& x) { return is_zero(cross(n, x)) && dot(n, x) > 0; }, {}};
     default: {
       const std::array<int, 3> m = random_direction();
       const std::array<int, 3> plane = cross(n, m);
       if (is_zero(plane)) {
         return {SphericalPolyhedron::point(big(n)),
-                [n](const auto& x) { return is_zero(cross(n, x)) && dot(n, x) > 0; }};
+                [n](const auto& x) { return is_zero(cross(n, x)) && dot(n, x) > 0; },
+                {}};
       }
-      return {SphericalPolyhedron::great_arc(big(n), big(m)), [n, m, plane](const auto& x) {
+      return {SphericalPolyhedron::great_arc(big(n), big(m)),
+              [n, m, plane](const auto& x) {
                 return dot(plane, x) == 0 && dot(cross(n, x), plane) >= 0 && dot(cross(x, m), plane) >= 0 &&
                        !(is_zero(cross(n, x)) && dot(n, x) < 0) && !(is_zero(cross(m, x)) && dot(m, x) < 0);
-              }};
+              },
+              {plane}};
     }
   }
 }
@@ -70,19 +77,45 @@ Known random_set(int size) {
     const Known next = random_simple();
     const auto f = result.holds;
     const auto g = next.holds;
+    std::vector<std::array<int, 3>> circles = result.circles;
+    circles.insert(circles.end(), next.circles.begin(), next.circles.end());
     switch (*rc::gen::inRange(0, 4)) {
       case 0:
-        result = {unite(result.set, next.set), [f, g](const auto& x) { return f(x) || g(x); }};
+        result = {unite(result.set, next.set), [f, g](const auto& x) { return f(x) || g(x); }, circles};
         break;
       case 1:
-        result = {intersect(result.set, next.set), [f, g](const auto& x) { return f(x) && g(x); }};
+        result = {intersect(result.set, next.set), [f, g](const auto& x) { return f(x) && g(x); }, circles};
         break;
       case 2:
-        result = {subtract(result.set, next.set), [f, g](const auto& x) { return f(x) && !g(x); }};
+        result = {subtract(result.set, next.set), [f, g](const auto& x) { return f(x) && !g(x); }, circles};
         break;
       default:
-        result = {symmetric_difference(result.set, next.set), [f, g](const auto& x) { return f(x) != g(x); }};
+        result = {symmetric_difference(result.set, next.set), [f, g](const auto& x) { return f(x) != g(x); }, circles};
     }
+  }
+  return result;
+}
+
+// Directions so near to p that they lie in all items around it: on both sides of p along every circle through it, and
+// in every sector between these circles. Normals are at most 8, components of p at most 2, so 10^6 is near enough.
+std::vector<std::array<int, 3>> neighbours(const Known& known, const std::array<int, 3>& p) {
+  const bool along_x = p[1] == 0 && p[2] == 0;
+  std::vector<std::array<int, 3>> tangents{cross(p, along_x ? std::array{0, 1, 0} : std::array{1, 0, 0})};
+  for (const std::array<int, 3>& n : known.circles) {
+    const std::array<int, 3> t = cross(n, p);
+    if (dot(n, p) != 0 || is_zero(t)) continue;
+    tangents.push_back(t);
+    tangents.push_back({-t[0], -t[1], -t[2]});
+  }
+  std::vector<std::array<int, 3>> steps = tangents;
+  for (const std::array<int, 3>& t : tangents) {
+    steps.push_back(cross(p, t));
+    for (const std::array<int, 3>& u : tangents) steps.push_back({t[0] + u[0], t[1] + u[1], t[2] + u[2]});
+  }
+  std::vector<std::array<int, 3>> result;
+  constexpr int kFar = 1000000;
+  for (const std::array<int, 3>& s : steps) {
+    if (!is_zero(s)) result.push_back({kFar * p[0] + s[0], kFar * p[1] + s[1], kFar * p[2] + s[2]});
   }
   return result;
 }
@@ -119,6 +152,33 @@ TEST_CASE("laws of sets on the sphere") {
     RC_ASSERT(equal(interior(a), complement(closure(complement(a)))));
     RC_ASSERT(equal(boundary(a), subtract(closure(a), interior(a))));
     RC_ASSERT(equal(regularize(regularize(a)), regularize(a)));
+  });
+}
+
+TEST_CASE("topology on the sphere follows what lies around a direction") {
+  check("interior, closure, boundary, regularization", [] {
+    const Known known = random_set(*rc::gen::inRange(0, 5));
+    const SphericalPolyhedron inner = interior(known.set);
+    const SphericalPolyhedron closed = closure(known.set);
+    const SphericalPolyhedron border = boundary(known.set);
+    const SphericalPolyhedron regular = regularize(known.set);
+    for (int k = 0; k < 12; ++k) {
+      const std::array<int, 3> p = random_direction();
+      bool all = known.holds(p);
+      bool any = all;
+      bool region = false;
+      for (const std::array<int, 3>& x : neighbours(known, p)) {
+        const bool in = known.holds(x);
+        all = all && in;
+        any = any || in;
+        const auto meets = [&x](const std::array<int, 3>& n) { return dot(n, x) == 0; };
+        region = region || (in && std::none_of(known.circles.begin(), known.circles.end(), meets));
+      }
+      RC_ASSERT(inner.contains(big(p)) == all);
+      RC_ASSERT(closed.contains(big(p)) == any);
+      RC_ASSERT(border.contains(big(p)) == (any && !all));
+      RC_ASSERT(regular.contains(big(p)) == region);
+    }
   });
 }
 

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The validator against complexes that are broken on purpose: every index, mark and plane of a set with items of all
+// kinds is changed, one at a time. What it does not report must be another way to say the same, or another set.
+#include <catch2/catch.hpp>
+#include <functional>
+#include <map>
+
+#include "nef/complex/validate.h"
+#include "nef/polyhedron.h"
+#include "tests/support/literals.h"
+
+namespace nef::test {
+namespace {
+
+// A solid with a cavity and a notch, a second one at its edge; a facet, a segment, a point, and single points of
+// another mark inside a facet, an edge and a volume; a shell within a shell; optionally unbounded.
+Complex specimen(bool unbounded) {
+  std::string text =
+      "(box(0,0,0,4,4,4) - interior(box(1,1,1,2,2,2)) + box(4,4,0,8,8,4) - box(3,1,3,7/2,2,5)) + "
+      "polygon(4,0,2,6,0,2,6,2,2,4,2,2) + point(7,1,1) - point(6,6,4) - point(8,8,2) - point(1/2,1/2,2) + "
+      "segment(9,0,0,10,1,1) + (box(-6,-6,-6,-2,-2,-2) - box(-5,-5,-5,-3,-3,-3))";
+  if (unbounded) text += " + halfspace(1,1,1,10)";
+  return set(text).complex();
+}
+
+struct Breaker {
+  Complex c;
+  std::map<std::string, std::size_t> missed;  // changes that were not reported, by field
+  std::size_t reported = 0;
+
+  void look(const std::string& field) {
+    if (validate(c).empty()) {
+      ++missed[field];
+    } else {
+      ++reported;
+    }
+  }
+  void index(const std::string& field, std::uint32_t& x, std::size_t end) {
+    const std::uint32_t old = x;
+    for (const std::uint32_t value : {0U, old + 1, old - 1, old ^ 1U, static_cast<std::uint32_t>(end), kNone}) {
+      if (value == old) continue;
+      x = value;
+      look(field);
+    }
+    x = old;
+  }
+  void mark(const std::string& field, LabelId& x) {
+    const LabelId old = x;
+    for (const LabelId value : {LabelId{0}, LabelId{1}, LabelId{2}, kOutside}) {
+      if (value == old) continue;
+      x = value;
+      look(field + (value < 2 ? "" : " out of range"));
+    }
+    x = old;
+  }
+  void plane(const std::string& field, PlaneId& x) {
+    const PlaneId old = x;
+    for (const PlaneId value : {old.opposite(), PlaneId{old.value ^ 2U}, PlaneId{std::uint32_t(2 * c.planes.size())}}) {
+      x = value;
+      look(field);
+    }
+    x = old;
+  }
+  void column(const std::string& field, std::vector<std::uint32_t>& column, std::size_t end) {
+    for (std::uint32_t& x : column) index(field, x, end);
+    column.push_back(0);
+    look(field + " too long");
+    column.pop_back();
+  }
+
+  void sphere_items() {
+    for (VertexRecord& v : c.vertices) {
+      index("begin of svertices", v.svertices, c.svertices.size());
+      index("begin of shalfedges", v.shalfedges, c.shalfedges.size());
+      index("begin of sloops", v.sloops, c.sloops.size());
+      index("begin of sfaces", v.sfaces, c.sfaces.size());
+      index("begin of entries", v.entries, c.entries.size());
+      if (&v != &c.vertices.back()) mark("mark of a vertex", v.mark);
+    }
+    for (SVertex& v : c.svertices) {
+      plane("plane of an svertex", v.p);
+      plane("plane of an svertex", v.q);
+      index("out of an svertex", v.out, c.shalfedges.size());
+      if (v.out == kNone) index("sface of an svertex", v.sface, c.sfaces.size());
+      mark("mark of an svertex", v.mark);
+    }
+    for (SHalfedge& e : c.shalfedges) {
+      plane("plane of a shalfedge", e.plane);
+      index("source", e.source, c.svertices.size());
+      index("next", e.next, c.shalfedges.size());
+      index("prev", e.prev, c.shalfedges.size());
+      index("sface of a shalfedge", e.sface, c.sfaces.size());
+      mark("mark of a shalfedge", e.mark);
+    }
+    for (SLoop& l : c.sloops) {
+      plane("plane of a sloop", l.plane);
+      index("sface of a sloop", l.sface, c.sfaces.size());
+      mark("mark of a sloop", l.mark);
+    }
+    for (SFace& f : c.sfaces) {
+      index("entries of an sface", f.entries, c.entries.size());
+      index("number of entries", f.entry_count, c.entries.size());
+      mark("mark of an sface", f.mark);
+    }
+    for (SFaceEntry& e : c.entries) index("entry", e.index, c.shalfedges.size());
+  }
+
+  void synthesized_items() {
+    column("owner of an svertex", c.svertex_owner, c.vertex_count());
+    column("twin", c.twin, c.twin.size());
+    column("owner of a shalfedge", c.shalfedge_owner, c.vertex_count());
+    column("facet of a shalfedge", c.shalfedge_facet, 2 * c.facets.size());
+    column("facet of a sloop", c.sloop_facet, 2 * c.facets.size());
+    column("owner of an sface", c.sface_owner, c.vertex_count());
+    column("shell of an sface", c.sface_shell, c.shells.size());
+    for (Facet& f : c.facets) {
+      plane("plane of a facet", f.plane);
+      mark("mark of a facet", f.mark);
+      index("first cycle", f.first_cycle, c.cycle_begin.size());
+      index("number of cycles", f.cycle_count, c.cycle_begin.size());
+      if (f.isolated_count > 0) index("first isolated vertex", f.first_isolated, c.isolated_vertices.size());
+      index("number of isolated vertices", f.isolated_count, c.isolated_vertices.size());
+      index("volume above", f.volume_above, c.volumes.size());
+      index("volume below", f.volume_below, c.volumes.size());
+    }
+    column("begin of a cycle", c.cycle_begin, c.corners.size());
+    column("corner", c.corners, c.shalfedges.size());
+    column("isolated vertex", c.isolated_vertices, c.vertex_count());
+    for (Shell& s : c.shells) {
+      index("volume of a shell", s.volume, c.volumes.size());
+      index("first sface of a shell", s.first_sface, c.shell_sfaces.size());
+      index("number of sfaces of a shell", s.sface_count, c.shell_sfaces.size());
+    }
+    column("sface of a shell", c.shell_sfaces, c.sfaces.size());
+    for (Volume& v : c.volumes) {
+      mark("mark of a volume", v.mark);
+      index("first shell", v.first_shell, c.shells.size());
+      index("number of shells", v.shell_count, c.shells.size());
+    }
+  }
+};
+
+}  // namespace
+
+TEST_CASE("the validator reports every change of an item") {
+  for (const bool unbounded : {false, true}) {
+    CAPTURE(unbounded);
+    Breaker breaker{specimen(unbounded), {}, 0};
+    breaker.sphere_items();
+    breaker.synthesized_items();
+    CHECK(breaker.reported > 10000);
+    // Any shalfedge of an svertex may be the one that it knows, any of a cycle the one by which its sface enters it;
+    // and a vertex with the other mark makes another set.
+    for (const char* free : {"out of an svertex", "entry", "mark of a vertex"}) breaker.missed.erase(free);
+    for (const auto& [field, count] : breaker.missed) {
+      CAPTURE(field, count);
+      CHECK(count == 0);
+    }
+    CHECK(validate(breaker.c).empty());
+  }
+}
+
+TEST_CASE("the validator accepts regions as thin as coordinates are long") {
+  const Rational far("1" + std::string(400, '0'));
+  const Rational3 apex{1, 1, 1};
+  const Rational3 p{1, 2, 2};
+  const Rational3 q{1, far, 2};
+  const Rational3 r{1, 2, 1};
+  const Rational3 s{2, 1, 1};
+  const auto triangle = [](const Rational3& a, const Rational3& b, const Rational3& c) {
+    return convex_hull(std::vector<Rational3>{a, b, c});
+  };
+  const Polyhedron fan = unite(unite(triangle(apex, r, p), triangle(apex, q, s)), triangle(apex, s, r));
+  CHECK(validate(fan.complex()) == "");
+}
+
+TEST_CASE("the validator names the broken invariant and the guilty items") {
+  const Complex good = specimen(false);
+  const auto broken = [&good](const std::function<void(Complex&)>& change) {
+    Complex c = good;
+    change(c);
+    return validate(c);
+  };
+  CHECK(broken([](Complex& c) { c.vertices[3].mark = 2; }) == "marks are below the number of labels, vertex 3");
+  CHECK(broken([](Complex& c) { c.svertex_owner[0] = 1; }) == "svertices know their vertex, vertex 0");
+  CHECK(broken([](Complex& c) { c.twin[0] = 0; }) == "twins of halfedges are mutual, halfedge 0");
+  CHECK(broken([](Complex& c) { c.points.pop(); }).find("one point for each vertex") == 0);
+  CHECK(broken([](Complex& c) { c.corners.pop_back(); }).find("cycle") != std::string::npos);
+  CHECK(broken([](Complex& c) { std::swap(c.volumes[0].mark, c.volumes[1].mark); }).find("volume") !=
+        std::string::npos);
+  CHECK(broken([](Complex& c) {
+          c.facets[2].plane = c.facets[2].plane.opposite();
+        }).find("a facet has an unflipped plane, facet 2") == 0);
+  CHECK(broken([](Complex& c) { c.sface_shell[0] = kNone; }).find("sfaces have a shell") == 0);
+  CHECK_FALSE(broken([](Complex& c) { c.shells[1].volume += 1; }).empty());
+}
+
+}  // namespace nef::test

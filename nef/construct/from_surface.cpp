@@ -2,11 +2,13 @@
 #include "nef/construct/from_surface.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "nef/base/error.h"
 #include "nef/construct/mesh_faces.h"
 #include "nef/construct/surface_contacts.h"
 #include "nef/construct/triangulate.h"
+#include "nef/geometry/rational_vectors.h"
 
 namespace nef {
 namespace {
@@ -64,6 +66,32 @@ bool cut(const MeshPoints& points, const std::vector<std::uint32_t>& ring, std::
   return false;
 }
 
+// What a ring in a plane of this normal encloses an odd number of times, with its sides. Pyramids over the triangles of
+// a fan, with one apex, are combined by parity: what that leaves of lower dimension, regularization removes.
+void add_enclosed(const std::vector<Rational3>& ring, const Rational3& normal, std::vector<Polyhedron>& out) {
+  const Rational3 apex{ring[0][0] + normal[0], ring[0][1] + normal[1], ring[0][2] + normal[2]};
+  Polyhedron cone;
+  for (std::size_t i = 1; i + 1 < ring.size(); ++i) {
+    const Rational3 corners[4] = {ring[0], ring[i], ring[i + 1], apex};
+    cone = symmetric_difference(cone, regularize(convex_hull(corners)));
+  }
+  const Rational offset = dot(normal, ring[0]);
+  out.push_back(intersect(regularize(cone), make_halfspace(normal[0], normal[1], normal[2], -offset)));
+  for (std::size_t i = 0; i < ring.size(); ++i) out.push_back(make_segment(ring[i], ring[(i + 1) % ring.size()]));
+}
+
+// The normal of the plane of the points; the zero vector if they lie on a line, nothing if they lie in no plane.
+std::optional<Rational3> common_normal(const std::vector<Rational3>& points) {
+  Rational3 normal;
+  for (std::size_t i = 1; i + 1 < points.size() && is_zero(normal); ++i) {
+    normal = cross(minus(points[i], points[0]), minus(points[i + 1], points[0]));
+  }
+  for (const Rational3& p : points) {
+    if (dot(normal, minus(p, points[0])) != 0) return std::nullopt;
+  }
+  return normal;
+}
+
 // A face that is degenerate or touches or crosses itself.
 void add_single(const Mesh& mesh, const MeshSurface& surface, std::uint32_t f, std::vector<Polyhedron>& out) {
   std::vector<std::uint32_t> ring;
@@ -74,7 +102,13 @@ void add_single(const Mesh& mesh, const MeshSurface& surface, std::uint32_t f, s
   if (ring.size() < 3) return;
   std::vector<Triangulator::Triangle> triangles;
   if (!cut(surface.points, ring, triangles)) {
-    // Any triangulation will do for a set that is no boundary; a fan keeps the corners.
+    std::vector<Rational3> points;
+    for (const std::uint32_t v : ring) points.push_back(mesh.vertices[v]);
+    if (const std::optional<Rational3> normal = common_normal(points); normal && !is_zero(*normal)) {
+      add_enclosed(points, *normal, out);
+      return;
+    }
+    // On a line, or bent and crossing itself however one looks at it: a fan keeps the corners.
     for (std::size_t i = 1; i + 1 < ring.size(); ++i) triangles.push_back({ring[0], ring[i], ring[i + 1]});
   }
   for (const Triangulator::Triangle& t : triangles) {

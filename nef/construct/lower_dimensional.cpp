@@ -9,20 +9,11 @@
 #include "nef/complex/local_pyramid.h"
 #include "nef/construct/construct.h"
 #include "nef/construct/simple_ring.h"
+#include "nef/geometry/rational_vectors.h"
 #include "nef/sphere_map/arrangement.h"
 
 namespace nef {
 namespace {
-
-Rational3 minus(const Rational3& a, const Rational3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-
-Rational3 cross(const Rational3& a, const Rational3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-Rational dot(const Rational3& a, const Rational3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-bool is_zero(const Rational3& a) { return a[0] == 0 && a[1] == 0 && a[2] == 0; }
 
 PlaneId plane_through(PlaneTable& planes, const Rational3& normal, const Rational3& point) {
   return planes.intern(normal, Rational(-dot(normal, point)));

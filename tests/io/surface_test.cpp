@@ -4,6 +4,9 @@
 #include <rapidcheck.h>
 #include <catch2/catch.hpp>
 
+#include <numeric>
+
+#include "nef/base/error.h"
 #include "nef/complex/validate.h"
 #include "nef/construct/construct.h"
 #include "nef/construct/to_mesh.h"
@@ -82,6 +85,59 @@ TEST_CASE("Random triangles on a small grid: the surface is the union of its fac
     RC_ASSERT(validate(set.complex()).empty());
     RC_ASSERT(equal(set, by_unions(mesh)));
   }));
+}
+
+TEST_CASE("Faces that touch or cross themselves still hold their corners", "[surface]") {
+  const auto surface_of = [](const std::vector<Rational3>& points) {
+    Mesh mesh;
+    mesh.vertices = points;
+    std::vector<std::uint32_t> face(points.size());
+    std::iota(face.begin(), face.end(), 0U);
+    mesh.push_face(face);
+    const Polyhedron set = from_mesh(mesh, MeshOptions{.as_surface = true});
+    CHECK(validate(set.complex()).empty());
+    for (const Rational3& p : points) CHECK(contains(set, p));
+    return set;
+  };
+  surface_of({{0, 2, 0}, {0, 2, 2}, {1, 2, -1}, {2, 2, 1}});  // two sides cross
+  surface_of({{2, 0, 0}, {2, 2, 0}, {2, 2, 1}, {2, 1, 0}});   // a side runs back along another
+  surface_of({{0, 2, 0}, {0, 2, 2}, {0, 2, 1}, {1, 2, 2}});   // and with the corner inside
+  // A corner touches a side from within: the area is that of both parts.
+  const Polyhedron pinched = surface_of({{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {1, 0, 0}, {0, 2, 0}});
+  const std::vector<std::vector<Rational3>> left{{{0, 0, 0}, {1, 0, 0}, {0, 2, 0}}};
+  const std::vector<std::vector<Rational3>> right{{{1, 0, 0}, {2, 0, 0}, {2, 2, 0}}};
+  CHECK(equal(pinched, unite(make_polygon(left), make_polygon(right))));
+  // Two loops of a crossing face.
+  const Polyhedron bow = surface_of({{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {2, 2, 0}});
+  const std::vector<std::vector<Rational3>> lower{{{0, 0, 0}, {2, 0, 0}, {1, 1, 0}}};
+  const std::vector<std::vector<Rational3>> upper{{{0, 2, 0}, {2, 2, 0}, {1, 1, 0}}};
+  CHECK(equal(bow, unite(make_polygon(lower), make_polygon(upper))));
+  // A square with a square hole, joined to the outer ring by a bridge that is walked twice.
+  const Polyhedron keyhole = surface_of(
+      {{0, 0, 0}, {3, 0, 0}, {3, 3, 0}, {0, 3, 0}, {0, 0, 0}, {1, 1, 0}, {1, 2, 0}, {2, 2, 0}, {2, 1, 0}, {1, 1, 0}});
+  const std::vector<std::vector<Rational3>> rings{{{0, 0, 0}, {3, 0, 0}, {3, 3, 0}, {0, 3, 0}},
+                                                  {{1, 1, 0}, {1, 2, 0}, {2, 2, 0}, {2, 1, 0}}};
+  CHECK(equal(keyhole, make_polygon(rings)));
+}
+
+TEST_CASE("Polygons that touch or cross themselves are refused, with the sides", "[surface]") {
+  const auto problem = [](const std::vector<Rational3>& ring) -> std::string {
+    try {
+      make_polygon(std::span(&ring, 1));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  CHECK(problem({{0, 0, 0}, {0, 0, 2}, {1, 0, -1}, {2, 0, 1}}).find("sides 1-2 and 3-0") != std::string::npos);
+  CHECK(problem({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 0, 0}}).find("sides 0-1 and 2-3") != std::string::npos);
+  CHECK(problem({{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {1, 0, 0}, {0, 2, 0}}).find("sides 0-1 and") != std::string::npos);
+  CHECK(problem({{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {2, 2, 0}}).find("sides 1-2 and 3-0") != std::string::npos);
+  // Twice around.
+  CHECK(problem({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 0}, {4, 0, 0}, {0, 4, 0}}).find("meet") != std::string::npos);
+  CHECK(problem({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}).find("one line") != std::string::npos);
+  // Straight corners are fine.
+  CHECK(problem({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 2, 0}, {1, 2, 0}, {0, 2, 0}, {0, 1, 0}}).empty());
 }
 
 TEST_CASE("A solid of one component that touches itself is the solid between its faces", "[surface]") {

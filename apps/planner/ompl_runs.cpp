@@ -87,6 +87,11 @@ OmplOutcome run_ompl(const Problem& problem, const OmplRequest& request) {
 int run_benchmark(const Problem& problem, const std::vector<std::string>& planners, double seconds, unsigned runs,
                   const std::string& log, bool quiet) {
   const QuietOmpl quiet_ompl;
+  const Answer ends = problem.solve();
+  if (ends.collision) {
+    std::printf("%s: %s\n", status_name(ends.status).c_str(), describe(*ends.collision, problem.scene()).c_str());
+    return 3;
+  }
   TranslationPlanning setup(problem);
   setup.setup();
   ompl::tools::Benchmark benchmark(setup, problem.scene().name);

@@ -113,7 +113,16 @@ TEST_CASE("The option --tight lists and exits with 0 whatever the answer, unless
   const Run listed = planner(folder, "--tight " + ends);
   CHECK(listed.code == 0);
   CHECK(listed.out.find("passage 0: dimension 2") == 0);
-  CHECK(planner(folder, ends).code == 2);
+  CHECK_THAT(listed.out, Catch::Contains("  mouth "));
+  CHECK(planner(folder, "--tight " + ends + " -o " + folder.file("tight.json")).code == 0);
+  const auto report = nlohmann::json::parse(text_of(folder.file("tight.json")));
+  CHECK(report["status"] == "free_space");
+  CHECK(report["tight"][0]["dimension"] == 2);
+  for (const char* how : {"", " --benchmark x.log", " --ompl RRT"}) {
+    const Run without = planner(folder, ends + how);
+    CHECK(without.code == 2);
+    CHECK_THAT(without.err, Catch::Contains("has no start"));
+  }
 }
 
 TEST_CASE("flags that all programs have") {
@@ -167,6 +176,11 @@ TEST_CASE("OMPL from the command line: a planner, and a benchmark log") {
   CHECK(text.find("geometric_TightPlanner") != std::string::npos);
   CHECK(text.find("geometric_PRM") != std::string::npos);
   CHECK(text.find("thinnest piece INTEGER") != std::string::npos);
+  const Run in_the_wall =
+      planner(folder, scene("s1_tight_hole") + " --start 4,0,0 --benchmark " + folder.file("no.log"));
+  CHECK(in_the_wall.code == 3);
+  CHECK_THAT(in_the_wall.out, Catch::StartsWith("invalid_start: overlaps obstacle 1"));
+  CHECK_FALSE(std::filesystem::exists(folder.file("no.log")));
 }
 
 TEST_CASE("numbers are the rationals that they spell") {

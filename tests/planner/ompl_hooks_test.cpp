@@ -214,7 +214,7 @@ TEST_CASE("every planner of OMPL that the command knows runs on the exact free s
     CHECK(outcome.answer.path.has_value() == (outcome.exit_code == 0));
     solved += outcome.solved;
   }
-  CHECK(solved >= 8);
+  CHECK(solved >= 20);  // of 38, in a tenth of a second each
 }
 
 TEST_CASE("a benchmark log of several planners, ours among them, with our columns") {

@@ -16,7 +16,7 @@ namespace nef::minkowski {
 namespace {
 
 // With normals at hand, planes need no more than an offset, and there is nothing to check.
-Polyhedron solid_with_normals(const ConvexCell& cell) {
+Polyhedron solid_with_normals(const ConvexCell& cell, const SolidMarks& marks) {
   SolidFaces faces;
   faces.points.reserve(cell.mesh.vertices.size());
   for (const Rational3& p : cell.mesh.vertices) faces.points.push(p);
@@ -26,7 +26,7 @@ Polyhedron solid_with_normals(const ConvexCell& cell) {
   }
   faces.begin = cell.mesh.face_begin;
   faces.corners = cell.mesh.corners;
-  return Polyhedron(make_solid(std::move(faces), {1, 1, 0}));
+  return Polyhedron(make_solid(std::move(faces), marks));
 }
 
 Polyhedron closed_polyhedron(const ConvexCell& cell) {
@@ -42,7 +42,7 @@ Polyhedron closed_polyhedron(const ConvexCell& cell) {
       return make_polygon(std::span<const std::vector<Rational3>>(&ring, 1));
     }
     default:
-      if (!cell.normals.empty()) return solid_with_normals(cell);
+      if (!cell.normals.empty()) return solid_with_normals(cell, {.boundary = 1, .inside = 1, .outside = 0});
       return from_mesh(cell.mesh, MeshOptions{.strict = true, .as_surface = false, .check = false});
   }
 }
@@ -93,6 +93,9 @@ class Correspondence {
 }  // namespace
 
 Polyhedron to_polyhedron(const ConvexCell& cell) {
+  if (cell.boundary == ConvexCell::Boundary::kOpen && cell.dimension == 3 && !cell.normals.empty()) {
+    return solid_with_normals(cell, {.boundary = 0, .inside = 1, .outside = 0});
+  }
   Polyhedron closed = closed_polyhedron(cell);
   if (cell.boundary == ConvexCell::Boundary::kClosed) return closed;
   if (cell.boundary == ConvexCell::Boundary::kOpen && cell.dimension == 3) return interior(closed);

@@ -124,7 +124,11 @@ TEST_CASE("command: cells of a decomposition to a coloured file and into a direc
   // Two hulls of 8 vertices and 6 faces, one edge.
   const std::string off = place.read("cells.off");
   CHECK(off.rfind("OFF\n18 13 0\n", 0) == 0);
-  CHECK(place.run("--decompose a.nef -o cells.ply").code == 0);
+  const Outcome ply = place.run("--decompose a.nef -o cells.ply");
+  CHECK(ply.code == 0);
+  CHECK(ply.err.find("1 of the cells are segments or points") != std::string::npos);
+  CHECK(place.run("--decompose a.nef -o cells.obj --quiet").code == 0);
+  CHECK(place.read("cells.obj").find("\nl 17 18\n") != std::string::npos);
   const nef::Mesh mesh = nef::read_mesh(place / "cells.ply");
   CHECK(mesh.vertices.size() == 16);
   CHECK(mesh.face_count() == 12);
@@ -135,6 +139,13 @@ TEST_CASE("command: cells of a decomposition to a coloured file and into a direc
     cells.push_back(nef::read_polyhedron(place / name));
   }
   CHECK(nef::equal(nef::unite_all(cells), nef::read_polyhedron(place / "a.nef")));
+
+  // Again into the same directory: fewer cells would stand among the old ones.
+  CHECK(place.run("--decompose a.nef -o cells --format nef").code == 0);
+  place.write("b.nef", "box(0,0,0,1,1,1)");
+  const Outcome refused = place.run("--decompose b.nef -o cells --format nef");
+  CHECK(refused.code == 2);
+  CHECK(refused.err.find("earlier run") != std::string::npos);
 }
 
 TEST_CASE("command: free space with a tight passage") {
@@ -169,6 +180,10 @@ TEST_CASE("command: bad usage and bad input are one line on stderr, code 2, and 
       {"a.nef --box-tool 1,1,1 --ball 1,1 -o out.nef", "one of them"},
       {"a.nef a.nef --robot a.nef -o out.nef", "--configuration-space"},
       {"--configuration-space --obstacles a.nef -o out.nef", "--robot"},
+      {"--configuration-space --robot a.nef -o out.nef", "--obstacles"},
+      {"--configuration-space --robot a.nef --obstacles a.nef --box 0,1,0 1,0,1 -o out.nef", "lower corner"},
+      {"a.nef a.nef --format ply -o out.nef", "--format"},
+      {"--decompose a.nef --ball 1,2 -o out.off", "--decompose"},
       {"--decompose a.nef -o out.txt", "off, ply or obj"},
       {"a.nef a.nef -o out.xyz", "out.xyz"}};
   const std::size_t before = place.file_count();

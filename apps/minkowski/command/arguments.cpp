@@ -30,7 +30,7 @@ void declare(CLI::App& app, Arguments& a) {
   app.add_option("--union", a.union_name, "how sums of cells are united: trivial, queue, priority, nary")
       ->check(CLI::IsMember({"trivial", "queue", "priority", "nary"}));
   app.add_flag("--decompose", a.decompose, "write the convex cells of A, to one mesh file or into a directory");
-  app.add_option("--format", a.format, "of cells in a directory: off, ply, obj, or nef (exact, with marks)")
+  app.add_option("--format", a.format, "of cells in a directory: off (default), ply, obj, or nef (exact, with marks)")
       ->check(CLI::IsMember({"off", "ply", "obj", "nef"}));
   app.add_flag("--configuration-space", a.configuration_space, "free positions of a robot among obstacles");
   app.add_option("--robot", a.robot, "the robot; its reference point is the origin");
@@ -52,10 +52,13 @@ void check(const Arguments& a) {
   if (a.decompose && a.configuration_space) {
     throw InputError("--decompose and --configuration-space are two tasks: give one of them");
   }
+  if (!a.format.empty() && !a.decompose)
+    throw InputError("--format goes with --decompose; -o names a file by its extension");
   const std::size_t tools = (a.ball.empty() ? 0U : 1U) + (a.box_tool.empty() ? 0U : 1U);
   if (tools > 1) throw InputError("--ball and --box-tool both stand in for B: give one of them");
   if (a.configuration_space) {
     if (a.robot.empty()) throw InputError("--configuration-space needs --robot");
+    if (a.obstacles.empty()) throw InputError("--configuration-space needs --obstacles (one file or more)");
     if (!a.operands.empty()) throw InputError("--configuration-space takes --robot and --obstacles, not A and B");
     if (tools > 0 || a.open_a || a.open_b || a.negate_b) {
       throw InputError("--ball, --box-tool, --open-a, --open-b and --negate-b do not go with --configuration-space");
@@ -64,6 +67,9 @@ void check(const Arguments& a) {
   }
   if (!a.robot.empty() || !a.obstacles.empty() || !a.box.empty()) {
     throw InputError("--robot, --obstacles and --box go with --configuration-space");
+  }
+  if (a.decompose && (tools > 0 || a.open_b || a.negate_b)) {
+    throw InputError("--ball, --box-tool, --open-b and --negate-b do not go with --decompose");
   }
   const std::size_t wanted = a.decompose || tools > 0 ? 1 : 2;
   if (a.operands.size() != wanted) {

@@ -25,7 +25,7 @@ struct Arguments {
 
   std::string ball, box_tool;  ///< as written: "R,N", "x,y,z"
   bool decompose = false;
-  std::string format = "off";  ///< of the files in a directory of cells
+  std::string format;  ///< of the files in a directory of cells; empty: off
 
   bool configuration_space = false;
   std::string robot;

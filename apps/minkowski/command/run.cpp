@@ -149,6 +149,10 @@ class Task {
     if (!a_.box.empty()) {
       const std::vector<Rational> low = parse_numbers(a_.box[0], 3, "--box");
       const std::vector<Rational> high = parse_numbers(a_.box[1], 3, "--box");
+      for (std::size_t i = 0; i < 3; ++i) {
+        if (low[i] <= high[i]) continue;
+        throw InputError("--box: give the lower corner first; " + to_string(low[i]) + " exceeds " + to_string(high[i]));
+      }
       box = {Rational3{low[0], low[1], low[2]}, Rational3{high[0], high[1], high[2]}};
     }
     ProgressBar bar(!a_.quiet);
@@ -165,8 +169,10 @@ class Task {
     {
       const Stopwatch writing;
       const SignalsHeld held;
-      write_cells(a_.output, cells, a_.format, a_.exact);
+      Messages messages;
+      write_cells(a_.output, cells, a_.format.empty() ? "off" : a_.format, a_.exact, messages);
       write_s_ = writing.seconds();
+      show(messages);
       if (!a_.preview.empty()) {
         write_previews(a_.preview, {{"a", a}});
         write_cell_preview(a_.preview, cells);

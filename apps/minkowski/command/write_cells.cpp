@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/minkowski/command/write_cells.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -36,7 +37,7 @@ std::string point_line(const Rational3& p, bool exact) {
   return number(p[0], exact) + " " + number(p[1], exact) + " " + number(p[2], exact) + "\n";
 }
 
-// The faces of a cell as vertex lists; an edge or a point counts as a face with two corners or one.
+// The faces of a cell as vertex lists; a segment or a point counts as a face with two corners or one.
 std::vector<std::vector<std::uint32_t>> faces_of(const ConvexCell& cell) {
   std::vector<std::vector<std::uint32_t>> faces;
   for (std::size_t f = 0; f < cell.mesh.face_count(); ++f) {
@@ -57,14 +58,14 @@ struct Bodies {
 Bodies bodies(std::span<const ConvexCell> cells, std::size_t first, const std::string& format, bool exact) {
   Bodies b;
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    if (format != "off" && cells[i].dimension < 2) continue;
+    if (format == "ply" && cells[i].dimension < 2) continue;
     const Colour colour = colour_of(first + i);
     const std::string rgb =
         std::to_string(colour[0]) + " " + std::to_string(colour[1]) + " " + std::to_string(colour[2]);
     for (const Rational3& p : cells[i].mesh.vertices) b.points += (format == "obj" ? "v " : "") + point_line(p, exact);
     if (format == "obj") b.faces += "g cell_" + std::to_string(first + i + 1) + "\n";
     for (const std::vector<std::uint32_t>& face : faces_of(cells[i])) {
-      b.faces += format == "obj" ? "f" : std::to_string(face.size());
+      b.faces += format != "obj" ? std::to_string(face.size()) : face.size() > 2 ? "f" : face.size() == 2 ? "l" : "p";
       for (const std::uint32_t v : face) {
         b.faces += " " + std::to_string(b.point_count + v + (format == "obj" ? 1 : 0));
       }
@@ -93,24 +94,38 @@ void write_mesh_file(const std::string& path, std::span<const ConvexCell> cells,
   write_file(path, head + b.points + b.faces);
 }
 
+std::string cell_path(const std::string& directory, std::size_t cell, const std::string& format) {
+  std::string digits = std::to_string(cell + 1);
+  digits.insert(0, digits.size() < 4 ? 4 - digits.size() : 0, '0');
+  return (std::filesystem::path(directory) / ("cell_" + digits + "." + format)).string();
+}
+
 }  // namespace
 
-void write_cells(const std::string& path, std::span<const ConvexCell> cells, const std::string& format, bool exact) {
+void write_cells(const std::string& path, std::span<const ConvexCell> cells, const std::string& format, bool exact,
+                 Messages& messages) {
   const bool is_directory = std::filesystem::is_directory(path);
-  if (const std::string extension = lower_extension(path); !extension.empty() && !is_directory) {
+  const std::string extension = is_directory ? "" : lower_extension(path);
+  const auto thin = std::count_if(cells.begin(), cells.end(), [](const ConvexCell& c) { return c.dimension < 2; });
+  if (thin > 0 && (extension.empty() ? format : extension) == "ply") {
+    messages.push_back(path + ": " + std::to_string(thin) +
+                       " of the cells are segments or points, which PLY leaves out");
+  }
+  if (!extension.empty()) {
     write_mesh_file(path, cells, 0, extension, exact);
     return;
   }
   std::error_code error;
   std::filesystem::create_directories(path, error);
   if (error) throw InputError(path + ": the directory cannot be made (" + error.message() + ")");
+  if (std::filesystem::exists(cell_path(path, cells.size(), format))) {
+    throw InputError(path + ": holds more cells, of an earlier run; empty it or name another directory");
+  }
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    std::string digits = std::to_string(i + 1);
-    digits.insert(0, digits.size() < 4 ? 4 - digits.size() : 0, '0');
-    const std::string file = (std::filesystem::path(path) / ("cell_" + digits + "." + format)).string();
+    const std::string file = cell_path(path, i, format);
     if (format == "nef") {
       write_polyhedron(file, to_polyhedron(cells[i]));
-    } else if (format == "off" || cells[i].dimension >= 2) {
+    } else if (format != "ply" || cells[i].dimension >= 2) {
       write_mesh_file(file, cells.subspan(i, 1), i, format, exact);
     }
   }

@@ -339,14 +339,33 @@ SurfaceContacts::Kind SurfaceContacts::classify(std::uint32_t t, std::uint32_t u
   }
   if (shared < 2) return classify_general(t, u, shared);
   if (shared == 3) return Kind::kOverlap;
-  if (side(t, b[b_free]) != 0) return Kind::kNone;
-  // Coplanar neighbours overlap if they lie on one side of their edge.
-  const std::uint32_t p = a[(a_free + 1) % 3];
-  const std::uint32_t q = a[(a_free + 2) % 3];
-  const std::size_t axis = points_.projection_axis(a[0], a[1], a[2]);
-  const bool same_side =
-      points_.orientation_along(p, q, a[a_free], axis) == points_.orientation_along(p, q, b[b_free], axis);
-  return same_side ? Kind::kOverlap : Kind::kNone;
+  return classify_neighbours(t, u, a_free, b_free);
+}
+
+// Two triangles with a common edge, given the corners that they do not share.
+SurfaceContacts::Kind SurfaceContacts::classify_neighbours(std::uint32_t t, std::uint32_t u, std::size_t t_free,
+                                                           std::size_t u_free) const {
+  const Triangle& a = triangles_[t];
+  const Triangle& b = triangles_[u];
+  const std::uint32_t p = a[(t_free + 1) % 3];
+  const std::uint32_t q = a[(t_free + 2) % 3];
+  if (side(t, b[u_free]) == 0) {
+    // Coplanar neighbours overlap if they lie on one side of their edge.
+    const std::size_t axis = points_.projection_axis(a[0], a[1], a[2]);
+    const bool same_side =
+        points_.orientation_along(p, q, a[t_free], axis) == points_.orientation_along(p, q, b[u_free], axis);
+    return same_side ? Kind::kOverlap : Kind::kNone;
+  }
+  // A cut through a planar face is no edge of the surface, so what else lies on it touches the face from one side.
+  if (!patches_.is_cut(t, p, q) && !patches_.is_cut(u, p, q)) return Kind::kNone;
+  std::vector<Wing> wings;
+  int balance = 0;
+  for (const HalfEdge& h : around(p, q)) {
+    wings.push_back({h.apex, h.direction});
+    balance += h.direction;
+  }
+  const bool crosses = balance == 0 && !alternate(std::min(p, q), std::max(p, q), std::move(wings));
+  return crosses ? Kind::kCross : Kind::kTouch;
 }
 
 void SurfaceContacts::for_each(const std::function<bool(Kind, std::uint32_t, std::uint32_t)>& visit) const {

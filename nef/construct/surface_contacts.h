@@ -63,6 +63,8 @@ class SurfaceContacts {
   [[nodiscard]] Kind classify(std::uint32_t t, std::uint32_t u) const;
   [[nodiscard]] Kind classify_general(std::uint32_t t, std::uint32_t u, int shared) const;
   [[nodiscard]] Kind classify_coplanar(std::uint32_t t, std::uint32_t u, int shared) const;
+  [[nodiscard]] Kind classify_neighbours(std::uint32_t t, std::uint32_t u, std::size_t t_free,
+                                         std::size_t u_free) const;
   [[nodiscard]] Kind resolve_segment(std::uint32_t t, Edge t_edge, std::uint32_t u, Edge u_edge) const;
   [[nodiscard]] std::span<const HalfEdge> around(std::uint32_t u, std::uint32_t v) const;
   bool add_wings(std::uint32_t triangle, Edge own, Edge along, std::vector<Wing>& wings) const;

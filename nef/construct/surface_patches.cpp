@@ -56,11 +56,22 @@ std::optional<std::uint32_t> SurfacePatches::position(const Patch& patch, std::u
     }
     return std::nullopt;
   }
-  const std::uint32_t face = surface_.face_of[patch.first];
+  return position_in_face(surface_.face_of[patch.first], place);
+}
+
+// In the ring of a planar face of more than one triangle; nothing for other faces.
+std::optional<std::uint32_t> SurfacePatches::position_in_face(std::uint32_t face, std::uint32_t place) const {
   for (std::uint32_t i = corner_begin_[place]; i < corner_begin_[place + 1]; ++i) {
     if (corners_[i].face == face) return corners_[i].position;
   }
   return std::nullopt;
+}
+
+bool SurfacePatches::is_cut(std::uint32_t triangle, std::uint32_t u, std::uint32_t v) const {
+  const std::uint32_t face = surface_.face_of[triangle];
+  const std::optional<std::uint32_t> i = position_in_face(face, u);
+  const std::optional<std::uint32_t> j = position_in_face(face, v);
+  return i && j && !adjacent(*i, *j, surface_.ring(face).size());
 }
 
 bool SurfacePatches::on_plane(std::uint32_t triangle, std::uint32_t place) const {

@@ -30,6 +30,9 @@ class SurfacePatches {
   /// True if the place is known to lie in the plane of the triangle: as a corner of the same planar face.
   [[nodiscard]] bool on_plane(std::uint32_t triangle, std::uint32_t place) const;
 
+  /// True if the edge of the triangle between two of its corners is a cut through its planar face, not a side of it.
+  [[nodiscard]] bool is_cut(std::uint32_t triangle, std::uint32_t u, std::uint32_t v) const;
+
  private:
   struct Patch {
     std::uint32_t first = 0, last = 0;  // triangles
@@ -43,6 +46,7 @@ class SurfacePatches {
 
   [[nodiscard]] std::span<const std::uint32_t> corners(const Patch& patch) const;
   [[nodiscard]] std::optional<std::uint32_t> position(const Patch& patch, std::uint32_t place) const;
+  [[nodiscard]] std::optional<std::uint32_t> position_in_face(std::uint32_t face, std::uint32_t place) const;
   [[nodiscard]] bool apart(const Patch& p, const Patch& q) const;
   [[nodiscard]] Box box(std::span<const std::uint32_t> places) const;
   [[nodiscard]] std::vector<Box> triangle_boxes(const Patch& patch) const;

@@ -3,10 +3,14 @@
 // Every kind of broken file gives one clear line that says what and where.
 #include <catch2/catch.hpp>
 
+#include <array>
 #include <functional>
 
+#include "nef/complex/validate.h"
+#include "nef/construct/to_mesh.h"
 #include "nef/io/cgal_nef3.h"
 #include "nef/io/mesh_reader.h"
+#include "nef/io/mesh_writer.h"
 #include "nef/io/native_format.h"
 #include "nef/io/polyhedron_file.h"
 #include "tests/io/temporary_folder.h"
@@ -180,6 +184,79 @@ TEST_CASE("Native and nef3 files with one digit changed are refused or still val
   // Most digits are indices or coordinates that must fit to others; links that we synthesize anew are not read.
   CHECK(refused > 200);
   CHECK(accepted > 0);
+}
+
+// A small xorshift: the same files everywhere.
+struct Dice {
+  std::uint64_t state = 88172645463325252U;
+  std::size_t below(std::size_t n) {
+    state ^= state << 13U;
+    state ^= state >> 7U;
+    state ^= state << 17U;
+    return state % n;
+  }
+};
+
+std::string damaged(std::string bytes, Dice& dice) {
+  const std::array<const char*, 12> words{"nan", "1e400", "-1",    "4294967296",  "1/0", "1/3",
+                                          "",    "\n",    "99999", "-2147483648", "e",   "#"};
+  for (std::size_t changes = 1 + dice.below(3); changes > 0 && !bytes.empty(); --changes) {
+    const std::size_t at = dice.below(bytes.size());
+    switch (dice.below(5)) {
+      case 0:
+        bytes[at] = static_cast<char>(dice.below(256));
+        break;
+      case 1:
+        bytes.resize(at);
+        break;
+      case 2:
+        bytes.erase(at, dice.below(20));
+        break;
+      case 3:
+        bytes.insert(at, bytes.substr(dice.below(bytes.size()), dice.below(40)));
+        break;
+      default:
+        bytes.replace(at, 1, words[dice.below(words.size())]);
+    }
+  }
+  return bytes;
+}
+
+TEST_CASE("Mesh files with anything changed are refused in one line or give valid sets") {
+  const Polyhedron set = subtract(make_box({0, 0, 0}, {3, 3, 3}), make_box({1, 1, -1}, {2, 2, 2}));
+  MeshExportOptions polygons;
+  polygons.keep_polygons = true;
+  const Mesh mesh = to_mesh(set, polygons).mesh;
+  MeshWriteOptions binary;
+  binary.binary = true;
+  using Read = Mesh (*)(std::string_view, const std::string&);
+  const std::vector<std::pair<std::string, Read>> formats{
+      {off_bytes(mesh), read_off},         {obj_bytes(mesh), read_obj}, {stl_bytes(mesh), read_stl},
+      {stl_bytes(mesh, binary), read_stl}, {ply_bytes(mesh), read_ply}, {ply_bytes(mesh, binary), read_ply}};
+  Dice dice;
+  std::size_t read = 0;
+  for (const auto& [bytes, reader] : formats) {
+    for (int i = 0; i < 600; ++i) {
+      const std::string text = damaged(bytes, dice);
+      MeshOptions options;
+      options.as_surface = dice.below(3) == 0;
+      INFO(text);
+      try {
+        const Mesh back = reader(text, "bent");
+        ++read;
+        const std::string broken = validate(from_mesh(back, options).complex());
+        CHECK(broken.empty());
+      } catch (const InputError& error) {
+        CHECK(std::string(error.what()).find('\n') == std::string::npos);
+      }
+    }
+  }
+  CHECK(read > 100);
+}
+
+TEST_CASE("A text that is nothing but white space is no STL") {
+  CHECK_THROWS_AS(read_stl("", "a.stl"), FileError);
+  CHECK_THROWS_AS(read_stl(" \n", "a.stl"), FileError);
 }
 
 TEST_CASE("Closed meshes only become solids; errors name the file") {

@@ -36,6 +36,8 @@ Json check_mesh_file(const std::string& path, bool self_intersections) {
     problems.push_back(plain_problem(name(error.problem()), error.what(), error.element()));
     return problems;
   }
+  if (mesh.face_count() == 0)
+    problems.push_back(plain_problem("no faces", "the mesh has no faces, so it bounds no solid"));
   MeshCheckOptions options;
   options.max_per_kind = 1000;
   options.self_intersections = self_intersections;

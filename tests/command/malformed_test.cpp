@@ -119,6 +119,7 @@ TEST_CASE("check names what is wrong") {
   CHECK(first_problem(with_line(4, "nan 0 0")) == "not a number");
   CHECK(here.nef("check bad.off --json").json()["problems"][0]["vertices"] == nlohmann::json::array({1}));
   CHECK(first_problem(with_line(11, "4 1 3 2 0")) == "inconsistent orientation");
+  CHECK(first_problem("OFF 0 0 0\n") == "no faces");
   check_refused(here.nef("check missing.off"), "missing.off");
   // A face that is only bent is no obstacle.
   here.write("bent.off", with_line(10, "2 2 2.001"));

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "nef/base/error.h"
+#include "nef/operation/compact_marks.h"
 #include "nef/polyhedron.h"
 
 namespace nef {
@@ -37,7 +38,8 @@ class LabeledPolyhedron {
   [[nodiscard]] const Label& at(const Rational3& point) const { return labels_[locate(set_, point).mark]; }
 
   /// Every point carries f(its label in a, its label in b). f is called once for each pair of
-  /// labels; cost as for a Boolean operation.
+  /// labels, also of such that meet nowhere; the result keeps the labels that some point has.
+  /// Cost as for a Boolean operation, and one comparison for each pair and label of the result.
   template <typename Function>
   friend LabeledPolyhedron overlay(const LabeledPolyhedron& a, const LabeledPolyhedron& b, Function&& f) {
     std::vector<Label> labels;
@@ -55,7 +57,11 @@ class LabeledPolyhedron {
       };
       return intern(f(a.labels_[clamp(x, a.labels_)], b.labels_[clamp(y, b.labels_)]));
     });
-    return LabeledPolyhedron(std::move(set), std::move(labels));
+    // f was asked for pairs that meet nowhere, too.
+    CompactMarks compact = compact_marks(set);
+    std::vector<Label> in_use;
+    for (const LabelId mark : compact.old) in_use.push_back(std::move(labels[mark]));
+    return LabeledPolyhedron(std::move(compact.set), std::move(in_use));
   }
 
   /// The set of points whose label satisfies the predicate.

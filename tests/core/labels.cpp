@@ -44,6 +44,36 @@ TEST_CASE("how many boxes cover a point") {
   CHECK(nef::validate(depth.polyhedron().complex()).empty());
 }
 
+TEST_CASE("only labels that some point has are kept") {
+  // Sums of powers of two: all subsets would be far too many.
+  LabeledPolyhedron<long> sum(0);
+  for (int i = 0; i < 40; ++i) {
+    const LabeledPolyhedron<long> next(make_box({i, 0, 0}, {i + 1, 1, 1}), 0, 1L << i);
+    sum = overlay(sum, next, std::plus<>());
+  }
+  CHECK(sum.labels().size() == 1 + 40 + 39);  // nothing, boxes, and walls between two of them
+  CHECK(sum.at({nef::Rational(41, 2), 1, 1}) == 1L << 20);
+  CHECK(sum.at({20, 1, 1}) == (1L << 20) + (1L << 19));
+  CHECK(sum.at({-1, 0, 0}) == 0);
+  CHECK(nef::validate(sum.polyhedron().complex()).empty());
+  CHECK(equal(sum.where([](long label) { return label >= 1L << 38; }), make_box({38, 0, 0}, {40, 1, 1})));
+}
+
+TEST_CASE("labels of unbounded sets") {
+  const LabeledPolyhedron<std::string> sea(nef::make_halfspace(0, 0, 1, 0), "air", "water");
+  const LabeledPolyhedron<std::string> ice(make_box({0, 0, -2}, {2, 2, 1}), "air", "ice");
+  const LabeledPolyhedron<std::string> both =
+      overlay(sea, ice, [](const std::string& a, const std::string& b) { return b == "air" ? a : b; });
+  CHECK(nef::validate(both.polyhedron().complex()).empty());
+  CHECK(both.at({1, 1, 0}) == "ice");
+  CHECK(both.at({0, 0, 1}) == "ice");
+  CHECK(both.at({5, 5, 0}) == "water");
+  CHECK(both.at({5, 5, 1}) == "air");
+  CHECK(both.at({1000000, 1, -1000000}) == "water");
+  CHECK(equal(both.where([](const std::string& s) { return s == "water"; }),
+              subtract(nef::make_halfspace(0, 0, 1, 0), make_box({0, 0, -2}, {2, 2, 1}))));
+}
+
 TEST_CASE("labels that merge simplify the complex") {
   const LabeledPolyhedron<int> a(make_box({0, 0, 0}, {1, 1, 1}), 0, 7);
   const LabeledPolyhedron<int> b(make_box({1, 0, 0}, {2, 1, 1}), 0, 7);

@@ -25,29 +25,37 @@ PlaneId plane_of_points(PlaneTable& planes, const PointTable& points, PointId o,
   const Integers u = difference(points, p, o);
   const Integers v = difference(points, q, o);
   Integers n;
-  Integer divisor;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3;
     const std::size_t k = (i + 2) % 3;
     mpz_mul(n[i].get_mpz_t(), u[j].get_mpz_t(), v[k].get_mpz_t());
     mpz_submul(n[i].get_mpz_t(), u[k].get_mpz_t(), v[j].get_mpz_t());
-    mpz_gcd(divisor.get_mpz_t(), divisor.get_mpz_t(), n[i].get_mpz_t());
   }
-  // Short normals first: a common factor of the differences would go through all that follows.
-  for (Integer& x : n) mpz_divexact(x.get_mpz_t(), x.get_mpz_t(), divisor.get_mpz_t());
   return plane_through(planes, points, n, o);
 }
 
 }  // namespace
 
 PlaneId plane_through(PlaneTable& planes, const PointTable& points, const std::array<Integer, 3>& normal, PointId o) {
+  // Common factors go while numbers are short: of the normal first, mostly 1, then of the point's denominator and the
+  // offset; the plane that is left has none.
   Integers n = normal;
-  Integer offset;
-  for (std::size_t i = 0; i < 3; ++i) {
-    mpz_submul(offset.get_mpz_t(), normal[i].get_mpz_t(), points.coordinate(o, i));
-    mpz_mul(n[i].get_mpz_t(), n[i].get_mpz_t(), points.coordinate(o, 3));
+  Integer divisor;
+  for (std::size_t i = 0; i < 3 && divisor != 1; ++i) {
+    mpz_gcd(divisor.get_mpz_t(), divisor.get_mpz_t(), n[i].get_mpz_t());
   }
-  return planes.intern(n[0], n[1], n[2], offset);
+  if (divisor != 1) {
+    for (Integer& x : n) mpz_divexact(x.get_mpz_t(), x.get_mpz_t(), divisor.get_mpz_t());
+  }
+  Integer offset;
+  for (std::size_t i = 0; i < 3; ++i) mpz_submul(offset.get_mpz_t(), n[i].get_mpz_t(), points.coordinate(o, i));
+  mpz_gcd(divisor.get_mpz_t(), offset.get_mpz_t(), points.coordinate(o, 3));
+  mpz_divexact(offset.get_mpz_t(), offset.get_mpz_t(), divisor.get_mpz_t());
+  mpz_divexact(divisor.get_mpz_t(), points.coordinate(o, 3), divisor.get_mpz_t());
+  if (divisor != 1) {
+    for (Integer& x : n) x *= divisor;
+  }
+  return planes.intern_primitive({n[0].get_mpz_t(), n[1].get_mpz_t(), n[2].get_mpz_t(), offset.get_mpz_t()});
 }
 
 ExactCells::ExactCells(std::span<const ConvexCell> cells, const RoundedCells& rounded)

@@ -178,7 +178,7 @@ int check_given_path(const Arguments& a, const Problem& problem) {
   if (answer.path && a.tight && !a.json && !a.quiet) {
     std::cout << passages_text(problem.free_space()) << "uses passages:";
     for (const std::uint32_t passage : answer.path->passages) std::cout << ' ' << passage;
-    std::cout << '\n';
+    std::cout << (answer.path->passages.empty() ? " none\n" : "\n");
   }
   return exit_code(answer);
 }

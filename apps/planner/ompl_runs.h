@@ -38,9 +38,9 @@ struct OmplOutcome {
 /// Runs a planner. Its paths are checked exactly again before they count.
 OmplOutcome run_ompl(const Problem& problem, const OmplRequest& request);
 
-/// Writes OMPL's benchmark log (for ompl_benchmark_statistics): our planner and the given ones. Returns the exit code: 0,
-/// or 3 if start or goal is not free. Throws InputError if one is missing.
-/// TightPlanner's runs include the construction of the free space from the scene.
+/// Writes OMPL's benchmark log (for ompl_benchmark_statistics): our planner and the given ones. Returns the exit code:
+/// 0, or 3 if start or goal is not free. Throws InputError if one is missing. TightPlanner's runs include the
+/// construction of the free space from the scene.
 int run_benchmark(const Problem& problem, const std::vector<std::string>& planners, double seconds, unsigned runs,
                   const std::string& log, bool quiet);
 

@@ -59,6 +59,8 @@ class Evaluator {
       case Term::kRotate:
       case Term::kTransform:
         return transform(sets[0], map_of(node));
+      case Term::kChain:
+        return chain(node.operators, sets);
       default:
         return combine(node.term, sets);
     }
@@ -80,6 +82,17 @@ class Evaluator {
       default:
         return affine_map_of(n);
     }
+  }
+
+  // Runs of one operator at a time.
+  static Polyhedron chain(std::span<const Term> operators, std::span<const Polyhedron> sets) {
+    Polyhedron result = sets[0];
+    for (std::size_t first = 0, last = 0; first < operators.size(); first = last) {
+      std::vector<Polyhedron> run{std::move(result)};
+      for (; last < operators.size() && operators[last] == operators[first]; ++last) run.push_back(sets[last + 1]);
+      result = combine(operators[first], run);
+    }
+    return result;
   }
 
   static Polyhedron combine(Term term, std::span<const Polyhedron> sets) {

@@ -129,21 +129,38 @@ class Parser {
     return node;
   }
 
+  // A run of one operator is one node; different ones make a flat chain, so that long texts make no deep trees.
   SyntaxNode sum() {
     SyntaxNode left = product();
     for (;;) {
       peek();
       const std::size_t offset = at_;
-      if (take('+')) {
-        left = join(Term::kUnion, offset, std::move(left), product());
-      } else if (take('-')) {
-        left = join(Term::kDifference, offset, std::move(left), product());
-      } else if (take('^')) {
-        left = join(Term::kSymmetricDifference, offset, std::move(left), product());
+      const Term term = take('+')   ? Term::kUnion
+                        : take('-') ? Term::kDifference
+                        : take('^') ? Term::kSymmetricDifference
+                                    : Term::kNothing;
+      if (term == Term::kNothing) return left;
+      const bool fresh = left.term != Term::kUnion && left.term != Term::kDifference &&
+                         left.term != Term::kSymmetricDifference && left.term != Term::kChain;
+      if (fresh || left.term == term) {
+        left = join(term, offset, std::move(left), product());
       } else {
-        return left;
+        left = lengthen(term, offset, std::move(left), product());
       }
     }
+  }
+
+  static SyntaxNode lengthen(Term term, std::size_t offset, SyntaxNode&& left, SyntaxNode&& right) {
+    if (left.term != Term::kChain) {
+      SyntaxNode chain;
+      chain.term = Term::kChain;
+      chain.offset = offset;
+      chain.sets.push_back(std::move(left));
+      left = std::move(chain);
+    }
+    left.operators.push_back(term);
+    left.sets.push_back(std::move(right));
+    return std::move(left);
   }
 
   SyntaxNode product() {

@@ -23,6 +23,7 @@ enum class Term : std::uint8_t {
   kSegment,
   kHull,
   kPolygon,
+  kChain,
   kUnion,
   kIntersection,
   kDifference,
@@ -44,6 +45,7 @@ struct SyntaxNode {
   Term term = Term::kNothing;
   std::size_t offset = 0;  ///< bytes before its name or operator
   std::vector<SyntaxNode> sets;
+  std::vector<Term> operators;    ///< of a chain: between its sets, done from left to right
   std::vector<Rational> numbers;  ///< all numbers but those of a polygon; a rotation: axis, degrees[, tolerance]
   std::vector<std::vector<Rational3>> rings;  ///< of a polygon; the first one: the points of a hull or segment
   std::string path;                           ///< of a file

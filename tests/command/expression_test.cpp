@@ -3,6 +3,8 @@
 // The expression language: what it makes, and what its errors say.
 #include <catch2/catch.hpp>
 
+#include <array>
+
 #include "nef/command/expression.h"
 
 namespace nef {
@@ -23,6 +25,25 @@ std::string refusal(const std::string& text) {
 bool same(const std::string& a, const std::string& b) { return equal(eval(a), eval(b)); }
 
 }  // namespace
+
+TEST_CASE("long expressions of many operators make no deep trees") {
+  std::string text = "point(0,0,0)";
+  for (int i = 1; i < 20000; ++i) {
+    const std::string p = "point(" + std::to_string(i % 7) + ",0,0)";
+    text += (i % 3 == 0 ? " - " : i % 3 == 1 ? " + " : " ^ ") + p;
+  }
+  // What is left, by replaying the operators.
+  std::array<bool, 7> in{true};
+  for (int i = 1; i < 20000; ++i) {
+    bool& at = in.at(static_cast<std::size_t>(i % 7));
+    at = i % 3 == 0 ? false : i % 3 == 1 ? true : !at;
+  }
+  const Polyhedron set = eval(text);
+  for (int x = 0; x < 7; ++x) CHECK(contains(set, {x, 0, 0}) == in.at(static_cast<std::size_t>(x)));
+  CHECK(
+      equal(evaluate_expression("box(0,0,0,4,1,1) - box(1,0,0,2,1,1) + box(1,0,0,3,1,1) - box(0,0,0,1,1,1)", {}),
+            evaluate_expression("((box(0,0,0,4,1,1) - box(1,0,0,2,1,1)) + box(1,0,0,3,1,1)) - box(0,0,0,1,1,1)", {})));
+}
 
 TEST_CASE("operators and their precedence") {
   CHECK(eval("nothing").is_empty());

@@ -54,6 +54,7 @@ struct Case {
 struct Settings {
   int repeat = 3;
   bool peer = true;
+  bool slow_peer = false;
   std::string only;  // run cases whose names hold this
 
   [[nodiscard]] bool wants(const std::string& name) const { return name.find(only) != std::string::npos; }
@@ -90,7 +91,7 @@ double time_sum(const std::string& name, const Polyhedron& a, const Polyhedron& 
 
 void run_peer([[maybe_unused]] const Case& test, [[maybe_unused]] const Settings& settings) {
 #ifdef NEF_BENCH_CGAL
-  if (!settings.peer || !test.peer) return;
+  if (!settings.peer || !(test.peer || settings.slow_peer)) return;
   const nef::bench::PeerResult r = nef::bench::cgal_minkowski_sum(test.a, test.b);
   std::printf("%-34s %9.4f s  %zu pieces  %zu/%zu\n", ("  CGAL: " + test.name).c_str(), r.seconds, r.pieces, r.vertices,
               r.facets);
@@ -142,6 +143,7 @@ int main(int argc, char** argv) {
   bool no_peer = false;
   app.add_option("--repeat", settings.repeat, "runs of each case; the best counts")->check(CLI::PositiveNumber);
   app.add_flag("--no-cgal", no_peer, "leave the peer out");
+  app.add_flag("--slow-cgal", settings.slow_peer, "run the peer also where it takes minutes (stars of 50 vertices)");
   app.add_option("--only", settings.only, "run only cases whose names hold this: table, mushroom, star 50, ...");
   app.add_option("--decompose", meshes, "more meshes to decompose")->expected(-1);
   CLI11_PARSE(app, argc, argv);

@@ -63,6 +63,9 @@ TEST_CASE("paths in all formats, and reading them back with their passages") {
   CHECK(why["status"] == "blocked");
   CHECK(why["blocked_segment"] == 0);
   CHECK(why["collision"]["obstacle"] == 1);
+  const std::string still = folder.write("still.txt", "1 0.5 0.5\n1 1 1\n");
+  CHECK_THAT(planner(folder, scene("s1_tight_hole") + " --tight --path " + still).out,
+             Catch::Contains("uses passages: none"));
   const Run tight = planner(folder, "--tight " + scene("s2_tight_slot"));
   CHECK(tight.code == 0);
   CHECK(tight.out.find("passage 0: dimension 2") == 0);

@@ -41,6 +41,21 @@ struct Segment {
   }
 };
 
+// A box around a part of a segment.
+Box box_of_part(const Segment& s, const Interval& part) {
+  Box box;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double slope = s.to[i] - s.from[i];
+    const double a = s.from[i] + part.low * slope;
+    const double b = s.from[i] + part.high * slope;
+    // Sums and products here are off by a few units of roundoff of the largest of these.
+    const double slack = s.error + 8 * kUnit * (std::fabs(s.from[i]) + std::fabs(s.to[i]));
+    box.low[i] = std::min(a, b) - slack;
+    box.high[i] = std::max(a, b) + slack;
+  }
+  return box;
+}
+
 // Where a face's plane is on a segment: value(t) = at + t * slope, each within `error`.
 struct Cut {
   double at = 0, slope = 0, error = 0;
@@ -358,9 +373,11 @@ class SolidUnion {
 
   // Candidates: faces of neighbours that may cut what is left of a segment.
   void cut(const Segment& s, std::uint32_t own, std::uint32_t other) {
+    const Interval left{s.open.front().low, s.open.back().high};
+    const Box box = box_of_part(s, left);
     for (const std::uint32_t cell : neighbours_) {
-      if (cell == own || cell == other || !s.box.overlaps(rounded_.box(cell))) continue;
-      Interval near{0, 1};
+      if (cell == own || cell == other || !box.overlaps(rounded_.box(cell))) continue;
+      Interval near = left;
       cuts_.clear();
       for (std::uint32_t h = rounded_.first_face(cell); h < rounded_.end_face(cell) && near.low <= near.high; ++h) {
         cuts_.emplace_back(rounded_.face(h), s);

@@ -41,7 +41,7 @@ class Place {
 
   // A cube of side 0.2 about the origin, spelled as in the published inputs.
   [[nodiscard]] std::string cube() const {
-    const std::string path = path_ / "cube.off";
+    std::string path = path_ / "cube.off";
     std::ofstream(path) << "OFF\n8 6 0\n"
                            "-0.1 -0.1 0.1\n0.1 -0.1 0.1\n0.1 0.1 0.1\n-0.1 0.1 0.1\n"
                            "-0.1 0.1 -0.1\n0.1 0.1 -0.1\n0.1 -0.1 -0.1\n-0.1 -0.1 -0.1\n"

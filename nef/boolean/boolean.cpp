@@ -2,7 +2,6 @@
 //
 // The Boolean operations of the public interface.
 #include <algorithm>
-#include <queue>
 
 #include "nef/base/parallel.h"
 #include "nef/boolean/overlay_complexes.h"
@@ -24,50 +23,32 @@ bool apart(const Polyhedron& a, const Polyhedron& b) {
 
 using Combine = Polyhedron (*)(const Polyhedron&, const Polyhedron&);
 
-// Combines pairwise, smallest first, so that no large result is copied many times.
-Polyhedron combine_smallest_first(std::span<const Polyhedron> sets, Combine combine) {
-  struct Entry {
-    std::size_t size;
-    std::size_t order;
-    Polyhedron set;
-  };
-  const auto later = [](const Entry& x, const Entry& y) {
-    return x.size != y.size ? x.size > y.size : x.order > y.order;
-  };
-  std::priority_queue<Entry, std::vector<Entry>, decltype(later)> queue(later);
-  std::size_t order = 0;
-  for (const Polyhedron& set : sets) queue.push({set.complex().vertex_count(), order++, set});
-  while (queue.size() > 1) {
-    const Polyhedron a = queue.top().set;
-    queue.pop();
-    const Polyhedron b = queue.top().set;
-    queue.pop();
-    Polyhedron c = combine(a, b);
-    queue.push({c.complex().vertex_count(), order++, std::move(c)});
+// How many of some sets, sorted by size, are to be combined before the others: a set that is larger than all before it
+// together waits, so that no large result is copied many times.
+std::size_t first_to_combine(std::span<const Polyhedron> sets) {
+  std::size_t count = 0;
+  std::size_t vertices = 0;
+  while (count < sets.size() && (count < 2 || sets[count].complex().vertex_count() <= vertices)) {
+    vertices += sets[count++].complex().vertex_count();
   }
-  return queue.top().set;
+  return count;
 }
 
-// The same in rounds: sets of similar size form pairs, all pairs of a round are combined at once.
-Polyhedron combine_in_rounds(std::span<const Polyhedron> sets, Combine combine, unsigned threads) {
+// Combines in rounds: sets of similar size form pairs, and all pairs of a round are combined at once. The order does
+// not depend on the number of threads, so neither does the order of items in the result.
+Polyhedron combine_all(std::span<const Polyhedron> sets, Combine combine, unsigned threads) {
   std::vector<Polyhedron> left(sets.begin(), sets.end());
   while (left.size() > 1) {
     std::stable_sort(left.begin(), left.end(), [](const Polyhedron& x, const Polyhedron& y) {
       return x.complex().vertex_count() < y.complex().vertex_count();
     });
-    const std::size_t pairs = left.size() / 2;
+    const std::size_t pairs = first_to_combine(left) / 2;
     std::vector<Polyhedron> next(pairs);
     parallel_for(pairs, threads, [&](std::size_t i) { next[i] = combine(left[2 * i], left[2 * i + 1]); });
-    if (left.size() % 2 == 1) next.push_back(left.back());
+    next.insert(next.end(), left.begin() + static_cast<std::ptrdiff_t>(2 * pairs), left.end());
     left = std::move(next);
   }
   return left.front();
-}
-
-Polyhedron combine_all(std::span<const Polyhedron> sets, Combine combine, unsigned threads) {
-  // Rounds cost a little more in all, so a single thread, or one pair, goes without.
-  return threads == 1 || sets.size() < 4 ? combine_smallest_first(sets, combine)
-                                         : combine_in_rounds(sets, combine, threads);
 }
 
 }  // namespace

@@ -217,6 +217,13 @@ TEST_CASE("command: pictures of operands, results and cells; the result does not
   }
   CHECK(place.run("a.nef a.nef -o four.nef --threads 4").code == 0);
   CHECK(place.read("one.nef") == place.read("four.nef"));
+  // Many flat cells, which are united one by one.
+  place.write("b.nef", std::string(kL) +
+                           " + segment(9,9,9, 12,9,9) - point(10,9,9) + point(20,20,20) +"
+                           " polygon(0,0,-5, 4,0,-5, 4,4,-5, 0,4,-5) - segment(1,1,-5, 2,2,-5)");
+  CHECK(place.run("b.nef b.nef -o one.nef --threads 1").code == 0);
+  CHECK(place.run("b.nef b.nef -o four.nef --threads 4").code == 0);
+  CHECK(place.read("one.nef") == place.read("four.nef"));
 }
 
 TEST_CASE("command: an interrupt stops at once and leaves a whole file or none") {

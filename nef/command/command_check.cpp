@@ -41,7 +41,18 @@ Json check_mesh_file(const std::string& path, bool self_intersections) {
   MeshCheckOptions options;
   options.max_per_kind = 1000;
   options.self_intersections = self_intersections;
-  for (const MeshProblem& problem : check_mesh(mesh, options)) problems.push_back(problem_json(problem));
+  bool good = mesh.face_count() > 0;
+  for (const MeshProblem& problem : check_mesh(mesh, options)) {
+    problems.push_back(problem_json(problem));
+    good = good && problem.legal;
+  }
+  if (!good) return problems;
+  // How components lie in each other is known only when the solid is made.
+  try {
+    from_mesh(mesh, {false, false, self_intersections});
+  } catch (const InputError& error) {
+    problems.push_back(plain_problem("inconsistent orientation", error.what()));
+  }
   return problems;
 }
 

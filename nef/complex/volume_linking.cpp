@@ -11,6 +11,7 @@
 
 #include <algorithm>
 
+#include "nef/base/contradiction.h"
 #include "nef/base/error.h"
 #include "nef/base/union_find.h"
 #include "nef/geometry/box_tree.h"
@@ -168,7 +169,7 @@ class VolumeLinker {
         volume.first_shell = static_cast<std::uint32_t>(c_.shells.size());
         volume.mark = c_.sfaces[root].mark;
       }
-      NEF_ASSERT(volume.mark == c_.sfaces[root].mark);
+      if (volume.mark != c_.sfaces[root].mark) throw ContradictingMarks("a volume");
       shell_of[root] = static_cast<std::uint32_t>(c_.shells.size());
       c_.shells.push_back({volume_number[volumes_.find(root)], 0, 0});
     }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "nef/base/contradiction.h"
 #include "nef/base/error.h"
 #include "nef/sphere_map/components.h"
 #include "nef/sphere_map/sphere_geometry.h"
@@ -284,7 +285,7 @@ void Arrangement::build_faces(const PlaneTable& planes, SphereMapBuffer& out) {
     } else {
       face_of_cycle_[c] = face_of_cycle_[face_of_cycle_[c]];
       ++out.sfaces[face_of_cycle_[c]].entry_count;
-      NEF_ASSERT(cycles_[c].mark == out.sfaces[face_of_cycle_[c]].mark);
+      if (cycles_[c].mark != out.sfaces[face_of_cycle_[c]].mark) throw ContradictingMarks("an sface");
     }
   }
   std::uint32_t first = 0;

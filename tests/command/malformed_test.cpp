@@ -127,6 +127,37 @@ TEST_CASE("check names what is wrong") {
   CHECK(here.nef("check bent.off").out.find("note: non-planar face") != std::string::npos);
 }
 
+TEST_CASE("components that contradict each other are refused") {
+  const Workplace here;
+  // Two boxes in one file; the second one is turned over if asked for.
+  const auto boxes = [](int low, int high, int low2, int high2, bool turned) {
+    const std::string first = cube_off(low, high);
+    const std::string second = cube_off(low2, high2);
+    const auto vertices = [](const std::string& off) { return off.substr(10, off.find("4 0 2 3 1") - 10); };
+    std::string text = "OFF\n16 12 0\n" + vertices(first) + vertices(second) + first.substr(first.find("4 0 2 3 1"));
+    const int faces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+    for (const auto& f : faces) {
+      text += "4";
+      for (int i = 0; i < 4; ++i) text += " " + std::to_string(8 + f[turned ? 3 - i : i]);
+      text += "\n";
+    }
+    return text;
+  };
+  here.write("cavity.off", boxes(0, 9, 2, 5, true));
+  CHECK(here.nef("info cavity.off --json").json()["volume"] == "702");
+  here.write("beside.off", boxes(0, 3, 5, 9, false));
+  CHECK(here.nef("info beside.off --json").json()["volume"] == "91");
+  here.write("nested.off", boxes(0, 9, 2, 5, false));
+  here.write("turned.off", boxes(0, 3, 5, 9, true));
+  for (const std::string file : {"nested.off", "turned.off"}) {
+    CAPTURE(file);
+    check_refused(here.nef("info " + file), "begin at faces 0, 6");
+    const Outcome checked = here.nef("check " + file + " --json");
+    CHECK(checked.code == 1);
+    CHECK(checked.json()["problems"].back()["name"] == "inconsistent orientation");
+  }
+}
+
 TEST_CASE("two cubes that share an edge or a vertex are legal") {
   const Workplace here;
   for (const std::string other : {"2,2,0, 4,4,2", "2,2,2, 4,4,4"}) {

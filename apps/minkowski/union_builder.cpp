@@ -14,6 +14,9 @@ namespace {
 constexpr std::size_t kBatchCells = 4096;
 constexpr std::size_t kBatchVertices = 80000;
 constexpr std::size_t kHeapPieces = 512;
+// unite_solids compares all faces of cells that overlap: for cells with more vertices than this (a fine ball and
+// something simple), unions two by two are faster.
+constexpr std::size_t kLargeCell = 128;
 
 bool larger(const Polyhedron& a, const Polyhedron& b) {
   return a.complex().vertex_count() > b.complex().vertex_count();
@@ -83,7 +86,11 @@ void UnionBuilder::flush() {
     }
   }
   batch_.erase(first_flat, batch_.end());
-  if (!batch_.empty()) pieces.push_back(unite_solids(batch_, &dropped_, threads_));
+  if (batch_vertices_ > kLargeCell * batch_.size()) {
+    for (const ConvexCell& cell : batch_) pieces.push_back(to_polyhedron(cell));
+  } else if (!batch_.empty()) {
+    pieces.push_back(unite_solids(batch_, &dropped_, threads_));
+  }
   batch_.clear();
   batch_vertices_ = 0;
   add_queued(unite_all(pieces, threads_));

@@ -96,6 +96,17 @@ TEST_CASE("the polytopes of Fogel and Halperin: published counts, exact volumes,
   }
 }
 
+TEST_CASE("a fine ball, whose sums are few and large, by every strategy") {
+  const Polyhedron corner = set("box(0,0,0,3,1,1) + box(0,0,0,1,3,1)");
+  const Polyhedron ball = to_polyhedron(nef::minkowski::ball(Rational(1, 3), 9));
+  const Polyhedron sum = nef::test::valid(minkowski_sum(corner, ball), "sum");
+  for (const UnionStrategy strategy : {UnionStrategy::kTrivial, UnionStrategy::kQueue, UnionStrategy::kPriority}) {
+    MinkowskiOptions options;
+    options.strategy = strategy;
+    CHECK(nef::equal(minkowski_sum(corner, ball, options), sum));
+  }
+}
+
 TEST_CASE("two boxes; a prism and its mirror image") {
   CHECK(nef::equal(minkowski_sum(set("box(1,2,3,4,5,6)"), set("box(-1,0,0,1,2,5)")), set("box(0,2,3,5,7,11)")));
   // A triangle plus its mirror image is a hexagon of six times the area.

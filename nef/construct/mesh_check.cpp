@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <set>
 
 #include "nef/construct/edge_order.h"
@@ -241,7 +242,7 @@ void check_planarity(const Mesh& mesh, const MeshSurface& surface, Report& repor
   for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
     if (surface.planar[f]) continue;
     MeshProblem problem = face_problem(Kind::kNonPlanarFace, f, "is not planar: a corner is ");
-    problem.text += std::to_string(face_deviation(mesh, f)) + " off its plane";
+    problem.text += face_deviation_text(mesh, f) + " off its plane";
     problem.legal = true;
     report.add(std::move(problem));
   }
@@ -381,6 +382,12 @@ double face_deviation(const Mesh& mesh, std::size_t face) {
     largest = std::max(largest, Rational(abs(height)));
   }
   return std::sqrt(nearest_double(largest * largest / length2));
+}
+
+std::string face_deviation_text(const Mesh& mesh, std::size_t face) {
+  std::array<char, 32> digits{};
+  std::snprintf(digits.data(), digits.size(), "%.3g", face_deviation(mesh, face));
+  return digits.data();
 }
 
 }  // namespace nef

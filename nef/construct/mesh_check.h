@@ -59,4 +59,7 @@ std::vector<MeshProblem> check_mesh(const Mesh& mesh, const MeshSurface& surface
 /// face: the largest distance. Zero iff the face is planar and not degenerate, or has no area vector.
 double face_deviation(const Mesh& mesh, std::size_t face);
 
+/// The same with three digits, however small, as messages tell it.
+std::string face_deviation_text(const Mesh& mesh, std::size_t face);
+
 }  // namespace nef

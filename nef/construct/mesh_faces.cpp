@@ -211,7 +211,7 @@ MeshFaces::Integers MeshFaces::vector_area() const {
 // A face that is not planar, as the check has cut it.
 void MeshFaces::add_triangles(std::uint32_t face) {
   const std::string name =
-      "face " + std::to_string(face) + " is not planar (off by " + std::to_string(face_deviation(mesh_, face)) + ")";
+      "face " + std::to_string(face) + " is not planar (off by " + face_deviation_text(mesh_, face) + ")";
   if (options_.strict) throw InputError(name + "; triangulate it, or read the mesh without --strict");
   if (surface_.defects[face] != FaceDefect::kNone) {
     throw InputError(name + " and crosses itself when projected, so it cannot be triangulated; split it");

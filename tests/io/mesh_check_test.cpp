@@ -224,6 +224,7 @@ TEST_CASE("A face that is not planar is reported with its deviation") {
   const Mesh nearly = off("4 1 0\n0 0 0\n1 0 0\n1 1 1e-40\n0 1 0\n4 0 1 2 3\n");
   CHECK_FALSE(planar(nearly, 0));
   CHECK(face_deviation(nearly, 0) == Approx(2.5e-41));
+  CHECK(face_deviation_text(nearly, 0) == "2.5e-41");
   CHECK(planar(off("5 1 0\n0 0 0\n1 0 1/3\n2 0 2/3\n2 1 1\n0 1 1/3\n5 0 1 2 3 4\n"), 0));
 }
 

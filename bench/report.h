@@ -54,8 +54,8 @@ struct Report {
     std::printf(
         "{\"build_s\": %.6g, \"op_s\": %.6g, \"best_s\": %.6g, \"vertices\": %zu, \"edges\": %zu, "
         "\"facets\": %zu, \"volumes\": %zu, \"inside\": %zu, \"peak_kb\": %ld}\n",
-        median(build_s), median(op_s), op_s.empty() ? 0.0 : *std::min_element(op_s.begin(), op_s.end()), vertices, edges,
-        facets, volumes, inside, peak_kb());
+        median(build_s), median(op_s), op_s.empty() ? 0.0 : *std::min_element(op_s.begin(), op_s.end()), vertices,
+        edges, facets, volumes, inside, peak_kb());
   }
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <set>
 
 #include "nef/construct/edge_order.h"
@@ -166,11 +167,17 @@ std::vector<FaceEdge> face_edges(const Mesh& mesh, const MeshSurface& surface) {
 
 // Returns true if every edge is used equally often in both directions.
 bool check_edges(const Mesh& mesh, const MeshSurface& surface, const SurfaceContacts& contacts, Report& report) {
-  std::set<std::uint64_t> crossing;
-  contacts.for_each_bad_edge([&](std::uint32_t u, std::uint32_t v, std::span<const std::uint32_t> /*triangles*/) {
-    crossing.insert(pair_key(u, v));
-    return true;
-  });
+  std::optional<std::set<std::uint64_t>> crossing;  // looked for when an edge has more than two faces
+  const auto crosses = [&](std::uint64_t key) {
+    if (!crossing) {
+      crossing.emplace();
+      contacts.for_each_bad_edge([&](std::uint32_t u, std::uint32_t v, std::span<const std::uint32_t> /*triangles*/) {
+        crossing->insert(pair_key(u, v));
+        return true;
+      });
+    }
+    return crossing->count(key) > 0;
+  };
   bool balanced = true;
   const std::vector<FaceEdge> edges = face_edges(mesh, surface);
   for (std::size_t first = 0, last = 0; first < edges.size(); first = last) {
@@ -195,7 +202,7 @@ bool check_edges(const Mesh& mesh, const MeshSurface& surface, const SurfaceCont
       problem.text += " is run through in the same direction by " + face_list(problem.faces) + ": flip one of them";
     } else {
       problem.kind = Kind::kNonManifoldEdge;
-      problem.legal = even && crossing.count(edges[first].key) == 0;
+      problem.legal = even && !crosses(edges[first].key);
       problem.text += " belongs to " + number(count) + " faces (" + face_list(problem.faces) + ")";
       problem.text += problem.legal ? ", which pair up: solids touch there"
                       : even        ? ", which cross each other there"

@@ -136,14 +136,22 @@ std::optional<PlaneId> MeshFaces::plane_of_small_triangle(std::span<const std::u
 // (b - a) x (c - a) up to a positive factor, and the offset that puts a on it; no plane if the points are on one line.
 PlaneId MeshFaces::plane_of_triangle(std::span<const std::uint32_t> t) {
   if (const std::optional<PlaneId> plane = plane_of_small_triangle(t)) return *plane;
-  const auto difference = [&](std::uint32_t p, std::size_t i, Integer& out) {
-    mpz_mul(out.get_mpz_t(), f_.points.coordinate(PointId{p}, i), f_.points.coordinate(PointId{t[0]}, 3));
-    mpz_submul(out.get_mpz_t(), f_.points.coordinate(PointId{t[0]}, i), f_.points.coordinate(PointId{p}, 3));
+  const IntegerView w = f_.points.coordinate(PointId{t[0]}, 3);
+  const auto difference = [&](std::uint32_t p, Integers& out) {
+    const IntegerView of_p = f_.points.coordinate(PointId{p}, 3);
+    const bool same = mpz_cmp(w, of_p) == 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      mpz_ptr d = out[i].get_mpz_t();
+      if (same) {
+        mpz_sub(d, f_.points.coordinate(PointId{p}, i), f_.points.coordinate(PointId{t[0]}, i));
+      } else {
+        mpz_mul(d, f_.points.coordinate(PointId{p}, i), w);
+        mpz_submul(d, f_.points.coordinate(PointId{t[0]}, i), of_p);
+      }
+    }
   };
-  for (std::size_t i = 0; i < 3; ++i) {
-    difference(t[1], i, u_[i]);
-    difference(t[2], i, v_[i]);
-  }
+  difference(t[1], u_);
+  difference(t[2], v_);
   mpz_ptr offset = offset_.get_mpz_t();
   mpz_set_ui(offset, 0);
   for (std::size_t i = 0; i < 3; ++i) {
@@ -162,9 +170,17 @@ PlaneId MeshFaces::plane_of_triangle(std::span<const std::uint32_t> t) {
     mpz_ptr n = n_[i].get_mpz_t();
     if (divisor > 1) mpz_divexact(n, n, divisor.get_mpz_t());
     mpz_submul(offset, n, f_.points.coordinate(PointId{t[0]}, i));
-    mpz_mul(n, n, f_.points.coordinate(PointId{t[0]}, 3));
   }
-  return f_.planes.intern(n_[0], n_[1], n_[2], offset_);
+  // The plane is w n.x + offset = 0, w being the point's denominator, and what w n and the offset have in common is a
+  // divisor of w.
+  mpz_gcd(divisor.get_mpz_t(), w, offset);
+  Integer& factor = u_[1];
+  mpz_divexact(factor.get_mpz_t(), w, divisor.get_mpz_t());
+  if (divisor > 1) mpz_divexact(offset, offset, divisor.get_mpz_t());
+  if (factor > 1) {
+    for (Integer& n : n_) mpz_mul(n.get_mpz_t(), n.get_mpz_t(), factor.get_mpz_t());
+  }
+  return f_.planes.intern_primitive({n_[0].get_mpz_t(), n_[1].get_mpz_t(), n_[2].get_mpz_t(), offset});
 }
 
 // The plane of a normal through a point.

@@ -15,28 +15,33 @@ constexpr std::int64_t kIntegerLimit = std::int64_t{1} << 40U;
 
 int sign_of(Int128 value) { return (value > 0) - (value < 0); }
 
-// b - a in homogeneous integers, scaled by the positive product of their denominators where these differ.
-void difference(const PointTable& table, std::uint32_t a, std::uint32_t b, std::size_t axis, mpz_ptr out) {
+// b - a in homogeneous integers, scaled by the positive product of their denominators where these differ: the axes
+// from `first` on, as many as there is room for (of two, the second may be the first axis).
+void difference(const PointTable& table, std::uint32_t a, std::uint32_t b, std::span<Integer> out,
+                std::size_t first = 0) {
   const IntegerView wa = table.coordinate(PointId{a}, 3);
   const IntegerView wb = table.coordinate(PointId{b}, 3);
-  if (mpz_cmp(wa, wb) == 0) {
-    mpz_sub(out, table.coordinate(PointId{b}, axis), table.coordinate(PointId{a}, axis));
-    return;
+  const bool same = mpz_cmp(wa, wb) == 0;
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    const std::size_t axis = (first + k) % 3;
+    mpz_ptr d = out[k].get_mpz_t();
+    if (same) {
+      mpz_sub(d, table.coordinate(PointId{b}, axis), table.coordinate(PointId{a}, axis));
+    } else {
+      mpz_mul(d, table.coordinate(PointId{b}, axis), wa);
+      mpz_submul(d, table.coordinate(PointId{a}, axis), wb);
+    }
   }
-  mpz_mul(out, table.coordinate(PointId{b}, axis), wa);
-  mpz_submul(out, table.coordinate(PointId{a}, axis), wb);
 }
 
 // Numbers that keep their memory from call to call.
 struct Scratch {
   std::array<Integer, 3> u, v, normal;
-  Integer sum, step;
+  Integer sum;
 
   void normal_of(const PointTable& table, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      difference(table, a, b, i, u[i].get_mpz_t());
-      difference(table, a, c, i, v[i].get_mpz_t());
-    }
+    difference(table, a, b, u);
+    difference(table, a, c, v);
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t j = (i + 1) % 3;
       const std::size_t k = (i + 2) % 3;
@@ -46,11 +51,10 @@ struct Scratch {
   }
   // The sign of normal . (p - a).
   int side(const PointTable& table, std::uint32_t a, std::uint32_t p) {
-    mpz_set_ui(sum.get_mpz_t(), 0);
-    for (std::size_t i = 0; i < 3; ++i) {
-      difference(table, a, p, i, step.get_mpz_t());
-      mpz_addmul(sum.get_mpz_t(), normal[i].get_mpz_t(), step.get_mpz_t());
-    }
+    difference(table, a, p, u);
+    mpz_mul(sum.get_mpz_t(), normal[0].get_mpz_t(), u[0].get_mpz_t());
+    mpz_addmul(sum.get_mpz_t(), normal[1].get_mpz_t(), u[1].get_mpz_t());
+    mpz_addmul(sum.get_mpz_t(), normal[2].get_mpz_t(), u[2].get_mpz_t());
     return sgn(sum);
   }
 };
@@ -246,10 +250,8 @@ int MeshPoints::orientation_along_exact(std::uint32_t a, std::uint32_t b, std::u
     return sign_of(static_cast<Int128>(q[i] - p[i]) * (r[j] - p[j]) - static_cast<Int128>(r[i] - p[i]) * (q[j] - p[j]));
   }
   Scratch& s = scratch();
-  for (std::size_t k = 0; k < 2; ++k) {
-    difference(table_, a, b, k == 0 ? i : j, s.u[k].get_mpz_t());
-    difference(table_, a, c, k == 0 ? i : j, s.v[k].get_mpz_t());
-  }
+  difference(table_, a, b, std::span(s.u).first(2), i);
+  difference(table_, a, c, std::span(s.v).first(2), i);
   mpz_mul(s.sum.get_mpz_t(), s.u[0].get_mpz_t(), s.v[1].get_mpz_t());
   mpz_submul(s.sum.get_mpz_t(), s.v[0].get_mpz_t(), s.u[1].get_mpz_t());
   return sgn(s.sum);
@@ -288,8 +290,8 @@ int MeshPoints::compare(std::uint32_t a, std::uint32_t b, std::size_t axis) cons
   if (!integers_.empty()) {
     return (integers_[a][axis] > integers_[b][axis]) - (integers_[a][axis] < integers_[b][axis]);
   }
-  difference(table_, b, a, axis, scratch().step.get_mpz_t());
-  return sgn(scratch().step);
+  difference(table_, b, a, std::span(scratch().u).first(1), axis);
+  return sgn(scratch().u[0]);
 }
 
 int MeshPoints::compare(std::uint32_t a, std::uint32_t b) const {

@@ -10,9 +10,17 @@
 namespace nef {
 namespace {
 
-bool names_one_twice(std::vector<std::uint32_t> ring) {
-  std::sort(ring.begin(), ring.end());
-  return std::adjacent_find(ring.begin(), ring.end()) != ring.end();
+bool names_one_twice(const std::vector<std::uint32_t>& ring) {
+  constexpr std::size_t kFew = 8;  // corners that are compared faster than a copy is sorted
+  if (ring.size() <= kFew) {
+    for (auto v = ring.begin(); v != ring.end(); ++v) {
+      if (std::find(v + 1, ring.end(), *v) != ring.end()) return true;
+    }
+    return false;
+  }
+  std::vector<std::uint32_t> sorted = ring;
+  std::sort(sorted.begin(), sorted.end());
+  return std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end();
 }
 
 bool on_one_line(const MeshPoints& points, const std::vector<std::uint32_t>& ring) {
@@ -47,10 +55,11 @@ bool goes_around_once(const MeshPoints& points, const std::vector<std::uint32_t>
   return peaks == 1;
 }
 
-// Planar, or without area. The ring has no corner twice in a row.
-bool is_planar(const MeshPoints& points, const std::vector<std::uint32_t>& ring) {
+// Planar, or without area. The ring has no corner twice in a row, and if it is convex, none on a line with the next
+// two.
+bool is_planar(const MeshPoints& points, const std::vector<std::uint32_t>& ring, bool is_convex) {
   std::size_t k = 2;
-  while (k < ring.size() && points.collinear(ring[0], ring[1], ring[k])) ++k;
+  while (!is_convex && k < ring.size() && points.collinear(ring[0], ring[1], ring[k])) ++k;
   return k + 1 >= ring.size() || points.coplanar(ring[0], ring[1], ring[k], std::span(ring).subspan(k + 1));
 }
 
@@ -124,16 +133,20 @@ MeshSurface::MeshSurface(const Mesh& mesh)
     } else if (ring.size() == 3 ? ring[0] == ring[1] || ring[1] == ring[2] || ring[2] == ring[0]
                                 : names_one_twice(ring)) {
       defects[f] = FaceDefect::kRepeatedVertex;
-    } else if (on_one_line(points, ring)) {
-      defects[f] = FaceDefect::kNoArea;
     } else if (ring.size() == 3) {
-      triangles.push_back({ring[0], ring[1], ring[2]});
+      if (points.collinear(ring[0], ring[1], ring[2])) {
+        defects[f] = FaceDefect::kNoArea;
+      } else {
+        triangles.push_back({ring[0], ring[1], ring[2]});
+      }
     } else {
       const Cut done = cut(points, triangulator, ring, triangles);
-      if (done == Cut::kFailed) defects[f] = FaceDefect::kCrossesItself;
+      if (done == Cut::kFailed) {
+        defects[f] = on_one_line(points, ring) ? FaceDefect::kNoArea : FaceDefect::kCrossesItself;
+      }
       in_one_piece = done == Cut::kConvex;
     }
-    planar.push_back(bad || ring.size() < 4 || is_planar(points, ring));
+    planar.push_back(bad || ring.size() < 4 || is_planar(points, ring, in_one_piece));
     if (defects[f] == FaceDefect::kNone && planar[f] && ring.size() > 3) {
       rings.insert(rings.end(), ring.begin(), ring.end());
     }

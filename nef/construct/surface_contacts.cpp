@@ -120,17 +120,23 @@ Interval make_interval(const Triangle& t, const Signs& s, bool first) {
 }  // namespace
 
 SurfaceContacts::SurfaceContacts(const MeshSurface& surface)
-    : points_(surface.points), triangles_(surface.triangles), patches_(surface) {
-  const std::span<const Triangle> triangles = triangles_;
-  half_edges_.reserve(3 * triangles.size());
-  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::uint32_t u = triangles[t][i];
-      const std::uint32_t v = triangles[t][(i + 1) % 3];
-      half_edges_.push_back({pair_key(std::min(u, v), std::max(u, v)), t, triangles[t][(i + 2) % 3], u < v ? 1 : -1});
+    : points_(surface.points), triangles_(surface.triangles), patches_(surface) {}
+
+// Most meshes meet in nothing but shared edges of two faces, and need no list of them.
+const std::vector<SurfaceContacts::HalfEdge>& SurfaceContacts::half_edges() const {
+  std::call_once(half_edges_once_, [this] {
+    const std::span<const Triangle> triangles = triangles_;
+    half_edges_.reserve(3 * triangles.size());
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::uint32_t u = triangles[t][i];
+        const std::uint32_t v = triangles[t][(i + 1) % 3];
+        half_edges_.push_back({pair_key(std::min(u, v), std::max(u, v)), t, triangles[t][(i + 2) % 3], u < v ? 1 : -1});
+      }
     }
-  }
-  sort_by_pair(half_edges_, points_.size());
+    sort_by_pair(half_edges_, points_.size());
+  });
+  return half_edges_;
 }
 
 // The side of a triangle's plane on which a place lies. Corners of a planar face lie in it by definition, which spares
@@ -144,7 +150,7 @@ int SurfaceContacts::side(std::uint32_t triangle, std::uint32_t place) const {
 std::span<const SurfaceContacts::HalfEdge> SurfaceContacts::around(std::uint32_t u, std::uint32_t v) const {
   const std::uint64_t key = pair_key(std::min(u, v), std::max(u, v));
   const auto less = [](const HalfEdge& a, const HalfEdge& b) { return a.key < b.key; };
-  const auto [first, last] = std::equal_range(half_edges_.begin(), half_edges_.end(), HalfEdge{key, 0, 0, 0}, less);
+  const auto [first, last] = std::equal_range(half_edges().begin(), half_edges().end(), HalfEdge{key, 0, 0, 0}, less);
   return {first, last};
 }
 
@@ -183,22 +189,23 @@ bool SurfaceContacts::alternate(std::uint32_t u, std::uint32_t v, std::vector<Wi
 
 void SurfaceContacts::for_each_bad_edge(
     const std::function<bool(std::uint32_t, std::uint32_t, std::span<const std::uint32_t>)>& visit) const {
-  for (std::size_t first = 0; first < half_edges_.size();) {
+  const std::vector<HalfEdge>& edges = half_edges();
+  for (std::size_t first = 0; first < edges.size();) {
     std::size_t last = first;
     int balance = 0;
     std::vector<Wing> wings;
     std::vector<std::uint32_t> triangles;
-    while (last < half_edges_.size() && half_edges_[last].key == half_edges_[first].key) {
-      balance += half_edges_[last].direction;
+    while (last < edges.size() && edges[last].key == edges[first].key) {
+      balance += edges[last].direction;
       ++last;
     }
     if (last - first > 2 && balance == 0) {
       for (std::size_t i = first; i < last; ++i) {
-        wings.push_back({half_edges_[i].apex, half_edges_[i].direction});
-        triangles.push_back(half_edges_[i].triangle);
+        wings.push_back({edges[i].apex, edges[i].direction});
+        triangles.push_back(edges[i].triangle);
       }
-      const auto u = static_cast<std::uint32_t>(half_edges_[first].key >> 32U);
-      const auto v = static_cast<std::uint32_t>(half_edges_[first].key & 0xffffffffU);
+      const auto u = static_cast<std::uint32_t>(edges[first].key >> 32U);
+      const auto v = static_cast<std::uint32_t>(edges[first].key & 0xffffffffU);
       if (!alternate(u, v, wings) && !visit(u, v, triangles)) return;
     }
     first = last;

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <mutex>
 #include <span>
 #include <vector>
 
@@ -66,6 +67,7 @@ class SurfaceContacts {
   [[nodiscard]] Kind classify_neighbours(std::uint32_t t, std::uint32_t u, std::size_t t_free,
                                          std::size_t u_free) const;
   [[nodiscard]] Kind resolve_segment(std::uint32_t t, Edge t_edge, std::uint32_t u, Edge u_edge) const;
+  [[nodiscard]] const std::vector<HalfEdge>& half_edges() const;
   [[nodiscard]] std::span<const HalfEdge> around(std::uint32_t u, std::uint32_t v) const;
   bool add_wings(std::uint32_t triangle, Edge own, Edge along, std::vector<Wing>& wings) const;
   [[nodiscard]] bool same_direction(Edge a, Edge b) const;
@@ -75,7 +77,8 @@ class SurfaceContacts {
   const MeshPoints& points_;
   std::span<const Triangle> triangles_;
   SurfacePatches patches_;
-  std::vector<HalfEdge> half_edges_;  // sorted by key
+  mutable std::once_flag half_edges_once_;
+  mutable std::vector<HalfEdge> half_edges_;  // sorted by key; made when first asked for
 };
 
 }  // namespace nef

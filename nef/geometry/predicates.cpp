@@ -47,12 +47,21 @@ int compare_coordinate_exact(const PointTable& points, PointId p, PointId q, int
   const IntegerView wp = points.coordinate(p, 3);
   const IntegerView wq = points.coordinate(q, 3);
   const auto k = static_cast<std::size_t>(axis);
-  mpz_mul(d, points.coordinate(p, 4 + k), wq);
-  mpz_submul(d, points.coordinate(q, 4 + k), wp);
-  if (mpz_sgn(d) != 0) return mpz_sgn(d);
-  mpz_mul(d, points.coordinate(p, k), wq);
-  mpz_submul(d, points.coordinate(q, k), wp);
-  return mpz_sgn(d);
+  const bool same = mpz_cmp(wp, wq) == 0;
+  for (const std::size_t column : {4 + k, k}) {  // the part in R decides first
+    const IntegerView x = points.coordinate(p, column);
+    const IntegerView y = points.coordinate(q, column);
+    int sign = 0;
+    if (same || x.sign() != y.sign()) {
+      sign = mpz_cmp(x, y);
+    } else if (x.sign() != 0) {
+      mpz_mul(d, x, wq);
+      mpz_submul(d, y, wp);
+      sign = mpz_sgn(d);
+    }
+    if (sign != 0) return sign > 0 ? 1 : -1;
+  }
+  return 0;
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ std::uint32_t IntegerRows::push(std::span<const mpz_srcptr> row) {
   for (const mpz_srcptr value : row) {
     const std::size_t limbs = mpz_size(value);
     const mp_limb_t* data = mpz_limbs_read(value);
-    limbs_.insert(limbs_.end(), data, data + limbs);
+    for (std::size_t i = 0; i < limbs; ++i) limbs_.push_back(data[i]);  // one or two as a rule
     const auto signed_size = static_cast<std::int32_t>(limbs);
     sizes_.push_back(mpz_sgn(value) < 0 ? -signed_size : signed_size);
   }

@@ -111,7 +111,47 @@ void Arrangement::trace_chains() {
   }
 }
 
+// The corner of a solid as a rule: one ring of arcs in which nothing is redundant. It is walked around once.
+bool Arrangement::assemble_ring(const PlaneTable& planes, SphereMapBuffer& out) const {
+  const auto n = static_cast<std::uint32_t>(nodes.size());
+  if (n < 2 || arcs.size() != n || circle.present) return false;
+  for (const Arc& arc : arcs) {
+    if (arc.mark == arc.left && arc.mark == arc.right) return false;
+  }
+  std::uint32_t half = 0;
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const std::uint32_t node = source(half);
+    if (nodes[node].degree != 2 || passes_through(node) || (i > 0 && half == 0)) return false;
+    const std::uint32_t ahead = i + 1 == n ? 0 : i + 1;
+    const std::uint32_t behind = i == 0 ? n - 1 : i - 1;
+    SVertex v;
+    v.p = nodes[node].direction.p;
+    v.q = nodes[node].direction.q;
+    v.out = 2 * i;
+    v.mark = nodes[node].mark;
+    choose_planes(planes, node, v);
+    out.svertices.push_back(v);
+    const LabelId mark = arcs[half >> 1U].mark;
+    NEF_ASSERT(left(half) == left(0) && left(half ^ 1U) == left(1));
+    out.shalfedges.push_back({plane(half), i, 2 * ahead, 2 * behind, 0, mark});
+    out.shalfedges.push_back({plane(half ^ 1U), ahead, 2 * behind + 1, 2 * ahead + 1, 1, mark});
+    const std::uint32_t there = target(half);
+    if (nodes[there].degree != 2) return false;
+    const std::span<const std::uint32_t> two = around(there);
+    half = two[0] == (half ^ 1U) ? two[1] : two[0];
+  }
+  if (half != 0) return false;
+  for (const std::uint32_t side : {0U, 1U}) {
+    out.sfaces.push_back({side, 1, left(side)});
+    out.entries.push_back({SFaceEntry::Kind::kCycle, side});
+  }
+  return true;
+}
+
 void Arrangement::simplify_and_assemble(const PlaneTable& planes, SphereMapBuffer& out) {
+  out.clear();
+  out.mark = centre;
+  if (assemble_ring(planes, out)) return;
   out.clear();
   out.mark = centre;
   drop_redundant_arcs();
@@ -199,42 +239,40 @@ void Arrangement::build_incidences(const PlaneTable& planes, SphereMapBuffer& ou
       out.shalfedges[leaving].prev = arriving;
     }
   }
-  choose_incident_planes(planes, out);
+  for (std::uint32_t n = 0; n < nodes.size(); ++n) {
+    if (essential(n)) choose_planes(planes, n, out.svertices[node_svertex_[n]]);
+  }
 }
 
 // An svertex should be the meeting of two planes of facets that are there: then no plane outlives
 // its facets, and both ends of an edge use planes of the same facets.
-void Arrangement::choose_incident_planes(const PlaneTable& planes, SphereMapBuffer& out) const {
-  for (std::uint32_t n = 0; n < nodes.size(); ++n) {
-    if (!essential(n)) continue;
-    const std::span<const std::uint32_t> ring = around(n);
-    if (ring.size() < 2) continue;
-    PlaneId first = plane(ring[0]);
-    PlaneId second;
-    for (const std::uint32_t half : ring) {
-      const PlaneId candidate = plane(half);
-      if (candidate.row() < first.row()) first = candidate;
-    }
-    for (const std::uint32_t half : ring) {
-      const PlaneId candidate = plane(half);
-      if (candidate.row() != first.row() && (!second.valid() || candidate.row() < second.row())) second = candidate;
-    }
-    if (!second.valid()) continue;
-    first = PlaneId{first.row() << 1U};
-    second = PlaneId{second.row() << 1U};
-    SVertex& v = out.svertices[node_svertex_[n]];
-    if (v.p == first && v.q == second) continue;
-    const bool same_pair = (v.p.row() == first.row() && v.q.row() == second.row()) ||
-                           (v.p.row() == second.row() && v.q.row() == first.row());
-    bool positive = false;
-    if (same_pair) {
-      positive = (v.p.flipped() != v.q.flipped()) == (v.p.row() != first.row());
-    } else {
-      positive = sign_of_dot(nodes[n].direction, Direction::cross(planes, first, second)) > 0;
-    }
-    v.p = first;
-    v.q = positive ? second : second.opposite();
+void Arrangement::choose_planes(const PlaneTable& planes, std::uint32_t node, SVertex& v) const {
+  const std::span<const std::uint32_t> ring = around(node);
+  if (ring.size() < 2) return;
+  PlaneId first = plane(ring[0]);
+  PlaneId second;
+  for (const std::uint32_t half : ring) {
+    const PlaneId candidate = plane(half);
+    if (candidate.row() < first.row()) first = candidate;
   }
+  for (const std::uint32_t half : ring) {
+    const PlaneId candidate = plane(half);
+    if (candidate.row() != first.row() && (!second.valid() || candidate.row() < second.row())) second = candidate;
+  }
+  if (!second.valid()) return;
+  first = PlaneId{first.row() << 1U};
+  second = PlaneId{second.row() << 1U};
+  if (v.p == first && v.q == second) return;
+  const bool same_pair = (v.p.row() == first.row() && v.q.row() == second.row()) ||
+                         (v.p.row() == second.row() && v.q.row() == first.row());
+  bool positive = false;
+  if (same_pair) {
+    positive = (v.p.flipped() != v.q.flipped()) == (v.p.row() != first.row());
+  } else {
+    positive = sign_of_dot(nodes[node].direction, Direction::cross(planes, first, second)) > 0;
+  }
+  v.p = first;
+  v.q = positive ? second : second.opposite();
 }
 
 // Every cycle of shalfedges, every isolated svertex and every side of an sloop bounds an sface.

@@ -80,7 +80,8 @@ class Arrangement {
   bool passes_through(std::uint32_t node) const;
   void trace_chains();
   void build_incidences(const PlaneTable& planes, SphereMapBuffer& out);
-  void choose_incident_planes(const PlaneTable& planes, SphereMapBuffer& out) const;
+  bool assemble_ring(const PlaneTable& planes, SphereMapBuffer& out) const;
+  void choose_planes(const PlaneTable& planes, std::uint32_t node, SVertex& v) const;
   void collect_cycles(const SphereMapBuffer& out);
   void build_faces(const PlaneTable& planes, SphereMapBuffer& out);
 

@@ -6,10 +6,25 @@
 #include "nef/base/error.h"
 
 namespace nef {
+namespace {
+
+// Room for that many more at once: a table of one row, as queries make, allocates once.
+template <typename T>
+void make_room(std::vector<T>& values, std::size_t more) {
+  if (values.capacity() - values.size() < more) {
+    values.reserve(std::max(2 * values.capacity(), values.size() + more));
+  }
+}
+
+}  // namespace
 
 std::uint32_t IntegerRows::push(std::span<const mpz_srcptr> row) {
   NEF_ASSERT(row.size() == width_);
   const auto index = static_cast<std::uint32_t>(size());
+  std::size_t total = 0;
+  for (const mpz_srcptr value : row) total += mpz_size(value);
+  make_room(limbs_, total);
+  make_room(sizes_, width_);
   for (const mpz_srcptr value : row) {
     const std::size_t limbs = mpz_size(value);
     const mp_limb_t* data = mpz_limbs_read(value);

@@ -14,6 +14,8 @@
 #include <sstream>
 #include <string>
 
+#include "tests/support/temporary_folder.h"
+
 namespace nef::test {
 
 /// What a run of the program gave.
@@ -26,30 +28,13 @@ struct Outcome {
 };
 
 /// A directory of its own for each test, removed at its end.
-class Workplace {
+class Workplace : public nef::test::TemporaryFolder {
  public:
-  Workplace() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "nef_command_XXXXXX").string();
-    REQUIRE(mkdtemp(pattern.data()) != nullptr);
-    path_ = pattern;
-  }
-  ~Workplace() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  Workplace(const Workplace&) = delete;
-  Workplace& operator=(const Workplace&) = delete;
-
-  [[nodiscard]] std::string operator/(const std::string& name) const { return path_ / name; }
-
-  std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(path_ / name, std::ios::binary) << text;
-    return path_ / name;
-  }
+  [[nodiscard]] std::string operator/(const std::string& name) const { return path() / name; }
 
   /// Runs `nef ARGUMENTS` (quoted for the shell by the caller) in this directory.
   [[nodiscard]] Outcome nef(const std::string& arguments) const {
-    const std::string command = "cd '" + path_.string() + "' && '" NEF_BINARY_DIR "/nef' " + arguments +
+    const std::string command = "cd '" + path().string() + "' && '" NEF_BINARY_DIR "/nef' " + arguments +
                                 " > stdout.txt 2> stderr.txt < /dev/null";
     const int status = std::system(command.c_str());
     Outcome outcome;
@@ -59,15 +44,7 @@ class Workplace {
     return outcome;
   }
 
-  [[nodiscard]] std::string read(const std::string& name) const {
-    std::ifstream file(path_ / name, std::ios::binary);
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
-  }
-
- private:
-  std::filesystem::path path_;
+  [[nodiscard]] std::string read(const std::string& name) const { return nef::test::slurp(file(name)); }
 };
 
 /// The bytes of an OFF file of the box [low, high]^3.

@@ -13,7 +13,7 @@
 #include "nef/io/mesh_writer.h"
 #include "nef/io/native_format.h"
 #include "nef/io/polyhedron_file.h"
-#include "tests/io/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace nef {
 namespace {

@@ -14,8 +14,8 @@
 #include "nef/io/mesh_reader.h"
 #include "nef/io/native_format.h"
 #include "nef/io/polyhedron_file.h"
-#include "tests/io/temporary_folder.h"
 #include "tests/support/random_polyhedra.h"
+#include "tests/support/temporary_folder.h"
 
 namespace nef {
 namespace {

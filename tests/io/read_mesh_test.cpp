@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "nef/io/mesh_reader.h"
-#include "tests/io/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace nef {
 namespace {

@@ -17,6 +17,7 @@
 #include "nef/io/mesh_reader.h"
 #include "nef/io/polyhedron_file.h"
 #include "tests/support/literals.h"
+#include "tests/support/temporary_folder.h"
 
 namespace {
 
@@ -29,47 +30,22 @@ struct Outcome {
 };
 
 // A directory of its own, removed at the end.
-class Place {
+class Place : public nef::test::TemporaryFolder {
  public:
-  Place() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "minkowski_XXXXXX").string();
-    REQUIRE(mkdtemp(pattern.data()) != nullptr);
-    path_ = pattern;
-  }
-  ~Place() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  Place(const Place&) = delete;
-  Place& operator=(const Place&) = delete;
-
-  [[nodiscard]] std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+  [[nodiscard]] std::string operator/(const std::string& name) const { return (path() / name).string(); }
 
   void write(const std::string& name, const std::string& literal) const {
-    nef::write_polyhedron(path_ / name, set(literal));
+    nef::write_polyhedron(path() / name, set(literal));
   }
 
-  [[nodiscard]] std::string read(const std::string& name) const {
-    std::ifstream file(path_ / name, std::ios::binary);
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
-  }
+  [[nodiscard]] std::string read(const std::string& name) const { return nef::test::slurp(file(name)); }
 
   [[nodiscard]] Outcome run(const std::string& arguments) const {
-    const std::string command = "cd '" + path_.string() + "' && '" NEF_BINARY_DIR "/minkowski' " + arguments +
+    const std::string command = "cd '" + path().string() + "' && '" NEF_BINARY_DIR "/minkowski' " + arguments +
                                 " > stdout.txt 2> stderr.txt < /dev/null";
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read("stdout.txt"), read("stderr.txt")};
   }
-
-  [[nodiscard]] std::size_t file_count() const {
-    const std::filesystem::directory_iterator files(path_);
-    return static_cast<std::size_t>(std::distance(begin(files), end(files)));
-  }
-
- private:
-  std::filesystem::path path_;
 };
 
 const char* const kL = "box(0,0,0,3,1,1) + box(0,0,0,1,3,1)";

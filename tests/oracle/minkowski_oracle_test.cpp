@@ -15,6 +15,7 @@
 #include "apps/minkowski/minkowski.h"
 #include "nef/io/polyhedron_file.h"
 #include "tests/support/literals.h"
+#include "tests/support/temporary_folder.h"
 
 namespace {
 
@@ -25,39 +26,23 @@ using nef::minkowski::UnionStrategy;
 const std::string kData = NEF_SOURCE_DIR "/data/";
 
 // Files of one test, removed at the end.
-class Place {
+class Place : public nef::test::TemporaryFolder {
  public:
-  Place() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "oracle_XXXXXX").string();
-    REQUIRE(mkdtemp(pattern.data()) != nullptr);
-    path_ = pattern;
-  }
-  ~Place() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  Place(const Place&) = delete;
-  Place& operator=(const Place&) = delete;
-
   // A cube of side 0.2 about the origin, spelled as in the published inputs.
   [[nodiscard]] std::string cube() const {
-    std::string path = path_ / "cube.off";
-    std::ofstream(path) << "OFF\n8 6 0\n"
-                           "-0.1 -0.1 0.1\n0.1 -0.1 0.1\n0.1 0.1 0.1\n-0.1 0.1 0.1\n"
-                           "-0.1 0.1 -0.1\n0.1 0.1 -0.1\n0.1 -0.1 -0.1\n-0.1 -0.1 -0.1\n"
-                           "4 0 1 2 3\n4 4 5 6 7\n4 7 6 1 0\n4 6 5 2 1\n4 5 4 3 2\n4 4 7 0 3\n";
-    return path;
+    return write("cube.off",
+                 "OFF\n8 6 0\n"
+                 "-0.1 -0.1 0.1\n0.1 -0.1 0.1\n0.1 0.1 0.1\n-0.1 0.1 0.1\n"
+                 "-0.1 0.1 -0.1\n0.1 0.1 -0.1\n0.1 -0.1 -0.1\n-0.1 -0.1 -0.1\n"
+                 "4 0 1 2 3\n4 4 5 6 7\n4 7 6 1 0\n4 6 5 2 1\n4 5 4 3 2\n4 4 7 0 3\n");
   }
 
   [[nodiscard]] Polyhedron cgal_sum(const std::string& how, const std::string& a, const std::string& b) const {
-    const std::string out = path_ / "sum.nef3";
+    const std::string out = path() / "sum.nef3";
     const int status = std::system((NEF_SUM_PEER " " + how + " '" + a + "' '" + b + "' '" + out + "'").c_str());
     REQUIRE((WIFEXITED(status) && WEXITSTATUS(status) == 0));
     return nef::read_polyhedron(out);
   }
-
- private:
-  std::filesystem::path path_;
 };
 
 TEST_CASE("sums are CGAL's, as sets, by every strategy") {

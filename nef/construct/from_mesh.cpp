@@ -25,6 +25,7 @@ std::vector<std::uint32_t> first_faces(const Mesh& mesh, const MeshSurface& surf
   std::vector<bool> seen(mesh.vertices.size(), false);
   std::vector<std::uint32_t> result;
   for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+    if (mesh.face(f).empty()) continue;
     const std::uint32_t component = places.find(surface.place[mesh.face(f)[0]]);
     if (!seen[component]) result.push_back(f);
     seen[component] = true;

@@ -3,22 +3,9 @@
 
 #include <algorithm>
 
+#include "nef/operation/for_each_mark.h"
+
 namespace nef {
-namespace {
-
-// Calls visit(mark) for every mark of a complex, const or not.
-template <typename AnyComplex, typename Visit>
-void for_each_mark(AnyComplex& c, Visit&& visit) {
-  for (std::size_t v = 0; v < c.vertex_count(); ++v) visit(c.vertices[v].mark);
-  for (auto& item : c.svertices) visit(item.mark);
-  for (auto& item : c.shalfedges) visit(item.mark);
-  for (auto& item : c.sloops) visit(item.mark);
-  for (auto& item : c.sfaces) visit(item.mark);
-  for (auto& item : c.facets) visit(item.mark);
-  for (auto& item : c.volumes) visit(item.mark);
-}
-
-}  // namespace
 
 CompactMarks compact_marks(const Polyhedron& a) {
   const Complex& c = a.complex();

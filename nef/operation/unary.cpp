@@ -6,6 +6,7 @@
 #include "nef/base/error.h"
 #include "nef/boolean/overlay_complexes.h"
 #include "nef/complex/local_pyramid.h"
+#include "nef/operation/for_each_mark.h"
 #include "nef/polyhedron.h"
 #include "nef/sphere_map/arrangement.h"
 #include "nef/sphere_map/sphere_geometry.h"
@@ -114,17 +115,10 @@ class MarkChanger {
 
 Polyhedron complement(const Polyhedron& a) {
   Complex c = a.complex();
-  const auto flip = [](LabelId& mark) {
-    if (mark != kOutside) mark = mark == 0 ? 1 : 0;
-  };
   // Different marks stay different, so nothing but the marks changes.
-  for (VertexRecord& item : c.vertices) flip(item.mark);
-  for (SVertex& item : c.svertices) flip(item.mark);
-  for (SHalfedge& item : c.shalfedges) flip(item.mark);
-  for (SLoop& item : c.sloops) flip(item.mark);
-  for (SFace& item : c.sfaces) flip(item.mark);
-  for (Facet& item : c.facets) flip(item.mark);
-  for (Volume& item : c.volumes) flip(item.mark);
+  for_each_mark(c, [](LabelId& mark) {
+    if (mark != kOutside) mark = mark == 0 ? 1 : 0;
+  });
   return Polyhedron(std::move(c));
 }
 

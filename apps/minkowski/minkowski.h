@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Minkowski sums of any two Nef polyhedra, the vertical decomposition they are made from
-// (thesis 10.2), and configuration spaces of translating robots. Open and closed sets, missing
+// [Hachenberger 2009], and configuration spaces of translating robots. Open and closed sets, missing
 // points, lower-dimensional parts: everything is exact, nothing is regularized.
 #pragma once
 
@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-#include "apps/minkowski/convex_cell.h"
+#include "apps/minkowski/convex/convex_cell.h"
 #include "nef/base/error.h"
 #include "nef/geometry/predicates.h"
 #include "nef/polyhedron.h"
@@ -23,7 +23,7 @@ namespace nef::minkowski {
 /// How the sums of the pairs of cells are united. The set is the same for each.
 enum class UnionStrategy : std::uint8_t {
   kTrivial,   ///< one after the other onto one growing result
-  kQueue,     ///< always the two oldest (the thesis' choice), in bounded memory
+  kQueue,     ///< always the two oldest [Hachenberger 2009], in bounded memory
   kPriority,  ///< always the two smallest, by number of vertices
   kNary       ///< all at once, in batches of bounded size
 };
@@ -57,15 +57,14 @@ struct MinkowskiReport {
   PredicateCounts predicates_union;
 };
 
-/// A + B = { a + b : a in A, b in B } for any two bounded sets, exactly (shared design note,
-/// section 5): open and closed parts, lower-dimensional parts, cavities. Empty if one is empty.
-/// Cost: decompositions into k and l cells, k l convex sums and their union. If an operand is unbounded,
-/// both are cut by whole planes through their reflex edges (see unbounded_sum.h), which is for sets with few
-/// of these; throws UnsupportedError if there are too many.
+/// A + B = { a + b : a in A, b in B } for any two sets, exactly: open and closed parts, lower-dimensional parts,
+/// cavities. Empty if one is empty. Cost: decompositions into k and l cells, k l convex sums and their union. If an
+/// operand is unbounded, both are cut by whole planes through their reflex edges (see unbounded_sum.h), which is for
+/// sets with few of these; throws UnsupportedError if there are too many.
 Polyhedron minkowski_sum(const Polyhedron& a, const Polyhedron& b, const MinkowskiOptions& options = {},
                          MinkowskiReport* report = nullptr);
 
-/// The vertical decomposition of a bounded set (thesis 10.2.2): convex cells whose union is
+/// The vertical decomposition of a bounded set [Hachenberger 2009]: convex cells whose union is
 /// exactly `a`. Walls stand along the coordinate axis that is likely to need the fewest cells. The cells of dimension 3
 /// have disjoint interiors and cover the interior's closure; they carry the marks of their walls and sides. What marks
 /// keep out of them (a selected part of a side that is not selected whole, an antenna) follows as cells of dimension 2,

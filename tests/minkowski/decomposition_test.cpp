@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "apps/minkowski/decomposition.h"
+#include "apps/minkowski/decomposition/decomposition.h"
+#include "apps/minkowski/decomposition/wall_axis.h"
 #include "apps/minkowski/minkowski.h"
-#include "apps/minkowski/wall_axis.h"
 #include "nef/construct/convex_hull.h"
 #include "nef/io/mesh_reader.h"
 #include "tests/support/literals.h"

@@ -6,8 +6,8 @@
 #include <tuple>
 #include <vector>
 
+#include "apps/minkowski/convex/tools.h"
 #include "apps/minkowski/minkowski.h"
-#include "apps/minkowski/tools.h"
 #include "nef/construct/planar_hull.h"
 #include "nef/io/mesh_reader.h"
 #include "tests/support/literals.h"

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "apps/minkowski/minkowski.h"
-#include "apps/minkowski/solid_union.h"
+#include "apps/minkowski/union/solid_union.h"
 #include "nef/construct/convex_hull.h"
 #include "tests/support/random_polyhedra.h"
 

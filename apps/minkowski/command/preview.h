@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "apps/minkowski/convex_cell.h"
+#include "apps/minkowski/convex/convex_cell.h"
 #include "nef/polyhedron.h"
 
 namespace nef::minkowski {

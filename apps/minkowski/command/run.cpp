@@ -9,7 +9,7 @@
 
 #include "apps/minkowski/command/preview.h"
 #include "apps/minkowski/command/write_cells.h"
-#include "apps/minkowski/tools.h"
+#include "apps/minkowski/convex/tools.h"
 #include "nef/command/progress_bar.h"
 #include "nef/command/report.h"
 #include "nef/io/file_bytes.h"

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "apps/minkowski/convex_cell.h"
+#include "apps/minkowski/convex/convex_cell.h"
 #include "nef/construct/construct.h"
 
 namespace nef::minkowski {

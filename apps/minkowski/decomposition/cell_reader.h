@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Reads marked convex cells off a complex whose selected volumes are convex (see walls.h).
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "apps/minkowski/convex/convex_cell.h"
+#include "apps/minkowski/decomposition/cell_body.h"
+#include "nef/complex/complex.h"
+
+namespace nef::minkowski {
+
+/// Collects cells whose union is the set of points with a selected label. A cell takes the faces
+/// of its boundary with it if they are selected whole, and with all larger faces around them;
+/// selected items that no cell took become cells of their own, largest first.
+class CellReader {
+ public:
+  /// The complex must outlive the reader.
+  explicit CellReader(const Complex& complex);
+
+  /// The cells of dimension 3 with their marks; closed ones are merged where their union is convex. To be
+  /// called first.
+  std::vector<ConvexCell> solids();
+
+  /// The insides of cells whose union is dense in the selected volumes, merged even across facets that are not
+  /// selected: enough for sums that only need open solids (see minkowski_sum.cpp). Cheaper.
+  std::vector<ConvexCell> open_solids();
+
+  /// Selected facets that no solid took and that are not convex: cut them and start over.
+  [[nodiscard]] std::vector<std::uint32_t> facets_to_cut() const;
+
+  /// The cells of dimension 2, 1, 0 for what is left. To be called last.
+  std::vector<ConvexCell> flat_cells();
+
+ private:
+  struct Carriers;
+
+  [[nodiscard]] bool selected(LabelId label) const;
+  void collect_items(std::uint32_t volume);
+  CellBody body();
+  void count_planes(std::span<const std::uint32_t> by_plane);
+  [[nodiscard]] std::vector<std::uint32_t> outline(std::span<const std::uint32_t> facets) const;
+  void set_boundary(ConvexCell& cell);
+  void set_marks(ConvexCell& cell);
+  Carriers carriers(const ConvexCell& cell) const;
+  void take_all();
+  ConvexCell polygon(std::uint32_t facet);
+  ConvexCell segment(std::uint32_t halfedge);
+
+  const Complex& complex_;
+  std::vector<std::vector<std::uint32_t>> facets_of_volume_;
+  std::vector<std::uint8_t> facet_taken_, halfedge_taken_, vertex_taken_;
+
+  // The volume at hand and the items on its boundary.
+  std::uint32_t volume_ = 0;
+  std::vector<std::uint32_t> facets_, halfedges_, vertices_;
+  std::vector<std::uint32_t> seen_halfedge_, seen_vertex_, local_;
+  std::vector<std::uint32_t> planes_at_;  // per vertex of the volume
+  std::uint32_t turn_ = 0;
+};
+
+}  // namespace nef::minkowski

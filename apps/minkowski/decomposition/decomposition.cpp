@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/minkowski/decomposition/decomposition.h"
+
+#include <algorithm>
+#include <iterator>
+#include <string>
+
+#include "apps/minkowski/decomposition/cell_reader.h"
+#include "apps/minkowski/decomposition/wall_axis.h"
+#include "apps/minkowski/decomposition/walls.h"
+#include "apps/minkowski/minkowski.h"
+#include "nef/base/error.h"
+
+namespace nef::minkowski {
+
+void require_bounded(const Polyhedron& a, const char* what) {
+  if (a.is_bounded()) return;
+  throw UnsupportedError(std::string(what) +
+                         " is unbounded, so it is not a union of finitely many convex polytopes: "
+                         "intersect it with a box first");
+}
+
+std::vector<ConvexCell> decompose(const Polyhedron& a) {
+  require_bounded(a, "the set to decompose");
+  return decompose_along(a, wall_axis(a.complex()));
+}
+
+std::vector<ConvexCell> decompose_along(const Polyhedron& a, std::size_t axis) {
+  require_bounded(a, "the set to decompose");
+  Polyhedron walled = erect_walls(a, axis);
+  {
+    CellReader reader(walled.complex());
+    std::vector<ConvexCell> cells = reader.solids();
+    const std::vector<std::uint32_t> to_cut = reader.facets_to_cut();
+    if (to_cut.empty()) {
+      std::vector<ConvexCell> flat = reader.flat_cells();
+      std::move(flat.begin(), flat.end(), std::back_inserter(cells));
+      return cells;
+    }
+    walled = cut_facets(walled, to_cut);
+  }
+  CellReader reader(walled.complex());
+  std::vector<ConvexCell> cells = reader.solids();
+  NEF_ASSERT(reader.facets_to_cut().empty());
+  std::vector<ConvexCell> flat = reader.flat_cells();
+  std::move(flat.begin(), flat.end(), std::back_inserter(cells));
+  return cells;
+}
+
+std::vector<ConvexCell> decompose_open(const Polyhedron& a) {
+  require_bounded(a, "the set to decompose");
+  const Polyhedron walled = erect_walls(a, wall_axis(a.complex()));
+  return CellReader(walled.complex()).open_solids();
+}
+
+bool is_full_dimensional(const Polyhedron& a) {
+  const Complex& c = a.complex();
+  const auto selected = [](LabelId label) { return label == 1; };
+  for (const Facet& f : c.facets) {
+    if (selected(f.mark) && !selected(c.volumes[f.volume_above].mark) && !selected(c.volumes[f.volume_below].mark)) {
+      return false;
+    }
+  }
+  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
+    const SphereMapView map = c.sphere_map(v);
+    const bool near_solid =
+        std::any_of(map.sfaces.begin(), map.sfaces.end(), [&](const SFace& f) { return selected(f.mark); });
+    if (selected(map.mark) && !near_solid) return false;
+    for (const SVertex& sv : map.svertices) {
+      if (!selected(sv.mark)) continue;
+      bool found = sv.out == kNone && selected(map.sfaces[sv.sface].mark);
+      if (sv.out != kNone) {
+        std::uint32_t e = sv.out;
+        do {
+          found = found || selected(map.sfaces[map.shalfedges[e].sface].mark);
+          e = map.next_around(e);
+        } while (e != sv.out);
+      }
+      if (!found) return false;
+    }
+  }
+  return true;
+}
+
+bool is_point(const Polyhedron& a) {
+  const Complex& c = a.complex();
+  return c.vertex_count() == 1 && c.svertices.empty() && c.sloops.empty() && c.vertices[0].mark == 1 &&
+         c.volumes[0].mark == 0;
+}
+
+Polyhedron negate(const Polyhedron& a) {
+  return transform(a, AffineMap::scale({Rational(-1), Rational(-1), Rational(-1)}));
+}
+
+namespace {
+
+// Convex iff the relative interior of the hull belongs to the set (its closure does not exceed the
+// hull) and what belongs to each facet of the hull is convex: of two points not in a common facet,
+// all between them is inside.
+bool is_convex_set(const Polyhedron& a) {
+  const Complex& c = a.complex();
+  std::vector<Rational3> points;
+  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) points.push_back(c.points.rational(PointId(v)));
+  if (points.empty()) return true;
+  const ConvexCell hull = hull_cell(points);
+  if (!subtract(to_polyhedron(opened(hull)), a).is_empty()) return false;
+  if (hull.dimension < 2) return true;
+  for (std::size_t f = 0; f < hull.mesh.face_count(); ++f) {
+    const auto face = hull.mesh.face(f);
+    const std::size_t sides = hull.dimension == 3 ? 1 : face.size();
+    for (std::size_t k = 0; k < sides; ++k) {
+      std::vector<Rational3> part;
+      for (std::size_t i = 0; i < (hull.dimension == 3 ? face.size() : 2); ++i) {
+        part.push_back(hull.mesh.vertices[face[(k + i) % face.size()]]);
+      }
+      if (!is_convex_set(intersect(a, convex_hull(part)))) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+bool is_convex(const Polyhedron& a) {
+  require_bounded(a, "the set");
+  if (a.is_empty() || is_point(a)) return true;
+  // A closed set with reflex edges would be cut into several solids; asking is cheaper than cutting.
+  return is_convex_set(a);
+}
+
+}  // namespace nef::minkowski

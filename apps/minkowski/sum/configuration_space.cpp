@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Free space of a translating robot. What is forbidden is a union of sums, and sums distribute over
+// unions, so all pairs of all obstacles go into one union; only what enters the inside of the
+// obstacles' union needs that union first (its inside contains seams between touching obstacles).
+#include <algorithm>
+#include <iterator>
+#include <string>
+
+#include "apps/minkowski/decomposition/decomposition.h"
+#include "apps/minkowski/minkowski.h"
+#include "apps/minkowski/sum/pair_sums.h"
+#include "nef/construct/construct.h"
+
+namespace nef::minkowski {
+namespace {
+
+// The operands whose products make the forbidden set.
+struct Forbidden {
+  Operand obstacles_open, robot_open;    // full-dimensional obstacles against the inside of the robot
+  Operand obstacles_flat, robot_marked;  // obstacles with lower-dimensional parts against it
+  Operand inside, robot;                 // the inside of all obstacles against the robot's lower-dimensional parts
+};
+
+void append(std::vector<ConvexCell>& to, std::vector<ConvexCell> from) {
+  std::move(from.begin(), from.end(), std::back_inserter(to));
+}
+
+Forbidden decompose_all(const Polyhedron& robot, std::span<const Polyhedron> obstacles, unsigned threads) {
+  Forbidden result;
+  const Polyhedron turned = negate(robot);
+  const Polyhedron robot_inside = interior(turned);
+  if (!robot_inside.is_empty()) {
+    std::vector<ConvexCell> solid;
+    std::vector<ConvexCell> flat;
+    for (const Polyhedron& obstacle : obstacles) {
+      const Polyhedron closed = closure(obstacle);
+      if (is_full_dimensional(closed)) {
+        append(solid, decompose_open(closed));
+      } else {
+        append(flat, decompose(closed));
+      }
+    }
+    std::stable_sort(flat.begin(), flat.end(),
+                     [](const ConvexCell& a, const ConvexCell& b) { return a.dimension > b.dimension; });
+    if (!solid.empty()) result.robot_open = Operand(decompose_open(robot_inside));
+    if (!flat.empty()) result.robot_marked = Operand(decompose(robot_inside));
+    result.obstacles_open = Operand(std::move(solid));
+    result.obstacles_flat = Operand(std::move(flat));
+  }
+  if (!is_full_dimensional(turned)) {
+    std::vector<Polyhedron> closed;
+    for (const Polyhedron& obstacle : obstacles) closed.push_back(closure(obstacle));
+    const Polyhedron inside = interior(unite_all(closed, threads));
+    result.inside = Operand(decompose(inside));
+    result.robot = Operand(decompose(turned));
+  }
+  return result;
+}
+
+Polyhedron outside_of(const Polyhedron& forbidden, const std::optional<std::array<Rational3, 2>>& box) {
+  return box ? subtract(make_box((*box)[0], (*box)[1]), forbidden) : complement(forbidden);
+}
+
+// The definition, step by step.
+Polyhedron forbidden_of_unbounded(const Polyhedron& robot, std::span<const Polyhedron> obstacles,
+                                  const MinkowskiOptions& options, MinkowskiReport& report) {
+  std::vector<Polyhedron> closed;
+  for (const Polyhedron& obstacle : obstacles) closed.push_back(closure(obstacle));
+  const Polyhedron all = unite_all(closed, options.threads);
+  const Polyhedron turned = negate(robot);
+  Polyhedron entered = minkowski_sum(all, interior(turned), options, &report);
+  if (is_full_dimensional(turned)) return entered;
+  return unite(entered, minkowski_sum(interior(all), turned, options, &report));
+}
+
+}  // namespace
+
+Polyhedron configuration_space(const Polyhedron& robot, std::span<const Polyhedron> obstacles,
+                               const std::optional<std::array<Rational3, 2>>& box, const MinkowskiOptions& options,
+                               MinkowskiReport* report) {
+  MinkowskiReport unused;
+  MinkowskiReport& r = report != nullptr ? *report : unused;
+  PredicateCounts all;
+  const PhaseTimer total(r.seconds_total, all);
+  if (robot.is_empty()) throw InputError("the robot is the empty set: it has no reference point to move");
+  const auto bounded = [](const Polyhedron& set) { return set.is_bounded(); };
+  if (!robot.is_bounded() || !std::all_of(obstacles.begin(), obstacles.end(), bounded)) {
+    return outside_of(forbidden_of_unbounded(robot, obstacles, options, r), box);
+  }
+  Forbidden parts;
+  {
+    const PhaseTimer timer(r.seconds_decomposition, r.predicates_decomposition);
+    parts = decompose_all(robot, obstacles, options.threads);
+  }
+  r.cells_a += parts.obstacles_open.size() + parts.obstacles_flat.size() + parts.inside.size();
+  r.cells_b += std::max(parts.robot_open.size(), parts.robot_marked.size()) + parts.robot.size();
+  PairSums sums(options, r);
+  sums.add_product(parts.obstacles_open, parts.robot_open);
+  sums.add_product(parts.obstacles_flat, parts.robot_marked);
+  sums.add_product(parts.inside, parts.robot);
+  const Polyhedron forbidden = sums.run();
+  const PhaseTimer timer(r.seconds_union, r.predicates_union);
+  return outside_of(forbidden, box);
+}
+
+}  // namespace nef::minkowski

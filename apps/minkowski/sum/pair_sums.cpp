@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/minkowski/sum/pair_sums.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "nef/base/error.h"
+#include "nef/base/parallel.h"
+
+namespace nef::minkowski {
+namespace {
+
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+ConvexCell sum_of_pair(const Operand& a, std::size_t i, const Operand& b, std::size_t j) {
+  if (a.cell(i).dimension == 3 && b.cell(j).dimension == 3) return convex_sum(a.diagram(i), b.diagram(j));
+  return convex_sum(a.cell(i), b.cell(j));
+}
+
+}  // namespace
+
+PhaseTimer::PhaseTimer(double& seconds, PredicateCounts& predicates)
+    : seconds_(seconds), predicates_(predicates), start_(now()), counts_(predicate_counts()) {}
+
+PhaseTimer::~PhaseTimer() {
+  seconds_ += now() - start_;
+  predicates_.identity += predicate_counts().identity - counts_.identity;
+  predicates_.filter += predicate_counts().filter - counts_.filter;
+  predicates_.exact += predicate_counts().exact - counts_.exact;
+}
+
+Operand::Operand(std::vector<ConvexCell> cells) : cells_(std::move(cells)) {
+  diagrams_.reserve(cells_.size());
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    if (cells_[i].dimension < 3) continue;
+    NEF_ASSERT(diagrams_.size() == i);
+    diagrams_.emplace_back(cells_[i]);
+  }
+}
+
+void PairSums::add_product(const Operand& a, const Operand& b) {
+  products_.emplace_back(&a, &b);
+  report_.pairs += a.size() * b.size();
+}
+
+// Sums of a block of pairs are made at once, on several threads; they go into the union in order.
+Polyhedron PairSums::run() {
+  UnionBuilder builder(options_.strategy, options_.threads);
+  constexpr std::size_t kBlock = 256;
+  std::size_t done = 0;
+  std::vector<ConvexCell> block;
+  for (const auto& product : products_) {
+    const Operand& a = *product.first;
+    const Operand& b = *product.second;
+    const std::size_t pairs = a.size() * b.size();
+    for (std::size_t first = 0; first < pairs; first += kBlock) {
+      block.assign(std::min(kBlock, pairs - first), {});
+      {
+        const PhaseTimer timer(report_.seconds_convex_sums, report_.predicates_convex_sums);
+        parallel_for(block.size(), options_.threads, [&](std::size_t k) {
+          block[k] = sum_of_pair(a, (first + k) / b.size(), b, (first + k) % b.size());
+        });
+      }
+      const PhaseTimer timer(report_.seconds_union, report_.predicates_union);
+      for (ConvexCell& sum : block) {
+        builder.add(std::move(sum));
+        ++done;
+        if (options_.progress && !options_.progress(done, report_.pairs)) throw Cancelled();
+      }
+    }
+  }
+  const PhaseTimer timer(report_.seconds_union, report_.predicates_union);
+  Polyhedron result = builder.finish();
+  report_.pairs_dropped += builder.dropped();
+  return result;
+}
+
+}  // namespace nef::minkowski

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/minkowski/union/exact_cells.h"
+
+#include <algorithm>
+#include <array>
+
+#include "nef/base/error.h"
+
+namespace nef::minkowski {
+namespace {
+
+using Integers = std::array<Integer, 3>;
+
+// p - o up to a positive factor.
+Integers difference(const PointTable& points, PointId p, PointId o) {
+  Integers d;
+  for (std::size_t i = 0; i < 3; ++i) {
+    mpz_mul(d[i].get_mpz_t(), points.coordinate(p, i), points.coordinate(o, 3));
+    mpz_submul(d[i].get_mpz_t(), points.coordinate(o, i), points.coordinate(p, 3));
+  }
+  return d;
+}
+
+PlaneId plane_of_points(PlaneTable& planes, const PointTable& points, PointId o, PointId p, PointId q) {
+  const Integers u = difference(points, p, o);
+  const Integers v = difference(points, q, o);
+  Integers n;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3;
+    const std::size_t k = (i + 2) % 3;
+    mpz_mul(n[i].get_mpz_t(), u[j].get_mpz_t(), v[k].get_mpz_t());
+    mpz_submul(n[i].get_mpz_t(), u[k].get_mpz_t(), v[j].get_mpz_t());
+  }
+  return plane_through(planes, points, n, o);
+}
+
+}  // namespace
+
+PlaneId plane_through(PlaneTable& planes, const PointTable& points, const std::array<Integer, 3>& normal, PointId o) {
+  // Common factors go while numbers are short: of the normal first, mostly 1, then of the point's denominator and the
+  // offset; the plane that is left has none.
+  Integers n = normal;
+  Integer divisor;
+  for (std::size_t i = 0; i < 3 && divisor != 1; ++i) {
+    mpz_gcd(divisor.get_mpz_t(), divisor.get_mpz_t(), n[i].get_mpz_t());
+  }
+  if (divisor != 1) {
+    for (Integer& x : n) mpz_divexact(x.get_mpz_t(), x.get_mpz_t(), divisor.get_mpz_t());
+  }
+  Integer offset;
+  for (std::size_t i = 0; i < 3; ++i) mpz_submul(offset.get_mpz_t(), n[i].get_mpz_t(), points.coordinate(o, i));
+  mpz_gcd(divisor.get_mpz_t(), offset.get_mpz_t(), points.coordinate(o, 3));
+  mpz_divexact(offset.get_mpz_t(), offset.get_mpz_t(), divisor.get_mpz_t());
+  mpz_divexact(divisor.get_mpz_t(), points.coordinate(o, 3), divisor.get_mpz_t());
+  if (divisor != 1) {
+    for (Integer& x : n) x *= divisor;
+  }
+  return planes.intern_primitive({n[0].get_mpz_t(), n[1].get_mpz_t(), n[2].get_mpz_t(), offset.get_mpz_t()});
+}
+
+ExactCells::ExactCells(std::span<const ConvexCell> cells, const RoundedCells& rounded)
+    : cells_(cells), rounded_(rounded), plane_(rounded.face_count()) {
+  std::size_t vertices = 0;
+  for (const ConvexCell& cell : cells) vertices += cell.mesh.vertices.size();
+  point_of_.assign(vertices, kNone);
+}
+
+std::span<const std::uint32_t> ExactCells::corners(std::uint32_t face) const {
+  return cells_[rounded_.cell_of_face(face)].mesh.face(local(face));
+}
+
+PointId ExactCells::point(std::uint32_t cell, std::uint32_t vertex) {
+  std::uint32_t& id = point_of_[rounded_.first_vertex(cell) + vertex];
+  if (id == kNone) id = points.push(cells_[cell].mesh.vertices[vertex]).value;
+  return PointId{id};
+}
+
+PlaneId ExactCells::plane(std::uint32_t face) {
+  if (!plane_[face].valid()) {
+    const std::uint32_t cell = rounded_.cell_of_face(face);
+    const auto c = corners(face);
+    const PointId o = point(cell, c[0]);
+    const std::vector<Integers>& normals = cells_[cell].normals;
+    if (!normals.empty()) return plane_[face] = plane_through(planes, points, normals[local(face)], o);
+    const PointId p = point(cell, c[c.size() / 3]);
+    const PointId q = point(cell, c[2 * c.size() / 3]);
+    plane_[face] = plane_of_points(planes, points, o, p, q);
+  }
+  return plane_[face];
+}
+
+int ExactCells::side(std::uint32_t face, std::uint32_t cell, std::uint32_t vertex) {
+  const RoundedFace& rounded = rounded_.face(face);
+  const double value = rounded.value(rounded_.vertices(cell)[vertex]);
+  if (value > rounded.slack) return 1;
+  if (value < -rounded.slack) return -1;
+  const PlaneId p = plane(face);
+  const PointId x = point(cell, vertex);
+  return side_of_plane(planes, p, points, x);
+}
+
+void ExactCells::locate(std::uint32_t cell, PointId point, CellLocation& result) {
+  result.kind = CellLocation::Kind::kOutside;
+  result.faces.clear();
+  const Vector x = points.approximate(point);
+  const std::uint32_t first = rounded_.first_face(cell);
+  const std::uint32_t last = rounded_.end_face(cell);
+  for (std::uint32_t f = first; f < last; ++f) {
+    const RoundedFace& face = rounded_.face(f);
+    const double value = face.value(x);
+    if (value > face.slack) return;
+    if (!(value < -face.slack)) result.faces.push_back(f);
+  }
+  std::size_t kept = 0;
+  for (const std::uint32_t f : result.faces) {
+    const int s = side_of_plane(planes, plane(f), points, point);
+    if (s > 0) return;
+    if (s == 0) result.faces[kept++] = f;
+  }
+  result.faces.resize(kept);
+  result.kind = kept == 0 ? CellLocation::Kind::kInside : CellLocation::Kind::kBoundary;
+}
+
+void ExactCells::pyramid(const CellLocation& at, SphereMapBuffer& out) {
+  const std::uint32_t index = rounded_.cell_of_face(at.faces[0]);
+  const ConvexCell& cell = cells_[index];
+  if (at.faces.size() == 1) {
+    const LabelId mark = cell.facet_marked(local(at.faces[0])) ? 1 : 0;
+    out.assign_circle(plane(at.faces[0]), mark, 0, 1);
+    out.mark = mark;
+    return;
+  }
+  drawing_.clear();
+  if (at.faces.size() == 2) {
+    draw_edge(cell, at.faces[0], at.faces[1]);
+  } else {
+    draw_vertex(cell, at.faces);
+  }
+  drawing_.sort_around_nodes(planes);
+  drawing_.simplify_and_assemble(planes, out);
+}
+
+// Inside an edge: with f to its left, it runs along n_f x n_g, and the half circle of f goes from
+// there to the opposite direction.
+void ExactCells::draw_edge(const ConvexCell& cell, std::uint32_t f, std::uint32_t g) {
+  const auto ring = corners(f);
+  const auto other = corners(g);
+  const auto in_other = [&](std::uint32_t v) { return std::find(other.begin(), other.end(), v) != other.end(); };
+  LabelId mark = 1;
+  if (cell.boundary != ConvexCell::Boundary::kClosed) {
+    std::size_t k = 0;
+    while (!in_other(ring[k]) || !in_other(ring[(k + 1) % ring.size()])) ++k;
+    mark = cell.edge_marked(cell.mesh.face_begin[local(f)] + k) ? 1 : 0;
+  }
+  drawing_.centre = mark;
+  drawing_.nodes.resize(2);
+  drawing_.nodes[0].direction = Direction::cross(planes, plane(f), plane(g));
+  drawing_.nodes[1].direction = Direction::cross(planes, plane(g), plane(f));
+  drawing_.nodes[0].mark = drawing_.nodes[1].mark = mark;
+  const auto facet_mark = [&](std::uint32_t face) -> LabelId { return cell.facet_marked(local(face)) ? 1 : 0; };
+  drawing_.arcs.push_back({plane(f), 0, 1, facet_mark(f), 0, 1});
+  drawing_.arcs.push_back({plane(g), 1, 0, facet_mark(g), 0, 1});
+}
+
+void ExactCells::draw_vertex(const ConvexCell& cell, std::span<const std::uint32_t> faces) {
+  // The vertex that all faces have in common.
+  const auto first = corners(faces[0]);
+  const auto everywhere = [&](std::uint32_t v) {
+    return std::all_of(faces.begin(), faces.end(), [&](std::uint32_t f) {
+      const auto ring = corners(f);
+      return std::find(ring.begin(), ring.end(), v) != ring.end();
+    });
+  };
+  const auto found = std::find_if(first.begin(), first.end(), everywhere);
+  NEF_ASSERT(found != first.end());
+  const std::uint32_t vertex = *found;
+  drawing_.centre = cell.vertex_marked(vertex) ? 1 : 0;
+
+  struct Spoke {
+    std::uint32_t to = kNone;
+    PlaneId left, right;
+    LabelId mark = 0;
+  };
+  std::vector<Spoke> spokes;
+  const auto node_toward = [&](std::uint32_t w) -> std::uint32_t {
+    const auto at = std::find_if(spokes.begin(), spokes.end(), [w](const Spoke& s) { return s.to == w; });
+    if (at != spokes.end()) return static_cast<std::uint32_t>(at - spokes.begin());
+    spokes.emplace_back().to = w;
+    return static_cast<std::uint32_t>(spokes.size() - 1);
+  };
+  for (const std::uint32_t f : faces) {
+    const auto ring = corners(f);
+    const auto k = static_cast<std::size_t>(std::find(ring.begin(), ring.end(), vertex) - ring.begin());
+    const std::uint32_t source = node_toward(ring[(k + 1) % ring.size()]);
+    const std::uint32_t target = node_toward(ring[(k + ring.size() - 1) % ring.size()]);
+    spokes[source].left = plane(f);
+    spokes[source].mark = cell.edge_marked(cell.mesh.face_begin[local(f)] + k) ? 1 : 0;
+    spokes[target].right = plane(f);
+    drawing_.arcs.push_back(
+        {plane(f), source, target, static_cast<LabelId>(cell.facet_marked(local(f)) ? 1 : 0), 0, 1});
+  }
+  drawing_.nodes.resize(spokes.size());
+  for (std::size_t n = 0; n < spokes.size(); ++n) {
+    NEF_ASSERT(spokes[n].left.valid() && spokes[n].right.valid());
+    drawing_.nodes[n].direction = Direction::cross(planes, spokes[n].left, spokes[n].right);
+    drawing_.nodes[n].mark = spokes[n].mark;
+  }
+}
+
+}  // namespace nef::minkowski

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The polygon is cut along the faces of a cell; the part inside of all of them goes. A cell counts only
+// as far as its faces, moved inwards to where the value is inside_, go: the rounding error of a cutting point is below
+// 2^-48 of the extent, a polygon is cut less than 64 times by each of a cell's faces, and inside_ allows for 2^-30 of
+// the extent.
+#include "apps/minkowski/union/face_remains.h"
+
+#include <algorithm>
+
+#include "nef/sphere_map/sphere_map.h"
+
+namespace nef::minkowski {
+
+FaceRemains::FaceRemains(const RoundedCells& cells) : cells_(cells) {
+  inside_.reserve(cells.face_count());
+  for (std::uint32_t f = 0; f < cells.face_count(); ++f) {
+    inside_.push_back(-4 * cells.face(f).slack - cells.face(f).weight * cells.extent() * 0x1p-30);
+  }
+}
+
+Vector FaceRemains::Polygon::centre() const {
+  Vector sum{};
+  for (std::size_t k = 0; k < size; ++k) {
+    for (std::size_t i = 0; i < 3; ++i) sum[i] += v[k][i];
+  }
+  for (double& x : sum) x /= static_cast<double>(size);
+  return sum;
+}
+
+// A cell that has x inside; kNone if none has.
+std::uint32_t FaceRemains::cell_around(const Vector& x, std::vector<std::uint32_t>& neighbours) const {
+  for (std::size_t k = 0; k < neighbours.size(); ++k) {
+    const std::uint32_t cell = neighbours[k];
+    const Box& box = cells_.box(cell);
+    if (x[0] < box.low[0] || x[0] > box.high[0] || x[1] < box.low[1] || x[1] > box.high[1] || x[2] < box.low[2] ||
+        x[2] > box.high[2]) {
+      continue;
+    }
+    std::uint32_t h = cells_.first_face(cell);
+    const std::uint32_t end = cells_.end_face(cell);
+    while (h < end && cells_.face(h).value(x) < inside_[h]) ++h;
+    if (h < end) continue;
+    const auto begin = neighbours.begin();
+    std::rotate(begin, begin + static_cast<std::ptrdiff_t>(k), begin + static_cast<std::ptrdiff_t>(k) + 1);
+    return cell;
+  }
+  return kNone;
+}
+
+// Leaves in outside_ what is not in the cell; false if the cell takes nothing away.
+bool FaceRemains::subtract(const Polygon& polygon, std::uint32_t cell) {
+  outside_.clear();
+  Polygon rest = polygon;
+  for (std::uint32_t h = cells_.first_face(cell); h < cells_.end_face(cell); ++h) {
+    const RoundedFace& face = cells_.face(h);
+    bool in = false;
+    bool out = false;
+    values_.clear();
+    for (std::size_t k = 0; k < rest.size; ++k) {
+      values_.push_back(face.value(rest.v[k]) - inside_[h]);
+      (values_.back() < 0 ? in : out) = true;
+    }
+    if (!out) continue;
+    if (!in) return false;
+    if (rest.size + 2 > kCorners) return false;
+    Polygon inside;
+    Polygon beyond;
+    for (std::size_t k = 0; k < rest.size; ++k) {
+      const std::size_t next = k + 1 < rest.size ? k + 1 : 0;
+      Polygon& here = values_[k] < 0 ? inside : beyond;
+      here.v[here.size++] = rest.v[k];
+      if ((values_[k] < 0) == (values_[next] < 0)) continue;
+      const double t = values_[k] / (values_[k] - values_[next]);
+      Vector x{};
+      for (std::size_t i = 0; i < 3; ++i) x[i] = rest.v[k][i] + t * (rest.v[next][i] - rest.v[k][i]);
+      inside.v[inside.size++] = x;
+      beyond.v[beyond.size++] = x;
+    }
+    outside_.push_back(beyond);
+    rest = inside;
+  }
+  return true;
+}
+
+Box FaceRemains::box_of_rest(std::span<const Vector> ring, std::vector<std::uint32_t>& neighbours) {
+  Box box;
+  const double drift = cells_.extent() * 0x1p-30;
+  const auto keep = [&](std::span<const Vector> polygon) {
+    for (const Vector& x : polygon) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        box.low[i] = std::min(box.low[i], x[i] - drift);
+        box.high[i] = std::max(box.high[i], x[i] + drift);
+      }
+    }
+  };
+  if (ring.size() > kCorners) {
+    keep(ring);
+    return box;
+  }
+  constexpr std::size_t kSubtractions = 64;  // visible faces have a rest anyway, and more would not narrow it much
+  std::size_t count = 0;
+  todo_.resize(1);
+  std::copy(ring.begin(), ring.end(), todo_[0].v.begin());
+  todo_[0].size = ring.size();
+  while (!todo_.empty()) {
+    const Polygon polygon = todo_.back();
+    todo_.pop_back();
+    const std::uint32_t cell = count++ < kSubtractions ? cell_around(polygon.centre(), neighbours) : kNone;
+    if (cell != kNone && subtract(polygon, cell)) {
+      todo_.insert(todo_.end(), outside_.begin(), outside_.end());
+    } else {
+      keep({polygon.v.data(), polygon.size});
+    }
+  }
+  return box;
+}
+
+}  // namespace nef::minkowski

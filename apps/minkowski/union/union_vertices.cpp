@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/minkowski/union/union_vertices.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "nef/boolean/overlay_complexes.h"
+#include "nef/complex/local_pyramid.h"
+
+namespace nef::minkowski {
+
+UnionVertices::UnionVertices(std::span<const ConvexCell> cells, const RoundedCells& rounded, const BoxTree& boxes)
+    : cells_(cells), rounded_(rounded), boxes_(boxes), exact_(cells, rounded), or_(2, 2, [](LabelId a, LabelId b) {
+        return static_cast<LabelId>(a | b);
+      }) {}
+
+std::uint32_t UnionVertices::add_vertex(std::uint32_t cell, std::uint32_t vertex) {
+  const PointId point = exact_.point(cell, vertex);
+  const std::uint32_t name = find_or_add(point);
+  if (name == point.value && located_.insert(name).second) add_point(point);
+  return name;
+}
+
+bool UnionVertices::is_on(std::uint32_t name, std::uint32_t face) const {
+  const auto at = faces_at_.find(name);
+  return at != faces_at_.end() && std::binary_search(at->second.begin(), at->second.end(), face);
+}
+
+// Points next to each other are mostly in one cell; that they sometimes are not costs time only.
+std::uint64_t UnionVertices::grid_cell(const Vector& x) const {
+  const double scale = 0x1p20 / std::max(rounded_.extent(), 0x1p-900);
+  std::uint64_t key = 0;
+  for (const double value : x) key = key << 21U | (static_cast<std::uint64_t>((value * scale) + 0x1p20) & 0x1fffffU);
+  return key;
+}
+
+void UnionVertices::add_meeting(std::uint32_t f, std::uint32_t g, std::uint32_t h, const Vector& guess) {
+  const auto [first_near, last_near] = near_.equal_range(grid_cell(guess));
+  for (auto at = first_near; at != last_near; ++at) {
+    if (is_on(at->second, h) && is_on(at->second, f) && is_on(at->second, g)) return;
+  }
+  const std::array<PlaneId, 3> planes = {exact_.plane(f), exact_.plane(g), exact_.plane(h)};
+  std::array<std::uint32_t, 3> rows = {planes[0].row(), planes[1].row(), planes[2].row()};
+  std::sort(rows.begin(), rows.end());
+  if (rows[0] == rows[1] || rows[1] == rows[2] || !tried_.insert(rows).second) return;
+  PointTable& points = exact_.points;
+  const std::optional<PointId> raw = points.push_intersection(exact_.planes, planes[0], planes[1], planes[2]);
+  if (!raw) return;
+  // Without a common factor equal points have equal coordinates.
+  std::array<Integer, 7> coordinates;
+  Integer divisor;
+  for (std::size_t i = 0; i < 4; ++i) {
+    mpz_set(coordinates[i].get_mpz_t(), points.coordinate(*raw, i));
+    mpz_gcd(divisor.get_mpz_t(), divisor.get_mpz_t(), coordinates[i].get_mpz_t());
+  }
+  points.pop();
+  for (std::size_t i = 0; i < 4; ++i) {
+    mpz_divexact(coordinates[i].get_mpz_t(), coordinates[i].get_mpz_t(), divisor.get_mpz_t());
+  }
+  const PointId point = points.push_homogeneous(coordinates);
+  if (find_or_add(point) == point.value) {
+    add_point(point);
+  } else {
+    points.pop();
+  }
+}
+
+// The first point with the same coordinates, which may be the point itself.
+std::uint32_t UnionVertices::find_or_add(PointId point) {
+  const std::uint64_t hash = exact_.points.hash(point);
+  const auto [first, last] = seen_.equal_range(hash);
+  for (auto at = first; at != last; ++at) {
+    if (exact_.points.identical(PointId{at->second}, point)) return at->second;
+  }
+  seen_.emplace(hash, point.value);
+  return point.value;
+}
+
+// A pyramid whose planes are among those of another one holds that one. Sums of cells that share a
+// facet are full of these.
+void UnionVertices::drop_covered(std::vector<CellLocation>& touched) {
+  if (touched.size() < 2) return;
+  using Boundary = ConvexCell::Boundary;
+  struct Pyramid {
+    std::vector<PlaneId> planes;  // sorted
+    Boundary boundary;
+    std::size_t index;
+  };
+  std::vector<Pyramid> pyramids;
+  for (std::size_t i = 0; i < touched.size(); ++i) {
+    Pyramid& p = pyramids.emplace_back();
+    for (const std::uint32_t f : touched[i].faces) p.planes.push_back(exact_.plane(f));
+    std::sort(p.planes.begin(), p.planes.end());
+    p.boundary = cells_[rounded_.cell_of_face(touched[i].faces[0])].boundary;
+    p.index = i;
+  }
+  std::stable_sort(pyramids.begin(), pyramids.end(),
+                   [](const Pyramid& a, const Pyramid& b) { return a.planes.size() < b.planes.size(); });
+  std::vector<const Pyramid*> kept;
+  std::vector<CellLocation> rest;
+  for (const Pyramid& p : pyramids) {
+    const bool covered = std::any_of(kept.begin(), kept.end(), [&p](const Pyramid* k) {
+      const bool marks =
+          k->boundary == Boundary::kClosed || (k->boundary == Boundary::kOpen && p.boundary == Boundary::kOpen);
+      return marks && std::includes(p.planes.begin(), p.planes.end(), k->planes.begin(), k->planes.end());
+    });
+    if (covered) continue;
+    kept.push_back(&p);
+    rest.push_back(std::move(touched[p.index]));
+  }
+  touched = std::move(rest);
+}
+
+void UnionVertices::add_point(PointId point) {
+  Box box;
+  box.add_rounded(exact_.points.approximate(point));
+  std::vector<CellLocation> touched;
+  bool inside = false;
+  boxes_.for_each_overlap(box, [&](std::uint32_t cell) {
+    if (inside) return;
+    exact_.locate(cell, point, location_);
+    if (location_.kind == CellLocation::Kind::kInside) inside = true;
+    if (location_.kind == CellLocation::Kind::kBoundary) touched.push_back(location_);
+  });
+  if (inside || touched.empty()) return;
+  std::vector<std::uint32_t>& faces = faces_at_[point.value];
+  for (const CellLocation& at : touched) faces.insert(faces.end(), at.faces.begin(), at.faces.end());
+  std::sort(faces.begin(), faces.end());
+  near_.emplace(grid_cell(exact_.points.approximate(point)), point.value);
+  drop_covered(touched);
+  SphereMapBuffer* map = &maps_[0];
+  exact_.pyramid(touched[0], *map);
+  SphereMapBuffer* next = &maps_[1];
+  for (std::size_t i = 1; i < touched.size(); ++i) {
+    exact_.pyramid(touched[i], maps_[2]);
+    overlay_.overlay(exact_.planes, map->view(), maps_[2].view(), or_, *next);
+    std::swap(map, next);
+  }
+  if (!is_vertex(exact_.planes, map->view())) return;
+  result_.points.push_from(exact_.points, point);
+  result_.push_vertex(map->view());
+}
+
+Complex UnionVertices::finish() {
+  result_.planes = std::move(exact_.planes);
+  nef::finish(result_, 0);
+  return std::move(result_);
+}
+
+}  // namespace nef::minkowski

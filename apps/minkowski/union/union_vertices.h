@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The exact half of a union of convex solids: from candidate points to the vertices of a complex.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include "apps/minkowski/union/exact_cells.h"
+#include "nef/complex/complex.h"
+#include "nef/geometry/box_tree.h"
+#include "nef/sphere_map/overlay.h"
+
+namespace nef::minkowski {
+
+/// Collects the vertices of a union. Each candidate is located in all cells around it; one that no
+/// cell has inside gets the overlay of the local pyramids of the cells that it touches.
+class UnionVertices {
+ public:
+  /// All must outlive the object.
+  UnionVertices(std::span<const ConvexCell> cells, const RoundedCells& rounded, const BoxTree& boxes);
+
+  ExactCells& exact() { return exact_; }
+
+  /// A candidate: a vertex of a cell. Returns a name of the point for is_on.
+  std::uint32_t add_vertex(std::uint32_t cell, std::uint32_t vertex);
+  /// True if a candidate is known to lie on a face; `name` may be kNone.
+  [[nodiscard]] bool is_on(std::uint32_t name, std::uint32_t face) const;
+  /// A candidate: where the planes of three faces meet, if they do in one point. Whether the faces
+  /// reach that point is found out here. A good guess of the point saves time if it is known already.
+  void add_meeting(std::uint32_t f, std::uint32_t g, std::uint32_t h, const Vector& guess);
+
+  /// The union. To be called once.
+  Complex finish();
+
+ private:
+  std::uint32_t find_or_add(PointId point);
+  void add_point(PointId point);
+  [[nodiscard]] std::uint64_t grid_cell(const Vector& x) const;
+  void drop_covered(std::vector<CellLocation>& touched);
+
+  std::span<const ConvexCell> cells_;
+  const RoundedCells& rounded_;
+  const BoxTree& boxes_;
+  ExactCells exact_;
+  std::unordered_multimap<std::uint64_t, std::uint32_t> seen_;  // hash of coordinates -> point
+  std::unordered_set<std::uint32_t> located_;                   // vertices of cells among them
+  struct TripleHash {
+    std::size_t operator()(const std::array<std::uint32_t, 3>& t) const {
+      std::uint64_t h = t[0];
+      for (const std::uint32_t x : {t[1], t[2]}) h = (h ^ (h >> 29U)) * 0x9e3779b97f4a7c15ULL + x;
+      return h ^ (h >> 32U);
+    }
+  };
+  std::unordered_set<std::array<std::uint32_t, 3>, TripleHash> tried_;      // rows of planes
+  std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> faces_at_;  // of candidates that are left
+  std::unordered_multimap<std::uint64_t, std::uint32_t> near_;              // grid cell -> such a candidate
+  SphereOverlay overlay_;
+  LabelFunction or_;
+  CellLocation location_;
+  std::array<SphereMapBuffer, 3> maps_;
+  Complex result_;
+};
+
+}  // namespace nef::minkowski

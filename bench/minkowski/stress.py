@@ -1,0 +1,189 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Sums that make unions explode: makes the operands, runs `minkowski` on each, prints CPU seconds and peak memory.
+
+    bench/minkowski/stress.py [--bin DIR] [--cases NAME ...] [--unions auto queue nary] [--limit SECONDS] [--keep DIR]
+
+Extrusions (stars, gears) have caps in common planes; a ball written in doubles is convex but for 10^-16; a cube minus a
+ball is all reflex edges. Processor seconds of the whole process on one thread, with reading and writing.
+"""
+import argparse
+import math
+import os
+import resource
+import subprocess
+import sys
+import tempfile
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+DATA = os.path.join(HERE, "..", "..", "data")
+
+
+def write_off(path, vertices, faces):
+    with open(path, "w") as out:
+        out.write(f"OFF\n{len(vertices)} {len(faces)} 0\n")
+        for v in vertices:
+            out.write(" ".join(repr(x) for x in v) + "\n")
+        for f in faces:
+            out.write(f"{len(f)} " + " ".join(map(str, f)) + "\n")
+
+
+def extrude(path, outline, height):
+    """A prism over a counterclockwise outline."""
+    n = len(outline)
+    vertices = [(x, y, 0) for x, y in outline] + [(x, y, height) for x, y in outline]
+    faces = [list(range(n - 1, -1, -1)), list(range(n, 2 * n))]
+    faces += [[k, (k + 1) % n, n + (k + 1) % n, n + k] for k in range(n)]
+    write_off(path, vertices, faces)
+
+
+def star_prism(path, k, turn, height=100):
+    """2k corners, radii 1000 and 700, turned by `turn` steps of half a tip, rounded to integers."""
+    outline = []
+    for i in range(2 * k):
+        angle = (i + turn) * math.pi / k
+        radius = 1000 if i % 2 == 0 else 700
+        outline.append((round(radius * math.cos(angle)), round(radius * math.sin(angle))))
+    extrude(path, outline, height)
+
+
+def gear(path, teeth, height=100):
+    """Trapezoid teeth between the radii 800 and 1000, rounded to integers."""
+    outline = []
+    for i in range(teeth):
+        for share, radius in ((0.0, 800), (0.3, 800), (0.45, 1000), (0.8, 1000)):
+            angle = (i + share) * 2 * math.pi / teeth
+            outline.append((round(radius * math.cos(angle)), round(radius * math.sin(angle))))
+    extrude(path, outline, height)
+
+
+def latitude_ball(path, radius, around, rings, split):
+    """A sphere of rings as CAD programs write it, in doubles; caps are polygons; quads split into triangles or not."""
+    vertices, faces = [], []
+    for i in range(rings):
+        polar = math.pi * (i + 0.5) / rings
+        for j in range(around):
+            angle = 2 * math.pi * j / around
+            vertices.append((radius * math.sin(polar) * math.cos(angle), radius * math.sin(polar) * math.sin(angle),
+                             radius * math.cos(polar)))
+    faces.append(list(range(around)))
+    faces.append([(rings - 1) * around + j for j in range(around - 1, -1, -1)])
+    for i in range(rings - 1):
+        for j in range(around):
+            a, b = i * around + j, i * around + (j + 1) % around
+            c, d = a + around, b + around
+            faces += [[a, c, d], [a, d, b]] if split else [[a, c, d, b]]
+    write_off(path, vertices, faces)
+
+
+def bumpy_ball(path, n, seed):
+    """A star-shaped body of about 2 n^2 triangles with waves on it: concave everywhere, like a scan."""
+    vertices = [(0, 0, 1000)]
+    def radius(theta, phi):
+        return 700 + 200 * math.sin(3 * theta + seed) * math.cos(4 * phi + seed) + 40 * math.sin(9 * theta + 7 * phi)
+    for i in range(1, n):
+        theta = math.pi * i / n
+        for j in range(n):
+            phi = 2 * math.pi * (j + 0.5 * (i % 2)) / n
+            r = radius(theta, phi)
+            vertices.append((round(r * math.sin(theta) * math.cos(phi)), round(r * math.sin(theta) * math.sin(phi)),
+                             round(r * math.cos(theta))))
+    vertices.append((0, 0, -1000))
+    faces = []
+    row = lambda i, j: 1 + (i - 1) * n + j % n
+    for j in range(n):
+        faces.append([0, row(1, j), row(1, j + 1)])
+        faces.append([len(vertices) - 1, row(n - 1, j + 1), row(n - 1, j)])
+    for i in range(1, n - 1):
+        for j in range(n):
+            a, b, c, d = row(i, j), row(i, j + 1), row(i + 1, j), row(i + 1, j + 1)
+            faces += [[a, c, b], [b, c, d]] if i % 2 == 0 else [[a, c, d], [a, d, b]]
+    write_off(path, vertices, faces)
+
+
+class Bench:
+    def __init__(self, binaries, folder):
+        self.binaries, self.folder = binaries, folder
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def data(self, name):
+        return os.path.join(DATA, name)
+
+    def nef(self, expression, name):
+        subprocess.run([os.path.join(self.binaries, "nef"), "eval", expression, "-o", self.path(name), "-q"],
+                       check=True, cwd=self.folder)
+        return self.path(name)
+
+    def make(self, maker, name, *arguments):
+        maker(self.path(name), *arguments)
+        return self.path(name)
+
+    def cases(self):
+        """name -> a function that makes the operands and returns the command line."""
+        result = {}
+        for k in (10, 16, 24, 48):
+            result[f"stars {k}"] = lambda k=k: [self.make(star_prism, f"star{k}.off", k, 0),
+                                                self.make(star_prism, f"turned{k}.off", k, 0.4)]
+        result["gears 12, 24"] = lambda: [self.make(gear, "gear12.off", 12), self.make(gear, "gear24.off", 24)]
+        ball = lambda scale: self.make(latitude_ball, "ball28.off", scale, 7, 4, True)
+        result["star + ball 28"] = lambda: [self.data("meshes/star.off"), ball(0.1)]
+        result["mushroom + ball 28"] = lambda: [self.data("minkowski/mushroom.off"), ball(0.1)]
+        result["cube - ball, + ball 15"] = self.carved
+        result["mushroom + ball, 16 splits"] = lambda: [self.data("minkowski/mushroom.off"), "--ball", "1/10,16"]
+        result["co-mushroom + cube"] = lambda: [
+            self.nef(f'!file("{self.data("minkowski/mushroom.off")}")', "comushroom.nef"),
+            self.data("minkowski/cube.off")]
+        star = f'file("{self.data("meshes/star.off")}")'
+        result["co-star + star/10"] = lambda: [self.nef(f"!{star}", "costar.nef"),
+                                               self.nef(f"scale({star}, 1/10)", "tenth.nef")]
+        result["scans of 220"] = lambda: [self.make(bumpy_ball, "scan220a.off", 11, 0), self.make(bumpy_ball, "scan220b.off", 11, 1)]
+        result["scans of 1012"] = lambda: [self.make(bumpy_ball, "scan1012a.off", 23, 0), self.make(bumpy_ball, "scan1012b.off", 23, 1)]
+        return result
+
+    def carved(self):
+        self.make(latitude_ball, "ball24.off", 6.0, 24, 12, True)
+        carved = self.nef(f'box(-5,-5,-5, 5,5,5) - file("{self.path("ball24.off")}")', "carved.nef")
+        return [carved, self.make(latitude_ball, "ball15.off", 1.0, 5, 3, True)]
+
+    def run(self, operands, union, limit):
+        command = [os.path.join(self.binaries, "minkowski"), *operands, "-o", self.path("sum.nef"), "--threads", "1"]
+        if union != "default":
+            command += ["--union", union]
+        process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                                   preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (limit, limit)))
+        output = process.stdout.read()
+        _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = status
+        seconds = usage.ru_utime + usage.ru_stime
+        line = output.strip().split("\n")[-1][-72:]
+        return seconds, usage.ru_maxrss / 1024, status == 0, line
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--bin", default=os.path.join(HERE, "..", "..", "build", "release", "bin"))
+    parser.add_argument("--cases", nargs="*", help="run cases whose names hold one of these")
+    parser.add_argument("--unions", nargs="*", default=["default", "queue", "nary"])
+    parser.add_argument("--limit", type=int, default=60, help="CPU seconds after which a run is ended")
+    parser.add_argument("--keep", help="leave the operands in this directory")
+    arguments = parser.parse_args()
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = arguments.keep or temporary
+        os.makedirs(folder, exist_ok=True)
+        bench = Bench(os.path.abspath(arguments.bin), os.path.abspath(folder))
+        print(f"{'case':28} {'union':8} {'CPU s':>8} {'peak MB':>8}")
+        for name, make in bench.cases().items():
+            if arguments.cases and not any(part in name for part in arguments.cases):
+                continue
+            operands = make()
+            for union in arguments.unions:
+                seconds, peak, done, line = bench.run(operands, union, arguments.limit)
+                print(f"{name:28} {union:8} {seconds:8.2f} {peak:8.0f}  {line if done else 'not done: ' + line}",
+                      flush=True)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "nef/complex/complex.h"
-#include "nef/complex/plane_ray.h"
+#include "nef/complex/facet_plane.h"
 #include "nef/geometry/box_tree.h"
 
 namespace nef {
@@ -57,7 +57,7 @@ class Operand {
   [[nodiscard]] Box facet_box(std::uint32_t facet) const;
 
   /// The plane other than `plane` (a common name) that holds the edge, and the side of it to the
-  /// left of the halfedge in `plane`. See edge_side in nef/complex/plane_ray.h.
+  /// left of the halfedge in `plane`. See edge_side in nef/complex/facet_plane.h.
   [[nodiscard]] EdgeSide edge_side(const PlaneTable& planes, PlaneId plane, std::uint32_t halfedge) const {
     return nef::edge_side(planes, plane, svertices_[halfedge]);
   }

@@ -2,15 +2,16 @@
 //
 // A cycle is an outer one iff it turns left at its lexicographically smallest vertex, at each of
 // its corners there: the facet then lies within a half-plane. Most planes hold one outer cycle
-// only, which owns all holes of the plane; otherwise a hole belongs to the innermost outer cycle
-// around it, found by parity along a ray.
+// only, which owns all holes of the plane. Otherwise a hole, or a vertex inside a facet, sees its
+// facet straight below its lowest vertex, and the first edge on the way down bounds that facet, too:
+// it belongs where the cycle of that edge belongs, which begins further down in lexicographic order.
 #include "nef/complex/facet_linking.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "nef/base/error.h"
-#include "nef/complex/plane_ray.h"
+#include "nef/complex/facet_plane.h"
+#include "nef/complex/plane_sweep.h"
 #include "nef/sphere_map/sphere_geometry.h"
 
 namespace nef {
@@ -109,23 +110,29 @@ class FacetLinker {
       return;
     }
     const PlaneAxes axes(c_.planes, PlaneId{row << 1U});
-    std::vector<std::uint32_t> outers;
-    std::vector<std::uint32_t> holes;
-    for (const std::uint32_t i : cycles) {
-      classify(cycles_[i], axes);
-      (cycles_[i].outer ? outers : holes).push_back(i);
+    std::vector<std::uint32_t> facet_of(cycles.size(), kNone);  // number of the outer cycle, of each cycle
+    std::vector<std::vector<std::uint32_t>> members;            // cycles of each facet, the outer one first
+    for (std::uint32_t i = 0; i < cycles.size(); ++i) {
+      classify(cycles_[cycles[i]], axes);
+      if (!cycles_[cycles[i]].outer) continue;
+      facet_of[i] = static_cast<std::uint32_t>(members.size());
+      members.push_back({cycles[i]});
     }
-    NEF_ASSERT(!outers.empty());
-    std::vector<std::vector<std::uint32_t>> members(outers.size());
-    std::vector<std::vector<std::uint32_t>> inside(outers.size());
-    for (std::size_t k = 0; k < outers.size(); ++k) members[k].push_back(outers[k]);
-    if (outers.size() == 1) {
-      for (const std::uint32_t hole : holes) members[0].push_back(hole);
+    NEF_ASSERT(!members.empty());
+    std::vector<std::vector<std::uint32_t>> inside(members.size());
+    if (members.size() == 1) {
+      for (std::uint32_t i = 0; i < cycles.size(); ++i) {
+        if (facet_of[i] == kNone) members[0].push_back(cycles[i]);
+      }
       for (const auto& point : points) inside[0].push_back(point.second);
-    } else if (!holes.empty() || !points.empty()) {
-      nest(row, axes, outers, holes, points, members, inside);
+    } else if (cycles.size() > members.size() || !points.empty()) {
+      nest(row, cycles, points, facet_of);
+      for (std::uint32_t i = 0; i < cycles.size(); ++i) {
+        if (!cycles_[cycles[i]].outer) members[facet_of[i]].push_back(cycles[i]);
+      }
+      for (std::size_t i = 0; i < points.size(); ++i) inside[facet_of[cycles.size() + i]].push_back(points[i].second);
     }
-    for (std::size_t k = 0; k < outers.size(); ++k) emit(row, members[k], inside[k]);
+    for (std::size_t k = 0; k < members.size(); ++k) emit(row, members[k], inside[k]);
   }
 
   void classify(CycleRecord& cycle, const PlaneAxes& axes) const {
@@ -149,32 +156,33 @@ class FacetLinker {
     }
   }
 
-  void nest(std::uint32_t row, const PlaneAxes& axes, std::span<const std::uint32_t> outers,
-            std::span<const std::uint32_t> holes, std::span<const std::pair<std::uint32_t, std::uint32_t>> points,
-            std::vector<std::vector<std::uint32_t>>& members, std::vector<std::vector<std::uint32_t>>& inside) const {
-    std::vector<PlaneRayEdge> edges;
-    for (std::uint32_t k = 0; k < outers.size(); ++k) {
-      const CycleRecord& cycle = cycles_[outers[k]];
-      for (std::uint32_t i = 0; i < cycle.count; ++i) {
-        edges.push_back({c_.corner_halfedge(traced_[cycle.first + i]), k});
-      }
+  // Completes facet_of for the holes, and appends the facets of the points.
+  void nest(std::uint32_t row, std::span<const std::uint32_t> cycles,
+            std::span<const std::pair<std::uint32_t, std::uint32_t>> points,
+            std::vector<std::uint32_t>& facet_of) const {
+    std::vector<std::uint32_t> corners;
+    std::vector<std::uint32_t> cycle_of;  // of each corner, as a position in `cycles`
+    std::vector<std::uint32_t> lowest;    // vertices of holes and points
+    std::vector<std::uint32_t> asking;    // their positions in facet_of
+    for (std::uint32_t i = 0; i < cycles.size(); ++i) {
+      const CycleRecord& cycle = cycles_[cycles[i]];
+      corners.insert(corners.end(), traced_.begin() + cycle.first, traced_.begin() + cycle.first + cycle.count);
+      cycle_of.resize(corners.size(), i);
+      if (cycle.outer) continue;
+      lowest.push_back(cycle.lowest);
+      asking.push_back(i);
     }
-    const PlaneRay ray(c_, PlaneId{row << 1U}, axes, std::move(edges));
-    std::vector<int> depth(outers.size(), -1);
-    const auto owner = [&](std::uint32_t vertex) {
-      const std::vector<std::uint32_t> around = ray.owners_with_odd_parity(vertex);
-      NEF_ASSERT(!around.empty());
-      std::uint32_t best = around.front();
-      for (const std::uint32_t k : around) {
-        if (depth[k] < 0) {
-          depth[k] = static_cast<int>(ray.owners_with_odd_parity(cycles_[outers[k]].lowest).size());
-        }
-        if (depth[k] > depth[best]) best = k;
-      }
-      return best;
-    };
-    for (const std::uint32_t hole : holes) members[owner(cycles_[hole].lowest)].push_back(hole);
-    for (const auto& point : points) inside[owner(point.second)].push_back(point.second);
+    for (const auto& point : points) {
+      lowest.push_back(point.second);
+      asking.push_back(static_cast<std::uint32_t>(facet_of.size()));
+      facet_of.push_back(kNone);
+    }
+    for (const CornerBelow& below : corners_below(c_, PlaneId{row << 1U}, corners, lowest)) {
+      NEF_ASSERT(below.corner != kNone);
+      const std::uint32_t facet = facet_of[cycle_of[below.corner]];
+      NEF_ASSERT(facet != kNone);
+      facet_of[asking[below.query]] = facet;
+    }
   }
 
   void emit(std::uint32_t row, std::span<const std::uint32_t> cycles, std::span<const std::uint32_t> inside) {

@@ -10,9 +10,10 @@
 #include "apps/planner/question.h"
 #include "apps/planner/scene_view.h"
 #include "nef/base/error.h"
-#include "nef/command/expression.h"
-#include "nef/command/progress_bar.h"
 #include "nef/io/file_bytes.h"
+#include "nef/program/numbers.h"
+#include "nef/program/progress_bar.h"
+#include "nef/program/run_program.h"
 
 namespace {
 
@@ -232,18 +233,5 @@ int main(int argc, char** argv) {
   CLI::App app("Plans the motion of a translating robot exactly: a path, or a proof that there is none.", "planner");
   Arguments arguments;
   declare(app, arguments);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& help) {
-    return app.exit(help);
-  } catch (const CLI::ParseError& error) {
-    std::cerr << "planner: " << error.what() << " (see planner --help)\n";
-    return 2;
-  }
-  try {
-    return run(arguments);
-  } catch (const std::exception& error) {
-    std::cerr << "planner: " << error.what() << '\n';
-    return 2;
-  }
+  return run_program(app, argc, argv, [&arguments] { return run(arguments); });
 }

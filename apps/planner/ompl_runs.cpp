@@ -4,10 +4,10 @@
 #include <ompl/tools/benchmark/Benchmark.h>
 #include <ompl/util/Console.h>
 
-#include <chrono>
 #include <sstream>
 
 #include "apps/planner/translation_planning.h"
+#include "nef/base/stopwatch.h"
 #include "nef/io/file_bytes.h"
 
 namespace nef::planner {
@@ -59,9 +59,9 @@ OmplOutcome run_ompl(const Problem& problem, const OmplRequest& request) {
   bool proved = false;
   for (unsigned run = 0; run < request.runs && !invalid; ++run) {
     if (run > 0) setup.clear();  // not before the first: AITstar cannot be cleared before it is set up
-    const auto begin = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     setup.solve(request.seconds);
-    seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    seconds += watch.seconds();
     proved = proved || setup.getProblemDefinition()->hasSolutionNonExistenceProof();
     take_path(problem, setup, outcome);
   }

@@ -4,9 +4,9 @@
 #include <iomanip>
 #include <sstream>
 
-#include "apps/planner/number_json.h"
-#include "nef/command/expression.h"
 #include "nef/io/file_bytes.h"
+#include "nef/program/exact_json.h"
+#include "nef/program/numbers.h"
 
 namespace nef::planner {
 namespace {

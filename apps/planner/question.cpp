@@ -1,28 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/planner/question.h"
 
-#include <chrono>
-
 #include "nef/base/error.h"
+#include "nef/base/stopwatch.h"
 
 namespace nef::planner {
-namespace {
-
-class Stopwatch {
- public:
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    const double seconds = std::chrono::duration<double>(now - begin_).count();
-    begin_ = now;
-    return seconds;
-  }
-
- private:
-  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
-};
-
-}  // namespace
-
 Problem::Problem(Scene scene, const BuildOptions& options) : scene_(std::move(scene)) {
   Stopwatch watch;
   Polyhedron free = free_positions(scene_, options);

@@ -3,8 +3,8 @@
 
 #include <sstream>
 
-#include "apps/planner/number_json.h"
 #include "nef/base/error.h"
+#include "nef/program/exact_json.h"
 
 namespace nef::planner {
 namespace {

@@ -3,10 +3,10 @@
 
 #include <filesystem>
 
-#include "apps/planner/number_json.h"
 #include "apps/planner/shapes.h"
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
+#include "nef/program/exact_json.h"
 
 namespace nef::planner {
 namespace {

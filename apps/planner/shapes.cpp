@@ -5,10 +5,10 @@
 #include <filesystem>
 
 #include "nef/base/error.h"
-#include "nef/command/expression.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/mesh_reader.h"
 #include "nef/io/polyhedron_file.h"
+#include "nef/program/expression.h"
 
 namespace nef::planner {
 namespace {

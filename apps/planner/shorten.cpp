@@ -6,6 +6,7 @@
 
 #include "apps/planner/triangle_pull.h"
 #include "apps/planner/vectors.h"
+#include "nef/number/simplest_between.h"
 
 namespace nef::planner {
 namespace {
@@ -154,17 +155,6 @@ void tighten(const FreeSpace& free, const CellFilter& filter, Waypoints& path, i
   for (int pass = 0; pass < 2; ++pass) {
     for (std::size_t i = 1; i + 1 < path.size(); ++i) polish(free, filter, path, i);
   }
-}
-
-Rational simplest_between(const Rational& low, const Rational& high) {
-  Integer floor_low;
-  mpz_fdiv_q(floor_low.get_mpz_t(), low.get_num_mpz_t(), low.get_den_mpz_t());
-  if (low == Rational(floor_low)) return low;
-  if (Rational(floor_low + 1) <= high) return Rational(floor_low + 1);
-  // Same integer part: turn the fractions over.
-  const Rational below = low - floor_low;
-  const Rational above = high - floor_low;
-  return floor_low + 1 / simplest_between(1 / above, 1 / below);
 }
 
 }  // namespace nef::planner

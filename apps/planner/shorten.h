@@ -28,7 +28,4 @@ void tighten(const FreeSpace& free, const CellFilter& filter, Waypoints& path, i
 /// points.
 void take_shorter_way_round(const FreeSpace& free, const CellFilter& filter, Waypoints& path, std::size_t limit);
 
-/// The rational with the smallest denominator in [low, high], low <= high.
-Rational simplest_between(const Rational& low, const Rational& high);
-
 }  // namespace nef::planner

@@ -11,6 +11,7 @@
 
 #include "apps/minkowski/minkowski.h"
 #include "apps/planner/nef_validity.h"
+#include "nef/base/stopwatch.h"
 
 namespace nef::planner {
 
@@ -81,7 +82,7 @@ bool TightPlanner::updateFreeSpace(const std::function<bool()>& stop) {
   const auto* space = dynamic_cast<const ExactTranslationSpace*>(si_->getStateSpace().get());
   if (space == nullptr) throw ompl::Exception(name_, "the state space must be an ExactTranslationSpace");
   if (builder_ && freeSpace_) return true;
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   std::shared_ptr<const FreeSpace> present;
   if (builder_) {
     present = builder_(stop);
@@ -95,7 +96,7 @@ bool TightPlanner::updateFreeSpace(const std::function<bool()>& stop) {
   if (present == freeSpace_) return true;
   clearQuery();  // its places are those of another free space
   freeSpace_ = std::move(present);
-  preprocessing_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  preprocessing_ = watch.seconds();
   return true;
 }
 

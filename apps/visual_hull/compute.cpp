@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The pipeline: masks, contours, a box, cones, intersection.
-#include <chrono>
 #include <mutex>
 
 #include "apps/visual_hull/bounds.h"
@@ -9,6 +8,7 @@
 #include "apps/visual_hull/visual_hull.h"
 #include "nef/base/error.h"
 #include "nef/base/parallel.h"
+#include "nef/base/phase_timer.h"
 #include "nef/construct/construct.h"
 
 namespace visual_hull {
@@ -259,15 +259,9 @@ const char* phase_name(Phase phase) {
 }
 
 void timed(PhaseReports& reports, Phase phase, const std::function<void()>& work) {
-  const auto start = std::chrono::steady_clock::now();
-  const nef::PredicateCounts before = nef::predicate_counts();
-  work();
-  const nef::PredicateCounts& after = nef::predicate_counts();
   PhaseReport& report = reports[static_cast<std::size_t>(phase)];
-  report.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  report.predicates.identity += after.identity - before.identity;
-  report.predicates.filter += after.filter - before.filter;
-  report.predicates.exact += after.exact - before.exact;
+  const nef::PhaseTimer timer(report.seconds, report.predicates);
+  work();
 }
 
 Result compute(const Scene& scene, const std::filesystem::path& folder, const Options& options,

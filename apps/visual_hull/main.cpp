@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // visual_hull SCENE [options]: the exact visual hull of calibrated silhouettes.
-#include <algorithm>
 #include <cstdio>
-#include <fstream>
 #include <iostream>
 #include <opencv2/core/utility.hpp>
 #include <opencv2/core/utils/logger.hpp>
@@ -13,8 +11,10 @@
 #include "apps/visual_hull/pictures.h"
 #include "apps/visual_hull/report.h"
 #include "nef/base/error.h"
-#include "nef/command/progress_bar.h"
+#include "nef/io/file_bytes.h"
 #include "nef/io/polyhedron_file.h"
+#include "nef/program/progress_bar.h"
+#include "nef/program/run_program.h"
 
 namespace {
 
@@ -23,31 +23,15 @@ using visual_hull::Arguments;
 using visual_hull::Phase;
 
 constexpr int kDone = 0;
-constexpr int kNo = 1;   // the hull is empty or flat, or --verify failed
-constexpr int kBad = 2;  // bad input or usage
+constexpr int kNo = 1;  // the hull is empty or flat, or --verify failed
 
-std::string one_line(std::string text) {
-  while (!text.empty() && text.back() == '\n') text.pop_back();
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
-}
-
-void complain(const std::string& text) { std::cerr << "visual_hull: " << one_line(text) << "\n"; }
+void complain(const std::string& text) { std::cerr << "visual_hull: " << nef::one_line(text) << "\n"; }
 
 void write_text(const std::string& path, const std::string& text) {
   if (path == "-") {
     std::cout << text;
-    return;
-  }
-  const std::string temporary = path + ".part";
-  std::ofstream stream(temporary, std::ios::binary);
-  stream << text;
-  stream.close();
-  std::error_code error;
-  if (stream) fs::rename(temporary, path, error);
-  if (!stream || error) {
-    fs::remove(temporary, error);
-    throw nef::InputError("cannot write " + path);
+  } else {
+    nef::write_file(path, text);
   }
 }
 
@@ -152,22 +136,5 @@ int main(int argc, char** argv) {
   CLI::App app{
       "Exact visual hulls from calibrated silhouettes: a closed solid, in rational numbers, without tolerance."};
   visual_hull::add_options(app, arguments);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);
-    complain(one_line(error.what()) + " (see visual_hull --help)");
-    return kBad;
-  }
-  try {
-    const int code = run(arguments);
-    std::cout.flush();
-    if (std::cout) return code;
-    complain("stdout cannot be written to");
-  } catch (const std::bad_alloc&) {
-    complain("out of memory");
-  } catch (const std::exception& error) {
-    complain(error.what());
-  }
-  return kBad;
+  return nef::run_program(app, argc, argv, [&arguments] { return run(arguments); });
 }

@@ -7,6 +7,7 @@
 
 #include "apps/visual_hull/edge_grid.h"
 #include "nef/base/error.h"
+#include "nef/io/file_bytes.h"
 
 namespace visual_hull {
 namespace {
@@ -96,10 +97,10 @@ void write_overlays(const Result& result, PixelOrigin origin, const std::filesys
   for (std::size_t i = 0; i < result.views.size(); ++i) {
     const std::filesystem::path file = folder / file_name(result.views[i], i);
     const cv::Mat picture = draw_overlay(result.views[i], result.hull, origin);
-    const std::filesystem::path temporary = folder / (".part_" + file.filename().string());
-    if (!cv::imwrite(temporary.string(), picture)) throw nef::InputError("cannot write " + file.string());
-    std::filesystem::rename(temporary, file, error);
-    if (error) throw nef::InputError("cannot write " + file.string() + ": " + error.message());
+    std::vector<unsigned char> bytes;
+    if (!cv::imencode(file.extension().string(), picture, bytes))
+      throw nef::InputError("cannot write " + file.string());
+    nef::write_file(file.string(), {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   }
 }
 

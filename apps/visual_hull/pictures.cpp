@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "nef/base/error.h"
+#include "nef/io/file_bytes.h"
 #include "nef/view/page.h"
 #include "nef/view/picture.h"
 
@@ -74,7 +75,7 @@ bool embed_image(const ViewResult& view, PixelOrigin origin, nef::view::Photo& p
   const bool plain = view.distortion.coefficients.empty() && (jpeg || extension == ".png");
   if (plain && fs::file_size(view.image, error) <= kLargestFile && !error) {
     photo.media_type = jpeg ? "image/jpeg" : "image/png";
-    photo.bytes = read_text(view.image);
+    photo.bytes = nef::read_file(view.image.string());
     return true;
   }
   cv::Mat image = cv::imread(view.image.string(), cv::IMREAD_COLOR);

@@ -2,9 +2,10 @@
 #include "apps/visual_hull/report.h"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <algorithm>
+
+#include "nef/program/report.h"
 
 namespace visual_hull {
 namespace {
@@ -19,10 +20,6 @@ json box_json(const WorldBox& box) {
   return list;
 }
 
-json predicates_json(const nef::PredicateCounts& counts) {
-  return {{"identity", counts.identity}, {"filter", counts.filter}, {"exact", counts.exact}};
-}
-
 json view_json(const ViewResult& view) {
   const ViewSilhouette& s = view.silhouette;
   json entry{{"name", view.name},
@@ -35,38 +32,6 @@ json view_json(const ViewResult& view) {
              {"cut_by_frame", s.cut_by_frame},
              {"keeps_unseen", s.background}};
   if (s.image_size.area() > 0) entry["image_size"] = {s.image_size.width, s.image_size.height};
-  return entry;
-}
-
-json result_json(const Result& result) {
-  const nef::Polyhedron& hull = result.hull;
-  const nef::Counts counts = nef::counts(hull);
-  json entry{{"vertices", counts.vertices}, {"edges", counts.edges},      {"facets", counts.facets},
-             {"volumes", counts.volumes},   {"shells", counts.shells},    {"bounded", hull.is_bounded()},
-             {"open", hull.is_open()},      {"closed", hull.is_closed()}, {"regular", hull.is_regular()}};
-  const std::optional<Rational> volume = nef::volume(hull);
-  entry["volume"] = volume ? json(nef::to_string(*volume)) : json(nullptr);
-  entry["volume_double"] = volume ? json(nef::nearest_double(*volume)) : json(nullptr);
-  entry["area"] = nef::surface_area(hull);
-  const auto box = nef::bounding_box(hull);
-  entry["bbox"] = nullptr;
-  entry["bbox_exact"] = nullptr;
-  if (box) {
-    entry["bbox"] = json::array();
-    entry["bbox_exact"] = json::array();
-    for (const Rational3& corner : *box) {
-      json point = json::array();
-      json exact = json::array();
-      for (const Rational& c : corner) {
-        point.push_back(nef::nearest_double(c));
-        exact.push_back(nef::to_string(c));
-      }
-      entry["bbox"].push_back(point);
-      entry["bbox_exact"].push_back(exact);
-    }
-  }
-  const std::vector<long> euler = nef::euler_numbers(hull);
-  entry["euler_numbers"] = euler;
   return entry;
 }
 
@@ -124,12 +89,6 @@ double approximate_volume(const nef::Polyhedron& hull) {
   return sum / 6;
 }
 
-std::size_t peak_memory() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
-}
-
 nlohmann::ordered_json make_report(const Result& result, const nef::Messages& messages) {
   json report;
   report["views"] = json::array();
@@ -144,16 +103,16 @@ nlohmann::ordered_json make_report(const Result& result, const nef::Messages& me
     const PhaseReport& phase = result.phases[i];
     if (static_cast<Phase>(i) == Phase::kVerify && !verified) continue;
     report["phases"][phase_name(static_cast<Phase>(i))] = {{"seconds", phase.seconds},
-                                                           {"predicates", predicates_json(phase.predicates)}};
+                                                           {"predicates", nef::predicates_json(phase.predicates)}};
     total.identity += phase.predicates.identity;
     total.filter += phase.predicates.filter;
     total.exact += phase.predicates.exact;
   }
-  report["predicates"] = predicates_json(total);
-  report["result"] = result_json(result);
+  report["predicates"] = nef::predicates_json(total);
+  report["result"] = nef::info_json(result.hull);
   if (result.vanished) report["vanished"] = {{"view", result.vanished->view}, {"reason", result.vanished->reason}};
   if (verified) report["verify"] = verify_json(result);
-  report["peak_memory_bytes"] = peak_memory();
+  report["peak_memory_bytes"] = nef::peak_memory_bytes();
   if (!messages.empty()) report["messages"] = messages;
   return report;
 }

@@ -2,15 +2,15 @@
 #include "apps/visual_hull/scene.h"
 
 #include <algorithm>
-#include <fstream>
 #include <map>
-#include <sstream>
 
 #include "apps/visual_hull/scene_blocks.h"
 #include "apps/visual_hull/scene_json.h"
 #include "apps/visual_hull/scene_text.h"
 #include "apps/visual_hull/vsh.h"
 #include "nef/base/error.h"
+#include "nef/io/file_bytes.h"
+#include "nef/program/numbers.h"
 
 namespace visual_hull {
 namespace fs = std::filesystem;
@@ -29,16 +29,6 @@ std::string lower(std::string text) {
 }
 
 }  // namespace
-
-std::string read_text(const fs::path& file) {
-  std::error_code error;
-  if (fs::is_directory(file, error)) throw nef::InputError(file.string() + " is a directory, not a file");
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw nef::InputError(file.string() + ": cannot open the file");
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
 
 ThresholdOptions parse_threshold(const std::string& text) {
   ThresholdOptions options;
@@ -77,16 +67,7 @@ void check_box(const WorldBox& box, const std::string& where) {
 }
 
 WorldBox parse_box(const std::string& text) {
-  std::vector<Rational> numbers;
-  std::stringstream stream(text);
-  std::string token;
-  while (std::getline(stream, token, ',')) {
-    try {
-      numbers.push_back(nef::parse_rational(token));
-    } catch (const nef::InputError&) {
-      throw nef::InputError("--box: '" + token + "' is not a number");
-    }
-  }
+  const std::vector<Rational> numbers = nef::parse_numbers(text, "--box");
   if (numbers.size() != 6) {
     throw nef::InputError("--box: six numbers x0,y0,z0,x1,y1,z1 are needed, not " + std::to_string(numbers.size()));
   }
@@ -142,10 +123,8 @@ fs::path scene_folder(const fs::path& scene) {
 Scene read_scene(const fs::path& file) {
   std::error_code error;
   if (fs::is_directory(file, error)) return read_camera_folder(file);
-  const std::string text = read_text(file);
-  const std::size_t first = text.find_first_not_of(" \t\r\n");
-  if (first == std::string::npos) throw nef::InputError(file.string() + ": the file is empty");
-  if (text[first] == '{') return read_json_scene(text, file);
+  const std::string text = nef::read_file(file.string());
+  if (text[text.find_first_not_of(" \t\r\n")] == '{') return read_json_scene(text, file);
   if (lower(file.extension().string()) == ".vsh") return read_vsh(text, file);
   if (has_parameter_blocks(text)) return read_parameter_blocks(text, file);
   return read_text_scene(text, file);

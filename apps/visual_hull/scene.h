@@ -78,7 +78,4 @@ WorldBox parse_box(const std::string& text);
 /// Checks that the box has a volume. Throws InputError with `where` in front.
 void check_box(const WorldBox& box, const std::string& where);
 
-/// Reads a whole file; throws InputError if that is not possible.
-std::string read_text(const std::filesystem::path& file);
-
 }  // namespace visual_hull

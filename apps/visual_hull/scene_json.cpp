@@ -2,95 +2,16 @@
 #include "apps/visual_hull/scene_json.h"
 
 #include "nef/base/error.h"
+#include "nef/io/file_bytes.h"
+#include "nef/program/exact_json.h"
 
 namespace visual_hull {
 namespace {
 
 using nlohmann::json;
 
-/// Builds a document in which numbers are strings. (nlohmann's own parser would round them.)
-class ExactBuilder : public nlohmann::json_sax<json> {
- public:
-  explicit ExactBuilder(std::string where) : where_(std::move(where)) {}
-
-  json take() { return std::move(root_); }
-
-  bool null() override { return add(nullptr); }
-  bool boolean(bool value) override { return add(value); }
-  bool number_integer(number_integer_t value) override { return add(std::to_string(value)); }
-  bool number_unsigned(number_unsigned_t value) override { return add(std::to_string(value)); }
-  bool number_float(number_float_t /*rounded*/, const string_t& spelling) override { return add(spelling); }
-  bool string(string_t& value) override { return add(value); }
-  bool binary(binary_t& /*value*/) override { return false; }
-  bool start_object(std::size_t /*size*/) override { return open(json::object()); }
-  bool start_array(std::size_t /*size*/) override { return open(json::array()); }
-  bool key(string_t& value) override {
-    key_ = value;
-    return true;
-  }
-  bool end_object() override { return close(); }
-  bool end_array() override { return close(); }
-  bool parse_error(std::size_t position, const std::string& /*token*/,
-                   const nlohmann::detail::exception& error) override {
-    std::string what = error.what();
-    what = what.substr(0, what.find('\n'));
-    throw nef::InputError(where_ + ": not valid JSON at byte " + std::to_string(position) + " (" + what + ")");
-  }
-
- private:
-  json* put(json value) {
-    if (stack_.empty()) {
-      root_ = std::move(value);
-      return &root_;
-    }
-    json& parent = *stack_.back();
-    if (parent.is_array()) {
-      parent.push_back(std::move(value));
-      return &parent.back();
-    }
-    return &(parent[key_] = std::move(value));
-  }
-  bool add(json value) {
-    put(std::move(value));
-    return true;
-  }
-  // A pointer into the parent stays valid while the child is open: the parent does not grow then.
-  bool open(json value) {
-    if (stack_.size() > 100) throw nef::InputError(where_ + ": nested more than 100 levels deep");
-    stack_.push_back(put(std::move(value)));
-    return true;
-  }
-  bool close() {
-    stack_.pop_back();
-    return true;
-  }
-
-  std::string where_;
-  json root_;
-  std::vector<json*> stack_;
-  std::string key_;
-};
-
-Rational to_rational(const json& value, const std::string& where) {
-  if (!value.is_string()) throw nef::InputError(where + ": " + value.dump() + " is not a number");
-  try {
-    return nef::parse_rational(value.get<std::string>());
-  } catch (const nef::InputError&) {
-    throw nef::InputError(where + ": '" + value.get<std::string>() + "' is not a number");
-  }
-}
-
-void flatten(const json& value, const std::string& where, std::vector<Rational>& out) {
-  if (value.is_array()) {
-    for (const json& item : value) flatten(item, where, out);
-  } else {
-    out.push_back(to_rational(value, where));
-  }
-}
-
 std::vector<Rational> numbers(const json& value, std::size_t count, const std::string& where) {
-  std::vector<Rational> out;
-  flatten(value, where, out);
+  std::vector<Rational> out = nef::rationals_of(value, where);
   if (out.size() != count) {
     throw nef::InputError(where + ": " + std::to_string(count) + " numbers are needed, not " +
                           std::to_string(out.size()));
@@ -106,8 +27,13 @@ Matrix3 matrix3(const json& value, const std::string& where) {
 }
 
 std::string text_of(const json& value, const std::string& where) {
-  if (!value.is_string()) throw nef::InputError(where + ": text is needed, not " + value.dump());
+  if (!value.is_string()) throw nef::InputError(where + ": text is needed, not " + nef::spelled(value));
   return value.get<std::string>();
+}
+
+// A threshold is a number or a word.
+std::string threshold_text(const json& value, const std::string& where) {
+  return value.is_string() ? value.get<std::string>() : nef::to_string(nef::rational_of(value, where));
 }
 
 std::vector<Ring> to_rings(const json& value, const std::string& where) {
@@ -150,8 +76,7 @@ Distortion read_distortion(const json& entry, const std::string& where) {
     throw nef::InputError(where + ": 'distortion' needs the intrinsics: give K, R and t instead of P");
   }
   distortion.intrinsics = matrix3(entry["K"], where + ", K");
-  std::vector<Rational> values;
-  flatten(entry["distortion"], where + ", distortion", values);
+  const std::vector<Rational> values = nef::rationals_of(entry["distortion"], where + ", distortion");
   const std::size_t n = values.size();
   if (n != 4 && n != 5 && n != 8 && n != 12 && n != 14) {
     throw nef::InputError(where + ", distortion: 4, 5, 8, 12 or 14 coefficients are needed, not " + std::to_string(n));
@@ -188,14 +113,8 @@ View read_view(const json& entry, std::size_t number, const std::filesystem::pat
 
 }  // namespace
 
-json parse_exact_json(const std::string& text, const std::string& where) {
-  ExactBuilder builder(where);
-  if (!json::sax_parse(text, &builder)) throw nef::InputError(where + ": not valid JSON");
-  return builder.take();
-}
-
 std::vector<Ring> read_polygons(const std::filesystem::path& file) {
-  const json document = parse_exact_json(read_text(file), file.string());
+  const json document = nef::parse_exact_json(nef::read_file(file.string()), file.string());
   if (document.is_object()) {
     if (!document.contains("polygons")) throw nef::InputError(file.string() + ": 'polygons' is missing");
     return to_rings(document["polygons"], file.string());
@@ -204,7 +123,7 @@ std::vector<Ring> read_polygons(const std::filesystem::path& file) {
 }
 
 Scene read_json_scene(const std::string& text, const std::filesystem::path& file) {
-  const json document = parse_exact_json(text, file.string());
+  const json document = nef::parse_exact_json(text, file.string());
   if (!document.is_object() || !document.contains("cameras") || !document["cameras"].is_array()) {
     throw nef::InputError(file.string() + ": a scene needs a list 'cameras'");
   }
@@ -217,7 +136,7 @@ Scene read_json_scene(const std::string& text, const std::filesystem::path& file
     check_box(*scene.box, file.string());
   }
   if (document.contains("threshold")) {
-    scene.threshold = parse_threshold(text_of(document["threshold"], file.string() + ", threshold"));
+    scene.threshold = parse_threshold(threshold_text(document["threshold"], file.string() + ", threshold"));
   }
   if (document.contains("channel")) {
     if (!scene.threshold) scene.threshold.emplace();

@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// JSON in which a number is the rational that it spells.
+// Scenes and polygons in JSON, in which a number is the rational that it spells.
 #pragma once
-
-#include <nlohmann/json.hpp>
 
 #include "apps/visual_hull/scene.h"
 
 namespace visual_hull {
-
-/// Parses JSON with every number kept as a string of its own spelling, so that 0.1 is one tenth.
-/// Throws InputError with `where` in front.
-nlohmann::json parse_exact_json(const std::string& text, const std::string& where);
 
 /// Reads a JSON scene:
 ///   {"cameras": [{"image": "a.png" or "silhouette": "a.json" or "polygons": [[[u, v], ...], ...],

@@ -174,7 +174,7 @@ void run(const Settings& settings) {
     measure(file.parent_path().filename().string() + "/" + file.filename().string(), read_scene(file),
             file.parent_path(), settings, settings.simplify);
   }
-  std::cout << fmt::format("peak memory {} MiB\n", peak_memory() >> 20U);
+  std::cout << fmt::format("peak memory {} MiB\n", nef::peak_memory_bytes() >> 20U);
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // nef check: what is wrong with a mesh, by name; or whether a native file holds a valid complex.
-#include "nef/command/report.h"
+#include "nef/command/commands.h"
 #include "nef/construct/mesh_check.h"
 #include "nef/io/mesh_reader.h"
 #include "nef/io/polyhedron_file.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // nef eval
-#include "nef/command/expression.h"
-#include "nef/command/report.h"
+#include "nef/command/commands.h"
+#include "nef/program/expression.h"
 
 namespace nef {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // nef info | convert | equal
-#include "nef/command/report.h"
+#include "nef/command/commands.h"
 
 namespace nef {
 namespace {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // nef locate | ray
-#include "nef/command/expression.h"
-#include "nef/command/report.h"
+#include "nef/base/stopwatch.h"
+#include "nef/command/commands.h"
+#include "nef/program/numbers.h"
 
 namespace nef {
 namespace {

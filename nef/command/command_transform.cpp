@@ -3,8 +3,9 @@
 // nef transform
 #include <map>
 
-#include "nef/command/expression.h"
-#include "nef/command/report.h"
+#include "nef/command/commands.h"
+#include "nef/program/expression.h"
+#include "nef/program/numbers.h"
 
 namespace nef {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // nef complement | interior | closure | boundary | exterior | regularize
-#include "nef/command/report.h"
+#include "nef/command/commands.h"
 
 namespace nef {
 namespace {

@@ -4,9 +4,10 @@
 #include <cmath>
 #include <filesystem>
 
-#include "nef/command/expression.h"
-#include "nef/command/session.h"
+#include "nef/base/stopwatch.h"
+#include "nef/command/commands.h"
 #include "nef/io/file_bytes.h"
+#include "nef/program/numbers.h"
 #include "nef/view/glb.h"
 #include "nef/view/page.h"
 #include "nef/view/picture.h"

@@ -10,6 +10,7 @@
 #include <algorithm>
 
 #include "nef/base/error.h"
+#include "nef/number/simplest_between.h"
 
 namespace nef {
 namespace {
@@ -18,14 +19,6 @@ Integer floor_of(const Rational& x) {
   Integer result;
   mpz_fdiv_q(result.get_mpz_t(), x.get_num_mpz_t(), x.get_den_mpz_t());
   return result;
-}
-
-// 0 < low <= high
-Rational simplest_positive(const Rational& low, const Rational& high) {
-  const Integer whole = floor_of(low);
-  if (Rational(whole) == low) return low;
-  if (Rational(whole + 1) <= high) return Rational(whole + 1);
-  return whole + 1 / simplest_positive(1 / (high - whole), 1 / (low - whole));
 }
 
 // Fixed-point numbers: integers that stand for value * 2^-bits.
@@ -94,13 +87,6 @@ long magnitude(const Rational& x) {
 }
 
 }  // namespace
-
-Rational simplest_between(const Rational& low, const Rational& high) {
-  if (low > high) throw InputError("no rational lies between " + to_string(low) + " and " + to_string(high));
-  if (sgn(low) <= 0 && sgn(high) >= 0) return 0;
-  if (sgn(high) < 0) return -simplest_positive(-high, -low);
-  return simplest_positive(low, high);
-}
 
 HalfAngle rational_half_angle(const Rational& degrees, const Rational& tolerance, const Integer& length_square) {
   if (sgn(tolerance) <= 0) throw InputError("the tolerance of a rotation must be positive");

@@ -5,7 +5,8 @@
 
 #include <array>
 
-#include "nef/command/expression.h"
+#include "nef/program/expression.h"
+#include "nef/program/numbers.h"
 
 namespace nef {
 namespace {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "nef/base/error.h"
+#include "nef/number/simplest_between.h"
 #include "nef/operation/rational_angle.h"
 #include "nef/polyhedron.h"
 

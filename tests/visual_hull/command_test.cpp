@@ -9,6 +9,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "nef/base/error.h"
+#include "nef/io/file_bytes.h"
 #include "nef/io/polyhedron_file.h"
 #include "tests/visual_hull/helpers.h"
 #include "tests/visual_hull/scratch.h"
@@ -39,7 +40,9 @@ Outcome run(const std::string& arguments) {
 
 std::string data(const std::string& name) { return std::string(NEF_SOURCE_DIR) + "/data/visual_hull/" + name; }
 
-nlohmann::json read_json(const std::filesystem::path& file) { return nlohmann::json::parse(read_text(file)); }
+nlohmann::json read_json(const std::filesystem::path& file) {
+  return nlohmann::json::parse(nef::read_file(file.string()));
+}
 
 TEST_CASE("Three letters: output, report and verification") {
   const Scratch s;

@@ -4,6 +4,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "nef/base/error.h"
+#include "nef/io/file_bytes.h"
 #include "nef/view/page.h"
 #include "tests/visual_hull/helpers.h"
 #include "tests/visual_hull/scratch.h"
@@ -40,7 +41,7 @@ TEST_CASE("A page has the hull, and each camera with its image where the camera 
     const Camera& camera = result.views[i].camera;
     CHECK(photo.name == result.views[i].name);
     CHECK(photo.media_type == "image/png");
-    CHECK(photo.bytes == read_text(result.views[i].image));
+    CHECK(photo.bytes == nef::read_file(result.views[i].image.string()));
     const std::vector<std::array<double, 2>> frame{{-0.5, -0.5}, {319.5, -0.5}, {319.5, 239.5}, {-0.5, 239.5}};
     for (std::size_t k = 0; k < 4; ++k) {
       const auto at = seen_at(camera, photo.corners[k]);
@@ -105,7 +106,7 @@ TEST_CASE("A page is one file with all images in it") {
   const Result result = eight();
   const std::filesystem::path page = s.folder() / "page.html";
   write_page(result, PixelOrigin::kCenter, page);
-  const std::string text = read_text(page);
+  const std::string text = nef::read_file(page.string());
   CHECK(text.find("visual hull of 12 views") != std::string::npos);
   CHECK(text.size() > 100000);
 }

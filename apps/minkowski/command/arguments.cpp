@@ -78,23 +78,6 @@ void check(const Arguments& a) {
   }
 }
 
-std::vector<Rational> parse_numbers(const std::string& text, std::size_t count, const std::string& option) {
-  std::vector<Rational> numbers;
-  std::stringstream stream(text);
-  for (std::string part; std::getline(stream, part, ',');) {
-    try {
-      numbers.push_back(parse_rational(part));
-    } catch (const InputError& error) {
-      throw InputError(option + ": " + error.what());
-    }
-  }
-  if (numbers.size() != count) {
-    throw InputError(option + ": '" + text + "' has " + std::to_string(numbers.size()) + " numbers, not " +
-                     std::to_string(count) + " (separate them by commas)");
-  }
-  return numbers;
-}
-
 UnionStrategy strategy(const Arguments& arguments) { return strategies().at(arguments.union_name); }
 
 }  // namespace nef::minkowski

@@ -39,9 +39,6 @@ void declare(CLI::App& app, Arguments& arguments);
 /// Checks what CLI11 cannot: which options go together. Throws InputError.
 void check(const Arguments& arguments);
 
-/// The numbers in "1,0.5,1/3". Throws InputError naming the option unless there are `count`.
-std::vector<Rational> parse_numbers(const std::string& text, std::size_t count, const std::string& option);
-
 UnionStrategy strategy(const Arguments& arguments);
 
 }  // namespace nef::minkowski

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/minkowski/command/run.h"
 
-#include <sys/resource.h>
-
 #include <array>
 #include <csignal>
 #include <iostream>
@@ -10,10 +8,12 @@
 #include "apps/minkowski/command/preview.h"
 #include "apps/minkowski/command/write_cells.h"
 #include "apps/minkowski/convex/tools.h"
-#include "nef/command/progress_bar.h"
-#include "nef/command/report.h"
+#include "nef/base/stopwatch.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/polyhedron_file.h"
+#include "nef/program/numbers.h"
+#include "nef/program/progress_bar.h"
+#include "nef/program/report.h"
 
 namespace nef::minkowski {
 namespace {
@@ -41,16 +41,6 @@ class SignalsHeld {
   static inline volatile std::sig_atomic_t held_signal_ = 0;
   std::array<struct sigaction, 3> before_{};
 };
-
-Json predicates_json(const PredicateCounts& counts) {
-  return {{"identity", counts.identity}, {"filter", counts.filter}, {"exact", counts.exact}};
-}
-
-std::size_t peak_memory_bytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
-}
 
 class Task {
  public:

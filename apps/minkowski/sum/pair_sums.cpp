@@ -2,7 +2,6 @@
 #include "apps/minkowski/sum/pair_sums.h"
 
 #include <algorithm>
-#include <chrono>
 
 #include "nef/base/error.h"
 #include "nef/base/parallel.h"
@@ -10,24 +9,12 @@
 namespace nef::minkowski {
 namespace {
 
-double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
-
 ConvexCell sum_of_pair(const Operand& a, std::size_t i, const Operand& b, std::size_t j) {
   if (a.cell(i).dimension == 3 && b.cell(j).dimension == 3) return convex_sum(a.diagram(i), b.diagram(j));
   return convex_sum(a.cell(i), b.cell(j));
 }
 
 }  // namespace
-
-PhaseTimer::PhaseTimer(double& seconds, PredicateCounts& predicates)
-    : seconds_(seconds), predicates_(predicates), start_(now()), counts_(predicate_counts()) {}
-
-PhaseTimer::~PhaseTimer() {
-  seconds_ += now() - start_;
-  predicates_.identity += predicate_counts().identity - counts_.identity;
-  predicates_.filter += predicate_counts().filter - counts_.filter;
-  predicates_.exact += predicate_counts().exact - counts_.exact;
-}
 
 Operand::Operand(std::vector<ConvexCell> cells) : cells_(std::move(cells)) {
   diagrams_.reserve(cells_.size());

@@ -9,23 +9,9 @@
 #include "apps/minkowski/convex/normal_diagram.h"
 #include "apps/minkowski/minkowski.h"
 #include "apps/minkowski/union/union_builder.h"
+#include "nef/base/phase_timer.h"
 
 namespace nef::minkowski {
-
-/// Measures one phase: adds the wall time of its life and the predicates asked meanwhile.
-class PhaseTimer {
- public:
-  PhaseTimer(double& seconds, PredicateCounts& predicates);
-  ~PhaseTimer();
-  PhaseTimer(const PhaseTimer&) = delete;
-  PhaseTimer& operator=(const PhaseTimer&) = delete;
-
- private:
-  double& seconds_;
-  PredicateCounts& predicates_;
-  double start_;
-  PredicateCounts counts_;
-};
 
 /// The cells of an operand with their normal diagrams.
 class Operand {

@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/planner/number_json.h"
+#include "nef/program/exact_json.h"
 
 #include <algorithm>
 
 #include "nef/base/error.h"
 
-namespace nef::planner {
+namespace nef {
 namespace {
 
 using nlohmann::json;
 
 // The key under which the text of a number is kept.
 constexpr const char* kNumber = "$number";
+
+// More are a mistake, or an attack on the stack of whoever reads the value.
+constexpr std::size_t kMostLevels = 100;
 
 // nlohmann's id for a number that no double holds.
 constexpr int kNumberOverflow = 406;
@@ -71,6 +74,9 @@ class KeepText : public nlohmann::json_sax<json> {
     return true;
   }
   bool open(json value) {
+    if (levels_.size() >= kMostLevels) {
+      throw InputError(name_ + ": nested more than " + std::to_string(kMostLevels) + " levels deep");
+    }
     levels_.push_back({std::move(value), key_});
     return true;
   }
@@ -121,6 +127,20 @@ Rational rational_of(const json& value, const std::string& what) {
   }
 }
 
+std::vector<Rational> rationals_of(const json& value, const std::string& what) {
+  std::vector<Rational> numbers;
+  if (!value.is_array()) throw InputError(what + ": expected a list of numbers, not " + spelled(value));
+  for (const json& item : value) {
+    if (item.is_array()) {
+      const std::vector<Rational> inner = rationals_of(item, what);
+      numbers.insert(numbers.end(), inner.begin(), inner.end());
+    } else {
+      numbers.push_back(rational_of(item, what));
+    }
+  }
+  return numbers;
+}
+
 Rational3 point_of(const json& value, const std::string& what) {
   if (!value.is_array() || value.size() != 3)
     throw InputError(what + ": expected three numbers, as in [0, 0.5, \"1/3\"]");
@@ -133,4 +153,4 @@ json double_json(const Rational3& point) {
   return {nearest_double(point[0]), nearest_double(point[1]), nearest_double(point[2])};
 }
 
-}  // namespace nef::planner
+}  // namespace nef

@@ -5,13 +5,15 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "nef/number/number.h"
 
-namespace nef::planner {
+namespace nef {
 
 /// Parses JSON; a number with a fraction or exponent becomes an object {"$number": "text"}, so that
-/// 0.1 can be read as one tenth. Throws InputError "name:line: what" for malformed text.
+/// 0.1 can be read as one tenth. Throws InputError "name:line: what" for malformed text, a key given twice, and more
+/// than 100 levels.
 nlohmann::json parse_exact_json(const std::string& text, const std::string& name);
 
 /// A parsed value as people wrote it, for messages: numbers keep their text.
@@ -21,6 +23,9 @@ std::string spelled(const nlohmann::json& value);
 /// `what`.
 Rational rational_of(const nlohmann::json& value, const std::string& what);
 
+/// All numbers of an array, however nested, in their order. Throws InputError.
+std::vector<Rational> rationals_of(const nlohmann::json& value, const std::string& what);
+
 /// Three of them from an array.
 Rational3 point_of(const nlohmann::json& value, const std::string& what);
 
@@ -28,4 +33,4 @@ Rational3 point_of(const nlohmann::json& value, const std::string& what);
 nlohmann::json exact_json(const Rational3& point);
 nlohmann::json double_json(const Rational3& point);
 
-}  // namespace nef::planner
+}  // namespace nef

@@ -6,8 +6,8 @@
 #include <cctype>
 #include <optional>
 
-#include "nef/command/expression.h"
-#include "nef/command/syntax_tree.h"
+#include "nef/program/expression.h"
+#include "nef/program/syntax_tree.h"
 
 namespace nef {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <functional>
 
-#include "nef/command/session.h"
 #include "nef/geometry/predicates.h"
+#include "nef/program/session.h"
 
 namespace nef {
 
@@ -20,6 +20,12 @@ std::string summary(const Polyhedron& set);
 /// A point as three exact numbers: "x,y,z", and as a JSON array of strings.
 std::string point_text(const Rational3& point);
 Json point_json(const Rational3& point);
+
+/// How many answers each stage of the predicates gave.
+Json predicates_json(const PredicateCounts& counts);
+
+/// The most memory that this process has held.
+std::size_t peak_memory_bytes();
 
 /// A result with the median time of its computation and the predicates of the last one.
 struct Measured {

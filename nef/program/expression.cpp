@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Evaluates syntax trees.
-#include "nef/command/expression.h"
+#include "nef/program/expression.h"
 
-#include <cctype>
-
-#include "nef/command/syntax_tree.h"
+#include "nef/program/syntax_tree.h"
 
 namespace nef {
 namespace {
@@ -127,41 +125,10 @@ class Evaluator {
   const ExpressionOptions& options_;
 };
 
-bool is_space(char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; }
-
 }  // namespace
 
 Polyhedron evaluate_expression(std::string_view text, const ExpressionOptions& options) {
   return Evaluator(text, options)(parse_expression(text));
-}
-
-std::vector<Rational> parse_numbers(std::string_view text, const std::string& what) {
-  std::vector<Rational> result;
-  std::size_t at = 0;
-  while (at < text.size()) {
-    while (at < text.size() && is_space(text[at])) ++at;
-    std::size_t end = at;
-    while (end < text.size() && text[end] != ',' && !is_space(text[end])) ++end;
-    const std::string_view word = text.substr(at, end - at);
-    try {
-      result.push_back(parse_rational(word));
-    } catch (const InputError&) {
-      throw InputError(what + ": '" + std::string(word) + "' in '" + std::string(text) + "' is no number");
-    }
-    while (end < text.size() && is_space(text[end])) ++end;
-    // A comma promises another number.
-    if (end < text.size() && text[end] == ',') {
-      if (++end == text.size()) throw InputError(what + ": '" + std::string(text) + "' ends with a comma");
-    }
-    at = end;
-  }
-  return result;
-}
-
-Rational3 parse_triple(std::string_view text, const std::string& what) {
-  const std::vector<Rational> n = parse_numbers(text, what);
-  if (n.size() != 3) throw InputError(what + ": expected three numbers x,y,z instead of '" + std::string(text) + "'");
-  return {n[0], n[1], n[2]};
 }
 
 AffineMap affine_map_of(std::span<const Rational> n) {

@@ -1,37 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nef/command/session.h"
+#include "nef/program/session.h"
 
 #include <atomic>
 #include <ostream>
-#include <string_view>
 
 #include "nef/base/parallel.h"
+#include "nef/base/stopwatch.h"
 #include "nef/io/polyhedron_file.h"
+#include "nef/program/run_program.h"
 
 namespace nef {
-namespace {
-
-// Messages are one line each that no terminal takes for commands, whatever they quote from a file.
-std::string one_line(const std::string& text) {
-  constexpr std::string_view kDigits = "0123456789abcdef";
-  std::string line;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (c == '\n' || c == '\r') {
-      line += ' ';
-    } else if (byte < 0x20 || byte == 0x7f) {
-      line += "\\x";
-      line += kDigits[byte >> 4U];
-      line += kDigits[byte & 0xfU];
-    } else {
-      line += c;
-    }
-  }
-  return line;
-}
-
-}  // namespace
-
 Polyhedron Session::load(const std::string& path) { return load_all({path}).front(); }
 
 std::vector<Polyhedron> Session::load_all(const std::vector<std::string>& paths) {
@@ -86,7 +64,7 @@ void Session::print(Json object) {
 
 void Session::complain(const std::string& line) {
   if (bar_) bar_->clear();
-  err_ << "nef: " << one_line(line) << '\n';
+  err_ << program_ << ": " << one_line(line) << '\n';
 }
 
 void Session::show_messages(std::size_t first) {
@@ -94,13 +72,11 @@ void Session::show_messages(std::size_t first) {
   for (std::size_t i = first; i < messages.size(); ++i) complain("note: " + messages[i]);
 }
 
-CLI::App* add_subcommand(CLI::App& app, Session& session, const std::string& name, const std::string& description) {
-  CLI::App* command = app.add_subcommand(name, description);
+void add_run_flags(CLI::App* command, Session& session) {
   command->add_flag("--json", session.json, "print one JSON object on stdout and nothing else there");
   command->add_flag("-q,--quiet", session.quiet, "print no notes and no summary");
   command->add_option("--threads", session.threads, "threads to use at most; 0 (default): as many as the machine has")
       ->check(CLI::Range(0U, 4096U));
-  return command;
 }
 
 void add_input_flags(CLI::App* command, Session& session) {

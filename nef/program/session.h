@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the subcommands of `nef` share: flags, reading and writing with their times, output.
+// One run of a program: its flags, reading and writing with their times, what it prints.
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <iosfwd>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
-#include "nef/command/progress_bar.h"
 #include "nef/construct/construct.h"
+#include "nef/program/progress_bar.h"
 
 namespace nef {
 
@@ -21,10 +20,11 @@ using Json = nlohmann::ordered_json;
 /// Exit codes of the program.
 enum ExitCode : int { kYes = 0, kNo = 1, kBad = 2 };
 
-/// One run of the program.
+/// One run of the program of this name, which stands in front of every line on stderr.
 class Session {
  public:
-  Session(std::ostream& out, std::ostream& err) : out_(out), err_(err) {}
+  Session(std::string program, std::ostream& out, std::ostream& err)
+      : program_(std::move(program)), out_(out), err_(err) {}
 
   // Set by the parser.
   bool json = false;
@@ -64,36 +64,17 @@ class Session {
  private:
   void show_messages(std::size_t first);
 
+  std::string program_;
   std::ostream& out_;
   std::ostream& err_;
   std::unique_ptr<ProgressBar> bar_;  // made when first needed: the flags are known then
 };
 
-/// Seconds since its construction.
-class Stopwatch {
- public:
-  [[nodiscard]] double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point start_ = Clock::now();
-};
-
-/// Adds a subcommand with the flags that all have (--json, --quiet, --threads).
-CLI::App* add_subcommand(CLI::App& app, Session& session, const std::string& name, const std::string& description);
+/// Flags that all programs have: --json, --quiet, --threads.
+void add_run_flags(CLI::App* command, Session& session);
 /// Flags about reading meshes: --strict, --as-surface, --no-check.
 void add_input_flags(CLI::App* command, Session& session);
 /// -o and flags about writing: --exact, --binary.
 CLI::Option* add_output_flags(CLI::App* command, Session& session);
-
-// One function for each file of subcommands.
-void add_boolean_commands(CLI::App& app, Session& session);
-void add_unary_commands(CLI::App& app, Session& session);
-void add_transform_command(CLI::App& app, Session& session);
-void add_info_commands(CLI::App& app, Session& session);
-void add_check_command(CLI::App& app, Session& session);
-void add_query_commands(CLI::App& app, Session& session);
-void add_eval_command(CLI::App& app, Session& session);
-void add_view_commands(CLI::App& app, Session& session);
 
 }  // namespace nef

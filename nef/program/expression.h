@@ -53,12 +53,6 @@ struct ExpressionOptions {
 /// not planar, say); errors of `load` pass through.
 Polyhedron evaluate_expression(std::string_view text, const ExpressionOptions& options = {});
 
-/// Three numbers "x,y,z". Throws InputError that names `what` for anything else.
-Rational3 parse_triple(std::string_view text, const std::string& what);
-
-/// The numbers of a list separated by commas, spaces or both.
-std::vector<Rational> parse_numbers(std::string_view text, const std::string& what);
-
 /// The affine map given by 12 or 16 numbers, the rows of a 3x4 or 4x4 matrix. A 4x4 matrix must
 /// have the last row 0,0,0,w with w other than 0. Throws InputError.
 AffineMap affine_map_of(std::span<const Rational> numbers);

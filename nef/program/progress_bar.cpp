@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nef/command/progress_bar.h"
+#include "nef/program/progress_bar.h"
 
 #include <unistd.h>
 

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nef/command/report.h"
+#include "nef/program/report.h"
+
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
+
+#include "nef/base/phase_timer.h"
 
 namespace nef {
 namespace {
@@ -64,16 +68,26 @@ Json point_json(const Rational3& point) {
   return Json::array({to_string(point[0]), to_string(point[1]), to_string(point[2])});
 }
 
+Json predicates_json(const PredicateCounts& counts) {
+  return {{"identity", counts.identity}, {"filter", counts.filter}, {"exact", counts.exact}};
+}
+
+std::size_t peak_memory_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
+}
+
 Measured measure(int repeat, const std::function<Polyhedron()>& operation) {
   Measured result;
   std::vector<double> times;
   for (int i = 0; i < std::max(repeat, 1); ++i) {
-    const PredicateCounts before = predicate_counts();
-    const Stopwatch watch;
-    Polyhedron set = operation();
-    times.push_back(watch.seconds());
-    const PredicateCounts& after = predicate_counts();
-    result.predicates = {after.identity - before.identity, after.filter - before.filter, after.exact - before.exact};
+    times.push_back(0);
+    result.predicates = {};
+    Polyhedron set = [&] {
+      const PhaseTimer timer(times.back(), result.predicates);
+      return operation();
+    }();
     // The set of an earlier round goes outside of the time that is taken.
     result.set = std::move(set);
   }
@@ -95,9 +109,7 @@ void finish(Session& session, const std::string& command, const Measured& measur
   object["op_s"] = measured.seconds;
   object["write_s"] = session.write_s;
   object["repeat"] = session.repeat;
-  object["predicates"] = {{"identity", measured.predicates.identity},
-                          {"filter", measured.predicates.filter},
-                          {"exact", measured.predicates.exact}};
+  object["predicates"] = predicates_json(measured.predicates);
   object["result"] = info_json(measured.set);
   session.print(std::move(object));
 }

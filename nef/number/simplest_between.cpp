@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// By continued fractions: Graham, Knuth, Patashnik, Concrete Mathematics (1994), section 4.5.
+#include "nef/number/simplest_between.h"
+
+#include "nef/base/error.h"
+
+namespace nef {
+namespace {
+
+Integer floor_of(const Rational& x) {
+  Integer result;
+  mpz_fdiv_q(result.get_mpz_t(), x.get_num_mpz_t(), x.get_den_mpz_t());
+  return result;
+}
+
+// 0 < low <= high
+Rational simplest_positive(const Rational& low, const Rational& high) {
+  const Integer whole = floor_of(low);
+  if (Rational(whole) == low) return low;
+  if (Rational(whole + 1) <= high) return Rational(whole + 1);
+  return whole + 1 / simplest_positive(1 / (high - whole), 1 / (low - whole));
+}
+
+}  // namespace
+
+Rational simplest_between(const Rational& low, const Rational& high) {
+  if (low > high) throw InputError("no rational lies between " + to_string(low) + " and " + to_string(high));
+  if (sgn(low) <= 0 && sgn(high) >= 0) return 0;
+  if (sgn(high) < 0) return -simplest_positive(-high, -low);
+  return simplest_positive(low, high);
+}
+
+}  // namespace nef

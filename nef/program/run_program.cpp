@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/program/run_program.h"
+
+#include <iostream>
+#include <new>
+#include <string_view>
+
+#include "nef/base/error.h"
+
+namespace nef {
+namespace {
+
+constexpr int kBadExit = 2;
+
+// What an exception says to a user; broken invariants say so themselves.
+std::string text_of(const std::exception& error) {
+  if (dynamic_cast<const Error*>(&error) != nullptr) return error.what();
+  if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr) return "out of memory";
+  const std::string what = error.what();
+  return what.rfind("internal error", 0) == 0 ? what : "internal error: " + what;
+}
+
+}  // namespace
+
+std::string one_line(const std::string& text) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string line;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '\n' || c == '\r') {
+      line += ' ';
+    } else if (byte < 0x20 || byte == 0x7f) {
+      line += "\\x";
+      line += kDigits[byte >> 4U];
+      line += kDigits[byte & 0xfU];
+    } else {
+      line += c;
+    }
+  }
+  while (!line.empty() && line.back() == ' ') line.pop_back();
+  return line;
+}
+
+int run_program(CLI::App& app, int argc, char** argv, const std::function<int()>& body,
+                const std::function<void(const std::string&)>& complain) {
+  const auto refuse = [&](const std::string& line) {
+    if (complain) {
+      complain(line);
+    } else {
+      std::cerr << app.get_name() << ": " << one_line(line) << '\n';
+    }
+    return kBadExit;
+  };
+  try {
+    app.parse(argc, argv);
+    const int code = body();
+    std::cout.flush();
+    return std::cout ? code : refuse("stdout cannot be written to");
+  } catch (const CLI::ParseError& error) {
+    // Help and version are "errors" with the code 0.
+    if (error.get_exit_code() == 0) return app.exit(error, std::cout, std::cerr);
+    std::string program = app.get_name();
+    for (const CLI::App* command : app.get_subcommands()) program += " " + command->get_name();
+    return refuse(std::string(error.what()) + " (see " + program + " --help)");
+  } catch (const std::exception& error) {
+    return refuse(text_of(error));
+  }
+}
+
+}  // namespace nef

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What every `main` does around the work: arguments, errors as one line, exit codes.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+
+namespace nef {
+
+/// A text as one line that no terminal takes for commands, whatever it quotes from a file.
+std::string one_line(const std::string& text);
+
+/// Parses the command line and does `body`, whose value becomes the exit code. Help and version exit with 0. Bad usage,
+/// every exception and an output that cannot be written to become one line (`complain`; stderr without it) and
+/// the exit code 2. The name of `app` stands in front of the line.
+int run_program(CLI::App& app, int argc, char** argv, const std::function<int()>& body,
+                const std::function<void(const std::string&)>& complain = {});
+
+}  // namespace nef

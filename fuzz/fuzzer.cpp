@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fuzz/fuzzer.h"
+
+#include <array>
+
+namespace nef::fuzz {
+
+Polyhedron Case::valid(Polyhedron set, std::string_view what) const {
+  const std::string broken = validate(set.complex());
+  if (!broken.empty()) throw Failure("validate: " + broken + " after " + std::string(what));
+  count("sets validated");
+  return set;
+}
+
+std::span<const Fuzzer> fuzzers() {
+  static constexpr std::array kAll{
+      Fuzzer{"arrangement", "sets from open and closed half-spaces, at a point of every cell of their planes",
+             fuzz_arrangement},
+      Fuzzer{"nested", "coplanar pieces nested in each other: slits, loops, holes, islands, points", fuzz_nested},
+      Fuzzer{"voxels", "meshes that touch, nest, overlap or contradict each other, by winding numbers", fuzz_voxels},
+      Fuzzer{"files", "damaged files of every format", fuzz_files},
+      Fuzzer{"silhouettes", "visual hulls of random cameras and polygons, point by point", fuzz_silhouettes},
+      Fuzzer{"sums", "Minkowski sums of open, closed and mixed sets on a grid", fuzz_sums},
+  };
+  return kAll;
+}
+
+}  // namespace nef::fuzz

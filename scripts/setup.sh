@@ -9,7 +9,7 @@ nef_packages=(
   libassimp-dev libcli11-dev nlohmann-json3-dev libfmt-dev libtbb-dev libpng-dev zlib1g-dev
 )
 nef_test_packages=(catch2 librapidcheck-dev libcgal-dev chromium npm)
-nef_lint_packages=(clang-format clang-tidy)
+nef_lint_packages=(clang clang-format clang-tidy)
 
 install_missing() {
   local wanted=() package

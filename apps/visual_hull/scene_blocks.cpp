@@ -8,6 +8,7 @@
 
 #include "apps/visual_hull/scene_text.h"
 #include "nef/base/error.h"
+#include "nef/io/file_bytes.h"
 
 namespace visual_hull {
 namespace fs = std::filesystem;
@@ -124,7 +125,7 @@ Scene read_camera_folder(const fs::path& folder) {
   std::sort(files.begin(), files.end());
   Scene scene;
   for (const fs::path& file : files) {
-    Scene one = read_text_scene(read_text(file), file);
+    Scene one = read_text_scene(nef::read_file(file.string()), file);
     if (one.views.size() != 1) {
       throw nef::InputError(file.string() + ": one 3x4 matrix is needed, not " + std::to_string(one.views.size()));
     }

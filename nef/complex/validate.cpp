@@ -144,11 +144,14 @@ void check_marks(const Complex& c) {
 }
 
 // Only a box has points and planes at infinity, and only beyond it is the mark kOutside.
-void check_box(const Complex& c) {
+void check_outside(const Complex& c) {
   require(!c.volumes.empty(), "there is an outer volume", {});
   for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
     require(c.has_box() || c.points.finite(PointId{v}), "infimaximal vertices need a box", {{"vertex", v}});
     require(c.vertices[v].mark != kOutside, "only the outer volume is outside", {{"vertex", v}});
+  }
+  for (std::size_t h = 0; h < c.svertices.size(); ++h) {
+    require(c.svertices[h].mark != kOutside, "only the outer volume is outside", {{"halfedge", h}});
   }
   for (std::size_t i = 1; i < c.volumes.size(); ++i) {
     require(c.volumes[i].mark != kOutside, "only the outer volume is outside", {{"volume", i}});
@@ -167,9 +170,10 @@ std::string validate(const Complex& complex) {
     check_marks(complex);
     check_vertices(complex);
     check_edges(complex);
-    check_box(complex);
+    check_outside(complex);
     detail::check_facets(complex);
     detail::check_volumes(complex);
+    detail::check_box(complex);
   } catch (const detail::BrokenInvariant& broken) {
     return broken.what;
   }

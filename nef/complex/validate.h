@@ -44,5 +44,8 @@ void check_facets(const Complex& complex);
 /// Shells and volumes: shells partition the sfaces by connection, nest as geometry says.
 void check_volumes(const Complex& complex);
 
+/// The infimaximal box: the boundary of the outer volume, if that is marked kOutside. Shells and facets must be right.
+void check_box(const Complex& complex);
+
 }  // namespace detail
 }  // namespace nef

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <functional>
+#include <sstream>
 
 #include "nef/complex/validate.h"
 #include "nef/construct/to_mesh.h"
@@ -13,6 +14,7 @@
 #include "nef/io/mesh_writer.h"
 #include "nef/io/native_format.h"
 #include "nef/io/polyhedron_file.h"
+#include "tests/support/literals.h"
 #include "tests/support/temporary_folder.h"
 
 namespace nef {
@@ -37,6 +39,19 @@ std::string ply(const std::string& faces) {
   return "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
          "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n" +
          faces;
+}
+
+// A cube whose exterior is marked like what lies beyond an infimaximal box.
+std::string cube_in_outside() {
+  std::istringstream lines(native_text(test::set("box(0,0,0,1,1,1)")));
+  std::string text;
+  for (std::string line; std::getline(lines, line);) {
+    // Lines of sfaces begin with their mark.
+    if (line.rfind(" 0 ", 0) == 0) line[1] = '*';
+    if (line.size() > 8 && line.substr(line.size() - 8) == " outer 0") line.back() = '*';
+    text += line + "\n";
+  }
+  return text;
 }
 
 std::vector<BadFile> bad_files() {
@@ -110,6 +125,12 @@ std::vector<BadFile> bad_files() {
       {"nef with a zero normal", "a.nef", "nef 1\nplanes 1 vertices 0 outer 0\n0 0 0 1 0\nend\n", P::kSyntax, "normal"},
       {"nef with a word for a number", "a.nef", "nef 1\nplanes 1 vertices 0 outer 0\n1 0 nan 1 0\nend\n",
        P::kNotANumber, "a.nef:3:"},
+      {"nef with nothing but an outside", "a.nef", "nef 1\nplanes 0 vertices 0 outer *\nend\n", P::kSyntax,
+       "infimaximal box"},
+      {"nef of a finite cube with an outside", "a.nef", cube_in_outside(), P::kSyntax, "infimaximal box"},
+      {"nef of a point in an outside", "a.nef",
+       "nef 1\nplanes 0 vertices 1 outer *\nvertex 0 0 0 1 0 0 0 1 0 0 0 1\n * 0\nend\n", P::kSyntax,
+       "infimaximal box"},
       {"nef3 of an extended kernel", "a.nef3", "Selective Nef Complex\nextended\n", P::kUnsupported, "extended"},
       {"nef3 of something else", "a.nef3", "Selective Hearing\n", P::kSyntax, "a.nef3:1:"},
       {"nef3 truncated", "a.nef3", "Selective Nef Complex\nstandard\nvertices 8\nhalfedges 24\n", P::kTruncated,

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "nef/base/error.h"
+#include "nef/number/memory.h"
 
 namespace nef {
 namespace {
@@ -51,6 +52,7 @@ int run_program(CLI::App& app, int argc, char** argv, const std::function<int()>
     }
     return kBadExit;
   };
+  let_gmp_throw_bad_alloc();
   try {
     app.parse(argc, argv);
     const int code = body();

@@ -38,7 +38,7 @@ class LabeledPolyhedron {
   [[nodiscard]] const Label& at(const Rational3& point) const { return labels_[locate(set_, point).mark]; }
 
   /// Every point carries f(its label in a, its label in b). f is called once for each pair of
-  /// labels, also of such that meet nowhere; the result keeps the labels that some point has.
+  /// labels that meet, maybe for others; the result keeps the labels that some point has.
   /// Cost as for a Boolean operation, and one comparison for each pair and label of the result.
   template <typename Function>
   friend LabeledPolyhedron overlay(const LabeledPolyhedron& a, const LabeledPolyhedron& b, Function&& f) {
@@ -51,13 +51,13 @@ class LabeledPolyhedron {
       return static_cast<LabelId>(index);
     };
     Polyhedron set = nef::overlay(a.set_, b.set_, [&](LabelId x, LabelId y) {
-      // Label functions are tabulated up to the larger of 2 and the labels in use.
+      // Asked for labels up to the larger of 2 and those in use.
       const auto clamp = [](LabelId id, const std::vector<Label>& known) {
         return std::min<std::size_t>(id, known.size() - 1);
       };
       return intern(f(a.labels_[clamp(x, a.labels_)], b.labels_[clamp(y, b.labels_)]));
     });
-    // f was asked for pairs that meet nowhere, too.
+    // f may have been asked for pairs that meet nowhere, too.
     CompactMarks compact = compact_marks(set);
     std::vector<Label> in_use;
     for (const LabelId mark : compact.old) in_use.push_back(std::move(labels[mark]));

@@ -9,13 +9,6 @@
 
 namespace nef {
 
-struct Polyhedron::Body {
-  Complex complex;
-  // Built when first asked for; call_once makes that safe for readers in several threads.
-  mutable std::once_flag once;
-  mutable std::unique_ptr<const QueryStructure> queries;
-};
-
 namespace {
 
 Complex constant(LabelId mark) {
@@ -26,7 +19,21 @@ Complex constant(LabelId mark) {
 
 }  // namespace
 
-Polyhedron::Polyhedron() : Polyhedron(constant(0)) {}
+struct Polyhedron::Body {
+  Complex complex;
+  // Built when first asked for; call_once makes that safe for readers in several threads.
+  mutable std::once_flag once;
+  mutable std::unique_ptr<const QueryStructure> queries;
+
+  // The empty set has none, so that making one, or moving from a set, costs nothing.
+  static const Body& of(const std::shared_ptr<const Body>& body) {
+    if (body) return *body;
+    static const Body empty{constant(0), {}, {}};
+    return empty;
+  }
+};
+
+Polyhedron::Polyhedron() = default;
 
 Polyhedron Polyhedron::everything() { return Polyhedron(constant(1)); }
 
@@ -36,7 +43,7 @@ Polyhedron::Polyhedron(Complex&& complex) {
   body_ = std::move(body);
 }
 
-const Complex& Polyhedron::complex() const { return body_->complex; }
+const Complex& Polyhedron::complex() const { return Body::of(body_).complex; }
 
 bool Polyhedron::is_empty() const { return complex().vertex_count() == 0 && complex().volumes[0].mark == 0; }
 
@@ -51,8 +58,9 @@ bool Polyhedron::is_closed() const { return is_closed_set(complex()); }
 bool Polyhedron::is_regular() const { return is_regular_set(complex()); }
 
 const QueryStructure& Polyhedron::queries() const {
-  std::call_once(body_->once, [this] { body_->queries = std::make_unique<const QueryStructure>(body_->complex); });
-  return *body_->queries;
+  const Body& own = Body::of(body_);
+  std::call_once(own.once, [&own] { own.queries = std::make_unique<const QueryStructure>(own.complex); });
+  return *own.queries;
 }
 
 }  // namespace nef

@@ -20,8 +20,8 @@ namespace nef {
 
 class QueryStructure;
 
-/// An exact point set. Copies share the same immutable complex, so copying is O(1), and a const
-/// Polyhedron may be read from several threads at once.
+/// An exact point set. Copies share one immutable complex, so copying is O(1). One that was moved from is the empty
+/// set. A const Polyhedron may be read from several threads at once.
 class Polyhedron {
  public:
   /// The empty set.
@@ -65,7 +65,7 @@ Polyhedron unite_all(std::span<const Polyhedron> sets, unsigned threads = 1);
 Polyhedron intersect_all(std::span<const Polyhedron> sets, unsigned threads = 1);
 
 /// A \ B etc. for marks of any kind: the result is marked f(mark in a, mark in b) everywhere.
-/// f is asked once for each pair of labels that occur.
+/// f is asked once for each pair of labels that occur, maybe for others; InputError if it gives kOutside.
 Polyhedron overlay(const Polyhedron& a, const Polyhedron& b, const std::function<LabelId(LabelId, LabelId)>& f);
 
 // Unary operations: O(n).

@@ -3,6 +3,7 @@
 // The Boolean operations of the public interface.
 #include <algorithm>
 
+#include "nef/base/error.h"
 #include "nef/base/parallel.h"
 #include "nef/boolean/overlay_complexes.h"
 #include "nef/polyhedron.h"
@@ -56,7 +57,15 @@ Polyhedron combine_all(std::span<const Polyhedron> sets, Combine combine, unsign
 Polyhedron overlay(const Polyhedron& a, const Polyhedron& b, const Function& f) {
   const Complex& ca = a.complex();
   const Complex& cb = b.complex();
-  const LabelFunction table(ca.label_count, cb.label_count, f);
+  const LabelFunction table(ca.label_count, cb.label_count, [&f](LabelId x, LabelId y) {
+    const LabelId mark = f(x, y);
+    if (mark == kOutside) {
+      throw InputError("the function of an overlay gave the mark " + std::to_string(kOutside) + " for the marks " +
+                       std::to_string(x) + " and " + std::to_string(y) +
+                       "; that mark is reserved for what lies beyond an infimaximal box");
+    }
+    return mark;
+  });
   return Polyhedron(overlay_complexes(
       ca, cb, table, [&a]() -> const QueryStructure& { return a.queries(); },
       [&b]() -> const QueryStructure& { return b.queries(); }));

@@ -70,6 +70,11 @@ class ComplexOverlay {
     if (known != cache.end()) return known->second;
     Restriction r;
     const LabelId labels = operands_[x].complex().label_count;
+    // Of many labels few occur beside this one, and fewer at one vertex: each vertex is looked at by itself.
+    if (labels > 256) {
+      cache.emplace_back(other, std::move(r));
+      return cache.back().second;
+    }
     bool constant = true;
     bool identity = true;
     std::vector<LabelId> image;
@@ -103,11 +108,12 @@ class ComplexOverlay {
         result_.push_vertex(operands_[x].sphere_map(v));
         return;
       case Effect::kInjective:
-        copy_with_marks(operands_[x].sphere_map(v), r.map);
+        copy_with_marks(operands_[x].sphere_map(v), [&r](LabelId mark) { return r.map[mark]; });
         result_.points.push_from(tables_.points, operands_[x].point(v));
         result_.push_vertex(out_.view());
         return;
       case Effect::kGeneral: {
+        if (push_if_injective(x, v, other)) return;
         std::array<Item, 2> items;
         items[x] = {Item::Kind::kVertex, v};
         const SphereMapView a = operands_[0].pyramid(items[0], other, scratch_[0]);
@@ -119,9 +125,30 @@ class ComplexOverlay {
     }
   }
 
-  void copy_with_marks(const SphereMapView& map, const std::vector<LabelId>& change) {
+  // Copies a vertex if f keeps apart all the marks around it: then nothing simplifies.
+  bool push_if_injective(std::size_t x, std::uint32_t v, LabelId other) {
+    const auto image = [&](LabelId mark) { return x == 0 ? f_(mark, other) : f_(other, mark); };
+    const SphereMapView map = operands_[x].sphere_map(v);
+    marks_.assign(1, map.mark);
+    for (const SVertex& item : map.svertices) marks_.push_back(item.mark);
+    for (const SHalfedge& item : map.shalfedges) marks_.push_back(item.mark);
+    for (const SLoop& item : map.sloops) marks_.push_back(item.mark);
+    for (const SFace& item : map.sfaces) marks_.push_back(item.mark);
+    std::sort(marks_.begin(), marks_.end());
+    marks_.erase(std::unique(marks_.begin(), marks_.end()), marks_.end());
+    for (LabelId& mark : marks_) mark = image(mark);
+    std::sort(marks_.begin(), marks_.end());
+    if (std::adjacent_find(marks_.begin(), marks_.end()) != marks_.end()) return false;
+    copy_with_marks(map, image);
+    result_.points.push_from(tables_.points, operands_[x].point(v));
+    result_.push_vertex(out_.view());
+    return true;
+  }
+
+  template <typename Change>
+  void copy_with_marks(const SphereMapView& map, const Change& change) {
     const auto apply = [&change](LabelId& mark) {
-      if (mark != kOutside) mark = change[mark];
+      if (mark != kOutside) mark = change(mark);
     };
     out_.svertices.assign(map.svertices.begin(), map.svertices.end());
     out_.shalfedges.assign(map.shalfedges.begin(), map.shalfedges.end());
@@ -142,6 +169,7 @@ class ComplexOverlay {
   SphereOverlay overlay_;
   std::array<SphereMapBuffer, 2> scratch_;
   SphereMapBuffer out_;
+  std::vector<LabelId> marks_;
   std::array<std::vector<std::pair<LabelId, Restriction>>, 2> restrictions_;
   Complex result_;
 };

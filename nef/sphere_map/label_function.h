@@ -3,34 +3,45 @@
 // What a Boolean operation does to marks, as a table.
 #pragma once
 
+#include <atomic>
+#include <cstdint>
 #include <functional>
+#include <mutex>
+#include <unordered_map>
 #include <vector>
 
 #include "nef/geometry/ids.h"
 
 namespace nef {
 
-/// A binary function on labels 0 .. n-1, tabulated. kOutside with anything is kOutside.
+/// A binary function on labels that remembers its values. kOutside with anything is kOutside. May be asked from several
+/// threads at once.
 class LabelFunction {
  public:
-  /// f for all labels below `size_a` and `size_b`; f is called once for each pair.
-  LabelFunction(std::size_t size_a, std::size_t size_b, const std::function<LabelId(LabelId, LabelId)>& f)
-      : size_b_(size_b), table_(size_a * size_b) {
-    for (std::size_t a = 0; a < size_a; ++a) {
-      for (std::size_t b = 0; b < size_b; ++b) {
-        table_[a * size_b + b] = f(static_cast<LabelId>(a), static_cast<LabelId>(b));
-      }
-    }
-  }
+  /// f for labels below `size_a` and `size_b`. Each pair is asked for once, when it first occurs, and never two pairs
+  /// at a time. What f throws passes through. Memory for the pairs that occur, or 256 kB at most.
+  LabelFunction(std::size_t size_a, std::size_t size_b, std::function<LabelId(LabelId, LabelId)> f);
 
   [[nodiscard]] LabelId operator()(LabelId a, LabelId b) const {
     if (a == kOutside || b == kOutside) return kOutside;
-    return table_[a * size_b_ + b];
+    if (!table_.empty()) {
+      const std::uint32_t known = table_[a * size_b_ + b].load(std::memory_order_relaxed);
+      if (known != kUnknown) return static_cast<LabelId>(known);
+    }
+    return ask(a, b);
   }
 
  private:
+  static constexpr std::uint32_t kUnknown = 0xffffffffU;
+
+  LabelId ask(LabelId a, LabelId b) const;
+
   std::size_t size_b_;
-  std::vector<LabelId> table_;
+  std::function<LabelId(LabelId, LabelId)> f_;
+  // Of few pairs a table, of many a map.
+  mutable std::vector<std::atomic<std::uint32_t>> table_;
+  mutable std::unordered_map<std::uint32_t, LabelId> map_;
+  mutable std::mutex mutex_;
 };
 
 }  // namespace nef

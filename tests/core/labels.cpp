@@ -80,3 +80,51 @@ TEST_CASE("labels that merge simplify the complex") {
   const LabeledPolyhedron<int> both = overlay(a, b, [](int x, int y) { return std::max(x, y); });
   CHECK(both.polyhedron().complex().vertex_count() == 8);
 }
+
+TEST_CASE("the function of an overlay is asked for the pairs of labels that occur") {
+  // 40000 labels by 40000: a table of all pairs would take gigabytes.
+  const nef::Polyhedron a = overlay(make_box({0, 0, 0}, {2, 2, 2}), nef::Polyhedron(),
+                                    [](nef::LabelId x, nef::LabelId) { return static_cast<nef::LabelId>(40000 * x); });
+  const nef::Polyhedron b = overlay(make_box({1, 1, 1}, {3, 3, 3}), nef::Polyhedron(),
+                                    [](nef::LabelId x, nef::LabelId) { return static_cast<nef::LabelId>(40000 * x); });
+  int asked = 0;
+  const nef::Polyhedron both = overlay(a, b, [&asked](nef::LabelId x, nef::LabelId y) {
+    ++asked;
+    return static_cast<nef::LabelId>(x != 0 ? (y != 0 ? 3 : 40001) : (y != 0 ? 2 : 0));
+  });
+  CHECK(asked == 4);
+  CHECK(nef::validate(both.complex()).empty());
+  CHECK(both.complex().volume_count() == 4);
+  CHECK(locate(both, {nef::Rational(1, 2), nef::Rational(1, 2), nef::Rational(1, 2)}).mark == 40001);
+  CHECK(locate(both, {nef::Rational(3, 2), nef::Rational(3, 2), nef::Rational(3, 2)}).mark == 3);
+  // Merging labels again simplifies untouched vertices, too.
+  const nef::Polyhedron merged = overlay(both, make_box({8, 8, 8}, {9, 9, 9}), [](nef::LabelId x, nef::LabelId y) {
+    return static_cast<nef::LabelId>(x != 0 || y != 0);
+  });
+  CHECK(nef::validate(merged.complex()).empty());
+  CHECK(equal(merged, unite(unite(make_box({0, 0, 0}, {2, 2, 2}), make_box({1, 1, 1}, {3, 3, 3})),
+                            make_box({8, 8, 8}, {9, 9, 9}))));
+}
+
+TEST_CASE("the reserved label is refused") {
+  const nef::Polyhedron a = make_box({0, 0, 0}, {1, 1, 1});
+  const auto reserved = [](nef::LabelId x, nef::LabelId y) {
+    return x != 0 && y != 0 ? nef::kOutside : nef::LabelId{0};
+  };
+  CHECK_THROWS_AS(overlay(a, a, reserved), nef::InputError);
+  CHECK_THROWS_WITH(overlay(a, a, reserved), Catch::Contains("65535"));
+}
+
+TEST_CASE("a set that was moved from is empty") {
+  nef::Polyhedron a = make_box({0, 0, 0}, {1, 1, 1});
+  const nef::Polyhedron b = std::move(a);
+  // NOLINTBEGIN(bugprone-use-after-move)
+  CHECK(a.is_empty());
+  CHECK(equal(a, nef::Polyhedron()));
+  CHECK(equal(unite(a, b), b));
+  CHECK_FALSE(contains(a, {0, 0, 0}));
+  CHECK(complement(a).is_everything());
+  a = b;
+  CHECK(equal(a, b));
+  // NOLINTEND(bugprone-use-after-move)
+}

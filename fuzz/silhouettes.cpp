@@ -188,21 +188,22 @@ void check_points(const Case& the_case, const std::vector<TestView>& views, int 
 
 void fuzz_silhouettes(const Case& the_case) {
   Choices& choices = the_case.choices();
+  // Without a box the cones have to bound the scene: more cameras, all around and outside of it.
+  const int half = choices.below(2) == 1 ? 0 : choices.between(2, 3);
   std::vector<Rational3> centres;
-  for (std::uint32_t i = 1 + choices.below(3); i > 0; --i) {
-    Rational3 centre = random_point(choices, 1);
-    const int distance = choices.between(0, 6);
+  for (std::uint32_t i = half > 0 ? 1 + choices.below(3) : 4 + choices.below(3); i > 0; --i) {
+    Rational3 centre = random_point(choices, half > 0 ? 1 : 2);
+    const int distance = choices.between(half > 0 ? 0 : 3, 6);
     for (Rational& x : centre) x *= distance;
     centres.push_back(centre);
   }
   std::vector<Rational3> object;
   for (std::uint32_t i = 4 + choices.below(5); i > 0; --i) object.push_back(random_point(choices, 2));
   std::vector<TestView> views;
-  for (std::uint32_t i = 1 + choices.below(4); i > 0; --i) {
+  for (std::uint32_t i = half > 0 ? 1 + choices.below(4) : 3 + choices.below(4); i > 0; --i) {
     views.push_back(random_view(choices, centres));
     add_rings(choices, object, views.back());
   }
-  const int half = choices.below(3) == 2 ? 0 : choices.between(2, 3);
   tell_scene(the_case, views, half);
 
   visual_hull::Options options;

@@ -87,14 +87,17 @@ void check_vertex_needed(const Complex& c, std::uint32_t v, const SphereMapView&
   require(!opposite, "no redundant vertex in an edge", {{"vertex", v}});
 }
 
-void check_vertices(const Complex& c) {
+void check_sphere_maps(const Complex& c) {
   for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
     const SphereMapView map = c.sphere_map(v);
     const std::string broken = validate(c.planes, map);
     require(broken.empty(), broken.c_str(), {{"vertex", v}});
     check_planes_meet_point(c, v, map);
-    check_vertex_needed(c, v, map);
   }
+}
+
+void check_vertices(const Complex& c) {
+  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) check_vertex_needed(c, v, c.sphere_map(v));
   std::vector<std::uint32_t> order(c.vertex_count());
   std::iota(order.begin(), order.end(), 0U);
   std::sort(order.begin(), order.end(), [&c](std::uint32_t a, std::uint32_t b) {
@@ -161,13 +164,12 @@ void check_outside(const Complex& c) {
   }
 }
 
-}  // namespace
-
-std::string validate(const Complex& complex) {
+std::string first_broken(const Complex& complex, bool sphere_maps) {
   try {
     check_array_sizes(complex);
     check_owners(complex);
     check_marks(complex);
+    if (sphere_maps) check_sphere_maps(complex);
     check_vertices(complex);
     check_edges(complex);
     check_outside(complex);
@@ -179,5 +181,11 @@ std::string validate(const Complex& complex) {
   }
   return {};
 }
+
+}  // namespace
+
+std::string validate(const Complex& complex) { return first_broken(complex, true); }
+
+std::string detail::validate_links(const Complex& complex) { return first_broken(complex, false); }
 
 }  // namespace nef

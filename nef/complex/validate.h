@@ -38,6 +38,10 @@ inline void require(bool holds, const char* name, std::initializer_list<GuiltyIt
   throw BrokenInvariant{what};
 }
 
+/// nef::validate without the sphere maps and the planes through their vertices, for who has checked each of these
+/// before synthesis.
+std::string validate_links(const Complex& complex);
+
 /// Facets: cycles closed, planar, oriented and nested; marks and volumes equal all around.
 void check_facets(const Complex& complex);
 

@@ -6,6 +6,7 @@
 
 #include "nef/complex/concrete_points.h"
 #include "nef/complex/validate.h"
+#include "nef/geometry/box_tree.h"
 
 namespace nef::detail {
 namespace {
@@ -116,25 +117,33 @@ void check_nesting(const Complex& c) {
     const Facet& facet = c.facets[f];
     const Projection projection = projection_of(c.planes, facet.plane);
     std::vector<std::vector<const Rational3*>> cycles;
+    std::vector<Box> boxes(facet.cycle_count);
     for (std::uint32_t k = 0; k < facet.cycle_count; ++k) {
       cycles.push_back(cycle_points(c, points, facet.first_cycle + k));
+      for (const std::uint32_t corner : c.cycle(facet.first_cycle + k)) {
+        boxes[k].add_rounded(c.points.approximate(PointId{c.shalfedge_owner[corner]}));
+      }
       const int area = projection.sign * sgn(doubled_area(cycles[k], projection.axis));
       require(k == 0 ? area > 0 : area <= 0, k == 0 ? "the outer cycle comes first" : "holes run clockwise",
               {{"facet", f}, {"cycle", facet.first_cycle + k}});
     }
     // A point of the facet: inside the outer cycle, outside of all holes but its own.
-    const auto check_inside = [&](const Rational3& point, std::size_t own, const GuiltyItem& item) {
+    const auto check_inside = [&](std::uint32_t vertex, std::size_t own, const GuiltyItem& item) {
+      Box box;
+      box.add_rounded(c.points.approximate(PointId{vertex}));
       for (std::size_t k = 0; k < cycles.size(); ++k) {
-        if (k == own) continue;
-        const Winding winding = winding_number(cycles[k], point, projection.axis);
+        if (k == own || (k > 0 && !boxes[k].overlaps(box))) continue;
+        const Winding winding = winding_number(cycles[k], points[vertex], projection.axis);
         require(!winding.on_boundary && winding.number == (k == 0 ? projection.sign : 0),
                 "holes lie inside the outer cycle of their facet and outside of other holes", {{"facet", f}, item});
       }
     };
-    for (std::size_t k = 1; k < cycles.size(); ++k) check_inside(*cycles[k][0], k, {"cycle", facet.first_cycle + k});
+    for (std::uint32_t k = 1; k < facet.cycle_count; ++k) {
+      check_inside(c.shalfedge_owner[c.cycle(facet.first_cycle + k)[0]], k, {"cycle", facet.first_cycle + k});
+    }
     for (std::uint32_t i = 0; i < facet.isolated_count; ++i) {
       const std::uint32_t v = c.isolated_vertices[facet.first_isolated + i];
-      check_inside(points[v], cycles.size(), {"vertex", v});
+      check_inside(v, cycles.size(), {"vertex", v});
     }
   }
 }

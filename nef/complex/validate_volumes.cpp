@@ -2,13 +2,15 @@
 //
 // The invariants of shells and volumes: shells are the connected components of the boundaries,
 // volumes own them by geometry. The owner of an inner shell is found again by an exact ray of a
-// direction that meets no edge, against all facets: slow, and independent of the synthesis.
+// direction that meets no edge, against all facets whose boxes it may meet: slow, and independent of the synthesis.
 #include <optional>
 #include <vector>
 
 #include "nef/base/union_find.h"
 #include "nef/complex/concrete_points.h"
 #include "nef/complex/validate.h"
+#include "nef/geometry/box_tree.h"
+#include "nef/geometry/ray_filter.h"
 #include "nef/sphere_map/sphere_geometry.h"
 
 namespace nef::detail {
@@ -143,15 +145,35 @@ Inward inward_of(const PlaneTable& planes, const SphereMapView& map, const SFace
   return {short_arc ? scaled_sum(1, s.integers(), t.integers()) : Direction::cross(n, s).integers(), n.integers()};
 }
 
+// The boxes of all facets, and the exact points that rays are shot at.
+struct Targets {
+  std::vector<Rational3> points;
+  BoxTree facets;
+};
+Targets targets_of(const Complex& c) {
+  std::vector<Box> boxes(c.facets.size());
+  for (std::size_t f = 0; f < c.facets.size(); ++f) {
+    for (const std::uint32_t corner : c.facet_corners(c.facets[f])) {
+      boxes[f].add_rounded(c.points.approximate(PointId{c.shalfedge_owner[corner]}));
+    }
+  }
+  return {concrete_points(c), BoxTree(boxes)};
+}
+
 // The nearest facet that a ray meets; fails if the ray comes upon a boundary.
 struct FirstFacet {
   bool degenerate = false;
   std::uint32_t volume = 0;  // on the near side; the outer volume if nothing is met
 };
-FirstFacet shoot(const Complex& c, const std::vector<Rational3>& points, const Rational3& from, const Vector& along) {
+FirstFacet shoot(const Complex& c, const Targets& targets, std::uint32_t origin, const Vector& along) {
+  const std::vector<Rational3>& points = targets.points;
+  const Rational3& from = points[origin];
+  Box origin_box;
+  origin_box.add_rounded(c.points.approximate(PointId{origin}));
+  const RayFilter filter(origin_box, Direction::exact(along[0], along[1], along[2]));
   FirstFacet result;
   std::optional<Rational> nearest;
-  for (std::uint32_t f = 0; f < c.facets.size(); ++f) {
+  const auto visit = [&](std::uint32_t f) {
     const Facet& facet = c.facets[f];
     const Rational3& anchor = points[c.shalfedge_owner[c.facet_corners(facet)[0]]];
     Rational numerator = 0;
@@ -161,26 +183,27 @@ FirstFacet shoot(const Complex& c, const std::vector<Rational3>& points, const R
       numerator += n * (anchor[i] - from[i]);
       denominator += n * along[i];
     }
-    if (denominator == 0) continue;
+    if (denominator == 0) return;
     const Rational t = numerator / denominator;
-    if (t <= 0 || (nearest && t >= *nearest)) continue;
+    if (t <= 0 || (nearest && t >= *nearest)) return;
     const Rational3 hit{from[0] + t * along[0], from[1] + t * along[1], from[2] + t * along[2]};
     const Projection projection = projection_of(c.planes, facet.plane);
     int number = 0;
     for (std::uint32_t k = 0; k < facet.cycle_count; ++k) {
       const Winding winding = winding_number(cycle_points(c, points, facet.first_cycle + k), hit, projection.axis);
-      if (winding.on_boundary) return {true, 0};
+      result.degenerate = result.degenerate || winding.on_boundary;
       number += winding.number;
     }
-    if (number == 0) continue;
+    if (number == 0) return;
     nearest = t;
     result.volume = denominator < 0 ? facet.volume_above : facet.volume_below;
-  }
+  };
+  targets.facets.for_each_if([&](const Box& box) { return !result.degenerate && filter.may_meet(box); }, visit);
   return result;
 }
 
 // The volume that holds the surroundings of a shell.
-std::uint32_t volume_around(const Complex& c, const std::vector<Rational3>& points, std::uint32_t s) {
+std::uint32_t volume_around(const Complex& c, const Targets& targets, std::uint32_t s) {
   const std::uint32_t sface = c.shell_sfaces[c.shells[s].first_sface];
   const std::uint32_t v = c.sface_owner[sface];
   const std::uint32_t local = sface - c.vertices[v].sfaces;
@@ -192,18 +215,18 @@ std::uint32_t volume_around(const Complex& c, const std::vector<Rational3>& poin
     const Vector along = scaled_sum(Integer(1) << (4 * attempt + attempt * attempt / 4), inward.on, bent);
     const SphereLocation place = locate(c.planes, map, Direction::exact(along[0], along[1], along[2]));
     if (place.kind != SphereLocation::Kind::kSFace || place.index != local) continue;
-    const FirstFacet first = shoot(c, points, points[v], along);
+    const FirstFacet first = shoot(c, targets, v, along);
     if (!first.degenerate) return first.volume;
   }
   throw BrokenInvariant{"no direction leads into an sface, sface " + std::to_string(sface)};
 }
 
 void check_nesting(const Complex& c) {
-  const std::vector<Rational3> points = concrete_points(c);
+  const Targets targets = targets_of(c);
   for (std::uint32_t i = 0; i < c.volumes.size(); ++i) {
     for (std::uint32_t k = i == 0 ? 0 : 1; k < c.volumes[i].shell_count; ++k) {
       const std::uint32_t s = c.volumes[i].first_shell + k;
-      require(volume_around(c, points, s) == i, "inner shells lie in their volume", {{"volume", i}, {"shell", s}});
+      require(volume_around(c, targets, s) == i, "inner shells lie in their volume", {{"volume", i}, {"shell", s}});
     }
   }
 }

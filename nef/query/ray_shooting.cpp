@@ -2,90 +2,14 @@
 //
 // Ray shooting: candidates come from the box tree, roughly from near to far; each is decided
 // exactly, and the nearest hit so far cuts off what lies behind it.
-#include <cmath>
-#include <limits>
-
 #include "nef/base/error.h"
+#include "nef/geometry/ray_filter.h"
 #include "nef/query/facet_search.h"
 #include "nef/query/query_structure.h"
 #include "nef/sphere_map/sphere_geometry.h"
 
 namespace nef {
 namespace {
-
-// Conservative test of boxes against a ray in doubles: never refuses a box that the ray meets.
-// Everything in it, boxes included, is mirrored at the origin like the tree of a QueryStructure.
-class RayFilter {
- public:
-  explicit RayFilter(const QueryRay& ray) : origin_(mirrored(point_box(ray.origin))) {
-    const std::array<Integer, 3>& exact = ray.direction.integers();
-    for (std::size_t i = 0; i < 3; ++i) {
-      direction_[i] = -ray.direction.approximate[i];
-      sign_[i] = -sgn(exact[i]);
-      if (std::fabs(direction_[i]) > std::fabs(direction_[main_])) main_ = i;
-      reach_.low[i] = sign_[i] >= 0 ? origin_.low[i] : -HUGE_VAL;
-      reach_.high[i] = sign_[i] <= 0 ? origin_.high[i] : HUGE_VAL;
-    }
-    axis_parallel_ = (sign_[0] == 0) + (sign_[1] == 0) + (sign_[2] == 0) == 2;
-  }
-
-  // The axis along which the ray moves fastest, and whether it goes up or down there.
-  [[nodiscard]] std::size_t main_axis() const { return main_; }
-  [[nodiscard]] int main_sign() const { return -sign_[main_]; }
-
-  // Nothing behind this point matters any more.
-  void cut(const PointRef& hit) {
-    const Box box = mirrored(point_box(hit));
-    if (sign_[main_] > 0) {
-      reach_.high[main_] = box.high[main_];
-    } else {
-      reach_.low[main_] = box.low[main_];
-    }
-  }
-
-  [[nodiscard]] bool may_meet(const Box& box) const {
-    if (!box.overlaps(reach_)) return false;
-    if (axis_parallel_) return true;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::size_t j = (i + 1) % 3;
-      if (sign_[i] != 0 && sign_[j] != 0 && !may_meet_projected(box, i, j)) return false;
-    }
-    return true;
-  }
-
- private:
-  // In the plane of axes i and j: f(x) = D_i (x_j - o_j) - D_j (x_i - o_i) vanishes on the ray.
-  // Refuses only if f has one sign on the whole box. The relative errors of a coordinate, of a
-  // component of D and of the arithmetic are below 2^-50 each; 2^-46 of the sum of magnitudes
-  // covers them all. Infinities give NaNs or infinite bounds, which refuse nothing.
-  [[nodiscard]] bool may_meet_projected(const Box& box, std::size_t i, std::size_t j) const {
-    const double a = direction_[i];
-    const double b = direction_[j];
-    double low = 0;
-    double high = 0;
-    double size = 0;
-    const auto add = [&](double factor, double from, double to) {
-      const double x = factor * from;
-      const double y = factor * to;
-      low += x < y ? x : y;
-      high += x < y ? y : x;
-      size += std::fabs(x) + std::fabs(y);
-    };
-    add(a, box.low[j] - origin_.high[j], box.high[j] - origin_.low[j]);
-    add(-b, box.low[i] - origin_.high[i], box.high[i] - origin_.low[i]);
-    size += std::fabs(a) * (std::fabs(origin_.low[j]) + std::fabs(box.low[j]) + std::fabs(box.high[j]));
-    size += std::fabs(b) * (std::fabs(origin_.low[i]) + std::fabs(box.low[i]) + std::fabs(box.high[i]));
-    const double bound = size * 0x1p-46 + 1e-300;
-    return !(low > bound) && !(high < -bound);
-  }
-
-  Box origin_;
-  Box reach_;  // holds all of the ray that still matters
-  std::array<double, 3> direction_{};
-  std::array<int, 3> sign_{};
-  std::size_t main_ = 0;
-  bool axis_parallel_ = false;
-};
 
 // Sign of (p - o) . D if p lies on the line of the ray, else nothing.
 std::optional<int> position_on_line(const QueryRay& ray, const PointRef& p) {
@@ -124,7 +48,7 @@ class RayShooter {
         structure_(structure),
         ray_(ray),
         accept_(accept),
-        filter_(ray),
+        filter_(mirrored(point_box(ray.origin)), ray.direction.negated()),
         finite_origin_(ray.origin.table->finite(ray.origin.id)) {}
 
   std::optional<ComplexHit> shoot(Rational3* at) {
@@ -264,7 +188,7 @@ class RayShooter {
   }
 
   [[nodiscard]] bool nearer(const PointRef& point) const {
-    return compare_coordinate(point, position_, static_cast<int>(filter_.main_axis())) * filter_.main_sign() < 0;
+    return compare_coordinate(point, position_, static_cast<int>(filter_.main_axis())) * filter_.main_sign() > 0;
   }
 
   void offer(const ComplexHit& hit, const PointRef& position) {
@@ -272,7 +196,7 @@ class RayShooter {
     if (accept_ && !accept_(hit)) return;
     hit_ = hit;
     position_ = position;
-    filter_.cut(position);
+    filter_.cut(mirrored(point_box(position)));
   }
 
   // The sface of the hit's sphere map that holds the direction back to the origin.
@@ -297,7 +221,7 @@ class RayShooter {
   const QueryStructure& structure_;
   const QueryRay& ray_;
   const QueryStructure::Accept& accept_;
-  RayFilter filter_;
+  RayFilter filter_;  // mirrored at the origin, like the tree of a QueryStructure
   bool finite_origin_;
   PointTable scratch_;
   std::optional<ComplexHit> hit_;

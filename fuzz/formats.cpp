@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "apps/planner/scene.h"
+#include "apps/planner/scene/scene.h"
 #include "apps/visual_hull/scene_json.h"
 #include "apps/visual_hull/scene_text.h"
 #include "apps/visual_hull/vsh.h"

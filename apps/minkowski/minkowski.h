@@ -37,8 +37,8 @@ class Cancelled : public Error {
 struct MinkowskiOptions {
   UnionStrategy strategy = UnionStrategy::kNary;
   unsigned threads = 1;  ///< 0: as many as the machine has; the result does not depend on it
-  /// Called after each pair of cells with (pairs done, pairs in all), always by the calling thread; false stops the
-  /// sum.
+  /// Called after each pair of cells, and again and again while sums are united, with (pairs done, pairs in all),
+  /// always by the calling thread; false stops the sum.
   std::function<bool(std::size_t, std::size_t)> progress;
 };
 
@@ -78,13 +78,26 @@ bool is_convex(const Polyhedron& a);
 /// The set of the points -x, x in a.
 Polyhedron negate(const Polyhedron& a);
 
-/// The free positions of the reference point (the origin) of a translating robot R: the closed set
-///   B \ ( (O + -int R) u (int O + -R) ),  O = the union of the obstacles, B = the box or all space.
-/// Contact is free; forbidden is what overlaps inside. For a robot that is the closure of its
-/// interior this is "open robot against closed obstacles", so passages as narrow as the robot
+/// A closed set without its border. The border is the boundary of solid parts, the open edges of surfaces and the ends
+/// of curves; a single point has none. Told locally, so that it has one meaning where parts of different dimension
+/// meet:
+///  - where all of the set is solid (the closure of its interior), every point of the boundary is border;
+///  - elsewhere, at surfaces, curves, and where these end on anything, a point is border iff the set looks like a ball
+///    with that point on its rim: its link (the set on a small sphere around the point) has one component and no
+///    loop, i.e. the local homology vanishes. So folds and seams of surfaces, places where a surface or curve is
+///    fixed to a solid or to another surface, and points where they merely touch are no border.
+/// The result is the interior of the solid parts and all of the rest but its rims; it is dense in the set. Nothing but
+/// marks changes. O(n). For an unbounded set, what happens at infinity is the trace of what goes there.
+Polyhedron without_border(const Polyhedron& closed);
+
+/// The free positions of the reference point (the origin) of a translating robot R among obstacles O_i:
+///   B \ ( W + -inner(R) ),  W = the union of inner(O_i) and of inner(the union of the O_i), B = the box or all space.
+/// inner(S) is S without its border: contact of borders is free; forbidden is where a point of the robot
+/// that is not on its border meets such a point of an obstacle, or of a seam between obstacles. Where the robot is
+/// solid this is "open robot against closed obstacles" and the free space is closed, so passages as narrow as the robot
 /// remain as facets, edges and vertices; a robot that is a point, a segment or a facet may slide
-/// on obstacles but not enter them, nor a seam between two that touch.
-/// Obstacles are taken closed. The reference point may lie outside the robot.
+/// on solid obstacles but not enter them, and not pass through a surface, a curve or a point but along their borders.
+/// Robot and obstacles are taken closed. The reference point may lie outside the robot.
 Polyhedron configuration_space(const Polyhedron& robot, std::span<const Polyhedron> obstacles,
                                const std::optional<std::array<Rational3, 2>>& box = std::nullopt,
                                const MinkowskiOptions& options = {}, MinkowskiReport* report = nullptr);

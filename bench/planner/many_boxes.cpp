@@ -10,9 +10,11 @@
 #include <cstdlib>
 #include <random>
 
-#include "apps/planner/ompl_runs.h"
-#include "apps/planner/segment_walk.h"
-#include "apps/planner/translation_planning.h"
+#include "apps/planner/command/report.h"
+#include "apps/planner/ompl/ompl_planners.h"
+#include "apps/planner/ompl/translation_planning.h"
+#include "apps/planner/partition/segment_walk.h"
+#include "apps/planner/path/question.h"
 #include "bench/planner/timed_checks.h"
 
 namespace {

@@ -16,7 +16,9 @@
 #include <cstdlib>
 #include <functional>
 
-#include "apps/planner/ompl_runs.h"
+#include "apps/planner/command/report.h"
+#include "apps/planner/ompl/ompl_planners.h"
+#include "apps/planner/ompl/translation_planning.h"
 #include "bench/planner/timed_checks.h"
 
 namespace {

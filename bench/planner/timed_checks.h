@@ -6,7 +6,7 @@
 #include <chrono>
 #include <ctime>
 
-#include "apps/planner/nef_validity.h"
+#include "apps/planner/ompl/nef_validity.h"
 
 namespace nef::planner {
 

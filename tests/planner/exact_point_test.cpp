@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "apps/planner/exact_point.h"
+#include "apps/planner/partition/exact_point.h"
 
 namespace nef::planner::test {
 namespace {

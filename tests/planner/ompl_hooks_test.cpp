@@ -14,10 +14,11 @@
 #include <catch2/catch.hpp>
 #include <sstream>
 
-#include "apps/planner/cell_sampler.h"
-#include "apps/planner/nef_validity.h"
-#include "apps/planner/ompl_runs.h"
-#include "apps/planner/translation_planning.h"
+#include "apps/planner/command/ompl_runs.h"
+#include "apps/planner/ompl/cell_sampler.h"
+#include "apps/planner/ompl/nef_validity.h"
+#include "apps/planner/ompl/ompl_planners.h"
+#include "apps/planner/ompl/translation_planning.h"
 #include "tests/planner/command_helpers.h"
 #include "tests/planner/scene_helpers.h"
 

@@ -14,8 +14,8 @@
 #include <sstream>
 #include <thread>
 
-#include "apps/planner/nef_validity.h"
-#include "apps/planner/translation_planning.h"
+#include "apps/planner/ompl/nef_validity.h"
+#include "apps/planner/ompl/translation_planning.h"
 #include "tests/planner/scene_helpers.h"
 
 namespace nef::planner::test {

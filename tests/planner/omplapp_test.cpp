@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "apps/planner/shapes.h"
+#include "apps/planner/scene/shapes.h"
 #include "nef/base/error.h"
 #include "tests/planner/command_helpers.h"
 #include "tests/planner/scene_helpers.h"

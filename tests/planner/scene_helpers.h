@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "apps/planner/question.h"
+#include "apps/planner/path/question.h"
 
 namespace nef::planner::test {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Free space of a translating robot. What is forbidden is a union of sums, and sums distribute over
-// unions, so all pairs of all obstacles go into one union; only what enters the inside of the
-// obstacles' union needs that union first (its inside contains seams between touching obstacles).
+// unions, so all pairs of all obstacles go into one union; only what meets the obstacles' union without
+// its border needs that union first (it contains seams between touching obstacles).
 #include <algorithm>
 #include <iterator>
 #include <string>
@@ -19,8 +19,27 @@ namespace {
 struct Forbidden {
   Operand obstacles_open, robot_open;    // full-dimensional obstacles against the inside of the robot
   Operand obstacles_flat, robot_marked;  // obstacles with lower-dimensional parts against it
-  Operand inside, robot;                 // the inside of all obstacles against the robot's lower-dimensional parts
+  Operand obstacles_inner, robot_thin;   // obstacles without borders against the robot's lower-dimensional parts
 };
+
+std::vector<Polyhedron> closures(std::span<const Polyhedron> sets) {
+  std::vector<Polyhedron> result;
+  for (const Polyhedron& set : sets) result.push_back(closure(set));
+  return result;
+}
+
+// What a thin robot must not meet with more than its border: each obstacle without its border, and their union without
+// its border, which closes the seams where obstacles touch. (A stick in the rim of a sheet is nothing in the union.)
+Polyhedron inner_of(std::span<const Polyhedron> closed, unsigned threads) {
+  std::vector<Polyhedron> inner{without_border(unite_all(closed, threads))};
+  for (const Polyhedron& obstacle : closed) {
+    if (!is_full_dimensional(obstacle)) inner.push_back(without_border(obstacle));
+  }
+  return unite_all(inner, threads);
+}
+
+// The lower-dimensional parts of a closed robot without its border.
+Polyhedron thin_parts(const Polyhedron& closed) { return subtract(without_border(closed), interior(closed)); }
 
 void append(std::vector<ConvexCell>& to, std::vector<ConvexCell> from) {
   std::move(from.begin(), from.end(), std::back_inserter(to));
@@ -49,11 +68,8 @@ Forbidden decompose_all(const Polyhedron& robot, std::span<const Polyhedron> obs
     result.obstacles_flat = Operand(std::move(flat));
   }
   if (!is_full_dimensional(turned)) {
-    std::vector<Polyhedron> closed;
-    for (const Polyhedron& obstacle : obstacles) closed.push_back(closure(obstacle));
-    const Polyhedron inside = interior(unite_all(closed, threads));
-    result.inside = Operand(decompose(inside));
-    result.robot = Operand(decompose(turned));
+    result.obstacles_inner = Operand(decompose(inner_of(closures(obstacles), threads)));
+    result.robot_thin = Operand(decompose(thin_parts(closure(turned))));
   }
   return result;
 }
@@ -65,13 +81,11 @@ Polyhedron outside_of(const Polyhedron& forbidden, const std::optional<std::arra
 // The definition, step by step.
 Polyhedron forbidden_of_unbounded(const Polyhedron& robot, std::span<const Polyhedron> obstacles,
                                   const MinkowskiOptions& options, MinkowskiReport& report) {
-  std::vector<Polyhedron> closed;
-  for (const Polyhedron& obstacle : obstacles) closed.push_back(closure(obstacle));
-  const Polyhedron all = unite_all(closed, options.threads);
-  const Polyhedron turned = negate(robot);
-  Polyhedron entered = minkowski_sum(all, interior(turned), options, &report);
+  const std::vector<Polyhedron> closed = closures(obstacles);
+  const Polyhedron turned = closure(negate(robot));
+  Polyhedron entered = minkowski_sum(unite_all(closed, options.threads), interior(turned), options, &report);
   if (is_full_dimensional(turned)) return entered;
-  return unite(entered, minkowski_sum(interior(all), turned, options, &report));
+  return unite(entered, minkowski_sum(inner_of(closed, options.threads), thin_parts(turned), options, &report));
 }
 
 }  // namespace
@@ -93,12 +107,12 @@ Polyhedron configuration_space(const Polyhedron& robot, std::span<const Polyhedr
     const PhaseTimer timer(r.seconds_decomposition, r.predicates_decomposition);
     parts = decompose_all(robot, obstacles, options.threads);
   }
-  r.cells_a += parts.obstacles_open.size() + parts.obstacles_flat.size() + parts.inside.size();
-  r.cells_b += std::max(parts.robot_open.size(), parts.robot_marked.size()) + parts.robot.size();
+  r.cells_a += parts.obstacles_open.size() + parts.obstacles_flat.size() + parts.obstacles_inner.size();
+  r.cells_b += std::max(parts.robot_open.size(), parts.robot_marked.size()) + parts.robot_thin.size();
   PairSums sums(options, r);
   sums.add_product(parts.obstacles_open, parts.robot_open);
   sums.add_product(parts.obstacles_flat, parts.robot_marked);
-  sums.add_product(parts.inside, parts.robot);
+  sums.add_product(parts.obstacles_inner, parts.robot_thin);
   const Polyhedron forbidden = sums.run();
   const PhaseTimer timer(r.seconds_union, r.predicates_union);
   return outside_of(forbidden, box);

@@ -32,9 +32,12 @@ void PairSums::add_product(const Operand& a, const Operand& b) {
 
 // Sums of a block of pairs are made at once, on several threads; they go into the union in order.
 Polyhedron PairSums::run() {
-  UnionBuilder builder(options_.strategy, options_.threads);
-  constexpr std::size_t kBlock = 256;
   std::size_t done = 0;
+  const auto poll = [&] {
+    if (options_.progress && !options_.progress(done, report_.pairs)) throw Cancelled();
+  };
+  UnionBuilder builder(options_.strategy, options_.threads, poll);
+  constexpr std::size_t kBlock = 256;
   std::vector<ConvexCell> block;
   for (const auto& product : products_) {
     const Operand& a = *product.first;
@@ -52,7 +55,7 @@ Polyhedron PairSums::run() {
       for (ConvexCell& sum : block) {
         builder.add(std::move(sum));
         ++done;
-        if (options_.progress && !options_.progress(done, report_.pairs)) throw Cancelled();
+        poll();
       }
     }
   }

@@ -84,9 +84,12 @@ class SolidUnion {
   SolidUnion(std::span<const ConvexCell> cells, const RoundedCells& rounded)
       : cells_(cells), rounded_(rounded), boxes_(rounded.boxes()), vertices_(cells, rounded, boxes_) {}
 
-  Polyhedron run(std::size_t* dropped, unsigned threads) {
+  Polyhedron run(std::size_t* dropped, unsigned threads, const std::function<void()>& poll) {
     find_faces(dropped, threads);
-    for (std::uint32_t i = 0; i < faces_.size(); ++i) search(i);
+    for (std::uint32_t i = 0; i < faces_.size(); ++i) {
+      if (poll) poll();
+      search(i);
+    }
     return Polyhedron(vertices_.finish());
   }
 
@@ -457,20 +460,21 @@ std::vector<bool> repeated(std::span<const ConvexCell> cells, const RoundedCells
 
 }  // namespace
 
-Polyhedron unite_solids(std::span<const ConvexCell> cells, std::size_t* dropped, unsigned threads) {
+Polyhedron unite_solids(std::span<const ConvexCell> cells, std::size_t* dropped, unsigned threads,
+                        const std::function<void()>& poll) {
   if (cells.empty()) return {};
   if (cells.size() == 1) return to_polyhedron(cells[0]);
   const RoundedCells rounded(cells);
   const std::vector<bool> is_repeated = repeated(cells, rounded);
   const auto repeats = static_cast<std::size_t>(std::count(is_repeated.begin(), is_repeated.end(), true));
-  if (repeats == 0) return SolidUnion(cells, rounded).run(dropped, threads);
+  if (repeats == 0) return SolidUnion(cells, rounded).run(dropped, threads, poll);
   std::vector<ConvexCell> different;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     if (!is_repeated[i]) different.push_back(cells[i]);
   }
   if (dropped != nullptr) *dropped += repeats;
   if (different.size() == 1) return to_polyhedron(different[0]);
-  return SolidUnion(different, RoundedCells(different)).run(dropped, threads);
+  return SolidUnion(different, RoundedCells(different)).run(dropped, threads, poll);
 }
 
 }  // namespace nef::minkowski

@@ -48,6 +48,7 @@ void UnionBuilder::add(ConvexCell cell) {
 void UnionBuilder::add_queued(Polyhedron piece) {
   std::size_t level = 0;
   for (; level < levels_.size() && !levels_[level].is_empty(); ++level) {
+    if (poll_) poll_();
     piece = unite(levels_[level], piece);
     levels_[level] = Polyhedron();
   }
@@ -62,6 +63,7 @@ void UnionBuilder::add_ranked(Polyhedron piece) {
 }
 
 void UnionBuilder::merge_smallest() {
+  if (poll_) poll_();
   std::pop_heap(ranked_.begin(), ranked_.end(), larger);
   const Polyhedron a = std::move(ranked_.back());
   ranked_.pop_back();
@@ -89,7 +91,7 @@ void UnionBuilder::flush() {
   if (batch_vertices_ > kLargeCell * batch_.size()) {
     for (const ConvexCell& cell : batch_) pieces.push_back(to_polyhedron(cell));
   } else if (!batch_.empty()) {
-    pieces.push_back(unite_solids(batch_, &dropped_, threads_));
+    pieces.push_back(unite_solids(batch_, &dropped_, threads_, poll_));
   }
   batch_.clear();
   batch_vertices_ = 0;

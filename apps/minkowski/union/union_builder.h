@@ -4,6 +4,8 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
+#include <utility>
 #include <vector>
 
 #include "apps/minkowski/minkowski.h"
@@ -15,7 +17,9 @@ namespace nef::minkowski {
 /// strategies that need several pieces at once, a batch of bounded size.
 class UnionBuilder {
  public:
-  explicit UnionBuilder(UnionStrategy strategy, unsigned threads = 1) : strategy_(strategy), threads_(threads) {}
+  /// `poll`, if given, is called now and then while pieces are united, and may throw.
+  explicit UnionBuilder(UnionStrategy strategy, unsigned threads = 1, std::function<void()> poll = {})
+      : strategy_(strategy), threads_(threads), poll_(std::move(poll)) {}
 
   void add(ConvexCell cell);
   /// The union of everything added. Call once.
@@ -32,6 +36,7 @@ class UnionBuilder {
 
   UnionStrategy strategy_;
   unsigned threads_;
+  std::function<void()> poll_;
   Polyhedron result_;               // trivial
   std::vector<Polyhedron> levels_;  // queue: level i is empty or the union of 2^i pieces
   std::vector<Polyhedron> ranked_;  // priority: a heap, the smallest on top

@@ -8,7 +8,7 @@
 
 #include <iostream>
 
-#include "apps/planner/translation_planning.h"
+#include "apps/planner/ompl/translation_planning.h"
 
 namespace {
 

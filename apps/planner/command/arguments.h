@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What can be said to the command `planner`.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "apps/planner/path/path.h"
+
+namespace nef::planner {
+
+/// The command line. Options are described by `planner --help`.
+struct Arguments {
+  std::string scene;
+  std::vector<std::string> outputs;
+  std::string page;
+  std::string start;
+  std::string goal;
+  std::string contact;
+  std::string prefer = "short";
+  std::string given_path;
+  std::string ompl;
+  std::string benchmark;
+  std::vector<std::string> planners{"RRTConnect", "PRMstar", "BITstar"};
+  PathOptions path;
+  double seconds = 10;
+  unsigned runs = 1;
+  unsigned threads = 0;
+  bool tight = false;
+  bool json = false;
+  bool se3 = false;
+  bool quiet = false;
+};
+
+/// Declares all options; parsing fills `arguments`, which must live until then.
+void declare(CLI::App& app, Arguments& arguments);
+
+}  // namespace nef::planner

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/planner/command/ompl_runs.h"
+
+#include <ompl/tools/benchmark/Benchmark.h>
+#include <ompl/util/Console.h>
+
+#include <sstream>
+
+#include "apps/planner/command/report.h"
+#include "apps/planner/ompl/ompl_planners.h"
+#include "apps/planner/ompl/translation_planning.h"
+#include "nef/base/stopwatch.h"
+#include "nef/io/file_bytes.h"
+
+namespace nef::planner {
+namespace {
+
+namespace ob = ompl::base;
+
+std::vector<Rational3> exact_points(ompl::geometric::PathGeometric& path) {
+  std::vector<Rational3> points;
+  for (const ob::State* state : path.getStates()) {
+    Rational3 point = state->as<ExactTranslationSpace::StateType>()->exact();
+    if (points.empty() || points.back() != point) points.push_back(std::move(point));
+  }
+  return points;
+}
+
+// OMPL writes to the console as it likes; here only what goes wrong.
+class QuietOmpl {
+ public:
+  QuietOmpl() : level_(ompl::msg::getLogLevel()) { ompl::msg::setLogLevel(ompl::msg::LOG_ERROR); }
+  ~QuietOmpl() { ompl::msg::setLogLevel(level_); }
+  QuietOmpl(const QuietOmpl&) = delete;
+  QuietOmpl& operator=(const QuietOmpl&) = delete;
+
+ private:
+  ompl::msg::LogLevel level_;
+};
+
+void take_path(const Problem& problem, TranslationPlanning& setup, OmplOutcome& outcome) {
+  if (!setup.haveExactSolutionPath()) return;
+  std::optional<ExactPath> path = describe_path(problem.free_space(), exact_points(setup.getSolutionPath()));
+  if (!path) return;  // not a path after all
+  ++outcome.solved;
+  if (!outcome.answer.path || path->length < outcome.answer.path->length) outcome.answer.path = std::move(path);
+}
+
+}  // namespace
+
+OmplOutcome run_ompl(const Problem& problem, const OmplRequest& request) {
+  const QuietOmpl quiet;
+  OmplOutcome outcome;
+  outcome.answer = problem.solve();  // says whether start and goal are free, and the best T and J
+  outcome.answer.path.reset();
+  TranslationPlanning setup(problem);
+  setup.setPlanner(make_ompl_planner(request.planner, setup.getSpaceInformation()));
+  const bool invalid =
+      outcome.answer.status == Answer::Status::kInvalidStart || outcome.answer.status == Answer::Status::kInvalidGoal;
+  double seconds = 0;
+  bool proved = false;
+  for (unsigned run = 0; run < request.runs && !invalid; ++run) {
+    if (run > 0) setup.clear();  // not before the first: AITstar cannot be cleared before it is set up
+    const Stopwatch watch;
+    setup.solve(request.seconds);
+    seconds += watch.seconds();
+    proved = proved || setup.getProblemDefinition()->hasSolutionNonExistenceProof();
+    take_path(problem, setup, outcome);
+  }
+  outcome.answer.phases["ompl"] = seconds;
+  std::ostringstream line;
+  line << setup.getPlanner()->getName() << ": solved " << outcome.solved << " of " << request.runs << " runs, mean "
+       << seconds / request.runs << " s";
+  if (proved) line << ", proved that there is no path";
+  outcome.summary = line.str();
+  if (invalid) {
+    outcome.exit_code = 3;
+    outcome.summary = status_name(outcome.answer.status) + ": " + describe(*outcome.answer.collision, problem.scene());
+  } else if (outcome.solved > 0) {
+    outcome.answer.status = Answer::Status::kPath;
+    outcome.exit_code = 0;
+  } else {
+    outcome.answer.status = proved ? Answer::Status::kInfeasible : Answer::Status::kNoQuestion;
+    outcome.exit_code = proved ? 1 : 4;
+  }
+  return outcome;
+}
+
+int run_benchmark(const Problem& problem, const std::vector<std::string>& planners, double seconds, unsigned runs,
+                  const std::string& log, bool quiet) {
+  const QuietOmpl quiet_ompl;
+  const Answer ends = problem.solve();
+  if (ends.collision) {
+    std::printf("%s: %s\n", status_name(ends.status).c_str(), describe(*ends.collision, problem.scene()).c_str());
+    return 3;
+  }
+  TranslationPlanning setup(problem);
+  setup.setup();
+  ompl::tools::Benchmark benchmark(setup, problem.scene().name);
+  const auto tight = std::make_shared<TightPlanner>(setup.getSpaceInformation(), free_space_builder(problem.scene()));
+  tight->setKeepRoadmap(false);
+  benchmark.addPlanner(tight);
+  for (const std::string& name : planners) {
+    benchmark.addPlanner(make_ompl_planner(name, setup.getSpaceInformation()));
+  }
+  benchmark.setPostRunEvent([&](const ob::PlannerPtr& planner, ompl::tools::Benchmark::RunProperties& properties) {
+    const auto* ours = dynamic_cast<const TightPlanner*>(planner.get());
+    const bool path = ours != nullptr && ours->getExactPath().has_value();
+    properties["thinnest piece INTEGER"] = path ? std::to_string(ours->getExactPath()->thinness.piece) : "-1";
+    properties["thinnest junction INTEGER"] = path ? std::to_string(ours->getExactPath()->thinness.junction) : "-1";
+    properties["proved infeasible BOOLEAN"] =
+        planner->getProblemDefinition()->hasSolutionNonExistenceProof() ? "1" : "0";
+    properties["preprocessing REAL"] = std::to_string(ours != nullptr ? ours->getPreprocessingTime() : 0.0);
+  });
+  ompl::tools::Benchmark::Request request;
+  request.maxTime = seconds;
+  request.runCount = runs;
+  request.displayProgress = false;
+  request.saveConsoleOutput = false;
+  benchmark.benchmark(request);
+  std::ostringstream text;
+  benchmark.saveResultsToStream(text);
+  write_file(log, text.str());
+  if (!quiet) std::printf("benchmark of %zu planners, %u runs each: %s\n", planners.size() + 1, runs, log.c_str());
+  return 0;
+}
+
+}  // namespace nef::planner

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// OMPL's own planners on the exact free space, and benchmarks of them beside ours.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/planner/path/question.h"
+
+namespace nef::planner {
+
+struct OmplRequest {
+  std::string planner;
+  double seconds = 10;
+  unsigned runs = 1;
+};
+
+struct OmplOutcome {
+  Answer answer;        ///< the best path over all runs
+  std::string summary;  ///< one line for people
+  unsigned solved = 0;
+  int exit_code = 4;  ///< 0 if a run was solved; 1 if our planner proved infeasibility; 3; 4 no answer in time
+};
+
+/// Runs a planner. Its paths are checked exactly again before they count.
+OmplOutcome run_ompl(const Problem& problem, const OmplRequest& request);
+
+/// Writes OMPL's benchmark log (for ompl_benchmark_statistics): our planner and the given ones. Returns the exit code:
+/// 0, or 3 if start or goal is not free. Throws InputError if one is missing. TightPlanner's runs include the
+/// construction of the free space from the scene.
+int run_benchmark(const Problem& problem, const std::vector<std::string>& planners, double seconds, unsigned runs,
+                  const std::string& log, bool quiet);
+
+}  // namespace nef::planner

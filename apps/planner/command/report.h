@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Answers of the planner as data: JSON, text, OMPL's path matrix.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "apps/planner/path/answer.h"
+
+namespace nef::planner {
+
+/// Exit code of the command: 0 path (or no question), 1 infeasible (or a given path is blocked), 3 invalid start or
+/// goal.
+int exit_code(const Answer& answer);
+/// "path", "infeasible", "invalid_start", "invalid_goal", "free_space", "blocked".
+std::string status_name(Answer::Status status);
+
+/// All keys of the JSON report (see docs and `planner --help`).
+nlohmann::json to_json(const Answer& answer, const Scene& scene, const FreeSpace& free);
+/// The tight passages alone.
+nlohmann::json passages_json(const FreeSpace& free);
+/// The places where rooms only touch.
+nlohmann::json touching_json(const FreeSpace& free);
+/// Both for people.
+std::string passages_text(const FreeSpace& free);
+
+}  // namespace nef::planner

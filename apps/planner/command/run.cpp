@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/planner/command/run.h"
+
+#include <filesystem>
+#include <iostream>
+
+#include "apps/planner/command/ompl_runs.h"
+#include "apps/planner/command/scene_view.h"
+#include "apps/planner/ompl/ompl_planners.h"
+#include "apps/planner/path/path_file.h"
+#include "apps/planner/path/question.h"
+#include "nef/base/error.h"
+#include "nef/io/file_bytes.h"
+#include "nef/program/numbers.h"
+#include "nef/program/progress_bar.h"
+
+namespace nef::planner {
+namespace {
+
+Scene scene_of(const Arguments& a) {
+  Scene scene = read_scene(a.scene);
+  if (!a.start.empty()) scene.start = parse_triple(a.start, "--start");
+  if (!a.goal.empty()) scene.goal = parse_triple(a.goal, "--goal");
+  if (!a.contact.empty()) scene.contact = a.contact == "allow" ? ContactRule::kAllow : ContactRule::kForbid;
+  return scene;
+}
+
+// Found out before any work is done.
+void check_usage(const Arguments& a) {
+  if (!a.page.empty() && std::filesystem::path(a.page).extension() != ".html") {
+    throw InputError("--page " + a.page + ": the extension must be .html");
+  }
+  if (!a.ompl.empty() && !a.benchmark.empty()) throw InputError("--ompl and --benchmark exclude each other");
+  if (!a.given_path.empty() && !(a.ompl.empty() && a.benchmark.empty())) {
+    throw InputError("--path checks a given path; it excludes --ompl and --benchmark");
+  }
+  for (const std::string& name : a.planners) require_ompl_planner(name);
+  if (!a.ompl.empty()) require_ompl_planner(a.ompl);
+}
+
+std::string rendered(const std::string& file, const Answer& answer, const Problem& problem, bool se3) {
+  const std::string extension = std::filesystem::path(file).extension().string();
+  if (extension == ".json") return to_json(answer, problem.scene(), problem.free_space()).dump(2) + "\n";
+  if (extension == ".path" || se3) return path_matrix(*answer.path, se3);
+  return path_text(*answer.path);
+}
+
+// Reports and views are written whatever the answer; path formats only if there is a path.
+void write_outputs(const Arguments& a, const Answer& answer, const Problem& problem) {
+  std::vector<std::string> views;
+  if (!a.page.empty()) views.push_back(a.page);
+  for (const std::string& file : a.outputs) {
+    const bool report = std::filesystem::path(file).extension() == ".json";
+    if (is_view_file(file)) {
+      views.push_back(file);
+    } else if (report || answer.path) {
+      write_file(file, rendered(file, answer, problem, a.se3));
+    }
+  }
+  if (views.empty()) return;
+  const std::vector<view::Layer> layers = view_layers(answer, problem.scene(), problem.free_space());
+  for (const std::string& file : views) write_view(layers, problem.scene().name, file);
+}
+
+void print_path(const Arguments& a, const Answer& answer) {
+  const Thinness& of_path = answer.path->thinness;
+  std::cout << "length " << answer.path->length << ", thinnest piece " << of_path.piece << ", thinnest junction "
+            << of_path.junction;
+  const bool better =
+      answer.thinness && (answer.thinness->piece > of_path.piece || answer.thinness->junction > of_path.junction);
+  if (better) {
+    std::cout << " (another path: " << answer.thinness->piece << ", " << answer.thinness->junction
+              << "; try --prefer roomy)";
+  }
+  std::cout << '\n';
+  if (a.outputs.empty()) std::cout << path_text(*answer.path);
+}
+
+void print(const Arguments& a, const Answer& answer, const Problem& problem) {
+  if (a.json) {
+    std::cout << to_json(answer, problem.scene(), problem.free_space()).dump(2) << '\n';
+    return;
+  }
+  if (a.quiet) return;
+  for (const std::string& message : problem.scene().messages) std::cout << "note: " << message << '\n';
+  std::cout << status_name(answer.status);
+  if (answer.blocked_segment) std::cout << ": segment " << *answer.blocked_segment << " leaves free space";
+  if (answer.collision) std::cout << ": " << describe(*answer.collision, problem.scene());
+  if (answer.status == Answer::Status::kInfeasible) {
+    std::cout << ": start is in component " << answer.start_component << ", goal in component "
+              << answer.goal_component;
+    if (answer.start_component == answer.goal_component) std::cout << ", joined only by thinner passages";
+  }
+  std::cout << '\n';
+  if (answer.path) print_path(a, answer);
+}
+
+int check_given_path(const Arguments& a, const Problem& problem) {
+  const Answer answer = problem.check(read_waypoints(a.given_path));
+  write_outputs(a, answer, problem);
+  print(a, answer, problem);
+  if (answer.path && a.tight && !a.json && !a.quiet) {
+    std::cout << passages_text(problem.free_space()) << "uses passages:";
+    for (const std::uint32_t passage : answer.path->passages) std::cout << ' ' << passage;
+    std::cout << (answer.path->passages.empty() ? " none\n" : "\n");
+  }
+  return exit_code(answer);
+}
+
+int run_stock_planner(const Arguments& a, const Problem& problem) {
+  const OmplOutcome outcome = run_ompl(problem, {a.ompl, a.seconds, a.runs});
+  write_outputs(a, outcome.answer, problem);
+  if (!a.quiet && !a.json) std::cout << outcome.summary << '\n';
+  if (a.json || outcome.answer.path) print(a, outcome.answer, problem);
+  return outcome.exit_code;
+}
+
+int answer_question(const Arguments& a, const Problem& problem) {
+  const Scene& scene = problem.scene();
+  const bool list_only = a.tight && a.outputs.empty();
+  // There is something to show without a question, too.
+  const bool needs_no_question = a.tight || !a.page.empty();
+  Answer answer;
+  answer.phases = problem.phases();
+  if ((scene.start && scene.goal) || !needs_no_question) {
+    PathOptions options = a.path;
+    options.roomy = a.prefer == "roomy";
+    answer = problem.solve(options);
+  }
+  write_outputs(a, answer, problem);
+  if (!list_only || a.json) print(a, answer, problem);
+  if (a.tight && !a.json && !a.quiet) std::cout << passages_text(problem.free_space());
+  return list_only ? 0 : exit_code(answer);
+}
+
+}  // namespace
+
+int run(const Arguments& a) {
+  check_usage(a);
+  ProgressBar bar(!a.quiet && !a.json);
+  BuildOptions build;
+  build.threads = a.threads;
+  build.progress = [&bar](const std::string& phase, std::size_t done, std::size_t total) {
+    bar.show(phase, done, total);
+  };
+  bar.show("reading " + a.scene, 0, 0);
+  const Problem problem(scene_of(a), build);
+  bar.clear();
+  if (!a.given_path.empty()) return check_given_path(a, problem);
+  if (!a.benchmark.empty()) return run_benchmark(problem, a.planners, a.seconds, a.runs, a.benchmark, a.quiet);
+  if (!a.ompl.empty()) return run_stock_planner(a, problem);
+  return answer_question(a, problem);
+}
+
+}  // namespace nef::planner

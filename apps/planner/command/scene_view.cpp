@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/planner/command/scene_view.h"
+
+#include <filesystem>
+
+#include "apps/planner/free_space/vectors.h"
+#include "nef/base/error.h"
+#include "nef/view/glb.h"
+#include "nef/view/page.h"
+
+namespace nef::planner {
+namespace {
+
+constexpr view::Color kRobot{230, 120, 20};
+constexpr view::Color kObstacles{130, 140, 155};
+constexpr view::Color kFree{120, 190, 230};
+constexpr view::Color kTight{200, 30, 110};
+constexpr view::Color kPath{20, 90, 200};
+constexpr const char* kTightName = "tight passages";
+
+// A set with its place in the page; scenes come last, when the box that cuts all of them is known.
+struct Part {
+  std::string name;
+  Polyhedron set;
+  view::Color color;
+  double opacity = 1;
+  bool visible = true;
+};
+
+Polyhedron at(const Polyhedron& robot, const Rational3& position) {
+  return transform(robot, AffineMap::translate(position));
+}
+
+// F minus the closure of its interior.
+Polyhedron tight_part(const FreeSpace& free) {
+  if (free.passages().empty()) return {};
+  return subtract(free.set(), closure(interior(free.set())));
+}
+
+// Edges show their marks by their colour, not their layer's; these lines do.
+std::vector<view::Polyline> tight_lines(const FreeSpace& free) {
+  std::vector<view::Polyline> lines;
+  for (const TightPassage& passage : free.passages()) {
+    for (const CellId cell : passage.cells) {
+      if (free.cells().dimension(cell) != 1) continue;
+      const std::vector<Rational3> ends = free.vertices(cell);
+      lines.push_back({"tight passage", {to_double(ends[0]), to_double(ends[1])}, kTight});
+    }
+  }
+  return lines;
+}
+
+std::optional<Rational3> first_position(const Answer& answer, const Scene& scene) {
+  return answer.path ? answer.path->points.front() : scene.start;
+}
+
+Polyhedron ends(const Answer& answer, const Scene& scene) {
+  std::vector<Polyhedron> points;
+  if (const auto start = first_position(answer, scene)) points.push_back(make_point(*start));
+  if (answer.path) {
+    points.push_back(make_point(answer.path->points.back()));
+  } else if (scene.goal) {
+    points.push_back(make_point(*scene.goal));
+  }
+  return unite_all(points);
+}
+
+std::vector<Part> parts_of(const Answer& answer, const Scene& scene, const FreeSpace& free) {
+  std::vector<Part> parts;
+  parts.push_back({"robot", at(scene.robot, first_position(answer, scene).value_or(Rational3{})), kRobot});
+  const std::optional<Rational3> goal = answer.path ? answer.path->points.back() : scene.goal;
+  if (goal) parts.push_back({"robot at the goal", at(scene.robot, *goal), kRobot, 0.3});
+  parts.push_back({"obstacles", unite_all(scene.obstacles), kObstacles, 0.35});
+  parts.push_back({kTightName, tight_part(free), kTight});
+  parts.push_back({"free space", free.set(), kFree, 0.3, false});
+  parts.push_back({answer.path ? "path" : "start and goal", ends(answer, scene), kPath});
+  std::erase_if(parts, [](const Part& part) { return part.set.is_empty(); });
+  return parts;
+}
+
+// Times are proportional to the length of the way.
+view::Motion motion_along(const ExactPath& path) {
+  view::Motion motion;
+  const view::Point begin = to_double(path.points.front());
+  double way = 0;
+  for (std::size_t i = 0; i < path.points.size(); ++i) {
+    if (i > 0 && path.points[i] == path.points[i - 1]) continue;  // times must increase
+    if (i > 0) way += distance(path.points[i - 1], path.points[i]);
+    const view::Point here = to_double(path.points[i]);
+    motion.times.push_back(path.length > 0 ? kPlaySeconds * way / path.length : 0);
+    motion.offsets.push_back({here[0] - begin[0], here[1] - begin[1], here[2] - begin[2]});
+  }
+  return motion;
+}
+
+std::string lower_extension_of(const std::string& file) {
+  std::string extension = std::filesystem::path(file).extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension;
+}
+
+}  // namespace
+
+std::vector<view::Layer> view_layers(const Answer& answer, const Scene& scene, const FreeSpace& free) {
+  const std::vector<Part> parts = parts_of(answer, scene, free);
+  // The free space may be unbounded; it is cut where the rest is, so that this stays large.
+  std::vector<Polyhedron> sets;
+  for (const Part& part : parts) {
+    if (part.visible) sets.push_back(part.set);
+  }
+  view::SceneOptions options;
+  options.box = view::visible_box(sets);
+  std::vector<view::Layer> layers;
+  for (const Part& part : parts) {
+    view::Layer& layer = layers.emplace_back();
+    layer.name = part.name;
+    layer.scene = view::build_scene(part.set, options);
+    layer.color = part.color;
+    layer.opacity = part.opacity;
+    layer.visible = part.visible;
+    if (part.name == kTightName) layer.lines = tight_lines(free);
+  }
+  if (answer.path && answer.path->points.size() > 1) {
+    layers.front().motion = motion_along(*answer.path);
+    view::Polyline line{"path", {}, kPath};
+    for (const Rational3& point : answer.path->points) line.points.push_back(to_double(point));
+    layers.back().lines.push_back(std::move(line));
+  }
+  return layers;
+}
+
+bool is_view_file(const std::string& file) {
+  const std::string extension = lower_extension_of(file);
+  return extension == ".html" || extension == ".glb";
+}
+
+void write_view(const std::vector<view::Layer>& layers, const std::string& title, const std::string& file) {
+  const std::string extension = lower_extension_of(file);
+  if (extension == ".glb") return view::write_glb(layers, file);
+  if (extension != ".html") throw InputError(file + ": the extension must be .html (a page) or .glb (glTF)");
+  view::PageOptions options;
+  options.title = title;
+  view::write_page(layers, file, options);
+}
+
+}  // namespace nef::planner

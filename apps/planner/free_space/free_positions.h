@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// From a scene to the free positions of its robot.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "apps/planner/scene/scene.h"
+
+namespace nef::planner {
+
+/// Called with what is being done and how much of it is done; a total of 0 means that it is not known. From one thread
+/// at a time.
+using Progress = std::function<void(const std::string& phase, std::size_t done, std::size_t total)>;
+
+/// How a free space is computed.
+struct BuildOptions {
+  unsigned threads = 1;  ///< 0: as many as the machine has; the result does not depend on it
+  Progress progress;     ///< may be empty
+  /// If set, asked now and then; once it says true, free_positions throws minkowski::Cancelled.
+  std::function<bool()> stop;
+};
+
+/// The free positions of the robot's reference point. If contact is forbidden, an open set (but for the faces of the
+/// box). If it is allowed, a closed one where robot or obstacles are solid; a surface, curve or point may touch another
+/// one with its border only, and there the set is neither. Robot and obstacles are taken closed.
+Polyhedron free_positions(const Scene& scene, const BuildOptions& options = {});
+
+}  // namespace nef::planner

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The free space of a translating robot: the cells of a Nef polyhedron, how they touch, which of
+// them make up its components, and where it is as thin as a facet, an edge or a point.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "apps/planner/partition/cells.h"
+#include "apps/planner/partition/space_tree.h"
+#include "apps/planner/partition/zones.h"
+#include "nef/polyhedron.h"
+
+namespace nef::planner {
+
+/// A connected component of free space.
+struct Component {
+  int dimension = 0;  ///< of its largest cell
+  bool bounded = true;
+  std::size_t cells = 0;
+};
+
+/// How thin free space gets on the way between two points.
+struct Thinness {
+  int piece = 0;     ///< T: the largest k so that a path stays where F is locally at least k-dimensional
+  int junction = 0;  ///< J: the largest j so that a path crosses only cells of dimension j or more, the
+                     ///< cells of start and goal exempt
+};
+
+/// A place where different volumes touch without any passage between them: a connected set of free edges and
+/// vertices, around each of which lie at least two of the volumes.
+struct TouchingRooms {
+  int dimension = 0;  ///< of its largest cell: 1 or 0
+  std::uint32_t component = 0;
+  std::vector<CellId> cells;
+  std::vector<CellId> rooms;  ///< the volumes
+};
+
+/// A tight passage: a component of F \ closure(interior(F)). The robot touches obstacles on
+/// opposite sides everywhere in it (thesis 1.1: lower-dimensional features of the configuration
+/// space).
+struct TightPassage {
+  int dimension = 0;  ///< of its largest cell: 2, 1 or 0
+  /// The best way through it, from one room to another: T and J of its cells and mouths. Nothing where it joins fewer
+  /// than two rooms.
+  std::optional<Thinness> bottleneck;
+  std::uint32_t component = 0;
+  std::vector<CellId> cells;
+  std::vector<CellId> mouths;  ///< cells of the rest of F that touch it, from which one enters
+  std::vector<CellId> rooms;   ///< the volumes that the mouths belong to
+};
+
+/// The clearance-free truth about where the reference point may be. Immutable once built, so any
+/// number of threads may ask. O(n log n) expected to build for n items of the complex.
+class FreeSpace {
+ public:
+  /// `free` is the set of free positions; marks other than 0 are free. Throws UnsupportedError for
+  /// a set that is bounded by infinitely long edges or facets. `stop`, if given, is asked now and then; once it says
+  /// true, minkowski::Cancelled is thrown.
+  explicit FreeSpace(Polyhedron free, const std::function<bool()>& stop = {});
+  // Parts of it point to each other; share it by pointer.
+  FreeSpace(const FreeSpace&) = delete;
+  FreeSpace& operator=(const FreeSpace&) = delete;
+
+  [[nodiscard]] const Polyhedron& set() const { return free_; }
+  [[nodiscard]] const Complex& complex() const { return free_.complex(); }
+  [[nodiscard]] const CellNumbering& cells() const { return cells_; }
+  [[nodiscard]] const SpaceTree& tree() const { return tree_; }
+  [[nodiscard]] const Zones& zones() const { return *zones_; }
+
+  [[nodiscard]] bool is_free(CellId cell) const { return component_[cell] != kNoComponent; }
+  /// Component of a free cell.
+  [[nodiscard]] std::uint32_t component(CellId cell) const { return component_[cell]; }
+  /// The largest dimension of free cells that hold the cell in their closure (itself included).
+  [[nodiscard]] int local_dimension(CellId cell) const { return local_dimension_[cell]; }
+  /// The free cells that touch a free cell (one lies in the closure of the other).
+  [[nodiscard]] std::span<const CellId> neighbours(CellId cell) const {
+    return {neighbours_.data() + neighbour_begin_[cell], neighbour_begin_[cell + 1] - neighbour_begin_[cell]};
+  }
+  /// Index of the tight passage that the cell belongs to; nothing if it is in none.
+  [[nodiscard]] std::optional<std::uint32_t> passage_of(CellId cell) const;
+
+  [[nodiscard]] std::span<const Component> components() const { return components_; }
+  [[nodiscard]] std::span<const TightPassage> passages() const { return passages_; }
+  [[nodiscard]] std::span<const TouchingRooms> touching_rooms() const { return touching_; }
+
+  /// The cell of a point: O(log n) expected, about a microsecond or less for doubles.
+  [[nodiscard]] CellId locate(const ExactPoint& point) const { return tree_.locate(point); }
+  [[nodiscard]] bool is_free(const ExactPoint& point) const { return is_free(locate(point)); }
+
+  /// T and J between two free cells (shared/planner.md section 7); nothing if they are not
+  /// connected. O(cells).
+  [[nodiscard]] std::optional<Thinness> thinness(CellId start, CellId goal) const;
+
+  /// Vertices of a cell, in boundary order of the first cycle for a facet; none for a volume.
+  [[nodiscard]] std::vector<Rational3> vertices(CellId cell) const;
+
+  /// A cell as people read it: "edge 3".
+  [[nodiscard]] std::string name(CellId cell) const;
+
+ private:
+  static constexpr std::uint32_t kNoComponent = 0xffffffffU;
+
+  void connect();
+  void list_neighbours(const std::vector<std::pair<CellId, CellId>>& pairs);
+  void find_components();
+  void find_passages();
+  void find_mouths(TightPassage& passage) const;
+  [[nodiscard]] std::optional<Thinness> bottleneck(const TightPassage& passage) const;
+  template <typename Allowed>
+  [[nodiscard]] bool joins_rooms(const TightPassage& passage, const Allowed& allowed) const;
+  void find_touching_rooms();
+  template <typename Allowed>
+  [[nodiscard]] bool connected(CellId start, CellId goal, const Allowed& allowed) const;
+
+  Polyhedron free_;
+  CellNumbering cells_;
+  SpaceTree tree_;
+  std::vector<std::uint32_t> component_;
+  std::vector<int> local_dimension_;
+  std::vector<std::uint32_t> passage_;
+  std::vector<std::uint32_t> neighbour_begin_;
+  std::vector<CellId> neighbours_;
+  std::vector<Component> components_;
+  std::vector<TightPassage> passages_;
+  std::vector<TouchingRooms> touching_;
+  std::unique_ptr<Zones> zones_;
+};
+
+}  // namespace nef::planner

@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/planner/ompl/tight_planner.h"
+
+#include <ompl/base/goals/GoalLazySamples.h>
+#include <ompl/config.h>
+#include <ompl/geometric/planners/rrt/RRTConnect.h>
+#include <ompl/util/Console.h>
+#include <ompl/util/Exception.h>
+
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+#include <thread>
+
+#include "apps/minkowski/minkowski.h"
+#include "apps/planner/free_space/free_positions.h"
+#include "apps/planner/ompl/nef_validity.h"
+#include "nef/base/stopwatch.h"
+
+namespace nef::planner {
+
+namespace ob = ompl::base;
+using StateType = ExactTranslationSpace::StateType;
+
+namespace {
+
+// So many goals are tried before the best of them is taken, and so many more while none is in reach.
+constexpr unsigned int kGoalsAtOnce = 64;
+
+// True if a thread still looks for goal states.
+bool is_growing(const ob::GoalSampleableRegion& region) {
+  const auto* lazy = dynamic_cast<const ob::GoalLazySamples*>(&region);
+  return lazy != nullptr && lazy->isSampling();
+}
+
+ob::PlannerStatus infeasible() {
+#if defined(OMPL_VERSION_VALUE) && OMPL_VERSION_VALUE >= 1006000
+  return ob::PlannerStatus::INFEASIBLE;
+#else
+  return ob::PlannerStatus::ABORT;
+#endif
+}
+
+}  // namespace
+
+TightPlanner::TightPlanner(const ob::SpaceInformationPtr& si) : TightPlanner(si, nullptr) {}
+
+TightPlanner::TightPlanner(const ob::SpaceInformationPtr& si, FreeSpaceBuilder builder)
+    : ob::Planner(si, "TightPlanner"), builder_(std::move(builder)) {
+  options_.thorough = false;
+  declare();
+}
+
+TightPlanner::~TightPlanner() { freeDataStates(); }
+
+void TightPlanner::freeDataStates() {
+  for (ob::State* state : dataStates_) si_->freeState(state);
+  dataStates_.clear();
+}
+
+void TightPlanner::setMinDimension(unsigned int dimension) {
+  if (dimension > 3) {
+    throw std::invalid_argument("min_dimension must be 0, 1, 2 or 3, not " + std::to_string(dimension));
+  }
+  options_.min_dimension = static_cast<int>(dimension);
+}
+
+void TightPlanner::declare() {
+  specs_.recognizedGoal = ob::GOAL_SAMPLEABLE_REGION;
+  specs_.provingSolutionNonExistence = true;
+  declareParam<unsigned int>("min_dimension", this, &TightPlanner::setMinDimension, &TightPlanner::getMinDimension,
+                             "0:1:3");
+  declareParam<bool>("roomy", this, &TightPlanner::setRoomy, &TightPlanner::getRoomy, "0,1");
+  declareParam<bool>("clearance", this, &TightPlanner::setClearance, &TightPlanner::getClearance, "0,1");
+  declareParam<bool>("thorough", this, &TightPlanner::setThorough, &TightPlanner::getThorough, "0,1");
+  declareParam<bool>("keep_roadmap", this, &TightPlanner::setKeepRoadmap, &TightPlanner::getKeepRoadmap, "0,1");
+  addPlannerProgressProperty("preprocessing REAL", [this] { return std::to_string(preprocessing_); });
+  addPlannerProgressProperty("free cells INTEGER", [this] {
+    std::size_t cells = 0;
+    if (freeSpace_) {
+      for (const Component& component : freeSpace_->components()) cells += component.cells;
+    }
+    return std::to_string(cells);
+  });
+}
+
+void TightPlanner::setup() {
+  ob::Planner::setup();
+  if (!builder_) updateFreeSpace([] { return false; });
+}
+
+bool TightPlanner::updateFreeSpace(const std::function<bool()>& stop) {
+  const auto* space = dynamic_cast<const ExactTranslationSpace*>(si_->getStateSpace().get());
+  if (space == nullptr) throw ompl::Exception(name_, "the state space must be an ExactTranslationSpace");
+  if (builder_ && freeSpace_) return true;
+  const Stopwatch watch;
+  std::shared_ptr<const FreeSpace> present;
+  if (builder_) {
+    present = builder_(stop);
+    if (!present && stop()) return false;
+  } else if (const auto* checker = dynamic_cast<const NefStateValidityChecker*>(si_->getStateValidityChecker().get())) {
+    present = checker->getFreeSpace();
+  } else {
+    present = space->getFreeSpace();
+  }
+  if (!present) throw ompl::Exception(name_, "there is no free space: use a NefStateValidityChecker");
+  if (present == freeSpace_) return true;
+  clearQuery();  // its places are those of another free space
+  freeSpace_ = std::move(present);
+  preprocessing_ = watch.seconds();
+  return true;
+}
+
+void TightPlanner::clear() {
+  ob::Planner::clear();
+  clearQuery();
+  freeDataStates();
+  if (!keepRoadmap_ && builder_) {
+    freeSpace_.reset();
+    setup_ = false;
+  }
+}
+
+void TightPlanner::clearQuery() {
+  pis_.restart();
+  starts_.clear();
+  goals_.clear();
+  exactPath_.reset();
+}
+
+void TightPlanner::setProblemDefinition(const ob::ProblemDefinitionPtr& pdef) {
+  ob::Planner::setProblemDefinition(pdef);
+  clearQuery();
+}
+
+TightPlanner::Place TightPlanner::placeOf(const ob::State* state) const {
+  const auto* exact = static_cast<const StateType*>(state);
+  return {exact->exact(), freeSpace_->locate(exact->point())};
+}
+
+void TightPlanner::takeStarts() {
+  while (const ob::State* state = pis_.nextStart()) starts_.push_back(placeOf(state));
+  std::erase_if(starts_, [this](const Place& place) { return !freeSpace_->is_free(place.cell); });
+}
+
+bool TightPlanner::takeGoals(const ob::GoalSampleableRegion& region, const ob::PlannerTerminationCondition& ptc) {
+  const bool growing = is_growing(region);
+  const auto asked_all = [&] { return pis_.getSampledGoalsCount() >= region.maxSampleCount(); };
+  const auto known = static_cast<std::ptrdiff_t>(goals_.size());
+  for (unsigned int i = 0; i < kGoalsAtOnce && !asked_all() && (i == 0 || !ptc); ++i) {
+    const ob::State* state = pis_.nextGoal();
+    if (state == nullptr) continue;  // not valid
+    const Place goal = placeOf(state);
+    // Further goals are taken only if none was in reach, so another one in the same cell is out of reach, too.
+    const bool is_new = std::none_of(goals_.begin(), goals_.begin() + known,
+                                     [&](const Place& place) { return place.cell == goal.cell; });
+    if (is_new && freeSpace_->is_free(goal.cell)) goals_.push_back(goal);
+  }
+  return !growing && asked_all();
+}
+
+std::optional<ExactPath> TightPlanner::bestPath(std::size_t firstGoal, const ob::PlannerTerminationCondition& ptc,
+                                                bool& interrupted) {
+  std::optional<ExactPath> best;
+  interrupted = false;
+  for (const Place& start : starts_) {
+    for (std::size_t i = firstGoal; i < goals_.size(); ++i) {
+      // The first pair is always answered: it takes no longer than noticing the time.
+      interrupted = ptc && (i > firstGoal || &start != &starts_.front());
+      if (interrupted) return best;
+      std::optional<ExactPath> path = find_path(*freeSpace_, start.position, goals_[i].position, options_);
+      if (path && (!best || path->length < best->length)) best = std::move(path);
+    }
+  }
+  return best;
+}
+
+void TightPlanner::addSolution(const ExactPath& path) {
+  pdef_->addSolutionPath(toPathGeometric(si_, path), false, 0.0, name_);
+}
+
+bool TightPlanner::isAccepted(const ExactPath& path) const {
+  return !hasFurtherChecks(*si_) || toPathGeometric(si_, path)->check();
+}
+
+ob::PlannerStatus TightPlanner::searchAnotherWay(const ob::PlannerTerminationCondition& ptc) {
+  OMPL_WARN("%s: the exact path is rejected by the state validity checker; searching another one by RRTConnect",
+            name_.c_str());
+  exactPath_.reset();
+  ompl::geometric::RRTConnect search(si_);
+  search.setProblemDefinition(pdef_);
+  search.setup();
+  return search.solve(ptc);
+}
+
+void TightPlanner::proveInfeasible() {
+  const auto components = [this](const std::vector<Place>& places) {
+    std::vector<std::uint32_t> result;
+    for (const Place& place : places) result.push_back(freeSpace_->component(place.cell));
+    std::sort(result.begin(), result.end());
+    result.erase(std::unique(result.begin(), result.end()), result.end());
+    return result;
+  };
+  pdef_->setSolutionNonExistenceProof(std::make_shared<DisconnectionProof>(si_, freeSpace_, components(starts_),
+                                                                           components(goals_), options_.min_dimension));
+}
+
+ob::PlannerStatus TightPlanner::solve(const ob::PlannerTerminationCondition& ptc) {
+  if (ptc || !updateFreeSpace([&ptc] { return ptc.eval(); })) return ob::PlannerStatus::TIMEOUT;
+  checkValidity();
+  const auto* region = dynamic_cast<const ob::GoalSampleableRegion*>(pdef_->getGoal().get());
+  if (region == nullptr) return ob::PlannerStatus::UNRECOGNIZED_GOAL_TYPE;
+  takeStarts();
+  if (starts_.empty()) return ob::PlannerStatus::INVALID_START;
+  // A proof needs all goals. While there may be more, there is none, and the search goes on.
+  for (std::size_t asked = 0;; asked = goals_.size()) {
+    const bool all = takeGoals(*region, ptc);
+    bool interrupted = false;
+    exactPath_ = bestPath(asked, ptc, interrupted);
+    if (exactPath_ && !isAccepted(*exactPath_)) return searchAnotherWay(ptc);
+    if (exactPath_) {
+      addSolution(*exactPath_);
+      return ob::PlannerStatus::EXACT_SOLUTION;
+    }
+    if (all && !interrupted) break;
+    if (interrupted || ptc) return ob::PlannerStatus::TIMEOUT;
+    if (goals_.size() == asked) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  if (goals_.empty()) return ob::PlannerStatus::INVALID_GOAL;
+  proveInfeasible();
+  return infeasible();
+}
+
+ob::PlannerDataVertex TightPlanner::dataVertex(const Rational3& position) const {
+  ob::State* state = si_->allocState();
+  static_cast<StateType*>(state)->setExact(position);
+  dataStates_.push_back(state);
+  return ob::PlannerDataVertex(state);
+}
+
+void TightPlanner::getPlannerData(ob::PlannerData& data) const {
+  ob::Planner::getPlannerData(data);
+  if (!freeSpace_) return;
+  const Zones& zones = freeSpace_->zones();
+  std::vector<unsigned int> middles(zones.zone_count(), ob::PlannerData::INVALID_INDEX);
+  // Zones are convex, so what is in the closure of one sees its middle.
+  const auto join_to_middle = [&](unsigned int vertex, ZoneId zone) {
+    unsigned int& middle = middles[zone];
+    if (middle == ob::PlannerData::INVALID_INDEX) middle = data.addVertex(dataVertex(zones.interior_point(zone)));
+    data.addEdge(vertex, middle);
+    data.addEdge(middle, vertex);
+  };
+  for (StationId s = 0; s < zones.stations().size(); ++s) {
+    const unsigned int station = data.addVertex(dataVertex(zones.point(s)));
+    for (const ZoneId zone : zones.zones_of(s)) join_to_middle(station, zone);
+  }
+  const auto join_end = [&](unsigned int vertex, const Rational3& position) {
+    const Rational3 near = freeSpace_->tree().nearest_inside(position);
+    if (near != position) {
+      const unsigned int between = data.addVertex(dataVertex(near));
+      data.addEdge(vertex, between);
+      data.addEdge(between, vertex);
+      vertex = between;
+    }
+    const ZoneId zone = zones.zone_at(ExactPoint(near));
+    if (!zones.stations_of(zone).empty()) join_to_middle(vertex, zone);
+  };
+  for (const Place& start : starts_) join_end(data.addStartVertex(dataVertex(start.position)), start.position);
+  for (const Place& goal : goals_) join_end(data.addGoalVertex(dataVertex(goal.position)), goal.position);
+}
+
+TightPlanner::FreeSpaceBuilder free_space_builder(const Scene& scene) {
+  return [&scene](const std::function<bool()>& stop) -> std::shared_ptr<const FreeSpace> {
+    BuildOptions options;
+    options.stop = stop;
+    try {
+      return std::make_shared<const FreeSpace>(free_positions(scene, options), stop);
+    } catch (const minkowski::Cancelled&) {
+      return nullptr;
+    }
+  };
+}
+
+std::shared_ptr<ompl::geometric::PathGeometric> toPathGeometric(const ob::SpaceInformationPtr& si,
+                                                                const ExactPath& path) {
+  auto result = std::make_shared<ompl::geometric::PathGeometric>(si);
+  ob::State* state = si->allocState();
+  const auto append = [&](const Rational3& point) {
+    static_cast<StateType*>(state)->setExact(point);
+    result->append(state);
+  };
+  for (const Rational3& point : path.points) append(point);
+  // OMPL's own checks expect a segment, even from a state to itself.
+  if (path.points.size() == 1) append(path.points.front());
+  si->freeState(state);
+  return result;
+}
+
+}  // namespace nef::planner

@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/planner/ompl/translation_planning.h"
+
+#include <ompl/base/goals/GoalState.h>
+#include <ompl/base/goals/GoalStates.h>
+#include <ompl/util/Console.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <typeinfo>
+
+#include "apps/planner/ompl/cell_sampler.h"
+#include "apps/planner/ompl/nef_validity.h"
+#include "apps/planner/scene/shapes.h"
+#include "nef/base/error.h"
+
+namespace nef::planner {
+
+namespace ob = ompl::base;
+
+TranslationPlanning::TranslationPlanning() : ompl::geometric::SimpleSetup(std::make_shared<ExactTranslationSpace>()) {
+  scene_.name = "TranslationPlanning";
+  setPlannerAllocator([](const ob::SpaceInformationPtr& si) { return std::make_shared<TightPlanner>(si); });
+  // The space needs bounds before anybody makes a state; real ones follow in setup(). Whatever else is found there by
+  // then is the user's.
+  ob::RealVectorBounds bounds(3);
+  bounds.setLow(std::nextafter(-1.0, -2.0));
+  bounds.setHigh(std::nextafter(1.0, 2.0));
+  setStateBounds(bounds);
+}
+
+TranslationPlanning::TranslationPlanning(const Problem& problem) : TranslationPlanning() {
+  scene_ = problem.scene();
+  useFreeSpace(problem.shared_free_space());
+  if (scene_.start && scene_.goal) setExactStartAndGoal(*scene_.start, *scene_.goal);
+  inferEnvironmentBounds();
+}
+
+ExactTranslationSpace& TranslationPlanning::space() const {
+  return *static_cast<ExactTranslationSpace*>(si_->getStateSpace().get());
+}
+
+bool TranslationPlanning::setMeshPath(const std::vector<std::string>& folders) {
+  folders_ = folders;
+  return std::all_of(folders.begin(), folders.end(), [](const std::string& folder) {
+    if (std::filesystem::is_directory(folder)) return true;
+    OMPL_WARN("%s is not a folder", folder.c_str());
+    return false;
+  });
+}
+
+std::string TranslationPlanning::find(const std::string& file) const {
+  if (std::filesystem::exists(file)) return file;
+  for (const std::string& folder : folders_) {
+    const std::filesystem::path path = std::filesystem::path(folder) / file;
+    if (std::filesystem::exists(path)) return path.string();
+  }
+  return file;
+}
+
+bool TranslationPlanning::readMesh(const std::string& file, Polyhedron& into, bool add) {
+  try {
+    const Polyhedron shape = closure(read_shape_file(find(file), &scene_.messages));
+    into = add ? unite(into, shape) : shape;
+    changed();
+    return true;
+  } catch (const Error& error) {
+    OMPL_ERROR("%s", error.what());
+    return false;
+  }
+}
+
+bool TranslationPlanning::setRobotMesh(const std::string& file) { return readMesh(file, scene_.robot, false); }
+
+bool TranslationPlanning::addRobotMesh(const std::string& file) { return readMesh(file, scene_.robot, true); }
+
+bool TranslationPlanning::setEnvironmentMesh(const std::string& file) {
+  scene_.obstacles.clear();
+  scene_.obstacle_names.clear();
+  return addEnvironmentMesh(file);
+}
+
+bool TranslationPlanning::addEnvironmentMesh(const std::string& file) {
+  Polyhedron shape;
+  if (!readMesh(file, shape, false)) return false;
+  scene_.obstacles.push_back(shape);
+  scene_.obstacle_names.push_back(file);
+  return true;
+}
+
+void TranslationPlanning::setRobot(const Polyhedron& robot) {
+  scene_.robot = closure(robot);
+  changed();
+}
+
+void TranslationPlanning::addObstacle(const Polyhedron& obstacle) {
+  scene_.obstacles.push_back(closure(obstacle));
+  scene_.obstacle_names.push_back("obstacle");
+  changed();
+}
+
+void TranslationPlanning::setContact(ContactRule contact) {
+  scene_.contact = contact;
+  changed();
+}
+
+void TranslationPlanning::setEnvironmentBounds(const Rational3& low, const Rational3& high) {
+  scene_.box = {low, high};
+  changed();
+}
+
+void TranslationPlanning::changed() {
+  freeSpace_.reset();
+  configured_ = false;
+  if (planner_) planner_->clear();
+}
+
+void TranslationPlanning::setExactStartAndGoal(const Rational3& start, const Rational3& goal) {
+  scene_.start = start;
+  scene_.goal = goal;
+  ob::ScopedState<> from(si_);
+  ob::ScopedState<> to(si_);
+  static_cast<ExactTranslationSpace::StateType*>(from.get())->setExact(start);
+  static_cast<ExactTranslationSpace::StateType*>(to.get())->setExact(goal);
+  setStartAndGoalStates(from, to);
+  if (freeSpace_) inferEnvironmentBounds();
+}
+
+std::vector<const ob::State*> TranslationPlanning::endStates() const {
+  std::vector<const ob::State*> result;
+  for (unsigned int s = 0; s < pdef_->getStartStateCount(); ++s) result.push_back(pdef_->getStartState(s));
+  const ob::Goal* goal = pdef_->getGoal().get();
+  if (const auto* one = dynamic_cast<const ob::GoalState*>(goal)) result.push_back(one->getState());
+  if (const auto* several = dynamic_cast<const ob::GoalStates*>(goal)) {
+    for (unsigned int g = 0; g < several->getStateCount(); ++g) result.push_back(several->getState(g));
+  }
+  return result;
+}
+
+void TranslationPlanning::inferEnvironmentBounds() {
+  ob::RealVectorBounds bounds(3);
+  const std::array<Rational3, 2> corners =
+      freeSpace_ ? freeSpace_->tree().bounds() : std::array<Rational3, 2>{Rational3{0, 0, 0}, Rational3{0, 0, 0}};
+  for (std::size_t i = 0; i < 3; ++i) {
+    double low = nearest_double(corners[0][i]) - 1;
+    double high = nearest_double(corners[1][i]) + 1;
+    for (const ob::State* state : endStates()) {
+      const double x = state->as<ExactTranslationSpace::StateType>()->values[i];
+      low = std::min(low, x - 1);
+      high = std::max(high, x + 1);
+    }
+    if (scene_.box) {
+      // The box itself bounds free space; the state space is a hair larger, since it must not be flat.
+      low = nearest_double((*scene_.box)[0][i]);
+      high = nearest_double((*scene_.box)[1][i]);
+      const double slack = 1e-9 * std::max({1.0, std::fabs(low), std::fabs(high)});
+      low -= slack;
+      high += slack;
+    }
+    bounds.setLow(static_cast<unsigned int>(i), low);
+    bounds.setHigh(static_cast<unsigned int>(i), high);
+  }
+  setStateBounds(bounds);
+}
+
+void TranslationPlanning::setStateBounds(const ob::RealVectorBounds& bounds) {
+  space().setBounds(bounds);
+  bounds_ = bounds;
+  boundsOfUser_ = false;
+}
+
+void TranslationPlanning::adoptBounds() {
+  const ob::RealVectorBounds& present = space().getBounds();
+  if (bounds_ && bounds_->low == present.low && bounds_->high == present.high) return;
+  Rational3 low;
+  Rational3 high;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!std::isfinite(present.low[i]) || !std::isfinite(present.high[i]) || present.low[i] > present.high[i]) {
+      throw ompl::Exception("TranslationPlanning", "the bounds of the state space must be finite, low before high");
+    }
+    low[i] = exact_rational(present.low[i]);
+    high[i] = exact_rational(present.high[i]);
+  }
+  setEnvironmentBounds(low, high);
+  bounds_ = present;
+  boundsOfUser_ = true;
+}
+
+bool TranslationPlanning::noteCheckers() {
+  const ob::StateValidityCheckerPtr& checker = si_->getStateValidityChecker();
+  const ob::MotionValidatorPtr& validator = si_->getMotionValidator();
+  const bool changed = checker != checker_ || validator != validator_;
+  if (checker != checker_) {
+    // OMPL's stand-in for a missing checker has nothing to say.
+    const bool says_nothing = dynamic_cast<const ob::AllValidStateValidityChecker*>(checker.get()) != nullptr;
+    userChecker_ = says_nothing ? nullptr : checker;
+  }
+  if (validator != validator_) {
+    // The default only asks for states; our validator does that itself where there is something to ask.
+    const bool says_nothing = validator && typeid(*validator) == typeid(ob::DiscreteMotionValidator);
+    userValidator_ = says_nothing ? nullptr : validator;
+  }
+  return changed;
+}
+
+void TranslationPlanning::installCheckers() {
+  checker_ = std::make_shared<NefStateValidityChecker>(si_, freeSpace_, userChecker_);
+  validator_ = std::make_shared<NefMotionValidator>(si_, freeSpace_, userValidator_);
+  setStateValidityChecker(checker_);
+  si_->setMotionValidator(validator_);
+  configured_ = false;
+}
+
+void TranslationPlanning::useFreeSpace(std::shared_ptr<const FreeSpace> freeSpace) {
+  freeSpace_ = std::move(freeSpace);
+  space().setFreeSpace(freeSpace_);
+  noteCheckers();
+  installCheckers();
+  si_->setValidStateSamplerAllocator([free = freeSpace_](const ob::SpaceInformation* si) {
+    return std::make_shared<CellValidStateSampler>(si, free);
+  });
+}
+
+bool TranslationPlanning::prepare(const std::function<bool()>& stop) {
+  adoptBounds();
+  if (!freeSpace_) {
+    if (scene_.robot.is_empty()) throw ompl::Exception("TranslationPlanning", "no robot is set");
+    std::shared_ptr<const FreeSpace> freeSpace = free_space_builder(scene_)(stop);
+    if (!freeSpace) return false;
+    useFreeSpace(std::move(freeSpace));
+    if (!boundsOfUser_) inferEnvironmentBounds();
+    return true;
+  }
+  if (noteCheckers()) installCheckers();
+  // New start and goal states may lie far out in free space.
+  const std::vector<const ob::State*> ends = endStates();
+  const auto inside = [this](const ob::State* state) { return space().satisfiesBounds(state); };
+  if (!boundsOfUser_ && !std::all_of(ends.begin(), ends.end(), inside)) inferEnvironmentBounds();
+  return true;
+}
+
+void TranslationPlanning::setup() {
+  prepare([] { return false; });
+  ompl::geometric::SimpleSetup::setup();
+}
+
+ob::PlannerStatus TranslationPlanning::solve(double time) {
+  const auto begin = std::chrono::steady_clock::now();
+  const auto elapsed = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(); };
+  if (prepare([&] { return elapsed() >= time; })) {
+    return ompl::geometric::SimpleSetup::solve(std::max(0.0, time - elapsed()));
+  }
+  planTime_ = elapsed();
+  OMPL_INFORM("No free space after %f seconds", planTime_);
+  return lastStatus_ = ob::PlannerStatus::TIMEOUT;
+}
+
+ob::PlannerStatus TranslationPlanning::solve(const ob::PlannerTerminationCondition& ptc) {
+  const auto begin = std::chrono::steady_clock::now();
+  if (prepare([&ptc] { return ptc.eval(); })) return ompl::geometric::SimpleSetup::solve(ptc);
+  planTime_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  OMPL_INFORM("No free space after %f seconds", planTime_);
+  return lastStatus_ = ob::PlannerStatus::TIMEOUT;
+}
+
+}  // namespace nef::planner

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/planner/partition/facet_pieces.h"
+
+#include "nef/base/error.h"
+#include "nef/sphere_map/sphere_geometry.h"
+
+namespace nef::planner {
+namespace {
+
+PlaneId side_plane(const Complex& complex, const Facet& facet, std::uint32_t halfedge) {
+  const SVertex& s = complex.svertices[halfedge];
+  return PlaneId{(s.p.row() == facet.plane.row() ? s.q : s.p).row() << 1U};
+}
+
+// True if the facet's angle at the corner is at most a half-turn.
+bool convex_at(const Complex& complex, std::uint32_t corner) {
+  const std::uint32_t out = complex.corner_halfedge(corner);
+  const std::uint32_t back = complex.corner_back_halfedge(corner);
+  if (out == back) return false;
+  const Direction u = direction_of(complex.planes, complex.svertices[out]);
+  const Direction v = direction_of(complex.planes, complex.svertices[back]);
+  const int turn = orientation_on_circle(complex.planes, complex.shalfedges[corner].plane, u, v);
+  return turn > 0 || (turn == 0 && !same_direction(u, v));
+}
+
+bool is_convex(const Complex& complex, const Facet& facet) {
+  if (facet.cycle_count != 1) return false;
+  for (const std::uint32_t corner : complex.facet_corners(facet)) {
+    if (!convex_at(complex, corner)) return false;
+  }
+  return true;
+}
+
+// Cuts a polygon until no edge of the facet runs through it.
+class Cutter {
+ public:
+  Cutter(const Complex& complex, std::uint32_t f, const PlaneTable& planes, PointTable& points,
+         std::vector<ConvexPiece>& out)
+      : complex_(complex), f_(f), planes_(planes), points_(points), out_(out) {}
+
+  void cut(ConvexPiece polygon, std::vector<ConvexPiece> edges) {
+    if (edges.empty()) {
+      if (facet_contains(complex_, f_, centre(polygon, points_))) out_.push_back(std::move(polygon));
+      return;
+    }
+    const PlaneId plane = edges[edges.size() / 2].q;
+    std::vector<ConvexPiece> below;
+    std::vector<ConvexPiece> above;
+    for (ConvexPiece& edge : edges) {
+      SplitPiece part = split(std::move(edge), plane, planes_, points_);
+      if (part.negative) below.push_back(std::move(*part.negative));
+      if (part.positive) above.push_back(std::move(*part.positive));
+    }
+    SplitPiece halves = split(std::move(polygon), plane, planes_, points_);
+    mark_seams(halves, plane);
+    if (halves.negative) cut(std::move(*halves.negative), std::move(below));
+    if (halves.positive) cut(std::move(*halves.positive), std::move(above));
+  }
+
+ private:
+  static void mark_seams(SplitPiece& halves, PlaneId plane) {
+    for (std::optional<ConvexPiece>* half : {&halves.negative, &halves.positive}) {
+      if (!*half) continue;
+      ConvexPiece& piece = **half;
+      for (std::size_t i = 0; i < piece.sides.size(); ++i) {
+        if (piece.sides[i].row() == plane.row()) piece.seams[i] = true;
+      }
+    }
+  }
+
+  const Complex& complex_;
+  std::uint32_t f_;
+  const PlaneTable& planes_;
+  PointTable& points_;
+  std::vector<ConvexPiece>& out_;
+};
+
+}  // namespace
+
+void append_facet_pieces(const Complex& complex, std::uint32_t f, CellId cell, const PlaneTable& planes,
+                         PointTable& points, const std::array<PlaneId, 6>& box, std::vector<ConvexPiece>& pieces) {
+  const Facet& facet = complex.facets[f];
+  if (is_convex(complex, facet)) {
+    ConvexPiece piece;
+    piece.cell = cell;
+    piece.dimension = 2;
+    piece.p = facet.plane;
+    for (const std::uint32_t corner : complex.facet_corners(facet)) {
+      piece.points.push_back(PointId{complex.shalfedge_owner[corner]});
+      piece.sides.push_back(side_plane(complex, facet, complex.corner_halfedge(corner)));
+      piece.seams.push_back(false);
+    }
+    pieces.push_back(std::move(piece));
+    return;
+  }
+  std::vector<ConvexPiece> edges;
+  for (const std::uint32_t corner : complex.facet_corners(facet)) {
+    const std::uint32_t halfedge = complex.corner_halfedge(corner);
+    ConvexPiece edge;
+    edge.dimension = 1;
+    edge.p = PlaneId{facet.plane.row() << 1U};
+    edge.q = side_plane(complex, facet, halfedge);
+    edge.points = {PointId{complex.svertex_owner[halfedge]}, PointId{complex.target(halfedge)}};
+    edges.push_back(std::move(edge));
+  }
+  ConvexPiece whole = plane_in_box(facet.plane, box, planes, points);
+  whole.cell = cell;
+  Cutter(complex, f, planes, points, pieces).cut(std::move(whole), std::move(edges));
+}
+
+bool facet_contains(const Complex& complex, std::uint32_t f, const Rational3& point) {
+  const Facet& facet = complex.facets[f];
+  std::size_t axis = 0;  // dropped: a component of the normal that is not zero
+  while (complex.planes.coefficient(facet.plane, axis).sign() == 0) ++axis;
+  const std::size_t u = (axis + 1) % 3;
+  const std::size_t v = (axis + 2) % 3;
+  bool inside = false;
+  for (const std::uint32_t corner : complex.facet_corners(facet)) {
+    const std::uint32_t halfedge = complex.corner_halfedge(corner);
+    const Rational3 a = complex.points.rational(PointId{complex.svertex_owner[halfedge]});
+    const Rational3 b = complex.points.rational(PointId{complex.target(halfedge)});
+    if ((a[v] > point[v]) == (b[v] > point[v])) continue;
+    const Rational crossing = a[u] + (point[v] - a[v]) / (b[v] - a[v]) * (b[u] - a[u]);
+    if (crossing > point[u]) inside = !inside;
+  }
+  return inside;
+}
+
+}  // namespace nef::planner

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Space as a binary partition with a third child for the plane itself: every point of space is in
+// exactly one leaf, a convex relatively open piece of one cell of a complex.
+//
+// The tree answers all questions of motion: where is a point (O(depth) signs), which cells does a
+// segment run through (segment_walk.h), and which convex pieces make up a volume or facet (see zones.h). Splits use
+// planes of the complex, and axis-parallel ones through isolated points; a vertex, edge or facet
+// that two leaves share is never lost, since what lies in a splitting plane has a tree of its own.
+//
+// Why a leaf belongs to one cell: a splitting stops only if no part of a cell of smaller dimension
+// lies inside the (connected) region, and cells can change only there.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "apps/planner/partition/cells.h"
+#include "apps/planner/partition/convex_piece.h"
+#include "apps/planner/partition/exact_point.h"
+#include "apps/planner/partition/patience.h"
+
+namespace nef::planner {
+
+using LeafId = std::uint32_t;
+inline constexpr LeafId kNoLeaf = 0xffffffffU;
+
+/// A direction in which a point is moved by an infinitely small amount.
+using Nudge = std::array<Integer, 3>;
+
+/// The ternary space partition of a complex without infimaximal box.
+class SpaceTree {
+ public:
+  struct Leaf {
+    int dimension = 3;
+    /// The cell; kNoCell for a lower-dimensional leaf inside a volume (or beyond everything).
+    CellId cell = kNoCell;
+  };
+  struct Node {
+    PlaneId plane;
+    std::array<std::uint32_t, 3> child{};  ///< below, on, above; see is_leaf
+  };
+
+  /// Builds the tree. The complex must outlive it. Expected O(n log n) to O(n^2) pieces for n
+  /// facets. Throws UnsupportedError for a complex with an infimaximal box, minkowski::Cancelled if patience ends.
+  SpaceTree(const Complex& complex, const CellNumbering& cells, Patience patience = {});
+
+  [[nodiscard]] const PlaneTable& planes() const { return planes_; }
+  [[nodiscard]] std::span<const Leaf> leaves() const { return leaves_; }
+  [[nodiscard]] std::span<const Node> nodes() const { return nodes_; }
+  [[nodiscard]] std::uint32_t root() const { return root_; }
+  static bool is_leaf(std::uint32_t child) { return (child & kLeafBit) != 0; }
+  static LeafId leaf_of(std::uint32_t child) { return child & ~kLeafBit; }
+
+  /// Planes of a box that holds the complex with room to spare: low x, high x, low y, ...
+  [[nodiscard]] const std::array<PlaneId, 6>& box() const { return box_; }
+
+  /// The two corners of that box.
+  [[nodiscard]] std::array<Rational3, 2> bounds() const;
+  /// The nearest point of a box a little smaller than that one, which holds the complex too. So what is beyond it is
+  /// part of the outer volume, and so is the segment from there to the nearest point.
+  [[nodiscard]] Rational3 nearest_inside(const Rational3& point) const;
+
+  /// Sets the cells of all 3-dimensional leaves; zones.h finds them out.
+  void set_volume(LeafId leaf, CellId volume) { leaves_[leaf].cell = volume; }
+
+  /// The cell that holds the point.
+  [[nodiscard]] CellId locate(const ExactPoint& point) const;
+
+  /// The leaf that holds point + e u0 + e^2 u1 + ... for infinitely small e.
+  [[nodiscard]] LeafId leaf_at(const ExactPoint& point, std::span<const Nudge> nudges) const;
+  /// The leaf that holds the point, but where that is one inside a volume of lower dimension, a
+  /// 3-dimensional leaf beside it.
+  [[nodiscard]] LeafId leaf_at(const ExactPoint& point) const;
+
+ private:
+  static constexpr std::uint32_t kLeafBit = 0x80000000U;
+  friend class SpaceTreeBuilder;
+
+  std::vector<Node> nodes_;
+  std::vector<Leaf> leaves_;
+  std::uint32_t root_ = 0;
+  PlaneTable planes_;
+  std::array<PlaneId, 6> box_;
+};
+
+}  // namespace nef::planner

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Building the space partition. All pieces are closed; where several cover a region of their own
+// dimension, the one of the smallest cell is right, since the boundary of a cell consists of
+// smaller cells and those have pieces of their own.
+#include <algorithm>
+#include <cstdlib>
+
+#include "apps/planner/partition/facet_pieces.h"
+#include "apps/planner/partition/space_tree.h"
+#include "nef/base/error.h"
+#include "nef/geometry/predicates.h"
+
+namespace nef::planner {
+namespace {
+
+using Pieces = std::vector<ConvexPiece>;
+
+/// An open convex region of dimension 3 or in the given planes.
+struct Region {
+  int dimension = 3;
+  PlaneId p;  // dimension 2 and 1
+  PlaneId q;  // dimension 1
+};
+
+bool same_plane(PlaneId a, PlaneId b) { return a.valid() && b.valid() && a.row() == b.row(); }
+
+}  // namespace
+
+class SpaceTreeBuilder {
+ public:
+  SpaceTreeBuilder(const Complex& complex, const CellNumbering& cells, Patience& patience, SpaceTree& tree)
+      : complex_(complex), cells_(cells), patience_(patience), tree_(tree) {}
+
+  void build() {
+    if (complex_.has_box()) {
+      throw UnsupportedError("the free space is bounded by infinitely long edges or facets: give the scene a box");
+    }
+    tree_.planes_ = complex_.planes;
+    points_ = complex_.points;
+    make_box();
+    Pieces pieces;
+    for (std::uint32_t v = 0; v < complex_.vertex_count(); ++v) {
+      ConvexPiece piece;
+      piece.cell = cells_.vertex(v);
+      piece.points = {PointId{v}};
+      pieces.push_back(std::move(piece));
+    }
+    for (std::uint32_t h = 0; h < complex_.svertices.size(); ++h) {
+      if (complex_.twin[h] < h) continue;
+      pieces.push_back(edge_piece(h));
+    }
+    for (std::uint32_t f = 0; f < complex_.facet_count(); ++f) {
+      append_facet_pieces(complex_, f, cells_.facet(f), tree_.planes_, points_, tree_.box_, pieces);
+    }
+    tree_.root_ = build(std::move(pieces), Region{});
+  }
+
+ private:
+  // Twice as large as what it holds, and never flat.
+  void make_box() {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      double least = -1;
+      double largest = 1;
+      for (std::uint32_t v = 0; v < complex_.vertex_count(); ++v) {
+        const double x = complex_.points.approximate(PointId{v})[axis];
+        least = std::min(least, x);
+        largest = std::max(largest, x);
+      }
+      // Much more than the rounding, and than the one that nearest_inside steps back.
+      const Rational margin = (exact_rational(largest) - exact_rational(least)) / 2 + 2;
+      const Rational low = exact_rational(least) - margin;
+      const Rational high = exact_rational(largest) + margin;
+      Rational3 normal;
+      normal[axis] = 1;
+      // Whole numbers keep the planes small.
+      Integer floor_low;
+      Integer ceil_high;
+      mpz_fdiv_q(floor_low.get_mpz_t(), low.get_num_mpz_t(), low.get_den_mpz_t());
+      mpz_cdiv_q(ceil_high.get_mpz_t(), high.get_num_mpz_t(), high.get_den_mpz_t());
+      tree_.box_[2 * axis] = tree_.planes_.intern(normal, -Rational(floor_low));
+      tree_.box_[2 * axis + 1] = tree_.planes_.intern(normal, -Rational(ceil_high));
+    }
+  }
+
+  [[nodiscard]] ConvexPiece edge_piece(std::uint32_t halfedge) const {
+    ConvexPiece piece;
+    piece.cell = cells_.edge(halfedge);
+    piece.dimension = 1;
+    piece.p = complex_.svertices[halfedge].p;
+    piece.q = complex_.svertices[halfedge].q;
+    piece.points = {PointId{complex_.svertex_owner[halfedge]}, PointId{complex_.target(halfedge)}};
+    return piece;
+  }
+
+  std::uint32_t build(Pieces pieces, const Region& region) {
+    patience_.check();
+    const PlaneId plane = choose_plane(pieces, region);
+    if (!plane.valid()) return make_leaf(pieces, region);
+    std::array<Pieces, 3> parts;
+    for (ConvexPiece& piece : pieces) {
+      SplitPiece split_piece = split(std::move(piece), plane, tree_.planes_, points_);
+      if (split_piece.negative) parts[0].push_back(std::move(*split_piece.negative));
+      if (split_piece.on) parts[1].push_back(std::move(*split_piece.on));
+      if (split_piece.positive) parts[2].push_back(std::move(*split_piece.positive));
+    }
+    pieces = Pieces{};
+    const auto node = static_cast<std::uint32_t>(tree_.nodes_.size());
+    tree_.nodes_.push_back({PlaneId{plane.row() << 1U}, {}});
+    Region on = region;
+    --on.dimension;
+    if (region.dimension == 3) on.p = plane;
+    if (region.dimension == 2) on.q = plane;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t child = build(std::move(parts[i]), i == 1 ? on : region);
+      tree_.nodes_[node].child[i] = child;
+    }
+    return node;
+  }
+
+  std::uint32_t make_leaf(const Pieces& pieces, const Region& region) {
+    SpaceTree::Leaf leaf;
+    leaf.dimension = region.dimension;
+    for (const ConvexPiece& piece : pieces) {
+      if (piece.dimension == region.dimension) leaf.cell = std::min(leaf.cell, piece.cell);
+    }
+    tree_.leaves_.push_back(leaf);
+    return static_cast<std::uint32_t>(tree_.leaves_.size() - 1) | SpaceTree::kLeafBit;
+  }
+
+  /// The plane of the next split; invalid where the region is a leaf.
+  PlaneId choose_plane(const Pieces& pieces, const Region& region) {
+    if (region.dimension == 0) return PlaneId{};
+    for (int dimension = region.dimension - 1; dimension >= 0; --dimension) {
+      std::vector<const ConvexPiece*> candidates;
+      for (const ConvexPiece& piece : pieces) {
+        if (piece.dimension == dimension) candidates.push_back(&piece);
+      }
+      if (candidates.empty()) continue;
+      return choose_among(candidates, pieces, region);
+    }
+    return PlaneId{};
+  }
+
+  PlaneId choose_among(const std::vector<const ConvexPiece*>& candidates, const Pieces& pieces, const Region& region) {
+    constexpr std::size_t kTried = 7;
+    const std::size_t tried = std::min(kTried, candidates.size());
+    PlaneId best;
+    long best_score = 0;
+    for (std::size_t i = 0; i < tried; ++i) {
+      const PlaneId plane = plane_of(*candidates[(2 * i + 1) * candidates.size() / (2 * tried)], region);
+      if (tried == 1) return plane;
+      const long score = score_of(plane, pieces);
+      if (!best.valid() || score < best_score) {
+        best = plane;
+        best_score = score;
+      }
+    }
+    return best;
+  }
+
+  /// Splits are expensive, imbalance makes depth, pieces in the plane are done with.
+  long score_of(PlaneId plane, const Pieces& pieces) {
+    const PlaneId positive{plane.row() << 1U};
+    const std::size_t step = 1 + pieces.size() / 256;
+    long crossed = 0;
+    long balance = 0;
+    long on = 0;
+    for (std::size_t i = 0; i < pieces.size(); i += step) {
+      const ConvexPiece& piece = pieces[i];
+      if (piece.dimension == 0) continue;
+      bool above = false;
+      bool below = false;
+      for (const PointId point : piece.points) {
+        const int side = side_of_plane(tree_.planes_, positive, points_, point);
+        above = above || side > 0;
+        below = below || side < 0;
+        if (above && below) break;
+      }
+      if (above && below) {
+        ++crossed;
+      } else if (above || below) {
+        balance += above ? 1 : -1;
+      } else {
+        ++on;
+      }
+    }
+    return 4 * crossed + std::labs(balance) - 2 * on;
+  }
+
+  /// A plane through the piece that does not hold the region.
+  PlaneId plane_of(const ConvexPiece& piece, const Region& region) {
+    if (piece.dimension == 2) return piece.p;
+    if (piece.dimension == 1) return same_plane(piece.p, region.p) ? piece.q : piece.p;
+    const std::size_t axis = axis_across(region);
+    Integer d = -Integer(mpz_class(mpz_srcptr(points_.coordinate(piece.points[0], axis))));
+    std::array<Integer, 3> normal;
+    normal[axis] = mpz_class(mpz_srcptr(points_.coordinate(piece.points[0], 3)));
+    return tree_.planes_.intern(normal[0], normal[1], normal[2], d);
+  }
+
+  /// An axis whose planes do not hold the region.
+  [[nodiscard]] std::size_t axis_across(const Region& region) const {
+    if (region.dimension == 3) return 0;
+    std::array<bool, 3> along{};
+    if (region.dimension == 2) {
+      // The plane is the axis-parallel one itself iff its other two components vanish.
+      for (std::size_t i = 0; i < 3; ++i) {
+        along[i] = tree_.planes_.coefficient(region.p, (i + 1) % 3).sign() != 0 ||
+                   tree_.planes_.coefficient(region.p, (i + 2) % 3).sign() != 0;
+      }
+    } else {
+      const std::array<Integer, 3> direction =
+          Direction::cross(tree_.planes_, PlaneId{region.p.row() << 1U}, PlaneId{region.q.row() << 1U}).integers();
+      for (std::size_t i = 0; i < 3; ++i) along[i] = direction[i] != 0;
+    }
+    return along[0] ? 0U : along[1] ? 1U : 2U;
+  }
+
+  const Complex& complex_;
+  const CellNumbering& cells_;
+  Patience& patience_;
+  SpaceTree& tree_;
+  PointTable points_;
+};
+
+SpaceTree::SpaceTree(const Complex& complex, const CellNumbering& cells, Patience patience) {
+  SpaceTreeBuilder(complex, cells, patience, *this).build();
+}
+
+}  // namespace nef::planner

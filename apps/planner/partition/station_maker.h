@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Finds the places where zones meet.
+#pragma once
+
+#include "apps/planner/partition/nudges.h"
+#include "apps/planner/partition/zones.h"
+
+namespace nef::planner {
+
+/// Makes the stations of zones whose walls are known already: one per wall, seam, vertex and edge that is selected.
+/// Nudges tell which leaf begins at a vertex or edge in which direction.
+class StationMaker {
+ public:
+  /// `zones` receives the stations. `selected` must outlive the object.
+  StationMaker(Zones& zones, const std::function<bool(CellId)>& selected, Patience& patience)
+      : zones_(zones),
+        complex_(*zones.complex_),
+        cells_(*zones.cells_),
+        tree_(*zones.tree_),
+        selected_(selected),
+        patience_(patience) {}
+
+  /// O(items of the complex and walls) locations in the tree.
+  void make();
+
+ private:
+  using Kind = Zones::Station::Kind;
+
+  // A station is begun, gets its zones, and ends.
+  void begin(Kind kind, std::uint32_t source, CellId cell, const std::array<double, 3>& approximate);
+  void add(ZoneId zone) { zones_.station_zones_.push_back(zone); }
+  void add_leaf_if_selected(LeafId leaf);
+  void end();
+
+  void wall(std::uint32_t i);
+  void seam(std::uint32_t i);
+  void vertex(std::uint32_t v);
+  void edge(std::uint32_t h);
+  // The zones of the facet and of the volume that begin at a point of their boundary, to the left of direction `along`.
+  void facet_and_volume(const ExactPoint& point, const SHalfedge& e, std::uint32_t facet, std::uint32_t volume,
+                        const Nudge& along, bool at_vertex);
+  [[nodiscard]] ZoneId zone_of_cell(CellId cell) const { return static_cast<ZoneId>(tree_.leaves().size()) + cell; }
+  [[nodiscard]] Nudge normal(PlaneId plane) const;
+
+  Zones& zones_;
+  const Complex& complex_;
+  const CellNumbering& cells_;
+  const SpaceTree& tree_;
+  const std::function<bool(CellId)>& selected_;
+  Patience& patience_;
+};
+
+}  // namespace nef::planner

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/planner/path/path.h"
+
+#include <algorithm>
+
+#include "apps/planner/path/shorten.h"
+#include "nef/base/error.h"
+
+namespace nef::planner {
+namespace {
+
+// Thinner cells than wanted are out, whatever they join.
+void require_dimension(const FreeSpace& free, CellFilter& filter, int dimension) {
+  for (CellId cell = 0; cell < free.cells().size(); ++cell) {
+    if (free.is_free(cell) && free.local_dimension(cell) < dimension) filter.forbid(cell);
+  }
+}
+
+void require_junctions(const FreeSpace& free, CellFilter& filter, int dimension, CellId start, CellId goal) {
+  for (CellId cell = 0; cell < free.cells().size(); ++cell) {
+    if (cell != start && cell != goal && free.cells().dimension(cell) < dimension) filter.forbid(cell);
+  }
+}
+
+constexpr std::size_t kPlacesForWayRound = 400;
+
+}  // namespace
+
+std::optional<ExactPath> find_path(const FreeSpace& free, const Rational3& start, const Rational3& goal,
+                                   const PathOptions& options) {
+  const CellId start_cell = free.locate(ExactPoint(start));
+  const CellId goal_cell = free.locate(ExactPoint(goal));
+  if (!free.is_free(start_cell) || !free.is_free(goal_cell)) return std::nullopt;
+  if (free.component(start_cell) != free.component(goal_cell)) return std::nullopt;
+  CellFilter filter(free);
+  require_dimension(free, filter, options.min_dimension);
+  if (options.roomy) {
+    const std::optional<Thinness> best = free.thinness(start_cell, goal_cell);
+    require_dimension(free, filter, std::max(options.min_dimension, best->piece));
+    require_junctions(free, filter, best->junction, start_cell, goal_cell);
+  }
+  if (!filter(start_cell) || !filter(goal_cell)) return std::nullopt;
+  std::optional<Waypoints> points = roadmap_path(free, filter, start, goal, options.clearance);
+  // T and J need not be had by one and the same path; T counts first.
+  if (!points && options.roomy) {
+    PathOptions looser = options;
+    looser.roomy = false;
+    const std::optional<Thinness> best = free.thinness(start_cell, goal_cell);
+    looser.min_dimension = std::max(options.min_dimension, best->piece);
+    return find_path(free, start, goal, looser);
+  }
+  if (!points) return std::nullopt;
+  if (!options.raw) {
+    shortcut(free, filter, *points, options.clearance);
+    if (!options.clearance) tighten(free, filter, *points, options.thorough ? 40 : 4);
+    if (!options.clearance && options.thorough) {
+      take_shorter_way_round(free, filter, *points, kPlacesForWayRound);
+    }
+  }
+  std::optional<ExactPath> path = describe_path(free, std::move(*points));
+  NEF_ASSERT(path.has_value());
+  return path;
+}
+
+std::optional<ExactPath> describe_path(const FreeSpace& free, std::vector<Rational3> points) {
+  ExactPath path;
+  path.thinness = {3, 3};
+  const CellId first = free.locate(ExactPoint(points.front()));
+  const CellId last = free.locate(ExactPoint(points.back()));
+  const auto use = [&](CellId cell) {
+    path.thinness.piece = std::min(path.thinness.piece, free.local_dimension(cell));
+    if (cell != first && cell != last) {
+      path.thinness.junction = std::min(path.thinness.junction, free.cells().dimension(cell));
+    }
+    const std::optional<std::uint32_t> passage = free.passage_of(cell);
+    if (passage && (path.passages.empty() || path.passages.back() != *passage)) path.passages.push_back(*passage);
+  };
+  if (!free.is_free(first)) return std::nullopt;
+  if (points.size() == 1) use(first);
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    int runs_in = 3;
+    ++path.segments_checked;
+    for (const CellOnSegment& on : cells_along(free, points[i], points[i + 1])) {
+      if (!free.is_free(on.cell)) return std::nullopt;
+      use(on.cell);
+      if (!on.is_point) runs_in = std::min(runs_in, free.cells().dimension(on.cell));
+    }
+    path.segment_dimensions.push_back(runs_in);
+    path.length += distance(points[i], points[i + 1]);
+  }
+  path.points = std::move(points);
+  return path;
+}
+
+}  // namespace nef::planner

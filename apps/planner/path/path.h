@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Exact paths through free space.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "apps/planner/free_space/segments.h"
+
+namespace nef::planner {
+
+/// What kind of path is wanted.
+struct PathOptions {
+  bool raw = false;        ///< as the roadmap has it, without shortcuts
+  bool clearance = false;  ///< way-points inside volumes rather than in contact, where there is a choice
+  bool roomy = false;      ///< the best T first, then the best J, then short (else just short)
+  int min_dimension = 0;   ///< stay where free space is locally at least this thick (T >= min_dimension)
+  bool thorough = true;    ///< look for the shortest of several ways round, as far as affordable
+};
+
+/// A path with rational way-points. Every segment is known to lie in free space.
+struct ExactPath {
+  std::vector<Rational3> points;
+  std::vector<int> segment_dimensions;  ///< smallest dimension of the cells each segment runs along
+  std::vector<std::uint32_t> passages;  ///< tight passages in the order of their use
+  Thinness thinness;                    ///< T and J of this very path
+  double length = 0;
+  std::uint64_t segments_checked = 0;
+};
+
+/// A path between two free points, or nothing if there is none within the options: a proof, since
+/// the roadmap is complete. The points must be free. Start equal to goal gives a path of one point.
+std::optional<ExactPath> find_path(const FreeSpace& free, const Rational3& start, const Rational3& goal,
+                                   const PathOptions& options = {});
+
+/// Describes given way-points; nothing if a segment leaves free space.
+std::optional<ExactPath> describe_path(const FreeSpace& free, std::vector<Rational3> points);
+
+/// The roadmap's way-points from start to goal within the filter (A* over stations); each segment
+/// is checked. Nothing if there is no path.
+std::optional<std::vector<Rational3>> roadmap_path(const FreeSpace& free, const CellFilter& filter,
+                                                   const Rational3& start, const Rational3& goal, bool clearance);
+
+}  // namespace nef::planner

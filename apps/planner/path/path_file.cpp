@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/planner/path/path_file.h"
+
+#include <iomanip>
+#include <sstream>
+
+#include "nef/io/file_bytes.h"
+#include "nef/program/exact_json.h"
+#include "nef/program/numbers.h"
+
+namespace nef::planner {
+namespace {
+
+using nlohmann::json;
+
+// Three numbers a line, or the seven of an SE(3) matrix, whose last four are the rotation.
+std::vector<Rational3> points_of_lines(const std::string& text, const std::string& file) {
+  std::vector<Rational3> points;
+  std::istringstream lines(text);
+  std::string line;
+  for (std::size_t number = 1; std::getline(lines, line); ++number) {
+    const std::string where = file + ":" + std::to_string(number);
+    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+    const std::vector<Rational> values = parse_numbers(line, where);
+    if (values.size() != 3 && values.size() != 7) {
+      throw InputError(where + ": expected x y z, or x y z qx qy qz qw, not " + std::to_string(values.size()) +
+                       " numbers");
+    }
+    points.push_back({values[0], values[1], values[2]});
+  }
+  return points;
+}
+
+}  // namespace
+
+std::string path_text(const ExactPath& path) {
+  std::ostringstream out;
+  out << std::setprecision(17);
+  for (const Rational3& p : path.points) {
+    out << nearest_double(p[0]) << ' ' << nearest_double(p[1]) << ' ' << nearest_double(p[2]) << '\n';
+  }
+  return out.str();
+}
+
+std::string path_matrix(const ExactPath& path, bool se3) {
+  std::ostringstream out;
+  out << std::setprecision(17);
+  for (const Rational3& p : path.points) {
+    for (const Rational& x : p) out << nearest_double(x) << ' ';
+    out << (se3 ? "0 0 0 1 \n" : "\n");
+  }
+  out << '\n';
+  return out.str();
+}
+
+std::vector<Rational3> read_waypoints(const std::string& file) {
+  const std::string text = read_file(file);
+  std::vector<Rational3> points;
+  if (text[text.find_first_not_of(" \t\r\n")] == '{') {
+    const json root = parse_exact_json(text, file);
+    if (!root.contains("path") || !root["path"].is_array()) throw InputError(file + ": holds no 'path'");
+    for (const json& point : root["path"]) points.push_back(point_of(point, file + ": path"));
+  } else {
+    points = points_of_lines(text, file);
+  }
+  if (points.empty()) throw InputError(file + ": holds no way-points");
+  return points;
+}
+
+}  // namespace nef::planner

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/planner/path/question.h"
+
+#include "nef/base/error.h"
+#include "nef/base/stopwatch.h"
+
+namespace nef::planner {
+Problem::Problem(Scene scene, const BuildOptions& options) : scene_(std::move(scene)) {
+  Stopwatch watch;
+  Polyhedron free = free_positions(scene_, options);
+  phases_["configuration_space"] = watch.lap();
+  if (options.progress) options.progress("roadmap", 0, 0);
+  free_ = std::make_shared<const FreeSpace>(std::move(free), options.stop);
+  phases_["roadmap"] = watch.lap();
+}
+
+Answer Problem::solve(const PathOptions& options) const {
+  if (!scene_.start) throw InputError(scene_.name + ": the scene has no start: give it one, or use --start x,y,z");
+  if (!scene_.goal) throw InputError(scene_.name + ": the scene has no goal: give it one, or use --goal x,y,z");
+  return solve(*scene_.start, *scene_.goal, options);
+}
+
+Answer Problem::solve(const Rational3& start, const Rational3& goal, const PathOptions& options) const {
+  Stopwatch watch;
+  Answer answer;
+  answer.phases = phases_;
+  const CellId start_cell = free_->locate(ExactPoint(start));
+  const CellId goal_cell = free_->locate(ExactPoint(goal));
+  if (!free_->is_free(start_cell) || !free_->is_free(goal_cell)) {
+    const bool at_start = !free_->is_free(start_cell);
+    answer.status = at_start ? Answer::Status::kInvalidStart : Answer::Status::kInvalidGoal;
+    answer.collision = find_collision(scene_, at_start ? start : goal);
+    NEF_ASSERT(answer.collision.has_value());
+    answer.phases["query"] = watch.lap();
+    return answer;
+  }
+  answer.start_component = free_->component(start_cell);
+  answer.goal_component = free_->component(goal_cell);
+  answer.thinness = free_->thinness(start_cell, goal_cell);
+  answer.path = find_path(*free_, start, goal, options);
+  answer.status = answer.path ? Answer::Status::kPath : Answer::Status::kInfeasible;
+  answer.phases["query"] = watch.lap();
+  return answer;
+}
+
+Answer Problem::check(const std::vector<Rational3>& points) const {
+  Stopwatch watch;
+  Answer answer;
+  answer.phases = phases_;
+  answer.path = describe_path(*free_, points);
+  answer.status = answer.path ? Answer::Status::kPath : Answer::Status::kBlocked;
+  for (std::size_t i = 0; i < points.size() && !answer.path; ++i) {
+    const Rational3& next = points[std::min(i + 1, points.size() - 1)];
+    const std::optional<Rational3> hit = first_blocked_position(*free_, points[i], next);
+    if (!hit) continue;
+    answer.blocked_segment = i;
+    answer.collision = find_collision(scene_, *hit);
+    break;
+  }
+  answer.phases["query"] = watch.lap();
+  return answer;
+}
+
+}  // namespace nef::planner

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// From a scene to its free space and to answers, with the time each phase takes.
+#pragma once
+
+#include <memory>
+
+#include "apps/planner/free_space/free_positions.h"
+#include "apps/planner/path/answer.h"
+
+namespace nef::planner {
+
+/// A scene with its free space. Build once, ask often.
+class Problem {
+ public:
+  /// Computes the free positions and the roadmap. Throws InputError.
+  explicit Problem(Scene scene, const BuildOptions& options = {});
+
+  [[nodiscard]] const Scene& scene() const { return scene_; }
+  [[nodiscard]] const FreeSpace& free_space() const { return *free_; }
+  [[nodiscard]] std::shared_ptr<const FreeSpace> shared_free_space() const { return free_; }
+
+  /// A path or a proof that there is none. Start and goal default to the scene's; throws InputError
+  /// if one is missing.
+  [[nodiscard]] Answer solve(const PathOptions& options = {}) const;
+  [[nodiscard]] Answer solve(const Rational3& start, const Rational3& goal, const PathOptions& options) const;
+
+  /// Checks a given path (at least one point): kPath with its description, or kBlocked with the first segment that
+  /// leaves free space and what it hits there.
+  [[nodiscard]] Answer check(const std::vector<Rational3>& points) const;
+
+  /// Seconds per phase of the construction.
+  [[nodiscard]] const std::map<std::string, double>& phases() const { return phases_; }
+
+ private:
+  Scene scene_;
+  std::shared_ptr<const FreeSpace> free_;
+  std::map<std::string, double> phases_;
+};
+
+}  // namespace nef::planner

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/planner/path/shorten.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/planner/free_space/vectors.h"
+#include "apps/planner/path/triangle_pull.h"
+#include "nef/number/simplest_between.h"
+
+namespace nef::planner {
+namespace {
+
+// How much of a segment is contact: its parts in cells thinner than the space around them.
+int contact_count(const FreeSpace& free, const Rational3& a, const Rational3& b) {
+  int count = 0;
+  for (const CellOnSegment& on : cells_along(free, a, b)) {
+    if (free.cells().dimension(on.cell) < 3) ++count;
+  }
+  return count;
+}
+
+bool keeps_clearance(const FreeSpace& free, const Waypoints& path, std::size_t i, std::size_t j) {
+  const int direct = contact_count(free, path[i], path[j]);
+  int before = 0;
+  for (std::size_t k = i; k < j; ++k) before += contact_count(free, path[k], path[k + 1]);
+  // Way-points in contact between two segments were counted twice.
+  for (std::size_t k = i + 1; k < j; ++k) {
+    if (free.cells().dimension(free.locate(ExactPoint(path[k]))) < 3) --before;
+  }
+  return direct <= before;
+}
+
+// The parameter on the line e0 + t d at which |a - x| + |x - c| is least: unfold both about it.
+double best_parameter(const Vector& e0, const Vector& d, const Vector& a, const Vector& c) {
+  const double dd = dot(d, d);
+  const double ta = dot(minus(a, e0), d) / dd;
+  const double tc = dot(minus(c, e0), d) / dd;
+  const auto off = [&](const Vector& x, double t) {
+    const Vector y{x[0] - e0[0] - t * d[0], x[1] - e0[1] - t * d[1], x[2] - e0[2] - t * d[2]};
+    return std::sqrt(dot(y, y));
+  };
+  const double ha = off(a, ta);
+  const double hc = off(c, tc);
+  return ha + hc > 0 ? (ta * hc + tc * ha) / (ha + hc) : ta;
+}
+
+Rational3 on_line(const Rational3& e0, const Rational3& e1, const Rational& t) {
+  return {e0[0] + t * (e1[0] - e0[0]), e0[1] + t * (e1[1] - e0[1]), e0[2] + t * (e1[2] - e0[2])};
+}
+
+// The free edges that the point lies on or ends.
+std::vector<CellId> edges_at(const FreeSpace& free, const Rational3& point) {
+  const CellId cell = free.locate(ExactPoint(point));
+  if (free.cells().dimension(cell) == 1) return {cell};
+  std::vector<CellId> result;
+  if (free.cells().dimension(cell) == 0) {
+    for (const CellId other : free.neighbours(cell)) {
+      if (free.cells().dimension(other) == 1) result.push_back(other);
+    }
+  }
+  return result;
+}
+
+bool try_replace(const FreeSpace& free, const CellFilter& filter, Waypoints& path, std::size_t i, const Rational3& x) {
+  const double before = distance(path[i - 1], path[i]) + distance(path[i], path[i + 1]);
+  const double after = distance(path[i - 1], x) + distance(x, path[i + 1]);
+  if (!(after < before - 1e-13 * before)) return false;
+  if (!segment_allowed(free, filter, path[i - 1], x) || !segment_allowed(free, filter, x, path[i + 1])) return false;
+  path[i] = x;
+  return true;
+}
+
+bool slide(const FreeSpace& free, const CellFilter& filter, Waypoints& path, std::size_t i) {
+  bool changed = false;
+  for (const CellId edge : edges_at(free, path[i])) {
+    const std::vector<Rational3> ends = free.vertices(edge);
+    const Vector e0 = to_double(ends[0]);
+    const Vector d = minus(to_double(ends[1]), e0);
+    const double t = std::clamp(best_parameter(e0, d, to_double(path[i - 1]), to_double(path[i + 1])), 0.0, 1.0);
+    if (!std::isfinite(t)) continue;
+    const Rational low = std::max(Rational(0), Rational(t - 1e-7));
+    const Rational high = std::min(Rational(1), Rational(t + 1e-7));
+    Rational3 x = on_line(ends[0], ends[1], simplest_between(low, high));
+    for (int halving = 0; halving < 4 && x != path[i]; ++halving) {
+      if (try_replace(free, filter, path, i, x)) {
+        changed = true;
+        break;
+      }
+      for (std::size_t k = 0; k < 3; ++k) x[k] = (x[k] + path[i][k]) / 2;
+    }
+  }
+  return changed;
+}
+
+std::size_t bits(const Rational3& x) {
+  std::size_t sum = 0;
+  for (const Rational& value : x) sum += mpz_sizeinbase(value.get_den_mpz_t(), 2);
+  return sum;
+}
+
+// Where sliding has converged, an optimum with small numbers is most likely the true one: takes
+// the simplest point nearby if that costs nothing that doubles can see.
+void polish(const FreeSpace& free, const CellFilter& filter, Waypoints& path, std::size_t i) {
+  for (const CellId edge : edges_at(free, path[i])) {
+    const std::vector<Rational3> ends = free.vertices(edge);
+    const Vector e0 = to_double(ends[0]);
+    const Vector d = minus(to_double(ends[1]), e0);
+    const double t = best_parameter(e0, d, to_double(path[i - 1]), to_double(path[i + 1]));
+    if (!std::isfinite(t) || t < 0 || t > 1) continue;
+    const Rational low = std::max(Rational(0), Rational(t - 1e-6));
+    const Rational high = std::min(Rational(1), Rational(t + 1e-6));
+    const Rational3 x = on_line(ends[0], ends[1], simplest_between(low, high));
+    if (bits(x) >= bits(path[i])) continue;
+    const double before = distance(path[i - 1], path[i]) + distance(path[i], path[i + 1]);
+    const double after = distance(path[i - 1], x) + distance(x, path[i + 1]);
+    if (after > before * (1 + 1e-12)) continue;
+    if (!segment_allowed(free, filter, path[i - 1], x) || !segment_allowed(free, filter, x, path[i + 1])) continue;
+    path[i] = x;
+    return;
+  }
+}
+
+}  // namespace
+
+double length_of(const Waypoints& path) {
+  double sum = 0;
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) sum += distance(path[i], path[i + 1]);
+  return sum;
+}
+
+void shortcut(const FreeSpace& free, const CellFilter& filter, Waypoints& path, bool clearance) {
+  for (std::size_t i = 0; i + 2 < path.size(); ++i) {
+    for (std::size_t j = path.size() - 1; j > i + 1; --j) {
+      if (!segment_allowed(free, filter, path[i], path[j])) continue;
+      if (clearance && !keeps_clearance(free, path, i, j)) continue;
+      path.erase(path.begin() + static_cast<std::ptrdiff_t>(i) + 1, path.begin() + static_cast<std::ptrdiff_t>(j));
+      break;
+    }
+  }
+}
+
+void tighten(const FreeSpace& free, const CellFilter& filter, Waypoints& path, int rounds) {
+  double length = length_of(path);
+  for (int round = 0; round < rounds; ++round) {
+    bool changed = false;
+    for (std::size_t i = 1; i + 1 < path.size(); ++i) changed = pull_corner(free, filter, path, i) || changed;
+    for (std::size_t i = 1; i + 1 < path.size(); ++i) changed = slide(free, filter, path, i) || changed;
+    if (!changed) break;
+    shortcut(free, filter, path, false);
+    const double shorter = length_of(path);
+    if (round > 4 && shorter > length * (1 - 1e-12)) break;
+    length = shorter;
+  }
+  for (int pass = 0; pass < 2; ++pass) {
+    for (std::size_t i = 1; i + 1 < path.size(); ++i) polish(free, filter, path, i);
+  }
+}
+
+}  // namespace nef::planner

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// OMPL.app's problem files. Not read: [benchmark] and [planner], which concern OMPL's own programs.
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <sstream>
+
+#include "apps/planner/scene/scene.h"
+#include "apps/planner/scene/shapes.h"
+#include "nef/base/error.h"
+#include "nef/io/file_bytes.h"
+
+namespace nef::planner {
+namespace {
+
+std::string trimmed(const std::string& text) {
+  const std::size_t first = text.find_first_not_of(" \t\r");
+  if (first == std::string::npos) return "";
+  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+/// The keys of section [problem].
+class ProblemKeys {
+ public:
+  explicit ProblemKeys(const std::string& path) : path_(path) {
+    std::string text = read_file(path);
+    if (text.rfind("\xEF\xBB\xBF", 0) == 0) text.erase(0, 3);  // a byte order mark
+    std::istringstream in(text);
+    std::string line;
+    std::string section;
+    for (std::size_t number = 1; std::getline(in, line); ++number) {
+      line = trimmed(line.substr(0, line.find('#')));
+      if (line.empty()) continue;
+      if (line.front() == '[') {
+        section = line;
+        continue;
+      }
+      if (section != "[problem]") continue;
+      const std::size_t equals = line.find('=');
+      if (equals == std::string::npos) {
+        throw InputError(path + ":" + std::to_string(number) + ": expected key = value, not '" + line + "'");
+      }
+      values_[trimmed(line.substr(0, equals))] = trimmed(line.substr(equals + 1));
+    }
+    if (values_.empty()) throw InputError(path + ": has no [problem] section");
+  }
+
+  [[nodiscard]] bool has(const std::string& key) const { return values_.count(key) > 0; }
+  /// True if a key begins like this.
+  [[nodiscard]] bool has_any(const std::string& prefix) const {
+    const auto next = values_.lower_bound(prefix);
+    return next != values_.end() && next->first.compare(0, prefix.size(), prefix) == 0;
+  }
+  [[nodiscard]] std::string text(const std::string& key) const {
+    const auto found = values_.find(key);
+    if (found == values_.end()) throw InputError(path_ + ": [problem] has no key '" + key + "'");
+    return found->second;
+  }
+  [[nodiscard]] Rational number(const std::string& key) const {
+    const std::string spelled = text(key);
+    try {
+      return parse_rational(spelled);
+    } catch (const InputError& error) {
+      throw InputError(path_ + ": " + key + ": " + error.what());
+    }
+  }
+  [[nodiscard]] Rational number_or_zero(const std::string& key) const { return has(key) ? number(key) : Rational(0); }
+  [[nodiscard]] Rational3 point(const std::string& prefix) const {
+    return {number(prefix + ".x"), number(prefix + ".y"), number(prefix + ".z")};
+  }
+
+ private:
+  std::string path_;
+  std::map<std::string, std::string> values_;
+};
+
+/// A rotation as .cfg files give it: an angle about an axis of any length.
+struct Rotation {
+  Rational theta;  ///< in radians
+  Rational3 axis;
+};
+
+Rotation rotation_of(const ProblemKeys& keys, const std::string& state) {
+  return {keys.number_or_zero(state + ".theta"),
+          {keys.number_or_zero(state + ".axis.x"), keys.number_or_zero(state + ".axis.y"),
+           keys.number_or_zero(state + ".axis.z")}};
+}
+
+// Angles are compared as numbers, not modulo 2 pi, which is irrational.
+bool same(const Rotation& a, const Rotation& b) {
+  if (a.theta == 0 || b.theta == 0) return a.theta == b.theta;
+  Rational along;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3;
+    if (a.axis[i] * b.axis[j] != a.axis[j] * b.axis[i]) return false;
+    along += a.axis[i] * b.axis[i];
+  }
+  return a.theta == (along < 0 ? Rational(-b.theta) : b.theta);
+}
+
+// The rotation that both states share, as a map; the identity for angle zero.
+AffineMap common_rotation(const ProblemKeys& keys, const std::string& path, Messages& messages) {
+  const Rotation start = rotation_of(keys, "start");
+  const Rotation goal = rotation_of(keys, "goal");
+  if (!same(start, goal)) {
+    throw InputError(path +
+                     ": start and goal are turned differently, and this planner only translates: "
+                     "give both the same theta and axis");
+  }
+  if (start.theta == 0) return AffineMap::identity();
+  for (const auto& [state, axis] : {std::pair("start", start.axis), std::pair("goal", goal.axis)}) {
+    if (axis == Rational3{}) throw InputError(path + ": " + state + ".axis is the zero vector or missing");
+  }
+  messages.push_back(path + ": the robot is turned once by a rational rotation within 1e-9 degrees of theta");
+  return AffineMap::rotate(start.axis, nearest_double(start.theta) * 180 / M_PI);
+}
+
+std::string beside(const std::string& path, const std::string& file) {
+  return (std::filesystem::path(path).parent_path() / file).string();
+}
+
+}  // namespace
+
+Scene read_cfg(const std::string& path) {
+  const ProblemKeys keys(path);
+  Scene scene;
+  scene.name = std::filesystem::path(path).stem().string();
+  Rational3 mean;
+  scene.robot = closure(read_shape_file(beside(path, keys.text("robot")), &scene.messages, &mean));
+  const std::string origin = keys.has("robot.origin") ? keys.text("robot.origin") : "vertex-mean";
+  if (origin != "vertex-mean" && origin != "mesh") {
+    throw InputError(path + ": robot.origin must be vertex-mean or mesh, not '" + origin + "'");
+  }
+  if (origin == "vertex-mean") {
+    for (Rational& value : mean) value = -value;
+    scene.robot = transform(scene.robot, AffineMap::translate(mean));
+  }
+  const AffineMap rotation = common_rotation(keys, path, scene.messages);
+  scene.robot = transform(scene.robot, rotation);
+  scene.obstacles.push_back(closure(read_shape_file(beside(path, keys.text("world")), &scene.messages)));
+  scene.obstacle_names.push_back(keys.text("world"));
+  scene.start = keys.point("start");
+  scene.goal = keys.point("goal");
+  if (keys.has_any("volume.")) {
+    scene.box = {keys.point("volume.min"), keys.point("volume.max")};
+    for (std::size_t i = 0; i < 3; ++i) {
+      if ((*scene.box)[0][i] > (*scene.box)[1][i]) throw InputError(path + ": volume.min is above volume.max");
+    }
+  }
+  if (keys.has("contact")) {
+    const std::string contact = keys.text("contact");
+    if (contact != "allow" && contact != "forbid") {
+      throw InputError(path + ": contact must be allow or forbid, not '" + contact + "'");
+    }
+    scene.contact = contact == "allow" ? ContactRule::kAllow : ContactRule::kForbid;
+  }
+  return scene;
+}
+
+}  // namespace nef::planner

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/planner/scene/nearly_closed.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "nef/base/union_find.h"
+
+namespace nef::planner {
+namespace {
+
+// The first vertex at each vertex's place.
+std::vector<std::uint32_t> merged_vertices(const Mesh& mesh) {
+  std::map<Rational3, std::uint32_t> first;
+  std::vector<std::uint32_t> place;
+  for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v)
+    place.push_back(first.emplace(mesh.vertices[v], v).first->second);
+  return place;
+}
+
+// Equal vertices joined, each face once, none with fewer than three corners.
+Mesh without_duplicates(const Mesh& mesh) {
+  const std::vector<std::uint32_t> place = merged_vertices(mesh);
+  Mesh result;
+  result.vertices = mesh.vertices;
+  std::set<std::vector<std::uint32_t>> seen;
+  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+    std::vector<std::uint32_t> corners;
+    for (const std::uint32_t v : mesh.face(f)) corners.push_back(place[v]);
+    std::vector<std::uint32_t> sorted = corners;
+    std::sort(sorted.begin(), sorted.end());
+    const bool degenerate = std::unique(sorted.begin(), sorted.end()) - sorted.begin() < 3;
+    // Polygons with the same corners in another order are different faces.
+    if (degenerate || (corners.size() < 4 && !seen.insert(sorted).second)) continue;
+    if (corners.size() > 3) {
+      std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+      std::vector<std::uint32_t> back(corners.rbegin(), corners.rend());
+      std::rotate(back.begin(), std::min_element(back.begin(), back.end()), back.end());
+      if (!seen.insert(std::min(corners, back)).second) continue;
+    }
+    result.push_face(corners);
+  }
+  return result;
+}
+
+// Meshes of the connected parts; all share the vertices of the whole.
+std::vector<Mesh> connected_parts(const Mesh& mesh) {
+  UnionFind sets(mesh.vertices.size());
+  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+    for (const std::uint32_t v : mesh.face(f)) sets.unite(mesh.face(f)[0], v);
+  }
+  std::map<std::uint32_t, Mesh> parts;
+  std::map<std::uint32_t, std::map<std::uint32_t, std::uint32_t>> numbers;
+  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+    const std::uint32_t root = sets.find(mesh.face(f)[0]);
+    Mesh& part = parts[root];
+    std::vector<std::uint32_t> corners;
+    for (const std::uint32_t v : mesh.face(f)) {
+      const auto [number, is_new] = numbers[root].emplace(v, static_cast<std::uint32_t>(part.vertices.size()));
+      if (is_new) part.vertices.push_back(mesh.vertices[v]);
+      corners.push_back(number->second);
+    }
+    part.push_face(corners);
+  }
+  std::vector<Mesh> result;
+  for (auto& [root, part] : parts) result.push_back(std::move(part));
+  return result;
+}
+
+// For each volume whether it is an odd number of separating facets away from the outer one; nothing if ways disagree.
+std::optional<std::vector<bool>> odd_volumes(const Complex& c) {
+  std::vector<std::vector<std::uint32_t>> beyond(c.volumes.size());
+  for (const Facet& facet : c.facets) {
+    if (facet.volume_above == facet.volume_below) continue;
+    beyond[facet.volume_above].push_back(facet.volume_below);
+    beyond[facet.volume_below].push_back(facet.volume_above);
+  }
+  std::vector<bool> odd(c.volumes.size(), false);
+  std::vector<bool> known(c.volumes.size(), false);
+  std::vector<std::uint32_t> queue{0};
+  known[0] = true;
+  for (std::size_t i = 0; i < queue.size(); ++i) {
+    for (const std::uint32_t volume : beyond[queue[i]]) {
+      if (!known[volume]) {
+        known[volume] = true;
+        odd[volume] = !odd[queue[i]];
+        queue.push_back(volume);
+      } else if (odd[volume] == odd[queue[i]]) {
+        return std::nullopt;
+      }
+    }
+  }
+  return odd;
+}
+
+// The surface with its odd volumes filled; nothing if it has none or is ambiguous.
+std::optional<Polyhedron> filled(const Polyhedron& surface) {
+  const std::optional<std::vector<bool>> odd = odd_volumes(surface.complex());
+  if (!odd || std::find(odd->begin(), odd->end(), true) == odd->end()) return std::nullopt;
+  Complex c = surface.complex();
+  for (std::uint32_t s = 0; s < c.sfaces.size(); ++s) c.sfaces[s].mark = (*odd)[c.sface_volume(s)] ? 1 : 0;
+  for (std::uint32_t v = 0; v < c.volumes.size(); ++v) c.volumes[v].mark = (*odd)[v] ? 1 : 0;
+  return closure(Polyhedron(std::move(c)));  // drops what is inside now
+}
+
+Polyhedron surface_of(const Mesh& mesh) {
+  MeshOptions options;
+  options.as_surface = true;
+  return from_mesh(mesh, options);
+}
+
+struct Part {
+  Polyhedron set;  // filled
+  Polyhedron surface;
+  std::array<Rational3, 2> box;
+  std::size_t depth = 0;               // in how many others it lies
+  std::vector<std::size_t> touched{};  // others that its surface meets
+};
+
+enum class Boxes { kApart, kMeet, kInside };
+
+Boxes compare(const std::array<Rational3, 2>& inner, const std::array<Rational3, 2>& outer) {
+  bool inside = true;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (inner[0][i] > outer[1][i] || inner[1][i] < outer[0][i]) return Boxes::kApart;
+    inside = inside && inner[0][i] > outer[0][i] && inner[1][i] < outer[1][i];
+  }
+  return inside ? Boxes::kInside : Boxes::kMeet;
+}
+
+// Which parts touch others, and in how many each is nested.
+void find_nesting(std::vector<Part>& parts) {
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    for (std::size_t k = i + 1; k < parts.size(); ++k) {
+      if (compare(parts[i].box, parts[k].box) == Boxes::kApart) continue;
+      if (!intersect(parts[i].surface, parts[k].surface).is_empty()) {
+        parts[i].touched.push_back(k);
+        parts[k].touched.push_back(i);
+        continue;
+      }
+      // Surfaces that do not meet: one vertex tells on which side the other is.
+      for (const auto& [inner, outer] : {std::pair(i, k), std::pair(k, i)}) {
+        if (compare(parts[inner].box, parts[outer].box) != Boxes::kInside) continue;
+        const Rational3 vertex = parts[inner].surface.complex().points.rational(PointId(0U));
+        if (contains(parts[outer].set, vertex)) ++parts[inner].depth;
+      }
+    }
+  }
+}
+
+Rational box_volume(const Part& part) {
+  Rational product = 1;
+  for (std::size_t i = 0; i < 3; ++i) product *= part.box[1][i] - part.box[0][i];
+  return product;
+}
+
+// Of parts that touch each other inside of another one, the largest is the room, the others stand in it.
+bool is_cavity(const std::vector<Part>& parts, std::size_t i) {
+  if (parts[i].depth % 2 == 0) return false;
+  return std::none_of(parts[i].touched.begin(), parts[i].touched.end(), [&](std::size_t k) {
+    if (parts[k].depth != parts[i].depth) return false;
+    const int order = cmp(box_volume(parts[k]), box_volume(parts[i]));
+    return order > 0 || (order == 0 && k < i);
+  });
+}
+
+// A solid part that is not around a cavity of this depth but meets its surface.
+bool reaches_into_cavity(const std::vector<Part>& parts, std::size_t i, std::size_t depth) {
+  return std::any_of(parts[i].touched.begin(), parts[i].touched.end(),
+                     [&](std::size_t k) { return parts[k].depth == depth && is_cavity(parts, k); });
+}
+
+// From the outermost inward, so that what stands in a cavity is there again.
+Polyhedron combined(std::vector<Part>& parts) {
+  find_nesting(parts);
+  std::map<std::size_t, std::vector<Polyhedron>> by_depth;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const std::size_t depth = parts[i].depth;
+    by_depth[depth % 2 == 1 && !is_cavity(parts, i) ? depth + 1 : depth].push_back(parts[i].set);
+  }
+  Polyhedron result;
+  for (auto& [depth, sets] : by_depth) {
+    const Polyhedron all = unite_all(sets);
+    if (depth % 2 == 0) {
+      result = unite(result, all);
+      continue;
+    }
+    result = subtract(result, interior(all));
+    // What reaches in from outside is there, too.
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      if (parts[i].depth % 2 == 0 && reaches_into_cavity(parts, i, depth)) {
+        result = unite(result, parts[i].set);
+      }
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+MeshMeaning meaning_of(const Mesh& mesh) {
+  MeshMeaning meaning;
+  const auto is_bad = [&](std::uint32_t v) { return v >= mesh.vertices.size(); };
+  if (std::any_of(mesh.corners.begin(), mesh.corners.end(), is_bad)) static_cast<void>(surface_of(mesh));  // complains
+  const Mesh clean = without_duplicates(mesh);
+  meaning.duplicate_faces = mesh.face_count() - clean.face_count();
+  std::vector<Part> parts;
+  const auto add_solid = [&](const Polyhedron& set, const Polyhedron& surface) {
+    ++meaning.solid_parts;
+    if (!set.is_regular()) ++meaning.surface_parts;
+    parts.push_back({set, surface, *bounding_box(set)});
+  };
+  std::size_t open_parts = 0;
+  std::vector<Polyhedron> surfaces;
+  for (const Mesh& part : connected_parts(clean)) {
+    const Polyhedron surface = surface_of(part);
+    if (const std::optional<Polyhedron> set = filled(surface)) {
+      add_solid(*set, surface);
+      continue;
+    }
+    ++open_parts;
+    surfaces.push_back(surface);
+  }
+  // Parts that are open by themselves may close each other (walls and a floor that share no vertices).
+  const Polyhedron together = unite_all(surfaces);
+  if (const std::optional<Polyhedron> set = open_parts > 1 ? filled(together) : std::nullopt) {
+    add_solid(*set, together);
+    meaning.set = combined(parts);
+  } else {
+    meaning.surface_parts += open_parts;
+    meaning.set = unite(combined(parts), together);
+  }
+  return meaning;
+}
+
+}  // namespace nef::planner

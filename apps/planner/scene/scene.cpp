@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/planner/scene/scene.h"
+
+#include <filesystem>
+
+#include "apps/planner/scene/shapes.h"
+#include "nef/base/error.h"
+#include "nef/io/file_bytes.h"
+#include "nef/program/exact_json.h"
+
+namespace nef::planner {
+namespace {
+
+using nlohmann::json;
+
+// Shapes of one scene; errors say which key they come from.
+class ShapeReader {
+ public:
+  ShapeReader(std::string folder, Messages& messages) : folder_(std::move(folder)), messages_(messages) {}
+
+  Polyhedron shape(const json& value, const std::string& what) {
+    if (value.is_string()) {
+      try {
+        return shape_of_text(value.get<std::string>(), folder_, &messages_);
+      } catch (const InputError& error) {
+        throw InputError(what + ": " + error.what());
+      }
+    }
+    throw InputError(what + ": expected a file name or an expression in quotes, not " + spelled(value));
+  }
+
+ private:
+  std::string folder_;
+  Messages& messages_;
+};
+
+const std::vector<std::string> kKeys{"robot", "obstacles", "reference", "box", "start", "goal", "contact", "name"};
+
+void check_keys(const json& root, const std::string& name) {
+  if (!root.is_object()) throw InputError(name + ": a scene is a JSON object with robot and obstacles");
+  for (const auto& item : root.items()) {
+    if (std::find(kKeys.begin(), kKeys.end(), item.key()) == kKeys.end()) {
+      throw InputError(name + ": unknown key '" + item.key() +
+                       "' (known: robot, obstacles, reference, box, start, goal, contact)");
+    }
+  }
+  if (root.contains("name") && !root["name"].is_string()) throw InputError(name + ": 'name' must be a string");
+  for (const char* key : {"robot", "obstacles"}) {
+    if (!root.contains(key)) throw InputError(name + ": '" + key + "' is missing");
+  }
+}
+
+void read_obstacles(const json& list, ShapeReader& shapes, const std::string& name, Scene& scene) {
+  if (!list.is_array()) throw InputError(name + ": 'obstacles' must be a list");
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    scene.obstacles.push_back(closure(shapes.shape(list[i], name + ": obstacle " + std::to_string(i))));
+    const std::string spelled = list[i].is_string() ? list[i].get<std::string>() : std::string("a shape");
+    scene.obstacle_names.push_back(spelled);
+  }
+}
+
+}  // namespace
+
+Scene parse_scene(const std::string& text, const std::string& folder, const std::string& name) {
+  const json root = parse_exact_json(text, name);
+  check_keys(root, name);
+  Scene scene;
+  scene.name = std::filesystem::path(name).stem().string();
+  ShapeReader shapes(folder, scene.messages);
+  scene.robot = closure(shapes.shape(root["robot"], name + ": robot"));
+  if (scene.robot.is_empty()) throw InputError(name + ": the robot is empty");
+  if (!scene.robot.is_bounded()) throw InputError(name + ": the robot must be bounded");
+  if (root.contains("reference")) {
+    Rational3 reference = point_of(root["reference"], name + ": reference");
+    for (Rational& value : reference) value = -value;
+    scene.robot = transform(scene.robot, AffineMap::translate(reference));
+  }
+  read_obstacles(root["obstacles"], shapes, name, scene);
+  if (root.contains("box") && !root["box"].is_null()) {
+    const json& box = root["box"];
+    if (!box.is_array() || box.size() != 2) throw InputError(name + ": 'box' must be [low point, high point]");
+    scene.box = {point_of(box[0], name + ": box"), point_of(box[1], name + ": box")};
+    for (std::size_t i = 0; i < 3; ++i) {
+      if ((*scene.box)[0][i] > (*scene.box)[1][i])
+        throw InputError(name + ": box: its first point must be the lower one");
+    }
+  }
+  if (root.contains("start")) scene.start = point_of(root["start"], name + ": start");
+  if (root.contains("goal")) scene.goal = point_of(root["goal"], name + ": goal");
+  if (root.contains("contact")) {
+    const json& contact = root["contact"];
+    if (contact != "allow" && contact != "forbid") {
+      throw InputError(name + R"(: 'contact' must be "allow" or "forbid", not )" + spelled(contact));
+    }
+    scene.contact = contact == "allow" ? ContactRule::kAllow : ContactRule::kForbid;
+  }
+  return scene;
+}
+
+Scene read_scene(const std::string& path) {
+  if (lower_extension(path) == "cfg") return read_cfg(path);
+  return parse_scene(read_file(path), std::filesystem::path(path).parent_path().string(), path);
+}
+
+}  // namespace nef::planner

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A motion planning problem as a file says it: robot, obstacles, start and goal.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "nef/construct/construct.h"
+#include "nef/polyhedron.h"
+
+namespace nef::planner {
+
+/// What counts as a collision.
+enum class ContactRule : std::uint8_t {
+  kAllow,  ///< only a meeting of points that are not on the border of robot or obstacle (minkowski::without_border)
+  kForbid  ///< touching too
+};
+
+/// A robot that translates among obstacles. All numbers are the rationals that the file spells.
+struct Scene {
+  std::string name;  ///< the file's name without folders
+  Polyhedron robot;  ///< with its reference point at the origin
+  std::vector<Polyhedron> obstacles;
+  std::vector<std::string> obstacle_names;
+  std::optional<std::array<Rational3, 2>> box;  ///< bounds of the reference point
+  std::optional<Rational3> start;
+  std::optional<Rational3> goal;
+  ContactRule contact = ContactRule::kAllow;
+  Messages messages;  ///< what was done to the input
+};
+
+/// Reads a scene. `.cfg` files are OMPL.app problems, everything else is JSON:
+///
+///     { "robot": SHAPE, "obstacles": [SHAPE, ...],
+///       "reference": POINT, "box": [POINT, POINT], "start": POINT, "goal": POINT,
+///       "contact": "allow" | "forbid" }
+///
+/// robot and obstacles are required. POINT is three numbers or strings such as "1/3"; a JSON number
+/// is the rational that its text spells (0.1 is one tenth). SHAPE is a string: the path of a mesh or
+/// nef file, relative to the scene, or else an expression of `nef eval` such as
+/// "box(0,0,0, 9,3,3) - box(1,1,1, 2,2,2)". Throws InputError with one line for anything else.
+Scene read_scene(const std::string& path);
+
+/// The same from text; `folder` is where file names begin.
+Scene parse_scene(const std::string& text, const std::string& folder, const std::string& name);
+
+/// An OMPL.app problem: [problem] robot, world, start.*, goal.*, volume.*. The rotation of start
+/// and goal must be the same and is applied to the robot once. The robot's reference point is the
+/// mean of its vertices as OMPL.app computes it, unless `robot.origin = mesh`; our own keys are
+/// `contact` and exact numbers such as 1/3. A mesh that bounds no solid is what meaning_of (nearly_closed.h) says.
+Scene read_cfg(const std::string& path);
+
+}  // namespace nef::planner

@@ -6,25 +6,29 @@ namespace {
 
 constexpr const char* kFooter = R"TEXT(
 A scene is JSON: {"robot": SHAPE, "obstacles": [SHAPE, ...], "start": [x, y, z], "goal": [x, y, z],
-"box": [[x, y, z], [x, y, z]], "reference": [x, y, z], "contact": "allow"|"forbid"}. SHAPE is the path of
+"box": [[x, y, z], [x, y, z]], "reference": [x, y, z], "contact": "allow"|"forbid",
+"rotation": {"axis": "z", "range": [0, 360]} (then start and goal have a fourth number, degrees)}. SHAPE is the path of
 a mesh or nef file, or an expression such as "box(0,0,0, 9,3,3) - box(4,1,1, 5,2,2)". Numbers are exact:
 0.1 is one tenth, "1/3" a third. OMPL.app's .cfg files are read too.
 
 Exit codes: 0 a path; 1 proved that there is none (with --path: the given path leaves free space);
-2 bad input or usage; 3 start or goal not free; 4 (--ompl only) no answer within the time.
---tight without -o only lists: it exits with 0 whatever the answer.
+2 bad input or usage; 3 start or goal not free; 4 (--ompl only) no answer within the time; 5 (rotation only) undecided.
+--tight without -o only lists: it exits with 0 whatever the answer. --queries exits with the largest code of all.
 
 Examples:
   planner scene.json -o path.json -o path.txt
   planner --tight scene.json
   planner scene.json --page scene.html -o scene.glb
   planner scene.json --prefer roomy --json
+  planner scene.json --queries questions.txt --json
   planner scene.json --ompl RRTConnect --time 5
   planner scene.json --benchmark bench.log --planners RRTConnect,PRMstar --runs 10)TEXT";
 
 void declare_ompl(CLI::App& app, Arguments& a) {
   app.add_option("--ompl", a.ompl, "Use this planner of OMPL on the exact free space");
-  app.add_option("--time", a.seconds, "Seconds for each run of an OMPL planner")->check(CLI::Range(1e-3, 1e6));
+  app.add_option("--time", a.seconds, "Seconds for each run of an OMPL planner, or for a robot that turns")
+      ->check(CLI::Range(1e-3, 1e6))
+      ->each([&a](const std::string&) { a.time_given = true; });
   app.add_option("--runs", a.runs, "Runs of each OMPL planner")->check(CLI::Range(1U, 1000000U));
   app.add_option("--benchmark", a.benchmark, "Write OMPL's benchmark log, our planner and --planners in it");
   app.add_option("--planners", a.planners, "OMPL planners for --benchmark")->delimiter(',');
@@ -41,6 +45,7 @@ void declare(CLI::App& app, Arguments& a) {
   app.add_flag("--json", a.json, "Print the report as JSON");
   app.add_flag("--tight", a.tight, "List every tight passage; with --path those that a given path uses");
   app.add_option("--path", a.given_path, "Check this path (a report or lines of numbers) instead of looking for one");
+  app.add_option("--queries", a.queries, "Answer many questions: six numbers a line, start and goal (or JSON)");
   app.add_option("--start", a.start, "x,y,z in place of the scene's start");
   app.add_option("--goal", a.goal, "x,y,z in place of the scene's goal");
   app.add_option("--contact", a.contact, "May the robot touch obstacles?")->check(CLI::IsMember({"allow", "forbid"}));
@@ -51,6 +56,7 @@ void declare(CLI::App& app, Arguments& a) {
   app.add_flag("--raw", a.path.raw, "The way-points of the roadmap, without shortcuts");
   app.add_flag("--clearance", a.path.clearance, "Way-points inside volumes rather than in contact");
   app.add_flag("--se3", a.se3, "Path matrix with seven columns x y z qx qy qz qw");
+  app.add_option("--max-cells", a.max_cells, "A robot that turns: cells of angles before it stays undecided");
   declare_ompl(app, a);
   app.add_option("--threads", a.threads, "Threads for the configuration space (0: all cores)");
   app.add_flag("--quiet", a.quiet, "Print nothing but errors, and no progress bar");

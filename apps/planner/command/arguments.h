@@ -21,11 +21,14 @@ struct Arguments {
   std::string contact;
   std::string prefer = "short";
   std::string given_path;
+  std::string queries;
   std::string ompl;
   std::string benchmark;
   std::vector<std::string> planners{"RRTConnect", "PRMstar", "BITstar"};
   PathOptions path;
   double seconds = 10;
+  bool time_given = false;
+  std::size_t max_cells = 2000;
   unsigned runs = 1;
   unsigned threads = 0;
   bool tight = false;

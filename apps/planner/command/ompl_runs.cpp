@@ -96,6 +96,7 @@ int run_benchmark(const Problem& problem, const std::vector<std::string>& planne
   }
   TranslationPlanning setup(problem);
   setup.setup();
+  problem.free_space().build_roadmap();  // not in the time of whoever asks first
   ompl::tools::Benchmark benchmark(setup, problem.scene().name);
   const auto tight = std::make_shared<TightPlanner>(setup.getSpaceInformation(), free_space_builder(problem.scene()));
   tight->setKeepRoadmap(false);

@@ -107,8 +107,8 @@ json touching_json(const FreeSpace& free) {
   return result;
 }
 
-json to_json(const Answer& answer, const Scene& scene, const FreeSpace& free) {
-  json result{{"scene", scene.name}, {"status", status_name(answer.status)}};
+json answer_json(const Answer& answer, const Scene& scene) {
+  json result{{"status", status_name(answer.status)}};
   if (answer.path) add_path(*answer.path, result);
   if (answer.thinness) {
     result["thinnest_piece"] = answer.thinness->piece;
@@ -119,17 +119,28 @@ json to_json(const Answer& answer, const Scene& scene, const FreeSpace& free) {
   if (answer.status == Answer::Status::kInfeasible) {
     result["proof"] = {{"start_component", answer.start_component}, {"goal_component", answer.goal_component}};
   }
+  result["phases"] = answer.phases;
+  return result;
+}
+
+json free_space_json(const Scene& scene, const FreeSpace& free) {
   json components = json::array();
   for (const Component& component : free.components()) {
     components.push_back(
         {{"dimension", component.dimension}, {"bounded", component.bounded}, {"cells", component.cells}});
   }
+  json result{{"scene", scene.name}};
   result["components"] = std::move(components);
   result["tight"] = passages_json(free);
   result["touching"] = touching_json(free);
   result["contact"] = scene.contact == ContactRule::kAllow ? "allow" : "forbid";
-  result["phases"] = answer.phases;
   if (!scene.messages.empty()) result["messages"] = scene.messages;
+  return result;
+}
+
+json to_json(const Answer& answer, const Scene& scene, const FreeSpace& free) {
+  json result = free_space_json(scene, free);
+  result.update(answer_json(answer, scene));
   return result;
 }
 

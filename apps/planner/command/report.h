@@ -16,6 +16,10 @@ int exit_code(const Answer& answer);
 /// "path", "infeasible", "invalid_start", "invalid_goal", "free_space", "blocked".
 std::string status_name(Answer::Status status);
 
+/// The keys of one answer: status, path, proof, collision.
+nlohmann::json answer_json(const Answer& answer, const Scene& scene);
+/// Those of the scene and its free space: components, passages, contact, messages.
+nlohmann::json free_space_json(const Scene& scene, const FreeSpace& free);
 /// All keys of the JSON report (see docs and `planner --help`).
 nlohmann::json to_json(const Answer& answer, const Scene& scene, const FreeSpace& free);
 /// The tight passages alone.

@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/planner/command/run.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 
 #include "apps/planner/command/ompl_runs.h"
 #include "apps/planner/command/scene_view.h"
+#include "apps/planner/command/turning_run.h"
 #include "apps/planner/ompl/ompl_planners.h"
 #include "apps/planner/path/path_file.h"
+#include "apps/planner/path/queries.h"
 #include "apps/planner/path/question.h"
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
+#include "nef/program/exact_json.h"
 #include "nef/program/numbers.h"
 #include "nef/program/progress_bar.h"
 
@@ -33,6 +37,14 @@ void check_usage(const Arguments& a) {
   if (!a.ompl.empty() && !a.benchmark.empty()) throw InputError("--ompl and --benchmark exclude each other");
   if (!a.given_path.empty() && !(a.ompl.empty() && a.benchmark.empty())) {
     throw InputError("--path checks a given path; it excludes --ompl and --benchmark");
+  }
+  if (!a.queries.empty() && !(a.ompl.empty() && a.benchmark.empty() && a.given_path.empty() && a.page.empty())) {
+    throw InputError("--queries excludes --path, --page, --ompl and --benchmark");
+  }
+  for (const std::string& file : a.outputs) {
+    if (!a.queries.empty() && std::filesystem::path(file).extension() != ".json") {
+      throw InputError("-o " + file + ": with --queries the extension must be .json");
+    }
   }
   for (const std::string& name : a.planners) require_ompl_planner(name);
   if (!a.ompl.empty()) require_ompl_planner(a.ompl);
@@ -107,6 +119,36 @@ int check_given_path(const Arguments& a, const Problem& problem) {
   return exit_code(answer);
 }
 
+// One line for each question, or one report with all answers.
+int answer_queries(const Arguments& a, const Problem& problem) {
+  PathOptions options = a.path;
+  options.roomy = a.prefer == "roomy";
+  const bool report = a.json || !a.outputs.empty();
+  int code = 0;
+  nlohmann::json answers = nlohmann::json::array();
+  for (const Query& query : read_queries(a.queries)) {
+    const Answer answer = problem.solve(query.start, query.goal, options);
+    code = std::max(code, exit_code(answer));
+    if (report) {
+      nlohmann::json entry = answer_json(answer, problem.scene());
+      entry["start"] = exact_json(query.start);
+      entry["goal"] = exact_json(query.goal);
+      answers.push_back(std::move(entry));
+    }
+    if (a.json || a.quiet) continue;
+    std::cout << status_name(answer.status);
+    if (answer.path) std::cout << ", length " << answer.path->length;
+    if (answer.collision) std::cout << ": " << describe(*answer.collision, problem.scene());
+    std::cout << '\n';
+  }
+  if (!report) return code;
+  nlohmann::json result = free_space_json(problem.scene(), problem.free_space());
+  result["queries"] = std::move(answers);
+  for (const std::string& file : a.outputs) write_file(file, result.dump(2) + "\n");
+  if (a.json) std::cout << result.dump(2) << '\n';
+  return code;
+}
+
 int run_stock_planner(const Arguments& a, const Problem& problem) {
   const OmplOutcome outcome = run_ompl(problem, {a.ompl, a.seconds, a.runs});
   write_outputs(a, outcome.answer, problem);
@@ -144,8 +186,14 @@ int run(const Arguments& a) {
     bar.show(phase, done, total);
   };
   bar.show("reading " + a.scene, 0, 0);
-  const Problem problem(scene_of(a), build);
+  Scene scene = scene_of(a);
+  if (scene.rotation) {
+    bar.clear();
+    return run_turning(a, scene);
+  }
+  const Problem problem(std::move(scene), build);
   bar.clear();
+  if (!a.queries.empty()) return answer_queries(a, problem);
   if (!a.given_path.empty()) return check_given_path(a, problem);
   if (!a.benchmark.empty()) return run_benchmark(problem, a.planners, a.seconds, a.runs, a.benchmark, a.quiet);
   if (!a.ompl.empty()) return run_stock_planner(a, problem);

@@ -3,7 +3,6 @@
 
 #include <filesystem>
 
-#include "apps/planner/free_space/vectors.h"
 #include "nef/base/error.h"
 #include "nef/view/glb.h"
 #include "nef/view/page.h"
@@ -26,6 +25,8 @@ struct Part {
   double opacity = 1;
   bool visible = true;
 };
+
+view::Point to_double(const Rational3& p) { return {nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2])}; }
 
 Polyhedron at(const Polyhedron& robot, const Rational3& position) {
   return transform(robot, AffineMap::translate(position));

@@ -7,37 +7,34 @@
 namespace nef::planner {
 namespace {
 
-double squared_to_segment(const Vector& p, const Vector& a, const Vector& b) {
-  const Vector ab = minus(b, a);
-  const Vector ap = minus(p, a);
-  const double length = dot(ab, ab);
-  const double t = length > 0 ? std::clamp(dot(ap, ab) / length, 0.0, 1.0) : 0.0;
-  const Vector off{ap[0] - t * ab[0], ap[1] - t * ab[1], ap[2] - t * ab[2]};
-  return dot(off, off);
+double squared_to_segment(const Vector3d& p, const Vector3d& a, const Vector3d& b) {
+  const Vector3d ab = b - a;
+  const double length = ab.squaredNorm();
+  const double t = length > 0 ? std::clamp((p - a).dot(ab) / length, 0.0, 1.0) : 0.0;
+  return (p - a - t * ab).squaredNorm();
 }
 
-double squared_to_triangle(const Vector& p, const std::array<Vector, 3>& t) {
-  const Vector u = minus(t[1], t[0]);
-  const Vector v = minus(t[2], t[0]);
-  const Vector n = cross(u, v);
-  const double size = dot(n, n);
-  const Vector w = minus(p, t[0]);
+double squared_to_triangle(const Vector3d& p, const std::array<Vector3d, 3>& t) {
+  const Vector3d u = t[1] - t[0];
+  const Vector3d v = t[2] - t[0];
+  const Vector3d w = p - t[0];
+  const Vector3d n = u.cross(v);
+  const double size = n.squaredNorm();
   if (size > 0) {
-    const double a = dot(cross(w, v), n) / size;
-    const double b = dot(cross(u, w), n) / size;
-    if (a >= 0 && b >= 0 && a + b <= 1) {
-      const double height = dot(w, n);
-      return height * height / size;
-    }
+    const double a = w.cross(v).dot(n) / size;
+    const double b = u.cross(w).dot(n) / size;
+    const double height = w.dot(n);
+    if (a >= 0 && b >= 0 && a + b <= 1) return height * height / size;
   }
   return std::min(
       {squared_to_segment(p, t[0], t[1]), squared_to_segment(p, t[1], t[2]), squared_to_segment(p, t[2], t[0])});
 }
 
-double squared_to_box(const Vector& p, const Box& box) {
+double squared_to_box(const Vector3d& p, const Box& box) {
   double sum = 0;
   for (std::size_t i = 0; i < 3; ++i) {
-    const double off = std::max({box.low[i] - p[i], p[i] - box.high[i], 0.0});
+    const double x = p[static_cast<Eigen::Index>(i)];
+    const double off = std::max({box.low[i] - x, x - box.high[i], 0.0});
     sum += off * off;
   }
   return sum;
@@ -55,7 +52,8 @@ ClearanceField::ClearanceField(const FreeSpace& free) {
     const bool boundary = !free.is_free(free.cells().volume(facet.volume_above)) ||
                           !free.is_free(free.cells().volume(facet.volume_below)) || !free.is_free(cell);
     if (!boundary) continue;
-    const std::vector<Vector> corners = walls.approximate_corners(wall);
+    std::vector<Vector3d> corners;
+    for (const std::array<double, 3>& corner : walls.approximate_corners(wall)) corners.push_back(to_vector(corner));
     for (std::size_t i = 2; i < corners.size(); ++i) triangles_.push_back({corners[0], corners[i - 1], corners[i]});
   }
   // Forbidden edges and points may lie in no facet.
@@ -63,17 +61,17 @@ ClearanceField::ClearanceField(const FreeSpace& free) {
   for (CellId cell = 0; cell < cells.facet(0); ++cell) {
     if (free.is_free(cell)) continue;
     const std::vector<Rational3> ends = free.vertices(cell);
-    const Vector a = to_double(ends.front());
-    triangles_.push_back({a, a, to_double(ends.back())});
+    const Vector3d a = to_vector(ends.front());
+    triangles_.push_back({a, a, to_vector(ends.back())});
   }
   std::vector<Box> boxes(triangles_.size());
   for (std::size_t i = 0; i < triangles_.size(); ++i) {
-    for (const Vector& corner : triangles_[i]) boxes[i].add_rounded(corner);
+    for (const Vector3d& corner : triangles_[i]) boxes[i].add_rounded(to_array(corner));
   }
   boxes_ = BoxTree(boxes);
 }
 
-double ClearanceField::distance(const Vector& point) const {
+double ClearanceField::distance(const Vector3d& point) const {
   double best = HUGE_VAL;
   boxes_.for_each_if([&](const Box& box) { return squared_to_box(point, box) < best; },
                      [&](std::uint32_t i) { best = std::min(best, squared_to_triangle(point, triangles_[i])); });

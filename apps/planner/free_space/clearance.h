@@ -19,10 +19,10 @@ class ClearanceField {
 
   /// Distance from a point to the nearest boundary facet, infinite if there is none. Doubles: an
   /// estimate with an error of a few ulps of the coordinates. O(log n) expected.
-  [[nodiscard]] double distance(const Vector& point) const;
+  [[nodiscard]] double distance(const Vector3d& point) const;
 
  private:
-  std::vector<std::array<Vector, 3>> triangles_;
+  std::vector<std::array<Vector3d, 3>> triangles_;
   BoxTree boxes_;
 };
 

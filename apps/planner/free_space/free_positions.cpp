@@ -43,7 +43,60 @@ minkowski::MinkowskiOptions minkowski_options(const BuildOptions& build) {
   return options;
 }
 
+// The scene with some of its obstacles only.
+Scene with_only(const Scene& scene, const std::vector<std::size_t>& kept) {
+  Scene result = scene;
+  result.obstacles.clear();
+  result.obstacle_names.clear();
+  for (const std::size_t i : kept) {
+    result.obstacles.push_back(scene.obstacles[i]);
+    result.obstacle_names.push_back(scene.obstacle_names[i]);
+  }
+  return result;
+}
+
+// True if robots that meet one obstacle can meet the other one at the same position: the boxes of the two are less than
+// the robot's extent apart.
+bool may_forbid_the_same(const Scene& scene, const Polyhedron& a, const Polyhedron& b) {
+  if (!a.is_bounded() || !b.is_bounded()) return true;
+  const auto box_a = bounding_box(a);
+  const auto box_b = bounding_box(b);
+  if (!box_a || !box_b) return false;
+  const std::array<Rational3, 2> robot = *bounding_box(scene.robot);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Rational extent = robot[1][i] - robot[0][i];
+    if ((*box_a)[0][i] - extent > (*box_b)[1][i] || (*box_b)[0][i] - extent > (*box_a)[1][i]) return false;
+  }
+  return true;
+}
+
 }  // namespace
+
+bool obstacles_are_independent(const Scene& scene) {
+  return scene.contact == ContactRule::kForbid || scene.robot.is_regular();
+}
+
+Polyhedron with_obstacle(const Scene& scene, const Polyhedron& free, const Polyhedron& obstacle,
+                         const BuildOptions& options) {
+  NEF_ASSERT(obstacles_are_independent(scene));
+  Scene alone = with_only(scene, {});
+  alone.obstacles.push_back(obstacle);
+  alone.obstacle_names.emplace_back("new");
+  return intersect(free, free_positions(alone, options));
+}
+
+Polyhedron without_obstacle(const Scene& scene, const Polyhedron& free, std::size_t index,
+                            const BuildOptions& options) {
+  NEF_ASSERT(obstacles_are_independent(scene));
+  std::vector<std::size_t> near;
+  for (std::size_t i = 0; i < scene.obstacles.size(); ++i) {
+    if (i != index && may_forbid_the_same(scene, scene.obstacles[index], scene.obstacles[i])) near.push_back(i);
+  }
+  // What only this one forbids: free for those near, not free for it; others do not matter there.
+  const Polyhedron freed =
+      subtract(free_positions(with_only(scene, near), options), free_positions(with_only(scene, {index}), options));
+  return unite(free, freed);
+}
 
 Polyhedron free_positions(const Scene& scene, const BuildOptions& build) {
   std::vector<Polyhedron> obstacles;

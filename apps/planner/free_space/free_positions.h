@@ -27,4 +27,18 @@ struct BuildOptions {
 /// one with its border only, and there the set is neither. Robot and obstacles are taken closed.
 Polyhedron free_positions(const Scene& scene, const BuildOptions& options = {});
 
+/// True if an obstacle may come or go by the two functions below: each obstacle forbids what it forbids alone. (A thin
+/// robot among obstacles that it may touch is also kept out of the seams between them.)
+bool obstacles_are_independent(const Scene& scene);
+
+/// The free positions after an obstacle has come, from those before it came: one sum and one Boolean operation.
+/// `scene` is the one before; its obstacles must be independent.
+Polyhedron with_obstacle(const Scene& scene, const Polyhedron& free, const Polyhedron& obstacle,
+                         const BuildOptions& options = {});
+
+/// The free positions after obstacle `index` has gone, from those while it was there: the sums of this one and of those
+/// that may forbid the same positions, and one operation. `scene` is the one before; its obstacles must be independent.
+Polyhedron without_obstacle(const Scene& scene, const Polyhedron& free, std::size_t index,
+                            const BuildOptions& options = {});
+
 }  // namespace nef::planner

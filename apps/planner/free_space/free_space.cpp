@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "nef/base/error.h"
 #include "nef/base/union_find.h"
 
 namespace nef::planner {
@@ -39,14 +40,44 @@ void append_incidences(const Complex& complex, const CellNumbering& cells, std::
 
 }  // namespace
 
-FreeSpace::FreeSpace(Polyhedron free, const std::function<bool()>& stop)
-    : free_(std::move(free)), cells_(free_.complex()), tree_(free_.complex(), cells_, Patience(stop)) {
+FreeSpace::FreeSpace(Polyhedron free) : free_(std::move(free)), cells_(free_.complex()) {
+  if (complex().has_box()) {
+    throw UnsupportedError("the free space is bounded by infinitely long edges or facets: give the scene a box");
+  }
   connect();
   find_components();
   find_passages();
   find_touching_rooms();
-  const std::function<bool(CellId)> selected = [this](CellId cell) { return is_free(cell); };
-  zones_ = std::make_unique<Zones>(complex(), cells_, tree_, selected, Patience(stop));
+}
+
+FreeSpace::Partition::Partition(const FreeSpace& free, const Patience& patience)
+    : tree(free.complex(), free.cells(), patience),
+      zones(
+          free.complex(), free.cells(), tree, [&free](CellId cell) { return free.is_free(cell); }, patience) {}
+
+const FreeSpace::Partition& FreeSpace::partition(const std::function<bool()>& stop) const {
+  if (const Partition* ready = ready_.load(std::memory_order_acquire)) return *ready;
+  const std::lock_guard<std::mutex> lock(building_);
+  if (!partition_) {
+    partition_ = std::make_unique<const Partition>(*this, Patience(stop));
+    ready_.store(partition_.get(), std::memory_order_release);
+  }
+  return *partition_;
+}
+
+CellId FreeSpace::locate(const ExactPoint& point) const {
+  if (const Partition* ready = ready_.load(std::memory_order_acquire)) return ready->tree.locate(point);
+  const Location at = nef::locate(free_, point.rational());
+  switch (at.kind) {
+    case Location::Kind::kVertex:
+      return cells_.vertex(at.index);
+    case Location::Kind::kEdge:
+      return cells_.edge(at.index);
+    case Location::Kind::kFacet:
+      return cells_.facet(at.index);
+    default:
+      return cells_.volume(at.index);
+  }
 }
 
 void FreeSpace::connect() {

@@ -4,8 +4,10 @@
 // them make up its components, and where it is as thin as a facet, an edge or a point.
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <string>
@@ -55,23 +57,28 @@ struct TightPassage {
   std::vector<CellId> rooms;   ///< the volumes that the mouths belong to
 };
 
-/// The clearance-free truth about where the reference point may be. Immutable once built, so any
-/// number of threads may ask. O(n log n) expected to build for n items of the complex.
+/// The truth about where the reference point may be, in two stages: the cells, how they touch, components and passages
+/// are there from the beginning (O(n log n) for n items of the complex); what paths and fast checks need, the partition
+/// of space and its roadmap, is made when first asked for, or by build_roadmap. Its answers never change, and any
+/// number of threads may ask.
 class FreeSpace {
  public:
   /// `free` is the set of free positions; marks other than 0 are free. Throws UnsupportedError for
-  /// a set that is bounded by infinitely long edges or facets. `stop`, if given, is asked now and then; once it says
-  /// true, minkowski::Cancelled is thrown.
-  explicit FreeSpace(Polyhedron free, const std::function<bool()>& stop = {});
-  // Parts of it point to each other; share it by pointer.
+  /// a set that is bounded by infinitely long edges or facets.
+  explicit FreeSpace(Polyhedron free);
+  // Share it by pointer.
   FreeSpace(const FreeSpace&) = delete;
   FreeSpace& operator=(const FreeSpace&) = delete;
 
   [[nodiscard]] const Polyhedron& set() const { return free_; }
   [[nodiscard]] const Complex& complex() const { return free_.complex(); }
   [[nodiscard]] const CellNumbering& cells() const { return cells_; }
-  [[nodiscard]] const SpaceTree& tree() const { return tree_; }
-  [[nodiscard]] const Zones& zones() const { return *zones_; }
+  /// Makes the partition and the roadmap unless they are there. O(n log n) expected. `stop`, if given, is asked now and
+  /// then; once it says true, minkowski::Cancelled is thrown, and nothing is kept.
+  void build_roadmap(const std::function<bool()>& stop = {}) const { static_cast<void>(partition(stop)); }
+  [[nodiscard]] bool has_roadmap() const { return ready_.load(std::memory_order_acquire) != nullptr; }
+  [[nodiscard]] const SpaceTree& tree() const { return partition().tree; }
+  [[nodiscard]] const Zones& zones() const { return partition().zones; }
 
   [[nodiscard]] bool is_free(CellId cell) const { return component_[cell] != kNoComponent; }
   /// Component of a free cell.
@@ -89,8 +96,11 @@ class FreeSpace {
   [[nodiscard]] std::span<const TightPassage> passages() const { return passages_; }
   [[nodiscard]] std::span<const TouchingRooms> touching_rooms() const { return touching_; }
 
-  /// The cell of a point: O(log n) expected, about a microsecond or less for doubles.
-  [[nodiscard]] CellId locate(const ExactPoint& point) const { return tree_.locate(point); }
+  /// The corners of a box that holds the boundary with room to spare. O(n).
+  [[nodiscard]] std::array<Rational3, 2> bounds() const { return room_around(complex()); }
+
+  /// The cell of a point: O(log n) expected; with the roadmap about a microsecond or less for doubles.
+  [[nodiscard]] CellId locate(const ExactPoint& point) const;
   [[nodiscard]] bool is_free(const ExactPoint& point) const { return is_free(locate(point)); }
 
   /// T and J between two free cells (shared/planner.md section 7); nothing if they are not
@@ -106,6 +116,12 @@ class FreeSpace {
  private:
   static constexpr std::uint32_t kNoComponent = 0xffffffffU;
 
+  struct Partition {
+    Partition(const FreeSpace& free, const Patience& patience);
+    SpaceTree tree;
+    Zones zones;
+  };
+  const Partition& partition(const std::function<bool()>& stop = {}) const;
   void connect();
   void list_neighbours(const std::vector<std::pair<CellId, CellId>>& pairs);
   void find_components();
@@ -120,7 +136,6 @@ class FreeSpace {
 
   Polyhedron free_;
   CellNumbering cells_;
-  SpaceTree tree_;
   std::vector<std::uint32_t> component_;
   std::vector<int> local_dimension_;
   std::vector<std::uint32_t> passage_;
@@ -129,7 +144,9 @@ class FreeSpace {
   std::vector<Component> components_;
   std::vector<TightPassage> passages_;
   std::vector<TouchingRooms> touching_;
-  std::unique_ptr<Zones> zones_;
+  mutable std::mutex building_;
+  mutable std::unique_ptr<const Partition> partition_;
+  mutable std::atomic<const Partition*> ready_{nullptr};
 };
 
 }  // namespace nef::planner

@@ -3,25 +3,21 @@
 // Vectors of doubles, for lengths and guesses. Nothing that must be exact goes through them.
 #pragma once
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <array>
-#include <cmath>
 
 #include "nef/number/number.h"
 
 namespace nef::planner {
 
-using Vector = std::array<double, 3>;
+using Eigen::Vector3d;
 
 /// Each coordinate rounded to the nearest double.
-inline Vector to_double(const Rational3& p) {
+inline Vector3d to_vector(const Rational3& p) {
   return {nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2])};
 }
-inline Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-inline double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-inline Vector cross(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-/// The distance of two points.
-inline double span(const Vector& a, const Vector& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
+inline Vector3d to_vector(const std::array<double, 3>& p) { return {p[0], p[1], p[2]}; }
+inline std::array<double, 3> to_array(const Vector3d& v) { return {v[0], v[1], v[2]}; }
 
 }  // namespace nef::planner

@@ -42,9 +42,9 @@ double NefStateValidityChecker::clearance(const ob::State* state) const {
   const CellId cell = freeSpace_->locate(point);
   if (freeSpace_->is_free(cell)) {
     // A thinner cell than a volume is contact, whatever the doubles say.
-    return freeSpace_->cells().dimension(cell) < 3 ? 0.0 : field_->distance(point.approximate());
+    return freeSpace_->cells().dimension(cell) < 3 ? 0.0 : field_->distance(to_vector(point.approximate()));
   }
-  return -field_->distance(point.approximate());
+  return -field_->distance(to_vector(point.approximate()));
 }
 
 NefMotionValidator::NefMotionValidator(const ob::SpaceInformationPtr& si, std::shared_ptr<const FreeSpace> freeSpace,

@@ -57,6 +57,7 @@ class NefMotionValidator : public ompl::base::MotionValidator {
   bool checkMotion(const ompl::base::State* s1, const ompl::base::State* s2,
                    std::pair<ompl::base::State*, double>& lastValid) const override;
 
+  const std::shared_ptr<const FreeSpace>& getFreeSpace() const { return freeSpace_; }
   /** \brief The validator that is asked as well; may be null. */
   const ompl::base::MotionValidatorPtr& getFurtherValidator() const { return further_; }
 

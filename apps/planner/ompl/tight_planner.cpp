@@ -175,6 +175,27 @@ std::optional<ExactPath> TightPlanner::bestPath(std::size_t firstGoal, const ob:
   return best;
 }
 
+bool TightPlanner::buildRoadmap(std::size_t firstGoal, const ob::PlannerTerminationCondition& ptc) {
+  if (freeSpace_->has_roadmap()) return true;
+  // What is in different components needs none.
+  const auto joined = [this](const Place& start, const Place& goal) {
+    return freeSpace_->component(start.cell) == freeSpace_->component(goal.cell);
+  };
+  bool needed = false;
+  for (const Place& start : starts_) {
+    for (std::size_t i = firstGoal; i < goals_.size(); ++i) needed = needed || joined(start, goals_[i]);
+  }
+  if (!needed) return true;
+  const Stopwatch watch;
+  try {
+    freeSpace_->build_roadmap([&ptc] { return ptc.eval(); });
+  } catch (const minkowski::Cancelled&) {
+    return false;
+  }
+  preprocessing_ += watch.seconds();
+  return true;
+}
+
 void TightPlanner::addSolution(const ExactPath& path) {
   pdef_->addSolutionPath(toPathGeometric(si_, path), false, 0.0, name_);
 }
@@ -216,6 +237,7 @@ ob::PlannerStatus TightPlanner::solve(const ob::PlannerTerminationCondition& ptc
   for (std::size_t asked = 0;; asked = goals_.size()) {
     const bool all = takeGoals(*region, ptc);
     bool interrupted = false;
+    if (!buildRoadmap(asked, ptc)) return ob::PlannerStatus::TIMEOUT;
     exactPath_ = bestPath(asked, ptc, interrupted);
     if (exactPath_ && !isAccepted(*exactPath_)) return searchAnotherWay(ptc);
     if (exactPath_) {
@@ -274,7 +296,7 @@ TightPlanner::FreeSpaceBuilder free_space_builder(const Scene& scene) {
     BuildOptions options;
     options.stop = stop;
     try {
-      return std::make_shared<const FreeSpace>(free_positions(scene, options), stop);
+      return std::make_shared<const FreeSpace>(free_positions(scene, options));
     } catch (const minkowski::Cancelled&) {
       return nullptr;
     }

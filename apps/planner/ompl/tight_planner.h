@@ -79,7 +79,7 @@ class TightPlanner : public ompl::base::Planner {
   const std::shared_ptr<const FreeSpace>& getFreeSpace() const { return freeSpace_; }
   /** \brief The last solution with rational way-points. */
   const std::optional<ExactPath>& getExactPath() const { return exactPath_; }
-  /** \brief Seconds that the last construction of the free space took. */
+  /** \brief Seconds that the last construction of the free space and its roadmap took. */
   double getPreprocessingTime() const { return preprocessing_; }
 
  private:
@@ -93,6 +93,8 @@ class TightPlanner : public ompl::base::Planner {
   void takeStarts();
   // Takes some goals that are not there yet. True if there are no more, and will be none.
   bool takeGoals(const ompl::base::GoalSampleableRegion& region, const ompl::base::PlannerTerminationCondition& ptc);
+  // Makes the roadmap if a start may be joined to one of the goals from an index on. False if stopped.
+  bool buildRoadmap(std::size_t firstGoal, const ompl::base::PlannerTerminationCondition& ptc);
   // The shortest path from a start to one of the goals from an index on.
   std::optional<ExactPath> bestPath(std::size_t firstGoal, const ompl::base::PlannerTerminationCondition& ptc,
                                     bool& interrupted);

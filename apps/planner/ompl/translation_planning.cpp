@@ -6,15 +6,17 @@
 #include <ompl/util/Console.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <stdexcept>
 #include <typeinfo>
 
+#include "apps/planner/free_space/free_positions.h"
 #include "apps/planner/ompl/cell_sampler.h"
 #include "apps/planner/ompl/nef_validity.h"
 #include "apps/planner/scene/shapes.h"
 #include "nef/base/error.h"
+#include "nef/base/stopwatch.h"
 
 namespace nef::planner {
 
@@ -98,7 +100,46 @@ void TranslationPlanning::setRobot(const Polyhedron& robot) {
 void TranslationPlanning::addObstacle(const Polyhedron& obstacle) {
   scene_.obstacles.push_back(closure(obstacle));
   scene_.obstacle_names.push_back("obstacle");
+  obstacleChanged(std::nullopt);
+}
+
+void TranslationPlanning::removeObstacle(std::size_t index) {
+  if (index >= scene_.obstacles.size()) throw std::out_of_range("there is no obstacle " + std::to_string(index));
+  scene_.obstacles.erase(scene_.obstacles.begin() + static_cast<std::ptrdiff_t>(index));
+  scene_.obstacle_names.erase(scene_.obstacle_names.begin() + static_cast<std::ptrdiff_t>(index));
+  obstacleChanged(index);
+}
+
+void TranslationPlanning::obstacleChanged(std::optional<std::size_t> gone) {
+  std::optional<Before> before = std::move(before_);
+  std::vector<Change> changes = std::move(changes_);
   changed();
+  if (!before) return;
+  changes.push_back({gone ? Polyhedron() : scene_.obstacles.back(), gone});
+  before_ = std::move(before);
+  changes_ = std::move(changes);
+}
+
+Polyhedron TranslationPlanning::presentFreePositions(const BuildOptions& options) const {
+  // From here on, uniting all sums at once is faster than one operation with all of free space for each.
+  constexpr std::size_t kFewChanges = 8;
+  if (!before_ || changes_.size() > kFewChanges || !obstacles_are_independent(scene_)) {
+    return free_positions(scene_, options);
+  }
+  Scene scene = before_->scene;
+  Polyhedron free = before_->free;
+  for (const Change& change : changes_) {
+    if (change.gone) {
+      free = without_obstacle(scene, free, *change.gone, options);
+      scene.obstacles.erase(scene.obstacles.begin() + static_cast<std::ptrdiff_t>(*change.gone));
+      scene.obstacle_names.erase(scene.obstacle_names.begin() + static_cast<std::ptrdiff_t>(*change.gone));
+    } else {
+      free = with_obstacle(scene, free, change.obstacle, options);
+      scene.obstacles.push_back(change.obstacle);
+      scene.obstacle_names.emplace_back("obstacle");
+    }
+  }
+  return free;
 }
 
 void TranslationPlanning::setContact(ContactRule contact) {
@@ -112,6 +153,8 @@ void TranslationPlanning::setEnvironmentBounds(const Rational3& low, const Ratio
 }
 
 void TranslationPlanning::changed() {
+  before_.reset();
+  changes_.clear();
   freeSpace_.reset();
   configured_ = false;
   if (planner_) planner_->clear();
@@ -142,7 +185,7 @@ std::vector<const ob::State*> TranslationPlanning::endStates() const {
 void TranslationPlanning::inferEnvironmentBounds() {
   ob::RealVectorBounds bounds(3);
   const std::array<Rational3, 2> corners =
-      freeSpace_ ? freeSpace_->tree().bounds() : std::array<Rational3, 2>{Rational3{0, 0, 0}, Rational3{0, 0, 0}};
+      freeSpace_ ? freeSpace_->bounds() : std::array<Rational3, 2>{Rational3{0, 0, 0}, Rational3{0, 0, 0}};
   for (std::size_t i = 0; i < 3; ++i) {
     double low = nearest_double(corners[0][i]) - 1;
     double high = nearest_double(corners[1][i]) + 1;
@@ -191,30 +234,35 @@ void TranslationPlanning::adoptBounds() {
 bool TranslationPlanning::noteCheckers() {
   const ob::StateValidityCheckerPtr& checker = si_->getStateValidityChecker();
   const ob::MotionValidatorPtr& validator = si_->getMotionValidator();
-  const bool changed = checker != checker_ || validator != validator_;
-  if (checker != checker_) {
+  // Exact ones on the present free space are as good as ours, and on another one they have had their time.
+  const auto* exact_checker = dynamic_cast<const NefStateValidityChecker*>(checker.get());
+  const auto* exact_validator = dynamic_cast<const NefMotionValidator*>(validator.get());
+  bool changed = false;
+  if (exact_checker == nullptr || exact_checker->getFreeSpace() != freeSpace_) {
+    changed = true;
     // OMPL's stand-in for a missing checker has nothing to say.
-    const bool says_nothing = dynamic_cast<const ob::AllValidStateValidityChecker*>(checker.get()) != nullptr;
-    userChecker_ = says_nothing ? nullptr : checker;
+    const bool is_default = dynamic_cast<const ob::AllValidStateValidityChecker*>(checker.get()) != nullptr;
+    if (exact_checker == nullptr) userChecker_ = is_default ? nullptr : checker;
   }
-  if (validator != validator_) {
+  if (exact_validator == nullptr || exact_validator->getFreeSpace() != freeSpace_) {
+    changed = true;
     // The default only asks for states; our validator does that itself where there is something to ask.
-    const bool says_nothing = validator && typeid(*validator) == typeid(ob::DiscreteMotionValidator);
-    userValidator_ = says_nothing ? nullptr : validator;
+    const bool is_default = validator && typeid(*validator) == typeid(ob::DiscreteMotionValidator);
+    if (exact_validator == nullptr) userValidator_ = is_default ? nullptr : validator;
   }
   return changed;
 }
 
 void TranslationPlanning::installCheckers() {
-  checker_ = std::make_shared<NefStateValidityChecker>(si_, freeSpace_, userChecker_);
-  validator_ = std::make_shared<NefMotionValidator>(si_, freeSpace_, userValidator_);
-  setStateValidityChecker(checker_);
-  si_->setMotionValidator(validator_);
+  setStateValidityChecker(std::make_shared<NefStateValidityChecker>(si_, freeSpace_, userChecker_));
+  si_->setMotionValidator(std::make_shared<NefMotionValidator>(si_, freeSpace_, userValidator_));
   configured_ = false;
 }
 
 void TranslationPlanning::useFreeSpace(std::shared_ptr<const FreeSpace> freeSpace) {
   freeSpace_ = std::move(freeSpace);
+  before_ = Before{scene_, freeSpace_->set()};
+  changes_.clear();
   space().setFreeSpace(freeSpace_);
   noteCheckers();
   installCheckers();
@@ -227,17 +275,33 @@ bool TranslationPlanning::prepare(const std::function<bool()>& stop) {
   adoptBounds();
   if (!freeSpace_) {
     if (scene_.robot.is_empty()) throw ompl::Exception("TranslationPlanning", "no robot is set");
-    std::shared_ptr<const FreeSpace> freeSpace = free_space_builder(scene_)(stop);
-    if (!freeSpace) return false;
+    BuildOptions options;
+    options.stop = stop;
+    std::shared_ptr<const FreeSpace> freeSpace;
+    try {
+      freeSpace = std::make_shared<const FreeSpace>(presentFreePositions(options));
+    } catch (const minkowski::Cancelled&) {
+      return false;
+    }
     useFreeSpace(std::move(freeSpace));
     if (!boundsOfUser_) inferEnvironmentBounds();
-    return true;
   }
   if (noteCheckers()) installCheckers();
   // New start and goal states may lie far out in free space.
   const std::vector<const ob::State*> ends = endStates();
   const auto inside = [this](const ob::State* state) { return space().satisfiesBounds(state); };
   if (!boundsOfUser_ && !std::all_of(ends.begin(), ends.end(), inside)) inferEnvironmentBounds();
+  return buildRoadmap(stop);
+}
+
+bool TranslationPlanning::buildRoadmap(const std::function<bool()>& stop) const {
+  // TightPlanner makes it when it needs it; other planners ask for thousands of states.
+  if (!planner_ || getTightPlanner() != nullptr) return true;
+  try {
+    freeSpace_->build_roadmap(stop);
+  } catch (const minkowski::Cancelled&) {
+    return false;
+  }
   return true;
 }
 
@@ -247,20 +311,19 @@ void TranslationPlanning::setup() {
 }
 
 ob::PlannerStatus TranslationPlanning::solve(double time) {
-  const auto begin = std::chrono::steady_clock::now();
-  const auto elapsed = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(); };
-  if (prepare([&] { return elapsed() >= time; })) {
-    return ompl::geometric::SimpleSetup::solve(std::max(0.0, time - elapsed()));
+  const Stopwatch watch;
+  if (prepare([&] { return watch.seconds() >= time; })) {
+    return ompl::geometric::SimpleSetup::solve(std::max(0.0, time - watch.seconds()));
   }
-  planTime_ = elapsed();
+  planTime_ = watch.seconds();
   OMPL_INFORM("No free space after %f seconds", planTime_);
   return lastStatus_ = ob::PlannerStatus::TIMEOUT;
 }
 
 ob::PlannerStatus TranslationPlanning::solve(const ob::PlannerTerminationCondition& ptc) {
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   if (prepare([&ptc] { return ptc.eval(); })) return ompl::geometric::SimpleSetup::solve(ptc);
-  planTime_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  planTime_ = watch.seconds();
   OMPL_INFORM("No free space after %f seconds", planTime_);
   return lastStatus_ = ob::PlannerStatus::TIMEOUT;
 }

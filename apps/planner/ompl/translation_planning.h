@@ -42,6 +42,10 @@ class TranslationPlanning : public ompl::geometric::SimpleSetup {
   /** \brief Sets instead of meshes. */
   void setRobot(const Polyhedron& robot);
   void addObstacle(const Polyhedron& obstacle);
+  /** \brief Takes an obstacle away, by its index in getScene().obstacles; later ones move up. Throws std::out_of_range.
+      After a solution, obstacles that come or go change the free space by one operation each, if the robot is solid or
+      contact is forbidden; otherwise, and after many changes at once, it is built anew. */
+  void removeObstacle(std::size_t index);
   /** \brief May the robot touch obstacles (the default)? */
   void setContact(ContactRule contact);
   /** \brief Bounds of the reference point. Without them it may be anywhere (see inferEnvironmentBounds). */
@@ -82,15 +86,28 @@ class TranslationPlanning : public ompl::geometric::SimpleSetup {
   void installCheckers();
   // Builds the free space if there is none. False if stopped.
   bool prepare(const std::function<bool()>& stop);
+  bool buildRoadmap(const std::function<bool()>& stop) const;
   void changed();
+  // One obstacle came (at the end) or went since the free space was built.
+  void obstacleChanged(std::optional<std::size_t> gone);
+  // The free positions of the present scene, from those before the changes if these are few.
+  Polyhedron presentFreePositions(const BuildOptions& options) const;
 
+  struct Change {
+    Polyhedron obstacle;              ///< that came
+    std::optional<std::size_t> gone;  ///< or the index of the one that went
+  };
+  struct Before {
+    Scene scene;
+    Polyhedron free;
+  };
   Scene scene_;
+  std::optional<Before> before_;  ///< what the free space was built for last
+  std::vector<Change> changes_;   ///< of obstacles since then
   std::vector<std::string> folders_;
   std::shared_ptr<const FreeSpace> freeSpace_;
   std::optional<ompl::base::RealVectorBounds> bounds_;  ///< of the state space, when last looked at
   bool boundsOfUser_ = false;
-  ompl::base::StateValidityCheckerPtr checker_;  ///< ours, in use
-  ompl::base::MotionValidatorPtr validator_;
   ompl::base::StateValidityCheckerPtr userChecker_;
   ompl::base::MotionValidatorPtr userValidator_;
 };

@@ -27,11 +27,11 @@ std::size_t child_index(int side) { return side < 0 ? 0 : (side == 0 ? 1 : 2); }
 }  // namespace
 
 LeafId SpaceTree::leaf_at(const ExactPoint& point, std::span<const Nudge> nudges) const {
-  std::uint32_t at = root_;
+  std::uint32_t at = t_.root;
   while (!is_leaf(at)) {
-    const Node& node = nodes_[at];
-    int side = point.side(planes_, node.plane);
-    for (std::size_t i = 0; i < nudges.size() && side == 0; ++i) side = side_of_nudge(planes_, node.plane, nudges[i]);
+    const Node& node = t_.nodes[at];
+    int side = point.side(t_.planes, node.plane);
+    for (std::size_t i = 0; i < nudges.size() && side == 0; ++i) side = side_of_nudge(t_.planes, node.plane, nudges[i]);
     at = node.child[child_index(side)];
   }
   return leaf_of(at);
@@ -39,20 +39,46 @@ LeafId SpaceTree::leaf_at(const ExactPoint& point, std::span<const Nudge> nudges
 
 LeafId SpaceTree::leaf_at(const ExactPoint& point) const {
   const LeafId leaf = leaf_at(point, std::span<const Nudge>{});
-  if (leaves_[leaf].cell != kNoCell) return leaf;
-  std::uint32_t at = root_;
+  if (t_.leaves[leaf].cell != kNoCell) return leaf;
+  std::uint32_t at = t_.root;
   while (!is_leaf(at)) {
-    const Node& node = nodes_[at];
-    at = node.child[child_index(generic_side(point.side(planes_, node.plane)))];
+    const Node& node = t_.nodes[at];
+    at = node.child[child_index(generic_side(point.side(t_.planes, node.plane)))];
   }
   return leaf_of(at);
+}
+
+// Twice as large as what it holds, and never flat.
+std::array<Rational3, 2> room_around(const Complex& complex) {
+  std::array<Rational3, 2> corners;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    double least = -1;
+    double largest = 1;
+    for (std::uint32_t v = 0; v < complex.vertex_count(); ++v) {
+      const double x = complex.points.approximate(PointId{v})[axis];
+      least = std::min(least, x);
+      largest = std::max(largest, x);
+    }
+    // Much more than the rounding, and than the one that nearest_inside steps back.
+    const Rational margin = (exact_rational(largest) - exact_rational(least)) / 2 + 2;
+    const Rational low = exact_rational(least) - margin;
+    const Rational high = exact_rational(largest) + margin;
+    // Whole numbers keep the planes small.
+    Integer floor_low;
+    Integer ceil_high;
+    mpz_fdiv_q(floor_low.get_mpz_t(), low.get_num_mpz_t(), low.get_den_mpz_t());
+    mpz_cdiv_q(ceil_high.get_mpz_t(), high.get_num_mpz_t(), high.get_den_mpz_t());
+    corners[0][axis] = Rational(floor_low);
+    corners[1][axis] = Rational(ceil_high);
+  }
+  return corners;
 }
 
 std::array<Rational3, 2> SpaceTree::bounds() const {
   std::array<Rational3, 2> result;
   for (std::size_t i = 0; i < 6; ++i) {
     // Its planes are x - c = 0.
-    result[i % 2][i / 2] = -Rational(mpz_class(mpz_srcptr(planes_.coefficient(box_[i], 3))));
+    result[i % 2][i / 2] = -Rational(mpz_class(mpz_srcptr(t_.planes.coefficient(t_.box[i], 3))));
   }
   return result;
 }
@@ -66,6 +92,6 @@ Rational3 SpaceTree::nearest_inside(const Rational3& point) const {
   return result;
 }
 
-CellId SpaceTree::locate(const ExactPoint& point) const { return leaves_[leaf_at(point)].cell; }
+CellId SpaceTree::locate(const ExactPoint& point) const { return t_.leaves[leaf_at(point)].cell; }
 
 }  // namespace nef::planner

@@ -29,6 +29,9 @@ inline constexpr LeafId kNoLeaf = 0xffffffffU;
 /// A direction in which a point is moved by an infinitely small amount.
 using Nudge = std::array<Integer, 3>;
 
+/// The corners of a box that holds the finite vertices of a complex with room to spare. O(n).
+std::array<Rational3, 2> room_around(const Complex& complex);
+
 /// The ternary space partition of a complex without infimaximal box.
 class SpaceTree {
  public:
@@ -42,19 +45,31 @@ class SpaceTree {
     std::array<std::uint32_t, 3> child{};  ///< below, on, above; see is_leaf
   };
 
-  /// Builds the tree. The complex must outlive it. Expected O(n log n) to O(n^2) pieces for n
+  /// What a tree is made of; see the accessors.
+  struct Parts {
+    std::vector<Node> nodes;
+    std::vector<Leaf> leaves;
+    std::uint32_t root = 0;
+    PlaneTable planes;
+    std::array<PlaneId, 6> box;
+  };
+  explicit SpaceTree(Parts parts) : t_(std::move(parts)) {}
+
+  /// Builds the tree (a binary space partition [Fuchs, Kedem, Naylor 1980], with a third child for what lies in
+  /// the plane). The complex must outlive it. Expected O(n log n) to O(n^2) pieces for n
   /// facets. Throws UnsupportedError for a complex with an infimaximal box, minkowski::Cancelled if patience ends.
   SpaceTree(const Complex& complex, const CellNumbering& cells, Patience patience = {});
 
-  [[nodiscard]] const PlaneTable& planes() const { return planes_; }
-  [[nodiscard]] std::span<const Leaf> leaves() const { return leaves_; }
-  [[nodiscard]] std::span<const Node> nodes() const { return nodes_; }
-  [[nodiscard]] std::uint32_t root() const { return root_; }
+  [[nodiscard]] const PlaneTable& planes() const { return t_.planes; }
+  [[nodiscard]] std::span<const Leaf> leaves() const { return t_.leaves; }
+  [[nodiscard]] std::span<const Node> nodes() const { return t_.nodes; }
+  [[nodiscard]] std::uint32_t root() const { return t_.root; }
   static bool is_leaf(std::uint32_t child) { return (child & kLeafBit) != 0; }
   static LeafId leaf_of(std::uint32_t child) { return child & ~kLeafBit; }
+  static std::uint32_t child_of(LeafId leaf) { return leaf | kLeafBit; }
 
   /// Planes of a box that holds the complex with room to spare: low x, high x, low y, ...
-  [[nodiscard]] const std::array<PlaneId, 6>& box() const { return box_; }
+  [[nodiscard]] const std::array<PlaneId, 6>& box() const { return t_.box; }
 
   /// The two corners of that box.
   [[nodiscard]] std::array<Rational3, 2> bounds() const;
@@ -63,7 +78,7 @@ class SpaceTree {
   [[nodiscard]] Rational3 nearest_inside(const Rational3& point) const;
 
   /// Sets the cells of all 3-dimensional leaves; zones.h finds them out.
-  void set_volume(LeafId leaf, CellId volume) { leaves_[leaf].cell = volume; }
+  void set_volume(LeafId leaf, CellId volume) { t_.leaves[leaf].cell = volume; }
 
   /// The cell that holds the point.
   [[nodiscard]] CellId locate(const ExactPoint& point) const;
@@ -76,13 +91,8 @@ class SpaceTree {
 
  private:
   static constexpr std::uint32_t kLeafBit = 0x80000000U;
-  friend class SpaceTreeBuilder;
 
-  std::vector<Node> nodes_;
-  std::vector<Leaf> leaves_;
-  std::uint32_t root_ = 0;
-  PlaneTable planes_;
-  std::array<PlaneId, 6> box_;
+  Parts t_;
 };
 
 }  // namespace nef::planner

@@ -25,18 +25,16 @@ struct Region {
 
 bool same_plane(PlaneId a, PlaneId b) { return a.valid() && b.valid() && a.row() == b.row(); }
 
-}  // namespace
-
 class SpaceTreeBuilder {
  public:
-  SpaceTreeBuilder(const Complex& complex, const CellNumbering& cells, Patience& patience, SpaceTree& tree)
-      : complex_(complex), cells_(cells), patience_(patience), tree_(tree) {}
+  SpaceTreeBuilder(const Complex& complex, const CellNumbering& cells, Patience& patience)
+      : complex_(complex), cells_(cells), patience_(patience) {}
 
-  void build() {
+  SpaceTree::Parts build() {
     if (complex_.has_box()) {
       throw UnsupportedError("the free space is bounded by infinitely long edges or facets: give the scene a box");
     }
-    tree_.planes_ = complex_.planes;
+    tree_.planes = complex_.planes;
     points_ = complex_.points;
     make_box();
     Pieces pieces;
@@ -51,35 +49,20 @@ class SpaceTreeBuilder {
       pieces.push_back(edge_piece(h));
     }
     for (std::uint32_t f = 0; f < complex_.facet_count(); ++f) {
-      append_facet_pieces(complex_, f, cells_.facet(f), tree_.planes_, points_, tree_.box_, pieces);
+      append_facet_pieces(complex_, f, cells_.facet(f), tree_.planes, points_, tree_.box, pieces);
     }
-    tree_.root_ = build(std::move(pieces), Region{});
+    tree_.root = build(std::move(pieces), Region{});
+    return std::move(tree_);
   }
 
  private:
-  // Twice as large as what it holds, and never flat.
   void make_box() {
+    const std::array<Rational3, 2> corners = room_around(complex_);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      double least = -1;
-      double largest = 1;
-      for (std::uint32_t v = 0; v < complex_.vertex_count(); ++v) {
-        const double x = complex_.points.approximate(PointId{v})[axis];
-        least = std::min(least, x);
-        largest = std::max(largest, x);
-      }
-      // Much more than the rounding, and than the one that nearest_inside steps back.
-      const Rational margin = (exact_rational(largest) - exact_rational(least)) / 2 + 2;
-      const Rational low = exact_rational(least) - margin;
-      const Rational high = exact_rational(largest) + margin;
       Rational3 normal;
       normal[axis] = 1;
-      // Whole numbers keep the planes small.
-      Integer floor_low;
-      Integer ceil_high;
-      mpz_fdiv_q(floor_low.get_mpz_t(), low.get_num_mpz_t(), low.get_den_mpz_t());
-      mpz_cdiv_q(ceil_high.get_mpz_t(), high.get_num_mpz_t(), high.get_den_mpz_t());
-      tree_.box_[2 * axis] = tree_.planes_.intern(normal, -Rational(floor_low));
-      tree_.box_[2 * axis + 1] = tree_.planes_.intern(normal, -Rational(ceil_high));
+      tree_.box[2 * axis] = tree_.planes.intern(normal, -corners[0][axis]);
+      tree_.box[2 * axis + 1] = tree_.planes.intern(normal, -corners[1][axis]);
     }
   }
 
@@ -99,21 +82,21 @@ class SpaceTreeBuilder {
     if (!plane.valid()) return make_leaf(pieces, region);
     std::array<Pieces, 3> parts;
     for (ConvexPiece& piece : pieces) {
-      SplitPiece split_piece = split(std::move(piece), plane, tree_.planes_, points_);
+      SplitPiece split_piece = split(std::move(piece), plane, tree_.planes, points_);
       if (split_piece.negative) parts[0].push_back(std::move(*split_piece.negative));
       if (split_piece.on) parts[1].push_back(std::move(*split_piece.on));
       if (split_piece.positive) parts[2].push_back(std::move(*split_piece.positive));
     }
     pieces = Pieces{};
-    const auto node = static_cast<std::uint32_t>(tree_.nodes_.size());
-    tree_.nodes_.push_back({PlaneId{plane.row() << 1U}, {}});
+    const auto node = static_cast<std::uint32_t>(tree_.nodes.size());
+    tree_.nodes.push_back({PlaneId{plane.row() << 1U}, {}});
     Region on = region;
     --on.dimension;
     if (region.dimension == 3) on.p = plane;
     if (region.dimension == 2) on.q = plane;
     for (std::size_t i = 0; i < 3; ++i) {
       const std::uint32_t child = build(std::move(parts[i]), i == 1 ? on : region);
-      tree_.nodes_[node].child[i] = child;
+      tree_.nodes[node].child[i] = child;
     }
     return node;
   }
@@ -124,8 +107,8 @@ class SpaceTreeBuilder {
     for (const ConvexPiece& piece : pieces) {
       if (piece.dimension == region.dimension) leaf.cell = std::min(leaf.cell, piece.cell);
     }
-    tree_.leaves_.push_back(leaf);
-    return static_cast<std::uint32_t>(tree_.leaves_.size() - 1) | SpaceTree::kLeafBit;
+    tree_.leaves.push_back(leaf);
+    return SpaceTree::child_of(static_cast<LeafId>(tree_.leaves.size() - 1));
   }
 
   /// The plane of the next split; invalid where the region is a leaf.
@@ -172,7 +155,7 @@ class SpaceTreeBuilder {
       bool above = false;
       bool below = false;
       for (const PointId point : piece.points) {
-        const int side = side_of_plane(tree_.planes_, positive, points_, point);
+        const int side = side_of_plane(tree_.planes, positive, points_, point);
         above = above || side > 0;
         below = below || side < 0;
         if (above && below) break;
@@ -196,7 +179,7 @@ class SpaceTreeBuilder {
     Integer d = -Integer(mpz_class(mpz_srcptr(points_.coordinate(piece.points[0], axis))));
     std::array<Integer, 3> normal;
     normal[axis] = mpz_class(mpz_srcptr(points_.coordinate(piece.points[0], 3)));
-    return tree_.planes_.intern(normal[0], normal[1], normal[2], d);
+    return tree_.planes.intern(normal[0], normal[1], normal[2], d);
   }
 
   /// An axis whose planes do not hold the region.
@@ -206,12 +189,12 @@ class SpaceTreeBuilder {
     if (region.dimension == 2) {
       // The plane is the axis-parallel one itself iff its other two components vanish.
       for (std::size_t i = 0; i < 3; ++i) {
-        along[i] = tree_.planes_.coefficient(region.p, (i + 1) % 3).sign() != 0 ||
-                   tree_.planes_.coefficient(region.p, (i + 2) % 3).sign() != 0;
+        along[i] = tree_.planes.coefficient(region.p, (i + 1) % 3).sign() != 0 ||
+                   tree_.planes.coefficient(region.p, (i + 2) % 3).sign() != 0;
       }
     } else {
       const std::array<Integer, 3> direction =
-          Direction::cross(tree_.planes_, PlaneId{region.p.row() << 1U}, PlaneId{region.q.row() << 1U}).integers();
+          Direction::cross(tree_.planes, PlaneId{region.p.row() << 1U}, PlaneId{region.q.row() << 1U}).integers();
       for (std::size_t i = 0; i < 3; ++i) along[i] = direction[i] != 0;
     }
     return along[0] ? 0U : along[1] ? 1U : 2U;
@@ -220,12 +203,13 @@ class SpaceTreeBuilder {
   const Complex& complex_;
   const CellNumbering& cells_;
   Patience& patience_;
-  SpaceTree& tree_;
+  SpaceTree::Parts tree_;
   PointTable points_;
 };
 
-SpaceTree::SpaceTree(const Complex& complex, const CellNumbering& cells, Patience patience) {
-  SpaceTreeBuilder(complex, cells, patience, *this).build();
-}
+}  // namespace
+
+SpaceTree::SpaceTree(const Complex& complex, const CellNumbering& cells, Patience patience)
+    : SpaceTree(SpaceTreeBuilder(complex, cells, patience).build()) {}
 
 }  // namespace nef::planner

@@ -7,15 +7,16 @@
 
 namespace nef::planner {
 
-void StationMaker::make() {
-  for (std::uint32_t i = 0; i < zones_.walls_.walls().size(); ++i) wall(i);
-  for (std::uint32_t i = 0; i < zones_.walls_.seams().size(); ++i) seam(i);
+Zones::Stations StationMaker::make() {
+  for (std::uint32_t i = 0; i < walls_.walls().size(); ++i) wall(i);
+  for (std::uint32_t i = 0; i < walls_.seams().size(); ++i) seam(i);
   for (std::uint32_t v = 0; v < complex_.vertex_count(); ++v) {
     if (selected_(cells_.vertex(v))) vertex(v);
   }
   for (std::uint32_t h = 0; h < complex_.svertices.size(); ++h) {
     if (complex_.twin[h] > h && selected_(cells_.edge(h))) edge(h);
   }
+  return std::move(out_);
 }
 
 void StationMaker::begin(Kind kind, std::uint32_t source, CellId cell, const std::array<double, 3>& approximate) {
@@ -25,8 +26,8 @@ void StationMaker::begin(Kind kind, std::uint32_t source, CellId cell, const std
   station.source = source;
   station.cell = cell;
   station.approximate = approximate;
-  station.first_zone = static_cast<std::uint32_t>(zones_.station_zones_.size());
-  zones_.stations_.push_back(station);
+  station.first_zone = static_cast<std::uint32_t>(out_.zones.size());
+  out_.stations.push_back(station);
 }
 
 void StationMaker::add_leaf_if_selected(LeafId leaf) {
@@ -35,19 +36,19 @@ void StationMaker::add_leaf_if_selected(LeafId leaf) {
 }
 
 void StationMaker::end() {
-  Zones::Station& station = zones_.stations_.back();
-  const auto first = zones_.station_zones_.begin() + station.first_zone;
-  std::sort(first, zones_.station_zones_.end());
-  zones_.station_zones_.erase(std::unique(first, zones_.station_zones_.end()), zones_.station_zones_.end());
-  station.zone_count = static_cast<std::uint32_t>(zones_.station_zones_.size()) - station.first_zone;
+  Zones::Station& station = out_.stations.back();
+  const auto first = out_.zones.begin() + station.first_zone;
+  std::sort(first, out_.zones.end());
+  out_.zones.erase(std::unique(first, out_.zones.end()), out_.zones.end());
+  station.zone_count = static_cast<std::uint32_t>(out_.zones.size()) - station.first_zone;
 }
 
 void StationMaker::wall(std::uint32_t i) {
-  const Wall& w = zones_.walls_.walls()[i];
+  const Wall& w = walls_.walls()[i];
   const CellId on = tree_.leaves()[w.on].cell;
   const CellId cell = on == kNoCell ? tree_.leaves()[w.below].cell : on;
   if (cell == kNoCell || !selected_(cell)) return;
-  begin(Kind::kWall, i, cell, zones_.walls_.approximate_centre(w));
+  begin(Kind::kWall, i, cell, walls_.approximate_centre(w));
   if (on != kNoCell) add(w.on);
   add_leaf_if_selected(w.below);
   add_leaf_if_selected(w.above);
@@ -55,8 +56,8 @@ void StationMaker::wall(std::uint32_t i) {
 }
 
 void StationMaker::seam(std::uint32_t i) {
-  const Wall& s = zones_.walls_.seams()[i];
-  begin(Kind::kSeam, i, tree_.leaves()[s.on].cell, zones_.walls_.approximate_centre(s));
+  const Wall& s = walls_.seams()[i];
+  begin(Kind::kSeam, i, tree_.leaves()[s.on].cell, walls_.approximate_centre(s));
   add_leaf_if_selected(s.below);
   add_leaf_if_selected(s.above);
   end();

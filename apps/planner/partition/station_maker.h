@@ -8,28 +8,24 @@
 
 namespace nef::planner {
 
-/// Makes the stations of zones whose walls are known already: one per wall, seam, vertex and edge that is selected.
-/// Nudges tell which leaf begins at a vertex or edge in which direction.
+/// Makes the stations of a partition whose walls are known already: one per wall, seam, vertex and edge that is
+/// selected. Nudges tell which leaf begins at a vertex or edge in which direction.
 class StationMaker {
  public:
-  /// `zones` receives the stations. `selected` must outlive the object.
-  StationMaker(Zones& zones, const std::function<bool(CellId)>& selected, Patience& patience)
-      : zones_(zones),
-        complex_(*zones.complex_),
-        cells_(*zones.cells_),
-        tree_(*zones.tree_),
-        selected_(selected),
-        patience_(patience) {}
+  /// All arguments must outlive the object.
+  StationMaker(const Complex& complex, const CellNumbering& cells, const SpaceTree& tree, const Walls& walls,
+               const std::function<bool(CellId)>& selected, Patience& patience)
+      : complex_(complex), cells_(cells), tree_(tree), walls_(walls), selected_(selected), patience_(patience) {}
 
   /// O(items of the complex and walls) locations in the tree.
-  void make();
+  Zones::Stations make();
 
  private:
   using Kind = Zones::Station::Kind;
 
   // A station is begun, gets its zones, and ends.
   void begin(Kind kind, std::uint32_t source, CellId cell, const std::array<double, 3>& approximate);
-  void add(ZoneId zone) { zones_.station_zones_.push_back(zone); }
+  void add(ZoneId zone) { out_.zones.push_back(zone); }
   void add_leaf_if_selected(LeafId leaf);
   void end();
 
@@ -43,12 +39,13 @@ class StationMaker {
   [[nodiscard]] ZoneId zone_of_cell(CellId cell) const { return static_cast<ZoneId>(tree_.leaves().size()) + cell; }
   [[nodiscard]] Nudge normal(PlaneId plane) const;
 
-  Zones& zones_;
   const Complex& complex_;
   const CellNumbering& cells_;
   const SpaceTree& tree_;
+  const Walls& walls_;
   const std::function<bool(CellId)>& selected_;
   Patience& patience_;
+  Zones::Stations out_;
 };
 
 }  // namespace nef::planner

@@ -8,36 +8,44 @@
 #include "nef/base/union_find.h"
 
 namespace nef::planner {
+namespace {
 
 class WallCollector {
  public:
   WallCollector(const Complex& complex, const CellNumbering& cells, const SpaceTree& tree,
-                const std::function<bool(CellId)>& wanted_facet, Patience& patience, Walls& out)
+                const std::function<bool(CellId)>& wanted_facet, Patience& patience)
       : complex_(complex),
         cells_(cells),
         tree_(tree),
         planes_(tree.planes()),
         wanted_facet_(wanted_facet),
-        patience_(patience),
-        out_(out) {}
+        patience_(patience) {}
+
+  WallLists run() {
+    collect(tree_.root());
+    return std::move(out_);
+  }
+
+ private:
+  using Visit = std::function<void(LeafId, ConvexPiece&&)>;
 
   void collect(std::uint32_t at) {
     if (SpaceTree::is_leaf(at)) return;
     patience_.check();
     const SpaceTree::Node& node = tree_.nodes()[at];
-    std::optional<ConvexPiece> polygon = plane_in_box(node.plane, tree_.box(), planes_, out_.points_);
+    std::optional<ConvexPiece> polygon = plane_in_box(node.plane, tree_.box(), planes_, out_.points);
     for (std::size_t i = 0; i < 6 && polygon; ++i) {
-      SplitPiece parts = split(std::move(*polygon), tree_.box()[i], planes_, out_.points_);
+      SplitPiece parts = split(std::move(*polygon), tree_.box()[i], planes_, out_.points);
       polygon = std::move(i % 2 == 0 ? parts.positive : parts.negative);
     }
     for (const auto& [plane, side] : ancestors_) {
       if (!polygon) break;
-      SplitPiece parts = split(std::move(*polygon), plane, planes_, out_.points_);
+      SplitPiece parts = split(std::move(*polygon), plane, planes_, out_.points);
       polygon = std::move(side < 0 ? parts.negative : parts.positive);
     }
     if (polygon) {
       through_plane(node, node.child[1], std::move(*polygon),
-                    [&](LeafId on, ConvexPiece&& piece) { pair_up(node, 2, on, std::move(piece), out_.walls_); });
+                    [&](LeafId on, ConvexPiece&& piece) { pair_up(node, 2, on, std::move(piece), out_.walls); });
     }
     ancestors_.emplace_back(node.plane, -1);
     collect(node.child[0]);
@@ -46,9 +54,6 @@ class WallCollector {
     ancestors_.pop_back();
   }
 
- private:
-  using Visit = std::function<void(LeafId, ConvexPiece&&)>;
-
   // Hands a polygon of the splitting plane of `cut` down the tree of that plane, and gathers the seams on the way.
   void through_plane(const SpaceTree::Node& cut, std::uint32_t at, ConvexPiece&& polygon, const Visit& visit) {
     if (SpaceTree::is_leaf(at)) {
@@ -56,7 +61,7 @@ class WallCollector {
       return;
     }
     const SpaceTree::Node& node = tree_.nodes()[at];
-    SplitPiece parts = split(std::move(polygon), node.plane, planes_, out_.points_);
+    SplitPiece parts = split(std::move(polygon), node.plane, planes_, out_.points);
     if (parts.negative && parts.positive) {
       NEF_ASSERT(parts.on.has_value());
       down(node.child[1], std::move(*parts.on), 1,
@@ -72,7 +77,7 @@ class WallCollector {
     const CellId cell = tree_.leaves()[on].cell;
     if (cell == kNoCell || !wanted_facet_(cell)) return;
     const bool in_plane = complex_.facets[cells_.index(cell)].plane.row() == cut.plane.row();
-    pair_up(in_plane ? line : cut, 1, on, std::move(piece), out_.seams_);
+    pair_up(in_plane ? line : cut, 1, on, std::move(piece), out_.seams);
   }
 
   // Hands a piece down any subtree; parts of its own dimension arrive at leaves.
@@ -82,7 +87,7 @@ class WallCollector {
       return;
     }
     const SpaceTree::Node& node = tree_.nodes()[at];
-    SplitPiece parts = split(std::move(piece), node.plane, planes_, out_.points_);
+    SplitPiece parts = split(std::move(piece), node.plane, planes_, out_.points);
     if (parts.negative) down(node.child[0], std::move(*parts.negative), dimension, visit);
     if (parts.positive) down(node.child[2], std::move(*parts.positive), dimension, visit);
     if (parts.on && parts.on->dimension == dimension) down(node.child[1], std::move(*parts.on), dimension, visit);
@@ -91,9 +96,9 @@ class WallCollector {
   void pair_up(const SpaceTree::Node& node, int dimension, LeafId on, ConvexPiece&& piece, std::vector<Wall>& walls) {
     down(node.child[0], std::move(piece), dimension, [&](LeafId below, ConvexPiece&& part) {
       down(node.child[2], std::move(part), dimension, [&](LeafId above, ConvexPiece&& wall) {
-        walls.push_back({node.plane, on, below, above, static_cast<std::uint32_t>(out_.corners_.size()),
+        walls.push_back({node.plane, on, below, above, static_cast<std::uint32_t>(out_.corners.size()),
                          static_cast<std::uint32_t>(wall.points.size())});
-        out_.corners_.insert(out_.corners_.end(), wall.points.begin(), wall.points.end());
+        out_.corners.insert(out_.corners.end(), wall.points.begin(), wall.points.end());
       });
     });
   }
@@ -104,11 +109,9 @@ class WallCollector {
   const PlaneTable& planes_;
   const std::function<bool(CellId)>& wanted_facet_;
   Patience& patience_;
-  Walls& out_;
+  WallLists out_;
   std::vector<std::pair<PlaneId, int>> ancestors_;
 };
-
-namespace {
 
 // Gives every 3-dimensional leaf its volume.
 void name_volumes(const Complex& complex, const CellNumbering& cells, const std::vector<Wall>& walls, SpaceTree& tree) {
@@ -134,15 +137,15 @@ void name_volumes(const Complex& complex, const CellNumbering& cells, const std:
 }  // namespace
 
 Walls::Walls(const Complex& complex, const CellNumbering& cells, SpaceTree& tree,
-             const std::function<bool(CellId)>& wanted_facet, Patience& patience) {
-  WallCollector(complex, cells, tree, wanted_facet, patience, *this).collect(tree.root());
-  name_volumes(complex, cells, walls_, tree);
+             const std::function<bool(CellId)>& wanted_facet, Patience& patience)
+    : Walls(WallCollector(complex, cells, tree, wanted_facet, patience).run()) {
+  name_volumes(complex, cells, w_.walls, tree);
 }
 
 Rational3 Walls::centre(const Wall& wall) const {
   Rational3 sum;
   for (std::uint32_t i = 0; i < wall.point_count; ++i) {
-    const Rational3 x = points_.rational(corners_[wall.first_point + i]);
+    const Rational3 x = w_.points.rational(w_.corners[wall.first_point + i]);
     for (std::size_t k = 0; k < 3; ++k) sum[k] += x[k];
   }
   for (Rational& value : sum) value /= Rational(static_cast<unsigned long>(wall.point_count));
@@ -152,7 +155,7 @@ Rational3 Walls::centre(const Wall& wall) const {
 std::array<double, 3> Walls::approximate_centre(const Wall& wall) const {
   std::array<double, 3> sum{};
   for (std::uint32_t i = 0; i < wall.point_count; ++i) {
-    const std::array<double, 3>& x = points_.approximate(corners_[wall.first_point + i]);
+    const std::array<double, 3>& x = w_.points.approximate(w_.corners[wall.first_point + i]);
     for (std::size_t k = 0; k < 3; ++k) sum[k] += x[k];
   }
   for (double& value : sum) value /= static_cast<double>(wall.point_count);
@@ -162,7 +165,7 @@ std::array<double, 3> Walls::approximate_centre(const Wall& wall) const {
 std::vector<std::array<double, 3>> Walls::approximate_corners(const Wall& wall) const {
   std::vector<std::array<double, 3>> result;
   for (std::uint32_t i = 0; i < wall.point_count; ++i) {
-    result.push_back(points_.approximate(corners_[wall.first_point + i]));
+    result.push_back(w_.points.approximate(w_.corners[wall.first_point + i]));
   }
   return result;
 }

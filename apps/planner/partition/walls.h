@@ -20,17 +20,26 @@ struct Wall {
   std::uint32_t point_count = 0;
 };
 
+/// Walls between leaves of dimension 3, seams between leaves of dimension 2, and the points of both.
+struct WallLists {
+  std::vector<Wall> walls;
+  std::vector<Wall> seams;
+  std::vector<PointId> corners;
+  PointTable points;
+};
+
 /// All walls of a tree.
 class Walls {
  public:
+  explicit Walls(WallLists lists) : w_(std::move(lists)) {}
   /// `wanted_facet` tells for which facets' cells the segments between their leaves are wanted.
   /// Finds out the volume of every 3-dimensional leaf and stores it in the tree: a wall in a facet
   /// knows the volumes beside it, and a wall in no facet has the same volume on both sides.
   Walls(const Complex& complex, const CellNumbering& cells, SpaceTree& tree,
         const std::function<bool(CellId)>& wanted_facet, Patience& patience);
 
-  [[nodiscard]] const std::vector<Wall>& walls() const { return walls_; }
-  [[nodiscard]] const std::vector<Wall>& seams() const { return seams_; }
+  [[nodiscard]] const std::vector<Wall>& walls() const { return w_.walls; }
+  [[nodiscard]] const std::vector<Wall>& seams() const { return w_.seams; }
   /// The mean of the corners of a wall or seam.
   [[nodiscard]] Rational3 centre(const Wall& wall) const;
   [[nodiscard]] std::array<double, 3> approximate_centre(const Wall& wall) const;
@@ -38,11 +47,7 @@ class Walls {
   [[nodiscard]] std::vector<std::array<double, 3>> approximate_corners(const Wall& wall) const;
 
  private:
-  friend class WallCollector;
-  std::vector<Wall> walls_;
-  std::vector<Wall> seams_;
-  std::vector<PointId> corners_;
-  PointTable points_;
+  WallLists w_;
 };
 
 }  // namespace nef::planner

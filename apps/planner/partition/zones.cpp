@@ -33,9 +33,9 @@ Zones::Zones(const Complex& complex, const CellNumbering& cells, SpaceTree& tree
       tree_(&tree),
       walls_(
           complex, cells, tree, [&](CellId cell) { return cells.dimension(cell) == 2 && selected(cell); }, patience) {
-  StationMaker(*this, selected, patience).make();
+  s_ = StationMaker(complex, cells, tree, walls_, selected, patience).make();
   make_lists(tree.leaves().size() + cells.facet(0), zone_begin_, zone_stations_, [&](const auto& visit) {
-    for (StationId s = 0; s < stations_.size(); ++s) {
+    for (StationId s = 0; s < s_.stations.size(); ++s) {
       for (const ZoneId zone : zones_of(s)) visit(zone, s);
     }
   });
@@ -53,7 +53,7 @@ CellId Zones::cell_of(ZoneId zone) const {
 }
 
 Rational3 Zones::point(StationId id) const {
-  const Station& station = stations_[id];
+  const Station& station = s_.stations[id];
   switch (station.kind) {
     case Station::Kind::kWall:
       return walls_.centre(walls_.walls()[station.source]);
@@ -138,7 +138,7 @@ Rational3 Zones::interior_of_room(LeafId leaf) const {
 Rational3 Zones::interior_point(ZoneId zone) const {
   if (zone < tree_->leaves().size()) return interior_of_room(zone);
   for (const StationId s : stations_of(zone)) {
-    if (stations_[s].cell == cell_of(zone)) return point(s);
+    if (s_.stations[s].cell == cell_of(zone)) return point(s);
   }
   NEF_ASSERT(false);
   return {};

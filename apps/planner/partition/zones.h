@@ -35,15 +35,21 @@ class Zones {
     std::uint32_t source = 0;  ///< index of the wall or seam, vertex, or halfedge
   };
 
+  /// All stations with their zones, station after station.
+  struct Stations {
+    std::vector<Station> stations;
+    std::vector<ZoneId> zones;
+  };
+
   /// `selected` tells which cells are free. The tree and the complex must outlive the result. Throws
   /// minkowski::Cancelled if patience ends.
   Zones(const Complex& complex, const CellNumbering& cells, SpaceTree& tree,
         const std::function<bool(CellId)>& selected, Patience patience = {});
 
   [[nodiscard]] const Walls& walls() const { return walls_; }
-  [[nodiscard]] std::span<const Station> stations() const { return stations_; }
+  [[nodiscard]] std::span<const Station> stations() const { return s_.stations; }
   [[nodiscard]] std::span<const ZoneId> zones_of(StationId station) const {
-    return {station_zones_.data() + stations_[station].first_zone, stations_[station].zone_count};
+    return {s_.zones.data() + s_.stations[station].first_zone, s_.stations[station].zone_count};
   }
   [[nodiscard]] std::span<const StationId> stations_of(ZoneId zone) const {
     return {zone_stations_.data() + zone_begin_[zone], zone_begin_[zone + 1] - zone_begin_[zone]};
@@ -61,7 +67,6 @@ class Zones {
   [[nodiscard]] Rational3 interior_point(ZoneId zone) const;
 
  private:
-  friend class StationMaker;
   [[nodiscard]] Rational3 interior_of_room(LeafId leaf) const;
   [[nodiscard]] Rational3 step_off(const Wall& wall, LeafId leaf) const;
 
@@ -69,8 +74,7 @@ class Zones {
   const CellNumbering* cells_;
   const SpaceTree* tree_;
   Walls walls_;
-  std::vector<Station> stations_;
-  std::vector<ZoneId> station_zones_;
+  Stations s_;
   std::vector<std::uint32_t> zone_begin_;
   std::vector<StationId> zone_stations_;
   std::vector<std::uint32_t> leaf_wall_begin_;  // walls around (3-dimensional) or in (2-dimensional) each leaf

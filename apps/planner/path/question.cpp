@@ -10,8 +10,8 @@ Problem::Problem(Scene scene, const BuildOptions& options) : scene_(std::move(sc
   Polyhedron free = free_positions(scene_, options);
   phases_["configuration_space"] = watch.lap();
   if (options.progress) options.progress("roadmap", 0, 0);
-  free_ = std::make_shared<const FreeSpace>(std::move(free), options.stop);
-  phases_["roadmap"] = watch.lap();
+  free_ = std::make_shared<const FreeSpace>(std::move(free));
+  phases_["cells"] = watch.lap();
 }
 
 Answer Problem::solve(const PathOptions& options) const {
@@ -37,9 +37,14 @@ Answer Problem::solve(const Rational3& start, const Rational3& goal, const PathO
   answer.start_component = free_->component(start_cell);
   answer.goal_component = free_->component(goal_cell);
   answer.thinness = free_->thinness(start_cell, goal_cell);
+  if (answer.thinness && !free_->has_roadmap()) {
+    answer.phases["query"] = watch.lap();
+    free_->build_roadmap();
+    answer.phases["roadmap"] = watch.lap();
+  }
   answer.path = find_path(*free_, start, goal, options);
   answer.status = answer.path ? Answer::Status::kPath : Answer::Status::kInfeasible;
-  answer.phases["query"] = watch.lap();
+  answer.phases["query"] += watch.lap();
   return answer;
 }
 

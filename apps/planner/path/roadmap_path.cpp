@@ -2,10 +2,9 @@
 //
 // A* over the stations of the zones.
 #include <algorithm>
-#include <cmath>
-#include <queue>
 
 #include "apps/planner/free_space/vectors.h"
+#include "apps/planner/path/a_star.h"
 #include "apps/planner/path/path.h"
 #include "nef/base/error.h"
 
@@ -22,63 +21,44 @@ class Search {
         goal_(goal),
         near_start_(free.tree().nearest_inside(start)),
         near_goal_(free.tree().nearest_inside(goal)),
-        clearance_(clearance) {}
+        clearance_(clearance),
+        search_(zones_.stations().size()),
+        by_zone_(zones_.stations().size(), 0) {}
 
   std::optional<std::vector<Rational3>> run() {
     const ExactPoint start(near_start_);
     const ExactPoint goal(near_goal_);
-    start_zone_ = zones_.zone_at(start);
+    const ZoneId start_zone = zones_.zone_at(start);
     goal_zone_ = zones_.zone_at(goal);
-    goal_approximate_ = goal.approximate();
-    const std::size_t count = zones_.stations().size();
-    cost_.assign(count, HUGE_VAL);
-    came_from_.assign(count, kStart);
-    by_zone_.assign(count, start_zone_);
-    settled_.assign(count, false);
-    if (start_zone_ == goal_zone_) return extract({});
-    enter_zone(start_zone_, kStart, start.approximate(), 0);
-    while (!queue_.empty()) {
-      const StationId station = queue_.top().second;
-      queue_.pop();
-      if (settled_[station]) continue;
-      settled_[station] = true;
-      if (const std::optional<std::vector<StationId>> chain = arrive(station)) return extract(*chain);
-      for (const ZoneId zone : zones_.zones_of(station)) {
-        if (filter_(zones_.cell_of(zone))) {
-          enter_zone(zone, station, zones_.stations()[station].approximate, cost_[station]);
-        }
+    goal_approximate_ = to_vector(goal.approximate());
+    if (start_zone == goal_zone_) return extract({});
+    enter_zone(start_zone, AStar::kNone, to_vector(start.approximate()), 0);
+    while (const std::optional<StationId> station = search_.next()) {
+      const std::span<const ZoneId> around = zones_.zones_of(*station);
+      if (std::find(around.begin(), around.end(), goal_zone_) != around.end()) return extract(search_.way_to(*station));
+      for (const ZoneId zone : around) {
+        if (filter_(zones_.cell_of(zone))) enter_zone(zone, *station, place_of(*station), search_.cost(*station));
       }
     }
     return std::nullopt;
   }
 
  private:
-  static constexpr StationId kStart = 0xffffffffU;
-  using Entry = std::pair<double, StationId>;
+  [[nodiscard]] Vector3d place_of(StationId station) const { return to_vector(zones_.stations()[station].approximate); }
 
-  void enter_zone(ZoneId zone, StationId from, const Vector& place, double cost) {
+  void enter_zone(ZoneId zone, StationId from, const Vector3d& place, double cost) {
     for (const StationId next : zones_.stations_of(zone)) {
-      const Zones::Station& station = zones_.stations()[next];
-      if (!filter_(station.cell)) continue;
+      const CellId cell = zones_.stations()[next].cell;
+      if (!filter_(cell)) continue;
       // With clearance, touching the boundary of a volume costs extra.
-      const bool contact = clearance_ && free_.cells().dimension(station.cell) < free_.local_dimension(station.cell);
-      const double length = span(place, station.approximate);
+      const bool contact = clearance_ && free_.cells().dimension(cell) < free_.local_dimension(cell);
+      const Vector3d there = place_of(next);
+      const double length = (there - place).norm();
       const double total = cost + (contact ? 4 * length + 1e-3 : length);
-      if (!(total < cost_[next])) continue;
-      cost_[next] = total;
-      came_from_[next] = from;
+      if (!search_.improves(next, total)) continue;
       by_zone_[next] = zone;
-      queue_.emplace(total + span(station.approximate, goal_approximate_), next);
+      search_.offer(next, from, total, total + (goal_approximate_ - there).norm());
     }
-  }
-
-  std::optional<std::vector<StationId>> arrive(StationId station) {
-    const std::span<const ZoneId> around = zones_.zones_of(station);
-    if (std::find(around.begin(), around.end(), goal_zone_) == around.end()) return std::nullopt;
-    std::vector<StationId> chain;
-    for (StationId s = station; s != kStart; s = came_from_[s]) chain.push_back(s);
-    std::reverse(chain.begin(), chain.end());
-    return chain;
   }
 
   // The way-points of a chain of stations. Between two points in the closure of one zone the
@@ -114,14 +94,10 @@ class Search {
   Rational3 near_start_;  // start and goal, or where one comes from them to where there are stations
   Rational3 near_goal_;
   bool clearance_;
-  ZoneId start_zone_ = 0;
+  AStar search_;
+  std::vector<ZoneId> by_zone_;  // through which each station was reached
   ZoneId goal_zone_ = 0;
-  Vector goal_approximate_{};
-  std::vector<double> cost_;
-  std::vector<StationId> came_from_;
-  std::vector<ZoneId> by_zone_;
-  std::vector<bool> settled_;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
+  Vector3d goal_approximate_ = Vector3d::Zero();
 };
 
 }  // namespace

@@ -32,16 +32,11 @@ bool keeps_clearance(const FreeSpace& free, const Waypoints& path, std::size_t i
 }
 
 // The parameter on the line e0 + t d at which |a - x| + |x - c| is least: unfold both about it.
-double best_parameter(const Vector& e0, const Vector& d, const Vector& a, const Vector& c) {
-  const double dd = dot(d, d);
-  const double ta = dot(minus(a, e0), d) / dd;
-  const double tc = dot(minus(c, e0), d) / dd;
-  const auto off = [&](const Vector& x, double t) {
-    const Vector y{x[0] - e0[0] - t * d[0], x[1] - e0[1] - t * d[1], x[2] - e0[2] - t * d[2]};
-    return std::sqrt(dot(y, y));
-  };
-  const double ha = off(a, ta);
-  const double hc = off(c, tc);
+double best_parameter(const Vector3d& e0, const Vector3d& d, const Vector3d& a, const Vector3d& c) {
+  const double ta = (a - e0).dot(d) / d.squaredNorm();
+  const double tc = (c - e0).dot(d) / d.squaredNorm();
+  const double ha = (a - e0 - ta * d).norm();
+  const double hc = (c - e0 - tc * d).norm();
   return ha + hc > 0 ? (ta * hc + tc * ha) / (ha + hc) : ta;
 }
 
@@ -75,9 +70,9 @@ bool slide(const FreeSpace& free, const CellFilter& filter, Waypoints& path, std
   bool changed = false;
   for (const CellId edge : edges_at(free, path[i])) {
     const std::vector<Rational3> ends = free.vertices(edge);
-    const Vector e0 = to_double(ends[0]);
-    const Vector d = minus(to_double(ends[1]), e0);
-    const double t = std::clamp(best_parameter(e0, d, to_double(path[i - 1]), to_double(path[i + 1])), 0.0, 1.0);
+    const Vector3d e0 = to_vector(ends[0]);
+    const Vector3d d = to_vector(ends[1]) - e0;
+    const double t = std::clamp(best_parameter(e0, d, to_vector(path[i - 1]), to_vector(path[i + 1])), 0.0, 1.0);
     if (!std::isfinite(t)) continue;
     const Rational low = std::max(Rational(0), Rational(t - 1e-7));
     const Rational high = std::min(Rational(1), Rational(t + 1e-7));
@@ -104,9 +99,9 @@ std::size_t bits(const Rational3& x) {
 void polish(const FreeSpace& free, const CellFilter& filter, Waypoints& path, std::size_t i) {
   for (const CellId edge : edges_at(free, path[i])) {
     const std::vector<Rational3> ends = free.vertices(edge);
-    const Vector e0 = to_double(ends[0]);
-    const Vector d = minus(to_double(ends[1]), e0);
-    const double t = best_parameter(e0, d, to_double(path[i - 1]), to_double(path[i + 1]));
+    const Vector3d e0 = to_vector(ends[0]);
+    const Vector3d d = to_vector(ends[1]) - e0;
+    const double t = best_parameter(e0, d, to_vector(path[i - 1]), to_vector(path[i + 1]));
     if (!std::isfinite(t) || t < 0 || t > 1) continue;
     const Rational low = std::max(Rational(0), Rational(t - 1e-6));
     const Rational high = std::min(Rational(1), Rational(t + 1e-6));

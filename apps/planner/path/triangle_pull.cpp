@@ -23,7 +23,7 @@ class Triangle {
     normal_ = cross(ac_, ab_);
     size_ = dot(normal_, normal_);
     for (const Rational3* p : {&a, &b, &c}) {
-      box_.add_rounded(to_double(*p));
+      box_.add_rounded(to_array(to_vector(*p)));
     }
   }
   [[nodiscard]] bool flat() const { return size_ == 0; }
@@ -83,9 +83,9 @@ std::vector<Point2> meetings(const FreeSpace& free, const Triangle& triangle) {
   return result;
 }
 
-// The upper hull from (0,0) to (1,0), ends included: the boundary of the convex hull of all points
-// without the side between the two. The triangle's corner is (0,1), so points may share u = 0
-// with the first end and be above it, but nothing is left of it.
+// The upper hull from (0,0) to (1,0), ends included, by the monotone chain of [Andrew 1979]: the boundary of the convex
+// hull of all points without the side between the two. The triangle's corner is (0,1), so points may share u = 0 with
+// the first end and be above it, but nothing is left of it.
 std::vector<Point2> taut_string(std::vector<Point2> points) {
   std::erase_if(points, [](const Point2& p) { return p[1] == 0; });
   std::sort(points.begin(), points.end());

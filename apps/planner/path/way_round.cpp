@@ -2,12 +2,12 @@
 //
 // Another way round an obstacle may be shorter than the best that pulling can make of the present
 // one. Shortest paths bend at edges, so their vertices and a few points on them, joined where they
-// see each other, show which way is best.
+// see each other, show which way is best ([Papadimitriou 1985] places points on edges so that the result is as near to
+// the optimum as wanted; here a few must do, since tightening follows).
 #include <algorithm>
-#include <cmath>
-#include <queue>
 
 #include "apps/planner/free_space/vectors.h"
+#include "apps/planner/path/a_star.h"
 #include "apps/planner/path/shorten.h"
 
 namespace nef::planner {
@@ -15,12 +15,12 @@ namespace {
 
 struct Place {
   Rational3 exact;
-  Vector approximate{};
+  Vector3d approximate;
 };
 
-double span(const Place& a, const Place& b) { return planner::span(a.approximate, b.approximate); }
+double span(const Place& a, const Place& b) { return (a.approximate - b.approximate).norm(); }
 
-Place make_place(const Rational3& p) { return {p, to_double(p)}; }
+Place make_place(const Rational3& p) { return {p, to_vector(p)}; }
 
 // Vertices and three points on each edge; fewer if that would be too many.
 std::vector<Place> places(const FreeSpace& free, const CellFilter& filter, std::size_t limit) {
@@ -51,40 +51,30 @@ std::vector<Place> places(const FreeSpace& free, const CellFilter& filter, std::
   return result;
 }
 
-// A* whose edges are checked only when they would improve something.
+// The shortest way from the first place to the second over places that see each other, if it is shorter than
+// `upper_bound`; else none. Two places are asked whether they see each other only if that would improve something.
 Waypoints visible_way(const FreeSpace& free, const CellFilter& filter, const std::vector<Place>& places,
                       double upper_bound) {
-  const std::size_t goal = 1;
-  std::vector<double> cost(places.size(), HUGE_VAL);
-  std::vector<std::size_t> from(places.size(), 0);
-  std::vector<bool> settled(places.size(), false);
-  std::priority_queue<std::pair<double, std::size_t>, std::vector<std::pair<double, std::size_t>>, std::greater<>>
-      queue;
-  cost[0] = 0;
-  queue.emplace(span(places[0], places[goal]), 0);
-  while (!queue.empty()) {
-    const std::size_t at = queue.top().second;
-    queue.pop();
-    if (settled[at]) continue;
-    settled[at] = true;
-    if (at == goal) break;
-    for (std::size_t next = 1; next < places.size(); ++next) {
-      if (settled[next]) continue;
-      const double total = cost[at] + span(places[at], places[next]);
-      const double estimate = total + span(places[next], places[goal]);
-      if (!(total < cost[next]) || estimate >= upper_bound) continue;
-      if (!segment_allowed(free, filter, places[at].exact, places[next].exact)) continue;
-      cost[next] = total;
-      from[next] = at;
-      queue.emplace(estimate, next);
+  constexpr AStar::Node kStart = 0;
+  constexpr AStar::Node kGoal = 1;
+  const auto count = static_cast<AStar::Node>(places.size());
+  AStar search(count);
+  search.offer(kStart, AStar::kNone, 0, span(places[kStart], places[kGoal]));
+  while (const std::optional<AStar::Node> at = search.next()) {
+    if (*at == kGoal) {
+      Waypoints path;
+      for (const AStar::Node node : search.way_to(kGoal)) path.push_back(places[node].exact);
+      return path;
+    }
+    for (AStar::Node next = 1; next < count; ++next) {
+      const double total = search.cost(*at) + span(places[*at], places[next]);
+      const double estimate = total + span(places[next], places[kGoal]);
+      if (!search.improves(next, total) || estimate >= upper_bound) continue;
+      if (!segment_allowed(free, filter, places[*at].exact, places[next].exact)) continue;
+      search.offer(next, *at, total, estimate);
     }
   }
-  Waypoints path;
-  if (!settled[goal]) return path;
-  for (std::size_t at = goal; at != 0; at = from[at]) path.push_back(places[at].exact);
-  path.push_back(places[0].exact);
-  std::reverse(path.begin(), path.end());
-  return path;
+  return {};
 }
 
 }  // namespace

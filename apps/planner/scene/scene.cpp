@@ -34,14 +34,15 @@ class ShapeReader {
   Messages& messages_;
 };
 
-const std::vector<std::string> kKeys{"robot", "obstacles", "reference", "box", "start", "goal", "contact", "name"};
+const std::vector<std::string> kKeys{"robot", "obstacles", "reference", "box",     "start",
+                                     "goal",  "contact",   "name",      "rotation"};
 
 void check_keys(const json& root, const std::string& name) {
   if (!root.is_object()) throw InputError(name + ": a scene is a JSON object with robot and obstacles");
   for (const auto& item : root.items()) {
     if (std::find(kKeys.begin(), kKeys.end(), item.key()) == kKeys.end()) {
       throw InputError(name + ": unknown key '" + item.key() +
-                       "' (known: robot, obstacles, reference, box, start, goal, contact)");
+                       "' (known: robot, obstacles, reference, box, start, goal, contact, rotation)");
     }
   }
   if (root.contains("name") && !root["name"].is_string()) throw InputError(name + ": 'name' must be a string");
@@ -57,6 +58,36 @@ void read_obstacles(const json& list, ShapeReader& shapes, const std::string& na
     const std::string spelled = list[i].is_string() ? list[i].get<std::string>() : std::string("a shape");
     scene.obstacle_names.push_back(spelled);
   }
+}
+
+AxisRotation rotation_of(const json& value, const std::string& what) {
+  AxisRotation rotation;
+  if (!value.is_object()) throw InputError(what + R"(: expected {"axis": "z", "range": [0, 360]})");
+  for (const auto& item : value.items()) {
+    if (item.key() != "axis" && item.key() != "range") throw InputError(what + ": unknown key '" + item.key() + "'");
+  }
+  if (value.contains("axis")) {
+    const std::string axis = value["axis"].is_string() ? value["axis"].get<std::string>() : "";
+    if (axis != "x" && axis != "y" && axis != "z") throw InputError(what + R"(: axis must be "x", "y" or "z")");
+    rotation.axis = static_cast<std::size_t>(axis[0] - 'x');
+  }
+  if (value.contains("range")) {
+    const json& range = value["range"];
+    if (!range.is_array() || range.size() != 2) throw InputError(what + ": range must be two angles in degrees");
+    rotation.low = rational_of(range[0], what + ": range");
+    rotation.high = rational_of(range[1], what + ": range");
+    if (rotation.low >= rotation.high || rotation.high - rotation.low > 360) {
+      throw InputError(what + ": range must go up, by no more than 360 degrees");
+    }
+  }
+  return rotation;
+}
+
+// Start or goal; `angle`, if wanted, receives the fourth number.
+Rational3 end_of(const json& value, Rational* angle, const std::string& what) {
+  if (angle == nullptr || !value.is_array() || value.size() != 4) return point_of(value, what);
+  *angle = rational_of(value[3], what);
+  return point_of(json::array({value[0], value[1], value[2]}), what);
 }
 
 }  // namespace
@@ -85,8 +116,11 @@ Scene parse_scene(const std::string& text, const std::string& folder, const std:
         throw InputError(name + ": box: its first point must be the lower one");
     }
   }
-  if (root.contains("start")) scene.start = point_of(root["start"], name + ": start");
-  if (root.contains("goal")) scene.goal = point_of(root["goal"], name + ": goal");
+  if (root.contains("rotation")) scene.rotation = rotation_of(root["rotation"], name + ": rotation");
+  Rational* start_angle = scene.rotation ? &scene.rotation->start : nullptr;
+  Rational* goal_angle = scene.rotation ? &scene.rotation->goal : nullptr;
+  if (root.contains("start")) scene.start = end_of(root["start"], start_angle, name + ": start");
+  if (root.contains("goal")) scene.goal = end_of(root["goal"], goal_angle, name + ": goal");
   if (root.contains("contact")) {
     const json& contact = root["contact"];
     if (contact != "allow" && contact != "forbid") {

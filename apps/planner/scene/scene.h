@@ -20,6 +20,15 @@ enum class ContactRule : std::uint8_t {
   kForbid  ///< touching too
 };
 
+/// The angles by which a robot may be turned about its reference point: the question has start and goal angles then.
+struct AxisRotation {
+  std::size_t axis = 2;  ///< of coordinates, 0 to 2
+  Rational low = 0;      ///< degrees
+  Rational high = 360;
+  Rational start = 0;  ///< degrees of the start
+  Rational goal = 0;
+};
+
 /// A robot that translates among obstacles. All numbers are the rationals that the file spells.
 struct Scene {
   std::string name;  ///< the file's name without folders
@@ -29,6 +38,7 @@ struct Scene {
   std::optional<std::array<Rational3, 2>> box;  ///< bounds of the reference point
   std::optional<Rational3> start;
   std::optional<Rational3> goal;
+  std::optional<AxisRotation> rotation;  ///< nothing: it only translates
   ContactRule contact = ContactRule::kAllow;
   Messages messages;  ///< what was done to the input
 };
@@ -37,12 +47,14 @@ struct Scene {
 ///
 ///     { "robot": SHAPE, "obstacles": [SHAPE, ...],
 ///       "reference": POINT, "box": [POINT, POINT], "start": POINT, "goal": POINT,
-///       "contact": "allow" | "forbid" }
+///       "contact": "allow" | "forbid",
+///       "rotation": {"axis": "x" | "y" | "z", "range": [degrees, degrees]} }
 ///
 /// robot and obstacles are required. POINT is three numbers or strings such as "1/3"; a JSON number
 /// is the rational that its text spells (0.1 is one tenth). SHAPE is a string: the path of a mesh or
 /// nef file, relative to the scene, or else an expression of `nef eval` such as
-/// "box(0,0,0, 9,3,3) - box(1,1,1, 2,2,2)". Throws InputError with one line for anything else.
+/// "box(0,0,0, 9,3,3) - box(1,1,1, 2,2,2)". With a rotation, start and goal have a fourth number: degrees. Throws
+/// InputError with one line for anything else.
 Scene read_scene(const std::string& path);
 
 /// The same from text; `folder` is where file names begin.

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The bookkeeping of A* [Hart, Nilsson, Raphael 1968] over numbered nodes. Who searches expands nodes itself, so
+// that edges that are costly to check are checked only when they would improve something (as in
+// [Bohlin, Kavraki 2000]), which a library's search over a graph with given edges does not allow.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <queue>
+#include <utility>
+#include <vector>
+
+namespace nef::planner {
+
+/// What a search knows about its nodes: the best way to each so far, and which to look at next.
+class AStar {
+ public:
+  using Node = std::uint32_t;
+  static constexpr Node kNone = 0xffffffffU;
+
+  explicit AStar(std::size_t nodes) : cost_(nodes, HUGE_VAL), from_(nodes, kNone), settled_(nodes, false) {}
+
+  /// True if a way of this cost to a node would be better than any known one.
+  [[nodiscard]] bool improves(Node node, double cost) const { return !settled_[node] && cost < cost_[node]; }
+  /// Notes a way that improves: over node `from` (kNone: from the start) at this cost; `estimate` is a lower bound of
+  /// the cost from start to goal over the node.
+  void offer(Node node, Node from, double cost, double estimate) {
+    cost_[node] = cost;
+    from_[node] = from;
+    open_.emplace(estimate, node);
+  }
+  /// Settles the open node with the least estimate; nothing if none is open. O(log n).
+  std::optional<Node> next() {
+    while (!open_.empty()) {
+      const Node node = open_.top().second;
+      open_.pop();
+      if (settled_[node]) continue;
+      settled_[node] = true;
+      return node;
+    }
+    return std::nullopt;
+  }
+
+  [[nodiscard]] double cost(Node node) const { return cost_[node]; }
+  /// The nodes of the best way to a node, from the first one.
+  [[nodiscard]] std::vector<Node> way_to(Node node) const {
+    std::vector<Node> way;
+    for (; node != kNone; node = from_[node]) way.push_back(node);
+    std::reverse(way.begin(), way.end());
+    return way;
+  }
+
+ private:
+  using Entry = std::pair<double, Node>;
+
+  std::vector<double> cost_;
+  std::vector<Node> from_;
+  std::vector<bool> settled_;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open_;
+};
+
+}  // namespace nef::planner

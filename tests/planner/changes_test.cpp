@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Obstacles that come and go, and many questions about one scene: the answers are those of a new start.
+#include <catch2/catch.hpp>
+#include <random>
+
+#include "apps/planner/free_space/free_positions.h"
+#include "apps/planner/ompl/translation_planning.h"
+#include "nef/program/exact_json.h"
+#include "tests/planner/command_helpers.h"
+#include "tests/planner/scene_helpers.h"
+
+namespace nef::planner::test {
+namespace {
+
+Polyhedron random_obstacle(std::mt19937& random) {
+  Rational3 low;
+  Rational3 high;
+  for (std::size_t i = 0; i < 3; ++i) {
+    low[i] = static_cast<int>(random() % 7);
+    high[i] = low[i] + static_cast<int>(random() % 4);  // flat ones, too
+  }
+  return make_box(low, high);
+}
+
+TEST_CASE("free positions after obstacles came and went are those of a new start") {
+  for (unsigned seed = 0; seed < 24; ++seed) {
+    INFO("seed " << seed);
+    std::mt19937 random(seed);
+    Scene scene;
+    scene.robot = seed % 3 == 0 ? unite(make_box({0, 0, 0}, {1, 1, 1}), make_box({1, 0, 0}, {2, 1, 2}))
+                                : make_box({0, 0, 0}, {1, 2, 1});
+    scene.contact = seed % 4 == 3 ? ContactRule::kForbid : ContactRule::kAllow;
+    if (seed % 4 == 3 && seed % 8 == 3) scene.robot = unite(scene.robot, make_segment({0, 0, 0}, {-2, 0, 0}));
+    if (seed % 2 == 0) scene.box = {Rational3{-3, -3, -3}, Rational3{12, 12, 12}};
+    REQUIRE(obstacles_are_independent(scene));
+    Polyhedron free = free_positions(scene);
+    for (int step = 0; step < 10; ++step) {
+      if (scene.obstacles.size() > 2 && random() % 3 == 0) {
+        const std::size_t gone = random() % scene.obstacles.size();
+        free = without_obstacle(scene, free, gone);
+        scene.obstacles.erase(scene.obstacles.begin() + static_cast<std::ptrdiff_t>(gone));
+        scene.obstacle_names.pop_back();
+      } else {
+        const Polyhedron obstacle = random_obstacle(random);
+        free = with_obstacle(scene, free, obstacle);
+        scene.obstacles.push_back(obstacle);
+        scene.obstacle_names.emplace_back("box");
+      }
+      CHECK(equal(free, free_positions(scene)));
+    }
+  }
+}
+
+TEST_CASE("TranslationPlanning: obstacles come and go between queries") {
+  namespace ob = ompl::base;
+  TranslationPlanning setup;
+  setup.setRobot(make_box({0, 0, 0}, {1, 1, 1}));
+  setup.setEnvironmentBounds({0, 0, 0}, {8, 2, 2});
+  setup.addObstacle(make_box({4, 0, 0}, {5, 3, 1}));
+  setup.setExactStartAndGoal({0, 0, 0}, {8, 0, 0});
+  CHECK(setup.solve(60.0) == ob::PlannerStatus::EXACT_SOLUTION);
+  const auto ask = [&] {
+    setup.clear();
+    return setup.solve(60.0) == ob::PlannerStatus::EXACT_SOLUTION;
+  };
+  const auto same = [&] { return equal(setup.getFreeSpace()->set(), free_positions(setup.getScene())); };
+  setup.addObstacle(make_box({4, 0, 1}, {5, 3, 3}));  // closes the way
+  CHECK_FALSE(ask());
+  CHECK(setup.getProblemDefinition()->hasSolutionNonExistenceProof());
+  CHECK_FALSE(setup.getFreeSpace()->has_roadmap());  // a proof needs none
+  CHECK(same());
+  setup.addObstacle(make_box({20, 0, 0}, {21, 1, 1}));
+  setup.removeObstacle(0);
+  CHECK(ask());
+  CHECK(same());
+  for (int i = 0; i < 12; ++i) setup.addObstacle(make_box({30 + i, 0, 0}, {31 + i, 1, 1}));
+  setup.addObstacle(make_box({4, 0, 0}, {5, 3, 1}));
+  CHECK_FALSE(ask());
+  CHECK(same());
+  CHECK_THROWS_AS(setup.removeObstacle(99), std::out_of_range);
+}
+
+TEST_CASE("many questions about one scene") {
+  const Folder folder;
+  const std::string scene = folder.write("scene.json", R"J({"robot": "box(0,0,0, 1,1,1)",
+    "obstacles": ["box(4,-9,-9, 5,9,9) - box(4,0,0, 5,1,1)"], "box": [[0,-8,-8],[9,8,8]]})J");
+  const std::string lines = folder.write("lines.txt", "0 0 0 9 0 0\n\n1/3,0,0, 2,2,2\n");
+  const Run run = planner(folder, scene + " --queries " + lines);
+  CHECK(run.code == 0);
+  CHECK(run.out == "path, length 9\npath, length 3.28295\n");
+  const std::string list = folder.write("list.json", R"J([{"start": [0,0,0], "goal": ["1/2",0,0]},
+    {"start": [0,0,0], "goal": [4,4,4]}, {"start": [20,0,0], "goal": [0,0,0]}])J");
+  const Run report = planner(folder, scene + " --json --queries " + list);
+  CHECK(report.code == 3);
+  const nlohmann::json answers = nlohmann::json::parse(report.out)["queries"];
+  REQUIRE(answers.size() == 3);
+  CHECK(answers[0]["status"] == "path");
+  CHECK(answers[0]["goal"][0] == "1/2");
+  CHECK(answers[1]["status"] == "invalid_goal");
+  CHECK(answers[2]["status"] == "invalid_start");
+  for (const char* bad : {"", "1 2 3\n", "[]", "[1]", "[{\"start\": [0,0,0]}]", "a b c d e f\n"}) {
+    const Run wrong = planner(folder, scene + " --queries " + folder.write("bad", bad));
+    CHECK(wrong.code == 2);
+    CHECK_THAT(wrong.err, Catch::Contains("bad"));
+  }
+  CHECK(planner(folder, scene + " --queries " + lines + " -o x.path").code == 2);
+}
+
+}  // namespace
+}  // namespace nef::planner::test

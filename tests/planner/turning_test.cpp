@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Robots that turn about one axis: paths are checked pose by pose against the definition, proofs against scenes whose
+// answer is known in closed form and against a fine grid.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <random>
+
+#include "apps/planner/free_space/free_positions.h"
+#include "apps/planner/free_space/free_space.h"
+#include "apps/planner/turning/turning_robot.h"
+#include "apps/planner/turning/turning_search.h"
+#include "nef/base/error.h"
+#include "nef/construct/construct.h"
+#include "nef/program/exact_json.h"
+#include "tests/planner/command_helpers.h"
+
+namespace nef::planner::test {
+namespace {
+
+using Status = TurningAnswer::Status;
+
+Rational ratio(long a, long b) {
+  Rational r(a, b);
+  r.canonicalize();
+  return r;
+}
+
+TEST_CASE("turns: exact quarters, rational sines, angles in order") {
+  CHECK(turn_of_degrees(0) == 0);
+  CHECK(turn_of_degrees(90) == 1);
+  CHECK(turn_of_degrees(-90) == -1);
+  CHECK(turn_of_degrees(360) == 4);
+  for (const int degrees : {-350, -91, -1, 1, 17, 45, 89, 91, 200, 359}) {
+    const Turn turn = turn_of_degrees(degrees);
+    CHECK(degrees_of(turn) == Approx(degrees).margin(1e-9));
+    const Direction2 d = direction_of(turn);
+    CHECK(d.cosine * d.cosine + d.sine * d.sine == 1);
+    CHECK(nearest_double(d.cosine) == Approx(std::cos(degrees * M_PI / 180)).margin(1e-9));
+    CHECK(nearest_double(d.sine) == Approx(std::sin(degrees * M_PI / 180)).margin(1e-9));
+  }
+  const std::optional<Turn> turn = turn_of_vector(-3, 4);
+  REQUIRE(turn.has_value());
+  CHECK(direction_of(*turn).cosine == ratio(-3, 5));
+  CHECK(direction_of(*turn).sine == ratio(4, 5));
+  CHECK_FALSE(turn_of_vector(1, 1).has_value());
+  CHECK(half_tangent_between(ratio(5, 4), 2) == ratio(3, 5));
+}
+
+TEST_CASE("the outer robot holds the robot at all angles, which all hold the inner one") {
+  std::mt19937 random(3);
+  const Polyhedron robots[] = {make_box({-1, -2, 0}, {3, 1, 1}), make_box({1, 1, -1}, {3, 2, 1}),
+                               unite(make_box({-1, -1, -1}, {4, 1, 1}), make_box({-1, -1, -1}, {1, 3, 1}))};
+  for (const Polyhedron& robot : robots) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const TurningRobot turning(robot, axis);
+      for (int i = 0; i < 4; ++i) {
+        const long low = static_cast<long>(random() % 20);
+        const Turn a = 1 + ratio(low, 32);
+        const Turn b = a + ratio(1 + static_cast<long>(random() % 11), 32);
+        const Polyhedron outer = turning.outer(a, b);
+        const Polyhedron inner = turning.inner(a, b);
+        for (int k = 0; k <= 4; ++k) {
+          const Polyhedron at = turning.at(a + ratio(k, 4) * (b - a));
+          CHECK(subtract(at, outer).is_empty());
+          CHECK(subtract(inner, at).is_empty());
+        }
+      }
+    }
+  }
+  // Narrow ranges: nearly the robot itself.
+  const TurningRobot bar(make_box({-3, -1, 0}, {3, 1, 1}), 2);
+  const Turn a = ratio(1, 3);
+  const Turn b = a + ratio(1, 1000);
+  CHECK(nearest_double(*volume(bar.inner(a, b))) == Approx(12).epsilon(0.01));
+  CHECK(nearest_double(*volume(bar.outer(a, b))) == Approx(12).epsilon(0.01));
+  CHECK_THROWS_AS(TurningRobot(make_box({0, 0, 0}, {1, 1, 0}), 2), InputError);
+}
+
+Scene scene_of(const std::string& text) { return parse_scene(text, "", "test"); }
+
+// The robot in no obstacle, at poses all along every motion; one coordinate changes at a time.
+void check_path(const Scene& scene, const TurningQuestion& question, const TurningAnswer& answer) {
+  REQUIRE(answer.path.size() > 0);
+  CHECK(answer.path.front().position == question.start.position);
+  CHECK(answer.path.back().position == question.goal.position);
+  const TurningRobot robot(scene.robot, question.axis);
+  const Polyhedron obstacles = unite_all(scene.obstacles);
+  for (std::size_t i = 0; i + 1 < answer.path.size(); ++i) {
+    const Pose& from = answer.path[i];
+    const Pose& to = answer.path[i + 1];
+    CHECK((from.turn == to.turn || from.position == to.position));
+    for (int k = 0; k <= 3; ++k) {
+      const Rational t = ratio(k, 3);
+      Rational3 x = from.position;
+      for (std::size_t c = 0; c < 3; ++c) x[c] += t * (to.position[c] - from.position[c]);
+      const Polyhedron body = transform(robot.at(from.turn + t * (to.turn - from.turn)), AffineMap::translate(x));
+      CHECK(intersect(interior(body), obstacles).is_empty());
+      if (scene.box) CHECK(contains(make_box((*scene.box)[0], (*scene.box)[1]), x));
+    }
+  }
+}
+
+// A bar of length `length` and width 1 round the corner of a corridor of width 2. At 45 degrees its outer side is half
+// of its length away from the outer corner, so it fits iff length / 2 + 1 <= 2 sqrt(2): the limit is 3.65685.
+std::string corner(const std::string& length) {
+  return R"J({"robot": "box(-)J" + length + R"J(/2,-1/2,0, )J" + length +
+         R"J(/2,1/2,1)", "rotation": {"range": [0, 90]},
+    "obstacles": ["box(-20,-20,-1, 20,20,2) - interior(box(-20,-2,-2, 0,0,3)) - interior(box(-2,-2,-2, 0,20,3))"],
+    "box": [[-15,-15,0],[15,15,0]], "start": [-12,-1,0, 0], "goal": [-1,12,0, 90]})J";
+}
+
+TEST_CASE("a bar round the corner of a corridor: the limit is known") {
+  for (const auto& [length, fits] : {std::pair("3.62", true), std::pair("3.5", true), std::pair("3.70", false)}) {
+    INFO(length);
+    const Scene scene = scene_of(corner(length));
+    const TurningQuestion question = question_of(scene);
+    const TurningAnswer answer = find_turning_path(scene, question);
+    CHECK(answer.status == (fits ? Status::kPath : Status::kInfeasible));
+    CHECK(answer.cells < 100);
+    if (fits) check_path(scene, question, answer);
+  }
+}
+
+TEST_CASE("exact contact at an angle of parallel faces is found: a slot turned by 3-4-5") {
+  // The slot is as wide as the bar. It is entered at the angle of 3-4-5 only.
+  const auto slot = [](const std::string& width) {
+    return scene_of(R"J({"robot": "box(-1,-1/2,0, 1,1/2,1)", "obstacles":
+      ["transform(box(0,-30,-1, 4,30,2) - interior(box(-1,-)J" +
+                    width + R"J(/2,-2, 5,)J" + width +
+                    R"J(/2,3)), 4/5,-3/5,0,0, 3/5,4/5,0,0, 0,0,1,0)"],
+      "rotation": {"axis": "z"}, "start": [-4,-3,0, 0], "goal": [8,6,0, 0],
+      "box": [[-9,-9,0],[9,9,0]]})J");
+  };
+  for (const auto& [width, fits] : {std::pair("1", true), std::pair("1.001", true), std::pair("0.999", false)}) {
+    INFO(width);
+    const Scene scene = slot(width);
+    const TurningQuestion question = question_of(scene);
+    const TurningAnswer answer = find_turning_path(scene, question);
+    // Round the block there is no way inside the box but through the slot.
+    CHECK(answer.status == (fits ? Status::kPath : Status::kInfeasible));
+    CHECK(answer.cells < 80);
+    if (fits) check_path(scene, question, answer);
+  }
+}
+
+TEST_CASE("random boxes in the plane against a fine grid of poses") {
+  // What the grid reaches is reachable: its steps are too small to jump over anything here. What it does not reach may be
+  // reachable all the same.
+  std::size_t paths = 0;
+  std::size_t proofs = 0;
+  for (unsigned seed = 0; seed < 10; ++seed) {
+    INFO("seed " << seed);
+    std::mt19937 random(seed);
+    Scene scene;
+    scene.robot = make_box({-1, ratio(-1, 4), 0}, {1, ratio(1, 4), 1});
+    scene.box = {Rational3{-2, -2, 0}, Rational3{10, 10, 0}};
+    const auto add = [&](const Rational& x, const Rational& y, const Rational& to_x, const Rational& to_y) {
+      scene.obstacles.push_back(make_box({x, y, -1}, {to_x, to_y, 2}));
+      scene.obstacle_names.emplace_back("box");
+    };
+    // A wall with a gap that is too narrow, just wide enough, or wider; and boxes on both sides.
+    const Rational gap = static_cast<int>(random() % 7);
+    const std::array<Rational, 5> widths{ratio(2, 5), ratio(49, 100), ratio(1, 2), ratio(3, 5), ratio(3, 2)};
+    add(3, -9, 4, gap);
+    add(3, gap + widths[seed % 5], 4, 19);
+    for (int i = 0; i < 4; ++i) {
+      const Rational x = i % 2 == 0 ? static_cast<int>(random() % 2) : 5 + static_cast<int>(random() % 2);
+      const Rational y = static_cast<int>(random() % 7);
+      add(x, y, x + ratio(static_cast<long>(1 + random() % 3), 2), y + 1);
+    }
+    TurningQuestion question;
+    question.start = {{-1, -1, 0}, 0};
+    question.goal = {{ratio(19, 2), ratio(19, 2), 0}, 1};
+    const TurningAnswer answer = find_turning_path(scene, question, {.max_cells = 400, .stop = {}});
+    if (answer.status == Status::kPath) {
+      ++paths;
+      check_path(scene, question, answer);
+    }
+    if (answer.status == Status::kInfeasible) ++proofs;
+    if (answer.status == Status::kInfeasible || answer.status == Status::kPath) {
+      // Is the goal reached by steps of 1/4 and 1/16 of a quarter?
+      const TurningRobot robot(scene.robot, 2);
+      constexpr int kSteps = 49;
+      constexpr int kTurns = 64;  // the full circle
+      std::vector<char> free(static_cast<std::size_t>(kSteps * kSteps * kTurns), 0);
+      const auto index = [](int i, int k, int t) { return static_cast<std::size_t>((t * kSteps + i) * kSteps + k); };
+      for (int t = 0; t < kTurns; ++t) {
+        Scene slice = scene;
+        slice.robot = robot.at(ratio(t, 16));
+        const FreeSpace space(free_positions(slice));
+        for (int i = 0; i < kSteps; ++i) {
+          for (int k = 0; k < kSteps; ++k) {
+            free[index(i, k, t)] =
+                space.is_free(ExactPoint(std::array<double, 3>{i / 4.0 - 2, k / 4.0 - 2, 0})) ? 1 : 0;
+          }
+        }
+      }
+      std::vector<std::array<int, 3>> queue{{4, 4, 0}};
+      std::vector<char> seen(free.size(), 0);
+      bool reached = false;
+      REQUIRE(free[index(4, 4, 0)] != 0);
+      seen[index(4, 4, 0)] = 1;
+      for (std::size_t n = 0; n < queue.size(); ++n) {
+        const auto [i, k, t] = queue[n];
+        reached = reached || (i == 46 && k == 46 && t == 16);
+        for (const auto& [di, dk, dt] : {std::array{1, 0, 0}, std::array{-1, 0, 0}, std::array{0, 1, 0},
+                                         std::array{0, -1, 0}, std::array{0, 0, 1}, std::array{0, 0, kTurns - 1}}) {
+          const int ni = i + di;
+          const int nk = k + dk;
+          const int nt = (t + dt) % kTurns;
+          if (ni < 0 || nk < 0 || ni >= kSteps || nk >= kSteps) continue;
+          if (free[index(ni, nk, nt)] == 0 || seen[index(ni, nk, nt)] != 0) continue;
+          seen[index(ni, nk, nt)] = 1;
+          queue.push_back({ni, nk, nt});
+        }
+      }
+      CHECK((answer.status == Status::kPath || !reached));
+    }
+  }
+  CHECK(paths >= 3);
+  CHECK(proofs >= 3);
+}
+
+TEST_CASE("turning on the command line") {
+  const Folder folder;
+  const std::string scene = folder.write("corner.json", corner("3.5"));
+  const Run run = planner(folder, scene + " --json");
+  CHECK(run.code == 0);
+  const nlohmann::json report = nlohmann::json::parse(run.out);
+  CHECK(report["status"] == "path");
+  CHECK(report["path"].front()["turn"]["degrees"] == 0.0);
+  CHECK(report["path"].back()["turn"]["quarters"] == 1);
+  CHECK(report["path"].back()["position"][1] == "12");
+  CHECK(planner(folder, folder.write("long.json", corner("3.9"))).code == 1);
+  const Run open = planner(folder, folder.write("limit.json", corner("3.6568")) + " --max-cells 5");
+  CHECK(open.code == 5);
+  CHECK_THAT(open.out, Catch::Contains("undecided") && Catch::Contains("open:"));
+  CHECK(planner(folder, scene + " --tight").code == 2);
+  CHECK(planner(folder, scene + " -o x.glb").code == 2);
+  CHECK(planner(folder, scene + " --quiet -o " + folder.file("way.txt")).code == 0);
+  CHECK(text_of(folder.file("way.txt")).substr(0, 10) == "-12 -1 0 0");
+  for (const char* bad :
+       {R"("w")", R"({"axis": "w"})", R"({"range": [5, 0]})", R"({"turn": 3})", R"({"range": [0, 400]})"}) {
+    const std::string text = R"J({"robot": "box(0,0,0,1,1,1)", "obstacles": [], "start": [0,0,0,0], "goal": [1,0,0,0],
+      "rotation": )J" + std::string(bad) +
+                             "}";
+    CHECK(planner(folder, folder.write("bad.json", text)).code == 2);
+  }
+}
+
+}  // namespace
+}  // namespace nef::planner::test

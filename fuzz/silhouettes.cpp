@@ -213,19 +213,22 @@ void fuzz_silhouettes(const Case& the_case) {
   Choices& choices = the_case.choices();
   // Without a box the cones have to bound the scene: more cameras, all around and outside of it.
   const int half = choices.below(2) == 1 ? 0 : choices.between(2, 3);
+  const bool is_round = choices.one_in(3);
   std::vector<Rational3> centres;
   for (std::uint32_t i = half > 0 ? 1 + choices.below(3) : 4 + choices.below(3); i > 0; --i) {
     Rational3 centre = random_point(choices, half > 0 ? 1 : 2);
     const int distance = choices.between(half > 0 ? 0 : 3, 6);
-    for (Rational& x : centre) x *= distance;
+    for (Rational& x : centre) {
+      x *= distance;
+      if (is_round) x += Rational(static_cast<long>(choices.below(97)), 101);  // in general position
+    }
     centres.push_back(centre);
   }
   std::vector<Rational3> object;
-  const bool is_round = choices.one_in(4);
   for (std::uint32_t i = is_round ? 0 : 4 + choices.below(5); i > 0; --i) object.push_back(random_point(choices, 2));
   std::vector<TestView> views;
   for (std::uint32_t i = half > 0 ? 1 + choices.below(4) : 3 + choices.below(4); i > 0; --i) {
-    views.push_back(random_view(choices, centres));
+    views.push_back(random_view(choices, is_round ? std::vector{centres[views.size() % centres.size()]} : centres));
     add_rings(choices, object, views.back());
   }
   tell_scene(the_case, views, half);

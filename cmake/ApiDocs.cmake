@@ -13,7 +13,7 @@ file(GLOB NEF_PUBLIC_HEADERS CONFIGURE_DEPENDS
      nef/*.h nef/base/error.h nef/number/number.h nef/construct/construct.h nef/construct/convex_hull.h
      nef/construct/to_mesh.h nef/construct/mesh_check.h nef/construct/convert_*.h nef/io/polyhedron_file.h
      nef/io/mesh_reader.h nef/io/mesh_writer.h nef/io/native_format.h nef/io/cgal_nef3.h nef/query/measure.h
-     apps/minkowski/minkowski.h apps/visual_hull/visual_hull.h apps/planner/translation_planning.h
+     apps/minkowski/minkowski.h apps/visual_hull/visual_hull.h
      apps/planner/ompl/translation_planning.h)
 
 set(DOXYGEN_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/api_docs)

@@ -5,7 +5,7 @@ The last green run is, in this order: the commit in NEF_CI_BASE, the commit that
 in a fresh clone, which knows no runs, the state before the last commits (HISTORY of them).
 
 Usage: ci_selection.py base                     the commit, and how it was found
-       ci_selection.py tests POOL_SIZE          lines "run NAME" and "left NAME": test programs for the sanitizers
+       ci_selection.py tests COUNT              lines "run NAME" and "left NAME": test programs for the sanitizers
        ci_selection.py green                    records that HEAD is green
 """
 import os
@@ -71,10 +71,11 @@ def rotated(items: list[str]) -> list[str]:
 
 
 def tests(count: int) -> None:
+    """Programs whose folders changed come first; where there are more of them than `count`, they take turns, too."""
     files = changed()
     touched = [name for name, folders in POOL.items() if any(file.startswith(folders) for file in files)]
     rest = [name for name in rotated(list(POOL)) if name not in touched]
-    chosen = (touched + rest)[: max(count, len(touched))]
+    chosen = (rotated(touched) + rest)[:count]
     for name in POOL:
         print("run" if name in chosen else "left", name)
 

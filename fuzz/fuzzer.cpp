@@ -19,6 +19,8 @@ std::span<const Fuzzer> fuzzers() {
       Fuzzer{"nested", "coplanar pieces nested in each other: slits, loops, holes, islands, points", fuzz_nested},
       Fuzzer{"voxels", "meshes that touch, nest, overlap or contradict each other, by winding numbers", fuzz_voxels},
       Fuzzer{"files", "damaged files of every format", fuzz_files},
+      Fuzzer{"planning", "robots and obstacles of all dimensions on a grid, by breadth-first search", fuzz_planning},
+      Fuzzer{"visibility", "convex prisms among convex prisms, by an exact visibility graph", fuzz_visibility},
       Fuzzer{"silhouettes", "visual hulls of random cameras and polygons, point by point", fuzz_silhouettes},
       Fuzzer{"sums", "Minkowski sums of open, closed and mixed sets on a grid", fuzz_sums},
   };

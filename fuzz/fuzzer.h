@@ -67,6 +67,8 @@ void fuzz_nested(const Case& the_case);
 void fuzz_voxels(const Case& the_case);
 void fuzz_files(const Case& the_case);
 void fuzz_sums(const Case& the_case);
+void fuzz_planning(const Case& the_case);
+void fuzz_visibility(const Case& the_case);
 void fuzz_silhouettes(const Case& the_case);
 
 }  // namespace nef::fuzz

@@ -70,6 +70,29 @@ void time_checks(const FreeSpace& free) {
               1e6 * motion, valid / kRounds, points.size());
 }
 
+// One box more, and the same question again.
+void time_change(const Problem& problem) {
+  const Scene& scene = problem.scene();
+  double begin = processor();
+  const auto lap = [&begin] {
+    const double passed = processor() - begin;
+    begin += passed;
+    return 1e3 * passed;
+  };
+  Polyhedron set = with_obstacle(scene, problem.free_space().set(), make_box({14, 14, 14}, {16, 17, 15}));
+  const double positions = lap();
+  const FreeSpace free(std::move(set));
+  const double cells = lap();
+  free.build_roadmap();
+  const double roadmap = lap();
+  PathOptions options;
+  options.thorough = false;
+  const bool found = find_path(free, *scene.start, *scene.goal, options).has_value();
+  const double path = lap();
+  std::printf("one box more: free positions %.1f ms, cells %.1f ms, roadmap %.1f ms, %s %.1f ms\n", positions, cells,
+              roadmap, found ? "path" : "no path", path);
+}
+
 // How much of a stock planner's time its checks take in this scene.
 void share_of_checks(const Problem& problem, const char* name) {
   TranslationPlanning setup(problem);
@@ -106,6 +129,7 @@ int main(int argc, char** argv) {
               free.tree().leaves().size(), free.zones().stations().size(), free.components().size(),
               free.passages().size());
   std::printf("%.3f processor seconds from the boxes to the path\n", processor_all);
+  time_change(problem);
   time_checks(free);
   for (const char* name : {"RRTConnect", "PRM", "EST"}) share_of_checks(problem, name);
   return 0;

@@ -247,7 +247,8 @@ bool TranslationPlanning::noteCheckers() {
   if (exact_validator == nullptr || exact_validator->getFreeSpace() != freeSpace_) {
     changed = true;
     // The default only asks for states; our validator does that itself where there is something to ask.
-    const bool is_default = validator && typeid(*validator) == typeid(ob::DiscreteMotionValidator);
+    const ob::MotionValidator* present = validator.get();
+    const bool is_default = present != nullptr && typeid(*present) == typeid(ob::DiscreteMotionValidator);
     if (exact_validator == nullptr) userValidator_ = is_default ? nullptr : validator;
   }
   return changed;

@@ -22,6 +22,7 @@
 #include <exception>
 #include <mutex>
 
+#include "nef/base/interruption.h"
 #include "nef/base/predicate_counts.h"
 
 namespace nef {
@@ -100,7 +101,10 @@ void run_on_threads(std::size_t count, unsigned threads, const std::function<voi
 
 void parallel_for(std::size_t count, unsigned threads, const std::function<void(std::size_t)>& body) {
   if (threads == 1 || count < 2) {
-    for (std::size_t i = 0; i < count; ++i) body(i);
+    for (std::size_t i = 0; i < count; ++i) {
+      check_interruption();
+      body(i);
+    }
     return;
   }
   // Every call is booked on the sum, wherever it runs, the caller's thread included; the sum goes to the caller, also
@@ -108,8 +112,11 @@ void parallel_for(std::size_t count, unsigned threads, const std::function<void(
   PredicateCounts sum;
   std::mutex mutex;
   std::exception_ptr failure;
+  const std::atomic<bool>* const stop = Interruptible::current();
   try {
     run_on_threads(count, threads, [&](std::size_t i) {
+      const Interruptible interruptible(stop);
+      check_interruption();
       const Booking booking(sum, mutex);
       body(i);
     });

@@ -11,7 +11,8 @@ namespace nef {
 /// Calls body(0) .. body(count - 1), each once, in any order, on up to `threads` threads (0: as many
 /// as the machine has); one thread is a plain loop in order. Returns when all are done. What the
 /// workers add to predicate_counts() is added to the caller's counts. If calls throw, one of the
-/// exceptions arrives in the caller and calls that have not begun may be left out.
+/// exceptions arrives in the caller and calls that have not begun may be left out; so if the caller is interrupted (see
+/// interruption.h).
 void parallel_for(std::size_t count, unsigned threads, const std::function<void(std::size_t)>& body);
 
 }  // namespace nef

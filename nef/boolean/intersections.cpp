@@ -8,6 +8,7 @@
 #include <unordered_set>
 
 #include "nef/base/error.h"
+#include "nef/base/interruption.h"
 #include "nef/boolean/facet_locator.h"
 #include "nef/boolean/piercing_filter.h"
 #include "nef/geometry/occupancy_grid.h"
@@ -147,6 +148,7 @@ class IntersectionFinder {
   void vertices_against_facets(std::size_t x) {
     const Operand& other = operands_[1 - x];
     for (const std::uint32_t v : near_[x].vertices) {
+      check_interruption();
       near_[1 - x].facet_tree.for_each_overlap(operands_[x].vertex_box(v), [&](std::uint32_t i) {
         if (result_.vertex_item[x][v].kind != Item::Kind::kNone) return;
         const std::uint32_t facet = near_[1 - x].facets[i];
@@ -186,6 +188,7 @@ class IntersectionFinder {
     const Operand& own = operands_[x];
     const Operand& other = operands_[1 - x];
     for (const std::uint32_t e : near_[x].edges) {
+      check_interruption();
       const PointId a = own.point(own.source(e));
       const PointId b = own.point(own.target(e));
       const Box box = own.edge_box(e);

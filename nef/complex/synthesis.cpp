@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "nef/complex/synthesis.h"
 
+#include "nef/base/interruption.h"
 #include "nef/complex/edge_linking.h"
 #include "nef/complex/facet_linking.h"
 #include "nef/complex/volume_linking.h"
@@ -41,7 +42,9 @@ void synthesize(Complex& complex, LabelId outer) {
   complex.label_count = count_labels(complex, outer);
   name_owners(complex);
   link_edges(complex);
+  check_interruption();
   link_facets(complex);
+  check_interruption();
   link_volumes(complex, outer);
 }
 

@@ -6,6 +6,7 @@
 
 #include "nef/base/contradiction.h"
 #include "nef/base/error.h"
+#include "nef/base/interruption.h"
 #include "nef/sphere_map/components.h"
 #include "nef/sphere_map/sphere_geometry.h"
 
@@ -149,6 +150,7 @@ bool Arrangement::assemble_ring(const PlaneTable& planes, SphereMapBuffer& out) 
 }
 
 void Arrangement::simplify_and_assemble(const PlaneTable& planes, SphereMapBuffer& out) {
+  check_interruption();  // whatever makes many vertices comes through here
   out.clear();
   out.mark = centre;
   if (assemble_ring(planes, out)) return;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "nef/number/number.h"
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <optional>
 
 #include "nef/base/error.h"
 
@@ -79,9 +81,25 @@ Rational exact_rational(double value) {
   return Rational(value);
 }
 
+namespace {
+
+// The numerator of at most 53 bits, which is a double, over a denominator that is one, too: the one rounding of IEEE
+// arithmetic is the right one. So for numbers that come from doubles, and small fractions.
+std::optional<double> nearest_of_short(mpz_srcptr numerator, mpz_srcptr denominator) {
+  constexpr std::size_t kBits = 53;
+  if (mpz_sizeinbase(numerator, 2) > kBits) return std::nullopt;
+  const std::size_t bits = mpz_sizeinbase(denominator, 2);
+  if (bits <= kBits) return mpz_get_d(numerator) / mpz_get_d(denominator);
+  if (mpz_scan1(denominator, 0) != bits - 1) return std::nullopt;
+  return std::ldexp(mpz_get_d(numerator), -static_cast<int>(std::min<std::size_t>(bits - 1, 1U << 16U)));
+}
+
+}  // namespace
+
 double nearest_double(const Rational& value) {
   const int sign = sgn(value);
   if (sign == 0) return 0.0;
+  if (const std::optional<double> quick = nearest_of_short(value.get_num_mpz_t(), value.get_den_mpz_t())) return *quick;
   Integer numerator = abs(value.get_num());
   const Integer& denominator = value.get_den();
   // Scale so that the integer quotient has 55 or 56 bits: 53 to keep, the rest and the remainder

@@ -354,6 +354,52 @@ Case shifted_spheres(int level) {
   return result;
 }
 
+namespace {
+
+// Moves the vertices of a sphere along their rays, and mixes the order of vertices and triangles.
+Mesh scan(const Mesh& sphere, double radius, std::uint64_t seed, const Point& shift) {
+  Random random(seed);
+  const auto count = static_cast<std::uint32_t>(sphere.vertices.size());
+  std::vector<std::uint32_t> place(count);
+  for (std::uint32_t i = 0; i < count; ++i) place[i] = i;
+  for (std::uint32_t i = count; i-- > 1;) std::swap(place[i], place[static_cast<std::size_t>(random.below(i + 1))]);
+  Mesh mesh;
+  mesh.vertices.resize(count);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    std::array<double, 3> d;
+    for (std::size_t k = 0; k < 3; ++k) d[k] = sphere.vertices[i][k].get_d() / radius;
+    double factor = 1 + 1e-4 * (static_cast<double>(random.below(1 << 20)) / (1 << 20) - 0.5);
+    for (const double wave : {3.0, 5.0, 11.0}) {
+      factor += 0.1 / wave * std::sin(wave * d[0] + 1) * std::sin(wave * d[1] + 2) * std::cos(wave * d[2]);
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      mesh.vertices[place[i]][k] = Rational(std::round(radius * factor * d[k]) + static_cast<double>(shift[k]));
+    }
+  }
+  std::vector<std::size_t> order(sphere.face_count());
+  for (std::size_t f = 0; f < order.size(); ++f) order[f] = f;
+  for (std::size_t f = order.size(); f-- > 1;) {
+    std::swap(order[f], order[static_cast<std::size_t>(random.below(static_cast<long>(f) + 1))]);
+  }
+  for (const std::size_t f : order) {
+    const std::span<const std::uint32_t> face = sphere.face(f);
+    mesh.push_face(std::array<std::uint32_t, 3>{place[face[0]], place[face[1]], place[face[2]]});
+  }
+  return mesh;
+}
+
+}  // namespace
+
+Case shifted_scans(int level) {
+  constexpr double kRadius = 0x1p30;
+  Case result{"scans-" + std::to_string(level), Operation::kUnion, std::vector<Operand>(2)};
+  const Mesh whole = sphere(icosahedron(), level, kRadius, {0, 0, 0});
+  result.operands[0].mesh = scan(whole, kRadius, 0x5ca1, {0, 0, 0});
+  result.operands[1].mesh = scan(whole, kRadius, 0x5ca2,
+                                 {std::lround(.30 * kRadius), std::lround(.17 * kRadius), std::lround(.11 * kRadius)});
+  return result;
+}
+
 Case big_minus_small(int level) {
   constexpr double kRadius = 0x1p30;
   Case result{"bigsmall-" + std::to_string(level), Operation::kDifference, std::vector<Operand>(2)};
@@ -424,6 +470,7 @@ Case make_case(const std::string& name) {
   if (kind == "sphere_map") return complex_sphere_map(number(1));
   if (kind == "ray") return worst_case_ray_shooting(number(1));
   if (kind == "spheres") return shifted_spheres(number(1));
+  if (kind == "scans") return shifted_scans(number(1));
   if (kind == "bigsmall") return big_minus_small(number(1));
   if (kind == "staircase") return staircase(number(1));
   if (kind == "locate") return point_location(number(1));

@@ -59,6 +59,10 @@ Case worst_case_ray_shooting(int n);
 /// Two spheres of 20 * 4^level triangles, one shifted by (.30, .17, .11) radii.
 Case shifted_spheres(int level);
 
+/// Two models of 20 * 4^level triangles as a scanner makes them: bumps of a tenth of the radius, noise of a
+/// ten-thousandth, vertices and triangles in no order; one shifted by (.30, .17, .11) radii.
+Case shifted_scans(int level);
+
 /// A sphere of 8 * 4^level triangles minus a cube of a thousandth of its radius on its surface.
 Case big_minus_small(int level);
 

@@ -4,6 +4,8 @@
 
   bench/run.py [--bin build/release/bin] [--repeat 3] [--passes 1] [--json FILE] [CASE ...]
   bench/run.py --sweep            time per result vertex over N (is the cost n log n?)
+  bench/run.py --manifold PREFIX [CASE ...]    ours beside the Manifold library installed at PREFIX, which is fast and
+                                  not exact: build, operation, export to triangles of doubles, peak memory
 
 An engine is a program nef_bench_<engine> CASE_DIRECTORY REPEAT that prints one line of JSON. Each
 case runs in a process of its own, so that peak memory is the case's; with --passes the engines
@@ -27,6 +29,11 @@ WANTED = {
     "tetgrid": 8, "wall": 8, "facet": 10, "sphere_map": 10, "locate": 10, "minus": 15, "cylinder": 20, "ray": 20,
     "spheres": 30, "bigsmall": 30,
 }
+# Solids of which the peer takes all faces.
+MANIFOLD_CASES = [
+    "tetgrid-12", "tetgrid-20", "wall-40", "cylinder-1000-1e-6", "spheres-5", "spheres-6", "spheres-7", "bigsmall-6",
+    "bigsmall-7", "scans-6",
+]
 SWEEPS = {
     "tetgrid": [4, 6, 8, 10, 12, 14, 16], "wall": [10, 20, 40, 60, 80], "facet": [10, 20, 40, 80],
     "spheres": [3, 4, 5, 6], "cylinder": [250, 500, 1000, 2000], "ray": [1000, 2000, 4000, 8000],
@@ -105,14 +112,62 @@ def table(args, engines):
                      "-" if cgal is None or "error" in cgal else f"{cgal['peak_kb'] / 1024:.0f}", memory,
                      verdict(ours, cgal), "X" if "error" in ours else "/".join(map(str, counts_of(ours)[:4]))])
         print(" | ".join(rows[-1]), flush=True)
-    widths = [max(len(r[i]) for r in rows + [header]) for i in range(len(header))]
-    print()
-    for row in [header] + rows:
-        print("  ".join(text.ljust(width) for text, width in zip(row, widths)).rstrip())
+    print_table(header, rows)
     if args.json:
         with open(args.json, "w", encoding="utf-8") as out:
             json.dump(results, out, indent=1)
     return 1 if any(row[-2] == "DIFFER" for row in rows) else 0
+
+
+def build_manifold_peer(args, root):
+    """The program that runs Manifold, compiled against an installation that is there."""
+    folder = os.path.join(os.path.dirname(os.path.abspath(args.bin)), "manifold_peer")
+    for command in (["cmake", "-S", os.path.join(root, "bench", "manifold"), "-B", folder,
+                     "-DCMAKE_PREFIX_PATH=" + os.path.abspath(args.manifold)],
+                    ["cmake", "--build", folder]):
+        subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+    return os.path.join(folder, "nef_bench_manifold")
+
+
+def beside_manifold(args, binaries):
+    """One line a case: ours, theirs, ours / theirs."""
+    keys = (("build", "build_s"), ("operation", "op_s"), ("export", "export_s"), ("peak MB", "peak_kb"))
+    header = ["case"] + [text for name, _ in keys for text in (name, "Manifold", "ratio")] + ["vertices", "B/vertex"]
+    rows = []
+    results = {}
+    for name in args.cases or MANIFOLD_CASES:
+        directory = os.path.join(args.directory, name)
+        subprocess.run([os.path.join(args.bin, "nef_bench_generate"), args.directory, name], check=True)
+        best = {}
+        for _ in range(args.passes):
+            for engine, binary in binaries.items():
+                best[engine] = better(best.get(engine), run(binary, directory, args.repeat, args.timeout))
+        results[name] = best
+        ours, theirs = best["nef"], best["manifold"]
+        for engine, report in best.items():
+            if "error" in report:
+                print(f"{name}: {engine}: {report['error']}", file=sys.stderr)
+        row = [name]
+        for _, key in keys:
+            for report in (ours, theirs):
+                row.append("X" if "error" in report else
+                           f"{report[key] / 1024:.0f}" if key == "peak_kb" else f"{report[key]:.4g}")
+            row.append("-" if "X" in row[-2:] or theirs[key] == 0 else f"{ours[key] / theirs[key]:.2f}")
+        row += ["X", "X"] if "error" in ours else [str(ours["vertices"]), f"{ours['bytes'] / max(1, ours['vertices']):.0f}"]
+        rows.append(row)
+        print(" | ".join(row), flush=True)
+    print_table(header, rows)
+    if args.json:
+        with open(args.json, "w", encoding="utf-8") as out:
+            json.dump(results, out, indent=1)
+    return 0
+
+
+def print_table(header, rows):
+    widths = [max(len(r[i]) for r in rows + [header]) for i in range(len(header))]
+    print()
+    for row in [header] + rows:
+        print("  ".join(text.ljust(width) for text, width in zip(row, widths)).rstrip())
 
 
 def sweep(args, engines):
@@ -142,6 +197,7 @@ def main():
     parser.add_argument("--timeout", type=float, default=600)
     parser.add_argument("--json", default=None, help="write all reports to this file")
     parser.add_argument("--sweep", action="store_true")
+    parser.add_argument("--manifold", default=None, metavar="PREFIX", help="where the Manifold library is installed")
     parser.add_argument("--only", default="", help="engines, comma-separated: nef,cgal,corefinement")
     parser.add_argument("cases", nargs="*")
     args = parser.parse_args()
@@ -152,6 +208,9 @@ def main():
         return 2
     with tempfile.TemporaryDirectory() as temporary:
         args.directory = args.directory or temporary
+        if args.manifold:
+            peer = build_manifold_peer(args, root)
+            return beside_manifold(args, {"nef": engines["nef"], "manifold": peer})
         return sweep(args, engines) if args.sweep else table(args, engines)
 
 

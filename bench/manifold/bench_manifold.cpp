@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// nef_bench_manifold CASE_DIRECTORY [REPEAT]: the Manifold library (doubles, not exact) on one case. It takes solids of
+// triangles only; the polygons of our cases are convex and become fans.
+#include <manifold/manifold.h>
+
+#include <cstdlib>
+#include <exception>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "bench/report.h"
+
+namespace nef::bench {
+namespace {
+
+using manifold::Manifold;
+using manifold::MeshGL64;
+
+double number(const std::string& word) {
+  const std::size_t slash = word.find('/');
+  const double value = std::stod(word);
+  return slash == std::string::npos ? value : value / std::stod(word.substr(slash + 1));
+}
+
+MeshGL64 read_off(const std::string& path) {
+  std::ifstream in(path);
+  std::string word;
+  std::size_t vertices = 0;
+  std::size_t faces = 0;
+  std::size_t edges = 0;
+  if (!(in >> word >> vertices >> faces >> edges) || word != "OFF") throw std::runtime_error(path + ": not OFF");
+  MeshGL64 mesh;
+  mesh.numProp = 3;
+  for (std::size_t i = 0; i < 3 * vertices && in >> word; ++i) mesh.vertProperties.push_back(number(word));
+  for (std::size_t f = 0; f < faces; ++f) {
+    std::size_t count = 0;
+    in >> count;
+    std::vector<std::size_t> face(count);
+    for (std::size_t& corner : face) in >> corner;
+    for (std::size_t i = 2; i < count; ++i) {
+      for (const std::size_t corner : {face[0], face[i - 1], face[i]}) mesh.triVerts.push_back(corner);
+    }
+  }
+  if (!in) throw std::runtime_error(path + ": ends too early");
+  return mesh;
+}
+
+Manifold evaluated(const Manifold& lazy) {
+  if (lazy.Status() != Manifold::Error::NoError) throw std::runtime_error("Manifold refuses it");
+  return lazy;
+}
+
+Report run(const std::string& directory, int repeat) {
+  std::ifstream in(directory + "/case.txt");
+  std::string name;
+  int operation = 0;
+  if (!(in >> name >> operation)) throw std::runtime_error("no case");
+  if (operation == 2) throw std::runtime_error("not a Boolean");
+  std::vector<MeshGL64> meshes;
+  for (std::string kind; in >> kind;) {
+    if (kind == "surface") throw std::runtime_error("not a solid");
+    meshes.push_back(read_off(directory + "/" + std::to_string(meshes.size()) + ".off"));
+  }
+  const bool difference = operation == 1;
+  Report report;
+  Manifold result;
+  for (int i = 0; i < repeat; ++i) {
+    std::vector<Manifold> operands;
+    const Stopwatch build;
+    for (const MeshGL64& mesh : meshes) operands.push_back(evaluated(Manifold(mesh)));
+    report.build_s.push_back(build.seconds());
+    const std::size_t before = difference ? operands.size() - 1 : 1;
+    Manifold base = operands[0];
+    for (std::size_t k = 1; k < before; ++k) base = evaluated(base + operands[k]);
+    const Stopwatch operate;
+    if (difference) {
+      result = evaluated(base - operands.back());
+    } else {
+      result = base;
+      for (std::size_t k = 1; k < operands.size(); ++k) result = evaluated(result + operands[k]);
+    }
+    report.op_s.push_back(operate.seconds());
+    const Stopwatch write;
+    const MeshGL64 out = result.GetMeshGL64();
+    report.export_s.push_back(write.seconds());
+    report.triangles = out.NumTri();
+  }
+  report.vertices = result.NumVert();
+  report.edges = result.NumEdge();
+  report.facets = result.NumTri();
+  return report;
+}
+
+}  // namespace
+}  // namespace nef::bench
+
+int main(int argc, char** argv) {
+  if (argc < 2) {
+    std::fprintf(stderr, "usage: nef_bench_manifold CASE_DIRECTORY [REPEAT]\n");
+    return 2;
+  }
+  try {
+    nef::bench::run(argv[1], argc > 2 ? std::max(1, std::atoi(argv[2])) : 1).print();
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "nef_bench_manifold: %s\n", error.what());
+    return 2;
+  }
+  return 0;
+}

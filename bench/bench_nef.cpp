@@ -7,6 +7,7 @@
 
 #include "bench/generators.h"
 #include "bench/report.h"
+#include "nef/construct/to_mesh.h"
 #include "nef/polyhedron.h"
 
 namespace nef::bench {
@@ -58,6 +59,12 @@ Report run(const std::string& directory, int repeat) {
       report.op_s.push_back(watch.seconds());
     }
   }
+  for (int i = 0; i < repeat; ++i) {
+    const Stopwatch watch;
+    report.triangles = to_rounded_mesh(result).mesh.face_count();
+    report.export_s.push_back(watch.seconds());
+  }
+  report.bytes = result.complex().bytes();
   const Counts n = counts(result);
   report.vertices = n.vertices;
   report.edges = n.edges;

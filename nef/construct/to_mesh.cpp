@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "nef/base/error.h"
 #include "nef/construct/triangulate.h"
@@ -55,14 +56,32 @@ class Exporter {
   Exporter(const Complex& complex, const MeshExportOptions& options)
       : complex_(complex), options_(options), volumes_(complex.volume_count()) {}
 
-  MeshExport run() {
+  void run() {
     classify_volumes();
     collect_facets();
     number_vertices();
     write_facets();
     look_for_losses();
     report_losses();
-    return std::move(result_);
+  }
+
+  MeshExport exact() {
+    run();
+    faces_.vertices.reserve(vertices_.size());
+    for (const std::uint32_t v : vertices_) faces_.vertices.push_back(complex_.points.rational(PointId{v}));
+    return {std::move(faces_), std::move(lost_)};
+  }
+
+  RoundedMeshExport rounded() {
+    run();
+    RoundedMeshExport result;
+    result.mesh.vertices.reserve(vertices_.size());
+    for (const std::uint32_t v : vertices_)
+      result.mesh.vertices.push_back(nearest_doubles(complex_.points, PointId{v}));
+    result.mesh.face_begin = std::move(faces_.face_begin);
+    result.mesh.corners = std::move(faces_.corners);
+    result.lost = std::move(lost_);
+    return result;
   }
 
  private:
@@ -116,29 +135,29 @@ class Exporter {
     for (std::uint32_t v = 0; v < number_.size(); ++v) {
       if (number_[v] == kUnused) continue;
       NEF_ASSERT(finite(v));
-      number_[v] = static_cast<std::uint32_t>(result_.mesh.vertices.size());
-      result_.mesh.vertices.push_back(complex_.points.rational(PointId{v}));
+      number_[v] = static_cast<std::uint32_t>(vertices_.size());
+      vertices_.push_back(v);
     }
   }
 
-  std::vector<std::vector<std::uint32_t>> rings_of(const Facet& facet) const {
-    std::vector<std::vector<std::uint32_t>> rings;
+  void collect_rings(const Facet& facet, std::vector<std::vector<std::uint32_t>>& rings) const {
+    rings.resize(facet.cycle_count);
     for (std::uint32_t i = 0; i < facet.cycle_count; ++i) {
-      std::vector<std::uint32_t>& ring = rings.emplace_back();
+      rings[i].clear();
       for (const std::uint32_t corner : complex_.cycle(facet.first_cycle + i)) {
-        ring.push_back(number_[complex_.shalfedge_owner[corner]]);
+        rings[i].push_back(number_[complex_.shalfedge_owner[corner]]);
       }
     }
-    return rings;
   }
 
   // A ring that meets itself is no polygon for most readers.
   bool may_stay_polygon(const std::vector<std::uint32_t>& ring) {
     if (options_.polygon_corner) {
-      passes_.resize(result_.mesh.vertices.size(), Answer::kUnknown);
+      passes_.resize(vertices_.size(), Answer::kUnknown);
       for (const std::uint32_t v : ring) {
         if (passes_[v] == Answer::kUnknown) {
-          passes_[v] = options_.polygon_corner(result_.mesh.vertices[v]) ? Answer::kYes : Answer::kNo;
+          const Rational3 corner = complex_.points.rational(PointId{vertices_[v]});
+          passes_[v] = options_.polygon_corner(corner) ? Answer::kYes : Answer::kNo;
         }
         if (passes_[v] == Answer::kNo) return false;
       }
@@ -148,27 +167,43 @@ class Exporter {
     return std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end();
   }
 
+  // The vertices of the mesh as a triangulator asks for them: in small integers, where that is possible.
+  [[nodiscard]] MeshPoints mesh_points() const {
+    std::vector<Rational3> points;
+    points.reserve(vertices_.size());
+    for (const std::uint32_t v : vertices_) points.push_back(complex_.points.rational(PointId{v}));
+    return MeshPoints(points);
+  }
+
   void write_facets() {
-    const MeshPoints points(result_.mesh.vertices);
-    Triangulator triangulator(points);
+    std::optional<MeshPoints> points;  // made for the first facet that is no triangle
+    std::optional<Triangulator> triangulator;
+    std::vector<std::vector<std::uint32_t>> rings;
     std::vector<Triangulator::Triangle> triangles;
+    faces_.face_begin.reserve(boundary_.size() + 1);
+    faces_.corners.reserve(3 * boundary_.size());
     for (const std::uint32_t f : boundary_) {
       const Facet& facet = complex_.facets[f];
       // Cycles turn counterclockwise as seen from above, which is outside if the solid lies below.
       const bool flip = volumes_[facet.volume_above].selected;
-      std::vector<std::vector<std::uint32_t>> rings = rings_of(facet);
+      collect_rings(facet, rings);
       if (options_.keep_polygons && rings.size() == 1 && (rings[0].size() == 3 || may_stay_polygon(rings[0]))) {
         if (flip) std::reverse(rings[0].begin(), rings[0].end());
-        result_.mesh.push_face(rings[0]);
+        faces_.push_face(rings[0]);
         continue;
       }
       triangles.clear();
-      const auto [axis, sign] = projection(facet.plane);
-      const bool done = triangulator.triangulate(rings, axis, sign, triangles);
-      NEF_ASSERT(done);
+      if (rings.size() == 1 && rings[0].size() == 3) {
+        triangles.push_back({rings[0][2], rings[0][0], rings[0][1]});  // begins where the triangulator's would
+      } else {
+        if (!points) triangulator.emplace(points.emplace(mesh_points()));
+        const auto [axis, sign] = projection(facet.plane);
+        const bool done = triangulator->triangulate(rings, axis, sign, triangles);
+        NEF_ASSERT(done);
+      }
       for (auto& triangle : triangles) {
         if (flip) std::swap(triangle[1], triangle[2]);
-        result_.mesh.push_face(triangle);
+        faces_.push_face(triangle);
       }
     }
   }
@@ -228,7 +263,7 @@ class Exporter {
   }
 
   void report_losses() {
-    std::vector<std::string>& lost = result_.lost;
+    std::vector<std::string>& lost = lost_;
     if (lost_volumes_ > 0) {
       lost.push_back(plural(lost_volumes_, "unbounded volume is", "unbounded volumes are") + " not in the mesh");
     }
@@ -251,13 +286,37 @@ class Exporter {
   Items flat_;
   Items open_;
   Items cracks_;
-  MeshExport result_;
+  std::vector<std::uint32_t> vertices_;  // of the complex, of each vertex of the mesh
+  Mesh faces_;                           // its vertices come last
+  std::vector<std::string> lost_;
 };
+
+// Both integers below 2^53 are doubles, and their quotient in floating point is the nearest one by definition.
+double nearest_quotient(mpz_srcptr numerator, mpz_srcptr denominator) {
+  if (mpz_sizeinbase(numerator, 2) <= 53 && mpz_sizeinbase(denominator, 2) <= 53) {
+    return mpz_get_d(numerator) / mpz_get_d(denominator);
+  }
+  Rational value;
+  mpz_set(value.get_num_mpz_t(), numerator);
+  mpz_set(value.get_den_mpz_t(), denominator);
+  return nearest_double(value);  // which needs no lowest terms
+}
 
 }  // namespace
 
+std::array<double, 3> nearest_doubles(const PointTable& points, PointId point) {
+  const IntegerView w = points.coordinate(point, 3);
+  std::array<double, 3> result;
+  for (std::size_t i = 0; i < 3; ++i) result[i] = nearest_quotient(points.coordinate(point, i), w);
+  return result;
+}
+
+RoundedMeshExport to_rounded_mesh(const Polyhedron& polyhedron, const MeshExportOptions& options) {
+  return Exporter(polyhedron.complex(), options).rounded();
+}
+
 MeshExport to_mesh(const Polyhedron& polyhedron, const MeshExportOptions& options) {
-  return Exporter(polyhedron.complex(), options).run();
+  return Exporter(polyhedron.complex(), options).exact();
 }
 
 }  // namespace nef

@@ -3,6 +3,7 @@
 // The boundary of a polyhedron's solid parts as a mesh, and a list of what a mesh can not say.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <string>
 #include <vector>
@@ -30,5 +31,26 @@ struct MeshExport {
 /// parts, cracks, unbounded volumes) is told in `lost`. Facets with holes are triangulated exactly, without new
 /// vertices. O(n) plus the triangulation of facets that are not convex (see nef/construct/triangulate.h).
 MeshExport to_mesh(const Polyhedron& polyhedron, const MeshExportOptions& options = {});
+
+/// A mesh whose coordinates are doubles; otherwise as Mesh.
+struct RoundedMesh {
+  std::vector<std::array<double, 3>> vertices;
+  std::vector<std::uint32_t> face_begin{0};
+  std::vector<std::uint32_t> corners;
+
+  [[nodiscard]] std::size_t face_count() const { return face_begin.size() - 1; }
+};
+
+struct RoundedMeshExport {
+  RoundedMesh mesh;  ///< the faces of to_mesh, each coordinate rounded once to the nearest double (half to even)
+  std::vector<std::string> lost;
+};
+
+/// The mesh of to_mesh, rounded. Ten times as fast, as no exact number is made where doubles give the nearest one:
+/// quotients of integers below 2^53.
+RoundedMeshExport to_rounded_mesh(const Polyhedron& polyhedron, const MeshExportOptions& options = {});
+
+/// The doubles nearest to the coordinates of a finite point.
+std::array<double, 3> nearest_doubles(const PointTable& points, PointId point);
 
 }  // namespace nef

@@ -66,9 +66,10 @@ Polyhedron overlay(const Polyhedron& a, const Polyhedron& b, const Function& f) 
     }
     return mark;
   });
-  return Polyhedron(overlay_complexes(
+  std::optional<Complex> result = overlay_complexes(
       ca, cb, table, [&a]() -> const QueryStructure& { return a.queries(); },
-      [&b]() -> const QueryStructure& { return b.queries(); }));
+      [&b]() -> const QueryStructure& { return b.queries(); });
+  return result ? Polyhedron(std::move(*result)) : a;
 }
 
 Polyhedron unite(const Polyhedron& a, const Polyhedron& b) {

@@ -53,38 +53,50 @@ class IntersectionFinder {
     BoxTree bare_vertex_tree;
   };
 
-  // Boxes of an operand's items that meet the other's bounds.
+  // Items of an operand that reach the other's bounds, and where.
   struct Items {
     std::vector<std::uint32_t> index;
-    std::vector<Box> boxes;
-    void add(std::uint32_t i, const Box& box) {
-      index.push_back(i);
-      boxes.push_back(box);
-    }
+    std::vector<CellRange> cells;
   };
   struct Candidates {
+    std::vector<CellRange> vertices;  // all, whether they reach or not
     Items facets, bare_edges, bare_vertices;
   };
 
-  Candidates candidates(std::size_t x) const {
+  [[nodiscard]] CellRange edge_cells(std::size_t x, const Candidates& found, std::uint32_t halfedge) const {
+    CellRange cells = found.vertices[operands_[x].source(halfedge)];
+    cells.add(found.vertices[operands_[x].target(halfedge)]);
+    return cells;
+  }
+
+  Candidates candidates(std::size_t x, const OccupancyGrid& grid) const {
     const Operand& operand = operands_[x];
     const Complex& c = operand.complex();
-    const Box& reach = operands_[1 - x].bounds();
     Candidates found;
-    for (std::uint32_t f = 0; f < c.facets.size(); ++f) {
-      const Box box = operand.facet_box(f);
-      if (box.overlaps(reach)) found.facets.add(f, box);
+    const auto take = [&grid](Items& items, std::uint32_t index, const CellRange& cells) {
+      if (!grid.reaches(cells)) return;
+      items.index.push_back(index);
+      items.cells.push_back(cells);
+    };
+    const auto count = static_cast<std::uint32_t>(c.vertex_count());
+    found.vertices.reserve(count);
+    for (std::uint32_t v = 0; v < count; ++v) {
+      found.vertices.push_back(grid.range(operand.vertex_box(v)));
+      const VertexRecord& first = c.vertices[v];
+      const VertexRecord& last = c.vertices[v + 1];
+      if (first.shalfedges != last.shalfedges || first.sloops != last.sloops) continue;
+      take(found.bare_vertices, v, found.vertices[v]);
     }
-    for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
-      const SphereMapView map = c.sphere_map(v);
-      if (!map.shalfedges.empty() || !map.sloops.empty()) continue;
-      const Box box = operand.vertex_box(v);
-      if (box.overlaps(reach)) found.bare_vertices.add(v, box);
+    for (std::uint32_t f = 0; f < c.facets.size(); ++f) {
+      CellRange cells;
+      for (const std::uint32_t corner : c.cycle(c.facets[f].first_cycle)) {
+        cells.add(found.vertices[c.shalfedge_owner[corner]]);
+      }
+      take(found.facets, f, cells);
     }
     for (std::uint32_t e = 0; e < c.svertices.size(); ++e) {
       if (c.svertices[e].out != kNone || e > c.twin[e]) continue;
-      const Box box = operand.edge_box(e);
-      if (box.overlaps(reach)) found.bare_edges.add(e, box);
+      take(found.bare_edges, e, edge_cells(x, found, e));
     }
     return found;
   }
@@ -92,48 +104,56 @@ class IntersectionFinder {
   // Everything of an operand lies on the borders of its facets or is bare, so that a grid of these tells what of the
   // other operand can be left out. Most surfaces come close to each other in few places.
   void collect() {
-    const std::array<Candidates, 2> found{candidates(0), candidates(1)};
     Box region;
     for (std::size_t i = 0; i < 3; ++i) {
       region.low[i] = std::max(operands_[0].bounds().low[i], operands_[1].bounds().low[i]);
       region.high[i] = std::min(operands_[0].bounds().high[i], operands_[1].bounds().high[i]);
     }
-    const std::size_t count = found[0].facets.index.size() + found[1].facets.index.size();
+    const std::size_t count = operands_[0].complex().facets.size() + operands_[1].complex().facets.size();
     std::array<OccupancyGrid, 2> grids{OccupancyGrid(region, count), OccupancyGrid(region, count)};
+    const std::array<Candidates, 2> found{candidates(0, grids[0]), candidates(1, grids[1])};
     for (std::size_t x = 0; x < 2; ++x) {
       for (const Items* items : {&found[x].facets, &found[x].bare_edges, &found[x].bare_vertices}) {
-        for (const Box& box : items->boxes) grids[x].mark(box);
+        for (const CellRange& cells : items->cells) grids[x].mark(cells);
       }
     }
     for (std::size_t x = 0; x < 2; ++x) collect(x, found[x], grids[1 - x]);
   }
 
-  static std::vector<std::uint32_t> keep(const Items& items, const OccupancyGrid& other, BoxTree& tree) {
-    Items kept;
+  // The items that come near the other operand, with a tree of their boxes.
+  template <typename BoxOf>
+  static std::vector<std::uint32_t> keep(const Items& items, const OccupancyGrid& other, BoxOf&& box_of,
+                                         BoxTree& tree) {
+    std::vector<std::uint32_t> kept;
+    std::vector<Box> boxes;
     for (std::size_t i = 0; i < items.index.size(); ++i) {
-      if (other.touches(items.boxes[i])) kept.add(items.index[i], items.boxes[i]);
+      if (!other.touches(items.cells[i])) continue;
+      kept.push_back(items.index[i]);
+      boxes.push_back(box_of(items.index[i]));
     }
-    tree = BoxTree(kept.boxes);
-    return std::move(kept.index);
+    tree = BoxTree(boxes);
+    return kept;
   }
 
   void collect(std::size_t x, const Candidates& found, const OccupancyGrid& other) {
     const Operand& operand = operands_[x];
     const Complex& c = operand.complex();
-    const Box& reach = operands_[1 - x].bounds();
     Near& near = near_[x];
-    near.facets = keep(found.facets, other, near.facet_tree);
-    near.bare_edges = keep(found.bare_edges, other, near.bare_edge_tree);
-    near.bare_vertices = keep(found.bare_vertices, other, near.bare_vertex_tree);
+    const auto facet_box = [&](std::uint32_t f) { return operand.facet_box(f); };
+    const auto edge_box = [&](std::uint32_t e) { return operand.edge_box(e); };
+    const auto vertex_box = [&](std::uint32_t v) { return operand.vertex_box(v); };
+    near.facets = keep(found.facets, other, facet_box, near.facet_tree);
+    near.bare_edges = keep(found.bare_edges, other, edge_box, near.bare_edge_tree);
+    near.bare_vertices = keep(found.bare_vertices, other, vertex_box, near.bare_vertex_tree);
     // The ends of an edge that is near need not be.
     for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
-      const Box box = operand.vertex_box(v);
-      if (box.overlaps(reach) && other.touches(box)) near.vertices.push_back(v);
+      const CellRange& cells = found.vertices[v];
+      if (other.reaches(cells) && other.touches(cells)) near.vertices.push_back(v);
     }
     for (std::uint32_t e = 0; e < c.svertices.size(); ++e) {
       if (e > c.twin[e]) continue;
-      const Box box = operand.edge_box(e);
-      if (box.overlaps(reach) && other.touches(box)) near.edges.push_back(e);
+      const CellRange cells = edge_cells(x, found, e);
+      if (other.reaches(cells) && other.touches(cells)) near.edges.push_back(e);
     }
   }
 
@@ -216,7 +236,7 @@ class IntersectionFinder {
       ++predicate_counts().filter;
       return;
     }
-    const SVertex& line = own.svertex(e);
+    const SVertex line = own.svertex(e);
     const std::optional<PointId> point =
         tables_.points.push_intersection(tables_.planes, line.p, line.q, operands_[1 - x].facet_plane(facet));
     NEF_ASSERT(point.has_value());
@@ -260,10 +280,10 @@ class IntersectionFinder {
     const Operand& a = operands_[0];
     const Operand& b = operands_[1];
     for (const std::uint32_t e : near_[0].bare_edges) {
-      const SVertex& line = a.svertex(e);
+      const SVertex line = a.svertex(e);
       near_[1].bare_edge_tree.for_each_overlap(a.edge_box(e), [&](std::uint32_t i) {
         const std::uint32_t f = near_[1].bare_edges[i];
-        const SVertex& other = b.svertex(f);
+        const SVertex other = b.svertex(f);
         // The lines meet in a point iff it lies on all four planes; three of them that are
         // independent give it.
         for (const PlaneId plane : {other.p, other.q}) {

@@ -8,11 +8,7 @@
 namespace nef {
 
 Operand::Operand(const Complex& complex, CommonTables& tables)
-    : complex_(&complex),
-      first_point_(static_cast<std::uint32_t>(tables.points.size())),
-      svertices_(complex.svertices),
-      shalfedges_(complex.shalfedges),
-      sloops_(complex.sloops) {
+    : complex_(&complex), first_point_(static_cast<std::uint32_t>(tables.points.size())) {
   if (tables.planes.size() == 0 && tables.points.size() == 0) {
     tables.planes = complex.planes;
     tables.points = complex.points;
@@ -23,32 +19,20 @@ Operand::Operand(const Complex& complex, CommonTables& tables)
     for (std::uint32_t row = 0; row < rows_.size(); ++row) {
       rows_[row] = tables.planes.intern_from(complex.planes, PlaneId{row << 1U}).row();
     }
-    renamed_svertices_ = complex.svertices;
-    for (SVertex& v : renamed_svertices_) {
-      v.p = plane(v.p);
-      v.q = plane(v.q);
-    }
-    renamed_shalfedges_ = complex.shalfedges;
-    for (SHalfedge& e : renamed_shalfedges_) e.plane = plane(e.plane);
-    renamed_sloops_ = complex.sloops;
-    for (SLoop& l : renamed_sloops_) l.plane = plane(l.plane);
-    svertices_ = renamed_svertices_;
-    shalfedges_ = renamed_shalfedges_;
-    sloops_ = renamed_sloops_;
   }
   for (std::uint32_t v = 0; v < complex.vertex_count(); ++v) {
     bounds_.add_rounded(complex.points.approximate(PointId{v}));
   }
 }
 
-SphereMapView Operand::sphere_map(std::uint32_t vertex) const {
-  const VertexRecord& first = complex_->vertices[vertex];
-  const VertexRecord& last = complex_->vertices[vertex + 1];
-  SphereMapView map = complex_->sphere_map(vertex);
-  map.svertices = svertices_.subspan(first.svertices, last.svertices - first.svertices);
-  map.shalfedges = shalfedges_.subspan(first.shalfedges, last.shalfedges - first.shalfedges);
-  map.sloops = sloops_.subspan(first.sloops, last.sloops - first.sloops);
-  return map;
+void Operand::rename(SphereMapBuffer& map) const {
+  if (rows_.empty()) return;
+  for (SVertex& v : map.svertices) {
+    v.p = plane(v.p);
+    v.q = plane(v.q);
+  }
+  for (SHalfedge& e : map.shalfedges) e.plane = plane(e.plane);
+  for (SLoop& l : map.sloops) l.plane = plane(l.plane);
 }
 
 Box Operand::vertex_box(std::uint32_t vertex) const {
@@ -74,11 +58,22 @@ Box Operand::facet_box(std::uint32_t facet) const {
 
 SphereMapView Operand::pyramid(const Item& item, LabelId label, SphereMapBuffer& scratch) const {
   switch (item.kind) {
-    case Item::Kind::kVertex:
-      return sphere_map(item.index);
+    case Item::Kind::kVertex: {
+      const SphereMapView map = complex_->sphere_map(item.index);
+      if (rows_.empty()) return map;
+      scratch.svertices.assign(map.svertices.begin(), map.svertices.end());
+      scratch.shalfedges.assign(map.shalfedges.begin(), map.shalfedges.end());
+      scratch.sloops.assign(map.sloops.begin(), map.sloops.end());
+      scratch.sfaces.assign(map.sfaces.begin(), map.sfaces.end());
+      scratch.entries.assign(map.entries.begin(), map.entries.end());
+      scratch.mark = map.mark;
+      rename(scratch);
+      break;
+    }
     case Item::Kind::kEdge: {
       const std::uint32_t vertex = source(item.index);
-      edge_pyramid(sphere_map(vertex), item.index - complex_->vertices[vertex].svertices, scratch);
+      edge_pyramid(complex_->sphere_map(vertex), item.index - complex_->vertices[vertex].svertices, scratch);
+      rename(scratch);
       break;
     }
     case Item::Kind::kFacet: {

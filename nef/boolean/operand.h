@@ -32,7 +32,7 @@ class Operand {
   /// Adds the complex to the tables. The first operand keeps its names, so pass it into empty
   /// tables; the complex must outlive the operand.
   Operand(const Complex& complex, CommonTables& tables);
-  Operand(const Operand&) = delete;  // holds views of its own arrays
+  Operand(const Operand&) = delete;
   Operand& operator=(const Operand&) = delete;
 
   [[nodiscard]] const Complex& complex() const { return *complex_; }
@@ -40,8 +40,14 @@ class Operand {
     return rows_.empty() ? own : PlaneId{rows_[own.row()] << 1U | (own.value & 1U)};
   }
   [[nodiscard]] PointId point(std::uint32_t vertex) const { return PointId{first_point_ + vertex}; }
-  [[nodiscard]] const SVertex& svertex(std::uint32_t halfedge) const { return svertices_[halfedge]; }
-  [[nodiscard]] SphereMapView sphere_map(std::uint32_t vertex) const;
+  [[nodiscard]] SVertex svertex(std::uint32_t halfedge) const {
+    SVertex result = complex_->svertices[halfedge];
+    result.p = plane(result.p);
+    result.q = plane(result.q);
+    return result;
+  }
+  /// The common row of each own one; empty if they are the same.
+  [[nodiscard]] std::span<const std::uint32_t> common_rows() const { return rows_; }
   [[nodiscard]] PlaneId facet_plane(std::uint32_t facet) const { return plane(complex_->facets[facet].plane); }
 
   /// The smaller halfedge of an edge.
@@ -59,11 +65,10 @@ class Operand {
   /// The plane other than `plane` (a common name) that holds the edge, and the side of it to the
   /// left of the halfedge in `plane`. See edge_side in nef/complex/facet_plane.h.
   [[nodiscard]] EdgeSide edge_side(const PlaneTable& planes, PlaneId plane, std::uint32_t halfedge) const {
-    return nef::edge_side(planes, plane, svertices_[halfedge]);
+    return nef::edge_side(planes, plane, svertex(halfedge));
   }
 
-  /// The local pyramid at an item; the whole-space one of `label` for no item. `scratch` holds it
-  /// unless it is a vertex's.
+  /// The local pyramid at an item; the whole-space one of `label` for no item. `scratch` may hold it.
   SphereMapView pyramid(const Item& item, LabelId label, SphereMapBuffer& scratch) const;
 
   /// The mark of the volume that `direction` leads into from a point on `item`. It must not lead
@@ -71,15 +76,11 @@ class Operand {
   [[nodiscard]] LabelId volume_mark(const PlaneTable& planes, const Item& item, const Direction& direction) const;
 
  private:
+  void rename(SphereMapBuffer& map) const;
+
   const Complex* complex_;
   std::vector<std::uint32_t> rows_;  // own plane row -> common row; empty for the first operand
   std::uint32_t first_point_ = 0;
-  std::vector<SVertex> renamed_svertices_;
-  std::vector<SHalfedge> renamed_shalfedges_;
-  std::vector<SLoop> renamed_sloops_;
-  std::span<const SVertex> svertices_;
-  std::span<const SHalfedge> shalfedges_;
-  std::span<const SLoop> sloops_;
   Box bounds_;
 };
 

@@ -6,8 +6,10 @@
 #include "nef/boolean/overlay_complexes.h"
 
 #include <algorithm>
+#include <deque>
 
 #include "nef/base/error.h"
+#include "nef/boolean/result_assembly.h"
 #include "nef/complex/local_pyramid.h"
 #include "nef/complex/synthesis.h"
 #include "nef/sphere_map/overlay.h"
@@ -15,13 +17,38 @@
 namespace nef {
 namespace {
 
+// Cascades would otherwise carry the planes of everything that ever was.
+void drop_idle_planes(Complex& c) {
+  std::vector<bool> used(c.planes.size(), false);
+  for (const SVertex& v : c.svertices) used[v.p.row()] = used[v.q.row()] = true;
+  for (const SHalfedge& e : c.shalfedges) used[e.plane.row()] = true;
+  for (const SLoop& l : c.sloops) used[l.plane.row()] = true;
+  const auto count = static_cast<std::size_t>(std::count(used.begin(), used.end(), true));
+  if (count == used.size()) return;
+  PlaneTable planes;
+  planes.reserve(count);
+  std::vector<std::uint32_t> row(used.size(), kNone);
+  for (std::uint32_t i = 0; i < used.size(); ++i) {
+    if (used[i]) row[i] = planes.append_new(c.planes, i);
+  }
+  const auto rename = [&row](PlaneId& plane) { plane = PlaneId{row[plane.row()] << 1U | (plane.value & 1U)}; };
+  for (SVertex& v : c.svertices) {
+    rename(v.p);
+    rename(v.q);
+  }
+  for (SHalfedge& e : c.shalfedges) rename(e.plane);
+  for (SLoop& l : c.sloops) rename(l.plane);
+  c.planes = std::move(planes);
+}
+
 class ComplexOverlay {
  public:
   ComplexOverlay(const Complex& a, const Complex& b, const LabelFunction& f)
-      : f_(f), operands_{Operand(a, tables_), Operand(b, tables_)} {}
+      : f_(f), operands_{Operand(a, tables_), Operand(b, tables_)}, result_(operands_, tables_) {}
 
-  Complex run(const std::function<const QueryStructure&()>& queries_a,
-              const std::function<const QueryStructure&()>& queries_b) {
+  // Nothing if the result is operand 0.
+  std::optional<Complex> run(const std::function<const QueryStructure&()>& queries_a,
+                             const std::function<const QueryStructure&()>& queries_b) {
     const Intersections found = intersect_boundaries(operands_, tables_);
     for (std::size_t x = 0; x < 2; ++x) {
       const std::vector<LabelId> marks =
@@ -39,11 +66,24 @@ class ComplexOverlay {
       }
     }
     for (const Crossing& crossing : found.crossings) push_overlay(crossing.point, crossing.item);
-    result_.planes = std::move(tables_.planes);
-    return std::move(result_);
+    return finished(found);
   }
 
  private:
+  std::optional<Complex> finished(const Intersections& found) {
+    const Complex& a = operands_[0].complex();
+    const Complex& b = operands_[1].complex();
+    const LabelId outer = f_(a.volumes[0].mark, b.volumes[0].mark);
+    if (result_.is_first_operand() && outer == a.volumes[0].mark) return std::nullopt;
+    Complex complex = result_.complex(tables_.planes);
+    if (a.has_box() || b.has_box()) {
+      finish(complex, outer);  // which may drop the box
+    } else {
+      synthesize(complex, outer, copied_links(complex, result_.origins(), {&a, &b}, found.contacts));
+    }
+    return complex;
+  }
+
   void push_overlay(PointId point, const std::array<Item, 2>& items) {
     const SphereMapView a = operands_[0].pyramid(items[0], 0, scratch_[0]);
     const SphereMapView b = operands_[1].pyramid(items[1], 0, scratch_[1]);
@@ -52,9 +92,7 @@ class ComplexOverlay {
   }
 
   void push_result(PointId point) {
-    if (!is_vertex(tables_.planes, out_.view())) return;
-    result_.points.push_from(tables_.points, point);
-    result_.push_vertex(out_.view());
+    if (is_vertex(tables_.planes, out_.view())) result_.add(point, out_.view());
   }
 
   // What f does to the marks of operand x beside one mark of the other.
@@ -63,6 +101,7 @@ class ComplexOverlay {
     Effect effect = Effect::kGeneral;
     std::vector<LabelId> map;
   };
+  using Restrictions = std::deque<std::pair<LabelId, Restriction>>;  // keeps its items in place
 
   const Restriction& restriction(std::size_t x, LabelId other) {
     auto& cache = restrictions_[x];
@@ -104,13 +143,10 @@ class ComplexOverlay {
       case Effect::kConstant:
         return;
       case Effect::kIdentity:
-        result_.points.push_from(tables_.points, operands_[x].point(v));
-        result_.push_vertex(operands_[x].sphere_map(v));
+        result_.copy(x, v, nullptr);
         return;
       case Effect::kInjective:
-        copy_with_marks(operands_[x].sphere_map(v), [&r](LabelId mark) { return r.map[mark]; });
-        result_.points.push_from(tables_.points, operands_[x].point(v));
-        result_.push_vertex(out_.view());
+        result_.copy(x, v, &r.map);
         return;
       case Effect::kGeneral: {
         if (push_if_injective(x, v, other)) return;
@@ -128,7 +164,7 @@ class ComplexOverlay {
   // Copies a vertex if f keeps apart all the marks around it: then nothing simplifies.
   bool push_if_injective(std::size_t x, std::uint32_t v, LabelId other) {
     const auto image = [&](LabelId mark) { return x == 0 ? f_(mark, other) : f_(other, mark); };
-    const SphereMapView map = operands_[x].sphere_map(v);
+    const SphereMapView map = operands_[x].pyramid({Item::Kind::kVertex, v}, other, scratch_[x]);
     marks_.assign(1, map.mark);
     for (const SVertex& item : map.svertices) marks_.push_back(item.mark);
     for (const SHalfedge& item : map.shalfedges) marks_.push_back(item.mark);
@@ -140,8 +176,7 @@ class ComplexOverlay {
     std::sort(marks_.begin(), marks_.end());
     if (std::adjacent_find(marks_.begin(), marks_.end()) != marks_.end()) return false;
     copy_with_marks(map, image);
-    result_.points.push_from(tables_.points, operands_[x].point(v));
-    result_.push_vertex(out_.view());
+    result_.add(operands_[x].point(v), out_.view());
     return true;
   }
 
@@ -170,18 +205,16 @@ class ComplexOverlay {
   std::array<SphereMapBuffer, 2> scratch_;
   SphereMapBuffer out_;
   std::vector<LabelId> marks_;
-  std::array<std::vector<std::pair<LabelId, Restriction>>, 2> restrictions_;
-  Complex result_;
+  std::array<Restrictions, 2> restrictions_;
+  ResultAssembly result_;
 };
 
 }  // namespace
 
-Complex overlay_complexes(const Complex& a, const Complex& b, const LabelFunction& f,
-                          const std::function<const QueryStructure&()>& queries_a,
-                          const std::function<const QueryStructure&()>& queries_b) {
-  Complex result = ComplexOverlay(a, b, f).run(queries_a, queries_b);
-  finish(result, f(a.volumes[0].mark, b.volumes[0].mark));
-  return result;
+std::optional<Complex> overlay_complexes(const Complex& a, const Complex& b, const LabelFunction& f,
+                                         const std::function<const QueryStructure&()>& queries_a,
+                                         const std::function<const QueryStructure&()>& queries_b) {
+  return ComplexOverlay(a, b, f).run(queries_a, queries_b);
 }
 
 namespace {
@@ -214,30 +247,6 @@ void drop_idle_box(Complex& c, LabelId& outer) {
     kept.push_vertex(c.sphere_map(v));
   }
   c = std::move(kept);
-}
-
-// Cascades would otherwise carry the planes of everything that ever was.
-void drop_idle_planes(Complex& c) {
-  std::vector<bool> used(c.planes.size(), false);
-  for (const SVertex& v : c.svertices) used[v.p.row()] = used[v.q.row()] = true;
-  for (const SHalfedge& e : c.shalfedges) used[e.plane.row()] = true;
-  for (const SLoop& l : c.sloops) used[l.plane.row()] = true;
-  const auto count = static_cast<std::size_t>(std::count(used.begin(), used.end(), true));
-  if (count == used.size()) return;
-  PlaneTable planes;
-  planes.reserve(count);
-  std::vector<std::uint32_t> row(used.size(), kNone);
-  for (std::uint32_t i = 0; i < used.size(); ++i) {
-    if (used[i]) row[i] = planes.append_new(c.planes, i);
-  }
-  const auto rename = [&row](PlaneId& plane) { plane = PlaneId{row[plane.row()] << 1U | (plane.value & 1U)}; };
-  for (SVertex& v : c.svertices) {
-    rename(v.p);
-    rename(v.q);
-  }
-  for (SHalfedge& e : c.shalfedges) rename(e.plane);
-  for (SLoop& l : c.sloops) rename(l.plane);
-  c.planes = std::move(planes);
 }
 
 }  // namespace

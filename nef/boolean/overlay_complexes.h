@@ -2,18 +2,20 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "nef/boolean/untouched.h"
 #include "nef/sphere_map/label_function.h"
 
 namespace nef {
 
-/// The complex marked f(mark in a, mark in b) everywhere: the whole pipeline of a binary operation.
+/// The complex marked f(mark in a, mark in b) everywhere: the whole pipeline of a binary operation. Nothing if that is
+/// `a`, item for item.
 /// The query structures are asked for only if some component of one operand lies apart from the
 /// other's boundary.
-Complex overlay_complexes(const Complex& a, const Complex& b, const LabelFunction& f,
-                          const std::function<const QueryStructure&()>& queries_a,
-                          const std::function<const QueryStructure&()>& queries_b);
+std::optional<Complex> overlay_complexes(const Complex& a, const Complex& b, const LabelFunction& f,
+                                         const std::function<const QueryStructure&()>& queries_a,
+                                         const std::function<const QueryStructure&()>& queries_b);
 
 /// Removes an infimaximal box that nothing reaches, drops planes that nothing uses, synthesizes.
 /// `outer` is the mark of all of space if there are no vertices.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <unordered_map>
 
 #include "nef/base/error.h"
@@ -66,18 +67,43 @@ class LineTable {
 
 class Linker {
  public:
-  explicit Linker(Complex& complex) : c_(complex), keys_(complex.svertices.size()) {}
+  explicit Linker(Complex& complex) : c_(complex) {}
 
-  void run() {
-    name_lines();
+  void link_all() {
+    keys_.resize(c_.svertices.size());
+    c_.twin.assign(c_.svertices.size(), kNone);
+    for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) name_lines(v, &keys_[c_.vertices[v].svertices]);
+    name_bare_lines();
+    bucket();
+  }
+
+  void link_loose(std::span<const std::uint32_t> vertices) {
+    std::vector<LineKey> keys;
+    for (const std::uint32_t v : vertices) {
+      const std::uint32_t first = c_.vertices[v].svertices;
+      const std::uint32_t count = c_.vertices[v + 1].svertices - first;
+      keys.assign(count, LineKey{});
+      name_lines(v, keys.data());
+      for (std::uint32_t i = 0; i < count; ++i) {
+        if (c_.twin[first + i] != kNone) continue;
+        loose_.push_back(first + i);
+        keys_.push_back(keys[i]);
+      }
+    }
+    name_bare_lines();
     bucket();
   }
 
  private:
-  void name_lines() {
-    for (std::uint32_t e = 0; e < c_.shalfedges.size(); ++e) {
+  // The svertex that key i belongs to.
+  [[nodiscard]] std::uint32_t svertex(std::size_t i) const {
+    return loose_.empty() ? static_cast<std::uint32_t>(i) : loose_[i];
+  }
+
+  void name_lines(std::uint32_t vertex, LineKey* keys) const {
+    for (std::uint32_t e = c_.vertices[vertex].shalfedges; e < c_.vertices[vertex + 1].shalfedges; ++e) {
       const std::uint32_t row = c_.shalfedges[e].plane.row();
-      LineKey& key = keys_[c_.vertices[c_.shalfedge_owner[e]].svertices + c_.shalfedges[e].source];
+      LineKey& key = keys[c_.shalfedges[e].source];
       if (row < key.first) {
         key.second = key.first;
         key.first = row;
@@ -85,9 +111,14 @@ class Linker {
         key.second = row;
       }
     }
+  }
+
+  void name_bare_lines() {
     LineTable lines;  // few: only dangling and isolated edges
-    for (std::uint32_t s = 0; s < keys_.size(); ++s) {
-      if (keys_[s].second == kNone) keys_[s] = {kLine, lines.number(c_.planes, c_.svertices[s].p, c_.svertices[s].q)};
+    for (std::size_t i = 0; i < keys_.size(); ++i) {
+      if (keys_[i].second != kNone) continue;
+      const SVertex& v = c_.svertices[svertex(i)];
+      keys_[i] = {kLine, lines.number(c_.planes, v.p, v.q)};
     }
   }
 
@@ -99,30 +130,29 @@ class Linker {
   void bucket() {
     std::size_t capacity = 16;
     while (capacity < keys_.size() + keys_.size() / 2) capacity *= 2;
-    std::vector<std::uint32_t> slots(capacity, kNone);     // first svertex of the group in this slot
+    std::vector<std::uint32_t> slots(capacity, kNone);     // first key of the group in this slot
     std::vector<std::uint32_t> next(keys_.size(), kNone);  // the others, last come first
-    c_.twin.assign(keys_.size(), kNone);
-    std::vector<std::uint32_t> crowded;  // heads of groups with more than two
+    std::vector<std::uint32_t> crowded;                    // heads of groups with more than two
     std::vector<std::uint32_t> size(keys_.size(), 0);
-    for (std::uint32_t s = 0; s < keys_.size(); ++s) {
-      std::size_t slot = hash(keys_[s]) & (capacity - 1);
-      while (slots[slot] != kNone && !(keys_[slots[slot]] == keys_[s])) slot = (slot + 1) & (capacity - 1);
-      if (slots[slot] == kNone) slots[slot] = s;
+    for (std::uint32_t i = 0; i < keys_.size(); ++i) {
+      std::size_t slot = hash(keys_[i]) & (capacity - 1);
+      while (slots[slot] != kNone && !(keys_[slots[slot]] == keys_[i])) slot = (slot + 1) & (capacity - 1);
+      if (slots[slot] == kNone) slots[slot] = i;
       const std::uint32_t head = slots[slot];
       if (++size[head] == 3) crowded.push_back(head);
-      if (head != s) {
-        next[s] = next[head];
-        next[head] = s;
+      if (head != i) {
+        next[i] = next[head];
+        next[head] = i;
       }
     }
     std::vector<std::uint32_t> group;
-    for (std::uint32_t s = 0; s < keys_.size(); ++s) {
-      if (size[s] == 2) pair(s, next[s]);
-      NEF_ASSERT(size[s] != 1);
+    for (std::uint32_t i = 0; i < keys_.size(); ++i) {
+      if (size[i] == 2) pair(svertex(i), svertex(next[i]));
+      NEF_ASSERT(size[i] != 1);
     }
     for (const std::uint32_t head : crowded) {
       group.clear();
-      for (std::uint32_t s = head; s != kNone; s = next[s]) group.push_back(s);
+      for (std::uint32_t i = head; i != kNone; i = next[i]) group.push_back(svertex(i));
       pair_along_line(group);
     }
   }
@@ -172,10 +202,16 @@ class Linker {
 
   Complex& c_;
   std::vector<LineKey> keys_;
+  std::vector<std::uint32_t> loose_;  // svertices of the keys; empty: all
 };
 
 }  // namespace
 
-void link_edges(Complex& complex) { Linker(complex).run(); }
+void link_edges(Complex& complex) { Linker(complex).link_all(); }
+
+void link_edges(Complex& complex, KnownLinks& known) {
+  complex.twin = std::move(known.twin);
+  if (!known.loose_vertices.empty()) Linker(complex).link_loose(known.loose_vertices);
+}
 
 }  // namespace nef

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "nef/complex/complex.h"
+#include "nef/complex/known_links.h"
 
 namespace nef {
 
@@ -10,5 +10,8 @@ namespace nef {
 /// svertices are grouped by their two smallest planes (by their line where there are fewer), and
 /// only groups of more than two are sorted along their line. Expected O(n).
 void link_edges(Complex& complex);
+
+/// The same where some twins are known, which are taken out of `known`. O(number of the others).
+void link_edges(Complex& complex, KnownLinks& known);
 
 }  // namespace nef

@@ -27,7 +27,8 @@ struct CycleRecord {
 
 class FacetLinker {
  public:
-  explicit FacetLinker(Complex& complex) : c_(complex) {}
+  /// `known` may be null.
+  FacetLinker(Complex& complex, const KnownLinks* known) : c_(complex), known_(known) {}
 
   void run() {
     trace_cycles();
@@ -52,9 +53,8 @@ class FacetLinker {
 
   void trace_cycles() {
     std::vector<bool> done(c_.shalfedges.size(), false);
-    traced_.reserve(c_.shalfedges.size() / 2);
-    for (std::uint32_t e = 0; e < c_.shalfedges.size(); ++e) {
-      if (c_.shalfedges[e].plane.flipped() || done[e]) continue;
+    const auto trace_from = [&](std::uint32_t e) {
+      if (c_.shalfedges[e].plane.flipped() || done[e]) return;
       CycleRecord cycle;
       cycle.row = c_.shalfedges[e].plane.row();
       cycle.first = static_cast<std::uint32_t>(traced_.size());
@@ -64,13 +64,25 @@ class FacetLinker {
       }
       cycle.count = static_cast<std::uint32_t>(traced_.size()) - cycle.first;
       cycles_.push_back(cycle);
+    };
+    if (known_ == nullptr) {
+      traced_.reserve(c_.shalfedges.size() / 2);
+      for (std::uint32_t e = 0; e < c_.shalfedges.size(); ++e) trace_from(e);
+    } else {
+      traced_.reserve(known_->loose_corners.size());
+      for (const std::uint32_t e : known_->loose_corners) trace_from(e);
     }
   }
 
   void collect_isolated() {
-    for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) {
-      const SphereMapView map = c_.sphere_map(v);
-      if (!map.sloops.empty()) isolated_.emplace_back(map.sloops[0].plane.row(), v);
+    const auto collect = [this](std::uint32_t v) {
+      if (c_.vertices[v].sloops == c_.vertices[v + 1].sloops) return;
+      isolated_.emplace_back(c_.sloops[c_.vertices[v].sloops].plane.row(), v);
+    };
+    if (known_ == nullptr) {
+      for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) collect(v);
+    } else {
+      for (const std::uint32_t v : known_->loose_isolated) collect(v);
     }
   }
 
@@ -85,22 +97,73 @@ class FacetLinker {
     std::sort(isolated_.begin(), isolated_.end());
     auto isolated = isolated_.begin();
     c_.facets.clear();
-    c_.facets.reserve(cycles_.size());
+    const std::span<const Facet> known = known_ == nullptr ? std::span<const Facet>() : known_->facets;
+    c_.facets.reserve(cycles_.size() + known.size());
     c_.cycle_begin.assign(1, 0);
-    c_.cycle_begin.reserve(cycles_.size() + 1);
+    c_.cycle_begin.reserve(cycles_.size() + 1 + (known_ == nullptr ? 0 : known_->cycle_begin.size()));
     c_.corners.clear();
-    c_.corners.reserve(traced_.size());
+    c_.corners.reserve(traced_.size() + (known_ == nullptr ? 0 : known_->corners.size()));
     c_.isolated_vertices.clear();
     c_.shalfedge_facet.assign(c_.shalfedges.size(), kNone);
     c_.sloop_facet.assign(c_.sloops.size(), kNone);
+    auto kept = known.begin();
     for (std::uint32_t row = 0; row + 1 < start.size(); ++row) {
       const auto first = isolated;
       while (isolated != isolated_.end() && isolated->first == row) ++isolated;
       const std::span<const std::uint32_t> cycles(order.data() + start[row], start[row + 1] - start[row]);
       const std::span<const std::pair<std::uint32_t, std::uint32_t>> points(first, isolated);
+      const auto first_kept = kept;
+      while (kept != known.end() && kept->plane.row() == row) ++kept;
+      if (first_kept != kept) {
+        link_plane_with_known(row, cycles, points, {first_kept, kept});
+        continue;
+      }
       if (!cycles.empty()) link_plane(row, cycles, points);
       NEF_ASSERT(!cycles.empty() || points.empty());
     }
+  }
+
+  // Known facets stay as they are where nothing else lies in their plane; otherwise their cycles are linked anew, with
+  // the others, since these may be holes of theirs.
+  void link_plane_with_known(std::uint32_t row, std::span<const std::uint32_t> cycles,
+                             std::span<const std::pair<std::uint32_t, std::uint32_t>> points,
+                             std::span<const Facet> facets) {
+    const bool mixed = std::binary_search(known_->mixed_rows.begin(), known_->mixed_rows.end(), row);
+    if (cycles.empty() && points.empty() && !mixed) {
+      for (const Facet& facet : facets) emit_known(facet);
+      return;
+    }
+    std::vector<std::uint32_t> all(cycles.begin(), cycles.end());
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> inside(points.begin(), points.end());
+    for (const Facet& facet : facets) {
+      for (std::uint32_t i = facet.first_cycle; i < facet.first_cycle + facet.cycle_count; ++i) {
+        CycleRecord cycle;
+        cycle.row = row;
+        cycle.first = static_cast<std::uint32_t>(traced_.size());
+        cycle.count = known_->cycle_begin[i + 1] - known_->cycle_begin[i];
+        const auto corners = known_->corners.begin() + known_->cycle_begin[i];
+        traced_.insert(traced_.end(), corners, corners + cycle.count);
+        all.push_back(static_cast<std::uint32_t>(cycles_.size()));
+        cycles_.push_back(cycle);
+      }
+      for (std::uint32_t i = facet.first_isolated; i < facet.first_isolated + facet.isolated_count; ++i) {
+        inside.emplace_back(row, known_->isolated_vertices[i]);
+      }
+    }
+    std::sort(all.begin(), all.end(), [this](std::uint32_t a, std::uint32_t b) {
+      return traced_[cycles_[a].first] < traced_[cycles_[b].first];
+    });
+    std::sort(inside.begin(), inside.end());
+    link_plane(row, all, inside);
+  }
+
+  void emit_known(const Facet& known) {
+    Facet facet = begin_facet(known.plane.row(), known.cycle_count, known.isolated_count);
+    for (std::uint32_t i = known.first_cycle; i < known.first_cycle + known.cycle_count; ++i) {
+      const std::uint32_t first = known_->cycle_begin[i];
+      add_cycle(std::span(known_->corners).subspan(first, known_->cycle_begin[i + 1] - first));
+    }
+    end_facet(facet, std::span(known_->isolated_vertices).subspan(known.first_isolated, known.isolated_count));
   }
 
   void link_plane(std::uint32_t row, std::span<const std::uint32_t> cycles,
@@ -186,24 +249,34 @@ class FacetLinker {
   }
 
   void emit(std::uint32_t row, std::span<const std::uint32_t> cycles, std::span<const std::uint32_t> inside) {
+    Facet facet = begin_facet(row, cycles.size(), inside.size());
+    for (const std::uint32_t i : cycles) add_cycle(std::span(traced_).subspan(cycles_[i].first, cycles_[i].count));
+    end_facet(facet, inside);
+  }
+
+  [[nodiscard]] Facet begin_facet(std::uint32_t row, std::size_t cycles, std::size_t inside) const {
     Facet facet;
     facet.plane = PlaneId{row << 1U};
     facet.first_cycle = static_cast<std::uint32_t>(c_.cycle_begin.size() - 1);
-    facet.cycle_count = static_cast<std::uint32_t>(cycles.size());
+    facet.cycle_count = static_cast<std::uint32_t>(cycles);
     facet.first_isolated = static_cast<std::uint32_t>(c_.isolated_vertices.size());
-    facet.isolated_count = static_cast<std::uint32_t>(inside.size());
+    facet.isolated_count = static_cast<std::uint32_t>(inside);
+    return facet;
+  }
+
+  void add_cycle(std::span<const std::uint32_t> corners) {
     const auto halffacet = static_cast<std::uint32_t>(2 * c_.facets.size());
-    for (const std::uint32_t i : cycles) {
-      const CycleRecord& cycle = cycles_[i];
-      for (std::uint32_t k = 0; k < cycle.count; ++k) {
-        const std::uint32_t corner = traced_[cycle.first + k];
-        c_.corners.push_back(corner);
-        c_.shalfedge_facet[corner] = halffacet;
-        c_.shalfedge_facet[corner ^ 1U] = halffacet + 1;
-      }
-      c_.cycle_begin.push_back(static_cast<std::uint32_t>(c_.corners.size()));
+    for (const std::uint32_t corner : corners) {
+      c_.corners.push_back(corner);
+      c_.shalfedge_facet[corner] = halffacet;
+      c_.shalfedge_facet[corner ^ 1U] = halffacet + 1;
     }
-    facet.mark = c_.shalfedges[traced_[cycles_[cycles[0]].first]].mark;
+    c_.cycle_begin.push_back(static_cast<std::uint32_t>(c_.corners.size()));
+  }
+
+  void end_facet(Facet& facet, std::span<const std::uint32_t> inside) {
+    const auto halffacet = static_cast<std::uint32_t>(2 * c_.facets.size());
+    facet.mark = c_.shalfedges[c_.corners[c_.cycle_begin[facet.first_cycle]]].mark;
     for (const std::uint32_t v : inside) {
       c_.isolated_vertices.push_back(v);
       const std::uint32_t first = c_.vertices[v].sloops;
@@ -215,6 +288,7 @@ class FacetLinker {
   }
 
   Complex& c_;
+  const KnownLinks* known_;
   std::vector<std::uint32_t> traced_;
   std::vector<CycleRecord> cycles_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> isolated_;  // (plane row, vertex)
@@ -222,6 +296,8 @@ class FacetLinker {
 
 }  // namespace
 
-void link_facets(Complex& complex) { FacetLinker(complex).run(); }
+void link_facets(Complex& complex) { FacetLinker(complex, nullptr).run(); }
+
+void link_facets(Complex& complex, const KnownLinks& known) { FacetLinker(complex, &known).run(); }
 
 }  // namespace nef

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "nef/complex/complex.h"
+#include "nef/complex/known_links.h"
 
 namespace nef {
 
@@ -9,5 +9,8 @@ namespace nef {
 /// nests them into facets (thesis 4.6.2, 4.6.3). Edges must be linked. Expected O(n), plus
 /// O(m log m) in planes that hold several facets with m edges.
 void link_facets(Complex& complex);
+
+/// The same, item for item, where some facets are known.
+void link_facets(Complex& complex, const KnownLinks& known);
 
 }  // namespace nef

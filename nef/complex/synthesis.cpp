@@ -48,4 +48,15 @@ void synthesize(Complex& complex, LabelId outer) {
   link_volumes(complex, outer);
 }
 
+void synthesize(Complex& complex, LabelId outer, KnownLinks&& known) {
+  complex.label_count = count_labels(complex, outer);
+  name_owners(complex);
+  link_edges(complex, known);
+  check_interruption();
+  link_facets(complex, known);
+  check_interruption();
+  known = {};
+  link_volumes(complex, outer);
+}
+
 }  // namespace nef

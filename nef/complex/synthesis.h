@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "nef/complex/complex.h"
+#include "nef/complex/known_links.h"
 
 namespace nef {
 
@@ -10,5 +10,8 @@ namespace nef {
 /// `outer` is the mark of the outer volume, needed where there are no vertices at all (otherwise
 /// the sphere maps tell). O(n log n).
 void synthesize(Complex& complex, LabelId outer);
+
+/// The same, item for item, where some links are known.
+void synthesize(Complex& complex, LabelId outer, KnownLinks&& known);
 
 }  // namespace nef

@@ -27,6 +27,7 @@ class VolumeLinker {
 
   void run() {
     join_sfaces();
+    join_components();
     find_inner_shells();
     number_volumes();
   }
@@ -34,16 +35,13 @@ class VolumeLinker {
  private:
   void join_sfaces() {
     sfaces_.reset(c_.sfaces.size());
-    vertices_.reset(c_.vertex_count());
     for (const Facet& facet : c_.facets) {
       const std::span<const std::uint32_t> corners = c_.facet_corners(facet);
-      const std::uint32_t above = c_.shalfedge_sface(corners[0]);
-      const std::uint32_t below = c_.shalfedge_sface(corners[0] ^ 1U);
-      const std::uint32_t vertex = c_.shalfedge_owner[corners[0]];
+      std::uint32_t above = sfaces_.find(c_.shalfedge_sface(corners[0]));
+      std::uint32_t below = sfaces_.find(c_.shalfedge_sface(corners[0] ^ 1U));
       for (const std::uint32_t corner : corners.subspan(1)) {
-        sfaces_.unite(above, c_.shalfedge_sface(corner));
-        sfaces_.unite(below, c_.shalfedge_sface(corner ^ 1U));
-        vertices_.unite(vertex, c_.shalfedge_owner[corner]);
+        above = join(above, c_.shalfedge_sface(corner));
+        below = join(below, c_.shalfedge_sface(corner ^ 1U));
       }
       for (std::uint32_t i = 0; i < facet.isolated_count; ++i) {
         const std::uint32_t v = c_.isolated_vertices[facet.first_isolated + i];
@@ -51,7 +49,6 @@ class VolumeLinker {
         const std::uint32_t up = record.sloops + (c_.sloops[record.sloops].plane.flipped() ? 1U : 0U);
         sfaces_.unite(above, record.sfaces + c_.sloops[up].sface);
         sfaces_.unite(below, record.sfaces + c_.sloops[up == record.sloops ? up + 1 : up - 1].sface);
-        vertices_.unite(vertex, v);
       }
     }
     for (std::uint32_t s = 0; s < c_.svertices.size(); ++s) {
@@ -60,17 +57,39 @@ class VolumeLinker {
       const std::uint32_t v = c_.svertex_owner[s];
       const std::uint32_t w = c_.svertex_owner[t];
       sfaces_.unite(c_.vertices[v].sfaces + c_.svertices[s].sface, c_.vertices[w].sfaces + c_.svertices[t].sface);
-      vertices_.unite(v, w);
     }
   }
 
+  // Unites a set, given by its representative, with that of an sface; the new representative.
+  std::uint32_t join(std::uint32_t root, std::uint32_t sface) {
+    const std::uint32_t other = sfaces_.find(sface);
+    if (other == root) return root;
+    sfaces_.unite(root, other);
+    return std::min(root, other);
+  }
+
+  // Vertices that a facet or an edge joins see a common shell; so components are shells joined by vertices.
+  void join_components() {
+    parts_.reset(c_.sfaces.size());
+    for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) {
+      const std::uint32_t first = sfaces_.find(c_.vertices[v].sfaces);
+      for (std::uint32_t f = c_.vertices[v].sfaces + 1; f < c_.vertices[v + 1].sfaces; ++f) {
+        parts_.unite(first, sfaces_.find(f));
+      }
+    }
+  }
+
+  // An sface that stands for the component of a vertex.
+  std::uint32_t component(std::uint32_t vertex) { return parts_.find(sfaces_.find(c_.vertices[vertex].sfaces)); }
+
   void find_inner_shells() {
     const auto count = static_cast<std::uint32_t>(c_.vertex_count());
-    std::vector<std::uint32_t> lowest(count, kNone);  // per component representative
+    std::vector<std::uint32_t> lowest(c_.sfaces.size(), kNone);  // vertex, per component
     std::vector<std::uint32_t> components;
     for (std::uint32_t v = 0; v < count; ++v) {
-      std::uint32_t& low = lowest[vertices_.find(v)];
-      if (low == kNone) components.push_back(vertices_.find(v));
+      const std::uint32_t part = component(v);
+      std::uint32_t& low = lowest[part];
+      if (low == kNone) components.push_back(part);
       if (low == kNone || compare_lexicographic(c_.points, PointId{v}, PointId{low}) < 0) low = v;
     }
     const std::vector<bool> enclosed = may_be_enclosed(components, lowest);
@@ -113,11 +132,11 @@ class VolumeLinker {
                                     const std::vector<std::uint32_t>& lowest) {
     std::vector<bool> result(components.size(), false);
     if (components.size() < 2) return result;
-    std::vector<std::uint32_t> number(c_.vertex_count(), kNone);
+    std::vector<std::uint32_t> number(c_.sfaces.size(), kNone);
     for (std::uint32_t i = 0; i < components.size(); ++i) number[components[i]] = i;
     std::vector<Box> boxes(components.size());
     for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) {
-      boxes[number[vertices_.find(v)]].add_rounded(c_.points.approximate(PointId{v}));
+      boxes[number[component(v)]].add_rounded(c_.points.approximate(PointId{v}));
     }
     const BoxTree tree(boxes);
     for (std::uint32_t i = 0; i < components.size(); ++i) {
@@ -203,7 +222,7 @@ class VolumeLinker {
 
   Complex& c_;
   UnionFind sfaces_;
-  UnionFind vertices_;
+  UnionFind parts_;    // over representatives of sfaces_: components of the boundary
   UnionFind volumes_;  // over representatives of sfaces_
   std::vector<std::uint32_t> inner_;
   std::uint32_t outer_ = 0;

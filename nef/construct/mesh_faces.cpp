@@ -7,6 +7,7 @@
 
 #include "nef/base/error.h"
 #include "nef/construct/mesh_check.h"
+#include "nef/geometry/spatial_order.h"
 
 namespace nef {
 
@@ -21,11 +22,36 @@ SolidFaces MeshFaces::collect(std::span<const std::uint32_t> faces, bool reverse
   f_ = {};
   reverse_ = reverse;
   number_points();
-  const std::size_t count = faces.empty() ? mesh_.face_count() : faces.size();
-  f_.plane.reserve(count);
-  f_.planes.reserve(count);
-  for (std::size_t i = 0; i < count; ++i) add_face(faces.empty() ? static_cast<std::uint32_t>(i) : faces[i]);
+  const std::vector<std::uint32_t> order = in_order_of_points(faces);
+  f_.plane.reserve(order.size());
+  f_.planes.reserve(order.size());
+  f_.begin.reserve(order.size() + 1);
+  f_.corners.reserve(mesh_.corners.size());
+  for (const std::uint32_t face : order) add_face(face);
   return std::move(f_);
+}
+
+// Faces by their first point, so that their planes, too, come in spatial order.
+std::vector<std::uint32_t> MeshFaces::in_order_of_points(std::span<const std::uint32_t> faces) const {
+  const auto count = static_cast<std::uint32_t>(faces.empty() ? mesh_.face_count() : faces.size());
+  const auto face = [&](std::uint32_t i) { return faces.empty() ? i : faces[i]; };
+  const auto least = [&](std::uint32_t i) {
+    std::uint32_t result = 0xffffffffU;
+    for (const std::uint32_t v : mesh_.face(face(i))) result = std::min(result, point_of_[v]);
+    return result;
+  };
+  std::vector<std::uint32_t> begin(points_.size() + 1, 0);
+  std::vector<std::uint32_t> order;
+  order.reserve(count);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (!mesh_.face(face(i)).empty()) ++begin[least(i) + 1];
+  }
+  for (std::size_t p = 1; p < begin.size(); ++p) begin[p] += begin[p - 1];
+  order.resize(begin.back());
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (!mesh_.face(face(i)).empty()) order[begin[least(i)]++] = face(i);
+  }
+  return order;
 }
 
 void MeshFaces::number_points() {
@@ -33,17 +59,19 @@ void MeshFaces::number_points() {
     point_of_.resize(mesh_.vertices.size());
     points_.reserve(mesh_.vertices.size());
     const PointTable& known = surface_.points.table();
-    for (std::uint32_t v = 0; v < mesh_.vertices.size(); ++v) {
-      if (surface_.place[v] != v) {
-        point_of_[v] = point_of_[surface_.place[v]];
-        continue;
-      }
+    std::vector<std::array<double, 3>> places;
+    places.reserve(mesh_.vertices.size());
+    for (std::uint32_t v = 0; v < mesh_.vertices.size(); ++v) places.push_back(surface_.points.approximate(v));
+    for (const std::uint32_t v : spatial_order(places)) {
+      if (surface_.place[v] != v) continue;
       const PointId p = known.size() > 0 ? points_.push_from(known, PointId{v}) : points_.push(mesh_.vertices[v]);
       point_of_[v] = p.value;
       vertex_of_.push_back(v);
     }
+    for (std::uint32_t v = 0; v < mesh_.vertices.size(); ++v) point_of_[v] = point_of_[surface_.place[v]];
   }
   f_.points = points_;
+  f_.names = vertex_of_;
 }
 
 void MeshFaces::add_face(std::uint32_t face) {

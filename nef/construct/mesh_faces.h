@@ -33,6 +33,7 @@ class MeshFaces {
 
   SolidFaces collect(std::span<const std::uint32_t> faces, bool reverse);  // all if empty
   void number_points();
+  [[nodiscard]] std::vector<std::uint32_t> in_order_of_points(std::span<const std::uint32_t> faces) const;
   void add_face(std::uint32_t face);
   bool add_defective_ring();
   [[nodiscard]] std::array<std::uint32_t, 3> corners_of(std::uint32_t triangle) const;

@@ -8,6 +8,8 @@
 #include "nef/base/error.h"
 #include "nef/boolean/overlay_complexes.h"
 #include "nef/complex/local_pyramid.h"
+#include "nef/complex/synthesis.h"
+#include "nef/construct/solid_links.h"
 #include "nef/query/query_structure.h"
 #include "nef/sphere_map/arrangement.h"
 
@@ -37,6 +39,8 @@ class SolidBuilder {
   Complex run() {
     collect_corners();
     Complex result;
+    reserve(result);
+    SolidLinks links(f_);
     SphereMapBuffer map;
     for (std::uint32_t v = 0; v < f_.points.size(); ++v) {
       if (first_[v] == first_[v + 1]) continue;
@@ -45,11 +49,16 @@ class SolidBuilder {
       check_sides(v);
       drawing_.simplify_and_assemble(f_.planes, map);
       if (!is_vertex(f_.planes, map.view())) continue;
+      links.note(result, v, drawing_, map.view(), ends_, ring_);
       result.points.push_from(f_.points, PointId{v});
       result.push_vertex(map.view());
     }
     result.planes = std::move(f_.planes);
-    finish(result, marks_.outside);
+    if (std::optional<KnownLinks> known = links.finish(result)) {
+      synthesize(result, marks_.outside, std::move(*known));
+    } else {
+      finish(result, marks_.outside);
+    }
     return result;
   }
 
@@ -58,6 +67,7 @@ class SolidBuilder {
     std::uint32_t face;
     std::uint32_t next;  // vertex
     std::uint32_t previous;
+    std::uint32_t at;  // in f_.corners
   };
 
   struct Spoke {
@@ -66,6 +76,18 @@ class SolidBuilder {
     PlaneId second;
     std::uint32_t arcs = 0;
   };
+
+  // As for faces that are all facets, which is as much as there can be of each.
+  void reserve(Complex& result) const {
+    std::size_t used = 0;
+    for (std::size_t v = 0; v + 1 < first_.size(); ++v) used += first_[v] < first_[v + 1] ? 1 : 0;
+    result.points.reserve(used);
+    result.vertices.reserve(used + 1);
+    result.svertices.reserve(corners_.size());
+    result.shalfedges.reserve(2 * corners_.size());
+    result.sfaces.reserve(2 * used);
+    result.entries.reserve(2 * used);
+  }
 
   void collect_corners() {
     first_.assign(f_.points.size() + 1, 0);
@@ -78,7 +100,8 @@ class SolidBuilder {
       const std::uint32_t size = f_.begin[face + 1] - begin;
       for (std::uint32_t i = 0; i < size; ++i) {
         const std::uint32_t v = f_.corners[begin + i];
-        corners_[at[v]++] = {face, f_.corners[begin + (i + 1) % size], f_.corners[begin + (i + size - 1) % size]};
+        corners_[at[v]++] = {face, f_.corners[begin + (i + 1 == size ? 0 : i + 1)],
+                             f_.corners[begin + (i == 0 ? size - 1 : i - 1)], begin + i};
       }
     }
   }
@@ -142,19 +165,27 @@ class SolidBuilder {
   void draw(std::uint32_t v) {
     drawing_.clear();
     spokes_.clear();
+    ends_.clear();
+    ring_.clear();
     drawing_.centre = marks_.boundary;
     for (std::uint32_t i = first_[v]; i < first_[v + 1]; ++i) {
       const Corner& corner = corners_[i];
+      ring_.push_back(corner.at);
       const std::uint32_t source = node_toward(corner.next, f_.plane[corner.face]);
       const std::uint32_t target = node_toward(corner.previous, f_.plane[corner.face]);
       drawing_.arcs.push_back({f_.plane[corner.face], source, target, marks_.boundary, marks_.outside, marks_.inside});
     }
     drawing_.nodes.resize(spokes_.size());
     for (std::size_t n = 0; n < spokes_.size(); ++n) {
+      ends_.push_back(spokes_[n].to);
       if (spokes_[n].arcs == 1) spokes_[n].second = plane_across(v, spokes_[n]);
       drawing_.nodes[n].direction = direction_along(v, spokes_[n]);
       drawing_.nodes[n].mark = marks_.boundary;
     }
+  }
+
+  [[nodiscard]] std::string name(std::uint32_t point) const {
+    return std::to_string(f_.names.empty() ? point : f_.names[point]);
   }
 
   void check_sides(std::uint32_t v) const {
@@ -164,8 +195,7 @@ class SolidBuilder {
         const std::uint32_t next = ring[(i + 1) % ring.size()];
         if (drawing_.left(ring[i]) != drawing_.left(next ^ 1U)) {
           throw InputError(
-              "the faces around the edge from vertex " + std::to_string(v) + " to vertex " +
-              std::to_string(spokes_[n].to) +
+              "the faces around the edge from vertex " + name(v) + " to vertex " + name(spokes_[n].to) +
               " do not separate inside from outside; the mesh crosses itself or is not consistently oriented");
         }
       }
@@ -177,6 +207,8 @@ class SolidBuilder {
   std::vector<std::uint32_t> first_;
   std::vector<Corner> corners_;
   std::vector<Spoke> spokes_;
+  std::vector<std::uint32_t> ends_;  // of the spokes
+  std::vector<std::uint32_t> ring_;  // the corners around the vertex, in f_.corners
   Arrangement drawing_;
 };
 
@@ -223,8 +255,9 @@ Complex clip_to_infimaximal_box(const Complex& solid) {
     return *slot;
   };
   return overlay_complexes(
-      solid, box, clip, [&]() -> const QueryStructure& { return ask(solid, of_solid); },
-      [&]() -> const QueryStructure& { return ask(box, of_box); });
+             solid, box, clip, [&]() -> const QueryStructure& { return ask(solid, of_solid); },
+             [&]() -> const QueryStructure& { return ask(box, of_box); })
+      .value_or(solid);
 }
 
 Complex make_lower_halfspace() { return clip_to_infimaximal_box(make_solid(infimaximal_box_faces(true), {1, 1, 0})); }

@@ -14,6 +14,7 @@ namespace nef {
 struct SolidFaces {
   PlaneTable planes;
   PointTable points;
+  std::vector<std::uint32_t> names;  ///< of the points, as messages tell them; empty: as they are numbered
   std::vector<PlaneId> plane;
   std::vector<std::uint32_t> begin{0};
   std::vector<std::uint32_t> corners;

@@ -36,7 +36,7 @@ std::uint32_t& slot_of(std::vector<std::uint32_t>& slots, const std::vector<std:
 }  // namespace
 
 void PlaneTable::reserve(std::size_t planes) {
-  rows_.reserve(planes, 8);
+  rows_.reserve(planes, 5);
   approximate_.reserve(planes);
   hash_.reserve(planes);
 }

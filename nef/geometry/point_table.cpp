@@ -204,7 +204,7 @@ Rational3 PointTable::rational(PointId point) const {
 std::size_t PointTable::bytes() const { return rows_.bytes() + approximate_.capacity() * sizeof(approximate_[0]); }
 
 void PointTable::reserve(std::size_t points) {
-  rows_.reserve(points, 8);
+  rows_.reserve(points, 4);
   approximate_.reserve(points);
 }
 

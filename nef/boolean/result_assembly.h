@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "nef/boolean/copied_links.h"
+
+namespace nef {
+
+/// Gathers the vertices of a result and puts its arrays together, each allocated once in its final size. Copies are
+/// noted only, so that their arrays are copied in long runs, and their links with them.
+class ResultAssembly {
+ public:
+  /// Both must outlive the assembly. Planes and points of the result are those of `tables`.
+  ResultAssembly(const std::array<Operand, 2>& operands, const CommonTables& tables)
+      : operands_(operands), tables_(tables) {}
+
+  /// Appends a copy of vertex v of operand x. Its marks are changed to marks[mark] unless `marks` is null; the array
+  /// must outlive the assembly. Copies of one operand must come in its order.
+  void copy(std::size_t x, std::uint32_t v, const std::vector<LabelId>* marks);
+
+  /// Appends a new vertex at a point of the tables.
+  void add(PointId point, const SphereMapView& map);
+
+  /// True if the vertices are those of operand 0, all of them and unchanged.
+  [[nodiscard]] bool is_first_operand() const;
+
+  /// The complex with its points, sphere maps and those planes that these use; not synthesized. The planes of the
+  /// tables are moved away if all are used.
+  [[nodiscard]] Complex complex(PlaneTable& planes) const;
+
+  /// Where its vertices come from.
+  [[nodiscard]] std::vector<VertexRun> origins() const;
+
+ private:
+  struct Run {
+    VertexRun vertices;
+    const std::vector<LabelId>* marks = nullptr;
+  };
+
+  [[nodiscard]] std::vector<bool> used_planes(std::size_t planes) const;
+  // Of each common plane of an origin, in the names of that origin: its row in the result. Empty: the same.
+  [[nodiscard]] std::array<std::vector<std::uint32_t>, 3> final_rows(PlaneTable& planes, Complex& result) const;
+  void reserve(Complex& result) const;
+  [[nodiscard]] const Complex& origin(const Run& run) const;
+  void append(const Run& run, std::uint32_t first, std::uint32_t count, std::span<const std::uint32_t> rows,
+              Complex& result) const;
+
+  const std::array<Operand, 2>& operands_;
+  const CommonTables& tables_;
+  std::vector<Run> runs_;
+  Complex new_;  // sphere maps of the new vertices; their points:
+  std::vector<PointId> new_points_;
+};
+
+}  // namespace nef

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Links that are known before a complex is synthesized, since its vertices were copied together with them.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "nef/complex/complex.h"
+
+namespace nef {
+
+/// Twins and facets of a complex, as far as they are known. What is said here must be what synthesis would find: then
+/// the complex is the same, item for item, with or without it.
+struct KnownLinks {
+  std::vector<std::uint32_t> twin;            ///< of each svertex; kNone where it is to be found
+  std::vector<std::uint32_t> loose_vertices;  ///< the vertices of such svertices, ascending
+
+  std::vector<Facet> facets;                     ///< in the order of their planes; only planes and ranges are set
+  std::vector<std::uint32_t> cycle_begin{0};     ///< of the cycles of these facets
+  std::vector<std::uint32_t> corners;            ///< of these cycles, each cycle from its smallest corner on
+  std::vector<std::uint32_t> isolated_vertices;  ///< inside these facets
+  std::vector<std::uint32_t>
+      mixed_rows;  ///< of planes whose facets come from several complexes: their order is not known
+
+  std::vector<std::uint32_t> loose_corners;   ///< the corners of all other facets, ascending
+  std::vector<std::uint32_t> loose_isolated;  ///< the vertices inside other facets
+};
+
+}  // namespace nef

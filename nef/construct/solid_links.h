@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "nef/complex/known_links.h"
+#include "nef/construct/solid.h"
+#include "nef/sphere_map/arrangement.h"
+
+namespace nef {
+
+/// Notes, while the sphere maps of a solid are made from its faces, which svertices and shalfedges they become, so that
+/// edges and facets need not be found again. A vertex is plain if its map is one ring of all corners around it; edges
+/// between plain vertices are edges of faces, and a face whose corners are all plain is a facet or one of several in
+/// its plane.
+class SolidLinks {
+ public:
+  /// The faces must outlive this object.
+  explicit SolidLinks(const SolidFaces& faces);
+
+  /// The next vertex of the result: it lies at `point`; node n of its drawing leads to point `ends[n]`, arc a stands
+  /// for corner `corners[a]` of all faces; `map` is what the drawing became. To be called before it is pushed to
+  /// `result`.
+  void note(const Complex& result, std::uint32_t point, const Arrangement& drawing, const SphereMapView& map,
+            std::span<const std::uint32_t> ends, std::span<const std::uint32_t> corners);
+
+  /// The links of the result, which has its planes by now; nothing if one of these is used nowhere, so that planes will
+  /// be renamed.
+  [[nodiscard]] std::optional<KnownLinks> finish(const Complex& result);
+
+ private:
+  bool note_ring(const Complex& result, const Arrangement& drawing, const SphereMapView& map,
+                 std::span<const std::uint32_t> ends, std::span<const std::uint32_t> corners);
+  [[nodiscard]] bool every_plane_is_used(const Complex& result) const;
+  void link_twins(const Complex& result, KnownLinks& links) const;
+  void link_facets(const Complex& result, KnownLinks& links) const;
+  bool push_cycle(std::uint32_t face, KnownLinks& links) const;
+
+  const SolidFaces& faces_;
+  std::vector<std::uint32_t> vertex_of_;     // of each point: plain vertex of the result, or kNone
+  std::vector<std::uint32_t> point_of_;      // of each vertex
+  std::vector<std::uint32_t> end_;           // of each svertex: the point it leads to; kNone if its vertex is not plain
+  std::vector<std::uint32_t> shalfedge_of_;  // of each corner of faces at a plain vertex: on the unflipped plane
+};
+
+}  // namespace nef

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// How Python calls what may take long: without the interpreter's lock, and so that Ctrl-C is answered at once.
+//
+// Signals reach Python in its main thread only. A call from there runs in a thread of its own while the main one waits
+// for it and looks for signals every few milliseconds. If a handler raises, KeyboardInterrupt usually, the call is told
+// to stop (nef/base/interruption.h) and its result is thrown away, whenever it comes; the exception goes on at once.
+// Operands are immutable and are held by the call, so nothing that Python sees is ever half done. Calls from other
+// threads, and small ones, which are over sooner than anybody could interrupt them, run where they are.
+#pragma once
+
+#include <pybind11/functional.h>
+#include <pybind11/pybind11.h>
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <utility>
+
+#include "nef/base/interruption.h"
+
+namespace nef::python {
+
+namespace py = pybind11;
+
+/// A call of fewer items than this takes some milliseconds at most.
+inline constexpr std::size_t kSmallCall = 2000;
+
+/// Whether signals are handled in the calling thread. Needs the interpreter's lock.
+bool in_main_thread();
+
+/// How many calls were told to stop and have not ended yet.
+std::atomic<int>& abandoned_calls();
+
+/// Waits some seconds for the abandoned calls to end. For the end of the interpreter; needs its lock.
+void wait_for_abandoned_calls();
+
+namespace detail {
+
+template <typename Result>
+struct Job {
+  std::mutex mutex;
+  std::condition_variable changed;
+  bool done = false;
+  std::optional<Result> result;
+  std::exception_ptr failure;
+  std::atomic<bool> stop{false};
+};
+
+}  // namespace detail
+
+/// The value of work(), which must not touch anything of Python unless it takes the lock, and must own what it needs.
+/// `items` is about the size of the operands.
+template <typename Work>
+auto call(std::size_t items, Work work) -> decltype(work()) {
+  using Result = decltype(work());
+  using Job = detail::Job<Result>;
+  if (items < kSmallCall || !in_main_thread()) {
+    const py::gil_scoped_release unlocked;
+    return work();
+  }
+  const auto job = std::make_shared<Job>();
+  std::thread worker([job, work = std::move(work)]() mutable {
+    std::optional<Result> result;
+    std::exception_ptr failure;
+    try {
+      const Interruptible interruptible(&job->stop);
+      result.emplace(work());
+    } catch (...) {
+      failure = std::current_exception();
+    }
+    {
+      // What the work held goes before anybody hears that it is done.
+      const Work ended(std::move(work));
+    }
+    const std::scoped_lock lock(job->mutex);
+    job->result = std::move(result);
+    job->failure = failure;
+    job->done = true;
+    job->changed.notify_all();
+    if (job->stop) --abandoned_calls();
+  });
+  constexpr std::chrono::milliseconds kPatience{20};
+  for (;;) {
+    {
+      const py::gil_scoped_release unlocked;
+      std::unique_lock lock(job->mutex);
+      if (job->changed.wait_for(lock, kPatience, [&] { return job->done; })) break;
+    }
+    if (PyErr_CheckSignals() == 0) continue;
+    const std::scoped_lock lock(job->mutex);
+    if (!job->done) ++abandoned_calls();
+    job->stop = true;
+    worker.detach();
+    throw py::error_already_set();
+  }
+  {
+    const py::gil_scoped_release unlocked;
+    worker.join();
+  }
+  if (job->failure) std::rethrow_exception(job->failure);
+  return std::move(*job->result);
+}
+
+/// A Python function that is told how far a call has come: function(done, total). Copies share the function; it is
+/// called and released with the interpreter's lock held, in whatever thread. An exception in it ends the call and goes
+/// on to the caller.
+class ProgressFunction {
+ public:
+  ProgressFunction() = default;
+  /// None for no progress.
+  explicit ProgressFunction(const py::object& function);
+
+  explicit operator bool() const { return function_ != nullptr; }
+  /// Throws Interrupted if the call was abandoned meanwhile.
+  template <typename... Arguments>
+  void operator()(const Arguments&... arguments) const {
+    check_interruption();
+    if (!function_) return;
+    const py::gil_scoped_acquire locked;
+    (*function_)(arguments...);
+  }
+
+ private:
+  std::shared_ptr<py::object> function_;
+};
+
+}  // namespace nef::python

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Functions that make sets.
+#include <pybind11/stl.h>
+
+#include "binding/bindings.h"
+#include "binding/errors.h"
+#include "binding/meshes.h"
+#include "nef/construct/construct.h"
+#include "nef/io/polyhedron_file.h"
+#include "nef/program/expression.h"
+
+namespace nef::python {
+namespace {
+
+Polyhedron box(py::handle low, py::handle high) {
+  return make_box(to_triple(low, "a corner"), to_triple(high, "a corner"));
+}
+
+Polyhedron halfspace(py::handle a, py::handle b, py::handle c, py::handle d, bool closed) {
+  return make_halfspace(to_rational(a), to_rational(b), to_rational(c), to_rational(d), closed);
+}
+
+Polyhedron hull(py::handle points) {
+  std::vector<Rational3> held = to_points(points, "points");
+  const std::size_t count = held.size();
+  return call(count, [held = std::move(held)] { return convex_hull(held); });
+}
+
+Polyhedron polygon(const py::list& rings) {
+  std::vector<std::vector<Rational3>> held;
+  for (const py::handle ring : rings) held.push_back(to_points(ring, "a ring"));
+  return make_polygon(held);
+}
+
+void warn(const Messages& messages) {
+  for (const std::string& message : messages) {
+    if (PyErr_WarnEx(PyExc_UserWarning, message.c_str(), 2) != 0) throw py::error_already_set();
+  }
+}
+
+Polyhedron solid_from_mesh(py::handle vertices, py::handle faces, bool strict, bool surface, bool check) {
+  const auto mesh = std::make_shared<const Mesh>(mesh_from_arrays(vertices, faces));
+  const MeshOptions options{strict, surface, check};
+  using Made = std::pair<Polyhedron, Messages>;
+  const Made made = call(mesh->vertices.size() + mesh->face_count(), [mesh, options]() -> Made {
+    Messages messages;
+    try {
+      Polyhedron set = from_mesh(*mesh, options, &messages);
+      return {std::move(set), std::move(messages)};
+    } catch (const InputError& error) {
+      throw MeshError(error.what(), check_mesh(*mesh));
+    }
+  });
+  warn(made.second);
+  return made.first;
+}
+
+Polyhedron evaluate(const std::string& text) {
+  // An expression may stand for any amount of work.
+  return call(kSmallCall, [text] {
+    ExpressionOptions options;
+    options.load = [](const std::string& path) { return read_polyhedron(path); };
+    return evaluate_expression(text, options);
+  });
+}
+
+Polyhedron many(const std::vector<Polyhedron>& sets, unsigned threads, bool unite) {
+  return call(items(sets), [=] { return unite ? unite_all(sets, threads) : intersect_all(sets, threads); });
+}
+
+// The function is asked beforehand for every pair of labels that occur, with the interpreter's lock.
+Polyhedron overlay_labels(const Polyhedron& a, const Polyhedron& b, const py::function& function) {
+  const std::size_t rows = a.complex().label_count;
+  const std::size_t columns = b.complex().label_count;
+  auto table = std::make_shared<std::vector<LabelId>>(rows * columns);
+  for (std::size_t x = 0; x < rows; ++x) {
+    for (std::size_t y = 0; y < columns; ++y) {
+      const auto label = py::cast<long>(function(x, y));
+      if (label < 0 || label >= kOutside) throw InputError("labels are numbers from 0 to 65534");
+      (*table)[x * columns + y] = static_cast<LabelId>(label);
+    }
+  }
+  return call(items(a) + items(b), [=] {
+    return overlay(a, b, [&](LabelId x, LabelId y) {
+      // The overlay tabulates at least labels 0 and 1.
+      return x < rows && y < columns ? (*table)[x * columns + y] : LabelId{0};
+    });
+  });
+}
+
+}  // namespace
+
+void bind_construction(py::module_& m) {
+  m.def("box", &box, py::arg("low"), py::arg("high"),
+        R"(The closed box between two corners.
+
+low, high: three numbers each. A box that is flat in some directions is a facet, a segment or a point; low > high in one
+of them gives the empty set.)");
+  m.def("halfspace", &halfspace, py::arg("a"), py::arg("b"), py::arg("c"), py::arg("d"), py::arg("closed") = true,
+        "The points with a x + b y + c z + d <= 0 (< 0 if not closed). Raises InputError if a, b and c are 0.");
+  m.def("hull", &hull, py::arg("points"),
+        R"(The closed convex hull of points, of whatever dimension it is.
+
+points: an array of shape (N, 3) of floats, integers or Fractions, or a sequence of triples.)");
+  m.def(
+      "point", [](py::handle p) { return make_point(to_triple(p, "a point")); }, py::arg("point"),
+      "The set of one point.");
+  m.def(
+      "segment",
+      [](py::handle a, py::handle b) { return make_segment(to_triple(a, "a point"), to_triple(b, "a point")); },
+      py::arg("a"), py::arg("b"), "The closed segment between two points.");
+  m.def("polygon", &polygon, py::arg("rings"),
+        R"(A closed planar polygon: outer rings and holes in one plane, in any order.
+
+rings: a list of arrays of shape (N, 3). Raises InputError if the points do not lie in one plane exactly, or a ring
+touches or crosses itself.)");
+  m.def("_from_mesh", &solid_from_mesh, py::arg("vertices"), py::arg("faces"), py::arg("strict"), py::arg("surface"),
+        py::arg("check"));
+  m.def("eval", &evaluate, py::arg("text"),
+        R"doc(The set that an expression of ``nef eval`` spells: ``nef.eval("box(0,0,0, 2,2,2) - point(1, 1, 0.1)")``.
+
+Numbers in it are exact: 0.1 is one tenth. Raises InputError, whose `offset` is the place of the error.)doc");
+  m.def(
+      "unite_all", [](const std::vector<Polyhedron>& sets, unsigned threads) { return many(sets, threads, true); },
+      py::arg("sets"), py::arg("threads") = 1,
+      "The union of any number of sets; the empty set for none. threads: 0 for as many as the machine has.");
+  m.def(
+      "intersect_all", [](const std::vector<Polyhedron>& sets, unsigned threads) { return many(sets, threads, false); },
+      py::arg("sets"), py::arg("threads") = 1,
+      "The intersection of any number of sets; all of space for none. threads: 0 for as many as the machine has.");
+  m.def("everything", &Polyhedron::everything, "All of space.");
+  m.def("overlay", &overlay_labels, py::arg("a"), py::arg("b"), py::arg("function"),
+        R"(The set whose points carry the label function(label in a, label in b).
+
+Labels are ints from 0; an ordinary set has 1 where it is and 0 elsewhere. The function is called once for each pair of
+labels, also of such that meet nowhere.)");
+}
+
+}  // namespace nef::python

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "nef/base/error.h"
+#include "nef/construct/mesh_check.h"
+
+namespace nef::python {
+
+/// A mesh that bounds no solid, with the guilty elements.
+class MeshError : public InputError {
+ public:
+  MeshError(const std::string& what, std::vector<MeshProblem> problems)
+      : InputError(what), problems_(std::move(problems)) {}
+  [[nodiscard]] const std::vector<MeshProblem>& problems() const { return problems_; }
+
+ private:
+  std::vector<MeshProblem> problems_;
+};
+
+/// Makes the exceptions of nef.errors out of those of the suite, for all extension modules. Called once.
+void register_errors();
+
+}  // namespace nef::python

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Files, bytes, meshes.
+#include <pybind11/stl.h>
+
+#include <ctime>
+
+#include "binding/bindings.h"
+#include "binding/meshes.h"
+#include "nef/construct/to_mesh.h"
+#include "nef/io/native_format.h"
+#include "nef/io/polyhedron_file.h"
+
+namespace nef::python {
+namespace {
+
+void warn(const Messages& messages) {
+  for (const std::string& message : messages) {
+    if (PyErr_WarnEx(PyExc_UserWarning, message.c_str(), 2) != 0) throw py::error_already_set();
+  }
+}
+
+std::string path_text(py::handle path) {
+  const py::object text = py::module_::import("os").attr("fspath")(path);
+  return py::cast<std::string>(py::module_::import("os").attr("fsdecode")(text));
+}
+
+Polyhedron read(py::handle path, bool strict, bool surface) {
+  using Made = std::pair<Polyhedron, Messages>;
+  const std::string file = path_text(path);
+  const Made made = call(kSmallCall, [=]() -> Made {
+    Messages messages;
+    MeshOptions options;
+    options.strict = strict;
+    options.as_surface = surface;
+    Polyhedron set = read_polyhedron(file, options, &messages);
+    return {std::move(set), std::move(messages)};
+  });
+  warn(made.second);
+  return made.first;
+}
+
+void write(const Polyhedron& a, py::handle path, bool exact, bool binary, bool polygons) {
+  const std::string file = path_text(path);
+  PolyhedronWriteOptions options;
+  options.exact = exact;
+  options.binary = binary;
+  options.keep_polygons = polygons;
+  // A file that is being written is finished, or never there: it is renamed into its place at the end.
+  warn(call(items(a), [=] {
+    Messages messages;
+    write_polyhedron(file, a, options, &messages);
+    return messages;
+  }));
+}
+
+py::tuple mesh_of(const Polyhedron& a, bool polygons, bool exact) {
+  MeshExportOptions options;
+  options.keep_polygons = polygons;
+  const MeshExport made = call(items(a), [=] { return to_mesh(a, options); });
+  warn(made.lost);
+  return mesh_to_arrays(made.mesh, !polygons, exact);
+}
+
+// CPU seconds of from_mesh and to_mesh without Python: what bench/python sets its own times against.
+py::tuple core_times(py::handle vertices, py::handle faces) {
+  const Mesh mesh = mesh_from_arrays(vertices, faces);
+  const py::gil_scoped_release unlocked;
+  const std::clock_t begin = std::clock();
+  const Polyhedron set = from_mesh(mesh);
+  const std::clock_t made = std::clock();
+  static_cast<void>(to_mesh(set));
+  const std::clock_t end = std::clock();
+  const py::gil_scoped_acquire locked;
+  return py::make_tuple(static_cast<double>(made - begin) / CLOCKS_PER_SEC,
+                        static_cast<double>(end - made) / CLOCKS_PER_SEC);
+}
+
+py::bytes bytes_of(const Polyhedron& a) {
+  return call(items(a), [a] { return native_text(a); });
+}
+
+Polyhedron from_bytes(const std::string& bytes) {
+  return call(bytes.size() / 100, [bytes] { return read_native(bytes, "pickled set"); });
+}
+
+}  // namespace
+
+void bind_files(py::module_& m, PolyhedronClass& c) {
+  m.def("read", &read, py::arg("path"), py::arg("strict") = false, py::arg("surface") = false,
+        R"(Reads a set from a file: .nef, .nef3 (CGAL's), .off, .obj, .stl, .ply.
+
+strict: refuse faces of meshes that are not exactly planar instead of triangulating them. surface: take a mesh as the
+union of its faces. What was done to the input is told by warnings; InputError names file, line and cause.)");
+  m.def("from_bytes", &from_bytes, py::arg("bytes"), "The set that Polyhedron.to_bytes wrote.");
+  m.def("_core_times", &core_times, py::arg("vertices"), py::arg("faces"));
+  c.def("write", &write, py::arg("path"), py::arg("exact") = false, py::arg("binary") = false,
+        py::arg("polygons") = true,
+        R"(Writes the set to a file, whose format its extension tells.
+
+exact: exact coordinates in meshes (not STL). binary: binary STL or PLY. polygons: faces without holes stay polygons where
+rounding leaves them planar. What a mesh cannot hold is told by warnings.)")
+      .def("to_mesh", &mesh_of, py::arg("polygons") = false, py::arg("exact") = false,
+           R"(The boundary of the set's volumes as a closed mesh: (vertices, faces).
+
+vertices: array of shape (N, 3) of floats, the nearest to the exact coordinates; of Fractions if `exact`. faces: int64
+array of shape (M, 3), counterclockwise as seen from outside; or, with `polygons`, a list of M arrays. What a mesh cannot
+hold (open boundaries, walls, wires, unbounded volumes) is told by warnings.)")
+      .def("to_bytes", &bytes_of, "The set in the native format, exact.")
+      .def(py::pickle([](const Polyhedron& a) { return bytes_of(a); },
+                      [](const py::bytes& bytes) { return from_bytes(std::string(bytes)); }));
+}
+
+}  // namespace nef::python

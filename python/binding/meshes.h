@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Meshes between arrays and the library.
+#pragma once
+
+#include "binding/numbers.h"
+#include "nef/construct/construct.h"
+
+namespace nef::python {
+
+/// vertices: see to_points; faces: an integer array of shape (M, K), or a sequence of sequences of indices.
+Mesh mesh_from_arrays(py::handle vertices, py::handle faces);
+
+/// (vertices, faces): an array of shape (N, 3), and one of shape (M, 3) if `triangles`, else a list of M arrays.
+py::tuple mesh_to_arrays(const Mesh& mesh, bool triangles, bool exact);
+
+}  // namespace nef::python

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "binding/bindings.h"
+#include "binding/errors.h"
+
+PYBIND11_MODULE(_nef, module) {
+  module.doc() = "The core of the package nef; see there.";
+  nef::python::register_errors();
+  nef::python::PolyhedronClass polyhedron(module, "Polyhedron", R"(An exact set of points in space.
+
+Any set made from half-spaces by intersection and complement: open or closed, bounded or not, of mixed dimension.
+Immutable; copies share what they hold. Made by nef.box, nef.halfspace, nef.hull, nef.from_mesh, nef.read, nef.eval and
+by operations. Operators are those of Python's sets: ``|``, ``&``, ``-``, ``^``, ``~`` (complement), ``==``, ``<=``
+(subset), ``in``; a set is true if it is not empty.)");
+  nef::python::bind_operations(polyhedron);
+  nef::python::bind_queries(module, polyhedron);
+  nef::python::bind_files(module, polyhedron);
+  nef::python::bind_construction(module);
+  nef::python::bind_view(module);
+}

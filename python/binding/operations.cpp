@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What makes sets out of sets.
+#include <pybind11/operators.h>
+#include <pybind11/stl.h>
+
+#include "binding/bindings.h"
+#include "binding/set_hash.h"
+#include "nef/query/parts/split.h"
+
+namespace nef::python {
+namespace {
+
+using Unary = Polyhedron (*)(const Polyhedron&);
+using Binary = Polyhedron (*)(const Polyhedron&, const Polyhedron&);
+
+auto unary(Unary operation) {
+  return [operation](const Polyhedron& a) { return call(items(a), [=] { return operation(a); }); };
+}
+
+auto binary(Binary operation) {
+  return [operation](const Polyhedron& a, const Polyhedron& b) {
+    return call(items(a) + items(b), [=] { return operation(a, b); });
+  };
+}
+
+bool is_subset(const Polyhedron& a, const Polyhedron& b) {
+  return call(items(a) + items(b), [=] { return subtract(a, b).is_empty(); });
+}
+
+bool is_same(const Polyhedron& a, const Polyhedron& b) {
+  return call(items(a) + items(b), [=] { return equal(a, b); });
+}
+
+AffineMap map_from(py::handle matrix) {
+  std::vector<std::vector<Rational>> rows;
+  for (const py::handle row : py::reinterpret_borrow<py::object>(matrix)) {
+    std::vector<Rational>& numbers = rows.emplace_back();
+    for (const py::handle number : py::reinterpret_borrow<py::object>(row)) numbers.push_back(to_rational(number));
+    if (numbers.size() != 3 && numbers.size() != 4) rows.resize(5);
+    if (rows.size() > 4) break;
+  }
+  if (rows.size() < 3 || rows.size() > 4)
+    throw py::value_error("a transformation needs the shape (4, 4), (3, 4) or (3, 3)");
+  Rational weight = 1;
+  if (rows.size() == 4) {
+    if (rows[3].size() != 4 || rows[3][0] != 0 || rows[3][1] != 0 || rows[3][2] != 0 || rows[3][3] == 0) {
+      throw InputError("the last row of a transformation must be 0, 0, 0, w with w other than 0");
+    }
+    weight = rows[3][3];
+  }
+  AffineMap map;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) map.linear[i][j] = rows[i][j] / weight;
+    if (rows[i].size() == 4) map.translation[i] = rows[i][3] / weight;
+  }
+  return map;
+}
+
+Polyhedron transformed(const Polyhedron& a, const AffineMap& map) {
+  return call(items(a), [=] { return transform(a, map); });
+}
+
+AffineMap scaling(py::handle factors) {
+  if (PySequence_Check(factors.ptr()) != 0 && !PyUnicode_Check(factors.ptr())) {
+    return AffineMap::scale(to_triple(factors, "a scaling"));
+  }
+  const Rational factor = to_rational(factors);
+  return AffineMap::scale({factor, factor, factor});
+}
+
+std::vector<Polyhedron> parts(const Polyhedron& a, const std::string& by) {
+  if (by != "components" && by != "volumes") throw py::value_error("by must be 'components' or 'volumes'");
+  return call(items(a), [a, by] { return by == "volumes" ? split_volumes(a) : split(a); });
+}
+
+}  // namespace
+
+void bind_operations(PolyhedronClass& c) {
+  c.def(py::init<>(), "The empty set.")
+      .def("__or__", binary(unite), py::is_operator(), "Union.")
+      .def("__and__", binary(intersect), py::is_operator(), "Intersection.")
+      .def("__sub__", binary(subtract), py::is_operator(), "Difference.")
+      .def("__xor__", binary(symmetric_difference), py::is_operator(), "Symmetric difference.")
+      .def("__invert__", unary(complement), "Complement: all points that are not in the set.")
+      .def("__eq__", &is_same, py::is_operator(), "True if both are the same set of points.")
+      .def(
+          "__ne__", [](const Polyhedron& a, const Polyhedron& b) { return !is_same(a, b); }, py::is_operator())
+      .def("__le__", &is_subset, py::is_operator(), "Subset.")
+      .def(
+          "__ge__", [](const Polyhedron& a, const Polyhedron& b) { return is_subset(b, a); }, py::is_operator())
+      .def(
+          "__lt__", [](const Polyhedron& a, const Polyhedron& b) { return is_subset(a, b) && !is_subset(b, a); },
+          py::is_operator())
+      .def(
+          "__gt__", [](const Polyhedron& a, const Polyhedron& b) { return is_subset(b, a) && !is_subset(a, b); },
+          py::is_operator())
+      .def(
+          "isdisjoint",
+          [](const Polyhedron& a, const Polyhedron& b) {
+            return call(items(a) + items(b), [=] { return intersect(a, b).is_empty(); });
+          },
+          py::arg("other"), "True if no point is in both sets.")
+      .def("__hash__", &set_hash, "The same for equal sets. O(number of vertices).")
+      .def("__bool__", [](const Polyhedron& a) { return !a.is_empty(); })
+      .def("__copy__", [](const Polyhedron& a) { return a; })
+      .def("__deepcopy__", [](const Polyhedron& a, const py::dict&) { return a; })
+      .def("interior", unary(interior), "The largest open set within.")
+      .def("closure", unary(closure), "The smallest closed set around.")
+      .def("boundary", unary(boundary), "The points that both the set and its complement come near.")
+      .def("exterior", unary(exterior), "The interior of the complement.")
+      .def("regularize", unary(regularize), "The closure of the interior.")
+      .def(
+          "transform", [](const Polyhedron& a, py::handle matrix) { return transformed(a, map_from(matrix)); },
+          py::arg("matrix"),
+          R"(The image under an affine map, exactly.
+
+matrix: array or nested sequence of shape (4, 4), (3, 4) or (3, 3); every entry is taken as the number that it is, so
+Fractions give what they say and floats what they hold. Raises InputError if the map is not invertible.)")
+      .def(
+          "translate",
+          [](const Polyhedron& a, py::handle by) {
+            return transformed(a, AffineMap::translate(to_triple(by, "a translation")));
+          },
+          py::arg("by"), "The set moved by a vector of three numbers.")
+      .def(
+          "scale", [](const Polyhedron& a, py::handle factors) { return transformed(a, scaling(factors)); },
+          py::arg("factors"), "The set scaled about the origin by one number, or by three along the axes.")
+      .def(
+          "rotate",
+          [](const Polyhedron& a, py::handle axis, double degrees, double tolerance) {
+            return transformed(a, AffineMap::rotate(to_triple(axis, "an axis"), degrees, tolerance));
+          },
+          py::arg("axis"), py::arg("degrees"), py::arg("tolerance") = 1e-9,
+          R"(The set turned about an axis through the origin.
+
+The map is exactly orthogonal and rational; its angle is within `tolerance` degrees of the one given.)")
+      .def("split", &parts, py::arg("by") = "components",
+           R"(The pieces of the set, a list of Polyhedron.
+
+by='components': connected components; what touches in a point of the set is one. by='volumes': for each connected open
+region of the set, the region and what the set has of its boundary.)");
+}
+
+}  // namespace nef::python

@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Exact solid geometry: sets of points in space that no operation rounds.
+
+    >>> import nef
+    >>> a = nef.box((0, 0, 0), (2, 2, 2))
+    >>> b = nef.box((1, 1, 1), (3, 3, 3)).interior()
+    >>> (a - b).volume()
+    Fraction(7, 1)
+    >>> (1, 1, 1) in a - b, (1, 1, 1) in a & b
+    (True, False)
+
+A Polyhedron is any set made from half-spaces by intersection and complement: open or closed, bounded or not, of mixed
+dimension. Numbers go in as ints, floats (the rational numbers that they are), Fractions, Decimals or text ("1/3"), and
+come out as Fractions where they are exact. Lengths have the unit of the input.
+
+Long calls release the interpreter's lock. In the main thread Ctrl-C ends a call within a few hundredths of a second: the
+exception goes on at once, the computation stops soon after in its thread, and its result is thrown away; sets are
+immutable, so nothing is ever half done.
+
+The packages nef.minkowski, nef.visual_hull and nef.planner hold the applications.
+"""
+from . import _nef
+from ._nef import (Polyhedron, box, eval, everything, from_bytes, halfspace, hull, intersect_all, overlay, point, polygon,
+                   read, segment, unite_all)
+from .errors import Error, InputError, UnsupportedError
+from .meshes import from_mesh
+from .notebook import show
+from .results import Counts, Distance, Location, Moments, Polygon, RayHit, Section
+from . import meshes as _meshes, notebook as _notebook
+
+__all__ = [
+    "Counts", "Distance", "Error", "InputError", "Location", "Moments", "Polygon", "Polyhedron", "RayHit", "Section",
+    "UnsupportedError", "box", "empty", "eval", "everything", "from_bytes", "from_mesh", "halfspace", "hull",
+    "intersect_all", "overlay", "point", "polygon", "read", "segment", "show", "unite_all",
+]
+
+
+def empty() -> Polyhedron:
+    """The set without points."""
+    return Polyhedron()
+
+
+def _repr(self):
+    if self.is_empty():
+        return "<nef.Polyhedron: the empty set>"
+    if self.is_everything():
+        return "<nef.Polyhedron: all of space>"
+    n = self.counts()
+    return (f"<nef.Polyhedron: {n.vertices} vertices, {n.edges} edges, {n.facets} facets, {n.volumes} volumes, "
+            f"{n.shells} shells>")
+
+
+Polyhedron.__module__ = "nef"
+Polyhedron.__repr__ = _repr
+Polyhedron.to_trimesh = _meshes.to_trimesh
+Polyhedron.to_open3d = _meshes.to_open3d
+Polyhedron.to_meshio = _meshes.to_meshio
+Polyhedron.to_pyvista = _meshes.to_pyvista
+Polyhedron._repr_html_ = _notebook.html_of
+Polyhedron._repr_png_ = _notebook.png_of

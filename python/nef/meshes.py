@@ -1,0 +1,121 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Meshes of other packages, by what they look like. None of these packages is needed until it is asked for."""
+from typing import Any
+
+import numpy
+
+from . import _nef
+from ._nef import Polyhedron
+from .errors import InputError
+
+
+def _arrays_of(mesh):
+    """(vertices, faces) of a mesh object: trimesh, Open3D, meshio, pyvista, or anything with .vertices and .faces."""
+    vertices = getattr(mesh, "vertices", None)
+    if vertices is not None:
+        faces = getattr(mesh, "faces", None)
+        if faces is None:
+            faces = getattr(mesh, "triangles", None)  # Open3D
+        if faces is not None:
+            return numpy.asarray(vertices), _indices(faces)
+    points = getattr(mesh, "points", None)
+    if points is not None and hasattr(mesh, "cells") and isinstance(mesh.cells, (list, tuple)):  # meshio
+        # In the newer versions a block is an object with type and data, in the older ones a pair of these.
+        faces = []
+        for block in mesh.cells:
+            kind, data = (block.type, block.data) if hasattr(block, "data") else block
+            if kind in ("triangle", "quad", "polygon"):
+                faces.extend(numpy.asarray(data).tolist())
+        return _three_columns(points), faces
+    if points is not None and hasattr(mesh, "faces"):  # pyvista: 3, a, b, c, 4, a, b, c, d, ...
+        flat = numpy.asarray(mesh.faces)
+        faces, at = [], 0
+        while at < len(flat):
+            faces.append(flat[at + 1:at + 1 + flat[at]].tolist())
+            at += 1 + flat[at]
+        return numpy.asarray(points), faces
+    raise TypeError(f"a mesh needs .vertices and .faces; {type(mesh).__name__} has neither these nor .points and .cells")
+
+
+def _three_columns(points):
+    points = numpy.asarray(points)
+    if points.ndim == 2 and points.shape[1] == 2:  # meshio leaves z out of flat meshes
+        points = numpy.column_stack([points, numpy.zeros(len(points))])
+    return points
+
+
+def _indices(faces):
+    """An integer array, or a list of lists where faces have different numbers of corners."""
+    if isinstance(faces, numpy.ndarray) and faces.dtype.kind in "iu" and faces.ndim == 2:
+        return faces
+    faces = list(faces)
+    if faces and len({len(face) for face in faces}) == 1:
+        array = numpy.asarray(faces)
+        if array.dtype.kind in "iu":
+            return array
+    return faces
+
+
+def from_mesh(vertices: Any, faces: Any = None, *, strict: bool = False, surface: bool = False,
+              check: bool = True) -> Polyhedron:
+    """The closed solid that a closed orientable mesh bounds.
+
+    - vertices: array of shape (N, 3) of floats, integers or Fractions (dtype object); or, without `faces`, a mesh object:
+      of trimesh, Open3D, meshio, pyvista, or anything with .vertices and .faces
+    - faces: integer array of shape (M, K), or a sequence of M sequences of vertex numbers, counterclockwise as seen from
+      outside
+    - strict: refuse faces that are not exactly planar instead of triangulating them (which a warning tells)
+    - surface: take the union of the faces as a two-dimensional set; any mesh will do
+    - check: look for self-intersections; a closed mesh that is known to be clean may skip it
+
+    A mesh that touches itself is legal. Raises InputError for one that is open, inconsistently oriented or crosses
+    itself; its `vertices`, `edges` and `faces` hold the guilty elements.
+    """
+    if faces is None:
+        vertices, faces = _arrays_of(vertices)
+    else:
+        faces = _indices(faces)
+    if not isinstance(vertices, numpy.ndarray):
+        vertices = list(vertices)
+    if len(vertices) == 0 and len(faces) == 0:
+        raise InputError("a mesh without faces bounds no solid")
+    return _nef._from_mesh(vertices, faces, strict, surface, check)
+
+
+def to_trimesh(self, **options):
+    """The boundary as a trimesh.Trimesh; vertices are left as they are (process=False). Needs trimesh."""
+    import trimesh
+
+    vertices, faces = self.to_mesh()
+    return trimesh.Trimesh(vertices=vertices, faces=faces, **{"process": False, **options})
+
+
+def to_open3d(self):
+    """The boundary as an open3d.geometry.TriangleMesh. Needs Open3D."""
+    import open3d
+
+    vertices, faces = self.to_mesh()
+    return open3d.geometry.TriangleMesh(open3d.utility.Vector3dVector(vertices),
+                                        open3d.utility.Vector3iVector(faces.astype(numpy.int32)))
+
+
+def to_meshio(self, polygons=False):
+    """The boundary as a meshio.Mesh of triangles; with `polygons`, facets without holes stay whole. Needs meshio."""
+    import meshio
+
+    vertices, faces = self.to_mesh(polygons=polygons)
+    if not polygons:
+        return meshio.Mesh(vertices, [("triangle", faces)])
+    names = {3: "triangle", 4: "quad"}
+    blocks = []
+    for size in sorted({len(face) for face in faces}):
+        blocks.append((names.get(size, "polygon"), numpy.array([face for face in faces if len(face) == size])))
+    return meshio.Mesh(vertices, blocks)
+
+
+def to_pyvista(self):
+    """The boundary as a pyvista.PolyData. Needs pyvista."""
+    import pyvista
+
+    vertices, faces = self.to_mesh()
+    return pyvista.PolyData(vertices, numpy.column_stack([numpy.full(len(faces), 3), faces]).ravel())

@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Sets that show themselves: in notebooks, and as pages in a browser."""
+import html
+import os
+import tempfile
+import webbrowser
+from typing import Optional, Sequence, Union
+
+from . import _nef
+from ._nef import Polyhedron
+
+#: above this number of vertices a notebook shows a picture instead of a page, which would hold every number
+PAGE_LIMIT = 20000
+
+
+def _names(sets, names):
+    if names is None:
+        return [f"set {i + 1}" for i in range(len(sets))]
+    names = [str(name) for name in names]
+    if len(names) != len(sets):
+        raise ValueError(f"{len(sets)} sets need as many names, not {len(names)}")
+    return names
+
+
+def page(*sets: Polyhedron, names: Optional[Sequence[str]] = None, title: str = "nef") -> str:
+    """The viewer page of some sets, each a layer, as text: one HTML file that needs nothing else.
+
+    Raises UnsupportedError if the package was built without the viewer.
+    """
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "page.html")
+        _nef._write_page(list(sets), _names(sets, names), path, title)
+        with open(path, encoding="utf-8") as file:
+            return file.read()
+
+
+def picture(*sets: Polyhedron, width: int = 640, height: int = 480) -> bytes:
+    """A picture of some sets: the bytes of a PNG."""
+    return _nef._picture(list(sets), width, height)
+
+
+def show(*sets: Polyhedron, names: Optional[Sequence[str]] = None, title: str = "nef",
+         path: Union[str, "os.PathLike[str]", None] = None, open_browser: bool = True) -> str:
+    """Opens a page that shows some sets, each a layer that can be switched and cut; returns the page's path.
+
+    - path: where the page is written; a file in the folder for temporary files if None
+    - open_browser: False: only write the page
+    """
+    names = _names(sets, names)
+    if path is None:
+        handle, path = tempfile.mkstemp(prefix="nef-", suffix=".html")
+        os.close(handle)
+    _nef._write_page(list(sets), names, os.fspath(path), title)
+    if open_browser:
+        webbrowser.open("file://" + os.path.abspath(path))
+    return os.fspath(path)
+
+
+def html_of(self):
+    """What a notebook shows: the viewer page in a frame. None where there is no viewer or the set is too large."""
+    if not _nef._has_pages() or sum(self.counts()[:3]) > PAGE_LIMIT:
+        return None
+    frame = html.escape(page(self), quote=True)
+    return f'<iframe srcdoc="{frame}" width="100%" height="480" style="border: 0" sandbox="allow-scripts"></iframe>'
+
+
+def png_of(self):
+    """What a notebook shows that runs no scripts: a picture."""
+    return picture(self)

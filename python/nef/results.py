@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What queries answer. All are named tuples; numbers are fractions.Fraction where they are exact."""
+from typing import NamedTuple
+
+
+class Location(NamedTuple):
+    """What holds a point: an item of the complex of a set."""
+
+    #: 'vertex', 'edge', 'facet' or 'volume'
+    kind: str
+    #: the number of the item among its kind (of an edge, a halfedge)
+    index: int
+    #: 0 outside of the set
+    label: int
+
+
+class RayHit(NamedTuple):
+    """What a ray meets first."""
+
+    #: three Fractions
+    point: tuple
+    location: Location
+
+
+class Polygon(NamedTuple):
+    """A polygon in space with holes. As seen from where the normal points, the outer ring runs counterclockwise."""
+
+    #: array of shape (N, 3)
+    outer: object
+    #: a list of arrays of shape (M, 3)
+    holes: list
+
+
+class Section(NamedTuple):
+    """What a plane cuts from a set."""
+
+    #: the intersection itself, a Polyhedron: open and closed where the set is
+    set: object
+    #: the closures of its two-dimensional parts
+    polygons: list
+    #: the ends of what no polygon holds: arrays of shape (2, 3)
+    segments: list
+    #: array of shape (N, 3)
+    points: object
+    #: how many polygons and segments reach infinity; they are in `set` only
+    unbounded: int
+
+
+class Distance(NamedTuple):
+    """How far two sets are apart."""
+
+    #: 'disjoint', 'touching' or 'overlapping'
+    contact: str
+    #: whether a point is in both sets themselves
+    common_point: bool
+    #: the distance, a float
+    value: float
+    #: its exact square, a Fraction
+    squared: object
+    #: the nearest points of the closures, three Fractions each
+    on_a: tuple
+    on_b: tuple
+
+
+class Moments(NamedTuple):
+    """Integrals over a solid of density one. Without volume there is neither a centroid nor what follows from it."""
+
+    volume: object
+    #: three Fractions
+    centroid: tuple
+    #: the integrals of x, y, z
+    first: tuple
+    #: those of the products of two coordinates: three rows of three Fractions
+    second: tuple
+    #: the inertia tensor about the centroid
+    inertia: tuple
+    #: its eigenvalues, smallest first: array of three floats
+    principal_moments: object
+    #: unit vectors that belong to them, the rows of a rotation matrix
+    principal_axes: object
+
+
+class Counts(NamedTuple):
+    """How many items the complex of a set has, without those at infinity; the outer volume counts."""
+
+    vertices: int
+    edges: int
+    facets: int
+    volumes: int
+    shells: int

@@ -1,0 +1,150 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Minkowski sums, visual hulls and plans against closed forms."""
+import json
+import os
+import pathlib
+from fractions import Fraction
+
+import numpy
+import pytest
+
+import nef
+
+CUBE = nef.box((0, 0, 0), (1, 1, 1))
+
+
+def test_sums(needs):
+    minkowski = needs("minkowski")
+    told = []
+    l_shape = CUBE | nef.box((1, 0, 0), (2, 1, 3))
+    total = minkowski.sum(l_shape, CUBE, progress=lambda done, pairs: told.append((done, pairs)))
+    assert total == nef.box((0, 0, 0), (2, 2, 2)) | nef.box((1, 0, 0), (3, 2, 4))
+    assert told and told[-1][0] == told[-1][1]
+    assert minkowski.sum(CUBE.interior(), nef.point((1, 2, 3))) == CUBE.interior().translate((1, 2, 3))
+    with pytest.raises(ZeroDivisionError):
+        minkowski.sum(l_shape, CUBE, progress=lambda done, pairs: 1 // 0)
+    assert minkowski.negate(CUBE) == nef.box((-1, -1, -1), (0, 0, 0))
+    assert minkowski.is_convex(CUBE) and not minkowski.is_convex(l_shape)
+    cells = minkowski.decompose(l_shape)
+    assert nef.unite_all(cells) == l_shape and all(minkowski.is_convex(cell) for cell in cells)
+
+
+def test_erosion(needs):
+    minkowski = needs("minkowski")
+    big = nef.box((0, 0, 0), (5, 5, 5))
+    assert minkowski.erode(big, CUBE) == nef.box((0, 0, 0), (4, 4, 4))
+    assert minkowski.erode(big.interior(), CUBE) == nef.box((0, 0, 0), (4, 4, 4)).interior()
+    assert minkowski.erode(big, CUBE.interior()) == nef.box((0, 0, 0), (4, 4, 4))
+    assert minkowski.erode(CUBE, CUBE) == nef.point((0, 0, 0))
+    assert minkowski.erode(CUBE, big).is_empty()
+    assert minkowski.erode(nef.empty(), CUBE).is_empty()
+    assert minkowski.erode(CUBE, nef.empty()).is_everything()
+    frame = big - nef.box((2, 2, -1), (3, 3, 6)).interior()
+    eroded = minkowski.erode(frame, CUBE)
+    for x in range(-1, 11):
+        for y in range(-1, 11):
+            p = (Fraction(x, 2), Fraction(y, 2), 1)
+            assert (p in eroded) == (CUBE.translate(p) <= frame)
+    with pytest.raises(nef.UnsupportedError):
+        minkowski.erode(~CUBE, CUBE)
+
+
+def test_offset(needs):
+    minkowski = needs("minkowski")
+    ball = minkowski.ball(2, detail=3)
+    vertices = ball.to_mesh(exact=True)[0]
+    assert all(sum(x * x for x in v) == 4 for v in vertices.tolist())
+    grown = minkowski.offset(CUBE, Fraction(1, 2), detail=2)
+    assert grown == minkowski.sum(CUBE, minkowski.ball(Fraction(1, 2), 2))
+    assert grown.bounding_box() == ((Fraction(-1, 2),) * 3, (Fraction(3, 2),) * 3)
+    assert minkowski.offset(CUBE, Fraction(-1, 4), detail=1) == nef.box(*[[Fraction(k, 4)] * 3 for k in (1, 3)])
+    assert minkowski.offset(CUBE, 0) == CUBE
+
+
+def test_configuration_space(needs):
+    minkowski = needs("minkowski")
+    box = ((0, 0, 0), (8, 8, 8))
+    slit = nef.box((4, 0, 0), (5, 9, 9)) - nef.box((3, 3, -1), (6, 4, 10)).interior()
+    space = minkowski.configuration_space(CUBE, [slit.closure()], box=box)
+    assert (4, 3, 4) in space and (4, "3.001", 4) not in space
+    assert (space & nef.box((4, 0, 0), (4, 8, 8))).volume() == 0
+
+
+def test_plans(needs):
+    planner = needs("planner")
+    wall = nef.box((4, 0, 0), (5, 9, 9)) - nef.box((3, 3, 3), (6, 4, 4)).interior()
+    phases = []
+    scene = planner.Scene(CUBE, [wall], box=((0, 0, 0), (8, 8, 8)), names=["wall"])
+    scene.build(progress=lambda phase, done, total: phases.append(phase))
+    assert phases
+    plan = scene.plan((1, 1, 1), (7, 7, 7))
+    assert plan and plan.waypoints[0] == (1, 1, 1) and plan.waypoints[-1] == (7, 7, 7)
+    assert all(isinstance(x, Fraction) for p in plan.waypoints for x in p)
+    floats = numpy.asarray(plan)
+    assert floats.shape == (len(plan.waypoints), 3)
+    assert abs(numpy.linalg.norm(numpy.diff(floats, axis=0), axis=1).sum() - plan.length) < 1e-9
+    # Into the segment that is the passage one comes through its end, a vertex.
+    assert plan.thinness == (1, 0) and 1 in plan.segment_dimensions and plan.passages == [0]
+    passage, = scene.passages()
+    assert passage.dimension == 1 and {tuple(v) for v in passage.cells[0].vertices} == {(3, 3, 3), (5, 3, 3)}
+    assert scene.check(plan.waypoints).status == "path"
+    blocked = scene.check([(1, 1, 1), (7, 1, 1)])
+    assert blocked.status == "blocked" and "wall" in blocked.collision
+    assert scene.plan((4, 0, 0), (7, 7, 7)).status == "invalid_start"
+    assert scene.plan((1, 1, 1), (7, 7, 7), min_dimension=2).status == "infeasible"
+    assert not scene.plan((1, 1, 1), (9, 9, 9))
+    closed = planner.Scene(CUBE, [wall], box=((0, 0, 0), (8, 8, 8)), contact=False).plan((1, 1, 1), (7, 7, 7))
+    assert closed.status == "infeasible" and closed.proof.start_component != closed.proof.goal_component
+    with pytest.raises(nef.Error):
+        numpy.asarray(closed)
+    with pytest.raises(nef.InputError):
+        scene.plan()
+
+
+def test_scene_files(tmp_path, needs):
+    planner = needs("planner")
+    path = tmp_path / "scene.json"
+    path.write_text(json.dumps({"robot": "box(0,0,0, 1,1,1)", "obstacles": ["box(4,0,0, 5,9,9)"], "start": [1, 1, 1],
+                                "goal": [7, 7, 7], "box": [[0, 0, 0], [8, 8, 8]]}))
+    scene = planner.read(path)
+    assert scene.robot == CUBE and scene.start == (1, 1, 1) and scene.plan().status == "infeasible"
+    with pytest.raises(nef.InputError, match="nowhere"):
+        planner.read(tmp_path / "nowhere.json")
+
+
+def test_visual_hull(needs):
+    visual_hull = needs("visual_hull")
+    # Three cameras along the axes, far away; the object is the cube [-1, 1]^3 as they see it: 40 x 40 pixels or so.
+    far, focal = 1000, 20000
+    axes = [numpy.eye(3)[[1, 2, 0]], numpy.eye(3)[[2, 0, 1]], numpy.eye(3)]
+    cameras = []
+    for rows in axes:
+        matrix = numpy.column_stack([rows, [0, 0, far]])
+        cameras.append(numpy.array([[focal, 0, 31.5], [0, focal, 31.5], [0, 0, 1]]) @ matrix)
+    mask = numpy.zeros((64, 64), numpy.uint8)
+    mask[12:52, 12:52] = 255
+    told = []
+    hull = visual_hull.compute([mask] * 3, cameras, box=((-2, -2, -2), (2, 2, 2)),
+                               progress=lambda *step: told.append(step))
+    assert told
+    low, high = hull.solid.bounding_box()
+    assert all(abs(float(x) + 1) < 0.01 for x in low) and all(abs(float(x) - 1) < 0.01 for x in high)
+    assert all(view.inside and view.score > 0.9 and not view.cut_by_frame for view in hull.views)
+    assert [view.name for view in hull.views] == ["view 0", "view 1", "view 2"]
+    with pytest.raises(nef.InputError) as caught:
+        visual_hull.compute([mask, 0 * mask, mask], cameras, names=["a", "blank", "c"], box=((-2, -2, -2), (2, 2, 2)))
+    assert caught.value.view == "blank"
+    with pytest.raises(nef.InputError):
+        visual_hull.compute([mask], [numpy.zeros((3, 4))])
+    with pytest.raises(ValueError):
+        visual_hull.compute([mask], cameras)
+
+
+def test_visual_hull_of_files(needs):
+    visual_hull = needs("visual_hull")
+    root = pathlib.Path(os.environ.get("NEF_SOURCE_DIR", pathlib.Path(__file__).parents[2]))
+    scenes = sorted((root / "data/visual_hull").glob("eight/eight.json"))
+    if not scenes:
+        pytest.skip("no scene in data/visual_hull")
+    hull = visual_hull.read(scenes[0], tolerance=2, verify=False)
+    assert hull.solid.is_bounded() and not hull.solid.is_empty()

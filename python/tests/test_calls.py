@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Threads, Ctrl-C, memory. No test here depends on how fast the machine is, but for an upper bound of seconds."""
+import concurrent.futures
+import gc
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import numpy
+import pytest
+
+import nef
+
+
+def ball(rings, seed=0):
+    """A solid of many facets: the hull of points about a sphere."""
+    rng = numpy.random.default_rng(seed)
+    points = rng.normal(size=(rings, 3))
+    return nef.hull(points / numpy.linalg.norm(points, axis=1)[:, None])
+
+
+def test_other_threads_run_meanwhile():
+    ticks, stop = [], threading.Event()
+
+    def tick():
+        while not stop.is_set():
+            ticks.append(time.perf_counter())
+            time.sleep(0.001)
+
+    thread = threading.Thread(target=tick)
+    a = ball(4000)
+    b = a.rotate((1, 2, 3), 20)
+    thread.start()
+    begin = time.perf_counter()
+    a | b
+    end = time.perf_counter()
+    stop.set()
+    thread.join()
+    assert len([t for t in ticks if begin < t < end]) >= 3
+
+
+def test_calls_from_other_threads():
+    a = ball(300)
+    turned = [a.rotate((1, 2, 3), 10 * i) for i in range(6)]
+    alone = [a & b for b in turned]
+    with concurrent.futures.ThreadPoolExecutor(2) as pool:
+        together = list(pool.map(lambda b: a & b, turned))
+    assert together == alone
+
+
+def test_exceptions_come_from_long_calls():
+    points = numpy.random.default_rng(0).normal(size=(5000, 3))
+    with pytest.raises(nef.InputError):
+        nef.from_mesh(points, numpy.arange(4998).reshape(-1, 3))
+    with pytest.raises(nef.InputError):
+        ball(3000).transform(numpy.zeros((3, 3)))
+
+
+@pytest.mark.parametrize("what", ["union", "unite_all", "hash", "mesh"])
+def test_ctrl_c(what):
+    """The exception comes at once, and the sets are whole; measured in docs/python.md."""
+    a = ball(6000)
+    b = a.rotate((1, 2, 3), 20)
+    before = a.counts(), b.counts()
+    work = {
+        "union": lambda: [a | b for _ in range(1000)],
+        "unite_all": lambda: nef.unite_all([a.translate((i, 0, 0)) for i in range(5)] * 100),
+        "hash": lambda: [a == b.translate((1, 0, 0)) for _ in range(1000000)],
+        "mesh": lambda: [nef.from_mesh(*a.to_mesh()) for _ in range(1000)],
+    }[what]
+    timer = threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT))
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        work()
+    assert (a.counts(), b.counts()) == before
+    assert a.validate() == ""
+    assert (a & a) == a
+
+
+def test_the_interpreter_ends_after_ctrl_c():
+    """An abandoned call does not keep the process alive, nor does it crash it."""
+    code = """
+import os, signal, sys, threading, numpy, nef
+points = numpy.random.default_rng(0).normal(size=(20000, 3))
+a = nef.hull(points / numpy.linalg.norm(points, axis=1)[:, None])
+b = a.rotate((1, 2, 3), 20)
+threading.Timer(0.2, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+try:
+    while True: a | b
+except KeyboardInterrupt:
+    print("interrupted")
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=120)
+    assert done.stdout.strip() == "interrupted" and done.returncode == 0, done.stderr
+
+
+def resident():
+    with open("/proc/self/statm", encoding="ascii") as file:
+        return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+
+
+@pytest.mark.skipif(not os.path.exists("/proc/self/statm"), reason="needs /proc")
+def test_memory_is_returned():
+    """10^4 Booleans; what the first thousand took is there for the rest."""
+    a = nef.box((0, 0, 0), (2, 2, 2))
+    b = nef.box((1, 1, 1), (3, 3, 3))
+    points = numpy.random.default_rng(0).normal(size=(10, 3))
+    for i in range(10000):
+        c = (a - b).closure()
+        (c.contains(points), c.to_mesh(), c.volume(), c.bounding_box())
+        if i == 1000:
+            gc.collect()
+            first = resident()
+    gc.collect()
+    assert resident() - first < 4 << 20

@@ -62,6 +62,7 @@ void add_output_options(CLI::App& app, Arguments& a) {
   app.add_option("-o,--output", a.output, "Write the hull (format by extension)")->type_name("FILE");
   app.add_flag("--exact", a.exact, "Exact coordinates in mesh files (not STL)");
   app.add_flag("--binary", a.binary, "Binary STL or PLY");
+  app.add_flag("--text", a.text, ".nef as text");
   app.add_flag("--verify", a.verify, "Project the hull back into every view; exit code 1 if it is not inside");
   app.add_option("--report", a.report, "Write a report as JSON ('-': standard output)")->type_name("FILE.json");
   app.add_option("--overlay", a.overlay, "Directory for a picture per view: image, polygon, projection of the hull")

@@ -17,6 +17,7 @@ struct Arguments {
   std::string output;
   bool exact = false;
   bool binary = false;
+  bool text = false;
   double min_area = 0;
   double simplify = 0;
   bool outer = false;

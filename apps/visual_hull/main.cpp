@@ -86,6 +86,7 @@ nef::Messages write_files(const Arguments& a, const visual_hull::Options& option
     nef::PolyhedronWriteOptions format;
     format.exact = a.exact;
     format.binary = a.binary;
+    format.text = a.text;
     nef::write_polyhedron(a.output, result.hull, format, &messages);
   });
   step(a.overlay, false, [&] { visual_hull::write_overlays(result, origin, a.overlay); });

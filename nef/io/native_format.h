@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The library's own text format: every mark, open boundaries, lower-dimensional and unbounded parts, nothing rounded.
+// The library's own format: every mark, open boundaries, lower-dimensional and unbounded parts, nothing rounded.
 //
-// A file is a list of words; '#' begins a comment. Integers have any length. It holds what is needed to rebuild a
+// It has two forms. Binary files (native_binary.h) hold a whole complex with all its links and are read as fast as they
+// come; text is for people and for other programs.
+//
+// A text file is a list of words; '#' begins a comment. Integers have any length. It holds what is needed to rebuild a
 // complex, namely its planes and the sphere maps of its vertices; edges, facets, shells and volumes are synthesized on
 // reading.
 //
@@ -32,8 +35,9 @@ namespace nef {
 /// The polyhedron as text in this format. O(n).
 std::string native_text(const Polyhedron& polyhedron);
 
-/// Reads that text; `path` is for error messages only. The result is checked by nef::validate, so that a corrupt file
-/// cannot make an object that breaks its promises. Throws FileError. The cost is that of synthesis and validation.
-Polyhedron read_native(std::string_view text, const std::string& path);
+/// Reads either form; `path` is for error messages only. Text is synthesized and checked by nef::validate, so that a
+/// corrupt file cannot make an object that breaks its promises; binary files are known to be whole by their checksum.
+/// Throws FileError.
+Polyhedron read_native(std::string_view bytes, const std::string& path);
 
 }  // namespace nef

@@ -3,6 +3,7 @@
 
 #include "nef/complex/synthesis.h"
 #include "nef/complex/validate.h"
+#include "nef/io/native_binary.h"
 #include "nef/io/native_format.h"
 #include "nef/io/text_cursor.h"
 
@@ -28,7 +29,7 @@ class Reader {
     if (complex_.volumes.empty() || complex_.volumes[0].mark != outer) {
       corrupt("its outer volume is marked otherwise than its vertices say");
     }
-    if (const std::string broken = validate(complex_); !broken.empty()) corrupt(broken);
+    if (const std::string broken = detail::validate_links(complex_); !broken.empty()) corrupt(broken);
     return Polyhedron(std::move(complex_));
   }
 
@@ -228,6 +229,8 @@ class Reader {
 
 }  // namespace
 
-Polyhedron read_native(std::string_view text, const std::string& path) { return Reader(text, path).run(); }
+Polyhedron read_native(std::string_view bytes, const std::string& path) {
+  return is_native_binary(bytes) ? read_native_binary(bytes, path) : Reader(bytes, path).run();
+}
 
 }  // namespace nef

@@ -5,6 +5,7 @@
 #include "nef/io/cgal_nef3.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/mesh_reader.h"
+#include "nef/io/native_binary.h"
 #include "nef/io/native_format.h"
 
 namespace nef {
@@ -15,7 +16,7 @@ Polyhedron read_polyhedron(const std::string& path, const MeshOptions& options, 
     const std::string bytes = read_file(path);
     // Files without a telling extension are known by their first word.
     if (extension == "nef3" || bytes.starts_with("Selective Nef Complex")) return read_nef3(bytes, path);
-    if (extension == "nef" || bytes.starts_with("nef ")) return read_native(bytes, path);
+    if (extension == "nef" || bytes.starts_with("nef ") || is_native_binary(bytes)) return read_native(bytes, path);
   }
   const Mesh mesh = read_mesh(path);
   // What write_polyhedron makes of the empty set.
@@ -31,7 +32,7 @@ void write_polyhedron(const std::string& path, const Polyhedron& polyhedron, con
                       Messages* messages) {
   const std::string extension = lower_extension(path);
   if (extension == "nef") {
-    write_file(path, native_text(polyhedron));
+    write_file(path, options.text ? native_text(polyhedron) : native_binary(polyhedron));
     return;
   }
   if (extension == "nef3") {

@@ -19,6 +19,7 @@ Polyhedron read_polyhedron(const std::string& path, const MeshOptions& options =
 struct PolyhedronWriteOptions {
   bool exact = false;         ///< exact coordinates in mesh files (not STL)
   bool binary = false;        ///< binary STL or PLY
+  bool text = false;          ///< .nef as text; it is binary otherwise
   bool keep_polygons = true;  ///< faces without holes that rounding leaves planar stay polygons in OFF, OBJ, PLY
 };
 

@@ -40,6 +40,7 @@ void Session::store(const Polyhedron& set) {
   PolyhedronWriteOptions options;
   options.exact = exact;
   options.binary = binary;
+  options.text = text;
   write_polyhedron(output, set, options, &messages);
   write_s += watch.seconds();
   show_messages(first);
@@ -88,6 +89,7 @@ void add_input_flags(CLI::App* command, Session& session) {
 CLI::Option* add_output_flags(CLI::App* command, Session& session) {
   command->add_flag("--exact", session.exact, "write exact coordinates (p/q) to OFF, OBJ or PLY");
   command->add_flag("--binary", session.binary, "write binary STL or PLY");
+  command->add_flag("--text", session.text, "write .nef as text");
   return command
       ->add_option("-o,--output", session.output,
                    "file to write; its extension (nef, nef3, off, obj, stl, ply) picks the format")

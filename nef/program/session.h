@@ -31,6 +31,7 @@ class Session {
   bool quiet = false;
   bool exact = false;
   bool binary = false;
+  bool text = false;
   bool no_check = false;
   MeshOptions mesh;
   std::string output;
@@ -74,7 +75,7 @@ class Session {
 void add_run_flags(CLI::App* command, Session& session);
 /// Flags about reading meshes: --strict, --as-surface, --no-check.
 void add_input_flags(CLI::App* command, Session& session);
-/// -o and flags about writing: --exact, --binary.
+/// -o and flags about writing: --exact, --binary, --text.
 CLI::Option* add_output_flags(CLI::App* command, Session& session);
 
 }  // namespace nef

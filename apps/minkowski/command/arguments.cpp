@@ -40,6 +40,7 @@ void declare(CLI::App& app, Arguments& a) {
   app.add_flag("--strict", a.strict, "refuse meshes with faces that are not exactly planar");
   app.add_flag("--exact", a.exact, "exact coordinates in mesh files");
   app.add_flag("--binary", a.binary, "binary STL or PLY");
+  app.add_flag("--text", a.text, ".nef as text");
   app.add_option("--report", a.report, "write a JSON report: cells, pairs, times, predicates, memory, result");
   app.add_option("--preview", a.preview, "write pictures (PNG) of the operands and the result into this directory")
       ->type_name("DIR");

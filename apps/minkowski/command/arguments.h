@@ -21,7 +21,7 @@ struct Arguments {
   bool open_a = false, open_b = false, negate_b = false;
   bool as_surface = false, strict = false;
   unsigned threads = 0;  ///< 0: as many as the machine has
-  bool exact = false, binary = false, quiet = false, json = false;
+  bool exact = false, binary = false, text = false, quiet = false, json = false;
 
   std::string ball, box_tool;  ///< as written: "R,N", "x,y,z"
   bool decompose = false;

@@ -81,7 +81,7 @@ class Task {
     const Stopwatch watch;
     const SignalsHeld held;
     Messages messages;
-    write_polyhedron(a_.output, result, {.exact = a_.exact, .binary = a_.binary}, &messages);
+    write_polyhedron(a_.output, result, {.exact = a_.exact, .binary = a_.binary, .text = a_.text}, &messages);
     write_s_ += watch.seconds();
     show(messages);
   }

@@ -167,17 +167,61 @@ class Exporter {
     return std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end();
   }
 
-  // The vertices of the mesh as a triangulator asks for them: in small integers, where that is possible.
-  [[nodiscard]] MeshPoints mesh_points() const {
-    std::vector<Rational3> points;
-    points.reserve(vertices_.size());
-    for (const std::uint32_t v : vertices_) points.push_back(complex_.points.rational(PointId{v}));
-    return MeshPoints(points);
+  // Facets that are no triangles: their vertices as a triangulator asks for them, in small integers where that is
+  // possible, and by numbers of their own.
+  class Polygons {
+   public:
+    explicit Polygons(std::size_t vertices) : number_(vertices, kUnused) {}
+
+    void add(const Exporter& exporter, const Facet& facet) {
+      for (const std::uint32_t corner : exporter.complex_.facet_corners(facet)) {
+        number_[exporter.number_[exporter.complex_.shalfedge_owner[corner]]] = 0;
+      }
+    }
+
+    void make(const Exporter& exporter) {
+      std::vector<Rational3> points;
+      for (std::uint32_t v = 0; v < number_.size(); ++v) {
+        if (number_[v] == kUnused) continue;
+        number_[v] = static_cast<std::uint32_t>(vertex_.size());
+        vertex_.push_back(v);
+        points.push_back(exporter.complex_.points.rational(PointId{exporter.vertices_[v]}));
+      }
+      triangulator_.emplace(points_.emplace(points));
+    }
+
+    void triangulate(std::vector<std::vector<std::uint32_t>>& rings, std::pair<std::size_t, int> projection,
+                     std::vector<Triangulator::Triangle>& out) {
+      for (std::vector<std::uint32_t>& ring : rings) {
+        for (std::uint32_t& v : ring) v = number_[v];
+      }
+      const bool done = triangulator_->triangulate(rings, projection.first, projection.second, out);
+      NEF_ASSERT(done);
+      for (Triangulator::Triangle& triangle : out) {
+        for (std::uint32_t& v : triangle) v = vertex_[v];
+      }
+    }
+
+   private:
+    std::vector<std::uint32_t> number_;  // of each vertex of the mesh
+    std::vector<std::uint32_t> vertex_;
+    std::optional<MeshPoints> points_;
+    std::optional<Triangulator> triangulator_;
+  };
+
+  [[nodiscard]] bool is_triangle(const Facet& facet) const {
+    return facet.cycle_count == 1 && complex_.cycle(facet.first_cycle).size() == 3;
   }
 
   void write_facets() {
-    std::optional<MeshPoints> points;  // made for the first facet that is no triangle
-    std::optional<Triangulator> triangulator;
+    Polygons polygons(vertices_.size());
+    bool any = false;
+    for (const std::uint32_t f : boundary_) {
+      if (is_triangle(complex_.facets[f])) continue;
+      polygons.add(*this, complex_.facets[f]);
+      any = true;
+    }
+    if (any) polygons.make(*this);
     std::vector<std::vector<std::uint32_t>> rings;
     std::vector<Triangulator::Triangle> triangles;
     faces_.face_begin.reserve(boundary_.size() + 1);
@@ -193,13 +237,10 @@ class Exporter {
         continue;
       }
       triangles.clear();
-      if (rings.size() == 1 && rings[0].size() == 3) {
+      if (is_triangle(facet)) {
         triangles.push_back({rings[0][2], rings[0][0], rings[0][1]});  // begins where the triangulator's would
       } else {
-        if (!points) triangulator.emplace(points.emplace(mesh_points()));
-        const auto [axis, sign] = projection(facet.plane);
-        const bool done = triangulator->triangulate(rings, axis, sign, triangles);
-        NEF_ASSERT(done);
+        polygons.triangulate(rings, projection(facet.plane), triangles);
       }
       for (auto& triangle : triangles) {
         if (flip) std::swap(triangle[1], triangle[2]);

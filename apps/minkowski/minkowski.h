@@ -22,10 +22,11 @@ namespace nef::minkowski {
 
 /// How the sums of the pairs of cells are united. The set is the same for each.
 enum class UnionStrategy : std::uint8_t {
+  kAuto,      ///< as kNary where that is likely to be the fastest, else as kQueue
   kTrivial,   ///< one after the other onto one growing result
   kQueue,     ///< always the two oldest [Hachenberger 2009], in bounded memory
   kPriority,  ///< always the two smallest, by number of vertices
-  kNary       ///< all at once, in batches of bounded size
+  kNary       ///< all at once, in batches of bounded size; explodes where many faces nearly coincide
 };
 
 /// Thrown out of a sum whose progress function returned false.
@@ -35,7 +36,7 @@ class Cancelled : public Error {
 };
 
 struct MinkowskiOptions {
-  UnionStrategy strategy = UnionStrategy::kNary;
+  UnionStrategy strategy = UnionStrategy::kAuto;
   unsigned threads = 1;  ///< 0: as many as the machine has; the result does not depend on it
   /// Called after each pair of cells, and again and again while sums are united, with (pairs done, pairs in all),
   /// always by the calling thread; false stops the sum.
@@ -47,7 +48,9 @@ struct MinkowskiReport {
   std::size_t cells_a = 0;
   std::size_t cells_b = 0;
   std::size_t pairs = 0;
-  std::size_t pairs_dropped = 0;  ///< sums that lie inside another one, found before the union
+  std::size_t pairs_dropped = 0;      ///< sums that lie inside another one, found before the union
+  std::size_t united_at_once = 0;     ///< sums that went into unions of many at once
+  std::size_t united_two_by_two = 0;  ///< sums that went into unions of two sets
   double seconds_decomposition = 0;
   double seconds_convex_sums = 0;
   double seconds_union = 0;

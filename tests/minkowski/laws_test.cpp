@@ -156,8 +156,8 @@ TEST_CASE("the four strategies give the same set") {
     const Polyhedron a = set(zoo()[i]);
     const Polyhedron b = set(partners()[(i + 2) % partners().size()]);
     std::optional<Polyhedron> first;
-    for (const UnionStrategy strategy :
-         {UnionStrategy::kTrivial, UnionStrategy::kQueue, UnionStrategy::kPriority, UnionStrategy::kNary}) {
+    for (const UnionStrategy strategy : {UnionStrategy::kTrivial, UnionStrategy::kQueue, UnionStrategy::kPriority,
+                                         UnionStrategy::kNary, UnionStrategy::kAuto}) {
       CAPTURE(zoo()[i], static_cast<int>(strategy));
       nef::minkowski::MinkowskiOptions options;
       options.strategy = strategy;

@@ -38,8 +38,8 @@ TEST_CASE("published sums, exactly, by every strategy") {
       {data("cross_quad"), data("star"), 88, 78, Rational(30)}};
   for (std::size_t i = 0; i < known.size(); ++i) {
     const auto& [a, b, vertices, facets, content] = known[i];
-    for (const UnionStrategy strategy :
-         {UnionStrategy::kTrivial, UnionStrategy::kQueue, UnionStrategy::kPriority, UnionStrategy::kNary}) {
+    for (const UnionStrategy strategy : {UnionStrategy::kTrivial, UnionStrategy::kQueue, UnionStrategy::kPriority,
+                                         UnionStrategy::kNary, UnionStrategy::kAuto}) {
       CAPTURE(i, static_cast<int>(strategy));
       MinkowskiOptions options;
       options.strategy = strategy;
@@ -85,8 +85,8 @@ TEST_CASE("the polytopes of Fogel and Halperin: published counts, exact volumes,
       {icosahedron, icosahedron, "12/30/20/2", Rational(2467463, 75000)},
       {pyramid, orthogonal, "131/261/132/2", Rational(mpz_class("23392576289"), mpz_class("1500000000"))}};
   for (const auto& [a, b, counts, content] : known) {
-    for (const UnionStrategy strategy :
-         {UnionStrategy::kTrivial, UnionStrategy::kQueue, UnionStrategy::kPriority, UnionStrategy::kNary}) {
+    for (const UnionStrategy strategy : {UnionStrategy::kTrivial, UnionStrategy::kQueue, UnionStrategy::kPriority,
+                                         UnionStrategy::kNary, UnionStrategy::kAuto}) {
       MinkowskiOptions options;
       options.strategy = strategy;
       const Polyhedron sum = nef::test::valid(minkowski_sum(a, b, options), "sum");

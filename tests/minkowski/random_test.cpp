@@ -95,7 +95,8 @@ TEST_CASE("random: the four strategies and any number of threads give the same s
     MinkowskiOptions options;
     options.threads = 3;
     RC_ASSERT(nef::equal(first, minkowski_sum(a, b, options)));
-    for (const UnionStrategy strategy : {UnionStrategy::kTrivial, UnionStrategy::kQueue, UnionStrategy::kPriority}) {
+    for (const UnionStrategy strategy :
+         {UnionStrategy::kTrivial, UnionStrategy::kQueue, UnionStrategy::kPriority, UnionStrategy::kNary}) {
       options.strategy = strategy;
       RC_ASSERT(nef::equal(first, minkowski_sum(a, b, options)));
     }

@@ -1,29 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The Minkowski sum of two convex cells. For solids P, Q the facets of P + Q are (a) a facet of P
-// and what of Q is extreme along its normal, (b) a facet of Q likewise, (c) an edge of P and an
-// edge of Q whose arcs cross in the overlay of the normal diagrams. For (c) the arc of an edge of
-// P is walked through the diagram of Q, from region to region. Every vertex of the sum is the sum
-// of one pair of vertices, so the sum is put together from pairs of indices: no coordinate is
-// ever compared.
+// The Minkowski sum of two convex cells [Fogel, Halperin 2007]. For solids P, Q the facets of P + Q are (a) a facet of
+// P and what of Q is extreme along its normal, (b) a facet of Q likewise, (c) an edge of P and an edge of Q whose arcs
+// cross in the overlay of the normal diagrams. For (c) the arc of an edge of P is walked through the diagram of Q, from
+// region to region. Every vertex of the sum is the sum of one pair of vertices, so the sum is put together from pairs
+// of indices: no coordinate is ever compared.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <unordered_map>
 
 #include "apps/minkowski/convex/convex_cell.h"
+#include "apps/minkowski/convex/flat_sum.h"
 #include "apps/minkowski/convex/normal_diagram.h"
 #include "nef/base/error.h"
-#include "nef/construct/convex_hull.h"
 
 namespace nef::minkowski {
 namespace {
 
 using Pair = std::array<std::uint32_t, 2>;
-
-Rational3 plus(const Rational3& a, const Rational3& b) {
-  return {Rational(a[0] + b[0]), Rational(a[1] + b[1]), Rational(a[2] + b[2])};
-}
 
 // A cyclic chain of corners of one cell: a face, or an edge there and back.
 using Loop = std::vector<std::uint32_t>;
@@ -51,7 +46,15 @@ class SolidSum {
   void facets_of_p();
   void facets_of_q();
   void edges_of_p();
+  // The edges of q at one of its vertices that rise as a direction turns from n1 to n2.
+  struct Turn {
+    std::uint32_t level = kNone;  // level at n1 already: the vertex is not the last one that is extreme there
+    std::uint32_t next = kNone;   // the first to become level after n1
+    bool at_facet = false;        // another edge is level then, too: the direction is the normal of a facet
+  };
+  [[nodiscard]] Turn next_turn(std::uint32_t v, const Direction& n1, const Direction& n2) const;
   void walk(std::uint32_t corner);
+  void add_parallelogram(std::uint32_t of_p, std::uint32_t of_q);
   void merge(const Direction& normal, const Loop& p, const Loop& q);
   void add_corner(std::uint32_t i, std::uint32_t j);
   void end_face(bool marked, const std::array<Integer, 3>& normal);
@@ -72,7 +75,7 @@ void SolidSum::add_corner(std::uint32_t i, std::uint32_t j) {
   const auto [it, is_new] = vertex_.try_emplace(key, static_cast<std::uint32_t>(pairs_.size()));
   if (is_new) {
     pairs_.push_back({i, j});
-    sum_.mesh.vertices.push_back(plus(p_.cell().mesh.vertices[i], q_.cell().mesh.vertices[j]));
+    sum_.mesh.vertices.push_back(sum_of_points(p_.cell().mesh.vertices[i], q_.cell().mesh.vertices[j]));
   }
   face_.push_back(it->second);
 }
@@ -222,81 +225,64 @@ int compare_turn(const NormalDiagram& q, std::uint32_t c, std::uint32_t d, const
   return -signs * sign_of_dot(Direction::cross(u, v), Direction::cross(n1, n2));
 }
 
-// Walks the arc of an edge of p, from the normal n1 of its left face to n2 of its right one, and
-// adds a facet for each edge of q that becomes level strictly between.
+// What happens next at vertex v of q, extreme at some direction between n1 and n2, as the direction turns on to n2.
+SolidSum::Turn SolidSum::next_turn(std::uint32_t v, const Direction& n1, const Direction& n2) const {
+  Turn turn;
+  bool level_all_the_time = false;
+  bool tie = false;
+  const std::uint32_t first = q_.corner_at(v);
+  std::uint32_t c = first;
+  do {
+    const int rise = q_.sign_along(c, n2);
+    const int start = rise >= 0 ? q_.sign_along(c, n1) : 0;
+    if (rise == 0) {
+      level_all_the_time = level_all_the_time || start == 0;
+    } else if (rise > 0 && start == 0) {
+      turn.level = c;
+    } else if (rise > 0) {
+      const int order = turn.next == kNone ? -1 : compare_turn(q_, c, turn.next, n1, n2);
+      if (order < 0) turn.next = c;
+      if (order <= 0) tie = order == 0;
+    }
+    c = q_.next_around(c);
+  } while (c != first);
+  turn.at_facet = tie || level_all_the_time;
+  return turn;
+}
+
+// Walks the arc of an edge of p, from the normal n1 of its left face to n2 of its right one, through the diagram of q,
+// and adds a facet for each edge of q that becomes level strictly between.
 //
-// At vertex v of q the next edge to become level is the one with the smallest t among those that
-// rise towards n2. If several do at once, or one of v's edges is parallel to the edge of p (level
-// all the time), the arc passes through the normal of a facet of q: that facet is found by
-// facets_of_q, and the walk only steps over it. The same holds for an edge that gets level at
-// the t of such a facet.
+// Where the arc passes through the normal of a facet of q, facets_of_q has found the facet of the sum, and the walk
+// only steps over it: at each vertex of that facet some edge of the facet gets level at the same direction.
 void SolidSum::walk(std::uint32_t corner) {
   const Direction& n1 = p_.normal(p_.face(corner));
   const Direction& n2 = p_.normal(p_.face(p_.twin(corner)));
-  constexpr std::uint32_t kNobody = 0xffffffffU;
   std::uint32_t v = start_in_q_[p_.face(corner)];
-  std::uint32_t facet_event = kNobody;
-  bool at_start = true;  // among what is level at n1, still climbing towards n2
-  for (;;) {
-    std::uint32_t best = kNobody;
-    bool several = false;
-    std::uint32_t level = kNobody;
-    const std::uint32_t first = q_.corner_at(v);
-    std::uint32_t c = first;
-    do {
-      const int rise = q_.sign_along(c, n2);
-      if (rise >= 0) {
-        const int a = q_.sign_along(c, n1);
-        if (rise == 0) {
-          several = several || a == 0;
-        } else if (a == 0) {
-          level = c;
-        } else if (best == kNobody) {
-          best = c;
-        } else {
-          const int order = compare_turn(q_, c, best, n1, n2);
-          if (order < 0) best = c;
-          if (order == 0) several = true;  // corrected below if `best` is beaten later
-        }
-      }
-      c = q_.next_around(c);
-    } while (c != first);
-    if (at_start && level != kNobody) {
-      v = q_.target(level);
-      continue;
-    }
-    at_start = false;
-    if (best == kNobody) return;
-    if (several) {
-      // Ask again against the final best.
-      bool shared = false;
-      c = first;
-      do {
-        if (c != best) {
-          const int rise = q_.sign_along(c, n2);
-          const int a = rise >= 0 ? q_.sign_along(c, n1) : 0;
-          if (rise == 0 && a == 0) shared = true;
-          if (rise > 0 && a < 0 && compare_turn(q_, c, best, n1, n2) == 0) shared = true;
-        }
-        c = q_.next_around(c);
-      } while (c != first);
-      several = shared;
-    }
-    const bool same_facet = facet_event != kNobody && compare_turn(q_, best, facet_event, n1, n2) == 0;
-    if (several || same_facet) {
-      facet_event = best;
-    } else {
-      const std::uint32_t i = p_.source(corner);
-      const std::uint32_t k = p_.target(corner);
-      // Turning about the edge of p raises the edge of q, so their order about the normal is fixed.
-      add_corner(i, v);
-      add_corner(i, q_.target(best));
-      add_corner(k, q_.target(best));
-      add_corner(k, v);
-      end_face(p_.cell().edge_marked(corner) && q_.cell().edge_marked(best), normal_of_edges(corner, best));
-    }
-    v = q_.target(best);
+  Turn turn = next_turn(v, n1, n2);
+  while (turn.level != kNone) {
+    v = q_.target(turn.level);
+    turn = next_turn(v, n1, n2);
   }
+  std::uint32_t passed = kNone;  // an edge of the facet of q whose normal the arc passed through last
+  while (turn.next != kNone) {
+    if (turn.at_facet || (passed != kNone && compare_turn(q_, turn.next, passed, n1, n2) == 0)) {
+      passed = turn.next;
+    } else {
+      add_parallelogram(corner, turn.next);
+    }
+    v = q_.target(turn.next);
+    turn = next_turn(v, n1, n2);
+  }
+}
+
+// Turning about the edge of p raises the edge of q, so their order about the normal is fixed.
+void SolidSum::add_parallelogram(std::uint32_t of_p, std::uint32_t of_q) {
+  add_corner(p_.source(of_p), q_.source(of_q));
+  add_corner(p_.source(of_p), q_.target(of_q));
+  add_corner(p_.target(of_p), q_.target(of_q));
+  add_corner(p_.target(of_p), q_.source(of_q));
+  end_face(p_.cell().edge_marked(of_p) && q_.cell().edge_marked(of_q), normal_of_edges(of_p, of_q));
 }
 
 void SolidSum::edges_of_p() {
@@ -347,74 +333,6 @@ ConvexCell SolidSum::run() {
   edges_of_p();
   set_marks();
   return std::move(sum_);
-}
-
-// The mark of the smallest face of a cell that holds the given vertices, which are those of a face.
-bool face_mark(const ConvexCell& cell, std::vector<std::uint32_t> vertices) {
-  if (cell.boundary == ConvexCell::Boundary::kClosed) return true;
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-  if (cell.dimension == 0) return true;
-  if (vertices.size() == 1) return cell.vertex_marked(vertices[0]);
-  if (cell.dimension == 1) return true;
-  for (std::size_t f = 0; f < cell.mesh.face_count(); ++f) {
-    const auto face = cell.mesh.face(f);
-    if (vertices.size() == 2) {
-      for (std::size_t k = 0; k < face.size(); ++k) {
-        const std::uint32_t from = face[k];
-        const std::uint32_t to = face[(k + 1) % face.size()];
-        if (std::min(from, to) == vertices[0] && std::max(from, to) == vertices[1]) {
-          return cell.edge_marked(cell.mesh.face_begin[f] + k);
-        }
-      }
-    } else if (face.size() == vertices.size() && std::all_of(face.begin(), face.end(), [&](std::uint32_t v) {
-                 return std::binary_search(vertices.begin(), vertices.end(), v);
-               })) {
-      return cell.dimension == 2 || cell.facet_marked(f);
-    }
-  }
-  return true;  // no proper face: the cell itself
-}
-
-// Any dimensions: the hull of all sums of vertices. A face of the sum is the sum of the two faces
-// whose vertices make its vertices.
-ConvexCell flat_sum(const ConvexCell& c, const ConvexCell& d) {
-  std::vector<Rational3> points;
-  points.reserve(c.mesh.vertices.size() * d.mesh.vertices.size());
-  for (const Rational3& p : c.mesh.vertices) {
-    for (const Rational3& q : d.mesh.vertices) points.push_back(plus(p, q));
-  }
-  Hull hull = hull_of(points);
-  ConvexCell sum;
-  sum.dimension = hull.dimension;
-  sum.mesh = std::move(hull.mesh);
-  if (c.boundary == ConvexCell::Boundary::kClosed && d.boundary == ConvexCell::Boundary::kClosed) return sum;
-
-  sum.boundary = ConvexCell::Boundary::kMixed;
-  const std::size_t width = d.mesh.vertices.size();
-  const auto mark = [&](std::span<const std::uint32_t> vertices) -> std::uint8_t {
-    std::vector<std::uint32_t> of_c;
-    std::vector<std::uint32_t> of_d;
-    for (const std::uint32_t v : vertices) {
-      of_c.push_back(static_cast<std::uint32_t>(hull.source[v] / width));
-      of_d.push_back(static_cast<std::uint32_t>(hull.source[v] % width));
-    }
-    return face_mark(c, std::move(of_c)) && face_mark(d, std::move(of_d)) ? 1 : 0;
-  };
-  if (sum.dimension == 0) {
-    sum.boundary = ConvexCell::Boundary::kClosed;  // a relatively open point is the point
-    return sum;
-  }
-  for (std::uint32_t v = 0; v < sum.mesh.vertices.size(); ++v) sum.vertex_marks.push_back(mark({&v, 1}));
-  for (std::size_t f = 0; f < sum.mesh.face_count(); ++f) {
-    const auto face = sum.mesh.face(f);
-    if (sum.dimension == 3) sum.facet_marks.push_back(mark(face));
-    for (std::size_t k = 0; k < face.size(); ++k) {
-      const std::array<std::uint32_t, 2> edge = {face[k], face[(k + 1) % face.size()]};
-      sum.edge_marks.push_back(mark(edge));
-    }
-  }
-  return sum;
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Free space of a translating robot. What is forbidden is a union of sums, and sums distribute over
+// Free space of a translating robot [Lozano-Pérez 1983]. What is forbidden is a union of sums, and sums distribute over
 // unions, so all pairs of all obstacles go into one union; only what meets the obstacles' union without
 // its border needs that union first (it contains seams between touching obstacles).
 #include <algorithm>
@@ -10,6 +10,7 @@
 #include "apps/minkowski/decomposition/decomposition.h"
 #include "apps/minkowski/minkowski.h"
 #include "apps/minkowski/sum/pair_sums.h"
+#include "nef/base/phase_timer.h"
 #include "nef/construct/construct.h"
 
 namespace nef::minkowski {
@@ -95,13 +96,13 @@ Polyhedron configuration_space(const Polyhedron& robot, std::span<const Polyhedr
                                MinkowskiReport* report) {
   MinkowskiReport unused;
   MinkowskiReport& r = report != nullptr ? *report : unused;
-  PredicateCounts all;
-  const PhaseTimer total(r.seconds_total, all);
   if (robot.is_empty()) throw InputError("the robot is the empty set: it has no reference point to move");
   const auto bounded = [](const Polyhedron& set) { return set.is_bounded(); };
   if (!robot.is_bounded() || !std::all_of(obstacles.begin(), obstacles.end(), bounded)) {
     return outside_of(forbidden_of_unbounded(robot, obstacles, options, r), box);
   }
+  PredicateCounts all;
+  const PhaseTimer total(r.seconds_total, all);
   Forbidden parts;
   {
     const PhaseTimer timer(r.seconds_decomposition, r.predicates_decomposition);
@@ -109,11 +110,10 @@ Polyhedron configuration_space(const Polyhedron& robot, std::span<const Polyhedr
   }
   r.cells_a += parts.obstacles_open.size() + parts.obstacles_flat.size() + parts.obstacles_inner.size();
   r.cells_b += std::max(parts.robot_open.size(), parts.robot_marked.size()) + parts.robot_thin.size();
-  PairSums sums(options, r);
-  sums.add_product(parts.obstacles_open, parts.robot_open);
-  sums.add_product(parts.obstacles_flat, parts.robot_marked);
-  sums.add_product(parts.obstacles_inner, parts.robot_thin);
-  const Polyhedron forbidden = sums.run();
+  const std::array<Product, 3> products = {Product{parts.obstacles_open, parts.robot_open},
+                                           Product{parts.obstacles_flat, parts.robot_marked},
+                                           Product{parts.obstacles_inner, parts.robot_thin}};
+  const Polyhedron forbidden = union_of_pair_sums(products, options, r);
   const PhaseTimer timer(r.seconds_union, r.predicates_union);
   return outside_of(forbidden, box);
 }

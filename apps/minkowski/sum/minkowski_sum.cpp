@@ -12,9 +12,11 @@
 
 #include "apps/minkowski/decomposition/decomposition.h"
 #include "apps/minkowski/minkowski.h"
+#include "apps/minkowski/sum/cobounded_sum.h"
 #include "apps/minkowski/sum/pair_sums.h"
 #include "apps/minkowski/sum/unbounded_sum.h"
 #include "nef/base/parallel.h"
+#include "nef/base/phase_timer.h"
 
 namespace nef::minkowski {
 namespace {
@@ -32,32 +34,63 @@ std::optional<Polyhedron> simple_sum(const Polyhedron& a, const Polyhedron& b) {
   return std::nullopt;
 }
 
+struct Operands {
+  Operand a, b;
+};
+
+Operands decompose_both(const Polyhedron& a, const Polyhedron& b, const MinkowskiOptions& options,
+                        MinkowskiReport& report) {
+  const PhaseTimer timer(report.seconds_decomposition, report.predicates_decomposition);
+  const bool only_open = (a.is_open() || b.is_open()) && is_full_dimensional(a) && is_full_dimensional(b);
+  Operands result;
+  parallel_for(2, options.threads, [&](std::size_t k) {
+    const Polyhedron& operand = k == 0 ? a : b;
+    (k == 0 ? result.a : result.b) = Operand(only_open ? decompose_open(operand) : decompose(operand));
+  });
+  report.cells_a += result.a.size();
+  report.cells_b += result.b.size();
+  return result;
+}
+
+Polyhedron bounded_sum(const Polyhedron& a, const Polyhedron& b, const MinkowskiOptions& options,
+                       MinkowskiReport& report) {
+  const Operands cells = decompose_both(a, b, options, report);
+  const Product product{cells.a, cells.b};
+  return union_of_pair_sums({&product, 1}, options, report);
+}
+
+// With an unbounded set, a set of bounded complement sums to everything: the former never fits into a hole of the
+// latter.
+Polyhedron cobounded_sum(const Polyhedron& a, const Polyhedron& b, const MinkowskiOptions& options,
+                         MinkowskiReport& report) {
+  if (!b.is_bounded()) return Polyhedron::everything();
+  const NearHoles near = near_holes(a, b);
+  return unite(bounded_sum(near.part, b, options, report), near.beyond);
+}
+
+Polyhedron any_sum(const Polyhedron& a, const Polyhedron& b, const MinkowskiOptions& options, MinkowskiReport& report) {
+  if (std::optional<Polyhedron> sum = simple_sum(a, b)) return *std::move(sum);
+  if (a.is_bounded() && b.is_bounded()) return bounded_sum(a, b, options, report);
+  if (is_cobounded(a)) return cobounded_sum(a, b, options, report);
+  if (is_cobounded(b)) return cobounded_sum(b, a, options, report);
+  return unbounded_sum(a, b, options, report);
+}
+
 }  // namespace
 
 Polyhedron minkowski_sum(const Polyhedron& a, const Polyhedron& b, const MinkowskiOptions& options,
                          MinkowskiReport* report) {
   MinkowskiReport unused;
   MinkowskiReport& r = report != nullptr ? *report : unused;
+  double seconds = 0;
   PredicateCounts all;
-  const PhaseTimer total(r.seconds_total, all);
-  if (std::optional<Polyhedron> sum = simple_sum(a, b)) return *std::move(sum);
-  if (!a.is_bounded() || !b.is_bounded()) return unbounded_sum(a, b, options, r);
-
-  Operand cells_a;
-  Operand cells_b;
+  Polyhedron sum;
   {
-    const PhaseTimer timer(r.seconds_decomposition, r.predicates_decomposition);
-    const bool only_open = (a.is_open() || b.is_open()) && is_full_dimensional(a) && is_full_dimensional(b);
-    parallel_for(2, options.threads, [&](std::size_t k) {
-      const Polyhedron& operand = k == 0 ? a : b;
-      (k == 0 ? cells_a : cells_b) = Operand(only_open ? decompose_open(operand) : decompose(operand));
-    });
+    const PhaseTimer total(seconds, all);
+    sum = any_sum(a, b, options, r);
   }
-  r.cells_a += cells_a.size();
-  r.cells_b += cells_b.size();
-  PairSums sums(options, r);
-  sums.add_product(cells_a, cells_b);
-  return sums.run();
+  r.seconds_total += seconds;
+  return sum;
 }
 
 }  // namespace nef::minkowski

@@ -3,15 +3,29 @@
 
 #include <algorithm>
 
+#include "apps/minkowski/union/union_builder.h"
 #include "nef/base/error.h"
 #include "nef/base/parallel.h"
+#include "nef/base/phase_timer.h"
 
 namespace nef::minkowski {
 namespace {
 
-ConvexCell sum_of_pair(const Operand& a, std::size_t i, const Operand& b, std::size_t j) {
+ConvexCell sum_of_pair(const Product& product, std::size_t pair) {
+  const auto& [a, b] = product;
+  const std::size_t i = pair / b.size();
+  const std::size_t j = pair % b.size();
   if (a.cell(i).dimension == 3 && b.cell(j).dimension == 3) return convex_sum(a.diagram(i), b.diagram(j));
   return convex_sum(a.cell(i), b.cell(j));
+}
+
+// The sums of the pairs first, first + 1, ..., on several threads.
+std::vector<ConvexCell> sums_of_pairs(const Product& product, std::size_t first, std::size_t count,
+                                      const MinkowskiOptions& options, MinkowskiReport& report) {
+  const PhaseTimer timer(report.seconds_convex_sums, report.predicates_convex_sums);
+  std::vector<ConvexCell> sums(count);
+  parallel_for(count, options.threads, [&](std::size_t k) { sums[k] = sum_of_pair(product, first + k); });
+  return sums;
 }
 
 }  // namespace
@@ -25,43 +39,34 @@ Operand::Operand(std::vector<ConvexCell> cells) : cells_(std::move(cells)) {
   }
 }
 
-void PairSums::add_product(const Operand& a, const Operand& b) {
-  products_.emplace_back(&a, &b);
-  report_.pairs += a.size() * b.size();
-}
-
-// Sums of a block of pairs are made at once, on several threads; they go into the union in order.
-Polyhedron PairSums::run() {
+Polyhedron union_of_pair_sums(std::span<const Product> products, const MinkowskiOptions& options,
+                              MinkowskiReport& report) {
+  constexpr std::size_t kBlock = 256;
+  std::size_t all = 0;
+  for (const Product& product : products) all += product.a.size() * product.b.size();
+  report.pairs += all;
   std::size_t done = 0;
   const auto poll = [&] {
-    if (options_.progress && !options_.progress(done, report_.pairs)) throw Cancelled();
+    if (options.progress && !options.progress(done, all)) throw Cancelled();
   };
-  UnionBuilder builder(options_.strategy, options_.threads, poll);
-  constexpr std::size_t kBlock = 256;
-  std::vector<ConvexCell> block;
-  for (const auto& product : products_) {
-    const Operand& a = *product.first;
-    const Operand& b = *product.second;
-    const std::size_t pairs = a.size() * b.size();
+  UnionBuilder builder(options.strategy, options.threads, poll);
+  for (const Product& product : products) {
+    const std::size_t pairs = product.a.size() * product.b.size();
     for (std::size_t first = 0; first < pairs; first += kBlock) {
-      block.assign(std::min(kBlock, pairs - first), {});
-      {
-        const PhaseTimer timer(report_.seconds_convex_sums, report_.predicates_convex_sums);
-        parallel_for(block.size(), options_.threads, [&](std::size_t k) {
-          block[k] = sum_of_pair(a, (first + k) / b.size(), b, (first + k) % b.size());
-        });
-      }
-      const PhaseTimer timer(report_.seconds_union, report_.predicates_union);
-      for (ConvexCell& sum : block) {
+      std::vector<ConvexCell> sums = sums_of_pairs(product, first, std::min(kBlock, pairs - first), options, report);
+      const PhaseTimer timer(report.seconds_union, report.predicates_union);
+      for (ConvexCell& sum : sums) {  // in order, whoever made them
         builder.add(std::move(sum));
         ++done;
         poll();
       }
     }
   }
-  const PhaseTimer timer(report_.seconds_union, report_.predicates_union);
+  const PhaseTimer timer(report.seconds_union, report.predicates_union);
   Polyhedron result = builder.finish();
-  report_.pairs_dropped += builder.dropped();
+  report.pairs_dropped += builder.dropped();
+  report.united_at_once += builder.united_at_once();
+  report.united_two_by_two += builder.united_two_by_two();
   return result;
 }
 

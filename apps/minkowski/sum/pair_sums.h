@@ -8,8 +8,6 @@
 
 #include "apps/minkowski/convex/normal_diagram.h"
 #include "apps/minkowski/minkowski.h"
-#include "apps/minkowski/union/union_builder.h"
-#include "nef/base/phase_timer.h"
 
 namespace nef::minkowski {
 
@@ -32,21 +30,15 @@ class Operand {
   std::vector<NormalDiagram> diagrams_;  // of the first cells; solids come first
 };
 
-/// Unites the sums of all pairs of several products of operands.
-class PairSums {
- public:
-  PairSums(const MinkowskiOptions& options, MinkowskiReport& report) : options_(options), report_(report) {}
-
-  /// The pairs of a and b are to be summed. Both must live until run() returns.
-  void add_product(const Operand& a, const Operand& b);
-
-  /// Sums and unites. Throws Cancelled if the progress function says so.
-  Polyhedron run();
-
- private:
-  const MinkowskiOptions& options_;
-  MinkowskiReport& report_;
-  std::vector<std::pair<const Operand*, const Operand*>> products_;
+/// All pairs of a cell of `a` and a cell of `b`.
+struct Product {
+  const Operand& a;
+  const Operand& b;
 };
+
+/// The union of the sums of all pairs of some products. In blocks, so that memory does not grow with the pairs. Adds to
+/// the report. Throws Cancelled if the progress function says so.
+Polyhedron union_of_pair_sums(std::span<const Product> products, const MinkowskiOptions& options,
+                              MinkowskiReport& report);
 
 }  // namespace nef::minkowski

@@ -14,9 +14,9 @@
 #include "apps/minkowski/decomposition/decomposition.h"
 #include "apps/minkowski/decomposition/reflex.h"
 #include "apps/minkowski/decomposition/walls.h"
-#include "apps/minkowski/sum/pair_sums.h"
 #include "nef/base/error.h"
 #include "nef/base/parallel.h"
+#include "nef/base/phase_timer.h"
 #include "nef/construct/construct.h"
 
 namespace nef::minkowski {

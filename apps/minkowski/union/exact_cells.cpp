@@ -94,6 +94,7 @@ int ExactCells::side(std::uint32_t face, std::uint32_t cell, std::uint32_t verte
   const double value = rounded.value(rounded_.vertices(cell)[vertex]);
   if (value > rounded.slack) return 1;
   if (value < -rounded.slack) return -1;
+  ++doubtful_;
   const PlaneId p = plane(face);
   const PointId x = point(cell, vertex);
   return side_of_plane(planes, p, points, x);
@@ -113,6 +114,7 @@ void ExactCells::locate(std::uint32_t cell, PointId point, CellLocation& result)
   }
   std::size_t kept = 0;
   for (const std::uint32_t f : result.faces) {
+    ++doubtful_;
     const int s = side_of_plane(planes, plane(f), points, point);
     if (s > 0) return;
     if (s == 0) result.faces[kept++] = f;

@@ -33,11 +33,18 @@ class ExactCells {
 
   /// The plane of a face, its positive side outside.
   PlaneId plane(std::uint32_t face);
+  /// The same if somebody asked for it before, or an invalid one.
+  [[nodiscard]] PlaneId known_plane(std::uint32_t face) const { return plane_[face]; }
+  /// The corners of a face, as vertices of its cell.
+  [[nodiscard]] std::span<const std::uint32_t> corners(std::uint32_t face) const;
   PointId point(std::uint32_t cell, std::uint32_t vertex);
   /// The side of a face on which a vertex of some cell lies: +1 outside.
   int side(std::uint32_t face, std::uint32_t cell, std::uint32_t vertex);
   /// The location of a point of `points` that is within 2^-51 relative of its doubles.
   void locate(std::uint32_t cell, PointId point, CellLocation& result);
+
+  /// How many signs could not be told by the rounded cells, so far.
+  [[nodiscard]] std::uint64_t doubtful() const { return doubtful_; }
 
   /// The local pyramid of the cell at a point on its boundary: labels 1 in the cell, 0 elsewhere.
   void pyramid(const CellLocation& at, SphereMapBuffer& out);
@@ -47,7 +54,6 @@ class ExactCells {
   PointTable points;
 
  private:
-  std::span<const std::uint32_t> corners(std::uint32_t face) const;
   [[nodiscard]] std::uint32_t local(std::uint32_t face) const {
     return face - rounded_.first_face(rounded_.cell_of_face(face));
   }
@@ -59,6 +65,7 @@ class ExactCells {
   std::vector<PlaneId> plane_;           // per face, invalid until asked for
   std::vector<std::uint32_t> point_of_;  // per vertex, kNone until asked for
   Arrangement drawing_;
+  std::uint64_t doubtful_ = 0;
 };
 
 }  // namespace nef::minkowski

@@ -22,6 +22,12 @@ class FaceRemains {
   /// took something away move to the front of the list: they are likely to do so for the next face.
   Box box_of_rest(std::span<const Vector> ring, std::vector<std::uint32_t>& neighbours);
 
+  /// From now on the cell of `face` counts as if it had no such face: it takes away what is inside of its other faces.
+  /// For polygons in the plane of that face, whose insides it then hides as well.
+  void ignore(std::uint32_t face);
+  /// Undoes that.
+  void heed(std::uint32_t face);
+
  private:
   static constexpr std::size_t kCorners = 24;
   struct Polygon {
@@ -33,7 +39,8 @@ class FaceRemains {
   bool subtract(const Polygon& polygon, std::uint32_t cell);
 
   const RoundedCells& cells_;
-  std::vector<double> inside_;  // per face: a value below it is surely inside
+  std::vector<double> surely_inside_;  // per face: a value below it is surely inside
+  std::vector<double> inside_;         // the same, but for faces that are ignored
   std::vector<Polygon> todo_, outside_;
   std::vector<double> values_;
 };

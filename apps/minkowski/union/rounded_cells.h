@@ -60,6 +60,8 @@ class RoundedCells {
   [[nodiscard]] const Vector& vertex(std::uint32_t number) const { return vertices_[number]; }
   /// The largest absolute coordinate of all.
   [[nodiscard]] double extent() const { return extent_; }
+  /// A bound of how far a rounded vertex is from the true one in each coordinate (u of its size, with room).
+  [[nodiscard]] double vertex_error() const { return 4 * kUnit * extent_; }
 
   /// True only if a point that rounds to x is in the interior of the (solid) cell.
   [[nodiscard]] bool surely_inside(std::uint32_t cell, const Vector& x) const;

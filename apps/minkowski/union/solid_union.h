@@ -5,7 +5,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <limits>
+#include <optional>
 #include <span>
 
 #include "apps/minkowski/convex/convex_cell.h"
@@ -13,13 +16,24 @@
 
 namespace nef::minkowski {
 
-/// The union of convex cells of dimension 3, with their marks. Facets inside of other cells are
-/// dropped by filters before anything exact exists, so the time goes with what is left: O(n log n + m k)
-/// for n faces, m of them not inside of a single cell, each of which k others meet.
-/// Adds the number of cells that lie inside of others to `dropped` if it is given. Filters run on up to `threads`
-/// threads (0: as many as the machine has); the result does not depend on their number. `poll`, if given, is called
-/// for each face that is left, and may throw.
-Polyhedron unite_solids(std::span<const ConvexCell> cells, std::size_t* dropped = nullptr, unsigned threads = 1,
-                        const std::function<void()>& poll = {});
+/// How a union may be made, and what came of it.
+struct SolidUnionOptions {
+  unsigned threads = 1;  ///< of filters; 0: as many as the machine has; the result does not depend on it
+  /// The union is given up when it has taken so many evaluations of a plane's form (a few nanoseconds each). Counted,
+  /// not timed: the same for every run.
+  std::uint64_t budget = std::numeric_limits<std::uint64_t>::max();
+  std::function<void()> poll;  ///< if given, called for each face that is left; may throw
+};
+
+/// The union of convex cells of dimension 3, with their marks; nothing if the budget did not suffice. Facets inside of
+/// other cells, or of the union of facets in their plane, are dropped by filters before anything exact exists, so the
+/// time goes with what is left: O(n log n + m k) for n faces, m of them not hidden, each of which k others meet. Where
+/// many faces nearly coincide, m and k are n, and candidates are their triples: that is what the budget is for.
+/// Adds the number of cells that lie inside of others to `dropped` if it is given.
+std::optional<Polyhedron> try_unite_solids(std::span<const ConvexCell> cells, const SolidUnionOptions& options,
+                                           std::size_t* dropped = nullptr);
+
+/// The same without a budget.
+Polyhedron unite_solids(std::span<const ConvexCell> cells, std::size_t* dropped = nullptr, unsigned threads = 1);
 
 }  // namespace nef::minkowski

@@ -13,8 +13,12 @@
 
 namespace nef::minkowski {
 
-/// Takes pieces one by one. At any time it holds O(log(pieces)) intermediate unions and, for the
-/// strategies that need several pieces at once, a batch of bounded size.
+/// Takes pieces one by one. At any time it holds O(log(pieces)) intermediate unions and, for the strategies that need
+/// several pieces at once, a batch of bounded size.
+///
+/// kAuto unites a batch at once within a budget of about what the queue is likely to take for it. If the budget does
+/// not suffice, this batch and all that follows go through the queue: so no input takes much more than twice the time
+/// of the better of the two.
 class UnionBuilder {
  public:
   /// `poll`, if given, is called now and then while pieces are united, and may throw.
@@ -27,11 +31,18 @@ class UnionBuilder {
 
   /// Cells that were dropped since another one of their batch holds them.
   [[nodiscard]] std::size_t dropped() const { return dropped_; }
+  /// Cells that went into unions of many cells at once, and into unions of two sets.
+  [[nodiscard]] std::size_t united_at_once() const { return at_once_; }
+  [[nodiscard]] std::size_t united_two_by_two() const { return two_by_two_; }
 
  private:
+  void add_to_batch(ConvexCell cell);
   void add_queued(Polyhedron piece);
+  void add_to_group(const ConvexCell& cell);
+  void flush_group();
   void add_ranked(Polyhedron piece);
   void flush();
+  void unite_batch_of_solids();
   void merge_smallest();
 
   UnionStrategy strategy_;
@@ -40,9 +51,14 @@ class UnionBuilder {
   Polyhedron result_;               // trivial
   std::vector<Polyhedron> levels_;  // queue: level i is empty or the union of 2^i pieces
   std::vector<Polyhedron> ranked_;  // priority: a heap, the smallest on top
-  std::vector<ConvexCell> batch_;   // n-ary
+  std::vector<Polyhedron> group_;   // auto: the next pieces for the queue
+  std::size_t group_vertices_ = 0;
+  std::vector<ConvexCell> batch_;  // all at once
   std::size_t batch_vertices_ = 0;
+  bool gave_up_ = false;  // kAuto: no more batches
   std::size_t dropped_ = 0;
+  std::size_t at_once_ = 0;
+  std::size_t two_by_two_ = 0;
 };
 
 }  // namespace nef::minkowski

@@ -35,6 +35,7 @@ std::uint64_t UnionVertices::grid_cell(const Vector& x) const {
 }
 
 void UnionVertices::add_meeting(std::uint32_t f, std::uint32_t g, std::uint32_t h, const Vector& guess) {
+  work_ += 50;
   const auto [first_near, last_near] = near_.equal_range(grid_cell(guess));
   for (auto at = first_near; at != last_near; ++at) {
     if (is_on(at->second, h) && is_on(at->second, f) && is_on(at->second, g)) return;
@@ -49,6 +50,8 @@ void UnionVertices::add_meeting(std::uint32_t f, std::uint32_t g, std::uint32_t 
   // Without a common factor equal points have equal coordinates.
   std::array<Integer, 7> coordinates;
   Integer divisor;
+  // Weights of exact steps against one evaluation of a form: measured, and they decide about time only.
+  work_ += 1500 + 800 * mpz_size(points.coordinate(*raw, 3));
   for (std::size_t i = 0; i < 4; ++i) {
     mpz_set(coordinates[i].get_mpz_t(), points.coordinate(*raw, i));
     mpz_gcd(divisor.get_mpz_t(), divisor.get_mpz_t(), coordinates[i].get_mpz_t());
@@ -118,11 +121,13 @@ void UnionVertices::add_point(PointId point) {
   bool inside = false;
   boxes_.for_each_overlap(box, [&](std::uint32_t cell) {
     if (inside) return;
+    work_ += 20;
     exact_.locate(cell, point, location_);
     if (location_.kind == CellLocation::Kind::kInside) inside = true;
     if (location_.kind == CellLocation::Kind::kBoundary) touched.push_back(location_);
   });
   if (inside || touched.empty()) return;
+  work_ += 3000 * touched.size();
   std::vector<std::uint32_t>& faces = faces_at_[point.value];
   for (const CellLocation& at : touched) faces.insert(faces.end(), at.faces.begin(), at.faces.end());
   std::sort(faces.begin(), faces.end());

@@ -34,6 +34,9 @@ class UnionVertices {
   /// reach that point is found out here. A good guess of the point saves time if it is known already.
   void add_meeting(std::uint32_t f, std::uint32_t g, std::uint32_t h, const Vector& guess);
 
+  /// How much has been done, in evaluations of a plane's form in doubles (some nanoseconds each).
+  [[nodiscard]] std::uint64_t work() const { return work_ + 200 * exact_.doubtful(); }
+
   /// The union. To be called once.
   Complex finish();
 
@@ -64,6 +67,7 @@ class UnionVertices {
   CellLocation location_;
   std::array<SphereMapBuffer, 3> maps_;
   Complex result_;
+  std::uint64_t work_ = 0;
 };
 
 }  // namespace nef::minkowski

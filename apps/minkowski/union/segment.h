@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Segments in doubles with bounds of their errors: where planes, boxes and cells meet them, on the safe side.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "apps/minkowski/union/rounded_cells.h"
+#include "nef/sphere_map/sphere_map.h"
+
+namespace nef::minkowski {
+
+/// An interval of the parameter of a segment, 0 at its start and 1 at its end; empty if low > high.
+struct Interval {
+  double low = 0, high = 1;
+};
+
+/// A segment on the planes of two faces: an edge of a cell, or where faces of two cells cross.
+struct Segment {
+  Vector from{}, to{};                                 ///< the true ends are within `error` in each coordinate
+  double error = 0;                                    ///< a length
+  std::uint32_t f = 0, g = 0;                          ///< the faces
+  std::uint32_t from_point = kNone, to_point = kNone;  ///< where it ends, if that is a candidate already
+  std::vector<Interval> open;                          ///< what is not surely covered
+
+  /// A box around all of it.
+  [[nodiscard]] Box box() const;
+  /// A box around a part of it.
+  [[nodiscard]] Box box_of(const Interval& part) const;
+};
+
+/// The form of a face's plane along a segment: at + t * slope, within `error` for t from 0 to 1.
+struct FormOnSegment {
+  double at = 0, slope = 0, error = 0;
+  FormOnSegment(const RoundedFace& face, const Segment& s);
+};
+
+/// Which way an interval is rounded.
+enum class Rounding : std::uint8_t { kInwards, kOutwards };
+
+/// Narrows t to where at + t * slope < bound.
+void keep_below(Interval& t, double at, double slope, double bound, Rounding rounding);
+
+/// Narrows t to where the segment may be in a box; false if that is nowhere.
+bool clip_to_box(const Segment& s, const Box& box, Interval& t);
+
+/// Subtracts the open interval `inside` from closed ones.
+void subtract(std::vector<Interval>& open, const Interval& inside, std::vector<Interval>& scratch);
+
+}  // namespace nef::minkowski

@@ -119,9 +119,11 @@ TEST_CASE("command: cells of a decomposition to a coloured file and into a direc
   // Again into the same directory: fewer cells would stand among the old ones.
   CHECK(place.run("--decompose a.nef -o cells --format nef").code == 0);
   place.write("b.nef", "box(0,0,0,1,1,1)");
-  const Outcome refused = place.run("--decompose b.nef -o cells --format nef");
-  CHECK(refused.code == 2);
-  CHECK(refused.err.find("earlier run") != std::string::npos);
+  for (const char* format : {"nef", "off"}) {
+    const Outcome refused = place.run(std::string("--decompose b.nef -o cells --format ") + format);
+    CHECK(refused.code == 2);
+    CHECK(refused.err.find("earlier run") != std::string::npos);
+  }
 }
 
 TEST_CASE("command: free space with a tight passage") {
@@ -161,6 +163,17 @@ TEST_CASE("command: bad usage and bad input are one line on stderr, code 2, and 
       {"a.nef a.nef --format ply -o out.nef", "--format"},
       {"--decompose a.nef --ball 1,2 -o out.off", "--decompose"},
       {"--decompose a.nef -o out.txt", "off, ply or obj"},
+      {"a.nef a.nef --erode --open -o out.nef", "two tasks"},
+      {"a.nef a.nef --penetration -o out.nef", "-o does not go"},
+      {"a.nef a.nef --offset 1 -o out.nef", "one operand"},
+      {"a.nef --offset 1 --ball 1,1 -o out.nef", "--offset"},
+      {"a.nef --offset x -o out.nef", "--offset"},
+      {"a.nef --offset 1,65 -o out.nef", "1 to 64"},
+      {"a.nef --inner --outer --ball 1,1 -o out.nef", "exclude"},
+      {"a.nef a.nef --inner -o out.nef", "--inner"},
+      {"a.nef a.nef --from 1,1,1 -o out.nef", "--reach"},
+      {"a.nef a.nef --reach --from 1,1 -o out.nef", "--from"},
+      {"a.nef a.nef --reach --from 1/4,1/4,1/4 -o out.nef", "overlaps"},
       {"a.nef a.nef -o out.xyz", "out.xyz"}};
   const std::size_t before = place.file_count();
   for (const auto& [arguments, words] : cases) {
@@ -223,6 +236,41 @@ TEST_CASE("command: an interrupt stops at once and leaves a whole file or none")
     if (whole) CHECK_FALSE(nef::read_polyhedron(place / "out.nef").is_empty());
     CHECK(place.file_count() == before + (whole ? 1 : 0));
   }
+}
+
+// The indented lines of a section of a document.
+std::vector<std::string> commands_in(const std::string& document, const std::string& section) {
+  std::istringstream text(nef::test::slurp(document));
+  std::vector<std::string> lines;
+  bool inside = false;
+  for (std::string line; std::getline(text, line);) {
+    if (line.rfind("## ", 0) == 0) inside = line == "## " + section;
+    if (inside && line.rfind("    ", 0) == 0) lines.push_back(line.substr(4));
+  }
+  return lines;
+}
+
+TEST_CASE("command: the recipes of the documentation run, and do what they say") {
+  const Place place;
+  for (const std::string& line : commands_in(NEF_SOURCE_DIR "/docs/minkowski.md", "Recipes")) {
+    const std::string command = "cd '" + place.path().string() + "' && PATH='" NEF_BINARY_DIR "':\"$PATH\" " + line +
+                                " > stdout.txt 2> stderr.txt < /dev/null";
+    CAPTURE(line);
+    CHECK(std::system(command.c_str()) == 0);
+    CHECK(place.read("stderr.txt").empty());
+  }
+  const auto result = [&](const std::string& name) { return nef::read_polyhedron(place / (name + ".nef")); };
+  const nef::Polyhedron part = result("part");
+  CHECK(nef::subtract(part, result("grown")).is_empty());
+  CHECK(nef::subtract(result("shrunk"), nef::interior(part)).is_empty());
+  CHECK(nef::equal(nef::unite(result("shell"), result("core")), part));
+  CHECK(nef::equal(result("eroded"), set("box(0,0,0, 2,7,1) + box(4,0,0, 7,7,1) + box(0,0,0, 7,7,0)")));
+  CHECK(nef::equal(result("opened"), set("box(0,0,0, 8,8,2) - interior(box(3,-1,1, 4,9,3))")));
+  CHECK(nef::equal(result("closed"), set("box(0,0,0, 8,8,2) + box(8,2,0, 12,5/2,2)")));
+  CHECK(nef::contains(result("swept"), {nef::Rational(7, 2), 2, 1}));
+  CHECK(nef::contains(result("contact"), {3, 2, 1}));
+  CHECK(nef::contains(result("positions"), {nef::Rational(7, 2), 2, 1}));
+  CHECK(nef::subtract(part, result("hull")).is_empty());
 }
 
 }  // namespace

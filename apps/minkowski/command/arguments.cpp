@@ -2,7 +2,6 @@
 #include "apps/minkowski/command/arguments.h"
 
 #include <map>
-#include <sstream>
 
 #include "nef/base/error.h"
 
@@ -10,25 +9,55 @@ namespace nef::minkowski {
 namespace {
 
 const std::map<std::string, UnionStrategy>& strategies() {
-  static const std::map<std::string, UnionStrategy> kNames = {{"trivial", UnionStrategy::kTrivial},
+  static const std::map<std::string, UnionStrategy> kNames = {{"auto", UnionStrategy::kAuto},
+                                                              {"trivial", UnionStrategy::kTrivial},
                                                               {"queue", UnionStrategy::kQueue},
                                                               {"priority", UnionStrategy::kPriority},
                                                               {"nary", UnionStrategy::kNary}};
   return kNames;
 }
 
-}  // namespace
+// The options that name a task, and whether they are given.
+struct TaskOption {
+  Task task;
+  std::string option;
+  bool given;
+};
 
-void declare(CLI::App& app, Arguments& a) {
-  app.add_option("operands", a.operands, "A and B: .nef, .nef3, or a mesh (off, obj, stl, ply)");
-  app.add_option("-o,--output", a.output, "where the result goes; the extension says the format")->required();
-  app.add_flag("--open-a", a.open_a, "take the interior of A");
-  app.add_flag("--open-b", a.open_b, "take the interior of B");
-  app.add_flag("--negate-b", a.negate_b, "take -B instead of B");
-  app.add_option("--ball", a.ball, "R,N: a ball of radius R stands in for B (octahedron, edges split N times)");
-  app.add_option("--box-tool", a.box_tool, "x,y,z: a box of these extents about the origin stands in for B");
-  app.add_option("--union", a.union_name, "how sums of cells are united: trivial, queue, priority, nary")
-      ->check(CLI::IsMember({"trivial", "queue", "priority", "nary"}));
+std::vector<TaskOption> task_options(const Arguments& a) {
+  return {{Task::kErode, "--erode", a.erode},
+          {Task::kOpen, "--open", a.open},
+          {Task::kClose, "--close", a.close},
+          {Task::kOffset, "--offset", !a.offset.empty()},
+          {Task::kSweep, "--sweep", !a.sweep.empty()},
+          {Task::kHull, "--hull", a.hull},
+          {Task::kNoFit, "--no-fit", a.no_fit},
+          {Task::kPenetration, "--penetration", a.penetration},
+          {Task::kReach, "--reach", a.reach},
+          {Task::kConfigurationSpace, "--configuration-space", a.configuration_space},
+          {Task::kDecompose, "--decompose", a.decompose}};
+}
+
+void declare_tasks(CLI::App& app, Arguments& a) {
+  app.add_flag("--erode", a.erode, "A eroded by B: all x for which B moved by x lies in A");
+  app.add_flag("--open", a.open, "the opening of A by B: all of A that B covers as it moves within A");
+  app.add_flag("--close", a.close, "the closing of A by B: A + B, eroded by B");
+  app.add_option("--offset", a.offset,
+                 "R or R,N: A grown by a ball of radius R, shrunk if R < 0; the result lies around the exact answer "
+                 "(--outer, default) or inside of it (--inner); N: how fine the ball is (8), see --ball");
+  app.add_flag("--inner", a.inner, "of --offset, --ball: inside of what round balls would give");
+  app.add_flag("--outer", a.outer, "of --offset, --ball: around what round balls would give");
+  app.add_option("--sweep", a.sweep, "points x,y,z: what A passes over as it moves along the polyline through them")
+      ->expected(-1);
+  app.add_flag("--hull", a.hull, "the convex hull of A");
+  app.add_flag("--penetration", a.penetration,
+               "whether A and B are disjoint, touch or overlap, and the shortest translation of B to contact");
+  app.add_flag("--no-fit", a.no_fit, "the translations of B for which it touches A without overlap");
+  app.add_flag("--reach", a.reach,
+               "TOOL PART: the free positions of the tool (its origin) that are connected to the outside");
+  app.add_option("--from", a.from, "x,y,z, of --reach: connected to this position instead");
+  app.add_option("--touched", a.touched, "of --reach: a file for what of the part's boundary the tool can touch");
+  app.add_option("--untouched", a.untouched, "of --reach: a file for what of it the tool cannot touch");
   app.add_flag("--decompose", a.decompose, "write the convex cells of A, to one mesh file or into a directory");
   app.add_option("--format", a.format, "of cells in a directory: off (default), ply, obj, or nef (exact, with marks)")
       ->check(CLI::IsMember({"off", "ply", "obj", "nef"}));
@@ -36,6 +65,95 @@ void declare(CLI::App& app, Arguments& a) {
   app.add_option("--robot", a.robot, "the robot; its reference point is the origin");
   app.add_option("--obstacles", a.obstacles, "the obstacles")->expected(-1);
   app.add_option("--box", a.box, "two corners x,y,z X,Y,Z that bound the reference point")->expected(2);
+}
+
+Task task_of(const Arguments& a) {
+  const TaskOption* found = nullptr;
+  const std::vector<TaskOption> options = task_options(a);
+  for (const TaskOption& option : options) {
+    if (!option.given) continue;
+    if (found != nullptr)
+      throw InputError(found->option + " and " + option.option + " are two tasks: give one of them");
+    found = &option;
+  }
+  return found != nullptr ? found->task : Task::kSum;
+}
+
+// Tasks that take A alone.
+bool is_unary(Task task) {
+  return task == Task::kOffset || task == Task::kSweep || task == Task::kHull || task == Task::kDecompose;
+}
+
+bool has_tool(const Arguments& a) { return !a.ball.empty() || !a.box_tool.empty(); }
+
+void check_output(const Arguments& a, Task task) {
+  if (task == Task::kPenetration) {
+    if (!a.output.empty()) throw InputError("--penetration prints its answer: -o does not go with it (--report does)");
+  } else if (a.output.empty()) {
+    throw InputError("-o (--output) is needed: a file for the result");
+  }
+  if (!a.format.empty() && task != Task::kDecompose) {
+    throw InputError("--format goes with --decompose; -o names a file by its extension");
+  }
+  if (task != Task::kReach && (!a.from.empty() || !a.touched.empty() || !a.untouched.empty())) {
+    throw InputError("--from, --touched and --untouched go with --reach");
+  }
+  if (a.inner && a.outer) throw InputError("--inner and --outer exclude each other: give one of them");
+  if ((a.inner || a.outer) && task != Task::kOffset && a.ball.empty()) {
+    throw InputError("--inner and --outer go with --offset or --ball");
+  }
+}
+
+void check_operands(const Arguments& a, Task task) {
+  if (!a.ball.empty() && !a.box_tool.empty()) {
+    throw InputError("--ball and --box-tool both stand in for B: give one of them");
+  }
+  const bool changes_b = has_tool(a) || a.open_b || a.negate_b || a.hull_b;
+  if (task == Task::kConfigurationSpace) {
+    if (a.robot.empty()) throw InputError("--configuration-space needs --robot");
+    if (a.obstacles.empty()) throw InputError("--configuration-space needs --obstacles (one file or more)");
+    if (!a.operands.empty()) throw InputError("--configuration-space takes --robot and --obstacles, not A and B");
+    if (changes_b || a.open_a) {
+      throw InputError("--ball, --box-tool and what changes A or B do not go with --configuration-space");
+    }
+    return;
+  }
+  if (!a.robot.empty() || !a.obstacles.empty() || !a.box.empty()) {
+    throw InputError("--robot, --obstacles and --box go with --configuration-space");
+  }
+  if (is_unary(task) && changes_b) {
+    throw InputError("--" + name(task) + " takes A alone: what stands in for B or changes it does not go with it");
+  }
+  if (task == Task::kReach && (changes_b || a.open_a)) {
+    throw InputError("--reach takes a tool and a part: what stands in for B or changes A or B does not go with it");
+  }
+  const std::size_t wanted = is_unary(task) || has_tool(a) ? 1 : 2;
+  if (a.operands.size() != wanted) {
+    throw InputError("give " + std::string(wanted == 1 ? "one operand" : "two operands") + ", not " +
+                     std::to_string(a.operands.size()) + " (see minkowski --help)");
+  }
+}
+
+}  // namespace
+
+void declare(CLI::App& app, Arguments& a) {
+  app.add_option("operands", a.operands, "A and B: .nef, .nef3, or a mesh (off, obj, stl, ply)");
+  app.add_option("-o,--output", a.output, "where the result goes; the extension says the format");
+  app.add_flag("--open-a", a.open_a, "take the interior of A");
+  app.add_flag("--open-b", a.open_b, "take the interior of B");
+  app.add_flag("--negate-b", a.negate_b, "take -B instead of B");
+  app.add_flag("--hull-b", a.hull_b,
+               "take the convex hull of B, which holds B: for balls and the like whose coordinates "
+               "were rounded, so that they are not quite convex");
+  app.add_option(
+      "--ball", a.ball,
+      "R,N: a ball of radius R stands in for B: an octahedron whose edges are split into N parts (1 does not "
+      "split), 4 N^2 + 2 vertices; inscribed (--inner, default) or circumscribed (--outer)");
+  app.add_option("--box-tool", a.box_tool, "x,y,z: a box of these extents about the origin stands in for B");
+  app.add_option("--union", a.union_name,
+                 "how sums of cells are united: auto (default), trivial, queue, priority, nary")
+      ->check(CLI::IsMember({"auto", "trivial", "queue", "priority", "nary"}));
+  declare_tasks(app, a);
   app.add_flag("--as-surface", a.as_surface, "take the faces of meshes as a two-dimensional set");
   app.add_flag("--strict", a.strict, "refuse meshes with faces that are not exactly planar");
   app.add_flag("--exact", a.exact, "exact coordinates in mesh files");
@@ -49,34 +167,18 @@ void declare(CLI::App& app, Arguments& a) {
   app.add_flag("-q,--quiet", a.quiet, "print nothing but errors");
 }
 
-void check(const Arguments& a) {
-  if (a.decompose && a.configuration_space) {
-    throw InputError("--decompose and --configuration-space are two tasks: give one of them");
+std::string name(Task task) {
+  for (const TaskOption& option : task_options({})) {
+    if (option.task == task) return option.option.substr(2);
   }
-  if (!a.format.empty() && !a.decompose)
-    throw InputError("--format goes with --decompose; -o names a file by its extension");
-  const std::size_t tools = (a.ball.empty() ? 0U : 1U) + (a.box_tool.empty() ? 0U : 1U);
-  if (tools > 1) throw InputError("--ball and --box-tool both stand in for B: give one of them");
-  if (a.configuration_space) {
-    if (a.robot.empty()) throw InputError("--configuration-space needs --robot");
-    if (a.obstacles.empty()) throw InputError("--configuration-space needs --obstacles (one file or more)");
-    if (!a.operands.empty()) throw InputError("--configuration-space takes --robot and --obstacles, not A and B");
-    if (tools > 0 || a.open_a || a.open_b || a.negate_b) {
-      throw InputError("--ball, --box-tool, --open-a, --open-b and --negate-b do not go with --configuration-space");
-    }
-    return;
-  }
-  if (!a.robot.empty() || !a.obstacles.empty() || !a.box.empty()) {
-    throw InputError("--robot, --obstacles and --box go with --configuration-space");
-  }
-  if (a.decompose && (tools > 0 || a.open_b || a.negate_b)) {
-    throw InputError("--ball, --box-tool, --open-b and --negate-b do not go with --decompose");
-  }
-  const std::size_t wanted = a.decompose || tools > 0 ? 1 : 2;
-  if (a.operands.size() != wanted) {
-    throw InputError("give " + std::string(wanted == 1 ? "one operand" : "two operands") + ", not " +
-                     std::to_string(a.operands.size()) + " (see minkowski --help)");
-  }
+  return "sum";
+}
+
+Task check(const Arguments& a) {
+  const Task task = task_of(a);
+  check_output(a, task);
+  check_operands(a, task);
+  return task;
 }
 
 UnionStrategy strategy(const Arguments& arguments) { return strategies().at(arguments.union_name); }

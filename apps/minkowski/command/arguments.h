@@ -10,20 +10,42 @@
 #include <vector>
 
 #include "apps/minkowski/minkowski.h"
+#include "apps/minkowski/morphology.h"
 
 namespace nef::minkowski {
+
+/// What is to be done.
+enum class Task : std::uint8_t {
+  kSum,
+  kErode,
+  kOpen,
+  kClose,
+  kOffset,
+  kSweep,
+  kHull,
+  kNoFit,
+  kPenetration,
+  kReach,
+  kConfigurationSpace,
+  kDecompose
+};
 
 /// The parsed command line.
 struct Arguments {
   std::vector<std::string> operands;
   std::string output, report, preview;
-  std::string union_name = "nary";
-  bool open_a = false, open_b = false, negate_b = false;
+  std::string union_name = "auto";
+  bool open_a = false, open_b = false, negate_b = false, hull_b = false;
   bool as_surface = false, strict = false;
   unsigned threads = 0;  ///< 0: as many as the machine has
   bool exact = false, binary = false, text = false, quiet = false, json = false;
 
   std::string ball, box_tool;  ///< as written: "R,N", "x,y,z"
+  bool inner = false, outer = false;
+  bool erode = false, open = false, close = false, hull = false, no_fit = false, penetration = false, reach = false;
+  std::string offset;  ///< "R" or "R,N"
+  std::vector<std::string> sweep;
+  std::string from, touched, untouched;
   bool decompose = false;
   std::string format;  ///< of the files in a directory of cells; empty: off
 
@@ -36,8 +58,11 @@ struct Arguments {
 /// Declares all options.
 void declare(CLI::App& app, Arguments& arguments);
 
-/// Checks what CLI11 cannot: which options go together. Throws InputError.
-void check(const Arguments& arguments);
+/// The task that is asked for. Checks what CLI11 cannot: which options go together. Throws InputError.
+Task check(const Arguments& arguments);
+
+/// The name of a task in reports and of its result in pictures.
+std::string name(Task task);
 
 UnionStrategy strategy(const Arguments& arguments);
 

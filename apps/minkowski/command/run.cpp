@@ -2,12 +2,15 @@
 #include "apps/minkowski/command/run.h"
 
 #include <array>
-#include <csignal>
+#include <cmath>
+#include <cstdio>
 #include <iostream>
 
 #include "apps/minkowski/command/preview.h"
+#include "apps/minkowski/command/signals_held.h"
 #include "apps/minkowski/command/write_cells.h"
 #include "apps/minkowski/convex/tools.h"
+#include "apps/minkowski/morphology.h"
 #include "nef/base/stopwatch.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/polyhedron_file.h"
@@ -18,40 +21,21 @@
 namespace nef::minkowski {
 namespace {
 
-// Ctrl-C ends the program at once, except while a file is written: then it waits until the file is
-// whole (files are written beside their targets and renamed). A handler and not a mask, since a mask of this
-// thread would leave the others to take the signal.
-class SignalsHeld {
+class Run {
  public:
-  SignalsHeld() {
-    held_signal_ = 0;
-    struct sigaction action {};
-    action.sa_handler = [](int signal) { held_signal_ = signal; };
-    for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &action, &before_[i]);
+  Run(const Arguments& arguments, Task task) : a_(arguments), task_(task) {
+    options_.threads = a_.threads;
+    options_.strategy = strategy(a_);
   }
-  ~SignalsHeld() {
-    for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &before_[i], nullptr);
-    if (held_signal_ != 0) raise(held_signal_);
-  }
-  SignalsHeld(const SignalsHeld&) = delete;
-  SignalsHeld& operator=(const SignalsHeld&) = delete;
-
- private:
-  static constexpr std::array<int, 3> kSignals = {SIGINT, SIGTERM, SIGHUP};
-  static inline volatile std::sig_atomic_t held_signal_ = 0;
-  std::array<struct sigaction, 3> before_{};
-};
-
-class Task {
- public:
-  explicit Task(const Arguments& arguments) : a_(arguments) {}
 
   void run() {
-    if (a_.decompose) {
+    if (task_ == Task::kDecompose) {
       decompose_operand();
+    } else if (task_ == Task::kPenetration) {
+      tell_penetration();
     } else {
-      const Polyhedron result = a_.configuration_space ? free_space() : sum();
-      store(result);
+      const Polyhedron result = compute();
+      store(a_.output, result);
       preview(result);
       print_report(report(result));
       if (!a_.quiet && !a_.json) std::cout << summary(result) << "\n";
@@ -77,11 +61,11 @@ class Task {
     }
   }
 
-  void store(const Polyhedron& result) {
+  void store(const std::string& path, const Polyhedron& result) {
     const Stopwatch watch;
     const SignalsHeld held;
     Messages messages;
-    write_polyhedron(a_.output, result, {.exact = a_.exact, .binary = a_.binary, .text = a_.text}, &messages);
+    write_polyhedron(path, result, {.exact = a_.exact, .binary = a_.binary, .text = a_.text}, &messages);
     write_s_ += watch.seconds();
     show(messages);
   }
@@ -89,18 +73,32 @@ class Task {
   void preview(const Polyhedron& result) {
     if (a_.preview.empty()) return;
     const SignalsHeld held;
-    shown_.emplace_back(a_.configuration_space ? "free_space" : "sum", result);
+    std::string title = name(task_);
+    if (task_ == Task::kConfigurationSpace) title = "free_space";
+    shown_.emplace_back(title, result);
     write_previews(a_.preview, shown_);
   }
 
-  Polyhedron second_operand() {
-    if (!a_.ball.empty()) {
-      const std::vector<Rational> numbers = parse_numbers(a_.ball, 2, "--ball");
-      if (numbers[1].get_den() != 1 || numbers[1] < 1 || numbers[1] > 64) {
-        throw InputError("--ball R,N: N is a whole number from 1 to 64, not " + to_string(numbers[1]));
-      }
-      return to_polyhedron(ball(numbers[0], static_cast<int>(numbers[1].get_num().get_si())));
+  // R,N as an approximation of a ball, with what is reported of it.
+  Polyhedron ball_tool() {
+    const std::vector<Rational> numbers = parse_numbers(a_.ball, 2, "--ball");
+    const Side side = a_.outer ? Side::kOuter : Side::kInner;
+    const BallApproximation ball = ball_approximation(numbers[0], splits(numbers[1], "--ball"), side);
+    details_["ball"] = {{"side", side == Side::kInner ? "inner" : "outer"},
+                        {"error", to_string(ball.error)},
+                        {"vertices", ball.cell.mesh.vertices.size()}};
+    return to_polyhedron(ball.cell);
+  }
+
+  static int splits(const Rational& n, const std::string& option) {
+    if (n.get_den() != 1 || n < 1 || n > 64) {
+      throw InputError(option + " R,N: N is a whole number from 1 to 64, not " + to_string(n));
     }
+    return static_cast<int>(n.get_num().get_si());
+  }
+
+  Polyhedron second_operand() {
+    if (!a_.ball.empty()) return ball_tool();
     if (!a_.box_tool.empty()) {
       const std::vector<Rational> n = parse_numbers(a_.box_tool, 3, "--box-tool");
       return to_polyhedron(box_tool({n[0], n[1], n[2]}));
@@ -108,26 +106,129 @@ class Task {
     return load(a_.operands[1]);
   }
 
-  MinkowskiOptions options(ProgressBar& bar) const {
-    MinkowskiOptions options;
-    options.threads = a_.threads;
-    options.strategy = strategy(a_);
-    options.progress = [&bar](std::size_t done, std::size_t all) {
+  Polyhedron compute() {
+    ProgressBar bar(!a_.quiet);
+    options_.progress = [&bar](std::size_t done, std::size_t all) {
       bar.show("pairs of cells", done, all);
       return true;
     };
-    return options;
+    switch (task_) {
+      case Task::kConfigurationSpace:
+        return free_space();
+      case Task::kReach:
+        return reached();
+      case Task::kOffset:
+      case Task::kSweep:
+      case Task::kHull:
+        return of_one();
+      default:
+        return of_two();
+    }
   }
 
-  Polyhedron sum() {
+  Polyhedron first_operand() {
     Polyhedron a = load(a_.operands[0]);
-    Polyhedron b = second_operand();
     if (a_.open_a) a = interior(a);
+    shown_.emplace_back("a", a);
+    return a;
+  }
+
+  Polyhedron of_one() {
+    const Polyhedron a = first_operand();
+    if (task_ == Task::kHull) return minkowski::hull(a);
+    if (task_ == Task::kSweep) {
+      std::vector<Rational3> path;
+      for (const std::string& point : a_.sweep) path.push_back(parse_triple(point, "--sweep"));
+      return sweep(a, path, options_, &report_);
+    }
+    const bool fine = a_.offset.find(',') != std::string::npos;
+    const std::vector<Rational> numbers = parse_numbers(a_.offset, fine ? 2 : 1, "--offset");
+    const int n = fine ? splits(numbers[1], "--offset") : 8;
+    const Side side = a_.inner ? Side::kInner : Side::kOuter;
+    if (sgn(numbers[0]) != 0) {
+      const Side of_ball = (sgn(numbers[0]) > 0) == (side == Side::kInner) ? Side::kInner : Side::kOuter;
+      details_["offset"] = {{"radius", to_string(numbers[0])},
+                            {"side", side == Side::kInner ? "inner" : "outer"},
+                            {"error", to_string(ball_approximation(abs(numbers[0]), n, of_ball).error)}};
+    }
+    return offset(a, numbers[0], n, side, options_, &report_);
+  }
+
+  std::pair<Polyhedron, Polyhedron> both_operands() {
+    Polyhedron a = first_operand();
+    Polyhedron b = second_operand();
+    if (a_.hull_b) b = minkowski::hull(b);
     if (a_.open_b) b = interior(b);
     if (a_.negate_b) b = negate(b);
-    shown_ = {{"a", a}, {"b", b}};
-    ProgressBar bar(!a_.quiet);
-    return minkowski_sum(a, b, options(bar), &report_);
+    shown_.emplace_back("b", b);
+    return {std::move(a), std::move(b)};
+  }
+
+  Polyhedron of_two() {
+    const auto [a, b] = both_operands();
+    Polyhedron result = combined(a, b);
+    if (report_.cells_b > 1 && !a_.quiet) {
+      if (const std::optional<Rational> excess = excess_of_hull(b)) {
+        show({"B is convex but for " + scientific(*excess) + " of its volume, so it was cut into " +
+              std::to_string(report_.cells_b) + " cells; --hull-b takes its hull, which holds it and is one"});
+      }
+    }
+    return result;
+  }
+
+  Polyhedron combined(const Polyhedron& a, const Polyhedron& b) {
+    switch (task_) {
+      case Task::kErode:
+        return erode(a, b, options_, &report_);
+      case Task::kOpen:
+        return opening(a, b, options_, &report_);
+      case Task::kClose:
+        return closing(a, b, options_, &report_);
+      case Task::kNoFit:
+        return no_fit_set(a, b, options_, &report_);
+      default:
+        return minkowski_sum(a, b, options_, &report_);
+    }
+  }
+
+  static std::string scientific(const Rational& value) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.0e", nearest_double(value));
+    return text.data();
+  }
+
+  void tell_penetration() {
+    const auto [a, b] = both_operands();
+    const Penetration p = penetration(a, b, options_, &report_);
+    const bool overlap = p.kind == Penetration::Kind::kOverlapping;
+    const std::string kind = overlap ? "overlapping" : p.kind == Penetration::Kind::kTouching ? "touching" : "disjoint";
+    Json object = base_report();
+    object["penetration"] = {{"kind", kind},
+                             {"translation", point_json(p.translation)},
+                             {"squared_length", to_string(p.squared_length)},
+                             {"length", std::sqrt(nearest_double(p.squared_length))}};
+    print_report(object);
+    if (a_.quiet || a_.json) return;
+    std::cout << kind;
+    if (p.kind != Penetration::Kind::kTouching) {
+      std::cout << ": move B by " << point_text(p.translation) << (overlap ? " to separate them" : " to contact")
+                << " (" << std::sqrt(nearest_double(p.squared_length)) << ")";
+    }
+    std::cout << "\n";
+  }
+
+  Polyhedron reached() {
+    const Polyhedron tool = load(a_.operands[0]);
+    const Polyhedron part = load(a_.operands[1]);
+    std::optional<Rational3> from;
+    if (!a_.from.empty()) from = parse_triple(a_.from, "--from");
+    const Reach found = reach(tool, part, from, options_, &report_);
+    shown_ = {{"tool", tool}, {"part", part}, {"touched", found.touched}, {"untouched", found.untouched}};
+    if (!a_.touched.empty()) store(a_.touched, found.touched);
+    if (!a_.untouched.empty()) store(a_.untouched, found.untouched);
+    details_["touched_area"] = surface_area(found.touched);
+    details_["untouched_area"] = surface_area(found.untouched);
+    return found.positions;
   }
 
   Polyhedron free_space() {
@@ -137,21 +238,19 @@ class Task {
     shown_ = {{"robot", robot}, {"obstacles", a_.preview.empty() ? Polyhedron() : unite_all(obstacles, a_.threads)}};
     std::optional<std::array<Rational3, 2>> box;
     if (!a_.box.empty()) {
-      const std::vector<Rational> low = parse_numbers(a_.box[0], 3, "--box");
-      const std::vector<Rational> high = parse_numbers(a_.box[1], 3, "--box");
+      const Rational3 low = parse_triple(a_.box[0], "--box");
+      const Rational3 high = parse_triple(a_.box[1], "--box");
       for (std::size_t i = 0; i < 3; ++i) {
         if (low[i] <= high[i]) continue;
         throw InputError("--box: give the lower corner first; " + to_string(low[i]) + " exceeds " + to_string(high[i]));
       }
-      box = {Rational3{low[0], low[1], low[2]}, Rational3{high[0], high[1], high[2]}};
+      box = {low, high};
     }
-    ProgressBar bar(!a_.quiet);
-    return minkowski::configuration_space(robot, obstacles, box, options(bar), &report_);
+    return minkowski::configuration_space(robot, obstacles, box, options_, &report_);
   }
 
   void decompose_operand() {
-    Polyhedron a = load(a_.operands[0]);
-    if (a_.open_a) a = interior(a);
+    const Polyhedron a = first_operand();
     const Stopwatch watch;
     const std::vector<ConvexCell> cells = decompose(a);
     report_.seconds_decomposition = report_.seconds_total = watch.seconds();
@@ -177,12 +276,19 @@ class Task {
   }
 
   [[nodiscard]] Json report(const Polyhedron& result) const {
+    Json object = base_report();
+    object["result"] = info_json(result);
+    return object;
+  }
+
+  [[nodiscard]] Json base_report() const {
     Json object;
-    object["command"] = a_.decompose ? "decompose" : a_.configuration_space ? "configuration-space" : "sum";
+    object["command"] = name(task_);
     object["union"] = a_.union_name;
     object["cells"] = {report_.cells_a, report_.cells_b};
     object["pairs"] = report_.pairs;
     object["pairs_dropped"] = report_.pairs_dropped;
+    object["united"] = {{"at_once", report_.united_at_once}, {"two_by_two", report_.united_two_by_two}};
     object["phases"] = {{"load_s", load_s_},
                         {"decomposition_s", report_.seconds_decomposition},
                         {"convex_sums_s", report_.seconds_convex_sums},
@@ -193,7 +299,7 @@ class Task {
                             {"convex_sums", predicates_json(report_.predicates_convex_sums)},
                             {"union", predicates_json(report_.predicates_union)}};
     object["peak_memory_bytes"] = peak_memory_bytes();
-    object["result"] = info_json(result);
+    for (const auto& [key, value] : details_.items()) object[key] = value;
     return object;
   }
 
@@ -205,7 +311,10 @@ class Task {
   }
 
   const Arguments& a_;
+  Task task_;
+  MinkowskiOptions options_;
   MinkowskiReport report_;
+  Json details_ = Json::object();                          // of the task, for the report
   std::vector<std::pair<std::string, Polyhedron>> shown_;  // for the preview
   double load_s_ = 0;
   double write_s_ = 0;
@@ -213,9 +322,6 @@ class Task {
 
 }  // namespace
 
-void run(const Arguments& arguments) {
-  check(arguments);
-  Task(arguments).run();
-}
+void run(const Arguments& arguments) { Run(arguments, check(arguments)).run(); }
 
 }  // namespace nef::minkowski

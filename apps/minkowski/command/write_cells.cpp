@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <set>
 
 #include "nef/io/file_bytes.h"
 #include "nef/io/polyhedron_file.h"
@@ -100,6 +101,21 @@ std::string cell_path(const std::string& directory, std::size_t cell, const std:
   return (std::filesystem::path(directory) / ("cell_" + digits + "." + format)).string();
 }
 
+// A cell of an earlier run, of whatever format, that this one would leave among its own; empty if there is none.
+std::string stale_cell(const std::string& directory, std::size_t cells, const std::string& format) {
+  std::set<std::string> written;
+  for (std::size_t i = 0; i < cells; ++i) written.insert(cell_path(directory, i, format));
+  std::string first;
+  for (const auto& entry : std::filesystem::directory_iterator(directory)) {
+    const std::string name = entry.path().filename().string();
+    const std::string extension = entry.path().extension().string();
+    const bool is_format = extension == ".off" || extension == ".ply" || extension == ".obj" || extension == ".nef";
+    if (name.rfind("cell_", 0) != 0 || !is_format || written.count(entry.path().string()) > 0) continue;
+    if (first.empty() || name < first) first = name;
+  }
+  return first;
+}
+
 }  // namespace
 
 void write_cells(const std::string& path, std::span<const ConvexCell> cells, const std::string& format, bool exact,
@@ -118,8 +134,8 @@ void write_cells(const std::string& path, std::span<const ConvexCell> cells, con
   std::error_code error;
   std::filesystem::create_directories(path, error);
   if (error) throw InputError(path + ": the directory cannot be made (" + error.message() + ")");
-  if (std::filesystem::exists(cell_path(path, cells.size(), format))) {
-    throw InputError(path + ": holds more cells, of an earlier run; empty it or name another directory");
+  if (const std::string stale = stale_cell(path, cells.size(), format); !stale.empty()) {
+    throw InputError(path + ": holds " + stale + " of an earlier run; empty it or name another directory");
   }
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const std::string file = cell_path(path, i, format);

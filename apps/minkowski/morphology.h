@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Mathematical morphology [Serra 1982] and what else is made of Minkowski sums: erosion, opening, closing, offsets with
+// certified balls, sweeps, hulls, penetration, no-fit sets, accessibility. Everything is exact; where the answer of a
+// question is no polyhedron (an offset by a round ball), there are two that enclose it.
+//
+// Sets are any Nef polyhedra, open, closed or neither, unless a function says otherwise. `options` and `report` are
+// those of the sums that are taken (see minkowski.h); times and counts add up over them.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "apps/minkowski/minkowski.h"
+
+namespace nef::minkowski {
+
+/// A eroded by B: all x with x + B in A, which is the complement of complement(A) + -B. Everything if B is empty. For a
+/// bounded A it costs what a sum of bounded sets does.
+Polyhedron erode(const Polyhedron& a, const Polyhedron& b, const MinkowskiOptions& options = {},
+                 MinkowskiReport* report = nullptr);
+
+/// (A eroded by B) + B: the union of all translates of B that lie in A. B must not be empty (InputError).
+Polyhedron opening(const Polyhedron& a, const Polyhedron& b, const MinkowskiOptions& options = {},
+                   MinkowskiReport* report = nullptr);
+
+/// (A + B) eroded by B: what no translate of -B reaches that misses A. Holds A. B must not be empty (InputError).
+Polyhedron closing(const Polyhedron& a, const Polyhedron& b, const MinkowskiOptions& options = {},
+                   MinkowskiReport* report = nullptr);
+
+/// On which side of an exact answer that is no polyhedron a polyhedron is.
+enum class Side : std::uint8_t { kInner, kOuter };
+
+/// A polyhedral ball about the origin, inside of the round one of its radius (vertices on the sphere) or around it.
+struct BallApproximation {
+  ConvexCell cell;
+  Rational error;  ///< at least the greatest distance of a point of either surface to the other one
+};
+
+/// An octahedron whose edges are split into `splits` parts, every vertex put exactly onto the sphere (kInner), and
+/// scaled by the least multiple of 2^-20 for which all facets are surely outside of it (kOuter): 4 splits^2 + 2
+/// vertices, the error falls with the square of `splits`. Rational, symmetric under sign changes of coordinates. Throws
+/// InputError unless radius > 0 and 1 <= splits <= 64.
+BallApproximation ball_approximation(const Rational& radius, int splits, Side side);
+
+/// A set that lies inside (kInner) or around (kOuter) the offset of A by a radius: A + a closed ball for radius > 0, A
+/// eroded by one for radius < 0, A itself for 0. The true offset lies between the two, and both are within `error` (see
+/// ball_approximation) of it in this sense: each is the offset with a ball whose radius is off by at most that.
+Polyhedron offset(const Polyhedron& a, const Rational& radius, int splits, Side side,
+                  const MinkowskiOptions& options = {}, MinkowskiReport* report = nullptr);
+
+/// What A passes over as it moves along a polyline of at least one point: A + the polyline.
+Polyhedron sweep(const Polyhedron& a, std::span<const Rational3> path, const MinkowskiOptions& options = {},
+                 MinkowskiReport* report = nullptr);
+
+/// The convex hull of a bounded set, with its marks: the hull of an open set is open, that of a box without a corner
+/// lacks it. O(n log n) expected for closed sets, an intersection for each face of the hull otherwise. Throws
+/// UnsupportedError for unbounded sets.
+Polyhedron hull(const Polyhedron& a);
+
+/// By how much the hull of a set exceeds it, if that is next to nothing: at most 10^-9 of the hull's volume, but not
+/// zero. That is what a convex solid looks like whose coordinates were rounded; taking its hull instead, which holds
+/// it, makes sums fast. Nothing for other sets. O(n log n) expected.
+std::optional<Rational> excess_of_hull(const Polyhedron& a);
+
+/// How two bounded sets stand to each other; their closures and interiors decide.
+struct Penetration {
+  enum class Kind : std::uint8_t {
+    kDisjoint,  ///< the closures have no point in common
+    kTouching,  ///< the closures have, the interiors have not
+    kOverlapping
+  };
+  Kind kind = Kind::kDisjoint;
+  /// The shortest translation of B (one of them) after which they touch: 0 if they do so already; the way out if they
+  /// overlap, the way to contact if they are disjoint. Exact.
+  Rational3 translation;
+  Rational squared_length;
+};
+
+/// From the boundary of A + -B next to the origin: the nearest point of a facet's plane, an edge's line, or a vertex.
+/// Throws InputError if one is empty, UnsupportedError if one is unbounded.
+Penetration penetration(const Polyhedron& a, const Polyhedron& b, const MinkowskiOptions& options = {},
+                        MinkowskiReport* report = nullptr);
+
+/// The no-fit set: all translations t for which A and B + t touch without overlap, (cl A + -cl B) \ (int A + -int B).
+/// Facets, edges and points; slots that B fits exactly are among them.
+Polyhedron no_fit_set(const Polyhedron& a, const Polyhedron& b, const MinkowskiOptions& options = {},
+                      MinkowskiReport* report = nullptr);
+
+/// Where a tool can go, and what it can touch there.
+struct Reach {
+  Polyhedron positions;  ///< of the tool's reference point (the origin): connected free positions, closed
+  Polyhedron touched;    ///< the part of the boundary of the part that the tool touches at one of them
+  Polyhedron untouched;  ///< the rest of that boundary
+};
+
+/// The free positions of a translating tool outside of a part that are connected to infinity, or to `from`, and what of
+/// the part's boundary the closed tool touches there. Contact is free, passages as wide as the tool are passages. Both
+/// sets must be bounded (UnsupportedError). Throws InputError if the tool is empty or `from` is not free.
+Reach reach(const Polyhedron& tool, const Polyhedron& part, const std::optional<Rational3>& from = std::nullopt,
+            const MinkowskiOptions& options = {}, MinkowskiReport* report = nullptr);
+
+/// The connected component of a set that holds a point, empty if the set does not hold it; without a point, the
+/// component of what lies beyond all finite points (empty for bounded sets; for sets that leave the finite by several
+/// ways, all of these). Connected means: by paths within the set, passages of dimension 1 and 0 included. O(n log n).
+Polyhedron component_of(const Polyhedron& a, const std::optional<Rational3>& point);
+
+}  // namespace nef::minkowski

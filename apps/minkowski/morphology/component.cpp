@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Two items of a set are connected directly if one lies in the boundary of the other. Every such pair but a facet and
+// the volumes beside it meets at a vertex, and the sphere maps there tell all of them.
+#include <algorithm>
+#include <vector>
+
+#include "apps/minkowski/morphology.h"
+#include "nef/base/union_find.h"
+
+namespace nef::minkowski {
+namespace {
+
+constexpr LabelId kIn = 1;
+constexpr LabelId kElsewhere = 2;  // in the set, but not in the component
+
+// Connects the items of a set.
+class Connection {
+ public:
+  explicit Connection(const Complex& c)
+      : c_(c),
+        first_edge_(c.vertex_count()),
+        first_facet_(first_edge_ + c.svertices.size()),
+        first_volume_(first_facet_ + c.facet_count()),
+        sets_(first_volume_ + c.volume_count()) {
+    for (std::uint32_t v = 0; v < c.vertex_count(); ++v) connect_at(v);
+    for (std::uint32_t f = 0; f < c.facet_count(); ++f) {
+      for (const std::uint32_t volume : {c.facets[f].volume_above, c.facets[f].volume_below}) {
+        join(of_facet(f), of_volume(volume));
+      }
+    }
+  }
+
+  // Numbers of items.
+  [[nodiscard]] std::uint32_t of_vertex(std::uint32_t v) const { return v; }
+  [[nodiscard]] std::uint32_t of_edge(std::uint32_t halfedge) const {
+    return static_cast<std::uint32_t>(first_edge_ + std::min(halfedge, c_.twin[halfedge]));
+  }
+  [[nodiscard]] std::uint32_t of_facet(std::uint32_t f) const { return static_cast<std::uint32_t>(first_facet_ + f); }
+  [[nodiscard]] std::uint32_t of_volume(std::uint32_t v) const { return static_cast<std::uint32_t>(first_volume_ + v); }
+
+  [[nodiscard]] bool is_selected(std::uint32_t item) const {
+    if (item < first_edge_) return c_.vertices[item].mark == kIn;
+    if (item < first_facet_) return c_.svertices[item - first_edge_].mark == kIn;
+    if (item < first_volume_) return c_.facets[item - first_facet_].mark == kIn;
+    return c_.volumes[item - first_volume_].mark == kIn;
+  }
+  std::uint32_t component(std::uint32_t item) { return sets_.find(item); }
+
+  // Calls visit for all items of the sphere map of a vertex.
+  template <typename Visit>
+  void for_each_at(std::uint32_t v, Visit&& visit) const {
+    visit(of_vertex(v));
+    for (std::uint32_t h = c_.vertices[v].svertices; h < c_.vertices[v + 1].svertices; ++h) visit(of_edge(h));
+    for (std::uint32_t e = c_.vertices[v].shalfedges; e < c_.vertices[v + 1].shalfedges; ++e) {
+      visit(of_facet(c_.shalfedge_facet[e] >> 1U));
+    }
+    for (std::uint32_t l = c_.vertices[v].sloops; l < c_.vertices[v + 1].sloops; ++l) {
+      visit(of_facet(c_.sloop_facet[l] >> 1U));
+    }
+    for (std::uint32_t f = c_.vertices[v].sfaces; f < c_.vertices[v + 1].sfaces; ++f) {
+      visit(of_volume(c_.sface_volume(f)));
+    }
+  }
+
+ private:
+  void join(std::uint32_t x, std::uint32_t y) {
+    if (is_selected(x) && is_selected(y)) sets_.unite(x, y);
+  }
+
+  void connect_at(std::uint32_t v) {
+    for_each_at(v, [&](std::uint32_t item) { join(of_vertex(v), item); });
+    for (std::uint32_t e = c_.vertices[v].shalfedges; e < c_.vertices[v + 1].shalfedges; ++e) {
+      const std::uint32_t edge = of_edge(c_.corner_halfedge(e));
+      join(edge, of_facet(c_.shalfedge_facet[e] >> 1U));
+      join(edge, of_volume(c_.sface_volume(c_.shalfedge_sface(e))));
+    }
+    for (std::uint32_t h = c_.vertices[v].svertices; h < c_.vertices[v + 1].svertices; ++h) {
+      const SVertex& sv = c_.svertices[h];
+      if (sv.out == kNone) join(of_edge(h), of_volume(c_.sface_volume(c_.vertices[v].sfaces + sv.sface)));
+    }
+  }
+
+  const Complex& c_;
+  std::size_t first_edge_, first_facet_, first_volume_;
+  UnionFind sets_;
+};
+
+std::uint32_t item_at(const Polyhedron& a, const Connection& connection, const Rational3& point) {
+  const Location at = locate(a, point);
+  switch (at.kind) {
+    case Location::Kind::kVertex:
+      return connection.of_vertex(at.index);
+    case Location::Kind::kEdge:
+      return connection.of_edge(at.index);
+    case Location::Kind::kFacet:
+      return connection.of_facet(at.index);
+    default:
+      return connection.of_volume(at.index);
+  }
+}
+
+// The same items, those of the set that are not to be kept labelled kElsewhere.
+Complex labelled(const Complex& original, const Connection& connection, const std::vector<std::uint8_t>& kept) {
+  Complex c = original;
+  const auto mark = [&](LabelId& label, std::uint32_t item) {
+    if (label == kIn && kept[item] == 0) label = kElsewhere;
+  };
+  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
+    mark(c.vertices[v].mark, connection.of_vertex(v));
+    for (std::uint32_t f = c.vertices[v].sfaces; f < c.vertices[v + 1].sfaces; ++f) {
+      mark(c.sfaces[f].mark, connection.of_volume(original.sface_volume(f)));
+    }
+  }
+  for (std::uint32_t h = 0; h < c.svertices.size(); ++h) mark(c.svertices[h].mark, connection.of_edge(h));
+  for (std::uint32_t e = 0; e < c.shalfedges.size(); ++e) {
+    mark(c.shalfedges[e].mark, connection.of_facet(c.shalfedge_facet[e] >> 1U));
+  }
+  for (std::uint32_t l = 0; l < c.sloops.size(); ++l) {
+    mark(c.sloops[l].mark, connection.of_facet(c.sloop_facet[l] >> 1U));
+  }
+  for (std::uint32_t f = 0; f < c.facet_count(); ++f) mark(c.facets[f].mark, connection.of_facet(f));
+  for (std::uint32_t v = 0; v < c.volume_count(); ++v) mark(c.volumes[v].mark, connection.of_volume(v));
+  c.label_count = 3;
+  return c;
+}
+
+}  // namespace
+
+Polyhedron component_of(const Polyhedron& a, const std::optional<Rational3>& point) {
+  const Complex& c = a.complex();
+  Connection connection(c);
+  const std::size_t items = c.vertex_count() + c.svertices.size() + c.facet_count() + c.volume_count();
+  std::vector<std::uint8_t> wanted(items, 0);  // per representative
+  bool any = false;
+  const auto want = [&](std::uint32_t item) {
+    if (!connection.is_selected(item)) return;
+    wanted[connection.component(item)] = 1;
+    any = true;
+  };
+  if (point) {
+    want(item_at(a, connection, *point));
+  } else {
+    want(connection.of_volume(0));
+    for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
+      if (!c.points.finite(PointId(v))) connection.for_each_at(v, want);
+    }
+  }
+  if (!any) return {};
+  std::vector<std::uint8_t> kept(items, 0);
+  for (std::uint32_t item = 0; item < items; ++item) kept[item] = wanted[connection.component(item)];
+  return overlay(Polyhedron(labelled(c, connection, kept)), Polyhedron::everything(),
+                 [](LabelId own, LabelId) -> LabelId { return own == kElsewhere ? 0 : own; });
+}
+
+}  // namespace nef::minkowski

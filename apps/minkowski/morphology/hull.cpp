@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vector>
+
+#include "apps/minkowski/decomposition/decomposition.h"
+#include "apps/minkowski/morphology.h"
+#include "nef/construct/construct.h"
+
+namespace nef::minkowski {
+namespace {
+
+std::vector<Rational3> vertices_of(const Polyhedron& a) {
+  const Complex& c = a.complex();
+  std::vector<Rational3> points;
+  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) points.push_back(c.points.rational(PointId(v)));
+  return points;
+}
+
+// The proper faces of largest dimension of a convex cell, as the points that span them.
+std::vector<std::vector<Rational3>> facets_of(const ConvexCell& cell) {
+  const std::vector<Rational3>& v = cell.mesh.vertices;
+  std::vector<std::vector<Rational3>> result;
+  if (cell.dimension == 1) return {{v[0]}, {v[1]}};
+  for (std::size_t f = 0; f < cell.mesh.face_count(); ++f) {
+    const auto face = cell.mesh.face(f);
+    std::vector<Rational3> ring;
+    for (const std::uint32_t i : face) ring.push_back(v[i]);
+    if (cell.dimension == 3) {
+      result.push_back(std::move(ring));
+      continue;
+    }
+    for (std::size_t k = 0; k < ring.size(); ++k) result.push_back({ring[k], ring[(k + 1) % ring.size()]});
+  }
+  return result;
+}
+
+}  // namespace
+
+// The relative interior of the closure's hull belongs to the hull of the set. What belongs of a face F of the closure's
+// hull is the hull of what the set has in F.
+Polyhedron hull(const Polyhedron& a) {
+  require_bounded(a, "the set whose hull is asked for");
+  if (a.is_empty()) return a;
+  const std::vector<Rational3> points = vertices_of(a);
+  const ConvexCell cell = hull_cell(points);
+  if (cell.dimension == 0 || a.is_closed()) return to_polyhedron(cell);
+  if (cell.dimension == 3 && a.is_open()) return to_polyhedron(opened(cell));
+  std::vector<Polyhedron> parts = {to_polyhedron(opened(cell))};
+  for (const std::vector<Rational3>& facet : facets_of(cell)) {
+    parts.push_back(hull(intersect(a, convex_hull(facet))));
+  }
+  return unite_all(parts);
+}
+
+std::optional<Rational> excess_of_hull(const Polyhedron& a) {
+  if (!a.is_bounded() || a.is_empty()) return std::nullopt;
+  const std::optional<Rational> own = volume(a);
+  const std::optional<Rational> of_hull = volume(to_polyhedron(hull_cell(vertices_of(a))));
+  if (!own || !of_hull || sgn(*of_hull) == 0) return std::nullopt;
+  const Rational excess = (*of_hull - *own) / *of_hull;
+  if (sgn(excess) == 0 || excess * 1000000000 > 1) return std::nullopt;
+  return excess;
+}
+
+}  // namespace nef::minkowski

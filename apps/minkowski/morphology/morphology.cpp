@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/minkowski/morphology.h"
+
+#include "apps/minkowski/decomposition/decomposition.h"
+#include "nef/base/error.h"
+#include "nef/construct/construct.h"
+
+namespace nef::minkowski {
+namespace {
+
+void require_tool(const Polyhedron& b) {
+  if (b.is_empty()) throw InputError("the structuring set B is empty: nothing can be opened or closed with it");
+}
+
+}  // namespace
+
+Polyhedron erode(const Polyhedron& a, const Polyhedron& b, const MinkowskiOptions& options, MinkowskiReport* report) {
+  return complement(minkowski_sum(complement(a), negate(b), options, report));
+}
+
+Polyhedron opening(const Polyhedron& a, const Polyhedron& b, const MinkowskiOptions& options, MinkowskiReport* report) {
+  require_tool(b);
+  return minkowski_sum(erode(a, b, options, report), b, options, report);
+}
+
+Polyhedron closing(const Polyhedron& a, const Polyhedron& b, const MinkowskiOptions& options, MinkowskiReport* report) {
+  require_tool(b);
+  return erode(minkowski_sum(a, b, options, report), b, options, report);
+}
+
+Polyhedron offset(const Polyhedron& a, const Rational& radius, int splits, Side side, const MinkowskiOptions& options,
+                  MinkowskiReport* report) {
+  if (sgn(radius) == 0) return a;
+  // Eroding by more leaves less: the inner set of an erosion takes the outer ball.
+  const bool grows = sgn(radius) > 0;
+  const Side of_ball = grows == (side == Side::kInner) ? Side::kInner : Side::kOuter;
+  const Polyhedron ball = to_polyhedron(ball_approximation(abs(radius), splits, of_ball).cell);
+  return grows ? minkowski_sum(a, ball, options, report) : erode(a, ball, options, report);
+}
+
+Polyhedron sweep(const Polyhedron& a, std::span<const Rational3> path, const MinkowskiOptions& options,
+                 MinkowskiReport* report) {
+  if (path.empty()) throw InputError("a sweep needs a path of at least one point");
+  std::vector<Polyhedron> way = {make_point(path[0])};
+  for (std::size_t k = 1; k < path.size(); ++k) way.push_back(make_segment(path[k - 1], path[k]));
+  return minkowski_sum(a, unite_all(way), options, report);
+}
+
+Polyhedron no_fit_set(const Polyhedron& a, const Polyhedron& b, const MinkowskiOptions& options,
+                      MinkowskiReport* report) {
+  const Polyhedron turned = negate(b);
+  const Polyhedron contact = minkowski_sum(closure(a), closure(turned), options, report);
+  return subtract(contact, minkowski_sum(interior(a), interior(turned), options, report));
+}
+
+}  // namespace nef::minkowski

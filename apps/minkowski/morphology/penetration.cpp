@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <vector>
+
+#include "apps/minkowski/decomposition/decomposition.h"
+#include "apps/minkowski/morphology.h"
+#include "nef/base/error.h"
+
+namespace nef::minkowski {
+namespace {
+
+struct Candidate {
+  Rational squared_length;
+  Rational3 point;
+};
+
+Rational dot(const Rational3& a, const Rational3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+Rational3 times(const Rational& s, const Rational3& a) {
+  return {Rational(s * a[0]), Rational(s * a[1]), Rational(s * a[2])};
+}
+
+// The points of the planes of facets, of the lines of edges, and of vertices that are nearest to the origin. The point
+// of the boundary that is nearest to it is one of them.
+std::vector<Candidate> candidates(const Complex& c) {
+  std::vector<Candidate> result;
+  const auto add = [&](Rational3 p) {
+    Rational square = dot(p, p);
+    result.push_back({std::move(square), std::move(p)});
+  };
+  std::vector<PlaneId> planes;
+  for (const Facet& f : c.facets) planes.push_back(f.plane);
+  std::sort(planes.begin(), planes.end());
+  planes.erase(std::unique(planes.begin(), planes.end()), planes.end());
+  for (const PlaneId plane : planes) {
+    Rational3 n;
+    for (std::size_t i = 0; i < 3; ++i) n[i] = Rational(c.planes.oriented_coefficient(plane, i));
+    add(times(-Rational(c.planes.oriented_coefficient(plane, 3)) / dot(n, n), n));
+  }
+  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) add(c.points.rational(PointId(v)));
+  for (std::uint32_t h = 0; h < c.svertices.size(); ++h) {
+    if (h > c.twin[h]) continue;
+    const Rational3& p = result[planes.size() + c.svertex_owner[h]].point;
+    const Rational3& q = result[planes.size() + c.target(h)].point;
+    const Rational3 d = {Rational(q[0] - p[0]), Rational(q[1] - p[1]), Rational(q[2] - p[2])};
+    const Rational3 along = times(-dot(p, d) / dot(d, d), d);
+    add({Rational(p[0] + along[0]), Rational(p[1] + along[1]), Rational(p[2] + along[2])});
+  }
+  return result;
+}
+
+// The shortest candidate inside (or outside) of a set.
+Candidate shortest(const Polyhedron& set, bool inside) {
+  std::vector<Candidate> all = candidates(set.complex());
+  std::sort(all.begin(), all.end(),
+            [](const Candidate& a, const Candidate& b) { return a.squared_length < b.squared_length; });
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const Candidate& c) { return contains(set, c.point) == inside; });
+  NEF_ASSERT(found != all.end());  // a vertex of a bounded set that is closed, or open
+  return *found;
+}
+
+}  // namespace
+
+Penetration penetration(const Polyhedron& a, const Polyhedron& b, const MinkowskiOptions& options,
+                        MinkowskiReport* report) {
+  if (a.is_empty() || b.is_empty()) throw InputError("one of the two sets is empty: there is nothing to separate");
+  require_bounded(a, "the first set");
+  require_bounded(b, "the second set");
+  const Polyhedron turned = negate(b);
+  Penetration result;
+  const Polyhedron overlapping = minkowski_sum(interior(a), interior(turned), options, report);
+  const Rational3 origin;
+  if (contains(overlapping, origin)) {
+    result.kind = Penetration::Kind::kOverlapping;
+    const Candidate out = shortest(overlapping, false);
+    result.translation = out.point;
+    result.squared_length = out.squared_length;
+    return result;
+  }
+  const Polyhedron contact = minkowski_sum(closure(a), closure(turned), options, report);
+  if (contains(contact, origin)) {
+    result.kind = Penetration::Kind::kTouching;
+    return result;
+  }
+  const Candidate way = shortest(contact, true);
+  result.translation = way.point;
+  result.squared_length = way.squared_length;
+  return result;
+}
+
+}  // namespace nef::minkowski

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/minkowski/decomposition/decomposition.h"
+#include "apps/minkowski/morphology.h"
+#include "nef/base/error.h"
+
+namespace nef::minkowski {
+
+Reach reach(const Polyhedron& tool, const Polyhedron& part, const std::optional<Rational3>& from,
+            const MinkowskiOptions& options, MinkowskiReport* report) {
+  require_bounded(tool, "the tool");
+  require_bounded(part, "the part");
+  const Polyhedron free = configuration_space(tool, {&part, 1}, std::nullopt, options, report);
+  if (from && !contains(free, *from)) {
+    throw InputError("the tool overlaps the part at (" + to_string((*from)[0]) + ", " + to_string((*from)[1]) + ", " +
+                     to_string((*from)[2]) + "): give a free position");
+  }
+  Reach result;
+  result.positions = component_of(free, from);
+  const Polyhedron swept = minkowski_sum(result.positions, closure(tool), options, report);
+  const Polyhedron skin = boundary(part);
+  result.touched = intersect(skin, swept);
+  result.untouched = subtract(skin, swept);
+  return result;
+}
+
+}  // namespace nef::minkowski

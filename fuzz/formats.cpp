@@ -4,9 +4,9 @@
 #include <array>
 
 #include "apps/planner/scene/scene.h"
-#include "apps/visual_hull/scene_json.h"
-#include "apps/visual_hull/scene_text.h"
-#include "apps/visual_hull/vsh.h"
+#include "apps/visual_hull/formats/scene_json.h"
+#include "apps/visual_hull/formats/scene_text.h"
+#include "apps/visual_hull/formats/vsh.h"
 #include "fuzz/fuzzer.h"
 #include "nef/construct/construct.h"
 #include "nef/construct/mesh_check.h"

@@ -246,7 +246,7 @@ void fuzz_silhouettes(const Case& the_case) {
   the_case.count(result.vanished ? "vanished" : result.direct ? "vertex by vertex" : "by cones");
   check_points(the_case, views, half, result);
   if (!result.direct || result.vanished) return;
-  options.direct = false;
+  options.way = visual_hull::Way::kCones;
   Case::require(equal(visual_hull::compute(scene_of(views, half), ".", options).hull, result.hull),
                 "equality: vertex by vertex and by cones differ");
 }

@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The pipeline: masks, contours, a box, cones, intersection.
+// The pipeline: Scene -> Silhouettes -> Box -> Cones -> Hull.
+#include <algorithm>
+#include <cmath>
 #include <mutex>
 
-#include "apps/visual_hull/bounds.h"
-#include "apps/visual_hull/skeleton.h"
+#include "apps/visual_hull/cones/at_least.h"
+#include "apps/visual_hull/cones/bounds.h"
+#include "apps/visual_hull/cones/intersection.h"
+#include "apps/visual_hull/scene/axes.h"
+#include "apps/visual_hull/scene/understanding.h"
+#include "apps/visual_hull/verify/empty_hull.h"
+#include "apps/visual_hull/viewing_edges/direct_hull.h"
 #include "apps/visual_hull/visual_hull.h"
 #include "nef/base/error.h"
 #include "nef/base/parallel.h"
@@ -16,245 +23,377 @@ namespace {
 
 constexpr std::size_t kDirectVertices = 150;  // of all polygons: with fewer the general way is as fast
 
-constexpr std::size_t kDirectViews =
-    16;  // with more, pairs of views are so many that halving them step by step is faster
+// With more views, pairs are so many that halving them step by step is faster.
+constexpr std::size_t kDirectViews = 16;
+
+constexpr std::size_t kFewestViews = 3;  // that are left when suspects are dropped
+
+using Views = std::vector<ViewResult>;
+
+/// What every step needs to know about the run.
+struct Run {
+  const Options& options;
+  const Progress& progress;
+
+  void tell(Phase phase, const std::string& view, std::size_t done, std::size_t total) const {
+    if (progress) progress(phase, view, done, total);
+  }
+
+  /// body(i) for every view, on as many threads as the user allows.
+  void each_view(Phase phase, const Views& views, const std::function<void(std::size_t)>& body) const {
+    std::size_t begun = 0;
+    std::mutex telling;
+    nef::parallel_for(views.size(), options.threads, [&](std::size_t i) {
+      {
+        const std::lock_guard<std::mutex> lock(telling);
+        tell(phase, views[i].name, begun++, views.size());
+      }
+      body(i);
+    });
+  }
+};
+
+// What the command line does not say about masks, the scene does.
+SilhouetteOptions silhouette_options(const Scene& scene, const Options& options) {
+  SilhouetteOptions result = options.silhouette;
+  result.origin = options.origin.value_or(scene.origin);
+  if (!scene.threshold) return result;
+  ThresholdOptions& threshold = result.threshold;
+  if (threshold.kind == ThresholdOptions::Kind::kDefault) {
+    threshold.kind = scene.threshold->kind;
+    threshold.value = scene.threshold->value;
+  }
+  if (threshold.channel == ThresholdOptions::Channel::kGray) threshold.channel = scene.threshold->channel;
+  threshold.invert = threshold.invert || scene.threshold->invert;
+  return result;
+}
 
 struct LoadedMask {
   cv::Mat mask;
   cv::Mat unseen;
 };
 
-class Pipeline {
- public:
-  Pipeline(const Scene& scene, const std::filesystem::path& folder, const Options& options, const Progress& progress)
-      : scene_(scene), folder_(folder), options_(options), silhouette_(options.silhouette), progress_(progress) {
-    if (!scene.threshold) return;
-    // What the command line does not say, the scene does.
-    ThresholdOptions& threshold = silhouette_.threshold;
-    if (threshold.kind == ThresholdOptions::Kind::kDefault) {
-      threshold.kind = scene.threshold->kind;
-      threshold.value = scene.threshold->value;
-    }
-    if (threshold.channel == ThresholdOptions::Channel::kGray) threshold.channel = scene.threshold->channel;
-    threshold.invert = threshold.invert || scene.threshold->invert;
+LoadedMask load_mask(const ViewResult& entry, const View& view, const SilhouetteOptions& options) {
+  LoadedMask loaded;
+  if (entry.image.empty()) return loaded;
+  loaded.mask = read_mask(entry.image, view, options, &loaded.unseen);
+  if (view.size && (view.size->width != loaded.mask.cols || view.size->height != loaded.mask.rows)) {
+    throw nef::InputError("view " + view.name + ": " + entry.image.string() + " has " +
+                          std::to_string(loaded.mask.cols) + " x " + std::to_string(loaded.mask.rows) +
+                          " pixels, but its camera was calibrated for " + std::to_string(view.size->width) + " x " +
+                          std::to_string(view.size->height) + ": scale the image or the intrinsics");
   }
+  return loaded;
+}
 
-  Result run() {
-    timed(result_.phases, Phase::kLoad, [this] { load(); });
-    timed(result_.phases, Phase::kContours, [this] { trace(); });
-    timed(result_.phases, Phase::kCones, [this] {
-      choose_box();
-      make_parts();
+/// Scene -> Silhouettes.
+Views silhouettes_of(const Run& run, const Scene& scene, const std::filesystem::path& folder,
+                     const SilhouetteOptions& options, PhaseReports& phases) {
+  Views views(scene.views.size());
+  std::vector<LoadedMask> masks(scene.views.size());
+  timed(phases, Phase::kLoad, [&] {
+    const std::vector<std::filesystem::path> images = images_of(scene, folder, run.options.images);
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      const View& view = scene.views[i];
+      views[i].name = view.name;
+      views[i].camera = view.camera;
+      views[i].distortion = view.distortion;
+      if (!view.polygons) views[i].image = images[i];
+    }
+    run.each_view(Phase::kLoad, views, [&](std::size_t i) { masks[i] = load_mask(views[i], scene.views[i], options); });
+  });
+  timed(phases, Phase::kContours, [&] {
+    run.each_view(Phase::kContours, views, [&](std::size_t i) {
+      const View& view = scene.views[i];
+      views[i].silhouette = view.polygons ? silhouette_of_polygons(*view.polygons, view.name, options)
+                                          : silhouette_of_mask(masks[i].mask, masks[i].unseen, view.name, options);
+      masks[i] = {};
     });
-    timed(result_.phases, Phase::kIntersection, [this] { intersect(); });
-    if (options_.verify && !result_.vanished) {
-      timed(result_.phases, Phase::kVerify, [this] { verify(); });
+  });
+  return views;
+}
+
+/// Space moved so that the scene lies about the origin, where doubles have digits to spare: at UTM coordinates the
+/// filters of predicates fail thousands of times.
+struct Place {
+  Rational3 shift;  ///< of the origin; zero if the scene is near it
+  std::vector<Camera> cameras;
+
+  [[nodiscard]] bool moved() const { return sgn(shift[0]) != 0 || sgn(shift[1]) != 0 || sgn(shift[2]) != 0; }
+
+  [[nodiscard]] WorldBox inward(WorldBox box) const {
+    for (std::size_t i = 0; i < 3; ++i) {
+      box.low[i] -= shift[i];
+      box.high[i] -= shift[i];
     }
-    return std::move(result_);
+    return box;
   }
-
- private:
-  void tell(Phase phase, const std::string& view, std::size_t done, std::size_t total) const {
-    if (progress_) progress_(phase, view, done, total);
-  }
-
-  // body(i) for every view, on as many threads as the user allows.
-  void each_view(Phase phase, const std::function<void(std::size_t)>& body) const {
-    const std::size_t count = result_.views.size();
-    std::size_t begun = 0;
-    std::mutex telling;
-    nef::parallel_for(count, options_.threads, [&](std::size_t i) {
-      {
-        const std::lock_guard<std::mutex> lock(telling);
-        tell(phase, result_.views[i].name, begun++, count);
-      }
-      body(i);
-    });
-  }
-
-  void load() {
-    find_images();
-    masks_.resize(scene_.views.size());
-    each_view(Phase::kLoad, [this](std::size_t i) {
-      if (result_.views[i].image.empty()) return;
-      masks_[i].mask = read_mask(result_.views[i].image, scene_.views[i], silhouette_, &masks_[i].unseen);
-    });
-  }
-
-  void find_images() {
-    std::vector<std::filesystem::path> images;
-    if (options_.images) {
-      images = list_images(*options_.images);
-      if (images.size() != scene_.views.size()) {
-        throw nef::InputError(options_.images->string() + " holds " + std::to_string(images.size()) +
-                              " images, but the scene has " + std::to_string(scene_.views.size()) + " views");
-      }
+  [[nodiscard]] WorldBox outward(WorldBox box) const {
+    for (std::size_t i = 0; i < 3; ++i) {
+      box.low[i] += shift[i];
+      box.high[i] += shift[i];
     }
-    for (std::size_t i = 0; i < scene_.views.size(); ++i) {
-      const View& view = scene_.views[i];
-      ViewResult entry;
-      entry.name = view.name;
-      entry.camera = view.camera;
-      entry.distortion = view.distortion;
-      if (!view.polygons) {
-        if (images.empty() && view.image.empty()) {
-          throw nef::InputError("view " + view.name + ": the scene names no image; give --images DIR or --silhouette");
-        }
-        entry.image = images.empty() ? find_image(folder_, view.image.string()) : images[i];
-      }
-      result_.views.push_back(std::move(entry));
-    }
+    return box;
   }
-
-  void trace() {
-    each_view(Phase::kContours, [this](std::size_t i) {
-      const View& view = scene_.views[i];
-      result_.views[i].silhouette = view.polygons
-                                        ? silhouette_of_polygons(*view.polygons, view.name, silhouette_)
-                                        : silhouette_of_mask(masks_[i].mask, masks_[i].unseen, view.name, silhouette_);
-      masks_[i] = {};
-    });
-  }
-
-  // The box to look at, and one that is known to hold the hull in its interior if there is one.
-  void choose_box() {
-    const bool given = options_.box || scene_.box;
-    if (given) {
-      result_.box = options_.box ? *options_.box : *scene_.box;
-      check_box(result_.box, "box");
-    }
-    std::vector<HalfSpace> half_spaces;
-    std::size_t vertices = 0;
-    for (const ViewResult& view : result_.views) {
-      if (view.silhouette.background) continue;
-      vertices += view.silhouette.region.vertex_count();
-      const std::vector<HalfSpace> cone = convex_cone(view.camera, view.silhouette.region);
-      half_spaces.insert(half_spaces.end(), cone.begin(), cone.end());
-    }
-    // For a few vertices it is not worth the time.
-    if (given && vertices < kDirectVertices) return;
-    const Bounds bounds = bounds_of(half_spaces);
-    if (bounds.kind == Bounds::Kind::kBox) result_.enclosing = loosen(bounds.box);
-    if (given) return;
-    if (bounds.kind == Bounds::Kind::kUnbounded) {
-      throw nef::InputError("the cones of the views do not bound the scene: give a box with --box x0,y0,z0,x1,y1,z1");
-    }
-    result_.box_found = true;
-    if (bounds.kind == Bounds::Kind::kEmpty) {
-      report_empty_bounds();
-    } else {
-      result_.box = *result_.enclosing;
-    }
-  }
-
-  // The convex hulls of the cones have no common point: find the view that takes the last one.
-  void report_empty_bounds() {
-    std::vector<HalfSpace> half_spaces;
-    for (const ViewResult& view : result_.views) {
-      if (view.silhouette.background) continue;
-      const std::vector<HalfSpace> cone = convex_cone(view.camera, view.silhouette.region);
-      half_spaces.insert(half_spaces.end(), cone.begin(), cone.end());
-      if (bounds_of(half_spaces).kind == Bounds::Kind::kEmpty) {
-        result_.vanished = Vanished{view.name, "its cone has no point in common with what the views before it left"};
-        return;
-      }
-    }
-  }
-
-  void make_parts() {
-    if (result_.vanished) return;
-    parts_.resize(result_.views.size());
-    each_view(Phase::kCones, [this](std::size_t i) {
-      ViewResult& view = result_.views[i];
-      nef::Polyhedron cone = make_cone(view.camera, view.silhouette.region, result_.box);
-      view.cone_facets = nef::counts(cone).facets;
-      if (view.silhouette.background) cone = nef::complement(nef::interior(cone));
-      const auto& row = view.camera.matrix()[2];
-      parts_[i] = {std::move(cone), {row[0], row[1], row[2]}};
-    });
-  }
-
-  // Vertex by vertex, where the views allow that.
-  bool intersect_directly() {
-    std::size_t vertices = 0;
-    std::vector<SkeletonInput> inputs;
-    for (const ViewResult& view : result_.views) {
-      if (view.silhouette.background) return false;
-      vertices += view.silhouette.region.vertex_count();
-      inputs.push_back({&view.camera, &view.silhouette.region});
-    }
-    if (!result_.enclosing || vertices < kDirectVertices || inputs.size() > kDirectViews) return false;
-    for (std::size_t i = 0; i < 3 && !result_.box_found; ++i) {
-      if (result_.enclosing->low[i] <= result_.box.low[i] || result_.enclosing->high[i] >= result_.box.high[i])
-        return false;
-    }
-    tell(Phase::kIntersection, "edges", 0, 1);
-    std::optional<nef::Polyhedron> hull = direct_hull(inputs, *result_.enclosing, options_.threads);
-    if (!hull || hull->is_empty()) return false;  // the general way finds out why
-    result_.hull = std::move(*hull);
-    result_.direct = true;
-    return true;
-  }
-
-  void intersect() {
-    if (result_.vanished || (options_.direct && intersect_directly())) return;
-    const nef::Polyhedron box = nef::make_box(result_.box.low, result_.box.high);
-    std::vector<Part> all = parts_;
-    // A box that was found is larger than what the cones leave, but for views that keep space.
-    bool needed = !result_.box_found;
-    for (const ViewResult& view : result_.views) needed = needed || view.silhouette.background;
-    if (needed) all.push_back({box, {}});
-    result_.hull = intersect_parts(std::move(all), options_.threads, [this](std::size_t done, std::size_t total) {
-      tell(Phase::kIntersection, "", done, total);
-    });
-    if (result_.hull.is_empty()) {
-      const std::size_t view = vanishes_at(parts_, box, false).value_or(parts_.size() - 1);
-      result_.vanished = Vanished{result_.views[view].name, describe(view)};
-    } else if (nef::interior(result_.hull).is_empty()) {
-      const std::size_t view = vanishes_at(parts_, box, true).value_or(parts_.size() - 1);
-      result_.vanished =
-          Vanished{result_.views[view].name, "what it leaves has no volume (only points, edges or facets)"};
-    }
-  }
-
-  std::string describe(std::size_t index) const {
-    const ViewResult& view = result_.views[index];
-    if (sgn(depth_range(view.camera, result_.box).farthest) <= 0) {
-      return "the whole box lies behind its camera (a matrix of the other sign?)";
-    }
-    return "its cone has no point in common with what the views before it left of the box";
-  }
-
-  void verify() {
-    each_view(Phase::kVerify, [this](std::size_t i) {
-      ViewResult& view = result_.views[i];
-      if (!view.silhouette.background) {
-        view.verification = verify_view(result_.hull, view.camera, view.silhouette.region);
-        return;
-      }
-      Verification check;
-      check.inside = nef::subtract(result_.hull, parts_[i].solid).is_empty();
-      if (!check.inside) check.problem = "a part of the hull is seen as background";
-      check.area_known = false;
-      view.verification = check;
-    });
-  }
-
-  const Scene& scene_;
-  std::filesystem::path folder_;
-  const Options& options_;
-  SilhouetteOptions silhouette_;
-  const Progress& progress_;
-  std::vector<LoadedMask> masks_;
-  std::vector<Part> parts_;
-  Result result_;
 };
+
+Place place_of(const Views& views) {
+  Place place;
+  std::vector<Sight> sights;
+  for (const ViewResult& view : views) {
+    place.cameras.push_back(view.camera);
+    sights.push_back(sight_of(view.camera));
+  }
+  const auto point = common_point(sights);
+  if (!point || !point->allFinite()) return place;
+  double distance = 0;
+  for (const Sight& s : sights) distance = std::max(distance, (*point - s.centre).norm());
+  constexpr double kFar = 16;  // times the distance of the cameras; any choice is right
+  if (!(point->cwiseAbs().maxCoeff() > kFar * distance) || !(distance > 0)) return place;
+  const double step = std::exp2(std::floor(std::log2(distance)));
+  for (int i = 0; i < 3; ++i) {
+    place.shift[static_cast<std::size_t>(i)] = nef::exact_rational(std::round((*point)[i] / step) * step);
+  }
+  for (std::size_t i = 0; i < views.size(); ++i) place.cameras[i] = moved(views[i].camera, place.shift);
+  return place;
+}
+
+std::vector<ComparedView> compared(const Views& views, const Place& place) {
+  std::vector<ComparedView> result;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    if (!views[i].silhouette.background) result.push_back({&place.cameras[i], &views[i].silhouette.region});
+  }
+  return result;
+}
+
+std::size_t polygon_vertices(const Views& views) {
+  std::size_t vertices = 0;
+  for (const ViewResult& view : views) {
+    if (!view.silhouette.background) vertices += view.silhouette.region.vertex_count();
+  }
+  return vertices;
+}
+
+/// The box to look at, in the coordinates of the place.
+struct Room {
+  WorldBox box;
+  bool found = false;                 ///< from the cones
+  std::optional<WorldBox> enclosing;  ///< known to hold the hull in its interior
+  bool empty = false;                 ///< the convex hulls of the cones have no common point; the box is a guess
+};
+
+// Around the point that the cameras look at, as far as the farthest of them.
+WorldBox guessed_box(const Place& place) {
+  std::vector<Sight> sights;
+  for (const Camera& camera : place.cameras) sights.push_back(sight_of(camera));
+  const Eigen::Vector3d middle = common_point(sights).value_or(sights[0].centre);
+  double reach = 0;
+  for (const Sight& s : sights) reach = std::max(reach, (middle - s.centre).norm());
+  if (!(reach > 0)) reach = 1;
+  WorldBox box;
+  for (int i = 0; i < 3; ++i) {
+    box.low[static_cast<std::size_t>(i)] = nef::exact_rational(middle[i] - 2 * reach);
+    box.high[static_cast<std::size_t>(i)] = nef::exact_rational(middle[i] + 2 * reach);
+  }
+  return box;
+}
+
+Room room_of(const Scene& scene, const Options& options, const Views& views, const Place& place) {
+  Room room;
+  const bool given = options.box || scene.box;
+  if (given) {
+    const WorldBox& box = options.box ? *options.box : *scene.box;
+    check_box(box, "box");
+    room.box = place.inward(box);
+    // Only the direct way asks for more, and not for a few vertices.
+    if (options.way == Way::kCones || options.at_least) return room;
+    if (options.way == Way::kBest && polygon_vertices(views) < kDirectVertices) return room;
+  }
+  std::vector<HalfSpace> half_spaces;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    if (views[i].silhouette.background) continue;
+    const std::vector<HalfSpace> cone = convex_cone(place.cameras[i], views[i].silhouette.region);
+    half_spaces.insert(half_spaces.end(), cone.begin(), cone.end());
+  }
+  const Bounds bounds = bounds_of(half_spaces);
+  if (bounds.kind == Bounds::Kind::kBox) room.enclosing = loosen(bounds.box);
+  if (given) return room;
+  if (options.at_least) {
+    throw nef::InputError("--at-least needs a box: fewer cones may not bound the scene; give --box x0,y0,z0,x1,y1,z1");
+  }
+  if (bounds.kind == Bounds::Kind::kUnbounded) {
+    throw nef::InputError("the cones of the views do not bound the scene: give a box with --box x0,y0,z0,x1,y1,z1");
+  }
+  room.found = true;
+  room.empty = bounds.kind == Bounds::Kind::kEmpty;
+  room.box = room.empty ? guessed_box(place) : *room.enclosing;
+  return room;
+}
+
+/// Compares the views and, if that is asked for, leaves out the guilty ones. The room is found anew without them.
+void compare(const Run& run, const Scene& scene, Result& result, Place& place, Room& room) {
+  while (true) {
+    const std::vector<ComparedView> views = compared(result.views, place);
+    Consistency found = compare_views(views, room.box, run.options.threads);
+    const bool all = views.size() == result.views.size();
+    if (!all) return;  // views that keep what they do not see are not judged
+    const std::optional<std::size_t> guilty = found.guilty;
+    if (!run.options.drop_suspects || !guilty || result.views.size() <= kFewestViews) {
+      result.consistency = std::move(found);
+      return;
+    }
+    result.dropped.push_back({result.views[*guilty].name, found.views[*guilty], found.share(*guilty)});
+    const auto at = static_cast<std::ptrdiff_t>(*guilty);
+    result.views.erase(result.views.begin() + at);
+    place.cameras.erase(place.cameras.begin() + at);
+    room = room_of(scene, run.options, result.views, place);
+  }
+}
+
+/// Cones, one a view; views that keep what they do not see have the complement of their background.
+std::vector<Part> cones_of(const Run& run, Views& views, const Place& place, const Room& room) {
+  std::vector<Part> parts(views.size());
+  run.each_view(Phase::kCones, views, [&](std::size_t i) {
+    ViewResult& view = views[i];
+    nef::Polyhedron cone = make_cone(place.cameras[i], view.silhouette.region, room.box);
+    view.cone_facets = nef::counts(cone).facets;
+    if (view.silhouette.background) cone = nef::complement(nef::interior(cone));
+    const auto& row = place.cameras[i].matrix()[2];
+    parts[i] = {std::move(cone), {row[0], row[1], row[2]}};
+  });
+  return parts;
+}
+
+/// The hull vertex by vertex, where the views allow that and it is worth it.
+std::optional<nef::Polyhedron> direct(const Run& run, const Views& views, const Place& place, const Room& room) {
+  std::vector<DirectView> inputs;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    if (views[i].silhouette.background) return std::nullopt;
+    inputs.push_back({&place.cameras[i], &views[i].silhouette.region});
+  }
+  if (!room.enclosing) return std::nullopt;
+  const bool worth = polygon_vertices(views) >= kDirectVertices && inputs.size() <= kDirectViews;
+  if (run.options.way == Way::kBest && !worth) return std::nullopt;
+  for (std::size_t i = 0; i < 3 && !room.found; ++i) {
+    if (room.enclosing->low[i] <= room.box.low[i] || room.enclosing->high[i] >= room.box.high[i]) return std::nullopt;
+  }
+  run.tell(Phase::kIntersection, "edges", 0, 1);
+  std::optional<nef::Polyhedron> hull = direct_hull(inputs, *room.enclosing, run.options.threads);
+  if (hull && hull->is_empty()) return std::nullopt;  // the general way finds out why
+  return hull;
+}
+
+/// Cones -> Hull.
+nef::Polyhedron hull_of_parts(const Run& run, const Views& views, const Room& room, const std::vector<Part>& parts) {
+  const nef::Polyhedron box = nef::make_box(room.box.low, room.box.high);
+  if (run.options.at_least) {
+    std::vector<nef::Polyhedron> cones;
+    for (const Part& part : parts) cones.push_back(part.solid);
+    return in_at_least(cones, *run.options.at_least, box);
+  }
+  std::vector<Part> all = parts;
+  // A box that was found is larger than what the cones leave, but for views that keep space.
+  bool needed = !room.found;
+  for (const ViewResult& view : views) needed = needed || view.silhouette.background;
+  if (needed) all.push_back({box, {}});
+  return intersect_parts(std::move(all), run.options.threads, [&run](std::size_t done, std::size_t total) {
+    run.tell(Phase::kIntersection, "", done, total);
+  });
+}
+
+std::string list_of(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+  }
+  return text;
+}
+
+/// Why the hull is empty.
+Vanished explain_empty(const Run& run, const Views& views, const Place& place, const Room& room) {
+  constexpr std::size_t kMostSets = 5;
+  Vanished vanished{views.back().name, "the views have no point in common", {}};
+  const std::vector<ComparedView> plain = compared(views, place);
+  if (run.options.at_least) vanished.reason = "no point lies in so many silhouettes";
+  if (plain.size() < views.size() || run.options.at_least) return vanished;
+  for (const auto& set : views_without_common_point(plain, room.box, kMostSets, run.options.threads)) {
+    std::vector<std::string> names;
+    for (const std::size_t i : set) names.push_back(views[i].name);
+    if (vanished.sets.empty()) {
+      const Camera& camera = place.cameras[set.back()];
+      vanished.view = views[set.back()].name;
+      if (set.size() > 1) {
+        vanished.reason = "views " + list_of(names) + " have no point in common";
+      } else if (sgn(depth_range(camera, room.box).farthest) <= 0) {
+        vanished.reason = "the whole box lies behind its camera (a matrix of the other sign?)";
+      } else {
+        vanished.reason = "it sees nothing of the box";
+      }
+    }
+    vanished.sets.push_back(std::move(names));
+  }
+  return vanished;
+}
+
+/// At which view the last volume went, of a hull that has points, edges or facets only.
+Vanished explain_flat(const Views& views, const Room& room, const std::vector<Part>& parts) {
+  const nef::Polyhedron box = nef::make_box(room.box.low, room.box.high);
+  const std::size_t view = vanishes_at(parts, box, true).value_or(parts.size() - 1);
+  return {views[view].name, "what it leaves has no volume (only points, edges or facets)", {}};
+}
+
+void find_hull(const Run& run, const Place& place, const Room& room, Result& result) {
+  std::vector<Part> parts;
+  const bool try_directly = run.options.way != Way::kCones && !run.options.at_least;
+  if (!room.empty && try_directly) {
+    timed(result.phases, Phase::kIntersection, [&] {
+      if (auto hull = direct(run, result.views, place, room)) {
+        result.hull = std::move(*hull);
+        result.direct = true;
+      }
+    });
+  }
+  if (!result.direct && run.options.way == Way::kDirect) {
+    throw nef::InputError(
+        "--way direct: the views are not in general position (cones that share planes, rings that "
+        "touch, a camera or background in the box, fewer than three views); use --way cones");
+  }
+  if (!result.direct && !room.empty) {
+    timed(result.phases, Phase::kCones, [&] { parts = cones_of(run, result.views, place, room); });
+    timed(result.phases, Phase::kIntersection, [&] { result.hull = hull_of_parts(run, result.views, room, parts); });
+  }
+  timed(result.phases, Phase::kIntersection, [&] {
+    if (result.hull.is_empty()) {
+      result.vanished = explain_empty(run, result.views, place, room);
+    } else if (!result.direct && nef::interior(result.hull).is_empty()) {
+      result.vanished = explain_flat(result.views, room, parts);
+    }
+    if (place.moved()) result.hull = nef::transform(result.hull, nef::AffineMap::translate(place.shift));
+  });
+}
+
+void verify(const Run& run, Result& result) {
+  run.each_view(Phase::kVerify, result.views, [&](std::size_t i) {
+    ViewResult& view = result.views[i];
+    if (!view.silhouette.background) {
+      view.verification = verify_view(result.hull, view.camera, view.silhouette.region);
+      return;
+    }
+    // Nothing of it is seen as background for sure.
+    const nef::Polyhedron seen = nef::interior(make_cone(view.camera, view.silhouette.region, result.box));
+    Verification check;
+    check.inside = nef::intersect(result.hull, seen).is_empty();
+    if (!check.inside) check.problem = "a part of the hull is seen as background";
+    check.area_known = false;
+    view.verification = check;
+  });
+}
 
 }  // namespace
 
 const char* phase_name(Phase phase) {
-  static constexpr std::array<const char*, kPhaseCount> kNames{"load",         "contours", "cones",
-                                                               "intersection", "verify",   "write"};
+  static constexpr std::array<const char*, kPhaseCount> kNames{"load",  "contours",     "box",    "suspects",
+                                                               "cones", "intersection", "verify", "write"};
   return kNames[static_cast<std::size_t>(phase)];
 }
 
@@ -266,7 +405,28 @@ void timed(PhaseReports& reports, Phase phase, const std::function<void()>& work
 
 Result compute(const Scene& scene, const std::filesystem::path& folder, const Options& options,
                const Progress& progress) {
-  return Pipeline(scene, folder, options, progress).run();
+  const Run run{options, progress};
+  Result result;
+  const SilhouetteOptions silhouettes = silhouette_options(scene, options);
+  result.origin = silhouettes.origin;
+  result.views = silhouettes_of(run, scene, folder, silhouettes, result.phases);
+  if (options.at_least && (*options.at_least < 1 || *options.at_least > result.views.size())) {
+    throw nef::InputError("--at-least: from 1 to " + std::to_string(result.views.size()) + ", the number of views");
+  }
+  Place place = place_of(result.views);
+  Room room;
+  timed(result.phases, Phase::kBox, [&] { room = room_of(scene, options, result.views, place); });
+  if (options.suspects || options.drop_suspects) {
+    timed(result.phases, Phase::kSuspects, [&] { compare(run, scene, result, place, room); });
+  }
+  result.box = place.outward(room.box);
+  result.box_found = room.found;
+  if (room.enclosing) result.enclosing = place.outward(*room.enclosing);
+  find_hull(run, place, room, result);
+  if (options.verify && !result.vanished) {
+    timed(result.phases, Phase::kVerify, [&] { verify(run, result); });
+  }
+  return result;
 }
 
 }  // namespace visual_hull

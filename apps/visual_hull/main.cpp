@@ -6,10 +6,11 @@
 #include <opencv2/core/utility.hpp>
 #include <opencv2/core/utils/logger.hpp>
 
-#include "apps/visual_hull/arguments.h"
-#include "apps/visual_hull/overlay.h"
-#include "apps/visual_hull/pictures.h"
-#include "apps/visual_hull/report.h"
+#include "apps/visual_hull/command/arguments.h"
+#include "apps/visual_hull/command/overlay.h"
+#include "apps/visual_hull/command/pictures.h"
+#include "apps/visual_hull/command/report.h"
+#include "apps/visual_hull/scene/understanding.h"
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/polyhedron_file.h"
@@ -23,7 +24,8 @@ using visual_hull::Arguments;
 using visual_hull::Phase;
 
 constexpr int kDone = 0;
-constexpr int kNo = 1;  // the hull is empty or flat, or --verify failed
+constexpr int kBad = 2;  // bad input or usage
+constexpr int kNo = 1;   // the hull is empty or flat, or --verify failed
 
 void complain(const std::string& text) { std::cerr << "visual_hull: " << nef::one_line(text) << "\n"; }
 
@@ -47,14 +49,41 @@ std::string box_text(const visual_hull::WorldBox& box) {
   return text;
 }
 
+// Which view disagrees with the others; without a clear one the first three, without a verdict.
+void tell_suspects(const Arguments& a, const visual_hull::Result& result, std::ostream& say) {
+  if (!a.quiet) {
+    for (const std::string& line : visual_hull::verdict_lines(result)) complain(line);
+  }
+  if (a.quiet || a.json || !result.consistency) return;
+  for (const std::string& line : visual_hull::suspects_table(result)) say << line << "\n";
+}
+
+// What is understood, without a hull.
+int check_scene(const Arguments& a, const visual_hull::Scene& scene) {
+  std::vector<fs::path> images;
+  std::string missing;
+  try {
+    images = visual_hull::images_of(scene, visual_hull::scene_folder(a.scene),
+                                    a.images.empty() ? std::nullopt : std::optional<fs::path>(a.images));
+  } catch (const nef::Error& error) {
+    missing = error.what();
+  }
+  std::cout << visual_hull::understood(scene) << "\n";
+  for (const std::string& line : visual_hull::view_lines(scene, images)) std::cout << line << "\n";
+  if (missing.empty()) return kDone;
+  complain(missing);
+  return kBad;
+}
+
 // Tells people what has come out; the exit code.
-int conclude(const Arguments& a, const visual_hull::Result& result) {
+int conclude(const Arguments& a, const visual_hull::Scene& scene, const visual_hull::Result& result) {
   const bool talk = !a.quiet && !a.json;
   std::ostream& say = a.report == "-" ? std::cerr : std::cout;
+  if (talk) say << visual_hull::understood(scene) << "\n";
   if (talk && result.box_found && !result.vanished) say << "box found: --box=" << box_text(result.box) << "\n";
+  tell_suspects(a, result, say);
   if (result.vanished) {
-    complain(std::string("the hull is ") + (result.hull.is_empty() ? "empty" : "flat") + ": it vanished at view " +
-             result.vanished->view + ": " + result.vanished->reason);
+    complain(visual_hull::vanished_text(result));
     return kNo;
   }
   if (talk) say << visual_hull::summary(result) << "\n";
@@ -73,10 +102,8 @@ int conclude(const Arguments& a, const visual_hull::Result& result) {
 }
 
 // What is asked for, into files. A hull that vanished has pictures of its views only.
-nef::Messages write_files(const Arguments& a, const visual_hull::Options& options, const visual_hull::Result& result,
-                          nef::ProgressBar& bar) {
+nef::Messages write_files(const Arguments& a, const visual_hull::Result& result, nef::ProgressBar& bar) {
   nef::Messages messages;
-  const auto origin = options.silhouette.origin;
   const auto step = [&](const std::string& target, bool solid, const std::function<void()>& write) {
     if (target.empty() || (solid && result.vanished)) return;
     bar.show("write " + target);
@@ -89,9 +116,9 @@ nef::Messages write_files(const Arguments& a, const visual_hull::Options& option
     format.text = a.text;
     nef::write_polyhedron(a.output, result.hull, format, &messages);
   });
-  step(a.overlay, false, [&] { visual_hull::write_overlays(result, origin, a.overlay); });
+  step(a.overlay, false, [&] { visual_hull::write_overlays(result, result.origin, a.overlay); });
   step(a.preview, true, [&] { visual_hull::write_preview(result, a.preview); });
-  step(a.page, true, [&] { visual_hull::write_page(result, origin, a.page); });
+  step(a.page, true, [&] { visual_hull::write_page(result, result.origin, a.page); });
   return messages;
 }
 
@@ -105,18 +132,18 @@ int run(const Arguments& a) {
   check_page_name(a.page);
   nef::ProgressBar bar(!a.quiet);
   const visual_hull::Options options = visual_hull::to_options(a);
-  visual_hull::Scene scene = visual_hull::read_scene(a.scene);
-  visual_hull::take_silhouettes(scene, a.silhouettes);
+  const visual_hull::Scene scene = visual_hull::scene_of(a);
+  if (a.check) return check_scene(a, scene);
   visual_hull::Result result =
       visual_hull::compute(scene, visual_hull::scene_folder(a.scene), options,
                            [&bar](Phase phase, const std::string& view, std::size_t done, std::size_t total) {
                              bar.show(std::string(visual_hull::phase_name(phase)) + " " + view, done, total);
                            });
   nef::Messages messages;
-  visual_hull::timed(result.phases, Phase::kWrite, [&] { messages = write_files(a, options, result, bar); });
+  visual_hull::timed(result.phases, Phase::kWrite, [&] { messages = write_files(a, result, bar); });
   if (!a.report.empty() || a.json) {
     bar.show("write report");
-    const std::string text = visual_hull::make_report(result, messages).dump(2) + "\n";
+    const std::string text = visual_hull::make_report(result, messages, a.exact_volume).dump(2) + "\n";
     bar.clear();
     if (!a.report.empty()) write_text(a.report, text);
     if (a.json && a.report != "-") write_text("-", text);
@@ -125,7 +152,7 @@ int run(const Arguments& a) {
   if (!a.quiet && !a.json) {
     for (const std::string& message : messages) complain("note: " + message);
   }
-  return conclude(a, result);
+  return conclude(a, scene, result);
 }
 
 }  // namespace

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The library: from a scene to its exact visual hull.
+// The library: from a scene to its exact visual hull [Laurentini 1994].
 //
 //   visual_hull::Scene scene = visual_hull::read_scene("scene.json");
 //   visual_hull::Options options;
 //   options.silhouette.simplify.tolerance = 1;
-//   visual_hull::Result result = visual_hull::compute(scene, options);
+//   visual_hull::Result result = visual_hull::compute(scene, visual_hull::scene_folder("scene.json"), options);
 //   nef::write_polyhedron(result.hull, "hull.off");
 #pragma once
 
@@ -16,16 +16,18 @@
 #include <string>
 #include <vector>
 
-#include "apps/visual_hull/hull.h"
-#include "apps/visual_hull/silhouette.h"
-#include "apps/visual_hull/verify.h"
+#include "apps/visual_hull/formats/read_scene.h"
+#include "apps/visual_hull/scene/images.h"
+#include "apps/visual_hull/silhouette/silhouette.h"
+#include "apps/visual_hull/verify/consistency.h"
+#include "apps/visual_hull/verify/verify.h"
 #include "nef/geometry/predicates.h"
 
 namespace visual_hull {
 
 /// The steps of the work, in their order.
-enum class Phase : std::uint8_t { kLoad, kContours, kCones, kIntersection, kVerify, kWrite };
-inline constexpr std::size_t kPhaseCount = 6;
+enum class Phase : std::uint8_t { kLoad, kContours, kBox, kSuspects, kCones, kIntersection, kVerify, kWrite };
+inline constexpr std::size_t kPhaseCount = 8;
 const char* phase_name(Phase phase);
 
 /// Time and answers of predicates in one phase.
@@ -39,12 +41,23 @@ using PhaseReports = std::array<PhaseReport, kPhaseCount>;
 /// thread at a time, not always the same.
 using Progress = std::function<void(Phase, const std::string&, std::size_t, std::size_t)>;
 
+/// How the hull is found; the answer is the same set.
+enum class Way : std::uint8_t {
+  kBest,    ///< vertex by vertex where that is possible and worth it
+  kDirect,  ///< vertex by vertex, or not at all
+  kCones,   ///< by intersecting cones
+};
+
 struct Options {
-  SilhouetteOptions silhouette;
+  SilhouetteOptions silhouette;                 ///< but for `origin`, which is the scene's
+  std::optional<PixelOrigin> origin;            ///< instead of the scene's
   std::optional<WorldBox> box;                  ///< instead of the scene's
   std::optional<std::filesystem::path> images;  ///< a folder: the i-th image is the i-th view's
+  Way way = Way::kBest;
+  bool suspects = false;                ///< compare the views: Result::consistency
+  bool drop_suspects = false;           ///< leave out the guilty view, compare again, and so on; three views stay
+  std::optional<std::size_t> at_least;  ///< the points in at least so many silhouettes, instead of in all
   bool verify = false;
-  bool direct = true;    ///< vertex by vertex where that is possible; false: always by intersecting cones
   unsigned threads = 1;  ///< 0: as many as the machine has; the result is the same
 };
 
@@ -55,30 +68,42 @@ struct ViewResult {
   std::filesystem::path image;  ///< empty for polygons
   Distortion distortion;        ///< of the image
   ViewSilhouette silhouette;
-  std::size_t cone_facets = 0;
+  std::optional<std::size_t> cone_facets;  ///< where the cone was built
   std::optional<Verification> verification;
 };
 
-/// A hull that has nothing inside: the view at which that happened.
+/// A hull that has nothing inside: a view at which that happened.
 struct Vanished {
   std::string view;
   std::string reason;
+  /// Of an empty hull: smallest sets of views that have no point in common, by name.
+  std::vector<std::vector<std::string>> sets;
+};
+
+/// A view that was left out because it disagrees with the others.
+struct Dropped {
+  std::string view;
+  ViewConsistency measures;
+  double share = 0;  ///< of the inconsistency that went with it
 };
 
 struct Result {
   nef::Polyhedron hull;  ///< the intersection of all that the views keep, closed; within the box
   std::vector<ViewResult> views;
   WorldBox box;
-  bool box_found = false;             ///< the box comes from the cones
+  PixelOrigin origin = PixelOrigin::kCenter;  ///< of the images
+  bool box_found = false;                     ///< the box comes from the cones
   std::optional<WorldBox> enclosing;  ///< holds the intersection of all cones in its interior; not always looked for
   bool direct = false;                ///< the hull was found vertex by vertex
-  std::optional<Vanished> vanished;   ///< set if the hull has no interior
+  std::optional<Consistency> consistency;  ///< of `views`, if they were compared
+  std::vector<Dropped> dropped;            ///< views that were left out
+  std::optional<Vanished> vanished;        ///< set if the hull has no interior
   PhaseReports phases;
 };
 
 /// Computes the hull. `folder` is where the scene's images are looked up. Throws InputError naming
 /// the view whose image is missing or unreadable, or whose silhouette is empty, and if there
-/// is no box and the cones do not bound the scene.
+/// is no box and the cones do not bound the scene, or if the direct way is asked for and cannot be gone.
 Result compute(const Scene& scene, const std::filesystem::path& folder, const Options& options,
                const Progress& progress = {});
 

@@ -7,14 +7,16 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <iostream>
 
-#include "apps/visual_hull/report.h"
-#include "apps/visual_hull/skeleton.h"
+#include "apps/visual_hull/command/report.h"
+#include "apps/visual_hull/cones/intersection.h"
+#include "apps/visual_hull/viewing_edges/direct_hull.h"
 #include "apps/visual_hull/visual_hull.h"
 #include "nef/base/error.h"
+#include "nef/base/stopwatch.h"
 #include "nef/construct/construct.h"
+#include "nef/program/report.h"
 #ifdef NEF_BENCH_CGAL
 #include "bench/visual_hull/cgal_peer.h"
 #endif
@@ -32,16 +34,10 @@ struct Settings {
 };
 
 // Processor time: a busy machine does not count.
-double processor_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 double seconds_of(const std::function<void()>& work) {
-  const double start = processor_seconds();
+  const nef::ThreadStopwatch watch;
   work();
-  return processor_seconds() - start;
+  return watch.seconds();
 }
 
 struct Row {
@@ -122,7 +118,7 @@ void measure(const std::string& name, const Scene& scene, const std::filesystem:
     }
   });
   parts.push_back({nef::make_box(result.box.low, result.box.high), {}});
-  std::vector<SkeletonInput> inputs;
+  std::vector<DirectView> inputs;
   for (const ViewResult& view : result.views) inputs.push_back({&view.camera, &view.silhouette.region});
   // As the program does it; --cones shows the general way instead.
   const bool direct = result.direct && !settings.cones;

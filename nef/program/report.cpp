@@ -4,49 +4,13 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include "nef/base/phase_timer.h"
+#include "nef/program/set_info.h"
 
 namespace nef {
-namespace {
-
-Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-Json corner_json(const Rational3& point) {
-  Json result = Json::array();
-  for (const Rational& x : point) result.push_back(number_or_null(nearest_double(x)));
-  return result;
-}
-
-}  // namespace
-
-Json info_json(const Polyhedron& set) {
-  const Counts count = counts(set);
-  Json info;
-  info["vertices"] = count.vertices;
-  info["edges"] = count.edges;
-  info["facets"] = count.facets;
-  info["volumes"] = count.volumes;
-  info["shells"] = count.shells;
-  info["bounded"] = set.is_bounded();
-  info["open"] = set.is_open();
-  info["closed"] = set.is_closed();
-  info["regular"] = set.is_regular();
-  const std::optional<Rational> content = volume(set);
-  info["volume"] = content ? Json(to_string(*content)) : Json(nullptr);
-  info["volume_double"] = content ? number_or_null(nearest_double(*content)) : Json(nullptr);
-  info["area"] = number_or_null(surface_area(set));
-  info["bbox"] = nullptr;
-  info["bbox_exact"] = nullptr;
-  if (const auto box = bounding_box(set)) {
-    info["bbox"] = {corner_json((*box)[0]), corner_json((*box)[1])};
-    info["bbox_exact"] = {point_json((*box)[0]), point_json((*box)[1])};
-  }
-  info["euler_numbers"] = euler_numbers(set);
-  return info;
-}
+Json info_json(const Polyhedron& set) { return set_info(set, true); }
 
 std::string summary(const Polyhedron& set) {
   if (set.is_empty()) return "the empty set";

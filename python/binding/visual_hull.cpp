@@ -7,12 +7,8 @@
 
 #include <filesystem>
 
-#if __has_include("apps/visual_hull/formats/read_scene.h")
 #include "apps/visual_hull/formats/read_scene.h"
 #include "apps/visual_hull/scene/images.h"
-#else
-#include "apps/visual_hull/scene.h"
-#endif
 #include "binding/bindings.h"
 #include "nef/io/file_bytes.h"
 #include "nef/view/image.h"
@@ -51,7 +47,7 @@ visual_hull::Options options_of(double tolerance, bool half_pixels, bool unknown
                                 bool verify, unsigned threads) {
   visual_hull::Options options;
   options.silhouette.simplify.tolerance = tolerance;
-  options.silhouette.origin = half_pixels ? visual_hull::PixelOrigin::kCorner : visual_hull::PixelOrigin::kCenter;
+  if (half_pixels) options.origin = visual_hull::PixelOrigin::kCorner;
   options.silhouette.border = unknown_beyond ? visual_hull::Border::kUnknown : visual_hull::Border::kOutside;
   options.verify = verify;
   options.threads = threads;

@@ -9,6 +9,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "nef/base/error.h"
+#include "nef/construct/construct.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/polyhedron_file.h"
 #include "tests/visual_hull/helpers.h"
@@ -49,8 +50,8 @@ TEST_CASE("Three letters: output, report and verification") {
   const std::string off = (s.folder() / "hull.off").string();
   const std::string nef = (s.folder() / "hull.nef").string();
   const std::string report = (s.folder() / "report.json").string();
-  const Outcome outcome = run(data("letters/nef.vsh") + " -o " + nef + " --verify --report " + report + " --overlay " +
-                              (s.folder() / "views").string());
+  const Outcome outcome = run(data("letters/nef.vsh") + " -o " + nef + " --verify --exact-volume --report " + report +
+                              " --overlay " + (s.folder() / "views").string());
   INFO(outcome.output);
   REQUIRE(outcome.code == 0);
   CHECK(outcome.output.find('\r') == std::string::npos);  // no bar in a pipe
@@ -173,7 +174,7 @@ TEST_CASE("Bad use and bad input: one line, exit code 2") {
     CHECK(std::count(outcome.output.begin(), outcome.output.end(), '\n') == 1);
   };
   fails(run(""), "SCENE is required");
-  fails(run("nowhere.json"), "cannot open");
+  fails(run("nowhere.json"), "no such file");
   fails(run(s.folder().string()), "is a directory");
   fails(run(data("letters/nef.vsh") + " --simplify -3"), "--simplify");
   fails(run(data("letters/nef.vsh") + " --border maybe"), "--border");
@@ -182,14 +183,14 @@ TEST_CASE("Bad use and bad input: one line, exit code 2") {
   fails(run(data("letters/nef.vsh") + " --frobnicate"), "--frobnicate");
   fails(run(data("letters/nef.vsh") + " --threads -1"), "--threads");
   fails(run(data("letters/nef.vsh") + " --simplify nan"), "--simplify");
-  fails(run(data("letters/nef.vsh") + " --box 0,0,0,nan,1,1"), "'nan' is not a number");
+  fails(run(data("letters/nef.vsh") + " --box 0,0,0,nan,1,1"), "'nan' in '0,0,0,nan,1,1' is no number");
   fails(run(data("letters/nef.vsh") + " --threshold bright"), "neither a number nor otsu");
   fails(run(data("letters/nef.vsh") + " --channel infrared"), "--channel");
   fails(run(data("letters/nef.vsh") + " --min-area -1"), "--min-area");
   fails(run(data("letters/nef.vsh") + " --pixel-origin middle"), "--pixel-origin");
-  fails(run(data("letters/nef.vsh") + " --report " + s.folder().string()), "cannot write");
+  fails(run(data("letters/nef.vsh") + " --report " + s.folder().string()), "is a directory");
   fails(run(data("letters/nef.vsh") + " --overlay " + data("letters/nef.vsh")), "cannot make the directory");
-  fails(run(data("letters/nef.vsh") + " --silhouette " + (s.folder() / "none.json").string()), "cannot open");
+  fails(run(data("letters/nef.vsh") + " --silhouette " + (s.folder() / "none.json").string()), "no such file");
   fails(run(data("eight/eight.json") + " --images " + data("letters")), "holds 0 images, but the scene has 12 views");
   fails(run(data("eight/eight.json") + " --images /no/such/place"), "is not a directory of images");
   fails(run(data("eight/eight.json") + " --channel red"), "1 channels only");
@@ -218,7 +219,8 @@ TEST_CASE("Bad use and bad input: one line, exit code 2") {
 TEST_CASE("The option --json prints the report and nothing else, --quiet nothing at all") {
   const Scratch s;
   const std::string report = (s.folder() / "r.json").string();
-  const Outcome outcome = run(data("letters/mpi.vsh") + " --json --verify --threads 1 --report " + report);
+  const Outcome outcome =
+      run(data("letters/mpi.vsh") + " --json --verify --exact-volume --threads 1 --report " + report);
   REQUIRE(outcome.code == 0);
   const nlohmann::json printed = nlohmann::json::parse(outcome.output);
   CHECK(printed == read_json(report));
@@ -238,12 +240,64 @@ TEST_CASE("The option --json prints the report and nothing else, --quiet nothing
   CHECK_THAT(version.output, Contains("visual_hull 0."));
 }
 
+TEST_CASE("The volume is a double with a bound for its error, unless the exact one is asked for") {
+  const std::string scene = data("eight/eight.json") + " --simplify 2 --json";
+  const nlohmann::json quick = nlohmann::json::parse(run(scene).output)["result"];
+  const nlohmann::json exact = nlohmann::json::parse(run(scene + " --exact-volume").output)["result"];
+  CHECK(quick["volume"].is_null());
+  const double error = quick["volume_error"];
+  const double volume = quick["volume_double"];
+  CHECK(error < 1e-8 * volume);
+  CHECK(abs(nef::parse_rational(exact["volume"].get<std::string>()) - nef::exact_rational(volume)) <=
+        nef::exact_rational(error));
+}
+
+TEST_CASE("Both ways write the same hull; the direct one is refused where it cannot be gone") {
+  const Scratch s;
+  const std::string scene = data("elk/elk.json") + " --simplify 1 -q";
+  const std::string direct = (s.folder() / "direct.nef").string();
+  const std::string cones = (s.folder() / "cones.nef").string();
+  CHECK(run(scene + " --way direct -o " + direct).code == 0);
+  CHECK(run(scene + " --way cones -o " + cones).code == 0);
+  CHECK(nef::equal(nef::read_polyhedron(direct), nef::read_polyhedron(cones)));
+  const auto two = s.write("p.txt", "a 10 0 0 0 0 10 0 0 0 0 1 0\nb 10 0 0 0 0 10 0 0 0 0 1 0\n");
+  const auto a = s.write("a.json", "[[[0,0],[1,0],[1,1],[0,1]]]");
+  const Outcome refused = run(two.string() + " --silhouette " + a.string() + " --silhouette " + a.string() +
+                              " --box=-5,-5,1,5,5,2 --way direct");
+  CHECK(refused.code == 2);
+  CHECK_THAT(refused.output, Contains("use --way cones"));
+}
+
+TEST_CASE("A check says what is understood and computes nothing") {
+  const Outcome check = run(data("elk/elk.json") + " --check");
+  CHECK(check.code == 0);
+  CHECK_THAT(check.output, Contains("12 views from a JSON scene"));
+  CHECK_THAT(check.output, Contains("focal length 400 pixels"));
+  CHECK_THAT(check.output, Contains("elk_11.png"));
+  const Scratch s;
+  const auto lost = s.write("p.txt", "a 10 0 0 0 0 10 0 0 0 0 1 0\n");
+  const Outcome missing = run(lost.string() + " --check");
+  CHECK(missing.code == 2);
+  CHECK_THAT(missing.output, Contains("there is no image"));
+}
+
+TEST_CASE("Suspects are listed in the report, none on a clean set") {
+  const nlohmann::json report =
+      nlohmann::json::parse(run(data("elk/elk.json") + " --simplify 1 --suspects --json -q").output);
+  CHECK(report["suspects"].empty());
+  for (const auto& view : report["views"]) {
+    for (const char* key : {"residual", "fall", "removed", "relative", "score"}) CHECK(view.contains(key));
+  }
+}
+
 TEST_CASE("Help names every option") {
   const std::string help = run("--help").output;
-  for (const char* option : {"--images", "--silhouette", "--threshold", "--channel", "--invert",  "--pixel-origin",
-                             "--border", "--min-area",   "--simplify",  "--outer",   "--box",     "--output",
-                             "--exact",  "--binary",     "--verify",    "--report",  "--overlay", "--preview",
-                             "--page",   "--threads",    "--json",      "--quiet",   "--version", "Exit codes"}) {
+  for (const char* option :
+       {"--images",   "--silhouette", "--threshold",     "--channel",  "--invert",      "--pixel-origin", "--border",
+        "--min-area", "--simplify",   "--outer",         "--box",      "--output",      "--exact",        "--binary",
+        "--verify",   "--report",     "--overlay",       "--preview",  "--page",        "--threads",      "--json",
+        "--quiet",    "--version",    "Exit codes",      "--check",    "--up",          "--matrices",     "--turntable",
+        "--way",      "--suspects",   "--drop-suspects", "--at-least", "--exact-volume"}) {
     CHECK_THAT(help, Contains(option));
   }
 }
@@ -285,7 +339,7 @@ TEST_CASE("An empty hull is exit code 1 and names the view") {
   const Outcome outcome = run(scene.string() + " --silhouette " + left.string() + " --silhouette b=" + right.string() +
                               " --box=-5,-5,-5,5,5,5");
   CHECK(outcome.code == 1);
-  CHECK_THAT(outcome.output, Contains("the hull is empty: it vanished at view b"));
+  CHECK_THAT(outcome.output, Contains("the hull is empty: views a and b have no point in common"));
 }
 
 }  // namespace

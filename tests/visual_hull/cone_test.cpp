@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/visual_hull/cone.h"
+#include "apps/visual_hull/cones/cone.h"
 
 #include <catch2/catch.hpp>
 
-#include "apps/visual_hull/bounds.h"
-#include "apps/visual_hull/contour.h"
+#include "apps/visual_hull/cones/bounds.h"
+#include "apps/visual_hull/silhouette/contour.h"
 #include "tests/visual_hull/helpers.h"
 
 namespace visual_hull {

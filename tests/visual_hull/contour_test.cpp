@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/visual_hull/contour.h"
+#include "apps/visual_hull/silhouette/contour.h"
 
 #include <catch2/catch.hpp>
 

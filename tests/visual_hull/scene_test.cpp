@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/visual_hull/scene.h"
+#include "apps/visual_hull/scene/scene.h"
 
 #include <catch2/catch.hpp>
 #include <fstream>
 
-#include "apps/visual_hull/scene_json.h"
+#include "apps/visual_hull/formats/scene_json.h"
 #include "nef/base/error.h"
 #include "tests/visual_hull/helpers.h"
 #include "tests/visual_hull/scratch.h"
@@ -91,7 +91,7 @@ TEST_CASE("Blocks of intrinsic and extrinsic parameters are K [R | t]") {
   CHECK_THAT(refusal(scratch, "d.txt", head + "#Extrinsic\n1 0 0 0.5\n0 1 0 0\n"), Contains("ends inside a matrix"));
   CHECK_THAT(refusal(scratch, "e.txt", head + "#Extrinsic\n1 0 0\n"), Contains("line 9: a row of 4 numbers"));
   CHECK_THAT(refusal(scratch, "f.txt", "#Extrinsic\n1 0 0 1\n"), Contains("intrinsic parameters are missing"));
-  CHECK_THAT(refusal(scratch, "g.txt", head + "#Extrinsic\n1 0 0 x\n"), Contains("'x' in '0,0,0,1,x,1' is no number"));
+  CHECK_THAT(refusal(scratch, "g.txt", head + "#Extrinsic\n1 0 0 x\n"), Contains("'x' is not a number"));
 }
 
 TEST_CASE("A folder of cameras has a view for each of its files") {

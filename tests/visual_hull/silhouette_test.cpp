@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/visual_hull/silhouette.h"
+#include "apps/visual_hull/silhouette/silhouette.h"
 
 #include <catch2/catch.hpp>
 #include <opencv2/calib3d.hpp>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/visual_hull/simplify.h"
+#include "apps/visual_hull/silhouette/simplify.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "apps/visual_hull/contour.h"
+#include "apps/visual_hull/silhouette/contour.h"
 #include "nef/base/error.h"
 #include "tests/visual_hull/helpers.h"
 

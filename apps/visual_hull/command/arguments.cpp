@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/visual_hull/command/arguments.h"
+
+#include "apps/visual_hull/formats/scene_json.h"
+#include "apps/visual_hull/formats/turntable.h"
+#include "apps/visual_hull/scene/axes.h"
+#include "nef/base/error.h"
+
+namespace visual_hull {
+namespace {
+
+const char* const kFooter =
+    "Scenes are told apart by their content; --check says what was understood:\n"
+    "  .json      {\"cameras\": [{\"image\": FILE, \"P\": 3x4} or {\"image\": FILE, \"K\": 3x3, \"R\": 3x3, \"t\": 3,\n"
+    "             \"distortion\": [k1, k2, p1, p2, ...]}, ...], \"box\": [x0,y0,z0,x1,y1,z1], \"threshold\": "
+    "N|\"otsu\"};\n"
+    "             \"polygons\": [[[u,v], ...], ...] or \"silhouette\": FILE.json may stand in place of \"image\"\n"
+    "  .json      NeRF's, instant-ngp's or nerfstudio's transforms (with \"frames\")\n"
+    "  DIR        a COLMAP model (cameras and images, .txt or .bin; also in sparse/0), a transforms.json,\n"
+    "             NAME.pa, each a 3x4 matrix, or PMVS's CONTOUR files (in txt/)\n"
+    "  .yml .xml  OpenCV's FileStorage: camera_matrix, distortion_coefficients, extrinsic_parameters, or R and t, or "
+    "P\n"
+    "  .mat       MATLAB 5: a cell array of 3x4 matrices, an array 3x4xN, or N variables\n"
+    "  *_par.txt  Middlebury: name, K, R, t on each line\n"
+    "  .txt       name and 12 numbers (3x4 matrix) on each line, or matrices of three lines, or blocks of\n"
+    "             '#Intrinsic parameter' and '#Extrinsic parameter for IMAGE'\n"
+    "  .vsh       Hachenberger's polygons in space\n"
+    "Numbers are the rationals that they spell (\"1/3\" too). x = P X; u = x1/x3 to the right, v = x2/x3 down,\n"
+    "x3 > 0 in front. Images are looked up beside the scene and in masks/, silhouettes/ and images/ there.\n"
+    "Output: .nef .nef3 (exact), .off .obj .stl .ply; -o, --report, --page write beside the target, then rename.\n"
+    "Exit codes: 0 done, 1 empty or flat hull or failed --verify, 2 bad input or usage.";
+
+void add_input_options(CLI::App& app, Arguments& a) {
+  app.add_option("SCENE", a.scene, "Cameras, in one of the formats below; with --turntable a folder of images")
+      ->required();
+  app.add_flag("--check", a.check, "Say what is understood of the scene, a line a view, and compute nothing");
+  app.add_option("--up", a.up, "The axis of the scene that becomes +z: x, y, z, -x, -y or -z")->type_name("AXIS");
+  app.add_option("--matrices", a.matrices,
+                 "Which matrices of an OpenCV or MATLAB file are the projections; * stands for a number")
+      ->type_name("NAME");
+  CLI::Option* turntable =
+      app.add_option("--turntable", a.turntable, "The object turns by 1/N of a turn between images; -N: clockwise")
+          ->type_name("N");
+  app.add_option("--K", a.intrinsics, "Of the turntable: f,cx,cy or fx,fy,cx,cy or nine numbers")
+      ->delimiter(',')
+      ->needs(turntable);
+  app.add_option("--radius", a.radius, "Of the turntable: from its axis (z) to the camera")->needs(turntable);
+  app.add_option("--height", a.height, "Of the turntable: of the camera above the origin, which it looks at")
+      ->needs(turntable);
+  app.add_option("--images", a.images, "Directory whose images, by name, are those of the views in order")
+      ->type_name("DIR");
+  app.add_option("--silhouette", a.silhouettes,
+                 "[VIEW=]FILE.json: polygons in place of a view's image; without VIEW for the views in their order")
+      ->take_all()
+      ->type_name("FILE");
+  app.add_option("--threshold", a.threshold,
+                 "N or otsu: brighter than this is object (default: half of the range, or alpha)")
+      ->type_name("N");
+  app.add_option("--channel", a.channel, "What --threshold looks at, e.g. red before a blue screen (default: gray)")
+      ->check(CLI::IsMember({"gray", "red", "green", "blue", "alpha"}));
+  app.add_flag("--invert", a.invert, "The object is darker than the background");
+  app.add_option("--pixel-origin", a.origin,
+                 "Whole image coordinates are the center or the upper left corner of a pixel (default: as the "
+                 "format has it)")
+      ->check(CLI::IsMember({"center", "corner"}));
+  app.add_option("--border", a.border,
+                 "A silhouette that the image frame cuts ends there (outside) or may go on (unknown)")
+      ->check(CLI::IsMember({"outside", "unknown"}))
+      ->capture_default_str();
+  app.add_option("--min-area", a.min_area,
+                 "Drop islands and fill holes of fewer square pixels (with --outer holes only)")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("PX2");
+  app.add_option("--simplify", a.simplify, "Simplify polygons within this many pixels")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("PX");
+  app.add_flag("--outer", a.outer, "Simplified polygons contain the contour: the hull is an outer bound");
+  app.add_option("--box", a.box, "x0,y0,z0,x1,y1,z1: the part of space to look at; found from the cones if missing")
+      ->type_name("BOX");
+}
+
+void add_output_options(CLI::App& app, Arguments& a) {
+  app.add_option("-o,--output", a.output, "Write the hull (format by extension)")->type_name("FILE");
+  app.add_flag("--exact", a.exact, "Exact coordinates in mesh files (not STL)");
+  app.add_flag("--binary", a.binary, "Binary STL or PLY");
+  app.add_flag("--text", a.text, ".nef as text");
+  app.add_flag("--verify", a.verify, "Project the hull back into every view; exit code 1 if it is not inside");
+  app.add_option("--way", a.way,
+                 "Vertex by vertex (direct), by intersecting cones, or as is best; the hull is the same")
+      ->check(CLI::IsMember({"best", "direct", "cones"}))
+      ->capture_default_str();
+  app.add_flag("--suspects", a.suspects, "Compare the views: which one disagrees with the others");
+  app.add_flag("--drop-suspects", a.drop_suspects, "Leave out the view that disagrees, compare again, and so on");
+  app.add_option("--at-least", a.at_least, "The points in at least K silhouettes, instead of in all")
+      ->check(CLI::PositiveNumber)
+      ->type_name("K");
+  app.add_flag("--exact-volume", a.exact_volume, "Report the exact volume, too: millions of digits for detailed hulls");
+  app.add_option("--report", a.report, "Write a report as JSON ('-': standard output)")->type_name("FILE.json");
+  app.add_option("--overlay", a.overlay, "Directory for a picture per view: image, polygon, projection of the hull")
+      ->type_name("DIR");
+  app.add_option("--preview", a.preview, "Directory for pictures of the hull from four sides")->type_name("DIR");
+  app.add_option("--page", a.page, "Write a page that shows the hull with its cameras and their images")
+      ->type_name("FILE.html");
+  app.add_option("--threads", a.threads, "Threads to work with; 0: as many as there are cores")->capture_default_str();
+  app.add_flag("--json", a.json, "Print the report, and nothing else, on standard output");
+  app.add_flag("-q,--quiet", a.quiet, "Print nothing but errors");
+}
+
+}  // namespace
+
+void add_options(CLI::App& app, Arguments& arguments) {
+  app.name("visual_hull");
+  app.set_version_flag("--version", std::string("visual_hull ") + NEF_VERSION);
+  app.footer(kFooter);
+  add_input_options(app, arguments);
+  add_output_options(app, arguments);
+}
+
+Options to_options(const Arguments& a) {
+  Options options;
+  options.silhouette.simplify = {a.simplify, a.outer};
+  options.silhouette.min_area = a.min_area;
+  options.silhouette.border = a.border == "unknown" ? Border::kUnknown : Border::kOutside;
+  if (!a.origin.empty()) options.origin = a.origin == "corner" ? PixelOrigin::kCorner : PixelOrigin::kCenter;
+  if (!a.threshold.empty()) options.silhouette.threshold = parse_threshold(a.threshold);
+  options.silhouette.threshold.invert = a.invert;
+  if (!a.channel.empty()) options.silhouette.threshold.channel = parse_channel(a.channel);
+  if (!a.box.empty()) options.box = parse_box(a.box);
+  if (!a.images.empty()) options.images = a.images;
+  if (a.way != "best") options.way = a.way == "direct" ? Way::kDirect : Way::kCones;
+  options.suspects = a.suspects;
+  options.drop_suspects = a.drop_suspects;
+  if (a.at_least != 0) {
+    if (a.verify)
+      throw nef::InputError("--at-least and --verify exclude each other: such a set is not inside every view");
+    if (a.way == "direct")
+      throw nef::InputError("--at-least is found by overlaying cones: --way direct does not go with it");
+    options.at_least = a.at_least;
+  }
+  options.verify = a.verify;
+  options.threads = a.threads;
+  return options;
+}
+
+Scene scene_of(const Arguments& a) {
+  Scene scene;
+  if (a.turntable != 0) {
+    scene = make_turntable({a.turntable, a.intrinsics, a.radius, a.height});
+  } else {
+    scene = read_scene(a.scene, {a.matrices});
+  }
+  if (!a.up.empty()) turn_up(scene, a.up);
+  take_silhouettes(scene, a.silhouettes);
+  return scene;
+}
+
+void take_silhouettes(Scene& scene, const std::vector<std::string>& arguments) {
+  std::size_t position = 0;
+  for (const std::string& argument : arguments) {
+    const std::size_t equals = argument.find('=');
+    const std::string name = equals == std::string::npos ? "" : argument.substr(0, equals);
+    const std::string file = equals == std::string::npos ? argument : argument.substr(equals + 1);
+    View* target = nullptr;
+    if (equals == std::string::npos) {
+      if (position >= scene.views.size()) {
+        throw nef::InputError("--silhouette " + file + ": the scene has only " + std::to_string(position) + " views");
+      }
+      target = &scene.views[position++];
+    } else {
+      for (View& view : scene.views) {
+        if (view.name == name) target = &view;
+      }
+      if (target == nullptr) throw nef::InputError("--silhouette: the scene has no view '" + name + "'");
+    }
+    target->polygons = read_polygons(file);
+    target->image.clear();
+  }
+}
+
+}  // namespace visual_hull

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+#include "apps/visual_hull/visual_hull.h"
+
+namespace visual_hull {
+
+/// The image of a view with the hull's projection (filled, blue; its edges thin), what the silhouette has beyond it
+/// (the residual, yellow) and the polygon of the silhouette (red) drawn over it. Views without an image get a canvas around their polygons.
+cv::Mat draw_overlay(const ViewResult& view, const nef::Polyhedron& hull, PixelOrigin origin);
+
+/// Writes one PNG per view into `folder` (which is made if need be), named after the views.
+/// Throws InputError if that is not possible.
+void write_overlays(const Result& result, PixelOrigin origin, const std::filesystem::path& folder);
+
+}  // namespace visual_hull

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/visual_hull/command/pictures.h"
+
+#include <algorithm>
+#include <opencv2/calib3d.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "nef/base/error.h"
+#include "nef/io/file_bytes.h"
+#include "nef/view/page.h"
+#include "nef/view/picture.h"
+
+namespace visual_hull {
+namespace {
+
+namespace fs = std::filesystem;
+using nef::view::Layer;
+using nef::view::Point;
+
+constexpr nef::view::Color kCameraColor{110, 110, 120};
+constexpr nef::view::Color kOutlineColor{200, 40, 40};
+constexpr std::uintmax_t kLargestFile = std::uintmax_t{512} << 10U;  // of an image that is embedded as it is
+constexpr int kLongestSide = 1024;                                   // pixels of others
+
+Layer hull_layer(const Result& result, bool indices) {
+  Layer layer;
+  layer.name = "hull";
+  nef::view::SceneOptions options;
+  options.indices = indices;
+  layer.scene = nef::view::build_scene(result.hull, options);
+  return layer;
+}
+
+// Where a camera's image hangs: halfway to the hull, or in it for a camera that stands in it.
+double image_depth(const Camera& camera, const Result& result) {
+  WorldBox box = result.box;
+  if (const auto bounds = nef::bounding_box(result.hull)) box = {(*bounds)[0], (*bounds)[1]};
+  const DepthRange range = depth_range(camera, box);
+  const double near = nef::nearest_double(range.nearest);
+  const double far = nef::nearest_double(range.farthest);
+  if (near > 0) return near / 2;
+  return far > 0 ? far / 4 : 1;  // the camera looks away: any depth
+}
+
+/// Places points of a camera's image on a plane of constant depth.
+class ImagePlane {
+ public:
+  ImagePlane(const Camera& camera, double depth) : camera_(camera), depth_(depth) {
+    for (std::size_t i = 0; i < 3; ++i) centre_[i] = nef::nearest_double(camera.centre()[i]);
+  }
+
+  Point operator()(double u, double v) const {
+    const Rational3 ray = camera_.ray(Point2::from_doubles(u, v));
+    Point result{};
+    for (std::size_t i = 0; i < 3; ++i) result[i] = centre_[i] + depth_ * nef::nearest_double(ray[i]);
+    return result;
+  }
+
+  [[nodiscard]] const Point& centre() const { return centre_; }
+
+ private:
+  const Camera& camera_;
+  double depth_;
+  Point centre_{};
+};
+
+// The image as bytes that a browser can show; the size of the frame goes to `size`.
+bool embed_image(const ViewResult& view, PixelOrigin origin, nef::view::Photo& photo) {
+  std::string extension = view.image.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  const bool jpeg = extension == ".jpg" || extension == ".jpeg";
+  std::error_code error;
+  const bool plain = view.distortion.coefficients.empty() && (jpeg || extension == ".png");
+  if (plain && fs::file_size(view.image, error) <= kLargestFile && !error) {
+    photo.media_type = jpeg ? "image/jpeg" : "image/png";
+    photo.bytes = nef::read_file(view.image.string());
+    return true;
+  }
+  cv::Mat image = cv::imread(view.image.string(), cv::IMREAD_COLOR);
+  if (image.empty()) return false;
+  if (!view.distortion.coefficients.empty()) {
+    cv::Mat straight;
+    cv::undistort(image, straight, opencv_intrinsics(view.distortion, origin), view.distortion.coefficients);
+    image = straight;
+  }
+  const int longest = std::max(image.cols, image.rows);
+  if (longest > kLongestSide) {
+    const double scale = static_cast<double>(kLongestSide) / longest;
+    cv::resize(image, image, cv::Size(), scale, scale, cv::INTER_AREA);
+  }
+  std::vector<unsigned char> bytes;
+  if (!cv::imencode(".png", image, bytes)) return false;
+  photo.media_type = "image/png";
+  photo.bytes.assign(bytes.begin(), bytes.end());
+  return true;
+}
+
+void add_image(Layer& layer, const ViewResult& view, PixelOrigin origin, const ImagePlane& plane) {
+  nef::view::Photo photo;
+  photo.name = view.name;
+  if (!embed_image(view, origin, photo)) return;
+  // The frame runs along the outer sides of the pixels.
+  const double shift = origin == PixelOrigin::kCenter ? -0.5 : 0;
+  const double right = view.silhouette.image_size.width + shift;
+  const double bottom = view.silhouette.image_size.height + shift;
+  photo.corners = {plane(shift, shift), plane(right, shift), plane(right, bottom), plane(shift, bottom)};
+  photo.eye = plane.centre();
+  layer.photos.push_back(std::move(photo));
+}
+
+void add_outline(Layer& layer, const ViewResult& view, const ImagePlane& plane) {
+  for (const Ring& ring : view.silhouette.region.rings) {
+    nef::view::Polyline line;
+    line.name = view.name;
+    line.color = kOutlineColor;
+    for (const Point2& p : ring) line.points.push_back(plane(p.approximate[0], p.approximate[1]));
+    line.points.push_back(line.points.front());
+    layer.lines.push_back(std::move(line));
+  }
+  if (view.silhouette.region.rings.empty()) return;
+  // Four lines of sight, to the extremes of the outline.
+  const Ring& ring = view.silhouette.region.rings[0];
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const auto [low, high] = std::minmax_element(ring.begin(), ring.end(), [axis](const Point2& a, const Point2& b) {
+      return a.approximate[axis] < b.approximate[axis];
+    });
+    for (const auto& p : {*low, *high}) {
+      nef::view::Polyline sight;
+      sight.name = view.name;
+      sight.color = kCameraColor;
+      sight.points = {plane.centre(), plane(p.approximate[0], p.approximate[1])};
+      layer.lines.push_back(std::move(sight));
+    }
+  }
+}
+
+}  // namespace
+
+void write_preview(const Result& result, const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!fs::is_directory(folder, error)) {
+    throw nef::InputError("--preview: cannot make the directory " + folder.string());
+  }
+  const std::vector<Layer> layers{hull_layer(result, false)};
+  const std::vector<std::pair<std::string, std::optional<Point>>> pictures{{"hull.png", std::nullopt},
+                                                                           {"hull_front.png", Point{0, -1, 0}},
+                                                                           {"hull_right.png", Point{1, 0, 0}},
+                                                                           {"hull_top.png", Point{0, 0, 1}}};
+  for (const auto& [name, from] : pictures) {
+    nef::view::PictureOptions options;
+    options.from = from;
+    nef::view::write_picture(layers, (folder / name).string(), options);
+  }
+}
+
+std::vector<Layer> page_layers(const Result& result, PixelOrigin origin) {
+  std::vector<Layer> layers{hull_layer(result, true)};
+  Layer cameras;
+  cameras.name = "cameras";
+  cameras.color = kCameraColor;
+  for (const ViewResult& view : result.views) {
+    const ImagePlane plane(view.camera, image_depth(view.camera, result));
+    if (view.image.empty()) {
+      add_outline(cameras, view, plane);
+    } else {
+      add_image(cameras, view, origin, plane);
+    }
+  }
+  layers.push_back(std::move(cameras));
+  return layers;
+}
+
+void write_page(const Result& result, PixelOrigin origin, const fs::path& file) {
+  nef::view::PageOptions options;
+  options.title = "visual hull of " + std::to_string(result.views.size()) + " views";
+  nef::view::write_page(page_layers(result, origin), file.string(), options);
+}
+
+}  // namespace visual_hull

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/visual_hull/command/report.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+
+#include "nef/program/report.h"
+#include "nef/program/set_info.h"
+
+namespace visual_hull {
+namespace {
+
+using json = nlohmann::ordered_json;
+
+json box_json(const WorldBox& box) {
+  json list = json::array();
+  for (const Rational3* corner : {&box.low, &box.high}) {
+    for (const Rational& c : *corner) list.push_back(nef::to_string(c));
+  }
+  return list;
+}
+
+json view_json(const ViewResult& view) {
+  const ViewSilhouette& s = view.silhouette;
+  json entry{{"name", view.name},
+             {"image", view.image.string()},
+             {"contours", s.contours},
+             {"holes", s.holes},
+             {"contour_vertices", s.contour_vertices},
+             {"polygon_vertices", s.region.vertex_count()},
+             {"cone_facets", view.cone_facets ? json(*view.cone_facets) : json(nullptr)},
+             {"cut_by_frame", s.cut_by_frame},
+             {"keeps_unseen", s.background}};
+  if (s.image_size.area() > 0) entry["image_size"] = {s.image_size.width, s.image_size.height};
+  return entry;
+}
+
+// The keys of `nef info --json`; the exact volume only where it is asked for.
+json result_json(const nef::Polyhedron& hull, bool exact_volume) {
+  json info = nef::set_info(hull, exact_volume);
+  if (!exact_volume && hull.is_bounded()) {
+    const MeasuredVolume volume = approximate_volume(hull);
+    info["volume_double"] = volume.value;
+    info["volume_error"] = volume.error;
+  }
+  return info;
+}
+
+json measures_json(const ViewConsistency& m) {
+  return {
+      {"residual", m.residual}, {"fall", m.fall}, {"removed", m.removed}, {"relative", m.relative}, {"score", m.score}};
+}
+
+void add_consistency(json& report, const Result& result) {
+  if (!result.consistency) return;
+  const Consistency& found = *result.consistency;
+  for (std::size_t i = 0; i < found.views.size(); ++i) report["views"][i].update(measures_json(found.views[i]));
+  report["suspects"] = json::array();
+  for (const Dropped& dropped : result.dropped) report["suspects"].push_back(dropped.view);
+  if (found.guilty) report["suspects"].push_back(result.views[*found.guilty].name);
+  report["dropped"] = json::array();
+  for (const Dropped& dropped : result.dropped) {
+    json entry{{"view", dropped.view}, {"share", dropped.share}};
+    entry.update(measures_json(dropped.measures));
+    report["dropped"].push_back(std::move(entry));
+  }
+}
+
+json verify_json(const Result& result) {
+  json list = json::array();
+  for (const ViewResult& view : result.views) {
+    if (!view.verification) continue;
+    const Verification& v = *view.verification;
+    json entry{{"view", view.name}, {"inside", v.inside}};
+    if (!v.problem.empty()) entry["problem"] = v.problem;
+    entry["symmetric_difference_px"] = v.area_known ? json(v.difference_area) : json(nullptr);
+    entry["silhouette_px"] = v.area_known ? json(v.silhouette_area) : json(nullptr);
+    list.push_back(entry);
+  }
+  return list;
+}
+
+}  // namespace
+
+MeasuredVolume approximate_volume(const nef::Polyhedron& hull) {
+  using Vec = Eigen::Vector3d;
+  const nef::Complex& c = hull.complex();
+  if (c.vertex_count() == 0) return {};
+  const auto at = [&c](std::uint32_t vertex) {
+    const auto& p = c.points.approximate(nef::PointId(vertex));
+    return Vec(p[0], p[1], p[2]);
+  };
+  // Relative to a point of the hull: little is lost by cancellation.
+  const Vec origin = at(0);
+  double largest = 0;
+  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) largest = std::max(largest, at(v).cwiseAbs().maxCoeff());
+  // A coordinate is off by 2^-51 of itself (PointTable::approximate), a difference of two by e.
+  const double e = largest * 0x1p-49;
+  double sum = 0;
+  double sizes = 0;  // of the products that are summed
+  double error = 0;  // of each of them
+  std::size_t terms = 0;
+  for (const nef::Facet& facet : c.facets) {
+    const bool above = c.volumes[facet.volume_above].mark != 0;
+    const bool below = c.volumes[facet.volume_below].mark != 0;
+    if (above == below || facet.cycle_count == 0) continue;
+    // Twice the facet's area vector, about one of its corners: the products are as small as the facet.
+    const Vec corner0 = at(c.shalfedge_owner[c.cycle(facet.first_cycle).front()]);
+    Vec area = Vec::Zero();
+    double products = 0;  // two of them make a component of a cross product
+    double vague = 0;     // by how much their factors are off
+    std::size_t corners_here = 0;
+    for (std::uint32_t k = 0; k < facet.cycle_count; ++k) {
+      for (const std::uint32_t corner : c.cycle(facet.first_cycle + k)) {
+        const Vec p = at(c.shalfedge_owner[corner]) - corner0;
+        const Vec q = at(c.target(c.corner_halfedge(corner))) - corner0;
+        area += p.cross(q);
+        const double p_size = p.cwiseAbs().maxCoeff();
+        const double q_size = q.cwiseAbs().maxCoeff();
+        products += 2 * p_size * q_size;
+        vague += 2 * e * (p_size + q_size + e);
+        ++corners_here;
+      }
+    }
+    const std::array<double, 4>& n = c.planes.approximate(facet.plane);
+    const bool upward = (area[0] * n[0] + area[1] * n[1] + area[2] * n[2] > 0) != facet.plane.flipped();
+    const Vec place = corner0 - origin;
+    sum += (upward == below ? 1 : -1) * place.dot(area);
+    // A component of the area: its factors, two roundings a product, one a term of the sum.
+    const double area_error = vague + products * static_cast<double>(corners_here + 4) * 0x1p-52;
+    const double reach = place.cwiseAbs().maxCoeff();
+    const double size = 3 * reach * area.cwiseAbs().maxCoeff();
+    // Thrice, for facets so small that the sign of their area may be wrong.
+    error += 3 * (3 * reach * area_error + 3 * e * (area.cwiseAbs().maxCoeff() + area_error) + size * 0x1p-50);
+    sizes += size;
+    ++terms;
+  }
+  return {sum / 6, (error + sizes * static_cast<double>(terms) * 0x1p-52) / 6};
+}
+
+nlohmann::ordered_json make_report(const Result& result, const nef::Messages& messages, bool exact_volume) {
+  json report;
+  report["views"] = json::array();
+  for (const ViewResult& view : result.views) report["views"].push_back(view_json(view));
+  report["box"] = box_json(result.box);
+  report["box_found"] = result.box_found;
+  report["direct"] = result.direct;
+  nef::PredicateCounts total;
+  bool verified = false;
+  for (const ViewResult& view : result.views) verified = verified || view.verification.has_value();
+  for (std::size_t i = 0; i < kPhaseCount; ++i) {
+    const PhaseReport& phase = result.phases[i];
+    if (static_cast<Phase>(i) == Phase::kVerify && !verified) continue;
+    report["phases"][phase_name(static_cast<Phase>(i))] = {{"seconds", phase.seconds},
+                                                           {"predicates", nef::predicates_json(phase.predicates)}};
+    total.identity += phase.predicates.identity;
+    total.filter += phase.predicates.filter;
+    total.exact += phase.predicates.exact;
+  }
+  report["predicates"] = nef::predicates_json(total);
+  report["result"] = result_json(result.hull, exact_volume);
+  if (result.vanished) {
+    report["vanished"] = {
+        {"view", result.vanished->view}, {"reason", result.vanished->reason}, {"sets", result.vanished->sets}};
+  }
+  add_consistency(report, result);
+  if (verified) report["verify"] = verify_json(result);
+  report["peak_memory_bytes"] = nef::peak_memory_bytes();
+  if (!messages.empty()) report["messages"] = messages;
+  return report;
+}
+
+std::string vanished_text(const Result& result) {
+  const Vanished& vanished = *result.vanished;
+  std::string text = fmt::format("the hull is {}: ", result.hull.is_empty() ? "empty" : "flat");
+  if (vanished.sets.empty() || vanished.sets[0].size() == 1) text += "view " + vanished.view + ": ";
+  text += vanished.reason;
+  for (std::size_t i = 1; i < vanished.sets.size(); ++i) {
+    text += (i == 1 ? "; nor have " : ", ") + fmt::format("{}", fmt::join(vanished.sets[i], " + "));
+  }
+  return text;
+}
+
+std::vector<std::string> verdict_lines(const Result& result) {
+  std::vector<std::string> lines;
+  for (const Dropped& dropped : result.dropped) {
+    lines.push_back(
+        fmt::format("view {} disagrees with the others: it is left out, which removes {:.0f} % of the "
+                    "inconsistency",
+                    dropped.view, 100 * dropped.share));
+  }
+  if (!result.consistency || result.consistency->residual <= 0) return lines;
+  const Consistency& found = *result.consistency;
+  for (const ViewResult& view : result.views) {
+    if (view.silhouette.cut_by_frame) lines.push_back("note: " + cut_note(view.name));
+  }
+  if (found.guilty) {
+    lines.push_back(
+        fmt::format("view {} disagrees with the others: leaving it out removes {:.0f} % of the inconsistency",
+                    result.views[*found.guilty].name, 100 * found.share(*found.guilty)));
+    return lines;
+  }
+  const std::vector<std::size_t> order = found.ranked();
+  std::vector<std::string> first;
+  for (std::size_t i = 0; i < std::min<std::size_t>(3, order.size()); ++i) first.push_back(result.views[order[i]].name);
+  lines.push_back(fmt::format("note: no view clearly disagrees with the others; most do {}", fmt::join(first, ", ")));
+  return lines;
+}
+
+std::vector<std::string> suspects_table(const Result& result) {
+  const Consistency& found = *result.consistency;
+  std::vector<std::string> lines{
+      fmt::format("{:<24} {:>9} {:>9} {:>10} {:>9} {:>7}", "view", "residual", "fall", "removed", "relative", "score")};
+  for (const std::size_t i : found.ranked()) {
+    const ViewConsistency& v = found.views[i];
+    lines.push_back(fmt::format("{:<24} {:>9.5f} {:>9.5f} {:>10.4g} {:>9.4f} {:>7.3f}{}", result.views[i].name,
+                                v.residual, v.fall, v.removed, v.relative, v.score,
+                                found.guilty == i ? "  disagrees" : ""));
+  }
+  return lines;
+}
+
+std::string cut_note(const std::string& view) {
+  return "the frame cuts the silhouette of view " + view +
+         ", and what lies beyond it is taken as background; --border unknown leaves that open";
+}
+
+std::string summary(const Result& result) {
+  const nef::Counts counts = nef::counts(result.hull);
+  double seconds = 0;
+  for (const PhaseReport& phase : result.phases) seconds += phase.seconds;
+  std::size_t vertices = 0;
+  for (const ViewResult& view : result.views) vertices += view.silhouette.region.vertex_count();
+  return fmt::format(
+      "{} views, {} polygon vertices -> hull with {} vertices, {} edges, {} facets, volume {:.6g} ({:.3g} s)",
+      result.views.size(), vertices, counts.vertices, counts.edges, counts.facets,
+      approximate_volume(result.hull).value, seconds);
+}
+
+}  // namespace visual_hull

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a run says about itself.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "apps/visual_hull/visual_hull.h"
+#include "nef/construct/construct.h"
+
+namespace visual_hull {
+
+/// The report of a run as JSON: `views` (contours, holes, vertices, cone facets), `phases` (seconds and
+/// predicates), `result` (the keys of `nef info --json`, and the Euler number of each shell),
+/// `verify` if it was done, `box`, `suspects` (names) and measures in `views` if views were compared, `dropped`,
+/// `predicates`, `peak_memory_bytes`, and `messages` (what an output does not hold) if there are any.
+nlohmann::ordered_json make_report(const Result& result, const nef::Messages& messages = {}, bool exact_volume = false);
+
+/// Why there is no hull, as one line.
+std::string vanished_text(const Result& result);
+
+/// What the comparison of the views has come to, for stderr: the guilty view and those that were left out, or the first
+/// three without a verdict. Nothing if the views were not compared or have no inconsistency.
+std::vector<std::string> verdict_lines(const Result& result);
+
+/// A line a view, best suspects first: residual R, fall D, removed U, relative d, score S.
+std::vector<std::string> suspects_table(const Result& result);
+
+/// A volume in double precision that is off by at most `error`.
+struct MeasuredVolume {
+  double value = 0;
+  double error = 0;
+};
+
+/// The volume of a bounded hull: the exact one of a detailed hull takes longer than the hull itself and has millions of
+/// digits. O(n).
+MeasuredVolume approximate_volume(const nef::Polyhedron& hull);
+
+/// What a silhouette that its frame cuts means, and what to do about it.
+std::string cut_note(const std::string& view);
+
+/// One line about the hull, for people.
+std::string summary(const Result& result);
+
+}  // namespace visual_hull

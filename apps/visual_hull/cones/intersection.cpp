@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/visual_hull/cones/intersection.h"
+
+#include <cmath>
+#include <mutex>
+
+#include "nef/base/parallel.h"
+
+namespace visual_hull {
+namespace {
+
+std::array<double, 3> unit(const Rational3& axis) {
+  std::array<double, 3> v{};
+  double length = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    v[i] = nef::nearest_double(axis[i]);
+    length = std::max(length, std::abs(v[i]));
+  }
+  if (!(length > 0)) return {};
+  double square = 0;
+  for (double& c : v) {
+    c /= length;
+    square += c * c;
+  }
+  for (double& c : v) c /= std::sqrt(square);
+  return v;
+}
+
+// How much two axes look along each other: 0 for a right angle.
+double alignment(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+  return std::abs(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]);
+}
+
+// Pairs each part with the one left that looks across it most.
+std::vector<Part> pair_across(std::vector<Part> parts) {
+  std::vector<std::array<double, 3>> axes;
+  for (const Part& part : parts) axes.push_back(unit(part.axis));
+  std::vector<bool> used(parts.size(), false);
+  std::vector<Part> ordered;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (used[i]) continue;
+    used[i] = true;
+    std::size_t best = parts.size();
+    for (std::size_t j = i + 1; j < parts.size(); ++j) {
+      if (!used[j] && (best == parts.size() || alignment(axes[i], axes[j]) < alignment(axes[i], axes[best]))) best = j;
+    }
+    ordered.push_back(std::move(parts[i]));
+    if (best == parts.size()) continue;
+    used[best] = true;
+    ordered.push_back(std::move(parts[best]));
+  }
+  return ordered;
+}
+
+}  // namespace
+
+nef::Polyhedron intersect_parts(std::vector<Part> parts, unsigned threads,
+                                const std::function<void(std::size_t, std::size_t)>& progress) {
+  if (parts.empty()) return nef::Polyhedron::everything();
+  std::vector<Part> level = pair_across(std::move(parts));
+  const std::size_t total = level.size() - 1;
+  std::size_t done = 0;
+  std::mutex telling;
+  while (level.size() > 1) {
+    const std::size_t pairs = level.size() / 2;
+    std::vector<Part> next(pairs);
+    nef::parallel_for(pairs, threads, [&](std::size_t i) {
+      next[i] = {nef::intersect(level[2 * i].solid, level[2 * i + 1].solid), level[2 * i].axis};
+      level[2 * i] = {};  // its memory is not needed any more
+      level[2 * i + 1] = {};
+      const std::lock_guard<std::mutex> lock(telling);
+      if (progress) progress(++done, total);
+    });
+    for (const Part& part : next) {
+      if (part.solid.is_empty()) return {};
+    }
+    if (level.size() % 2 == 1) next.push_back(std::move(level.back()));
+    level = std::move(next);
+  }
+  return std::move(level[0].solid);
+}
+
+std::optional<std::size_t> vanishes_at(const std::vector<Part>& parts, const nef::Polyhedron& box, bool solid) {
+  nef::Polyhedron left = box;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    left = nef::intersect(left, parts[i].solid);
+    if (left.is_empty() || (solid && nef::interior(left).is_empty())) return i;
+  }
+  return std::nullopt;
+}
+
+}  // namespace visual_hull

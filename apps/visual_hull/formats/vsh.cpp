@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/visual_hull/formats/vsh.h"
+
+#include <sstream>
+
+#include "nef/base/error.h"
+
+namespace visual_hull {
+namespace {
+
+class Reader {
+ public:
+  Reader(const std::string& text, std::string where) : stream_(text), where_(std::move(where)) {}
+
+  Rational number(const std::string& what) {
+    const std::string token = next(what);
+    try {
+      return nef::parse_rational(token);
+    } catch (const nef::InputError&) {
+      throw nef::InputError(where_ + ": '" + token + "' is not a number (" + what + ")");
+    }
+  }
+
+  Rational3 point(const std::string& what) {
+    Rational3 p;
+    for (Rational& c : p) c = number(what);
+    return p;
+  }
+
+  std::size_t count(const std::string& what, std::size_t least) {
+    const std::string token = next(what);
+    if (token.empty() || token.size() > 7 || token.find_first_not_of("0123456789") != std::string::npos ||
+        std::stoul(token) < least) {
+      throw nef::InputError(where_ + ": '" + token + "' is not a " + what + " of at least " + std::to_string(least));
+    }
+    return std::stoul(token);
+  }
+
+  void expect_end() {
+    std::string token;
+    if (stream_ >> token) throw nef::InputError(where_ + ": '" + token + "' follows after the last camera");
+  }
+
+ private:
+  std::string next(const std::string& what) {
+    std::string token;
+    if (!(stream_ >> token)) throw nef::InputError(where_ + ": the file ends before the " + what);
+    return token;
+  }
+
+  std::istringstream stream_;
+  std::string where_;
+};
+
+Rational3 minus(const Rational3& a, const Rational3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Rational dot(const Rational3& a, const Rational3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Rational3 cross(const Rational3& a, const Rational3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+// The normal of the plane through all points, on the side away from the centre.
+Rational3 common_normal(const std::vector<std::vector<Rational3>>& polygons, const Rational3& centre,
+                        const std::string& where) {
+  const Rational3& origin = polygons[0][0];
+  Rational3 normal;
+  const auto is_zero = [](const Rational3& v) { return sgn(v[0]) == 0 && sgn(v[1]) == 0 && sgn(v[2]) == 0; };
+  for (std::size_t i = 1; i + 1 < polygons[0].size() && is_zero(normal); ++i) {
+    normal = cross(minus(polygons[0][i], origin), minus(polygons[0][i + 1], origin));
+  }
+  if (is_zero(normal)) throw nef::InputError(where + ": the points of polygon 1 lie on a line");
+  for (std::size_t k = 0; k < polygons.size(); ++k) {
+    for (std::size_t i = 0; i < polygons[k].size(); ++i) {
+      if (sgn(dot(normal, minus(polygons[k][i], origin))) != 0) {
+        throw nef::InputError(where + ": point " + std::to_string(i + 1) + " of polygon " + std::to_string(k + 1) +
+                              " is not in the plane of the first three");
+      }
+    }
+  }
+  const int side = sgn(dot(normal, minus(origin, centre)));
+  if (side == 0) throw nef::InputError(where + ": the plane of the polygons holds the camera's centre");
+  if (side < 0) {
+    for (Rational& c : normal) c = -c;
+  }
+  return normal;
+}
+
+View make_view(const Rational3& centre, const std::vector<std::vector<Rational3>>& polygons, const std::string& name,
+               const std::string& where) {
+  const Rational3 normal = common_normal(polygons, centre, where);
+  // Y is seen at C + s (Y - C), s = h / (n . (Y - C)), h = n . (any point - C) > 0. In homogeneous
+  // coordinates that is h (Y - C) + C (n . (Y - C)) with weight n . (Y - C), positive in front.
+  const Rational height = dot(normal, minus(polygons[0][0], centre));
+  std::size_t axis = 0;
+  for (std::size_t i = 1; i < 3; ++i) {
+    if (abs(normal[i]) > abs(normal[axis])) axis = i;
+  }
+  const std::size_t u = (axis + 1) % 3;
+  const std::size_t v = (axis + 2) % 3;
+  const Rational nc = dot(normal, centre);
+  Matrix34 matrix;
+  const auto set_row = [&](std::size_t row, std::size_t coordinate) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      matrix[row][j] = centre[coordinate] * normal[j] + (j == coordinate ? height : Rational(0));
+    }
+    matrix[row][3] = -height * centre[coordinate] - centre[coordinate] * nc;
+  };
+  set_row(0, u);
+  set_row(1, v);
+  for (std::size_t j = 0; j < 3; ++j) matrix[2][j] = normal[j];
+  matrix[2][3] = -nc;
+
+  View view;
+  view.name = name;
+  view.camera = Camera(name, matrix);
+  view.polygons.emplace();
+  for (const auto& polygon : polygons) {
+    Ring ring;
+    for (const Rational3& p : polygon) ring.emplace_back(p[u], p[v]);
+    view.polygons->push_back(std::move(ring));
+  }
+  return view;
+}
+
+}  // namespace
+
+Scene read_vsh(const std::string& text, const std::filesystem::path& file) {
+  const std::string where = file.string();
+  Reader reader(text, where);
+  Scene scene;
+  scene.format = "polygons in space (.vsh)";
+  scene.box.emplace();
+  scene.box->low = reader.point("room's smallest corner");
+  scene.box->high = reader.point("room's largest corner");
+  check_box(*scene.box, where);
+  const std::size_t cameras = reader.count("number of cameras", 1);
+  for (std::size_t c = 0; c < cameras; ++c) {
+    const std::string name = std::to_string(c + 1);
+    const std::string of = " of camera " + name;
+    const Rational3 centre = reader.point("centre" + of);
+    const std::size_t count = reader.count("number of polygons" + of, 1);
+    std::vector<std::vector<Rational3>> polygons;
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t points = reader.count("number of points" + of, 3);
+      std::vector<Rational3> polygon;
+      for (std::size_t i = 0; i < points; ++i) polygon.push_back(reader.point("points" + of));
+      polygons.push_back(std::move(polygon));
+    }
+    scene.views.push_back(make_view(centre, polygons, name, where + ", camera " + name));
+  }
+  reader.expect_end();
+  return scene;
+}
+
+}  // namespace visual_hull

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Exact predicates on points, segments and rings of an image plane.
+#include "apps/visual_hull/polygon/polygon.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace visual_hull {
+namespace {
+
+bool is_lattice(const Rational& value, double approximate) {
+  // den == 2^k with k <= 8 and |value| < 2^16: 24 bits, so differences have 25 and products 50.
+  return std::abs(approximate) < 65536.0 && value.get_den() <= 256 && mpz_popcount(value.get_den_mpz_t()) == 1;
+}
+
+int exact_orientation(const Point2& a, const Point2& b, const Point2& c) {
+  const Rational left = (b.x - a.x) * (c.y - a.y);
+  const Rational right = (b.y - a.y) * (c.x - a.x);
+  return cmp(left, right);
+}
+
+}  // namespace
+
+Point2::Point2(const Rational& x_in, const Rational& y_in)
+    : x(x_in), y(y_in), approximate{nef::nearest_double(x_in), nef::nearest_double(y_in)} {
+  lattice = is_lattice(x, approximate[0]) && is_lattice(y, approximate[1]);
+}
+
+Point2 Point2::from_doubles(double x, double y) { return {nef::exact_rational(x), nef::exact_rational(y)}; }
+
+bool Point2::operator==(const Point2& other) const {
+  if (lattice != other.lattice) return false;
+  if (lattice) return approximate == other.approximate;
+  return x == other.x && y == other.y;
+}
+
+int orientation(const Point2& a, const Point2& b, const Point2& c) {
+  const double bx = b.approximate[0] - a.approximate[0];
+  const double by = b.approximate[1] - a.approximate[1];
+  const double cx = c.approximate[0] - a.approximate[0];
+  const double cy = c.approximate[1] - a.approximate[1];
+  const double left = bx * cy;
+  const double right = by * cx;
+  const double determinant = left - right;
+  if (a.lattice && b.lattice && c.lattice) return determinant > 0 ? 1 : (determinant < 0 ? -1 : 0);
+  // Every coordinate is off by at most u|x| (u = 2^-53), so a difference of two by at most
+  // 3u(|x| + |y|) with its own rounding. With m the largest |coordinate| that is 6um, and each
+  // factor is at most 2m(1 + 2u): a product is off by at most 2 * 6um * 2m + u * 4m^2 < 29um^2,
+  // the determinant by twice that and its rounding, < 72um^2 < 2^-46 m^2.
+  double largest = 0;
+  for (const Point2* p : {&a, &b, &c}) {
+    largest = std::max({largest, std::abs(p->approximate[0]), std::abs(p->approximate[1])});
+  }
+  const double bound = 0x1p-46 * largest * largest;
+  if (largest > 1e-140 && largest < 1e140) {
+    if (determinant > bound) return 1;
+    if (determinant < -bound) return -1;
+  }
+  return exact_orientation(a, b, c);
+}
+
+namespace {
+
+// a <= p <= b or b <= p <= a in both coordinates.
+bool in_box(const Point2& a, const Point2& b, const Point2& p) {
+  const auto between = [](const Rational& s, const Rational& t, const Rational& q, double ds, double dt, double dq) {
+    if (dq < std::min(ds, dt) || dq > std::max(ds, dt)) return false;  // rounding to nearest is monotone
+    if (dq > std::min(ds, dt) && dq < std::max(ds, dt)) return true;
+    return (s <= q && q <= t) || (t <= q && q <= s);
+  };
+  return between(a.x, b.x, p.x, a.approximate[0], b.approximate[0], p.approximate[0]) &&
+         between(a.y, b.y, p.y, a.approximate[1], b.approximate[1], p.approximate[1]);
+}
+
+}  // namespace
+
+bool on_segment(const Point2& a, const Point2& b, const Point2& p) {
+  return in_box(a, b, p) && orientation(a, b, p) == 0;
+}
+
+bool segments_meet(const Point2& a, const Point2& b, const Point2& c, const Point2& d) {
+  for (std::size_t i = 0; i < 2; ++i) {  // monotone rounding: disjoint doubles are disjoint truths
+    if (std::max(a.approximate[i], b.approximate[i]) < std::min(c.approximate[i], d.approximate[i])) return false;
+    if (std::max(c.approximate[i], d.approximate[i]) < std::min(a.approximate[i], b.approximate[i])) return false;
+  }
+  const int abc = orientation(a, b, c);
+  const int abd = orientation(a, b, d);
+  if (abc * abd > 0) return false;
+  const int cda = orientation(c, d, a);
+  const int cdb = orientation(c, d, b);
+  if (cda * cdb > 0) return false;
+  if (abc * abd < 0 && cda * cdb < 0) return true;
+  return (abc == 0 && in_box(a, b, c)) || (abd == 0 && in_box(a, b, d)) || (cda == 0 && in_box(c, d, a)) ||
+         (cdb == 0 && in_box(c, d, b));
+}
+
+int ring_orientation(const Ring& ring) {
+  const std::size_t n = ring.size();
+  if (n < 3) return 0;
+  std::size_t lowest = 0;
+  for (std::size_t i = 1; i < n; ++i) {
+    const int order = cmp(ring[i].x, ring[lowest].x);
+    if (order < 0 || (order == 0 && ring[i].y < ring[lowest].y)) lowest = i;
+  }
+  // At a lexicographic extreme the turn is the ring's, unless it is straight or a spike.
+  return orientation(ring[(lowest + n - 1) % n], ring[lowest], ring[(lowest + 1) % n]);
+}
+
+double twice_area(const Ring& ring) {
+  double sum = 0;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const auto& p = ring[i].approximate;
+    const auto& q = ring[(i + 1) % ring.size()].approximate;
+    sum += p[0] * q[1] - p[1] * q[0];
+  }
+  return sum;
+}
+
+namespace {
+
+int compare_y(const Point2& p, const Point2& q) {
+  if (p.approximate[1] != q.approximate[1]) return p.approximate[1] < q.approximate[1] ? -1 : 1;
+  if (p.lattice && q.lattice) return 0;
+  return cmp(p.y, q.y);
+}
+
+}  // namespace
+
+Side locate(const Ring& ring, const Point2& point) {
+  bool inside = false;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Point2& a = ring[i];
+    const Point2& b = ring[i + 1 < ring.size() ? i + 1 : 0];
+    const int ya = compare_y(a, point);
+    const int yb = compare_y(b, point);
+    if (ya * yb > 0) continue;
+    if (on_segment(a, b, point)) return Side::kBoundary;
+    if ((ya > 0) == (yb > 0)) continue;  // half-open rule: a vertex on the ray belongs to what is above
+    const int turn = orientation(a, b, point);
+    if ((yb > 0) == (turn > 0)) inside = !inside;
+  }
+  return inside ? Side::kInside : Side::kOutside;
+}
+
+Side locate(const Silhouette& silhouette, const Point2& point) {
+  bool inside = false;
+  for (const Ring& ring : silhouette.rings) {
+    const Side side = locate(ring, point);
+    if (side == Side::kBoundary) return side;
+    if (side == Side::kInside) inside = !inside;
+  }
+  return inside ? Side::kInside : Side::kOutside;
+}
+
+}  // namespace visual_hull

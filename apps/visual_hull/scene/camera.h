@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Exact pinhole cameras.
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+
+#include "apps/visual_hull/polygon/polygon.h"
+
+namespace visual_hull {
+
+using Matrix3 = std::array<std::array<Rational, 3>, 3>;
+using Matrix34 = std::array<std::array<Rational, 4>, 3>;
+
+/// What a point of space looks like from a camera: u = x/depth, v = y/depth if depth > 0.
+struct Projection {
+  Rational x, y, depth;
+};
+
+/// A projection matrix P with rational entries: x = P X, u = x1/x3 to the right, v = x2/x3 down,
+/// and x3 > 0 in front of the camera. (So P and -P are different cameras.)
+class Camera {
+ public:
+  /// The identity: centre at the origin, looking along +z.
+  Camera();
+
+  /// Throws InputError, with `name` in front, if the left 3x3 block is singular: a camera at
+  /// infinity or no camera at all.
+  Camera(std::string name, const Matrix34& matrix);
+
+  /// P = K [R | t]. R need not be orthogonal to the last digit: P is what counts.
+  static Camera from_parts(std::string name, const Matrix3& k, const Matrix3& r, const Rational3& t);
+
+  [[nodiscard]] const std::string& name() const { return name_; }
+  [[nodiscard]] const Matrix34& matrix() const { return matrix_; }
+
+  /// The point that P maps to zero.
+  [[nodiscard]] const Rational3& centre() const { return centre_; }
+
+  /// The sign of the determinant of the left block: -1 if the images are mirrored.
+  [[nodiscard]] int handedness() const { return handedness_; }
+
+  [[nodiscard]] Projection project(const Rational3& point) const;
+
+  /// x3 = m3 . X + p34, positive in front.
+  [[nodiscard]] Rational depth(const Rational3& point) const;
+
+  /// The direction in which image point (u, v) is seen from the centre (of depth 1).
+  [[nodiscard]] Rational3 ray(const Point2& image_point) const;
+
+ private:
+  std::string name_;
+  Matrix34 matrix_;
+  Matrix3 inverse_;  ///< of the left block
+  Rational3 centre_;
+  int handedness_ = 1;
+};
+
+/// A plane a x + b y + c z + d = 0 with rational coefficients.
+struct RationalPlane {
+  Rational3 normal;
+  Rational offset;
+};
+
+/// The plane through the camera's centre that is seen as the line from `a` to `b`. Of the points
+/// in front of the camera, those seen to the left of the line (see orientation) are on its positive side.
+RationalPlane plane_through(const Camera& camera, const Point2& a, const Point2& b);
+
+/// The points of depth s; deeper ones are on the positive side.
+RationalPlane plane_at_depth(const Camera& camera, const Rational& s);
+
+}  // namespace visual_hull

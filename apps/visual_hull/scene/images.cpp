@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/visual_hull/scene/images.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <opencv2/imgcodecs.hpp>
+
+#include "nef/base/error.h"
+#include "nef/io/file_bytes.h"
+
+namespace visual_hull {
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::array<const char*, 10> kExtensions{"png",  "pgm", "pbm",  "bmp", "tif",
+                                                  "tiff", "jpg", "jpeg", "ppm", "webp"};
+
+bool has_image_extension(const fs::path& path) {
+  const std::string extension = nef::lower_extension(path.string());
+  return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
+}
+
+bool is_file(const fs::path& path) {
+  std::error_code error;
+  return fs::is_regular_file(path, error);
+}
+
+// The file itself, or with a usual extension more, or with another one: the mask of photo.jpg may be photo.png.
+std::optional<fs::path> with_some_extension(const fs::path& base) {
+  if (is_file(base)) return base;
+  for (const char* extension : kExtensions) {
+    fs::path longer = base.string() + "." + extension;
+    if (is_file(longer)) return longer;
+  }
+  if (!has_image_extension(base)) return std::nullopt;
+  for (const char* extension : kExtensions) {
+    fs::path other = fs::path(base).replace_extension(extension);
+    if (is_file(other)) return other;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+fs::path scene_folder(const fs::path& scene) {
+  std::error_code error;
+  return fs::is_directory(scene, error) ? scene : scene.parent_path();
+}
+
+std::optional<fs::path> look_up_image(const std::vector<fs::path>& folders, const std::string& name) {
+  const fs::path given = fs::path(name).lexically_normal();
+  const bool photograph = !given.empty() && *given.begin() == "images";
+  for (const fs::path& folder : folders) {
+    if (photograph) {
+      for (const char* sub : {"masks", "silhouettes"}) {
+        if (auto found = with_some_extension(folder / sub / given.lexically_relative("images"))) return found;
+      }
+    }
+    for (const char* sub : {"", "masks", "silhouettes", "images", "visualize"}) {
+      if (auto found = with_some_extension(folder / sub / given)) return found;
+    }
+  }
+  return std::nullopt;
+}
+
+fs::path find_image(const fs::path& folder, const std::string& name) {
+  if (auto found = look_up_image({folder}, name)) return *found;
+  throw nef::InputError("view " + name + ": there is no image " + (folder / name).string() +
+                        ", with or without a usual extension, nor one in masks/, silhouettes/ or images/ there");
+}
+
+std::vector<fs::path> list_images(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) throw nef::InputError(folder.string() + " is not a directory of images");
+  std::vector<fs::path> images;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    if (entry.is_regular_file() && has_image_extension(entry.path())) images.push_back(entry.path());
+  }
+  std::sort(images.begin(), images.end());
+  return images;
+}
+
+std::vector<fs::path> images_of(const Scene& scene, const fs::path& folder, const std::optional<fs::path>& images) {
+  const std::size_t count = scene.views.size();
+  if (images) {
+    std::vector<fs::path> files = list_images(*images);
+    if (files.size() != count) {
+      throw nef::InputError(
+          fmt::format("{} holds {} images, but the scene has {} views", images->string(), files.size(), count));
+    }
+    return files;
+  }
+  const bool any_named =
+      std::any_of(scene.views.begin(), scene.views.end(), [](const View& v) { return v.polygons || !v.image.empty(); });
+  if (!any_named) {
+    for (const char* sub : {"masks", "silhouettes", "images", ""}) {
+      std::error_code error;
+      const fs::path place = *sub == '\0' ? folder : folder / sub;
+      if (!fs::is_directory(place, error)) continue;
+      std::vector<fs::path> files = list_images(place);
+      if (files.size() == count) return files;
+    }
+  }
+  std::vector<fs::path> folders{folder};
+  folders.insert(folders.end(), scene.image_folders.begin(), scene.image_folders.end());
+  std::vector<fs::path> files(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const View& view = scene.views[i];
+    if (view.polygons) continue;
+    if (view.image.empty()) {
+      throw nef::InputError("view " + view.name + ": the scene names no image; give --images DIR or --silhouette");
+    }
+    const auto found = look_up_image(folders, view.image.string());
+    files[i] = found ? *found : find_image(folder, view.image.string());
+  }
+  return files;
+}
+
+std::optional<ImageSize> size_of_image(const fs::path& folder, const std::string& name) {
+  if (name.empty()) return std::nullopt;
+  const auto file = look_up_image({folder}, name);
+  if (!file) return std::nullopt;
+  try {
+    const cv::Mat image = cv::imread(file->string(), cv::IMREAD_UNCHANGED);
+    if (!image.empty()) return ImageSize{image.cols, image.rows};
+  } catch (const cv::Exception&) {
+    // Whoever reads the pixels says what is wrong with them.
+  }
+  return std::nullopt;
+}
+
+}  // namespace visual_hull

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The image files of a scene.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/visual_hull/scene/scene.h"
+
+namespace visual_hull {
+
+/// The folder in which the images of a scene are looked up: the scene itself if it is one.
+std::filesystem::path scene_folder(const std::filesystem::path& scene);
+
+/// The image that a scene calls `name`: as it is, with a usual extension added, or with another
+/// usual extension, in one of `folders` or in their subfolders masks, silhouettes, images and visualize, in this order.
+/// A name that begins with `images/` is looked up in masks and silhouettes first: these are what a hull is made from.
+/// Nothing if there is none.
+std::optional<std::filesystem::path> look_up_image(const std::vector<std::filesystem::path>& folders,
+                                                   const std::string& name);
+
+/// The same in one folder. Throws InputError if there is none.
+std::filesystem::path find_image(const std::filesystem::path& folder, const std::string& name);
+
+/// The images of a folder in the order of their names. Throws InputError if it is none.
+std::vector<std::filesystem::path> list_images(const std::filesystem::path& folder);
+
+/// An image file for each view that has no polygons, an empty path for others: the i-th of `images` (a folder) for the
+/// i-th view, else what the scene names, else, if it names none, the images of the first of `folder` and its subfolders
+/// masks, silhouettes and images that holds as many as there are views. Throws InputError naming the view or the
+/// folder.
+std::vector<std::filesystem::path> images_of(const Scene& scene, const std::filesystem::path& folder,
+                                             const std::optional<std::filesystem::path>& images);
+
+/// The size of an image that a scene calls `name`, if it is there and can be read.
+std::optional<ImageSize> size_of_image(const std::filesystem::path& folder, const std::string& name);
+
+}  // namespace visual_hull

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/visual_hull/scene/scene.h"
+
+#include <map>
+
+#include "nef/base/error.h"
+
+namespace visual_hull {
+
+ThresholdOptions parse_threshold(const std::string& text) {
+  ThresholdOptions options;
+  if (text == "otsu") {
+    options.kind = ThresholdOptions::Kind::kOtsu;
+    return options;
+  }
+  options.kind = ThresholdOptions::Kind::kValue;
+  try {
+    options.value = nef::nearest_double(nef::parse_rational(text));
+  } catch (const nef::InputError&) {
+    throw nef::InputError("threshold '" + text + "' is neither a number nor otsu");
+  }
+  return options;
+}
+
+ThresholdOptions::Channel parse_channel(const std::string& text) {
+  using Channel = ThresholdOptions::Channel;
+  static const std::map<std::string, Channel> names{{"gray", Channel::kGray},
+                                                    {"red", Channel::kRed},
+                                                    {"green", Channel::kGreen},
+                                                    {"blue", Channel::kBlue},
+                                                    {"alpha", Channel::kAlpha}};
+  const auto found = names.find(text);
+  if (found == names.end()) throw nef::InputError("channel '" + text + "' is not gray, red, green, blue or alpha");
+  return found->second;
+}
+
+}  // namespace visual_hull

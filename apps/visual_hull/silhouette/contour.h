@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The exact boundary of a set of pixels.
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "apps/visual_hull/polygon/polygon.h"
+#include "apps/visual_hull/scene/scene.h"
+
+namespace visual_hull {
+
+/// The boundary of the union of the closed pixels that are not zero in `mask` (8 bits, one
+/// channel), along the edges of the pixels, as simple rings that meet in corners at most: where
+/// two pixels touch in a corner only, so do the rings. Straight runs are one edge. Unlike contours
+/// through pixel centres this loses no half pixel on either side. O(pixels).
+Silhouette trace_contours(const cv::Mat& mask, PixelOrigin origin);
+
+/// True if a pixel of the mask on the frame of the image is set.
+bool touches_frame(const cv::Mat& mask);
+
+}  // namespace visual_hull

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/visual_hull/silhouette/silhouette.h"
+
+#include <opencv2/calib3d.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "nef/base/error.h"
+
+namespace visual_hull {
+namespace {
+
+double full_scale(int depth) {
+  switch (depth) {
+    case CV_8U:
+      return 255;
+    case CV_8S:
+      return 127;
+    case CV_16U:
+      return 65535;
+    case CV_16S:
+      return 32767;
+    case CV_32S:
+      return 2147483647;
+    default:
+      return 1;
+  }
+}
+
+cv::Mat to_gray(const cv::Mat& image) {
+  cv::Mat gray;
+  if (image.channels() == 1) {
+    gray = image;
+  } else if (image.depth() == CV_8U || image.depth() == CV_16U || image.depth() == CV_32F) {
+    cv::cvtColor(image, gray, image.channels() == 4 ? cv::COLOR_BGRA2GRAY : cv::COLOR_BGR2GRAY);
+  } else {
+    cv::extractChannel(image, gray, 0);
+  }
+  return gray;
+}
+
+// The values that a threshold is compared with. OpenCV's order is blue, green, red, alpha.
+cv::Mat pick_channel(const cv::Mat& image, ThresholdOptions::Channel channel) {
+  using Channel = ThresholdOptions::Channel;
+  if (channel == Channel::kGray) return to_gray(image);
+  int index = 0;
+  if (channel == Channel::kGreen) index = 1;
+  if (channel == Channel::kRed) index = 2;
+  if (channel == Channel::kAlpha) index = 3;
+  if (index >= image.channels()) {
+    throw nef::InputError("the image has " + std::to_string(image.channels()) +
+                          " channels only, not the one that --channel names");
+  }
+  cv::Mat picked;
+  cv::extractChannel(image, picked, index);
+  return picked;
+}
+
+cv::Mat default_mask(const cv::Mat& image, ThresholdOptions::Channel channel) {
+  if (image.channels() == 4 && channel == ThresholdOptions::Channel::kGray) {
+    cv::Mat alpha;
+    cv::extractChannel(image, alpha, 3);
+    double low = 0;
+    double high = 0;
+    cv::minMaxLoc(alpha, &low, &high);
+    if (low < high) return alpha > full_scale(image.depth()) / 2;
+  }
+  return pick_channel(image, channel) > full_scale(image.depth()) / 2;
+}
+
+cv::Mat otsu_mask(cv::Mat gray) {
+  if (gray.depth() != CV_8U) gray.convertTo(gray, CV_8U, 255 / full_scale(gray.depth()));
+  cv::Mat mask;
+  cv::threshold(gray, mask, 0, 255, cv::THRESH_BINARY | cv::THRESH_OTSU);
+  return mask;
+}
+
+// Undoes the lens on a mask. Pixels that come from beyond the image are not set.
+void undistort(cv::Mat& mask, const Distortion& distortion, PixelOrigin origin, cv::Mat* unseen) {
+  const cv::Mat k = opencv_intrinsics(distortion, origin);
+  cv::Mat map_x;
+  cv::Mat map_y;
+  cv::initUndistortRectifyMap(k, distortion.coefficients, cv::noArray(), k, mask.size(), CV_32FC1, map_x, map_y);
+  const cv::Mat everywhere(mask.size(), CV_8U, cv::Scalar(255));
+  cv::Mat straight;
+  cv::Mat seen;
+  cv::remap(mask, straight, map_x, map_y, cv::INTER_LINEAR, cv::BORDER_CONSTANT, cv::Scalar(0));
+  cv::remap(everywhere, seen, map_x, map_y, cv::INTER_LINEAR, cv::BORDER_CONSTANT, cv::Scalar(0));
+  mask = straight > 127;
+  if (unseen != nullptr) *unseen = seen <= 127;
+}
+
+// Drops contours around less than `least`. What lies inside such a contour is smaller still, so parity stays right. A
+// silhouette that must not lose anything (`outer`) keeps its islands.
+Silhouette without_specks(Silhouette traced, double least, bool outer) {
+  if (least <= 0) return traced;
+  std::vector<bool> small;
+  small.reserve(traced.rings.size());
+  for (const Ring& ring : traced.rings) small.push_back(std::abs(twice_area(ring)) < 2 * least);
+  std::vector<Ring> kept;
+  for (std::size_t i = 0; i < traced.rings.size(); ++i) {
+    const bool island = traced.depth[i] % 2 == 0;
+    const int hole = traced.parent[i];
+    const bool in_filled_hole = hole >= 0 && small[static_cast<std::size_t>(hole)];
+    if (!small[i] || (outer && island && !in_filled_hole)) kept.push_back(std::move(traced.rings[i]));
+  }
+  return nest(std::move(kept));
+}
+
+// The silhouette with all that is not seen, on a frame that is one pixel larger; then what is
+// inside its outermost ring but not in it: the background that is seen for sure.
+Silhouette seen_background(const cv::Mat& mask, const cv::Mat& unseen, const SilhouetteOptions& options,
+                           ViewSilhouette& result) {
+  cv::Mat keep = mask.clone();
+  if (!unseen.empty()) keep |= unseen;
+  cv::Mat padded;
+  cv::copyMakeBorder(keep, padded, 1, 1, 1, 1, cv::BORDER_CONSTANT, cv::Scalar(255));
+  const PixelOrigin origin = options.origin;
+  Silhouette traced = without_specks(trace_contours(padded, origin), options.min_area, options.simplify.outer);
+  for (Ring& ring : traced.rings) {  // the frame has grown by one pixel to the left and above
+    for (Point2& p : ring) p = Point2(p.x - 1, p.y - 1);
+  }
+  result.contour_vertices = traced.vertex_count();
+  Silhouette simple = simplify(traced, options.simplify);
+  std::vector<Ring> rings;
+  for (std::size_t i = 0; i < simple.rings.size(); ++i) {
+    if (simple.depth[i] > 0) rings.push_back(std::move(simple.rings[i]));
+  }
+  return nest(std::move(rings));
+}
+
+}  // namespace
+
+cv::Mat opencv_intrinsics(const Distortion& distortion, PixelOrigin origin) {
+  cv::Mat k(3, 3, CV_64F);
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      k.at<double>(i, j) =
+          nef::nearest_double(distortion.intrinsics[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)]);
+    }
+  }
+  if (origin == PixelOrigin::kCorner) {  // OpenCV's whole coordinates are centres
+    k.at<double>(0, 2) -= 0.5;
+    k.at<double>(1, 2) -= 0.5;
+  }
+  return k;
+}
+
+cv::Mat make_mask(const cv::Mat& image, const ThresholdOptions& options) {
+  cv::Mat mask;
+  switch (options.kind) {
+    case ThresholdOptions::Kind::kDefault:
+      mask = default_mask(image, options.channel);
+      break;
+    case ThresholdOptions::Kind::kOtsu:
+      mask = otsu_mask(pick_channel(image, options.channel));
+      break;
+    case ThresholdOptions::Kind::kValue:
+      mask = pick_channel(image, options.channel) > options.value;
+      break;
+  }
+  if (options.invert) cv::bitwise_not(mask, mask);
+  return mask;
+}
+
+cv::Mat read_mask(const std::filesystem::path& image, const View& view, const SilhouetteOptions& options,
+                  cv::Mat* unseen) {
+  cv::Mat pixels;
+  try {
+    pixels = cv::imread(image.string(), cv::IMREAD_UNCHANGED);
+  } catch (const cv::Exception& error) {
+    throw nef::InputError("view " + view.name + ": cannot read the image " + image.string() + " (" + error.err + ")");
+  }
+  if (pixels.empty()) {
+    throw nef::InputError("view " + view.name + ": cannot read the image " + image.string());
+  }
+  cv::Mat mask;
+  try {
+    mask = make_mask(pixels, options.threshold);
+  } catch (const nef::InputError& error) {
+    throw nef::InputError("view " + view.name + ": " + image.string() + ": " + error.what());
+  }
+  if (cv::countNonZero(mask) == 0) {
+    double low = 0;
+    double high = 0;
+    cv::minMaxLoc(pick_channel(pixels, options.threshold.channel), &low, &high);
+    std::ostringstream range;
+    range << low << " to " << high;
+    throw nef::InputError("view " + view.name + ": the silhouette is empty (values of " + image.string() + " go from " +
+                          range.str() + "; see --threshold, --channel and --invert)");
+  }
+  if (!view.distortion.coefficients.empty()) undistort(mask, view.distortion, options.origin, unseen);
+  return mask;
+}
+
+ViewSilhouette silhouette_of_mask(const cv::Mat& mask, const cv::Mat& unseen, const std::string& view,
+                                  const SilhouetteOptions& options) {
+  if (cv::countNonZero(mask) == 0) throw nef::InputError("view " + view + ": the silhouette is empty");
+  ViewSilhouette result;
+  result.image_size = mask.size();
+  const Silhouette traced =
+      without_specks(trace_contours(mask, options.origin), options.min_area, options.simplify.outer);
+  if (traced.empty()) {
+    throw nef::InputError("view " + view + ": the silhouette is empty without contours of less than " +
+                          std::to_string(options.min_area) + " square pixels (--min-area)");
+  }
+  result.contours = traced.rings.size();
+  result.holes = traced.hole_count();
+  result.contour_vertices = traced.vertex_count();
+  result.cut_by_frame = touches_frame(mask);
+  if (!unseen.empty()) {  // what lies beyond the distorted image is beyond the frame, too
+    cv::Mat grown;
+    cv::dilate(unseen, grown, cv::Mat());
+    result.cut_by_frame = result.cut_by_frame || cv::countNonZero(grown & mask) > 0;
+  }
+  result.background = result.cut_by_frame && options.border == Border::kUnknown;
+  result.region =
+      result.background ? seen_background(mask, unseen, options, result) : simplify(traced, options.simplify);
+  return result;
+}
+
+ViewSilhouette silhouette_of_polygons(const std::vector<Ring>& polygons, const std::string& view,
+                                      const SilhouetteOptions& options) {
+  if (polygons.empty()) throw nef::InputError("view " + view + ": the silhouette is empty");
+  ViewSilhouette result;
+  const Silhouette nested = make_silhouette(polygons, "view " + view);
+  result.contours = nested.rings.size();
+  result.holes = nested.hole_count();
+  result.contour_vertices = nested.vertex_count();
+  result.region = simplify(nested, options.simplify);
+  return result;
+}
+
+}  // namespace visual_hull

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// From an image to an exact silhouette.
+#pragma once
+
+#include <filesystem>
+#include <opencv2/core.hpp>
+#include <string>
+
+#include "apps/visual_hull/scene/scene.h"
+#include "apps/visual_hull/silhouette/contour.h"
+#include "apps/visual_hull/silhouette/simplify.h"
+
+namespace visual_hull {
+
+/// What a silhouette that is cut by the frame of the image says about the space beyond it.
+enum class Border {
+  kOutside,  ///< there is nothing of the object
+  kUnknown,  ///< there may be: only what is seen as background is carved
+};
+
+struct SilhouetteOptions {
+  ThresholdOptions threshold;
+  PixelOrigin origin = PixelOrigin::kCenter;
+  Border border = Border::kOutside;
+  SimplifyOptions simplify;
+  double min_area = 0;  ///< square pixels; contours around less are noise of photographs: islands go, holes are filled
+};
+
+/// What a view contributes.
+struct ViewSilhouette {
+  std::size_t contours = 0;  ///< rings, holes included
+  std::size_t holes = 0;
+  std::size_t contour_vertices = 0;  ///< before simplification
+  Silhouette region;                 ///< the simplified silhouette, or the background if `background`
+  bool background = false;           ///< the view keeps what is not inside `region` (a cut silhouette, kUnknown)
+  bool cut_by_frame = false;
+  cv::Size image_size;  ///< empty for polygons
+};
+
+/// 255 where the image shows the object, 0 elsewhere. `unseen` gets 255 where lens distortion
+/// leaves the pixel without an image. The image may have 1, 3 or 4 channels of any depth: see
+/// ThresholdOptions. Throws InputError naming the view if the image cannot be read.
+cv::Mat read_mask(const std::filesystem::path& image, const View& view, const SilhouetteOptions& options,
+                  cv::Mat* unseen);
+
+/// The intrinsics as OpenCV wants them, whose whole image coordinates are centres of pixels: 3x3, double.
+cv::Mat opencv_intrinsics(const Distortion& distortion, PixelOrigin origin);
+
+/// The mask of an image that is loaded already. Throws InputError if it has no such channel.
+cv::Mat make_mask(const cv::Mat& image, const ThresholdOptions& options);
+
+/// Traces and simplifies a mask. Throws InputError naming the view if nothing is set.
+ViewSilhouette silhouette_of_mask(const cv::Mat& mask, const cv::Mat& unseen, const std::string& view,
+                                  const SilhouetteOptions& options);
+
+/// The same for polygons in place of an image.
+ViewSilhouette silhouette_of_polygons(const std::vector<Ring>& polygons, const std::string& view,
+                                      const SilhouetteOptions& options);
+
+}  // namespace visual_hull

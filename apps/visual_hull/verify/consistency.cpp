@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/visual_hull/verify/consistency.h"
+
+#include <algorithm>
+#include <bitset>
+#include <cmath>
+#include <numeric>
+#include <set>
+#include <string>
+
+#include "apps/visual_hull/verify/sight_lines.h"
+#include "nef/base/parallel.h"
+
+namespace visual_hull {
+namespace {
+
+constexpr std::size_t kMostRays = 400;     // of a view; more change nothing
+constexpr std::size_t kRaysInAll = 16000;  // where there are many views, each has fewer
+constexpr std::size_t kFewestRays = 100;
+constexpr double kGuiltyScore = 1.5;
+constexpr double kGuiltyLead = 0.4;
+constexpr std::size_t kFewViews = 5;
+
+// What the lines of sight of one view tell about all views.
+struct Tally {
+  double residual = 0;           // R of the view
+  std::vector<double> excluded;  // E: share of its lines that are residual, and hold a point that only v rejects
+  std::vector<double> alone;     // volume that v alone rejects
+  std::vector<double> in_pair;   // volume that v and exactly one other reject
+  double common = 0;             // volume that no view rejects
+};
+
+// A place on a line where a view begins or ceases to see it in its silhouette.
+struct Event {
+  double s = 0;
+  std::uint32_t view = 0;
+  bool enters = false;
+};
+
+struct Lines {
+  std::vector<SightView> views;
+  Eigen::Vector3d low, high;
+
+  Lines(const std::vector<ComparedView>& compared, const WorldBox& box) {
+    views.reserve(compared.size());
+    for (const ComparedView& view : compared) views.emplace_back(view);
+    for (int i = 0; i < 3; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      const double a = nef::nearest_double(box.low[k]);
+      const double b = nef::nearest_double(box.high[k]);
+      low[i] = a - (b - a);
+      high[i] = b + (b - a);
+    }
+  }
+
+  [[nodiscard]] std::size_t rays() const {
+    return std::clamp(kRaysInAll / std::max<std::size_t>(views.size(), 1), kFewestRays, kMostRays);
+  }
+
+  /// Calls visit(range, events) for every line of sight of view i: its part in the box, and what happens on it.
+  template <typename Visit>
+  void each_line(std::size_t i, Visit&& visit) const {
+    std::vector<Event> events;
+    std::vector<DepthInterval> inside;
+    for (const Eigen::Vector2d& p : views[i].sample(rays())) {
+      const Eigen::Vector3d direction = views[i].ray(p);
+      const DepthInterval range = in_box(views[i].centre(), direction, low, high);
+      if (!(range.from < range.to)) continue;
+      events.clear();
+      for (std::size_t j = 0; j < views.size(); ++j) {
+        if (j == i) continue;
+        inside.clear();
+        views[j].cut(views[i].centre(), direction, range, inside);
+        for (const DepthInterval& part : inside) {
+          events.push_back({part.from, static_cast<std::uint32_t>(j), true});
+          events.push_back({part.to, static_cast<std::uint32_t>(j), false});
+        }
+      }
+      std::sort(events.begin(), events.end(), [](const Event& a, const Event& b) { return a.s < b.s; });
+      visit(range, events);
+    }
+  }
+};
+
+Tally tally_of(const Lines& lines, std::size_t i) {
+  const std::size_t n = lines.views.size();
+  Tally tally;
+  tally.excluded.assign(n, 0);
+  tally.alone.assign(n, 0);
+  tally.in_pair.assign(n, 0);
+  std::size_t count = 0;
+  std::vector<bool> accepts(n);
+  std::vector<bool> only(n);  // v is the only one to reject some point of the line
+  lines.each_line(i, [&](const DepthInterval& range, const std::vector<Event>& events) {
+    ++count;
+    accepts.assign(n, false);
+    accepts[i] = true;
+    only.assign(n, false);
+    std::size_t rejecting = n - 1;
+    // Sums over the numbers of the views that reject tell which they are as long as they are one or two.
+    auto sum = static_cast<double>(n * (n - 1) / 2 - i);
+    double squares = 0;
+    for (std::size_t j = 0; j < n; ++j) squares += j == i ? 0 : static_cast<double>(j * j);
+    bool covered = false;
+    double at = range.from;
+    const auto pass = [&](double to) {
+      if (to <= at) return;
+      const double part = (to * to * to - at * at * at) / 3;
+      if (rejecting == 0) {
+        covered = true;
+        tally.common += part;
+      } else if (rejecting == 1) {
+        const auto v = static_cast<std::size_t>(sum);
+        only[v] = true;
+        tally.alone[v] += part;
+      } else if (rejecting == 2) {
+        // v + w and v^2 + w^2 are known.
+        const double difference = std::sqrt(std::max(0.0, 2 * squares - sum * sum));
+        const auto v = static_cast<std::size_t>(std::lround((sum - difference) / 2));
+        const auto w = static_cast<std::size_t>(std::lround((sum + difference) / 2));
+        tally.in_pair[v] += part;
+        tally.in_pair[w] += part;
+      }
+      at = to;
+    };
+    for (const Event& e : events) {
+      pass(e.s);
+      const double number = e.view;
+      rejecting += e.enters ? std::size_t(-1) : std::size_t{1};
+      sum += e.enters ? -number : number;
+      squares += e.enters ? -number * number : number * number;
+    }
+    pass(range.to);
+    if (covered) return;
+    tally.residual += 1;
+    for (std::size_t v = 0; v < n; ++v) tally.excluded[v] += only[v] ? 1 : 0;
+  });
+  const double total = std::max<double>(static_cast<double>(count), 1);
+  const double volume = lines.views[i].solid_angle() / total;
+  tally.residual /= total;
+  for (double& e : tally.excluded) e /= total;
+  for (double& v : tally.alone) v *= volume;
+  for (double& v : tally.in_pair) v *= volume;
+  tally.common *= volume;
+  return tally;
+}
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t n = values.size();
+  return n % 2 == 1 ? values[n / 2] : (values[n / 2 - 1] + values[n / 2]) / 2;
+}
+
+void score(std::vector<ViewConsistency>& views) {
+  std::vector<double> falls;
+  std::vector<double> relatives;
+  for (const ViewConsistency& v : views) {
+    falls.push_back(v.fall);
+    relatives.push_back(v.relative);
+  }
+  const double fall = median(falls);
+  const double relative = median(relatives);
+  for (ViewConsistency& v : views) {
+    v.score = std::log((v.fall + .002) / (fall + .002));
+    if (views.size() > kFewViews) v.score += std::log((v.relative + .05) / (relative + .05));
+  }
+}
+
+}  // namespace
+
+std::vector<std::size_t> Consistency::ranked() const {
+  std::vector<std::size_t> order(views.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [this](std::size_t a, std::size_t b) { return views[a].score > views[b].score; });
+  return order;
+}
+
+double Consistency::share(std::size_t view) const {
+  return residual > 0 ? std::min(1.0, views[view].fall / residual) : 0;
+}
+
+Consistency compare_views(const std::vector<ComparedView>& compared, const WorldBox& box, unsigned threads) {
+  Consistency result;
+  const std::size_t n = compared.size();
+  result.views.resize(n);
+  if (n < 3) return result;
+  const Lines lines(compared, box);
+  std::vector<Tally> tallies(n);
+  nef::parallel_for(n, threads, [&](std::size_t i) { tallies[i] = tally_of(lines, i); });
+  double common = 0;
+  for (const Tally& tally : tallies) common += tally.common / static_cast<double>(n);
+  for (std::size_t v = 0; v < n; ++v) {
+    ViewConsistency& view = result.views[v];
+    view.residual = tallies[v].residual;
+    view.fall = view.residual;
+    double pairs = 0;
+    for (const Tally& tally : tallies) {
+      view.fall += tally.excluded[v];
+      view.removed += tally.alone[v];
+      pairs += tally.in_pair[v];
+    }
+    // Every other view has measured what v alone rejects, all but two what v and another one do.
+    const auto others = static_cast<double>(n - 1);
+    view.removed /= others;
+    const double mean = pairs / (others * std::max(1.0, others - 1));
+    view.relative = view.removed / std::max({mean, 1e-4 * common, 1e-300});
+    result.residual += view.residual;
+  }
+  score(result.views);
+  const std::vector<std::size_t> order = result.ranked();
+  const double lead = result.views[order[0]].score - result.views[order[1]].score;
+  if (result.views[order[0]].score > kGuiltyScore && lead >= kGuiltyLead) result.guilty = order[0];
+  return result;
+}
+
+std::vector<std::vector<std::size_t>> disjoint_views(const std::vector<ComparedView>& compared, const WorldBox& box,
+                                                     std::size_t most, unsigned threads) {
+  constexpr std::size_t kMostViews = 256;
+  using Set = std::bitset<kMostViews>;
+  const std::size_t n = compared.size();
+  if (n < 2 || n > kMostViews) return {};
+  const Lines lines(compared, box);
+  // The sets of views that some point of a line is seen by.
+  std::vector<std::set<std::string>> seen(n);
+  nef::parallel_for(n, threads, [&](std::size_t i) {
+    lines.each_line(i, [&](const DepthInterval& /*range*/, const std::vector<Event>& events) {
+      Set accepting;
+      accepting.set(i);
+      for (const Event& e : events) {
+        if (!e.enters) seen[i].insert(accepting.to_string());
+        accepting.set(e.view, e.enters);
+      }
+    });
+  });
+  std::vector<Set> sets;
+  {
+    std::set<std::string> all;
+    for (const auto& part : seen) all.insert(part.begin(), part.end());
+    for (const std::string& text : all) sets.emplace_back(text);
+    std::sort(sets.begin(), sets.end(), [](const Set& a, const Set& b) { return a.count() > b.count(); });
+    constexpr std::size_t kMostSets = 20000;
+    if (sets.size() > kMostSets) sets.resize(kMostSets);
+  }
+  const auto meet = [&sets](const Set& wanted) {
+    return std::any_of(sets.begin(), sets.end(), [&](const Set& s) { return (s & wanted) == wanted; });
+  };
+  for (std::size_t size = 2; size <= 4; ++size) {
+    std::vector<std::vector<std::size_t>> found;
+    std::vector<std::size_t> pick(size);
+    std::iota(pick.begin(), pick.end(), std::size_t{0});
+    while (pick.back() < n && found.size() < most) {
+      Set wanted;
+      for (const std::size_t v : pick) wanted.set(v);
+      if (!meet(wanted)) found.push_back(pick);
+      // The next combination in order.
+      std::size_t k = size;
+      while (k > 0 && pick[k - 1] == n - size + k - 1) --k;
+      if (k == 0) break;
+      ++pick[k - 1];
+      for (std::size_t m = k; m < size; ++m) pick[m] = pick[m - 1] + 1;
+    }
+    if (!found.empty()) return found;
+  }
+  return {};
+}
+
+}  // namespace visual_hull

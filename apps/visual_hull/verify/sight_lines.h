@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Lines of sight cut by silhouettes, in doubles: for statistics.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "apps/visual_hull/cones/cone.h"
+#include "apps/visual_hull/verify/consistency.h"
+
+namespace visual_hull {
+
+/// A part of a line of sight, by depth.
+struct DepthInterval {
+  double from = 0;
+  double to = 0;
+};
+
+/// A view for lines of sight: its matrix, and its outline as arrays that a compiler can work on in parallel.
+class SightView {
+ public:
+  explicit SightView(const ComparedView& view);
+
+  /// About `count` points spread evenly over the silhouette, always the same ones.
+  [[nodiscard]] std::vector<Eigen::Vector2d> sample(std::size_t count) const;
+  /// The direction in which a point of the image is seen, of depth 1.
+  [[nodiscard]] Eigen::Vector3d ray(const Eigen::Vector2d& image) const;
+  /// The volume that one sample stands for at depth 1, per unit of depth cubed over three.
+  [[nodiscard]] double solid_angle() const { return angle_; }
+  [[nodiscard]] const Eigen::Vector3d& centre() const { return centre_; }
+  [[nodiscard]] double area() const { return area_; }
+
+  /// The parts of `range` of the line centre + s * direction that are seen in the silhouette, in order, appended.
+  void cut(const Eigen::Vector3d& centre, const Eigen::Vector3d& direction, const DepthInterval& range,
+           std::vector<DepthInterval>& inside) const;
+
+ private:
+  [[nodiscard]] bool inside(const Eigen::Vector2d& p) const;
+
+  Eigen::Matrix<double, 3, 4> matrix_;
+  Eigen::Matrix3d inverse_;
+  Eigen::Vector3d centre_;
+  double angle_ = 0;  // |det| of the inverse of the left block, times the area
+  double area_ = 0;
+  // Vertices ring by ring, each ring closed by its first vertex again.
+  std::vector<double> u_, v_;
+  std::vector<std::uint32_t> ring_begin_;
+};
+
+/// The range of depths at which a line is in a box; empty (from > to) if it misses it.
+DepthInterval in_box(const Eigen::Vector3d& centre, const Eigen::Vector3d& direction, const Eigen::Vector3d& low,
+                     const Eigen::Vector3d& high);
+
+}  // namespace visual_hull

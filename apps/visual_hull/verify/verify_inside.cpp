@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The exact part of the verification: does every point of the hull project into the silhouette?
+// Projections come first as doubles with proven errors; only edges that these cannot keep away
+// from the silhouette's boundary are projected exactly.
+#include "apps/visual_hull/verify/verify_inside.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "apps/visual_hull/polygon/silhouette_index.h"
+
+namespace visual_hull {
+namespace {
+
+struct Projected {
+  enum class State : std::uint8_t { kFront, kApex, kBehind };
+  State state = State::kFront;
+  std::array<double, 2> at{};
+  double error = INFINITY;  ///< of each coordinate
+  bool known_inside = false;
+};
+
+class InsideCheck {
+ public:
+  InsideCheck(const nef::Polyhedron& hull, const Camera& camera, const Silhouette& silhouette)
+      : hull_(hull), complex_(hull.complex()), camera_(camera), silhouette_(silhouette), index_(silhouette) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t j = 0; j < 4; ++j) matrix_[i][j] = nef::nearest_double(camera.matrix()[i][j]);
+    }
+  }
+
+  /// Empty if the hull projects into the silhouette.
+  std::string run() {
+    const std::size_t n = complex_.vertex_count();
+    exact_.resize(n);
+    for (std::uint32_t v = 0; v < n; ++v) {
+      vertices_.push_back(project(v));
+      if (vertices_[v].state == Projected::State::kBehind)
+        return "vertex " + std::to_string(v) + " is behind the camera";
+    }
+    for (std::uint32_t v = 0; v < n; ++v) {
+      const bool lonely = complex_.vertices[v].svertices == complex_.vertices[v + 1].svertices;
+      if (lonely && vertices_[v].state == Projected::State::kFront && index_.locate(exact(v)) == Side::kOutside) {
+        return "vertex " + std::to_string(v) + " projects out of the silhouette";
+      }
+    }
+    for (std::uint32_t h = 0; h < complex_.svertices.size(); ++h) {
+      const std::uint32_t a = complex_.svertex_owner[h];
+      const std::uint32_t b = complex_.target(h);
+      if (h > complex_.twin[h] || edge_inside(a, b)) continue;
+      return "the edge between vertices " + std::to_string(a) + " and " + std::to_string(b) +
+             " projects out of the silhouette";
+    }
+    return covered_hole();
+  }
+
+ private:
+  Projected project(std::uint32_t v) {
+    Projected result;
+    const auto& p = complex_.points.approximate(nef::PointId(v));
+    std::array<double, 3> x{};
+    std::array<double, 3> magnitude{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      x[i] = matrix_[i][3];
+      magnitude[i] = std::abs(x[i]);
+      for (std::size_t j = 0; j < 3; ++j) {
+        x[i] += matrix_[i][j] * p[j];
+        magnitude[i] += std::abs(matrix_[i][j] * p[j]);
+      }
+      // Entries are off by 2^-53, coordinates by 2^-51, a product and three sums by 4 * 2^-53: together
+      // below 10 * 2^-53 of the sum of magnitudes; 2^-48 is three times as much.
+      magnitude[i] = magnitude[i] * 0x1p-48 + 1e-290;
+    }
+    if (x[2] > 2 * magnitude[2]) {
+      const double least = x[2] - magnitude[2];
+      for (std::size_t i = 0; i < 2; ++i) result.at[i] = x[i] / x[2];
+      const double largest = std::max(std::abs(result.at[0]), std::abs(result.at[1]));
+      const double numerator = std::max(magnitude[0], magnitude[1]);
+      result.error = (numerator + magnitude[2] * largest) / least * 1.0001 + largest * 0x1p-51;
+      return result;
+    }
+    const Rational3 point = complex_.points.rational(nef::PointId(v));
+    const Projection exact = camera_.project(point);
+    if (sgn(exact.depth) > 0) {
+      exact_[v] = Point2(exact.x / exact.depth, exact.y / exact.depth);
+      result.at = exact_[v]->approximate;
+      result.error = std::max(std::abs(result.at[0]), std::abs(result.at[1])) * 0x1p-52 + 1e-300;
+    } else {
+      const bool apex = sgn(exact.depth) == 0 && sgn(exact.x) == 0 && sgn(exact.y) == 0;
+      result.state = apex ? Projected::State::kApex : Projected::State::kBehind;
+    }
+    return result;
+  }
+
+  const Point2& exact(std::uint32_t v) {
+    if (!exact_[v]) {
+      const Projection p = camera_.project(complex_.points.rational(nef::PointId(v)));
+      exact_[v] = Point2(p.x / p.depth, p.y / p.depth);
+    }
+    return *exact_[v];
+  }
+
+  // True if all of c-d lies surely on one side of the line through a and b, or the other way round.
+  static bool surely_apart(const Projected& a, const Projected& b, const Point2& c, const Point2& d) {
+    const double error = std::max(a.error, b.error);
+    const auto cross = [](const std::array<double, 2>& o, const std::array<double, 2>& p,
+                          const std::array<double, 2>& q) {
+      return (p[0] - o[0]) * (q[1] - o[1]) - (p[1] - o[1]) * (q[0] - o[0]);
+    };
+    double extent = 0;
+    double largest = 0;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const auto [low, high] = std::minmax({a.at[i], b.at[i], c.approximate[i], d.approximate[i]});
+      extent = std::max(extent, high - low);
+      largest = std::max({largest, std::abs(low), std::abs(high)});
+    }
+    // Each difference is below `extent` and off by at most e = 2 error + 2^-51 largest: two products of
+    // two such differences are off by at most 4 extent e + 2 e^2 and their rounding.
+    const double e = 2 * error + largest * 0x1p-51;
+    const double bound = 4 * extent * e + 2 * e * e + extent * extent * 0x1p-50;
+    const double ca = cross(c.approximate, d.approximate, a.at);
+    const double cb = cross(c.approximate, d.approximate, b.at);
+    if ((ca > bound && cb > bound) || (ca < -bound && cb < -bound)) return true;
+    const double ac = cross(a.at, b.at, c.approximate);
+    const double ad = cross(a.at, b.at, d.approximate);
+    return (ac > bound && ad > bound) || (ac < -bound && ad < -bound);
+  }
+
+  bool edge_inside(std::uint32_t va, std::uint32_t vb) {
+    Projected& a = vertices_[va];
+    Projected& b = vertices_[vb];
+    if (a.state != Projected::State::kFront || b.state != Projected::State::kFront) return true;  // seen as a point
+    Rectangle box;
+    for (const Projected* p : {&a, &b}) {
+      box.add({p->at[0] - p->error, p->at[1] - p->error});
+      box.add({p->at[0] + p->error, p->at[1] + p->error});
+    }
+    near_.clear();
+    index_.visit_edges(box, [&](const Point2& c, const Point2& d) {
+      if (!surely_apart(a, b, c, d)) near_.push_back({&c, &d});
+    });
+    if (!near_.empty()) return edge_inside_exactly(exact(va), exact(vb));
+    // Nothing of the boundary is near: all of the edge is where one end is.
+    if (!a.known_inside && !b.known_inside && index_.locate(exact(va)) == Side::kOutside) return false;
+    a.known_inside = b.known_inside = true;
+    return true;
+  }
+
+  bool edge_inside_exactly(const Point2& a, const Point2& b) {
+    if (a == b) return index_.locate(a) != Side::kOutside;
+    std::vector<const Point2*> stops{&a, &b};
+    for (const auto& [c, d] : near_) {
+      const int sc = orientation(a, b, *c);
+      const int sd = orientation(a, b, *d);
+      if (sc * sd > 0) continue;
+      const int sa = orientation(*c, *d, a);
+      const int sb = orientation(*c, *d, b);
+      if (sa * sb > 0) continue;
+      if (sc * sd < 0 && sa * sb < 0) return false;  // one side of each edge is background
+      if (sc == 0 && on_segment(a, b, *c)) stops.push_back(c);
+      if (sd == 0 && on_segment(a, b, *d)) stops.push_back(d);
+    }
+    const bool by_x = a.x != b.x;
+    std::sort(stops.begin(), stops.end(),
+              [by_x](const Point2* p, const Point2* q) { return by_x ? p->x < q->x : p->y < q->y; });
+    for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
+      const Point2& p = *stops[i];
+      const Point2& q = *stops[i + 1];
+      if (p == q) continue;
+      if (index_.locate(Point2((p.x + q.x) / 2, (p.y + q.y) / 2)) == Side::kOutside) return false;
+    }
+    return true;
+  }
+
+  // A point of the background that ring r bounds, found beside one of its edges.
+  std::optional<Point2> point_of_hole(std::size_t r) const {
+    const Ring& ring = silhouette_.rings[r];
+    const auto in_child = [&](const Point2& p) {
+      for (std::size_t k = 0; k < silhouette_.rings.size(); ++k) {
+        if (silhouette_.parent[k] == static_cast<int>(r) && locate(silhouette_.rings[k], p) != Side::kOutside)
+          return true;
+      }
+      return false;
+    };
+    const Rational half(1, 2);
+    Rational step = half;
+    for (int k = 0; k < 200; ++k, step *= half) {
+      // The background is to the right of the edge: (dx, dy) turned to (dy, -dx).
+      const Point2 p((ring[0].x + ring[1].x) / 2 + step * (ring[1].y - ring[0].y),
+                     (ring[0].y + ring[1].y) / 2 - step * (ring[1].x - ring[0].x));
+      if (locate(ring, p) == Side::kInside && !in_child(p)) return p;
+    }
+    return std::nullopt;
+  }
+
+  std::string covered_hole() const {
+    for (std::size_t r = 0; r < silhouette_.rings.size(); ++r) {
+      if (silhouette_.depth[r] % 2 == 0) continue;
+      const std::optional<Point2> point = point_of_hole(r);
+      if (!point) continue;  // 200 halvings do not fail on a ring with area
+      if (nef::shoot_ray(hull_, camera_.centre(), camera_.ray(*point))) {
+        return "hole " + std::to_string(r + 1) + " of the silhouette is covered by the hull";
+      }
+    }
+    return {};
+  }
+
+  const nef::Polyhedron& hull_;
+  const nef::Complex& complex_;
+  const Camera& camera_;
+  const Silhouette& silhouette_;
+  SilhouetteIndex index_;
+  std::array<std::array<double, 4>, 3> matrix_{};
+  std::vector<Projected> vertices_;
+  std::vector<std::optional<Point2>> exact_;
+  std::vector<std::array<const Point2*, 2>> near_;
+};
+
+}  // namespace
+
+std::string why_outside(const nef::Polyhedron& hull, const Camera& camera, const Silhouette& silhouette) {
+  return InsideCheck(hull, camera, silhouette).run();
+}
+
+}  // namespace visual_hull

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "apps/visual_hull/scene/camera.h"
+#include "nef/polyhedron.h"
+
+namespace visual_hull {
+
+/// Exact: what of the hull does not project into the silhouette; empty if nothing. See verify_view.
+std::string why_outside(const nef::Polyhedron& hull, const Camera& camera, const Silhouette& silhouette);
+
+}  // namespace visual_hull

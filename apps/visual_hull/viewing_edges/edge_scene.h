@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// All views of the direct way together, and what it asks of planes and points.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <vector>
+
+#include "apps/visual_hull/viewing_edges/direct_hull.h"
+#include "apps/visual_hull/viewing_edges/edge_view.h"
+
+namespace visual_hull {
+
+/// The relative error that a few roundings of doubles have, with room.
+inline constexpr double kRounding = 0x1p-50;
+
+inline double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+inline Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+inline double norm(const Vec3& a) { return std::sqrt(dot(a, a)); }
+
+inline SpotName sorted_name(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+  SpotName name{a, b, c};
+  std::sort(name.begin(), name.end());
+  return name;
+}
+
+/// Fixed once made; read by all threads. Refers to the cameras and silhouettes of its inputs.
+class EdgeScene : public ExactSpots {
+ public:
+  /// Throws Undecided if a camera does not have all of the box in front.
+  EdgeScene(const std::vector<DirectView>& inputs, const WorldBox& box);
+  EdgeScene(const EdgeScene&) = delete;  // its views refer to it
+  EdgeScene& operator=(const EdgeScene&) = delete;
+
+  [[nodiscard]] Rational3 exact(const Spot& spot) const override;
+
+  /// n . x + d of an edge's plane at a point, and its error.
+  [[nodiscard]] double height(const ViewingEdge& edge, const Vec3& at, double at_error, double& error) const;
+
+  /// Makes a named spot as exact as doubles are. Throws Undecided if its planes do not meet in a point.
+  void refine(Spot& spot) const;
+
+  /// A length that reaches from a point beyond all of the box.
+  [[nodiscard]] double reach(const Vec3& at) const;
+
+  std::vector<EdgeView> views;
+  std::vector<ViewingEdge> edges;
+  Vec3 low{}, high{};  ///< of the box
+  double size = 0;     ///< its longest side
+
+ private:
+  mutable std::atomic<std::size_t> exact_spots_ = 0;
+  std::size_t exact_budget_ = 0;
+};
+
+}  // namespace visual_hull

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A view as the direct way to the hull sees it: doubles with proven errors, and a grid over the silhouette.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "apps/visual_hull/scene/camera.h"
+
+namespace visual_hull {
+
+using Vec3 = std::array<double, 3>;
+
+/// Thrown, and caught, where the direct way meets something that it is not made for: a degenerate position, a hull
+/// that reaches its box. No error: the general way takes over.
+struct Undecided {};
+
+/// Three edges of silhouettes (numbers in the list of all views' edges, ascending) whose planes meet in a point.
+using SpotName = std::array<std::uint32_t, 3>;
+inline constexpr SpotName kNoName{UINT32_MAX, UINT32_MAX, UINT32_MAX};
+
+/// A point of space, each coordinate within `error` of the truth. Without a name it is some point of a line, about
+/// here.
+struct Spot {
+  Vec3 at{};
+  double error = 0;
+  SpotName name = kNoName;
+};
+
+/// A point of an image plane: the image of a spot, a vertex of a silhouette, or a pair of doubles.
+struct Seen {
+  double u = 0;
+  double v = 0;
+  double error = 0;
+  const Spot* spot = nullptr;
+  const Point2* point = nullptr;
+};
+
+/// A vector whose components are within `error` of the truth.
+struct Vector {
+  Vec3 at{};
+  double error = 0;
+};
+
+/// An edge of a silhouette with its plane n . x + d, positive towards the region; the numbers within the errors.
+struct ViewingEdge {
+  const Point2* from = nullptr;
+  const Point2* to = nullptr;
+  std::uint32_t view = 0;
+  std::uint32_t next = 0;      ///< the edge that starts where this one ends
+  std::uint32_t previous = 0;  ///< the edge that ends where this one starts
+  std::uint32_t place = 0;     ///< the first edge that starts at the same vertex: another one where rings touch
+  std::uint32_t next_at_place = UINT32_MAX;
+  Vector normal;
+  double offset = 0;
+  double offset_error = 0;
+  Vector ray;  ///< in which `from` is seen, of depth 1
+};
+
+/// Exact coordinates of a named spot; throws Undecided for others.
+class ExactSpots {
+ public:
+  virtual ~ExactSpots() = default;
+  [[nodiscard]] virtual Rational3 exact(const Spot& spot) const = 0;
+};
+
+class EdgeView {
+ public:
+  /// Appends the view's edges to `edges`. Keeps references to all arguments.
+  EdgeView(const Camera& camera, const Silhouette& silhouette, std::uint32_t index, const ExactSpots& exact,
+           std::vector<ViewingEdge>& edges);
+
+  [[nodiscard]] const Camera& camera() const { return camera_; }
+  [[nodiscard]] std::uint32_t first_edge() const { return first_; }
+  [[nodiscard]] std::uint32_t edge_count() const { return count_; }
+  [[nodiscard]] const Vector& centre() const { return centre_; }
+
+  /// Depth and its error.
+  [[nodiscard]] double depth(const Spot& spot, double& error) const;
+  /// The direction in which the camera looks, of length about 1.
+  [[nodiscard]] const Vec3& axis() const { return axis_; }
+  /// The row of the matrix that gives depth.
+  [[nodiscard]] const std::array<double, 4>& depth_row() const { return matrix_[2]; }
+
+  /// The image of a spot in front of the camera; Undecided if it may not be in front. Refers to the spot.
+  [[nodiscard]] Seen project(const Spot& spot) const;
+  [[nodiscard]] static Seen seen(const Point2& point);
+
+  /// True if a point that is not on the boundary lies in the silhouette.
+  [[nodiscard]] bool inside(const Seen& p) const;
+
+  /// Calls visit(edge) for every edge that the segment ab crosses. `stamps` has a number for each edge of the view that
+  /// is not yet `stamp`.
+  template <typename Visit>
+  void visit_crossed(const Seen& a, const Seen& b, std::vector<std::uint32_t>& stamps, std::uint32_t stamp,
+                     Visit&& visit) const {
+    const double slack = a.error + b.error + margin_;
+    const auto [top, bottom] = rows(std::min(a.v, b.v) - slack, std::max(a.v, b.v) + slack);
+    for (std::int64_t row = top; row <= bottom; ++row) {
+      const auto [left, right] = columns(a.u, a.v, b.u, b.v, row, slack);
+      for (std::int64_t column = left; column <= right; ++column) {
+        const std::size_t cell = static_cast<std::size_t>(row * width_ + column);
+        for (std::uint32_t i = cell_begin_[cell]; i < cell_begin_[cell + 1]; ++i) {
+          const std::uint32_t e = cell_edges_[i];
+          if (stamps[e - first_] == stamp) continue;
+          stamps[e - first_] = stamp;
+          if (crosses(a, b, e)) visit(e);
+        }
+      }
+    }
+  }
+
+ private:
+  void collect_edges(const Silhouette& silhouette, std::uint32_t index);
+  void join_places();
+  void prepare_edge(ViewingEdge& edge, const Vector& ray0, const Vector& ray_u, const Vector& ray_v) const;
+  void build_grid();
+  void mark_cells();
+  [[nodiscard]] bool crosses(const Seen& a, const Seen& b, std::uint32_t edge) const;
+  [[nodiscard]] int orient(const Seen& a, const Seen& b, const Seen& c) const;
+  [[nodiscard]] Point2 exact(const Seen& p) const;
+  [[nodiscard]] std::array<std::int64_t, 2> rows(double low, double high) const;
+  [[nodiscard]] std::array<std::int64_t, 2> columns(double u0, double v0, double u1, double v1, std::int64_t row,
+                                                    double slack) const;
+  [[nodiscard]] std::array<double, 2> reference(std::int64_t column, std::int64_t row) const;
+
+  const Camera& camera_;
+  const ExactSpots& exact_;
+  std::vector<ViewingEdge>& edges_;
+  std::uint32_t first_ = 0;
+  std::uint32_t count_ = 0;
+  std::array<std::array<double, 4>, 3> matrix_{};
+  Vector centre_;
+  Vec3 axis_{};
+  // The grid: `side_` wide cells from (low_u_, low_v_) on; each has a reference point, inside or not.
+  double low_u_ = 0;
+  double low_v_ = 0;
+  double side_ = 1;
+  double margin_ = 0;
+  std::int64_t width_ = 1;
+  std::int64_t height_ = 1;
+  std::vector<std::uint32_t> cell_begin_;
+  std::vector<std::uint32_t> cell_edges_;
+  std::vector<bool> cell_inside_;
+};
+
+}  // namespace visual_hull

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Let p, q, r be the normals of three planes, inward, and s the sign of their determinant. Where the solid is the
+// intersection of the half-spaces, its edges leave in the directions
+//   d_pq = s p x q,  d_qr = s q x r,  d_rp = s r x p.
+// Since (a x b) x (c x a) = -det(a, b, c) a, the facets are, for s > 0, the arcs from d_rp to d_pq counterclockwise
+// about p, from d_pq to d_qr about q, and from d_qr to d_rp about r; if s < 0 all run the other way. Where p and q are
+// the sides of a reflex edge, the solid is (p or q) and r: d_qr and d_rp are reversed, and with them the sense of the
+// arcs of p and q; the arc of r takes the long way round, so its sense changes, too.
+#include "apps/visual_hull/viewing_edges/hull_complex.h"
+
+#include "apps/visual_hull/cones/boundary_node.h"
+#include "nef/base/error.h"
+#include "nef/complex/synthesis.h"
+
+namespace visual_hull {
+namespace {
+
+using nef::PlaneId;
+
+class ComplexWriter {
+ public:
+  ComplexWriter(const std::vector<ViewingEdge>& edges, const std::vector<const Camera*>& cameras)
+      : edges_(edges), cameras_(cameras), planes_(edges.size()) {}
+
+  void add(const SpotName& name) {
+    corners_.clear();
+    PlaneId across = plane(name[2]);
+    if (const auto first = corner_of(name, edges_)) {
+      for (const std::uint32_t e : name) {
+        if (e != *first && e != edges_[*first].previous) across = plane(e);
+      }
+      for (std::uint32_t e = *first; e != UINT32_MAX; e = edges_[e].next_at_place) {
+        const ViewingEdge& out = edges_[e];
+        const ViewingEdge& in = edges_[out.previous];
+        const int turn = orientation(*in.from, *out.from, *out.to);
+        if (turn == 0) throw Undecided{};
+        corners_.push_back({plane(out.previous), plane(e), turn < 0, out.previous, e});
+      }
+    } else {
+      corners_.push_back({plane(name[0]), plane(name[1]), false, name[0], name[1]});
+    }
+    push_vertex(across);
+  }
+
+  nef::Polyhedron finish() {
+    nef::synthesize(complex_, 0);
+    return nef::Polyhedron(std::move(complex_));
+  }
+
+ private:
+  PlaneId plane(std::uint32_t edge) {
+    if (!planes_[edge].valid()) {
+      const ViewingEdge& e = edges_[edge];
+      const RationalPlane exact = plane_through(*cameras_[e.view], *e.from, *e.to);
+      planes_[edge] = complex_.planes.intern(exact.normal, exact.offset);
+    }
+    return planes_[edge];
+  }
+
+  /// Two planes of one view (or of two, in a corner of three views), and the nodes on their lines with the third.
+  struct Corner {
+    PlaneId in, out;
+    bool reflex = false;
+    std::uint32_t in_edge = 0;
+    std::uint32_t out_edge = 0;
+    std::uint32_t in_node = 0;
+    std::uint32_t out_node = 0;
+  };
+
+  void push_vertex(PlaneId r) {
+    const nef::PlaneTable& planes = complex_.planes;
+    const auto point = complex_.points.push_intersection(planes, corners_[0].in, corners_[0].out, r);
+    NEF_ASSERT(point.has_value());
+    map_.clear();
+    std::uint32_t ray = nef::kNone;
+    bool turned = false;  // the same for all corners on a ray
+    for (Corner& c : corners_) {
+      const int s = nef::side_of_circle(planes, r, nef::Direction::cross(planes, c.in, c.out));
+      if (s == 0) throw Undecided{};
+      turned = (s > 0) == c.reflex;
+      if (ray == nef::kNone) ray = s > 0 ? add_node(c.in, c.out) : add_node(c.out, c.in);
+      c.out_node = turned ? add_node(r, c.out) : add_node(c.out, r);
+      c.in_node = turned ? add_node(c.in, r) : add_node(r, c.in);
+      if (turned) {
+        add_arc(c.in, ray, c.in_node);
+        add_arc(c.out, c.out_node, ray);
+      } else {
+        add_arc(c.in, c.in_node, ray);
+        add_arc(c.out, ray, c.out_node);
+      }
+    }
+    for (const Corner& c : corners_) {
+      const std::uint32_t end = corners_.size() == 1 ? c.in_node : next_incoming(c.out_edge);
+      if (turned) {
+        add_arc(r, end, c.out_node);
+      } else {
+        add_arc(r, c.out_node, end);
+      }
+    }
+    map_.centre = 1;
+    map_.sort_around_nodes(planes);
+    map_.simplify_and_assemble(planes, buffer_);
+    complex_.push_vertex(buffer_.view());
+  }
+
+  // Where rings touch: the region left of an edge that leaves the vertex ends at the next edge, which arrives.
+  std::uint32_t next_incoming(std::uint32_t out_edge) const {
+    const Point2& centre = *edges_[out_edge].from;
+    const Point2& start = *edges_[out_edge].to;
+    // Turning left from `start`, a comes before b.
+    const auto before = [&](const Point2& a, const Point2& b) {
+      const int ta = orientation(centre, start, a);
+      const int tb = orientation(centre, start, b);
+      const bool first_a = ta > 0;  // in the first half turn; nothing lies in the direction of `start` itself
+      const bool first_b = tb > 0;
+      if (first_a != first_b) return first_a;
+      if (ta == 0 || tb == 0) return !first_a && ta == 0 && tb != 0;
+      return orientation(centre, a, b) > 0;
+    };
+    const Corner* best = nullptr;
+    for (const Corner& c : corners_) {
+      if (best == nullptr || before(*edges_[c.in_edge].from, *edges_[best->in_edge].from)) best = &c;
+    }
+    return best->in_node;
+  }
+
+  std::uint32_t add_node(PlaneId p, PlaneId q) { return add_boundary_node(map_, complex_.planes, p, q); }
+
+  void add_arc(PlaneId plane, std::uint32_t source, std::uint32_t target) {
+    nef::Arrangement::Arc arc;
+    arc.plane = plane;
+    arc.source = source;
+    arc.target = target;
+    arc.mark = 1;
+    arc.left = 1;
+    arc.right = 0;
+    map_.arcs.push_back(arc);
+  }
+
+  const std::vector<ViewingEdge>& edges_;
+  const std::vector<const Camera*>& cameras_;
+  std::vector<PlaneId> planes_;
+  std::vector<Corner> corners_;
+  nef::Complex complex_;
+  nef::Arrangement map_;
+  nef::SphereMapBuffer buffer_;
+};
+
+}  // namespace
+
+std::optional<std::uint32_t> corner_of(const SpotName& name, const std::vector<ViewingEdge>& edges) {
+  for (const std::uint32_t out : name) {
+    for (const std::uint32_t in : name) {
+      if (edges[out].previous == in) return out;
+    }
+  }
+  return std::nullopt;
+}
+
+nef::Polyhedron complex_of(const std::vector<SpotName>& vertices, const std::vector<ViewingEdge>& edges,
+                           const std::vector<const Camera*>& cameras) {
+  ComplexWriter writer(edges, cameras);
+  for (const SpotName& name : vertices) writer.add(name);
+  return writer.finish();
+}
+
+}  // namespace visual_hull

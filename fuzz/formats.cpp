@@ -14,6 +14,7 @@
 #include "nef/io/cgal_nef3.h"
 #include "nef/io/mesh_reader.h"
 #include "nef/io/mesh_writer.h"
+#include "nef/io/native_binary.h"
 #include "nef/io/native_format.h"
 #include "nef/program/expression.h"
 
@@ -36,6 +37,7 @@ void check_set(const Polyhedron& read) {
   require(equal(valid(complement(valid(complement(set), "complement")), "complement"), valid(plain, "overlay")),
           "complement: twice gives another set");
   require(equal(read_native(native_text(set), "text"), set), "native: another set comes back from text");
+  require(equal(read_native(native_binary(set), "bytes"), set), "native: another set comes back from bytes");
   const Polyhedron box = make_box({0, 0, 0}, {1, 2, 3});
   const Polyhedron both = valid(unite(set, box), "union with a box");
   require(equal(intersect(both, box), box), "union: with a box does not hold the box");
@@ -115,6 +117,11 @@ constexpr std::array kFormats{
     Format{"ply", mesh_bytes<ply_bytes, false>, read_mesh_bytes<read_ply>},
     Format{"binary-ply", mesh_bytes<ply_bytes, true>, read_mesh_bytes<read_ply>},
     Format{"nef", [](const Polyhedron& set, const std::string& /*text*/) { return native_text(set); },
+           [](const std::string& text) { check_set(read_native(text, "file")); }},
+    Format{"binary-nef",
+           [](const Polyhedron& set, const std::string& /*text*/) {
+             return native_binary(symmetric_difference(set, make_halfspace(1, 1, 0, -2, false)));
+           },
            [](const std::string& text) { check_set(read_native(text, "file")); }},
     Format{"unbounded-nef",
            [](const Polyhedron& set, const std::string& /*text*/) {

@@ -55,9 +55,8 @@ TEST_CASE("sums are CGAL's, as sets, by every strategy") {
   for (const auto& [a, b] : operands) {
     CAPTURE(a, b);
     const Polyhedron expected = place.cgal_sum("exact", a, b);
-    for (const UnionStrategy strategy :
-         {UnionStrategy::kTrivial, UnionStrategy::kQueue, UnionStrategy::kPriority, UnionStrategy::kNary,
-          UnionStrategy::kAuto}) {
+    for (const UnionStrategy strategy : {UnionStrategy::kTrivial, UnionStrategy::kQueue, UnionStrategy::kPriority,
+                                         UnionStrategy::kNary, UnionStrategy::kAuto}) {
       MinkowskiOptions options;
       options.strategy = strategy;
       CHECK(nef::equal(nef::minkowski::minkowski_sum(nef::read_polyhedron(a), nef::read_polyhedron(b), options),

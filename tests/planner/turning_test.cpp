@@ -145,8 +145,8 @@ TEST_CASE("exact contact at an angle of parallel faces is found: a slot turned b
 }
 
 TEST_CASE("random boxes in the plane against a fine grid of poses") {
-  // What the grid reaches is reachable: its steps are too small to jump over anything here. What it does not reach may be
-  // reachable all the same.
+  // What the grid reaches is reachable: its steps are too small to jump over anything here. What it does not reach may
+  // be reachable all the same.
   std::size_t paths = 0;
   std::size_t proofs = 0;
   for (unsigned seed = 0; seed < 10; ++seed) {

@@ -8,7 +8,8 @@
 namespace visual_hull {
 
 /// The image of a view with the hull's projection (filled, blue; its edges thin), what the silhouette has beyond it
-/// (the residual, yellow) and the polygon of the silhouette (red) drawn over it. Views without an image get a canvas around their polygons.
+/// (the residual, yellow) and the polygon of the silhouette (red) drawn over it. Views without an image get a canvas
+/// around their polygons.
 cv::Mat draw_overlay(const ViewResult& view, const nef::Polyhedron& hull, PixelOrigin origin);
 
 /// Writes one PNG per view into `folder` (which is made if need be), named after the views.

@@ -48,7 +48,7 @@ TEST_CASE("a section has the points of the set in the plane, and its polygons ha
   CHECK(rc::check("section", [] {
     const test::Recipe recipe = *test::recipes(true, 4);
     const auto axis = *rc::gen::inRange<std::size_t>(0, 3);
-    const Rational height(*rc::gen::inRange(0, 7), 2);
+    const Rational height = Rational(*rc::gen::inRange(0, 7)) / 2;
     const Polyhedron whole = recipe.make();
     Rational3 normal;
     const int towards = *rc::gen::element(1, -2);
@@ -61,7 +61,7 @@ TEST_CASE("a section has the points of the set in the plane, and its polygons ha
       RC_ASSERT(contains(cut.set, p) == recipe.contains(p));
       // Off the planes and edges of anything that a recipe can make: coordinates with a large prime denominator.
       Rational3 q;
-      for (std::size_t k = 0; k < 3; ++k) q[k] = Rational(*rc::gen::inRange(-1009, 5 * 1009), 1009);
+      for (std::size_t k = 0; k < 3; ++k) q[k] = Rational(*rc::gen::inRange(-1009, 5 * 1009)) / 1009;
       q[axis] = height;
       bool in = false;
       for (const SectionPolygon& polygon : cut.polygons) in = in != inside(polygon, q, axis);

@@ -3,13 +3,8 @@
 // The extension module nef._planner.
 #include <pybind11/stl.h>
 
-#if __has_include("apps/planner/path/question.h")
 #include "apps/planner/path/question.h"
 #include "apps/planner/scene/scene.h"
-#else
-#include "apps/planner/question.h"
-#include "apps/planner/scene.h"
-#endif
 #include "binding/bindings.h"
 
 namespace nef::python {

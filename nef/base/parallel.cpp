@@ -9,8 +9,9 @@
 #endif
 #endif
 
-#ifdef NEF_THREAD_SANITIZER
 #include <atomic>
+
+#ifdef NEF_THREAD_SANITIZER
 #include <thread>
 #include <vector>
 #else
@@ -20,7 +21,9 @@
 #endif
 
 #include <exception>
+#include <limits>
 #include <mutex>
+#include <utility>
 
 #include "nef/base/interruption.h"
 #include "nef/base/predicate_counts.h"
@@ -54,6 +57,34 @@ class Booking {
   PredicateCounts saved_;
 };
 
+/// What the first of the failed calls threw. Calls before it still run, so that the error a user reads does not depend
+/// on which thread was faster.
+class FirstFailure {
+ public:
+  void record(std::size_t index, std::exception_ptr thrown) {
+    const std::scoped_lock lock(mutex_);
+    if (index >= index_) return;
+    index_ = index;
+    thrown_ = std::move(thrown);
+  }
+
+  bool precedes(std::size_t index) {
+    const std::scoped_lock lock(mutex_);
+    return index_ < index;
+  }
+
+  void rethrow() const {
+    if (thrown_) std::rethrow_exception(thrown_);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::size_t index_ = std::numeric_limits<std::size_t>::max();
+  std::exception_ptr thrown_;
+};
+
+// run_on_threads: body(0) .. body(count - 1) on several threads; body does not throw.
+
 #ifdef NEF_THREAD_SANITIZER
 
 /// oneTBB comes without instrumentation, so ThreadSanitizer does not see how it hands work from thread to thread, and
@@ -61,22 +92,13 @@ class Booking {
 /// place.
 void run_on_threads(std::size_t count, unsigned threads, const std::function<void(std::size_t)>& body) {
   std::atomic<std::size_t> next = 0;
-  std::mutex mutex;
-  std::exception_ptr failure;
   const auto work = [&] {
-    try {
-      for (std::size_t i = next++; i < count; i = next++) body(i);
-    } catch (...) {
-      const std::scoped_lock lock(mutex);
-      failure = std::current_exception();
-      next = count;
-    }
+    for (std::size_t i = next++; i < count; i = next++) body(i);
   };
   std::vector<std::thread> workers;
   for (unsigned i = 1; i < (threads == 0 ? 4 : threads); ++i) workers.emplace_back(work);
   work();
   for (std::thread& worker : workers) worker.join();
-  if (failure) std::rethrow_exception(failure);
 }
 
 #else
@@ -111,20 +133,21 @@ void parallel_for(std::size_t count, unsigned threads, const std::function<void(
   // if a call throws.
   PredicateCounts sum;
   std::mutex mutex;
-  std::exception_ptr failure;
+  FirstFailure failure;
   const std::atomic<bool>* const stop = Interruptible::current();
-  try {
-    run_on_threads(count, threads, [&](std::size_t i) {
+  run_on_threads(count, threads, [&](std::size_t i) {
+    if (failure.precedes(i)) return;
+    try {
       const Interruptible interruptible(stop);
       check_interruption();
       const Booking booking(sum, mutex);
       body(i);
-    });
-  } catch (...) {
-    failure = std::current_exception();
-  }
+    } catch (...) {
+      failure.record(i, std::current_exception());
+    }
+  });
   predicate_counts() += sum;
-  if (failure) std::rethrow_exception(failure);
+  failure.rethrow();
 }
 
 }  // namespace nef

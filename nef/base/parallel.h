@@ -10,9 +10,9 @@ namespace nef {
 
 /// Calls body(0) .. body(count - 1), each once, in any order, on up to `threads` threads (0: as many
 /// as the machine has); one thread is a plain loop in order. Returns when all are done. What the
-/// workers add to predicate_counts() is added to the caller's counts. If calls throw, one of the
-/// exceptions arrives in the caller and calls that have not begun may be left out; so if the caller is interrupted (see
-/// interruption.h).
+/// workers add to predicate_counts() is added to the caller's counts. If calls throw, the exception of the first of
+/// them in the order of the indices arrives in the caller, whatever the number of threads, and calls behind it may be
+/// left out. If the caller is interrupted (see interruption.h), calls that have not begun are left out.
 void parallel_for(std::size_t count, unsigned threads, const std::function<void(std::size_t)>& body);
 
 }  // namespace nef

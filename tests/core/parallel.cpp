@@ -5,7 +5,10 @@
 
 #include <atomic>
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <stdexcept>
+#include <string>
+#include <thread>
 #include <vector>
 
 #include "nef/base/predicate_counts.h"
@@ -44,6 +47,18 @@ TEST_CASE("An exception of a worker arrives in the caller", "[parallel]") {
                     "at once");
   CHECK(predicate_counts().filter > before);
   CHECK(predicate_counts().filter <= before + 20);
+}
+
+TEST_CASE("Of several exceptions the first in the order of the calls arrives, however fast the others are",
+          "[parallel]") {
+  for (const unsigned threads : {0U, 1U, 2U, 7U}) {
+    CHECK_THROWS_WITH(parallel_for(64, threads,
+                                   [](std::size_t i) {
+                                     if (i == 3) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+                                     if (i >= 3) throw std::runtime_error("call " + std::to_string(i));
+                                   }),
+                      "call 3");
+  }
 }
 
 TEST_CASE("Unions and intersections of many sets do not depend on the number of threads", "[parallel]") {

@@ -46,10 +46,10 @@ Json check_mesh_file(const std::string& path, bool self_intersections) {
     problems.push_back(problem_json(problem));
     good = good && problem.legal;
   }
-  if (!good) return problems;
+  if (!good || !self_intersections) return problems;
   // How components lie in each other is known only when the solid is made.
   try {
-    from_mesh(mesh, {false, false, self_intersections});
+    from_mesh(mesh);
   } catch (const InputError& error) {
     problems.push_back(plain_problem("inconsistent orientation", error.what()));
   }
@@ -69,7 +69,8 @@ void add_check_command(CLI::App& app, Session& session) {
   CLI::App* command =
       add_subcommand(app, session, "check", "What is wrong with a mesh? Exit code 0 if it bounds a solid, 1 if not");
   command->add_option("input", session.input, "the mesh, as a file")->required();
-  command->add_flag("--no-check", session.no_check, "do not look for self-intersections");
+  command->add_flag("--no-check", session.no_check,
+                    "do not look for self-intersections and components that contradict each other");
   command->callback([&session] {
     const std::string& path = session.input;
     const std::string extension = lower_extension(path);

@@ -16,7 +16,9 @@ void add_unary_commands(CLI::App& app, Session& session);
 void add_transform_command(CLI::App& app, Session& session);
 void add_info_commands(CLI::App& app, Session& session);
 void add_check_command(CLI::App& app, Session& session);
+void add_repair_command(CLI::App& app, Session& session);
 void add_query_commands(CLI::App& app, Session& session);
+void add_parts_commands(CLI::App& app, Session& session);
 void add_eval_command(CLI::App& app, Session& session);
 void add_view_commands(CLI::App& app, Session& session);
 

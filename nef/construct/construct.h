@@ -56,7 +56,7 @@ Polyhedron make_polygon(std::span<const std::vector<Rational3>> rings);
 struct MeshOptions {
   bool strict = false;      ///< refuse faces that are not exactly planar instead of triangulating them
   bool as_surface = false;  ///< the union of the faces as a two-dimensional set; any mesh will do
-  bool check = true;        ///< look for self-intersections (a closed mesh that is known to be clean may skip it)
+  bool check = true;        ///< look for contacts of faces (a mesh without any may skip it; with some, it may go wrong)
 };
 
 /// Notes about what was done to the input (faces that were triangulated).

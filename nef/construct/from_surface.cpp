@@ -19,11 +19,15 @@ struct Groups {
   std::vector<std::uint32_t> single;
 };
 
-Groups group_faces(const Mesh& mesh, const MeshSurface& surface) {
+Groups group_faces(const Mesh& mesh, const MeshSurface& surface, SurfaceUse use) {
   const std::size_t count = mesh.face_count();
   std::vector<std::vector<std::uint32_t>> contacts(count);
   std::vector<bool> single(count, false);
-  for (std::uint32_t f = 0; f < count; ++f) single[f] = surface.defects[f] != FaceDefect::kNone;
+  // What a face holds besides its area, sides that are walked out and back, is no border of a solid.
+  const bool areas_only = use == SurfaceUse::kBorder;
+  for (std::uint32_t f = 0; f < count; ++f) {
+    single[f] = surface.defects[f] != FaceDefect::kNone || (!areas_only && surface.irregular[f]);
+  }
   SurfaceContacts(surface).for_each([&](SurfaceContacts::Kind /*kind*/, std::uint32_t t, std::uint32_t u) {
     const std::uint32_t f = surface.face_of[t];
     const std::uint32_t g = surface.face_of[u];
@@ -37,6 +41,7 @@ Groups group_faces(const Mesh& mesh, const MeshSurface& surface) {
   std::vector<std::uint32_t> group_of(count, kNone);
   std::vector<std::uint32_t> taken_by;  // the last face that found the group taken
   for (std::uint32_t f = 0; f < count; ++f) {
+    if (areas_only && surface.defects[f] == FaceDefect::kNoArea) continue;
     if (single[f]) {
       groups.single.push_back(f);
       continue;
@@ -119,7 +124,8 @@ void add_single(const Mesh& mesh, const MeshSurface& surface, std::uint32_t f, s
 
 }  // namespace
 
-Polyhedron from_surface(const Mesh& mesh, const MeshSurface& surface, const MeshOptions& options, Messages* messages) {
+Polyhedron from_surface(const Mesh& mesh, const MeshSurface& surface, SurfaceUse use, const MeshOptions& options,
+                        Messages* messages) {
   for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
     if (surface.defects[f] != FaceDefect::kBadIndex) continue;
     for (const std::uint32_t v : mesh.face(f)) {
@@ -127,7 +133,7 @@ Polyhedron from_surface(const Mesh& mesh, const MeshSurface& surface, const Mesh
       throw InputError("face " + std::to_string(f) + " names vertex " + std::to_string(v) + ", which does not exist");
     }
   }
-  const Groups groups = group_faces(mesh, surface);
+  const Groups groups = group_faces(mesh, surface, use);
   std::vector<Polyhedron> parts;
   MeshFaces faces(mesh, surface, options, messages);
   for (const std::vector<std::uint32_t>& group : groups.proper) parts.emplace_back(faces.surface(group));

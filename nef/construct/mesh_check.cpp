@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <optional>
 #include <set>
+#include <tuple>
 
 #include "nef/construct/edge_order.h"
 #include "nef/construct/mesh_surface.h"
@@ -31,14 +32,14 @@ std::string face_list(const std::vector<std::uint32_t>& faces) {
   return text;
 }
 
-// Gathers problems, at most so many of each kind.
+// Gathers problems, at most so many of each kind, legal and illegal ones counted apart.
 class Report {
  public:
   explicit Report(std::size_t limit) : limit_(limit) {}
 
   // False once the kind is full.
   bool add(MeshProblem problem) {
-    std::size_t& count = counts_[static_cast<std::size_t>(problem.kind)];
+    std::size_t& count = counts_[2 * static_cast<std::size_t>(problem.kind) + (problem.legal ? 1 : 0)];
     if (count < limit_) {
       ++count;
       problems_.push_back(std::move(problem));
@@ -54,7 +55,7 @@ class Report {
 
  private:
   std::size_t limit_;
-  std::array<std::size_t, 16> counts_{};
+  std::array<std::size_t, 32> counts_{};
   std::vector<MeshProblem> problems_;
 };
 
@@ -70,6 +71,11 @@ void check_faces(const Mesh& mesh, const MeshSurface& surface, Report& report) {
   for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
     switch (surface.defects[f]) {
       case FaceDefect::kNone:
+        if (surface.irregular[f]) {
+          MeshProblem problem = face_problem(Kind::kDegenerateFace, f, "comes to a vertex twice; it is cut there");
+          problem.legal = true;
+          report.add(std::move(problem));
+        }
         break;
       case FaceDefect::kBadIndex: {
         MeshProblem problem = face_problem(Kind::kBadIndex, f, "");
@@ -84,12 +90,12 @@ void check_faces(const Mesh& mesh, const MeshSurface& surface, Report& report) {
       case FaceDefect::kTooFewCorners:
         report.add(face_problem(Kind::kDegenerateFace, f, "has fewer than three corners"));
         break;
-      case FaceDefect::kRepeatedVertex:
-        report.add(face_problem(Kind::kDegenerateFace, f, "comes to the same vertex twice"));
+      case FaceDefect::kNoArea: {
+        MeshProblem problem = face_problem(Kind::kDegenerateFace, f, "has no area and is left out");
+        problem.legal = true;
+        report.add(std::move(problem));
         break;
-      case FaceDefect::kNoArea:
-        report.add(face_problem(Kind::kDegenerateFace, f, "has no area: its corners lie on one line"));
-        break;
+      }
       case FaceDefect::kCrossesItself:
         report.add(face_problem(Kind::kSelfIntersection, f, "crosses itself"));
         break;
@@ -97,7 +103,22 @@ void check_faces(const Mesh& mesh, const MeshSurface& surface, Report& report) {
   }
 }
 
+// True if one ring is the other, walked backward.
+bool turned_against(const Mesh& mesh, const MeshSurface& surface, std::uint32_t f, std::uint32_t g) {
+  const auto a = mesh.face(f);
+  const auto b = mesh.face(g);
+  const std::size_t n = a.size();
+  if (b.size() != n) return false;
+  for (std::size_t shift = 0; shift < n; ++shift) {
+    std::size_t i = 0;
+    while (i < n && surface.place[a[i]] == surface.place[b[(shift + n - i) % n]]) ++i;
+    if (i == n) return true;
+  }
+  return false;
+}
+
 void check_duplicates(const Mesh& mesh, const MeshSurface& surface, Report& report) {
+  std::vector<std::array<std::uint32_t, 2>> pairs;
   // Faces by their sorted corners: first the smallest and a hash, then the list.
   struct Key {
     std::uint64_t key = 0;
@@ -125,10 +146,15 @@ void check_duplicates(const Mesh& mesh, const MeshSurface& surface, Report& repo
     keys.push_back({pair_key(smallest, static_cast<std::uint32_t>(hash)), f});
   }
   sort_by_pair(keys, mesh.vertices.size());
-  std::vector<std::array<std::uint32_t, 2>> pairs;
-  for (std::size_t i = 1; i < keys.size(); ++i) {
-    if (keys[i].key == keys[i - 1].key && corners(keys[i].face) == corners(keys[i - 1].face)) {
-      pairs.push_back({keys[i - 1].face, keys[i].face});
+  for (std::size_t first = 0, last = 0; first < keys.size(); first = last) {
+    for (last = first + 1; last < keys.size() && keys[last].key == keys[first].key; ++last) {
+    }
+    for (std::size_t i = first; i < last; ++i) {
+      for (std::size_t j = i + 1; j < last; ++j) {
+        if (corners(keys[i].face) != corners(keys[j].face)) continue;
+        pairs.push_back({std::min(keys[i].face, keys[j].face), std::max(keys[i].face, keys[j].face)});
+        break;
+      }
     }
   }
   std::sort(pairs.begin(), pairs.end());
@@ -136,8 +162,10 @@ void check_duplicates(const Mesh& mesh, const MeshSurface& surface, Report& repo
     MeshProblem problem;
     problem.kind = Kind::kDuplicateFace;
     problem.faces = {f, g};
+    problem.legal = turned_against(mesh, surface, f, g);
     problem.text = face_list(problem.faces) + " have the same corners";
-    if (!report.add(std::move(problem))) break;
+    if (problem.legal) problem.text += ", back to back";
+    report.add(std::move(problem));
   }
 }
 
@@ -205,7 +233,7 @@ bool check_edges(const Mesh& mesh, const MeshSurface& surface, const SurfaceCont
       problem.legal = even && !crosses(edges[first].key);
       problem.text += " belongs to " + number(count) + " faces (" + face_list(problem.faces) + ")";
       problem.text += problem.legal ? ", which pair up: solids touch there"
-                      : even        ? ", which cross each other there"
+                      : even        ? ", which do not separate inside from outside there"
                                     : ", which do not pair up";
     }
     report.add(std::move(problem));
@@ -214,14 +242,17 @@ bool check_edges(const Mesh& mesh, const MeshSurface& surface, const SurfaceCont
 }
 
 MeshProblem contact_problem(SurfaceContacts::Kind kind, std::uint32_t f, std::uint32_t g) {
+  using Contact = SurfaceContacts::Kind;
   MeshProblem problem;
-  problem.kind = kind == SurfaceContacts::Kind::kTouch ? Kind::kTouching : Kind::kSelfIntersection;
-  problem.legal = kind == SurfaceContacts::Kind::kTouch;
+  problem.legal = kind == Contact::kTouch || kind == Contact::kCover;
+  problem.kind = problem.legal ? Kind::kTouching : Kind::kSelfIntersection;
   problem.faces = f == g ? std::vector<std::uint32_t>{f} : std::vector<std::uint32_t>{std::min(f, g), std::max(f, g)};
   problem.text = face_list(problem.faces);
-  if (kind == SurfaceContacts::Kind::kTouch) {
+  if (kind == Contact::kTouch) {
     problem.text += f == g ? " touches itself" : " touch without sharing a vertex or edge there";
-  } else if (kind == SurfaceContacts::Kind::kCross) {
+  } else if (kind == Contact::kCover) {
+    problem.text += f == g ? " covers itself, folded" : " cover each other, back to back";
+  } else if (kind == Contact::kCross) {
     problem.text += f == g ? " crosses itself" : " cross each other";
   } else {
     problem.text += f == g ? " overlaps itself" : " overlap in a common plane";
@@ -230,18 +261,35 @@ MeshProblem contact_problem(SurfaceContacts::Kind kind, std::uint32_t f, std::ui
 }
 
 void check_contacts(const MeshSurface& surface, const SurfaceContacts& contacts, Report& report) {
+  using Contact = SurfaceContacts::Kind;
+  struct Found {
+    std::uint32_t f = 0, g = 0;
+    Contact kind = Contact::kNone;
+  };
   // Triangles of one face meet others' many times; each pair of faces is told once, by its worst contact.
-  std::vector<std::array<std::uint32_t, 3>> found;  // face, face, kind
-  contacts.for_each([&](SurfaceContacts::Kind kind, std::uint32_t t, std::uint32_t u) {
-    const std::uint32_t f = surface.face_of[t];
-    const std::uint32_t g = surface.face_of[u];
-    found.push_back({std::min(f, g), std::max(f, g), 255U - static_cast<std::uint32_t>(kind)});
+  std::vector<Found> found;
+  std::vector<bool> covered;  // of each face: another one lies on it, back to back
+  contacts.for_each([&](Contact kind, std::uint32_t t, std::uint32_t u) {
+    const auto [f, g] = std::minmax(surface.face_of[t], surface.face_of[u]);
+    found.push_back({f, g, kind});
+    if (kind == Contact::kCover) {
+      covered.resize(surface.defects.size(), false);
+      covered[f] = covered[g] = true;
+    }
     return true;
   });
-  std::sort(found.begin(), found.end());
+  std::sort(found.begin(), found.end(),
+            [](const Found& a, const Found& b) { return std::tie(a.f, a.g, b.kind) < std::tie(b.f, b.g, a.kind); });
   for (std::size_t i = 0; i < found.size(); ++i) {
-    if (i > 0 && found[i][0] == found[i - 1][0] && found[i][1] == found[i - 1][1]) continue;
-    report.add(contact_problem(static_cast<SurfaceContacts::Kind>(255U - found[i][2]), found[i][0], found[i][1]));
+    const Found& contact = found[i];
+    if (i > 0 && contact.f == found[i - 1].f && contact.g == found[i - 1].g) continue;
+    MeshProblem problem = contact_problem(contact.kind, contact.f, contact.g);
+    if (contact.kind == Contact::kOverlap && !covered.empty() && (covered[contact.f] || covered[contact.g])) {
+      // A third face may undo one of the two; the winding numbers will tell.
+      problem.kind = Kind::kTouching;
+      problem.legal = true;
+    }
+    report.add(std::move(problem));
   }
 }
 

@@ -75,24 +75,23 @@ void MeshFaces::number_points() {
 }
 
 void MeshFaces::add_face(std::uint32_t face) {
+  if (surface_.defects[face] == FaceDefect::kNoArea) return;
   ring_.clear();
-  for (const std::uint32_t v : mesh_.face(face)) {
-    const std::uint32_t p = point_of_[v];
-    if (ring_.empty() || (ring_.back() != p && ring_.front() != p)) ring_.push_back(p);
-  }
-  if (ring_.size() < 3) return;
+  for (const std::uint32_t v : mesh_.face(face)) ring_.push_back(point_of_[v]);
   if (reverse_) std::reverse(ring_.begin(), ring_.end());
-  if (ring_.size() == 3) {
+  if (ring_.size() == 3 && !surface_.irregular[face]) {
     const PlaneId plane = plane_of_triangle(ring_);
     if (plane.valid()) push(ring_, plane);
   } else if (surface_.defects[face] != FaceDefect::kNone) {
     if (!add_defective_ring()) add_triangles(face);
-  } else if (surface_.planar[face]) {
+  } else if (!surface_.planar[face]) {
+    add_triangles(face);
+  } else if (surface_.irregular[face]) {
+    push_triangles(face);
+  } else {
     // Any triangle that it was cut into has its orientation.
     const PlaneId plane = plane_of_triangle(corners_of(surface_.triangle_begin[face]));
     push(ring_, plane);
-  } else {
-    add_triangles(face);
   }
 }
 
@@ -104,7 +103,7 @@ std::array<std::uint32_t, 3> MeshFaces::corners_of(std::uint32_t triangle) const
   return t;
 }
 
-// A ring that was not cut, since it comes to a point twice, crosses itself or has no area. False if it is not planar.
+// A ring that was not cut, since it crosses itself. False if it is not planar.
 bool MeshFaces::add_defective_ring() {
   const Integers area = vector_area();
   if (area[0] == 0 && area[1] == 0 && area[2] == 0) return true;
@@ -261,6 +260,10 @@ void MeshFaces::add_triangles(std::uint32_t face) {
     throw InputError(name + " and crosses itself when projected, so it cannot be triangulated; split it");
   }
   if (messages_ != nullptr && !reverse_) messages_->push_back(name + " and was triangulated");
+  push_triangles(face);
+}
+
+void MeshFaces::push_triangles(std::uint32_t face) {
   for (std::uint32_t i = surface_.triangle_begin[face]; i < surface_.triangle_begin[face + 1]; ++i) {
     const std::array<std::uint32_t, 3> t = corners_of(i);
     const PlaneId plane = plane_of_triangle(t);

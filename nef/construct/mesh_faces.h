@@ -43,6 +43,7 @@ class MeshFaces {
   PlaneId plane_through(const Integers& normal, std::uint32_t p);
   [[nodiscard]] Integers vector_area() const;
   void add_triangles(std::uint32_t face);
+  void push_triangles(std::uint32_t face);
 
   const Mesh& mesh_;
   const MeshSurface& surface_;

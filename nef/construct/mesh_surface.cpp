@@ -23,6 +23,34 @@ bool names_one_twice(const std::vector<std::uint32_t>& ring) {
   return std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end();
 }
 
+// Takes out corners that repeat the one before and sides that are walked out and back at once.
+void drop_spikes(std::vector<std::uint32_t>& ring) {
+  std::vector<std::uint32_t> kept;
+  for (const std::uint32_t v : ring) {
+    if (!kept.empty() && kept.back() == v) continue;
+    if (kept.size() > 1 && kept[kept.size() - 2] == v) {
+      kept.pop_back();
+    } else {
+      kept.push_back(v);
+    }
+  }
+  // The end meets the beginning.
+  std::size_t first = 0;
+  std::size_t last = kept.size();
+  while (last - first > 1) {
+    if (kept[first] == kept[last - 1]) {
+      --last;
+    } else if (last - first > 2 && kept[first + 1] == kept[last - 1]) {
+      ++first;
+    } else if (last - first > 2 && kept[first] == kept[last - 2]) {
+      --last;
+    } else {
+      break;
+    }
+  }
+  ring.assign(kept.begin() + static_cast<std::ptrdiff_t>(first), kept.begin() + static_cast<std::ptrdiff_t>(last));
+}
+
 bool on_one_line(const MeshPoints& points, const std::vector<std::uint32_t>& ring) {
   for (std::size_t i = 2; i < ring.size(); ++i) {
     if (!points.collinear(ring[0], ring[1], ring[i])) return false;
@@ -126,13 +154,16 @@ MeshSurface::MeshSurface(const Mesh& mesh)
       bad = bad || v >= mesh.vertices.size();
       if (!bad) ring.push_back(place[v]);
     }
+    const std::size_t named = ring.size();
+    irregular.push_back(
+        !bad && (named == 3 ? ring[0] == ring[1] || ring[1] == ring[2] || ring[2] == ring[0] : names_one_twice(ring)));
+    if (irregular[f]) drop_spikes(ring);
     if (bad) {
       defects[f] = FaceDefect::kBadIndex;
-    } else if (ring.size() < 3) {
+    } else if (named < 3) {
       defects[f] = FaceDefect::kTooFewCorners;
-    } else if (ring.size() == 3 ? ring[0] == ring[1] || ring[1] == ring[2] || ring[2] == ring[0]
-                                : names_one_twice(ring)) {
-      defects[f] = FaceDefect::kRepeatedVertex;
+    } else if (ring.size() < 3) {
+      defects[f] = FaceDefect::kNoArea;
     } else if (ring.size() == 3) {
       if (points.collinear(ring[0], ring[1], ring[2])) {
         defects[f] = FaceDefect::kNoArea;
@@ -147,7 +178,7 @@ MeshSurface::MeshSurface(const Mesh& mesh)
       in_one_piece = done == Cut::kConvex;
     }
     planar.push_back(bad || ring.size() < 4 || is_planar(points, ring, in_one_piece));
-    if (defects[f] == FaceDefect::kNone && planar[f] && ring.size() > 3) {
+    if (defects[f] == FaceDefect::kNone && planar[f] && !irregular[f] && ring.size() > 3) {
       rings.insert(rings.end(), ring.begin(), ring.end());
     }
     ring_begin.push_back(static_cast<std::uint32_t>(rings.size()));

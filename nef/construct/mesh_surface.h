@@ -15,9 +15,10 @@
 namespace nef {
 
 /// Why a face has no triangles.
-enum class FaceDefect : std::uint8_t { kNone, kBadIndex, kTooFewCorners, kRepeatedVertex, kNoArea, kCrossesItself };
+enum class FaceDefect : std::uint8_t { kNone, kBadIndex, kTooFewCorners, kNoArea, kCrossesItself };
 
-/// The triangulated surface of a mesh.
+/// The triangulated surface of a mesh. A face may come to a vertex twice, as one with a hole that is joined to the
+/// outer ring by a bridge does; sides that are walked out and back at once do not count.
 struct MeshSurface {
   explicit MeshSurface(const Mesh& mesh);
 
@@ -29,10 +30,11 @@ struct MeshSurface {
   std::vector<std::uint32_t> pieces;                    ///< of each triangle: equal where a convex face was cut
   std::vector<FaceDefect> defects;                      ///< of each face
   std::vector<bool> planar;                             ///< of each face: all corners lie in one plane, or on a line
-  std::vector<std::uint32_t> rings;                     ///< corners of the planar faces that were cut, as places
-  std::vector<std::uint32_t> ring_begin{0};             ///< of each face in `rings`, and the end
+  std::vector<bool> irregular;                          ///< of each face: it names a vertex twice
+  std::vector<std::uint32_t> rings;  ///< corners of the planar faces that were cut, as places; none of irregular ones
+  std::vector<std::uint32_t> ring_begin{0};  ///< of each face in `rings`, and the end
 
-  /// The corners of a planar face that was cut; none for others.
+  /// The corners of a planar face that was cut and names no vertex twice; none for others.
   [[nodiscard]] std::span<const std::uint32_t> ring(std::uint32_t face) const {
     return std::span(rings).subspan(ring_begin[face], ring_begin[face + 1] - ring_begin[face]);
   }

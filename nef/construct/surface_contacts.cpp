@@ -120,7 +120,7 @@ Interval make_interval(const Triangle& t, const Signs& s, bool first) {
 }  // namespace
 
 SurfaceContacts::SurfaceContacts(const MeshSurface& surface)
-    : points_(surface.points), triangles_(surface.triangles), patches_(surface) {}
+    : points_(surface.points), triangles_(surface.triangles), face_of_(surface.face_of), patches_(surface) {}
 
 // Most meshes meet in nothing but shared edges of two faces, and need no list of them.
 const std::vector<SurfaceContacts::HalfEdge>& SurfaceContacts::half_edges() const {
@@ -154,9 +154,9 @@ std::span<const SurfaceContacts::HalfEdge> SurfaceContacts::around(std::uint32_t
   return {first, last};
 }
 
-bool SurfaceContacts::alternate(std::uint32_t u, std::uint32_t v, std::vector<Wing> wings) const {
-  if (wings.size() % 2 != 0) return false;
-  if (wings.size() <= 2) return wings.empty() || wings[0].direction != wings[1].direction;
+SurfaceContacts::Around SurfaceContacts::around_segment(std::uint32_t u, std::uint32_t v,
+                                                        std::span<const Wing> wings) const {
+  if (wings.size() == 2) return {wings[0].direction != wings[1].direction, false};
   const std::uint32_t base = wings[0].apex;
   const std::size_t axis = points_.projection_axis(u, v, base);
   // 0: with the first wing, 1: less than a half-turn after it, 2: opposite, 3: more.
@@ -171,20 +171,39 @@ bool SurfaceContacts::alternate(std::uint32_t u, std::uint32_t v, std::vector<Wi
   };
   std::vector<Sorted> sorted;
   for (const Wing& wing : wings) sorted.push_back({sector(wing.apex), wing});
-  bool coincide = false;
-  std::stable_sort(sorted.begin(), sorted.end(), [&](const Sorted& a, const Sorted& b) {
-    if (a.sector != b.sector) return a.sector < b.sector;
-    if (a.sector % 2 == 0) return false;
-    return points_.orientation(u, v, a.wing.apex, b.wing.apex) > 0;
-  });
-  for (std::size_t i = 0; i < sorted.size(); ++i) {
-    const Sorted& a = sorted[i];
-    const Sorted& b = sorted[(i + 1) % sorted.size()];
-    coincide = coincide || (a.sector == b.sector &&
-                            (a.sector % 2 == 0 || points_.orientation(u, v, a.wing.apex, b.wing.apex) == 0));
-    if (a.wing.direction == b.wing.direction) return false;
+  const auto order = [&](const Sorted& a, const Sorted& b) {
+    if (a.sector != b.sector) return a.sector < b.sector ? 1 : -1;
+    return a.sector % 2 == 0 ? 0 : points_.orientation(u, v, a.wing.apex, b.wing.apex);
+  };
+  std::stable_sort(sorted.begin(), sorted.end(), [&](const Sorted& a, const Sorted& b) { return order(a, b) > 0; });
+  int level = 0;  // how often the space after the wings so far is wound around, but for a constant
+  int lowest = 0;
+  int highest = 0;
+  bool second_alone = false;  // since the last wing of the first surface
+  std::size_t sectors = 0;    // of the first surface that the second enters
+  bool wraps = false;         // it enters the one that holds the beginning
+  bool first_seen = false;
+  for (std::size_t i = 0; i < sorted.size();) {
+    bool any_first = false;
+    std::size_t end = i;
+    for (; end < sorted.size() && order(sorted[i], sorted[end]) == 0; ++end) {
+      level += sorted[end].wing.direction;
+      any_first = any_first || !sorted[end].wing.second;
+    }
+    lowest = std::min(lowest, level);
+    highest = std::max(highest, level);
+    if (any_first) {
+      second_alone = false;
+    } else if (!second_alone) {
+      second_alone = true;
+      ++sectors;
+      wraps = wraps || !first_seen;
+    }
+    first_seen = first_seen || any_first;
+    i = end;
   }
-  return !coincide;
+  if (wraps && second_alone && sectors > 1) --sectors;  // the last sector is the first one
+  return {level == 0 && highest - lowest <= 1, sectors > 1};
 }
 
 void SurfaceContacts::for_each_bad_edge(
@@ -206,7 +225,7 @@ void SurfaceContacts::for_each_bad_edge(
       }
       const auto u = static_cast<std::uint32_t>(edges[first].key >> 32U);
       const auto v = static_cast<std::uint32_t>(edges[first].key & 0xffffffffU);
-      if (!alternate(u, v, wings) && !visit(u, v, triangles)) return;
+      if (!around_segment(u, v, wings).separates && !visit(u, v, triangles)) return;
     }
     first = last;
   }
@@ -219,13 +238,14 @@ bool SurfaceContacts::same_direction(Edge a, Edge b) const {
 
 // Adds the triangles around the segment `along`: all at an edge of this triangle, or the two sides of the triangle
 // if the segment runs through it. Returns false if they are not balanced.
-bool SurfaceContacts::add_wings(std::uint32_t triangle, Edge own, Edge along, std::vector<Wing>& wings) const {
+bool SurfaceContacts::add_wings(std::uint32_t triangle, Edge own, Edge along, bool second,
+                                std::vector<Wing>& wings) const {
   if (own.valid) {
     const bool same = same_direction(own, along);
     int balance = 0;
     for (const HalfEdge& h : around(own.u, own.v)) {
       const int direction = (own.u < own.v) == same ? h.direction : -h.direction;
-      wings.push_back({h.apex, direction});
+      wings.push_back({h.apex, direction, second});
       balance += direction;
     }
     return balance == 0;
@@ -241,7 +261,7 @@ bool SurfaceContacts::add_wings(std::uint32_t triangle, Edge own, Edge along, st
     bool& done = turn > 0 ? left : right;
     if (turn == 0 || done) continue;
     done = true;
-    wings.push_back({corner, turn == orientation ? 1 : -1});
+    wings.push_back({corner, turn == orientation ? 1 : -1, second});
   }
   return left && right;
 }
@@ -250,11 +270,12 @@ SurfaceContacts::Kind SurfaceContacts::resolve_segment(std::uint32_t t, Edge t_e
                                                        Edge u_edge) const {
   std::vector<Wing> wings;
   const Edge along = t_edge.valid ? t_edge : u_edge;
-  const bool balanced_t = add_wings(t, t_edge, along, wings);
-  const bool balanced_u = add_wings(u, u_edge, along, wings);
+  const bool balanced_t = add_wings(t, t_edge, along, false, wings);
+  const bool balanced_u = add_wings(u, u_edge, along, true, wings);
   // An open or badly oriented surface bounds nothing that could be crossed; that is reported by itself.
   if (!balanced_t || !balanced_u) return Kind::kTouch;
-  return alternate(along.u, along.v, std::move(wings)) ? Kind::kTouch : Kind::kCross;
+  const Around around = around_segment(along.u, along.v, wings);
+  return around.interleaved && !around.separates ? Kind::kCross : Kind::kTouch;
 }
 
 SurfaceContacts::Kind SurfaceContacts::classify_general(std::uint32_t t, std::uint32_t u, int shared) const {
@@ -289,6 +310,12 @@ SurfaceContacts::Kind SurfaceContacts::classify_general(std::uint32_t t, std::ui
   return resolve_segment(t, ia.edge, u, ib.edge);
 }
 
+// True if two triangles in one plane turn the same way.
+bool SurfaceContacts::turned_alike(const Triangle& a, const Triangle& b) const {
+  const std::size_t axis = points_.projection_axis(a[0], a[1], a[2]);
+  return points_.orientation_along(a[0], a[1], a[2], axis) == points_.orientation_along(b[0], b[1], b[2], axis);
+}
+
 SurfaceContacts::Kind SurfaceContacts::classify_coplanar(std::uint32_t t, std::uint32_t u, int shared) const {
   const Triangle& a = triangles_[t];
   const Triangle& b = triangles_[u];
@@ -310,7 +337,7 @@ SurfaceContacts::Kind SurfaceContacts::classify_coplanar(std::uint32_t t, std::u
   separate(a, b);
   separate(b, a);
   if (apart) return Kind::kNone;
-  if (!interiors_apart) return Kind::kOverlap;
+  if (!interiors_apart) return turned_alike(a, b) ? Kind::kOverlap : Kind::kCover;
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 3; ++j) {
       const Edge e{a[i], a[(i + 1) % 3], true};
@@ -345,7 +372,7 @@ SurfaceContacts::Kind SurfaceContacts::classify(std::uint32_t t, std::uint32_t u
     if (!has(a, b[i])) b_free = i;
   }
   if (shared < 2) return classify_general(t, u, shared);
-  if (shared == 3) return Kind::kOverlap;
+  if (shared == 3) return turned_alike(a, b) ? Kind::kOverlap : Kind::kCover;
   return classify_neighbours(t, u, a_free, b_free);
 }
 
@@ -361,18 +388,21 @@ SurfaceContacts::Kind SurfaceContacts::classify_neighbours(std::uint32_t t, std:
     const std::size_t axis = points_.projection_axis(a[0], a[1], a[2]);
     const bool same_side =
         points_.orientation_along(p, q, a[t_free], axis) == points_.orientation_along(p, q, b[u_free], axis);
-    return same_side ? Kind::kOverlap : Kind::kNone;
+    if (!same_side) return Kind::kNone;
+    return turned_alike(a, b) ? Kind::kOverlap : Kind::kCover;
   }
   // A cut through a planar face is no edge of the surface, so what else lies on it touches the face from one side.
   if (!patches_.is_cut(t, p, q) && !patches_.is_cut(u, p, q)) return Kind::kNone;
   std::vector<Wing> wings;
   int balance = 0;
+  const std::uint32_t face = face_of_[patches_.is_cut(t, p, q) ? t : u];
   for (const HalfEdge& h : around(p, q)) {
-    wings.push_back({h.apex, h.direction});
+    wings.push_back({h.apex, h.direction, face_of_[h.triangle] != face});
     balance += h.direction;
   }
-  const bool crosses = balance == 0 && !alternate(std::min(p, q), std::max(p, q), std::move(wings));
-  return crosses ? Kind::kCross : Kind::kTouch;
+  if (balance != 0) return Kind::kTouch;
+  const Around around = around_segment(std::min(p, q), std::max(p, q), wings);
+  return around.interleaved && !around.separates ? Kind::kCross : Kind::kTouch;
 }
 
 void SurfaceContacts::for_each(const std::function<bool(Kind, std::uint32_t, std::uint32_t)>& visit) const {

@@ -17,36 +17,43 @@ namespace nef {
 
 /// Finds where a triangulated surface crosses, overlaps or touches itself.
 ///
-/// Two triangles cross if their relative interiors meet in a segment, and overlap if these meet in an area. What they
-/// have in common otherwise lies on the border of one of them. If that is a segment, the surface may still cross
-/// itself there: it does not iff the triangles around the segment, sorted by angle, alternate in orientation (going
-/// around means going in and out of a solid). If it is a point, it is harmless: wherever the surface crosses itself
-/// through a point, other triangles meet in segments that end there.
+/// Two triangles cross if their relative interiors meet in a segment. If these meet in an area, they overlap (turned
+/// the same way) or cover each other (back to back). What they have in common otherwise lies on the border of one of
+/// them. If that is a segment, the surface may still cross itself there: if the triangles of one that go on from the
+/// segment lie on both sides of the other, and going around it means more than going in and out of a solid. If it
+/// is a point, it is harmless: wherever the surface crosses itself through a point, other triangles meet in
+/// segments that end there.
 class SurfaceContacts {
  public:
   using Triangle = std::array<std::uint32_t, 3>;
 
-  enum class Kind : std::uint8_t { kNone, kTouch, kEdge, kCross, kOverlap };
+  enum class Kind : std::uint8_t { kNone, kTouch, kCover, kCross, kOverlap };
 
   /// The surface must outlive this object.
   explicit SurfaceContacts(const MeshSurface& surface);
 
-  /// Calls visit(kind, t, u) for every pair t < u with a contact, in lexicographic order; kind is kTouch, kCross or
-  /// kOverlap. Stops when visit returns false.
+  /// Calls visit(kind, t, u) for every pair t < u with a contact, in lexicographic order; kind is not kNone.
+  /// Stops when visit returns false.
   void for_each(const std::function<bool(Kind, std::uint32_t, std::uint32_t)>& visit) const;
 
   /// Calls visit(u, v, triangles) for every edge of more than two triangles which use it equally often in both
-  /// directions but do not alternate around it.
+  /// directions but do not separate inside from outside around it.
   void for_each_bad_edge(
       const std::function<bool(std::uint32_t, std::uint32_t, std::span<const std::uint32_t>)>& visit) const;
 
-  /// True if triangles around the segment from u to v alternate. Each is given by its corner beside the segment and
-  /// by +1 if it runs from u to v, -1 if from v to u.
+  /// A triangle around the segment from u to v: its corner beside the segment, +1 if it runs from u to v or -1 if
+  /// from v to u, and whether it belongs to the first or second of two surfaces.
   struct Wing {
     std::uint32_t apex = 0;
     int direction = 0;
+    bool second = false;
   };
-  [[nodiscard]] bool alternate(std::uint32_t u, std::uint32_t v, std::vector<Wing> wings) const;
+  struct Around {
+    bool separates = false;    ///< going around the segment goes in and out of a solid, which it winds around once
+    bool interleaved = false;  ///< the second surface goes on in different sectors of the first
+  };
+  /// How triangles lie around a segment. O(n log n) for n of them.
+  [[nodiscard]] Around around_segment(std::uint32_t u, std::uint32_t v, std::span<const Wing> wings) const;
 
  private:
   struct HalfEdge {
@@ -69,13 +76,15 @@ class SurfaceContacts {
   [[nodiscard]] Kind resolve_segment(std::uint32_t t, Edge t_edge, std::uint32_t u, Edge u_edge) const;
   [[nodiscard]] const std::vector<HalfEdge>& half_edges() const;
   [[nodiscard]] std::span<const HalfEdge> around(std::uint32_t u, std::uint32_t v) const;
-  bool add_wings(std::uint32_t triangle, Edge own, Edge along, std::vector<Wing>& wings) const;
+  bool add_wings(std::uint32_t triangle, Edge own, Edge along, bool second, std::vector<Wing>& wings) const;
   [[nodiscard]] bool same_direction(Edge a, Edge b) const;
+  [[nodiscard]] bool turned_alike(const Triangle& a, const Triangle& b) const;
 
   [[nodiscard]] int side(std::uint32_t triangle, std::uint32_t place) const;
 
   const MeshPoints& points_;
   std::span<const Triangle> triangles_;
+  std::span<const std::uint32_t> face_of_;
   SurfacePatches patches_;
   mutable std::once_flag half_edges_once_;
   mutable std::vector<HalfEdge> half_edges_;  // sorted by key; made when first asked for

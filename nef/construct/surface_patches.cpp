@@ -36,7 +36,7 @@ SurfacePatches::Layout SurfacePatches::planar_faces() const {
   for (std::uint32_t t = 0; t < count;) {
     const std::uint32_t f = surface_.face_of[t];
     Patch patch{t, t + 1, 0, 0, true};
-    if (surface_.planar[f]) {
+    if (!surface_.ring(f).empty()) {
       while (patch.last < count && surface_.face_of[patch.last] == f) ++patch.last;
       patch.proper = surface_.pieces[patch.first] == surface_.pieces[patch.last - 1];
     }

@@ -59,6 +59,7 @@ class Exporter {
   void run() {
     classify_volumes();
     collect_facets();
+    if (boundary_.empty() && options_.lower_dimensional) collect_lower_dimensional();
     number_vertices();
     write_facets();
     look_for_losses();
@@ -69,7 +70,13 @@ class Exporter {
     run();
     faces_.vertices.reserve(vertices_.size());
     for (const std::uint32_t v : vertices_) faces_.vertices.push_back(complex_.points.rational(PointId{v}));
-    return {std::move(faces_), std::move(lost_)};
+    MeshExport result;
+    result.mesh = std::move(faces_);
+    result.closed = !lower_dimensional_;
+    for (const auto& [v, w] : lines_) result.lines.push_back({number_[v], number_[w]});
+    for (const std::uint32_t v : points_) result.points.push_back(number_[v]);
+    result.lost = std::move(lost_);
+    return result;
   }
 
   RoundedMeshExport rounded() {
@@ -124,9 +131,51 @@ class Exporter {
     }
   }
 
+  // Of a set without solid parts: facets, edges outside of these, and vertices outside of all these.
+  void collect_lower_dimensional() {
+    std::vector<bool> held(complex_.vertex_count(), false);
+    std::vector<bool> in_facet(complex_.svertices.size(), false);
+    for (std::uint32_t f = 0; f < complex_.facet_count(); ++f) {
+      const Facet& facet = complex_.facets[f];
+      if (!is_selected(facet.mark) || sees_other(facet)) continue;
+      boundary_.push_back(f);
+      for (const std::uint32_t corner : complex_.facet_corners(facet)) {
+        const std::uint32_t h = complex_.corner_halfedge(corner);
+        in_facet[h] = in_facet[complex_.twin[h]] = true;
+        held[complex_.shalfedge_owner[corner]] = true;
+      }
+      for (std::uint32_t i = 0; i < facet.isolated_count; ++i) {
+        held[complex_.isolated_vertices[facet.first_isolated + i]] = true;
+      }
+    }
+    for (std::uint32_t h = 0; h < complex_.svertices.size(); ++h) {
+      const std::uint32_t v = complex_.svertex_owner[h];
+      const std::uint32_t w = complex_.target(h);
+      if (in_facet[h] || h > complex_.twin[h] || !is_selected(complex_.svertices[h].mark)) continue;
+      if (!finite(v) || !finite(w) || sides_of_edge(v, h).selected) continue;
+      lines_.push_back({v, w});
+      held[v] = held[w] = true;
+    }
+    for (std::uint32_t v = 0; v < complex_.vertex_count(); ++v) {
+      if (!held[v] && finite(v) && is_selected(complex_.vertices[v].mark)) points_.push_back(v);
+    }
+    lower_dimensional_ = !boundary_.empty() || !lines_.empty() || !points_.empty();
+  }
+
+  // A volume on a side of the facet is lost as a whole.
+  [[nodiscard]] bool sees_other(const Facet& facet) const {
+    if (volumes_[facet.volume_above].other || volumes_[facet.volume_below].other) return true;
+    for (const std::uint32_t corner : complex_.facet_corners(facet)) {
+      if (!finite(complex_.shalfedge_owner[corner])) return true;
+    }
+    return false;
+  }
+
   // Vertices keep their order; only those of the boundary get a number.
   void number_vertices() {
     number_.assign(complex_.vertex_count(), kUnused);
+    for (const auto& [v, w] : lines_) number_[v] = number_[w] = 0;
+    for (const std::uint32_t v : points_) number_[v] = 0;
     for (const std::uint32_t f : boundary_) {
       for (const std::uint32_t corner : complex_.facet_corners(complex_.facets[f])) {
         number_[complex_.shalfedge_owner[corner]] = 0;
@@ -202,6 +251,19 @@ class Exporter {
       }
     }
 
+    [[nodiscard]] bool strictly_convex(const std::vector<std::uint32_t>& ring, std::size_t axis) const {
+      const std::size_t n = ring.size();
+      const auto turn = [&](std::size_t i) {
+        return points_->orientation_along(number_[ring[(i + n - 1) % n]], number_[ring[i]], number_[ring[(i + 1) % n]],
+                                          axis);
+      };
+      const int first = turn(0);
+      for (std::size_t i = 1; i < n; ++i) {
+        if (turn(i) != first) return false;
+      }
+      return first != 0;
+    }
+
    private:
     std::vector<std::uint32_t> number_;  // of each vertex of the mesh
     std::vector<std::uint32_t> vertex_;
@@ -231,13 +293,16 @@ class Exporter {
       // Cycles turn counterclockwise as seen from above, which is outside if the solid lies below.
       const bool flip = volumes_[facet.volume_above].selected;
       collect_rings(facet, rings);
-      if (options_.keep_polygons && rings.size() == 1 && (rings[0].size() == 3 || may_stay_polygon(rings[0]))) {
+      const bool triangle = is_triangle(facet);
+      const bool whole = rings.size() == 1 && (triangle || !options_.only_convex ||
+                                               polygons.strictly_convex(rings[0], projection(facet.plane).first));
+      if (options_.keep_polygons && whole && (triangle || may_stay_polygon(rings[0]))) {
         if (flip) std::reverse(rings[0].begin(), rings[0].end());
         faces_.push_face(rings[0]);
         continue;
       }
       triangles.clear();
-      if (is_triangle(facet)) {
+      if (triangle) {
         triangles.push_back({rings[0][2], rings[0][0], rings[0][1]});  // begins where the triangulator's would
       } else {
         polygons.triangulate(rings, projection(facet.plane), triangles);
@@ -265,7 +330,7 @@ class Exporter {
       Items& items = sides.unselected || sides.other ? open_ : cracks_;
       ++(items.*member);
     }
-    if (!sides.selected && !sides.other && selected) ++(flat_.*member);
+    if (!sides.selected && !sides.other && selected && !lower_dimensional_) ++(flat_.*member);
   }
 
   void look_for_losses() {
@@ -303,8 +368,25 @@ class Exporter {
     return sides;
   }
 
+  // Edges and vertices of the facets that are written and do not belong to the set.
+  void count_open_borders() {
+    std::vector<bool> seen_edge(complex_.svertices.size(), false);
+    std::vector<bool> seen_vertex(complex_.vertex_count(), false);
+    for (const std::uint32_t f : boundary_) {
+      for (const std::uint32_t corner : complex_.facet_corners(complex_.facets[f])) {
+        const std::uint32_t v = complex_.shalfedge_owner[corner];
+        const std::uint32_t h = complex_.corner_halfedge(corner);
+        if (!seen_vertex[v] && !is_selected(complex_.vertices[v].mark)) ++open_.vertices;
+        if (!seen_edge[h] && !is_selected(complex_.svertices[h].mark)) ++open_.edges;
+        seen_vertex[v] = true;
+        seen_edge[h] = seen_edge[complex_.twin[h]] = true;
+      }
+    }
+  }
+
   void report_losses() {
     std::vector<std::string>& lost = lost_;
+    if (lower_dimensional_) count_open_borders();
     if (lost_volumes_ > 0) {
       lost.push_back(plural(lost_volumes_, "unbounded volume is", "unbounded volumes are") + " not in the mesh");
     }
@@ -320,9 +402,12 @@ class Exporter {
   const Complex& complex_;
   const MeshExportOptions& options_;
   std::vector<Sides> volumes_;
-  std::vector<std::uint32_t> boundary_;  // facets
-  std::vector<std::uint32_t> number_;    // in the mesh, of each vertex
-  std::vector<Answer> passes_;           // of each vertex of the mesh: may it be a corner of a polygon?
+  std::vector<std::uint32_t> boundary_;              // facets
+  std::vector<std::uint32_t> number_;                // in the mesh, of each vertex
+  std::vector<Answer> passes_;                       // of each vertex of the mesh: may it be a corner of a polygon?
+  std::vector<std::array<std::uint32_t, 2>> lines_;  // vertices of the complex
+  std::vector<std::uint32_t> points_;
+  bool lower_dimensional_ = false;
   std::size_t lost_volumes_ = 0;
   Items flat_;
   Items open_;

@@ -66,8 +66,7 @@ class File {
   void expect(std::string_view wanted) {
     const std::string_view found = word();
     if (found == wanted) return;
-    cursor_.fail(FileProblem::kSyntax,
-                 "'" + std::string(wanted) + "' should be here, not '" + std::string(found.substr(0, 30)) + "'");
+    cursor_.fail(FileProblem::kSyntax, "'" + std::string(wanted) + "' should be here, not " + in_quotes(found));
   }
 
   std::size_t count(std::string_view name) {
@@ -127,10 +126,13 @@ class File {
   }
 
   void read() {
-    for (const char* head : {"Selective", "Nef", "Complex"}) expect(head);
+    for (const char* head : {"Selective", "Nef", "Complex"}) {
+      if (word() == head) continue;
+      cursor_.fail(FileProblem::kSyntax, "a .nef3 file begins with 'Selective Nef Complex', and this one does not");
+    }
     if (const std::string_view kernel = word(); kernel != "standard") {
-      cursor_.fail(FileProblem::kUnsupported, "the file is of the kernel '" + std::string(kernel.substr(0, 20)) +
-                                                  "'; only the standard kernel is read");
+      cursor_.fail(FileProblem::kUnsupported,
+                   "the file is of the kernel " + in_quotes(kernel) + "; only the standard kernel is read");
     }
     const std::size_t vertex_count = count("vertices");
     svertex_count_ = count("halfedges");

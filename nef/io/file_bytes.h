@@ -50,14 +50,17 @@ class FileError : public InputError {
   FileElement element_;
 };
 
-/// All bytes of a file. Throws FileError (kUnreadable, kEmpty).
+/// All bytes of a file, or of standard input for "-". Throws FileError (kUnreadable, kEmpty).
 std::string read_file(const std::string& path);
 
 /// The extension of a path in lower case without the dot; empty if there is none.
 std::string lower_extension(const std::string& path);
 
-/// Writes `bytes` to a new file beside `path` and renames it, so that readers see the old file or the
-/// whole new one. A device such as /dev/stdout is written directly. Throws FileError (kUnreadable).
+/// Writes `bytes` to a new file beside `path` that gets its name when it is whole, so that readers see the old file or
+/// the whole new one. The new file has no name while it is written, where the file system can do that (O_TMPFILE);
+/// elsewhere it is called .NAME.partial, and what a killed run left under that name is used again. A symbolic link
+/// stays and its target is written; a device such as /dev/stdout is written directly, and "-" is standard output.
+/// Throws FileError (kUnreadable).
 void write_file(const std::string& path, std::string_view bytes);
 
 }  // namespace nef

@@ -7,6 +7,7 @@
 #include "nef/construct/nearest_float.h"
 #include "nef/construct/vertex_merger.h"
 #include "nef/io/file_bytes.h"
+#include "nef/io/glb_mesh.h"
 #include "nef/io/number_text.h"
 #include "nef/io/text_cursor.h"
 
@@ -108,10 +109,6 @@ void report_merged_vertices(const Mesh& mesh, bool single, Messages& messages) {
     Rational3& q = rounded.emplace_back();
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double x = single ? static_cast<double>(nearest_float(p[axis])) : nearest_double(p[axis]);
-      if (!std::isfinite(x)) {
-        messages.push_back("coordinates too large for the format were written as infinite");
-        return;
-      }
       q[axis] = x;
     }
   }
@@ -156,6 +153,10 @@ std::string obj_bytes(const Mesh& mesh, const MeshWriteOptions& options) {
     }
     text += '\n';
   }
+  for (const auto& line : options.lines) {
+    text += "l " + std::to_string(line[0] + 1) + " " + std::to_string(line[1] + 1) + "\n";
+  }
+  for (const std::uint32_t v : options.points) text += "p " + std::to_string(v + 1) + "\n";
   return text;
 }
 
@@ -194,15 +195,34 @@ std::string ply_bytes(const Mesh& mesh, const MeshWriteOptions& options) {
   return bytes;
 }
 
+void refuse_infinite(const Mesh& mesh, const std::string& extension, const MeshWriteOptions& options) {
+  if (options.exact) return;
+  const bool single = is_single_precision(extension, options);
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    for (const Rational& x : mesh.vertices[v]) {
+      if (std::isfinite(single ? static_cast<double>(nearest_float(x)) : nearest_double(x))) continue;
+      throw FileError(FileProblem::kUnsupported,
+                      "a coordinate of vertex " + std::to_string(v) + " of the mesh is beyond " +
+                          (single ? "single precision (3.4e38); write text or .nef, or scale the set"
+                                  : "doubles (1.8e308); write it with --exact to OFF, OBJ or PLY, or write .nef"),
+                      FileElement::vertex(v));
+    }
+  }
+}
+
+bool is_single_precision(const std::string& extension, const MeshWriteOptions& options) {
+  return extension == "glb" || (extension == "stl" && options.binary);
+}
+
 bool survives_writing(const Rational3& point, const std::string& extension, const MeshWriteOptions& options) {
   if (options.exact) return true;
   std::string text;
   Rational back;
   for (const Rational& x : point) {
-    const double rounded =
-        extension == "stl" && options.binary ? static_cast<double>(nearest_float(x)) : nearest_double(x);
+    const bool single = is_single_precision(extension, options);
+    const double rounded = single ? static_cast<double>(nearest_float(x)) : nearest_double(x);
     if (!std::isfinite(rounded)) return false;
-    if (options.binary) {
+    if (single || options.binary) {
       if (cmp(x, exact_rational(rounded)) != 0) return false;
       continue;
     }
@@ -214,11 +234,12 @@ bool survives_writing(const Rational3& point, const std::string& extension, cons
 }
 
 void write_mesh(const std::string& path, const Mesh& mesh, const MeshWriteOptions& options, Messages* messages) {
-  const std::string extension = lower_extension(path);
-  if (options.exact && (options.binary || extension == "stl")) {
-    refuse(path, "exact coordinates need a text format other than STL");
+  const std::string extension = options.format.empty() ? lower_extension(path) : options.format;
+  if (options.exact && (options.binary || extension == "stl" || extension == "glb")) {
+    refuse(path, "exact coordinates need OFF, OBJ or text PLY");
   }
   if (options.binary && extension != "stl" && extension != "ply") refuse(path, "only STL and PLY can be binary");
+  refuse_infinite(mesh, extension, options);
   std::string bytes;
   if (extension == "off") {
     bytes = off_bytes(mesh, options);
@@ -228,11 +249,13 @@ void write_mesh(const std::string& path, const Mesh& mesh, const MeshWriteOption
     bytes = stl_bytes(mesh, options);
   } else if (extension == "ply") {
     bytes = ply_bytes(mesh, options);
+  } else if (extension == "glb") {
+    bytes = glb_bytes(mesh);
   } else {
-    refuse(path, "the extension names no mesh format; use off, obj, stl or ply");
+    refuse(path, "the extension names no mesh format; use off, obj, stl, ply or glb");
   }
   if (messages != nullptr && !options.exact) {
-    report_merged_vertices(mesh, options.binary && extension == "stl", *messages);
+    report_merged_vertices(mesh, is_single_precision(extension, options), *messages);
   }
   write_file(path, bytes);
 }

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Polygon meshes to files: OFF, OBJ, STL and PLY.
+// Polygon meshes to files: OFF, OBJ, STL, PLY and GLB.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "nef/construct/construct.h"
 
@@ -14,13 +17,19 @@ struct MeshWriteOptions {
   bool exact = false;
   /// Binary STL (single precision) or PLY (doubles) instead of text.
   bool binary = false;
+  /// Instead of the extension of the path.
+  std::string format = {};
+  /// Between vertices of the mesh; OBJ only.
+  std::vector<std::array<std::uint32_t, 2>> lines = {};
+  /// Vertices of the mesh that stand for themselves; OBJ only.
+  std::vector<std::uint32_t> points = {};
 };
 
-/// Writes a mesh in the format that the extension names (off, obj, stl, ply), beside the target first and then renamed
-/// into place. Coordinates are rounded once, to the nearest double (the nearest float in binary STL), and
-/// written with the fewest digits that give it back. STL holds triangles only: polygons are cut.
-/// Adds a line to `messages` where different vertices become one by rounding. Throws FileError for an unknown
-/// extension, options that the format does not have, or a file that cannot be written.
+/// Writes a mesh in the format that the extension names (off, obj, stl, ply, glb), beside the target first and then
+/// renamed into place. Coordinates are rounded once, to the nearest double (the nearest float in binary STL and GLB),
+/// and written with the fewest digits that give it back. STL holds triangles only: polygons are cut. Adds a line to
+/// `messages` where different vertices become one by rounding. Throws FileError for an unknown extension, options that
+/// the format does not have, coordinates beyond the range of its numbers, or a file that cannot be written.
 void write_mesh(const std::string& path, const Mesh& mesh, const MeshWriteOptions& options = {},
                 Messages* messages = nullptr);
 
@@ -30,7 +39,13 @@ std::string obj_bytes(const Mesh& mesh, const MeshWriteOptions& options = {});
 std::string stl_bytes(const Mesh& mesh, const MeshWriteOptions& options = {});
 std::string ply_bytes(const Mesh& mesh, const MeshWriteOptions& options = {});
 
-/// True if a point is the same after it was written to the format of that extension (off, obj, stl, ply) and read
+/// Throws FileError if a coordinate has no finite number near it in the format.
+void refuse_infinite(const Mesh& mesh, const std::string& extension, const MeshWriteOptions& options);
+
+/// True if the format holds coordinates in single precision.
+bool is_single_precision(const std::string& extension, const MeshWriteOptions& options);
+
+/// True if a point is the same after it was written to the format of that extension and read
 /// again: its coordinates are short decimals in text, doubles or floats in binary. Polygons of such points stay planar.
 bool survives_writing(const Rational3& point, const std::string& extension, const MeshWriteOptions& options);
 

@@ -47,8 +47,8 @@ class Reader {
   void expect(std::string_view wanted) {
     const std::string_view found = word();
     if (found == wanted) return;
-    cursor_.fail(FileProblem::kSyntax, "the word '" + std::string(wanted) + "' should be here, not '" +
-                                           std::string(found.substr(0, 30)) + "'");
+    cursor_.fail(FileProblem::kSyntax,
+                 "the word '" + std::string(wanted) + "' should be here, not " + in_quotes(found));
   }
 
   std::size_t count(std::string_view what) {
@@ -82,7 +82,7 @@ class Reader {
   PlaneId plane() {
     const std::string_view found = word();
     if (found.size() < 2 || (found[0] != '+' && found[0] != '-')) {
-      cursor_.fail(FileProblem::kSyntax, "a plane is written like +3 or -3, not '" + std::string(found) + "'");
+      cursor_.fail(FileProblem::kSyntax, "a plane is written like +3 or -3, not " + in_quotes(found));
     }
     const PlaneId id = planes_[index(found.substr(1), planes_.size(), "plane")];
     return found[0] == '-' ? id.opposite() : id;
@@ -94,7 +94,7 @@ class Reader {
     const std::string_view digits = found.substr(found[0] == '-' ? 1 : 0);
     if (digits.empty() || digits.find_first_not_of("0123456789") != std::string_view::npos) {
       cursor_.fail(FileProblem::kNotANumber,
-                   "the " + std::string(what) + " is '" + std::string(found.substr(0, 40)) + "', not a whole number");
+                   "the " + std::string(what) + " is " + in_quotes(found) + ", not a whole number");
     }
     value.set_str(std::string(found), 10);
     return value;
@@ -103,8 +103,9 @@ class Reader {
   LabelId header() {
     const std::string_view magic = cursor_.word();
     if (magic != "nef") {
-      cursor_.fail(FileProblem::kSyntax, "a .nef file begins with 'nef 1', not '" + std::string(magic.substr(0, 30)) +
-                                             "'; CGAL's text format has the extension .nef3");
+      cursor_.fail(FileProblem::kSyntax,
+                   "a .nef file begins with 'nef 1', and this one does not; CGAL's text format has the "
+                   "extension .nef3");
     }
     if (const std::int64_t version = cursor_.integer("version"); version != 1) {
       cursor_.fail(FileProblem::kUnsupported,
@@ -212,7 +213,7 @@ class Reader {
       } else if (item[0] == 'l') {
         entry = {SFaceEntry::Kind::kLoop, index(rest, sloops, "sloop")};
       } else {
-        cursor_.fail(FileProblem::kSyntax, "a boundary item begins with c, v or l, not '" + std::string(item) + "'");
+        cursor_.fail(FileProblem::kSyntax, "a boundary item begins with c, v or l, not " + in_quotes(item));
       }
       map_.entries.push_back(entry);
     }

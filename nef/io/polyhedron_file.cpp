@@ -1,24 +1,72 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "nef/io/polyhedron_file.h"
 
+#include <algorithm>
+
 #include "nef/construct/to_mesh.h"
 #include "nef/io/cgal_nef3.h"
 #include "nef/io/file_bytes.h"
+#include "nef/io/mend_rounded.h"
 #include "nef/io/mesh_reader.h"
 #include "nef/io/native_binary.h"
 #include "nef/io/native_format.h"
+#include "nef/io/number_text.h"
 
 namespace nef {
 
+namespace {
+
+void report_wires(const MeshExport& result, Messages& notes) {
+  const auto add = [&notes](std::size_t count, const char* one, const char* many) {
+    if (count == 0) return;
+    notes.push_back(std::to_string(count) + " " + (count == 1 ? one : many) +
+                    " not in the mesh: faces are all that the format has; write OBJ or .nef");
+  };
+  add(result.lines.size(), "line is", "lines are");
+  add(result.points.size(), "point is", "points are");
+}
+
+std::string mending_text(const MendedMesh& rounded) {
+  std::string text = "rounding made the mesh cross itself; it was mended:";
+  if (rounded.moved > 0) text += " " + std::to_string(rounded.moved) + " vertices went to other numbers nearby";
+  if (rounded.moved > 0 && rounded.dropped > 0) text += ",";
+  if (rounded.dropped > 0) text += " " + std::to_string(rounded.dropped) + " slivers were dropped";
+  text += " (off by at most ";
+  append_number(text, rounded.largest_move);
+  return text + "); --exact or .nef keep everything";
+}
+
+// Replaces a mesh whose rounding is not legal by one that is, or tells that this can't be done.
+void round_and_mend(Mesh& mesh, const std::string& extension, const MeshWriteOptions& options, Messages& notes) {
+  const auto survives = [&](const Rational3& p) { return survives_writing(p, extension, options); };
+  if (std::all_of(mesh.vertices.begin(), mesh.vertices.end(), survives)) return;
+  refuse_infinite(mesh, extension, options);
+  const bool single = is_single_precision(extension, options);
+  const Rounding rounding = single           ? rounding_to_binary_floats()
+                            : options.binary ? rounding_to_binary_doubles()
+                                             : rounding_to_decimals();
+  MendedMesh rounded = round_mesh(mesh, rounding);
+  if (!rounded.legal) {
+    notes.push_back("rounded to " + std::string(single ? "single" : "double") +
+                    " precision the mesh is no border of a solid any more, and could not be mended (" +
+                    rounded.problem + "); write it with --exact to OFF, OBJ or PLY, or write .nef");
+    return;
+  }
+  if (rounded.moved > 0 || rounded.dropped > 0) notes.push_back(mending_text(rounded));
+  mesh = std::move(rounded.mesh);
+}
+
+}  // namespace
+
 Polyhedron read_polyhedron(const std::string& path, const MeshOptions& options, Messages* messages) {
   const std::string extension = lower_extension(path);
+  const std::string bytes = read_file(path);  // once: it may be a pipe
   if (!is_mesh_extension(extension)) {
-    const std::string bytes = read_file(path);
     // Files without a telling extension are known by their first word.
     if (extension == "nef3" || bytes.starts_with("Selective Nef Complex")) return read_nef3(bytes, path);
     if (extension == "nef" || bytes.starts_with("nef ") || is_native_binary(bytes)) return read_native(bytes, path);
   }
-  const Mesh mesh = read_mesh(path);
+  const Mesh mesh = read_mesh(bytes, path);
   // What write_polyhedron makes of the empty set.
   if (mesh.vertices.empty() && mesh.face_count() == 0) return Polyhedron();
   try {
@@ -30,7 +78,7 @@ Polyhedron read_polyhedron(const std::string& path, const MeshOptions& options, 
 
 void write_polyhedron(const std::string& path, const Polyhedron& polyhedron, const PolyhedronWriteOptions& options,
                       Messages* messages) {
-  const std::string extension = lower_extension(path);
+  const std::string extension = options.format.empty() ? lower_extension(path) : options.format;
   if (extension == "nef") {
     write_file(path, options.text ? native_text(polyhedron) : native_binary(polyhedron));
     return;
@@ -41,17 +89,27 @@ void write_polyhedron(const std::string& path, const Polyhedron& polyhedron, con
   }
   if (!is_mesh_extension(extension)) {
     throw FileError(FileProblem::kUnreadable,
-                    path + ": the extension names no format; use nef, nef3, off, obj, stl or ply");
+                    path + ": the extension names no format; use nef, nef3, off, obj, stl, ply or glb");
   }
   MeshExportOptions export_options;
-  export_options.keep_polygons = options.keep_polygons && extension != "stl";
-  const MeshWriteOptions write_options{options.exact, options.binary};
+  export_options.keep_polygons = extension != "stl" && extension != "glb";
+  export_options.only_convex = !options.polygons;
+  export_options.lower_dimensional = true;
+  MeshWriteOptions write_options{options.exact, options.binary, extension};
   export_options.polygon_corner = [&](const Rational3& point) {
     return survives_writing(point, extension, write_options);
   };
   MeshExport result = to_mesh(polyhedron, export_options);
-  if (messages != nullptr) messages->insert(messages->end(), result.lost.begin(), result.lost.end());
-  write_mesh(path, result.mesh, write_options, messages);
+  Messages notes = result.lost;
+  if (extension == "obj") {
+    write_options.lines = result.lines;
+    write_options.points = result.points;
+  } else {
+    report_wires(result, notes);
+  }
+  if (result.closed && options.check) round_and_mend(result.mesh, extension, write_options, notes);
+  write_mesh(path, result.mesh, write_options, &notes);
+  if (messages != nullptr) messages->insert(messages->end(), notes.begin(), notes.end());
 }
 
 }  // namespace nef

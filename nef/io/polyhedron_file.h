@@ -11,22 +11,27 @@
 
 namespace nef {
 
-/// Reads a polyhedron: .nef (the own format), .nef3 (CGAL's text), or a mesh (off, obj, stl, ply) that from_mesh makes
-/// a solid of. `messages` gets what was done to the input. Throws InputError (FileError for the file itself) with the
-/// path in front of the text.
+/// Reads a polyhedron: .nef (the own format), .nef3 (CGAL's text), or a mesh (off, obj, stl, ply, glb) that from_mesh
+/// makes a solid of. `messages` gets what was done to the input. Throws InputError (FileError for the file itself) with
+/// the path in front of the text.
 Polyhedron read_polyhedron(const std::string& path, const MeshOptions& options = {}, Messages* messages = nullptr);
 
 struct PolyhedronWriteOptions {
-  bool exact = false;         ///< exact coordinates in mesh files (not STL)
-  bool binary = false;        ///< binary STL or PLY
-  bool text = false;          ///< .nef as text; it is binary otherwise
-  bool keep_polygons = true;  ///< faces without holes that rounding leaves planar stay polygons in OFF, OBJ, PLY
+  bool exact = false;       ///< exact coordinates in mesh files (not STL)
+  bool binary = false;      ///< binary STL or PLY
+  bool text = false;        ///< .nef as text; it is binary otherwise
+  bool polygons = false;    ///< faces that are not convex stay polygons, too, in OFF, OBJ, PLY
+  bool check = true;        ///< check what was rounded, and mend it
+  std::string format = {};  ///< instead of the extension of the path, which may be none
 };
 
-/// Writes a polyhedron, beside the target first and then renamed into place. Mesh formats hold the boundary of the
-/// bounded solid parts: `messages` gets a line for everything else that the set has, and for vertices that rounding
-/// makes one. Throws FileError for an unknown extension or a file that cannot be written, and UnsupportedError for an
-/// unbounded set in .nef3.
+/// Writes a polyhedron; the file gets its name when it is whole. "-" is standard output. Mesh formats hold the boundary
+/// of the bounded solid parts: convex faces as they are where rounding leaves them planar, all others as triangles.
+/// Coordinates are rounded to the nearest numbers of the format; if what comes of it is no legal mesh any more, it is
+/// mended by going to other numbers nearby. Sets without solid parts are written as surfaces, and to OBJ as lines and
+/// points. `messages` gets a line for what was mended or cannot be, and for everything that the file does not hold.
+/// Throws FileError for an unknown extension or a file that cannot be written, and UnsupportedError for an unbounded
+/// set in .nef3.
 void write_polyhedron(const std::string& path, const Polyhedron& polyhedron, const PolyhedronWriteOptions& options = {},
                       Messages* messages = nullptr);
 

@@ -94,7 +94,9 @@ Mesh read_obj(std::string_view bytes, const std::string& path) {
     } else if (word == "f" || word == "fo") {
       read_face(cursor, mesh, lines);
     } else if (!is_other_keyword(word)) {
-      cursor.fail(FileProblem::kSyntax, "'" + std::string(word.substr(0, 20)) + "' begins no line of an OBJ file");
+      // A file without vertices so far may be anything, and nothing of it is told.
+      cursor.fail(FileProblem::kSyntax,
+                  (mesh.vertices.empty() ? "this" : in_quotes(word)) + " begins no line of an OBJ file");
     }
     // What is left of the line: weights, colours, other statements (which may go on after a backslash).
     while (!next_word(cursor).empty()) {

@@ -31,8 +31,8 @@ OffHeader read_header(TextCursor& cursor) {
   if (off != std::string_view::npos && off + 3 == word.size()) {
     const std::string_view prefix = word.substr(0, off);
     if (prefix.find_first_not_of("STCN") != std::string_view::npos) {
-      cursor.fail(FileProblem::kUnsupported, "the header '" + std::string(word) +
-                                                 "' is not three-dimensional; OFF, COFF, NOFF and STOFF are read");
+      cursor.fail(FileProblem::kUnsupported,
+                  "the header " + in_quotes(word) + " is not three-dimensional; OFF, COFF, NOFF and STOFF are read");
     }
     header.attributes = !prefix.empty();
     word = cursor.word();
@@ -40,8 +40,7 @@ OffHeader read_header(TextCursor& cursor) {
       cursor.fail(FileProblem::kUnsupported, "binary OFF is not read; convert the file to text");
     }
   } else if (word.empty() || word.find_first_not_of("0123456789") != std::string_view::npos) {
-    cursor.fail(FileProblem::kSyntax,
-                "an OFF file begins with the word OFF, not '" + std::string(word.substr(0, 20)) + "'");
+    cursor.fail(FileProblem::kSyntax, "an OFF file begins with the word OFF, and this one does not");
   }
   header.vertices = read_count(cursor, word, "number of vertices");
   header.faces = read_count(cursor, {}, "number of faces");

@@ -40,7 +40,7 @@ Type read_type(TextCursor& cursor, std::string_view word) {
   if (word == "uint" || word == "uint32") return Type::kUint32;
   if (word == "float" || word == "float32") return Type::kFloat;
   if (word == "double" || word == "float64") return Type::kDouble;
-  cursor.fail(FileProblem::kSyntax, "'" + std::string(word.substr(0, 20)) + "' is no type of a PLY property");
+  cursor.fail(FileProblem::kSyntax, in_quotes(word) + " is no type of a PLY property");
 }
 
 bool is_integer(Type type) { return type != Type::kFloat && type != Type::kDouble; }
@@ -54,7 +54,7 @@ void read_format(TextCursor& cursor, Header& header) {
   } else if (word == "binary_big_endian") {
     header.format = Header::Format::kBig;
   } else {
-    cursor.fail(FileProblem::kSyntax, "'" + std::string(word.substr(0, 30)) + "' is no PLY format");
+    cursor.fail(FileProblem::kSyntax, in_quotes(word) + " is no PLY format");
   }
 }
 
@@ -98,7 +98,7 @@ Header read_header(TextCursor& cursor) {
     } else if (word == "property") {
       read_property(cursor, header);
     } else if (!word.empty() && word != "comment" && word != "obj_info") {
-      cursor.fail(FileProblem::kSyntax, "'" + std::string(word.substr(0, 20)) + "' begins no line of a PLY header");
+      cursor.fail(FileProblem::kSyntax, in_quotes(word) + " begins no line of a PLY header");
     }
   }
   if (!format) cursor.fail(FileProblem::kSyntax, "the line 'format ...' is missing");

@@ -15,13 +15,14 @@ namespace {
 constexpr std::size_t kHeader = 84;    // 80 bytes of anything and the number of triangles
 constexpr std::size_t kTriangle = 50;  // normal, three corners, two bytes of anything
 
-std::size_t binary_count(std::string_view bytes, const std::string& path) {
-  return BinaryCursor(bytes, path, 80, std::endian::little).take<std::uint32_t>("number of triangles");
+std::size_t binary_count(std::string_view bytes) {
+  const std::string no_path;
+  return BinaryCursor(bytes, no_path, 80, std::endian::little).take<std::uint32_t>("number of triangles");
 }
 
 // Many binary files begin with "solid" too, so their length decides first.
-bool is_text(std::string_view bytes, const std::string& path) {
-  if (bytes.size() >= kHeader && bytes.size() == kHeader + kTriangle * binary_count(bytes, path)) return false;
+bool is_text(std::string_view bytes) {
+  if (is_binary_stl(bytes)) return false;
   const std::size_t first = bytes.find_first_not_of(" \t\r\n");
   if (first == std::string_view::npos) return false;
   return bytes.substr(first).starts_with("solid") && bytes.substr(0, 1024).find('\0') == std::string_view::npos;
@@ -33,7 +34,7 @@ Mesh read_binary(std::string_view bytes, const std::string& path) {
                                                  ": the file ends before the number of triangles; it is cut off, or "
                                                  "it is a text STL that does not begin with the word solid");
   }
-  const std::size_t count = binary_count(bytes, path);
+  const std::size_t count = binary_count(bytes);
   const std::size_t have = (bytes.size() - kHeader) / kTriangle;
   if (bytes.size() != kHeader + kTriangle * count) {
     throw FileError(have < count ? FileProblem::kTruncated : FileProblem::kWrongCount,
@@ -72,7 +73,7 @@ void expect(TextCursor& cursor, std::string_view keyword) {
   if (word == keyword) return;
   cursor.fail(word.empty() ? FileProblem::kTruncated : FileProblem::kSyntax,
               "the word '" + std::string(keyword) + "' should be here, not " +
-                  (word.empty() ? "the end of the file; it is cut off" : "'" + std::string(word.substr(0, 20)) + "'"));
+                  (word.empty() ? "the end of the file; it is cut off" : in_quotes(word)));
 }
 
 // A facet after its first word.
@@ -91,7 +92,7 @@ void read_facet(TextCursor& cursor, Mesh& mesh, VertexMerger& merger, Rational3&
   if (word != "endloop") {
     cursor.fail(word.empty() ? FileProblem::kTruncated : FileProblem::kSyntax,
                 word.empty() ? "the file ends in the middle of a facet; it is cut off"
-                             : "the word 'vertex' or 'endloop' should be here, not '" + std::string(word) + "'");
+                             : "the word 'vertex' or 'endloop' should be here, not " + in_quotes(word));
   }
   if (mesh.corners.size() - first < 3) {
     cursor.fail(FileProblem::kSyntax, "facet " + std::to_string(mesh.face_count()) + " has " +
@@ -114,9 +115,8 @@ Mesh read_text(std::string_view bytes, const std::string& path) {
     for (; word == "facet"; word = cursor.word()) read_facet(cursor, mesh, merger, point);
     if (word != "endsolid") {
       cursor.fail(word.empty() ? FileProblem::kTruncated : FileProblem::kSyntax,
-                  word.empty()
-                      ? "the file ends without 'endsolid'; it is cut off"
-                      : "the word 'facet' or 'endsolid' should be here, not '" + std::string(word.substr(0, 20)) + "'");
+                  word.empty() ? "the file ends without 'endsolid'; it is cut off"
+                               : "the word 'facet' or 'endsolid' should be here, not " + in_quotes(word));
     }
     cursor.skip_line();
   }
@@ -125,8 +125,12 @@ Mesh read_text(std::string_view bytes, const std::string& path) {
 
 }  // namespace
 
+bool is_binary_stl(std::string_view bytes) {
+  return bytes.size() >= kHeader && bytes.size() == kHeader + kTriangle * binary_count(bytes);
+}
+
 Mesh read_stl(std::string_view bytes, const std::string& path) {
-  return is_text(bytes, path) ? read_text(bytes, path) : read_binary(bytes, path);
+  return is_text(bytes) ? read_text(bytes, path) : read_binary(bytes, path);
 }
 
 }  // namespace nef

@@ -155,8 +155,8 @@ void TextCursor::parse(std::string_view word, Rational& value, std::string_view 
                        FileElement element) const {
   if (parse_number(word, value)) return;
   fail(FileProblem::kNotANumber,
-       std::string(what) + " " + std::to_string(index) + " is '" + std::string(word.substr(0, 40)) +
-           "', not a finite number; write it like -3, 0.25, 1e-3 or 1/3",
+       std::string(what) + " " + std::to_string(index) + " is " + in_quotes(word) +
+           ", not a finite number; write it like -3, 0.25, 1e-3 or 1/3",
        element);
 }
 
@@ -176,8 +176,7 @@ std::int64_t TextCursor::parse_integer(std::string_view word, std::string_view w
   if (first != last && *first == '+') ++first;
   const auto [stop, error] = std::from_chars(first, last, value);
   if (error != std::errc() || stop != last) {
-    fail(FileProblem::kSyntax,
-         "the " + std::string(what) + " is '" + std::string(word.substr(0, 40)) + "', not a whole number");
+    fail(FileProblem::kSyntax, "the " + std::string(what) + " is " + in_quotes(word) + ", not a whole number");
   }
   return value;
 }

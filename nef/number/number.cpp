@@ -7,12 +7,13 @@
 #include <optional>
 
 #include "nef/base/error.h"
+#include "nef/base/in_quotes.h"
 
 namespace nef {
 namespace {
 
 [[noreturn]] void refuse(std::string_view text) {
-  throw InputError("'" + std::string(text.substr(0, 60)) + "' is not a number (write it like -3, 0.25, 1e-3 or 1/3)");
+  throw InputError(in_quotes(text) + " is not a number (write it like -3, 0.25, 1e-3 or 1/3)");
 }
 
 Integer power_of_ten(unsigned long exponent) {

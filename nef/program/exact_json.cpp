@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "nef/base/error.h"
+#include "nef/base/in_quotes.h"
 
 namespace nef {
 namespace {
@@ -21,8 +22,14 @@ constexpr int kNumberOverflow = 406;
 
 // The end of a text, which is where an error was noticed.
 std::string tail(const std::string& text) {
-  constexpr std::size_t kLength = 40;
+  constexpr std::size_t kLength = 37;  // and three dots
   return text.size() <= kLength ? text : "..." + text.substr(text.size() - kLength);
+}
+
+// The beginning of a value, for messages.
+std::string brief(const std::string& text) {
+  constexpr std::size_t kLength = 40;
+  return text.size() <= kLength ? text : text.substr(0, kLength) + "...";
 }
 
 // Builds a value from parser events; floats keep their spelling.
@@ -40,8 +47,8 @@ class KeepText : public nlohmann::json_sax<json> {
   bool start_object(std::size_t /*size*/) override { return open(json::object()); }
   bool key(string_t& value) override {
     key_ = value;
-    if (value == kNumber) throw InputError(name_ + ": unknown key '" + value + "'");
-    if (levels_.back().value.contains(value)) throw InputError(name_ + ": '" + value + "' is given twice");
+    if (value == kNumber) throw InputError(name_ + ": unknown key " + in_quotes(value));
+    if (levels_.back().value.contains(value)) throw InputError(name_ + ": " + in_quotes(value) + " is given twice");
     return true;
   }
   bool end_object() override { return close(); }
@@ -53,7 +60,12 @@ class KeepText : public nlohmann::json_sax<json> {
     if (e.id == kNumberOverflow) {
       throw InputError(line + "the number " + tail(token) + " is too large for JSON: write it as a string");
     }
-    throw InputError(line + "not valid JSON near '" + tail(token) + "'");
+    // A file that does not begin like JSON may be anything, and nothing of it is told.
+    const std::size_t first = text_.find_first_not_of(" \t\r\n");
+    if (first == std::string::npos || (text_[first] != '{' && text_[first] != '[')) {
+      throw InputError(name_ + ": this is no JSON, which begins with { or [");
+    }
+    throw InputError(line + "not valid JSON near " + in_quotes(tail(token)));
   }
 
   json result;
@@ -118,7 +130,7 @@ Rational rational_of(const json& value, const std::string& what) {
   } else if (value.is_object() && value.contains(kNumber)) {
     text = value[kNumber].get<std::string>();
   } else {
-    throw InputError(what + ": expected a number or a string such as \"1/3\", not " + spelled(value));
+    throw InputError(what + ": expected a number or a string such as \"1/3\", not " + brief(spelled(value)));
   }
   try {
     return parse_rational(text);
@@ -129,7 +141,7 @@ Rational rational_of(const json& value, const std::string& what) {
 
 std::vector<Rational> rationals_of(const json& value, const std::string& what) {
   std::vector<Rational> numbers;
-  if (!value.is_array()) throw InputError(what + ": expected a list of numbers, not " + spelled(value));
+  if (!value.is_array()) throw InputError(what + ": expected a list of numbers, not " + brief(spelled(value)));
   for (const json& item : value) {
     if (item.is_array()) {
       const std::vector<Rational> inner = rationals_of(item, what);

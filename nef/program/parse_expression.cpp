@@ -217,7 +217,7 @@ class Parser {
       case Shape::kBare:
         break;
       case Shape::kPath:
-        node.path = quoted(function);
+        node.path = in_quotes(function);
         break;
       case Shape::kNumbers:
         numbers(function, node);
@@ -256,7 +256,7 @@ class Parser {
     if (node.sets.size() < function.least) fail("expected another set; usage: " + std::string(function.usage));
   }
 
-  std::string quoted(const Function& function) {
+  std::string in_quotes(const Function& function) {
     expect('"', function.usage);
     const std::size_t end = text_.find('"', at_);
     if (end == std::string_view::npos) fail("the path has no closing '\"'");

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <ostream>
 
+#include "nef/base/error.h"
 #include "nef/base/parallel.h"
 #include "nef/base/stopwatch.h"
 #include "nef/io/polyhedron_file.h"
@@ -15,8 +16,7 @@ Polyhedron Session::load(const std::string& path) { return load_all({path}).fron
 std::vector<Polyhedron> Session::load_all(const std::vector<std::string>& paths) {
   const Stopwatch watch;
   const std::size_t first = messages.size();
-  MeshOptions options = mesh;
-  options.check = !no_check;
+  const MeshOptions options = mesh;
   std::vector<Polyhedron> sets(paths.size());
   std::vector<Messages> notes(paths.size());
   std::atomic<std::size_t> done = 0;
@@ -34,6 +34,7 @@ std::vector<Polyhedron> Session::load_all(const std::vector<std::string>& paths)
 
 void Session::store(const Polyhedron& set) {
   if (output.empty()) return;
+  if (output == "-" && json) throw InputError("--json and -o - both want standard output; name a file");
   show_phase("writing " + output);
   const Stopwatch watch;
   const std::size_t first = messages.size();
@@ -41,6 +42,8 @@ void Session::store(const Polyhedron& set) {
   options.exact = exact;
   options.binary = binary;
   options.text = text;
+  options.polygons = polygons;
+  options.format = output == "-" && format.empty() ? "nef" : format;
   write_polyhedron(output, set, options, &messages);
   write_s += watch.seconds();
   show_messages(first);
@@ -51,9 +54,14 @@ void Session::show_phase(const std::string& phase, std::size_t done, std::size_t
   bar_->show(phase, done, total);
 }
 
+void Session::note(const std::string& text) {
+  messages.push_back(text);
+  show_messages(messages.size() - 1);
+}
+
 void Session::say(const std::string& line) {
   if (bar_) bar_->clear();
-  if (!quiet && !json) out_ << one_line(line) << '\n';
+  if (!quiet && !json && output != "-") out_ << one_line(line) << '\n';
 }
 
 void Session::print(Json object) {
@@ -83,16 +91,23 @@ void add_run_flags(CLI::App* command, Session& session) {
 void add_input_flags(CLI::App* command, Session& session) {
   command->add_flag("--strict", session.mesh.strict, "refuse faces that are not exactly planar");
   command->add_flag("--as-surface", session.mesh.as_surface, "take meshes as two-dimensional sets; they may be open");
-  command->add_flag("--no-check", session.no_check, "do not look for self-intersections of meshes");
+  command->add_flag(
+      "--no-check", session.no_check,
+      "taken for the sake of old scripts: meshes are always checked, which is a fourth of the time of reading them");
 }
 
 CLI::Option* add_output_flags(CLI::App* command, Session& session) {
   command->add_flag("--exact", session.exact, "write exact coordinates (p/q) to OFF, OBJ or PLY");
   command->add_flag("--binary", session.binary, "write binary STL or PLY");
   command->add_flag("--text", session.text, "write .nef as text");
+  command->add_flag("--polygons", session.polygons,
+                    "write faces that are not convex as polygons, too, instead of cutting them into triangles");
+  command->add_option("--format", session.format, "format to write, whatever the name of the file; nef for -o -")
+      ->check(CLI::IsMember({"nef", "nef3", "off", "obj", "stl", "ply", "glb"}));
   return command
-      ->add_option("-o,--output", session.output,
-                   "file to write; its extension (nef, nef3, off, obj, stl, ply) picks the format")
+      ->add_option(
+          "-o,--output", session.output,
+          "file to write, - for standard output; its extension (nef, nef3, off, obj, stl, ply, glb) picks the format")
       ->check([](const std::string& path) { return std::string(path.empty() ? "the name of the file is empty" : ""); });
 }
 

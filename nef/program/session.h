@@ -32,7 +32,9 @@ class Session {
   bool exact = false;
   bool binary = false;
   bool text = false;
+  bool polygons = false;
   bool no_check = false;
+  std::string format;  ///< of the output, instead of its extension
   MeshOptions mesh;
   std::string output;
   std::string input;                ///< of subcommands with one operand
@@ -49,12 +51,14 @@ class Session {
   Polyhedron load(const std::string& path);
   /// The same for many, several at once.
   std::vector<Polyhedron> load_all(const std::vector<std::string>& paths);
-  /// Writes a set to `output`, if there is one.
+  /// Writes a set to `output`, if there is one; "-" is standard output, which then holds nothing else.
   void store(const Polyhedron& set);
 
   /// Shows what is being done, to somebody at a terminal who wants to see it, until something else is printed.
   void show_phase(const std::string& phase, std::size_t done = 0, std::size_t total = 0);
 
+  /// Keeps a note and shows it.
+  void note(const std::string& text);
   /// Prints a line for people; nothing if quiet or --json.
   void say(const std::string& line);
   /// Prints the one JSON object of a run, with the notes added.
@@ -75,7 +79,7 @@ class Session {
 void add_run_flags(CLI::App* command, Session& session);
 /// Flags about reading meshes: --strict, --as-surface, --no-check.
 void add_input_flags(CLI::App* command, Session& session);
-/// -o and flags about writing: --exact, --binary, --text.
+/// -o and flags about writing: --format, --exact, --binary, --text, --polygons.
 CLI::Option* add_output_flags(CLI::App* command, Session& session);
 
 }  // namespace nef

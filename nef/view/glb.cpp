@@ -65,7 +65,7 @@ class GlbWriter {
     add("animations", animations_);
     bytes_.resize((bytes_.size() + 3) / 4 * 4, '\0');
     if (!bytes_.empty()) document["buffers"] = {{{"byteLength", bytes_.size()}}};
-    return container(document.dump());
+    return container(document.dump(-1, ' ', false, Json::error_handler_t::replace));
   }
 
  private:

@@ -2,6 +2,7 @@
 #include "nef/view/page.h"
 
 #include "nef/base/error.h"
+#include "nef/base/in_quotes.h"
 #include "nef/io/file_bytes.h"
 #include "nef/view/byte_text.h"
 #include "nef/view/viewer_bundle.h"
@@ -49,7 +50,7 @@ void write_page(const std::vector<Layer>& layers, const std::string& path, const
   }
   std::string page(viewer_bundle());
   fill_in(page, "@NEF_SCENE@", base64(deflate(page_scene(layers, options))));
-  fill_in(page, "@NEF_TITLE@", escaped(options.title));
+  fill_in(page, "@NEF_TITLE@", escaped(utf8(options.title)));
   write_file(path, page);
 }
 

@@ -45,7 +45,7 @@ void write(const Polyhedron& a, py::handle path, bool exact, bool binary, bool p
   PolyhedronWriteOptions options;
   options.exact = exact;
   options.binary = binary;
-  options.keep_polygons = polygons;
+  options.polygons = polygons;
   // A file that is being written is finished, or never there: it is renamed into its place at the end.
   warn(call(items(a), [=] {
     Messages messages;

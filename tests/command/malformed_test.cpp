@@ -168,4 +168,46 @@ TEST_CASE("two cubes that share an edge or a vertex are legal") {
   }
 }
 
+TEST_CASE("names of files may be any bytes") {
+  const Workplace here;
+  const std::string name = "caf\xe9.off";
+  here.write(name, cube_off(0, 1));
+  for (const char* output : {"a.html", "a.glb"}) {
+    const Outcome outcome = here.nef("view '" + name + "' -o " + output);
+    CAPTURE(outcome.err);
+    CHECK(outcome.code == 0);
+    CHECK(here.read(output).size() > 100);
+  }
+  CHECK(here.nef("view '" + name + "' --json -o a.glb").json()["layers"] == 1);
+  CHECK(here.nef("info '" + name + "' --json").code == 0);
+}
+
+TEST_CASE("a mesh from a pipe is read once") {
+  const Workplace here;
+  here.write("a.off", cube_off(0, 2));
+  const std::string command =
+      "cd '" + here.path().string() + "' && cat a.off | '" NEF_BINARY_DIR "/nef' info /dev/stdin --json > out.json";
+  REQUIRE(std::system(command.c_str()) == 0);
+  CHECK(nlohmann::json::parse(here.read("out.json"))["volume"] == "8");
+}
+
+TEST_CASE("The option --no-check changes nothing about a mesh that touches itself") {
+  const Workplace here;
+  // Tetrahedra that stand on a cube: one with a corner inside its top, one with an edge inside its floor.
+  std::string text = cube_off(0, 4);
+  text.replace(text.find("8 6 0"), 5, "16 14 0");
+  const std::size_t faces = text.find("4 0 2 3 1");
+  text = text.substr(0, faces) + "2 2 4\n1 1 5\n3 1 5\n2 3 5\n" + "1 2 0\n3 2 0\n2 1 -1\n2 3 -1\n" +
+         text.substr(faces) + "3 9 10 11\n3 8 10 9\n3 8 11 10\n3 8 9 11\n" +
+         "3 12 14 13\n3 12 13 15\n3 12 15 14\n3 13 14 15\n";
+  here.write("touching.off", text);
+  const Outcome checked = here.nef("info touching.off --json");
+  CAPTURE(checked.err);
+  REQUIRE(checked.code == 0);
+  CHECK(checked.json()["volume"] == "196/3");
+  CHECK(here.nef("info touching.off --no-check --json").json() == checked.json());
+  CHECK(here.nef("convert touching.off --no-check -o a.off").code == 0);
+  CHECK(here.nef("check a.off").code == 0);
+}
+
 }  // namespace nef::test

@@ -30,7 +30,7 @@ TEST_CASE("bad scenes") {
   const std::string free = R"J("obstacles": [], )J";
   const std::vector<Bad> scenes{
       {"", "the file is empty"},
-      {"no scene", "not valid JSON"},
+      {"no scene", "this is no JSON"},
       {"[1, 2]", "JSON object"},
       {R"J({"robot": )J", "not valid JSON"},
       {"{\n\"robot\": \"box(0,0,0, 1,1,1)\",\n oops}", "scene.json:3: not valid JSON near"},

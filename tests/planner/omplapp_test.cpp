@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Problems and meshes as OMPL.app has them: .cfg files, COLLADA through assimp.
+#include <atomic>
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "apps/planner/scene/bounded_process.h"
 #include "apps/planner/scene/shapes.h"
 #include "nef/base/error.h"
+#include "nef/io/file_bytes.h"
 #include "tests/planner/command_helpers.h"
 #include "tests/planner/scene_helpers.h"
 
@@ -118,6 +121,38 @@ TEST_CASE("meshes come in through assimp; double faces are kept once") {
   CHECK(mesh.face_count() == 4);
   CHECK(volume(from_mesh(mesh)) == Rational(1, 6));
   CHECK_THROWS_AS(read_with_assimp(folder.write("bad.dae", "no mesh"), nullptr), InputError);
+}
+
+// A word that is no number made assimp run and grow for ever.
+TEST_CASE("a COLLADA file that assimp never finishes is refused in one line") {
+  const Folder folder;
+  const std::string cube = read_file(problem("cube.dae"));
+  const std::string face = "<p>0 1 3 ";
+  std::string bad = cube;
+  const std::size_t at = bad.find(face);
+  REQUIRE(at != std::string::npos);
+  bad.replace(at, face.size(), "<p>0 x 3 ");
+  try {
+    read_with_assimp(folder.write("bad.dae", bad), nullptr);
+    FAIL("read");
+  } catch (const InputError& error) {
+    CHECK(std::string(error.what()).find("bad.dae: ") != std::string::npos);
+    CHECK(std::string(error.what()).find('\n') == std::string::npos);
+  }
+}
+
+TEST_CASE("work in a process of its own: results, errors and bounds") {
+  const std::string text(300000, 'x');
+  CHECK(run_bounded(std::size_t{1} << 28U, 5, [&] { return text; }) == text);
+  CHECK_THROWS_AS(run_bounded(std::size_t{1} << 28U, 5, []() -> std::string { throw InputError("no"); }), InputError);
+  CHECK_FALSE(run_bounded(std::size_t{1} << 26U, 5, [] {
+    std::string grows = "x";
+    while (true) grows += grows;
+    return grows;
+  }));
+  CHECK_FALSE(run_bounded(std::size_t{1} << 28U, 1, []() -> std::string {
+    for (std::atomic<unsigned> turns = 0;;) ++turns;
+  }));
 }
 
 }  // namespace

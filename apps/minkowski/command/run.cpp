@@ -304,10 +304,10 @@ class Run {
   }
 
   void print_report(const Json& object) const {
-    if (a_.json) std::cout << object.dump() << "\n";
+    if (a_.json) std::cout << object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
     if (a_.report.empty()) return;
     const SignalsHeld held;
-    write_file(a_.report, object.dump(2) + "\n");
+    write_file(a_.report, object.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
   }
 
   const Arguments& a_;

@@ -52,7 +52,10 @@ void check_usage(const Arguments& a) {
 
 std::string rendered(const std::string& file, const Answer& answer, const Problem& problem, bool se3) {
   const std::string extension = std::filesystem::path(file).extension().string();
-  if (extension == ".json") return to_json(answer, problem.scene(), problem.free_space()).dump(2) + "\n";
+  if (extension == ".json")
+    return to_json(answer, problem.scene(), problem.free_space())
+               .dump(2, ' ', false, nlohmann::json::error_handler_t::replace) +
+           "\n";
   if (extension == ".path" || se3) return path_matrix(*answer.path, se3);
   return path_text(*answer.path);
 }
@@ -90,7 +93,9 @@ void print_path(const Arguments& a, const Answer& answer) {
 
 void print(const Arguments& a, const Answer& answer, const Problem& problem) {
   if (a.json) {
-    std::cout << to_json(answer, problem.scene(), problem.free_space()).dump(2) << '\n';
+    std::cout << to_json(answer, problem.scene(), problem.free_space())
+                     .dump(2, ' ', false, nlohmann::json::error_handler_t::replace)
+              << '\n';
     return;
   }
   if (a.quiet) return;
@@ -144,8 +149,9 @@ int answer_queries(const Arguments& a, const Problem& problem) {
   if (!report) return code;
   nlohmann::json result = free_space_json(problem.scene(), problem.free_space());
   result["queries"] = std::move(answers);
-  for (const std::string& file : a.outputs) write_file(file, result.dump(2) + "\n");
-  if (a.json) std::cout << result.dump(2) << '\n';
+  for (const std::string& file : a.outputs)
+    write_file(file, result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  if (a.json) std::cout << result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
   return code;
 }
 

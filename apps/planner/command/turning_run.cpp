@@ -120,7 +120,8 @@ int run_turning(const Arguments& a, const Scene& scene) {
   limits.max_cells = a.max_cells;
   if (a.time_given) limits.stop = [&] { return watch.seconds() >= a.seconds; };
   const TurningAnswer answer = find_turning_path(scene, question_of(scene), limits);
-  const std::string text = report(answer, scene, watch.seconds()).dump(2) + "\n";
+  const std::string text =
+      report(answer, scene, watch.seconds()).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
   for (const std::string& file : a.outputs) {
     const bool as_json = std::filesystem::path(file).extension() == ".json";
     if (as_json || answer.status == Status::kPath) write_file(file, as_json ? text : text_of(answer));

@@ -9,6 +9,7 @@
 #include "apps/planner/scene/scene.h"
 #include "apps/planner/scene/shapes.h"
 #include "nef/base/error.h"
+#include "nef/base/in_quotes.h"
 #include "nef/io/file_bytes.h"
 
 namespace nef::planner {
@@ -39,7 +40,7 @@ class ProblemKeys {
       if (section != "[problem]") continue;
       const std::size_t equals = line.find('=');
       if (equals == std::string::npos) {
-        throw InputError(path + ":" + std::to_string(number) + ": expected key = value, not '" + line + "'");
+        throw InputError(path + ":" + std::to_string(number) + ": expected key = value, not " + in_quotes(line));
       }
       values_[trimmed(line.substr(0, equals))] = trimmed(line.substr(equals + 1));
     }
@@ -130,7 +131,7 @@ Scene read_cfg(const std::string& path) {
   scene.robot = closure(read_shape_file(beside(path, keys.text("robot")), &scene.messages, &mean));
   const std::string origin = keys.has("robot.origin") ? keys.text("robot.origin") : "vertex-mean";
   if (origin != "vertex-mean" && origin != "mesh") {
-    throw InputError(path + ": robot.origin must be vertex-mean or mesh, not '" + origin + "'");
+    throw InputError(path + ": robot.origin must be vertex-mean or mesh, not " + in_quotes(origin));
   }
   if (origin == "vertex-mean") {
     for (Rational& value : mean) value = -value;
@@ -151,7 +152,7 @@ Scene read_cfg(const std::string& path) {
   if (keys.has("contact")) {
     const std::string contact = keys.text("contact");
     if (contact != "allow" && contact != "forbid") {
-      throw InputError(path + ": contact must be allow or forbid, not '" + contact + "'");
+      throw InputError(path + ": contact must be allow or forbid, not " + in_quotes(contact));
     }
     scene.contact = contact == "allow" ? ContactRule::kAllow : ContactRule::kForbid;
   }

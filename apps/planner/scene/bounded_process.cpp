@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/planner/scene/bounded_process.h"
+
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <fstream>
+#include <string_view>
+#include <utility>
+
+#include "nef/base/error.h"
+
+namespace nef::planner {
+namespace {
+
+// What the child sends: one of these, then text.
+constexpr char kResult = 'r';
+constexpr char kInputError = 'i';
+
+void limit(decltype(RLIMIT_AS) resource, rlim_t value) {
+  rlimit now{};
+  if (getrlimit(resource, &now) != 0) return;
+  now.rlim_cur = now.rlim_max == RLIM_INFINITY ? value : std::min(value, now.rlim_max);
+  setrlimit(resource, &now);
+}
+
+rlim_t address_space() {
+  std::ifstream pages("/proc/self/statm");
+  rlim_t count = 0;
+  pages >> count;
+  return count * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
+}
+
+void set_bounds(std::size_t bytes, unsigned seconds) {
+  limit(RLIMIT_CORE, 0);
+  limit(RLIMIT_CPU, seconds);
+#if !defined(__SANITIZE_ADDRESS__)
+  limit(RLIMIT_AS, address_space() + bytes);
+#else
+  static_cast<void>(bytes);
+#endif
+}
+
+bool write_all(int descriptor, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t written = write(descriptor, text.data(), text.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) return false;
+    text.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
+[[noreturn]] void be_child(int out, std::size_t bytes, unsigned seconds, const std::function<std::string()>& work) {
+  set_bounds(bytes, seconds);
+  bool sent = false;
+  try {
+    sent = write_all(out, kResult + work());
+  } catch (const InputError& error) {
+    sent = write_all(out, kInputError + std::string(error.what()));
+  } catch (...) {  // out of memory, most likely
+  }
+  _exit(sent ? 0 : 1);
+}
+
+std::string read_all(int descriptor) {
+  std::string text;
+  std::array<char, 65536> block{};
+  for (;;) {
+    const ssize_t got = read(descriptor, block.data(), block.size());
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) return text;
+    text.append(block.data(), static_cast<std::size_t>(got));
+  }
+}
+
+}  // namespace
+
+std::optional<std::string> run_bounded(std::size_t bytes, unsigned seconds, const std::function<std::string()>& work) {
+  std::array<int, 2> ends{};
+  if (pipe2(ends.data(), O_CLOEXEC) != 0) throw InputError("no pipe to another process could be made");
+  const pid_t child = fork();
+  if (child == 0) {
+    close(ends[0]);
+    be_child(ends[1], bytes, seconds, work);
+  }
+  close(ends[1]);
+  if (child < 0) {
+    close(ends[0]);
+    throw InputError("no process could be started");
+  }
+  const std::string text = read_all(ends[0]);
+  close(ends[0]);
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || text.empty()) return std::nullopt;
+  if (text[0] == kInputError) throw InputError(text.substr(1));
+  return text.substr(1);
+}
+
+}  // namespace nef::planner

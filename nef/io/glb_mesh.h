@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Meshes in binary glTF 2.0 (.glb): positions in single precision, triangles.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "nef/construct/construct.h"
+
+namespace nef {
+
+/// All triangles (also of strips and fans) of the default scene, or of all nodes if there is none, with the nodes'
+/// transformations done exactly. glTF's y points up; here z does, so (x, y, z) is read as (x, -z, y). Equal points are
+/// one vertex. Buffers outside of the file, compressed or quantized positions are refused. Throws FileError.
+Mesh read_glb(std::string_view bytes, const std::string& path);
+
+/// One node with the mesh's triangles; its matrix turns z up to y up, so that the numbers are the mesh's, rounded to
+/// the nearest floats.
+std::string glb_bytes(const Mesh& mesh);
+
+}  // namespace nef

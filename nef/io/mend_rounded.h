@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Meshes whose coordinates have been rounded: are they legal still, and what can be done if not?
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "nef/construct/construct.h"
+
+namespace nef {
+
+/// How coordinates come out of a file.
+struct Rounding {
+  /// The number of the format that is nearest to one, as a double.
+  std::function<double(const Rational&)> nearest;
+  /// The number of the format next to one of them, up or down.
+  std::function<double(double, bool up)> next;
+  /// What readers make of such a number; there may be several opinions (0.1 is a tenth, or a double near it).
+  std::vector<std::function<Rational(double)>> readings;
+};
+
+/// Numbers written as doubles in binary, as the shortest decimals that tell the doubles apart, and as floats in binary.
+Rounding rounding_to_binary_doubles();
+Rounding rounding_to_decimals();
+Rounding rounding_to_binary_floats();
+
+/// A mesh that was rounded.
+struct MendedMesh {
+  Mesh mesh;                ///< its coordinates are numbers of the format
+  bool legal = true;        ///< it bounds a solid in every reading
+  std::string problem;      ///< the first problem if it is not legal
+  std::size_t moved = 0;    ///< vertices that are not at the nearest numbers, so that it is legal
+  std::size_t dropped = 0;  ///< slivers that are gone
+  double largest_move = 0;  ///< of a vertex from its exact place, along an axis
+};
+
+/// Rounds the vertices of a legal closed mesh of convex faces. Where the result is not legal any more, vertices go to
+/// other numbers nearby and slivers are flipped or contracted, as long as that takes few rounds; then all faces are
+/// triangles. What it returns as legal was checked exactly. The cost is that of check_mesh for each reading and round.
+MendedMesh round_mesh(const Mesh& exact, const Rounding& rounding);
+
+}  // namespace nef

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// nef section, split, distance, repair; standard input and output; what nef info prints.
+#include "command/process.h"
+
+namespace nef::test {
+namespace {
+
+// Runs a line of the shell in which NEF is the program.
+int shell(const Workplace& here, std::string line) {
+  for (std::size_t at = line.find("NEF"); at != std::string::npos; at = line.find("NEF", at + 1)) {
+    line.replace(at, 3, "'" NEF_BINARY_DIR "/nef'");
+  }
+  const int status = std::system(("cd '" + here.path().string() + "' && " + line).c_str());
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+}  // namespace
+
+TEST_CASE("section writes drawings and sections in space") {
+  const Workplace here;
+  REQUIRE(here.nef("eval 'box(0,0,0,4,4,4) - box(1,1,-1,2,2,5)' -o a.nef").code == 0);
+  const Outcome outcome = here.nef("section a.nef --plane 0,0,1,-1 -o a.svg --json");
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.code == 0);
+  CHECK(outcome.json()["polygons"] == 1);
+  CHECK(outcome.json()["area"] == 15.0);
+  const std::string svg = here.read("a.svg");
+  CHECK(svg.find("<svg") == 0);
+  CHECK(std::count(svg.begin(), svg.end(), 'Z') == 2);  // a ring and its hole
+  CHECK(svg.find("viewBox=\"-0.08 -4.08 4.16 4.16\"") != std::string::npos);
+  REQUIRE(here.nef("section a.nef --plane 0,0,1,-1 -o a.dxf").code == 0);
+  const std::string dxf = here.read("a.dxf");
+  CHECK(dxf.find("0\nSECTION\n2\nENTITIES\n") == 0);
+  CHECK(dxf.rfind("0\nEOF\n") == dxf.size() - 6);
+  REQUIRE(here.nef("section a.nef --plane 0,0,1,-1 -o s.nef").code == 0);
+  CHECK(here.nef("eval 'file(\"a.nef\") * polygon(-9,-9,1, 9,-9,1, 9,9,1, -9,9,1)' -o t.nef").code == 0);
+  CHECK(here.nef("equal s.nef t.nef").code == 0);
+  REQUIRE(here.nef("section a.nef --plane 0,0,1,-1 -o s.off").code == 0);
+  CHECK(here.nef("eval 'file(\"s.off\")' --as-surface -o u.nef").code == 0);
+  CHECK(here.nef("info u.nef --json").json()["area"] == 15.0);
+  check_refused(here.nef("section a.nef --plane 0,0,0,1 -o a.svg"), "normal");
+  check_refused(here.nef("section a.nef --plane 0,0,1 -o a.svg"), "four numbers");
+}
+
+TEST_CASE("split writes a file for each part") {
+  const Workplace here;
+  REQUIRE(here.nef("eval 'box(0,0,0,1,1,1) + box(1,1,0,2,2,1) + box(5,0,0,6,1,1)' -o a.nef").code == 0);
+  CHECK(here.nef("split a.nef -o parts").code == 0);
+  CHECK(here.nef("check parts/0.off").code == 0);
+  CHECK(here.nef("check parts/1.off").code == 0);
+  CHECK_FALSE(std::filesystem::exists(here / "parts/2.off"));
+  const Outcome volumes = here.nef("split a.nef -o cubes --volumes --format stl --json");
+  CAPTURE(volumes.err);
+  REQUIRE(volumes.json()["files"].size() == 3);
+  for (const auto& file : volumes.json()["files"]) {
+    CHECK(here.nef("info " + file.get<std::string>() + " --json").json()["volume"] == "1");
+  }
+}
+
+TEST_CASE("distance tells contact, the exact square, and nearest points") {
+  const Workplace here;
+  here.write("a.off", cube_off(0, 1));
+  here.write("b.off", cube_off(2, 3));
+  here.write("c.off", cube_off(1, 3));
+  const auto apart = here.nef("distance a.off b.off --json").json();
+  CHECK(apart["contact"] == "disjoint");
+  CHECK(apart["squared"] == "3");
+  CHECK(apart["on_a"] == nlohmann::json::array({"1", "1", "1"}));
+  CHECK(apart["on_b"] == nlohmann::json::array({"2", "2", "2"}));
+  CHECK(here.nef("distance a.off c.off").out.find("touching") == 0);
+  CHECK(here.nef("distance b.off c.off").out.find("overlapping") == 0);
+}
+
+TEST_CASE("repair says what it did, and whether that was enough") {
+  const Workplace here;
+  std::string turned = cube_off(0, 2);
+  turned.replace(turned.find("4 0 2 3 1"), 9, "4 1 3 2 0");
+  here.write("turned.off", turned);
+  CHECK(here.nef("check turned.off").code == 1);
+  const Outcome outcome = here.nef("repair turned.off -o b.off");
+  CAPTURE(outcome.out, outcome.err);
+  CHECK(outcome.code == 0);
+  CHECK(outcome.out.find("1 face turned") == 0);
+  CHECK(here.nef("check b.off").code == 0);
+  std::string open = cube_off(0, 2);
+  open.replace(open.find("8 6 0"), 5, "8 5 0");
+  open.erase(open.find("4 0 2 3 1"), 10);
+  here.write("open.off", open);
+  CHECK(here.nef("repair open.off -o c.off").code == 1);
+  CHECK(here.nef("repair open.off -o c.off --fill-holes").code == 0);
+  CHECK(here.nef("info c.off --json").json()["volume"] == "8");
+}
+
+TEST_CASE("a dash is standard input and output") {
+  const Workplace here;
+  CHECK(shell(here, "NEF eval 'box(0,0,0,1,1,2)' -o - | NEF info - --json > info.json") == 0);
+  CHECK(nlohmann::json::parse(here.read("info.json"))["volume"] == "2");
+  CHECK(shell(here, "NEF eval 'box(0,0,0,1,1,2)' -o - --format off > a.off") == 0);
+  CHECK(here.read("a.off").find("OFF\n8 6 0\n") == 0);
+  CHECK(shell(here, "NEF convert - -o b.stl < a.off") == 0);
+  CHECK(here.nef("equal a.off b.stl").code == 0);
+  check_refused(here.nef("eval 'box(0,0,0,1,1,2)' -o - --json"), "standard output");
+}
+
+}  // namespace nef::test

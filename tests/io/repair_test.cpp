@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Damaged in known ways, meshes become the solid they were.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <random>
+
+#include "nef/base/error.h"
+#include "nef/construct/repair.h"
+#include "nef/construct/to_mesh.h"
+#include "nef/io/mesh_reader.h"
+
+namespace nef {
+namespace {
+
+Mesh mesh_of(const Polyhedron& set) { return to_mesh(set).mesh; }
+
+Mesh changed(const Mesh& mesh, const std::function<void(std::vector<std::vector<std::uint32_t>>&)>& change) {
+  std::vector<std::vector<std::uint32_t>> rings;
+  for (std::size_t f = 0; f < mesh.face_count(); ++f) rings.emplace_back(mesh.face(f).begin(), mesh.face(f).end());
+  change(rings);
+  Mesh result;
+  result.vertices = mesh.vertices;
+  for (const auto& ring : rings) result.push_face(ring);
+  return result;
+}
+
+void check_repaired(const Mesh& mesh, const Polyhedron& wanted, const RepairOptions& options = {}) {
+  const RepairedMesh repaired = repair_mesh(mesh, options);
+  INFO(repaired.problem);
+  REQUIRE(repaired.problem.empty());
+  CHECK(equal(from_mesh(repaired.mesh), wanted));
+}
+
+}  // namespace
+
+TEST_CASE("A sound mesh is left alone", "[repair]") {
+  const Mesh mesh = mesh_of(make_box({0, 0, 0}, {1, 2, 3}));
+  const RepairedMesh repaired = repair_mesh(mesh);
+  CHECK(repaired.done.empty());
+  CHECK(repaired.problem.empty());
+  CHECK(repaired.mesh.corners == mesh.corners);
+}
+
+TEST_CASE("Faces that are turned at random, doubled, and components turned over", "[repair]") {
+  const Polyhedron hollow = regularize(subtract(make_box({0, 0, 0}, {9, 9, 9}), make_box({2, 2, 2}, {5, 5, 5})));
+  const Polyhedron set = unite(unite(hollow, make_box({3, 3, 3}, {4, 4, 4})), make_box({11, 0, 0}, {12, 1, 1}));
+  const Mesh mesh = mesh_of(set);
+  std::mt19937 random(3);
+  for (int round = 0; round < 20; ++round) {
+    const Mesh damaged = changed(mesh, [&](auto& rings) {
+      for (std::size_t f = 0, n = rings.size(); f < n; ++f) {
+        if (random() % 2 == 0) std::reverse(rings[f].begin(), rings[f].end());
+        if (random() % 4 == 0) {
+          rings.push_back(rings[f]);
+          if (random() % 2 == 0) std::reverse(rings.back().begin(), rings.back().end());
+        }
+      }
+    });
+    check_repaired(damaged, set);
+  }
+}
+
+TEST_CASE("T-junctions close, with slivers and without", "[repair]") {
+  // The front of a box has a vertex in the middle of its upper edge, the top has not.
+  const char* vertices = "0 0 0\n4 0 0\n4 4 0\n0 4 0\n0 0 4\n4 0 4\n4 4 4\n0 4 4\n2 0 4\n";
+  const std::string faces = "4 0 3 2 1\n5 0 1 5 8 4\n4 4 5 6 7\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n";
+  const Mesh open = read_off(std::string("OFF\n9 6 0\n") + vertices + faces, "t.off");
+  CHECK_THROWS_AS(from_mesh(open), InputError);
+  check_repaired(open, make_box({0, 0, 0}, {4, 4, 4}));
+  const Mesh turned = read_off(std::string("OFF\n9 7 0\n") + vertices + faces + "3 4 5 8\n", "t.off");
+  check_repaired(turned, make_box({0, 0, 0}, {4, 4, 4}));
+}
+
+TEST_CASE("Planar holes are filled when asked", "[repair]") {
+  const Polyhedron set = unite(make_box({0, 0, 0}, {4, 4, 4}), make_box({1, 1, 4}, {2, 2, 6}));
+  MeshExportOptions polygons;
+  polygons.keep_polygons = true;
+  const Mesh mesh = to_mesh(set, polygons).mesh;
+  const Mesh open = changed(mesh, [](auto& rings) { rings.erase(rings.begin()); });
+  CHECK_FALSE(repair_mesh(open).problem.empty());
+  RepairOptions fill;
+  fill.fill_holes = true;
+  check_repaired(open, set, fill);
+}
+
+TEST_CASE("What can not be repaired is told", "[repair]") {
+  const Mesh crossing = read_off(
+      "OFF\n8 8 0\n0 0 0\n4 0 0\n0 4 0\n0 0 4\n1 1 -1\n5 1 -1\n1 5 -1\n1 1 3\n"
+      "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n3 4 6 5\n3 4 5 7\n3 5 6 7\n3 4 7 6\n",
+      "x.off");
+  CHECK(repair_mesh(crossing).problem.find("cross") != std::string::npos);
+}
+
+}  // namespace nef

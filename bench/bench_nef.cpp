@@ -7,7 +7,7 @@
 
 #include "bench/generators.h"
 #include "bench/report.h"
-#include "nef/construct/to_mesh.h"
+#include "nef/export/to_mesh.h"
 #include "nef/polyhedron.h"
 
 namespace nef::bench {

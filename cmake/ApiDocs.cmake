@@ -11,8 +11,8 @@ endif()
 # What CONTRIBUTING.md calls stable, and the public headers of the applications.
 file(GLOB NEF_PUBLIC_HEADERS CONFIGURE_DEPENDS
      nef/*.h nef/base/error.h nef/number/number.h nef/construct/construct.h nef/construct/convex_hull.h
-     nef/construct/to_mesh.h nef/construct/mesh_check.h nef/construct/convert_*.h nef/io/polyhedron_file.h
-     nef/io/mesh_reader.h nef/io/mesh_writer.h nef/io/native_format.h nef/io/cgal_nef3.h nef/query/measure.h
+     nef/export/to_mesh.h nef/mesh/mesh_check.h nef/export/convert_*.h nef/io/polyhedron_file.h
+     nef/io/mesh/mesh_reader.h nef/io/mesh/mesh_writer.h nef/io/native/native_format.h nef/io/cgal/cgal_nef3.h nef/query/measure.h
      apps/minkowski/minkowski.h apps/visual_hull/visual_hull.h
      apps/planner/ompl/translation_planning.h)
 

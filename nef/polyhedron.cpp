@@ -3,9 +3,9 @@
 
 #include <mutex>
 
-#include "nef/complex/synthesis.h"
+#include "nef/location/query_structure.h"
 #include "nef/query/predicates_of_sets.h"
-#include "nef/query/query_structure.h"
+#include "nef/synthesis/synthesis.h"
 
 namespace nef {
 

@@ -13,7 +13,7 @@
 #include <string>
 
 #include "apps/minkowski/minkowski.h"
-#include "nef/io/mesh_reader.h"
+#include "nef/io/mesh/mesh_reader.h"
 #include "tests/support/minkowski_shapes.h"
 #ifdef NEF_BENCH_CGAL
 #include "bench/minkowski/cgal_peer.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "nef/boolean/intersections.h"
-#include "nef/complex/known_links.h"
+#include "nef/synthesis/known_links.h"
 
 namespace nef {
 

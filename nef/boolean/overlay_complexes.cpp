@@ -11,8 +11,8 @@
 #include "nef/base/error.h"
 #include "nef/boolean/result_assembly.h"
 #include "nef/complex/local_pyramid.h"
-#include "nef/complex/synthesis.h"
 #include "nef/sphere_map/overlay.h"
+#include "nef/synthesis/synthesis.h"
 
 namespace nef {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "nef/boolean/intersections.h"
-#include "nef/query/query_structure.h"
+#include "nef/location/query_structure.h"
 
 namespace nef {
 

@@ -2,9 +2,9 @@
 //
 // nef check: what is wrong with a mesh, by name; or whether a native file holds a valid complex.
 #include "nef/command/commands.h"
-#include "nef/construct/mesh_check.h"
-#include "nef/io/mesh_reader.h"
+#include "nef/io/mesh/mesh_reader.h"
 #include "nef/io/polyhedron_file.h"
+#include "nef/mesh/mesh_check.h"
 
 namespace nef {
 namespace {

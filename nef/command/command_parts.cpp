@@ -6,12 +6,12 @@
 #include "nef/base/stopwatch.h"
 #include "nef/command/commands.h"
 #include "nef/command/section_drawing.h"
+#include "nef/distance/distance.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/polyhedron_file.h"
+#include "nef/parts/section.h"
+#include "nef/parts/split.h"
 #include "nef/program/numbers.h"
-#include "nef/query/distance/distance.h"
-#include "nef/query/parts/section.h"
-#include "nef/query/parts/split.h"
 
 namespace nef {
 namespace {

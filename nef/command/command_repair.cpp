@@ -2,9 +2,9 @@
 //
 // nef repair
 #include "nef/command/commands.h"
-#include "nef/construct/repair.h"
-#include "nef/io/mesh_reader.h"
-#include "nef/io/mesh_writer.h"
+#include "nef/import/repair.h"
+#include "nef/io/mesh/mesh_reader.h"
+#include "nef/io/mesh/mesh_writer.h"
 
 namespace nef {
 

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "nef/query/parts/section.h"
+#include "nef/parts/section.h"
 
 namespace nef {
 

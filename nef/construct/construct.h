@@ -8,26 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "nef/mesh/mesh.h"
 #include "nef/polyhedron.h"
 
 namespace nef {
-
-/// A polygon mesh with exact coordinates. Face f has the vertices
-/// corners[face_begin[f]] .. corners[face_begin[f+1]-1], counterclockwise as seen from outside.
-struct Mesh {
-  std::vector<Rational3> vertices;
-  std::vector<std::uint32_t> face_begin{0};
-  std::vector<std::uint32_t> corners;
-
-  [[nodiscard]] std::size_t face_count() const { return face_begin.size() - 1; }
-  [[nodiscard]] std::span<const std::uint32_t> face(std::size_t f) const {
-    return {corners.data() + face_begin[f], face_begin[f + 1] - face_begin[f]};
-  }
-  void push_face(std::span<const std::uint32_t> face) {
-    corners.insert(corners.end(), face.begin(), face.end());
-    face_begin.push_back(static_cast<std::uint32_t>(corners.size()));
-  }
-};
 
 /// The closed box [low, high]. A box that is flat in some directions is a facet, segment or
 /// point; low > high in one gives the empty set.

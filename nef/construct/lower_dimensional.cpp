@@ -8,8 +8,8 @@
 #include "nef/boolean/overlay_complexes.h"
 #include "nef/complex/local_pyramid.h"
 #include "nef/construct/construct.h"
-#include "nef/construct/simple_ring.h"
 #include "nef/geometry/rational_vectors.h"
+#include "nef/mesh/simple_ring.h"
 #include "nef/sphere_map/arrangement.h"
 
 namespace nef {

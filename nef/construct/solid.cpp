@@ -8,10 +8,10 @@
 #include "nef/base/error.h"
 #include "nef/boolean/overlay_complexes.h"
 #include "nef/complex/local_pyramid.h"
-#include "nef/complex/synthesis.h"
 #include "nef/construct/solid_links.h"
-#include "nef/query/query_structure.h"
+#include "nef/location/query_structure.h"
 #include "nef/sphere_map/arrangement.h"
+#include "nef/synthesis/synthesis.h"
 
 namespace nef {
 namespace {

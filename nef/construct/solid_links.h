@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "nef/complex/known_links.h"
 #include "nef/construct/solid.h"
 #include "nef/sphere_map/arrangement.h"
+#include "nef/synthesis/known_links.h"
 
 namespace nef {
 

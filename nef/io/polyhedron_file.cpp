@@ -3,13 +3,13 @@
 
 #include <algorithm>
 
-#include "nef/construct/to_mesh.h"
-#include "nef/io/cgal_nef3.h"
+#include "nef/export/to_mesh.h"
+#include "nef/io/cgal/cgal_nef3.h"
 #include "nef/io/file_bytes.h"
-#include "nef/io/mend_rounded.h"
-#include "nef/io/mesh_reader.h"
-#include "nef/io/native_binary.h"
-#include "nef/io/native_format.h"
+#include "nef/io/mesh/mend_rounded.h"
+#include "nef/io/mesh/mesh_reader.h"
+#include "nef/io/native/native_binary.h"
+#include "nef/io/native/native_format.h"
 #include "nef/io/number_text.h"
 
 namespace nef {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "nef/construct/construct.h"
-#include "nef/io/mesh_writer.h"
+#include "nef/io/mesh/mesh_writer.h"
 #include "nef/polyhedron.h"
 
 namespace nef {

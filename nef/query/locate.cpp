@@ -3,8 +3,8 @@
 // The queries of nef/polyhedron.h: point location, local pyramids and rays.
 #include "nef/base/error.h"
 #include "nef/complex/local_pyramid.h"
+#include "nef/location/query_structure.h"
 #include "nef/polyhedron.h"
-#include "nef/query/query_structure.h"
 
 namespace nef {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "nef/base/error.h"
-#include "nef/construct/mesh_check.h"
+#include "nef/mesh/mesh_check.h"
 
 namespace nef::python {
 

@@ -7,8 +7,8 @@
 
 #include "binding/bindings.h"
 #include "binding/meshes.h"
-#include "nef/construct/to_mesh.h"
-#include "nef/io/native_format.h"
+#include "nef/export/to_mesh.h"
+#include "nef/io/native/native_format.h"
 #include "nef/io/polyhedron_file.h"
 
 namespace nef::python {

@@ -6,7 +6,7 @@
 
 #include "binding/bindings.h"
 #include "binding/set_hash.h"
-#include "nef/query/parts/split.h"
+#include "nef/parts/split.h"
 
 namespace nef::python {
 namespace {

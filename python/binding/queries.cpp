@@ -6,11 +6,11 @@
 #include <set>
 
 #include "binding/bindings.h"
+#include "nef/distance/distance.h"
 #include "nef/operation/for_each_mark.h"
-#include "nef/query/distance/distance.h"
+#include "nef/parts/section.h"
 #include "nef/query/locate_many.h"
 #include "nef/query/moments.h"
-#include "nef/query/parts/section.h"
 
 namespace nef::python {
 namespace {

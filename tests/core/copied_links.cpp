@@ -4,7 +4,7 @@
 // item.
 #include <cstring>
 
-#include "nef/complex/synthesis.h"
+#include "nef/synthesis/synthesis.h"
 #include "tests/laws/laws.h"
 
 namespace nef::test {

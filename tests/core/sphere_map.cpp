@@ -5,9 +5,9 @@
 
 #include <catch2/catch.hpp>
 
-#include "nef/complex/validate.h"
 #include "nef/sphere_map/arrangement.h"
 #include "nef/sphere_map/sphere_geometry.h"
+#include "nef/validation/validate.h"
 
 namespace nef::test {
 namespace {

@@ -6,8 +6,8 @@
 #include <functional>
 #include <map>
 
-#include "nef/complex/validate.h"
 #include "nef/polyhedron.h"
+#include "nef/validation/validate.h"
 #include "tests/support/literals.h"
 
 namespace nef::test {

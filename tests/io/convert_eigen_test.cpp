@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nef/construct/convert_eigen.h"
+#include "nef/export/convert_eigen.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nef/construct/convert_openmesh.h"
+#include "nef/export/convert_openmesh.h"
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <catch2/catch.hpp>
 
-#include "nef/construct/to_mesh.h"
+#include "nef/export/to_mesh.h"
 
 namespace nef {
 namespace {

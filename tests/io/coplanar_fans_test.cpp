@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Meshes with so many coplanar faces around a vertex that the check unites them. The truth is known from the
-// construction: a fan over a convex polygon has no contacts iff its apex lies inside; elsewhere it covers what lies beyond
-// the polygon once from each side, which leaves the lid as it is.
+// construction: a fan over a convex polygon has no contacts iff its apex lies inside; elsewhere it covers what lies
+// beyond the polygon once from each side, which leaves the lid as it is.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 
-#include "nef/construct/mesh_check.h"
+#include "nef/mesh/mesh_check.h"
 #include "nef/polyhedron.h"
 
 namespace nef {

@@ -11,8 +11,8 @@
 
 #include "nef/base/in_quotes.h"
 #include "nef/construct/construct.h"
-#include "nef/io/mesh_reader.h"
-#include "nef/io/mesh_writer.h"
+#include "nef/io/mesh/mesh_reader.h"
+#include "nef/io/mesh/mesh_writer.h"
 #include "nef/io/polyhedron_file.h"
 #include "support/temporary_folder.h"
 

@@ -7,13 +7,13 @@
 #include <functional>
 #include <sstream>
 
-#include "nef/complex/validate.h"
-#include "nef/construct/to_mesh.h"
-#include "nef/io/cgal_nef3.h"
-#include "nef/io/mesh_reader.h"
-#include "nef/io/mesh_writer.h"
-#include "nef/io/native_format.h"
+#include "nef/export/to_mesh.h"
+#include "nef/io/cgal/cgal_nef3.h"
+#include "nef/io/mesh/mesh_reader.h"
+#include "nef/io/mesh/mesh_writer.h"
+#include "nef/io/native/native_format.h"
 #include "nef/io/polyhedron_file.h"
+#include "nef/validation/validate.h"
 #include "tests/support/literals.h"
 #include "tests/support/temporary_folder.h"
 

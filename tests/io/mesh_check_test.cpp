@@ -8,9 +8,9 @@
 #include <random>
 #include <set>
 
-#include "nef/construct/mesh_check.h"
-#include "nef/construct/mesh_surface.h"
-#include "nef/io/mesh_reader.h"
+#include "nef/io/mesh/mesh_reader.h"
+#include "nef/mesh/mesh_check.h"
+#include "nef/mesh/mesh_surface.h"
 
 namespace nef {
 namespace {

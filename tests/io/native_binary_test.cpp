@@ -12,8 +12,8 @@
 
 #include "nef/construct/construct.h"
 #include "nef/io/file_bytes.h"
-#include "nef/io/native_binary.h"
-#include "nef/io/native_format.h"
+#include "nef/io/native/native_binary.h"
+#include "nef/io/native/native_format.h"
 #include "nef/io/polyhedron_file.h"
 #include "tests/support/random_polyhedra.h"
 #include "tests/support/temporary_folder.h"

@@ -8,11 +8,11 @@
 #include <filesystem>
 #include <limits>
 
-#include "nef/construct/nearest_float.h"
-#include "nef/construct/to_mesh.h"
-#include "nef/io/cgal_nef3.h"
-#include "nef/io/mesh_reader.h"
-#include "nef/io/native_format.h"
+#include "nef/export/nearest_float.h"
+#include "nef/export/to_mesh.h"
+#include "nef/io/cgal/cgal_nef3.h"
+#include "nef/io/mesh/mesh_reader.h"
+#include "nef/io/native/native_format.h"
 #include "nef/io/polyhedron_file.h"
 #include "tests/support/random_polyhedra.h"
 #include "tests/support/temporary_folder.h"

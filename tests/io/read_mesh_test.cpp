@@ -6,7 +6,7 @@
 #include <bit>
 #include <cstring>
 
-#include "nef/io/mesh_reader.h"
+#include "nef/io/mesh/mesh_reader.h"
 #include "tests/support/temporary_folder.h"
 
 namespace nef {

@@ -6,9 +6,9 @@
 #include <random>
 
 #include "nef/base/error.h"
-#include "nef/construct/repair.h"
-#include "nef/construct/to_mesh.h"
-#include "nef/io/mesh_reader.h"
+#include "nef/export/to_mesh.h"
+#include "nef/import/repair.h"
+#include "nef/io/mesh/mesh_reader.h"
 
 namespace nef {
 namespace {

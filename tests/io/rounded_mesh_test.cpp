@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "nef/construct/to_mesh.h"
+#include "nef/export/to_mesh.h"
 #include "nef/geometry/spatial_order.h"
 #include "tests/support/literals.h"
 

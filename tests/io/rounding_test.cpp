@@ -6,12 +6,12 @@
 #include <random>
 
 #include "nef/construct/construct.h"
-#include "nef/construct/mesh_check.h"
-#include "nef/construct/to_mesh.h"
+#include "nef/export/to_mesh.h"
 #include "nef/geometry/rational_vectors.h"
-#include "nef/io/mend_rounded.h"
-#include "nef/io/mesh_reader.h"
+#include "nef/io/mesh/mend_rounded.h"
+#include "nef/io/mesh/mesh_reader.h"
 #include "nef/io/polyhedron_file.h"
+#include "nef/mesh/mesh_check.h"
 #include "support/temporary_folder.h"
 
 namespace nef::test {

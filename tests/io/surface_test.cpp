@@ -7,10 +7,10 @@
 #include <numeric>
 
 #include "nef/base/error.h"
-#include "nef/complex/validate.h"
 #include "nef/construct/construct.h"
-#include "nef/construct/to_mesh.h"
+#include "nef/export/to_mesh.h"
 #include "nef/polyhedron.h"
+#include "nef/validation/validate.h"
 
 using namespace nef;
 

@@ -5,9 +5,9 @@
 
 #include <random>
 
-#include "nef/construct/mesh_check.h"
-#include "nef/construct/to_mesh.h"
-#include "nef/construct/triangulate.h"
+#include "nef/export/to_mesh.h"
+#include "nef/mesh/mesh_check.h"
+#include "nef/mesh/triangulate.h"
 #include "tests/support/random_polyhedra.h"
 
 namespace nef {

@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "nef/base/error.h"
-#include "nef/complex/validate.h"
 #include "nef/construct/construct.h"
-#include "nef/construct/mesh_check.h"
-#include "nef/io/mesh_reader.h"
+#include "nef/io/mesh/mesh_reader.h"
+#include "nef/mesh/mesh_check.h"
 #include "nef/polyhedron.h"
+#include "nef/validation/validate.h"
 
 namespace nef {
 namespace {

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "nef/io/mesh_reader.h"
+#include "nef/io/mesh/mesh_reader.h"
 #include "nef/io/polyhedron_file.h"
 #include "tests/support/literals.h"
 #include "tests/support/temporary_folder.h"

@@ -9,7 +9,7 @@
 #include "apps/minkowski/decomposition/wall_axis.h"
 #include "apps/minkowski/minkowski.h"
 #include "nef/construct/convex_hull.h"
-#include "nef/io/mesh_reader.h"
+#include "nef/io/mesh/mesh_reader.h"
 #include "tests/support/literals.h"
 #include "tests/support/minkowski_shapes.h"
 

@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "apps/minkowski/minkowski.h"
-#include "nef/construct/to_mesh.h"
+#include "nef/export/to_mesh.h"
 #include "tests/planner/scene_table.h"
 
 namespace nef::planner::test {

@@ -3,7 +3,7 @@
 // Distances by certificates: p in A and q in B are nearest points of two closed convex sets if no point of A lies
 // beyond the plane through p across q - p, and none of B before the one through q. Sets that are not convex are unions
 // of convex ones.
-#include "nef/query/distance/distance.h"
+#include "nef/distance/distance.h"
 
 #include "tests/laws/laws.h"
 

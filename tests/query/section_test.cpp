@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Sections: membership from the recipe, polygons against parity by arithmetic of their own, areas by counting cells.
-#include "nef/query/parts/section.h"
+#include "nef/parts/section.h"
 
 #include "nef/base/error.h"
 #include "tests/laws/laws.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Components against a flood fill over the cells (corners, edges, squares, cubes) of a grid.
-#include "nef/query/parts/split.h"
+#include "nef/parts/split.h"
 
 #include "nef/base/union_find.h"
 #include "tests/laws/laws.h"

@@ -7,7 +7,7 @@
 #include "apps/planner/scene/nearly_closed.h"
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
-#include "nef/io/mesh_reader.h"
+#include "nef/io/mesh/mesh_reader.h"
 #include "nef/io/polyhedron_file.h"
 #include "nef/program/expression.h"
 

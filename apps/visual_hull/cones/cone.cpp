@@ -16,7 +16,7 @@
 
 #include "apps/visual_hull/cones/boundary_node.h"
 #include "nef/base/error.h"
-#include "nef/complex/synthesis.h"
+#include "nef/synthesis/synthesis.h"
 
 namespace visual_hull {
 namespace {

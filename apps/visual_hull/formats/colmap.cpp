@@ -12,7 +12,7 @@
 
 #include "apps/visual_hull/scene/pose.h"
 #include "nef/base/error.h"
-#include "nef/io/binary_cursor.h"
+#include "nef/io/native/binary_cursor.h"
 
 namespace visual_hull {
 namespace fs = std::filesystem;

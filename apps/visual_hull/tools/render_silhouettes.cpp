@@ -13,7 +13,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "nef/base/error.h"
-#include "nef/io/mesh_reader.h"
+#include "nef/io/mesh/mesh_reader.h"
 
 namespace {
 

@@ -1,0 +1,448 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/export/to_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "nef/base/error.h"
+#include "nef/mesh/triangulate.h"
+
+namespace nef {
+namespace {
+
+constexpr std::uint32_t kUnused = 0xffffffffU;
+
+// Which sides of space an item sees.
+struct Sides {
+  bool selected = false;    // a volume that goes into the mesh
+  bool unselected = false;  // one that does not belong to the set
+  bool other = false;       // one that is lost as a whole, or lies beyond an infimaximal box
+
+  void add(const Sides& volume) {
+    selected = selected || volume.selected;
+    unselected = unselected || volume.unselected;
+    other = other || volume.other;
+  }
+};
+
+// How many facets, edges and vertices there are of something.
+struct Items {
+  std::size_t facets = 0;
+  std::size_t edges = 0;
+  std::size_t vertices = 0;
+  [[nodiscard]] bool any() const { return facets + edges + vertices > 0; }
+};
+
+std::string plural(std::size_t count, const char* one, const char* many) {
+  return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+std::string list(const Items& items) {
+  std::string text;
+  const auto add = [&text](std::size_t count, const char* one, const char* many) {
+    if (count == 0) return;
+    if (!text.empty()) text += ", ";
+    text += plural(count, one, many);
+  };
+  add(items.facets, "facet", "facets");
+  add(items.edges, "edge", "edges");
+  add(items.vertices, "vertex", "vertices");
+  return text;
+}
+
+class Exporter {
+ public:
+  Exporter(const Complex& complex, const MeshExportOptions& options)
+      : complex_(complex), options_(options), volumes_(complex.volume_count()) {}
+
+  void run() {
+    classify_volumes();
+    collect_facets();
+    if (boundary_.empty() && options_.lower_dimensional) collect_lower_dimensional();
+    number_vertices();
+    write_facets();
+    look_for_losses();
+    report_losses();
+  }
+
+  MeshExport exact() {
+    run();
+    faces_.vertices.reserve(vertices_.size());
+    for (const std::uint32_t v : vertices_) faces_.vertices.push_back(complex_.points.rational(PointId{v}));
+    MeshExport result;
+    result.mesh = std::move(faces_);
+    result.closed = !lower_dimensional_;
+    for (const auto& [v, w] : lines_) result.lines.push_back({number_[v], number_[w]});
+    for (const std::uint32_t v : points_) result.points.push_back(number_[v]);
+    result.lost = std::move(lost_);
+    return result;
+  }
+
+  RoundedMeshExport rounded() {
+    run();
+    RoundedMeshExport result;
+    result.mesh.vertices.reserve(vertices_.size());
+    for (const std::uint32_t v : vertices_)
+      result.mesh.vertices.push_back(nearest_doubles(complex_.points, PointId{v}));
+    result.mesh.face_begin = std::move(faces_.face_begin);
+    result.mesh.corners = std::move(faces_.corners);
+    result.lost = std::move(lost_);
+    return result;
+  }
+
+ private:
+  [[nodiscard]] bool is_selected(LabelId mark) const {
+    if (mark == kOutside) return false;
+    return options_.selected ? options_.selected(mark) : mark != 0;
+  }
+  [[nodiscard]] bool finite(std::uint32_t vertex) const { return complex_.points.finite(PointId{vertex}); }
+
+  // A selected volume is unbounded if it is the outer one, or has a facet on an infimaximal box.
+  void classify_volumes() {
+    std::vector<bool> unbounded(volumes_.size(), false);
+    if (!unbounded.empty()) unbounded[0] = true;
+    if (complex_.has_box()) {
+      for (const Facet& facet : complex_.facets) {
+        if (!complex_.planes.infimaximal(facet.plane)) continue;
+        unbounded[facet.volume_above] = true;
+        unbounded[facet.volume_below] = true;
+      }
+    }
+    for (std::size_t v = 0; v < volumes_.size(); ++v) {
+      const LabelId mark = complex_.volumes[v].mark;
+      if (mark == kOutside) {
+        volumes_[v].other = true;
+      } else if (!is_selected(mark)) {
+        volumes_[v].unselected = true;
+      } else if (unbounded[v]) {
+        volumes_[v].other = true;
+        ++lost_volumes_;
+      } else {
+        volumes_[v].selected = true;
+      }
+    }
+  }
+
+  void collect_facets() {
+    for (std::uint32_t f = 0; f < complex_.facet_count(); ++f) {
+      const Facet& facet = complex_.facets[f];
+      if (volumes_[facet.volume_above].selected != volumes_[facet.volume_below].selected) boundary_.push_back(f);
+    }
+  }
+
+  // Of a set without solid parts: facets, edges outside of these, and vertices outside of all these.
+  void collect_lower_dimensional() {
+    std::vector<bool> held(complex_.vertex_count(), false);
+    std::vector<bool> in_facet(complex_.svertices.size(), false);
+    for (std::uint32_t f = 0; f < complex_.facet_count(); ++f) {
+      const Facet& facet = complex_.facets[f];
+      if (!is_selected(facet.mark) || sees_other(facet)) continue;
+      boundary_.push_back(f);
+      for (const std::uint32_t corner : complex_.facet_corners(facet)) {
+        const std::uint32_t h = complex_.corner_halfedge(corner);
+        in_facet[h] = in_facet[complex_.twin[h]] = true;
+        held[complex_.shalfedge_owner[corner]] = true;
+      }
+      for (std::uint32_t i = 0; i < facet.isolated_count; ++i) {
+        held[complex_.isolated_vertices[facet.first_isolated + i]] = true;
+      }
+    }
+    for (std::uint32_t h = 0; h < complex_.svertices.size(); ++h) {
+      const std::uint32_t v = complex_.svertex_owner[h];
+      const std::uint32_t w = complex_.target(h);
+      if (in_facet[h] || h > complex_.twin[h] || !is_selected(complex_.svertices[h].mark)) continue;
+      if (!finite(v) || !finite(w) || sides_of_edge(v, h).selected) continue;
+      lines_.push_back({v, w});
+      held[v] = held[w] = true;
+    }
+    for (std::uint32_t v = 0; v < complex_.vertex_count(); ++v) {
+      if (!held[v] && finite(v) && is_selected(complex_.vertices[v].mark)) points_.push_back(v);
+    }
+    lower_dimensional_ = !boundary_.empty() || !lines_.empty() || !points_.empty();
+  }
+
+  // A volume on a side of the facet is lost as a whole.
+  [[nodiscard]] bool sees_other(const Facet& facet) const {
+    if (volumes_[facet.volume_above].other || volumes_[facet.volume_below].other) return true;
+    for (const std::uint32_t corner : complex_.facet_corners(facet)) {
+      if (!finite(complex_.shalfedge_owner[corner])) return true;
+    }
+    return false;
+  }
+
+  // Vertices keep their order; only those of the boundary get a number.
+  void number_vertices() {
+    number_.assign(complex_.vertex_count(), kUnused);
+    for (const auto& [v, w] : lines_) number_[v] = number_[w] = 0;
+    for (const std::uint32_t v : points_) number_[v] = 0;
+    for (const std::uint32_t f : boundary_) {
+      for (const std::uint32_t corner : complex_.facet_corners(complex_.facets[f])) {
+        number_[complex_.shalfedge_owner[corner]] = 0;
+      }
+    }
+    for (std::uint32_t v = 0; v < number_.size(); ++v) {
+      if (number_[v] == kUnused) continue;
+      NEF_ASSERT(finite(v));
+      number_[v] = static_cast<std::uint32_t>(vertices_.size());
+      vertices_.push_back(v);
+    }
+  }
+
+  void collect_rings(const Facet& facet, std::vector<std::vector<std::uint32_t>>& rings) const {
+    rings.resize(facet.cycle_count);
+    for (std::uint32_t i = 0; i < facet.cycle_count; ++i) {
+      rings[i].clear();
+      for (const std::uint32_t corner : complex_.cycle(facet.first_cycle + i)) {
+        rings[i].push_back(number_[complex_.shalfedge_owner[corner]]);
+      }
+    }
+  }
+
+  // A ring that meets itself is no polygon for most readers.
+  bool may_stay_polygon(const std::vector<std::uint32_t>& ring) {
+    if (options_.polygon_corner) {
+      passes_.resize(vertices_.size(), Answer::kUnknown);
+      for (const std::uint32_t v : ring) {
+        if (passes_[v] == Answer::kUnknown) {
+          const Rational3 corner = complex_.points.rational(PointId{vertices_[v]});
+          passes_[v] = options_.polygon_corner(corner) ? Answer::kYes : Answer::kNo;
+        }
+        if (passes_[v] == Answer::kNo) return false;
+      }
+    }
+    std::vector<std::uint32_t> sorted(ring);
+    std::sort(sorted.begin(), sorted.end());
+    return std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end();
+  }
+
+  // Facets that are no triangles: their vertices as a triangulator asks for them, in small integers where that is
+  // possible, and by numbers of their own.
+  class Polygons {
+   public:
+    explicit Polygons(std::size_t vertices) : number_(vertices, kUnused) {}
+
+    void add(const Exporter& exporter, const Facet& facet) {
+      for (const std::uint32_t corner : exporter.complex_.facet_corners(facet)) {
+        number_[exporter.number_[exporter.complex_.shalfedge_owner[corner]]] = 0;
+      }
+    }
+
+    void make(const Exporter& exporter) {
+      std::vector<Rational3> points;
+      for (std::uint32_t v = 0; v < number_.size(); ++v) {
+        if (number_[v] == kUnused) continue;
+        number_[v] = static_cast<std::uint32_t>(vertex_.size());
+        vertex_.push_back(v);
+        points.push_back(exporter.complex_.points.rational(PointId{exporter.vertices_[v]}));
+      }
+      triangulator_.emplace(points_.emplace(points));
+    }
+
+    void triangulate(std::vector<std::vector<std::uint32_t>>& rings, std::pair<std::size_t, int> projection,
+                     std::vector<Triangulator::Triangle>& out) {
+      for (std::vector<std::uint32_t>& ring : rings) {
+        for (std::uint32_t& v : ring) v = number_[v];
+      }
+      const bool done = triangulator_->triangulate(rings, projection.first, projection.second, out);
+      NEF_ASSERT(done);
+      for (Triangulator::Triangle& triangle : out) {
+        for (std::uint32_t& v : triangle) v = vertex_[v];
+      }
+    }
+
+    [[nodiscard]] bool strictly_convex(const std::vector<std::uint32_t>& ring, std::size_t axis) const {
+      const std::size_t n = ring.size();
+      const auto turn = [&](std::size_t i) {
+        return points_->orientation_along(number_[ring[(i + n - 1) % n]], number_[ring[i]], number_[ring[(i + 1) % n]],
+                                          axis);
+      };
+      const int first = turn(0);
+      for (std::size_t i = 1; i < n; ++i) {
+        if (turn(i) != first) return false;
+      }
+      return first != 0;
+    }
+
+   private:
+    std::vector<std::uint32_t> number_;  // of each vertex of the mesh
+    std::vector<std::uint32_t> vertex_;
+    std::optional<MeshPoints> points_;
+    std::optional<Triangulator> triangulator_;
+  };
+
+  [[nodiscard]] bool is_triangle(const Facet& facet) const {
+    return facet.cycle_count == 1 && complex_.cycle(facet.first_cycle).size() == 3;
+  }
+
+  void write_facets() {
+    Polygons polygons(vertices_.size());
+    bool any = false;
+    for (const std::uint32_t f : boundary_) {
+      if (is_triangle(complex_.facets[f])) continue;
+      polygons.add(*this, complex_.facets[f]);
+      any = true;
+    }
+    if (any) polygons.make(*this);
+    std::vector<std::vector<std::uint32_t>> rings;
+    std::vector<Triangulator::Triangle> triangles;
+    faces_.face_begin.reserve(boundary_.size() + 1);
+    faces_.corners.reserve(3 * boundary_.size());
+    for (const std::uint32_t f : boundary_) {
+      const Facet& facet = complex_.facets[f];
+      // Cycles turn counterclockwise as seen from above, which is outside if the solid lies below.
+      const bool flip = volumes_[facet.volume_above].selected;
+      collect_rings(facet, rings);
+      const bool triangle = is_triangle(facet);
+      const bool whole = rings.size() == 1 && (triangle || !options_.only_convex ||
+                                               polygons.strictly_convex(rings[0], projection(facet.plane).first));
+      if (options_.keep_polygons && whole && (triangle || may_stay_polygon(rings[0]))) {
+        if (flip) std::reverse(rings[0].begin(), rings[0].end());
+        faces_.push_face(rings[0]);
+        continue;
+      }
+      triangles.clear();
+      if (triangle) {
+        triangles.push_back({rings[0][2], rings[0][0], rings[0][1]});  // begins where the triangulator's would
+      } else {
+        polygons.triangulate(rings, projection(facet.plane), triangles);
+      }
+      for (auto& triangle : triangles) {
+        if (flip) std::swap(triangle[1], triangle[2]);
+        faces_.push_face(triangle);
+      }
+    }
+  }
+
+  [[nodiscard]] std::pair<std::size_t, int> projection(PlaneId plane) const {
+    const auto& normal = complex_.planes.approximate(plane);
+    std::size_t axis = 0;
+    for (std::size_t i = 1; i < 3; ++i) {
+      if (std::abs(normal[i]) > std::abs(normal[axis])) axis = i;
+    }
+    return {axis, normal[axis] > 0 ? 1 : -1};
+  }
+
+  // Sorts an item by what its mark and the volumes around it say about the mesh.
+  void judge(const Sides& sides, LabelId mark, std::size_t Items::*member) {
+    const bool selected = is_selected(mark);
+    if (sides.selected && !selected) {
+      Items& items = sides.unselected || sides.other ? open_ : cracks_;
+      ++(items.*member);
+    }
+    if (!sides.selected && !sides.other && selected && !lower_dimensional_) ++(flat_.*member);
+  }
+
+  void look_for_losses() {
+    for (const Facet& facet : complex_.facets) {
+      Sides sides = volumes_[facet.volume_above];
+      sides.add(volumes_[facet.volume_below]);
+      judge(sides, facet.mark, &Items::facets);
+    }
+    for (std::uint32_t v = 0; v < complex_.vertex_count(); ++v) {
+      if (!finite(v)) continue;
+      const VertexRecord& record = complex_.vertices[v];
+      const VertexRecord& end = complex_.vertices[v + 1];
+      Sides sides;
+      for (std::uint32_t s = record.sfaces; s < end.sfaces; ++s) sides.add(volumes_[complex_.sface_volume(s)]);
+      judge(sides, record.mark, &Items::vertices);
+      for (std::uint32_t h = record.svertices; h < end.svertices; ++h) {
+        const bool far_finite = finite(complex_.target(h));
+        if (far_finite && complex_.twin[h] < h) continue;  // each edge once
+        judge(sides_of_edge(v, h), complex_.svertices[h].mark, &Items::edges);
+      }
+    }
+  }
+
+  [[nodiscard]] Sides sides_of_edge(std::uint32_t vertex, std::uint32_t halfedge) const {
+    const SphereMapView map = complex_.sphere_map(vertex);
+    const VertexRecord& record = complex_.vertices[vertex];
+    const SVertex& svertex = complex_.svertices[halfedge];
+    if (svertex.out == kNone) return volumes_[complex_.sface_volume(record.sfaces + svertex.sface)];
+    Sides sides;
+    std::uint32_t e = svertex.out;
+    do {
+      sides.add(volumes_[complex_.sface_volume(record.sfaces + map.shalfedges[e].sface)]);
+      e = map.next_around(e);
+    } while (e != svertex.out);
+    return sides;
+  }
+
+  // Edges and vertices of the facets that are written and do not belong to the set.
+  void count_open_borders() {
+    std::vector<bool> seen_edge(complex_.svertices.size(), false);
+    std::vector<bool> seen_vertex(complex_.vertex_count(), false);
+    for (const std::uint32_t f : boundary_) {
+      for (const std::uint32_t corner : complex_.facet_corners(complex_.facets[f])) {
+        const std::uint32_t v = complex_.shalfedge_owner[corner];
+        const std::uint32_t h = complex_.corner_halfedge(corner);
+        if (!seen_vertex[v] && !is_selected(complex_.vertices[v].mark)) ++open_.vertices;
+        if (!seen_edge[h] && !is_selected(complex_.svertices[h].mark)) ++open_.edges;
+        seen_vertex[v] = true;
+        seen_edge[h] = seen_edge[complex_.twin[h]] = true;
+      }
+    }
+  }
+
+  void report_losses() {
+    std::vector<std::string>& lost = lost_;
+    if (lower_dimensional_) count_open_borders();
+    if (lost_volumes_ > 0) {
+      lost.push_back(plural(lost_volumes_, "unbounded volume is", "unbounded volumes are") + " not in the mesh");
+    }
+    if (flat_.any()) lost.push_back("parts outside the solids are not in the mesh: " + list(flat_));
+    if (open_.any()) {
+      lost.push_back("the mesh is closed where the boundary does not belong to the set: " + list(open_));
+    }
+    if (cracks_.any()) lost.push_back("what is missing inside the solids is filled in the mesh: " + list(cracks_));
+  }
+
+  enum class Answer : std::uint8_t { kUnknown, kYes, kNo };
+
+  const Complex& complex_;
+  const MeshExportOptions& options_;
+  std::vector<Sides> volumes_;
+  std::vector<std::uint32_t> boundary_;              // facets
+  std::vector<std::uint32_t> number_;                // in the mesh, of each vertex
+  std::vector<Answer> passes_;                       // of each vertex of the mesh: may it be a corner of a polygon?
+  std::vector<std::array<std::uint32_t, 2>> lines_;  // vertices of the complex
+  std::vector<std::uint32_t> points_;
+  bool lower_dimensional_ = false;
+  std::size_t lost_volumes_ = 0;
+  Items flat_;
+  Items open_;
+  Items cracks_;
+  std::vector<std::uint32_t> vertices_;  // of the complex, of each vertex of the mesh
+  Mesh faces_;                           // its vertices come last
+  std::vector<std::string> lost_;
+};
+
+// Both integers below 2^53 are doubles, and their quotient in floating point is the nearest one by definition.
+double nearest_quotient(mpz_srcptr numerator, mpz_srcptr denominator) {
+  if (mpz_sizeinbase(numerator, 2) <= 53 && mpz_sizeinbase(denominator, 2) <= 53) {
+    return mpz_get_d(numerator) / mpz_get_d(denominator);
+  }
+  Rational value;
+  mpz_set(value.get_num_mpz_t(), numerator);
+  mpz_set(value.get_den_mpz_t(), denominator);
+  return nearest_double(value);  // which needs no lowest terms
+}
+
+}  // namespace
+
+std::array<double, 3> nearest_doubles(const PointTable& points, PointId point) {
+  const IntegerView w = points.coordinate(point, 3);
+  std::array<double, 3> result;
+  for (std::size_t i = 0; i < 3; ++i) result[i] = nearest_quotient(points.coordinate(point, i), w);
+  return result;
+}
+
+RoundedMeshExport to_rounded_mesh(const Polyhedron& polyhedron, const MeshExportOptions& options) {
+  return Exporter(polyhedron.complex(), options).rounded();
+}
+
+MeshExport to_mesh(const Polyhedron& polyhedron, const MeshExportOptions& options) {
+  return Exporter(polyhedron.complex(), options).exact();
+}
+
+}  // namespace nef

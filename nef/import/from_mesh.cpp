@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Meshes to solids: check, merge equal vertices, find the plane of every face, then draw each
+// vertex's sphere map from the corners of the faces around it.
+#include <algorithm>
+#include <exception>
+#include <string>
+
+#include "nef/base/contradiction.h"
+#include "nef/base/error.h"
+#include "nef/base/union_find.h"
+#include "nef/construct/construct.h"
+#include "nef/import/fill.h"
+#include "nef/import/from_surface.h"
+#include "nef/import/mesh_faces.h"
+#include "nef/mesh/mesh_check.h"
+
+namespace nef {
+namespace {
+
+// The first face of each connected component of the surface.
+std::vector<std::uint32_t> first_faces(const Mesh& mesh, const MeshSurface& surface) {
+  UnionFind places(mesh.vertices.size());
+  for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+    for (const std::uint32_t v : mesh.face(f)) places.unite(surface.place[v], surface.place[mesh.face(f)[0]]);
+  }
+  std::vector<bool> seen(mesh.vertices.size(), false);
+  std::vector<std::uint32_t> result;
+  for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+    if (mesh.face(f).empty()) continue;
+    const std::uint32_t component = places.find(surface.place[mesh.face(f)[0]]);
+    if (!seen[component]) result.push_back(f);
+    seen[component] = true;
+  }
+  return result;
+}
+
+Polyhedron solid(const Mesh& mesh, const MeshSurface& surface, const MeshOptions& options, Messages* messages) {
+  try {
+    MeshFaces faces(mesh, surface, options, messages);
+    Complex complex = faces.solid(false);
+    if (complex.vertex_count() > 0 && complex.volumes[0].mark == 1) {
+      if (messages != nullptr) messages->push_back("the faces were oriented inward and have been turned over");
+      complex = faces.solid(true);
+    }
+    return Polyhedron(std::move(complex));
+  } catch (const ContradictingMarks&) {
+    std::string list;
+    for (const std::uint32_t f : first_faces(mesh, surface)) list += (list.empty() ? "" : ", ") + std::to_string(f);
+    throw InputError("components of the mesh (which begin at faces " + list.substr(0, 60) +
+                     ") contradict each other: one is turned like the one around it, or not like those beside it; "
+                     "turn its faces over");
+  }
+}
+
+bool has_faces_without_area(const MeshSurface& surface) {
+  return std::find(surface.defects.begin(), surface.defects.end(), FaceDefect::kNoArea) != surface.defects.end();
+}
+
+void note_faces_without_area(const MeshSurface& surface, Messages* messages) {
+  const auto count = std::count(surface.defects.begin(), surface.defects.end(), FaceDefect::kNoArea);
+  if (count == 0 || messages == nullptr) return;
+  messages->push_back(std::to_string(count) + (count == 1 ? " face" : " faces") + " without area left out");
+}
+
+// Faces meet in points that are no vertices of both; the union of the faces finds these.
+Polyhedron solid_in_contact(const Mesh& mesh, const MeshSurface& surface, const MeshOptions& options,
+                            Messages* messages) {
+  return fill_by_winding(from_surface(mesh, surface, SurfaceUse::kBorder, options, messages), mesh, surface, messages);
+}
+
+// True if faces meet otherwise than in common vertices and edges. Throws InputError for what no solid has.
+bool check(const Mesh& mesh, const MeshSurface& surface) {
+  bool touching = false;
+  for (const MeshProblem& problem : check_mesh(mesh, surface, {.max_per_kind = 1, .self_intersections = true})) {
+    if (!problem.legal) throw InputError(problem.text);
+    if (problem.kind == MeshProblemKind::kTouching || problem.kind == MeshProblemKind::kDuplicateFace) touching = true;
+  }
+  return touching;
+}
+
+Polyhedron checked_solid(const Mesh& mesh, const MeshSurface& surface, const MeshOptions& options, Messages* messages) {
+  // Without a face that has no area, its neighbours meet in parts of edges.
+  const bool contact = check(mesh, surface) || has_faces_without_area(surface);
+  return contact ? solid_in_contact(mesh, surface, options, messages) : solid(mesh, surface, options, messages);
+}
+
+}  // namespace
+
+Polyhedron from_mesh(const Mesh& mesh, const MeshOptions& options, Messages* messages) {
+  if (options.as_surface) return from_surface(mesh, MeshSurface(mesh), SurfaceUse::kSet, options, messages);
+  if (mesh.face_count() == 0) throw InputError("the mesh has no faces, so it bounds no solid");
+  const MeshSurface surface(mesh);
+  Messages notes;
+  note_faces_without_area(surface, &notes);
+  Polyhedron result;
+  if (options.check || has_faces_without_area(surface)) {
+    result = checked_solid(mesh, surface, options, &notes);
+  } else {
+    const std::size_t before = notes.size();
+    try {
+      result = solid(mesh, surface, options, &notes);
+    } catch (const std::exception&) {
+      // The mesh is not as clean as was promised: the checks say why, or what to do with it.
+      notes.resize(before);
+      result = checked_solid(mesh, surface, options, &notes);
+    }
+  }
+  if (messages != nullptr) messages->insert(messages->end(), notes.begin(), notes.end());
+  return result;
+}
+
+}  // namespace nef

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/import/from_surface.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "nef/base/error.h"
+#include "nef/geometry/rational_vectors.h"
+#include "nef/import/mesh_faces.h"
+#include "nef/mesh/surface_contacts.h"
+#include "nef/mesh/triangulate.h"
+
+namespace nef {
+namespace {
+
+// Faces in groups without improper contacts, and those that can not be in any.
+struct Groups {
+  std::vector<std::vector<std::uint32_t>> proper;
+  std::vector<std::uint32_t> single;
+};
+
+Groups group_faces(const Mesh& mesh, const MeshSurface& surface, SurfaceUse use) {
+  const std::size_t count = mesh.face_count();
+  std::vector<std::vector<std::uint32_t>> contacts(count);
+  std::vector<bool> single(count, false);
+  // What a face holds besides its area, sides that are walked out and back, is no border of a solid.
+  const bool areas_only = use == SurfaceUse::kBorder;
+  for (std::uint32_t f = 0; f < count; ++f) {
+    single[f] = surface.defects[f] != FaceDefect::kNone || (!areas_only && surface.irregular[f]);
+  }
+  SurfaceContacts(surface).for_each([&](SurfaceContacts::Kind /*kind*/, std::uint32_t t, std::uint32_t u) {
+    const std::uint32_t f = surface.face_of[t];
+    const std::uint32_t g = surface.face_of[u];
+    if (f == g) single[f] = true;
+    contacts[f].push_back(g);
+    contacts[g].push_back(f);
+    return true;
+  });
+  // Each face goes to the first group in which it touches nothing.
+  Groups groups;
+  std::vector<std::uint32_t> group_of(count, kNone);
+  std::vector<std::uint32_t> taken_by;  // the last face that found the group taken
+  for (std::uint32_t f = 0; f < count; ++f) {
+    if (areas_only && surface.defects[f] == FaceDefect::kNoArea) continue;
+    if (single[f]) {
+      groups.single.push_back(f);
+      continue;
+    }
+    for (const std::uint32_t g : contacts[f]) {
+      if (group_of[g] != kNone) taken_by[group_of[g]] = f;
+    }
+    std::uint32_t group = 0;
+    while (group < taken_by.size() && taken_by[group] == f) ++group;
+    if (group == taken_by.size()) {
+      taken_by.push_back(kNone);
+      groups.proper.emplace_back();
+    }
+    groups.proper[group].push_back(f);
+    group_of[f] = group;
+  }
+  return groups;
+}
+
+// Cuts a ring into triangles with union equal to the polygon, if it is one that touches itself at most from within.
+bool cut(const MeshPoints& points, const std::vector<std::uint32_t>& ring, std::vector<Triangulator::Triangle>& out) {
+  Triangulator triangulator(points);
+  for (const std::size_t axis : projection_axes(points, ring)) {
+    const int sign = ring_orientation(points, ring, axis);
+    if (sign != 0 && triangulator.triangulate(ring, axis, sign, out)) return true;
+  }
+  return false;
+}
+
+// What a ring in a plane of this normal encloses an odd number of times, with its sides. Pyramids over the triangles of
+// a fan, with one apex, are combined by parity: what that leaves of lower dimension, regularization removes.
+void add_enclosed(const std::vector<Rational3>& ring, const Rational3& normal, std::vector<Polyhedron>& out) {
+  const Rational3 apex{ring[0][0] + normal[0], ring[0][1] + normal[1], ring[0][2] + normal[2]};
+  Polyhedron cone;
+  for (std::size_t i = 1; i + 1 < ring.size(); ++i) {
+    const Rational3 corners[4] = {ring[0], ring[i], ring[i + 1], apex};
+    cone = symmetric_difference(cone, regularize(convex_hull(corners)));
+  }
+  const Rational offset = dot(normal, ring[0]);
+  out.push_back(intersect(regularize(cone), make_halfspace(normal[0], normal[1], normal[2], -offset)));
+  for (std::size_t i = 0; i < ring.size(); ++i) out.push_back(make_segment(ring[i], ring[(i + 1) % ring.size()]));
+}
+
+// The normal of the plane of the points; the zero vector if they lie on a line, nothing if they lie in no plane.
+std::optional<Rational3> common_normal(const std::vector<Rational3>& points) {
+  Rational3 normal;
+  for (std::size_t i = 1; i + 1 < points.size() && is_zero(normal); ++i) {
+    normal = cross(minus(points[i], points[0]), minus(points[i + 1], points[0]));
+  }
+  for (const Rational3& p : points) {
+    if (dot(normal, minus(p, points[0])) != 0) return std::nullopt;
+  }
+  return normal;
+}
+
+// A face that is degenerate or touches or crosses itself.
+void add_single(const Mesh& mesh, const MeshSurface& surface, std::uint32_t f, std::vector<Polyhedron>& out) {
+  std::vector<std::uint32_t> ring;
+  for (const std::uint32_t v : mesh.face(f)) {
+    if (ring.empty() || ring.back() != surface.place[v]) ring.push_back(surface.place[v]);
+  }
+  while (ring.size() > 1 && ring.back() == ring.front()) ring.pop_back();
+  if (ring.size() < 3) return;
+  std::vector<Triangulator::Triangle> triangles;
+  if (!cut(surface.points, ring, triangles)) {
+    std::vector<Rational3> points;
+    for (const std::uint32_t v : ring) points.push_back(mesh.vertices[v]);
+    if (const std::optional<Rational3> normal = common_normal(points); normal && !is_zero(*normal)) {
+      add_enclosed(points, *normal, out);
+      return;
+    }
+    // On a line, or bent and crossing itself however one looks at it: a fan keeps the corners.
+    for (std::size_t i = 1; i + 1 < ring.size(); ++i) triangles.push_back({ring[0], ring[i], ring[i + 1]});
+  }
+  for (const Triangulator::Triangle& t : triangles) {
+    const Rational3 corners[3] = {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
+    out.push_back(convex_hull(corners));
+  }
+}
+
+}  // namespace
+
+Polyhedron from_surface(const Mesh& mesh, const MeshSurface& surface, SurfaceUse use, const MeshOptions& options,
+                        Messages* messages) {
+  for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+    if (surface.defects[f] != FaceDefect::kBadIndex) continue;
+    for (const std::uint32_t v : mesh.face(f)) {
+      if (v < mesh.vertices.size()) continue;
+      throw InputError("face " + std::to_string(f) + " names vertex " + std::to_string(v) + ", which does not exist");
+    }
+  }
+  const Groups groups = group_faces(mesh, surface, use);
+  std::vector<Polyhedron> parts;
+  MeshFaces faces(mesh, surface, options, messages);
+  for (const std::vector<std::uint32_t>& group : groups.proper) parts.emplace_back(faces.surface(group));
+  for (const std::uint32_t f : groups.single) add_single(mesh, surface, f, parts);
+  return unite_all(parts);
+}
+
+}  // namespace nef

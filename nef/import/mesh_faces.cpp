@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/import/mesh_faces.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <numeric>
+
+#include "nef/base/error.h"
+#include "nef/geometry/spatial_order.h"
+#include "nef/mesh/mesh_check.h"
+
+namespace nef {
+
+MeshFaces::MeshFaces(const Mesh& mesh, const MeshSurface& surface, const MeshOptions& options, Messages* messages)
+    : mesh_(mesh), surface_(surface), options_(options), messages_(messages) {}
+
+Complex MeshFaces::solid(bool reverse) { return make_solid(collect({}, reverse), {1, 1, 0}); }
+
+Complex MeshFaces::surface(std::span<const std::uint32_t> faces) { return make_surface(collect(faces, false), 1); }
+
+SolidFaces MeshFaces::collect(std::span<const std::uint32_t> faces, bool reverse) {
+  f_ = {};
+  reverse_ = reverse;
+  number_points();
+  const std::vector<std::uint32_t> order = in_order_of_points(faces);
+  f_.plane.reserve(order.size());
+  f_.planes.reserve(order.size());
+  f_.begin.reserve(order.size() + 1);
+  f_.corners.reserve(mesh_.corners.size());
+  for (const std::uint32_t face : order) add_face(face);
+  return std::move(f_);
+}
+
+// Faces by their first point, so that their planes, too, come in spatial order.
+std::vector<std::uint32_t> MeshFaces::in_order_of_points(std::span<const std::uint32_t> faces) const {
+  const auto count = static_cast<std::uint32_t>(faces.empty() ? mesh_.face_count() : faces.size());
+  const auto face = [&](std::uint32_t i) { return faces.empty() ? i : faces[i]; };
+  const auto least = [&](std::uint32_t i) {
+    std::uint32_t result = 0xffffffffU;
+    for (const std::uint32_t v : mesh_.face(face(i))) result = std::min(result, point_of_[v]);
+    return result;
+  };
+  std::vector<std::uint32_t> begin(points_.size() + 1, 0);
+  std::vector<std::uint32_t> order;
+  order.reserve(count);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (!mesh_.face(face(i)).empty()) ++begin[least(i) + 1];
+  }
+  for (std::size_t p = 1; p < begin.size(); ++p) begin[p] += begin[p - 1];
+  order.resize(begin.back());
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (!mesh_.face(face(i)).empty()) order[begin[least(i)]++] = face(i);
+  }
+  return order;
+}
+
+void MeshFaces::number_points() {
+  if (point_of_.empty()) {
+    point_of_.resize(mesh_.vertices.size());
+    points_.reserve(mesh_.vertices.size());
+    const PointTable& known = surface_.points.table();
+    std::vector<std::array<double, 3>> places;
+    places.reserve(mesh_.vertices.size());
+    for (std::uint32_t v = 0; v < mesh_.vertices.size(); ++v) places.push_back(surface_.points.approximate(v));
+    for (const std::uint32_t v : spatial_order(places)) {
+      if (surface_.place[v] != v) continue;
+      const PointId p = known.size() > 0 ? points_.push_from(known, PointId{v}) : points_.push(mesh_.vertices[v]);
+      point_of_[v] = p.value;
+      vertex_of_.push_back(v);
+    }
+    for (std::uint32_t v = 0; v < mesh_.vertices.size(); ++v) point_of_[v] = point_of_[surface_.place[v]];
+  }
+  f_.points = points_;
+  f_.names = vertex_of_;
+}
+
+void MeshFaces::add_face(std::uint32_t face) {
+  if (surface_.defects[face] == FaceDefect::kNoArea) return;
+  ring_.clear();
+  for (const std::uint32_t v : mesh_.face(face)) ring_.push_back(point_of_[v]);
+  if (reverse_) std::reverse(ring_.begin(), ring_.end());
+  if (ring_.size() == 3 && !surface_.irregular[face]) {
+    const PlaneId plane = plane_of_triangle(ring_);
+    if (plane.valid()) push(ring_, plane);
+  } else if (surface_.defects[face] != FaceDefect::kNone) {
+    if (!add_defective_ring()) add_triangles(face);
+  } else if (!surface_.planar[face]) {
+    add_triangles(face);
+  } else if (surface_.irregular[face]) {
+    push_triangles(face);
+  } else {
+    // Any triangle that it was cut into has its orientation.
+    const PlaneId plane = plane_of_triangle(corners_of(surface_.triangle_begin[face]));
+    push(ring_, plane);
+  }
+}
+
+// A triangle of the surface as points.
+std::array<std::uint32_t, 3> MeshFaces::corners_of(std::uint32_t triangle) const {
+  std::array<std::uint32_t, 3> t = surface_.triangles[triangle];
+  for (std::uint32_t& v : t) v = point_of_[v];
+  if (reverse_) std::swap(t[1], t[2]);
+  return t;
+}
+
+// A ring that was not cut, since it crosses itself. False if it is not planar.
+bool MeshFaces::add_defective_ring() {
+  const Integers area = vector_area();
+  if (area[0] == 0 && area[1] == 0 && area[2] == 0) return true;
+  const PlaneId plane = plane_through(area, ring_[0]);
+  for (const std::uint32_t p : ring_) {
+    if (side_of_plane(f_.planes, plane, f_.points, PointId{p}) != 0) return false;
+  }
+  push(ring_, plane);
+  return true;
+}
+
+void MeshFaces::push(std::span<const std::uint32_t> ring, PlaneId plane) {
+  f_.plane.push_back(plane);
+  f_.corners.insert(f_.corners.end(), ring.begin(), ring.end());
+  f_.begin.push_back(static_cast<std::uint32_t>(f_.corners.size()));
+}
+
+// The same in machine integers, for points with a common denominator D whose differences are below 2^31: with
+// N = D^2 n, the plane is N.(x D) = N.(a D). The factors of N are divided out first; what then remains between N D and
+// the offset is a divisor of D.
+std::optional<PlaneId> MeshFaces::plane_of_small_triangle(std::span<const std::uint32_t> t) {
+  const auto integers = surface_.points.integers();
+  if (integers.empty()) return std::nullopt;
+  const std::array<std::int64_t, 3>& a = integers[vertex_of_[t[0]]];
+  const std::array<std::int64_t, 3>& b = integers[vertex_of_[t[1]]];
+  const std::array<std::int64_t, 3>& c = integers[vertex_of_[t[2]]];
+  std::array<std::int64_t, 3> u;
+  std::array<std::int64_t, 3> v;
+  constexpr std::int64_t kLimit = std::int64_t{1} << 30U;
+  for (std::size_t i = 0; i < 3; ++i) {
+    u[i] = b[i] - a[i];
+    v[i] = c[i] - a[i];
+    if (std::max(std::abs(u[i]), std::abs(v[i])) >= kLimit) return std::nullopt;
+  }
+  std::array<std::int64_t, 3> n;
+  for (std::size_t i = 0; i < 3; ++i) n[i] = u[(i + 1) % 3] * v[(i + 2) % 3] - u[(i + 2) % 3] * v[(i + 1) % 3];
+  const std::int64_t divisor = std::gcd(std::gcd(n[0], n[1]), n[2]);
+  if (divisor == 0) return PlaneId();
+  for (std::int64_t& x : n) x /= divisor;
+  mpz_ptr offset = offset_.get_mpz_t();
+  mpz_set_ui(offset, 0);
+  for (std::size_t i = 0; i < 3; ++i) {
+    mpz_set_si(n_[i].get_mpz_t(), n[i]);
+    mpz_set_si(u_[0].get_mpz_t(), a[i]);
+    mpz_submul(offset, n_[i].get_mpz_t(), u_[0].get_mpz_t());
+  }
+  const std::int64_t d = surface_.points.denominator();
+  const auto left = static_cast<std::int64_t>(
+      mpz_sgn(offset) == 0
+          ? d
+          : std::gcd(d, static_cast<std::int64_t>(mpz_fdiv_ui(offset, static_cast<unsigned long>(d)))));
+  for (std::size_t i = 0; i < 3; ++i) mpz_mul_si(n_[i].get_mpz_t(), n_[i].get_mpz_t(), d / left);
+  mpz_divexact_ui(offset, offset, static_cast<unsigned long>(left));
+  return f_.planes.intern_primitive({n_[0].get_mpz_t(), n_[1].get_mpz_t(), n_[2].get_mpz_t(), offset});
+}
+
+// (b - a) x (c - a) up to a positive factor, and the offset that puts a on it; no plane if the points are on one line.
+PlaneId MeshFaces::plane_of_triangle(std::span<const std::uint32_t> t) {
+  if (const std::optional<PlaneId> plane = plane_of_small_triangle(t)) return *plane;
+  const IntegerView w = f_.points.coordinate(PointId{t[0]}, 3);
+  const auto difference = [&](std::uint32_t p, Integers& out) {
+    const IntegerView of_p = f_.points.coordinate(PointId{p}, 3);
+    const bool same = mpz_cmp(w, of_p) == 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      mpz_ptr d = out[i].get_mpz_t();
+      if (same) {
+        mpz_sub(d, f_.points.coordinate(PointId{p}, i), f_.points.coordinate(PointId{t[0]}, i));
+      } else {
+        mpz_mul(d, f_.points.coordinate(PointId{p}, i), w);
+        mpz_submul(d, f_.points.coordinate(PointId{t[0]}, i), of_p);
+      }
+    }
+  };
+  difference(t[1], u_);
+  difference(t[2], v_);
+  mpz_ptr offset = offset_.get_mpz_t();
+  mpz_set_ui(offset, 0);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3;
+    const std::size_t k = (i + 2) % 3;
+    mpz_ptr n = n_[i].get_mpz_t();
+    mpz_mul(n, u_[j].get_mpz_t(), v_[k].get_mpz_t());
+    mpz_submul(n, u_[k].get_mpz_t(), v_[j].get_mpz_t());
+  }
+  if (n_[0] == 0 && n_[1] == 0 && n_[2] == 0) return PlaneId();
+  // Short normals first: a common factor of the differences would go through all that follows.
+  Integer& divisor = u_[0];
+  mpz_gcd(divisor.get_mpz_t(), n_[0].get_mpz_t(), n_[1].get_mpz_t());
+  mpz_gcd(divisor.get_mpz_t(), divisor.get_mpz_t(), n_[2].get_mpz_t());
+  for (std::size_t i = 0; i < 3; ++i) {
+    mpz_ptr n = n_[i].get_mpz_t();
+    if (divisor > 1) mpz_divexact(n, n, divisor.get_mpz_t());
+    mpz_submul(offset, n, f_.points.coordinate(PointId{t[0]}, i));
+  }
+  // The plane is w n.x + offset = 0, w being the point's denominator, and what w n and the offset have in common is a
+  // divisor of w.
+  mpz_gcd(divisor.get_mpz_t(), w, offset);
+  Integer& factor = u_[1];
+  mpz_divexact(factor.get_mpz_t(), w, divisor.get_mpz_t());
+  if (divisor > 1) mpz_divexact(offset, offset, divisor.get_mpz_t());
+  if (factor > 1) {
+    for (Integer& n : n_) mpz_mul(n.get_mpz_t(), n.get_mpz_t(), factor.get_mpz_t());
+  }
+  return f_.planes.intern_primitive({n_[0].get_mpz_t(), n_[1].get_mpz_t(), n_[2].get_mpz_t(), offset});
+}
+
+// The plane of a normal through a point.
+PlaneId MeshFaces::plane_through(const Integers& normal, std::uint32_t p) {
+  Integer offset;
+  Integers n = normal;
+  for (std::size_t i = 0; i < 3; ++i) {
+    mpz_submul(offset.get_mpz_t(), normal[i].get_mpz_t(), f_.points.coordinate(PointId{p}, i));
+    mpz_mul(n[i].get_mpz_t(), n[i].get_mpz_t(), f_.points.coordinate(PointId{p}, 3));
+  }
+  return f_.planes.intern(n[0], n[1], n[2], offset);
+}
+
+// The vector area of the ring up to a positive factor: the same denominator for all corners.
+MeshFaces::Integers MeshFaces::vector_area() const {
+  Integer common = 1;
+  for (const std::uint32_t p : ring_) {
+    mpz_lcm(common.get_mpz_t(), common.get_mpz_t(), f_.points.coordinate(PointId{p}, 3));
+  }
+  Integer factor;
+  const auto scaled = [&](std::uint32_t p, Integers& out) {
+    mpz_divexact(factor.get_mpz_t(), common.get_mpz_t(), f_.points.coordinate(PointId{p}, 3));
+    for (std::size_t k = 0; k < 3; ++k) {
+      mpz_mul(out[k].get_mpz_t(), f_.points.coordinate(PointId{p}, k), factor.get_mpz_t());
+    }
+  };
+  Integers origin;
+  Integers u;
+  Integers v;
+  Integers area;
+  scaled(ring_[0], origin);
+  for (std::size_t i = 1; i < ring_.size(); ++i) {
+    scaled(ring_[i], v);
+    for (std::size_t k = 0; k < 3; ++k) v[k] -= origin[k];
+    for (std::size_t k = 0; k < 3 && i > 1; ++k) {
+      mpz_addmul(area[k].get_mpz_t(), u[(k + 1) % 3].get_mpz_t(), v[(k + 2) % 3].get_mpz_t());
+      mpz_submul(area[k].get_mpz_t(), u[(k + 2) % 3].get_mpz_t(), v[(k + 1) % 3].get_mpz_t());
+    }
+    std::swap(u, v);
+  }
+  return area;
+}
+
+// A face that is not planar, as the check has cut it.
+void MeshFaces::add_triangles(std::uint32_t face) {
+  const std::string name =
+      "face " + std::to_string(face) + " is not planar (off by " + face_deviation_text(mesh_, face) + ")";
+  if (options_.strict) throw InputError(name + "; triangulate it, or read the mesh without --strict");
+  if (surface_.defects[face] != FaceDefect::kNone) {
+    throw InputError(name + " and crosses itself when projected, so it cannot be triangulated; split it");
+  }
+  if (messages_ != nullptr && !reverse_) messages_->push_back(name + " and was triangulated");
+  push_triangles(face);
+}
+
+void MeshFaces::push_triangles(std::uint32_t face) {
+  for (std::uint32_t i = surface_.triangle_begin[face]; i < surface_.triangle_begin[face + 1]; ++i) {
+    const std::array<std::uint32_t, 3> t = corners_of(i);
+    const PlaneId plane = plane_of_triangle(t);
+    if (plane.valid()) push(t, plane);
+  }
+}
+
+}  // namespace nef

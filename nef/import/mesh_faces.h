@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The faces of a mesh with exact planes, as complexes are built from them.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "nef/construct/construct.h"
+#include "nef/construct/solid.h"
+#include "nef/mesh/mesh_surface.h"
+
+namespace nef {
+
+/// Finds the plane of every face (faces that are not planar are triangulated, which is noted, or refused if the options
+/// are strict) and builds complexes from any selection of faces. Faces without area are left out.
+class MeshFaces {
+ public:
+  /// All arguments must outlive this object; `messages` may be null. All indices in faces must be good.
+  MeshFaces(const Mesh& mesh, const MeshSurface& surface, const MeshOptions& options, Messages* messages);
+
+  /// The solid that the faces bound, or with `reverse` the one that they bound when turned over. They must be closed
+  /// and must not cross. O(n log n).
+  Complex solid(bool reverse);
+
+  /// The union of the faces as a two-dimensional set. They must meet in common vertices and edges only. O(n log n).
+  Complex surface(std::span<const std::uint32_t> faces);
+
+ private:
+  using Integers = std::array<Integer, 3>;
+
+  SolidFaces collect(std::span<const std::uint32_t> faces, bool reverse);  // all if empty
+  void number_points();
+  [[nodiscard]] std::vector<std::uint32_t> in_order_of_points(std::span<const std::uint32_t> faces) const;
+  void add_face(std::uint32_t face);
+  bool add_defective_ring();
+  [[nodiscard]] std::array<std::uint32_t, 3> corners_of(std::uint32_t triangle) const;
+  void push(std::span<const std::uint32_t> ring, PlaneId plane);
+  PlaneId plane_of_triangle(std::span<const std::uint32_t> t);
+  std::optional<PlaneId> plane_of_small_triangle(std::span<const std::uint32_t> t);
+  PlaneId plane_through(const Integers& normal, std::uint32_t p);
+  [[nodiscard]] Integers vector_area() const;
+  void add_triangles(std::uint32_t face);
+  void push_triangles(std::uint32_t face);
+
+  const Mesh& mesh_;
+  const MeshSurface& surface_;
+  MeshOptions options_;
+  Messages* messages_;
+  std::vector<std::uint32_t> point_of_;   // vertex of the mesh -> point
+  std::vector<std::uint32_t> vertex_of_;  // point -> one vertex of the mesh
+  PointTable points_;
+  SolidFaces f_;
+  bool reverse_ = false;
+  std::vector<std::uint32_t> ring_;
+  std::array<Integer, 3> u_, v_, n_;
+  Integer offset_;
+};
+
+}  // namespace nef

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/base/error.h"
+#include "nef/io/cgal/cgal_nef3.h"
+#include "nef/io/number_text.h"
+
+namespace nef {
+namespace {
+
+class Writer {
+ public:
+  explicit Writer(const Complex& complex) : c_(complex) {}
+
+  std::string run() {
+    link_facet_cycles();
+    head();
+    for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) vertex(v);
+    for (std::uint32_t h = 0; h < c_.svertices.size(); ++h) halfedge(h);
+    for (std::uint32_t h = 0; h < 2 * c_.facet_count(); ++h) halffacet(h);
+    for (std::uint32_t v = 0; v < c_.volume_count(); ++v) volume(v);
+    for (std::uint32_t e = 0; e < c_.shalfedges.size(); ++e) shalfedge(e);
+    for (std::uint32_t l = 0; l < c_.sloops.size(); ++l) sloop(l);
+    for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) sfaces(v);
+    return std::move(text_ += "/* end Selective Nef complex */\n");
+  }
+
+  [[nodiscard]] bool met_other_marks() const { return other_marks_; }
+
+ private:
+  // Halffacet 2f has the twins of our corners, which go on to the twin of the next; 2f + 1 has the corners, backwards.
+  void link_facet_cycles() {
+    next_.assign(c_.shalfedges.size(), 0);
+    prev_.assign(c_.shalfedges.size(), 0);
+    for (std::uint32_t i = 0; i + 1 < c_.cycle_begin.size(); ++i) {
+      const auto corners = c_.cycle(i);
+      for (std::size_t k = 0; k < corners.size(); ++k) {
+        const std::uint32_t here = corners[k];
+        const std::uint32_t ahead = corners[(k + 1) % corners.size()];
+        next_[here ^ 1U] = ahead ^ 1U;
+        prev_[ahead ^ 1U] = here ^ 1U;
+        next_[ahead] = here;
+        prev_[here] = ahead;
+      }
+    }
+  }
+
+  void head() {
+    text_ = "Selective Nef Complex\nstandard\n";
+    const auto line = [this](const char* name, std::size_t count) {
+      text_ += name;
+      append_number(text_, count);
+      text_ += '\n';
+    };
+    line("vertices   ", c_.vertex_count());
+    line("halfedges  ", c_.svertices.size());
+    line("facets     ", 2 * c_.facet_count());
+    line("volumes    ", c_.volume_count());
+    line("shalfedges ", c_.shalfedges.size());
+    line("shalfloops ", c_.sloops.size());
+    line("sfaces     ", c_.sfaces.size());
+  }
+
+  void begin(std::size_t index) {
+    append_number(text_, index);
+    text_ += " {";
+  }
+  void number(std::int64_t value) {
+    text_ += ' ';
+    append_number(text_, value);
+  }
+  void integer(mpz_srcptr value) {
+    text_ += ' ';
+    append_integer(text_, value);
+  }
+  void range(std::uint32_t first, std::uint32_t last) {
+    number(first == last ? -2 : static_cast<std::int64_t>(first));
+    number(first == last ? -2 : static_cast<std::int64_t>(last) - 1);
+    text_ += ',';
+  }
+  void end(LabelId mark) {
+    other_marks_ = other_marks_ || mark > 1;
+    text_ += mark == 0 ? " } 0\n" : " } 1\n";
+  }
+
+  void vertex(std::uint32_t v) {
+    const VertexRecord& record = c_.vertices[v];
+    const VertexRecord& after = c_.vertices[v + 1];
+    begin(v);
+    range(record.svertices, after.svertices);
+    range(record.shalfedges, after.shalfedges);
+    range(record.sfaces, after.sfaces);
+    number(record.sloops == after.sloops ? -2 : static_cast<std::int64_t>(record.sloops));
+    text_ += " |";
+    for (std::size_t i = 0; i < 4; ++i) integer(c_.points.coordinate(PointId{v}, i));
+    end(record.mark);
+  }
+
+  void halfedge(std::uint32_t h) {
+    const std::uint32_t v = c_.svertex_owner[h];
+    const SVertex& s = c_.svertices[h];
+    begin(h);
+    number(c_.twin[h]);
+    text_ += ',';
+    number(v);
+    text_ += ',';
+    if (s.out == kNone) {
+      number(1);
+      number(c_.vertices[v].sfaces + s.sface);
+    } else {
+      number(0);
+      number(c_.vertices[v].shalfedges + s.out);
+    }
+    text_ += " |";
+    std::array<Integer, 3> direction = Direction::cross(c_.planes, s.p, s.q).integers();
+    Integer divisor = gcd(gcd(direction[0], direction[1]), direction[2]);
+    for (const Integer& x : direction) integer(Integer(x / divisor).get_mpz_t());
+    text_ += " 1";
+    end(s.mark);
+  }
+
+  void plane(PlaneId plane, bool through_origin) {
+    text_ += " |";
+    for (std::size_t i = 0; i < 3; ++i) integer(c_.planes.oriented_coefficient(plane, i).get_mpz_t());
+    integer(through_origin ? Integer(0).get_mpz_t() : c_.planes.oriented_coefficient(plane, 3).get_mpz_t());
+  }
+
+  void halffacet(std::uint32_t h) {
+    const Facet& facet = c_.facets[h >> 1U];
+    const bool above = (h & 1U) == 0;
+    begin(h);
+    number(h ^ 1U);
+    text_ += ',';
+    for (std::uint32_t i = 0; i < facet.cycle_count; ++i) {
+      const std::uint32_t corner = c_.cycle(facet.first_cycle + i)[0];
+      number(above ? corner ^ 1U : corner);
+    }
+    text_ += " ,";
+    for (std::uint32_t i = 0; i < facet.isolated_count; ++i) {
+      const VertexRecord& record = c_.vertices[c_.isolated_vertices[facet.first_isolated + i]];
+      // As for shalfedges: the sloop on the opposite plane.
+      const bool flipped = c_.sloops[record.sloops].plane.flipped();
+      number(record.sloops + (flipped == above ? 0U : 1U));
+    }
+    text_ += " ,";
+    number(c_.halffacet_volume(h));
+    plane(above ? facet.plane : facet.plane.opposite(), false);
+    end(facet.mark);
+  }
+
+  void volume(std::uint32_t v) {
+    const Volume& volume = c_.volumes[v];
+    begin(v);
+    for (std::uint32_t s = 0; s < volume.shell_count; ++s) {
+      number(c_.shell_sfaces[c_.shells[volume.first_shell + s].first_sface]);
+    }
+    end(volume.mark);
+  }
+
+  void shalfedge(std::uint32_t e) {
+    const VertexRecord& record = c_.vertices[c_.shalfedge_owner[e]];
+    const SHalfedge& s = c_.shalfedges[e];
+    begin(e);
+    const auto item = [this](std::uint32_t value) {
+      number(value);
+      text_ += ',';
+    };
+    item(e ^ 1U);
+    item(record.shalfedges + s.prev);
+    item(record.shalfedges + s.next);
+    item(record.svertices + s.source);
+    item(record.sfaces + s.sface);
+    item(prev_[e]);
+    item(next_[e]);
+    number(c_.shalfedge_facet[e] ^ 1U);
+    plane(s.plane, true);
+    end(s.mark);
+  }
+
+  void sloop(std::uint32_t l) {
+    // Sloops come in pairs, one pair for a vertex; both belong to the vertex of the sface of either.
+    const SLoop& loop = c_.sloops[l];
+    const std::uint32_t facet = c_.sloop_facet[l];
+    begin(l);
+    number(l ^ 1U);
+    text_ += ',';
+    number(c_.vertices[loop_owner(l)].sfaces + loop.sface);
+    text_ += ',';
+    number(facet ^ 1U);
+    plane(loop.plane, true);
+    end(loop.mark);
+  }
+
+  // Vertices are visited in order, and so are their sloops.
+  std::uint32_t loop_owner(std::uint32_t loop) {
+    while (c_.vertices[loop_vertex_ + 1].sloops <= loop) ++loop_vertex_;
+    return loop_vertex_;
+  }
+
+  void sfaces(std::uint32_t v) {
+    const SphereMapView map = c_.sphere_map(v);
+    const VertexRecord& record = c_.vertices[v];
+    for (std::uint32_t i = 0; i < map.sfaces.size(); ++i) {
+      const SFace& face = map.sfaces[i];
+      begin(record.sfaces + i);
+      number(v);
+      const auto list = [&](SFaceEntry::Kind kind, std::uint32_t first) {
+        text_ += ',';
+        for (const SFaceEntry& entry : map.entries.subspan(face.entries, face.entry_count)) {
+          if (entry.kind == kind) number(first + entry.index);
+        }
+        text_ += ' ';
+      };
+      list(SFaceEntry::Kind::kCycle, record.shalfedges);
+      list(SFaceEntry::Kind::kIsolatedVertex, record.svertices);
+      list(SFaceEntry::Kind::kLoop, record.sloops);
+      text_ += ',';
+      number(c_.sface_volume(record.sfaces + i));
+      end(face.mark);
+    }
+  }
+
+  const Complex& c_;
+  std::string text_;
+  std::vector<std::uint32_t> next_;  // along a facet's boundary, as CGAL has it
+  std::vector<std::uint32_t> prev_;
+  std::uint32_t loop_vertex_ = 0;
+  bool other_marks_ = false;
+};
+
+}  // namespace
+
+std::string nef3_text(const Polyhedron& polyhedron, Messages* messages) {
+  if (polyhedron.complex().has_box()) {
+    throw UnsupportedError("the set is unbounded, which .nef3 of a standard kernel cannot hold; write .nef instead");
+  }
+  Writer writer(polyhedron.complex());
+  std::string text = writer.run();
+  if (writer.met_other_marks() && messages != nullptr) {
+    messages->push_back("marks other than 0 and 1 were written as 1; .nef keeps them");
+  }
+  return text;
+}
+
+}  // namespace nef

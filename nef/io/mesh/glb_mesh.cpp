@@ -1,0 +1,342 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/io/mesh/glb_mesh.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "nef/base/in_quotes.h"
+#include "nef/export/nearest_float.h"
+#include "nef/io/file_bytes.h"
+#include "nef/io/native/binary_cursor.h"
+#include "nef/io/number_text.h"
+#include "nef/mesh/mesh_surface.h"
+#include "nef/mesh/vertex_merger.h"
+
+namespace nef {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::uint32_t kMagic = 0x46546c67;  // "glTF"
+constexpr std::uint32_t kJsonChunk = 0x4e4f534a;
+constexpr std::uint32_t kBinaryChunk = 0x004e4942;
+enum ComponentType : int { kUint8 = 5121, kUint16 = 5123, kUint32 = 5125, kFloat = 5126 };
+enum PrimitiveMode : int { kTriangles = 4, kTriangleStrip = 5, kTriangleFan = 6 };
+
+// x -> linear x + translation.
+struct Placement {
+  std::array<std::array<Rational, 3>, 3> linear;
+  Rational3 translation;
+
+  static Placement identity() {
+    Placement p;
+    for (std::size_t i = 0; i < 3; ++i) p.linear[i][i] = 1;
+    return p;
+  }
+  Rational3 operator()(const Rational3& x) const {
+    Rational3 y = translation;
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t k = 0; k < 3; ++k) y[i] += linear[i][k] * x[k];
+    }
+    return y;
+  }
+  [[nodiscard]] Placement after(const Placement& first) const {
+    Placement p;
+    p.translation = (*this)(first.translation);
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        for (std::size_t j = 0; j < 3; ++j) p.linear[i][k] += linear[i][j] * first.linear[j][k];
+      }
+    }
+    return p;
+  }
+};
+
+class Reader {
+ public:
+  Reader(std::string_view bytes, const std::string& path) : path_(path) {
+    BinaryCursor header(bytes, path, 0, std::endian::little);
+    if (header.take<std::uint32_t>("header") != kMagic) fail(FileProblem::kSyntax, "this is no binary glTF");
+    if (header.take<std::uint32_t>("header") != 2) fail(FileProblem::kUnsupported, "only version 2 of glTF is read");
+    std::size_t position = 12;  // after the length of the file
+    while (position + 8 <= bytes.size()) {
+      BinaryCursor cursor(bytes, path, position, std::endian::little);
+      const auto length = cursor.take<std::uint32_t>("chunk");
+      const auto type = cursor.take<std::uint32_t>("chunk");
+      position += 8;
+      if (cursor.left() < length)
+        fail(FileProblem::kTruncated, "the file ends in the middle of a chunk; it is cut off");
+      const std::string_view chunk = bytes.substr(position, length);
+      if (type == kJsonChunk && document_.is_null()) {
+        document_ = Json::parse(chunk, nullptr, false);
+        if (document_.is_discarded()) fail(FileProblem::kSyntax, "the JSON in it is not valid");
+      } else if (type == kBinaryChunk && binary_.empty()) {
+        binary_ = chunk;
+      }
+      position += length;
+    }
+    if (!document_.is_object()) fail(FileProblem::kSyntax, "there is no JSON in it");
+  }
+
+  Mesh read() {
+    try {
+      walk_all();
+    } catch (const Json::exception&) {
+      fail(FileProblem::kSyntax, "its JSON lacks something or has something of the wrong type");
+    }
+    return std::move(mesh_);
+  }
+
+ private:
+  [[noreturn]] void fail(FileProblem problem, const std::string& what) const {
+    throw FileError(problem, path_ + ": " + what);
+  }
+
+  [[nodiscard]] const Json& item(const char* list, std::size_t index) const {
+    const auto found = document_.find(list);
+    if (found == document_.end() || !found->is_array() || index >= found->size()) {
+      fail(FileProblem::kBadIndex,
+           std::string("it names item ") + std::to_string(index) + " of '" + list + "', which is not there");
+    }
+    return (*found)[index];
+  }
+
+  void walk_all() {
+    for (const Json& extension : document_.value("extensionsRequired", Json::array())) {
+      fail(FileProblem::kUnsupported, "it needs the extension " + in_quotes(extension.get<std::string>()));
+    }
+    // z up here, y up there.
+    Placement upright;
+    upright.linear[0][0] = 1;
+    upright.linear[1][2] = -1;
+    upright.linear[2][1] = 1;
+    if (document_.contains("scenes")) {
+      const Json& scene = item("scenes", document_.value("scene", std::size_t{0}));
+      for (const Json& node : scene.value("nodes", Json::array())) walk(node.get<std::size_t>(), upright, 0);
+      return;
+    }
+    for (std::size_t m = 0; m < document_.value("meshes", Json::array()).size(); ++m) add_mesh(m, upright);
+  }
+
+  void walk(std::size_t index, const Placement& above, int depth) {
+    constexpr int kDeepest = 200;
+    if (depth > kDeepest) fail(FileProblem::kUnsupported, "its nodes are nested too deeply");
+    const Json& node = item("nodes", index);
+    const Placement here = above.after(placement(node));
+    if (node.contains("mesh")) add_mesh(node["mesh"].get<std::size_t>(), here);
+    for (const Json& child : node.value("children", Json::array())) walk(child.get<std::size_t>(), here, depth + 1);
+  }
+
+  [[nodiscard]] Rational number(const Json& value) const {
+    const double x = value.get<double>();
+    if (!std::isfinite(x)) fail(FileProblem::kNotANumber, "a transformation has a number that is not finite");
+    return exact_rational(x);
+  }
+
+  [[nodiscard]] Placement placement(const Json& node) const {
+    Placement p = Placement::identity();
+    if (node.contains("matrix")) {
+      const Json& m = node["matrix"];  // column by column
+      for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t k = 0; k < 3; ++k) p.linear[i][k] = number(m.at(4 * k + i));
+        p.translation[i] = number(m.at(12 + i));
+      }
+      return p;
+    }
+    if (node.contains("rotation")) p.linear = rotation(node["rotation"]);
+    if (node.contains("scale")) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Rational factor = number(node["scale"].at(k));
+        for (std::size_t i = 0; i < 3; ++i) p.linear[i][k] *= factor;
+      }
+    }
+    if (node.contains("translation")) {
+      for (std::size_t i = 0; i < 3; ++i) p.translation[i] = number(node["translation"].at(i));
+    }
+    return p;
+  }
+
+  // Of a quaternion x, y, z, w of any length but zero.
+  [[nodiscard]] std::array<std::array<Rational, 3>, 3> rotation(const Json& quaternion) const {
+    std::array<Rational, 4> q;
+    Rational norm;
+    for (std::size_t i = 0; i < 4; ++i) {
+      q[i] = number(quaternion.at(i));
+      norm += q[i] * q[i];
+    }
+    if (norm == 0) fail(FileProblem::kNotANumber, "a rotation is the zero quaternion");
+    const Rational s = 2 / norm;
+    std::array<std::array<Rational, 3>, 3> r;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = (i + 1) % 3;
+      const std::size_t k = (i + 2) % 3;
+      r[i][i] = 1 - s * (q[j] * q[j] + q[k] * q[k]);
+      r[i][j] = s * (q[i] * q[j] - q[k] * q[3]);
+      r[i][k] = s * (q[i] * q[k] + q[j] * q[3]);
+    }
+    return r;
+  }
+
+  struct Accessor {
+    std::string_view bytes;
+    std::size_t count = 0;
+    std::size_t stride = 0;
+    int type = 0;
+  };
+
+  // Its elements have `components` numbers of at most four bytes.
+  [[nodiscard]] Accessor accessor(std::size_t index, const char* type, std::size_t components) const {
+    const Json& json = item("accessors", index);
+    if (json.contains("sparse") || !json.contains("bufferView") || json.at("type").get<std::string>() != type) {
+      fail(FileProblem::kUnsupported, "accessor " + std::to_string(index) + " is sparse, empty or of an unusual type");
+    }
+    Accessor result;
+    result.type = json.at("componentType").get<int>();
+    result.count = json.at("count").get<std::size_t>();
+    const std::size_t size = components * (result.type == kUint8 ? 1 : result.type == kUint16 ? 2 : 4);
+    const Json& view = item("bufferViews", json.at("bufferView").get<std::size_t>());
+    const std::size_t buffer = view.at("buffer").get<std::size_t>();
+    if (buffer != 0 || item("buffers", buffer).contains("uri")) {
+      fail(FileProblem::kUnsupported, "its numbers are in another file");
+    }
+    result.stride = view.value("byteStride", size);
+    const std::size_t first = json.value("byteOffset", std::size_t{0});
+    const std::size_t view_first = view.value("byteOffset", std::size_t{0});
+    const std::size_t view_size = view.at("byteLength").get<std::size_t>();
+    constexpr std::size_t kMost = std::size_t{1} << 32U;  // a file holds no more, and sums do not overflow
+    const bool fits = result.count < kMost && result.stride < 256 && first < kMost && view_first < kMost &&
+                      view_size < kMost && view_first + view_size <= binary_.size() &&
+                      (result.count == 0 || first + (result.count - 1) * result.stride + size <= view_size);
+    if (!fits) fail(FileProblem::kTruncated, "accessor " + std::to_string(index) + " reaches beyond its buffer");
+    result.bytes = binary_.substr(view_first + first);
+    return result;
+  }
+
+  template <typename T>
+  T value(const Accessor& accessor, std::size_t element, std::size_t component) const {
+    BinaryCursor cursor(accessor.bytes, path_, element * accessor.stride + component * sizeof(T), std::endian::little);
+    return cursor.take<T>("number");
+  }
+
+  [[nodiscard]] std::vector<std::uint32_t> indices(const Json& primitive, std::size_t vertices) const {
+    std::vector<std::uint32_t> result;
+    if (!primitive.contains("indices")) {
+      for (std::uint32_t i = 0; i < vertices; ++i) result.push_back(i);
+      return result;
+    }
+    const Accessor list = accessor(primitive["indices"].get<std::size_t>(), "SCALAR", 1);
+    for (std::size_t i = 0; i < list.count; ++i) {
+      const std::uint32_t index = list.type == kUint8    ? value<std::uint8_t>(list, i, 0)
+                                  : list.type == kUint16 ? value<std::uint16_t>(list, i, 0)
+                                                         : value<std::uint32_t>(list, i, 0);
+      if (index >= vertices) {
+        fail(FileProblem::kBadIndex,
+             "a triangle names vertex " + std::to_string(index) + ", but there are " + std::to_string(vertices));
+      }
+      result.push_back(index);
+    }
+    return result;
+  }
+
+  void add_mesh(std::size_t index, const Placement& placement) {
+    for (const Json& primitive : item("meshes", index).at("primitives")) {
+      const int mode = primitive.value("mode", int{kTriangles});
+      if (mode != kTriangles && mode != kTriangleStrip && mode != kTriangleFan) continue;  // points and lines
+      add_primitive(primitive, mode, placement);
+    }
+  }
+
+  void add_primitive(const Json& primitive, int mode, const Placement& placement) {
+    const Accessor positions = accessor(primitive.at("attributes").at("POSITION").get<std::size_t>(), "VEC3", 3);
+    if (positions.type != kFloat) fail(FileProblem::kUnsupported, "its positions are no floats");
+    std::vector<std::uint32_t> vertex;
+    for (std::size_t v = 0; v < positions.count; ++v) {
+      Rational3 point;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const auto x = static_cast<double>(value<float>(positions, v, i));
+        if (!std::isfinite(x)) fail(FileProblem::kNotANumber, "a coordinate is not a finite number");
+        point[i] = x;
+      }
+      vertex.push_back(merger_.add(placement(point)));
+    }
+    const std::vector<std::uint32_t> list = indices(primitive, positions.count);
+    const std::size_t step = mode == kTriangles ? 3 : 1;
+    for (std::size_t i = 0; i + 2 < list.size(); i += step) {
+      std::array<std::uint32_t, 3> t{list[mode == kTriangleFan ? 0 : i], list[i + 1], list[i + 2]};
+      if (mode == kTriangleStrip && i % 2 == 1) std::swap(t[0], t[1]);
+      for (std::uint32_t& v : t) v = vertex[v];
+      if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) mesh_.push_face(t);
+    }
+  }
+
+  const std::string& path_;
+  Json document_;
+  std::string_view binary_;
+  Mesh mesh_;
+  VertexMerger merger_{mesh_.vertices};
+};
+
+void append_chunk(std::string& bytes, std::uint32_t type, std::string chunk, char padding) {
+  chunk.resize((chunk.size() + 3) / 4 * 4, padding);
+  append_little_endian(bytes, static_cast<std::uint32_t>(chunk.size()));
+  append_little_endian(bytes, type);
+  bytes += chunk;
+}
+
+}  // namespace
+
+Mesh read_glb(std::string_view bytes, const std::string& path) { return Reader(bytes, path).read(); }
+
+std::string glb_bytes(const Mesh& mesh) {
+  const MeshSurface surface(mesh);
+  std::string binary;
+  std::array<float, 3> low{};
+  std::array<float, 3> high{};
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const float x = nearest_float(mesh.vertices[v][i]);
+      low[i] = v == 0 ? x : std::min(low[i], x);
+      high[i] = v == 0 ? x : std::max(high[i], x);
+      append_little_endian(binary, x);
+    }
+  }
+  const std::size_t positions = binary.size();
+  for (const auto& t : surface.triangles) {
+    for (const std::uint32_t v : t) append_little_endian(binary, v);
+  }
+  nlohmann::ordered_json document{{"asset", {{"version", "2.0"}, {"generator", "nef"}}}, {"scene", 0}};
+  document["scenes"] = {{{"nodes", nlohmann::json::array()}}};
+  if (!surface.triangles.empty()) {
+    document["scenes"][0]["nodes"].push_back(0);
+    document["nodes"] = {{{"mesh", 0}, {"matrix", {1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1}}}};
+    document["meshes"] = {{{"primitives", {{{"attributes", {{"POSITION", 0}}}, {"indices", 1}, {"mode", 4}}}}}};
+    document["accessors"] = {{{"bufferView", 0},
+                              {"componentType", int{kFloat}},
+                              {"count", mesh.vertices.size()},
+                              {"type", "VEC3"},
+                              {"min", low},
+                              {"max", high}},
+                             {{"bufferView", 1},
+                              {"componentType", int{kUint32}},
+                              {"count", 3 * surface.triangles.size()},
+                              {"type", "SCALAR"}}};
+    constexpr int kVertices = 34962;  // what the views are for: ARRAY_BUFFER, ELEMENT_ARRAY_BUFFER
+    constexpr int kIndices = 34963;
+    document["bufferViews"] = {
+        {{"buffer", 0}, {"byteOffset", 0}, {"byteLength", positions}, {"target", kVertices}},
+        {{"buffer", 0}, {"byteOffset", positions}, {"byteLength", binary.size() - positions}, {"target", kIndices}}};
+    document["buffers"] = {{{"byteLength", binary.size()}}};
+  }
+  std::string chunks;
+  append_chunk(chunks, kJsonChunk, document.dump(), ' ');
+  if (!surface.triangles.empty()) append_chunk(chunks, kBinaryChunk, binary, '\0');
+  std::string bytes;
+  append_little_endian(bytes, kMagic);
+  append_little_endian(bytes, std::uint32_t{2});
+  append_little_endian(bytes, static_cast<std::uint32_t>(12 + chunks.size()));
+  return bytes + chunks;
+}
+
+}  // namespace nef

@@ -1,0 +1,334 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Rounding moves vertices by half a unit in the last place, so it can only harm what is about as thin: a needle (two
+// corners that are very close) is contracted, a cap (a corner very close to the opposite side) loses that side to the
+// other diagonal of it and its neighbour, and other faces that cross get their corners shaken a little. Each round
+// looks at faces that are somewhat thicker and shakes somewhat more.
+#include "nef/io/mesh/mend_rounded.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <random>
+#include <set>
+#include <unordered_map>
+
+#include "nef/base/error.h"
+#include "nef/base/union_find.h"
+#include "nef/export/nearest_float.h"
+#include "nef/io/number_text.h"
+#include "nef/io/text_cursor.h"
+#include "nef/mesh/edge_order.h"
+#include "nef/mesh/mesh_check.h"
+#include "nef/mesh/mesh_surface.h"
+
+namespace nef {
+namespace {
+
+using Point = std::array<double, 3>;
+using Triangle = std::array<std::uint32_t, 3>;
+
+constexpr int kRounds = 24;
+
+struct Finding {
+  bool legal = true;
+  std::string text;                       // of the first problem
+  std::set<std::uint32_t> guilty;         // faces of illegal problems
+  std::vector<std::uint32_t> degenerate;  // faces without area
+};
+
+bool one_component(const Mesh& mesh) {
+  UnionFind vertices(mesh.vertices.size());
+  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+    for (const std::uint32_t v : mesh.face(f)) vertices.unite(v, mesh.face(f)[0]);
+  }
+  const std::uint32_t first = mesh.corners.empty() ? 0 : vertices.find(mesh.corners[0]);
+  return std::all_of(mesh.corners.begin(), mesh.corners.end(),
+                     [&](std::uint32_t v) { return vertices.find(v) == first; });
+}
+
+Finding examine(const Mesh& mesh) {
+  Finding found;
+  bool contact = false;
+  const auto note = [&](const std::string& text) {
+    if (found.legal) found.text = text;
+    found.legal = false;
+  };
+  for (const MeshProblem& problem : check_mesh(mesh)) {
+    if (problem.kind == MeshProblemKind::kInsideOut) note(problem.text);
+    contact = contact || problem.kind == MeshProblemKind::kTouching || problem.kind == MeshProblemKind::kDuplicateFace;
+    if (problem.legal && problem.kind == MeshProblemKind::kDegenerateFace) {
+      found.degenerate.insert(found.degenerate.end(), problem.faces.begin(), problem.faces.end());
+    }
+    if (problem.legal) continue;
+    note(problem.text);
+    found.guilty.insert(problem.faces.begin(), problem.faces.end());
+  }
+  // How components lie to each other, and what contacts mean, is known when the solid is made.
+  if (!found.legal || (!contact && found.degenerate.empty() && one_component(mesh))) return found;
+  try {
+    Messages messages;
+    from_mesh(mesh, {}, &messages);
+  } catch (const InputError& error) {
+    note(error.what());
+  }
+  return found;
+}
+
+class Mender {
+ public:
+  Mender(const Mesh& exact, const Rounding& rounding) : exact_(exact), rounding_(rounding), random_(1) {}
+
+  MendedMesh run() {
+    for (const Rational3& p : exact_.vertices) {
+      points_.push_back({rounding_.nearest(p[0]), rounding_.nearest(p[1]), rounding_.nearest(p[2])});
+    }
+    nearest_ = points_;
+    MendedMesh result;
+    Finding found = examine_readings([&](const auto& reading) { return with_faces_of(exact_, reading); });
+    if (found.legal && found.degenerate.empty()) {
+      result.mesh = with_faces_of(exact_, exact_rational);
+      return measured(std::move(result));
+    }
+    cut_into_triangles();
+    const std::size_t before = triangles_.size();
+    for (int round = 0; round < kRounds; ++round) {
+      clean_up();
+      if (triangles_.empty()) return lost();
+      found = examine_readings([&](const auto& reading) { return mesh_of_triangles(reading); });
+      if (found.legal && (found.degenerate.empty() || round >= kRounds / 2)) break;
+      mend(found, round);
+    }
+    result.legal = found.legal;
+    result.problem = found.text;
+    result.dropped = before - triangles_.size();
+    result.mesh = mesh_of_triangles(exact_rational);
+    drop_unused_vertices(result.mesh);
+    return measured(std::move(result));
+  }
+
+ private:
+  [[nodiscard]] static MendedMesh lost() {
+    MendedMesh result;
+    result.legal = false;
+    result.problem = "nothing is left of it";
+    return result;
+  }
+
+  // All readings must be legal; the guilty faces are those of the first that is not.
+  template <typename Make>
+  Finding examine_readings(Make make) const {
+    Finding result;
+    for (const auto& reading : rounding_.readings) {
+      Finding found = examine(make(reading));
+      if (!found.legal) return found;
+      if (result.degenerate.empty()) result = std::move(found);
+    }
+    return result;
+  }
+
+  template <typename Reading>
+  [[nodiscard]] std::vector<Rational3> read(const Reading& reading) const {
+    std::vector<Rational3> vertices;
+    vertices.reserve(points_.size());
+    for (const Point& p : points_) vertices.push_back({reading(p[0]), reading(p[1]), reading(p[2])});
+    return vertices;
+  }
+
+  template <typename Reading>
+  [[nodiscard]] Mesh with_faces_of(const Mesh& other, const Reading& reading) const {
+    return {read(reading), other.face_begin, other.corners};
+  }
+
+  template <typename Reading>
+  [[nodiscard]] Mesh mesh_of_triangles(const Reading& reading) const {
+    Mesh mesh;
+    mesh.vertices = read(reading);
+    for (const Triangle& t : triangles_) mesh.push_face(t);
+    return mesh;
+  }
+
+  void cut_into_triangles() {
+    const MeshSurface surface(exact_);
+    triangles_ = surface.triangles;
+  }
+
+  // One vertex for each point, no triangles that come to one twice, none that lie back to back.
+  void clean_up() {
+    std::map<Point, std::uint32_t> vertex_at;
+    std::vector<std::uint32_t> vertex(points_.size());
+    for (std::uint32_t v = 0; v < points_.size(); ++v) vertex[v] = vertex_at.emplace(points_[v], v).first->second;
+    std::map<Triangle, std::vector<Triangle>> by_corners;
+    for (Triangle t : triangles_) {
+      for (std::uint32_t& v : t) v = vertex[v];
+      if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
+      std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+      Triangle sorted = t;
+      std::sort(sorted.begin(), sorted.end());
+      std::vector<Triangle>& same = by_corners[sorted];
+      const auto opposite = std::find(same.begin(), same.end(), Triangle{t[0], t[2], t[1]});
+      if (opposite != same.end()) {
+        same.erase(opposite);
+      } else {
+        same.push_back(t);
+      }
+    }
+    triangles_.clear();
+    for (const auto& [corners, same] : by_corners) triangles_.insert(triangles_.end(), same.begin(), same.end());
+  }
+
+  void mend(const Finding& found, int round) {
+    neighbours_.clear();
+    for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        neighbours_[pair_key(triangles_[t][i], triangles_[t][(i + 1) % 3])].push_back(t);
+      }
+    }
+    touched_.assign(triangles_.size(), false);
+    for (const std::uint32_t t : found.degenerate) {
+      if (!remove_thin(t)) shake(t, round);
+    }
+    for (const std::uint32_t t : found.guilty) {
+      if (is_thin(t, round) && remove_thin(t)) continue;
+      shake(t, round);
+    }
+  }
+
+  [[nodiscard]] double squared_distance(std::uint32_t a, std::uint32_t b) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < 3; ++i) sum += (points_[a][i] - points_[b][i]) * (points_[a][i] - points_[b][i]);
+    return sum;
+  }
+
+  // The side i of a triangle goes from corner i to the next.
+  [[nodiscard]] std::array<double, 3> squared_sides(const Triangle& t) const {
+    return {squared_distance(t[0], t[1]), squared_distance(t[1], t[2]), squared_distance(t[2], t[0])};
+  }
+
+  [[nodiscard]] bool is_thin(std::uint32_t t, int round) const {
+    const Triangle& c = triangles_[t];
+    double reach = 0;
+    Point u{};
+    Point v{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      u[i] = points_[c[1]][i] - points_[c[0]][i];
+      v[i] = points_[c[2]][i] - points_[c[0]][i];
+      for (const std::uint32_t corner : c) reach = std::max(reach, std::abs(points_[corner][i]));
+    }
+    const std::array<double, 3> sides = squared_sides(c);
+    const double longest = std::sqrt(*std::max_element(sides.begin(), sides.end()));
+    const double area = std::hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]);
+    const double unit = rounding_.next(reach, true) - reach;
+    return area <= longest * unit * std::ldexp(2, round);
+  }
+
+  // Contracts a needle, flips the long side of a cap. False if neither can be done.
+  bool remove_thin(std::uint32_t t) {
+    if (touched_[t]) return true;
+    const Triangle c = triangles_[t];
+    const std::array<double, 3> sides = squared_sides(c);
+    const auto shortest = static_cast<std::size_t>(std::min_element(sides.begin(), sides.end()) - sides.begin());
+    const auto longest = static_cast<std::size_t>(std::max_element(sides.begin(), sides.end()) - sides.begin());
+    constexpr double kNeedle = 0x1p-80;  // of the squared longest side: a few thousand units in the last place
+    if (sides[shortest] > kNeedle * sides[longest]) return flip(t, longest);
+    points_[c[shortest]] = points_[c[(shortest + 1) % 3]];
+    touched_[t] = true;
+    return true;
+  }
+
+  bool flip(std::uint32_t t, std::size_t side) {
+    const std::uint32_t u = triangles_[t][side];
+    const std::uint32_t v = triangles_[t][(side + 1) % 3];
+    const std::uint32_t w = triangles_[t][(side + 2) % 3];
+    if (neighbours_[pair_key(u, v)].size() != 1 || neighbours_[pair_key(v, u)].size() != 1) return false;
+    const std::uint32_t other = neighbours_[pair_key(v, u)][0];
+    if (touched_[other]) return true;
+    std::uint32_t x = 0;
+    for (const std::uint32_t corner : triangles_[other]) {
+      if (corner != u && corner != v) x = corner;
+    }
+    if (x == w || !neighbours_[pair_key(x, w)].empty() || !neighbours_[pair_key(w, x)].empty()) return false;
+    triangles_[t] = {u, x, w};
+    triangles_[other] = {x, v, w};
+    touched_[t] = touched_[other] = true;
+    return true;
+  }
+
+  // Moves the corners by a few units in the last place.
+  void shake(std::uint32_t t, int round) {
+    if (touched_[t]) return;
+    const auto steps = static_cast<unsigned>(1 + round / 2);
+    for (const std::uint32_t v : triangles_[t]) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const unsigned count = random_() % (steps + 1);
+        const bool up = random_() % 2 == 0;
+        // What was no harm to round stays for a while: a side of a box stays flat.
+        if (round < kRounds / 2 && exact_rational(points_[v][axis]) == exact_.vertices[v][axis]) continue;
+        for (unsigned i = 0; i < count; ++i) points_[v][axis] = rounding_.next(points_[v][axis], up);
+      }
+    }
+  }
+
+  static void drop_unused_vertices(Mesh& mesh) {
+    std::vector<std::uint32_t> number(mesh.vertices.size(), 0xffffffffU);
+    std::vector<Rational3> used;
+    for (const std::uint32_t v : mesh.corners) number[v] = 0;
+    for (std::uint32_t v = 0; v < number.size(); ++v) {
+      if (number[v] != 0) continue;
+      number[v] = static_cast<std::uint32_t>(used.size());
+      used.push_back(std::move(mesh.vertices[v]));
+    }
+    for (std::uint32_t& v : mesh.corners) v = number[v];
+    mesh.vertices = std::move(used);
+  }
+
+  MendedMesh measured(MendedMesh result) const {
+    for (std::size_t v = 0; v < points_.size(); ++v) {
+      result.moved += points_[v] != nearest_[v] ? 1 : 0;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Rational move = exact_rational(points_[v][i]) - exact_.vertices[v][i];
+        result.largest_move = std::max(result.largest_move, std::abs(nearest_double(move)));
+      }
+    }
+    return result;
+  }
+
+  const Mesh& exact_;
+  const Rounding& rounding_;
+  std::mt19937 random_;  // the same for the same mesh
+  std::vector<Point> points_;
+  std::vector<Point> nearest_;
+  std::vector<Triangle> triangles_;
+  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> neighbours_;  // by directed side
+  std::vector<bool> touched_;                                                 // triangles that this round changed
+};
+
+double next_double(double x, bool up) { return std::nextafter(x, up ? HUGE_VAL : -HUGE_VAL); }
+
+double next_float(double x, bool up) {
+  return static_cast<double>(std::nextafter(static_cast<float>(x), up ? HUGE_VALF : -HUGE_VALF));
+}
+
+Rational shortest_decimal(double x) {
+  std::string text;
+  append_number(text, x);
+  Rational value;
+  const bool done = parse_number(text, value);
+  NEF_ASSERT(done);
+  return value;
+}
+
+}  // namespace
+
+Rounding rounding_to_binary_doubles() { return {nearest_double, next_double, {exact_rational}}; }
+
+Rounding rounding_to_decimals() { return {nearest_double, next_double, {shortest_decimal, exact_rational}}; }
+
+Rounding rounding_to_binary_floats() {
+  return {[](const Rational& x) { return static_cast<double>(nearest_float(x)); }, next_float, {exact_rational}};
+}
+
+MendedMesh round_mesh(const Mesh& exact, const Rounding& rounding) { return Mender(exact, rounding).run(); }
+
+}  // namespace nef

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/io/mesh/mesh_writer.h"
+
+#include <cmath>
+
+#include "nef/export/nearest_float.h"
+#include "nef/io/file_bytes.h"
+#include "nef/io/mesh/glb_mesh.h"
+#include "nef/io/number_text.h"
+#include "nef/io/text_cursor.h"
+#include "nef/mesh/mesh_surface.h"
+#include "nef/mesh/vertex_merger.h"
+
+namespace nef {
+namespace {
+
+void append_coordinate(std::string& text, const Rational& value, bool exact) {
+  if (exact) {
+    append_integer(text, value.get_num_mpz_t());
+    if (value.get_den() == 1) return;
+    text += '/';
+    append_integer(text, value.get_den_mpz_t());
+  } else {
+    append_number(text, nearest_double(value));
+  }
+}
+
+void append_point(std::string& text, const Rational3& point, bool exact) {
+  append_coordinate(text, point[0], exact);
+  text += ' ';
+  append_coordinate(text, point[1], exact);
+  text += ' ';
+  append_coordinate(text, point[2], exact);
+  text += '\n';
+}
+
+// The outward unit normal of a triangle in doubles, for readers that want one; zero where it can not be told.
+std::array<double, 3> unit_normal(const std::array<std::array<double, 3>, 3>& t) {
+  std::array<double, 3> u;
+  std::array<double, 3> v;
+  for (std::size_t i = 0; i < 3; ++i) {
+    u[i] = t[1][i] - t[0][i];
+    v[i] = t[2][i] - t[0][i];
+  }
+  std::array<double, 3> n{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+  const double length = std::hypot(n[0], n[1], n[2]);
+  if (!(length > 0) || !std::isfinite(length)) return {0, 0, 0};
+  for (double& x : n) x /= length;
+  return n;
+}
+
+std::string text_stl(const Mesh& mesh, const MeshSurface& surface) {
+  std::vector<std::array<double, 3>> points;
+  for (const Rational3& p : mesh.vertices) {
+    points.push_back({nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2])});
+  }
+  const auto append = [](std::string& text, const std::array<double, 3>& p) {
+    for (const double x : p) {
+      text += ' ';
+      append_number(text, x);
+    }
+    text += '\n';
+  };
+  std::string text = "solid nef\n";
+  for (const auto& t : surface.triangles) {
+    text += " facet normal";
+    append(text, unit_normal({points[t[0]], points[t[1]], points[t[2]]}));
+    text += "  outer loop\n";
+    for (const std::uint32_t v : t) {
+      text += "   vertex";
+      append(text, points[v]);
+    }
+    text += "  endloop\n endfacet\n";
+  }
+  return text + "endsolid nef\n";
+}
+
+std::string binary_stl(const Mesh& mesh, const MeshSurface& surface) {
+  std::vector<std::array<float, 3>> points;
+  for (const Rational3& p : mesh.vertices) {
+    points.push_back({nearest_float(p[0]), nearest_float(p[1]), nearest_float(p[2])});
+  }
+  std::string bytes = "binary STL";  // not "solid", which would look like text
+  bytes.resize(80, ' ');
+  append_little_endian(bytes, static_cast<std::uint32_t>(surface.triangles.size()));
+  for (const auto& t : surface.triangles) {
+    std::array<std::array<double, 3>, 3> corners;
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t axis = 0; axis < 3; ++axis) corners[i][axis] = static_cast<double>(points[t[i]][axis]);
+    }
+    for (const double x : unit_normal(corners)) append_little_endian(bytes, static_cast<float>(x));
+    for (const std::uint32_t v : t) {
+      for (const float x : points[v]) append_little_endian(bytes, x);
+    }
+    append_little_endian(bytes, std::uint16_t{0});
+  }
+  return bytes;
+}
+
+[[noreturn]] void refuse(const std::string& path, const std::string& what) {
+  throw FileError(FileProblem::kUnreadable, path + ": " + what);
+}
+
+// Tells where rounding makes one vertex of two: faces may have become degenerate there.
+void report_merged_vertices(const Mesh& mesh, bool single, Messages& messages) {
+  std::vector<Rational3> rounded;
+  rounded.reserve(mesh.vertices.size());
+  for (const Rational3& p : mesh.vertices) {
+    Rational3& q = rounded.emplace_back();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double x = single ? static_cast<double>(nearest_float(p[axis])) : nearest_double(p[axis]);
+      q[axis] = x;
+    }
+  }
+  const std::vector<std::uint32_t> exact_place = merge_equal(mesh.vertices);
+  const std::vector<std::uint32_t> place = merge_equal(rounded);
+  std::size_t merged = 0;
+  for (std::size_t v = 0; v < place.size(); ++v) merged += place[v] != exact_place[v] ? 1 : 0;
+  if (merged == 0) return;
+  messages.push_back(std::to_string(merged) + (merged == 1 ? " vertex lies" : " vertices lie") +
+                     " where another one does after rounding; write .nef or exact OFF to keep them apart");
+}
+
+}  // namespace
+
+std::string off_bytes(const Mesh& mesh, const MeshWriteOptions& options) {
+  std::string text = "OFF\n";
+  text += std::to_string(mesh.vertices.size()) + " " + std::to_string(mesh.face_count()) + " 0\n";
+  for (const Rational3& p : mesh.vertices) append_point(text, p, options.exact);
+  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+    append_number(text, mesh.face(f).size());
+    for (const std::uint32_t v : mesh.face(f)) {
+      text += ' ';
+      append_number(text, v);
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+std::string obj_bytes(const Mesh& mesh, const MeshWriteOptions& options) {
+  std::string text =
+      "# " + std::to_string(mesh.vertices.size()) + " vertices, " + std::to_string(mesh.face_count()) + " faces\n";
+  for (const Rational3& p : mesh.vertices) {
+    text += "v ";
+    append_point(text, p, options.exact);
+  }
+  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+    text += 'f';
+    for (const std::uint32_t v : mesh.face(f)) {
+      text += ' ';
+      append_number(text, v + 1);
+    }
+    text += '\n';
+  }
+  for (const auto& line : options.lines) {
+    text += "l " + std::to_string(line[0] + 1) + " " + std::to_string(line[1] + 1) + "\n";
+  }
+  for (const std::uint32_t v : options.points) text += "p " + std::to_string(v + 1) + "\n";
+  return text;
+}
+
+std::string stl_bytes(const Mesh& mesh, const MeshWriteOptions& options) {
+  const MeshSurface surface(mesh);
+  return options.binary ? binary_stl(mesh, surface) : text_stl(mesh, surface);
+}
+
+std::string ply_bytes(const Mesh& mesh, const MeshWriteOptions& options) {
+  std::string bytes = "ply\nformat ";
+  bytes += options.binary ? "binary_little_endian" : "ascii";
+  bytes += " 1.0\nelement vertex " + std::to_string(mesh.vertices.size());
+  bytes += "\nproperty double x\nproperty double y\nproperty double z\nelement face ";
+  bytes += std::to_string(mesh.face_count()) + "\nproperty list int int vertex_indices\nend_header\n";
+  for (const Rational3& p : mesh.vertices) {
+    if (options.binary) {
+      for (const Rational& x : p) append_little_endian(bytes, nearest_double(x));
+    } else {
+      append_point(bytes, p, options.exact);
+    }
+  }
+  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+    const auto face = mesh.face(f);
+    if (options.binary) {
+      append_little_endian(bytes, static_cast<std::uint32_t>(face.size()));
+      for (const std::uint32_t v : face) append_little_endian(bytes, v);
+      continue;
+    }
+    append_number(bytes, face.size());
+    for (const std::uint32_t v : face) {
+      bytes += ' ';
+      append_number(bytes, v);
+    }
+    bytes += '\n';
+  }
+  return bytes;
+}
+
+void refuse_infinite(const Mesh& mesh, const std::string& extension, const MeshWriteOptions& options) {
+  if (options.exact) return;
+  const bool single = is_single_precision(extension, options);
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    for (const Rational& x : mesh.vertices[v]) {
+      if (std::isfinite(single ? static_cast<double>(nearest_float(x)) : nearest_double(x))) continue;
+      throw FileError(FileProblem::kUnsupported,
+                      "a coordinate of vertex " + std::to_string(v) + " of the mesh is beyond " +
+                          (single ? "single precision (3.4e38); write text or .nef, or scale the set"
+                                  : "doubles (1.8e308); write it with --exact to OFF, OBJ or PLY, or write .nef"),
+                      FileElement::vertex(v));
+    }
+  }
+}
+
+bool is_single_precision(const std::string& extension, const MeshWriteOptions& options) {
+  return extension == "glb" || (extension == "stl" && options.binary);
+}
+
+bool survives_writing(const Rational3& point, const std::string& extension, const MeshWriteOptions& options) {
+  if (options.exact) return true;
+  std::string text;
+  Rational back;
+  for (const Rational& x : point) {
+    const bool single = is_single_precision(extension, options);
+    const double rounded = single ? static_cast<double>(nearest_float(x)) : nearest_double(x);
+    if (!std::isfinite(rounded)) return false;
+    if (single || options.binary) {
+      if (cmp(x, exact_rational(rounded)) != 0) return false;
+      continue;
+    }
+    text.clear();
+    append_number(text, rounded);
+    if (!parse_number(text, back) || back != x) return false;
+  }
+  return true;
+}
+
+void write_mesh(const std::string& path, const Mesh& mesh, const MeshWriteOptions& options, Messages* messages) {
+  const std::string extension = options.format.empty() ? lower_extension(path) : options.format;
+  if (options.exact && (options.binary || extension == "stl" || extension == "glb")) {
+    refuse(path, "exact coordinates need OFF, OBJ or text PLY");
+  }
+  if (options.binary && extension != "stl" && extension != "ply") refuse(path, "only STL and PLY can be binary");
+  refuse_infinite(mesh, extension, options);
+  std::string bytes;
+  if (extension == "off") {
+    bytes = off_bytes(mesh, options);
+  } else if (extension == "obj") {
+    bytes = obj_bytes(mesh, options);
+  } else if (extension == "stl") {
+    bytes = stl_bytes(mesh, options);
+  } else if (extension == "ply") {
+    bytes = ply_bytes(mesh, options);
+  } else if (extension == "glb") {
+    bytes = glb_bytes(mesh);
+  } else {
+    refuse(path, "the extension names no mesh format; use off, obj, stl, ply or glb");
+  }
+  if (messages != nullptr && !options.exact) {
+    report_merged_vertices(mesh, is_single_precision(extension, options), *messages);
+  }
+  write_file(path, bytes);
+}
+
+}  // namespace nef

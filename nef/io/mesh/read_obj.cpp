@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Wavefront OBJ: the lines v and f. Indices count from one, or back from the last vertex if they are negative.
+#include <array>
+
+#include "nef/io/mesh/mesh_reader.h"
+#include "nef/io/text_cursor.h"
+
+namespace nef {
+namespace {
+
+// What an OBJ may hold besides v and f, none of which matters to a solid.
+bool is_other_keyword(std::string_view word) {
+  constexpr std::array<std::string_view, 44> kWords{
+      "vt",    "vn",    "vp",   "g",    "o",    "s",      "mg",       "usemtl",   "mtllib", "usemap",     "maplib",
+      "l",     "p",     "deg",  "bmat", "step", "cstype", "curv",     "curv2",    "surf",   "parm",       "trim",
+      "hole",  "scrv",  "sp",   "end",  "con",  "bevel",  "c_interp", "d_interp", "lod",    "shadow_obj", "trace_obj",
+      "ctech", "stech", "call", "csh",  "bzp",  "bsp",    "cdc",      "cdp",      "res",    "scmp",       "vc"};
+  for (const std::string_view known : kWords) {
+    if (word == known) return true;
+  }
+  return false;
+}
+
+// The words of one logical line: a backslash at the end joins the next line.
+std::string_view next_word(TextCursor& cursor) {
+  for (;;) {
+    const std::string_view word = cursor.word_in_line();
+    if (word != "\\") return word;
+    cursor.skip_line();
+  }
+}
+
+void read_vertex(TextCursor& cursor, Mesh& mesh) {
+  const std::size_t v = mesh.vertices.size() + 1;
+  Rational3& point = mesh.vertices.emplace_back();
+  for (Rational& x : point) {
+    const std::string_view word = next_word(cursor);
+    if (word.empty()) {
+      cursor.fail(FileProblem::kTruncated, "vertex " + std::to_string(v) + " has fewer than three coordinates");
+    }
+    cursor.parse(word, x, "coordinate of vertex", v, FileElement::vertex(v - 1));
+  }
+}
+
+void read_face(TextCursor& cursor, Mesh& mesh, std::vector<std::size_t>& lines) {
+  const std::size_t face = mesh.face_count() + 1;
+  const std::size_t first = mesh.corners.size();
+  for (std::string_view word = next_word(cursor); !word.empty(); word = next_word(cursor)) {
+    const std::int64_t index = cursor.parse_integer(word.substr(0, word.find('/')), "corner of a face");
+    const auto count = static_cast<std::int64_t>(mesh.vertices.size());
+    const std::int64_t absolute = index < 0 ? count + index : index - 1;
+    // A face may come before its vertices; only the sign and zero can be judged now.
+    if (index == 0 || absolute < 0 || absolute > 0x7fffffff) {
+      cursor.fail(FileProblem::kBadIndex,
+                  "face " + std::to_string(face) + " names vertex " + std::to_string(index) + ", but " +
+                      std::to_string(count) + " vertices came before it (OBJ counts from 1)",
+                  FileElement::face(face - 1));
+    }
+    mesh.corners.push_back(static_cast<std::uint32_t>(absolute));
+  }
+  if (mesh.corners.size() - first < 3) {
+    cursor.fail(FileProblem::kSyntax, "face " + std::to_string(face) + " has " +
+                                          std::to_string(mesh.corners.size() - first) +
+                                          " corners; a face needs at least three");
+  }
+  mesh.face_begin.push_back(static_cast<std::uint32_t>(mesh.corners.size()));
+  lines.push_back(cursor.line());
+}
+
+void check_indices(const TextCursor& cursor, const Mesh& mesh, const std::vector<std::size_t>& lines) {
+  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+    for (const std::uint32_t v : mesh.face(f)) {
+      if (v < mesh.vertices.size()) continue;
+      throw FileError(FileProblem::kBadIndex,
+                      cursor.path() + ":" + std::to_string(lines[f]) + ": face " + std::to_string(f + 1) +
+                          " names vertex " + std::to_string(v + 1) + ", but there are " +
+                          std::to_string(mesh.vertices.size()),
+                      FileElement::face(f));
+    }
+  }
+}
+
+}  // namespace
+
+Mesh read_obj(std::string_view bytes, const std::string& path) {
+  TextCursor cursor(bytes, path);
+  Mesh mesh;
+  std::vector<std::size_t> lines;
+  while (!cursor.at_end()) {
+    const std::string_view word = cursor.word_in_line();
+    if (word == "v") {
+      read_vertex(cursor, mesh);
+    } else if (word == "f" || word == "fo") {
+      read_face(cursor, mesh, lines);
+    } else if (!is_other_keyword(word)) {
+      // A file without vertices so far may be anything, and nothing of it is told.
+      cursor.fail(FileProblem::kSyntax,
+                  (mesh.vertices.empty() ? "this" : in_quotes(word)) + " begins no line of an OBJ file");
+    }
+    // What is left of the line: weights, colours, other statements (which may go on after a backslash).
+    while (!next_word(cursor).empty()) {
+    }
+    cursor.skip_line();
+  }
+  check_indices(cursor, mesh, lines);
+  return mesh;
+}
+
+}  // namespace nef

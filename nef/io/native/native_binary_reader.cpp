@@ -1,0 +1,505 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The checksum tells damage. All that reading and using a complex rely on to stay inside its arrays, and to come to an
+// end, is checked nevertheless, in one pass over each array: ranges, permutations, and links that must be mutual.
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include <cstring>
+
+#include "nef/io/file_bytes.h"
+#include "nef/io/native/native_binary.h"
+#include "nef/validation/validate.h"
+
+namespace nef {
+namespace {
+
+// Values that lie in the file.
+template <typename T>
+class Column {
+ public:
+  explicit Column(const char* data) : data_(data) {}
+  T operator[](std::size_t i) const {
+    T value;
+    std::memcpy(&value, data_ + i * sizeof(T), sizeof(T));
+    return value;
+  }
+
+ private:
+  const char* data_;
+};
+
+class BinaryReader {
+ public:
+  BinaryReader(std::string_view bytes, const std::string& path) : bytes_(bytes), path_(path) {}
+
+  Polyhedron run() {
+    const std::uint32_t width = header();
+    planes();
+    points();
+    if (width == 1) sphere_maps<std::uint8_t>();
+    if (width == 2) sphere_maps<std::uint16_t>();
+    if (width == 4) sphere_maps<std::uint32_t>();
+    check_sphere_maps();
+    edges();
+    facets();
+    isolated_vertices();
+    volumes();
+    demand(at_ == bytes_.size(), "there is more after its end");
+    try {
+      detail::check_box(c_);
+    } catch (const detail::BrokenInvariant& broken) {
+      corrupt(broken.what);
+    }
+    return Polyhedron(std::move(c_));
+  }
+
+ private:
+  [[noreturn]] void corrupt(const std::string& what) const {
+    throw FileError(FileProblem::kSyntax, path_ + ": the file is no valid polyhedron: " + what);
+  }
+  void demand(bool holds, const char* what) const {
+    if (!holds) corrupt(what);
+  }
+
+  template <typename T>
+  Column<T> column(std::size_t count) {
+    demand(count <= (bytes_.size() - at_) / sizeof(T), "its numbers of items do not fit its length");
+    const char* data = bytes_.data() + at_;
+    at_ += count * sizeof(T);
+    return Column<T>(data);
+  }
+
+  std::uint32_t header() {
+    const std::size_t least = kNativeMagic.size() + 14 * sizeof(std::uint32_t) + sizeof(std::uint64_t);
+    if (bytes_.size() < least) {
+      throw FileError(FileProblem::kTruncated, path_ + ": the file ends early; it is cut off");
+    }
+    at_ = kNativeMagic.size();
+    const auto version = column<std::uint32_t>(1)[0];
+    if (version != kNativeBinaryVersion) {
+      throw FileError(FileProblem::kUnsupported, path_ + ": the file has version " + std::to_string(version) +
+                                                     " of the binary form; this program reads version 1");
+    }
+    const std::size_t end = bytes_.size() - sizeof(std::uint64_t);
+    std::uint64_t checksum = 0;
+    std::memcpy(&checksum, bytes_.data() + end, sizeof(checksum));
+    if (checksum != XXH3_64bits(bytes_.data(), end)) {
+      throw FileError(FileProblem::kSyntax,
+                      path_ + ": the file is damaged or cut off: its checksum is not that of its bytes");
+    }
+    bytes_ = bytes_.substr(0, end);
+    const auto width = column<std::uint32_t>(1)[0];
+    demand(width == 1 || width == 2 || width == 4, "an index has neither 1, 2 nor 4 bytes");
+    const auto counts = column<std::uint32_t>(12);
+    std::size_t i = 0;
+    for (std::uint32_t* count : {&planes_, &vertices_, &svertices_, &shalfedges_, &sloops_, &sfaces_, &entries_,
+                                 &facets_, &cycles_, &isolated_, &shells_, &volumes_}) {
+      *count = counts[i++];
+      // Every item takes a byte at least, so that nothing larger than the file is ever made.
+      demand(*count <= bytes_.size(), "its numbers of items do not fit its length");
+    }
+    return width;
+  }
+
+  // Views of the numbers of one row after the other.
+  template <typename Take>
+  void numbers(std::size_t width, std::size_t rows, Take&& take) {
+    const auto sizes = column<std::int32_t>(width * rows);
+    const std::uint64_t limbs = column<std::uint64_t>(1)[0];
+    const auto limb = column<mp_limb_t>(limbs);
+    std::vector<mp_limb_t> row_limbs;
+    std::array<mpz_t, 7> values;
+    std::array<std::int32_t, 7> size{};
+    std::uint64_t next = 0;
+    for (std::size_t row = 0; row < rows; ++row) {
+      std::uint64_t total = 0;
+      for (std::size_t i = 0; i < width; ++i) {
+        size[i] = sizes[row * width + i];
+        demand(size[i] > -0x40000000 && size[i] < 0x40000000, "a number is too long");
+        total += static_cast<std::uint64_t>(size[i] < 0 ? -size[i] : size[i]);
+      }
+      demand(total <= limbs - next, "its numbers are longer than it says");
+      row_limbs.resize(total);
+      for (std::uint64_t i = 0; i < total; ++i) row_limbs[i] = limb[next + i];
+      next += total;
+      const mp_limb_t* at = row_limbs.data();
+      for (std::size_t i = 0; i < width; ++i) {
+        const std::int32_t length = size[i] < 0 ? -size[i] : size[i];
+        demand(length == 0 || at[length - 1] != 0, "a number begins with zeros");
+        mpz_roinit_n(values[i], at, size[i]);
+        at += length;
+      }
+      take(row, values);
+    }
+    demand(next == limbs, "its numbers are shorter than it says");
+  }
+
+  void planes() {
+    c_.planes.reserve(planes_);
+    numbers(5, planes_, [this](std::size_t row, const std::array<mpz_t, 7>& n) {
+      const int lead = mpz_sgn(n[0]) != 0 ? mpz_sgn(n[0]) : mpz_sgn(n[1]) != 0 ? mpz_sgn(n[1]) : mpz_sgn(n[2]);
+      demand(lead > 0, "a plane has no normal, or one of the wrong sign");
+      const PlaneId plane = mpz_sgn(n[4]) == 0 ? c_.planes.intern_primitive({n[0], n[1], n[2], n[3]})
+                                               : c_.planes.intern(Integer(n[0]), Integer(n[1]), Integer(n[2]),
+                                                                  Integer(n[3]), Integer(n[4]));
+      demand(plane == PlaneId{static_cast<std::uint32_t>(2 * row)}, "a plane occurs twice");
+    });
+  }
+
+  void points() {
+    c_.points.reserve(vertices_);
+    std::array<Integer, 7> h;
+    numbers(7, vertices_, [&](std::size_t, const std::array<mpz_t, 7>& n) {
+      for (std::size_t i = 0; i < 7; ++i) mpz_set(h[i].get_mpz_t(), n[i]);
+      demand(h[3] > 0, "the denominator of a point is not positive");
+      c_.points.push_homogeneous(h);
+    });
+  }
+
+  PlaneId plane(std::uint32_t value) const {
+    demand(value / 2 < planes_, "a plane does not exist");
+    return PlaneId{value};
+  }
+
+  // The marks in use give label_count.
+  LabelId mark(LabelId value) {
+    if (value != kOutside && value >= c_.label_count) c_.label_count = static_cast<LabelId>(value + 1);
+    return value;
+  }
+
+  template <typename W>
+  static std::uint32_t local(W value) {
+    return value == static_cast<W>(-1) ? kNone : value;
+  }
+
+  template <typename W>
+  void sphere_maps() {
+    vertex_records<W>();
+    svertex_items<W>();
+    shalfedge_items<W>();
+    sloop_items<W>();
+    sface_items<W>();
+  }
+
+  template <typename W>
+  void vertex_records() {
+    const auto svertices = column<W>(vertices_);
+    const auto pairs = column<W>(vertices_);
+    const auto loop_pairs = column<W>(vertices_);
+    const auto sfaces = column<W>(vertices_);
+    const auto marks = column<LabelId>(vertices_);
+    c_.vertices.assign(vertices_ + 1, {});
+    std::uint64_t total = 0;
+    for (std::uint32_t v = 0; v < vertices_; ++v) {
+      VertexRecord& record = c_.vertices[v];
+      record.mark = mark(marks[v]);
+      VertexRecord& end = c_.vertices[v + 1];
+      end.svertices = record.svertices + svertices[v];
+      end.shalfedges = record.shalfedges + 2 * pairs[v];
+      end.sloops = record.sloops + 2 * loop_pairs[v];
+      end.sfaces = record.sfaces + sfaces[v];
+      total += std::uint64_t{svertices[v]} + 2 * std::uint64_t{pairs[v]} + 2 * std::uint64_t{loop_pairs[v]} + sfaces[v];
+      // Sums that wrap around would not be what the whole file has.
+      demand(total <= std::uint64_t{4} * bytes_.size() && sfaces[v] > 0, "its vertices have more items than there are");
+    }
+    const VertexRecord& last = c_.vertices.back();
+    demand(last.svertices == svertices_ && last.shalfedges == shalfedges_ && last.sloops == sloops_ &&
+               last.sfaces == sfaces_ && total == std::uint64_t{svertices_} + shalfedges_ + sloops_ + sfaces_,
+           "its vertices have not the items that it holds");
+    c_.svertex_owner.resize(svertices_);
+    c_.shalfedge_owner.resize(shalfedges_);
+    c_.sface_owner.resize(sfaces_);
+    for (std::uint32_t v = 0; v < vertices_; ++v) {
+      const VertexRecord& a = c_.vertices[v];
+      const VertexRecord& b = c_.vertices[v + 1];
+      for (std::uint32_t i = a.svertices; i < b.svertices; ++i) c_.svertex_owner[i] = v;
+      for (std::uint32_t i = a.shalfedges; i < b.shalfedges; ++i) c_.shalfedge_owner[i] = v;
+      for (std::uint32_t i = a.sfaces; i < b.sfaces; ++i) c_.sface_owner[i] = v;
+    }
+  }
+
+  template <typename W>
+  void svertex_items() {
+    const auto p = column<std::uint32_t>(svertices_);
+    const auto q = column<std::uint32_t>(svertices_);
+    const auto out = column<W>(svertices_);
+    const auto sface = column<W>(svertices_);
+    const auto marks = column<LabelId>(svertices_);
+    c_.svertices.resize(svertices_);
+    for (std::uint32_t i = 0; i < svertices_; ++i) {
+      c_.svertices[i] = {plane(p[i]), plane(q[i]), local(out[i]), local(sface[i]), mark(marks[i])};
+      demand(p[i] / 2 != q[i] / 2, "an svertex has one plane twice");
+    }
+  }
+
+  template <typename W>
+  void shalfedge_items() {
+    const auto planes = column<std::uint32_t>(shalfedges_ / 2);
+    const auto marks = column<LabelId>(shalfedges_ / 2);
+    const auto source = column<W>(shalfedges_);
+    const auto next = column<W>(shalfedges_);
+    const auto sface = column<W>(shalfedges_);
+    c_.shalfedges.resize(shalfedges_);
+    for (std::uint32_t i = 0; i < shalfedges_; ++i) {
+      const PlaneId even = plane(planes[i / 2]);
+      c_.shalfedges[i] = {i % 2 == 0 ? even : even.opposite(), source[i], next[i], kNone, sface[i], mark(marks[i / 2])};
+    }
+  }
+
+  template <typename W>
+  void sloop_items() {
+    const auto planes = column<std::uint32_t>(sloops_ / 2);
+    const auto marks = column<LabelId>(sloops_ / 2);
+    const auto sface = column<W>(sloops_);
+    c_.sloops.resize(sloops_);
+    for (std::uint32_t i = 0; i < sloops_; ++i) {
+      const PlaneId even = plane(planes[i / 2]);
+      c_.sloops[i] = {i % 2 == 0 ? even : even.opposite(), sface[i], mark(marks[i / 2])};
+    }
+  }
+
+  template <typename W>
+  void sface_items() {
+    const auto counts = column<W>(sfaces_);
+    const auto marks = column<LabelId>(sfaces_);
+    const auto kinds = column<std::uint8_t>(entries_);
+    const auto index = column<W>(entries_);
+    c_.sfaces.resize(sfaces_);
+    c_.entries.resize(entries_);
+    std::uint64_t total = 0;
+    for (std::uint32_t v = 0; v < vertices_; ++v) {
+      c_.vertices[v].entries = static_cast<std::uint32_t>(total);
+      for (std::uint32_t f = c_.vertices[v].sfaces; f < c_.vertices[v + 1].sfaces; ++f) {
+        c_.sfaces[f] = {static_cast<std::uint32_t>(total - c_.vertices[v].entries), counts[f], mark(marks[f])};
+        total += counts[f];
+        demand(total <= entries_, "its sfaces have more entries than there are");
+      }
+    }
+    demand(total == entries_, "its sfaces have fewer entries than there are");
+    c_.vertices.back().entries = entries_;
+    for (std::uint32_t i = 0; i < entries_; ++i) {
+      demand(kinds[i] <= 2, "an entry is of no kind");
+      c_.entries[i] = {static_cast<SFaceEntry::Kind>(kinds[i]), index[i]};
+    }
+  }
+
+  void check_sphere_maps() {
+    for (std::uint32_t v = 0; v < vertices_; ++v) {
+      check_shalfedges(v);
+      const SphereMapView map = c_.sphere_map(v);
+      for (std::uint32_t i = 0; i < map.svertices.size(); ++i) {
+        const SVertex& s = map.svertices[i];
+        demand(s.out == kNone ? s.sface < map.sfaces.size()
+                              : s.out < map.shalfedges.size() && map.shalfedges[s.out].source == i,
+               "an svertex does not know its place");
+      }
+      for (const SLoop& l : map.sloops) demand(l.sface < map.sfaces.size(), "an sface does not exist");
+      demand(map.sloops.size() <= 2, "a vertex has more than one sloop");
+      for (std::uint32_t f = 0; f < map.sfaces.size(); ++f) check_entries(map, f);
+    }
+  }
+
+  // Completes prev. Then next and prev are inverse to each other, and turns around svertices come back.
+  void check_shalfedges(std::uint32_t v) {
+    const VertexRecord& a = c_.vertices[v];
+    const std::uint32_t count = c_.vertices[v + 1].shalfedges - a.shalfedges;
+    const std::uint32_t svertices = c_.vertices[v + 1].svertices - a.svertices;
+    const std::uint32_t sfaces = c_.vertices[v + 1].sfaces - a.sfaces;
+    const auto items = std::span(c_.shalfedges).subspan(a.shalfedges, count);
+    for (std::uint32_t e = 0; e < count; ++e) {
+      demand(items[e].source < svertices && items[e].next < count && items[e].sface < sfaces,
+             "an item of a shalfedge does not exist");
+      SHalfedge& next = items[items[e].next];
+      demand(next.prev == kNone && next.sface == items[e].sface && next.source == items[e ^ 1U].source,
+             "the boundary of an sface is broken");
+      next.prev = e;
+    }
+  }
+
+  void check_entries(const SphereMapView& map, std::uint32_t f) const {
+    for (const SFaceEntry& entry : map.entries.subspan(map.sfaces[f].entries, map.sfaces[f].entry_count)) {
+      bool right = false;
+      switch (entry.kind) {
+        case SFaceEntry::Kind::kCycle:
+          right = entry.index < map.shalfedges.size() && map.shalfedges[entry.index].sface == f;
+          break;
+        case SFaceEntry::Kind::kIsolatedVertex:
+          right = entry.index < map.svertices.size() && map.svertices[entry.index].out == kNone &&
+                  map.svertices[entry.index].sface == f;
+          break;
+        case SFaceEntry::Kind::kLoop:
+          right = entry.index < map.sloops.size() && map.sloops[entry.index].sface == f;
+          break;
+      }
+      demand(right, "an entry belongs to another sface");
+    }
+  }
+
+  void edges() {
+    const auto twins = column<std::uint32_t>(svertices_);
+    c_.twin.resize(svertices_);
+    for (std::uint32_t h = 0; h < svertices_; ++h) {
+      const std::uint32_t t = twins[h];
+      demand(t < svertices_ && t != h && twins[t] == h, "the two ends of an edge are not mutual");
+      demand((c_.svertices[h].out == kNone) == (c_.svertices[t].out == kNone), "an edge has facets at one end only");
+      c_.twin[h] = t;
+    }
+  }
+
+  void facets() {
+    const auto lengths = column<std::uint32_t>(cycles_);
+    const auto corners = column<std::uint32_t>(shalfedges_ / 2);
+    const auto cycle_counts = column<std::uint32_t>(facets_);
+    isolated_counts_ = column<std::uint32_t>(facets_);
+    c_.cycle_begin.resize(cycles_ + 1);
+    for (std::uint32_t i = 0; i < cycles_; ++i) {
+      demand(lengths[i] > 0 && lengths[i] <= shalfedges_ / 2 - c_.cycle_begin[i], "a cycle is empty or too long");
+      c_.cycle_begin[i + 1] = c_.cycle_begin[i] + lengths[i];
+    }
+    demand(c_.cycle_begin.back() == shalfedges_ / 2, "some corners are in no cycle");
+    c_.corners.resize(shalfedges_ / 2);
+    for (std::uint32_t i = 0; i < c_.corners.size(); ++i) {
+      c_.corners[i] = corners[i];
+      demand(corners[i] < shalfedges_, "a corner does not exist");
+    }
+    c_.shalfedge_facet.assign(shalfedges_, kNone);
+    c_.facets.resize(facets_);
+    std::uint32_t first = 0;
+    std::uint32_t isolated = 0;
+    for (std::uint32_t f = 0; f < facets_; ++f) {
+      demand(cycle_counts[f] > 0 && cycle_counts[f] <= cycles_ - first, "a facet has no cycle");
+      demand(isolated_counts_[f] <= isolated_ - isolated, "a facet has more isolated vertices than there are");
+      Facet& facet = c_.facets[f];
+      facet.first_cycle = first;
+      facet.cycle_count = cycle_counts[f];
+      facet.first_isolated = isolated;
+      facet.isolated_count = isolated_counts_[f];
+      const SHalfedge& corner = c_.shalfedges[c_.corners[c_.cycle_begin[first]]];
+      facet.plane = corner.plane;
+      facet.mark = corner.mark;
+      demand(!facet.plane.flipped(), "a facet is seen from the wrong side");
+      for (std::uint32_t k = first; k < first + facet.cycle_count; ++k) check_cycle(f, c_.cycle(k));
+      first += facet.cycle_count;
+      isolated += facet.isolated_count;
+    }
+    demand(first == cycles_ && isolated == isolated_, "some cycles or isolated vertices belong to no facet");
+  }
+
+  void check_cycle(std::uint32_t f, std::span<const std::uint32_t> cycle) {
+    std::uint32_t arriving = c_.twin[c_.corner_halfedge(cycle.back())];
+    for (const std::uint32_t corner : cycle) {
+      const SHalfedge& e = c_.shalfedges[corner];
+      demand(c_.shalfedge_facet[corner] == kNone, "a corner belongs to two facets");
+      demand(e.plane == c_.facets[f].plane && e.mark == c_.facets[f].mark, "a corner belongs to another facet");
+      demand(c_.corner_back_halfedge(corner) == arriving, "a cycle leaves its edges");
+      arriving = c_.twin[c_.corner_halfedge(corner)];
+      c_.shalfedge_facet[corner] = 2 * f;
+      c_.shalfedge_facet[corner ^ 1U] = 2 * f + 1;
+    }
+  }
+
+  void isolated_vertices() {
+    const auto vertices = column<std::uint32_t>(isolated_);
+    c_.isolated_vertices.resize(isolated_);
+    c_.sloop_facet.assign(sloops_, kNone);
+    demand(isolated_ == sloops_ / 2, "the vertices inside facets are not those with sloops");
+    for (std::uint32_t f = 0; f < facets_; ++f) {
+      const Facet& facet = c_.facets[f];
+      for (std::uint32_t i = facet.first_isolated; i < facet.first_isolated + facet.isolated_count; ++i) {
+        const std::uint32_t v = vertices[i];
+        demand(v < vertices_ && c_.vertices[v + 1].sloops == c_.vertices[v].sloops + 2,
+               "a vertex inside a facet has no sloop");
+        for (std::uint32_t l = c_.vertices[v].sloops; l < c_.vertices[v + 1].sloops; ++l) {
+          const SLoop& loop = c_.sloops[l];
+          demand(c_.sloop_facet[l] == kNone && loop.plane.row() == facet.plane.row() && loop.mark == facet.mark,
+                 "a vertex belongs to another facet");
+          c_.sloop_facet[l] = 2 * f + (loop.plane.flipped() ? 1U : 0U);
+        }
+        c_.isolated_vertices[i] = v;
+      }
+    }
+  }
+
+  void volumes() {
+    const auto shell_of = column<std::uint32_t>(sfaces_);
+    const auto volume_of = column<std::uint32_t>(shells_);
+    const auto marks = column<LabelId>(volumes_);
+    demand(volumes_ > 0, "there is no outer volume");
+    c_.volumes.resize(volumes_);
+    for (std::uint32_t i = 0; i < volumes_; ++i) {
+      c_.volumes[i].mark = mark(marks[i]);
+      demand(i == 0 || marks[i] != kOutside, "only the outer volume is outside");
+    }
+    c_.shells.resize(shells_);
+    for (std::uint32_t s = 0; s < shells_; ++s) {
+      const std::uint32_t volume = volume_of[s];
+      demand(volume < volumes_ && (s == 0 || volume == volume_of[s - 1] || volume == volume_of[s - 1] + 1),
+             "shells of volumes do not follow each other");
+      c_.shells[s].volume = volume;
+      if (c_.volumes[volume].shell_count++ == 0) c_.volumes[volume].first_shell = s;
+    }
+    demand(shells_ == 0 ? volumes_ == 1 : volume_of[0] == 0 && volume_of[shells_ - 1] + 1 == volumes_,
+           "a volume has no boundary");
+    fill_shells(shell_of);
+    for (Facet& facet : c_.facets) {
+      const std::uint32_t corner = c_.corners[c_.cycle_begin[facet.first_cycle]];
+      facet.volume_above = c_.sface_volume(c_.shalfedge_sface(corner));
+      facet.volume_below = c_.sface_volume(c_.shalfedge_sface(corner ^ 1U));
+    }
+    for (const VertexRecord& v : c_.vertices) demand(v.mark != kOutside, "only the outer volume is outside");
+    for (const SVertex& s : c_.svertices) demand(s.mark != kOutside, "only the outer volume is outside");
+    for (const Facet& f : c_.facets) demand(f.mark != kOutside, "only the outer volume is outside");
+  }
+
+  void fill_shells(const Column<std::uint32_t>& shell_of) {
+    c_.sface_shell.resize(sfaces_);
+    for (std::uint32_t f = 0; f < sfaces_; ++f) {
+      const std::uint32_t s = shell_of[f];
+      demand(s < shells_, "a shell does not exist");
+      demand(c_.volumes[c_.shells[s].volume].mark == c_.sfaces[f].mark, "a volume has two marks");
+      c_.sface_shell[f] = s;
+      ++c_.shells[s].sface_count;
+    }
+    std::uint32_t first = 0;
+    for (Shell& shell : c_.shells) {
+      demand(shell.sface_count > 0, "a shell is empty");
+      shell.first_sface = first;
+      first += shell.sface_count;
+      shell.sface_count = 0;
+    }
+    c_.shell_sfaces.resize(sfaces_);
+    for (std::uint32_t f = 0; f < sfaces_; ++f) {
+      Shell& shell = c_.shells[c_.sface_shell[f]];
+      c_.shell_sfaces[shell.first_sface + shell.sface_count++] = f;
+    }
+  }
+
+  std::string_view bytes_;
+  const std::string& path_;
+  std::size_t at_ = 0;
+  std::uint32_t planes_ = 0;
+  std::uint32_t vertices_ = 0;
+  std::uint32_t svertices_ = 0;
+  std::uint32_t shalfedges_ = 0;
+  std::uint32_t sloops_ = 0;
+  std::uint32_t sfaces_ = 0;
+  std::uint32_t entries_ = 0;
+  std::uint32_t facets_ = 0;
+  std::uint32_t cycles_ = 0;
+  std::uint32_t isolated_ = 0;
+  std::uint32_t shells_ = 0;
+  std::uint32_t volumes_ = 0;
+  Column<std::uint32_t> isolated_counts_{nullptr};
+  Complex c_;
+};
+
+}  // namespace
+
+bool is_native_binary(std::string_view bytes) { return bytes.starts_with(kNativeMagic); }
+
+Polyhedron read_native_binary(std::string_view bytes, const std::string& path) {
+  return BinaryReader(bytes, path).run();
+}
+
+}  // namespace nef

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/location/compare.h"
+
+#include <cmath>
+#include <limits>
+
+namespace nef {
+namespace {
+
+int compare_exact(const PointRef& p, const PointRef& q, std::size_t axis) {
+  thread_local Integer difference;
+  mpz_ptr d = difference.get_mpz_t();
+  const IntegerView wp = p.coordinate(3);
+  const IntegerView wq = q.coordinate(3);
+  // The factor of R decides, the constant part only where the factors agree.
+  mpz_mul(d, p.coordinate(4 + axis), wq);
+  mpz_submul(d, q.coordinate(4 + axis), wp);
+  if (mpz_sgn(d) != 0) return mpz_sgn(d);
+  mpz_mul(d, p.coordinate(axis), wq);
+  mpz_submul(d, q.coordinate(axis), wp);
+  return mpz_sgn(d);
+}
+
+}  // namespace
+
+int compare_coordinate(const PointRef& p, const PointRef& q, int axis) {
+  if (p.table == q.table) return compare_coordinate(*p.table, p.id, q.id, axis);
+  const auto k = static_cast<std::size_t>(axis);
+  const double a = p.approximate()[k];
+  const double b = q.approximate()[k];
+  const double difference = a - b;
+  // As in nef/geometry/predicates.cpp: 4 units on each coordinate, one on the difference.
+  const double bound = 6 * 0x1p-53 * (std::fabs(a) + std::fabs(b)) + 1e-300;
+  if (std::fabs(difference) > bound && std::fabs(difference) < std::numeric_limits<double>::infinity()) {
+    ++predicate_counts().filter;
+    return difference > 0 ? 1 : -1;
+  }
+  ++predicate_counts().exact;
+  return compare_exact(p, q, k);
+}
+
+bool same_point(const PointRef& p, const PointRef& q) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (compare_coordinate(p, q, axis) != 0) return false;
+  }
+  return true;
+}
+
+}  // namespace nef

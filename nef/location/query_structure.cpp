@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/location/query_structure.h"
+
+#include <algorithm>
+#include <mutex>
+
+#include "nef/base/error.h"
+#include "nef/location/facet_search.h"
+
+namespace nef {
+namespace {
+
+// Facets with more corners than this get a tree over their edges.
+constexpr std::size_t kLargeFacet = 32;
+
+// Its integers are known from the start, so that threads may share it.
+const Direction& minus_x() {
+  static const Direction direction = Direction::exact(-1, 0, 0);
+  return direction;
+}
+
+bool on_edge(const Complex& complex, std::uint32_t halfedge, const PointRef& point) {
+  const SVertex& edge = complex.svertices[halfedge];
+  if (side_of_plane(complex.planes, edge.p, point) != 0) return false;
+  if (side_of_plane(complex.planes, edge.q, point) != 0) return false;
+  // On the line; between the ends iff so in lexicographic order.
+  const PointRef u{&complex.points, PointId{complex.svertex_owner[halfedge]}};
+  const PointRef v{&complex.points, PointId{complex.target(halfedge)}};
+  for (int axis = 0; axis < 3; ++axis) {
+    const int u_side = compare_coordinate(u, point, axis);
+    const int v_side = compare_coordinate(v, point, axis);
+    if (u_side != 0 || v_side != 0) return u_side * v_side < 0;
+  }
+  return false;
+}
+
+}  // namespace
+
+struct QueryStructure::LargeFacet {
+  std::once_flag once;
+  BoxTree edges;
+};
+
+QueryStructure::QueryStructure(const Complex& complex) {
+  std::vector<Box> boxes;
+  boxes.reserve(complex.facet_count());
+  for (std::uint32_t f = 0; f < complex.facet_count(); ++f) {
+    const std::span<const std::uint32_t> corners = complex.facet_corners(complex.facets[f]);
+    Box box;
+    for (const std::uint32_t c : corners) box.add(vertex_box(complex, complex.shalfedge_owner[c]));
+    push_item(f, kFacetItem, box, boxes);
+    if (corners.size() > kLargeFacet) large_facets_.push_back(f);
+  }
+  for (std::uint32_t h = 0; h < complex.svertices.size(); ++h) {
+    if (complex.svertices[h].out == kNone && h < complex.twin[h]) push_item(h, kEdgeItem, edge_box(complex, h), boxes);
+  }
+  for (std::uint32_t v = 0; v < complex.vertex_count(); ++v) {
+    // Vertices that are no corner of a facet, or lie inside one.
+    const VertexRecord& record = complex.vertices[v];
+    const VertexRecord& end = complex.vertices[v + 1];
+    if (record.shalfedges == end.shalfedges || record.sloops != end.sloops) {
+      push_item(v, kVertexItem, vertex_box(complex, v), boxes);
+    }
+  }
+  tree_ = BoxTree(boxes);
+  large_ = std::shared_ptr<LargeFacet[]>(new LargeFacet[large_facets_.size()]);
+}
+
+void QueryStructure::push_item(std::uint32_t index, Primitive kind, const Box& box, std::vector<Box>& boxes) {
+  NEF_ASSERT(index < (1U << 30U));
+  items_.push_back(4 * index + kind);
+  boxes.push_back(mirrored(box));
+}
+
+const BoxTree* QueryStructure::edge_tree(const Complex& complex, std::uint32_t facet) const {
+  const auto found = std::lower_bound(large_facets_.begin(), large_facets_.end(), facet);
+  if (found == large_facets_.end() || *found != facet) return nullptr;
+  LargeFacet& large = large_[static_cast<std::size_t>(found - large_facets_.begin())];
+  std::call_once(large.once, [&] { large.edges = facet_edge_tree(complex, complex.facets[facet]); });
+  return &large.edges;
+}
+
+std::optional<std::uint32_t> QueryStructure::free_vertex_at(const Complex& complex, const PointRef& point) const {
+  std::optional<std::uint32_t> result;
+  tree_.for_each_overlap(mirrored(point_box(point)), [&](std::uint32_t i) {
+    const std::uint32_t index = items_[i] / 4;
+    if (items_[i] % 4 != kVertexItem || result) return;
+    if (same_point({&complex.points, PointId{index}}, point)) result = index;
+  });
+  return result;
+}
+
+std::optional<ComplexHit> QueryStructure::item_at(const Complex& complex, const PointRef& point) const {
+  using Kind = ComplexHit::Kind;
+  std::optional<ComplexHit> result;
+  tree_.for_each_overlap(mirrored(point_box(point)), [&](std::uint32_t i) {
+    if (result && result->kind != Kind::kFacet) return;
+    const std::uint32_t index = items_[i] / 4;
+    switch (items_[i] % 4) {
+      case kVertexItem:
+        // A vertex inside a facet takes precedence over that facet.
+        if (same_point({&complex.points, PointId{index}}, point)) result = ComplexHit{Kind::kVertex, index, kNone};
+        return;
+      case kEdgeItem: {
+        for (const std::uint32_t end : {complex.svertex_owner[index], complex.target(index)}) {
+          if (same_point({&complex.points, PointId{end}}, point)) result = ComplexHit{Kind::kVertex, end, kNone};
+        }
+        if (on_edge(complex, index, point)) result = ComplexHit{Kind::kEdge, index, kNone};
+        return;
+      }
+      default:
+        break;
+    }
+    const Facet& facet = complex.facets[index];
+    if (result || side_of_plane(complex.planes, facet.plane, point) != 0) return;
+    const FacetPlace place = locate_in_facet(complex, facet, point, edge_tree(complex, index));
+    if (place.kind == FacetPlace::Kind::kInside) result = ComplexHit{Kind::kFacet, 2 * index, kNone};
+    if (place.kind == FacetPlace::Kind::kEdge) result = ComplexHit{Kind::kEdge, place.index, kNone};
+    if (place.kind == FacetPlace::Kind::kVertex) result = ComplexHit{Kind::kVertex, place.index, kNone};
+  });
+  if (result && result->kind == Kind::kEdge) result->index = std::min(result->index, complex.twin[result->index]);
+  return result;
+}
+
+std::optional<ComplexHit> QueryStructure::first_hit_minus_x(const Complex& complex, std::uint32_t vertex) const {
+  return first_hit(complex, {{&complex.points, PointId{vertex}}, minus_x()});
+}
+
+std::uint32_t QueryStructure::first_sface_minus_x(const Complex& complex, std::uint32_t vertex) const {
+  const std::optional<ComplexHit> hit = first_hit_minus_x(complex, vertex);
+  if (!hit) return kNone;
+  if (hit->kind == ComplexHit::Kind::kFacet) {
+    // A corner is oriented like the positive halffacet; its twin looks to the other side.
+    const std::uint32_t corner = complex.facet_corners(complex.facets[hit->index >> 1U])[0];
+    return complex.shalfedge_sface(corner ^ (hit->index & 1U));
+  }
+  NEF_ASSERT(hit->sface != kNone);
+  return hit->sface;
+}
+
+std::uint32_t QueryStructure::volume_at(const Complex& complex, const PointRef& point) const {
+  const std::optional<ComplexHit> hit = first_hit(complex, {point, minus_x()});
+  return hit ? volume_before(complex, *hit) : 0;
+}
+
+std::uint32_t volume_before(const Complex& complex, const ComplexHit& hit) {
+  if (hit.kind == ComplexHit::Kind::kFacet) return complex.halffacet_volume(hit.index);
+  NEF_ASSERT(hit.sface != kNone);
+  return complex.sface_volume(hit.sface);
+}
+
+std::size_t QueryStructure::bytes() const {
+  return tree_.size() * (2 * sizeof(Box) + 2 * sizeof(std::uint32_t)) + items_.capacity() * sizeof(std::uint32_t);
+}
+
+}  // namespace nef

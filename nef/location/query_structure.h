@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The structure behind point location and ray shooting: a hierarchy of boxes over facets, edges
+// without facets, and vertices that bound no facet. Every answer is exact.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "nef/complex/complex.h"
+#include "nef/geometry/box_tree.h"
+#include "nef/location/compare.h"
+
+namespace nef {
+
+/// A vertex, edge or facet of a complex that holds a point or is met by a ray.
+struct ComplexHit {
+  enum class Kind : std::uint8_t { kVertex, kEdge, kFacet };
+  Kind kind = Kind::kVertex;
+  /// A vertex; a halfedge; a halffacet (from a ray: the side that the ray comes from).
+  std::uint32_t index = 0;
+  /// Vertex or edge met by a ray: the sface (global index, at that vertex or at the source of that
+  /// halfedge) through which the ray comes. kNone if the ray comes along a facet or an edge, and
+  /// for facets.
+  std::uint32_t sface = kNone;
+};
+
+/// An open ray: from a point (excluded) in an exact direction (not zero).
+struct QueryRay {
+  PointRef origin;
+  const Direction& direction;  ///< must outlive the ray
+};
+
+/// Built from a complex with edges, facets and cycles; volumes and shells are needed only by
+/// volume_at and volume_before. Keeps no reference: each query is given the complex (the same one,
+/// or a copy of it). Queries may run in several threads at once.
+class QueryStructure {
+ public:
+  using Accept = std::function<bool(const ComplexHit&)>;
+
+  /// O(n log n).
+  explicit QueryStructure(const Complex& complex);
+
+  /// The vertex, edge or facet (kFacet: index of the positive halffacet) that holds the point;
+  /// nothing if it lies in a volume. O(log n) expected.
+  [[nodiscard]] std::optional<ComplexHit> item_at(const Complex& complex, const PointRef& point) const;
+
+  /// The first vertex, edge or facet that the ray meets and `accept` (if given) takes. A facet
+  /// in whose plane the ray runs and an edge on whose line it runs are not met themselves, but
+  /// their boundaries are. `at`, if given, becomes the point that is met (finite rays only).
+  [[nodiscard]] std::optional<ComplexHit> first_hit(const Complex& complex, const QueryRay& ray,
+                                                    const Accept& accept = {}, Rational3* at = nullptr) const;
+
+  /// The first vertex, edge or facet strictly left (smaller x, same y and z) of a vertex, which
+  /// may be infimaximal.
+  [[nodiscard]] std::optional<ComplexHit> first_hit_minus_x(const Complex& complex, std::uint32_t vertex) const;
+
+  /// The sface (global index) of that first item which bounds the region between it and the vertex;
+  /// kNone if there is no such item. The vertex must have nothing of its own in direction -x.
+  [[nodiscard]] std::uint32_t first_sface_minus_x(const Complex& complex, std::uint32_t vertex) const;
+
+  /// The volume that holds a point which item_at does not find on anything.
+  [[nodiscard]] std::uint32_t volume_at(const Complex& complex, const PointRef& point) const;
+
+  [[nodiscard]] std::size_t bytes() const;
+
+ private:
+  friend class RayShooter;
+
+  struct LargeFacet;  // its tree, built at the first query that needs it
+
+  // What an item of the tree is: 4 * index + kind.
+  enum Primitive : std::uint32_t { kFacetItem = 0, kEdgeItem = 1, kVertexItem = 2 };
+
+  void push_item(std::uint32_t index, Primitive kind, const Box& box, std::vector<Box>& boxes);
+  [[nodiscard]] const BoxTree* edge_tree(const Complex& complex, std::uint32_t facet) const;
+  [[nodiscard]] std::optional<std::uint32_t> free_vertex_at(const Complex& complex, const PointRef& point) const;
+
+  // Holds the boxes mirrored at the origin, so that its order of traversal (small coordinates
+  // first) goes outward from the origin of a ray towards -x, the direction that location uses.
+  BoxTree tree_;
+  std::vector<std::uint32_t> items_;
+  std::vector<std::uint32_t> large_facets_;  // sorted
+  std::shared_ptr<LargeFacet[]> large_;      // parallel
+};
+
+/// The volume in which the ray runs just before the hit. The hit must have come through one (its
+/// `sface` is known, or it is a facet).
+std::uint32_t volume_before(const Complex& complex, const ComplexHit& hit);
+
+}  // namespace nef

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Ray shooting: candidates come from the box tree, roughly from near to far; each is decided
+// exactly, and the nearest hit so far cuts off what lies behind it.
+#include "nef/base/error.h"
+#include "nef/geometry/ray_filter.h"
+#include "nef/location/facet_search.h"
+#include "nef/location/query_structure.h"
+#include "nef/sphere_map/sphere_geometry.h"
+
+namespace nef {
+namespace {
+
+// Sign of (p - o) . D if p lies on the line of the ray, else nothing.
+std::optional<int> position_on_line(const QueryRay& ray, const PointRef& p) {
+  const std::array<Integer, 3>& d = ray.direction.integers();
+  std::array<std::array<Integer, 3>, 2> difference;  // constant part, factor of R
+  const IntegerView wo = ray.origin.coordinate(3);
+  const IntegerView wp = p.coordinate(3);
+  for (std::size_t part = 0; part < 2; ++part) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      mpz_ptr out = difference[part][i].get_mpz_t();
+      mpz_mul(out, p.coordinate(4 * part + i), wo);
+      mpz_submul(out, ray.origin.coordinate(4 * part + i), wp);
+    }
+  }
+  for (const std::array<Integer, 3>& v : difference) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = (i + 1) % 3;
+      if (v[i] * d[j] != v[j] * d[i]) return std::nullopt;
+    }
+  }
+  const auto dot = [&d](const std::array<Integer, 3>& v) -> int {
+    const Integer sum = v[0] * d[0] + v[1] * d[1] + v[2] * d[2];
+    return sgn(sum);
+  };
+  const int at_infinity = dot(difference[1]);
+  return at_infinity != 0 ? at_infinity : dot(difference[0]);
+}
+
+}  // namespace
+
+class RayShooter {
+ public:
+  RayShooter(const Complex& complex, const QueryStructure& structure, const QueryRay& ray,
+             const QueryStructure::Accept& accept)
+      : complex_(complex),
+        structure_(structure),
+        ray_(ray),
+        accept_(accept),
+        filter_(mirrored(point_box(ray.origin)), ray.direction.negated()),
+        finite_origin_(ray.origin.table->finite(ray.origin.id)) {}
+
+  std::optional<ComplexHit> shoot(Rational3* at) {
+    structure_.tree_.for_each_if([&](const Box& box) { return filter_.may_meet(box); },
+                                 [&](std::uint32_t i) { visit(structure_.items_[i]); });
+    if (!hit_) return hit_;
+    if (at != nullptr) *at = position_.table->rational(position_.id);
+    hit_->sface = entered_through(*hit_);
+    return hit_;
+  }
+
+ private:
+  void visit(std::uint32_t item) {
+    const std::uint32_t index = item / 4;
+    switch (item % 4) {
+      case QueryStructure::kVertexItem:
+        visit_vertex(index);
+        break;
+      case QueryStructure::kEdgeItem:
+        visit_edge(index);
+        break;
+      default:
+        visit_facet(index);
+    }
+  }
+
+  void visit_vertex(std::uint32_t vertex) {
+    const PointRef point{&complex_.points, PointId{vertex}};
+    const std::optional<int> position = position_on_line(ray_, point);
+    if (position && *position > 0) offer({ComplexHit::Kind::kVertex, vertex, kNone}, point);
+  }
+
+  void visit_edge(std::uint32_t halfedge) {
+    const SVertex& edge = complex_.svertices[halfedge];
+    PlaneId crossed = edge.p;
+    PlaneId other = edge.q;
+    if (side_of_circle(complex_.planes, crossed, ray_.direction) == 0) std::swap(crossed, other);
+    const std::uint32_t u = complex_.svertex_owner[halfedge];
+    const std::uint32_t v = complex_.target(halfedge);
+    if (side_of_circle(complex_.planes, crossed, ray_.direction) == 0) {
+      // Parallel: met at its ends, if at all.
+      visit_vertex(u);
+      visit_vertex(v);
+      return;
+    }
+    const std::optional<PointRef> meeting = meet(crossed);
+    if (!meeting || side_of_plane(complex_.planes, other, *meeting) != 0) return;
+    for (int axis = 0; axis < 3; ++axis) {
+      const int u_side = compare_coordinate(PointRef{&complex_.points, PointId{u}}, *meeting, axis);
+      const int v_side = compare_coordinate(PointRef{&complex_.points, PointId{v}}, *meeting, axis);
+      if (u_side == 0 && v_side == 0) continue;
+      if (u_side * v_side > 0) return;
+      if (u_side * v_side < 0) return offer({ComplexHit::Kind::kEdge, halfedge, kNone}, *meeting);
+      return offer({ComplexHit::Kind::kVertex, u_side == 0 ? u : v, kNone}, *meeting);
+    }
+  }
+
+  void visit_facet(std::uint32_t index) {
+    const Facet& facet = complex_.facets[index];
+    if (side_of_circle(complex_.planes, facet.plane, ray_.direction) == 0) {
+      if (side_of_plane(complex_.planes, facet.plane, ray_.origin) == 0) visit_boundary(index);
+      return;
+    }
+    const std::optional<PointRef> meeting = meet(facet.plane);
+    if (!meeting || (hit_ && !nearer(*meeting))) return;
+    const FacetPlace place = locate_in_facet(complex_, facet, *meeting, structure_.edge_tree(complex_, index));
+    switch (place.kind) {
+      case FacetPlace::Kind::kOutside:
+        return;
+      case FacetPlace::Kind::kEdge:
+        return offer({ComplexHit::Kind::kEdge, place.index, kNone}, *meeting);
+      case FacetPlace::Kind::kVertex:
+        return offer({ComplexHit::Kind::kVertex, place.index, kNone}, *meeting);
+      case FacetPlace::Kind::kInside:
+        break;
+    }
+    if (facet.isolated_count > 0) {
+      // What is met may be a vertex inside the facet.
+      if (const auto vertex = structure_.free_vertex_at(complex_, *meeting)) {
+        return offer({ComplexHit::Kind::kVertex, *vertex, kNone}, *meeting);
+      }
+    }
+    const bool from_above = side_of_plane(complex_.planes, facet.plane, ray_.origin) > 0;
+    offer({ComplexHit::Kind::kFacet, 2 * index + (from_above ? 0U : 1U), kNone}, *meeting);
+  }
+
+  // The ray runs in the plane of the facet.
+  void visit_boundary(std::uint32_t index) {
+    const std::span<const std::uint32_t> corners = complex_.facet_corners(complex_.facets[index]);
+    const BoxTree* edges = structure_.edge_tree(complex_, index);
+    if (edges == nullptr) {
+      for (const std::uint32_t corner : corners) visit_edge(complex_.corner_halfedge(corner));
+    } else {
+      edges->for_each_if([&](const Box& box) { return filter_.may_meet(mirrored(box)); },
+                         [&](std::uint32_t i) { visit_edge(complex_.corner_halfedge(corners[i])); });
+    }
+  }
+
+  // The point ahead on the ray where it crosses a plane that is not parallel to it.
+  // With m = n . D and s = the plane's form at the origin P / w: Q = (m P - s D) / (m w).
+  std::optional<PointRef> meet(PlaneId plane) {
+    const int side = side_of_plane(complex_.planes, plane, ray_.origin);
+    const Direction normal = Direction::normal(complex_.planes, plane);
+    if (side * sign_of_dot(normal, ray_.direction) >= 0) return std::nullopt;
+    struct Scratch {
+      Integer m, s;
+      std::array<Integer, 7> q;
+    };
+    thread_local Scratch scratch;
+    mpz_ptr m = scratch.m.get_mpz_t();
+    mpz_ptr s = scratch.s.get_mpz_t();
+    const std::array<Integer, 3>& d = ray_.direction.integers();
+    const IntegerView w = ray_.origin.coordinate(3);
+    mpz_set_ui(m, 0);
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (sgn(d[i]) != 0) mpz_addmul(m, complex_.planes.coefficient(plane, i), d[i].get_mpz_t());
+    }
+    const bool finite = finite_origin_ && !complex_.planes.infimaximal(plane);
+    for (std::size_t part = 0; part < 2; ++part) {
+      if (part == 1 && finite) {
+        for (std::size_t i = 4; i < 7; ++i) mpz_set_ui(scratch.q[i].get_mpz_t(), 0);
+        break;
+      }
+      mpz_mul(s, complex_.planes.coefficient(plane, 3 + part), w);
+      for (std::size_t i = 0; i < 3; ++i) {
+        mpz_addmul(s, complex_.planes.coefficient(plane, i), ray_.origin.coordinate(4 * part + i));
+      }
+      for (std::size_t i = 0; i < 3; ++i) {
+        mpz_ptr out = scratch.q[4 * part + i].get_mpz_t();
+        mpz_mul(out, m, ray_.origin.coordinate(4 * part + i));
+        if (sgn(d[i]) != 0) mpz_submul(out, s, d[i].get_mpz_t());
+      }
+    }
+    mpz_mul(scratch.q[3].get_mpz_t(), m, w);
+    if (scratch_.size() == 0) scratch_.reserve(4);
+    return PointRef{&scratch_, scratch_.push_homogeneous(scratch.q)};
+  }
+
+  [[nodiscard]] bool nearer(const PointRef& point) const {
+    return compare_coordinate(point, position_, static_cast<int>(filter_.main_axis())) * filter_.main_sign() > 0;
+  }
+
+  void offer(const ComplexHit& hit, const PointRef& position) {
+    if (hit_ && !nearer(position)) return;
+    if (accept_ && !accept_(hit)) return;
+    hit_ = hit;
+    position_ = position;
+    filter_.cut(mirrored(point_box(position)));
+  }
+
+  // The sface of the hit's sphere map that holds the direction back to the origin.
+  [[nodiscard]] std::uint32_t entered_through(const ComplexHit& hit) const {
+    if (hit.kind == ComplexHit::Kind::kFacet) return kNone;
+    const Direction back = ray_.direction.negated();
+    if (hit.kind == ComplexHit::Kind::kVertex) {
+      const SphereLocation place = locate(complex_.planes, complex_.sphere_map(hit.index), back);
+      return place.kind == SphereLocation::Kind::kSFace ? complex_.vertices[hit.index].sfaces + place.index : kNone;
+    }
+    const std::uint32_t vertex = complex_.svertex_owner[hit.index];
+    const SphereMapView map = complex_.sphere_map(vertex);
+    const VertexRecord& record = complex_.vertices[vertex];
+    const SVertex& edge = complex_.svertices[hit.index];
+    if (edge.out == kNone) return record.sfaces + edge.sface;
+    const Direction axis = direction_of(complex_.planes, edge);
+    const Wedge wedge = locate_wedge(complex_.planes, map, hit.index - record.svertices, Direction::cross(axis, back));
+    return wedge.on ? kNone : record.sfaces + map.shalfedges[wedge.shalfedge].sface;
+  }
+
+  const Complex& complex_;
+  const QueryStructure& structure_;
+  const QueryRay& ray_;
+  const QueryStructure::Accept& accept_;
+  RayFilter filter_;  // mirrored at the origin, like the tree of a QueryStructure
+  bool finite_origin_;
+  PointTable scratch_;
+  std::optional<ComplexHit> hit_;
+  PointRef position_;
+};
+
+std::optional<ComplexHit> QueryStructure::first_hit(const Complex& complex, const QueryRay& ray, const Accept& accept,
+                                                    Rational3* at) const {
+  NEF_ASSERT(!ray.direction.is_zero());
+  return RayShooter(complex, *this, ray, accept).shoot(at);
+}
+
+}  // namespace nef

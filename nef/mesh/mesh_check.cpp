@@ -1,0 +1,448 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/mesh/mesh_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <set>
+#include <tuple>
+
+#include "nef/mesh/edge_order.h"
+#include "nef/mesh/mesh_surface.h"
+#include "nef/mesh/surface_contacts.h"
+
+namespace nef {
+namespace {
+
+using Kind = MeshProblemKind;
+
+std::string number(std::size_t value) { return std::to_string(value); }
+
+std::string edge_text(const std::array<std::uint32_t, 2>& edge) {
+  return "edge " + number(edge[0]) + "-" + number(edge[1]);
+}
+
+std::string face_list(const std::vector<std::uint32_t>& faces) {
+  std::string text = faces.size() == 1 ? "face " : "faces ";
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    if (i > 0) text += i + 1 == faces.size() ? " and " : ", ";
+    text += number(faces[i]);
+  }
+  return text;
+}
+
+// Gathers problems, at most so many of each kind, legal and illegal ones counted apart.
+class Report {
+ public:
+  explicit Report(std::size_t limit) : limit_(limit) {}
+
+  // False once the kind is full.
+  bool add(MeshProblem problem) {
+    std::size_t& count = counts_[2 * static_cast<std::size_t>(problem.kind) + (problem.legal ? 1 : 0)];
+    if (count < limit_) {
+      ++count;
+      problems_.push_back(std::move(problem));
+    }
+    return count < limit_;
+  }
+
+  std::vector<MeshProblem> take() {
+    std::stable_sort(problems_.begin(), problems_.end(),
+                     [](const MeshProblem& a, const MeshProblem& b) { return a.kind < b.kind; });
+    return std::move(problems_);
+  }
+
+ private:
+  std::size_t limit_;
+  std::array<std::size_t, 32> counts_{};
+  std::vector<MeshProblem> problems_;
+};
+
+MeshProblem face_problem(Kind kind, std::uint32_t face, std::string what) {
+  MeshProblem problem;
+  problem.kind = kind;
+  problem.faces = {face};
+  problem.text = "face " + number(face) + " " + std::move(what);
+  return problem;
+}
+
+void check_faces(const Mesh& mesh, const MeshSurface& surface, Report& report) {
+  for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+    switch (surface.defects[f]) {
+      case FaceDefect::kNone:
+        if (surface.irregular[f]) {
+          MeshProblem problem = face_problem(Kind::kDegenerateFace, f, "comes to a vertex twice; it is cut there");
+          problem.legal = true;
+          report.add(std::move(problem));
+        }
+        break;
+      case FaceDefect::kBadIndex: {
+        MeshProblem problem = face_problem(Kind::kBadIndex, f, "");
+        for (const std::uint32_t v : mesh.face(f)) {
+          if (v >= mesh.vertices.size()) problem.vertices.push_back(v);
+        }
+        problem.text +=
+            "names vertex " + number(problem.vertices[0]) + ", but there are " + number(mesh.vertices.size());
+        report.add(std::move(problem));
+        break;
+      }
+      case FaceDefect::kTooFewCorners:
+        report.add(face_problem(Kind::kDegenerateFace, f, "has fewer than three corners"));
+        break;
+      case FaceDefect::kNoArea: {
+        MeshProblem problem = face_problem(Kind::kDegenerateFace, f, "has no area and is left out");
+        problem.legal = true;
+        report.add(std::move(problem));
+        break;
+      }
+      case FaceDefect::kCrossesItself:
+        report.add(face_problem(Kind::kSelfIntersection, f, "crosses itself"));
+        break;
+    }
+  }
+}
+
+// True if one ring is the other, walked backward.
+bool turned_against(const Mesh& mesh, const MeshSurface& surface, std::uint32_t f, std::uint32_t g) {
+  const auto a = mesh.face(f);
+  const auto b = mesh.face(g);
+  const std::size_t n = a.size();
+  if (b.size() != n) return false;
+  for (std::size_t shift = 0; shift < n; ++shift) {
+    std::size_t i = 0;
+    while (i < n && surface.place[a[i]] == surface.place[b[(shift + n - i) % n]]) ++i;
+    if (i == n) return true;
+  }
+  return false;
+}
+
+void check_duplicates(const Mesh& mesh, const MeshSurface& surface, Report& report) {
+  std::vector<std::array<std::uint32_t, 2>> pairs;
+  // Faces by their sorted corners: first the smallest and a hash, then the list.
+  struct Key {
+    std::uint64_t key = 0;
+    std::uint32_t face = 0;
+  };
+  std::vector<Key> keys;
+  keys.reserve(mesh.face_count());
+  const auto corners = [&](std::uint32_t f) {
+    std::vector<std::uint32_t> result;
+    for (const std::uint32_t v : mesh.face(f)) result.push_back(surface.place[v]);
+    std::sort(result.begin(), result.end());
+    return result;
+  };
+  for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+    if (surface.defects[f] == FaceDefect::kBadIndex) continue;
+    if (mesh.face(f).empty()) continue;
+    std::uint64_t hash = 0;
+    std::uint32_t smallest = surface.place[mesh.face(f)[0]];
+    for (const std::uint32_t v : mesh.face(f)) {
+      smallest = std::min(smallest, surface.place[v]);
+      std::uint64_t x = surface.place[v] + 0x9e3779b97f4a7c15U;
+      x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9U;
+      hash += x ^ (x >> 27U);
+    }
+    keys.push_back({pair_key(smallest, static_cast<std::uint32_t>(hash)), f});
+  }
+  sort_by_pair(keys, mesh.vertices.size());
+  for (std::size_t first = 0, last = 0; first < keys.size(); first = last) {
+    for (last = first + 1; last < keys.size() && keys[last].key == keys[first].key; ++last) {
+    }
+    for (std::size_t i = first; i < last; ++i) {
+      for (std::size_t j = i + 1; j < last; ++j) {
+        if (corners(keys[i].face) != corners(keys[j].face)) continue;
+        pairs.push_back({std::min(keys[i].face, keys[j].face), std::max(keys[i].face, keys[j].face)});
+        break;
+      }
+    }
+  }
+  std::sort(pairs.begin(), pairs.end());
+  for (const auto& [f, g] : pairs) {
+    MeshProblem problem;
+    problem.kind = Kind::kDuplicateFace;
+    problem.faces = {f, g};
+    problem.legal = turned_against(mesh, surface, f, g);
+    problem.text = face_list(problem.faces) + " have the same corners";
+    if (problem.legal) problem.text += ", back to back";
+    report.add(std::move(problem));
+  }
+}
+
+struct FaceEdge {
+  std::uint64_t key = 0;
+  std::uint32_t face = 0;
+  bool forward = false;
+  std::array<std::uint32_t, 2> vertices{};  // as the face names them
+};
+
+std::vector<FaceEdge> face_edges(const Mesh& mesh, const MeshSurface& surface) {
+  std::vector<FaceEdge> edges;
+  edges.reserve(mesh.corners.size());
+  for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+    if (surface.defects[f] == FaceDefect::kBadIndex) continue;
+    const auto face = mesh.face(f);
+    for (std::size_t i = 0; i < face.size(); ++i) {
+      const std::uint32_t u = surface.place[face[i]];
+      const std::uint32_t v = surface.place[face[(i + 1) % face.size()]];
+      if (u == v) continue;
+      edges.push_back({pair_key(std::min(u, v), std::max(u, v)), f, u < v, {face[i], face[(i + 1) % face.size()]}});
+    }
+  }
+  sort_by_pair(edges, mesh.vertices.size());
+  return edges;
+}
+
+// Returns true if every edge is used equally often in both directions.
+bool check_edges(const Mesh& mesh, const MeshSurface& surface, const SurfaceContacts& contacts, Report& report) {
+  std::optional<std::set<std::uint64_t>> crossing;  // looked for when an edge has more than two faces
+  const auto crosses = [&](std::uint64_t key) {
+    if (!crossing) {
+      crossing.emplace();
+      contacts.for_each_bad_edge([&](std::uint32_t u, std::uint32_t v, std::span<const std::uint32_t> /*triangles*/) {
+        crossing->insert(pair_key(u, v));
+        return true;
+      });
+    }
+    return crossing->count(key) > 0;
+  };
+  bool balanced = true;
+  const std::vector<FaceEdge> edges = face_edges(mesh, surface);
+  for (std::size_t first = 0, last = 0; first < edges.size(); first = last) {
+    std::size_t forward = 0;
+    for (last = first; last < edges.size() && edges[last].key == edges[first].key; ++last) {
+      forward += edges[last].forward ? 1 : 0;
+    }
+    const std::size_t count = last - first;
+    const bool even = 2 * forward == count;
+    balanced = balanced && even;
+    if (count == 2 && even) continue;
+    MeshProblem problem;
+    problem.edges = {edges[first].vertices};
+    problem.vertices = {edges[first].vertices[0], edges[first].vertices[1]};
+    for (std::size_t i = first; i < last; ++i) problem.faces.push_back(edges[i].face);
+    problem.text = edge_text(problem.edges[0]);
+    if (count == 1) {
+      problem.kind = Kind::kOpenBorder;
+      problem.text += " belongs to " + face_list(problem.faces) + " only: the surface is open there";
+    } else if (count == 2) {
+      problem.kind = Kind::kInconsistentOrientation;
+      problem.text += " is run through in the same direction by " + face_list(problem.faces) + ": flip one of them";
+    } else {
+      problem.kind = Kind::kNonManifoldEdge;
+      problem.legal = even && !crosses(edges[first].key);
+      problem.text += " belongs to " + number(count) + " faces (" + face_list(problem.faces) + ")";
+      problem.text += problem.legal ? ", which pair up: solids touch there"
+                      : even        ? ", which do not separate inside from outside there"
+                                    : ", which do not pair up";
+    }
+    report.add(std::move(problem));
+  }
+  return balanced;
+}
+
+MeshProblem contact_problem(SurfaceContacts::Kind kind, std::uint32_t f, std::uint32_t g) {
+  using Contact = SurfaceContacts::Kind;
+  MeshProblem problem;
+  problem.legal = kind == Contact::kTouch || kind == Contact::kCover;
+  problem.kind = problem.legal ? Kind::kTouching : Kind::kSelfIntersection;
+  problem.faces = f == g ? std::vector<std::uint32_t>{f} : std::vector<std::uint32_t>{std::min(f, g), std::max(f, g)};
+  problem.text = face_list(problem.faces);
+  if (kind == Contact::kTouch) {
+    problem.text += f == g ? " touches itself" : " touch without sharing a vertex or edge there";
+  } else if (kind == Contact::kCover) {
+    problem.text += f == g ? " covers itself, folded" : " cover each other, back to back";
+  } else if (kind == Contact::kCross) {
+    problem.text += f == g ? " crosses itself" : " cross each other";
+  } else {
+    problem.text += f == g ? " overlaps itself" : " overlap in a common plane";
+  }
+  return problem;
+}
+
+void check_contacts(const MeshSurface& surface, const SurfaceContacts& contacts, Report& report) {
+  using Contact = SurfaceContacts::Kind;
+  struct Found {
+    std::uint32_t f = 0, g = 0;
+    Contact kind = Contact::kNone;
+  };
+  // Triangles of one face meet others' many times; each pair of faces is told once, by its worst contact.
+  std::vector<Found> found;
+  std::vector<bool> covered;  // of each face: another one lies on it, back to back
+  contacts.for_each([&](Contact kind, std::uint32_t t, std::uint32_t u) {
+    const auto [f, g] = std::minmax(surface.face_of[t], surface.face_of[u]);
+    found.push_back({f, g, kind});
+    if (kind == Contact::kCover) {
+      covered.resize(surface.defects.size(), false);
+      covered[f] = covered[g] = true;
+    }
+    return true;
+  });
+  std::sort(found.begin(), found.end(),
+            [](const Found& a, const Found& b) { return std::tie(a.f, a.g, b.kind) < std::tie(b.f, b.g, a.kind); });
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const Found& contact = found[i];
+    if (i > 0 && contact.f == found[i - 1].f && contact.g == found[i - 1].g) continue;
+    MeshProblem problem = contact_problem(contact.kind, contact.f, contact.g);
+    if (contact.kind == Contact::kOverlap && !covered.empty() && (covered[contact.f] || covered[contact.g])) {
+      // A third face may undo one of the two; the winding numbers will tell.
+      problem.kind = Kind::kTouching;
+      problem.legal = true;
+    }
+    report.add(std::move(problem));
+  }
+}
+
+void check_planarity(const Mesh& mesh, const MeshSurface& surface, Report& report) {
+  for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+    if (surface.planar[f]) continue;
+    MeshProblem problem = face_problem(Kind::kNonPlanarFace, f, "is not planar: a corner is ");
+    problem.text += face_deviation_text(mesh, f) + " off its plane";
+    problem.legal = true;
+    report.add(std::move(problem));
+  }
+}
+
+void check_vertices(const Mesh& mesh, const MeshSurface& surface, Report& report) {
+  std::vector<bool> used(mesh.vertices.size(), false);
+  for (const std::uint32_t v : mesh.corners) {
+    if (v < used.size()) used[surface.place[v]] = true;
+  }
+  for (std::uint32_t v = 0; v < used.size(); ++v) {
+    if (used[surface.place[v]]) continue;
+    MeshProblem problem;
+    problem.kind = Kind::kIsolatedVertex;
+    problem.legal = true;
+    problem.vertices = {v};
+    problem.text = "vertex " + number(v) + " belongs to no face";
+    if (!report.add(std::move(problem))) return;
+  }
+}
+
+// The sign of the enclosed volume: in doubles, exactly where these can not tell.
+int volume_sign(const Mesh& mesh, const MeshSurface& surface) {
+  double sum = 0;
+  double size = 0;
+  for (const auto& t : surface.triangles) {
+    const auto& a = surface.points.approximate(t[0]);
+    const auto& b = surface.points.approximate(t[1]);
+    const auto& c = surface.points.approximate(t[2]);
+    const double x = a[0] * (b[1] * c[2] - b[2] * c[1]);
+    const double y = a[1] * (b[2] * c[0] - b[0] * c[2]);
+    const double z = a[2] * (b[0] * c[1] - b[1] * c[0]);
+    sum += x + y + z;
+    size += std::abs(a[0]) * (std::abs(b[1] * c[2]) + std::abs(b[2] * c[1])) +
+            std::abs(a[1]) * (std::abs(b[2] * c[0]) + std::abs(b[0] * c[2])) +
+            std::abs(a[2]) * (std::abs(b[0] * c[1]) + std::abs(b[1] * c[0]));
+  }
+  // Each term is off by less than 2^-45 of its size, the sum by n 2^-53 more.
+  if (std::abs(sum) > size * (0x1p-44 + 0x1p-52 * static_cast<double>(surface.triangles.size()))) {
+    return sum > 0 ? 1 : -1;
+  }
+  Rational exact = 0;
+  for (const auto& t : surface.triangles) {
+    const Rational3& a = mesh.vertices[t[0]];
+    const Rational3& b = mesh.vertices[t[1]];
+    const Rational3& c = mesh.vertices[t[2]];
+    exact +=
+        a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
+  }
+  return sgn(exact);
+}
+
+Rational3 area_vector(const Mesh& mesh, std::span<const std::uint32_t> face) {
+  Rational3 area{};
+  const Rational3& o = mesh.vertices[face[0]];
+  for (std::size_t i = 1; i + 1 < face.size(); ++i) {
+    const Rational3& p = mesh.vertices[face[i]];
+    const Rational3& q = mesh.vertices[face[i + 1]];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::size_t j = (axis + 1) % 3;
+      const std::size_t k = (axis + 2) % 3;
+      area[axis] += (p[j] - o[j]) * (q[k] - o[k]) - (p[k] - o[k]) * (q[j] - o[j]);
+    }
+  }
+  return area;
+}
+
+}  // namespace
+
+const char* name(MeshProblemKind kind) {
+  switch (kind) {
+    case Kind::kBadIndex:
+      return "bad index";
+    case Kind::kDegenerateFace:
+      return "degenerate face";
+    case Kind::kDuplicateFace:
+      return "duplicate face";
+    case Kind::kOpenBorder:
+      return "open border";
+    case Kind::kNonManifoldEdge:
+      return "non-manifold edge";
+    case Kind::kInconsistentOrientation:
+      return "inconsistent orientation";
+    case Kind::kSelfIntersection:
+      return "self-intersection";
+    case Kind::kTouching:
+      return "touching";
+    case Kind::kNonPlanarFace:
+      return "non-planar face";
+    case Kind::kIsolatedVertex:
+      return "isolated vertex";
+    case Kind::kInsideOut:
+      return "inside out";
+  }
+  return "unknown problem";
+}
+
+std::vector<MeshProblem> check_mesh(const Mesh& mesh, const MeshCheckOptions& options) {
+  return check_mesh(mesh, MeshSurface(mesh), options);
+}
+
+std::vector<MeshProblem> check_mesh(const Mesh& mesh, const MeshSurface& surface, const MeshCheckOptions& options) {
+  Report report(options.max_per_kind);
+  const SurfaceContacts contacts(surface);
+  check_faces(mesh, surface, report);
+  check_duplicates(mesh, surface, report);
+  const bool closed = check_edges(mesh, surface, contacts, report);
+  if (options.self_intersections) check_contacts(surface, contacts, report);
+  check_planarity(mesh, surface, report);
+  check_vertices(mesh, surface, report);
+  if (closed && !surface.triangles.empty() && volume_sign(mesh, surface) < 0) {
+    MeshProblem problem;
+    problem.kind = Kind::kInsideOut;
+    problem.legal = true;
+    problem.text = "the mesh is inside out: its faces are clockwise as seen from outside";
+    report.add(std::move(problem));
+  }
+  return report.take();
+}
+
+double face_deviation(const Mesh& mesh, std::size_t face) {
+  const auto corners = mesh.face(face);
+  if (corners.size() < 4) return 0;
+  const Rational3 normal = area_vector(mesh, corners);
+  const Rational length2 = normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
+  if (length2 == 0) return 0;
+  Rational3 centre{};
+  for (const std::uint32_t v : corners) {
+    for (std::size_t axis = 0; axis < 3; ++axis) centre[axis] += mesh.vertices[v][axis];
+  }
+  Rational largest = 0;
+  for (const std::uint32_t v : corners) {
+    Rational height = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      height += normal[axis] * (mesh.vertices[v][axis] - centre[axis] / static_cast<unsigned long>(corners.size()));
+    }
+    largest = std::max(largest, Rational(abs(height)));
+  }
+  return std::sqrt(nearest_double(largest * largest / length2));
+}
+
+std::string face_deviation_text(const Mesh& mesh, std::size_t face) {
+  std::array<char, 32> digits{};
+  std::snprintf(digits.data(), digits.size(), "%.3g", face_deviation(mesh, face));
+  return digits.data();
+}
+
+}  // namespace nef

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What is wrong with a mesh, by name and with the guilty elements.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "nef/mesh/mesh.h"
+
+namespace nef {
+
+/// A property that a mesh should not have if it is to bound a solid.
+enum class MeshProblemKind : std::uint8_t {
+  kBadIndex,                 ///< a face names a vertex that is not there
+  kDegenerateFace,           ///< fewer than three corners, a vertex named twice, or no area; the latter are legal
+  kDuplicateFace,            ///< two faces with the same corners; legal if they are back to back
+  kOpenBorder,               ///< an edge of one face only
+  kNonManifoldEdge,          ///< an edge of more than two faces; legal if they separate inside from outside
+  kInconsistentOrientation,  ///< faces that run through a common edge in the same direction
+  kSelfIntersection,         ///< faces that cross, or overlap and are turned alike, or a face that crosses itself
+  kTouching,                 ///< faces that meet otherwise without sharing all of what they meet in; legal
+  kNonPlanarFace,            ///< corners that lie in no common plane; legal, it will be triangulated
+  kIsolatedVertex,           ///< a vertex of no face; legal, it is ignored
+  kInsideOut,                ///< the mesh encloses a negative volume; legal, but hardly meant
+};
+
+/// The name as a program prints it: "open border", "self-intersection", ...
+const char* name(MeshProblemKind kind);
+
+struct MeshSurface;  // nef/mesh/mesh_surface.h
+
+struct MeshProblem {
+  MeshProblemKind kind = MeshProblemKind::kBadIndex;
+  bool legal = false;                               ///< true if a solid can be made in spite of it
+  std::vector<std::uint32_t> vertices;              ///< as numbered in the mesh, from 0
+  std::vector<std::array<std::uint32_t, 2>> edges;  ///< each as its two vertices
+  std::vector<std::uint32_t> faces;                 ///< as numbered in the mesh, from 0
+  std::string text;                                 ///< one line for people
+};
+
+struct MeshCheckOptions {
+  /// Report no more than these of each kind, legal and illegal ones counted apart.
+  std::size_t max_per_kind = std::numeric_limits<std::size_t>::max();
+  bool self_intersections = true;  ///< the expensive part
+};
+
+/// Everything that is wrong with a mesh, in the order of MeshProblemKind and of the elements; empty for a clean mesh.
+/// Vertices with equal coordinates count as one (the smallest number stands for all). Two solids that share an edge
+/// or a vertex are legal: the edge has four faces that pair up, which is reported as legal. Whether components that
+/// touch or lie in each other contradict each other is known only when the solid is made (from_mesh). All decisions are
+/// exact. O(n log n) for meshes whose faces meet few others; 20000 triangles take about 50 ms.
+std::vector<MeshProblem> check_mesh(const Mesh& mesh, const MeshCheckOptions& options = {});
+/// The same for a mesh whose surface is there already.
+std::vector<MeshProblem> check_mesh(const Mesh& mesh, const MeshSurface& surface, const MeshCheckOptions& options);
+
+/// How far the corners of a face are from the plane through their centroid whose normal is the area vector of the
+/// face: the largest distance. Zero iff the face is planar and not degenerate, or has no area vector.
+double face_deviation(const Mesh& mesh, std::size_t face);
+
+/// The same with three digits, however small, as messages tell it.
+std::string face_deviation_text(const Mesh& mesh, std::size_t face);
+
+}  // namespace nef

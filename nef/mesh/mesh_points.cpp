@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/mesh/mesh_points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace nef {
+namespace {
+
+__extension__ using Int128 = __int128;
+
+// Coordinates below 2^40 give differences below 2^41, minors below 2^83 and determinants below 2^126.
+constexpr std::int64_t kIntegerLimit = std::int64_t{1} << 40U;
+
+int sign_of(Int128 value) { return (value > 0) - (value < 0); }
+
+// b - a in homogeneous integers, scaled by the positive product of their denominators where these differ: the axes
+// from `first` on, as many as there is room for (of two, the second may be the first axis).
+void difference(const PointTable& table, std::uint32_t a, std::uint32_t b, std::span<Integer> out,
+                std::size_t first = 0) {
+  const IntegerView wa = table.coordinate(PointId{a}, 3);
+  const IntegerView wb = table.coordinate(PointId{b}, 3);
+  const bool same = mpz_cmp(wa, wb) == 0;
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    const std::size_t axis = (first + k) % 3;
+    mpz_ptr d = out[k].get_mpz_t();
+    if (same) {
+      mpz_sub(d, table.coordinate(PointId{b}, axis), table.coordinate(PointId{a}, axis));
+    } else {
+      mpz_mul(d, table.coordinate(PointId{b}, axis), wa);
+      mpz_submul(d, table.coordinate(PointId{a}, axis), wb);
+    }
+  }
+}
+
+// Numbers that keep their memory from call to call.
+struct Scratch {
+  std::array<Integer, 3> u, v, normal;
+  Integer sum;
+
+  void normal_of(const PointTable& table, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    difference(table, a, b, u);
+    difference(table, a, c, v);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = (i + 1) % 3;
+      const std::size_t k = (i + 2) % 3;
+      mpz_mul(normal[i].get_mpz_t(), u[j].get_mpz_t(), v[k].get_mpz_t());
+      mpz_submul(normal[i].get_mpz_t(), u[k].get_mpz_t(), v[j].get_mpz_t());
+    }
+  }
+  // The sign of normal . (p - a).
+  int side(const PointTable& table, std::uint32_t a, std::uint32_t p) {
+    difference(table, a, p, u);
+    mpz_mul(sum.get_mpz_t(), normal[0].get_mpz_t(), u[0].get_mpz_t());
+    mpz_addmul(sum.get_mpz_t(), normal[1].get_mpz_t(), u[1].get_mpz_t());
+    mpz_addmul(sum.get_mpz_t(), normal[2].get_mpz_t(), u[2].get_mpz_t());
+    return sgn(sum);
+  }
+};
+
+Scratch& scratch() {
+  thread_local Scratch numbers;
+  return numbers;
+}
+
+}  // namespace
+
+MeshPoints::MeshPoints(std::span<const Rational3> points) {
+  approximate_.reserve(points.size());
+  if (make_integers(points)) {
+    // Below 2^40 every integer is a double.
+    for (const auto& p : integers_) {
+      approximate_.push_back({static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])});
+    }
+    find_margins(true);
+    return;
+  }
+  table_.reserve(points.size());
+  for (const Rational3& point : points) {
+    table_.push(point);
+    approximate_.push_back(table_.approximate(PointId{table_.size() - 1}));
+  }
+  find_margins(false);
+}
+
+MeshPoints::MeshPoints(PointTable points) : table_(std::move(points)) {
+  approximate_.reserve(table_.size());
+  for (std::size_t i = 0; i < table_.size(); ++i) approximate_.push_back(table_.approximate(PointId{i}));
+  find_margins(false);
+}
+
+bool MeshPoints::make_integers(std::span<const Rational3> points) {
+  std::int64_t denominator = 1;
+  for (const Rational3& point : points) {
+    for (const Rational& x : point) {
+      const mpz_srcptr den = x.get_den_mpz_t();
+      if (mpz_cmp_ui(den, kIntegerLimit) >= 0) return false;
+      const auto d = static_cast<std::int64_t>(mpz_get_ui(den));
+      if (denominator % d == 0) continue;
+      const Int128 common = static_cast<Int128>(denominator / std::gcd(denominator, d)) * d;
+      if (common >= kIntegerLimit) return false;
+      denominator = static_cast<std::int64_t>(common);
+    }
+  }
+  denominator_ = denominator;
+  integers_.resize(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const Rational& x = points[i][axis];
+      bool fits = mpz_fits_slong_p(x.get_num_mpz_t()) != 0;
+      if (fits) {
+        const Int128 scaled = static_cast<Int128>(mpz_get_si(x.get_num_mpz_t())) *
+                              (denominator / static_cast<std::int64_t>(mpz_get_ui(x.get_den_mpz_t())));
+        fits = scaled < kIntegerLimit && scaled > -kIntegerLimit;
+        integers_[i][axis] = static_cast<std::int64_t>(scaled);
+      }
+      if (!fits) {
+        integers_.clear();
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+// PointTable promises doubles within 2^-51 relative. Beyond 1e100 products of three may overflow: no filter then.
+void MeshPoints::find_margins(bool exact) {
+  std::array<double, 3> largest{};
+  for (const auto& p : approximate_) {
+    for (std::size_t axis = 0; axis < 3; ++axis) largest[axis] = std::max(largest[axis], std::abs(p[axis]));
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!(largest[axis] < 1e100)) filter_ = false;
+    margin_[axis] = exact ? 0.0 : largest[axis] * 0x1p-50 + 1e-290;
+  }
+}
+
+void MeshPoints::extend(Box& box, std::uint32_t p) const {
+  if (!filter_) {
+    box.low.fill(-HUGE_VAL);
+    box.high.fill(HUGE_VAL);
+    return;
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    box.low[axis] = std::min(box.low[axis], approximate_[p][axis] - margin_[axis]);
+    box.high[axis] = std::max(box.high[axis], approximate_[p][axis] + margin_[axis]);
+  }
+}
+
+// The filter. Let s be the largest computed difference along an axis, m the margin of a coordinate and u = 2^-53. A
+// computed difference is off by at most e = 2m + u s', s' = s + 2m + u s' being a bound on the true and the
+// computed one. The determinant is a sum of six products x y z of differences, so the inexact inputs change it by at
+// most 6 (ex sy sz + sx ey sz + sx sy ez) up to terms of second order, for which 7 instead of 6 is more than enough;
+// its own evaluation rounds each product at most eight times: 48 u sx sy sz. Underflow adds less than 1e-200
+// while all coordinates are below 1e100.
+int MeshPoints::orientation_filtered(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const {
+  if (filter_) {
+    const auto& p = approximate_[a];
+    const auto& q = approximate_[b];
+    const auto& r = approximate_[c];
+    const auto& t = approximate_[d];
+    std::array<double, 3> s;
+    std::array<double, 3> e;
+    std::array<std::array<double, 3>, 3> m;
+    for (std::size_t i = 0; i < 3; ++i) {
+      m[0][i] = q[i] - p[i];
+      m[1][i] = r[i] - p[i];
+      m[2][i] = t[i] - p[i];
+      s[i] = std::max({std::abs(m[0][i]), std::abs(m[1][i]), std::abs(m[2][i])}) * (1 + 0x1p-50) + 2 * margin_[i];
+      e[i] = 2 * margin_[i] + 0x1p-53 * s[i];
+    }
+    const double value = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) +
+                         m[0][1] * (m[1][2] * m[2][0] - m[1][0] * m[2][2]) +
+                         m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+    const double bound =
+        7 * (e[0] * s[1] * s[2] + s[0] * e[1] * s[2] + s[0] * s[1] * e[2]) + 0x1p-47 * s[0] * s[1] * s[2] + 1e-200;
+    if (value > bound) return 1;
+    if (value < -bound) return -1;
+  }
+  return 0;
+}
+
+int MeshPoints::orientation(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const {
+  const int sign = orientation_filtered(a, b, c, d);
+  return sign != 0 ? sign : orientation_exact(a, b, c, d);
+}
+
+int MeshPoints::orientation_exact(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const {
+  if (!integers_.empty()) {
+    std::array<std::array<Int128, 3>, 3> m;
+    for (std::size_t i = 0; i < 3; ++i) {
+      m[0][i] = integers_[b][i] - integers_[a][i];
+      m[1][i] = integers_[c][i] - integers_[a][i];
+      m[2][i] = integers_[d][i] - integers_[a][i];
+    }
+    return sign_of(m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) +
+                   m[0][1] * (m[1][2] * m[2][0] - m[1][0] * m[2][2]) +
+                   m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]));
+  }
+  scratch().normal_of(table_, a, b, c);
+  return scratch().side(table_, a, d);
+}
+
+bool MeshPoints::coplanar(std::uint32_t a, std::uint32_t b, std::uint32_t c,
+                          std::span<const std::uint32_t> others) const {
+  bool known = false;
+  for (const std::uint32_t p : others) {
+    if (orientation_filtered(a, b, c, p) != 0) return false;
+    if (!integers_.empty()) {
+      if (orientation_exact(a, b, c, p) != 0) return false;
+      continue;
+    }
+    if (!known) scratch().normal_of(table_, a, b, c);
+    known = true;
+    if (scratch().side(table_, a, p) != 0) return false;
+  }
+  return true;
+}
+
+// The same filter with two products of two differences.
+int MeshPoints::orientation_along(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::size_t axis) const {
+  if (filter_) {
+    const std::size_t i = axis == 2 ? 0 : axis + 1;
+    const std::size_t j = i == 2 ? 0 : i + 1;
+    const auto& p = approximate_[a];
+    const double x1 = approximate_[b][i] - p[i];
+    const double y1 = approximate_[b][j] - p[j];
+    const double x2 = approximate_[c][i] - p[i];
+    const double y2 = approximate_[c][j] - p[j];
+    const double sx = std::max(std::abs(x1), std::abs(x2)) * (1 + 0x1p-50) + 2 * margin_[i];
+    const double sy = std::max(std::abs(y1), std::abs(y2)) * (1 + 0x1p-50) + 2 * margin_[j];
+    const double ex = 2 * margin_[i] + 0x1p-53 * sx;
+    const double ey = 2 * margin_[j] + 0x1p-53 * sy;
+    const double value = x1 * y2 - x2 * y1;
+    const double bound = 3 * (ex * sy + sx * ey) + 0x1p-49 * sx * sy + 1e-290;
+    if (value > bound) return 1;
+    if (value < -bound) return -1;
+  }
+  return orientation_along_exact(a, b, c, axis);
+}
+
+int MeshPoints::orientation_along_exact(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::size_t axis) const {
+  const std::size_t i = axis == 2 ? 0 : axis + 1;
+  const std::size_t j = i == 2 ? 0 : i + 1;
+  if (!integers_.empty()) {
+    const auto& p = integers_[a];
+    const auto& q = integers_[b];
+    const auto& r = integers_[c];
+    return sign_of(static_cast<Int128>(q[i] - p[i]) * (r[j] - p[j]) - static_cast<Int128>(r[i] - p[i]) * (q[j] - p[j]));
+  }
+  Scratch& s = scratch();
+  difference(table_, a, b, std::span(s.u).first(2), i);
+  difference(table_, a, c, std::span(s.v).first(2), i);
+  mpz_mul(s.sum.get_mpz_t(), s.u[0].get_mpz_t(), s.v[1].get_mpz_t());
+  mpz_submul(s.sum.get_mpz_t(), s.v[0].get_mpz_t(), s.u[1].get_mpz_t());
+  return sgn(s.sum);
+}
+
+bool MeshPoints::collinear(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (orientation_along(a, b, c, axis) != 0) return false;
+  }
+  return true;
+}
+
+std::size_t MeshPoints::projection_axis(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
+  std::array<double, 3> size{};
+  const auto& p = approximate_[a];
+  const auto& q = approximate_[b];
+  const auto& r = approximate_[c];
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::size_t i = axis == 2 ? 0 : axis + 1;
+    const std::size_t j = i == 2 ? 0 : i + 1;
+    size[axis] = std::abs((q[i] - p[i]) * (r[j] - p[j]) - (r[i] - p[i]) * (q[j] - p[j]));
+  }
+  std::array<std::size_t, 3> order{0, 1, 2};
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t i, std::size_t j) { return size[i] != size[j] ? size[i] > size[j] : i < j; });
+  for (const std::size_t axis : order) {
+    if (orientation_along(a, b, c, axis) != 0) return axis;
+  }
+  return order[0];
+}
+
+int MeshPoints::compare(std::uint32_t a, std::uint32_t b, std::size_t axis) const {
+  const double gap = approximate_[a][axis] - approximate_[b][axis];
+  // The margins are far above the rounding of this difference unless they are zero, when the doubles are exact.
+  if (filter_ && std::abs(gap) > 4 * margin_[axis]) return gap > 0 ? 1 : -1;
+  if (!integers_.empty()) {
+    return (integers_[a][axis] > integers_[b][axis]) - (integers_[a][axis] < integers_[b][axis]);
+  }
+  difference(table_, b, a, std::span(scratch().u).first(1), axis);
+  return sgn(scratch().u[0]);
+}
+
+int MeshPoints::compare(std::uint32_t a, std::uint32_t b) const {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (const int order = compare(a, b, axis); order != 0) return order;
+  }
+  return 0;
+}
+
+}  // namespace nef

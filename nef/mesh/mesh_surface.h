@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A mesh as the checks see it: equal vertices merged, faces cut into triangles.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "nef/mesh/mesh.h"
+#include "nef/mesh/mesh_points.h"
+
+namespace nef {
+
+/// Why a face has no triangles.
+enum class FaceDefect : std::uint8_t { kNone, kBadIndex, kTooFewCorners, kNoArea, kCrossesItself };
+
+/// The triangulated surface of a mesh. A face may come to a vertex twice, as one with a hole that is joined to the
+/// outer ring by a bridge does; sides that are walked out and back at once do not count.
+struct MeshSurface {
+  explicit MeshSurface(const Mesh& mesh);
+
+  MeshPoints points;                                    ///< of all vertices of the mesh
+  std::vector<std::uint32_t> place;                     ///< of each vertex: the smallest vertex at the same point
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< of places; none is degenerate
+  std::vector<std::uint32_t> face_of;                   ///< of each triangle
+  std::vector<std::uint32_t> triangle_begin{0};         ///< of each face, and the end
+  std::vector<std::uint32_t> pieces;                    ///< of each triangle: equal where a convex face was cut
+  std::vector<FaceDefect> defects;                      ///< of each face
+  std::vector<bool> planar;                             ///< of each face: all corners lie in one plane, or on a line
+  std::vector<bool> irregular;                          ///< of each face: it names a vertex twice
+  std::vector<std::uint32_t> rings;  ///< corners of the planar faces that were cut, as places; none of irregular ones
+  std::vector<std::uint32_t> ring_begin{0};  ///< of each face in `rings`, and the end
+
+  /// The corners of a planar face that was cut and names no vertex twice; none for others.
+  [[nodiscard]] std::span<const std::uint32_t> ring(std::uint32_t face) const {
+    return std::span(rings).subspan(ring_begin[face], ring_begin[face + 1] - ring_begin[face]);
+  }
+};
+
+/// The coordinate axes, the one along which a polygon looks largest first (by its area vector in doubles).
+std::array<std::size_t, 3> projection_axes(const MeshPoints& points, const std::vector<std::uint32_t>& ring);
+
+/// +1 if a ring of at least three points turns counterclockwise in the projection along `axis`, -1 if clockwise, 0 if
+/// its farthest corner there is flat (the projection, or the ring, is no simple polygon). Exact. O(n).
+int ring_orientation(const MeshPoints& points, const std::vector<std::uint32_t>& ring, std::size_t axis);
+
+}  // namespace nef

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/parts/section.h"
+
+#include <algorithm>
+
+#include "nef/base/error.h"
+#include "nef/construct/construct.h"
+#include "nef/query/predicates_of_sets.h"
+
+namespace nef {
+namespace {
+
+// Reads polygons, segments and points off a closed set within a plane. In the closure nothing separates two parts of a
+// polygon, so every facet is one polygon and every edge of a facet its border.
+class SectionReader {
+ public:
+  SectionReader(const Complex& complex, const Rational3& normal, Section& out)
+      : c_(complex), normal_(normal), out_(out) {}
+
+  void run() {
+    for (const Facet& facet : c_.facets) {
+      if (is_selected(facet.mark)) add_polygon(facet);
+    }
+    for (std::uint32_t h = 0; h < c_.svertices.size(); ++h) {
+      if (h < c_.twin[h] && c_.svertices[h].out == kNone && is_selected(c_.svertices[h].mark)) add_segment(h);
+    }
+    for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) {
+      if (c_.sphere_map(v).trivial()) out_.points.push_back(c_.points.rational(PointId{v}));
+    }
+  }
+
+ private:
+  void add_polygon(const Facet& facet) {
+    for (const std::uint32_t corner : c_.facet_corners(facet)) {
+      if (is_box_vertex(c_, c_.shalfedge_owner[corner])) {
+        ++out_.unbounded;
+        return;
+      }
+    }
+    // Cycles run counterclockwise as seen from the positive side of the unflipped plane.
+    Rational along = 0;
+    for (std::size_t i = 0; i < 3; ++i) along += normal_[i] * Integer(c_.planes.coefficient(facet.plane, i));
+    SectionPolygon polygon;
+    for (std::uint32_t i = 0; i < facet.cycle_count; ++i) {
+      std::vector<Rational3> ring;
+      for (const std::uint32_t corner : c_.cycle(facet.first_cycle + i)) {
+        ring.push_back(c_.points.rational(PointId{c_.shalfedge_owner[corner]}));
+      }
+      if (along < 0) std::reverse(ring.begin(), ring.end());
+      if (i == 0) {
+        polygon.outer = std::move(ring);
+      } else {
+        polygon.holes.push_back(std::move(ring));
+      }
+    }
+    out_.polygons.push_back(std::move(polygon));
+  }
+
+  void add_segment(std::uint32_t halfedge) {
+    const std::uint32_t u = c_.svertex_owner[halfedge];
+    const std::uint32_t v = c_.target(halfedge);
+    if (is_box_vertex(c_, u) || is_box_vertex(c_, v)) {
+      ++out_.unbounded;
+      return;
+    }
+    std::array<Rational3, 2> ends{c_.points.rational(PointId{u}), c_.points.rational(PointId{v})};
+    if (ends[1] < ends[0]) std::swap(ends[0], ends[1]);
+    out_.segments.push_back(std::move(ends));
+  }
+
+  const Complex& c_;
+  const Rational3& normal_;
+  Section& out_;
+};
+
+}  // namespace
+
+Section section(const Polyhedron& a, const Rational3& normal, const Rational& offset) {
+  if (normal[0] == 0 && normal[1] == 0 && normal[2] == 0) {
+    throw InputError("the plane of a section needs a normal that is not (0,0,0)");
+  }
+  const Polyhedron plane = boundary(make_halfspace(normal[0], normal[1], normal[2], offset));
+  Section result;
+  result.set = intersect(a, plane);
+  const Polyhedron closed = closure(result.set);
+  SectionReader(closed.complex(), normal, result).run();
+  return result;
+}
+
+}  // namespace nef

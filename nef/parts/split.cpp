@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Every incidence of two items of a complex is seen in the sphere map of some vertex, so the components of a set are
+// those of a graph that the sphere maps draw. A piece is made from the sphere maps of the vertices that it touches,
+// with the marks of all other items cleared.
+#include "nef/parts/split.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "nef/base/union_find.h"
+#include "nef/boolean/overlay_complexes.h"
+#include "nef/complex/local_pyramid.h"
+#include "nef/query/predicates_of_sets.h"
+#include "nef/sphere_map/arrangement.h"
+
+namespace nef {
+namespace {
+
+// The items around a vertex, by their local numbers, and whether they are in a piece.
+struct Kept {
+  std::vector<bool> sfaces;
+  std::vector<bool> arcs;  // shalfedge 2i and its twin
+  std::vector<bool> svertices;
+  bool circle = false;
+  bool centre = false;
+};
+
+// A piece in the making: the vertices that it touches, increasing.
+struct Piece {
+  std::vector<std::uint32_t> vertices;
+  LabelId outer = 0;  // the mark of the outer volume, where that is in the piece
+};
+
+class PieceMaker {
+ public:
+  explicit PieceMaker(const Complex& complex) : c_(complex) {
+    for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) {
+      if (is_box_vertex(c_, v)) box_vertices_.push_back(v);
+    }
+  }
+
+  // `kept(vertex, map, out)` says what the piece has around a vertex.
+  template <typename KeptAround>
+  Polyhedron make(const Piece& piece, const KeptAround& kept) {
+    std::vector<std::uint32_t> vertices = piece.vertices;
+    const bool at_infinity =
+        std::any_of(vertices.begin(), vertices.end(), [this](std::uint32_t v) { return is_box_vertex(c_, v); });
+    if (at_infinity) {
+      vertices.insert(vertices.end(), box_vertices_.begin(), box_vertices_.end());
+      std::sort(vertices.begin(), vertices.end());
+      vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    }
+    Complex result;
+    result.label_count = c_.label_count;
+    row_.resize(c_.planes.size(), kNone);
+    for (const std::uint32_t v : vertices) {
+      const SphereMapView map = c_.sphere_map(v);
+      kept(v, map, kept_);
+      draw(map);
+      drawing_.sort_around_nodes(c_.planes);
+      drawing_.simplify_and_assemble(c_.planes, out_);
+      if (!is_vertex(c_.planes, out_.view())) continue;
+      rename_planes(result);
+      result.points.push_from(c_.points, PointId{v});
+      result.push_vertex(out_.view());
+    }
+    for (const std::uint32_t row : rows_in_use_) row_[row] = kNone;
+    rows_in_use_.clear();
+    finish(result, at_infinity ? kOutside : piece.outer);
+    return Polyhedron(std::move(result));
+  }
+
+ private:
+  void draw(const SphereMapView& map) {
+    drawing_.load(c_.planes, map);
+    const auto cleared = [](LabelId mark, bool keep) { return keep || mark == kOutside ? mark : LabelId{0}; };
+    const auto sface = [&](std::uint32_t i) { return cleared(map.sfaces[i].mark, kept_.sfaces[i]); };
+    drawing_.centre = cleared(drawing_.centre, kept_.centre);
+    drawing_.background = sface(0);
+    for (std::uint32_t i = 0; i < map.svertices.size(); ++i) {
+      drawing_.nodes[i].mark = cleared(map.svertices[i].mark, kept_.svertices[i]);
+      if (map.svertices[i].out == kNone) drawing_.nodes[i].around = sface(map.svertices[i].sface);
+    }
+    for (std::uint32_t i = 0; i < drawing_.arcs.size(); ++i) {
+      drawing_.arcs[i].mark = cleared(drawing_.arcs[i].mark, kept_.arcs[i]);
+      drawing_.arcs[i].left = sface(map.shalfedges[2 * i].sface);
+      drawing_.arcs[i].right = sface(map.shalfedges[2 * i + 1].sface);
+    }
+    if (!map.sloops.empty()) {
+      drawing_.circle.mark = cleared(drawing_.circle.mark, kept_.circle);
+      drawing_.circle.left = sface(map.sloops[0].sface);
+      drawing_.circle.right = sface(map.sloops[1].sface);
+    }
+  }
+
+  // A piece has a table of its own planes, so that many small ones cost no more than their sizes.
+  void rename_planes(Complex& result) {
+    const auto rename = [&](PlaneId& plane) {
+      std::uint32_t& row = row_[plane.row()];
+      if (row == kNone) {
+        row = result.planes.append_new(c_.planes, plane.row());
+        rows_in_use_.push_back(plane.row());
+      }
+      plane = PlaneId{row << 1U | (plane.value & 1U)};
+    };
+    for (SVertex& v : out_.svertices) {
+      rename(v.p);
+      rename(v.q);
+    }
+    for (SHalfedge& e : out_.shalfedges) rename(e.plane);
+    for (SLoop& l : out_.sloops) rename(l.plane);
+  }
+
+  const Complex& c_;
+  std::vector<std::uint32_t> box_vertices_;
+  std::vector<std::uint32_t> row_;  // of a plane in the piece at hand
+  std::vector<std::uint32_t> rows_in_use_;
+  Kept kept_;
+  Arrangement drawing_;
+  SphereMapBuffer out_;
+};
+
+// Numbers for volumes, facets, edges and vertices in one row, and which of them belong together.
+class Components {
+ public:
+  explicit Components(const Complex& complex)
+      : c_(complex),
+        facets_(static_cast<std::uint32_t>(c_.volume_count())),
+        edges_(facets_ + static_cast<std::uint32_t>(c_.facet_count())),
+        vertices_(edges_ + static_cast<std::uint32_t>(c_.svertices.size())),
+        sets_(vertices_ + c_.vertex_count()) {
+    for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) join_around(v);
+  }
+
+  // The component of an item, or kNone for an item that is not in the set.
+  std::uint32_t of_volume(std::uint32_t volume) { return of(volume, c_.volumes[volume].mark); }
+  std::uint32_t of_sface(std::uint32_t v, std::uint32_t sface) {
+    return of_volume(c_.sface_volume(c_.vertices[v].sfaces + sface));
+  }
+  std::uint32_t of_arc(std::uint32_t v, std::uint32_t shalfedge) {
+    return of_facet(c_.shalfedge_facet[c_.vertices[v].shalfedges + shalfedge] >> 1U);
+  }
+  std::uint32_t of_circle(std::uint32_t v) { return of_facet(c_.sloop_facet[c_.vertices[v].sloops] >> 1U); }
+  std::uint32_t of_svertex(std::uint32_t v, std::uint32_t svertex) {
+    const std::uint32_t h = c_.vertices[v].svertices + svertex;
+    return of(edges_ + std::min(h, c_.twin[h]), c_.svertices[h].mark);
+  }
+  std::uint32_t of_vertex(std::uint32_t v) { return of(vertices_ + v, c_.vertices[v].mark); }
+
+  void keep(std::uint32_t component, std::uint32_t v, const SphereMapView& map, Kept& out) {
+    out.sfaces.resize(map.sfaces.size());
+    out.arcs.resize(map.shalfedges.size() / 2);
+    out.svertices.resize(map.svertices.size());
+    for (std::uint32_t i = 0; i < map.sfaces.size(); ++i) out.sfaces[i] = of_sface(v, i) == component;
+    for (std::uint32_t i = 0; i < out.arcs.size(); ++i) out.arcs[i] = of_arc(v, 2 * i) == component;
+    for (std::uint32_t i = 0; i < map.svertices.size(); ++i) out.svertices[i] = of_svertex(v, i) == component;
+    out.circle = !map.sloops.empty() && of_circle(v) == component;
+    out.centre = of_vertex(v) == component;
+  }
+
+  // The components around a vertex, each once.
+  void around(std::uint32_t v, std::vector<std::uint32_t>& out) {
+    const SphereMapView map = c_.sphere_map(v);
+    out.clear();
+    const auto add = [&out](std::uint32_t component) {
+      if (component != kNone) out.push_back(component);
+    };
+    for (std::uint32_t i = 0; i < map.sfaces.size(); ++i) add(of_sface(v, i));
+    for (std::uint32_t i = 0; i < map.shalfedges.size(); i += 2) add(of_arc(v, i));
+    for (std::uint32_t i = 0; i < map.svertices.size(); ++i) add(of_svertex(v, i));
+    if (!map.sloops.empty()) add(of_circle(v));
+    add(of_vertex(v));
+    std::sort(out.begin(), out.end());
+    out.erase(std::unique(out.begin(), out.end()), out.end());
+  }
+
+ private:
+  std::uint32_t of(std::uint32_t item, LabelId mark) { return is_selected(mark) ? sets_.find(item) : kNone; }
+  std::uint32_t of_facet(std::uint32_t facet) { return of(facets_ + facet, c_.facets[facet].mark); }
+  void join(std::uint32_t a, std::uint32_t b) {
+    if (a != kNone && b != kNone) sets_.unite(a, b);
+  }
+
+  void join_around(std::uint32_t v) {
+    const SphereMapView map = c_.sphere_map(v);
+    for (std::uint32_t e = 0; e < map.shalfedges.size(); ++e) {
+      join(of_arc(v, e), of_sface(v, map.shalfedges[e].sface));
+      join(of_arc(v, e), of_svertex(v, map.shalfedges[e].source));
+      join(of_sface(v, map.shalfedges[e].sface), of_svertex(v, map.shalfedges[e].source));
+    }
+    for (std::uint32_t s = 0; s < map.svertices.size(); ++s) {
+      if (map.svertices[s].out == kNone) join(of_svertex(v, s), of_sface(v, map.svertices[s].sface));
+      join(of_vertex(v), of_svertex(v, s));
+    }
+    for (const SLoop& loop : map.sloops) join(of_circle(v), of_sface(v, loop.sface));
+    for (std::uint32_t e = 0; e < map.shalfedges.size(); e += 2) join(of_vertex(v), of_arc(v, e));
+    if (!map.sloops.empty()) join(of_vertex(v), of_circle(v));
+    for (std::uint32_t i = 0; i < map.sfaces.size(); ++i) join(of_vertex(v), of_sface(v, i));
+  }
+
+  const Complex& c_;
+  std::uint32_t facets_;
+  std::uint32_t edges_;
+  std::uint32_t vertices_;
+  UnionFind sets_;
+};
+
+// What the set has of a volume and its boundary around a vertex.
+void keep_volume(const Complex& c, std::uint32_t volume, std::uint32_t v, const SphereMapView& map, Kept& out) {
+  out.sfaces.assign(map.sfaces.size(), false);
+  out.arcs.assign(map.shalfedges.size() / 2, false);
+  out.svertices.assign(map.svertices.size(), false);
+  out.circle = out.centre = false;
+  for (std::uint32_t i = 0; i < map.sfaces.size(); ++i) {
+    out.sfaces[i] = c.sface_volume(c.vertices[v].sfaces + i) == volume;
+    out.centre = out.centre || out.sfaces[i];
+  }
+  for (std::uint32_t e = 0; e < map.shalfedges.size(); ++e) {
+    if (!out.sfaces[map.shalfedges[e].sface]) continue;
+    out.arcs[e / 2] = true;
+    out.svertices[map.shalfedges[e].source] = true;
+  }
+  for (std::uint32_t s = 0; s < map.svertices.size(); ++s) {
+    if (map.svertices[s].out == kNone && out.sfaces[map.svertices[s].sface]) out.svertices[s] = true;
+  }
+  for (const SLoop& loop : map.sloops) out.circle = out.circle || out.sfaces[loop.sface];
+}
+
+}  // namespace
+
+std::vector<Polyhedron> split(const Polyhedron& a) {
+  const Complex& c = a.complex();
+  Components components(c);
+  std::vector<std::uint32_t> number;  // of the piece of a component
+  std::vector<std::uint32_t> component_of;
+  std::vector<Piece> pieces;
+  const auto piece = [&](std::uint32_t component) -> Piece& {
+    if (number.size() <= component) number.resize(component + std::size_t{1}, kNone);
+    if (number[component] == kNone) {
+      number[component] = static_cast<std::uint32_t>(pieces.size());
+      pieces.emplace_back();
+      component_of.push_back(component);
+    }
+    return pieces[number[component]];
+  };
+  if (const std::uint32_t outer = components.of_volume(0); outer != kNone) piece(outer).outer = c.volumes[0].mark;
+  std::vector<std::uint32_t> found;
+  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
+    components.around(v, found);
+    for (const std::uint32_t component : found) piece(component).vertices.push_back(v);
+  }
+  std::vector<std::uint32_t> order(pieces.size());
+  for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::sort(order.begin(), order.end(),
+            [&](std::uint32_t i, std::uint32_t j) { return component_of[i] < component_of[j]; });
+  std::vector<Polyhedron> result;
+  PieceMaker maker(c);
+  for (const std::uint32_t i : order) {
+    result.push_back(maker.make(pieces[i], [&](std::uint32_t v, const SphereMapView& map, Kept& out) {
+      components.keep(component_of[i], v, map, out);
+    }));
+  }
+  return result;
+}
+
+std::vector<Polyhedron> split_volumes(const Polyhedron& a) {
+  const Complex& c = a.complex();
+  std::vector<Piece> pieces(c.volume_count());
+  pieces[0].outer = is_selected(c.volumes[0].mark) ? c.volumes[0].mark : LabelId{0};
+  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
+    const std::uint32_t end = c.vertices[v + std::size_t{1}].sfaces;
+    for (std::uint32_t sface = c.vertices[v].sfaces; sface < end; ++sface) {
+      std::vector<std::uint32_t>& vertices = pieces[c.sface_volume(sface)].vertices;
+      if (vertices.empty() || vertices.back() != v) vertices.push_back(v);
+    }
+  }
+  std::vector<Polyhedron> result;
+  PieceMaker maker(c);
+  for (std::uint32_t volume = 0; volume < c.volume_count(); ++volume) {
+    if (!is_selected(c.volumes[volume].mark)) continue;
+    result.push_back(maker.make(pieces[volume], [&](std::uint32_t v, const SphereMapView& map, Kept& out) {
+      keep_volume(c, volume, v, map, out);
+    }));
+  }
+  return result;
+}
+
+}  // namespace nef

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/synthesis/edge_linking.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <unordered_map>
+
+#include "nef/base/error.h"
+
+namespace nef {
+namespace {
+
+// The name of a line: two plane rows, or kLine and the number of an interned line.
+struct LineKey {
+  std::uint32_t first = kNone;
+  std::uint32_t second = kNone;
+  bool operator==(const LineKey&) const = default;
+};
+constexpr std::uint32_t kLine = 0xfffffffeU;
+
+// Interns lines by their Pluecker coordinates: the direction n_p x n_q and the moment
+// d_q n_p - d_p n_q (with its part in R), without common factor and with a positive leading component.
+class LineTable {
+ public:
+  LineTable() : rows_(9) {}
+
+  std::uint32_t number(const PlaneTable& planes, PlaneId p, PlaneId q) {
+    std::array<Integer, 9> v;
+    const auto n = [&](PlaneId plane, std::size_t i) { return planes.coefficient(plane, i); };
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = (i + 1) % 3;
+      const std::size_t k = (i + 2) % 3;
+      subtract_products(v[i], n(p, j), n(q, k), n(p, k), n(q, j));
+      subtract_products(v[3 + i], n(q, 3), n(p, i), n(p, 3), n(q, i));
+      subtract_products(v[6 + i], n(q, 4), n(p, i), n(p, 4), n(q, i));
+    }
+    Integer divisor = 0;
+    for (const Integer& value : v) mpz_gcd(divisor.get_mpz_t(), divisor.get_mpz_t(), value.get_mpz_t());
+    const auto lead = std::find_if(v.begin(), v.end(), [](const Integer& value) { return value != 0; });
+    if (*lead < 0) divisor = -divisor;
+    std::array<mpz_srcptr, 9> row{};
+    for (std::size_t i = 0; i < 9; ++i) {
+      mpz_divexact(v[i].get_mpz_t(), v[i].get_mpz_t(), divisor.get_mpz_t());
+      row[i] = v[i].get_mpz_t();
+    }
+    const std::uint32_t candidate = rows_.push(row);
+    const auto [first, last] = by_hash_.equal_range(rows_.hash(candidate));
+    for (auto at = first; at != last; ++at) {
+      if (!rows_.equal(at->second, rows_, candidate)) continue;
+      rows_.pop();
+      return at->second;
+    }
+    by_hash_.emplace(rows_.hash(candidate), candidate);
+    return candidate;
+  }
+
+ private:
+  static void subtract_products(Integer& out, mpz_srcptr a, mpz_srcptr b, mpz_srcptr c, mpz_srcptr d) {
+    mpz_mul(out.get_mpz_t(), a, b);
+    mpz_submul(out.get_mpz_t(), c, d);
+  }
+
+  IntegerRows rows_;
+  std::unordered_multimap<std::uint64_t, std::uint32_t> by_hash_;
+};
+
+class Linker {
+ public:
+  explicit Linker(Complex& complex) : c_(complex) {}
+
+  void link_all() {
+    keys_.resize(c_.svertices.size());
+    c_.twin.assign(c_.svertices.size(), kNone);
+    for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) name_lines(v, &keys_[c_.vertices[v].svertices]);
+    name_bare_lines();
+    bucket();
+  }
+
+  void link_loose(std::span<const std::uint32_t> vertices) {
+    std::vector<LineKey> keys;
+    for (const std::uint32_t v : vertices) {
+      const std::uint32_t first = c_.vertices[v].svertices;
+      const std::uint32_t count = c_.vertices[v + 1].svertices - first;
+      keys.assign(count, LineKey{});
+      name_lines(v, keys.data());
+      for (std::uint32_t i = 0; i < count; ++i) {
+        if (c_.twin[first + i] != kNone) continue;
+        loose_.push_back(first + i);
+        keys_.push_back(keys[i]);
+      }
+    }
+    name_bare_lines();
+    bucket();
+  }
+
+ private:
+  // The svertex that key i belongs to.
+  [[nodiscard]] std::uint32_t svertex(std::size_t i) const {
+    return loose_.empty() ? static_cast<std::uint32_t>(i) : loose_[i];
+  }
+
+  void name_lines(std::uint32_t vertex, LineKey* keys) const {
+    for (std::uint32_t e = c_.vertices[vertex].shalfedges; e < c_.vertices[vertex + 1].shalfedges; ++e) {
+      const std::uint32_t row = c_.shalfedges[e].plane.row();
+      LineKey& key = keys[c_.shalfedges[e].source];
+      if (row < key.first) {
+        key.second = key.first;
+        key.first = row;
+      } else if (row != key.first && row < key.second) {
+        key.second = row;
+      }
+    }
+  }
+
+  void name_bare_lines() {
+    LineTable lines;  // few: only dangling and isolated edges
+    for (std::size_t i = 0; i < keys_.size(); ++i) {
+      if (keys_[i].second != kNone) continue;
+      const SVertex& v = c_.svertices[svertex(i)];
+      keys_[i] = {kLine, lines.number(c_.planes, v.p, v.q)};
+    }
+  }
+
+  static std::uint64_t hash(const LineKey& key) {
+    std::uint64_t h = (static_cast<std::uint64_t>(key.first) << 32U | key.second) * 0x9e3779b97f4a7c15ULL;
+    return h ^ (h >> 29U);
+  }
+
+  void bucket() {
+    std::size_t capacity = 16;
+    while (capacity < keys_.size() + keys_.size() / 2) capacity *= 2;
+    std::vector<std::uint32_t> slots(capacity, kNone);     // first key of the group in this slot
+    std::vector<std::uint32_t> next(keys_.size(), kNone);  // the others, last come first
+    std::vector<std::uint32_t> crowded;                    // heads of groups with more than two
+    std::vector<std::uint32_t> size(keys_.size(), 0);
+    for (std::uint32_t i = 0; i < keys_.size(); ++i) {
+      std::size_t slot = hash(keys_[i]) & (capacity - 1);
+      while (slots[slot] != kNone && !(keys_[slots[slot]] == keys_[i])) slot = (slot + 1) & (capacity - 1);
+      if (slots[slot] == kNone) slots[slot] = i;
+      const std::uint32_t head = slots[slot];
+      if (++size[head] == 3) crowded.push_back(head);
+      if (head != i) {
+        next[i] = next[head];
+        next[head] = i;
+      }
+    }
+    std::vector<std::uint32_t> group;
+    for (std::uint32_t i = 0; i < keys_.size(); ++i) {
+      if (size[i] == 2) pair(svertex(i), svertex(next[i]));
+      NEF_ASSERT(size[i] != 1);
+    }
+    for (const std::uint32_t head : crowded) {
+      group.clear();
+      for (std::uint32_t i = head; i != kNone; i = next[i]) group.push_back(svertex(i));
+      pair_along_line(group);
+    }
+  }
+
+  void pair(std::uint32_t a, std::uint32_t b) {
+    c_.twin[a] = b;
+    c_.twin[b] = a;
+  }
+
+  // +1 if the svertex points along the line's reference direction.
+  int sense(std::uint32_t s, std::uint32_t reference, const Direction& direction) const {
+    const SVertex& v = c_.svertices[s];
+    const SVertex& r = c_.svertices[reference];
+    if (v.p.row() == r.p.row() && v.q.row() == r.q.row())
+      return ((v.p.value ^ v.q.value ^ r.p.value ^ r.q.value) & 1U) != 0 ? -1 : 1;
+    return sign_of_dot(direction, Direction::cross(c_.planes, v.p, v.q));
+  }
+
+  void pair_along_line(std::vector<std::uint32_t>& group) {
+    const std::uint32_t reference = group.front();
+    const Direction direction = Direction::cross(c_.planes, c_.svertices[reference].p, c_.svertices[reference].q);
+    int axis = 0;
+    for (int i = 1; i < 3; ++i) {
+      if (std::fabs(direction.approximate[static_cast<std::size_t>(i)]) >
+          std::fabs(direction.approximate[static_cast<std::size_t>(axis)])) {
+        axis = i;
+      }
+    }
+    const int rising = direction.approximate[static_cast<std::size_t>(axis)] > 0 ? 1 : -1;
+    struct Entry {
+      std::uint32_t svertex;
+      std::uint32_t vertex;
+      int sense;
+    };
+    std::vector<Entry> entries;
+    for (const std::uint32_t s : group) entries.push_back({s, c_.svertex_owner[s], sense(s, reference, direction)});
+    std::sort(entries.begin(), entries.end(), [&](const Entry& a, const Entry& b) {
+      if (a.vertex == b.vertex) return a.sense < b.sense;  // an edge ends before the next begins
+      return rising * compare_coordinate(c_.points, PointId{a.vertex}, PointId{b.vertex}, axis) < 0;
+    });
+    NEF_ASSERT(entries.size() % 2 == 0);
+    for (std::size_t i = 0; i < entries.size(); i += 2) {
+      NEF_ASSERT(entries[i].sense > 0 && entries[i + 1].sense < 0);
+      pair(entries[i].svertex, entries[i + 1].svertex);
+    }
+  }
+
+  Complex& c_;
+  std::vector<LineKey> keys_;
+  std::vector<std::uint32_t> loose_;  // svertices of the keys; empty: all
+};
+
+}  // namespace
+
+void link_edges(Complex& complex) { Linker(complex).link_all(); }
+
+void link_edges(Complex& complex, KnownLinks& known) {
+  complex.twin = std::move(known.twin);
+  if (!known.loose_vertices.empty()) Linker(complex).link_loose(known.loose_vertices);
+}
+
+}  // namespace nef

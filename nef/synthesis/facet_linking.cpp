@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A cycle is an outer one iff it turns left at its lexicographically smallest vertex, at each of
+// its corners there: the facet then lies within a half-plane. Most planes hold one outer cycle
+// only, which owns all holes of the plane. Otherwise a hole, or a vertex inside a facet, sees its
+// facet straight below its lowest vertex, and the first edge on the way down bounds that facet, too:
+// it belongs where the cycle of that edge belongs, which begins further down in lexicographic order.
+#include "nef/synthesis/facet_linking.h"
+
+#include <algorithm>
+
+#include "nef/base/error.h"
+#include "nef/complex/facet_plane.h"
+#include "nef/complex/plane_sweep.h"
+#include "nef/sphere_map/sphere_geometry.h"
+
+namespace nef {
+namespace {
+
+struct CycleRecord {
+  std::uint32_t row = 0;    // of the plane
+  std::uint32_t first = 0;  // range in the traced corners
+  std::uint32_t count = 0;
+  bool outer = false;
+  std::uint32_t lowest = kNone;  // vertex, lexicographically
+};
+
+class FacetLinker {
+ public:
+  /// `known` may be null.
+  FacetLinker(Complex& complex, const KnownLinks* known) : c_(complex), known_(known) {}
+
+  void run() {
+    trace_cycles();
+    collect_isolated();
+    group_by_plane();
+  }
+
+ private:
+  std::uint32_t next_corner(std::uint32_t corner) const {
+    const std::uint32_t there = c_.twin[c_.corner_halfedge(corner)];
+    const std::uint32_t vertex = c_.svertex_owner[there];
+    const SphereMapView map = c_.sphere_map(vertex);
+    const PlaneId wanted = c_.shalfedges[corner].plane.opposite();
+    const std::uint32_t first = map.svertices[there - c_.vertices[vertex].svertices].out;
+    std::uint32_t e = first;
+    while (map.shalfedges[e].plane != wanted) {
+      e = map.next_around(e);
+      NEF_ASSERT(e != first);
+    }
+    return c_.vertices[vertex].shalfedges + (e ^ 1U);
+  }
+
+  void trace_cycles() {
+    std::vector<bool> done(c_.shalfedges.size(), false);
+    const auto trace_from = [&](std::uint32_t e) {
+      if (c_.shalfedges[e].plane.flipped() || done[e]) return;
+      CycleRecord cycle;
+      cycle.row = c_.shalfedges[e].plane.row();
+      cycle.first = static_cast<std::uint32_t>(traced_.size());
+      for (std::uint32_t corner = e; !done[corner]; corner = next_corner(corner)) {
+        done[corner] = true;
+        traced_.push_back(corner);
+      }
+      cycle.count = static_cast<std::uint32_t>(traced_.size()) - cycle.first;
+      cycles_.push_back(cycle);
+    };
+    if (known_ == nullptr) {
+      traced_.reserve(c_.shalfedges.size() / 2);
+      for (std::uint32_t e = 0; e < c_.shalfedges.size(); ++e) trace_from(e);
+    } else {
+      traced_.reserve(known_->loose_corners.size());
+      for (const std::uint32_t e : known_->loose_corners) trace_from(e);
+    }
+  }
+
+  void collect_isolated() {
+    const auto collect = [this](std::uint32_t v) {
+      if (c_.vertices[v].sloops == c_.vertices[v + 1].sloops) return;
+      isolated_.emplace_back(c_.sloops[c_.vertices[v].sloops].plane.row(), v);
+    };
+    if (known_ == nullptr) {
+      for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) collect(v);
+    } else {
+      for (const std::uint32_t v : known_->loose_isolated) collect(v);
+    }
+  }
+
+  // Counting sort by plane row, so that the order of facets depends on nothing but the input.
+  void group_by_plane() {
+    std::vector<std::uint32_t> start(c_.planes.size() + 1, 0);
+    for (const CycleRecord& cycle : cycles_) ++start[cycle.row + 1];
+    for (std::size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
+    std::vector<std::uint32_t> order(cycles_.size());
+    std::vector<std::uint32_t> at(start.begin(), start.end() - 1);
+    for (std::uint32_t i = 0; i < cycles_.size(); ++i) order[at[cycles_[i].row]++] = i;
+    std::sort(isolated_.begin(), isolated_.end());
+    auto isolated = isolated_.begin();
+    c_.facets.clear();
+    const std::span<const Facet> known = known_ == nullptr ? std::span<const Facet>() : known_->facets;
+    c_.facets.reserve(cycles_.size() + known.size());
+    c_.cycle_begin.assign(1, 0);
+    c_.cycle_begin.reserve(cycles_.size() + 1 + (known_ == nullptr ? 0 : known_->cycle_begin.size()));
+    c_.corners.clear();
+    c_.corners.reserve(traced_.size() + (known_ == nullptr ? 0 : known_->corners.size()));
+    c_.isolated_vertices.clear();
+    c_.shalfedge_facet.assign(c_.shalfedges.size(), kNone);
+    c_.sloop_facet.assign(c_.sloops.size(), kNone);
+    auto kept = known.begin();
+    for (std::uint32_t row = 0; row + 1 < start.size(); ++row) {
+      const auto first = isolated;
+      while (isolated != isolated_.end() && isolated->first == row) ++isolated;
+      const std::span<const std::uint32_t> cycles(order.data() + start[row], start[row + 1] - start[row]);
+      const std::span<const std::pair<std::uint32_t, std::uint32_t>> points(first, isolated);
+      const auto first_kept = kept;
+      while (kept != known.end() && kept->plane.row() == row) ++kept;
+      if (first_kept != kept) {
+        link_plane_with_known(row, cycles, points, {first_kept, kept});
+        continue;
+      }
+      if (!cycles.empty()) link_plane(row, cycles, points);
+      NEF_ASSERT(!cycles.empty() || points.empty());
+    }
+  }
+
+  // Known facets stay as they are where nothing else lies in their plane; otherwise their cycles are linked anew, with
+  // the others, since these may be holes of theirs.
+  void link_plane_with_known(std::uint32_t row, std::span<const std::uint32_t> cycles,
+                             std::span<const std::pair<std::uint32_t, std::uint32_t>> points,
+                             std::span<const Facet> facets) {
+    const bool mixed = std::binary_search(known_->mixed_rows.begin(), known_->mixed_rows.end(), row);
+    if (cycles.empty() && points.empty() && !mixed) {
+      for (const Facet& facet : facets) emit_known(facet);
+      return;
+    }
+    std::vector<std::uint32_t> all(cycles.begin(), cycles.end());
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> inside(points.begin(), points.end());
+    for (const Facet& facet : facets) {
+      for (std::uint32_t i = facet.first_cycle; i < facet.first_cycle + facet.cycle_count; ++i) {
+        CycleRecord cycle;
+        cycle.row = row;
+        cycle.first = static_cast<std::uint32_t>(traced_.size());
+        cycle.count = known_->cycle_begin[i + 1] - known_->cycle_begin[i];
+        const auto corners = known_->corners.begin() + known_->cycle_begin[i];
+        traced_.insert(traced_.end(), corners, corners + cycle.count);
+        all.push_back(static_cast<std::uint32_t>(cycles_.size()));
+        cycles_.push_back(cycle);
+      }
+      for (std::uint32_t i = facet.first_isolated; i < facet.first_isolated + facet.isolated_count; ++i) {
+        inside.emplace_back(row, known_->isolated_vertices[i]);
+      }
+    }
+    std::sort(all.begin(), all.end(), [this](std::uint32_t a, std::uint32_t b) {
+      return traced_[cycles_[a].first] < traced_[cycles_[b].first];
+    });
+    std::sort(inside.begin(), inside.end());
+    link_plane(row, all, inside);
+  }
+
+  void emit_known(const Facet& known) {
+    Facet facet = begin_facet(known.plane.row(), known.cycle_count, known.isolated_count);
+    for (std::uint32_t i = known.first_cycle; i < known.first_cycle + known.cycle_count; ++i) {
+      const std::uint32_t first = known_->cycle_begin[i];
+      add_cycle(std::span(known_->corners).subspan(first, known_->cycle_begin[i + 1] - first));
+    }
+    end_facet(facet, std::span(known_->isolated_vertices).subspan(known.first_isolated, known.isolated_count));
+  }
+
+  void link_plane(std::uint32_t row, std::span<const std::uint32_t> cycles,
+                  std::span<const std::pair<std::uint32_t, std::uint32_t>> points) {
+    if (cycles.size() == 1 && points.empty()) {
+      emit(row, cycles, {});
+      return;
+    }
+    const PlaneAxes axes(c_.planes, PlaneId{row << 1U});
+    std::vector<std::uint32_t> facet_of(cycles.size(), kNone);  // number of the outer cycle, of each cycle
+    std::vector<std::vector<std::uint32_t>> members;            // cycles of each facet, the outer one first
+    for (std::uint32_t i = 0; i < cycles.size(); ++i) {
+      classify(cycles_[cycles[i]], axes);
+      if (!cycles_[cycles[i]].outer) continue;
+      facet_of[i] = static_cast<std::uint32_t>(members.size());
+      members.push_back({cycles[i]});
+    }
+    NEF_ASSERT(!members.empty());
+    std::vector<std::vector<std::uint32_t>> inside(members.size());
+    if (members.size() == 1) {
+      for (std::uint32_t i = 0; i < cycles.size(); ++i) {
+        if (facet_of[i] == kNone) members[0].push_back(cycles[i]);
+      }
+      for (const auto& point : points) inside[0].push_back(point.second);
+    } else if (cycles.size() > members.size() || !points.empty()) {
+      nest(row, cycles, points, facet_of);
+      for (std::uint32_t i = 0; i < cycles.size(); ++i) {
+        if (!cycles_[cycles[i]].outer) members[facet_of[i]].push_back(cycles[i]);
+      }
+      for (std::size_t i = 0; i < points.size(); ++i) inside[facet_of[cycles.size() + i]].push_back(points[i].second);
+    }
+    for (std::size_t k = 0; k < members.size(); ++k) emit(row, members[k], inside[k]);
+  }
+
+  void classify(CycleRecord& cycle, const PlaneAxes& axes) const {
+    const std::span<const std::uint32_t> corners(traced_.data() + cycle.first, cycle.count);
+    for (const std::uint32_t corner : corners) {
+      const std::uint32_t v = c_.shalfedge_owner[corner];
+      if (v == cycle.lowest) continue;
+      if (cycle.lowest == kNone || axes.compare(c_.points, PointId{v}, PointId{cycle.lowest}) < 0) cycle.lowest = v;
+    }
+    cycle.outer = true;
+    for (const std::uint32_t corner : corners) {
+      if (c_.shalfedge_owner[corner] != cycle.lowest) continue;
+      const std::uint32_t ahead = c_.corner_halfedge(corner);
+      const std::uint32_t back = c_.corner_back_halfedge(corner);
+      if (ahead == back ||
+          orientation_on_circle(c_.planes, c_.shalfedges[corner].plane, direction_of(c_.planes, c_.svertices[ahead]),
+                                direction_of(c_.planes, c_.svertices[back])) <= 0) {
+        cycle.outer = false;
+        return;
+      }
+    }
+  }
+
+  // Completes facet_of for the holes, and appends the facets of the points.
+  void nest(std::uint32_t row, std::span<const std::uint32_t> cycles,
+            std::span<const std::pair<std::uint32_t, std::uint32_t>> points,
+            std::vector<std::uint32_t>& facet_of) const {
+    std::vector<std::uint32_t> corners;
+    std::vector<std::uint32_t> cycle_of;  // of each corner, as a position in `cycles`
+    std::vector<std::uint32_t> lowest;    // vertices of holes and points
+    std::vector<std::uint32_t> asking;    // their positions in facet_of
+    for (std::uint32_t i = 0; i < cycles.size(); ++i) {
+      const CycleRecord& cycle = cycles_[cycles[i]];
+      corners.insert(corners.end(), traced_.begin() + cycle.first, traced_.begin() + cycle.first + cycle.count);
+      cycle_of.resize(corners.size(), i);
+      if (cycle.outer) continue;
+      lowest.push_back(cycle.lowest);
+      asking.push_back(i);
+    }
+    for (const auto& point : points) {
+      lowest.push_back(point.second);
+      asking.push_back(static_cast<std::uint32_t>(facet_of.size()));
+      facet_of.push_back(kNone);
+    }
+    for (const CornerBelow& below : corners_below(c_, PlaneId{row << 1U}, corners, lowest)) {
+      NEF_ASSERT(below.corner != kNone);
+      const std::uint32_t facet = facet_of[cycle_of[below.corner]];
+      NEF_ASSERT(facet != kNone);
+      facet_of[asking[below.query]] = facet;
+    }
+  }
+
+  void emit(std::uint32_t row, std::span<const std::uint32_t> cycles, std::span<const std::uint32_t> inside) {
+    Facet facet = begin_facet(row, cycles.size(), inside.size());
+    for (const std::uint32_t i : cycles) add_cycle(std::span(traced_).subspan(cycles_[i].first, cycles_[i].count));
+    end_facet(facet, inside);
+  }
+
+  [[nodiscard]] Facet begin_facet(std::uint32_t row, std::size_t cycles, std::size_t inside) const {
+    Facet facet;
+    facet.plane = PlaneId{row << 1U};
+    facet.first_cycle = static_cast<std::uint32_t>(c_.cycle_begin.size() - 1);
+    facet.cycle_count = static_cast<std::uint32_t>(cycles);
+    facet.first_isolated = static_cast<std::uint32_t>(c_.isolated_vertices.size());
+    facet.isolated_count = static_cast<std::uint32_t>(inside);
+    return facet;
+  }
+
+  void add_cycle(std::span<const std::uint32_t> corners) {
+    const auto halffacet = static_cast<std::uint32_t>(2 * c_.facets.size());
+    for (const std::uint32_t corner : corners) {
+      c_.corners.push_back(corner);
+      c_.shalfedge_facet[corner] = halffacet;
+      c_.shalfedge_facet[corner ^ 1U] = halffacet + 1;
+    }
+    c_.cycle_begin.push_back(static_cast<std::uint32_t>(c_.corners.size()));
+  }
+
+  void end_facet(Facet& facet, std::span<const std::uint32_t> inside) {
+    const auto halffacet = static_cast<std::uint32_t>(2 * c_.facets.size());
+    facet.mark = c_.shalfedges[c_.corners[c_.cycle_begin[facet.first_cycle]]].mark;
+    for (const std::uint32_t v : inside) {
+      c_.isolated_vertices.push_back(v);
+      const std::uint32_t first = c_.vertices[v].sloops;
+      for (std::uint32_t l = first; l < first + 2; ++l) {
+        c_.sloop_facet[l] = halffacet + (c_.sloops[l].plane.flipped() ? 1U : 0U);
+      }
+    }
+    c_.facets.push_back(facet);
+  }
+
+  Complex& c_;
+  const KnownLinks* known_;
+  std::vector<std::uint32_t> traced_;
+  std::vector<CycleRecord> cycles_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> isolated_;  // (plane row, vertex)
+};
+
+}  // namespace
+
+void link_facets(Complex& complex) { FacetLinker(complex, nullptr).run(); }
+
+void link_facets(Complex& complex, const KnownLinks& known) { FacetLinker(complex, &known).run(); }
+
+}  // namespace nef

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/synthesis/synthesis.h"
+
+#include "nef/base/interruption.h"
+#include "nef/synthesis/edge_linking.h"
+#include "nef/synthesis/facet_linking.h"
+#include "nef/synthesis/volume_linking.h"
+
+namespace nef {
+namespace {
+
+void name_owners(Complex& c) {
+  c.svertex_owner.resize(c.svertices.size());
+  c.shalfedge_owner.resize(c.shalfedges.size());
+  c.sface_owner.resize(c.sfaces.size());
+  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
+    const VertexRecord& first = c.vertices[v];
+    const VertexRecord& last = c.vertices[v + 1];
+    for (std::uint32_t i = first.svertices; i < last.svertices; ++i) c.svertex_owner[i] = v;
+    for (std::uint32_t i = first.shalfedges; i < last.shalfedges; ++i) c.shalfedge_owner[i] = v;
+    for (std::uint32_t i = first.sfaces; i < last.sfaces; ++i) c.sface_owner[i] = v;
+  }
+}
+
+LabelId count_labels(const Complex& c, LabelId outer) {
+  LabelId largest = 1;
+  const auto take = [&largest](LabelId mark) {
+    if (mark != kOutside && mark > largest) largest = mark;
+  };
+  take(outer);
+  for (const VertexRecord& v : c.vertices) take(v.mark);
+  for (const SVertex& v : c.svertices) take(v.mark);
+  for (const SHalfedge& e : c.shalfedges) take(e.mark);
+  for (const SLoop& l : c.sloops) take(l.mark);
+  for (const SFace& f : c.sfaces) take(f.mark);
+  return static_cast<LabelId>(largest + 1);
+}
+
+}  // namespace
+
+void synthesize(Complex& complex, LabelId outer) {
+  complex.label_count = count_labels(complex, outer);
+  name_owners(complex);
+  link_edges(complex);
+  check_interruption();
+  link_facets(complex);
+  check_interruption();
+  link_volumes(complex, outer);
+}
+
+void synthesize(Complex& complex, LabelId outer, KnownLinks&& known) {
+  complex.label_count = count_labels(complex, outer);
+  name_owners(complex);
+  link_edges(complex, known);
+  check_interruption();
+  link_facets(complex, known);
+  check_interruption();
+  known = {};
+  link_volumes(complex, outer);
+}
+
+}  // namespace nef

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "nef/synthesis/known_links.h"
+
+namespace nef {
+
+/// Synthesizes edges, facets, shells and volumes from points, sphere maps and planes (thesis
+/// 4.6). The sphere maps must be simplified and complete: every vertex of the complex is there.
+/// `outer` is the mark of the outer volume, needed where there are no vertices at all (otherwise
+/// the sphere maps tell). O(n log n).
+void synthesize(Complex& complex, LabelId outer);
+
+/// The same, item for item, where some links are known.
+void synthesize(Complex& complex, LabelId outer, KnownLinks&& known);
+
+}  // namespace nef

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Take a connected component of the boundary (vertices joined by edges and facets) and its
+// lexicographically smallest vertex v. Nothing of the component lies in direction -x of v, so that
+// direction lies in an sface, whose shell bounds its volume from the inside: whatever a ray from v
+// in direction -x meets first bounds the same volume, and if it meets nothing, the volume is the
+// outer one. All other shells are the outer shells of volumes of their own.
+// No ray is needed where v lies in no other component's bounding box: what encloses v has v in its
+// box. So the parts of an assembly that lie side by side cost nothing.
+#include "nef/synthesis/volume_linking.h"
+
+#include <algorithm>
+
+#include "nef/base/contradiction.h"
+#include "nef/base/error.h"
+#include "nef/base/union_find.h"
+#include "nef/geometry/box_tree.h"
+#include "nef/location/query_structure.h"
+#include "nef/sphere_map/sphere_geometry.h"
+
+namespace nef {
+namespace {
+
+class VolumeLinker {
+ public:
+  explicit VolumeLinker(Complex& complex) : c_(complex) {}
+
+  void run() {
+    join_sfaces();
+    join_components();
+    find_inner_shells();
+    number_volumes();
+  }
+
+ private:
+  void join_sfaces() {
+    sfaces_.reset(c_.sfaces.size());
+    for (const Facet& facet : c_.facets) {
+      const std::span<const std::uint32_t> corners = c_.facet_corners(facet);
+      std::uint32_t above = sfaces_.find(c_.shalfedge_sface(corners[0]));
+      std::uint32_t below = sfaces_.find(c_.shalfedge_sface(corners[0] ^ 1U));
+      for (const std::uint32_t corner : corners.subspan(1)) {
+        above = join(above, c_.shalfedge_sface(corner));
+        below = join(below, c_.shalfedge_sface(corner ^ 1U));
+      }
+      for (std::uint32_t i = 0; i < facet.isolated_count; ++i) {
+        const std::uint32_t v = c_.isolated_vertices[facet.first_isolated + i];
+        const VertexRecord& record = c_.vertices[v];
+        const std::uint32_t up = record.sloops + (c_.sloops[record.sloops].plane.flipped() ? 1U : 0U);
+        sfaces_.unite(above, record.sfaces + c_.sloops[up].sface);
+        sfaces_.unite(below, record.sfaces + c_.sloops[up == record.sloops ? up + 1 : up - 1].sface);
+      }
+    }
+    for (std::uint32_t s = 0; s < c_.svertices.size(); ++s) {
+      if (c_.svertices[s].out != kNone || s > c_.twin[s]) continue;
+      const std::uint32_t t = c_.twin[s];
+      const std::uint32_t v = c_.svertex_owner[s];
+      const std::uint32_t w = c_.svertex_owner[t];
+      sfaces_.unite(c_.vertices[v].sfaces + c_.svertices[s].sface, c_.vertices[w].sfaces + c_.svertices[t].sface);
+    }
+  }
+
+  // Unites a set, given by its representative, with that of an sface; the new representative.
+  std::uint32_t join(std::uint32_t root, std::uint32_t sface) {
+    const std::uint32_t other = sfaces_.find(sface);
+    if (other == root) return root;
+    sfaces_.unite(root, other);
+    return std::min(root, other);
+  }
+
+  // Vertices that a facet or an edge joins see a common shell; so components are shells joined by vertices.
+  void join_components() {
+    parts_.reset(c_.sfaces.size());
+    for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) {
+      const std::uint32_t first = sfaces_.find(c_.vertices[v].sfaces);
+      for (std::uint32_t f = c_.vertices[v].sfaces + 1; f < c_.vertices[v + 1].sfaces; ++f) {
+        parts_.unite(first, sfaces_.find(f));
+      }
+    }
+  }
+
+  // An sface that stands for the component of a vertex.
+  std::uint32_t component(std::uint32_t vertex) { return parts_.find(sfaces_.find(c_.vertices[vertex].sfaces)); }
+
+  void find_inner_shells() {
+    const auto count = static_cast<std::uint32_t>(c_.vertex_count());
+    std::vector<std::uint32_t> lowest(c_.sfaces.size(), kNone);  // vertex, per component
+    std::vector<std::uint32_t> components;
+    for (std::uint32_t v = 0; v < count; ++v) {
+      const std::uint32_t part = component(v);
+      std::uint32_t& low = lowest[part];
+      if (low == kNone) components.push_back(part);
+      if (low == kNone || compare_lexicographic(c_.points, PointId{v}, PointId{low}) < 0) low = v;
+    }
+    const std::vector<bool> enclosed = may_be_enclosed(components, lowest);
+    volumes_.reset(c_.sfaces.size());
+    std::uint32_t unbounded = kNone;  // an sface of the outer volume
+    const Direction minus_x = Direction::exact(-1, 0, 0);
+    for (std::size_t i = 0; i < components.size(); ++i) {
+      const std::uint32_t v = lowest[components[i]];
+      const SphereMapView map = c_.sphere_map(v);
+      const std::uint32_t inner = sfaces_.find(c_.vertices[v].sfaces + sface_toward(minus_x, map));
+      inner_.push_back(inner);
+      std::uint32_t seen = enclosed[i] ? sface_seen_from(v) : kNone;
+      if (seen == kNone) {
+        if (unbounded == kNone) unbounded = inner;
+        seen = unbounded;
+      }
+      volumes_.unite(inner, sfaces_.find(seen));
+    }
+    outer_ = volumes_.find(unbounded);
+  }
+
+  // The sface of the lowest vertex of a component in direction -x. Where three facets meet there, the map is a
+  // triangle, which lies in the half-sphere of the directions to higher vertices; -x lies outside of it.
+  std::uint32_t sface_toward(const Direction& minus_x, const SphereMapView& map) const {
+    if (map.svertices.size() == 3 && map.shalfedges.size() == 6 && map.sfaces.size() == 2) {
+      const auto direction = [&](std::uint32_t shalfedge) {
+        return direction_of(c_.planes, map.svertices[map.shalfedges[shalfedge].source]);
+      };
+      const std::uint32_t second = map.shalfedges[0].next;
+      const int turn = sign_of_determinant(direction(0), direction(second), direction(map.shalfedges[second].next));
+      if (turn != 0) return map.shalfedges[turn > 0 ? 1 : 0].sface;
+    }
+    const SphereLocation where = locate(c_.planes, map, minus_x);
+    NEF_ASSERT(where.kind == SphereLocation::Kind::kSFace);
+    return where.index;
+  }
+
+  // Which components have their lowest vertex in the box of another one.
+  std::vector<bool> may_be_enclosed(const std::vector<std::uint32_t>& components,
+                                    const std::vector<std::uint32_t>& lowest) {
+    std::vector<bool> result(components.size(), false);
+    if (components.size() < 2) return result;
+    std::vector<std::uint32_t> number(c_.sfaces.size(), kNone);
+    for (std::uint32_t i = 0; i < components.size(); ++i) number[components[i]] = i;
+    std::vector<Box> boxes(components.size());
+    for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) {
+      boxes[number[component(v)]].add_rounded(c_.points.approximate(PointId{v}));
+    }
+    const BoxTree tree(boxes);
+    for (std::uint32_t i = 0; i < components.size(); ++i) {
+      Box point;
+      point.add_rounded(c_.points.approximate(PointId{lowest[components[i]]}));
+      tree.for_each_overlap(point, [&](std::uint32_t other) {
+        if (other != i) result[i] = true;
+      });
+    }
+    return result;
+  }
+
+  // An sface of the volume that the ray from v in direction -x runs into, seen at its first hit.
+  std::uint32_t sface_seen_from(std::uint32_t v) {
+    if (!queries_) queries_ = std::make_unique<QueryStructure>(c_);
+    const std::optional<ComplexHit> hit = queries_->first_hit_minus_x(c_, v);
+    if (!hit) return kNone;
+    if (hit->kind != ComplexHit::Kind::kFacet) return hit->sface;
+    const std::uint32_t corner = c_.facet_corners(c_.facets[hit->index >> 1U])[0];
+    return c_.shalfedge_sface(corner ^ (hit->index & 1U));
+  }
+
+  void number_volumes() {
+    const auto count = static_cast<std::uint32_t>(c_.sfaces.size());
+    std::vector<std::uint32_t> shell_of(count, kNone);
+    std::vector<std::uint32_t> roots;
+    for (std::uint32_t f = 0; f < count; ++f) {
+      if (sfaces_.find(f) == f) roots.push_back(f);
+    }
+    std::vector<std::uint32_t> volume_number(count, kNone);
+    std::uint32_t volume_count = 0;
+    volume_number[outer_] = volume_count++;
+    for (const std::uint32_t root : roots) {
+      std::uint32_t& number = volume_number[volumes_.find(root)];
+      if (number == kNone) number = volume_count++;
+    }
+    std::vector<bool> is_inner(count, false);
+    for (const std::uint32_t root : inner_) is_inner[root] = true;
+    std::stable_sort(roots.begin(), roots.end(), [&](std::uint32_t a, std::uint32_t b) {
+      const std::uint32_t va = volume_number[volumes_.find(a)];
+      const std::uint32_t vb = volume_number[volumes_.find(b)];
+      return va != vb ? va < vb : is_inner[a] < is_inner[b];
+    });
+    c_.volumes.assign(volume_count, {});
+    c_.shells.clear();
+    for (const std::uint32_t root : roots) {
+      Volume& volume = c_.volumes[volume_number[volumes_.find(root)]];
+      if (volume.shell_count++ == 0) {
+        volume.first_shell = static_cast<std::uint32_t>(c_.shells.size());
+        volume.mark = c_.sfaces[root].mark;
+      }
+      if (volume.mark != c_.sfaces[root].mark) throw ContradictingMarks("a volume");
+      shell_of[root] = static_cast<std::uint32_t>(c_.shells.size());
+      c_.shells.push_back({volume_number[volumes_.find(root)], 0, 0});
+    }
+    fill_shells(shell_of);
+  }
+
+  void fill_shells(const std::vector<std::uint32_t>& shell_of) {
+    const auto count = static_cast<std::uint32_t>(c_.sfaces.size());
+    c_.sface_shell.resize(count);
+    for (std::uint32_t f = 0; f < count; ++f) {
+      c_.sface_shell[f] = shell_of[sfaces_.find(f)];
+      ++c_.shells[c_.sface_shell[f]].sface_count;
+    }
+    std::uint32_t first = 0;
+    for (Shell& shell : c_.shells) {
+      shell.first_sface = first;
+      first += shell.sface_count;
+      shell.sface_count = 0;
+    }
+    c_.shell_sfaces.resize(count);
+    for (std::uint32_t f = 0; f < count; ++f) {
+      Shell& shell = c_.shells[c_.sface_shell[f]];
+      c_.shell_sfaces[shell.first_sface + shell.sface_count++] = f;
+    }
+    for (Facet& facet : c_.facets) {
+      const std::uint32_t corner = c_.facet_corners(facet)[0];
+      facet.volume_above = c_.sface_volume(c_.shalfedge_sface(corner));
+      facet.volume_below = c_.sface_volume(c_.shalfedge_sface(corner ^ 1U));
+    }
+  }
+
+  Complex& c_;
+  UnionFind sfaces_;
+  UnionFind parts_;    // over representatives of sfaces_: components of the boundary
+  UnionFind volumes_;  // over representatives of sfaces_
+  std::vector<std::uint32_t> inner_;
+  std::uint32_t outer_ = 0;
+  std::unique_ptr<QueryStructure> queries_;
+};
+
+}  // namespace
+
+void link_volumes(Complex& complex, LabelId outer) {
+  if (complex.vertex_count() == 0) {
+    complex.volumes.assign(1, Volume{outer, 0, 0});
+    complex.shells.clear();
+    return;
+  }
+  VolumeLinker(complex).run();
+}
+
+}  // namespace nef

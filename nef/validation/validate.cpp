@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The validator: vertices and edges here, sphere maps, facets and volumes in the files beside.
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+#include "nef/polyhedron.h"
+#include "nef/sphere_map/sphere_geometry.h"
+#include "nef/validation/validate.h"
+
+namespace nef {
+namespace {
+
+using detail::require;
+
+void check_array_sizes(const Complex& c) {
+  require(!c.vertices.empty(), "vertex records end with a sentinel", {});
+  require(c.points.size() == c.vertex_count(), "one point for each vertex",
+          {{"points", c.points.size()}, {"vertices", c.vertex_count()}});
+  const VertexRecord& last = c.vertices.back();
+  require(last.svertices == c.svertices.size() && last.shalfedges == c.shalfedges.size() &&
+              last.sloops == c.sloops.size() && last.sfaces == c.sfaces.size() && last.entries == c.entries.size(),
+          "the sentinel ends all sphere items", {});
+  require(c.svertex_owner.size() == c.svertices.size() && c.twin.size() == c.svertices.size() &&
+              c.shalfedge_owner.size() == c.shalfedges.size() && c.shalfedge_facet.size() == c.shalfedges.size() &&
+              c.sloop_facet.size() == c.sloops.size() && c.sface_owner.size() == c.sfaces.size() &&
+              c.sface_shell.size() == c.sfaces.size(),
+          "columns of synthesis are parallel to the sphere items", {});
+  const VertexRecord& first = c.vertices.front();
+  require(first.svertices + first.shalfedges + first.sloops + first.sfaces + first.entries == 0,
+          "the first vertex begins at zero", {});
+  for (std::size_t v = 0; v < c.vertex_count(); ++v) {
+    const VertexRecord& a = c.vertices[v];
+    const VertexRecord& b = c.vertices[v + 1];
+    require(a.svertices <= b.svertices && a.shalfedges <= b.shalfedges && a.sloops <= b.sloops &&
+                a.sfaces <= b.sfaces && a.entries <= b.entries,
+            "ranges of sphere items are in order", {{"vertex", v}});
+  }
+}
+
+void check_owners(const Complex& c) {
+  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
+    const VertexRecord& a = c.vertices[v];
+    const VertexRecord& b = c.vertices[v + 1];
+    const auto owned = [&](const std::vector<std::uint32_t>& owner, std::uint32_t first, std::uint32_t last) {
+      return std::all_of(owner.begin() + first, owner.begin() + last, [v](std::uint32_t o) { return o == v; });
+    };
+    require(owned(c.svertex_owner, a.svertices, b.svertices), "svertices know their vertex", {{"vertex", v}});
+    require(owned(c.shalfedge_owner, a.shalfedges, b.shalfedges), "shalfedges know their vertex", {{"vertex", v}});
+    require(owned(c.sface_owner, a.sfaces, b.sfaces), "sfaces know their vertex", {{"vertex", v}});
+  }
+}
+
+void check_planes_meet_point(const Complex& c, std::uint32_t v, const SphereMapView& map) {
+  const auto on = [&](PlaneId plane) { return side_of_plane(c.planes, plane, c.points, PointId{v}) == 0; };
+  for (std::size_t i = 0; i < map.svertices.size(); ++i) {
+    require(on(map.svertices[i].p) && on(map.svertices[i].q), "planes of an svertex pass through its vertex",
+            {{"vertex", v}, {"svertex", i}});
+  }
+  for (std::size_t i = 0; i < map.shalfedges.size(); ++i) {
+    require(on(map.shalfedges[i].plane), "planes of facets pass through their vertices",
+            {{"vertex", v}, {"shalfedge", i}});
+  }
+  for (std::size_t i = 0; i < map.sloops.size(); ++i) {
+    require(on(map.sloops[i].plane), "the plane of a sloop passes through its vertex", {{"vertex", v}, {"sloop", i}});
+  }
+}
+
+// A vertex is redundant if space looks the same from a point beside it on its lowest item: inside
+// a volume, a facet, or an edge.
+void check_vertex_needed(const Complex& c, std::uint32_t v, const SphereMapView& map) {
+  const LabelId mark = map.mark;
+  if (map.svertices.empty()) {
+    const LabelId around = map.sloops.empty() ? map.sfaces[0].mark : map.sloops[0].mark;
+    require(around != mark, map.sloops.empty() ? "no redundant vertex in a volume" : "no redundant vertex in a facet",
+            {{"vertex", v}});
+    return;
+  }
+  if (map.svertices.size() != 2 || !map.sloops.empty()) return;
+  if (map.svertices[0].mark != mark || map.svertices[1].mark != mark) return;
+  for (std::uint32_t e = 0; e < map.shalfedges.size(); ++e) {
+    if (map.shalfedges[e].source == map.target(e)) return;
+  }
+  const bool opposite =
+      same_direction(direction_of(c.planes, map.svertices[0]), direction_of(c.planes, map.svertices[1]).negated());
+  require(!opposite, "no redundant vertex in an edge", {{"vertex", v}});
+}
+
+void check_sphere_maps(const Complex& c) {
+  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
+    const SphereMapView map = c.sphere_map(v);
+    const std::string broken = validate(c.planes, map);
+    require(broken.empty(), broken.c_str(), {{"vertex", v}});
+    check_planes_meet_point(c, v, map);
+  }
+}
+
+void check_vertices(const Complex& c) {
+  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) check_vertex_needed(c, v, c.sphere_map(v));
+  std::vector<std::uint32_t> order(c.vertex_count());
+  std::iota(order.begin(), order.end(), 0U);
+  std::sort(order.begin(), order.end(), [&c](std::uint32_t a, std::uint32_t b) {
+    return compare_lexicographic(c.points, PointId{a}, PointId{b}) < 0;
+  });
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    require(compare_lexicographic(c.points, PointId{order[i - 1]}, PointId{order[i]}) < 0, "vertices are distinct",
+            {{"vertex", order[i - 1]}, {"vertex", order[i]}});
+  }
+}
+
+// Sign of the coordinate of the direction along an axis.
+int component_sign(const Direction& direction, std::size_t axis) { return sgn(direction.integers()[axis]); }
+
+void check_edges(const Complex& c) {
+  for (std::uint32_t h = 0; h < c.svertices.size(); ++h) {
+    const std::uint32_t t = c.twin[h];
+    require(t < c.svertices.size() && t != h && c.twin[t] == h, "twins of halfedges are mutual", {{"halfedge", h}});
+    require(c.svertices[h].mark == c.svertices[t].mark, "both ends of an edge have one mark", {{"halfedge", h}});
+    const PointId from{c.svertex_owner[h]};
+    const PointId to{c.svertex_owner[t]};
+    const Direction along = direction_of(c.planes, c.svertices[h]);
+    require(same_direction(along, direction_of(c.planes, c.svertices[t]).negated()),
+            "twin halfedges have opposite directions", {{"halfedge", h}});
+    require(side_of_plane(c.planes, c.svertices[h].p, c.points, to) == 0 &&
+                side_of_plane(c.planes, c.svertices[h].q, c.points, to) == 0,
+            "both ends of an edge lie on its line", {{"halfedge", h}});
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      require(compare_coordinate(c.points, to, from, static_cast<int>(axis)) == component_sign(along, axis),
+              "an edge leads from its source to its target", {{"halfedge", h}});
+    }
+  }
+}
+
+// Tables of label functions have label_count entries, so a mark beyond them would be read from somewhere else.
+void check_marks(const Complex& c) {
+  require(c.label_count >= 2, "there are at least two labels", {});
+  const auto known = [&c](LabelId mark) { return mark < c.label_count || mark == kOutside; };
+  const char* const name = "marks are below the number of labels";
+  for (std::size_t v = 0; v < c.vertex_count(); ++v) require(known(c.vertices[v].mark), name, {{"vertex", v}});
+  for (std::size_t h = 0; h < c.svertices.size(); ++h) require(known(c.svertices[h].mark), name, {{"halfedge", h}});
+  for (std::size_t e = 0; e < c.shalfedges.size(); ++e) require(known(c.shalfedges[e].mark), name, {{"shalfedge", e}});
+  for (std::size_t l = 0; l < c.sloops.size(); ++l) require(known(c.sloops[l].mark), name, {{"sloop", l}});
+  for (std::size_t s = 0; s < c.sfaces.size(); ++s) require(known(c.sfaces[s].mark), name, {{"sface", s}});
+  for (std::size_t f = 0; f < c.facets.size(); ++f) require(known(c.facets[f].mark), name, {{"facet", f}});
+  for (std::size_t v = 0; v < c.volumes.size(); ++v) require(known(c.volumes[v].mark), name, {{"volume", v}});
+}
+
+// Only a box has points and planes at infinity, and only beyond it is the mark kOutside.
+void check_outside(const Complex& c) {
+  require(!c.volumes.empty(), "there is an outer volume", {});
+  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
+    require(c.has_box() || c.points.finite(PointId{v}), "infimaximal vertices need a box", {{"vertex", v}});
+    require(c.vertices[v].mark != kOutside, "only the outer volume is outside", {{"vertex", v}});
+  }
+  for (std::size_t h = 0; h < c.svertices.size(); ++h) {
+    require(c.svertices[h].mark != kOutside, "only the outer volume is outside", {{"halfedge", h}});
+  }
+  for (std::size_t i = 1; i < c.volumes.size(); ++i) {
+    require(c.volumes[i].mark != kOutside, "only the outer volume is outside", {{"volume", i}});
+  }
+  for (std::size_t f = 0; f < c.facets.size(); ++f) {
+    require(c.facets[f].mark != kOutside, "only the outer volume is outside", {{"facet", f}});
+  }
+}
+
+std::string first_broken(const Complex& complex, bool sphere_maps) {
+  try {
+    check_array_sizes(complex);
+    check_owners(complex);
+    check_marks(complex);
+    if (sphere_maps) check_sphere_maps(complex);
+    check_vertices(complex);
+    check_edges(complex);
+    check_outside(complex);
+    detail::check_facets(complex);
+    detail::check_volumes(complex);
+    detail::check_box(complex);
+  } catch (const detail::BrokenInvariant& broken) {
+    return broken.what;
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string validate(const Complex& complex) { return first_broken(complex, true); }
+
+std::string detail::validate_links(const Complex& complex) { return first_broken(complex, false); }
+
+}  // namespace nef

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The invariants of shells and volumes: shells are the connected components of the boundaries,
+// volumes own them by geometry. The owner of an inner shell is found again by an exact ray of a
+// direction that meets no edge, against all facets whose boxes it may meet: slow, and independent of the synthesis.
+#include <optional>
+#include <vector>
+
+#include "nef/base/union_find.h"
+#include "nef/complex/concrete_points.h"
+#include "nef/geometry/box_tree.h"
+#include "nef/geometry/ray_filter.h"
+#include "nef/sphere_map/sphere_geometry.h"
+#include "nef/validation/validate.h"
+
+namespace nef::detail {
+namespace {
+
+void check_partition(const Complex& c) {
+  require(c.shell_sfaces.size() == c.sfaces.size(), "shells partition the sfaces", {});
+  std::vector<bool> met(c.sfaces.size(), false);
+  std::size_t used = 0;
+  for (std::uint32_t s = 0; s < c.shells.size(); ++s) {
+    const Shell& shell = c.shells[s];
+    require(shell.first_sface == used && shell.sface_count > 0 && shell.sface_count <= c.sfaces.size() - used,
+            "shells have sfaces, one after the other", {{"shell", s}});
+    used += shell.sface_count;
+    for (std::uint32_t k = 0; k < shell.sface_count; ++k) {
+      const std::uint32_t sface = c.shell_sfaces[shell.first_sface + k];
+      require(sface < c.sfaces.size() && !met[sface] && c.sface_shell[sface] == s, "sfaces know their shell",
+              {{"shell", s}, {"sface", sface}});
+      met[sface] = true;
+      require(c.sfaces[sface].mark == c.volumes[shell.volume].mark, "sfaces have the mark of their volume",
+              {{"sface", sface}, {"volume", shell.volume}});
+    }
+  }
+  require(used == c.sfaces.size(), "shells partition the sfaces", {});
+  std::size_t shells = 0;
+  for (std::uint32_t i = 0; i < c.volumes.size(); ++i) {
+    const Volume& volume = c.volumes[i];
+    require(volume.first_shell == shells || volume.shell_count == 0, "shells of volumes follow each other",
+            {{"volume", i}});
+    require(i == 0 || volume.shell_count > 0, "a volume has a boundary", {{"volume", i}});
+    for (std::uint32_t k = 0; k < volume.shell_count; ++k) {
+      require(volume.first_shell + k < c.shells.size() && c.shells[volume.first_shell + k].volume == i,
+              "shells know their volume", {{"volume", i}, {"shell", volume.first_shell + k}});
+    }
+    shells += volume.shell_count;
+  }
+  require(shells == c.shells.size(), "every shell belongs to a volume", {});
+}
+
+// Components of sfaces by way of edges without facets and of halffacets.
+void check_connection(const Complex& c) {
+  UnionFind sfaces(c.sfaces.size());
+  std::vector<std::uint32_t> of_halffacet(2 * c.facets.size(), kNone);
+  const auto meet = [&](std::uint32_t halffacet, std::uint32_t sface) {
+    if (of_halffacet[halffacet] == kNone) {
+      of_halffacet[halffacet] = sface;
+    } else {
+      sfaces.unite(of_halffacet[halffacet], sface);
+    }
+  };
+  for (std::uint32_t e = 0; e < c.shalfedges.size(); ++e) meet(c.shalfedge_facet[e], c.shalfedge_sface(e));
+  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
+    for (std::uint32_t i = c.vertices[v].sloops; i < c.vertices[v + 1].sloops; ++i) {
+      meet(c.sloop_facet[i], c.vertices[v].sfaces + c.sloops[i].sface);
+    }
+  }
+  for (std::uint32_t h = 0; h < c.svertices.size(); ++h) {
+    const std::uint32_t t = c.twin[h];
+    require((c.svertices[h].out == kNone) == (c.svertices[t].out == kNone),
+            "both ends of an edge have facets, or neither", {{"halfedge", h}});
+    if (c.svertices[h].out != kNone) continue;
+    sfaces.unite(c.vertices[c.svertex_owner[h]].sfaces + c.svertices[h].sface,
+                 c.vertices[c.svertex_owner[t]].sfaces + c.svertices[t].sface);
+  }
+  std::vector<std::uint32_t> shell_of(c.sfaces.size(), kNone);
+  std::vector<std::uint32_t> root_of(c.shells.size(), kNone);
+  for (std::uint32_t s = 0; s < c.sfaces.size(); ++s) {
+    const std::uint32_t root = sfaces.find(s);
+    const std::uint32_t shell = c.sface_shell[s];
+    if (shell_of[root] == kNone) shell_of[root] = shell;
+    if (root_of[shell] == kNone) root_of[shell] = root;
+    require(shell_of[root] == shell, "sfaces that are connected are in one shell", {{"sface", root}, {"sface", s}});
+    require(root_of[shell] == root, "a shell is connected", {{"shell", shell}, {"sface", s}});
+  }
+}
+
+std::uint32_t lowest_vertex(const Complex& c, const Shell& shell) {
+  std::uint32_t lowest = kNone;
+  for (std::uint32_t k = 0; k < shell.sface_count; ++k) {
+    const std::uint32_t v = c.sface_owner[c.shell_sfaces[shell.first_sface + k]];
+    if (lowest == kNone || compare_lexicographic(c.points, PointId{v}, PointId{lowest}) < 0) lowest = v;
+  }
+  return lowest;
+}
+
+// Seen from its lowest vertex, an inner shell has the volume on the low side, an outer one not.
+bool is_outer(const Complex& c, std::uint32_t s) {
+  const std::uint32_t v = lowest_vertex(c, c.shells[s]);
+  const SphereLocation low = locate(c.planes, c.sphere_map(v), Direction::exact(-1, 0, 0));
+  return low.kind != SphereLocation::Kind::kSFace || c.sface_shell[c.vertices[v].sfaces + low.index] != s;
+}
+
+void check_outer_shells(const Complex& c) {
+  for (std::uint32_t i = 0; i < c.volumes.size(); ++i) {
+    for (std::uint32_t k = 0; k < c.volumes[i].shell_count; ++k) {
+      const std::uint32_t s = c.volumes[i].first_shell + k;
+      require(is_outer(c, s) == (i > 0 && k == 0), "the outer shell of a volume comes first, and volume 0 has none",
+              {{"volume", i}, {"shell", s}});
+    }
+  }
+}
+
+using Vector = std::array<Integer, 3>;
+
+Vector scaled_sum(const Integer& factor, const Vector& a, const Vector& b) {
+  return {Integer(factor * a[0] + b[0]), Integer(factor * a[1] + b[1]), Integer(factor * a[2] + b[2])};
+}
+
+// A vector on the boundary of an sface of the map, and one that leads from there into the sface.
+struct Inward {
+  Vector on;
+  Vector inward;
+};
+Inward inward_of(const PlaneTable& planes, const SphereMapView& map, const SFace& sface) {
+  if (sface.entry_count == 0) return {Vector{1, 0, 0}, Vector{0, 1, 0}};
+  const SFaceEntry& entry = map.entries[sface.entries];
+  if (entry.kind == SFaceEntry::Kind::kIsolatedVertex) {
+    return {direction_of(planes, map.svertices[entry.index]).integers(), Vector{1, 3, 7}};
+  }
+  const bool loop = entry.kind == SFaceEntry::Kind::kLoop;
+  const Direction n =
+      Direction::normal(planes, loop ? map.sloops[entry.index].plane : map.shalfedges[entry.index].plane);
+  if (loop) {
+    const Vector& v = n.integers();
+    const bool polar = v[0] == 0 && v[1] == 0;
+    return {polar ? Vector{1, 0, 0} : Vector{Integer(-v[1]), v[0], 0}, v};
+  }
+  const Direction s = direction_of(planes, map.svertices[map.shalfedges[entry.index].source]);
+  const Direction t = direction_of(planes, map.svertices[map.target(entry.index)]);
+  // An arc of at least a half-turn holds the direction a quarter-turn after its source.
+  const bool short_arc = sign_of_determinant(n, s, t) > 0;
+  return {short_arc ? scaled_sum(1, s.integers(), t.integers()) : Direction::cross(n, s).integers(), n.integers()};
+}
+
+// The boxes of all facets, and the exact points that rays are shot at.
+struct Targets {
+  std::vector<Rational3> points;
+  BoxTree facets;
+};
+Targets targets_of(const Complex& c) {
+  std::vector<Box> boxes(c.facets.size());
+  for (std::size_t f = 0; f < c.facets.size(); ++f) {
+    for (const std::uint32_t corner : c.facet_corners(c.facets[f])) {
+      boxes[f].add_rounded(c.points.approximate(PointId{c.shalfedge_owner[corner]}));
+    }
+  }
+  return {concrete_points(c), BoxTree(boxes)};
+}
+
+// The nearest facet that a ray meets; fails if the ray comes upon a boundary.
+struct FirstFacet {
+  bool degenerate = false;
+  std::uint32_t volume = 0;  // on the near side; the outer volume if nothing is met
+};
+FirstFacet shoot(const Complex& c, const Targets& targets, std::uint32_t origin, const Vector& along) {
+  const std::vector<Rational3>& points = targets.points;
+  const Rational3& from = points[origin];
+  Box origin_box;
+  origin_box.add_rounded(c.points.approximate(PointId{origin}));
+  const RayFilter filter(origin_box, Direction::exact(along[0], along[1], along[2]));
+  FirstFacet result;
+  std::optional<Rational> nearest;
+  const auto visit = [&](std::uint32_t f) {
+    const Facet& facet = c.facets[f];
+    const Rational3& anchor = points[c.shalfedge_owner[c.facet_corners(facet)[0]]];
+    Rational numerator = 0;
+    Rational denominator = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Integer n = c.planes.oriented_coefficient(facet.plane, i);
+      numerator += n * (anchor[i] - from[i]);
+      denominator += n * along[i];
+    }
+    if (denominator == 0) return;
+    const Rational t = numerator / denominator;
+    if (t <= 0 || (nearest && t >= *nearest)) return;
+    const Rational3 hit{from[0] + t * along[0], from[1] + t * along[1], from[2] + t * along[2]};
+    const Projection projection = projection_of(c.planes, facet.plane);
+    int number = 0;
+    for (std::uint32_t k = 0; k < facet.cycle_count; ++k) {
+      const Winding winding = winding_number(cycle_points(c, points, facet.first_cycle + k), hit, projection.axis);
+      result.degenerate = result.degenerate || winding.on_boundary;
+      number += winding.number;
+    }
+    if (number == 0) return;
+    nearest = t;
+    result.volume = denominator < 0 ? facet.volume_above : facet.volume_below;
+  };
+  targets.facets.for_each_if([&](const Box& box) { return !result.degenerate && filter.may_meet(box); }, visit);
+  return result;
+}
+
+// The volume that holds the surroundings of a shell.
+std::uint32_t volume_around(const Complex& c, const Targets& targets, std::uint32_t s) {
+  const std::uint32_t sface = c.shell_sfaces[c.shells[s].first_sface];
+  const std::uint32_t v = c.sface_owner[sface];
+  const std::uint32_t local = sface - c.vertices[v].sfaces;
+  const SphereMapView map = c.sphere_map(v);
+  const Inward inward = inward_of(c.planes, map, map.sfaces[local]);
+  for (unsigned attempt = 1; attempt < 256; ++attempt) {
+    // Ever closer to the boundary of the sface, and ever another way; sfaces may be as thin as coordinates are long.
+    const Vector bent = scaled_sum(64 * attempt, inward.inward, Vector{attempt, 3 * attempt * attempt, 7});
+    const Vector along = scaled_sum(Integer(1) << (4 * attempt + attempt * attempt / 4), inward.on, bent);
+    const SphereLocation place = locate(c.planes, map, Direction::exact(along[0], along[1], along[2]));
+    if (place.kind != SphereLocation::Kind::kSFace || place.index != local) continue;
+    const FirstFacet first = shoot(c, targets, v, along);
+    if (!first.degenerate) return first.volume;
+  }
+  throw BrokenInvariant{"no direction leads into an sface, sface " + std::to_string(sface)};
+}
+
+void check_nesting(const Complex& c) {
+  const Targets targets = targets_of(c);
+  for (std::uint32_t i = 0; i < c.volumes.size(); ++i) {
+    for (std::uint32_t k = i == 0 ? 0 : 1; k < c.volumes[i].shell_count; ++k) {
+      const std::uint32_t s = c.volumes[i].first_shell + k;
+      require(volume_around(c, targets, s) == i, "inner shells lie in their volume", {{"volume", i}, {"shell", s}});
+    }
+  }
+}
+
+}  // namespace
+
+void check_volumes(const Complex& complex) {
+  check_partition(complex);
+  check_connection(complex);
+  check_outer_shells(complex);
+  check_nesting(complex);
+}
+
+}  // namespace nef::detail

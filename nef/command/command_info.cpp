@@ -2,27 +2,44 @@
 //
 // nef info | convert | equal
 #include "nef/command/commands.h"
+#include "nef/program/set_info.h"
 
 namespace nef {
 namespace {
 
+// What is null says nothing to people; what is exact stands beside its double where it is short.
 void print_info(Session& session, const Json& info) {
+  const auto text = [](const Json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); };
   for (const auto& [key, value] : info.items()) {
-    session.say(key + ": " + (value.is_string() ? value.get<std::string>() : value.dump()));
+    if (value.is_null() || key == "volume_double" || key == "volume_digits") continue;
+    session.say(key + ": " + text(value));
   }
+}
+
+// The volume in one line: exact if it is short or wanted, a double with the number of its digits otherwise.
+std::string volume_text(const Json& info) {
+  const Json& approximate = info["volume_double"];
+  if (info["volume_digits"].is_null()) return "infinite";
+  if (info["volume"].is_null()) {
+    return approximate.dump() + " (exactly a fraction of " + info["volume_digits"].dump() + " digits, see --exact)";
+  }
+  const std::string exact = info["volume"].get<std::string>();
+  return exact.find('/') == std::string::npos ? exact : exact + " (" + approximate.dump() + ")";
 }
 
 void add_info(CLI::App& app, Session& session) {
   CLI::App* command = add_subcommand(app, session, "info", "Counts, properties and exact measures of a set");
   command->add_option("input", session.input, "the set, as a file")->required();
   add_input_flags(command, session);
+  command->add_flag("--exact", session.exact, "print exact numbers however long they are");
+  command->footer(
+      "Centroid, inertia tensor (about the centroid, density 1), principal moments and their axes are those of the\n"
+      "solid parts. genus: of each shell that is a closed manifold surface.");
   command->callback([&session] {
-    Json info = info_json(session.load(session.input));
-    if (session.json) {
-      session.print(std::move(info));
-    } else {
-      print_info(session, info);
-    }
+    Json info = set_info(session.load(session.input), {.exact = session.exact, .moments = true});
+    if (session.json) return session.print(std::move(info));
+    info["volume"] = volume_text(info);
+    print_info(session, info);
   });
 }
 

@@ -10,7 +10,7 @@
 #include "nef/program/set_info.h"
 
 namespace nef {
-Json info_json(const Polyhedron& set) { return set_info(set, true); }
+Json info_json(const Polyhedron& set) { return set_info(set); }
 
 std::string summary(const Polyhedron& set) {
   if (set.is_empty()) return "the empty set";

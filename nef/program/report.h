@@ -10,8 +10,8 @@
 
 namespace nef {
 
-/// Everything that `nef info` tells about a set: counts, properties, exact measures. Numbers that
-/// are infinite or undefined are null.
+/// What reports tell about a set (see set_info): counts, properties, measures without moments. Numbers that are infinite,
+/// undefined or longer than a line are null.
 Json info_json(const Polyhedron& set);
 
 /// "8 vertices, 12 edges, 6 facets, 2 volumes, 2 shells"

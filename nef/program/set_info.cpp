@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "nef/program/set_info.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
+
+#include "nef/query/measure.h"
+#include "nef/query/moments.h"
 
 namespace nef {
 
@@ -11,19 +16,58 @@ namespace {
 
 Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-Json corner_json(const Rational3& point) {
+Json doubles_json(const Rational3& point) {
   Json result = Json::array();
   for (const Rational& x : point) result.push_back(number_or_null(nearest_double(x)));
   return result;
 }
 
-Json exact_corner_json(const Rational3& point) {
-  return Json::array({to_string(point[0]), to_string(point[1]), to_string(point[2])});
+// The number as text, or null if that is too long.
+Json exact_or_null(const std::string& text, const SetInfoOptions& options) {
+  return options.exact || text.size() <= kShortNumber ? Json(text) : Json(nullptr);
+}
+
+// All three, or null if one is too long.
+Json exact_or_null(const Rational3& point, const SetInfoOptions& options) {
+  Json result = Json::array();
+  for (const Rational& x : point) {
+    result.push_back(exact_or_null(to_string(x), options));
+    if (result.back().is_null()) return nullptr;
+  }
+  return result;
+}
+
+void add_volume(Json& info, const Polyhedron& set, const SetInfoOptions& options) {
+  const std::optional<Rational> content = options.volume ? volume(set) : std::nullopt;
+  if (!content) {
+    for (const char* key : {"volume", "volume_double", "volume_digits"}) info[key] = nullptr;
+    return;
+  }
+  const std::string text = to_string(*content);
+  info["volume"] = exact_or_null(text, options);
+  info["volume_double"] = number_or_null(nearest_double(*content));
+  info["volume_digits"] = std::count_if(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
+void add_moments(Json& info, const Polyhedron& set, const SetInfoOptions& options) {
+  for (const char* key : {"centroid", "centroid_exact", "inertia", "principal_moments", "principal_axes"}) {
+    info[key] = nullptr;
+  }
+  const std::optional<Moments> found = moments(set);
+  if (!found || found->volume == 0) return;
+  const Rational3 centre = *found->centroid();
+  info["centroid"] = doubles_json(centre);
+  info["centroid_exact"] = exact_or_null(centre, options);
+  info["inertia"] = Json::array();
+  for (const Rational3& row : found->inertia(centre)) info["inertia"].push_back(doubles_json(row));
+  const PrincipalInertia principal = principal_inertia(*found);
+  info["principal_moments"] = principal.moments;
+  info["principal_axes"] = principal.axes;
 }
 
 }  // namespace
 
-Json set_info(const Polyhedron& set, bool with_volume) {
+Json set_info(const Polyhedron& set, const SetInfoOptions& options) {
   const Counts count = counts(set);
   Json info;
   info["vertices"] = count.vertices;
@@ -35,17 +79,22 @@ Json set_info(const Polyhedron& set, bool with_volume) {
   info["open"] = set.is_open();
   info["closed"] = set.is_closed();
   info["regular"] = set.is_regular();
-  const std::optional<Rational> content = with_volume ? volume(set) : std::nullopt;
-  info["volume"] = content ? Json(to_string(*content)) : Json(nullptr);
-  info["volume_double"] = content ? number_or_null(nearest_double(*content)) : Json(nullptr);
+  add_volume(info, set, options);
   info["area"] = number_or_null(surface_area(set));
   info["bbox"] = nullptr;
   info["bbox_exact"] = nullptr;
   if (const auto box = bounding_box(set)) {
-    info["bbox"] = {corner_json((*box)[0]), corner_json((*box)[1])};
-    info["bbox_exact"] = {exact_corner_json((*box)[0]), exact_corner_json((*box)[1])};
+    info["bbox"] = {doubles_json((*box)[0]), doubles_json((*box)[1])};
+    const Json low = exact_or_null((*box)[0], options);
+    const Json high = exact_or_null((*box)[1], options);
+    if (!low.is_null() && !high.is_null()) info["bbox_exact"] = {low, high};
   }
   info["euler_numbers"] = euler_numbers(set);
+  info["genus"] = Json::array();
+  for (const std::optional<long>& genus : genera(set.complex())) {
+    info["genus"].push_back(genus ? Json(*genus) : Json(nullptr));
+  }
+  if (options.moments) add_moments(info, set, options);
   return info;
 }
 

@@ -1,15 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <nlohmann/json.hpp>
 
 #include "nef/polyhedron.h"
 
 namespace nef {
 
-/// Everything that `nef info` tells about a set: counts, properties, exact measures. Numbers that are infinite or
-/// undefined are null, and so are those of the volume unless it is wanted: the exact volume of a set with long
-/// coordinates takes longer than all the rest.
-nlohmann::ordered_json set_info(const Polyhedron& set, bool with_volume);
+struct SetInfoOptions {
+  bool volume = true;    ///< compute the volume, which with long coordinates takes longer than all the rest
+  bool exact = false;    ///< exact numbers however long they are, instead of those of kShortNumber characters at most
+  bool moments = false;  ///< the centroid and the moments of inertia, too
+};
+
+/// Exact numbers of more characters than this are null unless they are asked for.
+inline constexpr std::size_t kShortNumber = 100;
+
+/// Everything that `nef info` tells about a set: counts, properties, measures. Numbers that are infinite, undefined,
+/// too long or not wanted are null. `volume_digits` says how many digits the exact volume has (numerator and
+/// denominator together).
+nlohmann::ordered_json set_info(const Polyhedron& set, const SetInfoOptions& options = {});
 
 }  // namespace nef

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What is counted: items and Euler numbers.
+#include <algorithm>
+
 #include "nef/polyhedron.h"
 #include "nef/query/measure.h"
 #include "nef/query/predicates_of_sets.h"
@@ -19,6 +21,40 @@ std::vector<long> euler_numbers(const Complex& c) {
           const Facet& facet = c.facets[f];
           euler += 1 - (static_cast<long>(facet.cycle_count) - 1) - static_cast<long>(facet.isolated_count);
         });
+  }
+  return result;
+}
+
+namespace {
+
+// The boundary near the vertex is a disc: one ring of facets, or one facet.
+bool is_manifold_vertex(const Complex& c, std::uint32_t vertex) {
+  const SphereMapView map = c.sphere_map(vertex);
+  if (map.sfaces.size() != 2) return false;
+  if (map.svertices.empty()) return map.sloops.size() == 2;
+  // As many arcs as svertices, two at each: rings; two sfaces: one ring.
+  if (!map.sloops.empty() || map.shalfedges.size() != 2 * map.svertices.size()) return false;
+  std::vector<std::uint32_t> arcs(map.svertices.size(), 0);
+  for (const SHalfedge& arc : map.shalfedges) ++arcs[arc.source];
+  return std::all_of(arcs.begin(), arcs.end(), [](std::uint32_t n) { return n == 2; });
+}
+
+}  // namespace
+
+std::vector<std::optional<long>> genera(const Complex& c) {
+  const std::vector<long> euler = euler_numbers(c);
+  std::vector<std::optional<long>> result(c.shells.size());
+  ShellWalk walk(c);
+  const auto nothing = [](std::uint32_t) {};
+  for (std::uint32_t s = 0; s < c.shells.size(); ++s) {
+    bool manifold = true;
+    walk.visit(
+        s,
+        [&](std::uint32_t v) {
+          manifold = manifold && !(c.has_box() && is_box_vertex(c, v)) && is_manifold_vertex(c, v);
+        },
+        nothing, nothing);
+    if (manifold) result[s] = (2 - euler[s]) / 2;
   }
   return result;
 }

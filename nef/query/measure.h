@@ -30,6 +30,10 @@ std::optional<std::array<Rational3, 2>> bounding_box(const Complex& complex);
 /// vertices counts 1 - h - i.
 std::vector<long> euler_numbers(const Complex& complex);
 
+/// The genus of each shell that is a closed surface, manifold at each of its vertices (the number of its handles), in
+/// the order of complex.shells; nothing for other shells and for those on an infimaximal box.
+std::vector<std::optional<long>> genera(const Complex& complex);
+
 /// How many items there are, without those of an infimaximal box: vertices, edges and facets on
 /// it, the volume beyond it, and shells made of nothing else.
 Counts counts(const Complex& complex);

@@ -89,6 +89,38 @@ TEST_CASE("Boolean operations on files, with the promised JSON") {
   CHECK(here.nef("intersection a.off b.off c.off --json").json()["result"]["vertices"] == 1);
 }
 
+TEST_CASE("info tells measures in doubles, and exact ones where they are short or wanted") {
+  const Workplace here;
+  REQUIRE(here.nef("eval 'box(0,0,0, 3,3,1) - box(1,1,0, 2,2,1)' -o ring.nef").code == 0);
+  const json ring = here.nef("info ring.nef --json").json();
+  CHECK(ring["genus"] == json::array({1, 1}));
+  CHECK(ring["volume"] == "8");
+  CHECK(ring["volume_digits"] == 1);
+  CHECK(ring["centroid"] == json::array({1.5, 1.5, 0.5}));
+  CHECK(ring["centroid_exact"] == json::array({"3/2", "3/2", "1/2"}));
+  // About z: that of the plate, 9 (3^2 + 3^2) / 12, less that of the hole, (1 + 1) / 12.
+  CHECK(ring["inertia"][2][2].get<double>() == Approx(13.5 - 1.0 / 6));
+  CHECK(ring["inertia"][0][1] == 0.0);
+  CHECK(ring["principal_moments"][2].get<double>() == Approx(13.5 - 1.0 / 6));
+  const std::string text = here.nef("info ring.nef").out;
+  CHECK(text.find("volume: 8\n") != std::string::npos);
+  CHECK(text.find("centroid: [1.5,1.5,0.5]\n") != std::string::npos);
+
+  // An exact volume of 200 digits over 201.
+  REQUIRE(here.nef("eval 'box(1e-200,0,0, 1,1,1)' -o long.nef").code == 0);
+  const json longer = here.nef("info long.nef --json").json();
+  CHECK(longer["volume"].is_null());
+  CHECK(longer["volume_double"] == 1.0);
+  CHECK(longer["volume_digits"] == 401);
+  CHECK(longer["bbox_exact"].is_null());
+  CHECK(here.nef("info long.nef").out.find("volume: 1.0 (exactly a fraction of 401 digits, see --exact)\n") !=
+        std::string::npos);
+  CHECK(here.nef("info long.nef --exact --json").json()["volume"].get<std::string>() ==
+        std::string(200, '9') + "/1" + std::string(200, '0'));
+  REQUIRE(here.nef("eval 'halfspace(0,0,1,0)' -o half.nef").code == 0);
+  CHECK(here.nef("info half.nef").out.find("volume: infinite\n") != std::string::npos);
+}
+
 TEST_CASE("equality: exit code 0 or 1") {
   const Workplace here;
   here.write("a.off", cube_off(0, 2));

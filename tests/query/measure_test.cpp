@@ -3,6 +3,7 @@
 // Volume, area, bounding box, Euler numbers, counts and properties against closed forms, and
 // against counting unit cells for unions and differences of boxes on a grid.
 #include <rapidcheck.h>
+#include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -10,6 +11,7 @@
 
 #include "nef/construct/construct.h"
 #include "nef/polyhedron.h"
+#include "nef/query/measure.h"
 #include "nef/query/predicates_of_sets.h"
 
 namespace nef {
@@ -207,6 +209,27 @@ TEST_CASE("openness of mixed sets") {
   CHECK_FALSE(punctured.is_closed());
   CHECK_FALSE(punctured.is_regular());
   CHECK(volume(punctured) == Rational(8));
+}
+
+TEST_CASE("genus of shells: tunnels count, pinched and unbounded surfaces have none") {
+  const auto genus = [](const Polyhedron& set) { return genera(set.complex()); };
+  using Genera = std::vector<std::optional<long>>;
+  Polyhedron block = make_box({0, 0, 0}, {20, 3, 3});
+  CHECK(genus(block) == Genera{0, 0});
+  for (int tunnels = 1; tunnels <= 4; ++tunnels) {
+    block = subtract(block, make_box({5 * tunnels - 4, 1, -1}, {5 * tunnels - 3, 2, 4}));
+    CHECK(genus(block) == Genera{tunnels, tunnels});
+  }
+  // A cavity is a sphere of its own, seen from the solid and from within.
+  const Polyhedron hollow = subtract(make_box({0, 0, 0}, {3, 3, 3}), make_box({1, 1, 1}, {2, 2, 2}));
+  CHECK(genus(hollow) == Genera{0, 0, 0, 0});
+  // Two cubes at an edge, at a corner; a facet; a half-space.
+  const Polyhedron cube = make_box({0, 0, 0}, {1, 1, 1});
+  for (const auto& g : genus(unite(cube, make_box({1, 1, 0}, {2, 2, 1})))) CHECK_FALSE(g);
+  const Genera corner = genus(unite(cube, make_box({1, 1, 1}, {2, 2, 2})));
+  CHECK(std::all_of(corner.begin(), corner.end(), [](const auto& g) { return !g; }));
+  for (const auto& g : genus(make_box({0, 0, 0}, {1, 1, 0}))) CHECK_FALSE(g);
+  for (const auto& g : genus(make_halfspace(0, 0, 1, 0))) CHECK_FALSE(g);
 }
 
 }  // namespace nef

@@ -41,7 +41,7 @@ json view_json(const ViewResult& view) {
 
 // The keys of `nef info --json`; the exact volume only where it is asked for.
 json result_json(const nef::Polyhedron& hull, bool exact_volume) {
-  json info = nef::set_info(hull, exact_volume);
+  json info = nef::set_info(hull, {.volume = exact_volume, .exact = exact_volume});
   if (!exact_volume && hull.is_bounded()) {
     const MeasuredVolume volume = approximate_volume(hull);
     info["volume_double"] = volume.value;

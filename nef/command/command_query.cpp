@@ -4,33 +4,20 @@
 #include "nef/base/stopwatch.h"
 #include "nef/command/commands.h"
 #include "nef/program/numbers.h"
+#include "nef/query/location_name.h"
 
 namespace nef {
 namespace {
 
-const char* name(Location::Kind kind) {
-  switch (kind) {
-    case Location::Kind::kVertex:
-      return "vertex";
-    case Location::Kind::kEdge:
-      return "edge";
-    case Location::Kind::kFacet:
-      return "facet";
-    case Location::Kind::kVolume:
-      break;
-  }
-  return "volume";
-}
-
 Json location_json(const Rational3& point, const Location& location) {
   return {{"point", point_json(point)},
-          {"kind", name(location.kind)},
+          {"kind", location_name(location.kind)},
           {"index", location.index},
           {"selected", location.mark != 0}};
 }
 
 std::string location_text(const Location& location) {
-  return std::string(name(location.kind)) + ", " + (location.mark != 0 ? "selected" : "not selected");
+  return std::string(location_name(location.kind)) + ", " + (location.mark != 0 ? "selected" : "not selected");
 }
 
 void add_locate(CLI::App& app, Session& session) {

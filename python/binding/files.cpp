@@ -57,19 +57,24 @@ void write(const Polyhedron& a, py::handle path, bool exact, bool binary, bool p
 py::tuple mesh_of(const Polyhedron& a, bool polygons, bool exact) {
   MeshExportOptions options;
   options.keep_polygons = polygons;
-  const MeshExport made = call(items(a), [=] { return to_mesh(a, options); });
+  if (exact) {
+    const MeshExport made = call(items(a), [=] { return to_mesh(a, options); });
+    warn(made.lost);
+    return mesh_to_arrays(made.mesh, !polygons);
+  }
+  RoundedMeshExport made = call(items(a), [=] { return to_rounded_mesh(a, options); });
   warn(made.lost);
-  return mesh_to_arrays(made.mesh, !polygons, exact);
+  return mesh_to_arrays(std::move(made.mesh), !polygons);
 }
 
-// CPU seconds of from_mesh and to_mesh without Python: what bench/python sets its own times against.
+// CPU seconds of from_mesh and to_rounded_mesh without Python: what bench/python sets its own times against.
 py::tuple core_times(py::handle vertices, py::handle faces) {
   const Mesh mesh = mesh_from_arrays(vertices, faces);
   const py::gil_scoped_release unlocked;
   const std::clock_t begin = std::clock();
   const Polyhedron set = from_mesh(mesh);
   const std::clock_t made = std::clock();
-  static_cast<void>(to_mesh(set));
+  static_cast<void>(to_rounded_mesh(set));
   const std::clock_t end = std::clock();
   const py::gil_scoped_acquire locked;
   return py::make_tuple(static_cast<double>(made - begin) / CLOCKS_PER_SEC,

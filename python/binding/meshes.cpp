@@ -26,14 +26,15 @@ void push_array(const py::array& faces, Mesh& mesh) {
   if (kind != 'i' && kind != 'u') throw py::type_error("faces must be integers");
   using Indices = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
   const Indices indices = Indices::ensure(faces);
-  const auto rows = indices.unchecked<2>();
-  mesh.corners.reserve(static_cast<std::size_t>(indices.size()));
-  mesh.face_begin.reserve(static_cast<std::size_t>(rows.shape(0)) + 1);
-  for (py::ssize_t f = 0; f < rows.shape(0); ++f) {
-    for (py::ssize_t k = 0; k < rows.shape(1); ++k) {
-      mesh.corners.push_back(vertex_number(rows(f, k), static_cast<std::size_t>(f), mesh.vertices.size()));
-    }
-    mesh.face_begin.push_back(static_cast<std::uint32_t>(mesh.corners.size()));
+  const auto count = static_cast<std::size_t>(indices.shape(0));
+  const auto size = static_cast<std::size_t>(indices.shape(1));
+  mesh.corners.resize(count * size);
+  mesh.face_begin.resize(count + 1);
+  const std::int64_t* in = indices.data();
+  std::uint32_t* out = mesh.corners.data();
+  for (std::size_t f = 0; f < count; ++f) {
+    for (std::size_t k = 0; k < size; ++k) *out++ = vertex_number(*in++, f, mesh.vertices.size());
+    mesh.face_begin[f + 1] = static_cast<std::uint32_t>((f + 1) * size);
   }
 }
 
@@ -41,6 +42,27 @@ py::array_t<std::int64_t> index_array(std::span<const std::uint32_t> indices, st
   py::array_t<std::int64_t> result(std::move(shape));
   std::copy(indices.begin(), indices.end(), result.mutable_data());
   return result;
+}
+
+// An array of rows that takes the vector over instead of copying it.
+py::array array_of(std::vector<std::array<double, 3>>&& rows) {
+  const auto count = static_cast<py::ssize_t>(rows.size());
+  auto held = std::make_unique<std::vector<std::array<double, 3>>>(std::move(rows));
+  const double* data = held->empty() ? nullptr : held->front().data();
+  const py::capsule owner(held.get(), [](void* vector) { delete static_cast<decltype(held)::pointer>(vector); });
+  static_cast<void>(held.release());
+  return py::array_t<double>({count, py::ssize_t{3}}, data, owner);
+}
+
+py::object faces_of(std::span<const std::uint32_t> corners, std::span<const std::uint32_t> begin, bool triangles) {
+  const std::size_t count = begin.size() - 1;
+  if (triangles) return index_array(corners, {static_cast<py::ssize_t>(count), 3});
+  py::list faces;
+  for (std::size_t f = 0; f < count; ++f) {
+    const auto face = corners.subspan(begin[f], begin[f + 1] - begin[f]);
+    faces.append(index_array(face, {static_cast<py::ssize_t>(face.size())}));
+  }
+  return faces;
 }
 
 }  // namespace
@@ -61,16 +83,13 @@ Mesh mesh_from_arrays(py::handle vertices, py::handle faces) {
   return mesh;
 }
 
-py::tuple mesh_to_arrays(const Mesh& mesh, bool triangles, bool exact) {
-  const py::array vertices = from_points(mesh.vertices, exact);
-  if (triangles) {
-    return py::make_tuple(vertices, index_array(mesh.corners, {static_cast<py::ssize_t>(mesh.face_count()), 3}));
-  }
-  py::list faces;
-  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
-    faces.append(index_array(mesh.face(f), {static_cast<py::ssize_t>(mesh.face(f).size())}));
-  }
-  return py::make_tuple(vertices, faces);
+py::tuple mesh_to_arrays(RoundedMesh&& mesh, bool triangles) {
+  const py::object faces = faces_of(mesh.corners, mesh.face_begin, triangles);
+  return py::make_tuple(array_of(std::move(mesh.vertices)), faces);
+}
+
+py::tuple mesh_to_arrays(const Mesh& mesh, bool triangles) {
+  return py::make_tuple(from_points(mesh.vertices, true), faces_of(mesh.corners, mesh.face_begin, triangles));
 }
 
 }  // namespace nef::python

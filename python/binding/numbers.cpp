@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "binding/numbers.h"
 
+#include <cmath>
+
 #include "nef/base/error.h"
 
 namespace nef::python {
@@ -38,16 +40,20 @@ Rational quotient(py::handle numerator, py::handle denominator) {
   return result;
 }
 
-Rational rational_of_int64(std::int64_t value) { return Rational(static_cast<long>(value)); }
-
-template <typename T, typename Convert>
-std::vector<Rational3> read_rows(const py::array_t<T, py::array::c_style | py::array::forcecast>& array,
-                                 const Convert& convert) {
-  const auto rows = array.template unchecked<2>();
-  std::vector<Rational3> points(static_cast<std::size_t>(rows.shape(0)));
-  for (py::ssize_t i = 0; i < rows.shape(0); ++i) {
-    for (py::ssize_t k = 0; k < 3; ++k) {
-      points[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)] = convert(rows(i, k));
+// Writes into the numbers where they are; one made elsewhere would cost two more visits to the allocator.
+template <typename T>
+std::vector<Rational3> read_rows(const py::array_t<T, py::array::c_style | py::array::forcecast>& array) {
+  std::vector<Rational3> points(static_cast<std::size_t>(array.shape(0)));
+  const T* in = array.data();
+  for (Rational3& point : points) {
+    for (Rational& x : point) {
+      const T value = *in++;
+      if constexpr (std::is_floating_point_v<T>) {
+        if (!std::isfinite(value)) throw InputError("a coordinate is not a finite number");
+        mpq_set_d(x.get_mpq_t(), value);
+      } else {
+        mpq_set_si(x.get_mpq_t(), value, 1);
+      }
     }
   }
   return points;
@@ -126,7 +132,7 @@ std::optional<DoubleArray> as_doubles(py::handle points) {
 std::vector<Rational3> to_points(py::handle points, const char* what) {
   if (const std::optional<DoubleArray> doubles = as_doubles(points)) {
     require_rows_of_three(*doubles, what);
-    return read_rows<double>(*doubles, [](double x) { return exact_rational(x); });
+    return read_rows<double>(*doubles);
   }
   if (py::isinstance<py::array>(points)) {
     const auto array = py::reinterpret_borrow<py::array>(points);
@@ -134,7 +140,7 @@ std::vector<Rational3> to_points(py::handle points, const char* what) {
     const char kind = array.dtype().kind();
     if (kind == 'i' || (kind == 'u' && array.itemsize() < 8)) {
       using Integers = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
-      return read_rows<std::int64_t>(Integers::ensure(array), rational_of_int64);
+      return read_rows<std::int64_t>(Integers::ensure(array));
     }
   }
   std::vector<Rational3> result;

@@ -10,24 +10,11 @@
 #include "nef/operation/for_each_mark.h"
 #include "nef/parts/section.h"
 #include "nef/query/locate_many.h"
+#include "nef/query/location_name.h"
 #include "nef/query/moments.h"
 
 namespace nef::python {
 namespace {
-
-const char* kind_name(Location::Kind kind) {
-  switch (kind) {
-    case Location::Kind::kVertex:
-      return "vertex";
-    case Location::Kind::kEdge:
-      return "edge";
-    case Location::Kind::kFacet:
-      return "facet";
-    case Location::Kind::kVolume:
-      break;
-  }
-  return "volume";
-}
 
 const char* contact_name(Contact contact) {
   switch (contact) {
@@ -47,7 +34,7 @@ py::object result_of(const char* type, const py::args& values) {
 }
 
 py::object location_of(const Location& location) {
-  return result_of("Location", py::make_tuple(kind_name(location.kind), location.index, location.mark));
+  return result_of("Location", py::make_tuple(location_name(location.kind), location.index, location.mark));
 }
 
 py::object optional_fraction(const std::optional<Rational>& value) { return value ? to_fraction(*value) : py::none(); }

@@ -5,6 +5,8 @@
 
 #include <pybind11/stl.h>
 
+#include "apps/minkowski/morphology.h"
+
 #include "binding/bindings.h"
 
 namespace nef::python {
@@ -20,10 +22,37 @@ minkowski::MinkowskiOptions options_of(unsigned threads, const ProgressFunction&
   return options;
 }
 
-Polyhedron sum(const Polyhedron& a, const Polyhedron& b, unsigned threads, const py::object& progress) {
+using Binary = Polyhedron (*)(const Polyhedron&, const Polyhedron&, const minkowski::MinkowskiOptions&,
+                              minkowski::MinkowskiReport*);
+
+// Each cell of one operand is combined with each of the other, so small ones may take long.
+auto binary(Binary operation) {
+  return [operation](const Polyhedron& a, const Polyhedron& b, unsigned threads, const py::object& progress) {
+    const auto options = options_of(threads, ProgressFunction(progress));
+    return call(kSmallCall, [=] { return operation(a, b, options, nullptr); });
+  };
+}
+
+minkowski::Side side_of(const std::string& name) {
+  if (name == "inner") return minkowski::Side::kInner;
+  if (name == "outer") return minkowski::Side::kOuter;
+  throw py::value_error("side must be 'inner' or 'outer'");
+}
+
+Polyhedron offset(const Polyhedron& a, py::handle radius, int detail, const std::string& side, unsigned threads,
+                  const py::object& progress) {
+  const Rational r = to_rational(radius);
+  const minkowski::Side kind = side_of(side);
   const auto options = options_of(threads, ProgressFunction(progress));
-  // Each cell of one is added to each of the other, so small operands may take long.
-  return call(kSmallCall, [=] { return minkowski::minkowski_sum(a, b, options); });
+  return call(kSmallCall, [=] { return minkowski::offset(a, r, detail, kind, options); });
+}
+
+Polyhedron ball(py::handle radius, int detail, const std::string& side) {
+  return minkowski::to_polyhedron(minkowski::ball_approximation(to_rational(radius), detail, side_of(side)).cell);
+}
+
+py::object ball_error(py::handle radius, int detail, const std::string& side) {
+  return to_fraction(minkowski::ball_approximation(to_rational(radius), detail, side_of(side)).error);
 }
 
 Polyhedron configuration_space(const Polyhedron& robot, const std::vector<Polyhedron>& obstacles, const py::object& box,
@@ -56,12 +85,42 @@ PYBIND11_MODULE(_minkowski, m) {
   using namespace nef::python;
   m.doc() = "The core of the package nef.minkowski; see there.";
   py::module_::import("nef._nef");
-  m.def("sum", &sum, py::arg("a"), py::arg("b"), py::arg("threads") = 1, py::arg("progress") = py::none(),
-        R"(The Minkowski sum { x + y : x in a, y in b } of any two sets, exactly.
+  const auto bind = [&m](const char* name, Binary operation, const char* text) {
+    m.def(name, binary(operation), py::arg("a"), py::arg("b"), py::arg("threads") = 1, py::arg("progress") = py::none(),
+          text);
+  };
+  bind("sum", nef::minkowski::minkowski_sum,
+       R"(The Minkowski sum { x + y : x in a, y in b } of any two sets, exactly.
 
 Open and closed parts, lower-dimensional parts and cavities count; empty if one is empty. threads: 0 for as many as the
 machine has; the result does not depend on it. progress: a function that is called with (pairs of cells done, pairs in
 all). Raises UnsupportedError for unbounded operands with too many reflex edges.)");
+  bind("erode", nef::minkowski::erode,
+       R"(The Minkowski difference: the points x for which b, moved by x, lies in a; exactly.
+
+All of space if b is empty. threads, progress, errors: as for sum.)");
+  bind("opening", nef::minkowski::opening,
+       R"(a eroded by b, plus b: the union of all translates of b that lie in a.
+
+threads, progress, errors: as for sum; progress begins anew with the second sum. Raises InputError if b is empty.)");
+  bind("closing", nef::minkowski::closing,
+       R"(a plus b, eroded by b: what no translate of -b reaches that misses a.
+
+threads, progress, errors: as for opening.)");
+  m.def("offset", &offset, py::arg("a"), py::arg("radius"), py::arg("detail") = 8, py::arg("side") = "outer",
+        py::arg("threads") = 1, py::arg("progress") = py::none(),
+        R"(The set grown by a ball of the radius, a number; shrunk for a negative one.
+
+The round ball is replaced by a polyhedron, so that the result lies around what the round one would give (side='outer') or
+inside of it ('inner'), and is exact for a ball whose radius is off by at most ball_error(abs(radius), detail, s), where s is
+`side`, or the other one for a negative radius. detail: from 1 to 64, see ball. threads, progress, errors: as for sum.)");
+  m.def("ball", &ball, py::arg("radius"), py::arg("detail") = 8, py::arg("side") = "inner",
+        R"(A polyhedral ball about the origin: an octahedron whose edges are split into `detail` parts, from 1 to 64.
+
+side: 'inner' puts all 4 detail^2 + 2 vertices exactly onto the sphere, 'outer' scales that until all facets are outside of it.
+Raises InputError unless the radius, a number, is positive.)");
+  m.def("ball_error", &ball_error, py::arg("radius"), py::arg("detail") = 8, py::arg("side") = "inner",
+        "A bound on how far the surfaces of ball(radius, detail, side) and of the round ball are apart: a Fraction.");
   m.def("configuration_space", &configuration_space, py::arg("robot"), py::arg("obstacles"),
         py::arg("box") = py::none(), py::arg("threads") = 1, py::arg("progress") = py::none(),
         R"(Where a translating robot may be: the closed set of positions of its reference point, the origin.

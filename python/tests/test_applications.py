@@ -45,20 +45,52 @@ def test_erosion(needs):
         for y in range(-1, 11):
             p = (Fraction(x, 2), Fraction(y, 2), 1)
             assert (p in eroded) == (CUBE.translate(p) <= frame)
-    with pytest.raises(nef.UnsupportedError):
-        minkowski.erode(~CUBE, CUBE)
+    # Of an unbounded set: where no point of a cube is in the other one.
+    assert minkowski.erode(~CUBE, CUBE) == ~nef.box((-1, -1, -1), (1, 1, 1))
+    told = []
+    minkowski.erode(frame, CUBE, progress=lambda done, pairs: told.append((done, pairs)))
+    assert told
+
+
+def test_opening_and_closing(needs):
+    minkowski = needs("minkowski")
+    antenna = nef.box((5, 2, 2), (9, 2, 2))
+    thorny = nef.box((0, 0, 0), (5, 5, 5)) | antenna | nef.box((1, 1, 5), ("1.5", "1.5", 7))
+    assert minkowski.opening(thorny, CUBE) == nef.box((0, 0, 0), (5, 5, 5))
+    gap = nef.box((0, 0, 0), (2, 2, 2)) | nef.box(("2.5", 0, 0), (5, 2, 2))
+    assert minkowski.closing(gap, CUBE) == nef.box((0, 0, 0), (5, 2, 2))
+    wide = nef.box((0, 0, 0), (2, 2, 2)) | nef.box(("3.5", 0, 0), (5, 2, 2))
+    assert minkowski.closing(wide, CUBE) == wide
+    for function in (minkowski.opening, minkowski.closing):
+        with pytest.raises(nef.InputError):
+            function(gap, nef.empty())
 
 
 def test_offset(needs):
     minkowski = needs("minkowski")
     ball = minkowski.ball(2, detail=3)
     vertices = ball.to_mesh(exact=True)[0]
-    assert all(sum(x * x for x in v) == 4 for v in vertices.tolist())
-    grown = minkowski.offset(CUBE, Fraction(1, 2), detail=2)
+    assert len(vertices) == 4 * 9 + 2 and all(sum(x * x for x in v) == 4 for v in vertices.tolist())
+    around = minkowski.ball(2, detail=3, side="outer")
+    assert ball < around and around.distance(nef.point((0, 0, 0))).squared == 0
+    assert (~around).distance(nef.point((0, 0, 0))).squared >= 4
+    # Both surfaces are within their bounds of the sphere.
+    within = 2 - minkowski.ball_error(2, 3)
+    assert 0 < within < 2 and (~ball).distance(nef.point((0, 0, 0))).squared >= within**2
+    beyond = 2 + minkowski.ball_error(2, 3, "outer")
+    assert all(sum(x * x for x in v) <= beyond**2 for v in around.to_mesh(exact=True)[0].tolist())
+    grown = minkowski.offset(CUBE, Fraction(1, 2), detail=2, side="inner")
     assert grown == minkowski.sum(CUBE, minkowski.ball(Fraction(1, 2), 2))
     assert grown.bounding_box() == ((Fraction(-1, 2),) * 3, (Fraction(3, 2),) * 3)
+    assert grown < minkowski.offset(CUBE, Fraction(1, 2), detail=2)
+    # An octahedron with its corners on the sphere.
     assert minkowski.offset(CUBE, Fraction(-1, 4), detail=1) == nef.box(*[[Fraction(k, 4)] * 3 for k in (1, 3)])
+    assert minkowski.offset(CUBE, Fraction(-1, 4), 1, "inner") < nef.box(*[[Fraction(k, 4)] * 3 for k in (1, 3)])
     assert minkowski.offset(CUBE, 0) == CUBE
+    with pytest.raises(ValueError):
+        minkowski.offset(CUBE, 1, side="left")
+    with pytest.raises(nef.InputError):
+        minkowski.ball(-1)
 
 
 def test_configuration_space(needs):

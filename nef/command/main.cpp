@@ -28,6 +28,7 @@ void add_commands(CLI::App& app, Session& session) {
   add_info_commands(app, session);
   add_check_command(app, session);
   add_repair_command(app, session);
+  add_decimate_command(app, session);
   add_query_commands(app, session);
   add_parts_commands(app, session);
   add_eval_command(app, session);

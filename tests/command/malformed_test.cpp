@@ -2,6 +2,7 @@
 //
 // Bad files of every kind: one line on stderr, exit code 2; and what `check` calls by name.
 #include "command/process.h"
+#include "tests/support/paths.h"
 
 namespace nef::test {
 namespace {
@@ -185,8 +186,8 @@ TEST_CASE("names of files may be any bytes") {
 TEST_CASE("a mesh from a pipe is read once") {
   const Workplace here;
   here.write("a.off", cube_off(0, 2));
-  const std::string command =
-      "cd '" + here.path().string() + "' && cat a.off | '" NEF_BINARY_DIR "/nef' info /dev/stdin --json > out.json";
+  const std::string command = "cd '" + here.path().string() + "' && cat a.off | '" + program_folder() +
+                              "/nef' info /dev/stdin --json > out.json";
   REQUIRE(std::system(command.c_str()) == 0);
   CHECK(nlohmann::json::parse(here.read("out.json"))["volume"] == "8");
 }

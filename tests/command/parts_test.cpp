@@ -2,6 +2,7 @@
 //
 // nef section, split, distance, repair; standard input and output; what nef info prints.
 #include "command/process.h"
+#include "tests/support/paths.h"
 
 namespace nef::test {
 namespace {
@@ -9,7 +10,7 @@ namespace {
 // Runs a line of the shell in which NEF is the program.
 int shell(const Workplace& here, std::string line) {
   for (std::size_t at = line.find("NEF"); at != std::string::npos; at = line.find("NEF", at + 1)) {
-    line.replace(at, 3, "'" NEF_BINARY_DIR "/nef'");
+    line.replace(at, 3, "'" + program_folder() + "/nef'");
   }
   const int status = std::system(("cd '" + here.path().string() + "' && " + line).c_str());
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;

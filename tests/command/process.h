@@ -14,6 +14,7 @@
 #include <sstream>
 #include <string>
 
+#include "tests/support/paths.h"
 #include "tests/support/temporary_folder.h"
 
 namespace nef::test {
@@ -34,7 +35,7 @@ class Workplace : public nef::test::TemporaryFolder {
 
   /// Runs `nef ARGUMENTS` (quoted for the shell by the caller) in this directory.
   [[nodiscard]] Outcome nef(const std::string& arguments) const {
-    const std::string command = "cd '" + path().string() + "' && '" NEF_BINARY_DIR "/nef' " + arguments +
+    const std::string command = "cd '" + path().string() + "' && '" + program_folder() + "/nef' " + arguments +
                                 " > stdout.txt 2> stderr.txt < /dev/null";
     const int status = std::system(command.c_str());
     Outcome outcome;

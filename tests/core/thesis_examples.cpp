@@ -5,6 +5,7 @@
 
 #include "nef/io/polyhedron_file.h"
 #include "tests/support/literals.h"
+#include "tests/support/paths.h"
 
 namespace nef::test {
 namespace {
@@ -110,7 +111,7 @@ TEST_CASE("coplanar faces become one facet with a hole") {
 TEST_CASE("real meshes are cut and put together again") {
   for (const char* name : {"star.off", "cross_quad.off", "hole.off", "corner_poly.off"}) {
     INFO(name);
-    const Polyhedron a = read_polyhedron(std::string(NEF_SOURCE_DIR) + "/data/meshes/" + name);
+    const Polyhedron a = read_polyhedron(source_folder() + "/data/meshes/" + name);
     CHECK(validate(a.complex()) == "");
     const Polyhedron b = transform(rotated_about_all_axes(a, 17), AffineMap::translate({Rational(1, 7), 0, 0}));
     const Polyhedron common = intersect(a, b);

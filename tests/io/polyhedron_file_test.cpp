@@ -14,6 +14,7 @@
 #include "nef/io/mesh/mesh_reader.h"
 #include "nef/io/native/native_format.h"
 #include "nef/io/polyhedron_file.h"
+#include "tests/support/paths.h"
 #include "tests/support/random_polyhedra.h"
 #include "tests/support/temporary_folder.h"
 
@@ -58,7 +59,7 @@ TEST_CASE("nef3 gives every random set back that needs no box") {
 }
 
 TEST_CASE("CGAL's example files mean what CGAL counts") {
-  const Polyhedron mixed = read_polyhedron(NEF_SOURCE_DIR "/data/nef3/Nef_3_nefIO.cin");
+  const Polyhedron mixed = read_polyhedron(source_folder() + "/data/nef3/Nef_3_nefIO.cin");
   const Counts n = counts(mixed);
   CHECK(n.vertices == 37);
   CHECK(n.edges == 48);
@@ -68,19 +69,19 @@ TEST_CASE("CGAL's example files mean what CGAL counts") {
   CHECK(contains(mixed, {0, 0, 0}));
   CHECK(contains(mixed, {0, 0, -8}));
   CHECK_FALSE(contains(mixed, {0, 0, 8}));
-  CHECK(
-      equal(read_polyhedron(NEF_SOURCE_DIR "/data/nef3/Minkowski_sum_3_cube.nef3"), make_box({-1, -1, -1}, {1, 1, 1})));
+  CHECK(equal(read_polyhedron(source_folder() + "/data/nef3/Minkowski_sum_3_cube.nef3"),
+              make_box({-1, -1, -1}, {1, 1, 1})));
 }
 
 // False, with a warning, where CGAL is not installed and the peer was not built.
 bool have_peer() {
-  if (std::filesystem::exists(NEF_BINARY_DIR "/nef3_peer")) return true;
+  if (std::filesystem::exists(program_folder() + "/nef3_peer")) return true;
   WARN("nef3_peer was not built (it needs CGAL); skipped");
   return false;
 }
 
 int peer(const std::string& arguments) {
-  const std::string command = std::string(NEF_BINARY_DIR) + "/nef3_peer " + arguments + " >/dev/null 2>&1";
+  const std::string command = program_folder() + "/nef3_peer " + arguments + " >/dev/null 2>&1";
   return WEXITSTATUS(std::system(command.c_str()));
 }
 

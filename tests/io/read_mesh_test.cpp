@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "nef/io/mesh/mesh_reader.h"
+#include "tests/support/paths.h"
 #include "tests/support/temporary_folder.h"
 
 namespace nef {
@@ -177,7 +178,7 @@ TEST_CASE("The format is chosen by extension, else by content") {
 }
 
 TEST_CASE("Real files have the counts that other programs find") {
-  const std::string folder = NEF_SOURCE_DIR "/data/meshes/";
+  const std::string folder = source_folder() + "/data/meshes/";
   const auto check = [&](const char* name, std::size_t vertices, std::size_t faces) {
     INFO(name);
     const Mesh mesh = read_mesh(folder + name);

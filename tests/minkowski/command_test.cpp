@@ -17,6 +17,7 @@
 #include "nef/io/mesh/mesh_reader.h"
 #include "nef/io/polyhedron_file.h"
 #include "tests/support/literals.h"
+#include "tests/support/paths.h"
 #include "tests/support/temporary_folder.h"
 
 namespace {
@@ -41,7 +42,7 @@ class Place : public nef::test::TemporaryFolder {
   [[nodiscard]] std::string read(const std::string& name) const { return nef::test::slurp(file(name)); }
 
   [[nodiscard]] Outcome run(const std::string& arguments) const {
-    const std::string command = "cd '" + path().string() + "' && '" NEF_BINARY_DIR "/minkowski' " + arguments +
+    const std::string command = "cd '" + path().string() + "' && '" + program_folder() + "/minkowski' " + arguments +
                                 " > stdout.txt 2> stderr.txt < /dev/null";
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read("stdout.txt"), read("stderr.txt")};
@@ -218,7 +219,7 @@ TEST_CASE("command: pictures of operands, results and cells; the result does not
 TEST_CASE("command: an interrupt stops at once and leaves a whole file or none") {
   const Place place;
   place.write("a.nef", kL);
-  const std::string program = "'" NEF_BINARY_DIR "/minkowski'";
+  const std::string program = "'" + program_folder() + "/minkowski'";
   const std::size_t before = place.file_count() + 2;  // stdout.txt and stderr.txt
   // In the middle of work that takes long: nothing is written.
   const auto interrupted = [&](const std::string& seconds, const std::string& arguments) {
@@ -226,7 +227,7 @@ TEST_CASE("command: an interrupt stops at once and leaves a whole file or none")
                                 program + " " + arguments + " > stdout.txt 2> stderr.txt < /dev/null";
     return std::system(command.c_str());
   };
-  const std::string mushroom = NEF_SOURCE_DIR "/data/minkowski/mushroom.off";
+  const std::string mushroom = source_folder() + "/data/minkowski/mushroom.off";
   CHECK(interrupted("0.2", mushroom + " " + mushroom + " -o out.nef") != 0);
   CHECK(place.file_count() == before);
   // At any moment of short work.
@@ -252,9 +253,9 @@ std::vector<std::string> commands_in(const std::string& document, const std::str
 
 TEST_CASE("command: the recipes of the documentation run, and do what they say") {
   const Place place;
-  for (const std::string& line : commands_in(NEF_SOURCE_DIR "/docs/minkowski.md", "Recipes")) {
-    const std::string command = "cd '" + place.path().string() + "' && PATH='" NEF_BINARY_DIR "':\"$PATH\" " + line +
-                                " > stdout.txt 2> stderr.txt < /dev/null";
+  for (const std::string& line : commands_in(source_folder() + "/docs/minkowski.md", "Recipes")) {
+    const std::string command = "cd '" + place.path().string() + "' && PATH='" + program_folder() + "':\"$PATH\" " +
+                                line + " > stdout.txt 2> stderr.txt < /dev/null";
     CAPTURE(line);
     CHECK(std::system(command.c_str()) == 0);
     CHECK(place.read("stderr.txt").empty());

@@ -12,6 +12,7 @@
 #include "nef/io/mesh/mesh_reader.h"
 #include "tests/support/literals.h"
 #include "tests/support/minkowski_shapes.h"
+#include "tests/support/paths.h"
 
 namespace {
 
@@ -25,7 +26,7 @@ using nef::minkowski::UnionStrategy;
 using nef::test::set;
 
 Polyhedron data(const std::string& name) {
-  return nef::from_mesh(nef::read_mesh(NEF_SOURCE_DIR "/data/meshes/" + name + ".off"));
+  return nef::from_mesh(nef::read_mesh(source_folder() + "/data/meshes/" + name + ".off"));
 }
 
 TEST_CASE("published sums, exactly, by every strategy") {
@@ -34,7 +35,7 @@ TEST_CASE("published sums, exactly, by every strategy") {
   const std::vector<std::tuple<Polyhedron, Polyhedron, std::size_t, std::size_t, Rational>> known = {
       {data("star"), data("star"), 50, 72, Rational(7, 8)},
       {data("star"), small_cube, 32, 30, Rational(681, 2000)},
-      {nef::from_mesh(nef::read_mesh(NEF_SOURCE_DIR "/data/minkowski/P.off")), unit, 16, 10, Rational(38)},
+      {nef::from_mesh(nef::read_mesh(source_folder() + "/data/minkowski/P.off")), unit, 16, 10, Rational(38)},
       {data("cross_quad"), data("star"), 88, 78, Rational(30)}};
   for (std::size_t i = 0; i < known.size(); ++i) {
     const auto& [a, b, vertices, facets, content] = known[i];

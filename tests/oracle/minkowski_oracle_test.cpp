@@ -15,6 +15,7 @@
 #include "apps/minkowski/minkowski.h"
 #include "nef/io/polyhedron_file.h"
 #include "tests/support/literals.h"
+#include "tests/support/paths.h"
 #include "tests/support/temporary_folder.h"
 
 namespace {
@@ -23,7 +24,7 @@ using nef::Polyhedron;
 using nef::minkowski::MinkowskiOptions;
 using nef::minkowski::UnionStrategy;
 
-const std::string kData = NEF_SOURCE_DIR "/data/";
+const std::string kData = source_folder() + "/data/";
 
 // Files of one test, removed at the end.
 class Place : public nef::test::TemporaryFolder {
@@ -39,7 +40,8 @@ class Place : public nef::test::TemporaryFolder {
 
   [[nodiscard]] Polyhedron cgal_sum(const std::string& how, const std::string& a, const std::string& b) const {
     const std::string out = path() / "sum.nef3";
-    const int status = std::system((NEF_SUM_PEER " " + how + " '" + a + "' '" + b + "' '" + out + "'").c_str());
+    const int status =
+        std::system((program_folder() + "/sum_peer " + how + " '" + a + "' '" + b + "' '" + out + "'").c_str());
     REQUIRE((WIFEXITED(status) && WEXITSTATUS(status) == 0));
     return nef::read_polyhedron(out);
   }

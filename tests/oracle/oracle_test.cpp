@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "tests/support/paths.h"
 #include "tests/support/random_polyhedra.h"
 
 namespace nef::test {
@@ -42,7 +43,7 @@ bool degenerate(const Primitive& p) {
 }
 
 std::string counts_by_cgal(const Recipe& recipe) {
-  std::string command = NEF_ORACLE_PEER;
+  std::string command = program_folder() + "/oracle_peer";
   for (const Step& step : recipe.steps) {
     command += std::string(" '") + step.op + "' " + (step.complemented ? "1 " : "0 ") + name_of(step.primitive.shape);
     for (const int n : step.primitive.n) command += " " + std::to_string(n);

@@ -12,6 +12,8 @@
 #include <sstream>
 #include <string>
 
+#include "tests/support/paths.h"
+
 namespace nef::planner::test {
 
 /// A folder of its own that goes away with the test.
@@ -55,12 +57,12 @@ struct Run {
 /// Runs the program with these arguments, as a shell reads them.
 inline Run planner(const Folder& folder, const std::string& arguments) {
   const std::string command =
-      std::string(PLANNER_COMMAND) + " " + arguments + " > " + folder.file("out") + " 2> " + folder.file("err");
+      program_folder() + "/planner " + arguments + " > " + folder.file("out") + " 2> " + folder.file("err");
   const int status = std::system(command.c_str());
   return {WEXITSTATUS(status), text_of(folder.file("out")), text_of(folder.file("err"))};
 }
 
 /// The path of a scene of data/planner.
-inline std::string scene(const std::string& name) { return std::string(PLANNER_SCENES) + "/" + name + ".json"; }
+inline std::string scene(const std::string& name) { return source_folder() + "/data/planner/" + name + ".json"; }
 
 }  // namespace nef::planner::test

@@ -7,6 +7,7 @@
 
 #include "tests/planner/command_helpers.h"
 #include "tests/planner/scene_helpers.h"
+#include "tests/support/paths.h"
 
 namespace nef::planner::test {
 namespace {
@@ -196,7 +197,7 @@ TEST_CASE("numbers are the rationals that they spell") {
 
 TEST_CASE("the example program runs") {
   const Folder folder;
-  const int status = std::system((std::string(PLANNER_EXAMPLE) + " > " + folder.file("out")).c_str());
+  const int status = std::system((program_folder() + "/planner_plan_from_ompl > " + folder.file("out")).c_str());
   CHECK(WEXITSTATUS(status) == 0);
   const std::string out = text_of(folder.file("out"));
   CHECK(out.find("TightPlanner: Exact solution, length 7.16667, checked yes") != std::string::npos);

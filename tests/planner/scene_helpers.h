@@ -6,11 +6,12 @@
 #include <string>
 
 #include "apps/planner/path/question.h"
+#include "tests/support/paths.h"
 
 namespace nef::planner::test {
 
 /// A scene of data/planner, without its extension.
-inline Scene load(const std::string& name) { return read_scene(std::string(PLANNER_SCENES) + "/" + name + ".json"); }
+inline Scene load(const std::string& name) { return read_scene(source_folder() + "/data/planner/" + name + ".json"); }
 
 /// The scene with obstacles, start and goal mapped by `map` and the robot by its linear part. Boxes are axis-parallel,
 /// so the scene must have none.

@@ -12,6 +12,7 @@
 #include "nef/construct/construct.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/polyhedron_file.h"
+#include "tests/support/paths.h"
 #include "tests/visual_hull/helpers.h"
 #include "tests/visual_hull/scratch.h"
 
@@ -28,7 +29,7 @@ struct Outcome {
 
 // Runs the command; `output` is standard output and standard error together.
 Outcome run(const std::string& arguments) {
-  const std::string command = std::string(NEF_BINARY_DIR) + "/visual_hull " + arguments + " 2>&1";
+  const std::string command = program_folder() + "/visual_hull " + arguments + " 2>&1";
   Outcome outcome;
   FILE* pipe = popen(command.c_str(), "r");
   REQUIRE(pipe != nullptr);
@@ -39,7 +40,7 @@ Outcome run(const std::string& arguments) {
   return outcome;
 }
 
-std::string data(const std::string& name) { return std::string(NEF_SOURCE_DIR) + "/data/visual_hull/" + name; }
+std::string data(const std::string& name) { return source_folder() + "/data/visual_hull/" + name; }
 
 nlohmann::json read_json(const std::filesystem::path& file) {
   return nlohmann::json::parse(nef::read_file(file.string()));

@@ -7,6 +7,7 @@
 
 #include "apps/visual_hull/verify/empty_hull.h"
 #include "nef/base/error.h"
+#include "tests/support/paths.h"
 #include "tests/visual_hull/helpers.h"
 #include "tests/visual_hull/scratch.h"
 
@@ -29,7 +30,7 @@ class Copy {
   }
 
   static std::filesystem::path source(const std::string& model) {
-    return std::filesystem::path(NEF_SOURCE_DIR) / "data/visual_hull" / model;
+    return std::filesystem::path(source_folder()) / "data/visual_hull" / model;
   }
   [[nodiscard]] std::string file(std::size_t view) const {
     return (folder_.folder() / scene_.views[view].image).string();

@@ -5,6 +5,7 @@
 
 #include "apps/visual_hull/cones/bounds.h"
 #include "apps/visual_hull/cones/intersection.h"
+#include "tests/support/paths.h"
 #include "tests/visual_hull/helpers.h"
 
 namespace visual_hull {
@@ -81,7 +82,7 @@ TEST_CASE("Random masks, holes and touching rings included: the direct way agree
 }
 
 TEST_CASE("The views of a real scene go the direct way, on any number of threads") {
-  const std::filesystem::path folder = std::string(NEF_SOURCE_DIR) + "/data/visual_hull/elk";
+  const std::filesystem::path folder = source_folder() + "/data/visual_hull/elk";
   const Scene scene = read_scene(folder / "elk.json");
   Options options;
   options.silhouette.simplify.tolerance = 1;

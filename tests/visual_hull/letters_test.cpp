@@ -4,12 +4,13 @@
 #include <algorithm>
 
 #include "apps/visual_hull/command/report.h"
+#include "tests/support/paths.h"
 #include "tests/visual_hull/helpers.h"
 
 namespace visual_hull {
 namespace {
 
-Scene letters() { return read_scene(std::string(NEF_SOURCE_DIR) + "/data/visual_hull/letters/mpi.vsh"); }
+Scene letters() { return read_scene(source_folder() + "/data/visual_hull/letters/mpi.vsh"); }
 
 // Inside all three letters as their cameras see them, by parity of the polygons: nothing of cones or Booleans.
 bool seen_in_all(const Scene& scene, const Rational3& p) {
@@ -79,11 +80,11 @@ TEST_CASE("Vertices of the letters' hull lie on three cone planes each, as camer
 }
 
 TEST_CASE("Any number of threads gives the same complex") {
-  const Scene scene = read_scene(std::string(NEF_SOURCE_DIR) + "/data/visual_hull/eight/eight.json");
+  const Scene scene = read_scene(source_folder() + "/data/visual_hull/eight/eight.json");
   Options options;
   options.silhouette.simplify.tolerance = 2;
   options.way = Way::kCones;
-  const std::filesystem::path folder = std::string(NEF_SOURCE_DIR) + "/data/visual_hull/eight";
+  const std::filesystem::path folder = source_folder() + "/data/visual_hull/eight";
   const Result one = compute(scene, folder, options);
   options.threads = 3;
   const Result three = compute(scene, folder, options);

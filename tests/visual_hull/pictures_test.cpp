@@ -6,6 +6,7 @@
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
 #include "nef/view/page.h"
+#include "tests/support/paths.h"
 #include "tests/visual_hull/helpers.h"
 #include "tests/visual_hull/scratch.h"
 
@@ -14,7 +15,7 @@ namespace {
 
 using testing::Scratch;
 
-std::string data(const std::string& name) { return std::string(NEF_SOURCE_DIR) + "/data/visual_hull/" + name; }
+std::string data(const std::string& name) { return source_folder() + "/data/visual_hull/" + name; }
 
 Result eight() {
   Options options;

@@ -11,6 +11,7 @@
 #include "nef/io/mesh/mesh_reader.h"
 #include "nef/mesh/mesh_check.h"
 #include "nef/mesh/mesh_surface.h"
+#include "tests/support/paths.h"
 
 namespace nef {
 namespace {
@@ -464,7 +465,7 @@ TEST_CASE("A needle through one of two faces with two hundred corners is found")
 }
 
 TEST_CASE("Real meshes: shuffled faces are the only trouble of cube-shuffled, sphere is clean") {
-  const std::string folder = NEF_SOURCE_DIR "/data/meshes/";
+  const std::string folder = source_folder() + "/data/meshes/";
   CHECK(check_mesh(read_mesh(folder + "sphere.stl")).empty());
   CHECK(check_mesh(read_mesh(folder + "hole.off")).empty());
   const auto problems = check_mesh(read_mesh(folder + "cube-shuffled.off"));

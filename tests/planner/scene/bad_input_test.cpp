@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "tests/planner/command_helpers.h"
+#include "tests/support/paths.h"
 
 namespace nef::planner::test {
 namespace {
@@ -77,7 +78,7 @@ TEST_CASE("bad scenes") {
   static_cast<void>(folder.write("bad.dae", "<COLLADA>"));
   static_cast<void>(folder.write("bad.xyz", "1 2 3"));
   static_cast<void>(folder.write("none.off", "OFF\n0 0 0\n"));
-  std::string collada = text_of(std::string(PLANNER_SCENES) + "/omplapp/cube.dae");
+  std::string collada = text_of(source_folder() + "/data/planner/omplapp/cube.dae");
   const std::string first = "count=\"24\">0";
   collada.replace(collada.find(first), first.size(), "count=\"24\">1e99");
   static_cast<void>(folder.write("infinite.dae", collada));
@@ -89,7 +90,7 @@ TEST_CASE("bad scenes") {
 
 TEST_CASE("bad .cfg files") {
   const Folder folder;
-  const std::string cube = std::string(PLANNER_SCENES) + "/omplapp/cube.dae";
+  const std::string cube = source_folder() + "/data/planner/omplapp/cube.dae";
   const std::string meshes = "[problem]\nrobot = " + cube + "\nworld = " + cube + "\n";
   const std::string start = "start.x = 3\nstart.y = 3\nstart.z = 3\n";
   const std::string goal = "goal.x = 4\ngoal.y = 3\ngoal.z = 3\n";

@@ -11,11 +11,12 @@
 #include "nef/io/file_bytes.h"
 #include "tests/planner/command_helpers.h"
 #include "tests/planner/scene_helpers.h"
+#include "tests/support/paths.h"
 
 namespace nef::planner::test {
 namespace {
 
-std::string problem(const std::string& name) { return std::string(PLANNER_SCENES) + "/omplapp/" + name; }
+std::string problem(const std::string& name) { return source_folder() + "/data/planner/omplapp/" + name; }
 
 TEST_CASE("a problem with COLLADA meshes: turned upright, double faces once, the robot re-centred") {
   const Scene scene = read_scene(problem("wall.cfg"));

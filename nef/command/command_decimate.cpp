@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// nef decimate
+#include "nef/base/stopwatch.h"
+#include "nef/command/commands.h"
+#include "nef/decimation/decimate.h"
+#include "nef/io/mesh/mesh_writer.h"
+
+namespace nef {
+
+void add_decimate_command(CLI::App& app, Session& session) {
+  CLI::App* command = add_subcommand(app, session, "decimate",
+                                     "A mesh of fewer triangles for a solid, legal still, and how far it is from it");
+  const auto triangles = std::make_shared<std::size_t>(0);
+  command->add_option("input", session.input, "the set, as a file")->required();
+  command->add_option("--triangles", *triangles, "how many to aim at")->required()->check(CLI::PositiveNumber);
+  add_input_flags(command, session);
+  add_output_flags(command, session)->required();
+  command->callback([&session, triangles] {
+    const Polyhedron set = session.load(session.input);
+    const Stopwatch watch;
+    const DecimatedMesh decimated = decimate(set, *triangles);
+    const double seconds = watch.seconds();
+    for (const std::string& line : decimated.notes) session.note(line);
+    Messages notes;
+    write_mesh(session.output, decimated.mesh, {session.exact, session.binary, session.format}, &notes);
+    for (const std::string& line : notes) session.note(line);
+    const auto [low, high] = decimated.distance;
+    session.say(std::to_string(decimated.mesh.face_count()) + " triangles; Hausdorff distance " + Json(low).dump() +
+                " to " + Json(high).dump());
+    if (!session.json) return;
+    session.print({{"command", "decimate"},
+                   {"load_s", session.load_s},
+                   {"op_s", seconds},
+                   {"triangles", decimated.mesh.face_count()},
+                   {"vertices", decimated.mesh.vertices.size()},
+                   {"distance", {{"low", low}, {"high", high}}}});
+  });
+}
+
+}  // namespace nef

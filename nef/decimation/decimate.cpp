@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/decimation/decimate.h"
+
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+#include <OpenMesh/Tools/Decimater/DecimaterT.hh>
+#include <OpenMesh/Tools/Decimater/ModNormalFlippingT.hh>
+#include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
+#include <algorithm>
+#include <array>
+#include <span>
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "nef/base/union_find.h"
+#include "nef/export/convert_openmesh.h"
+#include "nef/export/to_mesh.h"
+#include "nef/mesh/edge_order.h"
+
+namespace nef {
+namespace {
+
+struct Traits : OpenMesh::DefaultTraits {
+  using Point = OpenMesh::Vec3d;
+  using Normal = OpenMesh::Vec3d;
+};
+using TriangleMesh = OpenMesh::TriMesh_ArrayKernelT<Traits>;
+
+// A mesh without edges or vertices at which several sheets meet, and for each of its vertices the one that it was.
+struct Sheets {
+  Mesh mesh;
+  std::vector<std::uint32_t> original;
+};
+
+// Gives each sheet at a vertex a vertex of its own: corners are of one sheet if edges of exactly two faces lead from
+// one to the other.
+Sheets sheets_of(const Mesh& mesh) {
+  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> sides;  // by direction: the corners where they begin
+  const auto next = [](std::uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; };
+  const auto corners = static_cast<std::uint32_t>(mesh.corners.size());
+  for (std::uint32_t c = 0; c < corners; ++c) {
+    sides[pair_key(mesh.corners[c], mesh.corners[next(c)])].push_back(c);
+  }
+  UnionFind sheets(corners);
+  for (std::uint32_t c = 0; c < corners; ++c) {
+    const auto back = sides.find(pair_key(mesh.corners[next(c)], mesh.corners[c]));
+    if (back == sides.end() || back->second.size() != 1) continue;
+    if (sides.at(pair_key(mesh.corners[c], mesh.corners[next(c)])).size() != 1) continue;
+    sheets.unite(c, next(back->second[0]));
+    sheets.unite(next(c), back->second[0]);
+  }
+  Sheets result;
+  std::vector<std::uint32_t> number(corners, static_cast<std::uint32_t>(-1));
+  for (std::uint32_t c = 0; c < corners; ++c) {
+    std::uint32_t& vertex = number[sheets.find(c)];
+    if (vertex == static_cast<std::uint32_t>(-1)) {
+      vertex = static_cast<std::uint32_t>(result.original.size());
+      result.original.push_back(mesh.corners[c]);
+      result.mesh.vertices.push_back(mesh.vertices[mesh.corners[c]]);
+    }
+    result.mesh.corners.push_back(vertex);
+    if (c % 3 == 2) result.mesh.face_begin.push_back(c + 1);
+  }
+  return result;
+}
+
+// What is left of a mesh of triangles after collapses down to a number of them. `original` tells which vertex of the
+// exact mesh each vertex of OpenMesh's is.
+Mesh collapsed(TriangleMesh work, const Mesh& exact, const std::vector<std::uint32_t>& original,
+               std::size_t triangles) {
+  work.request_vertex_status();
+  work.request_edge_status();
+  work.request_halfedge_status();
+  work.request_face_status();
+  work.request_face_normals();
+  work.update_face_normals();
+  // A border is where sheets were taken apart; it has to stay as it is, or a crack opens between them.
+  for (const auto v : work.vertices()) {
+    if (work.is_boundary(v)) work.status(v).set_locked(true);
+  }
+  OpenMesh::Decimater::DecimaterT<TriangleMesh> decimater(work);
+  OpenMesh::Decimater::ModQuadricT<TriangleMesh>::Handle quadric;
+  OpenMesh::Decimater::ModNormalFlippingT<TriangleMesh>::Handle no_flips;
+  decimater.add(quadric);
+  decimater.add(no_flips);
+  decimater.module(quadric).unset_max_err();
+  const bool ready = decimater.initialize();
+  NEF_ASSERT(ready);
+  decimater.decimate_to_faces(0, triangles);
+
+  Mesh result;
+  std::vector<std::uint32_t> number(exact.vertices.size(), static_cast<std::uint32_t>(-1));
+  for (const auto f : work.faces()) {
+    if (work.status(f).deleted()) continue;
+    for (auto v = work.cfv_ccwbegin(f); v != work.cfv_ccwend(f); ++v) {
+      const std::uint32_t source = original[static_cast<std::size_t>(v->idx())];
+      if (number[source] == static_cast<std::uint32_t>(-1)) {
+        number[source] = static_cast<std::uint32_t>(result.vertices.size());
+        result.vertices.push_back(exact.vertices[source]);
+      }
+      result.corners.push_back(number[source]);
+    }
+    result.face_begin.push_back(static_cast<std::uint32_t>(result.corners.size()));
+  }
+  return result;
+}
+
+bool is_legal(const Mesh& mesh) {
+  try {
+    from_mesh(mesh);
+    return mesh.face_count() > 0;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+// Adds the vertices of faces that mesh_to_openmesh could not fit in even so: a sheet that comes back to an edge.
+void add_separate_vertices(const TriangleMesh& work, Sheets& sheets) {
+  sheets.original.resize(work.n_vertices());
+  for (const auto f : work.faces()) {
+    std::array<std::uint32_t, 3> corners{};
+    std::transform(work.cfv_ccwbegin(f), work.cfv_ccwend(f), corners.begin(),
+                   [](const auto& v) { return static_cast<std::uint32_t>(v.idx()); });
+    if (corners[0] < sheets.mesh.vertices.size()) continue;
+    // All corners are new ones, numbered in the order of the face.
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    const std::span<const std::uint32_t> face = sheets.mesh.face(static_cast<std::size_t>(f.idx()));
+    for (std::size_t i = 0; i < 3; ++i) sheets.original[corners[i]] = sheets.original[face[i]];
+  }
+}
+
+}  // namespace
+
+DecimatedMesh decimate(const Polyhedron& set, std::size_t triangles) {
+  MeshExport whole = to_mesh(set);
+  const Mesh& exact = whole.mesh;
+  if (exact.face_count() == 0) throw InputError("the set has no bounded solid part, so there is no mesh to decimate");
+  Sheets sheets = sheets_of(exact);
+  const auto work = mesh_to_openmesh<TriangleMesh>(sheets.mesh);
+  add_separate_vertices(work, sheets);
+  DecimatedMesh result{exact, {}, std::move(whole.lost)};
+  constexpr int kAttempts = 8;
+  std::size_t wanted = triangles;
+  for (int i = 0; i < kAttempts && wanted < exact.face_count(); ++i) {
+    Mesh attempt = collapsed(work, exact, sheets.original, wanted);
+    if (is_legal(attempt)) {
+      result.mesh = std::move(attempt);
+      break;
+    }
+    wanted += (exact.face_count() - wanted + 1) / 2;
+  }
+  if (result.mesh.face_count() > triangles && result.mesh.face_count() > wanted) {
+    result.notes.push_back("no edge can be collapsed without turning a face over, or a border away: " +
+                           std::to_string(result.mesh.face_count()) + " triangles stay");
+  } else if (wanted > triangles) {
+    result.notes.push_back("with fewer triangles the mesh would touch or cross itself: " +
+                           std::to_string(result.mesh.face_count()) + " stay");
+  }
+  constexpr std::size_t kSplitsPerFace = 20;
+  if (result.mesh.face_count() == exact.face_count()) return result;
+  result.distance = hausdorff_distance(exact, result.mesh, kSplitsPerFace * exact.face_count());
+  return result;
+}
+
+}  // namespace nef

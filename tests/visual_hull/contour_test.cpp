@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "nef/base/error.h"
 #include "tests/visual_hull/helpers.h"
 
 namespace visual_hull {
@@ -127,6 +128,52 @@ TEST_CASE("Polygons from outside are cleaned, and refused by name if they cannot
   CHECK(touching.vertex_count() == 8);
   CHECK(touching.hole_count() == 1);
   CHECK(check(touching).empty());
+}
+
+// All vertices of these rings lie on the border of another one, so no decision can rest on where a vertex lies.
+TEST_CASE("Rings that touch their neighbours in every vertex are nested whatever vertex they begin with") {
+  const std::vector<Ring> rings{
+      testing::rectangle(0, 0, 16, 16),
+      testing::ring({{8, 0}, {16, 8}, {8, 16}, {0, 8}}),     // its corners halve the sides of the square
+      testing::rectangle(4, 4, 12, 12),                      // and so on
+      testing::ring({{8, 4}, {12, 8}, {8, 12}, {4, 8}}),     //
+      testing::ring({{16, 0}, {24, 8}, {16, 16}, {20, 8}}),  // beside the square, from corner to corner
+      testing::ring({{16, 0}, {18, 4}, {16, 8}}),            // along half a side: refused unless it is left out
+      testing::ring({{8, 4}, {9, 6}, {8, 12}, {7, 6}}),      // in the innermost, from corner to corner
+  };
+  const std::vector<std::size_t> used{0, 1, 2, 3, 4, 6};
+  const std::vector<int> depth{0, 1, 2, 3, 0, 4};
+  for (std::size_t turn = 0; turn < 4; ++turn) {
+    for (std::size_t order = 0; order < used.size(); ++order) {
+      std::vector<Ring> input;
+      std::vector<int> expected;
+      for (std::size_t k = 0; k < used.size(); ++k) {
+        const std::size_t i = (k + order) % used.size();
+        Ring ring = rings[used[i]];
+        std::rotate(ring.begin(), ring.begin() + static_cast<std::ptrdiff_t>(turn), ring.end());
+        if ((order + turn) % 2 == 1) std::reverse(ring.begin(), ring.end());
+        input.push_back(std::move(ring));
+        expected.push_back(depth[i]);
+      }
+      const Silhouette nested = make_silhouette(input, "test");
+      CHECK(nested.depth == expected);
+      // Parity of the rings, one by one, where no border is near.
+      for (double x = -0.875; x < 25; x += 1.75) {
+        for (double y = -0.625; y < 18; y += 1.25) {
+          const Point2 p = Point2::from_doubles(x, y);
+          bool inside = false;
+          bool clear = true;
+          for (const Ring& ring : input) {
+            const Side side = locate(ring, p);
+            clear = clear && side != Side::kBoundary;
+            if (side == Side::kInside) inside = !inside;
+          }
+          if (clear) CHECK((locate(nested, p) == Side::kInside) == inside);
+        }
+      }
+    }
+  }
+  CHECK_THROWS_AS(make_silhouette({rings[0], rings[5]}, "test"), nef::InputError);
 }
 
 TEST_CASE("Orientation is exact where doubles are not") {

@@ -5,7 +5,6 @@
 // (+y), looking at the origin. So (1, 0, 0) is seen 20 pixels to the right, (0, 1, 0) 20 pixels above.
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstring>
 #include <opencv2/imgcodecs.hpp>
 
 #include "apps/visual_hull/formats/turntable.h"
@@ -13,12 +12,17 @@
 #include "apps/visual_hull/scene/understanding.h"
 #include "nef/base/error.h"
 #include "tests/visual_hull/helpers.h"
+#include "tests/visual_hull/mat_file.h"
 #include "tests/visual_hull/scratch.h"
 
 namespace visual_hull {
 namespace {
 
 using Catch::Contains;
+using testing::mat_array;
+using testing::mat_element;
+using testing::mat_header;
+using testing::put;
 using testing::Scratch;
 
 std::array<double, 3> seen(const Camera& camera, const Rational3& point) {
@@ -91,13 +95,6 @@ TEST_CASE("NeRF's transforms: camera to world, OpenGL's axes, corners of pixels"
   CHECK_THAT(refusal(s.write("none.json", R"({"frames": []})")), Contains("'frames' is empty"));
   CHECK_THAT(refusal(s.write("pose.json", R"({"fl_x": 1, "w": 2, "h": 2, "frames": [{}]})")),
              Contains("'transform_matrix' is missing"));
-}
-
-template <typename T>
-void put(std::string& bytes, T value) {
-  std::array<char, sizeof(T)> raw;
-  std::memcpy(raw.data(), &value, sizeof(T));
-  bytes.append(raw.data(), raw.size());
 }
 
 // Half a turn about x: from y up and z back to y down and z ahead; then five ahead.
@@ -222,64 +219,37 @@ TEST_CASE("OpenCV's FileStorage: the calibration sample, lists, numbered nodes, 
   CHECK_THAT(refusal(s.write("few.yml", "%YAML:1.0\n---\nP0: [1., 2.]\n")), Contains("12 or 16 numbers are needed"));
 }
 
-// An array of doubles of MATLAB's version 5: flags, dimensions, name, numbers, each padded to eight bytes.
-std::string element(std::uint32_t type, const std::string& data) {
-  std::string bytes;
-  put<std::uint32_t>(bytes, type);
-  put<std::uint32_t>(bytes, static_cast<std::uint32_t>(data.size()));
-  bytes += data;
-  bytes.append((8 - data.size() % 8) % 8, '\0');
-  return bytes;
-}
-
-std::string array(std::uint32_t kind, const std::vector<std::int32_t>& sizes, const std::string& name,
-                  const std::string& content) {
-  std::string flags;
-  put<std::uint32_t>(flags, kind);
-  put<std::uint32_t>(flags, 0);
-  std::string dimensions;
-  for (const std::int32_t n : sizes) put<std::int32_t>(dimensions, n);
-  return element(14, element(6, flags) + element(5, dimensions) + element(1, name) + content);
-}
-
 // Columns first.
 std::string numbers(std::size_t times) {
   std::string data;
   for (std::size_t i = 0; i < times; ++i) {
     for (const double x : {100, 0, 0, 0, -100, 0, -100, -50, -1, 500, 250, 5}) put<double>(data, x);
   }
-  return element(9, data);
-}
-
-std::string header() {
-  std::string bytes = "MATLAB 5.0 MAT-file, by hand";
-  bytes.append(124 - bytes.size(), ' ');
-  put<std::uint16_t>(bytes, 0x0100);
-  put<std::uint16_t>(bytes, 0x4d49);
-  return bytes;
+  return mat_element(9, data);
 }
 
 TEST_CASE("MATLAB files of version 5: a cell array, a stack of matrices, single variables") {
   const Scratch s;
-  constexpr std::uint32_t kDouble = 6;
-  constexpr std::uint32_t kCell = 1;
-  const std::string one = array(kDouble, {3, 4}, "", numbers(1));
-  const std::string cell = array(kCell, {1, 2}, "P", one + one);
-  const std::string stack = array(kDouble, {3, 4, 3}, "Q", numbers(3));
-  const std::string unit = array(kDouble, {1, 1}, "x", element(9, std::string(8, '\0')));
+  const std::string one = mat_array(testing::kMatDouble, {3, 4}, "", numbers(1));
+  const std::string cell = mat_array(testing::kMatCell, {1, 2}, "P", one + one);
+  const std::string stack = mat_array(testing::kMatDouble, {3, 4, 3}, "Q", numbers(3));
+  const std::string unit = mat_array(testing::kMatDouble, {1, 1}, "x", mat_element(9, std::string(8, '\0')));
   const auto check = [&](const std::string& name, const std::string& content, std::size_t views,
                          const std::string& variable = "") {
-    const Scene scene = read_scene(s.write(name, header() + content), {variable});
+    const Scene scene = read_scene(s.write(name, mat_header() + content), {variable});
     REQUIRE(scene.views.size() == views);
     for (const View& view : scene.views) check_camera(view.camera);
   };
   check("cell.mat", unit + cell, 2);
   check("stack.mat", stack, 3);
   check("both.mat", cell + stack, 3, "Q");
-  check("single.mat", array(kDouble, {3, 4}, "P10", numbers(1)) + array(kDouble, {3, 4}, "P9", numbers(1)), 2);
+  check("single.mat",
+        mat_array(testing::kMatDouble, {3, 4}, "P10", numbers(1)) +
+            mat_array(testing::kMatDouble, {3, 4}, "P9", numbers(1)),
+        2);
   CHECK_THAT(refusal(s.folder() / "both.mat"), Contains("name one with --matrices"));
-  CHECK_THAT(refusal(s.write("none.mat", header() + unit)), Contains("there are no 3x4 matrices"));
-  CHECK_THAT(refusal(s.write("cut.mat", (header() + cell).substr(0, 200))), Contains("there are no 3x4 matrices"));
+  CHECK_THAT(refusal(s.write("none.mat", mat_header() + unit)), Contains("there are no 3x4 matrices"));
+  CHECK_THAT(refusal(s.write("cut.mat", (mat_header() + cell).substr(0, 200))), Contains("there are no 3x4 matrices"));
 }
 
 TEST_CASE("A folder of PMVS") {

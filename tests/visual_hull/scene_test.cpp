@@ -161,7 +161,7 @@ TEST_CASE("Malformed scenes are refused in one line that says where") {
   CHECK_THAT(refusal(s, "n.txt", "a 1 0 0 0 0 1 0 0 0 0 1 nan\n"), Contains("line 1: 'nan' is not a number"));
   CHECK_THAT(refusal(s, "s.txt", "flat 1 0 0 0 0 1 0 0 0 0 0 1\n"), Contains("view flat: the matrix is singular"));
   CHECK_THAT(refusal(s, "m.txt", "3\na 1 0 0 0 0 1 0 0 0 0 1 0\n"), Contains("announces 3 views, but there are 1"));
-  CHECK_THAT(refusal(s, "r.txt", "a\n1 0 0 0\n0 1 0 0\n"), Contains("ends inside the matrix of view a"));
+  CHECK_THAT(refusal(s, "r.txt", "a\n1 0 0 0\n0 1 0 0\n"), Contains("ends inside the matrix of view 'a'"));
   CHECK_THAT(refusal(s, "j.json", "{\"cameras\": [}"), Contains("j.json:1: not valid JSON near"));
   CHECK_THAT(refusal(s, "l.json", "{}"), Contains("a scene needs a list 'cameras'"));
   CHECK_THAT(refusal(s, "k.json", R"({"cameras": [{"image": "a", "K": [1,0,0,0,1,0,0,0,1]}]})"),

@@ -5,8 +5,15 @@
 #include <cmath>
 #include <random>
 
+#include "apps/visual_hull/scene/scene_number.h"
+
 namespace visual_hull {
 namespace {
+
+// Beyond the numbers of a scene, in bits; what lies beyond the half of it is unbounded.
+constexpr unsigned kLimitBits = 210;
+constexpr double kLimit = 0x1p210;
+static_assert(kLimit / 2 > kLargestNumber);
 
 /// a . x <= b.
 template <typename Number>
@@ -122,8 +129,8 @@ class ProvenOptimum {
   [[nodiscard]] std::optional<Rational> operator()(std::size_t axis, int sign) const {
     std::vector<double> objective(3);
     objective[axis] = sign;
-    const Optimum<double> found = solve(rounded_, objective, 0x1p100);
-    if (!found || !(std::abs((*found)[axis]) < 0x1p90)) return std::nullopt;
+    const Optimum<double> found = solve(rounded_, objective, kLimit);
+    if (!found || !(std::abs((*found)[axis]) < kLimit / 2)) return std::nullopt;
     // The constraints that are tight there, or nearly.
     std::vector<std::pair<double, std::size_t>> slack;
     for (std::size_t k = 0; k < rounded_.size(); ++k) {
@@ -233,7 +240,7 @@ Bounds bounds_of(const std::vector<HalfSpace>& half_spaces) {
   }
   std::shuffle(constraints.begin(), constraints.end(), std::mt19937_64(12345));  // a fixed seed: the answer is exact
   const ProvenOptimum proven(constraints);
-  const Rational limit(Integer(1) << 100);
+  const Rational limit(Integer(1) << kLimitBits);
   Bounds result;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     for (const int sign : {-1, 1}) {

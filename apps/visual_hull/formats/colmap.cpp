@@ -11,7 +11,9 @@
 #include <sstream>
 
 #include "apps/visual_hull/scene/pose.h"
+#include "apps/visual_hull/scene/scene_number.h"
 #include "nef/base/error.h"
+#include "nef/base/in_quotes.h"
 #include "nef/io/native/binary_cursor.h"
 
 namespace visual_hull {
@@ -79,21 +81,15 @@ Pose pose_of(const std::array<double, 7>& v, const std::string& where) {
 // A line of text with its number for messages.
 class Words {
  public:
-  Words(const std::string& line, std::string where) : stream_(line), where_(std::move(where)) {}
+  Words(const std::string& line, std::string where, Quote quote)
+      : stream_(line), where_(std::move(where)), quote_(quote) {}
 
   std::string next(const char* what) {
     std::string word;
     if (!(stream_ >> word)) throw nef::InputError(fmt::format("{}: the {} is missing", where_, what));
     return word;
   }
-  double number(const char* what) {
-    const std::string word = next(what);
-    try {
-      return nef::nearest_double(nef::parse_rational(word));
-    } catch (const nef::InputError&) {
-      throw nef::InputError(fmt::format("{}: '{}' is not a number ({})", where_, word, what));
-    }
-  }
+  double number(const char* what) { return nef::nearest_double(scene_number(next(what), where_, what, quote_)); }
   std::uint32_t whole(const char* what) {
     const double value = number(what);
     if (!(value >= 0 && value <= 4e9 && value == std::floor(value))) {
@@ -113,7 +109,11 @@ class Words {
  private:
   std::istringstream stream_;
   std::string where_;
+  Quote quote_;
 };
+
+// Nothing is told of a file that has not shown what it should hold: it may be anything.
+Quote quote_after(bool recognized) { return recognized ? Quote::kWord : Quote::kNever; }
 
 bool is_comment(const std::string& line) {
   const std::size_t first = line.find_first_not_of(" \t\r");
@@ -127,11 +127,12 @@ void read_cameras_text(const fs::path& file, Colmap& model) {
   std::string line;
   for (std::size_t number = 1; std::getline(stream, line); ++number) {
     if (is_comment(line) || is_blank(line)) continue;
-    Words words(line, fmt::format("{}, line {}", file.string(), number));
+    Words words(line, fmt::format("{}, line {}", file.string(), number), quote_after(!model.lenses.empty()));
     const std::uint32_t id = words.whole("number of the camera");
     const std::string name = words.next("camera model");
     const auto known = std::find_if(kModels.begin(), kModels.end(), [&](const Model& m) { return name == m.name; });
-    if (known == kModels.end()) throw nef::InputError(words.where() + ": there is no camera model '" + name + "'");
+    if (known == kModels.end())
+      throw nef::InputError(words.where() + ": there is no camera model " + nef::in_quotes(name));
     const auto width = static_cast<int>(words.whole("width"));
     const auto height = static_cast<int>(words.whole("height"));
     std::vector<double> parameters;
@@ -150,7 +151,7 @@ void read_images_text(const fs::path& file, Colmap& model) {
       continue;
     }
     if (is_comment(line) || is_blank(line)) continue;
-    Words words(line, fmt::format("{}, line {}", file.string(), number));
+    Words words(line, fmt::format("{}, line {}", file.string(), number), quote_after(!model.images.empty()));
     words.whole("number of the image");
     std::array<double, 7> motion{};
     for (double& value : motion) value = words.number("quaternion and translation");

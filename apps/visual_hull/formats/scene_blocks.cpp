@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "apps/visual_hull/formats/scene_text.h"
+#include "apps/visual_hull/scene/scene_number.h"
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
 
@@ -68,11 +69,7 @@ class BlockReader {
         fail("a row of " + std::to_string(columns) + " numbers is needed, not " + std::to_string(tokens.size()));
       }
       for (std::size_t i = 0; i < columns; ++i) {
-        try {
-          matrix[row][i] = nef::parse_rational(tokens[i]);
-        } catch (const nef::InputError&) {
-          fail("'" + tokens[i] + "' is not a number");
-        }
+        matrix[row][i] = scene_number(tokens[i], file_.string() + ", line " + std::to_string(number_), "of a camera");
       }
     }
   }

@@ -2,7 +2,9 @@
 #include "apps/visual_hull/formats/scene_json.h"
 
 #include "apps/visual_hull/formats/transforms.h"
+#include "apps/visual_hull/scene/scene_number.h"
 #include "nef/base/error.h"
+#include "nef/base/in_quotes.h"
 #include "nef/io/file_bytes.h"
 #include "nef/program/exact_json.h"
 
@@ -17,6 +19,7 @@ std::vector<Rational> numbers(const json& value, std::size_t count, const std::s
     throw nef::InputError(where + ": " + std::to_string(count) + " numbers are needed, not " +
                           std::to_string(out.size()));
   }
+  for (const Rational& value : out) check_size(value, where);
   return out;
 }
 
@@ -28,7 +31,7 @@ Matrix3 matrix3(const json& value, const std::string& where) {
 }
 
 std::string text_of(const json& value, const std::string& where) {
-  if (!value.is_string()) throw nef::InputError(where + ": text is needed, not " + nef::spelled(value));
+  if (!value.is_string()) throw nef::InputError(where + ": text is needed, not " + nef::in_quotes(nef::spelled(value)));
   return value.get<std::string>();
 }
 
@@ -84,6 +87,7 @@ Distortion read_distortion(const json& entry, const std::string& where) {
   }
   bool any = false;
   for (const Rational& value : values) {
+    check_size(value, where + ", distortion");
     distortion.coefficients.push_back(nef::nearest_double(value));
     any = any || sgn(value) != 0;
   }

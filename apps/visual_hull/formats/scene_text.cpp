@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <sstream>
 
+#include "apps/visual_hull/scene/scene_number.h"
 #include "nef/base/error.h"
+#include "nef/base/in_quotes.h"
 
 namespace visual_hull {
 namespace {
@@ -62,13 +64,21 @@ class TextScene {
 
  private:
   [[noreturn]] void fail(const Line& line, const std::string& what) const {
-    throw nef::InputError(file_.string() + ", line " + std::to_string(line.number) + ": " + what);
+    throw nef::InputError(place(line) + ": " + what);
+  }
+
+  std::string place(const Line& line) const { return file_.string() + ", line " + std::to_string(line.number); }
+
+  // Nothing is told of a file that has shown neither a camera nor most of a line of numbers: it may be anything.
+  Quote quote(std::size_t numbers_before) const {
+    constexpr std::size_t kEnough = 6;
+    return scene_.views.empty() && numbers_before < kEnough ? Quote::kNever : Quote::kWord;
   }
 
   std::size_t count(const Line& line) const {
     const std::string& token = line.tokens[0];
     if (token.size() > 7 || token.find_first_not_of("0123456789") != std::string::npos) {
-      fail(line, "'" + token + "' is not the number of views");
+      fail(line, "a number of views, or a camera, is expected");
     }
     return std::stoul(token);
   }
@@ -76,11 +86,7 @@ class TextScene {
   std::vector<Rational> numbers(const Line& line, std::size_t from) const {
     std::vector<Rational> values;
     for (std::size_t i = from; i < line.tokens.size(); ++i) {
-      try {
-        values.push_back(nef::parse_rational(line.tokens[i]));
-      } catch (const nef::InputError&) {
-        fail(line, "'" + line.tokens[i] + "' is not a number");
-      }
+      values.push_back(scene_number(line.tokens[i], place(line), "of a camera", quote(values.size())));
     }
     return values;
   }
@@ -140,7 +146,10 @@ class TextScene {
     if (head.tokens.size() == 1) ++i;
     std::vector<Rational> values;
     for (std::size_t row = 0; row < 3; ++row, ++i) {
-      if (i >= lines_.size()) fail(head, "the file ends inside the matrix of view " + name);
+      if (i >= lines_.size()) {
+        fail(head, "the file ends inside the matrix of " +
+                       (quote(values.size()) == Quote::kWord ? "view " + nef::in_quotes(name) : "this view"));
+      }
       const std::size_t skip = lines_[i].tokens.size() == 5 && row == 0 && head.tokens.size() == 5 ? 1 : 0;
       if (lines_[i].tokens.size() - skip != 4) fail(lines_[i], "a row of a 3x4 matrix has four numbers");
       const std::vector<Rational> part = numbers(lines_[i], skip);

@@ -7,7 +7,9 @@
 
 #include "apps/visual_hull/scene/images.h"
 #include "apps/visual_hull/scene/pose.h"
+#include "apps/visual_hull/scene/scene_number.h"
 #include "nef/base/error.h"
+#include "nef/base/in_quotes.h"
 #include "nef/program/exact_json.h"
 
 namespace visual_hull {
@@ -24,14 +26,17 @@ class Frame {
   [[nodiscard]] std::optional<double> number(const char* key) const {
     const json* value = find(key);
     if (value == nullptr || value->is_null()) return std::nullopt;
-    return nef::nearest_double(nef::rational_of(*value, where_ + ", " + key));
+    const Rational number = nef::rational_of(*value, where_ + ", " + key);
+    check_size(number, where_ + ", " + key);
+    return nef::nearest_double(number);
   }
 
   [[nodiscard]] std::optional<std::string> text(const char* key) const {
     const json* value = find(key);
     if (value == nullptr || value->is_null()) return std::nullopt;
     if (!value->is_string()) {
-      throw nef::InputError(fmt::format("{}, {}: text is needed, not {}", where_, key, nef::spelled(*value)));
+      throw nef::InputError(
+          fmt::format("{}, {}: text is needed, not {}", where_, key, nef::in_quotes(nef::spelled(*value))));
     }
     return value->get<std::string>();
   }
@@ -50,6 +55,7 @@ class Frame {
     }
     Eigen::Matrix4d m = Eigen::Matrix4d::Identity();
     for (std::size_t i = 0; i < v.size(); ++i) {
+      check_size(v[i], where_ + ", transform_matrix");
       m(static_cast<Eigen::Index>(i / 4), static_cast<Eigen::Index>(i % 4)) = nef::nearest_double(v[i]);
     }
     return m;

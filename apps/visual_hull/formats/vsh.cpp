@@ -1,25 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/visual_hull/formats/vsh.h"
 
-#include <sstream>
-
+#include "apps/visual_hull/scene/scene_number.h"
 #include "nef/base/error.h"
+#include "nef/base/in_quotes.h"
+#include "nef/io/text_cursor.h"
 
 namespace visual_hull {
 namespace {
 
 class Reader {
  public:
-  Reader(const std::string& text, std::string where) : stream_(text), where_(std::move(where)) {}
+  Reader(const std::string& text, const std::string& file) : cursor_(text, file) {}
 
-  Rational number(const std::string& what) {
-    const std::string token = next(what);
-    try {
-      return nef::parse_rational(token);
-    } catch (const nef::InputError&) {
-      throw nef::InputError(where_ + ": '" + token + "' is not a number (" + what + ")");
-    }
-  }
+  /// The file has shown that it is what its name says: from now on its words may be told.
+  void recognized() { quote_ = Quote::kWord; }
+
+  Rational number(const std::string& what) { return scene_number(next(what), where(), what, quote_); }
 
   Rational3 point(const std::string& what) {
     Rational3 p;
@@ -28,28 +25,32 @@ class Reader {
   }
 
   std::size_t count(const std::string& what, std::size_t least) {
-    const std::string token = next(what);
-    if (token.empty() || token.size() > 7 || token.find_first_not_of("0123456789") != std::string::npos ||
-        std::stoul(token) < least) {
-      throw nef::InputError(where_ + ": '" + token + "' is not a " + what + " of at least " + std::to_string(least));
+    const std::string token(next(what));
+    if (token.size() > 7 || token.find_first_not_of("0123456789") != std::string::npos || std::stoul(token) < least) {
+      throw nef::InputError(where() + ": " + nef::in_quotes(token) + " is not a " + what + " of at least " +
+                            std::to_string(least));
     }
     return std::stoul(token);
   }
 
   void expect_end() {
-    std::string token;
-    if (stream_ >> token) throw nef::InputError(where_ + ": '" + token + "' follows after the last camera");
+    const std::string_view token = cursor_.word();
+    if (!token.empty()) {
+      throw nef::InputError(where() + ": " + nef::in_quotes(token) + " follows after the last camera");
+    }
   }
 
+  [[nodiscard]] std::string where() const { return cursor_.path() + ":" + std::to_string(cursor_.line()); }
+
  private:
-  std::string next(const std::string& what) {
-    std::string token;
-    if (!(stream_ >> token)) throw nef::InputError(where_ + ": the file ends before the " + what);
+  std::string_view next(const std::string& what) {
+    const std::string_view token = cursor_.word();
+    if (token.empty()) throw nef::InputError(where() + ": the file ends before the " + what);
     return token;
   }
 
-  std::istringstream stream_;
-  std::string where_;
+  nef::TextCursor cursor_;
+  Quote quote_ = Quote::kNever;
 };
 
 Rational3 minus(const Rational3& a, const Rational3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
@@ -131,6 +132,7 @@ Scene read_vsh(const std::string& text, const std::filesystem::path& file) {
   scene.box.emplace();
   scene.box->low = reader.point("room's smallest corner");
   scene.box->high = reader.point("room's largest corner");
+  reader.recognized();
   check_box(*scene.box, where);
   const std::size_t cameras = reader.count("number of cameras", 1);
   for (std::size_t c = 0; c < cameras; ++c) {

@@ -134,7 +134,8 @@ std::string find_crossing(const std::vector<Ring>& rings) {
 }
 
 bool contains_strictly(const Ring& outer, const Ring& inner) {
-  // Rings meet in vertices only, so the middle of an edge of one is not on the other.
+  // Rings meet in vertices only and no edge is common, so the middle of an edge of one is not on the other, whereas
+  // each vertex may be.
   const Point2 middle((inner[0].x + inner[1].x) / 2, (inner[0].y + inner[1].y) / 2);
   return locate(outer, middle) == Side::kInside;
 }

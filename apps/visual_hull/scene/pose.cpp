@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 
+#include "apps/visual_hull/scene/scene_number.h"
 #include "nef/base/error.h"
 
 namespace visual_hull {
@@ -38,6 +39,7 @@ View make_view(const std::string& name, const Eigen::Matrix<double, 3, 4>& matri
   Matrix34 exact;
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 4; ++j) {
+      check_size(matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)), "view " + name + ", its matrix");
       exact[i][j] = nef::exact_rational(matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)));
     }
   }

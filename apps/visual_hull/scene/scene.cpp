@@ -4,6 +4,7 @@
 #include <map>
 
 #include "nef/base/error.h"
+#include "nef/base/in_quotes.h"
 
 namespace visual_hull {
 
@@ -17,7 +18,7 @@ ThresholdOptions parse_threshold(const std::string& text) {
   try {
     options.value = nef::nearest_double(nef::parse_rational(text));
   } catch (const nef::InputError&) {
-    throw nef::InputError("threshold '" + text + "' is neither a number nor otsu");
+    throw nef::InputError("threshold " + nef::in_quotes(text) + " is neither a number nor otsu");
   }
   return options;
 }
@@ -30,7 +31,8 @@ ThresholdOptions::Channel parse_channel(const std::string& text) {
                                                     {"blue", Channel::kBlue},
                                                     {"alpha", Channel::kAlpha}};
   const auto found = names.find(text);
-  if (found == names.end()) throw nef::InputError("channel '" + text + "' is not gray, red, green, blue or alpha");
+  if (found == names.end())
+    throw nef::InputError("channel " + nef::in_quotes(text) + " is not gray, red, green, blue or alpha");
   return found->second;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/visual_hull/scene/world_box.h"
 
+#include "apps/visual_hull/scene/scene_number.h"
 #include "nef/base/error.h"
 #include "nef/program/numbers.h"
 
@@ -22,6 +23,7 @@ WorldBox parse_box(const std::string& text) {
   if (numbers.size() != 6) {
     throw nef::InputError("--box: six numbers x0,y0,z0,x1,y1,z1 are needed, not " + std::to_string(numbers.size()));
   }
+  for (const Rational& number : numbers) check_size(number, "--box");
   WorldBox box{{numbers[0], numbers[1], numbers[2]}, {numbers[3], numbers[4], numbers[5]}};
   check_box(box, "--box");
   return box;

@@ -211,4 +211,36 @@ TEST_CASE("The option --no-check changes nothing about a mesh that touches itsel
   CHECK(here.nef("check a.off").code == 0);
 }
 
+TEST_CASE("many notes of one file are a few lines, and all of them in JSON") {
+  const Workplace here;
+  // Five cubes, each with a corner pulled out: three bent faces each.
+  std::string vertices;
+  std::string faces;
+  for (int k = 0; k < 5; ++k) {
+    std::istringstream cube(cube_off(10 * k, 10 * k + 2));
+    std::string line;
+    for (int i = 0; std::getline(cube, line); ++i) {
+      if (i < 2) continue;
+      if (i == 9)
+        line = std::to_string(10 * k + 3) + " " + std::to_string(10 * k + 3) + " " + std::to_string(10 * k + 4);
+      if (i < 10) {
+        vertices += line + "\n";
+        continue;
+      }
+      std::istringstream corners(line);
+      int count = 0;
+      corners >> count;
+      faces += "4";
+      for (int corner = 0; corners >> corner;) faces += " " + std::to_string(corner + 8 * k);
+      faces += "\n";
+    }
+  }
+  here.write("bent.off", "OFF\n40 30 0\n" + vertices + faces);
+  const Outcome outcome = here.nef("info bent.off");
+  REQUIRE(outcome.code == 0);
+  CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 6);
+  CHECK(outcome.err.find("and 10 more") != std::string::npos);
+  CHECK(here.nef("info bent.off --json").json()["messages"].size() == 15);
+}
+
 }  // namespace nef::test

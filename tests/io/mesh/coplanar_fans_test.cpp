@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "nef/construct/construct.h"
 #include "nef/mesh/mesh_check.h"
 #include "nef/polyhedron.h"
 

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # find_package(nef) gives the targets nef::nef and nef::minkowski. GMP with its C++ interface must be installed
-# (Debian: libgmp-dev); its place is recorded in the target. oneTBB is looked for (libtbb-dev).
+# (Debian: libgmp-dev), and so must libzip and expat (libzip-dev, libexpat1-dev); their places are recorded in the
+# target. oneTBB is looked for (libtbb-dev).
 # The component visual_hull gives nef::visual_hull, too; it looks for OpenCV, Eigen and fmt.
 include(CMakeFindDependencyMacro)
 find_dependency(TBB)

@@ -89,10 +89,10 @@ void write_polyhedron(const std::string& path, const Polyhedron& polyhedron, con
   }
   if (!is_mesh_extension(extension)) {
     throw FileError(FileProblem::kUnreadable,
-                    path + ": the extension names no format; use nef, nef3, off, obj, stl, ply or glb");
+                    path + ": the extension names no format; use nef, nef3, off, obj, stl, ply, glb or 3mf");
   }
   MeshExportOptions export_options;
-  export_options.keep_polygons = extension != "stl" && extension != "glb";
+  export_options.keep_polygons = extension != "stl" && extension != "glb" && extension != "3mf";
   export_options.only_convex = !options.polygons;
   export_options.lower_dimensional = true;
   MeshWriteOptions write_options{options.exact, options.binary, extension};

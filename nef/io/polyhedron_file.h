@@ -11,9 +11,9 @@
 
 namespace nef {
 
-/// Reads a polyhedron: .nef (the own format), .nef3 (CGAL's text), or a mesh (off, obj, stl, ply, glb) that from_mesh
-/// makes a solid of. `messages` gets what was done to the input. Throws InputError (FileError for the file itself) with
-/// the path in front of the text.
+/// Reads a polyhedron: .nef (the own format), .nef3 (CGAL's text), or a mesh (off, obj, stl, ply, glb, 3mf) that
+/// from_mesh makes a solid of. `messages` gets what was done to the input. Throws InputError (FileError for the file
+/// itself) with the path in front of the text.
 Polyhedron read_polyhedron(const std::string& path, const MeshOptions& options = {}, Messages* messages = nullptr);
 
 struct PolyhedronWriteOptions {

@@ -10,8 +10,8 @@
 
 namespace nef {
 
-/// What reports tell about a set (see set_info): counts, properties, measures without moments. Numbers that are infinite,
-/// undefined or longer than a line are null.
+/// What reports tell about a set (see set_info): counts, properties, measures without moments. Numbers that are
+/// infinite, undefined or longer than a line are null.
 Json info_json(const Polyhedron& set);
 
 /// "8 vertices, 12 edges, 6 facets, 2 volumes, 2 shells"

@@ -109,11 +109,12 @@ CLI::Option* add_output_flags(CLI::App* command, Session& session) {
   command->add_flag("--polygons", session.polygons,
                     "write faces that are not convex as polygons, too, instead of cutting them into triangles");
   command->add_option("--format", session.format, "format to write, whatever the name of the file; nef for -o -")
-      ->check(CLI::IsMember({"nef", "nef3", "off", "obj", "stl", "ply", "glb"}));
+      ->check(CLI::IsMember({"nef", "nef3", "off", "obj", "stl", "ply", "glb", "3mf"}));
   return command
       ->add_option(
           "-o,--output", session.output,
-          "file to write, - for standard output; its extension (nef, nef3, off, obj, stl, ply, glb) picks the format")
+          "file to write, - for standard output; its extension (nef, nef3, off, obj, stl, ply, glb, 3mf) picks the "
+          "format")
       ->check([](const std::string& path) { return std::string(path.empty() ? "the name of the file is empty" : ""); });
 }
 

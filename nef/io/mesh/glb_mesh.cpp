@@ -42,6 +42,12 @@ struct Placement {
     }
     return y;
   }
+  [[nodiscard]] bool mirrors() const {
+    const auto& m = linear;
+    return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+               m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]) <
+           0;
+  }
   [[nodiscard]] Placement after(const Placement& first) const {
     Placement p;
     p.translation = (*this)(first.translation);
@@ -263,9 +269,10 @@ class Reader {
     }
     const std::vector<std::uint32_t> list = indices(primitive, positions.count);
     const std::size_t step = mode == kTriangles ? 3 : 1;
+    const bool mirrors = placement.mirrors();
     for (std::size_t i = 0; i + 2 < list.size(); i += step) {
       std::array<std::uint32_t, 3> t{list[mode == kTriangleFan ? 0 : i], list[i + 1], list[i + 2]};
-      if (mode == kTriangleStrip && i % 2 == 1) std::swap(t[0], t[1]);
+      if ((mode == kTriangleStrip && i % 2 == 1) != mirrors) std::swap(t[0], t[1]);
       for (std::uint32_t& v : t) v = vertex[v];
       if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) mesh_.push_face(t);
     }

@@ -2,6 +2,7 @@
 #include "nef/io/mesh/mesh_reader.h"
 
 #include "nef/io/mesh/glb_mesh.h"
+#include "nef/io/mesh/threemf_mesh.h"
 #include "nef/io/text_cursor.h"
 
 namespace nef {
@@ -18,6 +19,7 @@ bool begins_like_obj(std::string_view bytes, const std::string& path) {
 Mesh read_by_content(std::string_view bytes, const std::string& path) {
   if (bytes.starts_with("ply")) return read_ply(bytes, path);
   if (bytes.starts_with("glTF")) return read_glb(bytes, path);
+  if (bytes.starts_with("PK\x03\x04")) return read_3mf(bytes, path);
   if (bytes.starts_with("solid") || is_binary_stl(bytes)) return read_stl(bytes, path);
   const std::string_view beginning = bytes.substr(0, 4096);
   const std::size_t header = beginning.find("OFF");
@@ -25,13 +27,14 @@ Mesh read_by_content(std::string_view bytes, const std::string& path) {
     return read_off(bytes, path);
   if (begins_like_obj(bytes, path)) return read_obj(bytes, path);
   throw FileError(FileProblem::kUnreadable,
-                  path + ": the format is unknown; use the extension off, obj, stl, ply or glb");
+                  path + ": the format is unknown; use the extension off, obj, stl, ply, glb or 3mf");
 }
 
 }  // namespace
 
 bool is_mesh_extension(std::string_view extension) {
-  return extension == "off" || extension == "obj" || extension == "stl" || extension == "ply" || extension == "glb";
+  return extension == "off" || extension == "obj" || extension == "stl" || extension == "ply" || extension == "glb" ||
+         extension == "3mf";
 }
 
 Mesh read_mesh(const std::string& path) { return read_mesh(read_file(path), path); }
@@ -43,6 +46,7 @@ Mesh read_mesh(std::string_view bytes, const std::string& path) {
   if (extension == "stl") return read_stl(bytes, path);
   if (extension == "ply") return read_ply(bytes, path);
   if (extension == "glb") return read_glb(bytes, path);
+  if (extension == "3mf") return read_3mf(bytes, path);
   return read_by_content(bytes, path);
 }
 

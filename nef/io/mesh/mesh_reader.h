@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Polygon meshes from files: OFF, OBJ, STL and PLY, text and binary, and GLB.
+// Polygon meshes from files: OFF, OBJ, STL and PLY, text and binary, GLB and 3MF.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace nef {
 
-/// The mesh in a file; the format is chosen by the extension (off, obj, stl, ply, glb; any case), or by the
+/// The mesh in a file; the format is chosen by the extension (off, obj, stl, ply, glb, 3mf; any case), or by the
 /// beginning of the file where the extension says nothing. Coordinates are the rationals that the text
 /// spells (0.1 is one tenth, 1/3 is allowed) or that the binary floats are. Faces stay polygons; colours,
 /// normals, texture coordinates and comments are skipped. The vertices of an STL are merged where they are

@@ -6,6 +6,7 @@
 #include "nef/export/nearest_float.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/mesh/glb_mesh.h"
+#include "nef/io/mesh/threemf_mesh.h"
 #include "nef/io/number_text.h"
 #include "nef/io/text_cursor.h"
 #include "nef/mesh/mesh_surface.h"
@@ -235,7 +236,7 @@ bool survives_writing(const Rational3& point, const std::string& extension, cons
 
 void write_mesh(const std::string& path, const Mesh& mesh, const MeshWriteOptions& options, Messages* messages) {
   const std::string extension = options.format.empty() ? lower_extension(path) : options.format;
-  if (options.exact && (options.binary || extension == "stl" || extension == "glb")) {
+  if (options.exact && (options.binary || extension == "stl" || extension == "glb" || extension == "3mf")) {
     refuse(path, "exact coordinates need OFF, OBJ or text PLY");
   }
   if (options.binary && extension != "stl" && extension != "ply") refuse(path, "only STL and PLY can be binary");
@@ -251,8 +252,10 @@ void write_mesh(const std::string& path, const Mesh& mesh, const MeshWriteOption
     bytes = ply_bytes(mesh, options);
   } else if (extension == "glb") {
     bytes = glb_bytes(mesh);
+  } else if (extension == "3mf") {
+    bytes = threemf_bytes(mesh);
   } else {
-    refuse(path, "the extension names no mesh format; use off, obj, stl, ply or glb");
+    refuse(path, "the extension names no mesh format; use off, obj, stl, ply, glb or 3mf");
   }
   if (messages != nullptr && !options.exact) {
     report_merged_vertices(mesh, is_single_precision(extension, options), *messages);

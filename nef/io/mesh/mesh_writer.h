@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Polygon meshes to files: OFF, OBJ, STL, PLY and GLB.
+// Polygon meshes to files: OFF, OBJ, STL, PLY, GLB and 3MF.
 #pragma once
 
 #include <array>
@@ -25,11 +25,11 @@ struct MeshWriteOptions {
   std::vector<std::uint32_t> points = {};
 };
 
-/// Writes a mesh in the format that the extension names (off, obj, stl, ply, glb), beside the target first and then
-/// renamed into place. Coordinates are rounded once, to the nearest double (the nearest float in binary STL and GLB),
-/// and written with the fewest digits that give it back. STL holds triangles only: polygons are cut. Adds a line to
-/// `messages` where different vertices become one by rounding. Throws FileError for an unknown extension, options that
-/// the format does not have, coordinates beyond the range of its numbers, or a file that cannot be written.
+/// Writes a mesh in the format that the extension names (off, obj, stl, ply, glb, 3mf), beside the target first and
+/// then renamed into place. Coordinates are rounded once, to the nearest double (the nearest float in binary STL and
+/// GLB), and written with the fewest digits that give it back. STL holds triangles only: polygons are cut. Adds a line
+/// to `messages` where different vertices become one by rounding. Throws FileError for an unknown extension, options
+/// that the format does not have, coordinates beyond the range of its numbers, or a file that cannot be written.
 void write_mesh(const std::string& path, const Mesh& mesh, const MeshWriteOptions& options = {},
                 Messages* messages = nullptr);
 

@@ -59,6 +59,7 @@ Messages check_all_formats(const Polyhedron& set) {
                                      {"a.stl", false},
                                      {"b.ply", true},
                                      {"b.stl", true},
+                                     {"a.3mf", false},
                                      {"a.glb", false}}) {
     Messages notes;
     PolyhedronWriteOptions options;
@@ -149,7 +150,7 @@ TEST_CASE("Surfaces, lines and points leave", "[rounding]") {
   const Polyhedron sheet = make_polygon(rings);
   MeshOptions surface;
   surface.as_surface = true;
-  for (const char* name : {"a.off", "a.obj", "a.ply", "a.stl", "a.glb"}) {
+  for (const char* name : {"a.off", "a.obj", "a.ply", "a.stl", "a.glb", "a.3mf"}) {
     Messages notes;
     write_polyhedron(folder.file(name), sheet, {}, &notes);
     CHECK(notes.empty());
@@ -185,7 +186,7 @@ TEST_CASE("GLB: what is written is read, and nodes are placed exactly", "[roundi
   REQUIRE(first != std::string::npos);
   json.replace(first, last + 2 - first,
                "\"nodes\":[{\"children\":[1,2],\"matrix\":[1,0,0,0,0,0,-1,0,0,1,0,0,0,0,0,1]},"
-               "{\"mesh\":0,\"translation\":[0.5,0,100]},"
+               "{\"mesh\":0,\"translation\":[0.5,0,100],\"scale\":[-1,1,1]},"
                "{\"mesh\":0,\"scale\":[2,2,2],\"rotation\":[0,0,1,1]}]");
   json.resize((json.size() + 3) / 4 * 4, ' ');
   const auto number = [](std::size_t value) {
@@ -195,7 +196,9 @@ TEST_CASE("GLB: what is written is read, and nodes are placed exactly", "[roundi
   };
   const std::string rest = bytes.substr(20 + json_size);
   bytes = bytes.substr(0, 8) + number(20 + json.size() + rest.size()) + number(json.size()) + "JSON" + json + rest;
-  const Polyhedron moved = transform(set, AffineMap::translate({Rational(1, 2), 0, 100}));
+  // A mirrored node is turned over.
+  const Polyhedron moved =
+      transform(set, AffineMap::translate({Rational(1, 2), 0, 100}).after(AffineMap::scale({-1, 1, 1})));
   AffineMap quarter = AffineMap::scale({2, 2, 2});
   quarter.linear = {{{0, -2, 0}, {2, 0, 0}, {0, 0, 2}}};
   CHECK(equal(read_polyhedron(folder.write("b.glb", bytes)), unite(moved, transform(set, quarter))));

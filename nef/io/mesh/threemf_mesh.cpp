@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/io/mesh/threemf_mesh.h"
+
+#include <array>
+#include <charconv>
+#include <map>
+#include <optional>
+#include <sstream>
+
+#include "nef/base/in_quotes.h"
+#include "nef/io/file_bytes.h"
+#include "nef/io/mesh/xml_events.h"
+#include "nef/io/number_text.h"
+#include "nef/io/text_cursor.h"
+#include "nef/io/zip_archive.h"
+#include "nef/mesh/mesh_surface.h"
+#include "nef/mesh/vertex_merger.h"
+
+namespace nef {
+namespace {
+
+constexpr const char* kModelType = "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel";
+constexpr const char* kCore = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02";
+constexpr const char* kProduction = "http://schemas.microsoft.com/3dmanufacturing/production/2015/06";
+constexpr const char* kMaterials = "http://schemas.microsoft.com/3dmanufacturing/material/2015/02";
+
+// A point x, as a row, becomes x linear + translation: four rows of three numbers, as the files have them.
+struct Placement {
+  std::array<std::array<Rational, 3>, 4> rows;
+
+  static Placement identity() {
+    Placement p;
+    for (std::size_t i = 0; i < 3; ++i) p.rows[i][i] = 1;
+    return p;
+  }
+  Rational3 operator()(const Rational3& x) const {
+    Rational3 y = rows[3];
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t k = 0; k < 3; ++k) y[k] += x[i] * rows[i][k];
+    }
+    return y;
+  }
+  // First this, then `next`.
+  [[nodiscard]] Placement then(const Placement& next) const {
+    Placement p;
+    for (std::size_t i = 0; i < 4; ++i) {
+      p.rows[i] = i < 3 ? Rational3{} : next.rows[3];
+      for (std::size_t j = 0; j < 3; ++j) {
+        for (std::size_t k = 0; k < 3; ++k) p.rows[i][k] += rows[i][j] * next.rows[j][k];
+      }
+    }
+    return p;
+  }
+  [[nodiscard]] bool mirrors() const {
+    const auto& m = rows;
+    return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+               m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]) <
+           0;
+  }
+};
+
+// An object that another one, or the build, places.
+struct Use {
+  std::string part;  // of the archive
+  std::string id;
+  Placement placement;
+};
+
+struct Object {
+  bool counts = true;  // it is no support
+  std::vector<Rational3> vertices;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<Use> components;
+};
+
+// One XML file of the archive.
+struct Part {
+  std::map<std::string, Object> objects;
+  std::vector<Use> items;
+};
+
+class PartReader {
+ public:
+  PartReader(ZipArchive& archive, const std::string& path, const std::string& name)
+      : name_(name),
+        events_(
+            path + ": " + name, [this](const XmlElement& e) { open(e); }, [this](const std::string& n) { close(n); }) {
+    archive.read(name.starts_with("/") ? name.substr(1) : name,
+                 [this](std::string_view piece) { events_.parse(piece); });
+    events_.parse({}, true);
+  }
+
+  Part take() { return std::move(part_); }
+
+ private:
+  [[noreturn]] void fail(FileProblem problem, const std::string& what) const {
+    throw FileError(problem, events_.place() + ": " + what);
+  }
+
+  const std::string& need(const XmlElement& element, std::string_view attribute) const {
+    const std::string* value = element.find(attribute);
+    if (value == nullptr) {
+      fail(FileProblem::kSyntax, "<" + element.name + "> lacks the attribute '" + std::string(attribute) + "'");
+    }
+    return *value;
+  }
+
+  void open(const XmlElement& e) {
+    if (e.name == "vertex" && object_ != nullptr) {
+      Rational3& point = object_->vertices.emplace_back();
+      point = {number(need(e, "x")), number(need(e, "y")), number(need(e, "z"))};
+    } else if (e.name == "triangle" && object_ != nullptr) {
+      object_->triangles.push_back({index(need(e, "v1")), index(need(e, "v2")), index(need(e, "v3"))});
+    } else if (e.name == "object") {
+      object_ = &part_.objects[need(e, "id")];
+      *object_ = {};
+      const std::string* type = e.find("type");
+      object_->counts = type == nullptr || *type == "model" || *type == "surface" || *type == "other";
+    } else if (e.name == "component" && object_ != nullptr) {
+      object_->components.push_back(use(e));
+    } else if (e.name == "item") {
+      part_.items.push_back(use(e));
+    } else if (e.name == "model") {
+      check_extensions(e);
+    }
+  }
+
+  void close(const std::string& name) {
+    if (name != "object" || object_ == nullptr) return;
+    for (const auto& t : object_->triangles) {
+      for (const std::uint32_t v : t) {
+        if (v >= object_->vertices.size()) {
+          fail(FileProblem::kBadIndex, "a triangle of the object that ends here names vertex " + std::to_string(v) +
+                                           ", but there are " + std::to_string(object_->vertices.size()));
+        }
+      }
+    }
+    object_ = nullptr;
+  }
+
+  void check_extensions(const XmlElement& model) const {
+    const std::string* required = model.find("requiredextensions");
+    if (required == nullptr) return;
+    std::istringstream words(*required);
+    for (std::string prefix; words >> prefix;) {
+      const std::string uri = events_.uri(prefix);
+      if (uri == kProduction || uri == kMaterials) continue;
+      fail(FileProblem::kUnsupported, "it needs the extension " + in_quotes(uri.empty() ? prefix : uri));
+    }
+  }
+
+  Use use(const XmlElement& e) const {
+    Use result{name_, need(e, "objectid"), Placement::identity()};
+    if (const std::string* part = e.find(std::string(kProduction) + "|path")) result.part = *part;
+    if (const std::string* text = e.find("transform")) {
+      std::istringstream words(*text);
+      std::string word;
+      std::size_t count = 0;
+      for (; words >> word; ++count) {
+        if (count < 12) result.placement.rows[count / 3][count % 3] = number(word);
+      }
+      if (count != 12) fail(FileProblem::kSyntax, "a transform has " + std::to_string(count) + " numbers, not 12");
+    }
+    return result;
+  }
+
+  Rational number(const std::string& text) const {
+    Rational value;
+    if (!parse_number(text, value)) fail(FileProblem::kNotANumber, in_quotes(text) + " is no number");
+    return value;
+  }
+
+  std::uint32_t index(const std::string& text) const {
+    std::uint32_t value = 0;
+    const char* end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, value);
+    if (error != std::errc() || stop != end) fail(FileProblem::kBadIndex, in_quotes(text) + " is no index of a vertex");
+    return value;
+  }
+
+  std::string name_;
+  Part part_;
+  Object* object_ = nullptr;
+  XmlEvents events_;
+};
+
+// Where the model is: the target of the one relationship of that type, or where most programs put it.
+std::string model_part(ZipArchive& archive, const std::string& path) {
+  std::string target;
+  const std::string relations = "_rels/.rels";
+  if (archive.contains(relations)) {
+    XmlEvents events(
+        path + ": " + relations,
+        [&target](const XmlElement& e) {
+          const std::string* type = e.find("Type");
+          const std::string* to = e.find("Target");
+          if (e.name == "Relationship" && type != nullptr && *type == kModelType && to != nullptr) target = *to;
+        },
+        [](const std::string&) {});
+    archive.read(relations, [&events](std::string_view piece) { events.parse(piece); });
+    events.parse({}, true);
+  }
+  if (target.empty()) target = "3D/3dmodel.model";
+  return target.starts_with("/") ? target : "/" + target;
+}
+
+class Reader {
+ public:
+  Reader(std::string_view bytes, const std::string& path) : path_(path), archive_(bytes, path) {}
+
+  Mesh read() {
+    const std::string root = model_part(archive_, path_);
+    for (const Use& item : part(root).items) place(item, Placement::identity(), 0);
+    return std::move(mesh_);
+  }
+
+ private:
+  [[noreturn]] void fail(FileProblem problem, const std::string& what) const {
+    throw FileError(problem, path_ + ": " + what);
+  }
+
+  const Part& part(const std::string& name) {
+    const auto found = parts_.find(name);
+    if (found != parts_.end()) return found->second;
+    const Part& result = parts_.emplace(name, PartReader(archive_, path_, name).take()).first->second;
+    for (const auto& [id, object] : result.objects) stored_ += object.triangles.size();
+    return result;
+  }
+
+  // Components nest, so few objects can mean a great many.
+  void count(std::size_t triangles) {
+    constexpr std::size_t kAlways = 1000000;
+    constexpr std::size_t kMostCopies = 1000;
+    placed_ += triangles + 1;
+    if (placed_ > kAlways && placed_ > kMostCopies * stored_) {
+      fail(FileProblem::kUnsupported, "its components unfold to more than a thousand copies of everything in it");
+    }
+  }
+
+  void place(const Use& use, const Placement& outer, int depth) {
+    constexpr int kDeepest = 100;
+    if (depth > kDeepest) fail(FileProblem::kUnsupported, "its components are nested too deeply");
+    const Part& home = part(use.part.starts_with("/") ? use.part : "/" + use.part);
+    const auto found = home.objects.find(use.id);
+    if (found == home.objects.end()) {
+      fail(FileProblem::kBadIndex, "there is no object " + in_quotes(use.id) + " in " + in_quotes(use.part));
+    }
+    const Object& object = found->second;
+    if (!object.counts) return;
+    count(object.triangles.size());
+    const Placement placement = use.placement.then(outer);
+    add(object, placement);
+    for (const Use& component : object.components) place(component, placement, depth + 1);
+  }
+
+  void add(const Object& object, const Placement& placement) {
+    std::vector<std::uint32_t> vertex;
+    vertex.reserve(object.vertices.size());
+    for (const Rational3& point : object.vertices) vertex.push_back(merger_.add(placement(point)));
+    const bool mirrors = placement.mirrors();
+    for (const auto& triangle : object.triangles) {
+      std::array<std::uint32_t, 3> t{vertex[triangle[0]], vertex[triangle[1]], vertex[triangle[2]]};
+      if (mirrors) std::swap(t[1], t[2]);
+      if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) mesh_.push_face(t);
+    }
+  }
+
+  const std::string& path_;
+  ZipArchive archive_;
+  std::map<std::string, Part> parts_;  // by name with a slash in front
+  std::size_t stored_ = 0;             // triangles in all parts read
+  std::size_t placed_ = 0;             // triangles and objects placed
+  Mesh mesh_;
+  VertexMerger merger_{mesh_.vertices};
+};
+
+}  // namespace
+
+Mesh read_3mf(std::string_view bytes, const std::string& path) { return Reader(bytes, path).read(); }
+
+std::string threemf_bytes(const Mesh& mesh) {
+  const MeshSurface surface(mesh);
+  std::string model = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<model unit=\"millimeter\" xml:lang=\"en\" xmlns=\"";
+  model += kCore;
+  model += "\">\n <metadata name=\"Application\">nef</metadata>\n <resources>\n";
+  if (!surface.triangles.empty()) {
+    model += "  <object id=\"1\" type=\"model\"><mesh>\n   <vertices>\n";
+    for (const Rational3& point : mesh.vertices) {
+      model += "    <vertex";
+      for (std::size_t i = 0; i < 3; ++i) {
+        model += ' ';
+        model += "xyz"[i];
+        model += "=\"";
+        append_number(model, nearest_double(point[i]));
+        model += '"';
+      }
+      model += "/>\n";
+    }
+    model += "   </vertices>\n   <triangles>\n";
+    for (const auto& t : surface.triangles) {
+      model += "    <triangle v1=\"" + std::to_string(t[0]) + "\" v2=\"" + std::to_string(t[1]) + "\" v3=\"" +
+               std::to_string(t[2]) + "\"/>\n";
+    }
+    model += "   </triangles>\n  </mesh></object>\n";
+  }
+  model += " </resources>\n <build>";
+  if (!surface.triangles.empty()) model += "<item objectid=\"1\"/>";
+  model += "</build>\n</model>\n";
+  return zip_bytes(
+      {{"[Content_Types].xml",
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+        "<Types xmlns=\"http://schemas.openxmlformats.org/package/2006/content-types\">\n"
+        " <Default Extension=\"rels\" ContentType=\"application/vnd.openxmlformats-package.relationships+xml\"/>\n"
+        " <Default Extension=\"model\" ContentType=\"application/vnd.ms-package.3dmanufacturing-3dmodel+xml\"/>\n"
+        "</Types>\n"},
+       {"_rels/.rels",
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+        "<Relationships xmlns=\"http://schemas.openxmlformats.org/package/2006/relationships\">\n"
+        " <Relationship Target=\"/3D/3dmodel.model\" Id=\"rel0\" Type=\"" +
+            std::string(kModelType) + "\"/>\n</Relationships>\n"},
+       {"3D/3dmodel.model", std::move(model)}});
+}
+
+}  // namespace nef

@@ -17,7 +17,7 @@ CORE = [
 ]
 # The public face stands between the folders that make it and those that use it.
 FACE = "polyhedron.h", "labeled_polyhedron.h"
-APPS = {"minkowski": set(), "visual_hull": set(), "planner": {"minkowski"}}
+APPS = {"minkowski": set(), "nef": {"minkowski"}, "visual_hull": set(), "planner": {"minkowski"}}
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 INCLUDE = re.compile(r'^#include "((?:nef|apps|tests|fuzz|bench|python)/[^"]+)"', re.MULTILINE)

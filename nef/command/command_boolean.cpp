@@ -25,7 +25,7 @@ void add(CLI::App& app, Session& session, const std::string& name, const std::st
 }  // namespace
 
 void add_boolean_commands(CLI::App& app, Session& session) {
-  constexpr int kMany = 1 << 20;
+  constexpr int kMany = CLI::detail::expected_max_vector_size;
   add(app, session, "union", "The points of any of the sets", kMany,
       [](std::span<const Polyhedron> s, unsigned n) { return s.size() == 2 ? unite(s[0], s[1]) : unite_all(s, n); });
   add(app, session, "intersection", "The points of all of the sets", kMany,

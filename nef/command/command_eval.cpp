@@ -1,16 +1,45 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // nef eval
+#include <filesystem>
+
 #include "nef/command/commands.h"
+#include "nef/io/file_bytes.h"
 #include "nef/program/expression.h"
+#include "nef/program/openscad.h"
 
 namespace nef {
+namespace {
 
-void add_eval_command(CLI::App& app, Session& session) {
-  CLI::App* command = add_subcommand(app, session, "eval", "The set that an expression describes");
-  const auto text = std::make_shared<std::string>();
-  command->add_option("expression", *text, "e.g. 'box(0,0,0, 2,2,2) - file(\"part.off\") * halfspace(0,0,1,-1)'")
-      ->required();
+struct Flags {
+  std::string text;
+  std::string script;
+};
+
+// The set of a text from a file: names of files in it are relative to the file, and errors begin with its name.
+Polyhedron evaluate_file(const std::string& path, const std::string& text, bool openscad, Session& session,
+                         ExpressionOptions options) {
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  options.load = [&session, folder](const std::string& file) { return session.load((folder / file).string()); };
+  try {
+    return openscad ? evaluate_openscad(text, options) : evaluate_expression(text, options);
+  } catch (const FileError&) {
+    throw;
+  } catch (const InputError& error) {
+    throw InputError(path + ": " + error.what());
+  }
+}
+
+}  // namespace
+
+void add_eval_command(CLI::App& app, Session& session, const CommandExtensions& extensions) {
+  CLI::App* command = add_subcommand(app, session, "eval", "The set that an expression, a script or a .csg describes");
+  const auto flags = std::make_shared<Flags>();
+  command->add_option(
+      "expression", flags->text,
+      "e.g. 'box(0,0,0, 2,2,2) - file(\"part.off\") * halfspace(0,0,1,-1)', or the name of a .csg file");
+  command->add_option("-f,--file", flags->script, "a file with the expression; .csg: a model flattened by OpenSCAD")
+      ->type_name("FILE");
   add_input_flags(command, session);
   add_output_flags(command, session);
   command->add_option("--repeat", session.repeat, "compute N times and report the median")
@@ -18,16 +47,31 @@ void add_eval_command(CLI::App& app, Session& session) {
   command->footer(
       "Operators: + union, * intersection, - difference, ^ symmetric difference, ! complement.\n"
       "Sets: file(\"a.off\") box(x0,y0,z0, x1,y1,z1) halfspace(a,b,c,d) for ax+by+cz+d <= 0, hull(points),\n"
-      "  point(x,y,z) segment(points) polygon(points; hole; ...) everything nothing\n"
-      "Functions: interior closure boundary exterior regularize complement (A), union intersection (A, B, ...),\n"
-      "  difference symdiff (A, B), translate(A, x,y,z) scale(A, s) rotate(A, axis, degrees[, tolerance])\n"
+      "  point(x,y,z) segment(points) polygon(points; hole; ...) sphere(r[, corners]) cylinder(h, r)\n"
+      "  cylinder(h, r0, r1[, corners]) everything nothing\n"
+      "Functions: interior closure boundary exterior regularize complement (A), union intersection hull (A, B, ...),\n"
+      "  difference symdiff minkowski (A, B), translate(A, x,y,z) scale(A, s) rotate(A, axis, degrees[, tolerance])\n"
       "  transform(A, 12 or 16 numbers)\n"
-      "Numbers are exact: 0.1 is one tenth, 1/3 is allowed.");
-  command->callback([&session, text] {
+      "Variables: h = 7/2; a = cylinder(2*h, 1); a + translate(a, [0,0,h])\n"
+      "Numbers are exact: 0.1 is one tenth, 1/3 is allowed. A list of numbers may stand in brackets.\n"
+      "Of OpenSCAD (openscad -o model.csg model.scad; nef eval model.csg -o model.nef): cube sphere cylinder\n"
+      "  polyhedron square circle polygon union difference intersection hull minkowski render color multmatrix\n"
+      "  linear_extrude (no twist) rotate_extrude, import of meshes.");
+  command->callback([&session, flags, extensions] {
     ExpressionOptions options;
     options.load = [&session](const std::string& path) { return session.load(path); };
+    options.minkowski = extensions.minkowski;
+    std::string path = flags->script;
+    if (path.empty() && lower_extension(flags->text) == "csg") path = flags->text;
+    if (flags->text.empty() == flags->script.empty()) {
+      throw InputError("eval: give an expression or, with -f, a file that holds one (see nef eval --help)");
+    }
+    const std::string text = path.empty() ? flags->text : read_file(path);
     session.show_phase("computing");
-    const Measured measured = measure(session.repeat, [&] { return evaluate_expression(*text, options); });
+    const Measured measured = measure(session.repeat, [&] {
+      if (path.empty()) return evaluate_expression(text, options);
+      return evaluate_file(path, text, lower_extension(path) == "csg", session, options);
+    });
     finish(session, "eval", measured);
   });
 }

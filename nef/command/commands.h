@@ -3,6 +3,7 @@
 // The subcommands of `nef`, one function for each file of them.
 #pragma once
 
+#include "nef/command/run_command.h"
 #include "nef/program/report.h"
 #include "nef/program/session.h"
 
@@ -20,7 +21,7 @@ void add_repair_command(CLI::App& app, Session& session);
 void add_decimate_command(CLI::App& app, Session& session);
 void add_query_commands(CLI::App& app, Session& session);
 void add_parts_commands(CLI::App& app, Session& session);
-void add_eval_command(CLI::App& app, Session& session);
+void add_eval_command(CLI::App& app, Session& session, const CommandExtensions& extensions);
 void add_view_commands(CLI::App& app, Session& session);
 
 }  // namespace nef

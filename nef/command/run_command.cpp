@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-//
-// The program `nef`: exact Boolean and topological operations on sets in files. All work is in the
-// subcommands (command_*.cpp).
+#include "nef/command/run_command.h"
+
 #include <iostream>
 
 #include "nef/command/commands.h"
@@ -17,7 +16,7 @@ CLI::App* add_subcommand(CLI::App& app, Session& session, const std::string& nam
 
 namespace {
 
-void add_commands(CLI::App& app, Session& session) {
+void add_commands(CLI::App& app, Session& session, const CommandExtensions& extensions) {
   app.name("nef");
   app.set_version_flag("--version", std::string("nef ") + NEF_VERSION);
   app.require_subcommand(1);
@@ -31,14 +30,16 @@ void add_commands(CLI::App& app, Session& session) {
   add_decimate_command(app, session);
   add_query_commands(app, session);
   add_parts_commands(app, session);
-  add_eval_command(app, session);
+  add_eval_command(app, session, extensions);
   add_view_commands(app, session);
 }
 
-int run(int argc, char** argv) {
+}  // namespace
+
+int run_command(int argc, char** argv, const CommandExtensions& extensions) {
   Session session("nef", std::cout, std::cerr);
   CLI::App app("Exact operations on Nef polyhedra: any sets of points bounded by planes.");
-  add_commands(app, session);
+  add_commands(app, session, extensions);
   const auto is_first = [argv](const CLI::App* command) { return command->get_name() == argv[1]; };
   if (argc > 1 && argv[1][0] != '-' && app.get_subcommands(is_first).empty()) {
     session.complain("there is no subcommand '" + std::string(argv[1]) + "' (see nef --help)");
@@ -49,7 +50,4 @@ int run(int argc, char** argv) {
       [&session](const std::string& line) { session.complain(line); });
 }
 
-}  // namespace
 }  // namespace nef
-
-int main(int argc, char** argv) { return nef::run(argc, argv); }

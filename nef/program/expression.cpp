@@ -3,6 +3,7 @@
 // Evaluates syntax trees.
 #include "nef/program/expression.h"
 
+#include "nef/construct/round_shapes.h"
 #include "nef/program/syntax_tree.h"
 
 namespace nef {
@@ -12,12 +13,22 @@ class Evaluator {
  public:
   Evaluator(std::string_view text, const ExpressionOptions& options) : text_(text), options_(options) {}
 
-  Polyhedron operator()(const SyntaxNode& node) const {
+  Polyhedron operator()(const SyntaxNode& node) {
+    if (node.term == Term::kVariable) return variables_[node.variable];
+    if (node.term == Term::kBlock) {
+      for (std::size_t i = 0; i + 1 < node.sets.size(); ++i) variables_.push_back((*this)(node.sets[i]));
+      return (*this)(node.sets.back());
+    }
     std::vector<Polyhedron> sets;
     sets.reserve(node.sets.size());
     for (const SyntaxNode& child : node.sets) sets.push_back((*this)(child));
     if (node.term == Term::kFile) return file(node);
+    if (node.term == Term::kMinkowski && !options_.minkowski) {
+      throw ExpressionError(place_in_text(text_, node.offset) + ": Minkowski sums cannot be computed here",
+                            node.offset);
+    }
     try {
+      if (node.term == Term::kMinkowski) return options_.minkowski(sets[0], sets[1]);
       return make(node, sets);
     } catch (const InputError& error) {
       throw ExpressionError(place_in_text(text_, node.offset) + ": " + error.what(), node.offset);
@@ -50,6 +61,12 @@ class Evaluator {
         return make_segment(node.rings[0][0], node.rings[0][1]);
       case Term::kHull:
         return convex_hull(node.rings[0]);
+      case Term::kHullOfSets:
+        return convex_hull_of_sets(sets);
+      case Term::kSphere:
+        return make_sphere(n[0], corners_of(n, 1));
+      case Term::kCylinder:
+        return make_cylinder(n[0], n[1], n.size() > 2 ? n[2] : n[1], corners_of(n, 3));
       case Term::kPolygon:
         return make_polygon(node.rings);
       case Term::kTranslate:
@@ -62,6 +79,15 @@ class Evaluator {
       default:
         return combine(node.term, sets);
     }
+  }
+
+  // The number of corners of a round shape, if it is given.
+  static unsigned corners_of(std::span<const Rational> numbers, std::size_t at) {
+    constexpr unsigned kUsual = 32;
+    if (numbers.size() <= at) return kUsual;
+    const Rational& n = numbers[at];
+    if (n.get_den() != 1 || n < 3 || n > 100000) throw InputError("the number of corners is one from 3 to 100000");
+    return static_cast<unsigned>(n.get_num().get_ui());
   }
 
   static AffineMap map_of(const SyntaxNode& node) {
@@ -123,12 +149,23 @@ class Evaluator {
 
   std::string_view text_;
   const ExpressionOptions& options_;
+  std::vector<Polyhedron> variables_;
 };
 
 }  // namespace
 
 Polyhedron evaluate_expression(std::string_view text, const ExpressionOptions& options) {
   return Evaluator(text, options)(parse_expression(text));
+}
+
+Polyhedron convex_hull_of_sets(std::span<const Polyhedron> sets) {
+  std::vector<Rational3> points;
+  for (const Polyhedron& set : sets) {
+    if (!set.is_bounded()) throw InputError("the hull of an unbounded set is not computed");
+    const Complex& c = set.complex();
+    for (std::uint32_t v = 0; v < c.vertex_count(); ++v) points.push_back(c.points.rational(PointId{v}));
+  }
+  return convex_hull(points);
 }
 
 AffineMap affine_map_of(std::span<const Rational> n) {

@@ -3,21 +3,27 @@
 // The expression language of `nef eval`: sets written as text, for the command line, tests and
 // scene files.
 //
+//   text     := (name '=' (sum | number) ';')* sum       variables: sets and numbers
 //   sum      := product (('+' | '-' | '^') product)*     union, difference, symmetric difference
 //   product  := factor ('*' factor)*                     intersection
 //   factor   := '!' factor | '(' sum ')' | primary       complement
-//   primary  := everything | nothing
+//   primary  := everything | nothing | name
 //             | file("path") | box(x0,y0,z0, x1,y1,z1) | halfspace(a,b,c,d)    ax+by+cz+d <= 0
 //             | point(x,y,z) | segment(points) | hull(points) | polygon(points; points...)
+//             | sphere(r) | sphere(r, corners) | cylinder(h, r) | cylinder(h, r0, r1) | cylinder(h, r0, r1, corners)
+//             | hull(sum, ...) | minkowski(sum, sum)
 //             | union(sum, ...) | intersection(sum, ...) | difference(sum, sum) | symdiff(sum, sum)
 //             | complement(sum) | interior(sum) | closure(sum) | boundary(sum) | exterior(sum)
 //             | regularize(sum)
 //             | translate(sum, x,y,z) | scale(sum, s) | scale(sum, sx,sy,sz)
 //             | rotate(sum, axis, degrees[, tolerance])    axis: x, y, z or a vector (a,b,c)
 //             | transform(sum, 12 or 16 numbers)           the rows of a matrix
-//   points   := coordinates, three for each point; a point may stand in parentheses
+//   points   := coordinates, three for each point; a point may stand in parentheses or brackets
+//   number   := product (('+' | '-') product)*           with '*', '/', parentheses, '-' in front, and variables
 //
-// Numbers are exact: 3, -0.1 (a tenth), 1e-3, 22/7. Operators of one line associate to the left.
+// Numbers are exact: 3, -0.1 (a tenth), 1e-3, 22/7. Wherever numbers are listed, some may stand in brackets: [x,y,z].
+// Round shapes have 32 corners around if nothing is said. The hull of sets is closed, and they must be bounded.
+// Operators of one line associate to the left.
 // Rings after ';' in a polygon are holes (or further pieces) by parity. '#' begins a comment that
 // ends with its line.
 #pragma once
@@ -46,12 +52,17 @@ class ExpressionError : public InputError {
 struct ExpressionOptions {
   /// Makes the set of `file("path")`. Without it, files are refused.
   std::function<Polyhedron(const std::string& path)> load;
+  /// Makes minkowski(A, B). Without it, sums are refused.
+  std::function<Polyhedron(const Polyhedron& a, const Polyhedron& b)> minkowski = {};
 };
 
 /// The set that `text` describes. The whole text is parsed before anything is computed. Throws
 /// ExpressionError for a wrong expression and for arguments that make no set (a polygon that is
 /// not planar, say); errors of `load` pass through.
 Polyhedron evaluate_expression(std::string_view text, const ExpressionOptions& options = {});
+
+/// The closed convex hull of the union of sets. Throws InputError if one is unbounded. O(n log n) expected.
+Polyhedron convex_hull_of_sets(std::span<const Polyhedron> sets);
 
 /// The affine map given by 12 or 16 numbers, the rows of a 3x4 or 4x4 matrix. A 4x4 matrix must
 /// have the last row 0,0,0,w with w other than 0. Throws InputError.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <map>
 #include <optional>
 
 #include "nef/program/expression.h"
@@ -35,7 +36,10 @@ constexpr std::array kFunctions{
     Function{"halfspace", Term::kHalfspace, Shape::kNumbers, 4, 4, "halfspace(a,b,c,d)"},
     Function{"point", Term::kPoint, Shape::kPoints, 1, 1, "point(x,y,z)"},
     Function{"segment", Term::kSegment, Shape::kPoints, 2, 2, "segment(x0,y0,z0, x1,y1,z1)"},
-    Function{"hull", Term::kHull, Shape::kPoints, 0, kMany, "hull(x,y,z, x,y,z, ...)"},
+    Function{"hull", Term::kHull, Shape::kPoints, 0, kMany, "hull(x,y,z, x,y,z, ...) or hull(A, B, ...)"},
+    Function{"sphere", Term::kSphere, Shape::kNumbers, 1, 2, "sphere(r[, corners])"},
+    Function{"cylinder", Term::kCylinder, Shape::kNumbers, 2, 4, "cylinder(h, r) or cylinder(h, r0, r1[, corners])"},
+    Function{"minkowski", Term::kMinkowski, Shape::kSets, 2, 2, "minkowski(A, B)"},
     Function{"polygon", Term::kPolygon, Shape::kRings, 3, kMany, "polygon(x,y,z, x,y,z, x,y,z, ...)"},
     Function{"union", Term::kUnion, Shape::kSets, 0, kMany, "union(A, B, ...)"},
     Function{"intersection", Term::kIntersection, Shape::kSets, 0, kMany, "intersection(A, B, ...)"},
@@ -60,12 +64,61 @@ class Parser {
   explicit Parser(std::string_view text) : text_(text) {}
 
   SyntaxNode parse() {
+    SyntaxNode block;
+    block.term = Term::kBlock;
+    while (definition(block)) {
+    }
     SyntaxNode root = sum();
+    if (!block.sets.empty()) {
+      block.sets.push_back(std::move(root));
+      root = std::move(block);
+    }
     if (peek() != '\0') fail("expected an operator (+ * - ^) or the end, found " + here());
     return root;
   }
 
  private:
+  // NAME = a set or a number;
+  bool definition(SyntaxNode& block) {
+    if (!is_letter(peek())) return false;
+    const std::size_t offset = at_;
+    const std::string name(word());
+    at_ += name.size();
+    if (!take('=')) {
+      at_ = offset;
+      return false;
+    }
+    const auto is_function = [&name](const Function& f) { return f.name == name; };
+    if (std::any_of(kFunctions.begin(), kFunctions.end(), is_function)) {
+      at_ = offset;
+      fail("'" + name + "' is a word of the language; choose another name");
+    }
+    if (begins_set()) {
+      SyntaxNode set = sum();
+      numbers_.erase(name);
+      sets_[name] = block.sets.size();
+      block.sets.push_back(std::move(set));
+    } else {
+      Rational value = number("a set or a number");
+      sets_.erase(name);
+      numbers_[name] = std::move(value);
+    }
+    if (!take(';')) fail("expected ';' after the value of '" + name + "', found " + here());
+    return true;
+  }
+
+  // Whether what comes is a set rather than a number or a point: its first word tells, whatever parentheses open
+  // before.
+  bool begins_set() {
+    const std::size_t offset = at_;
+    while (take('(')) {
+    }
+    const char c = peek();
+    const bool set = c == '!' || (is_letter(c) && !numbers_.contains(std::string(word())));
+    at_ = offset;
+    return set;
+  }
+
   // A place in the text is skipped over white space and comments before it is looked at.
   char peek() {
     while (at_ < text_.size()) {
@@ -197,6 +250,14 @@ class Parser {
   SyntaxNode primary() {
     const std::size_t offset = at_;
     const std::string_view name = word();
+    if (const auto known = sets_.find(std::string(name)); known != sets_.end()) {
+      at_ += name.size();
+      SyntaxNode node;
+      node.term = Term::kVariable;
+      node.offset = offset;
+      node.variable = known->second;
+      return node;
+    }
     const auto* function =
         std::find_if(kFunctions.begin(), kFunctions.end(), [name](const Function& f) { return f.name == name; });
     if (function == kFunctions.end()) fail("there is no set or function '" + std::string(name) + "'");
@@ -223,6 +284,12 @@ class Parser {
         numbers(function, node);
         break;
       case Shape::kPoints:
+        if (function.term == Term::kHull && begins_set()) {
+          node.term = Term::kHullOfSets;
+          do node.sets.push_back(sum());
+          while (take(','));
+          break;
+        }
         node.rings.push_back(points(function));
         break;
       case Shape::kRings:
@@ -266,32 +333,110 @@ class Parser {
     return path;
   }
 
-  Rational number(const Function& function) {
-    peek();
+  Rational number(const Function& function) { return number(function.usage); }
+
+  // Sums and products of numbers.
+  Rational number(std::string_view usage) {
+    Rational value = number_product(usage);
+    for (;;) {
+      if (take('+')) {
+        value += number_product(usage);
+      } else if (take('-')) {
+        value -= number_product(usage);
+      } else {
+        return value;
+      }
+    }
+  }
+
+  Rational number_product(std::string_view usage) {
+    Rational value = number_factor(usage);
+    for (;;) {
+      peek();
+      const std::size_t offset = at_;
+      if (take('*')) {
+        value *= number_factor(usage);
+      } else if (take('/')) {
+        const Rational divisor = number_factor(usage);
+        if (divisor == 0) {
+          at_ = offset;
+          fail("division by zero; usage: " + std::string(usage));
+        }
+        value /= divisor;
+      } else {
+        return value;
+      }
+    }
+  }
+
+  Rational number_factor(std::string_view usage) {
+    if (++depth_ > kMaxDepth) fail("the expression is nested too deeply");
+    Rational value;
+    if (take('(')) {
+      value = number(usage);
+      if (!take(')')) fail("expected ')', found " + here() + "; usage: " + std::string(usage));
+    } else if (take('-')) {
+      value = -number_factor(usage);
+    } else if (take('+')) {
+      value = number_factor(usage);
+    } else {
+      value = literal(usage);
+    }
+    --depth_;
+    return value;
+  }
+
+  Rational literal(std::string_view usage) {
+    if (is_letter(peek())) {
+      const auto known = numbers_.find(std::string(word()));
+      if (known != numbers_.end()) {
+        at_ += known->first.size();
+        return known->second;
+      }
+    }
+    // Up to what cannot belong to a number; a sign does after an 'e'.
+    const bool digit_first =
+        at_ < text_.size() && (std::isdigit(static_cast<unsigned char>(text_[at_])) != 0 || text_[at_] == '.');
+    bool fraction = false;
     std::size_t end = at_;
-    while (end < text_.size() && std::string_view(",();#").find(text_[end]) == std::string_view::npos &&
+    while (end < text_.size() && std::string_view(",();[]*#").find(text_[end]) == std::string_view::npos &&
            std::isspace(static_cast<unsigned char>(text_[end])) == 0) {
+      const char c = text_[end];
+      const bool exponent = digit_first && end > at_ && (text_[end - 1] == 'e' || text_[end - 1] == 'E');
+      if ((c == '+' || c == '-') && !exponent) break;
+      if (c == '/' && (fraction || !fraction_follows(end))) break;
+      fraction = fraction || c == '/';
       ++end;
     }
-    if (end == at_) fail("expected a number, found " + here() + "; usage: " + std::string(function.usage));
+    if (end == at_) fail("expected a number, found " + here() + "; usage: " + std::string(usage));
     const std::string_view digits = text_.substr(at_, end - at_);
     try {
       Rational value = parse_rational(digits);
       at_ = end;
       return value;
     } catch (const InputError&) {
-      fail("'" + std::string(digits) + "' is no number; usage: " + std::string(function.usage));
+      fail("'" + std::string(digits) + "' is no number; usage: " + std::string(usage));
     }
+  }
+
+  // Whether a digit comes after the slash: p/q is one number.
+  [[nodiscard]] bool fraction_follows(std::size_t slash) const {
+    return slash + 1 < text_.size() && std::isdigit(static_cast<unsigned char>(text_[slash + 1])) != 0;
   }
 
   void numbers(const Function& function, SyntaxNode& node) {
     do {
-      if (node.numbers.size() == function.most) fail("too many numbers; usage: " + std::string(function.usage));
-      node.numbers.push_back(number(function));
+      const bool bracketed = take('[');
+      do {
+        if (node.numbers.size() == function.most) fail("too many numbers; usage: " + std::string(function.usage));
+        node.numbers.push_back(number(function));
+      } while (bracketed && take(','));
+      if (bracketed) expect(']', function.usage);
     } while (take(','));
     const std::size_t count = node.numbers.size();
     // A scale has one number or three, a matrix twelve or sixteen.
-    const bool between = count > function.least && count < function.most && function.term != Term::kRotate;
+    const bool between = count > function.least && count < function.most &&
+                         (function.term == Term::kScale || function.term == Term::kTransform);
     if (count < function.least || between) {
       fail("expected another number, found " + here() + "; usage: " + std::string(function.usage));
     }
@@ -303,12 +448,14 @@ class Parser {
     do {
       if (result.size() == function.most) fail("too many numbers; usage: " + std::string(function.usage));
       Rational3 point;
-      const bool parenthesized = take('(');
+      const bool bracketed = take('[');
+      const bool parenthesized = !bracketed && take('(');
       for (std::size_t i = 0; i < 3; ++i) {
         if (i > 0) expect(',', "three numbers for each point");
         point[i] = number(function);
       }
       if (parenthesized) expect(')', "(x,y,z)");
+      if (bracketed) expect(']', "[x,y,z]");
       result.push_back(std::move(point));
     } while (take(','));
     if (result.size() < function.least) {
@@ -322,12 +469,13 @@ class Parser {
     if (c == 'x' || c == 'y' || c == 'z') {
       ++at_;
       for (const char axis : {'x', 'y', 'z'}) node.numbers.emplace_back(c == axis ? 1 : 0);
-    } else if (take('(')) {
+    } else if (c == '(' || c == '[') {
+      ++at_;
       for (std::size_t i = 0; i < 3; ++i) {
         if (i > 0) expect(',', "(a,b,c)");
         node.numbers.push_back(number(function));
       }
-      expect(')', "(a,b,c)");
+      expect(c == '(' ? ')' : ']', "(a,b,c)");
     } else {
       fail("expected an axis x, y, z or (a,b,c), found " + here());
     }
@@ -338,6 +486,8 @@ class Parser {
   std::string_view text_;
   std::size_t at_ = 0;
   std::size_t depth_ = 0;
+  std::map<std::string, Rational> numbers_;  // variables
+  std::map<std::string, std::size_t> sets_;  // variables: which set of the block
 };
 
 }  // namespace

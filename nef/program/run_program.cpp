@@ -23,6 +23,19 @@ std::string text_of(const std::exception& error) {
 
 }  // namespace
 
+namespace {
+
+// What is wrong with a command line. An option that does not exist comes first: what is missing beside it may be what it
+// was meant for.
+std::string usage_error(const CLI::App& app, const CLI::ParseError& error) {
+  for (const std::string& left : app.remaining(true)) {
+    if (left.size() > 1 && left.front() == '-') return "there is no option '" + left + "'";
+  }
+  return error.what();
+}
+
+}  // namespace
+
 std::string one_line(const std::string& text) {
   constexpr std::string_view kDigits = "0123456789abcdef";
   std::string line;
@@ -63,7 +76,7 @@ int run_program(CLI::App& app, int argc, char** argv, const std::function<int()>
     if (error.get_exit_code() == 0) return app.exit(error, std::cout, std::cerr);
     std::string program = app.get_name();
     for (const CLI::App* command : app.get_subcommands()) program += " " + command->get_name();
-    return refuse(std::string(error.what()) + " (see " + program + " --help)");
+    return refuse(usage_error(app, error) + " (see " + program + " --help)");
   } catch (const std::exception& error) {
     return refuse(text_of(error));
   }

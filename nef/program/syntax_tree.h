@@ -15,6 +15,8 @@ namespace nef {
 /// What a node of the tree makes.
 enum class Term : std::uint8_t {
   kNothing,
+  kVariable,
+  kBlock,
   kEverything,
   kFile,
   kBox,
@@ -22,6 +24,10 @@ enum class Term : std::uint8_t {
   kPoint,
   kSegment,
   kHull,
+  kHullOfSets,
+  kSphere,
+  kCylinder,
+  kMinkowski,
   kPolygon,
   kChain,
   kUnion,
@@ -40,7 +46,8 @@ enum class Term : std::uint8_t {
   kTransform,
 };
 
-/// A set, and how it is made from other sets and numbers.
+/// A set, and how it is made from other sets and numbers. A block has the sets of its variables, each of which may use
+/// those before it, and then the set that the whole text stands for.
 struct SyntaxNode {
   Term term = Term::kNothing;
   std::size_t offset = 0;  ///< bytes before its name or operator
@@ -49,6 +56,7 @@ struct SyntaxNode {
   std::vector<Rational> numbers;  ///< all numbers but those of a polygon; a rotation: axis, degrees[, tolerance]
   std::vector<std::vector<Rational3>> rings;  ///< of a polygon; the first one: the points of a hull or segment
   std::string path;                           ///< of a file
+  std::size_t variable = 0;                   ///< which one, counted in the order of definitions
 };
 
 /// Parses a whole text. Throws ExpressionError.

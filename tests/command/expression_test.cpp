@@ -112,6 +112,52 @@ TEST_CASE("numbers are exact") {
   CHECK(volume(eval("box(0,0,0, 1/3,1/7,1e-30)")) == Rational(1, Integer("21000000000000000000000000000000")));
 }
 
+TEST_CASE("numbers are computed, and may stand in brackets") {
+  CHECK(same("box([0,0,(2-1)*-1e-1], [1+1,2*3/4,0])", "box(0,0,-0.1, 2,1.5,0) + nothing"));
+  CHECK(same("translate(point(0,0,0), [1/3, 2-1, -(1/2)/2])", "point(1/3,1,-1/4)"));
+  CHECK(same("hull([0,0,0], [1,0,0], (0,1,0), 1,1,0)", "box(0,0,0,1,1,0)"));
+  CHECK(same("rotate(box(0,0,0,1,2,3), [0,0,1], 90)", "box(-2,0,0,0,1,3)"));
+  CHECK(refusal("point(1/(2-2),0,0)").rfind("column 8: division by zero", 0) == 0);
+  CHECK(refusal("box([0,0,0,1,1,1)").rfind("column 17: expected ']'", 0) == 0);
+  CHECK(refusal("point(1+,0,0)").rfind("column 9: expected a number, found ','", 0) == 0);
+}
+
+TEST_CASE("variables are sets or numbers") {
+  CHECK(same("w = 2; a = box(0,0,0, w,w,w/2);\n# twice\na + translate(a, [0, 0, w - 1])", "box(0,0,0,2,2,2)"));
+  CHECK(same("a = box(0,0,0,1,1,1); b = a * interior(a); a - b", "boundary(box(0,0,0,1,1,1))"));
+  CHECK(same("a = point(0,0,0); a = a + point(1,0,0); a", "point(0,0,0) + point(1,0,0)"));
+  CHECK(same("a = 1; a = point(a,a,a); a", "point(1,1,1)"));
+  CHECK(same("n = 3; hull(n,0,0, (0,n,0), 0,0,n)", "hull(3,0,0, 0,3,0, 0,0,3)"));
+  // Each is made once: thirty doublings are no billion sets.
+  std::string text = "a0 = box(0,0,0,1,1,1);";
+  for (int i = 1; i <= 30; ++i) {
+    const std::string before = "a" + std::to_string(i - 1);
+    text += "a" + std::to_string(i) + " = " + before + " + " + before + ";";
+  }
+  CHECK(same(text + "a30", "box(0,0,0,1,1,1)"));
+  CHECK(refusal("a = 1; a") == "column 8: there is no set or function 'a'");
+  CHECK(refusal("a = point(0,0,0) a") == "column 18: expected ';' after the value of 'a', found 'a'");
+  CHECK(refusal("box = 3; box(0,0,0,box,1,1)") == "column 1: 'box' is a word of the language; choose another name");
+  CHECK(refusal("a = b; a") == "column 5: there is no set or function 'b'");
+}
+
+TEST_CASE("round shapes, hulls of sets, Minkowski sums") {
+  // The prism over a regular polygon, the pyramid over it.
+  CHECK(nearest_double(*volume(eval("cylinder(2, 3, 3, 12)"))) == Approx(2 * 27).epsilon(1e-14));
+  CHECK(nearest_double(*volume(eval("cylinder(2, 3, 0, 12)"))) == Approx(2 * 27 / 3.0).epsilon(1e-14));
+  CHECK(counts(eval("cylinder(1, 1)")).facets == 34);
+  CHECK(counts(eval("sphere(1, 6)")).vertices == 18);
+  CHECK(eval("sphere(0)").is_empty());
+  CHECK(refusal("sphere(1, 2.5)").find("number of corners") != std::string::npos);
+  CHECK(same("hull(box(0,0,0,1,1,1), box(3,0,0,4,1,1) + point(2,0,0))", "box(0,0,0,4,1,1)"));
+  CHECK(same("hull(interior(box(0,0,0,1,1,1)))", "box(0,0,0,1,1,1)"));
+  CHECK(refusal("hull(halfspace(0,0,1,0))").find("unbounded") != std::string::npos);
+  CHECK(refusal("nothing + minkowski(nothing, nothing)") == "column 11: Minkowski sums cannot be computed here");
+  ExpressionOptions options;
+  options.minkowski = [](const Polyhedron& a, const Polyhedron&) { return a; };
+  CHECK(equal(evaluate_expression("minkowski(point(1,2,3), nothing)", options), make_point({1, 2, 3})));
+}
+
 TEST_CASE("files come from the caller") {
   ExpressionOptions options;
   std::vector<std::string> asked;

@@ -160,7 +160,7 @@ TEST_CASE("command: bad usage and bad input are one line on stderr, code 2, and 
       {"a.nef a.nef --robot a.nef -o out.nef", "--configuration-space"},
       {"--configuration-space --obstacles a.nef -o out.nef", "--robot"},
       {"--configuration-space --robot a.nef -o out.nef", "--obstacles"},
-      {"--configuration-space --robot a.nef --obstacles a.nef --box 0,1,0 1,0,1 -o out.nef", "lower corner"},
+      {"--configuration-space --robot a.nef --obstacles a.nef --box 0,1,0,1,0,1 -o out.nef", "lower corner"},
       {"a.nef a.nef --format ply -o out.nef", "--format"},
       {"--decompose a.nef --ball 1,2 -o out.off", "--decompose"},
       {"--decompose a.nef -o out.txt", "off, ply or obj"},

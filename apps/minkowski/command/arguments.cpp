@@ -64,7 +64,9 @@ void declare_tasks(CLI::App& app, Arguments& a) {
   app.add_flag("--configuration-space", a.configuration_space, "free positions of a robot among obstacles");
   app.add_option("--robot", a.robot, "the robot; its reference point is the origin");
   app.add_option("--obstacles", a.obstacles, "the obstacles")->expected(-1);
-  app.add_option("--box", a.box, "two corners x,y,z X,Y,Z that bound the reference point")->expected(2);
+  app.add_option("--box", a.box, "x0,y0,z0,x1,y1,z1: what bounds the reference point (two words x0,y0,z0 x1,y1,z1 will do)")
+      ->expected(1, 2)
+      ->type_name("BOX");
 }
 
 Task task_of(const Arguments& a) {
@@ -137,7 +139,7 @@ void check_operands(const Arguments& a, Task task) {
 }  // namespace
 
 void declare(CLI::App& app, Arguments& a) {
-  app.add_option("operands", a.operands, "A and B: .nef, .nef3, or a mesh (off, obj, stl, ply)");
+  app.add_option("operands", a.operands, "A and B: .nef, .nef3, or a mesh (off, obj, stl, ply, glb, 3mf)");
   app.add_option("-o,--output", a.output, "where the result goes; the extension says the format");
   app.add_flag("--open-a", a.open_a, "take the interior of A");
   app.add_flag("--open-b", a.open_b, "take the interior of B");

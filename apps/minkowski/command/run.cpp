@@ -238,8 +238,10 @@ class Run {
     shown_ = {{"robot", robot}, {"obstacles", a_.preview.empty() ? Polyhedron() : unite_all(obstacles, a_.threads)}};
     std::optional<std::array<Rational3, 2>> box;
     if (!a_.box.empty()) {
-      const Rational3 low = parse_triple(a_.box[0], "--box");
-      const Rational3 high = parse_triple(a_.box[1], "--box");
+      const std::string words = a_.box.size() == 1 ? a_.box[0] : a_.box[0] + "," + a_.box[1];
+      const std::vector<Rational> n = parse_numbers(words, 6, "--box");
+      const Rational3 low{n[0], n[1], n[2]};
+      const Rational3 high{n[3], n[4], n[5]};
       for (std::size_t i = 0; i < 3; ++i) {
         if (low[i] <= high[i]) continue;
         throw InputError("--box: give the lower corner first; " + to_string(low[i]) + " exceeds " + to_string(high[i]));

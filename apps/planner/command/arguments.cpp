@@ -59,7 +59,7 @@ void declare(CLI::App& app, Arguments& a) {
   app.add_option("--max-cells", a.max_cells, "A robot that turns: cells of angles before it stays undecided");
   declare_ompl(app, a);
   app.add_option("--threads", a.threads, "Threads for the configuration space (0: all cores)");
-  app.add_flag("--quiet", a.quiet, "Print nothing but errors, and no progress bar");
+  app.add_flag("-q,--quiet", a.quiet, "Print nothing but errors, and no progress bar");
   app.footer(kFooter);
 }
 

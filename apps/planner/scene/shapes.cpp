@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "apps/minkowski/minkowski.h"
 #include "apps/planner/scene/nearly_closed.h"
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
@@ -90,6 +91,7 @@ Polyhedron shape_of_text(const std::string& text, const std::string& folder, Mes
   options.load = [&](const std::string& file) {
     return read_shape_file((std::filesystem::path(folder) / file).string(), messages);
   };
+  options.minkowski = [](const Polyhedron& a, const Polyhedron& b) { return minkowski::minkowski_sum(a, b); };
   try {
     return evaluate_expression(text, options);
   } catch (const ExpressionError& error) {

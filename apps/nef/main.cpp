@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The program `nef`, with Minkowski sums in its expressions.
+#include "apps/minkowski/minkowski.h"
+#include "nef/command/run_command.h"
+
+int main(int argc, char** argv) {
+  nef::CommandExtensions extensions;
+  extensions.minkowski = [](const nef::Polyhedron& a, const nef::Polyhedron& b) {
+    return nef::minkowski::minkowski_sum(a, b);
+  };
+  return nef::run_command(argc, argv, extensions);
+}

@@ -13,6 +13,7 @@ file(GLOB NEF_PUBLIC_HEADERS CONFIGURE_DEPENDS
      nef/*.h nef/base/error.h nef/number/number.h nef/construct/construct.h nef/construct/convex_hull.h
      nef/export/to_mesh.h nef/mesh/mesh_check.h nef/export/convert_*.h nef/io/polyhedron_file.h
      nef/io/mesh/mesh_reader.h nef/io/mesh/mesh_writer.h nef/io/native/native_format.h nef/io/cgal/cgal_nef3.h nef/query/measure.h
+     nef/query/explore.h nef/query/moments.h nef/construct/round_shapes.h
      apps/minkowski/minkowski.h apps/visual_hull/visual_hull.h
      apps/planner/ompl/translation_planning.h)
 

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/query/explore.h"
+
+#include <string>
+
+#include "nef/base/error.h"
+#include "nef/query/predicates_of_sets.h"
+
+namespace nef {
+
+Rational3 point(const Polyhedron& a, std::uint32_t vertex) {
+  const Complex& c = a.complex();
+  if (c.has_box() && is_box_vertex(c, vertex)) {
+    throw InputError("vertex " + std::to_string(vertex) + " lies on the infimaximal box");
+  }
+  return c.points.rational(PointId{vertex});
+}
+
+}  // namespace nef

@@ -7,6 +7,7 @@
 
 #include "nef/base/error.h"
 #include "nef/mesh/triangulate.h"
+#include "nef/number/nearest_quotient.h"
 
 namespace nef {
 namespace {
@@ -96,7 +97,9 @@ class Exporter {
     if (mark == kOutside) return false;
     return options_.selected ? options_.selected(mark) : mark != 0;
   }
-  [[nodiscard]] bool finite(std::uint32_t vertex) const { return complex_.points.finite(PointId{vertex}); }
+  [[nodiscard]] bool finite(std::uint32_t vertex) const {
+    return !complex_.has_box() || complex_.points.finite(PointId{vertex});
+  }
 
   // A selected volume is unbounded if it is the outer one, or has a facet on an infimaximal box.
   void classify_volumes() {
@@ -176,9 +179,12 @@ class Exporter {
     number_.assign(complex_.vertex_count(), kUnused);
     for (const auto& [v, w] : lines_) number_[v] = number_[w] = 0;
     for (const std::uint32_t v : points_) number_[v] = 0;
+    corner_vertices_.reserve(complex_.corners.size());
     for (const std::uint32_t f : boundary_) {
       for (const std::uint32_t corner : complex_.facet_corners(complex_.facets[f])) {
-        number_[complex_.shalfedge_owner[corner]] = 0;
+        const std::uint32_t v = complex_.shalfedge_owner[corner];
+        number_[v] = 0;
+        corner_vertices_.push_back(v);
       }
     }
     for (std::uint32_t v = 0; v < number_.size(); ++v) {
@@ -189,13 +195,14 @@ class Exporter {
     }
   }
 
-  void collect_rings(const Facet& facet, std::vector<std::vector<std::uint32_t>>& rings) const {
+  // `corners`: the vertices of the facet's corners, cycle after cycle.
+  void collect_rings(const Facet& facet, const std::uint32_t* corners,
+                     std::vector<std::vector<std::uint32_t>>& rings) const {
     rings.resize(facet.cycle_count);
     for (std::uint32_t i = 0; i < facet.cycle_count; ++i) {
-      rings[i].clear();
-      for (const std::uint32_t corner : complex_.cycle(facet.first_cycle + i)) {
-        rings[i].push_back(number_[complex_.shalfedge_owner[corner]]);
-      }
+      const std::size_t size = complex_.cycle(facet.first_cycle + i).size();
+      rings[i].resize(size);
+      for (std::uint32_t& v : rings[i]) v = number_[*corners++];
     }
   }
 
@@ -220,23 +227,23 @@ class Exporter {
   // possible, and by numbers of their own.
   class Polygons {
    public:
-    explicit Polygons(std::size_t vertices) : number_(vertices, kUnused) {}
-
-    void add(const Exporter& exporter, const Facet& facet) {
-      for (const std::uint32_t corner : exporter.complex_.facet_corners(facet)) {
-        number_[exporter.number_[exporter.complex_.shalfedge_owner[corner]]] = 0;
+    explicit Polygons(const Exporter& exporter) : number_(exporter.vertices_.size(), kUnused) {
+      const std::uint32_t* corners = exporter.corner_vertices_.data();
+      for (const std::uint32_t f : exporter.boundary_) {
+        const std::size_t size = exporter.complex_.facet_corners(exporter.complex_.facets[f]).size();
+        if (!exporter.is_triangle(exporter.complex_.facets[f])) {
+          for (std::size_t i = 0; i < size; ++i) number_[exporter.number_[corners[i]]] = 0;
+        }
+        corners += size;
       }
-    }
-
-    void make(const Exporter& exporter) {
-      std::vector<Rational3> points;
+      std::vector<PointId> points;
       for (std::uint32_t v = 0; v < number_.size(); ++v) {
         if (number_[v] == kUnused) continue;
         number_[v] = static_cast<std::uint32_t>(vertex_.size());
         vertex_.push_back(v);
-        points.push_back(exporter.complex_.points.rational(PointId{exporter.vertices_[v]}));
+        points.push_back(PointId{exporter.vertices_[v]});
       }
-      triangulator_.emplace(points_.emplace(points));
+      if (!points.empty()) triangulator_.emplace(points_.emplace(exporter.complex_.points, points));
     }
 
     void triangulate(std::vector<std::vector<std::uint32_t>>& rings, std::pair<std::size_t, int> projection,
@@ -276,42 +283,49 @@ class Exporter {
   }
 
   void write_facets() {
-    Polygons polygons(vertices_.size());
-    bool any = false;
-    for (const std::uint32_t f : boundary_) {
-      if (is_triangle(complex_.facets[f])) continue;
-      polygons.add(*this, complex_.facets[f]);
-      any = true;
-    }
-    if (any) polygons.make(*this);
+    Polygons polygons(*this);
     std::vector<std::vector<std::uint32_t>> rings;
     std::vector<Triangulator::Triangle> triangles;
     faces_.face_begin.reserve(boundary_.size() + 1);
-    faces_.corners.reserve(3 * boundary_.size());
+    faces_.corners.reserve(corner_vertices_.size());
+    const std::uint32_t* corners = corner_vertices_.data();
     for (const std::uint32_t f : boundary_) {
       const Facet& facet = complex_.facets[f];
       // Cycles turn counterclockwise as seen from above, which is outside if the solid lies below.
       const bool flip = volumes_[facet.volume_above].selected;
-      collect_rings(facet, rings);
-      const bool triangle = is_triangle(facet);
-      const bool whole = rings.size() == 1 && (triangle || !options_.only_convex ||
-                                               polygons.strictly_convex(rings[0], projection(facet.plane).first));
-      if (options_.keep_polygons && whole && (triangle || may_stay_polygon(rings[0]))) {
+      if (is_triangle(facet)) {
+        const std::array<std::uint32_t, 3> v{number_[corners[0]], number_[corners[1]], number_[corners[2]]};
+        corners += 3;
+        push_triangle(v, flip);
+        continue;
+      }
+      collect_rings(facet, corners, rings);
+      corners += complex_.facet_corners(facet).size();
+      const bool whole = rings.size() == 1 &&
+                         (!options_.only_convex || polygons.strictly_convex(rings[0], projection(facet.plane).first));
+      if (options_.keep_polygons && whole && may_stay_polygon(rings[0])) {
         if (flip) std::reverse(rings[0].begin(), rings[0].end());
         faces_.push_face(rings[0]);
         continue;
       }
       triangles.clear();
-      if (triangle) {
-        triangles.push_back({rings[0][2], rings[0][0], rings[0][1]});  // begins where the triangulator's would
-      } else {
-        polygons.triangulate(rings, projection(facet.plane), triangles);
-      }
+      polygons.triangulate(rings, projection(facet.plane), triangles);
       for (auto& triangle : triangles) {
         if (flip) std::swap(triangle[1], triangle[2]);
         faces_.push_face(triangle);
       }
     }
+  }
+
+  // The corners begin where they would if the face were kept as a polygon, or were triangulated.
+  void push_triangle(const std::array<std::uint32_t, 3>& v, bool flip) {
+    std::array<std::uint32_t, 3> face{v[2], v[0], v[1]};
+    if (options_.keep_polygons) {
+      face = flip ? std::array<std::uint32_t, 3>{v[2], v[1], v[0]} : v;
+    } else if (flip) {
+      std::swap(face[1], face[2]);
+    }
+    faces_.push_face(face);
   }
 
   [[nodiscard]] std::pair<std::size_t, int> projection(PlaneId plane) const {
@@ -339,17 +353,24 @@ class Exporter {
       sides.add(volumes_[facet.volume_below]);
       judge(sides, facet.mark, &Items::facets);
     }
+    // Then whatever lies in the closure of a facet sees a volume of the mesh, and is lost only if it is not selected.
+    const bool all_facets = boundary_.size() == complex_.facet_count() && !lower_dimensional_;
     for (std::uint32_t v = 0; v < complex_.vertex_count(); ++v) {
       if (!finite(v)) continue;
       const VertexRecord& record = complex_.vertices[v];
       const VertexRecord& end = complex_.vertices[v + 1];
-      Sides sides;
-      for (std::uint32_t s = record.sfaces; s < end.sfaces; ++s) sides.add(volumes_[complex_.sface_volume(s)]);
-      judge(sides, record.mark, &Items::vertices);
+      const bool at_facet = all_facets && (record.shalfedges < end.shalfedges || record.sloops < end.sloops);
+      if (!at_facet || !is_selected(record.mark)) {
+        Sides sides;
+        for (std::uint32_t s = record.sfaces; s < end.sfaces; ++s) sides.add(volumes_[complex_.sface_volume(s)]);
+        judge(sides, record.mark, &Items::vertices);
+      }
       for (std::uint32_t h = record.svertices; h < end.svertices; ++h) {
+        const SVertex& svertex = complex_.svertices[h];
+        if (all_facets && svertex.out != kNone && is_selected(svertex.mark)) continue;
         const bool far_finite = finite(complex_.target(h));
         if (far_finite && complex_.twin[h] < h) continue;  // each edge once
-        judge(sides_of_edge(v, h), complex_.svertices[h].mark, &Items::edges);
+        judge(sides_of_edge(v, h), svertex.mark, &Items::edges);
       }
     }
   }
@@ -403,6 +424,7 @@ class Exporter {
   const MeshExportOptions& options_;
   std::vector<Sides> volumes_;
   std::vector<std::uint32_t> boundary_;              // facets
+  std::vector<std::uint32_t> corner_vertices_;       // of the complex, of all corners of these
   std::vector<std::uint32_t> number_;                // in the mesh, of each vertex
   std::vector<Answer> passes_;                       // of each vertex of the mesh: may it be a corner of a polygon?
   std::vector<std::array<std::uint32_t, 2>> lines_;  // vertices of the complex
@@ -416,17 +438,6 @@ class Exporter {
   Mesh faces_;                           // its vertices come last
   std::vector<std::string> lost_;
 };
-
-// Both integers below 2^53 are doubles, and their quotient in floating point is the nearest one by definition.
-double nearest_quotient(mpz_srcptr numerator, mpz_srcptr denominator) {
-  if (mpz_sizeinbase(numerator, 2) <= 53 && mpz_sizeinbase(denominator, 2) <= 53) {
-    return mpz_get_d(numerator) / mpz_get_d(denominator);
-  }
-  Rational value;
-  mpz_set(value.get_num_mpz_t(), numerator);
-  mpz_set(value.get_den_mpz_t(), denominator);
-  return nearest_double(value);  // which needs no lowest terms
-}
 
 }  // namespace
 

@@ -69,11 +69,7 @@ Scratch& scratch() {
 MeshPoints::MeshPoints(std::span<const Rational3> points) {
   approximate_.reserve(points.size());
   if (make_integers(points)) {
-    // Below 2^40 every integer is a double.
-    for (const auto& p : integers_) {
-      approximate_.push_back({static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])});
-    }
-    find_margins(true);
+    approximate_integers();
     return;
   }
   table_.reserve(points.size());
@@ -88,6 +84,76 @@ MeshPoints::MeshPoints(PointTable points) : table_(std::move(points)) {
   approximate_.reserve(table_.size());
   for (std::size_t i = 0; i < table_.size(); ++i) approximate_.push_back(table_.approximate(PointId{i}));
   find_margins(false);
+}
+
+MeshPoints::MeshPoints(const PointTable& points, std::span<const PointId> chosen) {
+  approximate_.reserve(chosen.size());
+  if (make_integers(points, chosen)) {
+    approximate_integers();
+    return;
+  }
+  table_.reserve(chosen.size());
+  for (const PointId p : chosen) {
+    table_.push_from(points, p);
+    approximate_.push_back(points.approximate(p));
+  }
+  find_margins(false);
+}
+
+// Below 2^40 every integer is a double.
+void MeshPoints::approximate_integers() {
+  for (const auto& p : integers_) {
+    approximate_.push_back({static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])});
+  }
+  find_margins(true);
+}
+
+// The common denominator grows where a coordinate is not a multiple of its inverse; what is there is scaled then, which
+// happens forty times at most.
+bool MeshPoints::make_integers(const PointTable& points, std::span<const PointId> chosen) {
+  Integer scaled;
+  Integer quotient;
+  Integer rest;
+  integers_.reserve(chosen.size());
+  const auto enlarge = [this](mpz_srcptr by) {
+    if (mpz_cmp_ui(by, kIntegerLimit) >= 0) return false;
+    const auto factor = static_cast<std::int64_t>(mpz_get_ui(by));
+    if (static_cast<Int128>(denominator_) * factor >= kIntegerLimit) return false;
+    denominator_ *= factor;
+    for (auto& point : integers_) {
+      for (std::int64_t& x : point) {
+        const Int128 larger = static_cast<Int128>(x) * factor;
+        if (larger >= kIntegerLimit || larger <= -kIntegerLimit) return false;
+        x = static_cast<std::int64_t>(larger);
+      }
+    }
+    return true;
+  };
+  for (const PointId p : chosen) {
+    const IntegerView w = points.coordinate(p, 3);
+    std::array<std::int64_t, 3>& point = integers_.emplace_back();
+    bool fits = true;
+    for (std::size_t axis = 0; fits && axis < 3; ++axis) {
+      const IntegerView x = points.coordinate(p, axis);
+      mpz_mul_ui(scaled.get_mpz_t(), x, static_cast<unsigned long>(denominator_));
+      mpz_tdiv_qr(quotient.get_mpz_t(), rest.get_mpz_t(), scaled.get_mpz_t(), w);
+      if (rest != 0) {
+        mpz_gcd(rest.get_mpz_t(), rest.get_mpz_t(), w);
+        mpz_divexact(rest.get_mpz_t(), w, rest.get_mpz_t());
+        fits = enlarge(rest.get_mpz_t());
+        mpz_mul(scaled.get_mpz_t(), scaled.get_mpz_t(), rest.get_mpz_t());
+        mpz_divexact(quotient.get_mpz_t(), scaled.get_mpz_t(), w);
+      }
+      fits = fits && mpz_cmpabs_ui(quotient.get_mpz_t(), kIntegerLimit) < 0;
+      if (fits) point[axis] = mpz_get_si(quotient.get_mpz_t());
+    }
+    if (!fits) {
+      integers_.clear();
+      denominator_ = 1;
+      return false;
+    }
+  }
+  return true;
 }
 
 bool MeshPoints::make_integers(std::span<const Rational3> points) {
@@ -233,6 +299,8 @@ int MeshPoints::orientation_along(std::uint32_t a, std::uint32_t b, std::uint32_
     const double ex = 2 * margin_[i] + 0x1p-53 * sx;
     const double ey = 2 * margin_[j] + 0x1p-53 * sy;
     const double value = x1 * y2 - x2 * y1;
+    // Of small integers everything is exact.
+    if (margin_[i] == 0 && margin_[j] == 0 && sx * sy < 0x1p51) return (value > 0) - (value < 0);
     const double bound = 3 * (ex * sy + sx * ey) + 0x1p-49 * sx * sy + 1e-290;
     if (value > bound) return 1;
     if (value < -bound) return -1;

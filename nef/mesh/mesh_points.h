@@ -22,6 +22,8 @@ class MeshPoints {
   explicit MeshPoints(std::span<const Rational3> points);
   /// The same for points that a table holds; all must be finite.
   explicit MeshPoints(PointTable points);
+  /// The same for some points of a table, which must be finite; they get numbers in this order.
+  MeshPoints(const PointTable& points, std::span<const PointId> chosen);
 
   [[nodiscard]] std::size_t size() const { return approximate_.size(); }
 
@@ -60,6 +62,9 @@ class MeshPoints {
   [[nodiscard]] const std::array<double, 3>& approximate(std::uint32_t p) const { return approximate_[p]; }
   [[nodiscard]] double margin(std::size_t axis) const { return margin_[axis]; }
 
+  /// True if these are below 1e100, so that products of three do not overflow.
+  [[nodiscard]] bool moderate() const { return filter_; }
+
   /// Encloses the point, in the same scaled space.
   void extend(Box& box, std::uint32_t p) const;
 
@@ -67,6 +72,8 @@ class MeshPoints {
   struct Differences;
 
   bool make_integers(std::span<const Rational3> points);
+  bool make_integers(const PointTable& points, std::span<const PointId> chosen);
+  void approximate_integers();
   void find_margins(bool exact);
   // 0 if the filter can not tell.
   [[nodiscard]] int orientation_filtered(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const;

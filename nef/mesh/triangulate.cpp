@@ -134,33 +134,128 @@ bool Triangulator::bridge(std::uint32_t hole, std::uint32_t outer) {
   return false;
 }
 
-bool Triangulator::is_ear(std::uint32_t node) {
-  const std::uint32_t a = nodes_[nodes_[node].prev].point;
-  const std::uint32_t b = nodes_[node].point;
-  const std::uint32_t c = nodes_[nodes_[node].next].point;
-  Box box;
-  points_.extend(box, a);
-  points_.extend(box, b);
-  points_.extend(box, c);
-  std::size_t kept = 0;
-  bool ear = true;
-  for (std::size_t i = 0; i < blunt_.size(); ++i) {
-    const Node& other = nodes_[blunt_[i]];
-    if (other.gone || !other.blunt) continue;  // drops what has become convex or was cut off
-    blunt_[kept++] = blunt_[i];
-    const std::uint32_t p = other.point;
-    if (!ear || p == a || p == b || p == c) continue;
-    const auto& x = points_.approximate(p);
-    bool outside = false;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      outside =
-          outside || x[axis] + points_.margin(axis) < box.low[axis] || x[axis] - points_.margin(axis) > box.high[axis];
+// Tells whether points lie in a triangle, borders included, by doubles where these are sure.
+//
+// The filter is that of MeshPoints::orientation_along for points in the box of the triangle: the sides of the box,
+// which are no smaller than any difference of coordinates in it, stand for these differences in its bound. Where
+// coordinates are integers and products of differences are below 2^52, everything is computed exactly.
+class Triangulator::Ear {
+ public:
+  Ear(const Triangulator& triangulator, std::uint32_t node)
+      : triangulator_(triangulator), points_(triangulator.points_) {
+    const Node& tip = triangulator.nodes_[node];
+    corner_ = {triangulator.nodes_[tip.prev].point, tip.point, triangulator.nodes_[tip.next].point};
+    std::array<double, 2> size;
+    std::array<double, 2> error;
+    bool integers = true;
+    for (std::size_t k = 0; k < 2; ++k) {
+      const std::size_t axis = (triangulator.axis_ + 1 + k) % 3;
+      const double margin = points_.margin(axis);
+      for (std::size_t i = 0; i < 3; ++i) at_[i][k] = points_.approximate(corner_[i])[axis];
+      // What surely lies outside of the ear is not asked for. Coordinates are within half of the margin, so that the
+      // rounding of these bounds does no harm.
+      low[k] = std::min({at_[0][k], at_[1][k], at_[2][k]}) - 2 * margin;
+      high[k] = std::max({at_[0][k], at_[1][k], at_[2][k]}) + 2 * margin;
+      size[k] = (high[k] - low[k]) * (1 + 0x1p-50) + 2 * margin;
+      error[k] = 2 * margin + 0x1p-53 * size[k];
+      integers = integers && margin == 0;
     }
-    if (outside) continue;
-    ear = turn(a, b, p) < 0 || turn(b, c, p) < 0 || turn(c, a, p) < 0;
+    if (!points_.moderate()) {
+      bound_ = HUGE_VAL;
+    } else if (!integers || size[0] * size[1] >= 0x1p51) {
+      bound_ = 3 * (error[0] * size[1] + size[0] * error[1]) + 0x1p-49 * size[0] * size[1] + 1e-290;
+    }
   }
-  blunt_.resize(kept);
-  return ear;
+
+  // Of the box that the triangle is in.
+  std::array<double, 2> low;
+  std::array<double, 2> high;
+
+  // Whether a node that is not convex and in the box is in the way.
+  [[nodiscard]] bool holds(std::uint32_t node, double x, double y) const {
+    const Node& other = triangulator_.nodes_[node];
+    const std::uint32_t p = other.point;
+    if (!other.blunt || p == corner_[0] || p == corner_[1] || p == corner_[2]) return false;
+    bool sure = true;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto& a = at_[i];
+      const auto& b = at_[i == 2 ? 0 : i + 1];
+      const double turn = triangulator_.sign_ * ((b[0] - a[0]) * (y - a[1]) - (x - a[0]) * (b[1] - a[1]));
+      if (turn < -bound_) return false;
+      sure = sure && (turn > bound_ || bound_ == 0);
+    }
+    if (sure) return true;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (triangulator_.turn(corner_[i], corner_[i == 2 ? 0 : i + 1], p) < 0) return false;
+    }
+    return true;
+  }
+
+  [[nodiscard]] bool holds(std::uint32_t node) const {
+    const auto& x = points_.approximate(triangulator_.nodes_[node].point);
+    const std::array<double, 2> p{x[(triangulator_.axis_ + 1) % 3], x[(triangulator_.axis_ + 2) % 3]};
+    for (std::size_t k = 0; k < 2; ++k) {
+      if (p[k] < low[k] || p[k] > high[k]) return false;
+    }
+    return holds(node, p[0], p[1]);
+  }
+
+ private:
+  const Triangulator& triangulator_;
+  const MeshPoints& points_;
+  std::array<std::uint32_t, 3> corner_;
+  std::array<std::array<double, 2>, 3> at_;
+  double bound_ = 0;
+};
+
+bool Triangulator::is_ear(std::uint32_t node) const {
+  const Ear ear(*this, node);
+  std::array<std::pair<Row::const_iterator, Row::const_iterator>, 2> range;
+  for (std::size_t k = 0; k < 2; ++k) {
+    range[k].first = std::lower_bound(rows_[k].begin(), rows_[k].end(), ear.low[k],
+                                      [](const Place& place, double x) { return place.at < x; });
+    range[k].second = std::upper_bound(range[k].first, rows_[k].cend(), ear.high[k],
+                                       [](double x, const Place& place) { return x < place.at; });
+  }
+  const std::size_t k = range[0].second - range[0].first <= range[1].second - range[1].first ? 0 : 1;
+  for (auto place = range[k].first; place != range[k].second; ++place) {
+    if (place->other < ear.low[1 - k] || place->other > ear.high[1 - k]) continue;
+    const double x = k == 0 ? place->at : place->other;
+    const double y = k == 0 ? place->other : place->at;
+    if (ear.holds(place->node, x, y)) return false;
+  }
+  for (std::size_t i = sorted_; i < blunt_.size(); ++i) {
+    if (ear.holds(blunt_[i])) return false;
+  }
+  return true;
+}
+
+void Triangulator::sort_blunt() {
+  std::erase_if(blunt_, [this](std::uint32_t node) { return !nodes_[node].blunt; });
+  for (std::size_t k = 0; k < 2; ++k) {
+    Row& row = rows_[k];
+    row.clear();
+    for (const std::uint32_t node : blunt_) {
+      const auto& x = points_.approximate(nodes_[node].point);
+      row.push_back({x[(axis_ + 1 + k) % 3], x[(axis_ + 2 - k) % 3], node});
+    }
+    std::sort(row.begin(), row.end(), [](const Place& x, const Place& y) { return x.at < y.at; });
+  }
+  sorted_ = blunt_.size();
+  stale_ = 0;
+}
+
+// Sorts anew after as many changes that nothing is looked at in vain for long.
+void Triangulator::set_blunt(std::uint32_t node, bool blunt) {
+  if (nodes_[node].blunt == blunt) return;
+  nodes_[node].blunt = blunt;
+  if (blunt) {
+    blunt_.push_back(node);
+  } else {
+    ++stale_;
+  }
+  constexpr std::size_t kFew = 16;
+  if (stale_ > kFew + sorted_ / 2 || blunt_.size() - sorted_ > kFew + sorted_ / 8) sort_blunt();
 }
 
 void Triangulator::collect_blunt(std::uint32_t start, std::size_t& count) {
@@ -173,6 +268,7 @@ void Triangulator::collect_blunt(std::uint32_t start, std::size_t& count) {
     ++count;
     node = nodes_[node].next;
   } while (node != start);
+  sort_blunt();
 }
 
 bool Triangulator::clip(std::uint32_t start, std::vector<Triangle>& out) {
@@ -190,16 +286,11 @@ bool Triangulator::clip(std::uint32_t start, std::vector<Triangle>& out) {
     const std::uint32_t before = nodes_[node].prev;
     const std::uint32_t after = nodes_[node].next;
     out.push_back({nodes_[before].point, nodes_[node].point, nodes_[after].point});
-    nodes_[node].gone = true;
     nodes_[before].next = after;
     nodes_[after].prev = before;
     --count;
-    for (const std::uint32_t neighbour : {before, after}) {
-      const bool blunt = turn_at(neighbour) <= 0;
-      // A cut can flatten a corner that was convex (it ends on a bridge), so both directions are possible.
-      if (blunt && !nodes_[neighbour].blunt) blunt_.push_back(neighbour);
-      nodes_[neighbour].blunt = blunt;
-    }
+    // A cut can flatten a corner that was convex (it ends on a bridge), so both directions are possible.
+    for (const std::uint32_t neighbour : {before, after}) set_blunt(neighbour, turn_at(neighbour) <= 0);
     // Going on with the corner after the next gives better triangles than peeling a fan.
     node = nodes_[after].next;
   }

@@ -26,8 +26,9 @@ class Triangulator {
   /// coordinate axis along which the plane projects one to one, and `sign` is +1 if the outer ring turns
   /// counterclockwise in that projection as orientation_along sees it.
   ///
-  /// Returns false, and appends nothing, if the rings are no such polygon. O(n r) for r corners that are not convex,
-  /// with a few nanoseconds a step; O(n) for convex polygons.
+  /// Returns false, and appends nothing, if the rings are no such polygon. O(n) for convex polygons; with r corners
+  /// that are not convex, each ear is compared with those of them that lie beside it along a coordinate axis: O(n r) at
+  /// worst, with about a nanosecond a step.
   bool triangulate(std::span<const std::vector<std::uint32_t>> rings, std::size_t axis, int sign,
                    std::vector<Triangle>& out);
 
@@ -43,7 +44,6 @@ class Triangulator {
     std::uint32_t prev = 0;
     std::uint32_t next = 0;
     bool blunt = false;  // not strictly convex
-    bool gone = false;
   };
 
   [[nodiscard]] int turn(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
@@ -56,14 +56,30 @@ class Triangulator {
   [[nodiscard]] bool in_cone(std::uint32_t node, std::uint32_t point) const;
   void join(std::uint32_t hole, std::uint32_t target);
   bool clip(std::uint32_t start, std::vector<Triangle>& out);
-  [[nodiscard]] bool is_ear(std::uint32_t node);
+  // Where a corner that is not convex lies along an axis of the projection, and which node it is.
+  struct Place {
+    double at = 0;
+    double other = 0;  // along the other axis
+    std::uint32_t node = 0;
+  };
+  // Corners that are not convex, in order along an axis; some may have become convex since.
+  using Row = std::vector<Place>;
+  // The triangle that a corner would be cut off with.
+  class Ear;
+
+  [[nodiscard]] bool is_ear(std::uint32_t node) const;
   void collect_blunt(std::uint32_t start, std::size_t& count);
+  void sort_blunt();
+  void set_blunt(std::uint32_t node, bool blunt);
 
   const MeshPoints& points_;
   std::size_t axis_ = 2;
   int sign_ = 1;
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> blunt_;  // nodes that may lie in an ear
+  std::array<Row, 2> rows_;           // those that were among them when they were last sorted
+  std::size_t sorted_ = 0;            // how many of blunt_ are in the rows
+  std::size_t stale_ = 0;             // and how many of those have become convex
 };
 
 }  // namespace nef

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <optional>
 
 #include "nef/base/error.h"
 #include "nef/base/in_quotes.h"
+#include "nef/number/nearest_quotient.h"
 
 namespace nef {
 namespace {
@@ -82,56 +82,7 @@ Rational exact_rational(double value) {
   return Rational(value);
 }
 
-namespace {
-
-// The numerator of at most 53 bits, which is a double, over a denominator that is one, too: the one rounding of IEEE
-// arithmetic is the right one. So for numbers that come from doubles, and small fractions.
-std::optional<double> nearest_of_short(mpz_srcptr numerator, mpz_srcptr denominator) {
-  constexpr std::size_t kBits = 53;
-  if (mpz_sizeinbase(numerator, 2) > kBits) return std::nullopt;
-  const std::size_t bits = mpz_sizeinbase(denominator, 2);
-  if (bits <= kBits) return mpz_get_d(numerator) / mpz_get_d(denominator);
-  if (mpz_scan1(denominator, 0) != bits - 1) return std::nullopt;
-  return std::ldexp(mpz_get_d(numerator), -static_cast<int>(std::min<std::size_t>(bits - 1, 1U << 16U)));
-}
-
-}  // namespace
-
-double nearest_double(const Rational& value) {
-  const int sign = sgn(value);
-  if (sign == 0) return 0.0;
-  if (const std::optional<double> quick = nearest_of_short(value.get_num_mpz_t(), value.get_den_mpz_t())) return *quick;
-  Integer numerator = abs(value.get_num());
-  const Integer& denominator = value.get_den();
-  // Scale so that the integer quotient has 55 or 56 bits: 53 to keep, the rest and the remainder
-  // to decide the rounding.
-  const long excess = static_cast<long>(mpz_sizeinbase(numerator.get_mpz_t(), 2)) -
-                      static_cast<long>(mpz_sizeinbase(denominator.get_mpz_t(), 2));
-  const long shift = 55 - excess;
-  Integer quotient;
-  Integer remainder;
-  if (shift >= 0) {
-    numerator <<= static_cast<unsigned long>(shift);
-    mpz_tdiv_qr(quotient.get_mpz_t(), remainder.get_mpz_t(), numerator.get_mpz_t(), denominator.get_mpz_t());
-  } else {
-    const Integer scaled = denominator << static_cast<unsigned long>(-shift);
-    mpz_tdiv_qr(quotient.get_mpz_t(), remainder.get_mpz_t(), numerator.get_mpz_t(), scaled.get_mpz_t());
-  }
-  const long bits = static_cast<long>(mpz_sizeinbase(quotient.get_mpz_t(), 2));
-  // Below 2^-1022 fewer bits remain: the last kept bit is never under 2^-1074.
-  long drop = bits - 53;
-  if (bits - 1 - shift < -1022) drop = -1074 + shift;
-  if (drop > bits + 1) return sign > 0 ? 0.0 : -0.0;
-  Integer kept = quotient >> static_cast<unsigned long>(drop);
-  const Integer rest = quotient - (kept << static_cast<unsigned long>(drop));
-  const Integer half = Integer(1) << static_cast<unsigned long>(drop - 1);
-  const int order = cmp(rest, half);
-  const bool above = order > 0 || (order == 0 && remainder != 0);
-  const bool tie = order == 0 && remainder == 0;
-  if (above || (tie && mpz_odd_p(kept.get_mpz_t()) != 0)) kept += 1;
-  const double magnitude = std::ldexp(kept.get_d(), static_cast<int>(drop - shift));
-  return sign > 0 ? magnitude : -magnitude;
-}
+double nearest_double(const Rational& value) { return nearest_quotient(value.get_num_mpz_t(), value.get_den_mpz_t()); }
 
 std::string to_string(const Rational& value) { return value.get_str(); }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "nef/number/nearest_quotient.h"
 #include "nef/number/number.h"
 
 namespace nef {
@@ -46,6 +47,31 @@ TEST_CASE("the nearest double") {
     mpq_div_2exp(value.get_mpq_t(), value.get_mpq_t(),
                  *rc::gen::element(1UL, 52UL, 53UL, 60UL, 1000UL, 1074UL, 1080UL, 1120UL, 1127UL));
     RC_ASSERT(is_nearest(value, nearest_double(value)));
+  }));
+  CHECK(rc::check("long quotients, not in lowest terms", [] {
+    const Integer numerator = random_integer(*rc::gen::inRange(1, 400));
+    const Integer denominator = random_integer(*rc::gen::inRange(1, 400));
+    const Integer factor = random_integer(*rc::gen::element(1, 30, 64, 200));
+    const Rational value(numerator, denominator);
+    Rational lowest = value;
+    lowest.canonicalize();
+    const Integer n = -numerator * factor;
+    const Integer d = denominator * factor;
+    RC_ASSERT(is_nearest(lowest, nearest_quotient(value.get_num_mpz_t(), value.get_den_mpz_t())));
+    RC_ASSERT(is_nearest(-lowest, nearest_quotient(n.get_mpz_t(), d.get_mpz_t())));
+  }));
+  CHECK(rc::check("half way between two doubles, and next to it", [] {
+    // (2 m + 1) / 2 of 54 bits, a little more or less, over and times something long.
+    Integer middle = (random_integer(53) << 1U) + 1;
+    const Integer factor = random_integer(*rc::gen::element(1, 40, 64, 65, 130));
+    middle *= factor;
+    middle <<= 200;
+    middle += *rc::gen::element(-1, 0, 1);
+    Integer denominator = factor << 150;
+    denominator += *rc::gen::element(-1, 0, 1);
+    Rational lowest(middle, denominator);
+    lowest.canonicalize();
+    RC_ASSERT(is_nearest(lowest, nearest_quotient(middle.get_mpz_t(), denominator.get_mpz_t())));
   }));
   CHECK(rc::check("doubles are themselves", [] {
     const auto d = std::bit_cast<double>(*rc::gen::arbitrary<std::uint64_t>());

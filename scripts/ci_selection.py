@@ -22,7 +22,7 @@ POOL = {
     "test_visual_hull": ("apps/visual_hull/", "tests/visual_hull/"),
     "test_planner": ("apps/planner/", "tests/planner/"),
     "test_view": ("nef/view/", "tests/view/"),
-    "test_command": ("nef/command/", "nef/program/", "tests/command/"),
+    "test_command": ("apps/nef/", "nef/command/", "nef/program/", "tests/command/"),
 }
 
 

@@ -3,13 +3,15 @@
 // The pipeline: Scene -> Silhouettes -> Box -> Cones -> Hull.
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <mutex>
 
 #include "apps/visual_hull/cones/at_least.h"
 #include "apps/visual_hull/cones/bounds.h"
 #include "apps/visual_hull/cones/intersection.h"
-#include "apps/visual_hull/scene/axes.h"
+#include "apps/visual_hull/scene/place.h"
 #include "apps/visual_hull/scene/understanding.h"
+#include "apps/visual_hull/stream.h"
 #include "apps/visual_hull/verify/empty_hull.h"
 #include "apps/visual_hull/viewing_edges/direct_hull.h"
 #include "apps/visual_hull/visual_hull.h"
@@ -73,89 +75,60 @@ struct LoadedMask {
   cv::Mat unseen;
 };
 
+void check_size_of(const cv::Mat& mask, const View& view, const std::string& what) {
+  if (!view.size || (view.size->width == mask.cols && view.size->height == mask.rows)) return;
+  throw nef::InputError("view " + view.name + ": " + what + " has " + std::to_string(mask.cols) + " x " +
+                        std::to_string(mask.rows) + " pixels, but its camera was calibrated for " +
+                        std::to_string(view.size->width) + " x " + std::to_string(view.size->height) +
+                        ": scale the image or the intrinsics");
+}
+
 LoadedMask load_mask(const ViewResult& entry, const View& view, const SilhouetteOptions& options) {
   LoadedMask loaded;
   if (entry.image.empty()) return loaded;
   loaded.mask = read_mask(entry.image, view, options, &loaded.unseen);
-  if (view.size && (view.size->width != loaded.mask.cols || view.size->height != loaded.mask.rows)) {
-    throw nef::InputError("view " + view.name + ": " + entry.image.string() + " has " +
-                          std::to_string(loaded.mask.cols) + " x " + std::to_string(loaded.mask.rows) +
-                          " pixels, but its camera was calibrated for " + std::to_string(view.size->width) + " x " +
-                          std::to_string(view.size->height) + ": scale the image or the intrinsics");
-  }
+  check_size_of(loaded.mask, view, entry.image.string());
   return loaded;
 }
 
-/// Scene -> Silhouettes.
-Views silhouettes_of(const Run& run, const Scene& scene, const std::filesystem::path& folder,
-                     const SilhouetteOptions& options, PhaseReports& phases) {
+/// The views of a scene before any image is seen.
+Views views_of(const Scene& scene) {
   Views views(scene.views.size());
-  std::vector<LoadedMask> masks(scene.views.size());
-  timed(phases, Phase::kLoad, [&] {
-    const std::vector<std::filesystem::path> images = images_of(scene, folder, run.options.images);
-    for (std::size_t i = 0; i < views.size(); ++i) {
-      const View& view = scene.views[i];
-      views[i].name = view.name;
-      views[i].camera = view.camera;
-      views[i].distortion = view.distortion;
-      if (!view.polygons) views[i].image = images[i];
-    }
-    run.each_view(Phase::kLoad, views, [&](std::size_t i) { masks[i] = load_mask(views[i], scene.views[i], options); });
-  });
-  timed(phases, Phase::kContours, [&] {
-    run.each_view(Phase::kContours, views, [&](std::size_t i) {
-      const View& view = scene.views[i];
-      views[i].silhouette = view.polygons ? silhouette_of_polygons(*view.polygons, view.name, options)
-                                          : silhouette_of_mask(masks[i].mask, masks[i].unseen, view.name, options);
-      masks[i] = {};
-    });
-  });
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    views[i].name = scene.views[i].name;
+    views[i].camera = scene.views[i].camera;
+    views[i].distortion = scene.views[i].distortion;
+  }
   return views;
 }
 
-/// Space moved so that the scene lies about the origin, where doubles have digits to spare: at UTM coordinates the
-/// filters of predicates fail thousands of times.
-struct Place {
-  Rational3 shift;  ///< of the origin; zero if the scene is near it
-  std::vector<Camera> cameras;
-
-  [[nodiscard]] bool moved() const { return sgn(shift[0]) != 0 || sgn(shift[1]) != 0 || sgn(shift[2]) != 0; }
-
-  [[nodiscard]] WorldBox inward(WorldBox box) const {
-    for (std::size_t i = 0; i < 3; ++i) {
-      box.low[i] -= shift[i];
-      box.high[i] -= shift[i];
+/// Scene -> Masks.
+std::vector<LoadedMask> masks_of(const Run& run, const Scene& scene, const std::filesystem::path& folder,
+                                 const SilhouetteOptions& options, Result& result) {
+  std::vector<LoadedMask> masks(result.views.size());
+  timed(result.phases, Phase::kLoad, [&] {
+    const std::vector<std::filesystem::path> images = images_of(scene, folder, run.options.images);
+    for (std::size_t i = 0; i < masks.size(); ++i) {
+      if (!scene.views[i].polygons) result.views[i].image = images[i];
     }
-    return box;
-  }
-  [[nodiscard]] WorldBox outward(WorldBox box) const {
-    for (std::size_t i = 0; i < 3; ++i) {
-      box.low[i] += shift[i];
-      box.high[i] += shift[i];
-    }
-    return box;
-  }
-};
+    run.each_view(Phase::kLoad, result.views,
+                  [&](std::size_t i) { masks[i] = load_mask(result.views[i], scene.views[i], options); });
+  });
+  return masks;
+}
 
-Place place_of(const Views& views) {
-  Place place;
-  std::vector<Sight> sights;
-  for (const ViewResult& view : views) {
-    place.cameras.push_back(view.camera);
-    sights.push_back(sight_of(view.camera));
-  }
-  const auto point = common_point(sights);
-  if (!point || !point->allFinite()) return place;
-  double distance = 0;
-  for (const Sight& s : sights) distance = std::max(distance, (*point - s.centre).norm());
-  constexpr double kFar = 16;  // times the distance of the cameras; any choice is right
-  if (!(point->cwiseAbs().maxCoeff() > kFar * distance) || !(distance > 0)) return place;
-  const double step = std::exp2(std::floor(std::log2(distance)));
-  for (int i = 0; i < 3; ++i) {
-    place.shift[static_cast<std::size_t>(i)] = nef::exact_rational(std::round((*point)[i] / step) * step);
-  }
-  for (std::size_t i = 0; i < views.size(); ++i) place.cameras[i] = moved(views[i].camera, place.shift);
-  return place;
+/// Masks -> Silhouettes.
+void add_silhouettes(const Run& run, const Scene& scene, std::vector<LoadedMask> masks,
+                     const SilhouetteOptions& options, Result& result) {
+  timed(result.phases, Phase::kContours, [&] {
+    run.each_view(Phase::kContours, result.views, [&](std::size_t i) {
+      const View& view = scene.views[i];
+      result.views[i].silhouette = view.polygons
+                                       ? silhouette_of_polygons(*view.polygons, view.name, options)
+                                       : silhouette_of_mask(masks[i].mask, masks[i].unseen, view.name, options);
+      masks[i] = {};
+    });
+  });
 }
 
 std::vector<ComparedView> compared(const Views& views, const Place& place) {
@@ -403,29 +376,101 @@ void timed(PhaseReports& reports, Phase phase, const std::function<void()>& work
   work();
 }
 
-Result compute(const Scene& scene, const std::filesystem::path& folder, const Options& options,
-               const Progress& progress) {
-  const Run run{options, progress};
-  Result result;
-  const SilhouetteOptions silhouettes = silhouette_options(scene, options);
-  result.origin = silhouettes.origin;
-  result.views = silhouettes_of(run, scene, folder, silhouettes, result.phases);
-  if (options.at_least && (*options.at_least < 1 || *options.at_least > result.views.size())) {
-    throw nef::InputError("--at-least: from 1 to " + std::to_string(result.views.size()) + ", the number of views");
+namespace {
+
+std::vector<Camera> cameras_of(const Scene& scene) {
+  std::vector<Camera> cameras;
+  for (const View& view : scene.views) cameras.push_back(view.camera);
+  return cameras;
+}
+
+void check_options(const Scene& scene, const Options& options) {
+  if (options.at_least && (*options.at_least < 1 || *options.at_least > scene.views.size())) {
+    throw nef::InputError("--at-least: from 1 to " + std::to_string(scene.views.size()) + ", the number of views");
   }
-  Place place = place_of(result.views);
+}
+
+/// Silhouettes -> Box -> Cones -> Hull.
+void finish(const Run& run, const Scene& scene, Place place, Result& result) {
   Room room;
-  timed(result.phases, Phase::kBox, [&] { room = room_of(scene, options, result.views, place); });
-  if (options.suspects || options.drop_suspects) {
+  timed(result.phases, Phase::kBox, [&] { room = room_of(scene, run.options, result.views, place); });
+  if (run.options.suspects || run.options.drop_suspects) {
     timed(result.phases, Phase::kSuspects, [&] { compare(run, scene, result, place, room); });
   }
   result.box = place.outward(room.box);
   result.box_found = room.found;
   if (room.enclosing) result.enclosing = place.outward(*room.enclosing);
   find_hull(run, place, room, result);
-  if (options.verify && !result.vanished) {
+  if (run.options.verify && !result.vanished) {
     timed(result.phases, Phase::kVerify, [&] { verify(run, result); });
   }
+}
+
+}  // namespace
+
+Result compute(const Scene& scene, const std::filesystem::path& folder, const Options& options,
+               const Progress& progress) {
+  return HullStream(scene, options).frame(folder, std::nullopt, progress);
+}
+
+struct HullStream::State {
+  Scene scene;
+  Options options;
+  SilhouetteOptions silhouettes;
+  Place place;
+  Views views;
+};
+
+HullStream::HullStream(Scene scene, const Options& options) {
+  check_options(scene, options);
+  auto state = std::make_shared<State>();
+  state->options = options;
+  state->silhouettes = silhouette_options(scene, options);
+  state->place = place_of(cameras_of(scene));
+  state->views = views_of(scene);
+  state->scene = std::move(scene);
+  state_ = std::move(state);
+}
+
+Result HullStream::frame(const std::vector<cv::Mat>& masks, const Progress& progress) const {
+  const State& s = *state_;
+  const Run run{s.options, progress};
+  if (masks.size() != s.views.size()) {
+    throw nef::InputError("a frame has one mask a view: " + std::to_string(s.views.size()) + ", not " +
+                          std::to_string(masks.size()));
+  }
+  Result result;
+  result.origin = s.silhouettes.origin;
+  result.views = s.views;
+  std::vector<LoadedMask> loaded(masks.size());
+  timed(result.phases, Phase::kLoad, [&] {
+    run.each_view(Phase::kLoad, result.views, [&](std::size_t i) {
+      const View& view = s.scene.views[i];
+      if (view.polygons) return;
+      if (masks[i].type() != CV_8UC1 || masks[i].empty()) {
+        throw nef::InputError("view " + view.name + ": a mask has one channel of 8 bits and at least one pixel");
+      }
+      loaded[i].mask = masks[i];
+      straighten(loaded[i].mask, view, s.silhouettes, &loaded[i].unseen);
+      check_size_of(loaded[i].mask, view, "the mask");
+    });
+  });
+  add_silhouettes(run, s.scene, std::move(loaded), s.silhouettes, result);
+  finish(run, s.scene, s.place, result);
+  return result;
+}
+
+Result HullStream::frame(const std::filesystem::path& folder, const std::optional<std::filesystem::path>& images,
+                         const Progress& progress) const {
+  const State& s = *state_;
+  Options options = s.options;
+  if (images) options.images = images;
+  const Run run{options, progress};
+  Result result;
+  result.origin = s.silhouettes.origin;
+  result.views = s.views;
+  add_silhouettes(run, s.scene, masks_of(run, s.scene, folder, s.silhouettes, result), s.silhouettes, result);
+  finish(run, s.scene, s.place, result);
   return result;
 }
 

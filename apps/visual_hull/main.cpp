@@ -7,6 +7,7 @@
 #include <opencv2/core/utils/logger.hpp>
 
 #include "apps/visual_hull/command/arguments.h"
+#include "apps/visual_hull/command/frames.h"
 #include "apps/visual_hull/command/overlay.h"
 #include "apps/visual_hull/command/pictures.h"
 #include "apps/visual_hull/command/report.h"
@@ -129,6 +130,7 @@ void check_page_name(const std::string& page) {
 }
 
 int run(const Arguments& a) {
+  if (!a.frames.empty()) return visual_hull::make_frames(a);
   check_page_name(a.page);
   nef::ProgressBar bar(!a.quiet);
   const visual_hull::Options options = visual_hull::to_options(a);

@@ -49,6 +49,11 @@ void add_input_options(CLI::App& app, Arguments& a) {
       ->needs(turntable);
   app.add_option("--images", a.images, "Directory whose images, by name, are those of the views in order")
       ->type_name("DIR");
+  app.add_option(
+         "--frames", a.frames,
+         "Video: a folder of images a frame, as in frame_%04d/; -o has such a place, too. Frames that the manifest "
+         "beside the hulls knows are not made again")
+      ->type_name("DIR%d");
   app.add_option("--silhouette", a.silhouettes,
                  "[VIEW=]FILE.json: polygons in place of a view's image; without VIEW for the views in their order")
       ->take_all()

@@ -35,6 +35,7 @@ struct Arguments {
   std::string channel;
   std::vector<std::string> silhouettes;
   std::string images;
+  std::string frames;
   std::string overlay;
   std::string preview;
   std::string page;

@@ -5,7 +5,10 @@
 // it that cuts off a loop whenever it comes back to a corner gives simple rings, whatever the walk.
 #include "apps/visual_hull/silhouette/contour.h"
 
+#include <algorithm>
 #include <cstdint>
+#include <cstring>
+#include <opencv2/imgproc.hpp>
 
 namespace visual_hull {
 namespace {
@@ -26,30 +29,56 @@ class Tracer {
   }
 
   std::vector<Ring> trace() {
-    for (std::size_t corner = 0; corner < out_.size(); ++corner) {
+    std::size_t corner = 0;
+    while ((corner = next_with_sides(corner)) < out_.size()) {
       while (out_[corner] != 0) walk_from(corner);
     }
     return std::move(rings_);
   }
 
  private:
+  static constexpr std::size_t kWord = sizeof(std::uint64_t);
+
   std::size_t corner(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
   }
 
+  static std::uint64_t word_at(const std::uint8_t* bytes) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, bytes, sizeof word);
+    return word;
+  }
+
+  // The first corner from `corner` on that a side leaves; most words of eight corners have none.
+  std::size_t next_with_sides(std::size_t corner) const {
+    while (corner + kWord <= out_.size() && word_at(&out_[corner]) == 0) corner += kWord;
+    while (corner < out_.size() && out_[corner] == 0) ++corner;
+    return corner;
+  }
+
+  // A corner has a side where its pixel differs from the one above or to the left of it. Pixels are compared eight at a
+  // time: few differ.
   void collect_sides(const cv::Mat& mask) {
-    const auto set = [&mask](int x, int y) {
-      return x >= 0 && y >= 0 && x < mask.cols && y < mask.rows && mask.at<std::uint8_t>(y, x) != 0;
-    };
-    for (int y = 0; y < mask.rows; ++y) {
-      for (int x = 0; x < mask.cols; ++x) {
-        if (!set(x, y)) continue;
-        if (!set(x, y - 1)) out_[corner(x, y)] |= 1U;
-        if (!set(x + 1, y)) out_[corner(x + 1, y)] |= 2U;
-        if (!set(x, y + 1)) out_[corner(x + 1, y + 1)] |= 4U;
-        if (!set(x - 1, y)) out_[corner(x, y + 1)] |= 8U;
+    cv::Mat padded;  // 0 or 255, with a frame of zeros, and so wide that the last word of a row ends in it
+    cv::copyMakeBorder(mask != 0, padded, 1, 1, 1, static_cast<int>(kWord), cv::BORDER_CONSTANT, cv::Scalar(0));
+    for (int y = 0; y < height_; ++y) {
+      const auto* above = padded.ptr<std::uint8_t>(y) + 1;
+      const auto* here = padded.ptr<std::uint8_t>(y + 1) + 1;
+      for (int x = 0; x < width_; x += static_cast<int>(kWord)) {
+        const std::uint64_t word = word_at(here + x);
+        if (((word ^ word_at(above + x)) | (word ^ word_at(here + x - 1))) == 0) continue;
+        const int end = std::min(x + static_cast<int>(kWord), width_);
+        for (int i = x; i < end; ++i) add_sides(i, y, here[i] != 0, above[i] != 0, here[i - 1] != 0);
       }
     }
+  }
+
+  // The sides above and to the left of pixel (x, y).
+  void add_sides(int x, int y, bool set, bool above, bool left) {
+    if (set && !above) out_[corner(x, y)] |= 1U;
+    if (above && !set) out_[corner(x + 1, y)] |= 4U;
+    if (left && !set) out_[corner(x, y)] |= 2U;
+    if (set && !left) out_[corner(x, y + 1)] |= 8U;
   }
 
   void walk_from(std::size_t start) {
@@ -63,7 +92,7 @@ class Tracer {
       at = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(at) + kStepX[direction] +
                                     static_cast<std::ptrdiff_t>(kStepY[direction]) * width_);
       if (position_[at] < 0) {
-        position_[at] = static_cast<std::int64_t>(path_.size());
+        position_[at] = static_cast<std::int32_t>(path_.size());
         path_.push_back(at);
       } else {
         cut_loop(static_cast<std::size_t>(position_[at]));
@@ -94,7 +123,7 @@ class Tracer {
   int height_;
   double shift_;
   std::vector<std::uint8_t> out_;
-  std::vector<std::int64_t> position_;  // on the path, -1 if not
+  std::vector<std::int32_t> position_;  // on the path, -1 if not
   std::vector<std::size_t> path_;
   std::vector<Ring> rings_;
 };

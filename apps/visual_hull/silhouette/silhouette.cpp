@@ -189,8 +189,12 @@ cv::Mat read_mask(const std::filesystem::path& image, const View& view, const Si
     throw nef::InputError("view " + view.name + ": the silhouette is empty (values of " + image.string() + " go from " +
                           range.str() + "; see --threshold, --channel and --invert)");
   }
-  if (!view.distortion.coefficients.empty()) undistort(mask, view.distortion, options.origin, unseen);
+  straighten(mask, view, options, unseen);
   return mask;
+}
+
+void straighten(cv::Mat& mask, const View& view, const SilhouetteOptions& options, cv::Mat* unseen) {
+  if (!view.distortion.coefficients.empty()) undistort(mask, view.distortion, options.origin, unseen);
 }
 
 ViewSilhouette silhouette_of_mask(const cv::Mat& mask, const cv::Mat& unseen, const std::string& view,

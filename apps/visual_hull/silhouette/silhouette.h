@@ -50,6 +50,10 @@ cv::Mat opencv_intrinsics(const Distortion& distortion, PixelOrigin origin);
 /// The mask of an image that is loaded already. Throws InputError if it has no such channel.
 cv::Mat make_mask(const cv::Mat& image, const ThresholdOptions& options);
 
+/// Undoes the lens of a view on its mask, if it has one; `mask` is replaced, its pixels are not written to. `unseen` as
+/// above.
+void straighten(cv::Mat& mask, const View& view, const SilhouetteOptions& options, cv::Mat* unseen);
+
 /// Traces and simplifies a mask. Throws InputError naming the view if nothing is set.
 ViewSilhouette silhouette_of_mask(const cv::Mat& mask, const cv::Mat& unseen, const std::string& view,
                                   const SilhouetteOptions& options);

@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/visual_hull/command/frames.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "apps/visual_hull/command/report.h"
+#include "apps/visual_hull/scene/understanding.h"
+#include "apps/visual_hull/stream.h"
+#include "nef/base/error.h"
+#include "nef/base/in_quotes.h"
+#include "nef/base/parallel.h"
+#include "nef/base/stopwatch.h"
+#include "nef/io/file_bytes.h"
+#include "nef/io/polyhedron_file.h"
+#include "nef/program/progress_bar.h"
+#include "nef/program/run_program.h"
+
+namespace visual_hull {
+namespace fs = std::filesystem;
+
+namespace {
+
+using json = nlohmann::ordered_json;
+
+// Of the files of a folder and its subfolders: how many and when the last one was written. Other images make it
+// another value.
+std::string state_of(const fs::path& folder) {
+  std::size_t files = 0;
+  fs::file_time_type newest = fs::file_time_type::min();
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder, error)) {
+    if (!entry.is_regular_file(error)) continue;
+    ++files;
+    newest = std::max(newest, entry.last_write_time(error));
+  }
+  return fmt::format("{} files, {}", files, newest.time_since_epoch().count());
+}
+
+// All that a hull depends on but its images.
+json settings_of(const Arguments& a) {
+  std::error_code error;
+  const fs::path scene = fs::absolute(a.scene);
+  const auto written = fs::last_write_time(scene, error);
+  json polygons = json::array();
+  for (const std::string& file : a.silhouettes) polygons.push_back(nef::utf8(file));
+  return {{"version", NEF_VERSION},
+          {"scene", nef::utf8(scene.string())},
+          {"scene_written", error ? 0 : written.time_since_epoch().count()},
+          {"simplify", a.simplify},
+          {"outer", a.outer},
+          {"min_area", a.min_area},
+          {"border", a.border},
+          {"box", a.box},
+          {"pixel_origin", a.origin},
+          {"up", a.up},
+          {"matrices", a.matrices},
+          {"turntable", {a.turntable, a.intrinsics, a.radius, a.height}},
+          {"threshold", a.threshold},
+          {"invert", a.invert},
+          {"channel", a.channel},
+          {"silhouettes", polygons},
+          {"drop_suspects", a.drop_suspects},
+          {"at_least", a.at_least},
+          {"verify", a.verify},
+          {"exact", a.exact},
+          {"binary", a.binary},
+          {"text", a.text}};
+}
+
+/// What was made, by frame.
+class Manifest {
+ public:
+  Manifest(fs::path file, json settings) : file_(std::move(file)) {
+    std::ifstream old(file_);
+    std::string line;
+    const bool same = std::getline(old, line) && parse(line) == json{{"settings", settings}};
+    while (same && std::getline(old, line)) {
+      const json entry = parse(line);  // the last line of a run that was killed may be cut
+      if (entry.is_object() && entry.contains("frame") && entry["frame"].is_number_unsigned()) {
+        lines_[entry["frame"].get<std::size_t>()] = entry;
+      }
+    }
+    old.close();
+    first_line_ = json{{"settings", std::move(settings)}}.dump();
+    rewrite();
+    stream_.open(file_, std::ios::app);
+  }
+
+  [[nodiscard]] bool has(std::size_t frame, const std::string& images) const {
+    const auto found = lines_.find(frame);
+    if (found == lines_.end()) return false;
+    const json& entry = found->second;
+    if (entry.value("images_state", "") != images || entry.value("state", "") == "failed") return false;
+    std::error_code error;
+    return entry.value("state", "") != "done" || fs::is_regular_file(entry.value("output", ""), error);
+  }
+
+  [[nodiscard]] const json& line(std::size_t frame) const { return lines_.at(frame); }
+
+  void add(json entry) {
+    stream_ << entry.dump() << "\n" << std::flush;
+    if (!stream_) throw nef::InputError(file_.string() + ": cannot be written");
+    const auto frame = entry["frame"].get<std::size_t>();  // before the entry is moved from
+    lines_[frame] = std::move(entry);
+  }
+
+  /// In the order of the frames, each once.
+  void rewrite() const {
+    std::string text = first_line_ + "\n";
+    for (const auto& [frame, entry] : lines_) text += entry.dump() + "\n";
+    nef::write_file(file_.string(), text);
+  }
+
+ private:
+  static json parse(const std::string& line) { return json::parse(line, nullptr, false); }
+
+  fs::path file_;
+  std::string first_line_;
+  std::map<std::size_t, json> lines_;
+  std::ofstream stream_;
+};
+
+void refuse_others(const Arguments& a) {
+  const std::pair<const char*, bool> others[] = {{"--report", !a.report.empty()},    {"--json", a.json},
+                                                 {"--overlay", !a.overlay.empty()},  {"--preview", !a.preview.empty()},
+                                                 {"--page", !a.page.empty()},        {"--images", !a.images.empty()},
+                                                 {"--exact-volume", a.exact_volume}, {"--suspects", a.suspects}};
+  for (const auto& [name, given] : others) {
+    if (given) throw nef::InputError(std::string(name) + " is for one hull, not for --frames");
+  }
+  if (a.output.empty()) throw nef::InputError("--frames needs -o, with a place for the number, as in hull_%04d.ply");
+}
+
+json entry_of(const Result& result, const fs::path& output, const Arguments& a) {
+  json entry;
+  entry["state"] = result.vanished ? "vanished" : "done";
+  if (result.vanished) {
+    entry["message"] = nef::utf8(vanished_text(result));
+  } else {
+    nef::PolyhedronWriteOptions format;
+    format.exact = a.exact;
+    format.binary = a.binary;
+    format.text = a.text;
+    nef::write_polyhedron(output.string(), result.hull, format);
+    const nef::Counts counts = nef::counts(result.hull);
+    entry["output"] = nef::utf8(output.string());
+    entry["vertices"] = counts.vertices;
+    entry["facets"] = counts.facets;
+    entry["volume"] = approximate_volume(result.hull).value;
+  }
+  for (const Dropped& dropped : result.dropped) entry["dropped"].push_back(nef::utf8(dropped.view));
+  if (a.verify && !result.vanished) {
+    entry["inside"] = std::all_of(result.views.begin(), result.views.end(), [](const ViewResult& view) {
+      return view.verification && view.verification->inside;
+    });
+  }
+  return entry;
+}
+
+}  // namespace
+
+NumberedPath::NumberedPath(const std::string& pattern, const std::string& option) {
+  const std::size_t percent = pattern.find('%');
+  const std::size_t d = percent == std::string::npos ? percent : pattern.find_first_not_of("0123456789", percent + 1);
+  const bool good = d != std::string::npos && pattern[d] == 'd' && pattern.find('%', d) == std::string::npos &&
+                    d - percent <= 3 && (d == percent + 1 || pattern[percent + 1] == '0');
+  if (!good) {
+    throw nef::InputError(option + " " + nef::in_quotes(pattern) + ": one place for a number is needed: %d, or %04d " +
+                          "with zeros in front");
+  }
+  before_ = pattern.substr(0, percent);
+  after_ = pattern.substr(d + 1);
+  if (d > percent + 1) width_ = std::stoul(pattern.substr(percent + 1, d - percent - 1));
+}
+
+fs::path NumberedPath::with(const std::string& word) const { return before_ + word + after_; }
+
+std::string NumberedPath::digits(std::size_t number) const { return fmt::format("{:0{}}", number, width_); }
+
+std::vector<std::size_t> NumberedPath::existing() const {
+  const fs::path folder = fs::path(before_).parent_path();
+  const std::string start = fs::path(before_).filename().string();
+  std::vector<std::size_t> numbers;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder.empty() ? "." : folder, error)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with(start)) continue;
+    const std::size_t end = std::min(name.find_first_not_of("0123456789", start.size()), name.size());
+    const std::string digits_found = name.substr(start.size(), end - start.size());
+    if (digits_found.empty() || digits_found.size() > 9) continue;
+    const std::size_t number = std::stoul(digits_found);
+    if (digits(number) == digits_found && fs::exists(of(number), error)) numbers.push_back(number);
+  }
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  return numbers;
+}
+
+int make_frames(const Arguments& a) {
+  refuse_others(a);
+  const NumberedPath folders(a.frames, "--frames");
+  const NumberedPath outputs(a.output, "-o");
+  const std::vector<std::size_t> frames = folders.existing();
+  if (frames.empty()) throw nef::InputError("--frames " + a.frames + ": there is no such folder");
+  Scene scene = scene_of(a);
+  scene.image_folders.clear();  // an image that a frame lacks is not to be taken from another place
+  if (!a.quiet) std::cout << understood(scene) << "\n";
+  Options options = to_options(a);
+  options.threads = 1;
+  const HullStream stream(std::move(scene), options);
+  Manifest manifest(fs::path(outputs.with("manifest")).replace_extension(".jsonl"), settings_of(a));
+
+  nef::ProgressBar bar(!a.quiet);
+  std::mutex telling;
+  std::size_t done = 0;
+  std::size_t kept = 0;
+  int code = 0;
+  nef::parallel_for(frames.size(), a.threads, [&](std::size_t i) {
+    const fs::path folder = folders.of(frames[i]);
+    const std::string images = state_of(folder);
+    json entry;
+    bool known = false;
+    {
+      const std::lock_guard<std::mutex> lock(telling);
+      known = manifest.has(frames[i], images);
+      if (known) entry = manifest.line(frames[i]);
+    }
+    if (!known) {
+      json made;
+      const nef::ThreadStopwatch watch;
+      try {
+        made = entry_of(stream.frame(folder, std::nullopt), outputs.of(frames[i]), a);
+      } catch (const nef::Error& error) {
+        made = {{"state", "failed"}, {"message", nef::utf8(error.what())}};
+      }
+      entry = {{"frame", frames[i]}, {"images", nef::utf8(folder.string())}, {"images_state", images}};
+      entry.update(made);
+      entry["seconds"] = watch.seconds();
+    }
+    const std::lock_guard<std::mutex> lock(telling);
+    if (known) ++kept;
+    if (!known) manifest.add(entry);
+    bar.show("frame", ++done, frames.size());
+    const bool failed = entry["state"] == "failed";
+    const bool empty = entry["state"] == "vanished" || !entry.value("inside", true);
+    code = std::max(code, failed ? 2 : empty ? 1 : 0);
+    if (failed || empty) {
+      bar.clear();
+      std::cerr << "visual_hull: "
+                << nef::one_line(fmt::format("frame {}: {}", frames[i], entry.value("message", "not inside its views")))
+                << "\n";
+    }
+  });
+  manifest.rewrite();
+  bar.clear();
+  if (!a.quiet) {
+    std::cout << fmt::format("{} frames, {} of them made before; manifest: {}\n", frames.size(), kept,
+                             fs::path(outputs.with("manifest")).replace_extension(".jsonl").string());
+  }
+  return code;
+}
+
+}  // namespace visual_hull

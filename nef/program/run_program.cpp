@@ -25,8 +25,8 @@ std::string text_of(const std::exception& error) {
 
 namespace {
 
-// What is wrong with a command line. An option that does not exist comes first: what is missing beside it may be what it
-// was meant for.
+// What is wrong with a command line. An option that does not exist comes first: what is missing beside it may be what
+// it was meant for.
 std::string usage_error(const CLI::App& app, const CLI::ParseError& error) {
   for (const std::string& left : app.remaining(true)) {
     if (left.size() > 1 && left.front() == '-') return "there is no option '" + left + "'";

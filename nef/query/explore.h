@@ -4,8 +4,9 @@
 // into the set's complex (nef/complex/complex.h says what is stored for each).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <ranges>
+#include <iterator>
 #include <span>
 #include <utility>
 #include <vector>
@@ -15,24 +16,52 @@
 
 namespace nef {
 
-inline auto vertices(const Polyhedron& a) {
-  return std::views::iota(std::uint32_t{0}, static_cast<std::uint32_t>(a.complex().vertex_count()));
-}
+/// Indices from one to before another, in order. (Clang 14 knows no std::views::iota of libstdc++.)
+class IndexRange {
+ public:
+  class Iterator {
+   public:
+    using iterator_category = std::forward_iterator_tag;
+    using value_type = std::uint32_t;
+    using difference_type = std::ptrdiff_t;
+    using pointer = const std::uint32_t*;
+    using reference = std::uint32_t;
+
+    Iterator() = default;
+    explicit Iterator(std::uint32_t at) : at_(at) {}
+    std::uint32_t operator*() const { return at_; }
+    Iterator& operator++() {
+      ++at_;
+      return *this;
+    }
+    Iterator operator++(int) { return Iterator(at_++); }
+    friend bool operator==(Iterator, Iterator) = default;
+
+   private:
+    std::uint32_t at_ = 0;
+  };
+
+  IndexRange(std::size_t begin, std::size_t end)
+      : begin_(static_cast<std::uint32_t>(begin)), end_(static_cast<std::uint32_t>(end)) {}
+  [[nodiscard]] Iterator begin() const { return Iterator(begin_); }
+  [[nodiscard]] Iterator end() const { return Iterator(end_); }
+  [[nodiscard]] std::size_t size() const { return end_ - begin_; }
+
+ private:
+  std::uint32_t begin_;
+  std::uint32_t end_;
+};
+
+inline IndexRange vertices(const Polyhedron& a) { return {0, a.complex().vertex_count()}; }
 /// Both halfedges of each edge; a.complex().twin has the other one.
-inline auto halfedges(const Polyhedron& a) {
-  return std::views::iota(std::uint32_t{0}, static_cast<std::uint32_t>(a.complex().svertices.size()));
-}
-inline auto facets(const Polyhedron& a) {
-  return std::views::iota(std::uint32_t{0}, static_cast<std::uint32_t>(a.complex().facet_count()));
-}
+inline IndexRange halfedges(const Polyhedron& a) { return {0, a.complex().svertices.size()}; }
+inline IndexRange facets(const Polyhedron& a) { return {0, a.complex().facet_count()}; }
 /// The outer volume comes first.
-inline auto volumes(const Polyhedron& a) {
-  return std::views::iota(std::uint32_t{0}, static_cast<std::uint32_t>(a.complex().volume_count()));
-}
+inline IndexRange volumes(const Polyhedron& a) { return {0, a.complex().volume_count()}; }
 /// The shells of a volume, its outer one first (volume 0 has none).
-inline auto shells(const Polyhedron& a, std::uint32_t volume) {
+inline IndexRange shells(const Polyhedron& a, std::uint32_t volume) {
   const Volume& v = a.complex().volumes[volume];
-  return std::views::iota(v.first_shell, v.first_shell + v.shell_count);
+  return {v.first_shell, v.first_shell + v.shell_count};
 }
 
 /// The point of a vertex; InputError for one on an infimaximal box, which is no point of space.

@@ -64,7 +64,8 @@ void declare_tasks(CLI::App& app, Arguments& a) {
   app.add_flag("--configuration-space", a.configuration_space, "free positions of a robot among obstacles");
   app.add_option("--robot", a.robot, "the robot; its reference point is the origin");
   app.add_option("--obstacles", a.obstacles, "the obstacles")->expected(-1);
-  app.add_option("--box", a.box, "x0,y0,z0,x1,y1,z1: what bounds the reference point (two words x0,y0,z0 x1,y1,z1 will do)")
+  app.add_option("--box", a.box,
+                 "x0,y0,z0,x1,y1,z1: what bounds the reference point (two words x0,y0,z0 x1,y1,z1 will do)")
       ->expected(1, 2)
       ->type_name("BOX");
 }

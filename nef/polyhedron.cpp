@@ -5,16 +5,15 @@
 
 #include "nef/location/query_structure.h"
 #include "nef/query/predicates_of_sets.h"
-#include "nef/synthesis/synthesis.h"
+#include "nef/synthesis/complex_builder.h"
 
 namespace nef {
 
 namespace {
 
 Complex constant(LabelId mark) {
-  Complex complex;
-  synthesize(complex, mark);
-  return complex;
+  PlaneTable none;
+  return ComplexBuilder(none).finish(mark);
 }
 
 }  // namespace

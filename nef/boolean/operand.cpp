@@ -13,7 +13,7 @@ Operand::Operand(const Complex& complex, CommonTables& tables)
     tables.planes = complex.planes;
     tables.points = complex.points;
   } else {
-    tables.points.append(complex.points);
+    tables.points.append(complex.points, 0, complex.points.size());
     rows_.resize(complex.planes.size());
     tables.planes.reserve(tables.planes.size() + complex.planes.size());
     for (std::uint32_t row = 0; row < rows_.size(); ++row) {

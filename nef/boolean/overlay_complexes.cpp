@@ -8,38 +8,12 @@
 #include <algorithm>
 #include <deque>
 
-#include "nef/base/error.h"
 #include "nef/boolean/result_assembly.h"
 #include "nef/complex/local_pyramid.h"
 #include "nef/sphere_map/overlay.h"
-#include "nef/synthesis/synthesis.h"
 
 namespace nef {
 namespace {
-
-// Cascades would otherwise carry the planes of everything that ever was.
-void drop_idle_planes(Complex& c) {
-  std::vector<bool> used(c.planes.size(), false);
-  for (const SVertex& v : c.svertices) used[v.p.row()] = used[v.q.row()] = true;
-  for (const SHalfedge& e : c.shalfedges) used[e.plane.row()] = true;
-  for (const SLoop& l : c.sloops) used[l.plane.row()] = true;
-  const auto count = static_cast<std::size_t>(std::count(used.begin(), used.end(), true));
-  if (count == used.size()) return;
-  PlaneTable planes;
-  planes.reserve(count);
-  std::vector<std::uint32_t> row(used.size(), kNone);
-  for (std::uint32_t i = 0; i < used.size(); ++i) {
-    if (used[i]) row[i] = planes.append_new(c.planes, i);
-  }
-  const auto rename = [&row](PlaneId& plane) { plane = PlaneId{row[plane.row()] << 1U | (plane.value & 1U)}; };
-  for (SVertex& v : c.svertices) {
-    rename(v.p);
-    rename(v.q);
-  }
-  for (SHalfedge& e : c.shalfedges) rename(e.plane);
-  for (SLoop& l : c.sloops) rename(l.plane);
-  c.planes = std::move(planes);
-}
 
 class ComplexOverlay {
  public:
@@ -49,7 +23,7 @@ class ComplexOverlay {
   // Nothing if the result is operand 0.
   std::optional<Complex> run(const std::function<const QueryStructure&()>& queries_a,
                              const std::function<const QueryStructure&()>& queries_b) {
-    const Intersections found = intersect_boundaries(operands_, tables_);
+    Intersections found = intersect_boundaries(operands_, tables_);
     for (std::size_t x = 0; x < 2; ++x) {
       const std::vector<LabelId> marks =
           marks_of_untouched(operands_, x, tables_, found, x == 0 ? queries_b : queries_a);
@@ -66,22 +40,22 @@ class ComplexOverlay {
       }
     }
     for (const Crossing& crossing : found.crossings) push_overlay(crossing.point, crossing.item);
-    return finished(found);
+    return finished(std::move(found));
   }
 
  private:
-  std::optional<Complex> finished(const Intersections& found) {
+  std::optional<Complex> finished(Intersections&& found) {
     const Complex& a = operands_[0].complex();
     const Complex& b = operands_[1].complex();
     const LabelId outer = f_(a.volumes[0].mark, b.volumes[0].mark);
     if (result_.is_first_operand() && outer == a.volumes[0].mark) return std::nullopt;
-    Complex complex = result_.complex(tables_.planes);
-    if (a.has_box() || b.has_box()) {
-      finish(complex, outer);  // which may drop the box
-    } else {
-      synthesize(complex, outer, copied_links(complex, result_.origins(), {&a, &b}, found.contacts));
-    }
-    return complex;
+    ComplexBuilder builder(tables_.planes);
+    result_.write(tables_.planes, builder);
+    if (a.has_box() || b.has_box()) return builder.finish(outer);  // which may drop the box
+    KnownLinks known = copied_links(builder.so_far(), result_.origins(), {&a, &b}, found.contacts);
+    found = {};
+    tables_.points = PointTable();
+    return builder.finish(outer, std::move(known));
   }
 
   void push_overlay(PointId point, const std::array<Item, 2>& items) {
@@ -215,46 +189,6 @@ std::optional<Complex> overlay_complexes(const Complex& a, const Complex& b, con
                                          const std::function<const QueryStructure&()>& queries_a,
                                          const std::function<const QueryStructure&()>& queries_b) {
   return ComplexOverlay(a, b, f).run(queries_a, queries_b);
-}
-
-namespace {
-
-// A corner of a box where no plane of the set arrives: an octant of one mark.
-bool idle_corner(const SphereMapView& map) {
-  return map.svertices.size() == 3 && map.sfaces.size() == 2 &&
-         std::any_of(map.sfaces.begin(), map.sfaces.end(), [](const SFace& f) { return f.mark == kOutside; });
-}
-
-// A box whose walls hold nothing but its eight corners says only what the outer volume is: the
-// set is finitely bounded, or its complement is.
-void drop_idle_box(Complex& c, LabelId& outer) {
-  std::size_t infinite = 0;
-  std::uint32_t corner = kNone;
-  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
-    if (c.points.finite(PointId{v})) continue;
-    // Eight vertices are not enough: a plane may pass through edges of the box.
-    if (!idle_corner(c.sphere_map(v))) return;
-    ++infinite;
-    corner = v;
-  }
-  if (infinite != 8) return;
-  outer = c.vertices[corner].mark;
-  Complex kept;
-  kept.planes = std::move(c.planes);
-  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
-    if (!c.points.finite(PointId{v})) continue;
-    kept.points.push_from(c.points, PointId{v});
-    kept.push_vertex(c.sphere_map(v));
-  }
-  c = std::move(kept);
-}
-
-}  // namespace
-
-void finish(Complex& complex, LabelId outer) {
-  drop_idle_box(complex, outer);
-  drop_idle_planes(complex);
-  synthesize(complex, outer);
 }
 
 }  // namespace nef

@@ -17,8 +17,4 @@ std::optional<Complex> overlay_complexes(const Complex& a, const Complex& b, con
                                          const std::function<const QueryStructure&()>& queries_a,
                                          const std::function<const QueryStructure&()>& queries_b);
 
-/// Removes an infimaximal box that nothing reaches, drops planes that nothing uses, synthesizes.
-/// `outer` is the mark of all of space if there are no vertices.
-void finish(Complex& complex, LabelId outer);
-
 }  // namespace nef

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "nef/boolean/copied_links.h"
+#include "nef/synthesis/complex_builder.h"
 
 namespace nef {
 
@@ -27,9 +28,9 @@ class ResultAssembly {
   /// True if the vertices are those of operand 0, all of them and unchanged.
   [[nodiscard]] bool is_first_operand() const;
 
-  /// The complex with its points, sphere maps and those planes that these use; not synthesized. The planes of the
-  /// tables are moved away if all are used.
-  [[nodiscard]] Complex complex(PlaneTable& planes) const;
+  /// Writes all vertices. Of the planes of the tables, which `result` must have been made with, those that nothing uses
+  /// are dropped.
+  void write(PlaneTable& planes, ComplexBuilder& result) const;
 
   /// Where its vertices come from.
   [[nodiscard]] std::vector<VertexRun> origins() const;
@@ -42,17 +43,15 @@ class ResultAssembly {
 
   [[nodiscard]] std::vector<bool> used_planes(std::size_t planes) const;
   // Of each common plane of an origin, in the names of that origin: its row in the result. Empty: the same.
-  [[nodiscard]] std::array<std::vector<std::uint32_t>, 3> final_rows(PlaneTable& planes, Complex& result) const;
-  void reserve(Complex& result) const;
+  [[nodiscard]] std::array<std::vector<std::uint32_t>, 3> final_rows(PlaneTable& planes) const;
+  void reserve(ComplexBuilder& result) const;
   [[nodiscard]] const Complex& origin(const Run& run) const;
-  void append(const Run& run, std::uint32_t first, std::uint32_t count, std::span<const std::uint32_t> rows,
-              Complex& result) const;
 
   const std::array<Operand, 2>& operands_;
   const CommonTables& tables_;
   std::vector<Run> runs_;
-  Complex new_;  // sphere maps of the new vertices; their points:
-  std::vector<PointId> new_points_;
+  PlaneTable none_;
+  ComplexBuilder new_{none_};  // the new vertices, their planes by common names
 };
 
 }  // namespace nef

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "nef/complex/complex.h"
 
+#include <algorithm>
+
 namespace nef {
 
 SphereMapView Complex::sphere_map(std::uint32_t vertex) const {
@@ -14,29 +16,38 @@ SphereMapView Complex::sphere_map(std::uint32_t vertex) const {
           first.mark};
 }
 
-void Complex::push_vertex(const SphereMapView& map) {
-  vertices.back().mark = map.mark;
-  svertices.insert(svertices.end(), map.svertices.begin(), map.svertices.end());
-  shalfedges.insert(shalfedges.end(), map.shalfedges.begin(), map.shalfedges.end());
-  sloops.insert(sloops.end(), map.sloops.begin(), map.sloops.end());
-  sfaces.insert(sfaces.end(), map.sfaces.begin(), map.sfaces.end());
-  entries.insert(entries.end(), map.entries.begin(), map.entries.end());
-  VertexRecord end;
-  end.svertices = static_cast<std::uint32_t>(svertices.size());
-  end.shalfedges = static_cast<std::uint32_t>(shalfedges.size());
-  end.sloops = static_cast<std::uint32_t>(sloops.size());
-  end.sfaces = static_cast<std::uint32_t>(sfaces.size());
-  end.entries = static_cast<std::uint32_t>(entries.size());
-  vertices.push_back(end);
+std::uint32_t Complex::sface_vertex(std::uint32_t sface) const {
+  const auto after = std::upper_bound(vertices.begin(), vertices.end(), sface,
+                                      [](std::uint32_t f, const VertexRecord& v) { return f < v.sfaces; });
+  return static_cast<std::uint32_t>(after - vertices.begin() - 1);
+}
+
+void Complex::trim() {
+  const auto fit = [](auto& column) {
+    if (column.capacity() - column.size() > column.capacity() / 8) column.shrink_to_fit();
+  };
+  planes.trim();
+  points.trim();
+  fit(vertices);
+  fit(svertices);
+  fit(shalfedges);
+  fit(sloops);
+  fit(sfaces);
+  fit(entries);
+  fit(facets);
+  fit(cycle_begin);
+  fit(corners);
+  fit(isolated_vertices);
+  fit(shells);
+  fit(volumes);
 }
 
 std::size_t Complex::bytes() const {
   const auto size = [](const auto& column) { return column.capacity() * sizeof(column[0]); };
   return planes.bytes() + points.bytes() + size(vertices) + size(svertices) + size(shalfedges) + size(sloops) +
-         size(sfaces) + size(entries) + size(svertex_owner) + size(twin) + size(shalfedge_owner) +
-         size(shalfedge_facet) + size(sloop_facet) + size(sface_owner) + size(sface_shell) + size(facets) +
-         size(cycle_begin) + size(corners) + size(isolated_vertices) + size(shells) + size(shell_sfaces) +
-         size(volumes);
+         size(sfaces) + size(entries) + size(svertex_owner) + size(twin) + size(shalfedge_owner.pairs()) +
+         size(shalfedge_facet.pairs()) + size(sloop_facet) + size(sface_shell) + size(facets) + size(cycle_begin) +
+         size(corners) + size(isolated_vertices) + size(shells) + size(shell_sfaces) + size(volumes);
 }
 
 }  // namespace nef

@@ -20,6 +20,7 @@
 #include <span>
 #include <vector>
 
+#include "nef/complex/pair_columns.h"
 #include "nef/geometry/point_table.h"
 #include "nef/sphere_map/sphere_map.h"
 
@@ -85,12 +86,11 @@ struct Complex {
   std::vector<SFaceEntry> entries;
 
   // Added by synthesis, parallel to the arrays above.
-  std::vector<std::uint32_t> svertex_owner;    ///< vertex
-  std::vector<std::uint32_t> twin;             ///< halfedge at the other end of the edge
-  std::vector<std::uint32_t> shalfedge_owner;  ///< vertex
-  std::vector<std::uint32_t> shalfedge_facet;  ///< halffacet
-  std::vector<std::uint32_t> sloop_facet;      ///< halffacet
-  std::vector<std::uint32_t> sface_owner;      ///< vertex
+  std::vector<std::uint32_t> svertex_owner;  ///< vertex
+  std::vector<std::uint32_t> twin;           ///< halfedge at the other end of the edge
+  CommonColumn shalfedge_owner;              ///< vertex
+  OppositeColumn shalfedge_facet;            ///< halffacet
+  std::vector<std::uint32_t> sloop_facet;    ///< halffacet
   std::vector<std::uint32_t> sface_shell;
 
   std::vector<Facet> facets;
@@ -147,10 +147,13 @@ struct Complex {
     return {corners.data() + first, cycle_begin[facet.first_cycle + facet.cycle_count] - first};
   }
 
-  /// Appends a vertex. Its point must have been pushed already; synthesis comes later.
-  void push_vertex(const SphereMapView& map);
+  /// The vertex that an sface belongs to. O(log n).
+  [[nodiscard]] std::uint32_t sface_vertex(std::uint32_t sface) const;
 
-  /// Bytes in use, GMP limbs included.
+  /// Gives memory back that has been reserved and not used, where that is an eighth of an array or more.
+  void trim();
+
+  /// Bytes held, GMP limbs included.
   [[nodiscard]] std::size_t bytes() const;
 };
 

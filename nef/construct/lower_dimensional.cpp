@@ -5,12 +5,10 @@
 #include <numeric>
 
 #include "nef/base/error.h"
-#include "nef/boolean/overlay_complexes.h"
-#include "nef/complex/local_pyramid.h"
 #include "nef/construct/construct.h"
 #include "nef/geometry/rational_vectors.h"
 #include "nef/mesh/simple_ring.h"
-#include "nef/sphere_map/arrangement.h"
+#include "nef/synthesis/complex_builder.h"
 
 namespace nef {
 namespace {
@@ -30,15 +28,6 @@ Direction integer_direction(const Rational3& v) {
 Direction direction_in(const PlaneTable& planes, PlaneId p, PlaneId q, const Rational3& v) {
   Direction d = Direction::cross(planes, p, q);
   return sign_of_dot(d, integer_direction(v)) > 0 ? d : d.negated();
-}
-
-void push(Complex& c, const Rational3& point, Arrangement& drawing) {
-  SphereMapBuffer map;
-  drawing.sort_around_nodes(c.planes);
-  drawing.simplify_and_assemble(c.planes, map);
-  if (!is_vertex(c.planes, map.view())) return;
-  c.points.push(point);
-  c.push_vertex(map.view());
 }
 
 // The normal from three corners of any ring, once all points are known to lie in one plane.
@@ -78,8 +67,9 @@ void require_simple(const std::vector<Rational3>& ring, const Rational3& normal)
 
 // The closed polygon inside one ring that is simple.
 Polyhedron fill_ring(std::vector<Rational3> points, const Rational3& normal) {
-  Complex c;
-  const PlaneId plane = plane_through(c.planes, normal, points[0]);
+  PlaneTable planes;
+  ComplexBuilder builder(planes);
+  const PlaneId plane = plane_through(planes, normal, points[0]);
   Rational3 area;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Rational3 term = cross(minus(points[i], points[0]), minus(points[(i + 1) % points.size()], points[0]));
@@ -94,46 +84,45 @@ Polyhedron fill_ring(std::vector<Rational3> points, const Rational3& normal) {
     drawing.centre = 1;
     for (const Rational3& v : {ahead, back}) {
       Arrangement::Node node;
-      node.direction = direction_in(c.planes, plane, plane_through(c.planes, cross(v, normal), here), v);
+      node.direction = direction_in(planes, plane, plane_through(planes, cross(v, normal), here), v);
       node.mark = 1;
       drawing.nodes.push_back(std::move(node));
     }
     drawing.arcs.push_back({plane, 0, 1, 1, 0, 0});
-    push(c, here, drawing);
+    builder.add(here, drawing);
   }
-  finish(c, 0);
-  return Polyhedron{std::move(c)};
+  return Polyhedron(builder.finish(0));
 }
 
 }  // namespace
 
 Polyhedron make_point(const Rational3& point) {
-  Complex c;
+  PlaneTable planes;
+  ComplexBuilder builder(planes);
   Arrangement drawing;
   drawing.centre = 1;
-  push(c, point, drawing);
-  finish(c, 0);
-  return Polyhedron(std::move(c));
+  builder.add(point, drawing);
+  return Polyhedron(builder.finish(0));
 }
 
 Polyhedron make_segment(const Rational3& a, const Rational3& b) {
   const Rational3 d = minus(b, a);
   if (is_zero(d)) return make_point(a);
-  Complex c;
+  PlaneTable planes;
+  ComplexBuilder builder(planes);
   const Rational3 n1 = d[0] == 0 && d[1] == 0 ? Rational3{1, 0, 0} : Rational3{Rational(-d[1]), d[0], 0};
-  const PlaneId p = plane_through(c.planes, n1, a);
-  const PlaneId q = plane_through(c.planes, cross(d, n1), a);
+  const PlaneId p = plane_through(planes, n1, a);
+  const PlaneId q = plane_through(planes, cross(d, n1), a);
   for (const bool at_a : {true, false}) {
     Arrangement drawing;
     drawing.centre = 1;
     Arrangement::Node node;
-    node.direction = direction_in(c.planes, p, q, at_a ? d : minus(a, b));
+    node.direction = direction_in(planes, p, q, at_a ? d : minus(a, b));
     node.mark = 1;
     drawing.nodes.push_back(std::move(node));
-    push(c, at_a ? a : b, drawing);
+    builder.add(at_a ? a : b, drawing);
   }
-  finish(c, 0);
-  return Polyhedron(std::move(c));
+  return Polyhedron(builder.finish(0));
 }
 
 Polyhedron make_polygon(std::span<const std::vector<Rational3>> rings) {

@@ -7,11 +7,10 @@
 
 #include "nef/base/error.h"
 #include "nef/boolean/overlay_complexes.h"
-#include "nef/complex/local_pyramid.h"
 #include "nef/construct/solid_links.h"
 #include "nef/location/query_structure.h"
 #include "nef/sphere_map/arrangement.h"
-#include "nef/synthesis/synthesis.h"
+#include "nef/synthesis/complex_builder.h"
 
 namespace nef {
 namespace {
@@ -36,30 +35,20 @@ class SolidBuilder {
  public:
   SolidBuilder(SolidFaces&& faces, const SolidMarks& marks) : f_(std::move(faces)), marks_(marks) {}
 
-  Complex run() {
+  std::variant<Complex, Defect> run() {
     collect_corners();
-    Complex result;
+    ComplexBuilder result(f_.planes);
     reserve(result);
     SolidLinks links(f_);
-    SphereMapBuffer map;
     for (std::uint32_t v = 0; v < f_.points.size(); ++v) {
       if (first_[v] == first_[v + 1]) continue;
       draw(v);
       drawing_.sort_around_nodes(f_.planes);
       check_sides(v);
-      drawing_.simplify_and_assemble(f_.planes, map);
-      if (!is_vertex(f_.planes, map.view())) continue;
-      links.note(result, v, drawing_, map.view(), ends_, ring_);
-      result.points.push_from(f_.points, PointId{v});
-      result.push_vertex(map.view());
+      if (result.add_sorted(f_.points, PointId{v}, drawing_)) links.note(result.so_far(), v, drawing_, ends_, ring_);
     }
-    result.planes = std::move(f_.planes);
-    if (std::optional<KnownLinks> known = links.finish(result)) {
-      synthesize(result, marks_.outside, std::move(*known));
-    } else {
-      finish(result, marks_.outside);
-    }
-    return result;
+    std::optional<KnownLinks> known = links.finish(result.so_far());
+    return known ? result.try_finish(marks_.outside, std::move(*known)) : result.try_finish(marks_.outside);
   }
 
  private:
@@ -78,15 +67,11 @@ class SolidBuilder {
   };
 
   // As for faces that are all facets, which is as much as there can be of each.
-  void reserve(Complex& result) const {
-    std::size_t used = 0;
+  void reserve(ComplexBuilder& result) const {
+    std::uint32_t used = 0;
     for (std::size_t v = 0; v + 1 < first_.size(); ++v) used += first_[v] < first_[v + 1] ? 1 : 0;
-    result.points.reserve(used);
-    result.vertices.reserve(used + 1);
-    result.svertices.reserve(corners_.size());
-    result.shalfedges.reserve(2 * corners_.size());
-    result.sfaces.reserve(2 * used);
-    result.entries.reserve(2 * used);
+    const auto corners = static_cast<std::uint32_t>(corners_.size());
+    result.reserve(used, {.svertices = corners, .shalfedges = 2 * corners, .sfaces = 2 * used, .entries = 2 * used});
   }
 
   void collect_corners() {
@@ -212,6 +197,12 @@ class SolidBuilder {
   Arrangement drawing_;
 };
 
+// Where a defect is a bug.
+Complex complex_of(std::variant<Complex, Defect>&& made) {
+  if (Defect* defect = std::get_if<Defect>(&made)) throw detail::BrokenInvariant(std::move(*defect));
+  return std::get<Complex>(std::move(made));
+}
+
 // The box [-R, R]^2 x [-R, top], with top = R or 0.
 SolidFaces infimaximal_box_faces(bool half) {
   SolidFaces f;
@@ -238,9 +229,17 @@ SolidFaces infimaximal_box_faces(bool half) {
 
 }  // namespace
 
-Complex make_solid(SolidFaces&& faces, const SolidMarks& marks) { return SolidBuilder(std::move(faces), marks).run(); }
+Complex make_solid(SolidFaces&& faces, const SolidMarks& marks) {
+  return complex_of(try_make_solid(std::move(faces), marks));
+}
 
-Complex make_surface(SolidFaces&& faces, LabelId mark) { return SolidBuilder(std::move(faces), {mark, 0, 0}).run(); }
+std::variant<Complex, Defect> try_make_solid(SolidFaces&& faces, const SolidMarks& marks) {
+  return SolidBuilder(std::move(faces), marks).run();
+}
+
+Complex make_surface(SolidFaces&& faces, LabelId mark) {
+  return complex_of(SolidBuilder(std::move(faces), {mark, 0, 0}).run());
+}
 
 Complex make_infimaximal_box() { return make_solid(infimaximal_box_faces(false), {1, 1, 0}); }
 

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <span>
+#include <variant>
 #include <vector>
 
+#include "nef/base/defect.h"
 #include "nef/complex/complex.h"
 
 namespace nef {
@@ -30,6 +32,10 @@ struct SolidMarks {
 /// cross; throws InputError naming an edge (by vertex numbers) around which inside and outside do not alternate.
 /// O(n log n).
 Complex make_solid(SolidFaces&& faces, const SolidMarks& marks);
+
+/// The same for faces that may cross, or whose components may have the inside on different sides: then it may return
+/// what does not fit together.
+std::variant<Complex, Defect> try_make_solid(SolidFaces&& faces, const SolidMarks& marks);
 
 /// The union of the faces as a two-dimensional set of the given mark, 0 around it. The faces may have borders and may
 /// meet in any number around an edge, but nowhere else than in common vertices and edges. O(n log n).

@@ -11,27 +11,29 @@ SolidLinks::SolidLinks(const SolidFaces& faces)
   end_.reserve(faces.corners.size());
 }
 
-void SolidLinks::note(const Complex& result, std::uint32_t point, const Arrangement& drawing, const SphereMapView& map,
+void SolidLinks::note(const Complex& result, std::uint32_t point, const Arrangement& drawing,
                       std::span<const std::uint32_t> ends, std::span<const std::uint32_t> corners) {
-  if (note_ring(result, drawing, map, ends, corners)) {
+  if (note_ring(result, drawing, ends, corners)) {
     vertex_of_[point] = static_cast<std::uint32_t>(point_of_.size());
   } else {
     for (const std::uint32_t corner : corners) shalfedge_of_[corner] = kNone;
-    end_.resize(result.svertices.size());
-    end_.resize(result.svertices.size() + map.svertices.size(), kNone);
+    end_.resize(result.vertices[result.vertex_count() - 1].svertices);
+    end_.resize(result.svertices.size(), kNone);
   }
   point_of_.push_back(point);
 }
 
 // Walks around the drawing as assemble_ring does: svertex i is the i-th node, shalfedge 2 i the half that leaves it.
-bool SolidLinks::note_ring(const Complex& result, const Arrangement& drawing, const SphereMapView& map,
-                           std::span<const std::uint32_t> ends, std::span<const std::uint32_t> corners) {
+bool SolidLinks::note_ring(const Complex& result, const Arrangement& drawing, std::span<const std::uint32_t> ends,
+                           std::span<const std::uint32_t> corners) {
+  const auto vertex = static_cast<std::uint32_t>(result.vertex_count() - 1);
+  const SphereMapView map = result.sphere_map(vertex);
   const auto n = static_cast<std::uint32_t>(drawing.nodes.size());
   if (drawing.arcs.size() != n || map.svertices.size() != n ||
       map.shalfedges.size() != 2 * static_cast<std::size_t>(n)) {
     return false;
   }
-  const auto base = static_cast<std::uint32_t>(result.shalfedges.size());
+  const std::uint32_t base = result.vertices[vertex].shalfedges;
   std::uint32_t half = 0;
   for (std::uint32_t i = 0; i < n; ++i) {
     const std::uint32_t node = drawing.source(half);
@@ -48,13 +50,13 @@ std::optional<KnownLinks> SolidLinks::finish(const Complex& result) {
   if (!every_plane_is_used(result)) return std::nullopt;
   KnownLinks links;
   link_twins(result, links);
-  end_ = {};
+  end_ = std::vector<std::uint32_t>();
   link_facets(result, links);
   return links;
 }
 
 bool SolidLinks::every_plane_is_used(const Complex& result) const {
-  std::vector<bool> used(result.planes.size(), false);
+  std::vector<bool> used(faces_.planes.size(), false);
   for (std::uint32_t f = 0; f < faces_.plane.size(); ++f) {
     const auto first = shalfedge_of_.begin() + faces_.begin[f];
     const auto last = shalfedge_of_.begin() + faces_.begin[f + 1];
@@ -91,7 +93,7 @@ void SolidLinks::link_twins(const Complex& result, KnownLinks& links) const {
 
 void SolidLinks::link_facets(const Complex& result, KnownLinks& links) const {
   // By plane. A plane of several faces has facets in an order that synthesis knows, or holes.
-  std::vector<std::uint32_t> begin(result.planes.size() + 1, 0);
+  std::vector<std::uint32_t> begin(faces_.planes.size() + 1, 0);
   for (const PlaneId plane : faces_.plane) ++begin[plane.row() + 1];
   for (std::uint32_t row = 0; row + 1 < begin.size(); ++row) {
     if (begin[row + 1] > 1) links.mixed_rows.push_back(row);

@@ -20,19 +20,18 @@ class SolidLinks {
   /// The faces must outlive this object.
   explicit SolidLinks(const SolidFaces& faces);
 
-  /// The next vertex of the result: it lies at `point`; node n of its drawing leads to point `ends[n]`, arc a stands
-  /// for corner `corners[a]` of all faces; `map` is what the drawing became. To be called before it is pushed to
-  /// `result`.
-  void note(const Complex& result, std::uint32_t point, const Arrangement& drawing, const SphereMapView& map,
-            std::span<const std::uint32_t> ends, std::span<const std::uint32_t> corners);
+  /// The last vertex of the result: it lies at `point`; node n of its drawing leads to point `ends[n]`, arc a stands
+  /// for corner `corners[a]` of all faces.
+  void note(const Complex& result, std::uint32_t point, const Arrangement& drawing, std::span<const std::uint32_t> ends,
+            std::span<const std::uint32_t> corners);
 
-  /// The links of the result, which has its planes by now; nothing if one of these is used nowhere, so that planes will
-  /// be renamed.
+  /// The links of the result, whose planes are those of the faces; nothing if one of these is used nowhere, so that
+  /// planes will be renamed.
   [[nodiscard]] std::optional<KnownLinks> finish(const Complex& result);
 
  private:
-  bool note_ring(const Complex& result, const Arrangement& drawing, const SphereMapView& map,
-                 std::span<const std::uint32_t> ends, std::span<const std::uint32_t> corners);
+  bool note_ring(const Complex& result, const Arrangement& drawing, std::span<const std::uint32_t> ends,
+                 std::span<const std::uint32_t> corners);
   [[nodiscard]] bool every_plane_is_used(const Complex& result) const;
   void link_twins(const Complex& result, KnownLinks& links) const;
   void link_facets(const Complex& result, KnownLinks& links) const;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 #include "nef/base/error.h"
 
@@ -22,23 +23,32 @@ double scaled(mpz_srcptr value, long top) {
   return std::ldexp(mantissa, static_cast<int>(shift));
 }
 
-// The slot of a row of `other` in an open-addressing table over `rows`: it names an equal row, or is empty.
-std::uint32_t& slot_of(std::vector<std::uint32_t>& slots, const std::vector<std::uint64_t>& hashes,
-                       const IntegerRows& rows, std::uint64_t hash, const IntegerRows& other, std::uint32_t row) {
-  const std::size_t mask = slots.size() - 1;
-  std::size_t slot = hash & mask;
-  while (slots[slot] != kEmpty && (hashes[slots[slot]] != hash || !rows.equal(slots[slot], other, row))) {
-    slot = (slot + 1) & mask;
-  }
-  return slots[slot];
+std::uint32_t hash_of(const IntegerRows& rows, std::uint32_t row) {
+  const std::uint64_t hash = rows.hash(row);
+  return static_cast<std::uint32_t>(hash ^ hash >> 32U);
 }
 
 }  // namespace
 
+// The slot of a row of `other`: it names an equal row, or is empty.
+PlaneTable::Slot& PlaneTable::slot_of(std::uint32_t hash, const IntegerRows& other, std::uint32_t row) {
+  const std::size_t mask = slots_.size() - 1;
+  std::size_t at = hash & mask;
+  while (slots_[at].row != kEmpty && (slots_[at].hash != hash || !rows_.equal(slots_[at].row, other, row))) {
+    at = (at + 1) & mask;
+  }
+  return slots_[at];
+}
+
 void PlaneTable::reserve(std::size_t planes) {
   rows_.reserve(planes, 5);
   approximate_.reserve(planes);
-  hash_.reserve(planes);
+}
+
+void PlaneTable::trim() {
+  rows_.trim();
+  if (approximate_.capacity() - approximate_.size() > approximate_.capacity() / 8) approximate_.shrink_to_fit();
+  slots_ = std::vector<Slot>();  // an empty list would keep the memory
 }
 
 PlaneId PlaneTable::intern(const Integer& a, const Integer& b, const Integer& c, const Integer& d, const Integer& e) {
@@ -91,19 +101,17 @@ PlaneId PlaneTable::intern_from(const PlaneTable& other, PlaneId plane) {
   if (&other == this) return plane;
   // The other row is normalized already; only its place in this table is in question.
   make_room_for_one();
-  const std::uint64_t hash = other.hash_[plane.row()];
-  std::uint32_t& slot = slot_of(slots_, hash_, rows_, hash, other.rows_, plane.row());
-  if (slot != kEmpty) return PlaneId{slot << 1U | (plane.value & 1U)};
-  slot = static_cast<std::uint32_t>(rows_.size());
+  const std::uint32_t hash = hash_of(other.rows_, plane.row());
+  Slot& slot = slot_of(hash, other.rows_, plane.row());
+  if (slot.row != kEmpty) return PlaneId{slot.row << 1U | (plane.value & 1U)};
   const std::uint32_t row = rows_.push_from(other.rows_, plane.row());
-  hash_.push_back(hash);
+  slot = {row, hash};
   approximate_.push_back(other.approximate_[plane.row()]);
   return PlaneId{row << 1U | (plane.value & 1U)};
 }
 
 std::uint32_t PlaneTable::append_new(const PlaneTable& other, std::uint32_t row) {
   slots_.clear();
-  hash_.push_back(other.hash_[row]);
   approximate_.push_back(other.approximate_[row]);
   return rows_.push_from(other.rows_, row);
 }
@@ -127,14 +135,13 @@ Integer PlaneTable::oriented_coefficient(PlaneId plane, std::size_t column) cons
 PlaneId PlaneTable::find_or_add_last() {
   const auto candidate = static_cast<std::uint32_t>(rows_.size() - 1);
   make_room_for_one();
-  const std::uint64_t hash = rows_.hash(candidate);
-  std::uint32_t& slot = slot_of(slots_, hash_, rows_, hash, rows_, candidate);
-  if (slot != kEmpty) {
+  const std::uint32_t hash = hash_of(rows_, candidate);
+  Slot& slot = slot_of(hash, rows_, candidate);
+  if (slot.row != kEmpty) {
     rows_.pop();
-    return PlaneId{slot << 1U};
+    return PlaneId{slot.row << 1U};
   }
-  slot = candidate;
-  hash_.push_back(hash);
+  slot = {candidate, hash};
   long top = std::numeric_limits<long>::min();
   for (std::size_t i = 0; i < 3; ++i) {
     const IntegerView value = rows_.at(candidate, i);
@@ -148,23 +155,30 @@ PlaneId PlaneTable::find_or_add_last() {
 }
 
 void PlaneTable::make_room_for_one() {
-  if (2 * (hash_.size() + 1) > slots_.size()) make_slots(std::max(2 * hash_.size() + 4, hash_.capacity()));
+  const std::size_t planes = approximate_.size();  // a candidate is not among them
+  if (2 * (planes + 1) > slots_.size()) make_slots(std::max(2 * planes + 4, approximate_.capacity()));
 }
 
 void PlaneTable::make_slots(std::size_t planes) {
   const std::size_t capacity = std::bit_ceil(std::max<std::size_t>(16, 2 * planes));
   if (capacity <= slots_.size()) return;
-  slots_.assign(capacity, kEmpty);
-  for (std::uint32_t row = 0; row < hash_.size(); ++row) {
-    std::size_t slot = hash_[row] & (capacity - 1);
-    while (slots_[slot] != kEmpty) slot = (slot + 1) & (capacity - 1);
-    slots_[slot] = row;
+  const std::vector<Slot> old = std::exchange(slots_, std::vector<Slot>(capacity, {kEmpty, 0}));
+  const auto insert = [&](Slot entry) {
+    std::size_t at = entry.hash & (capacity - 1);
+    while (slots_[at].row != kEmpty) at = (at + 1) & (capacity - 1);
+    slots_[at] = entry;
+  };
+  if (!old.empty()) {
+    for (const Slot& entry : old) {
+      if (entry.row != kEmpty) insert(entry);
+    }
+  } else {
+    for (std::uint32_t row = 0; row < approximate_.size(); ++row) insert({row, hash_of(rows_, row)});
   }
 }
 
 std::size_t PlaneTable::bytes() const {
-  return rows_.bytes() + approximate_.capacity() * sizeof(approximate_[0]) + hash_.capacity() * sizeof(hash_[0]) +
-         slots_.capacity() * sizeof(slots_[0]);
+  return rows_.bytes() + approximate_.capacity() * sizeof(approximate_[0]) + slots_.capacity() * sizeof(slots_[0]);
 }
 
 }  // namespace nef

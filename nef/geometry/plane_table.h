@@ -62,16 +62,23 @@ class PlaneTable {
 
   void reserve(std::size_t planes);
 
+  /// Gives memory back that nothing needs until a plane is looked for, or that has been reserved and not used.
+  void trim();
+
  private:
+  struct Slot {
+    std::uint32_t row;
+    std::uint32_t hash;
+  };
   PlaneId find_or_add_last();
+  Slot& slot_of(std::uint32_t hash, const IntegerRows& other, std::uint32_t row);
   void make_slots(std::size_t planes);
   void make_room_for_one();
 
   IntegerRows rows_;
   std::vector<std::array<double, 4>> approximate_;
-  std::vector<std::uint64_t> hash_;
-  std::vector<std::uint32_t>
-      slots_;  // open addressing, a power of two, at most half full; none until a plane is looked for
+  // Open addressing, a power of two, at most half full; none until a plane is looked for.
+  std::vector<Slot> slots_;
 };
 
 }  // namespace nef

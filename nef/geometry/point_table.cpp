@@ -141,9 +141,10 @@ PointId PointTable::push_from(const PointTable& other, PointId point) {
   return id;
 }
 
-void PointTable::append(const PointTable& other) {
-  rows_.append(other.rows_);
-  approximate_.insert(approximate_.end(), other.approximate_.begin(), other.approximate_.end());
+void PointTable::append(const PointTable& other, std::size_t first, std::size_t count) {
+  rows_.append(other.rows_, first, count);
+  const auto from = other.approximate_.begin() + static_cast<std::ptrdiff_t>(first);
+  approximate_.insert(approximate_.end(), from, from + static_cast<std::ptrdiff_t>(count));
 }
 
 std::optional<PointId> PointTable::push_intersection(const PlaneTable& planes, PlaneId p, PlaneId q, PlaneId r) {
@@ -202,6 +203,11 @@ Rational3 PointTable::rational(PointId point) const {
 }
 
 std::size_t PointTable::bytes() const { return rows_.bytes() + approximate_.capacity() * sizeof(approximate_[0]); }
+
+void PointTable::trim() {
+  rows_.trim();
+  if (approximate_.capacity() - approximate_.size() > approximate_.capacity() / 8) approximate_.shrink_to_fit();
+}
 
 void PointTable::reserve(std::size_t points) {
   rows_.reserve(points, 4);

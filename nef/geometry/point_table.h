@@ -31,8 +31,8 @@ class PointTable {
   /// Appends a copy of a point of another table.
   PointId push_from(const PointTable& other, PointId point);
 
-  /// Appends all points of another table.
-  void append(const PointTable& other);
+  /// Appends `count` consecutive points of another table, from point `first` on.
+  void append(const PointTable& other, std::size_t first, std::size_t count);
 
   /// Appends the point where three planes meet; nothing if their normals are linearly dependent.
   /// At most one determinant and three more; about a microsecond on ordinary input.
@@ -66,6 +66,9 @@ class PointTable {
 
   [[nodiscard]] std::size_t bytes() const;
   void reserve(std::size_t points);
+
+  /// Gives memory back that has been reserved and not used.
+  void trim();
 
  private:
   PointId push_small(const std::array<std::int64_t, 4>& coordinates);  // x, y, z, w > 0

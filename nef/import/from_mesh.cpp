@@ -3,10 +3,10 @@
 // Meshes to solids: check, merge equal vertices, find the plane of every face, then draw each
 // vertex's sphere map from the corners of the faces around it.
 #include <algorithm>
-#include <exception>
+#include <optional>
 #include <string>
+#include <variant>
 
-#include "nef/base/contradiction.h"
 #include "nef/base/error.h"
 #include "nef/base/union_find.h"
 #include "nef/construct/construct.h"
@@ -35,22 +35,39 @@ std::vector<std::uint32_t> first_faces(const Mesh& mesh, const MeshSurface& surf
   return result;
 }
 
+std::variant<Complex, Defect> try_solid(const Mesh& mesh, const MeshSurface& surface, const MeshOptions& options,
+                                        Messages* messages) {
+  MeshFaces faces(mesh, surface, options, messages);
+  std::variant<Complex, Defect> made = faces.solid(false);
+  const Complex* complex = std::get_if<Complex>(&made);
+  if (complex == nullptr || complex->vertex_count() == 0 || complex->volumes[0].mark != 1) return made;
+  if (messages != nullptr) messages->push_back("the faces were oriented inward and have been turned over");
+  return faces.solid(true);
+}
+
+// Of a mesh that has been checked: only its components may not fit together.
 Polyhedron solid(const Mesh& mesh, const MeshSurface& surface, const MeshOptions& options, Messages* messages) {
+  std::variant<Complex, Defect> made = try_solid(mesh, surface, options, messages);
+  if (Complex* complex = std::get_if<Complex>(&made)) return Polyhedron(std::move(*complex));
+  Defect& defect = std::get<Defect>(made);
+  if (defect.kind != Defect::Kind::kMarks) throw detail::BrokenInvariant(std::move(defect));
+  std::string list;
+  for (const std::uint32_t f : first_faces(mesh, surface)) list += (list.empty() ? "" : ", ") + std::to_string(f);
+  throw InputError("components of the mesh (which begin at faces " + list.substr(0, 60) +
+                   ") contradict each other: one is turned like the one around it, or not like those beside it; "
+                   "turn its faces over");
+}
+
+// Of a mesh that has not: nothing if it is not as clean as was promised.
+std::optional<Polyhedron> unchecked_solid(const Mesh& mesh, const MeshSurface& surface, const MeshOptions& options,
+                                          Messages* messages) {
   try {
-    MeshFaces faces(mesh, surface, options, messages);
-    Complex complex = faces.solid(false);
-    if (complex.vertex_count() > 0 && complex.volumes[0].mark == 1) {
-      if (messages != nullptr) messages->push_back("the faces were oriented inward and have been turned over");
-      complex = faces.solid(true);
-    }
-    return Polyhedron(std::move(complex));
-  } catch (const ContradictingMarks&) {
-    std::string list;
-    for (const std::uint32_t f : first_faces(mesh, surface)) list += (list.empty() ? "" : ", ") + std::to_string(f);
-    throw InputError("components of the mesh (which begin at faces " + list.substr(0, 60) +
-                     ") contradict each other: one is turned like the one around it, or not like those beside it; "
-                     "turn its faces over");
+    std::variant<Complex, Defect> made = try_solid(mesh, surface, options, messages);
+    if (Complex* complex = std::get_if<Complex>(&made)) return Polyhedron(std::move(*complex));
+  } catch (const InputError&) {
+    // The checks say it better.
   }
+  return std::nullopt;
 }
 
 bool has_faces_without_area(const MeshSurface& surface) {
@@ -93,21 +110,16 @@ Polyhedron from_mesh(const Mesh& mesh, const MeshOptions& options, Messages* mes
   const MeshSurface surface(mesh);
   Messages notes;
   note_faces_without_area(surface, &notes);
-  Polyhedron result;
-  if (options.check || has_faces_without_area(surface)) {
-    result = checked_solid(mesh, surface, options, &notes);
-  } else {
+  std::optional<Polyhedron> result;
+  if (!options.check && !has_faces_without_area(surface)) {
     const std::size_t before = notes.size();
-    try {
-      result = solid(mesh, surface, options, &notes);
-    } catch (const std::exception&) {
-      // The mesh is not as clean as was promised: the checks say why, or what to do with it.
-      notes.resize(before);
-      result = checked_solid(mesh, surface, options, &notes);
-    }
+    result = unchecked_solid(mesh, surface, options, &notes);
+    if (!result) notes.resize(before);
   }
+  // Also if the mesh is not as clean as was promised: the checks say why, or what to do with it.
+  if (!result) result = checked_solid(mesh, surface, options, &notes);
   if (messages != nullptr) messages->insert(messages->end(), notes.begin(), notes.end());
-  return result;
+  return *std::move(result);
 }
 
 }  // namespace nef

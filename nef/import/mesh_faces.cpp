@@ -14,7 +14,7 @@ namespace nef {
 MeshFaces::MeshFaces(const Mesh& mesh, const MeshSurface& surface, const MeshOptions& options, Messages* messages)
     : mesh_(mesh), surface_(surface), options_(options), messages_(messages) {}
 
-Complex MeshFaces::solid(bool reverse) { return make_solid(collect({}, reverse), {1, 1, 0}); }
+std::variant<Complex, Defect> MeshFaces::solid(bool reverse) { return try_make_solid(collect({}, reverse), {1, 1, 0}); }
 
 Complex MeshFaces::surface(std::span<const std::uint32_t> faces) { return make_surface(collect(faces, false), 1); }
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <optional>
 #include <span>
+#include <variant>
 #include <vector>
 
 #include "nef/construct/construct.h"
@@ -21,9 +22,9 @@ class MeshFaces {
   /// All arguments must outlive this object; `messages` may be null. All indices in faces must be good.
   MeshFaces(const Mesh& mesh, const MeshSurface& surface, const MeshOptions& options, Messages* messages);
 
-  /// The solid that the faces bound, or with `reverse` the one that they bound when turned over. They must be closed
-  /// and must not cross. O(n log n).
-  Complex solid(bool reverse);
+  /// The solid that the faces bound, or with `reverse` the one that they bound when turned over; what is wrong if they
+  /// bound none. Throws InputError if they are not closed. O(n log n).
+  std::variant<Complex, Defect> solid(bool reverse);
 
   /// The union of the faces as a two-dimensional set. They must meet in common vertices and edges only. O(n log n).
   Complex surface(std::span<const std::uint32_t> faces);

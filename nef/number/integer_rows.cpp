@@ -2,6 +2,7 @@
 #include "nef/number/integer_rows.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "nef/base/error.h"
 
@@ -18,21 +19,53 @@ void make_room(std::vector<T>& values, std::size_t more) {
 
 }  // namespace
 
+void IntegerRows::widen() {
+  if (!wide_.empty()) return;
+  wide_.reserve(sizes_.capacity());
+  wide_.assign(sizes_.begin(), sizes_.end());
+  sizes_ = std::vector<std::int8_t>();
+}
+
+void IntegerRows::push_size(std::int32_t size) {
+  if (size < -127 || size > 127) widen();
+  if (wide_.empty()) {
+    sizes_.push_back(static_cast<std::int8_t>(size));
+  } else {
+    wide_.push_back(size);
+  }
+}
+
+void IntegerRows::append_sizes(const IntegerRows& other, std::size_t first, std::size_t last) {
+  if (!other.wide_.empty() || !wide_.empty()) {
+    for (std::size_t i = first; i < last; ++i) push_size(other.size(i));
+    return;
+  }
+  const auto from = other.sizes_.begin();
+  sizes_.insert(sizes_.end(), from + static_cast<std::ptrdiff_t>(first), from + static_cast<std::ptrdiff_t>(last));
+}
+
+void IntegerRows::end_row() {
+  if (limbs_.size() > std::numeric_limits<std::uint32_t>::max()) {
+    throw UnsupportedError("the set needs more than 32 gigabytes of coordinates; use fewer or shorter ones");
+  }
+  begin_.push_back(static_cast<std::uint32_t>(limbs_.size()));
+}
+
 std::uint32_t IntegerRows::push(std::span<const mpz_srcptr> row) {
   NEF_ASSERT(row.size() == width_);
   const auto index = static_cast<std::uint32_t>(size());
   std::size_t total = 0;
   for (const mpz_srcptr value : row) total += mpz_size(value);
   make_room(limbs_, total);
-  make_room(sizes_, width_);
+  if (wide_.empty()) make_room(sizes_, width_);
   for (const mpz_srcptr value : row) {
     const std::size_t limbs = mpz_size(value);
     const mp_limb_t* data = mpz_limbs_read(value);
     for (std::size_t i = 0; i < limbs; ++i) limbs_.push_back(data[i]);  // one or two as a rule
     const auto signed_size = static_cast<std::int32_t>(limbs);
-    sizes_.push_back(mpz_sgn(value) < 0 ? -signed_size : signed_size);
+    push_size(mpz_sgn(value) < 0 ? -signed_size : signed_size);
   }
-  begin_.push_back(limbs_.size());
+  end_row();
   return index;
 }
 
@@ -42,28 +75,36 @@ std::uint32_t IntegerRows::push_from(const IntegerRows& other, std::uint32_t ind
   const auto first = other.limbs_.begin() + static_cast<std::ptrdiff_t>(other.begin_[index]);
   const auto last = other.limbs_.begin() + static_cast<std::ptrdiff_t>(other.begin_[index + 1]);
   limbs_.insert(limbs_.end(), first, last);
-  const auto sizes = other.sizes_.begin() + static_cast<std::ptrdiff_t>(index * width_);
-  sizes_.insert(sizes_.end(), sizes, sizes + static_cast<std::ptrdiff_t>(width_));
-  begin_.push_back(limbs_.size());
+  append_sizes(other, index * width_, (index + std::size_t{1}) * width_);
+  end_row();
   return result;
 }
 
-void IntegerRows::append(const IntegerRows& other) {
-  NEF_ASSERT(other.width_ == width_);
-  const std::uint64_t base = limbs_.size();
-  limbs_.insert(limbs_.end(), other.limbs_.begin(), other.limbs_.end());
-  sizes_.insert(sizes_.end(), other.sizes_.begin(), other.sizes_.end());
-  begin_.reserve(begin_.size() + other.size());
-  for (std::size_t row = 1; row < other.begin_.size(); ++row) begin_.push_back(base + other.begin_[row]);
+void IntegerRows::append(const IntegerRows& other, std::size_t first, std::size_t count) {
+  NEF_ASSERT(other.width_ == width_ && &other != this);
+  const std::size_t last = first + count;
+  const auto limb = [&other](std::size_t row) {
+    return other.limbs_.begin() + static_cast<std::ptrdiff_t>(other.begin_[row]);
+  };
+  limbs_.insert(limbs_.end(), limb(first), limb(last));
+  append_sizes(other, first * width_, last * width_);
+  const std::uint32_t base = begin_.back() - other.begin_[first];  // modulo 2^32
+  for (std::size_t row = first + 1; row < last; ++row) begin_.push_back(base + other.begin_[row]);
+  if (count > 0) end_row();
+}
+
+bool IntegerRows::same_sizes(std::uint32_t row, const IntegerRows& other, std::uint32_t other_row) const {
+  const std::size_t mine = row * width_;
+  const std::size_t others = other_row * width_;
+  for (std::size_t i = 0; i < width_; ++i) {
+    if (size(mine + i) != other.size(others + i)) return false;
+  }
+  return true;
 }
 
 bool IntegerRows::equal(std::uint32_t row, const IntegerRows& other, std::uint32_t other_row) const {
-  const auto width = static_cast<std::ptrdiff_t>(width_);
-  const auto sizes = sizes_.begin() + static_cast<std::ptrdiff_t>(row) * width;
-  if (!std::equal(sizes, sizes + width, other.sizes_.begin() + static_cast<std::ptrdiff_t>(other_row) * width)) {
-    return false;
-  }
-  return std::equal(limbs_.begin() + static_cast<std::ptrdiff_t>(begin_[row]),
+  return same_sizes(row, other, other_row) &&
+         std::equal(limbs_.begin() + static_cast<std::ptrdiff_t>(begin_[row]),
                     limbs_.begin() + static_cast<std::ptrdiff_t>(begin_[row + 1]),
                     other.limbs_.begin() + static_cast<std::ptrdiff_t>(other.begin_[other_row]));
 }
@@ -75,25 +116,41 @@ std::uint64_t IntegerRows::hash(std::uint32_t row) const {
     h ^= h >> 32;
   };
   for (std::size_t i = begin_[row]; i < begin_[row + 1]; ++i) mix(limbs_[i]);
-  for (std::size_t i = 0; i < width_; ++i) mix(static_cast<std::uint64_t>(sizes_[row * width_ + i]));
+  std::uint64_t sizes = 0;  // a byte of each, which is all of it but for giants
+  for (std::size_t i = 0; i < width_; ++i) sizes = sizes << 8U | static_cast<std::uint8_t>(size(row * width_ + i));
+  mix(sizes);
   return h;
 }
 
 void IntegerRows::pop() {
   begin_.pop_back();
   limbs_.resize(begin_.back());
-  sizes_.resize(sizes_.size() - width_);
+  if (wide_.empty()) {
+    sizes_.resize(sizes_.size() - width_);
+  } else {
+    wide_.resize(wide_.size() - width_);
+  }
 }
 
 std::size_t IntegerRows::bytes() const {
-  return limbs_.capacity() * sizeof(mp_limb_t) + begin_.capacity() * sizeof(std::uint64_t) +
-         sizes_.capacity() * sizeof(std::int32_t);
+  return limbs_.capacity() * sizeof(limbs_[0]) + begin_.capacity() * sizeof(begin_[0]) +
+         sizes_.capacity() * sizeof(sizes_[0]) + wide_.capacity() * sizeof(wide_[0]);
 }
 
 void IntegerRows::reserve(std::size_t rows, std::size_t limbs_per_row) {
   limbs_.reserve(rows * limbs_per_row);
   begin_.reserve(rows + 1);
-  sizes_.reserve(rows * width_);
+  if (wide_.empty()) sizes_.reserve(rows * width_);
+}
+
+void IntegerRows::trim() {
+  const auto fit = [](auto& values) {
+    if (values.capacity() - values.size() > values.capacity() / 8) values.shrink_to_fit();
+  };
+  fit(limbs_);
+  fit(begin_);
+  fit(sizes_);
+  fit(wide_);
 }
 
 }  // namespace nef

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A table of exact integers in one flat pool of limbs: copying it is a few memcpys, reading an
-// entry builds no number, and a zero entry costs four bytes.
+// entry builds no number, and a zero entry costs a byte as a rule.
 #pragma once
 
 #include <gmp.h>
@@ -38,19 +38,17 @@ class IntegerRows {
   /// Appends a copy of row `index` of `other` (same width). Returns its new index.
   std::uint32_t push_from(const IntegerRows& other, std::uint32_t index);
 
-  /// Appends all rows of `other` (same width).
-  void append(const IntegerRows& other);
+  /// Appends `count` rows of `other` (same width), from row `first` on.
+  void append(const IntegerRows& other, std::size_t first, std::size_t count);
 
   /// Entry `column` of row `row`.
   [[nodiscard]] IntegerView at(std::uint32_t row, std::size_t column) const {
-    const std::int32_t* sizes = &sizes_[row * width_];
-    std::size_t offset = begin_[row];
-    for (std::size_t i = 0; i < column; ++i) offset += static_cast<std::size_t>(sizes[i] < 0 ? -sizes[i] : sizes[i]);
-    return {limbs_.data() + offset, sizes[column]};
+    return wide_.empty() ? view(&sizes_[row * width_], begin_[row], column)
+                         : view(&wide_[row * width_], begin_[row], column);
   }
 
   [[nodiscard]] int sign(std::uint32_t row, std::size_t column) const {
-    const std::int32_t size = sizes_[row * width_ + column];
+    const std::int32_t size = this->size(row * width_ + column);
     return (size > 0) - (size < 0);
   }
 
@@ -67,11 +65,28 @@ class IntegerRows {
 
   void reserve(std::size_t rows, std::size_t limbs_per_row);
 
+  /// Gives memory back that has been reserved and not used, where that is an eighth of an array or more.
+  void trim();
+
  private:
+  template <typename Size>
+  [[nodiscard]] IntegerView view(const Size* sizes, std::size_t offset, std::size_t column) const {
+    for (std::size_t i = 0; i < column; ++i) offset += static_cast<std::size_t>(sizes[i] < 0 ? -sizes[i] : sizes[i]);
+    return {limbs_.data() + offset, sizes[column]};
+  }
+  [[nodiscard]] std::int32_t size(std::size_t i) const { return wide_.empty() ? sizes_[i] : wide_[i]; }
+  [[nodiscard]] bool same_sizes(std::uint32_t row, const IntegerRows& other, std::uint32_t other_row) const;
+  void push_size(std::int32_t size);
+  void append_sizes(const IntegerRows& other, std::size_t first, std::size_t last);
+  void widen();
+  void end_row();
+
   std::size_t width_;
   std::vector<mp_limb_t> limbs_;
-  std::vector<std::uint64_t> begin_;  // size()+1 offsets into limbs_
-  std::vector<std::int32_t> sizes_;   // width_ signed limb counts a row, as GMP keeps them
+  std::vector<std::uint32_t> begin_;  // size()+1 offsets into limbs_
+  // width_ signed limb counts a row, as GMP keeps them: in `wide_` once one of them needs more than a byte.
+  std::vector<std::int8_t> sizes_;
+  std::vector<std::int32_t> wide_;
 };
 
 }  // namespace nef

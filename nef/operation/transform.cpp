@@ -5,9 +5,9 @@
 // the standard box: R, of which only "large enough" is known, is replaced by K R with K so large
 // that the image contains the standard box, and the result is clipped to it.
 #include "nef/base/error.h"
-#include "nef/boolean/overlay_complexes.h"
 #include "nef/construct/solid.h"
 #include "nef/polyhedron.h"
+#include "nef/synthesis/complex_builder.h"
 
 namespace nef {
 namespace {
@@ -100,11 +100,16 @@ struct IntegerMap {
   }
 };
 
-// The orientation of a plane's row may change: a flipped image swaps the parity of every use.
+// Planes, points and sphere maps. The orientation of a plane's row may change: a flipped image swaps the parity of
+// every use.
 Complex map_complex(const Complex& c, const IntegerMap& map, const Integer& box_factor) {
-  Complex result = c;
-  result.planes = PlaneTable();
-  result.points = PointTable();
+  Complex result;
+  result.vertices = c.vertices;
+  result.svertices = c.svertices;
+  result.shalfedges = c.shalfedges;
+  result.sloops = c.sloops;
+  result.sfaces = c.sfaces;
+  result.entries = c.entries;
   std::vector<PlaneId> image(c.planes.size());
   for (std::uint32_t row = 0; row < c.planes.size(); ++row) {
     image[row] = map.map_plane(c.planes, row, box_factor, result.planes);
@@ -142,19 +147,20 @@ Complex map_complex(const Complex& c, const IntegerMap& map, const Integer& box_
   return result;
 }
 
+Complex synthesized(Complex&& image, LabelId outer) {
+  PlaneTable planes = std::move(image.planes);
+  ComplexBuilder builder(planes);
+  builder.take_vertices(std::move(image));
+  return builder.finish(outer);
+}
+
 }  // namespace
 
 Polyhedron transform(const Polyhedron& a, const AffineMap& map) {
   const IntegerMap exact(map);
   const Complex& c = a.complex();
-  if (!c.has_box()) {
-    Complex result = map_complex(c, exact, 1);
-    finish(result, c.volumes[0].mark);
-    return Polyhedron(std::move(result));
-  }
-  Complex larger = map_complex(c, exact, exact.box_factor());
-  finish(larger, kOutside);
-  return Polyhedron(clip_to_infimaximal_box(larger));
+  if (!c.has_box()) return Polyhedron(synthesized(map_complex(c, exact, 1), c.volumes[0].mark));
+  return Polyhedron(clip_to_infimaximal_box(synthesized(map_complex(c, exact, exact.box_factor()), kOutside)));
 }
 
 }  // namespace nef

@@ -3,13 +3,9 @@
 // Unary operations change marks locally, simplify, and synthesize. In a simplified complex every
 // vertex, edge and facet is a boundary item, which makes the topological operations simple:
 // interior deselects all of them, closure and boundary select all of them (thesis 4.5, 5.2).
-#include "nef/base/error.h"
-#include "nef/boolean/overlay_complexes.h"
-#include "nef/complex/local_pyramid.h"
 #include "nef/operation/for_each_mark.h"
 #include "nef/polyhedron.h"
-#include "nef/sphere_map/arrangement.h"
-#include "nef/sphere_map/sphere_geometry.h"
+#include "nef/synthesis/complex_builder.h"
 
 namespace nef {
 namespace {
@@ -23,19 +19,14 @@ class MarkChanger {
       : c_(c), lower_(lower == Lower::kSelect ? 1 : 0), clear_volumes_(volumes == Volumes::kClear) {}
 
   Complex run() {
-    Complex result;
-    result.planes = c_.planes;
+    PlaneTable planes = c_.planes;
+    ComplexBuilder result(planes);
     for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) {
       load(c_.sphere_map(v));
       if (!c_.points.finite(PointId{v})) mark_trace_on_box();
-      drawing_.sort_around_nodes(c_.planes);
-      drawing_.simplify_and_assemble(c_.planes, out_);
-      if (!is_vertex(c_.planes, out_.view())) continue;
-      result.points.push_from(c_.points, PointId{v});
-      result.push_vertex(out_.view());
+      result.add(c_.points, PointId{v}, drawing_);
     }
-    finish(result, volume_mark(c_.volumes[0].mark));
-    return result;
+    return result.finish(volume_mark(c_.volumes[0].mark));
   }
 
  private:
@@ -108,7 +99,6 @@ class MarkChanger {
   LabelId lower_;
   bool clear_volumes_;
   Arrangement drawing_;
-  SphereMapBuffer out_;
 };
 
 }  // namespace

@@ -9,10 +9,8 @@
 #include <utility>
 
 #include "nef/base/union_find.h"
-#include "nef/boolean/overlay_complexes.h"
-#include "nef/complex/local_pyramid.h"
 #include "nef/query/predicates_of_sets.h"
-#include "nef/sphere_map/arrangement.h"
+#include "nef/synthesis/complex_builder.h"
 
 namespace nef {
 namespace {
@@ -51,8 +49,8 @@ class PieceMaker {
       std::sort(vertices.begin(), vertices.end());
       vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
     }
-    Complex result;
-    result.label_count = c_.label_count;
+    PlaneTable planes;
+    ComplexBuilder result(planes);
     row_.resize(c_.planes.size(), kNone);
     for (const std::uint32_t v : vertices) {
       const SphereMapView map = c_.sphere_map(v);
@@ -60,15 +58,12 @@ class PieceMaker {
       draw(map);
       drawing_.sort_around_nodes(c_.planes);
       drawing_.simplify_and_assemble(c_.planes, out_);
-      if (!is_vertex(c_.planes, out_.view())) continue;
-      rename_planes(result);
-      result.points.push_from(c_.points, PointId{v});
-      result.push_vertex(out_.view());
+      rename_planes(planes);
+      result.add(c_.points, PointId{v}, out_.view());
     }
     for (const std::uint32_t row : rows_in_use_) row_[row] = kNone;
     rows_in_use_.clear();
-    finish(result, at_infinity ? kOutside : piece.outer);
-    return Polyhedron(std::move(result));
+    return Polyhedron(result.finish(at_infinity ? kOutside : piece.outer));
   }
 
  private:
@@ -95,11 +90,11 @@ class PieceMaker {
   }
 
   // A piece has a table of its own planes, so that many small ones cost no more than their sizes.
-  void rename_planes(Complex& result) {
+  void rename_planes(PlaneTable& planes) {
     const auto rename = [&](PlaneId& plane) {
       std::uint32_t& row = row_[plane.row()];
       if (row == kNone) {
-        row = result.planes.append_new(c_.planes, plane.row());
+        row = planes.append_new(c_.planes, plane.row());
         rows_in_use_.push_back(plane.row());
       }
       plane = PlaneId{row << 1U | (plane.value & 1U)};

@@ -40,7 +40,7 @@ class ShellWalk {
     const Shell& range = c_.shells[shell];
     for (std::uint32_t k = 0; k < range.sface_count; ++k) {
       const std::uint32_t sface = c_.shell_sfaces[range.first_sface + k];
-      const std::uint32_t v = c_.sface_owner[sface];
+      const std::uint32_t v = c_.sface_vertex(sface);
       const VertexRecord& at = c_.vertices[v];
       if (first_time(vertex_[v])) vertex(v);
       const SphereMapView map = c_.sphere_map(v);

@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "nef/base/contradiction.h"
-#include "nef/base/error.h"
+#include "nef/base/defect.h"
 #include "nef/base/interruption.h"
 #include "nef/sphere_map/components.h"
 #include "nef/sphere_map/sphere_geometry.h"
@@ -133,7 +132,8 @@ bool Arrangement::assemble_ring(const PlaneTable& planes, SphereMapBuffer& out) 
     choose_planes(planes, node, v);
     out.svertices.push_back(v);
     const LabelId mark = arcs[half >> 1U].mark;
-    NEF_ASSERT(left(half) == left(0) && left(half ^ 1U) == left(1));
+    detail::require_one_mark(left(half) == left(0) && left(half ^ 1U) == left(1), "an sface has one mark",
+                             {{"svertex", i}});
     out.shalfedges.push_back({plane(half), i, 2 * ahead, 2 * behind, 0, mark});
     out.shalfedges.push_back({plane(half ^ 1U), ahead, 2 * behind + 1, 2 * ahead + 1, 1, mark});
     const std::uint32_t there = target(half);
@@ -325,7 +325,7 @@ void Arrangement::build_faces(const PlaneTable& planes, SphereMapBuffer& out) {
     } else {
       face_of_cycle_[c] = face_of_cycle_[face_of_cycle_[c]];
       ++out.sfaces[face_of_cycle_[c]].entry_count;
-      if (cycles_[c].mark != out.sfaces[face_of_cycle_[c]].mark) throw ContradictingMarks("an sface");
+      detail::require_one_mark(cycles_[c].mark == out.sfaces[face_of_cycle_[c]].mark, "an sface has one mark", {});
     }
   }
   std::uint32_t first = 0;

@@ -9,7 +9,7 @@
 
 #include <algorithm>
 
-#include "nef/base/error.h"
+#include "nef/base/defect.h"
 #include "nef/base/union_find.h"
 #include "nef/sphere_map/sphere_geometry.h"
 
@@ -52,7 +52,7 @@ class CycleJoiner {
     const Direction& u = directions_[start];
     const Direction n = Direction::normal(planes_, map_.sloops[0].plane);
     const int side = sign_of_dot(n, u);
-    NEF_ASSERT(side != 0);
+    detail::require(side != 0, "an svertex lies beside the circle of an sloop", {{"svertex", start}});
     // u x n is zero where u is the pole; then any direction on the circle is as near.
     const Direction axis = Direction::cross(u, n);
     const Direction foot = axis.is_zero() ? any_orthogonal(n) : Direction::cross(n, axis);

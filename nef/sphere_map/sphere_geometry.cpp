@@ -8,7 +8,7 @@
 
 #include <optional>
 
-#include "nef/base/error.h"
+#include "nef/base/defect.h"
 
 namespace nef {
 
@@ -42,7 +42,7 @@ int compare_around(const Direction& d, const Direction& reference, const Directi
 
 Wedge locate_wedge(const PlaneTable& planes, const SphereMapView& map, std::uint32_t svertex, const Direction& normal) {
   const std::uint32_t first = map.svertices[svertex].out;
-  NEF_ASSERT(first != kNone);
+  detail::require(first != kNone, "an svertex with facets has a shalfedge", {{"svertex", svertex}});
   const Direction axis = direction_of(planes, map.svertices[svertex]);
   const Direction reference = Direction::normal(planes, map.shalfedges[first].plane);
   Wedge result{first, compare_around(axis, reference, reference, normal) == 0};
@@ -147,7 +147,7 @@ SphereLocation locate(const PlaneTable& planes, const SphereMapView& map, const 
   if (!hit.is_vertex) return {Kind::kSFace, map.shalfedges[hit.index].sface};
   if (map.svertices[hit.index].out == kNone) return {Kind::kSFace, map.svertices[hit.index].sface};
   const Wedge wedge = locate_wedge(planes, map, hit.index, Direction::cross(*hit.at, direction));
-  NEF_ASSERT(!wedge.on);
+  detail::require(!wedge.on, "arcs of a sphere map meet in svertices only", {{"svertex", hit.index}});
   return {Kind::kSFace, map.shalfedges[wedge.shalfedge].sface};
 }
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <unordered_map>
 
-#include "nef/base/error.h"
+#include "nef/base/defect.h"
 
 namespace nef {
 namespace {
@@ -147,8 +147,8 @@ class Linker {
     }
     std::vector<std::uint32_t> group;
     for (std::uint32_t i = 0; i < keys_.size(); ++i) {
+      detail::require(size[i] != 1, "an edge has two ends", {{"halfedge", svertex(i)}});
       if (size[i] == 2) pair(svertex(i), svertex(next[i]));
-      NEF_ASSERT(size[i] != 1);
     }
     for (const std::uint32_t head : crowded) {
       group.clear();
@@ -158,6 +158,10 @@ class Linker {
   }
 
   void pair(std::uint32_t a, std::uint32_t b) {
+    detail::require(c_.svertex_owner[a] != c_.svertex_owner[b], "an edge joins two vertices",
+                    {{"halfedge", a}, {"halfedge", b}});
+    detail::require((c_.svertices[a].out == kNone) == (c_.svertices[b].out == kNone),
+                    "an edge has facets at both ends or at none", {{"halfedge", a}, {"halfedge", b}});
     c_.twin[a] = b;
     c_.twin[b] = a;
   }
@@ -193,9 +197,10 @@ class Linker {
       if (a.vertex == b.vertex) return a.sense < b.sense;  // an edge ends before the next begins
       return rising * compare_coordinate(c_.points, PointId{a.vertex}, PointId{b.vertex}, axis) < 0;
     });
-    NEF_ASSERT(entries.size() % 2 == 0);
+    detail::require(entries.size() % 2 == 0, "an edge has two ends", {{"halfedge", reference}});
     for (std::size_t i = 0; i < entries.size(); i += 2) {
-      NEF_ASSERT(entries[i].sense > 0 && entries[i + 1].sense < 0);
+      detail::require(entries[i].sense > 0 && entries[i + 1].sense < 0, "edges of one line lie apart",
+                      {{"halfedge", entries[i].svertex}, {"halfedge", entries[i + 1].svertex}});
       pair(entries[i].svertex, entries[i + 1].svertex);
     }
   }

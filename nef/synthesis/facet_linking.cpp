@@ -9,7 +9,7 @@
 
 #include <algorithm>
 
-#include "nef/base/error.h"
+#include "nef/base/defect.h"
 #include "nef/complex/facet_plane.h"
 #include "nef/complex/plane_sweep.h"
 #include "nef/sphere_map/sphere_geometry.h"
@@ -46,7 +46,7 @@ class FacetLinker {
     std::uint32_t e = first;
     while (map.shalfedges[e].plane != wanted) {
       e = map.next_around(e);
-      NEF_ASSERT(e != first);
+      detail::require(e != first, "a facet goes on along its edges", {{"shalfedge", corner}});
     }
     return c_.vertices[vertex].shalfedges + (e ^ 1U);
   }
@@ -58,10 +58,12 @@ class FacetLinker {
       CycleRecord cycle;
       cycle.row = c_.shalfedges[e].plane.row();
       cycle.first = static_cast<std::uint32_t>(traced_.size());
-      for (std::uint32_t corner = e; !done[corner]; corner = next_corner(corner)) {
+      std::uint32_t corner = e;
+      for (; !done[corner]; corner = next_corner(corner)) {
         done[corner] = true;
         traced_.push_back(corner);
       }
+      detail::require(corner == e, "cycles of facets are disjoint", {{"shalfedge", e}, {"shalfedge", corner}});
       cycle.count = static_cast<std::uint32_t>(traced_.size()) - cycle.first;
       cycles_.push_back(cycle);
     };
@@ -119,7 +121,8 @@ class FacetLinker {
         continue;
       }
       if (!cycles.empty()) link_plane(row, cycles, points);
-      NEF_ASSERT(!cycles.empty() || points.empty());
+      detail::require(!cycles.empty() || points.empty(), "a vertex inside a facet has a facet around it",
+                      {{"vertex", points.empty() ? 0 : points[0].second}});
     }
   }
 
@@ -181,7 +184,7 @@ class FacetLinker {
       facet_of[i] = static_cast<std::uint32_t>(members.size());
       members.push_back({cycles[i]});
     }
-    NEF_ASSERT(!members.empty());
+    detail::require(!members.empty(), "a facet has an outer cycle", {{"vertex", cycles_[cycles[0]].lowest}});
     std::vector<std::vector<std::uint32_t>> inside(members.size());
     if (members.size() == 1) {
       for (std::uint32_t i = 0; i < cycles.size(); ++i) {
@@ -241,9 +244,8 @@ class FacetLinker {
       facet_of.push_back(kNone);
     }
     for (const CornerBelow& below : corners_below(c_, PlaneId{row << 1U}, corners, lowest)) {
-      NEF_ASSERT(below.corner != kNone);
-      const std::uint32_t facet = facet_of[cycle_of[below.corner]];
-      NEF_ASSERT(facet != kNone);
+      const std::uint32_t facet = below.corner == kNone ? kNone : facet_of[cycle_of[below.corner]];
+      detail::require(facet != kNone, "a hole lies in a facet", {{"vertex", lowest[below.query]}});
       facet_of[asking[below.query]] = facet;
     }
   }
@@ -268,8 +270,7 @@ class FacetLinker {
     const auto halffacet = static_cast<std::uint32_t>(2 * c_.facets.size());
     for (const std::uint32_t corner : corners) {
       c_.corners.push_back(corner);
-      c_.shalfedge_facet[corner] = halffacet;
-      c_.shalfedge_facet[corner ^ 1U] = halffacet + 1;
+      c_.shalfedge_facet.set(corner, halffacet);
     }
     c_.cycle_begin.push_back(static_cast<std::uint32_t>(c_.corners.size()));
   }

@@ -11,14 +11,12 @@ namespace {
 
 void name_owners(Complex& c) {
   c.svertex_owner.resize(c.svertices.size());
-  c.shalfedge_owner.resize(c.shalfedges.size());
-  c.sface_owner.resize(c.sfaces.size());
+  c.shalfedge_owner.assign(c.shalfedges.size(), 0);
   for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
     const VertexRecord& first = c.vertices[v];
     const VertexRecord& last = c.vertices[v + 1];
     for (std::uint32_t i = first.svertices; i < last.svertices; ++i) c.svertex_owner[i] = v;
-    for (std::uint32_t i = first.shalfedges; i < last.shalfedges; ++i) c.shalfedge_owner[i] = v;
-    for (std::uint32_t i = first.sfaces; i < last.sfaces; ++i) c.sface_owner[i] = v;
+    for (std::uint32_t i = first.shalfedges; i < last.shalfedges; i += 2) c.shalfedge_owner.set(i, v);
   }
 }
 

@@ -11,8 +11,7 @@
 
 #include <algorithm>
 
-#include "nef/base/contradiction.h"
-#include "nef/base/error.h"
+#include "nef/base/defect.h"
 #include "nef/base/union_find.h"
 #include "nef/geometry/box_tree.h"
 #include "nef/location/query_structure.h"
@@ -99,7 +98,9 @@ class VolumeLinker {
     for (std::size_t i = 0; i < components.size(); ++i) {
       const std::uint32_t v = lowest[components[i]];
       const SphereMapView map = c_.sphere_map(v);
-      const std::uint32_t inner = sfaces_.find(c_.vertices[v].sfaces + sface_toward(minus_x, map));
+      const std::uint32_t toward = sface_toward(minus_x, map);
+      detail::require(toward != kNone, "nothing of a component lies before its lowest vertex", {{"vertex", v}});
+      const std::uint32_t inner = sfaces_.find(c_.vertices[v].sfaces + toward);
       inner_.push_back(inner);
       std::uint32_t seen = enclosed[i] ? sface_seen_from(v) : kNone;
       if (seen == kNone) {
@@ -108,11 +109,13 @@ class VolumeLinker {
       }
       volumes_.unite(inner, sfaces_.find(seen));
     }
+    detail::require(unbounded != kNone, "some shell bounds the outer volume", {});
     outer_ = volumes_.find(unbounded);
   }
 
-  // The sface of the lowest vertex of a component in direction -x. Where three facets meet there, the map is a
-  // triangle, which lies in the half-sphere of the directions to higher vertices; -x lies outside of it.
+  // The sface of the lowest vertex of a component in direction -x; kNone if something else lies there. Where three
+  // facets meet there, the map is a triangle, which lies in the half-sphere of the directions to higher vertices; -x
+  // lies outside of it.
   std::uint32_t sface_toward(const Direction& minus_x, const SphereMapView& map) const {
     if (map.svertices.size() == 3 && map.shalfedges.size() == 6 && map.sfaces.size() == 2) {
       const auto direction = [&](std::uint32_t shalfedge) {
@@ -123,8 +126,7 @@ class VolumeLinker {
       if (turn != 0) return map.shalfedges[turn > 0 ? 1 : 0].sface;
     }
     const SphereLocation where = locate(c_.planes, map, minus_x);
-    NEF_ASSERT(where.kind == SphereLocation::Kind::kSFace);
-    return where.index;
+    return where.kind == SphereLocation::Kind::kSFace ? where.index : kNone;
   }
 
   // Which components have their lowest vertex in the box of another one.
@@ -154,7 +156,10 @@ class VolumeLinker {
     if (!queries_) queries_ = std::make_unique<QueryStructure>(c_);
     const std::optional<ComplexHit> hit = queries_->first_hit_minus_x(c_, v);
     if (!hit) return kNone;
-    if (hit->kind != ComplexHit::Kind::kFacet) return hit->sface;
+    if (hit->kind != ComplexHit::Kind::kFacet) {
+      detail::require(hit->sface != kNone, "a ray comes out of a volume", {{"vertex", v}});
+      return hit->sface;
+    }
     const std::uint32_t corner = c_.facet_corners(c_.facets[hit->index >> 1U])[0];
     return c_.shalfedge_sface(corner ^ (hit->index & 1U));
   }
@@ -188,7 +193,7 @@ class VolumeLinker {
         volume.first_shell = static_cast<std::uint32_t>(c_.shells.size());
         volume.mark = c_.sfaces[root].mark;
       }
-      if (volume.mark != c_.sfaces[root].mark) throw ContradictingMarks("a volume");
+      detail::require_one_mark(volume.mark == c_.sfaces[root].mark, "a volume has one mark", {{"sface", root}});
       shell_of[root] = static_cast<std::uint32_t>(c_.shells.size());
       c_.shells.push_back({volume_number[volumes_.find(root)], 0, 0});
     }

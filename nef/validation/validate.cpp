@@ -24,8 +24,7 @@ void check_array_sizes(const Complex& c) {
           "the sentinel ends all sphere items", {});
   require(c.svertex_owner.size() == c.svertices.size() && c.twin.size() == c.svertices.size() &&
               c.shalfedge_owner.size() == c.shalfedges.size() && c.shalfedge_facet.size() == c.shalfedges.size() &&
-              c.sloop_facet.size() == c.sloops.size() && c.sface_owner.size() == c.sfaces.size() &&
-              c.sface_shell.size() == c.sfaces.size(),
+              c.sloop_facet.size() == c.sloops.size() && c.sface_shell.size() == c.sfaces.size(),
           "columns of synthesis are parallel to the sphere items", {});
   const VertexRecord& first = c.vertices.front();
   require(first.svertices + first.shalfedges + first.sloops + first.sfaces + first.entries == 0,
@@ -47,8 +46,8 @@ void check_owners(const Complex& c) {
       return std::all_of(owner.begin() + first, owner.begin() + last, [v](std::uint32_t o) { return o == v; });
     };
     require(owned(c.svertex_owner, a.svertices, b.svertices), "svertices know their vertex", {{"vertex", v}});
-    require(owned(c.shalfedge_owner, a.shalfedges, b.shalfedges), "shalfedges know their vertex", {{"vertex", v}});
-    require(owned(c.sface_owner, a.sfaces, b.sfaces), "sfaces know their vertex", {{"vertex", v}});
+    require(a.shalfedges % 2 == 0 && owned(c.shalfedge_owner.pairs(), a.shalfedges / 2, b.shalfedges / 2),
+            "shalfedges know their vertex", {{"vertex", v}});
   }
 }
 
@@ -165,7 +164,7 @@ void check_outside(const Complex& c) {
 }
 
 std::string first_broken(const Complex& complex, bool sphere_maps) {
-  try {
+  const std::optional<Defect> defect = detail::defect_in([&] {
     check_array_sizes(complex);
     check_owners(complex);
     check_marks(complex);
@@ -176,10 +175,8 @@ std::string first_broken(const Complex& complex, bool sphere_maps) {
     detail::check_facets(complex);
     detail::check_volumes(complex);
     detail::check_box(complex);
-  } catch (const detail::BrokenInvariant& broken) {
-    return broken.what;
-  }
-  return {};
+  });
+  return defect ? defect->text() : std::string();
 }
 
 }  // namespace

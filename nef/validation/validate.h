@@ -4,9 +4,9 @@
 // checked by validate(const Complex&) in nef/polyhedron.h.
 #pragma once
 
-#include <initializer_list>
 #include <string>
 
+#include "nef/base/defect.h"
 #include "nef/complex/complex.h"
 
 namespace nef {
@@ -19,24 +19,6 @@ namespace nef {
 std::string validate(const PlaneTable& planes, const SphereMapView& map);
 
 namespace detail {
-
-/// Thrown by the checks to the validate function that runs them; never leaves it.
-struct BrokenInvariant {
-  std::string what;
-};
-
-struct GuiltyItem {
-  const char* kind;
-  std::size_t index;
-};
-
-/// Throws BrokenInvariant with the name and the guilty items unless `holds`.
-inline void require(bool holds, const char* name, std::initializer_list<GuiltyItem> guilty) {
-  if (holds) return;
-  std::string what = name;
-  for (const GuiltyItem& item : guilty) what += std::string(", ") + item.kind + " " + std::to_string(item.index);
-  throw BrokenInvariant{what};
-}
 
 /// nef::validate without the sphere maps and the planes through their vertices, for who has checked each of these
 /// before synthesis.

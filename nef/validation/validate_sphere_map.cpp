@@ -248,12 +248,8 @@ class SphereMapChecker {
 }  // namespace
 
 std::string validate(const PlaneTable& planes, const SphereMapView& map) {
-  try {
-    SphereMapChecker(planes, map).run();
-  } catch (const detail::BrokenInvariant& broken) {
-    return broken.what;
-  }
-  return {};
+  const std::optional<Defect> defect = detail::defect_in([&] { SphereMapChecker(planes, map).run(); });
+  return defect ? defect->text() : std::string();
 }
 
 }  // namespace nef

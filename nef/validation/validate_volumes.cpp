@@ -90,7 +90,7 @@ void check_connection(const Complex& c) {
 std::uint32_t lowest_vertex(const Complex& c, const Shell& shell) {
   std::uint32_t lowest = kNone;
   for (std::uint32_t k = 0; k < shell.sface_count; ++k) {
-    const std::uint32_t v = c.sface_owner[c.shell_sfaces[shell.first_sface + k]];
+    const std::uint32_t v = c.sface_vertex(c.shell_sfaces[shell.first_sface + k]);
     if (lowest == kNone || compare_lexicographic(c.points, PointId{v}, PointId{lowest}) < 0) lowest = v;
   }
   return lowest;
@@ -205,7 +205,7 @@ FirstFacet shoot(const Complex& c, const Targets& targets, std::uint32_t origin,
 // The volume that holds the surroundings of a shell.
 std::uint32_t volume_around(const Complex& c, const Targets& targets, std::uint32_t s) {
   const std::uint32_t sface = c.shell_sfaces[c.shells[s].first_sface];
-  const std::uint32_t v = c.sface_owner[sface];
+  const std::uint32_t v = c.sface_vertex(sface);
   const std::uint32_t local = sface - c.vertices[v].sfaces;
   const SphereMapView map = c.sphere_map(v);
   const Inward inward = inward_of(c.planes, map, map.sfaces[local]);
@@ -218,7 +218,7 @@ std::uint32_t volume_around(const Complex& c, const Targets& targets, std::uint3
     const FirstFacet first = shoot(c, targets, v, along);
     if (!first.degenerate) return first.volume;
   }
-  throw BrokenInvariant{"no direction leads into an sface, sface " + std::to_string(sface)};
+  break_invariant(Defect::Kind::kStructure, "some direction leads into an sface", {{"sface", sface}});
 }
 
 void check_nesting(const Complex& c) {

@@ -109,10 +109,9 @@ struct Breaker {
   void synthesized_items() {
     column("owner of an svertex", c.svertex_owner, c.vertex_count());
     column("twin", c.twin, c.twin.size());
-    column("owner of a shalfedge", c.shalfedge_owner, c.vertex_count());
-    column("facet of a shalfedge", c.shalfedge_facet, 2 * c.facets.size());
+    column("owner of a shalfedge", c.shalfedge_owner.pairs(), c.vertex_count());
+    column("facet of a shalfedge", c.shalfedge_facet.pairs(), 2 * c.facets.size());
     column("facet of a sloop", c.sloop_facet, 2 * c.facets.size());
-    column("owner of an sface", c.sface_owner, c.vertex_count());
     column("shell of an sface", c.sface_shell, c.shells.size());
     for (Facet& f : c.facets) {
       plane("plane of a facet", f.plane);

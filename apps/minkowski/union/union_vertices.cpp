@@ -4,9 +4,6 @@
 #include <algorithm>
 #include <optional>
 
-#include "nef/boolean/overlay_complexes.h"
-#include "nef/complex/local_pyramid.h"
-
 namespace nef::minkowski {
 
 UnionVertices::UnionVertices(std::span<const ConvexCell> cells, const RoundedCells& rounded, const BoxTree& boxes)
@@ -141,15 +138,9 @@ void UnionVertices::add_point(PointId point) {
     overlay_.overlay(exact_.planes, map->view(), maps_[2].view(), or_, *next);
     std::swap(map, next);
   }
-  if (!is_vertex(exact_.planes, map->view())) return;
-  result_.points.push_from(exact_.points, point);
-  result_.push_vertex(map->view());
+  result_.add(exact_.points, point, map->view());
 }
 
-Complex UnionVertices::finish() {
-  result_.planes = std::move(exact_.planes);
-  nef::finish(result_, 0);
-  return std::move(result_);
-}
+Complex UnionVertices::finish() { return result_.finish(0); }
 
 }  // namespace nef::minkowski

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "apps/minkowski/union/exact_cells.h"
-#include "nef/complex/complex.h"
 #include "nef/geometry/box_tree.h"
 #include "nef/sphere_map/overlay.h"
+#include "nef/synthesis/complex_builder.h"
 
 namespace nef::minkowski {
 
@@ -66,7 +66,7 @@ class UnionVertices {
   LabelFunction or_;
   CellLocation location_;
   std::array<SphereMapBuffer, 3> maps_;
-  Complex result_;
+  ComplexBuilder result_{exact_.planes};
   std::uint64_t work_ = 0;
 };
 

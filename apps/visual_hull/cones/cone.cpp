@@ -16,7 +16,7 @@
 
 #include "apps/visual_hull/cones/boundary_node.h"
 #include "nef/base/error.h"
-#include "nef/synthesis/synthesis.h"
+#include "nef/synthesis/complex_builder.h"
 
 namespace visual_hull {
 namespace {
@@ -52,7 +52,7 @@ class ConeBuilder {
     collect(silhouette);
     for (RingEdge& edge : edges_) {
       const RationalPlane plane = plane_through(camera, edge.from, edge.to);
-      edge.plane = complex_.planes.intern(plane.normal, plane.offset);
+      edge.plane = planes_.intern(plane.normal, plane.offset);
     }
     for (const Place& place : places_) choose_ray_planes(place);
   }
@@ -130,7 +130,7 @@ class ConeBuilder {
     NEF_ASSERT(false);  // where rings touch they do not overlap, so they have different lines
   }
 
-  std::uint32_t add_node(PlaneId p, PlaneId q) { return add_boundary_node(map_, complex_.planes, p, q); }
+  std::uint32_t add_node(PlaneId p, PlaneId q) { return add_boundary_node(map_, planes_, p, q); }
 
   // `left` is the mark on the positive side of the plane; the order is for a camera that is not mirrored.
   void add_arc(PlaneId plane, std::uint32_t source, std::uint32_t target, nef::LabelId left) {
@@ -144,29 +144,18 @@ class ConeBuilder {
     map_.arcs.push_back(arc);
   }
 
-  void push_vertex() {
-    map_.centre = 1;
-    map_.sort_around_nodes(complex_.planes);
-    map_.simplify_and_assemble(complex_.planes, buffer_);
-    complex_.push_vertex(buffer_.view());
-  }
-
   void add_apex(const Camera& camera) {
     map_.clear();
     for (const auto& ray : rays_) add_node(ray[0], ray[1]);
     for (const RingEdge& edge : edges_) add_arc(edge.plane, edge.from_place, edge.to_place, 1);
-    complex_.points.push(camera.centre());
-    push_vertex();
+    map_.centre = 1;
+    builder_.add(camera.centre(), map_);
   }
 
   void add_cap(const Camera& camera, const Rational& depth, Cap cap) {
     const RationalPlane rational = plane_at_depth(camera, depth);
-    const PlaneId plane = complex_.planes.intern(rational.normal, rational.offset);
-    for (std::size_t i = 0; i < places_.size(); ++i) {
-      const auto point = complex_.points.push_intersection(complex_.planes, rays_[i][0], rays_[i][1], plane);
-      NEF_ASSERT(point.has_value());
-      add_cap_vertex(i, plane, cap);
-    }
+    const PlaneId plane = planes_.intern(rational.normal, rational.offset);
+    for (std::size_t i = 0; i < places_.size(); ++i) add_cap_vertex(i, plane, cap);
   }
 
   void add_cap_vertex(std::size_t index, PlaneId cap_plane, Cap cap) {
@@ -212,7 +201,8 @@ class ConeBuilder {
       NEF_ASSERT(!next.outgoing);
       add_arc(cap_plane, spokes[i].node, next.node, cap == Cap::kNear ? 1 : 0);
     }
-    push_vertex();
+    map_.centre = 1;
+    builder_.add({ray[0], ray[1], cap_plane}, map_);
   }
 
   std::uint32_t add_edge_node(PlaneId side, PlaneId cap, bool side_first) {
@@ -224,18 +214,15 @@ class ConeBuilder {
     return dy > 0 || (dy == 0 && tip.x > centre.x);
   }
 
-  nef::Polyhedron finish() {
-    nef::synthesize(complex_, 0);
-    return nef::Polyhedron(std::move(complex_));
-  }
+  nef::Polyhedron finish() { return nef::Polyhedron(builder_.finish(0)); }
 
   bool positive_;
   std::vector<Place> places_;
   std::vector<RingEdge> edges_;
   std::vector<std::array<PlaneId, 2>> rays_;
-  nef::Complex complex_;
+  nef::PlaneTable planes_;
+  nef::ComplexBuilder builder_{planes_};
   nef::Arrangement map_;
-  nef::SphereMapBuffer buffer_;
 };
 
 // A short number near `value`, in the direction of `sign`: caps beyond the box may lie anywhere.

@@ -10,8 +10,7 @@
 #include "apps/visual_hull/viewing_edges/hull_complex.h"
 
 #include "apps/visual_hull/cones/boundary_node.h"
-#include "nef/base/error.h"
-#include "nef/synthesis/synthesis.h"
+#include "nef/synthesis/complex_builder.h"
 
 namespace visual_hull {
 namespace {
@@ -43,17 +42,14 @@ class ComplexWriter {
     push_vertex(across);
   }
 
-  nef::Polyhedron finish() {
-    nef::synthesize(complex_, 0);
-    return nef::Polyhedron(std::move(complex_));
-  }
+  nef::Polyhedron finish() { return nef::Polyhedron(builder_.finish(0)); }
 
  private:
   PlaneId plane(std::uint32_t edge) {
     if (!planes_[edge].valid()) {
       const ViewingEdge& e = edges_[edge];
       const RationalPlane exact = plane_through(*cameras_[e.view], *e.from, *e.to);
-      planes_[edge] = complex_.planes.intern(exact.normal, exact.offset);
+      planes_[edge] = table_.intern(exact.normal, exact.offset);
     }
     return planes_[edge];
   }
@@ -69,14 +65,11 @@ class ComplexWriter {
   };
 
   void push_vertex(PlaneId r) {
-    const nef::PlaneTable& planes = complex_.planes;
-    const auto point = complex_.points.push_intersection(planes, corners_[0].in, corners_[0].out, r);
-    NEF_ASSERT(point.has_value());
     map_.clear();
     std::uint32_t ray = nef::kNone;
     bool turned = false;  // the same for all corners on a ray
     for (Corner& c : corners_) {
-      const int s = nef::side_of_circle(planes, r, nef::Direction::cross(planes, c.in, c.out));
+      const int s = nef::side_of_circle(table_, r, nef::Direction::cross(table_, c.in, c.out));
       if (s == 0) throw Undecided{};
       turned = (s > 0) == c.reflex;
       if (ray == nef::kNone) ray = s > 0 ? add_node(c.in, c.out) : add_node(c.out, c.in);
@@ -99,9 +92,7 @@ class ComplexWriter {
       }
     }
     map_.centre = 1;
-    map_.sort_around_nodes(planes);
-    map_.simplify_and_assemble(planes, buffer_);
-    complex_.push_vertex(buffer_.view());
+    builder_.add({corners_[0].in, corners_[0].out, r}, map_);
   }
 
   // Where rings touch: the region left of an edge that leaves the vertex ends at the next edge, which arrives.
@@ -125,7 +116,7 @@ class ComplexWriter {
     return best->in_node;
   }
 
-  std::uint32_t add_node(PlaneId p, PlaneId q) { return add_boundary_node(map_, complex_.planes, p, q); }
+  std::uint32_t add_node(PlaneId p, PlaneId q) { return add_boundary_node(map_, table_, p, q); }
 
   void add_arc(PlaneId plane, std::uint32_t source, std::uint32_t target) {
     nef::Arrangement::Arc arc;
@@ -142,9 +133,9 @@ class ComplexWriter {
   const std::vector<const Camera*>& cameras_;
   std::vector<PlaneId> planes_;
   std::vector<Corner> corners_;
-  nef::Complex complex_;
+  nef::PlaneTable table_;
+  nef::ComplexBuilder builder_{table_};
   nef::Arrangement map_;
-  nef::SphereMapBuffer buffer_;
 };
 
 }  // namespace

@@ -2,11 +2,9 @@
 #include <map>
 #include <optional>
 
-#include "nef/boolean/overlay_complexes.h"
-#include "nef/complex/local_pyramid.h"
 #include "nef/io/cgal/cgal_nef3.h"
 #include "nef/io/text_cursor.h"
-#include "nef/sphere_map/arrangement.h"
+#include "nef/synthesis/complex_builder.h"
 
 namespace nef {
 namespace {
@@ -247,13 +245,12 @@ class Builder {
  public:
   explicit Builder(const File& file) : file_(file) {}
 
-  Complex run() {
+  std::variant<Complex, Defect> run() {
     // Directions keep a pointer to the planes: these are all interned before the first drawing.
     for (const FileVertex& v : file_.vertices) intern_planes(v);
     arc_at_ = loop_at_ = svertex_at_ = 0;
     for (std::size_t i = 0; i < file_.vertices.size(); ++i) draw(i);
-    finish(complex_, file_.outer);
-    return std::move(complex_);
+    return builder_.try_finish(file_.outer);
   }
 
  private:
@@ -266,7 +263,7 @@ class Builder {
       file_.fail(FileProblem::kSyntax, "the normal of a circle is zero");
     }
     const Rational offset = -(normal[0] * point[0] + normal[1] * point[1] + normal[2] * point[2]);
-    return complex_.planes.intern(normal, offset);
+    return planes_.intern(normal, offset);
   }
 
   void intern_planes(const FileVertex& v) {
@@ -300,7 +297,7 @@ class Builder {
       const FileSVertex& from = file_.svertices[static_cast<std::size_t>(s)];
       const auto [p, q] = line_planes_[svertex_at_++];
       Arrangement::Node node;
-      node.direction = Direction::cross(complex_.planes, p, q);
+      node.direction = Direction::cross(planes_, p, q);
       node.mark = from.mark;
       node.around = from.isolated_sface >= 0 ? face_mark(from.isolated_sface) : LabelId{0};
       drawing_.nodes.push_back(std::move(node));
@@ -311,11 +308,7 @@ class Builder {
       const FileLoop& twin = file_.loops[static_cast<std::size_t>(loop.twin)];
       drawing_.circle = {true, loop_planes_[loop_at_++], loop.mark, face_mark(loop.sface), face_mark(twin.sface)};
     }
-    drawing_.sort_around_nodes(complex_.planes);
-    drawing_.simplify_and_assemble(complex_.planes, map_);
-    if (!is_vertex(complex_.planes, map_.view())) return;
-    complex_.points.push(point_of(v));
-    complex_.push_vertex(map_.view());
+    builder_.add(point_of(v), drawing_);
   }
 
   void draw_arcs(const FileVertex& v, std::size_t index) {
@@ -353,7 +346,7 @@ class Builder {
   void check_direction(std::int64_t svertex, PlaneId plane) const {
     const Vector& d = file_.svertices[static_cast<std::size_t>(svertex)].direction;
     Rational dot = 0;
-    for (std::size_t i = 0; i < 3; ++i) dot += d[i] * complex_.planes.oriented_coefficient(plane, i);
+    for (std::size_t i = 0; i < 3; ++i) dot += d[i] * planes_.oriented_coefficient(plane, i);
     if (dot != 0) {
       file_.fail(FileProblem::kSyntax, "the direction of halfedge " + std::to_string(svertex) +
                                            " does not lie on the circle of its shalfedge");
@@ -361,25 +354,25 @@ class Builder {
   }
 
   const File& file_;
-  Complex complex_;
+  PlaneTable planes_;
+  ComplexBuilder builder_{planes_};
   std::vector<PlaneId> arc_planes_;  // in the order of vertices
   std::vector<PlaneId> loop_planes_;
   std::vector<std::pair<PlaneId, PlaneId>> line_planes_;
   std::size_t arc_at_ = 0, loop_at_ = 0, svertex_at_ = 0;
   Arrangement drawing_;
-  SphereMapBuffer map_;
 };
 
 }  // namespace
 
 Polyhedron read_nef3(std::string_view text, const std::string& path) {
   const File file(text, path);
-  Complex complex;
-  try {
-    complex = Builder(file).run();
-  } catch (const std::logic_error&) {
-    file.fail(FileProblem::kSyntax, "the file is no valid polyhedron: its vertices do not fit together");
+  std::variant<Complex, Defect> made = Builder(file).run();
+  if (const Defect* defect = std::get_if<Defect>(&made)) {
+    file.fail(FileProblem::kSyntax,
+              "the file is no valid polyhedron: its vertices do not fit together: " + defect->text());
   }
+  Complex& complex = std::get<Complex>(made);
   if (const std::string broken = validate(complex); !broken.empty()) {
     file.fail(FileProblem::kSyntax, "the file is no valid polyhedron: " + broken);
   }

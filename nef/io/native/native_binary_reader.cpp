@@ -46,11 +46,7 @@ class BinaryReader {
     isolated_vertices();
     volumes();
     demand(at_ == bytes_.size(), "there is more after its end");
-    try {
-      detail::check_box(c_);
-    } catch (const detail::BrokenInvariant& broken) {
-      corrupt(broken.what);
-    }
+    if (const auto defect = detail::defect_in([this] { detail::check_box(c_); })) corrupt(defect->text());
     return Polyhedron(std::move(c_));
   }
 
@@ -208,14 +204,12 @@ class BinaryReader {
                last.sfaces == sfaces_ && total == std::uint64_t{svertices_} + shalfedges_ + sloops_ + sfaces_,
            "its vertices have not the items that it holds");
     c_.svertex_owner.resize(svertices_);
-    c_.shalfedge_owner.resize(shalfedges_);
-    c_.sface_owner.resize(sfaces_);
+    c_.shalfedge_owner.assign(shalfedges_, 0);
     for (std::uint32_t v = 0; v < vertices_; ++v) {
       const VertexRecord& a = c_.vertices[v];
       const VertexRecord& b = c_.vertices[v + 1];
       for (std::uint32_t i = a.svertices; i < b.svertices; ++i) c_.svertex_owner[i] = v;
-      for (std::uint32_t i = a.shalfedges; i < b.shalfedges; ++i) c_.shalfedge_owner[i] = v;
-      for (std::uint32_t i = a.sfaces; i < b.sfaces; ++i) c_.sface_owner[i] = v;
+      for (std::uint32_t i = a.shalfedges; i < b.shalfedges; i += 2) c_.shalfedge_owner.set(i, v);
     }
   }
 
@@ -390,12 +384,11 @@ class BinaryReader {
     std::uint32_t arriving = c_.twin[c_.corner_halfedge(cycle.back())];
     for (const std::uint32_t corner : cycle) {
       const SHalfedge& e = c_.shalfedges[corner];
-      demand(c_.shalfedge_facet[corner] == kNone, "a corner belongs to two facets");
+      demand(c_.shalfedge_facet.pairs()[corner / 2] == kNone, "a corner belongs to two facets");
       demand(e.plane == c_.facets[f].plane && e.mark == c_.facets[f].mark, "a corner belongs to another facet");
       demand(c_.corner_back_halfedge(corner) == arriving, "a cycle leaves its edges");
       arriving = c_.twin[c_.corner_halfedge(corner)];
-      c_.shalfedge_facet[corner] = 2 * f;
-      c_.shalfedge_facet[corner ^ 1U] = 2 * f + 1;
+      c_.shalfedge_facet.set(corner, 2 * f);
     }
   }
 

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <exception>
-
 #include "nef/io/native/native_binary.h"
 #include "nef/io/native/native_format.h"
 #include "nef/io/text_cursor.h"
-#include "nef/synthesis/synthesis.h"
+#include "nef/synthesis/complex_builder.h"
 #include "nef/validation/validate.h"
 
 namespace nef {
@@ -17,20 +15,17 @@ class Reader {
   Polyhedron run() {
     const LabelId outer = header();
     planes();
-    complex_.points.reserve(std::min(vertices_, cursor_.rest().size() / 16));
     for (std::size_t v = 0; v < vertices_; ++v) vertex(v);
     expect("end");
     if (!cursor_.at_end()) corrupt("there is more after the word end");
-    try {
-      synthesize(complex_, outer);
-    } catch (const std::logic_error&) {
-      corrupt("its vertices do not fit together");
+    std::variant<Complex, Defect> made = builder_.try_finish_unreduced(outer);
+    if (const Defect* defect = std::get_if<Defect>(&made)) {
+      corrupt("its vertices do not fit together: " + defect->text());
     }
-    if (complex_.volumes.empty() || complex_.volumes[0].mark != outer) {
-      corrupt("its outer volume is marked otherwise than its vertices say");
-    }
-    if (const std::string broken = detail::validate_links(complex_); !broken.empty()) corrupt(broken);
-    return Polyhedron(std::move(complex_));
+    Complex& complex = std::get<Complex>(made);
+    if (complex.volumes[0].mark != outer) corrupt("its outer volume is marked otherwise than its vertices say");
+    if (const std::string broken = detail::validate_links(complex); !broken.empty()) corrupt(broken);
+    return Polyhedron(std::move(complex));
   }
 
  private:
@@ -127,7 +122,7 @@ class Reader {
       if (c[0] == 0 && c[1] == 0 && c[2] == 0) {
         cursor_.fail(FileProblem::kSyntax, "the normal of plane " + std::to_string(i) + " is zero");
       }
-      planes_.push_back(complex_.planes.intern(c[0], c[1], c[2], c[3], c[4]));
+      planes_.push_back(table_.intern(c[0], c[1], c[2], c[3], c[4]));
     }
   }
 
@@ -138,22 +133,23 @@ class Reader {
     if (coordinates[3] == 0) {
       cursor_.fail(FileProblem::kSyntax, "the denominator of vertex " + std::to_string(v) + " is zero");
     }
-    complex_.points.push_homogeneous(coordinates);
+    const PointId point = point_.push_homogeneous(coordinates);
     map_.clear();
     map_.mark = mark();
     sphere_map();
     // Before synthesis: it may rely on all of this.
-    if (const std::string broken = validate(complex_.planes, map_.view()); !broken.empty()) {
+    if (const std::string broken = validate(table_, map_.view()); !broken.empty()) {
       corrupt("vertex " + std::to_string(v) + ": " + broken);
     }
-    check_planes(PointId{v});
-    complex_.push_vertex(map_.view());
+    check_planes(point, v);
+    builder_.append(point_, point, map_.view());
+    point_.pop();
   }
 
-  void check_planes(PointId point) const {
+  void check_planes(PointId point, std::size_t v) const {
     const auto check = [&](PlaneId plane) {
-      if (side_of_plane(complex_.planes, plane, complex_.points, point) == 0) return;
-      corrupt("vertex " + std::to_string(point.value) + " does not lie on its planes");
+      if (side_of_plane(table_, plane, point_, point) == 0) return;
+      corrupt("vertex " + std::to_string(v) + " does not lie on its planes");
     };
     for (const SVertex& s : map_.svertices) {
       check(s.p);
@@ -225,7 +221,9 @@ class Reader {
   std::size_t vertices_ = 0;
   std::vector<PlaneId> planes_;  // as numbered in the file
   SphereMapBuffer map_;
-  Complex complex_;
+  PlaneTable table_;
+  PointTable point_;  // the one at hand
+  ComplexBuilder builder_{table_};
 };
 
 }  // namespace

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/synthesis/complex_builder.h"
+
+#include <algorithm>
+
+#include "nef/base/error.h"
+#include "nef/complex/local_pyramid.h"
+#include "nef/synthesis/synthesis.h"
+
+namespace nef {
+namespace {
+
+template <typename Items>
+void copy_range(const Items& from, std::uint32_t begin, std::uint32_t end, Items& to) {
+  to.insert(to.end(), from.begin() + begin, from.begin() + end);
+}
+
+void rename(PlaneId& plane, std::span<const std::uint32_t> rows) {
+  plane = PlaneId{rows[plane.row()] << 1U | (plane.value & 1U)};
+}
+
+// A corner of a box where no plane of the set arrives: an octant of one mark.
+bool idle_corner(const SphereMapView& map) {
+  return map.svertices.size() == 3 && map.sfaces.size() == 2 &&
+         std::any_of(map.sfaces.begin(), map.sfaces.end(), [](const SFace& f) { return f.mark == kOutside; });
+}
+
+}  // namespace
+
+void ComplexBuilder::reserve(std::size_t vertices, const VertexRecord& items) {
+  complex_.points.reserve(vertices);
+  complex_.vertices.reserve(vertices + 1);
+  complex_.svertices.reserve(items.svertices);
+  complex_.shalfedges.reserve(items.shalfedges);
+  complex_.sloops.reserve(items.sloops);
+  complex_.sfaces.reserve(items.sfaces);
+  complex_.entries.reserve(items.entries);
+}
+
+// Into map_. True if that is the map of a vertex.
+bool ComplexBuilder::simplify(Arrangement& drawing, bool sorted) {
+  if (defect_) return false;
+  defect_ = detail::defect_in([&] {
+    if (!sorted) drawing.sort_around_nodes(planes_);
+    drawing.simplify_and_assemble(planes_, map_);
+  });
+  if (defect_) defect_->items.push_back({"vertex", complex_.vertex_count()});
+  return !defect_ && is_vertex(planes_, map_.view());
+}
+
+bool ComplexBuilder::add(const Rational3& point, Arrangement& drawing) {
+  if (!simplify(drawing, false)) return false;
+  complex_.points.push(point);
+  push(map_.view());
+  return true;
+}
+
+bool ComplexBuilder::add(const PointTable& points, PointId point, Arrangement& drawing) {
+  if (!simplify(drawing, false)) return false;
+  append(points, point, map_.view());
+  return true;
+}
+
+bool ComplexBuilder::add_sorted(const PointTable& points, PointId point, Arrangement& drawing) {
+  if (!simplify(drawing, true)) return false;
+  append(points, point, map_.view());
+  return true;
+}
+
+bool ComplexBuilder::add(const std::array<PlaneId, 3>& meeting, Arrangement& drawing) {
+  if (!simplify(drawing, false)) return false;
+  const auto point = complex_.points.push_intersection(planes_, meeting[0], meeting[1], meeting[2]);
+  NEF_ASSERT(point.has_value());
+  push(map_.view());
+  return true;
+}
+
+bool ComplexBuilder::add(const PointTable& points, PointId point, const SphereMapView& map) {
+  if (defect_ || !is_vertex(planes_, map)) return false;
+  append(points, point, map);
+  return true;
+}
+
+void ComplexBuilder::append(const PointTable& points, PointId point, const SphereMapView& map) {
+  complex_.points.push_from(points, point);
+  push(map);
+}
+
+void ComplexBuilder::push(const SphereMapView& map) {
+  Complex& c = complex_;
+  c.vertices.back().mark = map.mark;
+  c.svertices.insert(c.svertices.end(), map.svertices.begin(), map.svertices.end());
+  c.shalfedges.insert(c.shalfedges.end(), map.shalfedges.begin(), map.shalfedges.end());
+  c.sloops.insert(c.sloops.end(), map.sloops.begin(), map.sloops.end());
+  c.sfaces.insert(c.sfaces.end(), map.sfaces.begin(), map.sfaces.end());
+  c.entries.insert(c.entries.end(), map.entries.begin(), map.entries.end());
+  VertexRecord end;
+  end.svertices = static_cast<std::uint32_t>(c.svertices.size());
+  end.shalfedges = static_cast<std::uint32_t>(c.shalfedges.size());
+  end.sloops = static_cast<std::uint32_t>(c.sloops.size());
+  end.sfaces = static_cast<std::uint32_t>(c.sfaces.size());
+  end.entries = static_cast<std::uint32_t>(c.entries.size());
+  c.vertices.push_back(end);
+}
+
+// Indices inside sphere maps are local, so only where they begin changes, and the names of planes and marks.
+void ComplexBuilder::copy(const Complex& from, std::uint32_t first, std::uint32_t count,
+                          std::span<const std::uint32_t> rows, std::span<const LabelId> marks) {
+  constexpr std::uint32_t kBlock = 256;  // vertices whose copies stay in a fast cache while they are renamed
+  complex_.points.append(from.points, first, count);
+  for (const std::uint32_t end = first + count; first < end; first += std::min(kBlock, end - first)) {
+    copy_block(from, first, std::min(kBlock, end - first), rows, marks);
+  }
+}
+
+void ComplexBuilder::copy_block(const Complex& from, std::uint32_t first, std::uint32_t count,
+                                std::span<const std::uint32_t> rows, std::span<const LabelId> marks) {
+  Complex& c = complex_;
+  const VertexRecord begin = from.vertices[first];
+  const VertexRecord end = from.vertices[first + count];
+  const VertexRecord base = c.vertices.back();
+  copy_records(from, first, count, marks);
+  copy_range(from.svertices, begin.svertices, end.svertices, c.svertices);
+  copy_range(from.shalfedges, begin.shalfedges, end.shalfedges, c.shalfedges);
+  copy_range(from.sloops, begin.sloops, end.sloops, c.sloops);
+  copy_range(from.sfaces, begin.sfaces, end.sfaces, c.sfaces);
+  copy_range(from.entries, begin.entries, end.entries, c.entries);
+  const auto fresh = [](auto& items, std::uint32_t at) { return std::span(items).subspan(at); };
+  if (!rows.empty()) {
+    for (SVertex& v : fresh(c.svertices, base.svertices)) {
+      rename(v.p, rows);
+      rename(v.q, rows);
+    }
+    for (SHalfedge& e : fresh(c.shalfedges, base.shalfedges)) rename(e.plane, rows);
+    for (SLoop& l : fresh(c.sloops, base.sloops)) rename(l.plane, rows);
+  }
+  if (!marks.empty()) {
+    const auto remark = [marks](auto items) {
+      for (auto& item : items) {
+        if (item.mark != kOutside) item.mark = marks[item.mark];
+      }
+    };
+    remark(fresh(c.svertices, base.svertices));
+    remark(fresh(c.shalfedges, base.shalfedges));
+    remark(fresh(c.sloops, base.sloops));
+    remark(fresh(c.sfaces, base.sfaces));
+  }
+}
+
+void ComplexBuilder::copy_records(const Complex& from, std::uint32_t first, std::uint32_t count,
+                                  std::span<const LabelId> marks) {
+  const VertexRecord begin = from.vertices[first];
+  const VertexRecord base = complex_.vertices.back();
+  const auto mark = [marks](LabelId label) { return marks.empty() || label == kOutside ? label : marks[label]; };
+  complex_.vertices.back().mark = mark(begin.mark);
+  for (std::uint32_t v = first + 1; v <= first + count; ++v) {
+    VertexRecord record = from.vertices[v];
+    record.svertices += base.svertices - begin.svertices;
+    record.shalfedges += base.shalfedges - begin.shalfedges;
+    record.sloops += base.sloops - begin.sloops;
+    record.sfaces += base.sfaces - begin.sfaces;
+    record.entries += base.entries - begin.entries;
+    record.mark = v == first + count ? LabelId{0} : mark(record.mark);
+    complex_.vertices.push_back(record);
+  }
+}
+
+void ComplexBuilder::take_vertices(Complex&& from) {
+  complex_ = Complex();
+  complex_.points = std::move(from.points);
+  complex_.vertices = std::move(from.vertices);
+  complex_.svertices = std::move(from.svertices);
+  complex_.shalfedges = std::move(from.shalfedges);
+  complex_.sloops = std::move(from.sloops);
+  complex_.sfaces = std::move(from.sfaces);
+  complex_.entries = std::move(from.entries);
+}
+
+// A box whose walls hold nothing but its eight corners says only what the outer volume is: the
+// set is finitely bounded, or its complement is.
+void ComplexBuilder::drop_idle_box(LabelId& outer) {
+  const Complex& c = complex_;
+  std::size_t infinite = 0;
+  std::uint32_t corner = kNone;
+  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
+    if (c.points.finite(PointId{v})) continue;
+    // Eight vertices are not enough: a plane may pass through edges of the box.
+    if (!idle_corner(c.sphere_map(v))) return;
+    ++infinite;
+    corner = v;
+  }
+  if (infinite != 8) return;
+  outer = c.vertices[corner].mark;
+  ComplexBuilder kept(planes_);
+  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
+    if (c.points.finite(PointId{v})) kept.copy(c, v, 1);
+  }
+  complex_ = std::move(kept.complex_);
+}
+
+// Cascades would otherwise carry the planes of everything that ever was.
+void ComplexBuilder::drop_idle_planes() {
+  Complex& c = complex_;
+  std::vector<bool> used(planes_.size(), false);
+  for (const SVertex& v : c.svertices) used[v.p.row()] = used[v.q.row()] = true;
+  for (const SHalfedge& e : c.shalfedges) used[e.plane.row()] = true;
+  for (const SLoop& l : c.sloops) used[l.plane.row()] = true;
+  const auto count = static_cast<std::size_t>(std::count(used.begin(), used.end(), true));
+  if (count == used.size()) return;
+  PlaneTable planes;
+  planes.reserve(count);
+  std::vector<std::uint32_t> row(used.size(), kNone);
+  for (std::uint32_t i = 0; i < used.size(); ++i) {
+    if (used[i]) row[i] = planes.append_new(planes_, i);
+  }
+  for (SVertex& v : c.svertices) {
+    rename(v.p, row);
+    rename(v.q, row);
+  }
+  for (SHalfedge& e : c.shalfedges) rename(e.plane, row);
+  for (SLoop& l : c.sloops) rename(l.plane, row);
+  planes_ = std::move(planes);
+}
+
+Complex ComplexBuilder::take() {
+  if (defect_) throw detail::BrokenInvariant(std::move(*defect_));
+  planes_.trim();  // before the links need room
+  complex_.planes = std::move(planes_);
+  return std::move(complex_);
+}
+
+Complex ComplexBuilder::finish(LabelId outer) {
+  drop_idle_box(outer);
+  drop_idle_planes();
+  return finish_unreduced(outer);
+}
+
+Complex ComplexBuilder::finish_unreduced(LabelId outer) {
+  Complex complex = take();
+  synthesize(complex, outer);
+  complex.trim();
+  return complex;
+}
+
+Complex ComplexBuilder::finish(LabelId outer, KnownLinks&& known) {
+  Complex complex = take();
+  synthesize(complex, outer, std::move(known));
+  complex.trim();
+  return complex;
+}
+
+namespace {
+
+template <typename Finish>
+std::variant<Complex, Defect> complex_or_defect(Finish&& finish) {
+  std::optional<Complex> complex;
+  std::optional<Defect> defect = detail::defect_in([&] { complex.emplace(finish()); });
+  if (defect) return std::move(*defect);
+  return std::move(*complex);
+}
+
+}  // namespace
+
+std::variant<Complex, Defect> ComplexBuilder::try_finish(LabelId outer) {
+  return complex_or_defect([&] { return finish(outer); });
+}
+
+std::variant<Complex, Defect> ComplexBuilder::try_finish(LabelId outer, KnownLinks&& known) {
+  return complex_or_defect([&] { return finish(outer, std::move(known)); });
+}
+
+std::variant<Complex, Defect> ComplexBuilder::try_finish_unreduced(LabelId outer) {
+  return complex_or_defect([&] { return finish_unreduced(outer); });
+}
+
+}  // namespace nef

@@ -147,6 +147,10 @@ std::size_t polygon_vertices(const Views& views) {
   return vertices;
 }
 
+bool worth_direct(const Views& views) {
+  return polygon_vertices(views) >= kDirectVertices && views.size() <= kDirectViews;
+}
+
 /// The box to look at, in the coordinates of the place.
 struct Room {
   WorldBox box;
@@ -178,9 +182,9 @@ Room room_of(const Scene& scene, const Options& options, const Views& views, con
     const WorldBox& box = options.box ? *options.box : *scene.box;
     check_box(box, "box");
     room.box = place.inward(box);
-    // Only the direct way asks for more, and not for a few vertices.
+    // Only the direct way asks for more.
     if (options.way == Way::kCones || options.at_least) return room;
-    if (options.way == Way::kBest && polygon_vertices(views) < kDirectVertices) return room;
+    if (options.way == Way::kBest && !worth_direct(views)) return room;
   }
   std::vector<HalfSpace> half_spaces;
   for (std::size_t i = 0; i < views.size(); ++i) {
@@ -245,8 +249,7 @@ std::optional<nef::Polyhedron> direct(const Run& run, const Views& views, const 
     inputs.push_back({&place.cameras[i], &views[i].silhouette.region});
   }
   if (!room.enclosing) return std::nullopt;
-  const bool worth = polygon_vertices(views) >= kDirectVertices && inputs.size() <= kDirectViews;
-  if (run.options.way == Way::kBest && !worth) return std::nullopt;
+  if (run.options.way == Way::kBest && !worth_direct(views)) return std::nullopt;
   for (std::size_t i = 0; i < 3 && !room.found; ++i) {
     if (room.enclosing->low[i] <= room.box.low[i] || room.enclosing->high[i] >= room.box.high[i]) return std::nullopt;
   }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The command as a user runs it, on the data that comes with the project.
-#include <sys/wait.h>
-
 #include <catch2/catch.hpp>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -14,31 +12,16 @@
 #include "nef/io/polyhedron_file.h"
 #include "tests/support/paths.h"
 #include "tests/visual_hull/helpers.h"
+#include "tests/visual_hull/run_command.h"
 #include "tests/visual_hull/scratch.h"
 
 namespace visual_hull {
 namespace {
 
 using Catch::Contains;
+using testing::Outcome;
+using testing::run;
 using testing::Scratch;
-
-struct Outcome {
-  int code = -1;
-  std::string output;
-};
-
-// Runs the command; `output` is standard output and standard error together.
-Outcome run(const std::string& arguments) {
-  const std::string command = program_folder() + "/visual_hull " + arguments + " 2>&1";
-  Outcome outcome;
-  FILE* pipe = popen(command.c_str(), "r");
-  REQUIRE(pipe != nullptr);
-  std::array<char, 4096> buffer{};
-  for (std::size_t n = 0; (n = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
-    outcome.output.append(buffer.data(), n);
-  outcome.code = WEXITSTATUS(pclose(pipe));
-  return outcome;
-}
 
 std::string data(const std::string& name) { return source_folder() + "/data/visual_hull/" + name; }
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Video: hulls frame by frame, from memory and from files.
-#include <sys/wait.h>
-
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -17,6 +15,7 @@
 #include "nef/io/polyhedron_file.h"
 #include "tests/support/paths.h"
 #include "tests/visual_hull/helpers.h"
+#include "tests/visual_hull/run_command.h"
 #include "tests/visual_hull/scratch.h"
 
 namespace visual_hull {
@@ -24,6 +23,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using Catch::Contains;
+using testing::Outcome;
+using testing::run;
 using testing::Scratch;
 
 fs::path elk() { return fs::path(source_folder()) / "data/visual_hull/elk"; }
@@ -94,23 +95,6 @@ TEST_CASE("Paths with a place for a number") {
   CHECK(NumberedPath((s.folder() / "f_%02d").string(), "-o").existing() == std::vector<std::size_t>{2, 10, 100});
   CHECK(NumberedPath((s.folder() / "f_%d/in").string(), "-o").existing() == std::vector<std::size_t>{1, 10, 100});
   CHECK(NumberedPath((s.folder() / "f_%d/out").string(), "-o").existing().empty());
-}
-
-struct Outcome {
-  int code = -1;
-  std::string output;
-};
-
-Outcome run(const std::string& arguments) {
-  const std::string command = program_folder() + "/visual_hull " + arguments + " 2>&1";
-  Outcome outcome;
-  FILE* pipe = popen(command.c_str(), "r");
-  REQUIRE(pipe != nullptr);
-  std::array<char, 4096> buffer{};
-  for (std::size_t n = 0; (n = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
-    outcome.output.append(buffer.data(), n);
-  outcome.code = WEXITSTATUS(pclose(pipe));
-  return outcome;
 }
 
 std::vector<nlohmann::json> lines_of(const fs::path& file) {

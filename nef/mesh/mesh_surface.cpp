@@ -38,12 +38,11 @@ void drop_spikes(std::vector<std::uint32_t>& ring) {
   std::size_t first = 0;
   std::size_t last = kept.size();
   while (last - first > 1) {
-    if (kept[first] == kept[last - 1]) {
+    const bool longer = last - first > 2;
+    if (kept[first] == kept[last - 1] || (longer && kept[first] == kept[last - 2])) {
       --last;
-    } else if (last - first > 2 && kept[first + 1] == kept[last - 1]) {
+    } else if (longer && kept[first + 1] == kept[last - 1]) {
       ++first;
-    } else if (last - first > 2 && kept[first] == kept[last - 2]) {
-      --last;
     } else {
       break;
     }

@@ -72,7 +72,7 @@ class Linker {
   void link_all() {
     keys_.resize(c_.svertices.size());
     c_.twin.assign(c_.svertices.size(), kNone);
-    for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) name_lines(v, &keys_[c_.vertices[v].svertices]);
+    for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) name_lines(v, keys_.data() + c_.vertices[v].svertices);
     name_bare_lines();
     bucket();
   }

@@ -87,23 +87,28 @@ def ratio(ours, cgal, key):
     return f"{cgal[key] / ours[key]:.1f}"
 
 
+def measured(args, name, engines):
+    """The best report of each engine for one case, over passes in which they take turns. Tells of errors."""
+    directory = os.path.join(args.directory, name)
+    subprocess.run([os.path.join(args.bin, "nef_bench_generate"), args.directory, name], check=True)
+    best = {}
+    for _ in range(args.passes):
+        for engine, binary in engines.items():
+            best[engine] = better(best.get(engine), run(binary, directory, args.repeat, args.timeout))
+    for engine, report in best.items():
+        if "error" in report:
+            print(f"{name}: {engine}: {report['error']}", file=sys.stderr)
+    return best
+
+
 def table(args, engines):
     header = ["case", "ours s", "CGAL s", "ratio", "wanted", "coref s", "build s", "CGAL", "ratio", "MB", "CGAL", "ratio",
               "counts", "V/E/F/C"]
     rows = []
     results = {}
     for name in args.cases or CASES:
-        directory = os.path.join(args.directory, name)
-        subprocess.run([os.path.join(args.bin, "nef_bench_generate"), args.directory, name], check=True)
-        best = {}
-        for _ in range(args.passes):
-            for engine, binary in engines.items():
-                best[engine] = better(best.get(engine), run(binary, directory, args.repeat, args.timeout))
-        results[name] = best
+        best = results[name] = measured(args, name, engines)
         ours, cgal, coref = best["nef"], best.get("cgal"), best.get("corefinement")
-        for engine, report in best.items():
-            if "error" in report:
-                print(f"{name}: {engine}: {report['error']}", file=sys.stderr)
         memory = ratio(ours, cgal, "peak_kb")
         rows.append([name, cell(ours, "op_s"), cell(cgal, "op_s"), ratio(ours, cgal, "op_s"),
                      str(WANTED.get(name.split("-")[0], "")), cell(coref, "op_s"), cell(ours, "build_s"),
@@ -136,17 +141,8 @@ def beside_manifold(args, binaries):
     rows = []
     results = {}
     for name in args.cases or MANIFOLD_CASES:
-        directory = os.path.join(args.directory, name)
-        subprocess.run([os.path.join(args.bin, "nef_bench_generate"), args.directory, name], check=True)
-        best = {}
-        for _ in range(args.passes):
-            for engine, binary in binaries.items():
-                best[engine] = better(best.get(engine), run(binary, directory, args.repeat, args.timeout))
-        results[name] = best
+        best = results[name] = measured(args, name, binaries)
         ours, theirs = best["nef"], best["manifold"]
-        for engine, report in best.items():
-            if "error" in report:
-                print(f"{name}: {engine}: {report['error']}", file=sys.stderr)
         row = [name]
         for _, key in keys:
             for report in (ours, theirs):

@@ -13,6 +13,7 @@
 #include <span>
 
 #include "apps/minkowski/minkowski.h"
+#include "nef/distance/distance.h"
 
 namespace nef::minkowski {
 
@@ -66,11 +67,7 @@ std::optional<Rational> excess_of_hull(const Polyhedron& a);
 
 /// How two bounded sets stand to each other; their closures and interiors decide.
 struct Penetration {
-  enum class Kind : std::uint8_t {
-    kDisjoint,  ///< the closures have no point in common
-    kTouching,  ///< the closures have, the interiors have not
-    kOverlapping
-  };
+  using Kind = Contact;
   Kind kind = Kind::kDisjoint;
   /// The shortest translation of B (one of them) after which they touch: 0 if they do so already; the way out if they
   /// overlap, the way to contact if they are disjoint. Exact.

@@ -10,6 +10,7 @@
 #include "apps/planner/path/question.h"
 #include "fuzz/fuzzer.h"
 #include "nef/construct/construct.h"
+#include "tests/support/oblique_rotation.h"
 
 namespace nef::fuzz {
 namespace {
@@ -125,19 +126,6 @@ std::string text_of(const Polygon& polygon) {
   return text;
 }
 
-// The rotation with columns (1,2,2)/3, (2,1,-2)/3, (2,-2,1)/3, which keeps lengths.
-AffineMap oblique() {
-  AffineMap map = AffineMap::identity();
-  const std::array<std::array<int, 3>, 3> rows{{{1, 2, 2}, {2, 1, -2}, {2, -2, 1}}};
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      map.linear[i][k] = Rational(rows[i][k], 3);
-      map.linear[i][k].canonicalize();
-    }
-  }
-  return map;
-}
-
 constexpr int kHalf = 9;     // of the box in the plane
 constexpr int kTall = 1000;  // of obstacles, so that no short way leads over them
 
@@ -146,7 +134,7 @@ constexpr int kTall = 1000;  // of obstacles, so that no short way leads over th
 void fuzz_visibility(const Case& the_case) {
   Choices& choices = the_case.choices();
   const bool turned = choices.below(2) == 1;
-  const AffineMap map = turned ? oblique() : AffineMap::identity();
+  const AffineMap map = turned ? nef::test::oblique_rotation() : AffineMap::identity();
   const Polygon robot = random_polygon(choices, -1, 1);
   the_case.tell("robot" + text_of(robot));
   planner::Scene scene;

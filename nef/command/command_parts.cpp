@@ -105,18 +105,6 @@ void add_split(CLI::App& app, Session& session) {
   });
 }
 
-const char* name(Contact contact) {
-  switch (contact) {
-    case Contact::kDisjoint:
-      return "disjoint";
-    case Contact::kTouching:
-      return "touching";
-    case Contact::kOverlapping:
-      break;
-  }
-  return "overlapping";
-}
-
 void add_distance(CLI::App& app, Session& session) {
   CLI::App* command =
       add_subcommand(app, session, "distance", "How far apart are two sets? The exact square, and nearest points");
@@ -131,14 +119,14 @@ void add_distance(CLI::App& app, Session& session) {
     if (session.json) {
       return session.print({{"load_s", session.load_s},
                             {"op_s", watch.seconds()},
-                            {"contact", name(found->contact)},
+                            {"contact", contact_name(found->contact)},
                             {"common_point", found->common_point},
                             {"squared", to_string(found->squared)},
                             {"distance", found->value()},
                             {"on_a", point_json(found->on_a)},
                             {"on_b", point_json(found->on_b)}});
     }
-    session.say(std::string(name(found->contact)) +
+    session.say(std::string(contact_name(found->contact)) +
                 (found->contact == Contact::kTouching && !found->common_point ? ", without a common point" : ""));
     if (found->contact == Contact::kOverlapping) return;
     if (found->contact == Contact::kDisjoint) {

@@ -16,6 +16,7 @@ PlaneAxes::PlaneAxes(const PlaneTable& planes, PlaneId plane) {
   // The largest component is at least 1/2 in these doubles, so it is truly not zero.
   first = static_cast<int>((drop + 1) % 3);
   second = static_cast<int>((drop + 2) % 3);
+  dropped = static_cast<int>(drop);
   positive = n[drop] > 0;
 }
 

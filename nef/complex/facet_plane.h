@@ -14,6 +14,7 @@ struct PlaneAxes {
   PlaneAxes(const PlaneTable& planes, PlaneId plane);
   int first = 0;
   int second = 1;
+  int dropped = 2;
   bool positive = true;  ///< (first, second) turns counterclockwise as seen from the unflipped normal's side
 
   /// Lexicographic by first, then second.

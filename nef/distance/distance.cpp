@@ -80,6 +80,18 @@ double Distance::value() const {
   return std::ldexp(std::sqrt(root), static_cast<int>(std::clamp(exponent / 2, -100000L, 100000L)));
 }
 
+std::string_view contact_name(Contact contact) {
+  switch (contact) {
+    case Contact::kDisjoint:
+      return "disjoint";
+    case Contact::kTouching:
+      return "touching";
+    case Contact::kOverlapping:
+      break;
+  }
+  return "overlapping";
+}
+
 std::optional<Distance> distance(const Polyhedron& a, const Polyhedron& b) {
   if (a.is_empty() || b.is_empty()) return std::nullopt;
   Polyhedron closed_a = a.is_closed() ? a : closure(a);

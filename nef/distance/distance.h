@@ -5,16 +5,21 @@
 
 #include <cstdint>
 #include <optional>
+#include <string_view>
 
 #include "nef/polyhedron.h"
 
 namespace nef {
 
+/// How two sets stand to each other.
 enum class Contact : std::uint8_t {
   kDisjoint,    ///< the distance is positive
   kTouching,    ///< the closures share a point, the interiors none
   kOverlapping  ///< the interiors share a point
 };
+
+/// "disjoint", "touching" or "overlapping": how reports and Python spell it.
+std::string_view contact_name(Contact contact);
 
 /// The exact distance of the closures of two sets, i.e. the infimum over pairs of points of the sets.
 struct Distance {

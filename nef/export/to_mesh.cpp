@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "nef/base/error.h"
+#include "nef/complex/facet_plane.h"
 #include "nef/mesh/triangulate.h"
 #include "nef/number/nearest_quotient.h"
 
@@ -329,12 +330,8 @@ class Exporter {
   }
 
   [[nodiscard]] std::pair<std::size_t, int> projection(PlaneId plane) const {
-    const auto& normal = complex_.planes.approximate(plane);
-    std::size_t axis = 0;
-    for (std::size_t i = 1; i < 3; ++i) {
-      if (std::abs(normal[i]) > std::abs(normal[axis])) axis = i;
-    }
-    return {axis, normal[axis] > 0 ? 1 : -1};
+    const PlaneAxes axes(complex_.planes, plane);
+    return {static_cast<std::size_t>(axes.dropped), axes.positive ? 1 : -1};
   }
 
   // Sorts an item by what its mark and the volumes around it say about the mesh.

@@ -203,21 +203,8 @@ class VolumeLinker {
   void fill_shells(const std::vector<std::uint32_t>& shell_of) {
     const auto count = static_cast<std::uint32_t>(c_.sfaces.size());
     c_.sface_shell.resize(count);
-    for (std::uint32_t f = 0; f < count; ++f) {
-      c_.sface_shell[f] = shell_of[sfaces_.find(f)];
-      ++c_.shells[c_.sface_shell[f]].sface_count;
-    }
-    std::uint32_t first = 0;
-    for (Shell& shell : c_.shells) {
-      shell.first_sface = first;
-      first += shell.sface_count;
-      shell.sface_count = 0;
-    }
-    c_.shell_sfaces.resize(count);
-    for (std::uint32_t f = 0; f < count; ++f) {
-      Shell& shell = c_.shells[c_.sface_shell[f]];
-      c_.shell_sfaces[shell.first_sface + shell.sface_count++] = f;
-    }
+    for (std::uint32_t f = 0; f < count; ++f) c_.sface_shell[f] = shell_of[sfaces_.find(f)];
+    list_sfaces_of_shells(c_);
     for (Facet& facet : c_.facets) {
       const std::uint32_t corner = c_.facet_corners(facet)[0];
       facet.volume_above = c_.sface_volume(c_.shalfedge_sface(corner));
@@ -243,6 +230,23 @@ void link_volumes(Complex& complex, LabelId outer) {
     return;
   }
   VolumeLinker(complex).run();
+}
+
+void list_sfaces_of_shells(Complex& complex) {
+  for (Shell& shell : complex.shells) shell.sface_count = 0;
+  for (const std::uint32_t s : complex.sface_shell) ++complex.shells[s].sface_count;
+  std::uint32_t first = 0;
+  for (Shell& shell : complex.shells) {
+    shell.first_sface = first;
+    first += shell.sface_count;
+    shell.sface_count = 0;
+  }
+  const auto count = static_cast<std::uint32_t>(complex.sface_shell.size());
+  complex.shell_sfaces.resize(count);
+  for (std::uint32_t f = 0; f < count; ++f) {
+    Shell& shell = complex.shells[complex.sface_shell[f]];
+    complex.shell_sfaces[shell.first_sface + shell.sface_count++] = f;
+  }
 }
 
 }  // namespace nef

@@ -10,4 +10,7 @@ namespace nef {
 /// Near-linear, plus one ray for each connected component of the boundary after the first.
 void link_volumes(Complex& complex, LabelId outer);
 
+/// Fills shell_sfaces, and the ranges of the shells in it, from sface_shell. The shells must be there. O(n).
+void list_sfaces_of_shells(Complex& complex);
+
 }  // namespace nef

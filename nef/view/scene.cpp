@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "nef/base/error.h"
+#include "nef/complex/facet_plane.h"
 #include "nef/construct/construct.h"
 #include "nef/mesh/triangulate.h"
 #include "nef/query/predicates_of_sets.h"
@@ -100,12 +101,8 @@ class SceneBuilder {
   }
 
   [[nodiscard]] std::pair<std::size_t, int> projection(PlaneId plane) const {
-    const auto& normal = complex_.planes.approximate(plane);
-    std::size_t axis = 0;
-    for (std::size_t i = 1; i < 3; ++i) {
-      if (std::abs(normal[i]) > std::abs(normal[axis])) axis = i;
-    }
-    return {axis, normal[axis] > 0 ? 1 : -1};
+    const PlaneAxes axes(complex_.planes, plane);
+    return {static_cast<std::size_t>(axes.dropped), axes.positive ? 1 : -1};
   }
 
   const Complex& complex_;

@@ -16,18 +16,6 @@
 namespace nef::python {
 namespace {
 
-const char* contact_name(Contact contact) {
-  switch (contact) {
-    case Contact::kDisjoint:
-      return "disjoint";
-    case Contact::kTouching:
-      return "touching";
-    case Contact::kOverlapping:
-      break;
-  }
-  return "overlapping";
-}
-
 // A named tuple of the module nef.results.
 py::object result_of(const char* type, const py::args& values) {
   return py::module_::import("nef.results").attr(type)(*values);

@@ -18,18 +18,6 @@ Scene mapped(const Scene& scene, const AffineMap& map) {
   return result;
 }
 
-AffineMap oblique_rotation() {
-  AffineMap map = AffineMap::identity();
-  const std::array<std::array<int, 3>, 3> rows{{{1, 2, 2}, {2, 1, -2}, {2, -2, 1}}};
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      map.linear[i][k] = Rational(rows[i][k], 3);
-      map.linear[i][k].canonicalize();
-    }
-  }
-  return map;
-}
-
 std::vector<int> component_dimensions(const FreeSpace& free) {
   std::vector<int> result;
   for (const Component& component : free.components()) result.push_back(component.dimension);

@@ -6,9 +6,12 @@
 #include <string>
 
 #include "apps/planner/path/question.h"
+#include "tests/support/oblique_rotation.h"
 #include "tests/support/paths.h"
 
 namespace nef::planner::test {
+
+using nef::test::oblique_rotation;
 
 /// A scene of data/planner, without its extension.
 inline Scene load(const std::string& name) { return read_scene(source_folder() + "/data/planner/" + name + ".json"); }
@@ -16,9 +19,6 @@ inline Scene load(const std::string& name) { return read_scene(source_folder() +
 /// The scene with obstacles, start and goal mapped by `map` and the robot by its linear part. Boxes are axis-parallel,
 /// so the scene must have none.
 Scene mapped(const Scene& scene, const AffineMap& map);
-
-/// The rotation with columns (1,2,2)/3, (2,1,-2)/3, (2,-2,1)/3.
-AffineMap oblique_rotation();
 
 /// Component dimensions, largest first.
 std::vector<int> component_dimensions(const FreeSpace& free);

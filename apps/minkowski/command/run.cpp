@@ -201,7 +201,7 @@ class Run {
     const auto [a, b] = both_operands();
     const Penetration p = penetration(a, b, options_, &report_);
     const bool overlap = p.kind == Penetration::Kind::kOverlapping;
-    const std::string kind = overlap ? "overlapping" : p.kind == Penetration::Kind::kTouching ? "touching" : "disjoint";
+    const std::string kind(contact_name(p.kind));
     Json object = base_report();
     object["penetration"] = {{"kind", kind},
                              {"translation", point_json(p.translation)},

@@ -25,41 +25,6 @@ constexpr std::uint32_t kBinaryChunk = 0x004e4942;
 enum ComponentType : int { kUint8 = 5121, kUint16 = 5123, kUint32 = 5125, kFloat = 5126 };
 enum PrimitiveMode : int { kTriangles = 4, kTriangleStrip = 5, kTriangleFan = 6 };
 
-// x -> linear x + translation.
-struct Placement {
-  std::array<std::array<Rational, 3>, 3> linear;
-  Rational3 translation;
-
-  static Placement identity() {
-    Placement p;
-    for (std::size_t i = 0; i < 3; ++i) p.linear[i][i] = 1;
-    return p;
-  }
-  Rational3 operator()(const Rational3& x) const {
-    Rational3 y = translation;
-    for (std::size_t i = 0; i < 3; ++i) {
-      for (std::size_t k = 0; k < 3; ++k) y[i] += linear[i][k] * x[k];
-    }
-    return y;
-  }
-  [[nodiscard]] bool mirrors() const {
-    const auto& m = linear;
-    return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
-               m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]) <
-           0;
-  }
-  [[nodiscard]] Placement after(const Placement& first) const {
-    Placement p;
-    p.translation = (*this)(first.translation);
-    for (std::size_t i = 0; i < 3; ++i) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        for (std::size_t j = 0; j < 3; ++j) p.linear[i][k] += linear[i][j] * first.linear[j][k];
-      }
-    }
-    return p;
-  }
-};
-
 class Reader {
  public:
   Reader(std::string_view bytes, const std::string& path) : path_(path) {
@@ -114,7 +79,7 @@ class Reader {
       fail(FileProblem::kUnsupported, "it needs the extension " + in_quotes(extension.get<std::string>()));
     }
     // z up here, y up there.
-    Placement upright;
+    AffineMap upright;
     upright.linear[0][0] = 1;
     upright.linear[1][2] = -1;
     upright.linear[2][1] = 1;
@@ -126,11 +91,11 @@ class Reader {
     for (std::size_t m = 0; m < document_.value("meshes", Json::array()).size(); ++m) add_mesh(m, upright);
   }
 
-  void walk(std::size_t index, const Placement& above, int depth) {
+  void walk(std::size_t index, const AffineMap& above, int depth) {
     constexpr int kDeepest = 200;
     if (depth > kDeepest) fail(FileProblem::kUnsupported, "its nodes are nested too deeply");
     const Json& node = item("nodes", index);
-    const Placement here = above.after(placement(node));
+    const AffineMap here = above.after(placement(node));
     if (node.contains("mesh")) add_mesh(node["mesh"].get<std::size_t>(), here);
     for (const Json& child : node.value("children", Json::array())) walk(child.get<std::size_t>(), here, depth + 1);
   }
@@ -141,8 +106,8 @@ class Reader {
     return exact_rational(x);
   }
 
-  [[nodiscard]] Placement placement(const Json& node) const {
-    Placement p = Placement::identity();
+  [[nodiscard]] AffineMap placement(const Json& node) const {
+    AffineMap p = AffineMap::identity();
     if (node.contains("matrix")) {
       const Json& m = node["matrix"];  // column by column
       for (std::size_t i = 0; i < 3; ++i) {
@@ -246,7 +211,7 @@ class Reader {
     return result;
   }
 
-  void add_mesh(std::size_t index, const Placement& placement) {
+  void add_mesh(std::size_t index, const AffineMap& placement) {
     for (const Json& primitive : item("meshes", index).at("primitives")) {
       const int mode = primitive.value("mode", int{kTriangles});
       if (mode != kTriangles && mode != kTriangleStrip && mode != kTriangleFan) continue;  // points and lines
@@ -254,7 +219,7 @@ class Reader {
     }
   }
 
-  void add_primitive(const Json& primitive, int mode, const Placement& placement) {
+  void add_primitive(const Json& primitive, int mode, const AffineMap& placement) {
     const Accessor positions = accessor(primitive.at("attributes").at("POSITION").get<std::size_t>(), "VEC3", 3);
     if (positions.type != kFloat) fail(FileProblem::kUnsupported, "its positions are no floats");
     std::vector<std::uint32_t> vertex;
@@ -269,7 +234,7 @@ class Reader {
     }
     const std::vector<std::uint32_t> list = indices(primitive, positions.count);
     const std::size_t step = mode == kTriangles ? 3 : 1;
-    const bool mirrors = placement.mirrors();
+    const bool mirrors = placement.determinant() < 0;
     for (std::size_t i = 0; i + 2 < list.size(); i += step) {
       std::array<std::uint32_t, 3> t{list[mode == kTriangleFan ? 0 : i], list[i + 1], list[i + 2]};
       if ((mode == kTriangleStrip && i % 2 == 1) != mirrors) std::swap(t[0], t[1]);

@@ -24,46 +24,11 @@ constexpr const char* kCore = "http://schemas.microsoft.com/3dmanufacturing/core
 constexpr const char* kProduction = "http://schemas.microsoft.com/3dmanufacturing/production/2015/06";
 constexpr const char* kMaterials = "http://schemas.microsoft.com/3dmanufacturing/material/2015/02";
 
-// A point x, as a row, becomes x linear + translation: four rows of three numbers, as the files have them.
-struct Placement {
-  std::array<std::array<Rational, 3>, 4> rows;
-
-  static Placement identity() {
-    Placement p;
-    for (std::size_t i = 0; i < 3; ++i) p.rows[i][i] = 1;
-    return p;
-  }
-  Rational3 operator()(const Rational3& x) const {
-    Rational3 y = rows[3];
-    for (std::size_t i = 0; i < 3; ++i) {
-      for (std::size_t k = 0; k < 3; ++k) y[k] += x[i] * rows[i][k];
-    }
-    return y;
-  }
-  // First this, then `next`.
-  [[nodiscard]] Placement then(const Placement& next) const {
-    Placement p;
-    for (std::size_t i = 0; i < 4; ++i) {
-      p.rows[i] = i < 3 ? Rational3{} : next.rows[3];
-      for (std::size_t j = 0; j < 3; ++j) {
-        for (std::size_t k = 0; k < 3; ++k) p.rows[i][k] += rows[i][j] * next.rows[j][k];
-      }
-    }
-    return p;
-  }
-  [[nodiscard]] bool mirrors() const {
-    const auto& m = rows;
-    return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
-               m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]) <
-           0;
-  }
-};
-
 // An object that another one, or the build, places.
 struct Use {
   std::string part;  // of the archive
   std::string id;
-  Placement placement;
+  AffineMap placement;
 };
 
 struct Object {
@@ -150,14 +115,17 @@ class PartReader {
   }
 
   Use use(const XmlElement& e) const {
-    Use result{name_, need(e, "objectid"), Placement::identity()};
+    Use result{name_, need(e, "objectid"), AffineMap::identity()};
     if (const std::string* part = e.find(std::string(kProduction) + "|path")) result.part = *part;
     if (const std::string* text = e.find("transform")) {
       std::istringstream words(*text);
       std::string word;
       std::size_t count = 0;
       for (; words >> word; ++count) {
-        if (count < 12) result.placement.rows[count / 3][count % 3] = number(word);
+        // Four rows: where the unit vectors go, and the origin.
+        const std::size_t row = count / 3;
+        if (row < 3) result.placement.linear[count % 3][row] = number(word);
+        if (row == 3) result.placement.translation[count % 3] = number(word);
       }
       if (count != 12) fail(FileProblem::kSyntax, "a transform has " + std::to_string(count) + " numbers, not 12");
     }
@@ -210,7 +178,7 @@ class Reader {
 
   Mesh read() {
     const std::string root = model_part(archive_, path_);
-    for (const Use& item : part(root).items) place(item, Placement::identity(), 0);
+    for (const Use& item : part(root).items) place(item, AffineMap::identity(), 0);
     return std::move(mesh_);
   }
 
@@ -237,7 +205,7 @@ class Reader {
     }
   }
 
-  void place(const Use& use, const Placement& outer, int depth) {
+  void place(const Use& use, const AffineMap& outer, int depth) {
     constexpr int kDeepest = 100;
     if (depth > kDeepest) fail(FileProblem::kUnsupported, "its components are nested too deeply");
     const Part& home = part(use.part.starts_with("/") ? use.part : "/" + use.part);
@@ -248,16 +216,16 @@ class Reader {
     const Object& object = found->second;
     if (!object.counts) return;
     count(object.triangles.size());
-    const Placement placement = use.placement.then(outer);
+    const AffineMap placement = outer.after(use.placement);
     add(object, placement);
     for (const Use& component : object.components) place(component, placement, depth + 1);
   }
 
-  void add(const Object& object, const Placement& placement) {
+  void add(const Object& object, const AffineMap& placement) {
     std::vector<std::uint32_t> vertex;
     vertex.reserve(object.vertices.size());
     for (const Rational3& point : object.vertices) vertex.push_back(merger_.add(placement(point)));
-    const bool mirrors = placement.mirrors();
+    const bool mirrors = placement.determinant() < 0;
     for (const auto& triangle : object.triangles) {
       std::array<std::uint32_t, 3> t{vertex[triangle[0]], vertex[triangle[1]], vertex[triangle[2]]};
       if (mirrors) std::swap(t[1], t[2]);

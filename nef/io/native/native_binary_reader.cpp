@@ -9,6 +9,7 @@
 
 #include "nef/io/file_bytes.h"
 #include "nef/io/native/native_binary.h"
+#include "nef/synthesis/volume_linking.h"
 #include "nef/validation/validate.h"
 
 namespace nef {
@@ -452,20 +453,9 @@ class BinaryReader {
       demand(s < shells_, "a shell does not exist");
       demand(c_.volumes[c_.shells[s].volume].mark == c_.sfaces[f].mark, "a volume has two marks");
       c_.sface_shell[f] = s;
-      ++c_.shells[s].sface_count;
     }
-    std::uint32_t first = 0;
-    for (Shell& shell : c_.shells) {
-      demand(shell.sface_count > 0, "a shell is empty");
-      shell.first_sface = first;
-      first += shell.sface_count;
-      shell.sface_count = 0;
-    }
-    c_.shell_sfaces.resize(sfaces_);
-    for (std::uint32_t f = 0; f < sfaces_; ++f) {
-      Shell& shell = c_.shells[c_.sface_shell[f]];
-      c_.shell_sfaces[shell.first_sface + shell.sface_count++] = f;
-    }
+    list_sfaces_of_shells(c_);
+    for (const Shell& shell : c_.shells) demand(shell.sface_count > 0, "a shell is empty");
   }
 
   std::string_view bytes_;

@@ -105,7 +105,7 @@ bool run_one(const Fuzzer& fuzzer, Choices choices, SharedNotes& notes) {
 void limit_resources() {
   rlimit none{0, 0};
   setrlimit(RLIMIT_CORE, &none);
-#ifndef NEF_SANITIZED  // sanitizers reserve terabytes
+#ifndef NEF_SANITIZED
   const rlimit memory{std::size_t{4} << 30U, std::size_t{4} << 30U};
   setrlimit(RLIMIT_AS, &memory);
 #endif

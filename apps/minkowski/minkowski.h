@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "apps/minkowski/convex/convex_cell.h"
-#include "nef/base/error.h"
+#include "nef/base/interruption.h"
 #include "nef/geometry/predicates.h"
 #include "nef/polyhedron.h"
 
@@ -29,17 +29,11 @@ enum class UnionStrategy : std::uint8_t {
   kNary       ///< all at once, in batches of bounded size; explodes where many faces nearly coincide
 };
 
-/// Thrown out of a sum whose progress function returned false.
-class Cancelled : public Error {
- public:
-  Cancelled() : Error("cancelled") {}
-};
-
 struct MinkowskiOptions {
   UnionStrategy strategy = UnionStrategy::kAuto;
   unsigned threads = 1;  ///< 0: as many as the machine has; the result does not depend on it
   /// Called after each pair of cells, and again and again while sums are united, with (pairs done, pairs in all),
-  /// always by the calling thread; false stops the sum.
+  /// always by the calling thread; false stops the sum: it throws nef::Interrupted.
   std::function<bool(std::size_t, std::size_t)> progress;
 };
 

@@ -5,7 +5,9 @@
 
 #include <atomic>
 #include <catch2/catch.hpp>
+#include <functional>
 #include <thread>
+#include <vector>
 
 #include "nef/base/parallel.h"
 #include "tests/support/literals.h"
@@ -59,6 +61,54 @@ TEST_CASE("threads are stopped with the one that they work for") {
   });
   other.join();
   CHECK_FALSE(thrown);
+}
+
+TEST_CASE("a function that is asked stops what goes on inside one operation") {
+  // Some 200 vertices meet: many more questions than there are steps of the operation.
+  std::vector<Polyhedron> columns;
+  std::vector<Polyhedron> rows;
+  for (int i = 0; i < 6; ++i) {
+    columns.push_back(make_box({3 * i, -1, 0}, {3 * i + 1, 20, 1}));
+    rows.push_back(make_box({-1, 3 * i, 0}, {20, 3 * i + 1, 1}));
+  }
+  const Polyhedron a = unite_all(columns);
+  const Polyhedron b = unite_all(rows);
+  int questions = 0;
+  bool others_asked = false;
+  const std::thread::id here = std::this_thread::get_id();
+  const std::function<bool()> ask = [&] {
+    if (std::this_thread::get_id() != here) others_asked = true;
+    return ++questions > 10;
+  };
+  {
+    const Interruptible interruptible(ask);
+    CHECK_THROWS_AS(unite(a, b), Interrupted);
+    CHECK_THROWS_AS(unite(a, b), Interrupted);
+  }
+  CHECK(questions == 11);
+  CHECK(volume(unite(a, b)) == Rational(6 * 21 * 2 - 36));
+  for (const unsigned threads : {1U, 2U, 0U}) {
+    questions = 0;
+    const Interruptible interruptible(ask);
+    const std::atomic<bool> never{false};
+    const auto body = [](std::size_t) { check_interruption(); };
+    CHECK_THROWS_AS(parallel_for(10000000, threads, body), Interrupted);
+    CHECK_NOTHROW([&] {
+      const Interruptible other(&never);
+      parallel_for(1000, threads, body);
+    }());
+  }
+  CHECK_FALSE(others_asked);
+  // What stops the thread anyway goes on doing so under a function that has no objection, and under none.
+  std::atomic<bool> stop{false};
+  const std::function<bool()> agree = [] { return false; };
+  const std::function<bool()> nothing;
+  const Interruptible outer(&stop);
+  const Interruptible inner(agree);
+  const Interruptible innermost(nothing);
+  CHECK_NOTHROW(unite(a, b));
+  stop = true;
+  CHECK_THROWS_AS(unite(a, b), Interrupted);
 }
 
 }  // namespace nef

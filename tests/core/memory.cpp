@@ -9,7 +9,7 @@
 #include "nef/number/memory.h"
 #include "nef/number/number.h"
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#ifndef NEF_SANITIZED
 
 namespace {
 

@@ -10,6 +10,7 @@
 #include "apps/minkowski/decomposition/decomposition.h"
 #include "apps/minkowski/minkowski.h"
 #include "apps/minkowski/sum/pair_sums.h"
+#include "nef/base/error.h"
 #include "nef/base/phase_timer.h"
 #include "nef/construct/construct.h"
 

@@ -47,7 +47,7 @@ Polyhedron union_of_pair_sums(std::span<const Product> products, const Minkowski
   report.pairs += all;
   std::size_t done = 0;
   const auto poll = [&] {
-    if (options.progress && !options.progress(done, all)) throw Cancelled();
+    if (options.progress && !options.progress(done, all)) throw Interrupted();
   };
   UnionBuilder builder(options.strategy, options.threads, poll);
   for (const Product& product : products) {

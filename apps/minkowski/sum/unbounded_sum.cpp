@@ -233,7 +233,7 @@ Polyhedron unbounded_sum(const Polyhedron& a, const Polyhedron& b, const Minkows
     for (const SpannedSet& c : cells_a) {
       for (const SpannedSet& d : cells_b) {
         sums[done++] = to_polyhedron(sum_of(c, d), parts == Parts::kClosedSolids);
-        if (options.progress && !options.progress(done, pairs)) throw Cancelled();
+        if (options.progress && !options.progress(done, pairs)) throw Interrupted();
       }
     }
   }

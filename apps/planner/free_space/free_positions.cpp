@@ -3,6 +3,7 @@
 
 #include "apps/minkowski/minkowski.h"
 #include "nef/base/error.h"
+#include "nef/base/interruption.h"
 
 namespace nef::planner {
 namespace {
@@ -38,7 +39,7 @@ minkowski::MinkowskiOptions minkowski_options(const BuildOptions& build) {
   options.threads = build.threads;
   options.progress = [&build](std::size_t done, std::size_t total) {
     if (build.progress) build.progress("configuration space", done, total);
-    return !build.stop || !build.stop();
+    return true;
   };
   return options;
 }
@@ -79,6 +80,7 @@ bool obstacles_are_independent(const Scene& scene) {
 Polyhedron with_obstacle(const Scene& scene, const Polyhedron& free, const Polyhedron& obstacle,
                          const BuildOptions& options) {
   NEF_ASSERT(obstacles_are_independent(scene));
+  const Interruptible interruptible(options.stop);
   Scene alone = with_only(scene, {});
   alone.obstacles.push_back(obstacle);
   alone.obstacle_names.emplace_back("new");
@@ -88,6 +90,7 @@ Polyhedron with_obstacle(const Scene& scene, const Polyhedron& free, const Polyh
 Polyhedron without_obstacle(const Scene& scene, const Polyhedron& free, std::size_t index,
                             const BuildOptions& options) {
   NEF_ASSERT(obstacles_are_independent(scene));
+  const Interruptible interruptible(options.stop);
   std::vector<std::size_t> near;
   for (std::size_t i = 0; i < scene.obstacles.size(); ++i) {
     if (i != index && may_forbid_the_same(scene, scene.obstacles[index], scene.obstacles[i])) near.push_back(i);
@@ -99,6 +102,7 @@ Polyhedron without_obstacle(const Scene& scene, const Polyhedron& free, std::siz
 }
 
 Polyhedron free_positions(const Scene& scene, const BuildOptions& build) {
+  const Interruptible interruptible(build.stop);
   std::vector<Polyhedron> obstacles;
   for (std::size_t i = 0; i < scene.obstacles.size(); ++i) {
     obstacles.push_back(bounded_obstacle(scene.obstacles[i], scene, i));

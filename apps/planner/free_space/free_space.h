@@ -74,7 +74,7 @@ class FreeSpace {
   [[nodiscard]] const Complex& complex() const { return free_.complex(); }
   [[nodiscard]] const CellNumbering& cells() const { return cells_; }
   /// Makes the partition and the roadmap unless they are there. O(n log n) expected. `stop`, if given, is asked now and
-  /// then; once it says true, minkowski::Cancelled is thrown, and nothing is kept.
+  /// then; once it says true, Interrupted is thrown, and nothing is kept.
   void build_roadmap(const std::function<bool()>& stop = {}) const { static_cast<void>(partition(stop)); }
   [[nodiscard]] bool has_roadmap() const { return ready_.load(std::memory_order_acquire) != nullptr; }
   [[nodiscard]] const SpaceTree& tree() const { return partition().tree; }

@@ -15,6 +15,7 @@
 #include "apps/minkowski/minkowski.h"
 #include "apps/planner/free_space/free_positions.h"
 #include "apps/planner/ompl/nef_validity.h"
+#include "nef/base/interruption.h"
 #include "nef/base/stopwatch.h"
 
 namespace nef::planner {
@@ -189,7 +190,7 @@ bool TightPlanner::buildRoadmap(std::size_t firstGoal, const ob::PlannerTerminat
   const Stopwatch watch;
   try {
     freeSpace_->build_roadmap([&ptc] { return ptc.eval(); });
-  } catch (const minkowski::Cancelled&) {
+  } catch (const Interrupted&) {
     return false;
   }
   preprocessing_ += watch.seconds();
@@ -297,7 +298,7 @@ TightPlanner::FreeSpaceBuilder free_space_builder(const Scene& scene) {
     options.stop = stop;
     try {
       return std::make_shared<const FreeSpace>(free_positions(scene, options));
-    } catch (const minkowski::Cancelled&) {
+    } catch (const Interrupted&) {
       return nullptr;
     }
   };

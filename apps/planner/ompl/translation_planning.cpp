@@ -16,6 +16,7 @@
 #include "apps/planner/ompl/nef_validity.h"
 #include "apps/planner/scene/shapes.h"
 #include "nef/base/error.h"
+#include "nef/base/interruption.h"
 #include "nef/base/stopwatch.h"
 
 namespace nef::planner {
@@ -280,8 +281,9 @@ bool TranslationPlanning::prepare(const std::function<bool()>& stop) {
     options.stop = stop;
     std::shared_ptr<const FreeSpace> freeSpace;
     try {
+      const Interruptible interruptible(stop);
       freeSpace = std::make_shared<const FreeSpace>(presentFreePositions(options));
-    } catch (const minkowski::Cancelled&) {
+    } catch (const Interrupted&) {
       return false;
     }
     useFreeSpace(std::move(freeSpace));
@@ -300,7 +302,7 @@ bool TranslationPlanning::buildRoadmap(const std::function<bool()>& stop) const 
   if (!planner_ || getTightPlanner() != nullptr) return true;
   try {
     freeSpace_->build_roadmap(stop);
-  } catch (const minkowski::Cancelled&) {
+  } catch (const Interrupted&) {
     return false;
   }
   return true;

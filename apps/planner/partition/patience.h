@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <functional>
 
-#include "apps/minkowski/minkowski.h"
+#include "nef/base/interruption.h"
 
 namespace nef::planner {
 
@@ -16,9 +16,9 @@ class Patience {
   Patience() = default;
   explicit Patience(std::function<bool()> stop) : stop_(std::move(stop)) {}
 
-  /// To be called for every piece of work of some microseconds. Throws minkowski::Cancelled if it is time to stop.
+  /// To be called for every piece of work of some microseconds. Throws Interrupted if it is time to stop.
   void check() {
-    if (stop_ && ++count_ % 64 == 0 && stop_()) throw minkowski::Cancelled();
+    if (stop_ && ++count_ % 64 == 0 && stop_()) throw Interrupted();
   }
 
  private:

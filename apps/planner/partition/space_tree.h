@@ -57,7 +57,7 @@ class SpaceTree {
 
   /// Builds the tree (a binary space partition [Fuchs, Kedem, Naylor 1980], with a third child for what lies in
   /// the plane). The complex must outlive it. Expected O(n log n) to O(n^2) pieces for n
-  /// facets. Throws UnsupportedError for a complex with an infimaximal box, minkowski::Cancelled if patience ends.
+  /// facets. Throws UnsupportedError for a complex with an infimaximal box, Interrupted if patience ends.
   SpaceTree(const Complex& complex, const CellNumbering& cells, Patience patience = {});
 
   [[nodiscard]] const PlaneTable& planes() const { return t_.planes; }

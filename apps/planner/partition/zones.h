@@ -42,7 +42,7 @@ class Zones {
   };
 
   /// `selected` tells which cells are free. The tree and the complex must outlive the result. Throws
-  /// minkowski::Cancelled if patience ends.
+  /// Interrupted if patience ends.
   Zones(const Complex& complex, const CellNumbering& cells, SpaceTree& tree,
         const std::function<bool(CellId)>& selected, Patience patience = {});
 

@@ -39,7 +39,7 @@ rlim_t address_space() {
 void set_bounds(std::size_t bytes, unsigned seconds) {
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, seconds);
-#if !defined(__SANITIZE_ADDRESS__)
+#ifndef NEF_SANITIZED
   limit(RLIMIT_AS, address_space() + bytes);
 #else
   static_cast<void>(bytes);

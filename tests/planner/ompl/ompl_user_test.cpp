@@ -134,6 +134,25 @@ TEST_CASE("solve honours its time while the free space is built, and begins anew
   CHECK(setup.solve(ob::plannerNonTerminatingCondition()) == ob::PlannerStatus::EXACT_SOLUTION);
 }
 
+TEST_CASE("solve honours its time inside one sum and one operation") {
+  // One convex obstacle: the sum is a single pair of cells, and its complement in the box a single operation.
+  std::vector<Rational3> points;
+  for (int x = -6; x <= 6; ++x) {
+    for (int y = -6; y <= 6; ++y) points.push_back({x, y, 72 - x * x - y * y});
+  }
+  TranslationPlanning setup;
+  setup.setRobot(make_box({0, 0, 0}, {1, 1, 1}));
+  setup.addObstacle(convex_hull(points));
+  setup.setExactStartAndGoal({-20, 0, 0}, {20, 0, 0});
+  for (const int questions : {1, 10, 20}) {
+    int asked = 0;
+    const ob::PlannerTerminationCondition soon([&] { return ++asked > questions; });
+    CHECK(setup.solve(soon) == ob::PlannerStatus::TIMEOUT);
+    CHECK(setup.getFreeSpace() == nullptr);
+  }
+  CHECK(setup.solve(ob::plannerNonTerminatingCondition()) == ob::PlannerStatus::EXACT_SOLUTION);
+}
+
 TEST_CASE("parameters out of range are refused") {
   TranslationPlanning setup;
   TightPlanner planner(setup.getSpaceInformation());

@@ -26,7 +26,8 @@ class Question {
  public:
   explicit Question(std::function<bool()> asks) : asks_(std::move(asks)) {}
 
-  /// To be called by the thread that put the question; asks every few calls, as a look at a clock costs more than a flag.
+  /// To be called by the thread that put the question; asks every few calls, as a look at a clock costs more than a
+  /// flag.
   void ask() {
     if (++calls_ % 8 == 0 && asks_()) stop_.store(true, std::memory_order_relaxed);
   }
@@ -52,8 +53,8 @@ class Interruptible {
     if (stop != detail::stop_flag) detail::question = nullptr;
     detail::stop_flag = stop;
   }
-  /// Stops once `stop()` has said true, or what stopped the thread so far does. `stop` must outlive the object and is called
-  /// in this thread only; an empty one changes nothing.
+  /// Stops once `stop()` has said true, or what stopped the thread so far does. `stop` must outlive the object and is
+  /// called in this thread only; an empty one changes nothing.
   explicit Interruptible(const std::function<bool()>& stop)
       : own_([&stop, flag = outer_flag_, outer = outer_question_] {
           if (outer != nullptr) outer->ask();

@@ -2,9 +2,12 @@
 //
 // The Boolean operations of the public interface.
 #include <algorithm>
+#include <atomic>
+#include <optional>
 
 #include "nef/base/error.h"
 #include "nef/base/parallel.h"
+#include "nef/base/progress.h"
 #include "nef/boolean/overlay_complexes.h"
 #include "nef/polyhedron.h"
 
@@ -39,13 +42,23 @@ std::size_t first_to_combine(std::span<const Polyhedron> sets) {
 // not depend on the number of threads, so neither does the order of items in the result.
 Polyhedron combine_all(std::span<const Polyhedron> sets, Combine combine, unsigned threads) {
   std::vector<Polyhedron> left(sets.begin(), sets.end());
+  std::atomic<std::size_t> done{0};
+  // Many small operations tell of themselves as one; a single one, of what it does.
+  const ProgressFunction nobody;
   while (left.size() > 1) {
     std::stable_sort(left.begin(), left.end(), [](const Polyhedron& x, const Polyhedron& y) {
       return x.complex().vertex_count() < y.complex().vertex_count();
     });
     const std::size_t pairs = first_to_combine(left) / 2;
     std::vector<Polyhedron> next(pairs);
-    parallel_for(pairs, threads, [&](std::size_t i) { next[i] = combine(left[2 * i], left[2 * i + 1]); });
+    parallel_for(pairs, threads, [&](std::size_t i) {
+      {
+        std::optional<ProgressListener> quiet;
+        if (sets.size() > 2) quiet.emplace(nobody);
+        next[i] = combine(left[2 * i], left[2 * i + 1]);
+      }
+      if (sets.size() > 2) tell_progress("sets", ++done, sets.size() - 1);
+    });
     next.insert(next.end(), left.begin() + static_cast<std::ptrdiff_t>(2 * pairs), left.end());
     left = std::move(next);
   }

@@ -9,6 +9,7 @@
 
 #include "nef/base/error.h"
 #include "nef/base/interruption.h"
+#include "nef/base/progress.h"
 #include "nef/boolean/facet_locator.h"
 #include "nef/boolean/piercing_filter.h"
 #include "nef/geometry/occupancy_grid.h"
@@ -167,8 +168,11 @@ class IntersectionFinder {
 
   void vertices_against_facets(std::size_t x) {
     const Operand& other = operands_[1 - x];
-    for (const std::uint32_t v : near_[x].vertices) {
+    const std::vector<std::uint32_t>& vertices = near_[x].vertices;
+    for (std::size_t k = 0; k < vertices.size(); ++k) {
+      const std::uint32_t v = vertices[k];
       check_interruption();
+      tell_progress_of_item("vertices in facets", k, vertices.size());
       near_[1 - x].facet_tree.for_each_overlap(operands_[x].vertex_box(v), [&](std::uint32_t i) {
         if (result_.vertex_item[x][v].kind != Item::Kind::kNone) return;
         const std::uint32_t facet = near_[1 - x].facets[i];
@@ -207,8 +211,11 @@ class IntersectionFinder {
   void edges_against_facets(std::size_t x) {
     const Operand& own = operands_[x];
     const Operand& other = operands_[1 - x];
-    for (const std::uint32_t e : near_[x].edges) {
+    const std::vector<std::uint32_t>& edges = near_[x].edges;
+    for (std::size_t k = 0; k < edges.size(); ++k) {
+      const std::uint32_t e = edges[k];
       check_interruption();
+      tell_progress_of_item("edges through facets", k, edges.size());
       const PointId a = own.point(own.source(e));
       const PointId b = own.point(own.target(e));
       const Box box = own.edge_box(e);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <deque>
 
+#include "nef/base/progress.h"
 #include "nef/boolean/result_assembly.h"
 #include "nef/complex/local_pyramid.h"
 #include "nef/sphere_map/overlay.h"
@@ -29,6 +30,7 @@ class ComplexOverlay {
           marks_of_untouched(operands_, x, tables_, found, x == 0 ? queries_b : queries_a);
       const std::vector<Item>& items = found.vertex_item[x];
       for (std::uint32_t v = 0; v < items.size(); ++v) {
+        tell_progress_of_item("sphere maps", v, items.size());
         if (items[v].kind == Item::Kind::kNone) {
           push_untouched(x, v, marks[v]);
         } else if (x == 0 || items[v].kind != Item::Kind::kVertex) {
@@ -39,7 +41,10 @@ class ComplexOverlay {
         }
       }
     }
-    for (const Crossing& crossing : found.crossings) push_overlay(crossing.point, crossing.item);
+    for (std::size_t k = 0; k < found.crossings.size(); ++k) {
+      tell_progress_of_item("sphere maps of crossings", k, found.crossings.size());
+      push_overlay(found.crossings[k].point, found.crossings[k].item);
+    }
     return finished(std::move(found));
   }
 

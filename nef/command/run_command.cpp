@@ -3,6 +3,7 @@
 
 #include <iostream>
 
+#include "nef/base/progress.h"
 #include "nef/command/commands.h"
 #include "nef/program/run_program.h"
 
@@ -45,6 +46,10 @@ int run_command(int argc, char** argv, const CommandExtensions& extensions) {
     session.complain("there is no subcommand '" + std::string(argv[1]) + "' (see nef --help)");
     return kBad;
   }
+  const ProgressFunction show = [&session](const char* phase, std::size_t done, std::size_t total) {
+    session.show_phase(phase, done, total);
+  };
+  const ProgressListener listener(show);
   return run_program(
       app, argc, argv, [&session] { return session.exit_code; },
       [&session](const std::string& line) { session.complain(line); });

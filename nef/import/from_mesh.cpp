@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "nef/base/error.h"
+#include "nef/base/progress.h"
 #include "nef/base/union_find.h"
 #include "nef/construct/construct.h"
 #include "nef/import/fill.h"
@@ -98,6 +99,7 @@ bool check(const Mesh& mesh, const MeshSurface& surface) {
 
 Polyhedron checked_solid(const Mesh& mesh, const MeshSurface& surface, const MeshOptions& options, Messages* messages) {
   // Without a face that has no area, its neighbours meet in parts of edges.
+  tell_progress("self-intersections", 0, 0);
   const bool contact = check(mesh, surface) || has_faces_without_area(surface);
   return contact ? solid_in_contact(mesh, surface, options, messages) : solid(mesh, surface, options, messages);
 }
@@ -107,6 +109,7 @@ Polyhedron checked_solid(const Mesh& mesh, const MeshSurface& surface, const Mes
 Polyhedron from_mesh(const Mesh& mesh, const MeshOptions& options, Messages* messages) {
   if (options.as_surface) return from_surface(mesh, MeshSurface(mesh), SurfaceUse::kSet, options, messages);
   if (mesh.face_count() == 0) throw InputError("the mesh has no faces, so it bounds no solid");
+  tell_progress("faces of the mesh", 0, 0);
   const MeshSurface surface(mesh);
   Messages notes;
   note_faces_without_area(surface, &notes);

@@ -3,6 +3,7 @@
 // Unary operations change marks locally, simplify, and synthesize. In a simplified complex every
 // vertex, edge and facet is a boundary item, which makes the topological operations simple:
 // interior deselects all of them, closure and boundary select all of them (thesis 4.5, 5.2).
+#include "nef/base/progress.h"
 #include "nef/operation/for_each_mark.h"
 #include "nef/polyhedron.h"
 #include "nef/synthesis/complex_builder.h"
@@ -22,6 +23,7 @@ class MarkChanger {
     PlaneTable planes = c_.planes;
     ComplexBuilder result(planes);
     for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) {
+      tell_progress_of_item("sphere maps", v, c_.vertex_count());
       load(c_.sphere_map(v));
       if (!c_.points.finite(PointId{v})) mark_trace_on_box();
       result.add(c_.points, PointId{v}, drawing_);

@@ -2,6 +2,7 @@
 #include "nef/synthesis/synthesis.h"
 
 #include "nef/base/interruption.h"
+#include "nef/base/progress.h"
 #include "nef/synthesis/edge_linking.h"
 #include "nef/synthesis/facet_linking.h"
 #include "nef/synthesis/volume_linking.h"
@@ -34,27 +35,37 @@ LabelId count_labels(const Complex& c, LabelId outer) {
   return static_cast<LabelId>(largest + 1);
 }
 
+// Edges, facets and volumes; and nothing.
+void begin(std::size_t step) {
+  check_interruption();
+  tell_progress("synthesis", step - 1, 3);
+}
+
 }  // namespace
 
 void synthesize(Complex& complex, LabelId outer) {
   complex.label_count = count_labels(complex, outer);
   name_owners(complex);
+  begin(1);
   link_edges(complex);
-  check_interruption();
+  begin(2);
   link_facets(complex);
-  check_interruption();
+  begin(3);
   link_volumes(complex, outer);
+  begin(4);
 }
 
 void synthesize(Complex& complex, LabelId outer, KnownLinks&& known) {
   complex.label_count = count_labels(complex, outer);
   name_owners(complex);
+  begin(1);
   link_edges(complex, known);
-  check_interruption();
+  begin(2);
   link_facets(complex, known);
-  check_interruption();
+  begin(3);
   known = {};
   link_volumes(complex, outer);
+  begin(4);
 }
 
 }  // namespace nef

@@ -42,4 +42,15 @@ ProgressFunction::ProgressFunction(const py::object& function) {
   });
 }
 
+ProgressFunction& progress_of_thread() {
+  thread_local ProgressFunction current;
+  return current;
+}
+
+ToldProgress::ToldProgress(const ProgressFunction& told)
+    : told_(told ? nef::ProgressFunction(
+                       [told](const char* phase, std::size_t done, std::size_t total) { told(phase, done, total); })
+                 : nef::ProgressFunction()),
+      listener_(told_) {}
+
 }  // namespace nef::python

@@ -24,6 +24,7 @@
 #include <utility>
 
 #include "nef/base/interruption.h"
+#include "nef/base/progress.h"
 
 namespace nef::python {
 
@@ -40,6 +41,44 @@ std::atomic<int>& abandoned_calls();
 
 /// Waits some seconds for the abandoned calls to end. For the end of the interpreter; needs its lock.
 void wait_for_abandoned_calls();
+
+/// A Python function that is told how far a call has come: function(done, total). Copies share the function; it is
+/// called and released with the interpreter's lock held, in whatever thread. An exception in it ends the call and goes
+/// on to the caller.
+class ProgressFunction {
+ public:
+  ProgressFunction() = default;
+  /// None for no progress.
+  explicit ProgressFunction(const py::object& function);
+
+  explicit operator bool() const { return function_ != nullptr; }
+  /// The function, or None. Needs the interpreter's lock.
+  [[nodiscard]] py::object function() const { return function_ ? *function_ : py::none(); }
+  /// Throws Interrupted if the call was abandoned meanwhile.
+  template <typename... Arguments>
+  void operator()(const Arguments&... arguments) const {
+    check_interruption();
+    if (!function_) return;
+    const py::gil_scoped_acquire locked;
+    (*function_)(arguments...);
+  }
+
+ private:
+  std::shared_ptr<py::object> function_;
+};
+
+/// What the calling thread's Booleans are to tell of their progress, from `with nef.progress(...)`; empty outside.
+ProgressFunction& progress_of_thread();
+
+/// Calls `told` as long as it lives for what this thread computes; for an empty one nothing is called.
+class ToldProgress {
+ public:
+  explicit ToldProgress(const ProgressFunction& told);
+
+ private:
+  nef::ProgressFunction told_;
+  ProgressListener listener_;
+};
 
 namespace detail {
 
@@ -63,14 +102,16 @@ auto call(std::size_t items, Work work) -> decltype(work()) {
   using Job = detail::Job<Result>;
   if (items < kSmallCall || !in_main_thread()) {
     const py::gil_scoped_release unlocked;
+    const ToldProgress told(progress_of_thread());
     return work();
   }
   const auto job = std::make_shared<Job>();
-  std::thread worker([job, work = std::move(work)]() mutable {
+  std::thread worker([job, work = std::move(work), progress = progress_of_thread()]() mutable {
     std::optional<Result> result;
     std::exception_ptr failure;
     try {
       const Interruptible interruptible(&job->stop);
+      const ToldProgress told(progress);
       result.emplace(work());
     } catch (...) {
       failure = std::current_exception();
@@ -107,28 +148,5 @@ auto call(std::size_t items, Work work) -> decltype(work()) {
   if (job->failure) std::rethrow_exception(job->failure);
   return std::move(*job->result);
 }
-
-/// A Python function that is told how far a call has come: function(done, total). Copies share the function; it is
-/// called and released with the interpreter's lock held, in whatever thread. An exception in it ends the call and goes
-/// on to the caller.
-class ProgressFunction {
- public:
-  ProgressFunction() = default;
-  /// None for no progress.
-  explicit ProgressFunction(const py::object& function);
-
-  explicit operator bool() const { return function_ != nullptr; }
-  /// Throws Interrupted if the call was abandoned meanwhile.
-  template <typename... Arguments>
-  void operator()(const Arguments&... arguments) const {
-    check_interruption();
-    if (!function_) return;
-    const py::gil_scoped_acquire locked;
-    (*function_)(arguments...);
-  }
-
- private:
-  std::shared_ptr<py::object> function_;
-};
 
 }  // namespace nef::python

@@ -129,6 +129,14 @@ Numbers in it are exact: 0.1 is one tenth. Raises InputError, whose `offset` is 
       "intersect_all", [](const std::vector<Polyhedron>& sets, unsigned threads) { return many(sets, threads, false); },
       py::arg("sets"), py::arg("threads") = 1,
       "The intersection of any number of sets; all of space for none. threads: 0 for as many as the machine has.");
+  m.def(
+      "_listen",
+      [](const py::object& function) {
+        ProgressFunction next(function);
+        std::swap(next, progress_of_thread());
+        return next.function();
+      },
+      py::arg("function"));
   m.def("everything", &Polyhedron::everything, "All of space.");
   m.def("overlay", &overlay_labels, py::arg("a"), py::arg("b"), py::arg("function"),
         R"(The set whose points carry the label function(label in a, label in b).

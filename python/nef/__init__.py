@@ -15,10 +15,14 @@ come out as Fractions where they are exact. Lengths have the unit of the input.
 
 Long calls release the interpreter's lock. In the main thread Ctrl-C ends a call within a few hundredths of a second: the
 exception goes on at once, the computation stops soon after in its thread, and its result is thrown away; sets are
-immutable, so nothing is ever half done.
+immutable, so nothing is ever half done. Operators and functions of this package tell how far they have come inside
+`with nef.progress(function)`.
 
 The packages nef.minkowski, nef.visual_hull and nef.planner hold the applications.
 """
+import contextlib
+from typing import Callable, Iterator, Optional
+
 from . import _nef
 from ._nef import (Polyhedron, box, eval, everything, from_bytes, halfspace, hull, intersect_all, overlay, point, polygon,
                    read, segment, unite_all)
@@ -31,8 +35,27 @@ from . import meshes as _meshes, notebook as _notebook
 __all__ = [
     "Counts", "Distance", "Error", "InputError", "Location", "Moments", "Polygon", "Polyhedron", "RayHit", "Section",
     "UnsupportedError", "box", "empty", "eval", "everything", "from_bytes", "from_mesh", "halfspace", "hull",
-    "intersect_all", "overlay", "point", "polygon", "read", "segment", "show", "unite_all",
+    "intersect_all", "overlay", "point", "polygon", "progress", "read", "segment", "show", "unite_all",
 ]
+
+
+@contextlib.contextmanager
+def progress(function: Optional[Callable[[str, int, int], object]]) -> Iterator[None]:
+    """While the block runs, what this thread computes with nef's own operators and functions (Booleans, topological
+    operations, unite_all, from_mesh, read) calls function(phase, done, total); a total of 0 means that it is not known.
+
+    A large operation calls it some hundred times, a small one (a few thousand vertices) a few times. It may be called in
+    another thread than this one, one call at a time. An exception in it ends the operation and comes out of it. Blocks
+    nest; None listens to nothing. The applications have `progress` arguments of their own.
+
+        >>> with nef.progress(lambda phase, done, total: print(phase, done, total)):  # doctest: +SKIP
+        ...     c = a - b
+    """
+    before = _nef._listen(function)
+    try:
+        yield
+    finally:
+        _nef._listen(before)
 
 
 def empty() -> Polyhedron:

@@ -116,3 +116,48 @@ def test_memory_is_returned():
             first = resident()
     gc.collect()
     assert resident() - first < 4 << 20
+
+
+def test_progress_of_booleans():
+    a, b = ball(3000), ball(3000, seed=1)
+    told = []
+    with nef.progress(lambda phase, done, total: told.append((phase, done, total))):
+        c = a | b
+        assert {phase for phase, _, _ in told} >= {"edges through facets", "sphere maps", "synthesis"}
+        assert told[-1] == ("synthesis", 3, 3)
+        with nef.progress(None):
+            count = len(told)
+            c.interior()
+        assert len(told) == count
+        nef.unite_all([nef.box((2 * i, 0, 0), (2 * i + 1, 1, 1)) for i in range(50)])
+        assert told[-1] == ("sets", 49, 49)
+    count = len(told)
+    assert a | b == c
+    assert len(told) == count
+
+
+def test_exception_of_progress_ends_the_operation():
+    class Enough(Exception):
+        pass
+
+    def refuse(phase, done, total):
+        raise Enough
+
+    for size in (30, 3000):  # where the call is, and in a thread of its own
+        a, b = ball(size), ball(size, seed=1)
+        with pytest.raises(Enough):
+            with nef.progress(refuse):
+                a | b
+        assert (a & b) <= a
+    with pytest.raises(TypeError):
+        with nef.progress("no function"):
+            pass
+
+
+def test_progress_belongs_to_a_thread():
+    a, b = ball(100), ball(100, seed=1)
+    told = []
+    with nef.progress(lambda *what: told.append(what)):
+        with concurrent.futures.ThreadPoolExecutor(1) as pool:
+            pool.submit(lambda: a | b).result()
+        assert not told

@@ -56,7 +56,7 @@ class ComplexOverlay {
     if (result_.is_first_operand() && outer == a.volumes[0].mark) return std::nullopt;
     ComplexBuilder builder(tables_.planes);
     result_.write(tables_.planes, builder);
-    if (a.has_box() || b.has_box()) return builder.finish(outer);  // which may drop the box
+    if ((a.has_box() || b.has_box()) && builder.has_idle_box()) return builder.finish(outer);
     KnownLinks known = copied_links(builder.so_far(), result_.origins(), {&a, &b}, found.contacts);
     found = {};
     tables_.points = PointTable();

@@ -22,7 +22,12 @@ class LabelFunction {
   /// at a time. What f throws passes through. Memory for the pairs that occur, or 256 kB at most.
   LabelFunction(std::size_t size_a, std::size_t size_b, std::function<LabelId(LabelId, LabelId)> f);
 
+  /// Whichever of the two is not kOutside, the first if neither is: what glues sets beyond whose borders kOutside is.
+  struct WhicheverIsInside {};
+  explicit LabelFunction(WhicheverIsInside) : size_b_(0), whichever_is_inside_(true) {}
+
   [[nodiscard]] LabelId operator()(LabelId a, LabelId b) const {
+    if (whichever_is_inside_) return a == kOutside ? b : a;
     if (a == kOutside || b == kOutside) return kOutside;
     if (!table_.empty()) {
       const std::uint32_t known = table_[a * size_b_ + b].load(std::memory_order_relaxed);
@@ -37,6 +42,7 @@ class LabelFunction {
   LabelId ask(LabelId a, LabelId b) const;
 
   std::size_t size_b_;
+  bool whichever_is_inside_ = false;
   std::function<LabelId(LabelId, LabelId)> f_;
   // Of few pairs a table, of many a map.
   mutable std::vector<std::atomic<std::uint32_t>> table_;

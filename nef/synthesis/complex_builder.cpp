@@ -19,6 +19,14 @@ void rename(PlaneId& plane, std::span<const std::uint32_t> rows) {
   plane = PlaneId{rows[plane.row()] << 1U | (plane.value & 1U)};
 }
 
+// A point at infinity along all three axes.
+bool far_corner(const PointTable& points, PointId point) {
+  for (std::size_t i = 4; i < 7; ++i) {
+    if (points.coordinate(point, i).sign() == 0) return false;
+  }
+  return true;
+}
+
 // A corner of a box where no plane of the set arrives: an octant of one mark.
 bool idle_corner(const SphereMapView& map) {
   return map.svertices.size() == 3 && map.sfaces.size() == 2 &&
@@ -178,22 +186,28 @@ void ComplexBuilder::take_vertices(Complex&& from) {
 
 // A box whose walls hold nothing but its eight corners says only what the outer volume is: the
 // set is finitely bounded, or its complement is.
-void ComplexBuilder::drop_idle_box(LabelId& outer) {
+bool ComplexBuilder::has_idle_box() const {
   const Complex& c = complex_;
   std::size_t infinite = 0;
-  std::uint32_t corner = kNone;
   for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
     if (c.points.finite(PointId{v})) continue;
-    // Eight vertices are not enough: a plane may pass through edges of the box.
-    if (!idle_corner(c.sphere_map(v))) return;
+    // Eight octants are not enough: a plane may cut through all of the box.
+    if (!far_corner(c.points, PointId{v}) || !idle_corner(c.sphere_map(v))) return false;
     ++infinite;
-    corner = v;
   }
-  if (infinite != 8) return;
-  outer = c.vertices[corner].mark;
+  return infinite == 8;
+}
+
+void ComplexBuilder::drop_idle_box(LabelId& outer) {
+  if (!has_idle_box()) return;
+  const Complex& c = complex_;
   ComplexBuilder kept(planes_);
   for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
-    if (c.points.finite(PointId{v})) kept.copy(c, v, 1);
+    if (c.points.finite(PointId{v})) {
+      kept.copy(c, v, 1);
+    } else {
+      outer = c.vertices[v].mark;
+    }
   }
   complex_ = std::move(kept.complex_);
 }

@@ -7,6 +7,7 @@
 #include <array>
 #include <optional>
 #include <span>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -58,12 +59,18 @@ class ComplexBuilder {
   /// The vertices added so far, without planes and links.
   [[nodiscard]] const Complex& so_far() const { return complex_; }
 
+  /// The same, taken out of the builder.
+  [[nodiscard]] Complex take_so_far() { return std::exchange(complex_, Complex()); }
+
+  /// True if finish() would remove an infimaximal box.
+  [[nodiscard]] bool has_idle_box() const;
+
   /// Removes an infimaximal box that nothing reaches, drops planes that nothing uses, and synthesizes. `outer` is the
   /// mark of all of space if there are no vertices. To be called once. For sphere maps that must fit together: a
   /// defect is a bug, and thrown as such. O(n log n).
   [[nodiscard]] Complex finish(LabelId outer);
 
-  /// The same complex, where some links are known: then there must be no box, and no plane that nothing uses.
+  /// The same complex, where some links are known: then there must be no idle box, and no plane that nothing uses.
   [[nodiscard]] Complex finish(LabelId outer, KnownLinks&& known);
 
   /// What finish() returns, or what is wrong with the sphere maps.

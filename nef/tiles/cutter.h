@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Cutting a complex along axis-parallel planes, both halves in one pass.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "nef/sphere_map/overlay.h"
+#include "nef/tiles/tile_tree.h"
+
+namespace nef {
+
+/// Cuts complexes until they are small. In between they are loose: without facets and volumes, which no cut needs,
+/// their planes in one table, that of the cutter. A set has the marks 0 and 1.
+class Cutter {
+ public:
+  /// A tile of more vertices than `limit` is cut further.
+  Cutter(PlaneTable planes, std::size_t limit) : planes_(std::move(planes)), limit_(limit) {}
+
+  /// The loose copy of a complex that has the cutter's planes, with an infimaximal box if it has none.
+  Complex loose(const Complex& complex);
+
+  /// The parts of a loose complex below and above a plane through its region. O(n), but for the local pyramids on the
+  /// plane.
+  std::array<Complex, 2> cut(const Complex& piece, const AxisPlane& plane);
+
+  /// A loose complex as a tree of tiles.
+  TileRef subdivide(Complex&& piece);
+
+  /// A loose complex as one leaf.
+  TileRef leaf(Complex&& piece);
+
+ private:
+  class Halves;
+
+  Complex linked(Complex&& piece);
+
+  PlaneTable planes_;
+  std::size_t limit_;
+  SphereOverlay overlay_;
+  std::vector<std::uint32_t> row_;  // of each plane in the leaf that is being made
+};
+
+/// A set in its region as a tree of tiles of at most `limit` vertices, where planes can separate them. O(n log n).
+TileRef subdivided(const Polyhedron& set, std::size_t limit);
+
+/// The parts of a leaf that is no uniform one on both sides of a plane through its region.
+std::array<TileRef, 2> cut_leaf(const TileRef& leaf, const AxisPlane& plane);
+
+}  // namespace nef

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/tiles/tile_queries.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "nef/complex/local_pyramid.h"
+#include "nef/sphere_map/overlay.h"
+
+namespace nef {
+namespace {
+
+using Kind = TileNode::Kind;
+
+TileRef child(const TileRef& tree, bool high) {
+  const TileRef& own = high ? tree.node->high : tree.node->low;
+  return tree.complemented ? own.complement() : own;
+}
+
+// Calls visit(leaf, region) for every leaf.
+template <typename Visit>
+void for_each_leaf(const TileRef& tree, const Region& region, const Visit& visit) {
+  if (tree.node->kind != Kind::kCut) {
+    visit(tree, region);
+    return;
+  }
+  for_each_leaf(child(tree, false), region.below(tree.node->plane), visit);
+  for_each_leaf(child(tree, true), region.above(tree.node->plane), visit);
+}
+
+// The same for those whose regions hold the point.
+template <typename Visit>
+void for_each_leaf_at(const TileRef& tree, const Region& region, const Rational3& point, const Visit& visit) {
+  if (tree.node->kind != Kind::kCut) {
+    visit(tree, region);
+    return;
+  }
+  const AxisPlane& plane = tree.node->plane;
+  const int side = cmp(point[plane.axis], plane.at);
+  if (side <= 0) for_each_leaf_at(child(tree, false), region.below(plane), point, visit);
+  if (side >= 0) for_each_leaf_at(child(tree, true), region.above(plane), point, visit);
+}
+
+void intern_planes(const PlaneTable& from, PlaneTable& to, SphereMapBuffer& map) {
+  const auto intern = [&](PlaneId& plane) { plane = to.intern_from(from, plane); };
+  for (SVertex& v : map.svertices) {
+    intern(v.p);
+    intern(v.q);
+  }
+  for (SHalfedge& e : map.shalfedges) intern(e.plane);
+  for (SLoop& l : map.sloops) intern(l.plane);
+}
+
+// The item of the whole set with this local pyramid.
+Location item_of(const PlaneTable& planes, const SphereMapView& map) {
+  const auto kind = is_vertex(planes, map)   ? Location::Kind::kVertex
+                    : !map.svertices.empty() ? Location::Kind::kEdge
+                    : !map.sloops.empty()    ? Location::Kind::kFacet
+                                             : Location::Kind::kVolume;
+  return {kind, 0, map.mark};
+}
+
+Rational extent(const Region& region, std::size_t axis) { return region.high[axis]->at - region.low[axis]->at; }
+
+bool bounded(const Region& region) {
+  const auto closed = [](const AxisPlane* wall) { return wall != nullptr; };
+  return std::all_of(region.low.begin(), region.low.end(), closed) &&
+         std::all_of(region.high.begin(), region.high.end(), closed);
+}
+
+}  // namespace
+
+Location locate_in_tiles(const TileRef& tree, const Rational3& point) {
+  std::vector<std::pair<TileRef, Region>> leaves;
+  for_each_leaf_at(tree, Region{}, point, [&](const TileRef& leaf, const Region& r) { leaves.emplace_back(leaf, r); });
+  const TileRef& first = leaves.front().first;
+  if (leaves.size() == 1) {
+    if (first.node->kind == Kind::kUniform) return {Location::Kind::kVolume, 0, first.node->mark};
+    const Location there = locate(first.node->set, point);
+    return {there.kind, 0, static_cast<LabelId>((there.mark != 0) != first.complemented ? 1 : 0)};
+  }
+  PlaneTable planes;
+  SphereOverlay overlay;
+  const LabelFunction whichever{LabelFunction::WhicheverIsInside{}};
+  SphereMapBuffer joined;
+  joined.assign_trivial(kOutside);
+  for (const auto& [leaf, region] : leaves) {
+    const Polyhedron set = leaf_set(leaf, region);
+    SphereMapBuffer map = local_pyramid(set, point);
+    intern_planes(set.complex().planes, planes, map);
+    SphereMapBuffer result;
+    overlay.overlay(planes, joined.view(), map.view(), whichever, result);
+    joined = std::move(result);
+  }
+  return item_of(planes, joined.view());
+}
+
+std::optional<Rational> volume_of_tiles(const TileRef& tree) {
+  std::optional<Rational> sum = Rational(0);
+  for_each_leaf(tree, Region{}, [&sum](const TileRef& leaf, const Region& region) {
+    if (!sum) return;
+    if (leaf.node->kind != Kind::kUniform) {
+      const std::optional<Rational> part = volume(leaf_set(leaf, region));
+      sum = part ? std::optional<Rational>(*sum + *part) : std::nullopt;
+    } else if (leaf.node->mark != 0) {
+      sum = bounded(region) ? std::optional<Rational>(*sum + extent(region, 0) * extent(region, 1) * extent(region, 2))
+                            : std::nullopt;
+    }
+  });
+  return sum;
+}
+
+std::optional<std::array<Rational3, 2>> bounds_of_tiles(const TileRef& tree, bool& is_bounded) {
+  std::optional<std::array<Rational3, 2>> result;
+  is_bounded = true;
+  for_each_leaf(tree, Region{}, [&](const TileRef& leaf, const Region&) {
+    if (leaf.node->kind == Kind::kUniform || !is_bounded) return;
+    const Complex& c = leaf.node->set.complex();
+    std::array<std::array<PointId, 3>, 2> extreme;
+    for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
+      if (!has_boundary(c.sphere_map(v))) continue;
+      if (!c.points.finite(PointId{v})) {
+        is_bounded = false;
+        return;
+      }
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        for (std::size_t end = 0; end < 2; ++end) {
+          PointId& best = extreme[end][axis];
+          const int wanted = end == 0 ? -1 : 1;
+          if (!best.valid() || compare_coordinate(c.points, PointId{v}, best, static_cast<int>(axis)) == wanted) {
+            best = PointId{v};
+          }
+        }
+      }
+    }
+    const bool first = !result;
+    if (first) result.emplace();
+    for (std::size_t end = 0; end < 2; ++end) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        Rational own = c.points.rational(extreme[end][axis])[axis];
+        Rational& best = (*result)[end][axis];
+        if (first || (end == 0 ? own < best : own > best)) best = std::move(own);
+      }
+    }
+  });
+  return result;
+}
+
+}  // namespace nef

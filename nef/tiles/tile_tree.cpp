@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/tiles/tile_tree.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "nef/base/error.h"
+
+namespace nef {
+namespace {
+
+std::shared_ptr<const TileNode> make_uniform(LabelId mark) {
+  TileNode node;
+  node.mark = mark;
+  return std::make_shared<const TileNode>(std::move(node));
+}
+
+}  // namespace
+
+TileRef TileRef::complement() const {
+  if (node->kind == TileNode::Kind::kUniform) return uniform_leaf(node->mark == 0 ? 1 : 0);
+  return {node, !complemented};
+}
+
+bool has_boundary(const SphereMapView& map) {
+  // The centre of a point on the border of a region has the mark of the set there.
+  const auto differs = [&map](const auto& items) {
+    return std::any_of(items.begin(), items.end(),
+                       [&map](const auto& item) { return item.mark != map.mark && item.mark != kOutside; });
+  };
+  return differs(map.sfaces) || differs(map.shalfedges) || differs(map.svertices) || differs(map.sloops);
+}
+
+TileMeasure measure_tile(const Complex& complex) {
+  TileMeasure result;
+  for (std::uint32_t v = 0; v < complex.vertex_count(); ++v) {
+    if (!has_boundary(complex.sphere_map(v))) continue;
+    result.box.add_rounded(complex.points.approximate(PointId{v}));
+    result.uniform = false;
+  }
+  if (result.uniform) result.mark = complex.vertex_count() == 0 ? complex.volumes[0].mark : complex.vertices[0].mark;
+  return result;
+}
+
+TileRef uniform_leaf(LabelId mark) {
+  static const std::array<std::shared_ptr<const TileNode>, 2> kLeaves{make_uniform(0), make_uniform(1)};
+  return {kLeaves[mark == 0 ? 0 : 1], false};
+}
+
+TileRef tile_leaf(Polyhedron set) {
+  const TileMeasure measure = measure_tile(set.complex());
+  if (measure.uniform) return uniform_leaf(measure.mark);
+  TileNode node;
+  node.kind = TileNode::Kind::kTile;
+  node.box = measure.box;
+  node.vertices = set.complex().vertex_count();
+  node.tiles = 1;
+  node.set = std::move(set);
+  return {std::make_shared<const TileNode>(std::move(node)), false};
+}
+
+TileRef cut_node(const AxisPlane& plane, TileRef low, TileRef high) {
+  if (low.node == high.node && low.node->kind == TileNode::Kind::kUniform) return low;
+  TileNode node;
+  node.kind = TileNode::Kind::kCut;
+  node.plane = plane;
+  node.vertices = low.node->vertices + high.node->vertices;
+  node.tiles = low.node->tiles + high.node->tiles;
+  node.low = std::move(low);
+  node.high = std::move(high);
+  return {std::make_shared<const TileNode>(std::move(node)), false};
+}
+
+Polyhedron leaf_set(const TileRef& leaf, const Region& region) {
+  if (leaf.node->kind == TileNode::Kind::kUniform) return Polyhedron(uniform_tile(region, leaf.node->mark));
+  return leaf.complemented ? complement(leaf.node->set) : leaf.node->set;
+}
+
+LabelId mark_beyond(const TileNode& tile, const AxisPlane& plane, int side) {
+  const Complex& c = tile.set.complex();
+  if (!c.has_box()) return c.volumes[0].mark;
+  // The region has corners beyond the plane, and there are no other vertices.
+  std::uint32_t extreme = 0;
+  for (std::uint32_t v = 1; v < c.vertex_count(); ++v) {
+    const double more =
+        c.points.approximate(PointId{v})[plane.axis] - c.points.approximate(PointId{extreme})[plane.axis];
+    if (side * more > 0) extreme = v;
+  }
+  NEF_ASSERT(!has_boundary(c.sphere_map(extreme)));
+  return c.vertices[extreme].mark;
+}
+
+}  // namespace nef

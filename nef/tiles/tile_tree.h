@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The tree of tiles behind a TiledPolyhedron. Nodes never change, so that any number of trees share them.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "nef/polyhedron.h"
+#include "nef/tiles/region.h"
+
+namespace nef {
+
+struct TileNode;
+
+/// A subtree, or the complement of one: that costs nothing.
+struct TileRef {
+  std::shared_ptr<const TileNode> node;
+  bool complemented = false;
+
+  [[nodiscard]] TileRef complement() const;
+  bool operator==(const TileRef&) const = default;
+};
+
+/// A leaf without boundary, a leaf with a complex, or a cut. Which region it stands for is told by the way to it.
+struct TileNode {
+  enum class Kind : std::uint8_t { kUniform, kTile, kCut };
+  Kind kind = Kind::kUniform;
+  LabelId mark = 0;  ///< uniform leaf: 0 or 1
+
+  /// Tile: the set in the closed region, kOutside beyond it. The one tile of all space is an ordinary complex.
+  Polyhedron set;
+  Box box;  ///< Tile: of the set's boundary in the region.
+
+  AxisPlane plane;  ///< Cut: inside the region.
+  TileRef low;
+  TileRef high;
+
+  std::size_t vertices = 0;  ///< of all tiles of the subtree
+  std::size_t tiles = 0;     ///< leaves that are no uniform ones
+};
+
+/// What of a complex tells whether and where it is cut. Needs its sphere maps only.
+struct TileMeasure {
+  Box box;              ///< of the vertices where the set has boundary
+  bool uniform = true;  ///< no boundary at all
+  LabelId mark = 0;     ///< then: of every point
+};
+TileMeasure measure_tile(const Complex& complex);
+
+/// True if the set has boundary at a point with this map: not all marks other than kOutside are the same.
+bool has_boundary(const SphereMapView& map);
+
+/// Leaves with these contents; `set` must be in its region.
+TileRef uniform_leaf(LabelId mark);
+TileRef tile_leaf(Polyhedron set);
+
+/// The node of a cut, or what is there instead: one leaf if both sides are the same mark.
+TileRef cut_node(const AxisPlane& plane, TileRef low, TileRef high);
+
+/// The set of a leaf, in its region.
+Polyhedron leaf_set(const TileRef& leaf, const Region& region);
+
+/// The mark beyond a plane of a tile whose boundary lies strictly on one side of it: above for side = +1, below for -1.
+LabelId mark_beyond(const TileNode& tile, const AxisPlane& plane, int side);
+
+}  // namespace nef

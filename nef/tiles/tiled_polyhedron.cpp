@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/tiles/tiled_polyhedron.h"
+
+#include <utility>
+
+#include "nef/tiles/cutter.h"
+#include "nef/tiles/seam_glue.h"
+#include "nef/tiles/tile_queries.h"
+#include "nef/tiles/tree_overlay.h"
+
+namespace nef {
+namespace {
+
+using Kind = TileNode::Kind;
+
+constexpr TruthTable kUnion{false, true, true, true};
+constexpr TruthTable kIntersection{false, false, false, true};
+constexpr TruthTable kDifference{false, false, true, false};
+constexpr TruthTable kSymmetricDifference{false, true, true, false};
+
+// With the marks 0 and 1 only.
+Polyhedron as_set(const Polyhedron& set) {
+  if (set.complex().label_count <= 2) return set;
+  return overlay(set, Polyhedron(), [](LabelId x, LabelId) { return static_cast<LabelId>(x != 0 ? 1 : 0); });
+}
+
+TiledPolyhedron combine(const TiledPolyhedron& a, const TiledPolyhedron& b, const TruthTable& f) {
+  return {overlay_trees(a.tree(), b.tree(), f, a.tiling()), a.tiling()};
+}
+
+// A plain operand comes as one leaf, and is cut only where that pays.
+TiledPolyhedron combine(const TiledPolyhedron& a, const Polyhedron& b, const TruthTable& f) {
+  return {overlay_trees(a.tree(), tile_leaf(as_set(b)), f, a.tiling()), a.tiling()};
+}
+
+TiledPolyhedron by_gluing(const TiledPolyhedron& a, Polyhedron (*change)(const Polyhedron&)) {
+  return TiledPolyhedron(change(a.polyhedron()), a.tiling());
+}
+
+// The axis that each axis is taken to; nothing if any is taken to none.
+std::optional<std::array<std::size_t, 3>> axes_of(const AffineMap& map) {
+  std::array<std::size_t, 3> to{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    std::size_t found = 0;
+    for (std::size_t j = 0; j < 3; ++j) {
+      if (map.linear[j][i] == 0) continue;
+      to[i] = j;
+      ++found;
+    }
+    if (found != 1) return std::nullopt;
+  }
+  return to;
+}
+
+TileRef transformed(const TileRef& tree, const AffineMap& map, const std::array<std::size_t, 3>& to) {
+  if (tree.node->kind == Kind::kUniform) return tree;
+  if (tree.node->kind == Kind::kTile) return {tile_leaf(transform(tree.node->set, map)).node, tree.complemented};
+  const AxisPlane& plane = tree.node->plane;
+  const std::size_t axis = to[plane.axis];
+  const Rational& factor = map.linear[axis][plane.axis];
+  TileRef low = transformed(tree.node->low, map, to);
+  TileRef high = transformed(tree.node->high, map, to);
+  if (factor < 0) std::swap(low, high);
+  const TileRef result =
+      cut_node(AxisPlane(axis, factor * plane.at + map.translation[axis]), std::move(low), std::move(high));
+  return tree.complemented ? result.complement() : result;
+}
+
+}  // namespace
+
+TiledPolyhedron::TiledPolyhedron() : TiledPolyhedron(uniform_leaf(0), Tiling{}) {}
+
+TiledPolyhedron::TiledPolyhedron(const Polyhedron& set, const Tiling& tiling)
+    : TiledPolyhedron(subdivided(as_set(set), tiling.limit), tiling) {}
+
+TiledPolyhedron::TiledPolyhedron(std::span<const Polyhedron> pieces, const Tiling& tiling)
+    : TiledPolyhedron(unite_all(pieces, tiling.threads), tiling) {}
+
+TiledPolyhedron::TiledPolyhedron(TileRef root, const Tiling& tiling)
+    : root_(std::make_shared<const TileRef>(std::move(root))), tiling_(tiling) {}
+
+std::size_t TiledPolyhedron::tile_count() const { return root_->node->tiles; }
+
+std::size_t TiledPolyhedron::vertex_count() const { return root_->node->vertices; }
+
+bool TiledPolyhedron::is_empty() const { return root_->node->kind == Kind::kUniform && root_->node->mark == 0; }
+
+bool TiledPolyhedron::is_everything() const { return root_->node->kind == Kind::kUniform && root_->node->mark != 0; }
+
+Polyhedron TiledPolyhedron::polyhedron() const { return glue_all_tiles(*root_); }
+
+TiledPolyhedron unite(const TiledPolyhedron& a, const TiledPolyhedron& b) { return combine(a, b, kUnion); }
+TiledPolyhedron unite(const TiledPolyhedron& a, const Polyhedron& b) { return combine(a, b, kUnion); }
+TiledPolyhedron intersect(const TiledPolyhedron& a, const TiledPolyhedron& b) { return combine(a, b, kIntersection); }
+TiledPolyhedron intersect(const TiledPolyhedron& a, const Polyhedron& b) { return combine(a, b, kIntersection); }
+TiledPolyhedron subtract(const TiledPolyhedron& a, const TiledPolyhedron& b) { return combine(a, b, kDifference); }
+TiledPolyhedron subtract(const TiledPolyhedron& a, const Polyhedron& b) { return combine(a, b, kDifference); }
+TiledPolyhedron symmetric_difference(const TiledPolyhedron& a, const TiledPolyhedron& b) {
+  return combine(a, b, kSymmetricDifference);
+}
+TiledPolyhedron symmetric_difference(const TiledPolyhedron& a, const Polyhedron& b) {
+  return combine(a, b, kSymmetricDifference);
+}
+
+TiledPolyhedron complement(const TiledPolyhedron& a) { return {a.tree().complement(), a.tiling()}; }
+
+TiledPolyhedron interior(const TiledPolyhedron& a) { return by_gluing(a, interior); }
+TiledPolyhedron closure(const TiledPolyhedron& a) { return by_gluing(a, closure); }
+TiledPolyhedron boundary(const TiledPolyhedron& a) { return by_gluing(a, boundary); }
+TiledPolyhedron exterior(const TiledPolyhedron& a) { return by_gluing(a, exterior); }
+TiledPolyhedron regularize(const TiledPolyhedron& a) { return by_gluing(a, regularize); }
+
+TiledPolyhedron transform(const TiledPolyhedron& a, const AffineMap& map) {
+  const std::optional<std::array<std::size_t, 3>> to = axes_of(map);
+  if (!to || a.tree().node->kind != Kind::kCut) return TiledPolyhedron(transform(a.polyhedron(), map), a.tiling());
+  return {transformed(a.tree(), map, *to), a.tiling()};
+}
+
+bool equal(const TiledPolyhedron& a, const TiledPolyhedron& b) { return symmetric_difference(a, b).is_empty(); }
+
+Location locate(const TiledPolyhedron& a, const Rational3& point) { return locate_in_tiles(a.tree(), point); }
+
+bool contains(const TiledPolyhedron& a, const Rational3& point) { return locate(a, point).mark != 0; }
+
+std::optional<Rational> volume(const TiledPolyhedron& a) { return volume_of_tiles(a.tree()); }
+
+std::optional<std::array<Rational3, 2>> bounding_box(const TiledPolyhedron& a) {
+  bool bounded = false;
+  const std::optional<std::array<Rational3, 2>> bounds = bounds_of_tiles(a.tree(), bounded);
+  return bounded ? bounds : bounding_box(a.polyhedron());
+}
+
+}  // namespace nef

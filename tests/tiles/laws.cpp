@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What is done in tiles is what is done without them, whatever the cuts.
+#include <catch2/catch.hpp>
+
+#include "tests/tiles/cuts.h"
+
+namespace nef::test {
+namespace {
+
+// Runs a property for bounded and unbounded sets.
+template <typename Property>
+void for_all_cut_pairs(const std::string& name, std::size_t steps, Property property) {
+  for (const bool bounded : {true, false}) {
+    CHECK(rc::check(name + (bounded ? " (bounded)" : " (unbounded)"), [&] {
+      const Recipe a = *recipes(bounded, steps).as("A");
+      const Recipe b = *recipes(bounded, steps).as("B");
+      const Cuts of_a = *some_cuts(5).as("cuts of A");
+      const Cuts of_b = *some_cuts(5).as("cuts of B");
+      property(a.make(), b.make(), of_a, of_b);
+    }));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("cut and glued is the same set") {
+  for_all_cut_pairs("cut and glued", 4, [](const Polyhedron& a, const Polyhedron&, const Cuts& cuts, const Cuts&) {
+    const TiledPolyhedron in_tiles = tiled(a, cuts);
+    leaves_are_valid(in_tiles.tree(), "cut");
+    glued_is(in_tiles, a, "glued");
+    glued_is(complement(in_tiles), complement(a), "complement");
+    glued_is(complement(complement(in_tiles)), a, "complement of the complement");
+  });
+}
+
+TEST_CASE("operations in tiles are those on whole sets") {
+  for_all_cut_pairs("operations", 3, [](const Polyhedron& a, const Polyhedron& b, const Cuts& of_a, const Cuts& of_b) {
+    const TiledPolyhedron x = tiled(a, of_a);
+    const TiledPolyhedron y = tiled(b, of_b);
+    glued_is(unite(x, y), unite(a, b), "A + B");
+    glued_is(intersect(x, y), intersect(a, b), "A * B");
+    glued_is(subtract(x, y), subtract(a, b), "A - B");
+    glued_is(symmetric_difference(x, y), symmetric_difference(a, b), "A ^ B");
+    glued_is(subtract(complement(x), y), subtract(complement(a), b), "!A - B");
+    glued_is(unite(x, complement(y)), unite(a, complement(b)), "A + !B");
+    leaves_are_valid(symmetric_difference(complement(x), y).tree(), "!A ^ B");
+  });
+}
+
+TEST_CASE("a plain operand need not be cut") {
+  for_all_cut_pairs("plain operand", 3, [](const Polyhedron& a, const Polyhedron& b, const Cuts& of_a, const Cuts&) {
+    const TiledPolyhedron x = tiled(a, of_a);
+    glued_is(unite(x, b), unite(a, b), "A + B");
+    glued_is(intersect(x, b), intersect(a, b), "A * B");
+    glued_is(subtract(x, b), subtract(a, b), "A - B");
+    glued_is(symmetric_difference(complement(x), b), symmetric_difference(complement(a), b), "!A ^ B");
+  });
+}
+
+TEST_CASE("tiles small enough to split and join under way") {
+  for_all_cut_pairs("small tiles", 4, [](const Polyhedron& a, const Polyhedron& b, const Cuts&, const Cuts&) {
+    const Tiling tiling{*rc::gen::inRange<std::size_t>(8, 40), 1};
+    const TiledPolyhedron x(a, tiling);
+    leaves_are_valid(x.tree(), "A");
+    glued_is(x, a, "A");
+    glued_is(unite(x, b), unite(a, b), "A + B");
+    glued_is(subtract(subtract(x, b), TiledPolyhedron(b, tiling)), subtract(a, b), "A - B - B");
+    glued_is(intersect(unite(x, b), b), b, "(A + B) * B");
+    if (!equal(symmetric_difference(symmetric_difference(x, b), b), x)) RC_FAIL("A ^ B ^ B");
+  });
+}
+
+TEST_CASE("queries in tiles are those of the whole set") {
+  for_all_cut_pairs("queries", 4, [](const Polyhedron& a, const Polyhedron&, const Cuts& cuts, const Cuts&) {
+    const TiledPolyhedron in_tiles = tiled(a, cuts);
+    RC_ASSERT(volume(in_tiles) == volume(a));
+    RC_ASSERT(bounding_box(in_tiles) == bounding_box(a));
+    RC_ASSERT(volume(complement(in_tiles)) == volume(complement(a)));
+    for (int i = 0; i < 8; ++i) {
+      const Rational3 p = *adversarial_points().as("point");
+      const Location there = locate(in_tiles, p);
+      const Location whole = locate(a, p);
+      RC_ASSERT((there.mark != 0) == (whole.mark != 0));
+      RC_ASSERT(there.kind == whole.kind);
+      RC_ASSERT(contains(complement(in_tiles), p) == !contains(a, p));
+    }
+  });
+}
+
+TEST_CASE("other operations on sets in tiles") {
+  for_all_cut_pairs("unary", 3, [](const Polyhedron& a, const Polyhedron&, const Cuts& cuts, const Cuts&) {
+    const TiledPolyhedron x = tiled(a, cuts);
+    glued_is(interior(x), interior(a), "interior");
+    glued_is(closure(x), closure(a), "closure");
+    glued_is(boundary(x), boundary(a), "boundary");
+    glued_is(exterior(x), exterior(a), "exterior");
+    glued_is(regularize(x), regularize(a), "regularize");
+    AffineMap turned;  // y, -2z, x/3, moved
+    turned.linear[0][1] = 1;
+    turned.linear[1][2] = -2;
+    turned.linear[2][0] = Rational(1, 3);
+    turned.translation = {Rational(1, 7), 2, -1};
+    glued_is(transform(x, turned), transform(a, turned), "axes to axes");
+    AffineMap sheared = AffineMap::identity();
+    sheared.linear[0][1] = 2;
+    glued_is(transform(complement(x), sheared), transform(complement(a), sheared), "sheared");
+  });
+}
+
+}  // namespace nef::test

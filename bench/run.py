@@ -4,6 +4,7 @@
 
   bench/run.py [--bin build/release/bin] [--repeat 3] [--passes 1] [--json FILE] [CASE ...]
   bench/run.py --sweep            time per result vertex over N (is the cost n log n?)
+  bench/run.py --plot FOLDER ...  draws the table as figures, too (bench/plot.py)
   bench/run.py --manifold PREFIX [CASE ...]    ours beside the Manifold library installed at PREFIX, which is fast and
                                   not exact: build, operation, export to triangles of doubles, peak memory
 
@@ -12,12 +13,17 @@ case runs in a process of its own, so that peak memory is the case's; with --pas
 alternate, and the best pass of each counts.
 """
 import argparse
+import contextlib
+import importlib.util
+import io
 import json
 import math
 import os
 import subprocess
 import sys
 import tempfile
+
+import plot
 
 CASES = [
     "tetgrid-12", "wall-40", "facet-40", "minus-30", "sphere_map-100", "cylinder-1000-1e-1",
@@ -183,6 +189,21 @@ def sweep(args, engines):
     return 0
 
 
+class Tee:
+    """Standard output, with a copy kept."""
+
+    def __init__(self, copy):
+        self.copy = copy
+        self.out = sys.stdout
+
+    def write(self, text):
+        self.copy.write(text)
+        return self.out.write(text)
+
+    def flush(self):
+        self.out.flush()
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     root = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
@@ -194,9 +215,12 @@ def main():
     parser.add_argument("--json", default=None, help="write all reports to this file")
     parser.add_argument("--sweep", action="store_true")
     parser.add_argument("--manifold", default=None, metavar="PREFIX", help="where the Manifold library is installed")
+    parser.add_argument("--plot", default=None, metavar="FOLDER", help="draw the table as SVG (needs python3-matplotlib)")
     parser.add_argument("--only", default="", help="engines, comma-separated: nef,cgal,corefinement")
     parser.add_argument("cases", nargs="*")
     args = parser.parse_args()
+    if args.plot and importlib.util.find_spec("matplotlib") is None:
+        parser.error("--plot needs matplotlib (apt-get install python3-matplotlib, and run it with /usr/bin/python3)")
     engines = {e: os.path.join(args.bin, "nef_bench_" + e) for e in ("nef", "cgal", "corefinement")
                if os.path.exists(os.path.join(args.bin, "nef_bench_" + e)) and (not args.only or e in args.only.split(","))}
     if "nef" not in engines:
@@ -204,10 +228,17 @@ def main():
         return 2
     with tempfile.TemporaryDirectory() as temporary:
         args.directory = args.directory or temporary
-        if args.manifold:
-            peer = build_manifold_peer(args, root)
-            return beside_manifold(args, {"nef": engines["nef"], "manifold": peer})
-        return sweep(args, engines) if args.sweep else table(args, engines)
+        printed = io.StringIO()
+        with contextlib.redirect_stdout(Tee(printed)):
+            if args.manifold:
+                peer = build_manifold_peer(args, root)
+                code = beside_manifold(args, {"nef": engines["nef"], "manifold": peer})
+            else:
+                code = sweep(args, engines) if args.sweep else table(args, engines)
+    if args.plot:
+        for path in plot.draw(printed.getvalue(), args.plot):
+            print(path)
+    return code
 
 
 if __name__ == "__main__":

@@ -7,16 +7,60 @@ infeasible planning problem exits with 1).
 """
 import html
 import os
+import shlex
 import subprocess
 import sys
 import time
+
+
+STYLE = """
+:root { color-scheme: light dark; --line: #d5d5d5; --quiet: #555; --block: #f4f4f4; }
+@media (prefers-color-scheme: dark) { :root { --line: #444; --quiet: #aaa; --block: #222; } }
+body { font: 16px/1.5 sans-serif; max-width: 78em; margin: 2em auto; padding: 0 1em; }
+.gallery { display: grid; grid-template-columns: repeat(auto-fill, minmax(21em, 1fr)); gap: 1.2em; }
+figure { margin: 0; border: 1px solid var(--line); border-radius: 6px; overflow: hidden; }
+figure img { width: 100%; height: auto; display: block; }
+figcaption { padding: .6em .8em; } figcaption p { margin: .2em 0; color: var(--quiet); font-size: 14px; }
+pre { background: var(--block); padding: .6em; overflow-x: auto; white-space: pre-wrap; overflow-wrap: anywhere; }
+summary { cursor: pointer; color: var(--quiet); }
+"""
+
+
+class Section:
+    """One job: what it shows, and how it was done."""
+
+    def __init__(self, title: str, text: str) -> None:
+        self.title = title
+        self.text = text
+        self.pictures: list[tuple[str, str]] = []  # (picture, page)
+        self.links: list[tuple[str, str]] = []  # (file, text)
+        self.steps: list[tuple[str, str, float]] = []  # (command, what it printed, seconds)
+
+    def figure(self) -> str:
+        picture, page = self.pictures[0]
+        links = "".join(f' · <a href="{file}">{html.escape(text)}</a>' for file, text in self.links)
+        return (
+            f'<figure><a href="{page}"><img src="{picture}" alt="{html.escape(self.title)}" width="640" height="480"></a>'
+            f"<figcaption><b>{html.escape(self.title)}</b><p>{self.text}</p>"
+            f'<p><a href="{page}">turn it, click on it</a>{links}</p></figcaption></figure>'
+        )
+
+    def details(self) -> str:
+        """The commands, to be pasted into a shell, with what they printed folded beneath."""
+        parts = [f"<h2>{html.escape(self.title)}</h2>"]
+        if not self.pictures:
+            parts.append(f"<p>{self.text}</p>")
+        for command, printed, seconds in self.steps:
+            parts.append(f"<pre>{html.escape(command)}</pre>")
+            parts.append(f"<details><summary>{seconds:.2f} s</summary><pre>{html.escape(printed)}</pre></details>")
+        return "\n".join(parts)
 
 
 class Demo:
     def __init__(self, programs: str, out: str) -> None:
         self.programs = programs
         self.out = out
-        self.sections: list[str] = []
+        self.sections: list[Section] = []
         os.makedirs(out, exist_ok=True)
 
     def path(self, name: str) -> str:
@@ -24,11 +68,10 @@ class Demo:
 
     def run(self, *command: str, expect: tuple[int, ...] = (0,)) -> str:
         """Runs one of the programs; returns what it printed."""
+        program = os.path.join(self.programs, command[0])
         print("  " + " ".join(command), flush=True)
         start = time.monotonic()
-        result = subprocess.run(
-            [os.path.join(self.programs, command[0]), *command[1:]], capture_output=True, text=True, check=False
-        )
+        result = subprocess.run([program, *command[1:]], capture_output=True, text=True, check=False)
         took = time.monotonic() - start
         if result.returncode not in expect:
             sys.exit(f"{result.stdout}{result.stderr}demo: step failed with exit code {result.returncode}")
@@ -36,32 +79,36 @@ class Demo:
         for line in text.splitlines()[:4]:
             print("    " + line[:150])
         print(f"    {took:.2f} s", flush=True)
-        self.sections[-1] += (
-            f"<pre>{html.escape(' '.join(command))}\n{html.escape(text[:1500])}\n({took:.2f} s)</pre>"
-        )
+        self.sections[-1].steps.append((shlex.join([program, *command[1:]]), text[:4000], took))
         return text
 
     def section(self, title: str, text: str) -> None:
         print(title, flush=True)
-        self.sections.append(f"<h2>{html.escape(title)}</h2><p>{text}</p>")
+        self.sections.append(Section(title, text))
+
+    def link(self, file: str, text: str) -> None:
+        """A further file of the section."""
+        self.sections[-1].links.append((file, text))
 
     def show(self, *files: str, source: str = "1,-1.6,1.1") -> None:
-        """A picture and a page of the given polyhedra, next to each other in the index."""
+        """A picture of the given polyhedra in the gallery, which leads to their page."""
         name = os.path.splitext(os.path.basename(files[0]))[0]
         self.run("nef", "picture", *files, "-o", self.path(name + ".png"), "--from", source, "--size", "640x480")
         self.run("nef", "view", *files, "-o", self.path(name + ".html"))
-        self.sections[-1] += (
-            f'<a href="{name}.html"><img src="{name}.png" alt="{name}" width="640" height="480"></a>'
-            f'<p><a href="{name}.html">turn it, click on it</a></p>'
-        )
+        self.sections[-1].pictures.append((name + ".png", name + ".html"))
 
     def write_index(self) -> None:
-        body = "\n".join(self.sections)
+        gallery = "\n".join(section.figure() for section in self.sections if section.pictures)
+        details = "\n".join(section.details() for section in self.sections)
         page = f"""<!doctype html><html lang="en"><head><meta charset="utf-8"><title>Exact solid geometry: demo</title>
-<style>body{{font:16px/1.5 sans-serif;max-width:72em;margin:2em auto;padding:0 1em}}pre{{background:#f4f4f4;padding:.6em;
-overflow-x:auto}}img{{max-width:100%;height:auto;border:1px solid #ddd}}</style></head><body>
+<meta name="viewport" content="width=device-width"><style>{STYLE}</style></head><body>
 <h1>Exact solid geometry with Nef polyhedra</h1>
-{body}
+<div class="gallery">
+{gallery}
+</div>
+<h1>How it was made</h1>
+<p>Each line can be pasted into a shell in the project's folder; under it, the time it took here and what it printed.</p>
+{details}
 </body></html>
 """
         with open(self.path("index.html"), "w", encoding="utf-8") as file:
@@ -85,7 +132,7 @@ def main() -> None:
     demo.run("visual_hull", "data/visual_hull/eight/eight.json", "-o", demo.path("eight.nef"), "--simplify", "1",
              "--verify", "--page", demo.path("eight_cameras.html"))
     demo.show(demo.path("eight.nef"))
-    demo.sections[-1] += '<p><a href="eight_cameras.html">the hull with its cameras and their images</a></p>'
+    demo.link("eight_cameras.html", "with its cameras and their images")
 
     demo.section("Three letters", "The thesis' example with letters of our own: three cameras see an M, a P and an I.")
     demo.run("visual_hull", "data/visual_hull/letters/mpi.vsh", "-o", demo.path("letters.nef"))
@@ -109,7 +156,10 @@ def main() -> None:
     demo.section("Through the passage", "Our planner finds the only way. Sampling in doubles cannot hit a set of measure zero, but with this suite's samplers and exact motion validator OMPL's planners get through too.")
     demo.run("planner", "data/planner/s1_tight_hole.json", "-o", demo.path("path.txt"), "-o", demo.path("planner.glb"),
              "--page", demo.path("planner.html"))
-    demo.sections[-1] += '<p><a href="planner.html">move the robot</a>, or the same as <a href="planner.glb">glTF</a></p>'
+    demo.run("nef", "picture", demo.path("wall.nef"), demo.path("robot.nef"), "-o", demo.path("planner.png"), "--from",
+             "0.4,-1.6,0.7", "--size", "640x480")
+    demo.sections[-1].pictures.append(("planner.png", "planner.html"))
+    demo.link("planner.glb", "as glTF")
     demo.run("planner", "data/planner/s1_tight_hole.json", "--ompl", "RRTConnect", "--time", "2", expect=(0, 1, 4))
 
     demo.section("No way", "A billionth less room, and the answer is a proof.")

@@ -11,7 +11,7 @@ nef_packages=(
   pybind11-dev python3-dev python3-numpy
 )
 nef_test_packages=(catch2 librapidcheck-dev libcgal-dev chromium npm
-  python3-pytest python3-meshio python3-pip python3-wheel)
+  python3-pytest python3-meshio python3-matplotlib python3-pip python3-wheel)
 nef_lint_packages=(clang clang-format clang-tidy)
 
 install_missing() {

@@ -1,24 +1,87 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // nef union | intersection | difference | symdiff
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "nef/base/error.h"
+#include "nef/base/stopwatch.h"
 #include "nef/command/commands.h"
+#include "nef/operation/label_inputs.h"
 
 namespace nef {
 namespace {
 
-using Operation = Polyhedron (*)(std::span<const Polyhedron>, unsigned threads);
+struct Operation {
+  std::string name;
+  std::string description;
+  int most;  // operands
+  Polyhedron (*compute)(std::span<const Polyhedron>, unsigned threads);
+  bool (*holds)(const InputSet& inputs, std::size_t count);  // whether a point in these inputs is in the result
+};
 
-void add(CLI::App& app, Session& session, const std::string& name, const std::string& description, int most,
-         Operation operation) {
-  CLI::App* command = add_subcommand(app, session, name, description);
-  command->add_option("inputs", session.inputs, "the operands, as files")->required()->expected(2, most);
+// What the groups of faces are called: the names of files, with their folders only where these tell them apart.
+std::vector<std::string> short_names(const std::vector<std::string>& paths) {
+  std::vector<std::string> names;
+  for (const std::string& path : paths) names.push_back(std::filesystem::path(path).filename().string());
+  if (std::set<std::string>(names.begin(), names.end()).size() == names.size()) return names;
+  names = paths;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (std::count(paths.begin(), paths.end(), paths[i]) > 1) names[i] += ":" + std::to_string(i + 1);
+  }
+  return names;
+}
+
+// The boundary of the result, face by face with the inputs that it comes from.
+void finish_with_origins(Session& session, const Operation& operation, const std::vector<Polyhedron>& sets) {
+  if (session.output.empty()) throw InputError("--origins writes a mesh: give it a name with -o");
+  const Stopwatch watch;
+  const LabeledPolyhedron<InputSet> labeled = label_inputs(sets, session.threads);
+  const double seconds = watch.seconds();
+  const auto holds = [&](const InputSet& inputs) { return operation.holds(inputs, sets.size()); };
+  const std::vector<std::string> names = short_names(session.inputs);
+  BoundaryGroups groups;
+  groups.selected = [&](LabelId mark) { return mark < labeled.labels().size() && holds(labeled.label(mark)); };
+  groups.name = [&](LabelId inside, LabelId outside) {
+    std::string text;
+    for (const std::uint32_t input : origins(labeled.label(inside), labeled.label(outside))) {
+      text += (text.empty() ? "" : "+") + names[input];
+    }
+    return text;
+  };
+  const std::map<std::string, std::size_t> faces = session.store_groups(labeled.polyhedron(), groups);
+  const Polyhedron result = labeled.where(holds);
+  if (session.json) {
+    session.print({{"command", operation.name},
+                   {"load_s", session.load_s},
+                   {"op_s", seconds},
+                   {"write_s", session.write_s},
+                   {"origins", faces},
+                   {"result", info_json(result)}});
+    return;
+  }
+  session.say(summary(result));
+  for (const auto& [name, count] : faces) {
+    session.say(name + ": " + std::to_string(count) + (count == 1 ? " face" : " faces"));
+  }
+}
+
+void add(CLI::App& app, Session& session, const Operation& operation) {
+  CLI::App* command = add_subcommand(app, session, operation.name, operation.description);
+  command->add_option("inputs", session.inputs, "the operands, as files")->required()->expected(2, operation.most);
   add_input_flags(command, session);
   add_output_flags(command, session);
-  command->add_option("--repeat", session.repeat, "compute N times and report the median")
-      ->check(CLI::Range(1, 1000000));
-  command->callback([&session, name, operation] {
+  CLI::Option* repeat = command->add_option("--repeat", session.repeat, "compute N times and report the median")
+                            ->check(CLI::Range(1, 1000000));
+  command
+      ->add_flag("--origins", session.origins,
+                 "write from which operand each face comes: groups in OBJ, colours in OFF, PLY and GLB")
+      ->excludes(repeat);
+  command->callback([&session, operation] {
     const std::vector<Polyhedron> sets = session.load_all(session.inputs);
-    finish(session, name, measure(session.repeat, [&] { return operation(sets, session.threads); }));
+    if (session.origins) return finish_with_origins(session, operation, sets);
+    finish(session, operation.name, measure(session.repeat, [&] { return operation.compute(sets, session.threads); }));
   });
 }
 
@@ -26,16 +89,23 @@ void add(CLI::App& app, Session& session, const std::string& name, const std::st
 
 void add_boolean_commands(CLI::App& app, Session& session) {
   constexpr int kMany = CLI::detail::expected_max_vector_size;
-  add(app, session, "union", "The points of any of the sets", kMany,
-      [](std::span<const Polyhedron> s, unsigned n) { return s.size() == 2 ? unite(s[0], s[1]) : unite_all(s, n); });
-  add(app, session, "intersection", "The points of all of the sets", kMany,
-      [](std::span<const Polyhedron> s, unsigned n) {
-        return s.size() == 2 ? intersect(s[0], s[1]) : intersect_all(s, n);
-      });
-  add(app, session, "difference", "The points of the first set that are not in the second", 2,
-      [](std::span<const Polyhedron> s, unsigned) { return subtract(s[0], s[1]); });
-  add(app, session, "symdiff", "The points of exactly one of two sets", 2,
-      [](std::span<const Polyhedron> s, unsigned) { return symmetric_difference(s[0], s[1]); });
+  using Sets = std::span<const Polyhedron>;
+  add(app, session,
+      {"union", "The points of any of the sets", kMany,
+       [](Sets s, unsigned n) { return s.size() == 2 ? unite(s[0], s[1]) : unite_all(s, n); },
+       [](const InputSet& inputs, std::size_t) { return !inputs.empty(); }});
+  add(app, session,
+      {"intersection", "The points of all of the sets", kMany,
+       [](Sets s, unsigned n) { return s.size() == 2 ? intersect(s[0], s[1]) : intersect_all(s, n); },
+       [](const InputSet& inputs, std::size_t count) { return inputs.size() == count; }});
+  add(app, session,
+      {"difference", "The points of the first set that are not in the second", 2,
+       [](Sets s, unsigned) { return subtract(s[0], s[1]); },
+       [](const InputSet& inputs, std::size_t) { return inputs == InputSet{0}; }});
+  add(app, session,
+      {"symdiff", "The points of exactly one of two sets", 2,
+       [](Sets s, unsigned) { return symmetric_difference(s[0], s[1]); },
+       [](const InputSet& inputs, std::size_t) { return inputs.size() == 1; }});
 }
 
 }  // namespace nef

@@ -78,6 +78,7 @@ class Exporter {
     for (const auto& [v, w] : lines_) result.lines.push_back({number_[v], number_[w]});
     for (const std::uint32_t v : points_) result.points.push_back(number_[v]);
     result.lost = std::move(lost_);
+    result.face_marks = std::move(face_marks_);
     return result;
   }
 
@@ -294,6 +295,7 @@ class Exporter {
       const Facet& facet = complex_.facets[f];
       // Cycles turn counterclockwise as seen from above, which is outside if the solid lies below.
       const bool flip = volumes_[facet.volume_above].selected;
+      note_marks(facet, flip);
       if (is_triangle(facet)) {
         const std::array<std::uint32_t, 3> v{number_[corners[0]], number_[corners[1]], number_[corners[2]]};
         corners += 3;
@@ -316,6 +318,20 @@ class Exporter {
         faces_.push_face(triangle);
       }
     }
+    fill_marks();
+  }
+
+  // Of the faces since the last facet, and then of this one's first.
+  void note_marks(const Facet& facet, bool flip) {
+    if (!options_.face_marks) return;
+    fill_marks();
+    std::array<LabelId, 2> marks{complex_.volumes[facet.volume_below].mark, complex_.volumes[facet.volume_above].mark};
+    if (flip) std::swap(marks[0], marks[1]);
+    face_marks_.push_back(marks);
+  }
+  // A facet may be many faces.
+  void fill_marks() {
+    if (!face_marks_.empty()) face_marks_.resize(faces_.face_count(), face_marks_.back());
   }
 
   // The corners begin where they would if the face were kept as a polygon, or were triangulated.
@@ -433,6 +449,7 @@ class Exporter {
   Items cracks_;
   std::vector<std::uint32_t> vertices_;  // of the complex, of each vertex of the mesh
   Mesh faces_;                           // its vertices come last
+  std::vector<std::array<LabelId, 2>> face_marks_;
   std::vector<std::string> lost_;
 };
 

@@ -2,6 +2,8 @@
 #include "nef/io/polyhedron_file.h"
 
 #include <algorithm>
+#include <array>
+#include <map>
 
 #include "nef/export/to_mesh.h"
 #include "nef/io/cgal/cgal_nef3.h"
@@ -37,7 +39,7 @@ std::string mending_text(const MendedMesh& rounded) {
 }
 
 // Replaces a mesh whose rounding is not legal by one that is, or tells that this can't be done.
-void round_and_mend(Mesh& mesh, const std::string& extension, const MeshWriteOptions& options, Messages& notes) {
+void round_and_mend(Mesh& mesh, const std::string& extension, MeshWriteOptions& options, Messages& notes) {
   const auto survives = [&](const Rational3& p) { return survives_writing(p, extension, options); };
   if (std::all_of(mesh.vertices.begin(), mesh.vertices.end(), survives)) return;
   refuse_infinite(mesh, extension, options);
@@ -54,6 +56,60 @@ void round_and_mend(Mesh& mesh, const std::string& extension, const MeshWriteOpt
   }
   if (rounded.moved > 0 || rounded.dropped > 0) notes.push_back(mending_text(rounded));
   mesh = std::move(rounded.mesh);
+  if (options.groups.none() || rounded.face_of.empty()) return;
+  std::vector<std::uint32_t> groups;
+  for (const std::uint32_t face : rounded.face_of) groups.push_back(options.groups.of_face[face]);
+  options.groups.of_face = std::move(groups);
+}
+
+// The faces' groups, numbered by name.
+FaceGroups groups_of(const MeshExport& result, const BoundaryGroups& groups) {
+  std::map<std::array<LabelId, 2>, std::string> name;
+  for (const auto& marks : result.face_marks) {
+    if (!name.contains(marks)) name.emplace(marks, groups.name(marks[0], marks[1]));
+  }
+  std::map<std::string, std::uint32_t> number;
+  for (const auto& [marks, text] : name) number.emplace(text, 0);
+  FaceGroups out;
+  for (auto& [text, index] : number) {
+    index = static_cast<std::uint32_t>(out.names.size());
+    out.names.push_back(text);
+  }
+  for (const auto& marks : result.face_marks) out.of_face.push_back(number.at(name.at(marks)));
+  return out;
+}
+
+// Writes a mesh format. Returns the groups as written.
+FaceGroups write_boundary(const std::string& path, const std::string& extension, const Polyhedron& polyhedron,
+                          const PolyhedronWriteOptions& options, const BoundaryGroups* groups, Messages* messages) {
+  MeshExportOptions export_options;
+  export_options.keep_polygons = extension != "stl" && extension != "glb" && extension != "3mf";
+  export_options.only_convex = !options.polygons;
+  export_options.lower_dimensional = true;
+  MeshWriteOptions write_options{options.exact, options.binary, extension};
+  export_options.polygon_corner = [&](const Rational3& point) {
+    return survives_writing(point, extension, write_options);
+  };
+  if (groups != nullptr) {
+    export_options.selected = groups->selected;
+    export_options.face_marks = true;
+  }
+  MeshExport result = to_mesh(polyhedron, export_options);
+  Messages notes = result.lost;
+  if (groups != nullptr) write_options.groups = groups_of(result, *groups);
+  if (extension == "obj") {
+    write_options.lines = result.lines;
+    write_options.points = result.points;
+  } else {
+    report_wires(result, notes);
+  }
+  if (result.closed && options.check) round_and_mend(result.mesh, extension, write_options, notes);
+  if (groups != nullptr && !has_groups(extension)) {
+    notes.push_back("groups of faces are not in the file: the format has none; write OBJ, OFF, PLY or GLB");
+  }
+  write_mesh(path, result.mesh, write_options, &notes);
+  if (messages != nullptr) messages->insert(messages->end(), notes.begin(), notes.end());
+  return std::move(write_options.groups);
 }
 
 }  // namespace
@@ -91,25 +147,21 @@ void write_polyhedron(const std::string& path, const Polyhedron& polyhedron, con
     throw FileError(FileProblem::kUnreadable,
                     path + ": the extension names no format; use nef, nef3, off, obj, stl, ply, glb or 3mf");
   }
-  MeshExportOptions export_options;
-  export_options.keep_polygons = extension != "stl" && extension != "glb" && extension != "3mf";
-  export_options.only_convex = !options.polygons;
-  export_options.lower_dimensional = true;
-  MeshWriteOptions write_options{options.exact, options.binary, extension};
-  export_options.polygon_corner = [&](const Rational3& point) {
-    return survives_writing(point, extension, write_options);
-  };
-  MeshExport result = to_mesh(polyhedron, export_options);
-  Messages notes = result.lost;
-  if (extension == "obj") {
-    write_options.lines = result.lines;
-    write_options.points = result.points;
-  } else {
-    report_wires(result, notes);
+  write_boundary(path, extension, polyhedron, options, nullptr, messages);
+}
+
+std::map<std::string, std::size_t> write_groups(const std::string& path, const Polyhedron& labeled,
+                                                const BoundaryGroups& groups, const PolyhedronWriteOptions& options,
+                                                Messages* messages) {
+  const std::string extension = options.format.empty() ? lower_extension(path) : options.format;
+  if (!is_mesh_extension(extension)) {
+    throw FileError(FileProblem::kUnreadable, path + ": groups of faces need a mesh format: off, obj, ply or glb");
   }
-  if (result.closed && options.check) round_and_mend(result.mesh, extension, write_options, notes);
-  write_mesh(path, result.mesh, write_options, &notes);
-  if (messages != nullptr) messages->insert(messages->end(), notes.begin(), notes.end());
+  const FaceGroups written = write_boundary(path, extension, labeled, options, &groups, messages);
+  std::map<std::string, std::size_t> count;
+  for (const std::string& name : written.names) count.emplace(name, 0);
+  for (const std::uint32_t group : written.of_face) ++count.at(written.names[group]);
+  return count;
 }
 
 }  // namespace nef

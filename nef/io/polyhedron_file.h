@@ -3,6 +3,8 @@
 // Polyhedra from and to files of every format, chosen by extension.
 #pragma once
 
+#include <functional>
+#include <map>
 #include <string>
 
 #include "nef/construct/construct.h"
@@ -34,5 +36,21 @@ struct PolyhedronWriteOptions {
 /// set in .nef3.
 void write_polyhedron(const std::string& path, const Polyhedron& polyhedron, const PolyhedronWriteOptions& options = {},
                       Messages* messages = nullptr);
+
+/// How the faces of a set with labels are put into groups.
+struct BoundaryGroups {
+  /// Which marks belong to the set.
+  std::function<bool(LabelId)> selected;
+  /// The name of the group of a face between volumes of these marks.
+  std::function<std::string(LabelId inside, LabelId outside)> name;
+};
+
+/// Writes the points with selected marks like write_polyhedron, to a mesh format, and tells from face to face which
+/// group it belongs to (see MeshWriteOptions; a message where the format has no groups). Groups are numbered in the
+/// order of their names. Returns how many faces each has, by name.
+std::map<std::string, std::size_t> write_groups(const std::string& path, const Polyhedron& labeled,
+                                                const BoundaryGroups& groups,
+                                                const PolyhedronWriteOptions& options = {},
+                                                Messages* messages = nullptr);
 
 }  // namespace nef

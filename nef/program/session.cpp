@@ -38,15 +38,30 @@ void Session::store(const Polyhedron& set) {
   show_phase("writing " + output);
   const Stopwatch watch;
   const std::size_t first = messages.size();
+  write_polyhedron(output, set, write_options(), &messages);
+  write_s += watch.seconds();
+  show_messages(first);
+}
+
+std::map<std::string, std::size_t> Session::store_groups(const Polyhedron& labeled, const BoundaryGroups& groups) {
+  if (output == "-" && json) throw InputError("--json and -o - both want standard output; name a file");
+  show_phase("writing " + output);
+  const Stopwatch watch;
+  const std::size_t first = messages.size();
+  std::map<std::string, std::size_t> faces = write_groups(output, labeled, groups, write_options(), &messages);
+  write_s += watch.seconds();
+  show_messages(first);
+  return faces;
+}
+
+PolyhedronWriteOptions Session::write_options() const {
   PolyhedronWriteOptions options;
   options.exact = exact;
   options.binary = binary;
   options.text = text;
   options.polygons = polygons;
   options.format = output == "-" && format.empty() ? "nef" : format;
-  write_polyhedron(output, set, options, &messages);
-  write_s += watch.seconds();
-  show_messages(first);
+  return options;
 }
 
 void Session::show_phase(const std::string& phase, std::size_t done, std::size_t total) {

@@ -5,12 +5,14 @@
 
 #include <CLI/CLI.hpp>
 #include <iosfwd>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "nef/construct/construct.h"
+#include "nef/io/polyhedron_file.h"
 #include "nef/program/progress_bar.h"
 
 namespace nef {
@@ -34,6 +36,7 @@ class Session {
   bool text = false;
   bool polygons = false;
   bool no_check = false;
+  bool origins = false;
   std::string format;  ///< of the output, instead of its extension
   MeshOptions mesh;
   std::string output;
@@ -53,6 +56,8 @@ class Session {
   std::vector<Polyhedron> load_all(const std::vector<std::string>& paths);
   /// Writes a set to `output`, if there is one; "-" is standard output, which then holds nothing else.
   void store(const Polyhedron& set);
+  /// Writes a set with labels to `output`, its faces in groups (see write_groups); returns how many each has.
+  std::map<std::string, std::size_t> store_groups(const Polyhedron& labeled, const BoundaryGroups& groups);
 
   /// Shows what is being done, to somebody at a terminal who wants to see it, until something else is printed.
   void show_phase(const std::string& phase, std::size_t done = 0, std::size_t total = 0);
@@ -68,6 +73,7 @@ class Session {
 
  private:
   void show_messages(std::size_t first);
+  PolyhedronWriteOptions write_options() const;
 
   std::string program_;
   std::ostream& out_;

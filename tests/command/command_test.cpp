@@ -89,6 +89,26 @@ TEST_CASE("Boolean operations on files, with the promised JSON") {
   CHECK(here.nef("intersection a.off b.off c.off --json").json()["result"]["vertices"] == 1);
 }
 
+TEST_CASE("--origins tells from which operand each face comes") {
+  const Workplace here;
+  here.write("left box.off", cube_off(0, 2));
+  here.write("b.off", cube_off(1, 3));
+  const Outcome run = here.nef("difference 'left box.off' b.off --origins -o d.obj --json");
+  CHECK(run.code == 0);
+  CHECK(run.json()["origins"].size() == 2);
+  CHECK(run.json()["origins"]["b.off"] == 3);
+  CHECK(run.json()["result"]["volume"] == "7");
+  CHECK(here.read("d.obj").find("g left_box.off\n") != std::string::npos);
+  CHECK(here.nef("check d.obj").code == 0);
+  const Outcome said = here.nef("symdiff b.off b.off --origins -o e.ply");
+  CHECK(said.code == 0);
+  CHECK(here.nef("union b.off ./b.off --origins -o u.ply").out.find("b.off+./b.off: 6 faces") != std::string::npos);
+  CHECK(here.nef("union b.off b.off --origins -o u.ply").out.find("b.off:1+b.off:2: 6 faces") != std::string::npos);
+  check_refused(here.nef("union b.off b.off --origins"), "-o");
+  check_refused(here.nef("union b.off b.off --origins -o u.nef"), "mesh format");
+  check_refused(here.nef("union b.off b.off --origins --repeat 2 -o u.obj"), "--repeat");
+}
+
 TEST_CASE("info tells measures in doubles, and exact ones where they are short or wanted") {
   const Workplace here;
   REQUIRE(here.nef("eval 'box(0,0,0, 3,3,1) - box(1,1,0, 2,2,1)' -o ring.nef").code == 0);

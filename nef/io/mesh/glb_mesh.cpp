@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "nef/base/in_quotes.h"
 #include "nef/export/nearest_float.h"
@@ -257,11 +258,56 @@ void append_chunk(std::string& bytes, std::uint32_t type, std::string chunk, cha
   bytes += chunk;
 }
 
+// A part of the triangles, with views of their own for the indices.
+nlohmann::ordered_json& append_primitive(nlohmann::ordered_json& document, std::string& binary,
+                                         const MeshSurface& surface, const std::vector<std::uint32_t>& triangles) {
+  const std::size_t begin = binary.size();
+  for (const std::uint32_t t : triangles) {
+    for (const std::uint32_t v : surface.triangles[t]) append_little_endian(binary, v);
+  }
+  constexpr int kIndices = 34963;  // what the view is for: ELEMENT_ARRAY_BUFFER
+  nlohmann::ordered_json primitive{
+      {"attributes", {{"POSITION", 0}}}, {"indices", document["accessors"].size()}, {"mode", int{kTriangles}}};
+  document["accessors"].push_back({{"bufferView", document["bufferViews"].size()},
+                                   {"componentType", int{kUint32}},
+                                   {"count", 3 * triangles.size()},
+                                   {"type", "SCALAR"}});
+  document["bufferViews"].push_back(
+      {{"buffer", 0}, {"byteOffset", begin}, {"byteLength", binary.size() - begin}, {"target", kIndices}});
+  document["meshes"][0]["primitives"].push_back(std::move(primitive));
+  return document["meshes"][0]["primitives"].back();
+}
+
+// What sRGB numbers stand for, as glTF's factors are linear.
+double linear(std::uint8_t color) {
+  const double x = color / 255.0;
+  return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
+}
+
+void append_groups(nlohmann::ordered_json& document, std::string& binary, const MeshSurface& surface,
+                   const FaceGroups& groups) {
+  std::vector<std::vector<std::uint32_t>> triangles(groups.names.size());
+  for (std::uint32_t t = 0; t < surface.triangles.size(); ++t) {
+    if (!groups.none()) triangles[groups.of_face[surface.face_of[t]]].push_back(t);
+  }
+  for (std::size_t g = 0; g < triangles.size(); ++g) {
+    if (triangles[g].empty()) continue;
+    append_primitive(document, binary, surface, triangles[g])["material"] =
+        document.value("materials", nlohmann::ordered_json::array()).size();
+    const std::array<std::uint8_t, 3> color = group_color(g);
+    document["materials"].push_back({{"name", groups.names[g]},
+                                     {"pbrMetallicRoughness",
+                                      {{"baseColorFactor", {linear(color[0]), linear(color[1]), linear(color[2]), 1.0}},
+                                       {"metallicFactor", 0.0},
+                                       {"roughnessFactor", 0.8}}}});
+  }
+}
+
 }  // namespace
 
 Mesh read_glb(std::string_view bytes, const std::string& path) { return Reader(bytes, path).read(); }
 
-std::string glb_bytes(const Mesh& mesh) {
+std::string glb_bytes(const Mesh& mesh, const FaceGroups& groups) {
   const MeshSurface surface(mesh);
   std::string binary;
   std::array<float, 3> low{};
@@ -274,35 +320,32 @@ std::string glb_bytes(const Mesh& mesh) {
       append_little_endian(binary, x);
     }
   }
-  const std::size_t positions = binary.size();
-  for (const auto& t : surface.triangles) {
-    for (const std::uint32_t v : t) append_little_endian(binary, v);
-  }
   nlohmann::ordered_json document{{"asset", {{"version", "2.0"}, {"generator", "nef"}}}, {"scene", 0}};
   document["scenes"] = {{{"nodes", nlohmann::json::array()}}};
   if (!surface.triangles.empty()) {
     document["scenes"][0]["nodes"].push_back(0);
     document["nodes"] = {{{"mesh", 0}, {"matrix", {1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1}}}};
-    document["meshes"] = {{{"primitives", {{{"attributes", {{"POSITION", 0}}}, {"indices", 1}, {"mode", 4}}}}}};
+    document["meshes"] = {{{"primitives", nlohmann::json::array()}}};
     document["accessors"] = {{{"bufferView", 0},
                               {"componentType", int{kFloat}},
                               {"count", mesh.vertices.size()},
                               {"type", "VEC3"},
                               {"min", low},
-                              {"max", high}},
-                             {{"bufferView", 1},
-                              {"componentType", int{kUint32}},
-                              {"count", 3 * surface.triangles.size()},
-                              {"type", "SCALAR"}}};
-    constexpr int kVertices = 34962;  // what the views are for: ARRAY_BUFFER, ELEMENT_ARRAY_BUFFER
-    constexpr int kIndices = 34963;
+                              {"max", high}}};
+    constexpr int kVertices = 34962;  // what the view is for: ARRAY_BUFFER
     document["bufferViews"] = {
-        {{"buffer", 0}, {"byteOffset", 0}, {"byteLength", positions}, {"target", kVertices}},
-        {{"buffer", 0}, {"byteOffset", positions}, {"byteLength", binary.size() - positions}, {"target", kIndices}}};
+        {{"buffer", 0}, {"byteOffset", 0}, {"byteLength", binary.size()}, {"target", kVertices}}};
+    if (groups.none()) {
+      std::vector<std::uint32_t> all(surface.triangles.size());
+      std::iota(all.begin(), all.end(), 0U);
+      append_primitive(document, binary, surface, all);
+    }
+    append_groups(document, binary, surface, groups);
     document["buffers"] = {{{"byteLength", binary.size()}}};
   }
   std::string chunks;
-  append_chunk(chunks, kJsonChunk, document.dump(), ' ');
+  // Names may hold bytes that are no UTF-8.
+  append_chunk(chunks, kJsonChunk, document.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), ' ');
   if (!surface.triangles.empty()) append_chunk(chunks, kBinaryChunk, binary, '\0');
   std::string bytes;
   append_little_endian(bytes, kMagic);

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "nef/construct/construct.h"
+#include "nef/io/mesh/face_groups.h"
 
 namespace nef {
 
@@ -16,7 +17,7 @@ namespace nef {
 Mesh read_glb(std::string_view bytes, const std::string& path);
 
 /// One node with the mesh's triangles; its matrix turns z up to y up, so that the numbers are the mesh's, rounded to
-/// the nearest floats.
-std::string glb_bytes(const Mesh& mesh);
+/// the nearest floats. Each group of faces is a primitive with a material of its name.
+std::string glb_bytes(const Mesh& mesh, const FaceGroups& groups = {});
 
 }  // namespace nef

@@ -104,6 +104,7 @@ class Mender {
     result.problem = found.text;
     result.dropped = before - triangles_.size();
     result.mesh = mesh_of_triangles(exact_rational);
+    result.face_of = face_of_;
     drop_unused_vertices(result.mesh);
     return measured(std::move(result));
   }
@@ -152,6 +153,7 @@ class Mender {
   void cut_into_triangles() {
     const MeshSurface surface(exact_);
     triangles_ = surface.triangles;
+    face_of_ = surface.face_of;
   }
 
   // One vertex for each point, no triangles that come to one twice, none that lie back to back.
@@ -159,23 +161,35 @@ class Mender {
     std::map<Point, std::uint32_t> vertex_at;
     std::vector<std::uint32_t> vertex(points_.size());
     for (std::uint32_t v = 0; v < points_.size(); ++v) vertex[v] = vertex_at.emplace(points_[v], v).first->second;
-    std::map<Triangle, std::vector<Triangle>> by_corners;
-    for (Triangle t : triangles_) {
+    struct Face {
+      Triangle corners;
+      std::uint32_t face_of;
+    };
+    std::map<Triangle, std::vector<Face>> by_corners;
+    for (std::size_t i = 0; i < triangles_.size(); ++i) {
+      Triangle t = triangles_[i];
       for (std::uint32_t& v : t) v = vertex[v];
       if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
       std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
       Triangle sorted = t;
       std::sort(sorted.begin(), sorted.end());
-      std::vector<Triangle>& same = by_corners[sorted];
-      const auto opposite = std::find(same.begin(), same.end(), Triangle{t[0], t[2], t[1]});
+      std::vector<Face>& same = by_corners[sorted];
+      const auto is_opposite = [&t](const Face& face) { return face.corners == Triangle{t[0], t[2], t[1]}; };
+      const auto opposite = std::find_if(same.begin(), same.end(), is_opposite);
       if (opposite != same.end()) {
         same.erase(opposite);
       } else {
-        same.push_back(t);
+        same.push_back({t, face_of_[i]});
       }
     }
     triangles_.clear();
-    for (const auto& [corners, same] : by_corners) triangles_.insert(triangles_.end(), same.begin(), same.end());
+    face_of_.clear();
+    for (const auto& [corners, same] : by_corners) {
+      for (const Face& face : same) {
+        triangles_.push_back(face.corners);
+        face_of_.push_back(face.face_of);
+      }
+    }
   }
 
   void mend(const Finding& found, int round) {
@@ -251,6 +265,7 @@ class Mender {
     if (x == w || !neighbours_[pair_key(x, w)].empty() || !neighbours_[pair_key(w, x)].empty()) return false;
     triangles_[t] = {u, x, w};
     triangles_[other] = {x, v, w};
+    face_of_[t] = face_of_[other];  // of the two, the cap has no area
     touched_[t] = touched_[other] = true;
     return true;
   }
@@ -300,6 +315,7 @@ class Mender {
   std::vector<Point> points_;
   std::vector<Point> nearest_;
   std::vector<Triangle> triangles_;
+  std::vector<std::uint32_t> face_of_;  // of each triangle: the face of the exact mesh
   std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> neighbours_;  // by directed side
   std::vector<bool> touched_;                                                 // triangles that this round changed
 };

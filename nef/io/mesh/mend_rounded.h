@@ -34,6 +34,8 @@ struct MendedMesh {
   std::size_t moved = 0;    ///< vertices that are not at the nearest numbers, so that it is legal
   std::size_t dropped = 0;  ///< slivers that are gone
   double largest_move = 0;  ///< of a vertex from its exact place, along an axis
+  /// Of each face: the face of the exact mesh that it comes from; empty if the faces are that mesh's.
+  std::vector<std::uint32_t> face_of;
 };
 
 /// Rounds the vertices of a legal closed mesh of convex faces. Where the result is not legal any more, vertices go to

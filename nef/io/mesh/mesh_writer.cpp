@@ -35,6 +35,13 @@ void append_point(std::string& text, const Rational3& point, bool exact) {
   text += '\n';
 }
 
+void append_color(std::string& text, const std::array<std::uint8_t, 3>& color) {
+  for (const std::uint8_t x : color) {
+    text += ' ';
+    append_number(text, std::uint32_t{x});
+  }
+}
+
 // The outward unit normal of a triangle in doubles, for readers that want one; zero where it can not be told.
 std::array<double, 3> unit_normal(const std::array<std::array<double, 3>, 3>& t) {
   std::array<double, 3> u;
@@ -134,6 +141,7 @@ std::string off_bytes(const Mesh& mesh, const MeshWriteOptions& options) {
       text += ' ';
       append_number(text, v);
     }
+    if (!options.groups.none()) append_color(text, group_color(options.groups.of_face[f]));
     text += '\n';
   }
   return text;
@@ -146,13 +154,21 @@ std::string obj_bytes(const Mesh& mesh, const MeshWriteOptions& options) {
     text += "v ";
     append_point(text, p, options.exact);
   }
-  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+  const auto append_face = [&](std::size_t f) {
     text += 'f';
     for (const std::uint32_t v : mesh.face(f)) {
       text += ' ';
       append_number(text, v + 1);
     }
     text += '\n';
+  };
+  if (options.groups.none()) {
+    for (std::size_t f = 0; f < mesh.face_count(); ++f) append_face(f);
+  }
+  const std::vector<std::vector<std::uint32_t>> groups = faces_by_group(options.groups);
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    text += "g " + group_word(options.groups.names[g]) + "\n";
+    for (const std::uint32_t f : groups[g]) append_face(f);
   }
   for (const auto& line : options.lines) {
     text += "l " + std::to_string(line[0] + 1) + " " + std::to_string(line[1] + 1) + "\n";
@@ -169,9 +185,18 @@ std::string stl_bytes(const Mesh& mesh, const MeshWriteOptions& options) {
 std::string ply_bytes(const Mesh& mesh, const MeshWriteOptions& options) {
   std::string bytes = "ply\nformat ";
   bytes += options.binary ? "binary_little_endian" : "ascii";
-  bytes += " 1.0\nelement vertex " + std::to_string(mesh.vertices.size());
+  bytes += " 1.0\n";
+  const FaceGroups& groups = options.groups;
+  for (std::size_t g = 0; g < groups.names.size(); ++g) {
+    bytes += "comment group " + std::to_string(g) + " " + group_word(groups.names[g]) + "\n";
+  }
+  bytes += "element vertex " + std::to_string(mesh.vertices.size());
   bytes += "\nproperty double x\nproperty double y\nproperty double z\nelement face ";
-  bytes += std::to_string(mesh.face_count()) + "\nproperty list int int vertex_indices\nend_header\n";
+  bytes += std::to_string(mesh.face_count()) + "\nproperty list int int vertex_indices\n";
+  if (!groups.none()) {
+    bytes += "property int group\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n";
+  }
+  bytes += "end_header\n";
   for (const Rational3& p : mesh.vertices) {
     if (options.binary) {
       for (const Rational& x : p) append_little_endian(bytes, nearest_double(x));
@@ -184,6 +209,10 @@ std::string ply_bytes(const Mesh& mesh, const MeshWriteOptions& options) {
     if (options.binary) {
       append_little_endian(bytes, static_cast<std::uint32_t>(face.size()));
       for (const std::uint32_t v : face) append_little_endian(bytes, v);
+      if (!groups.none()) {
+        append_little_endian(bytes, groups.of_face[f]);
+        for (const std::uint8_t x : group_color(groups.of_face[f])) append_little_endian(bytes, x);
+      }
       continue;
     }
     append_number(bytes, face.size());
@@ -191,9 +220,18 @@ std::string ply_bytes(const Mesh& mesh, const MeshWriteOptions& options) {
       bytes += ' ';
       append_number(bytes, v);
     }
+    if (!groups.none()) {
+      bytes += ' ';
+      append_number(bytes, groups.of_face[f]);
+      append_color(bytes, group_color(groups.of_face[f]));
+    }
     bytes += '\n';
   }
   return bytes;
+}
+
+bool has_groups(const std::string& extension) {
+  return extension == "off" || extension == "obj" || extension == "ply" || extension == "glb";
 }
 
 void refuse_infinite(const Mesh& mesh, const std::string& extension, const MeshWriteOptions& options) {
@@ -251,7 +289,7 @@ void write_mesh(const std::string& path, const Mesh& mesh, const MeshWriteOption
   } else if (extension == "ply") {
     bytes = ply_bytes(mesh, options);
   } else if (extension == "glb") {
-    bytes = glb_bytes(mesh);
+    bytes = glb_bytes(mesh, options.groups);
   } else if (extension == "3mf") {
     bytes = threemf_bytes(mesh);
   } else {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "nef/construct/construct.h"
+#include "nef/io/mesh/face_groups.h"
 
 namespace nef {
 
@@ -23,6 +24,9 @@ struct MeshWriteOptions {
   std::vector<std::array<std::uint32_t, 2>> lines = {};
   /// Vertices of the mesh that stand for themselves; OBJ only.
   std::vector<std::uint32_t> points = {};
+  /// Groups of faces: `g name` in OBJ, colours in OFF, numbers and colours (names as comments) in PLY, named materials
+  /// in GLB. Other formats have none.
+  FaceGroups groups = {};
 };
 
 /// Writes a mesh in the format that the extension names (off, obj, stl, ply, glb, 3mf), beside the target first and
@@ -32,6 +36,9 @@ struct MeshWriteOptions {
 /// that the format does not have, coordinates beyond the range of its numbers, or a file that cannot be written.
 void write_mesh(const std::string& path, const Mesh& mesh, const MeshWriteOptions& options = {},
                 Messages* messages = nullptr);
+
+/// True if a format holds groups of faces.
+bool has_groups(const std::string& extension);
 
 // The bytes of the single formats.
 std::string off_bytes(const Mesh& mesh, const MeshWriteOptions& options = {});

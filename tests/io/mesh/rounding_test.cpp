@@ -12,6 +12,7 @@
 #include "nef/io/mesh/mesh_reader.h"
 #include "nef/io/polyhedron_file.h"
 #include "nef/mesh/mesh_check.h"
+#include "support/ball.h"
 #include "support/temporary_folder.h"
 
 namespace nef::test {
@@ -32,21 +33,6 @@ std::string why_illegal(const Mesh& mesh) {
     return error.what();
   }
   return "";
-}
-
-// A ball of points in doubles: the hull of rings.
-Polyhedron ball(double radius, int around, int high) {
-  std::vector<Rational3> points{{0, 0, exact_rational(radius)}, {0, 0, exact_rational(-radius)}};
-  for (int i = 1; i < high; ++i) {
-    const double polar = M_PI * i / high;
-    for (int k = 0; k < around; ++k) {
-      const double angle = 2 * M_PI * k / around;
-      points.push_back({exact_rational(radius * std::sin(polar) * std::cos(angle)),
-                        exact_rational(radius * std::sin(polar) * std::sin(angle)),
-                        exact_rational(radius * std::cos(polar))});
-    }
-  }
-  return convex_hull(points);
 }
 
 // Writes to all formats that round, and checks what is read. Returns the notes of all.

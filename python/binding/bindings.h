@@ -17,6 +17,11 @@ inline std::size_t items(const std::vector<Polyhedron>& sets) {
   return sum;
 }
 
+/// A named tuple of the module nef.results.
+inline py::object result_of(const char* type, const py::args& values) {
+  return py::module_::import("nef.results").attr(type)(*values);
+}
+
 using PolyhedronClass = py::class_<Polyhedron>;
 
 void bind_operations(PolyhedronClass& polyhedron);

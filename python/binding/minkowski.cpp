@@ -8,6 +8,7 @@
 #include "apps/minkowski/morphology.h"
 
 #include "binding/bindings.h"
+#include "nef/distance/distance.h"
 
 namespace nef::python {
 namespace {
@@ -67,6 +68,34 @@ Polyhedron configuration_space(const Polyhedron& robot, const std::vector<Polyhe
   return call(kSmallCall, [=] { return minkowski::configuration_space(robot, obstacles, bounds, options); });
 }
 
+Polyhedron sweep(const Polyhedron& a, py::handle path, unsigned threads, const py::object& progress) {
+  const std::vector<Rational3> points = to_points(path, "a path");
+  const auto options = options_of(threads, ProgressFunction(progress));
+  return call(kSmallCall, [=] { return minkowski::sweep(a, points, options); });
+}
+
+py::object penetration(const Polyhedron& a, const Polyhedron& b, unsigned threads, const py::object& progress) {
+  const auto options = options_of(threads, ProgressFunction(progress));
+  const minkowski::Penetration found = call(kSmallCall, [=] { return minkowski::penetration(a, b, options); });
+  return result_of("Penetration", py::make_tuple(contact_name(found.kind), from_triple(found.translation),
+                                                 to_fraction(found.squared_length)));
+}
+
+py::object reach(const Polyhedron& tool, const Polyhedron& part, const py::object& start, unsigned threads,
+                 const py::object& progress) {
+  std::optional<Rational3> from;
+  if (!start.is_none()) from = to_triple(start, "a start");
+  const auto options = options_of(threads, ProgressFunction(progress));
+  const minkowski::Reach found = call(kSmallCall, [=] { return minkowski::reach(tool, part, from, options); });
+  return result_of("Reach", py::make_tuple(found.positions, found.touched, found.untouched));
+}
+
+Polyhedron component(const Polyhedron& a, const py::object& point) {
+  std::optional<Rational3> inside;
+  if (!point.is_none()) inside = to_triple(point, "a point");
+  return call(items(a), [=] { return minkowski::component_of(a, inside); });
+}
+
 std::vector<Polyhedron> decompose(const Polyhedron& a) {
   return call(kSmallCall, [a] {
     std::vector<Polyhedron> cells;
@@ -121,6 +150,39 @@ side: 'inner' puts all 4 detail^2 + 2 vertices exactly onto the sphere, 'outer' 
 Raises InputError unless the radius, a number, is positive.)");
   m.def("ball_error", &ball_error, py::arg("radius"), py::arg("detail") = 8, py::arg("side") = "inner",
         "A bound on how far the surfaces of ball(radius, detail, side) and of the round ball are apart: a Fraction.");
+  m.def("sweep", &sweep, py::arg("a"), py::arg("path"), py::arg("threads") = 1, py::arg("progress") = py::none(),
+        R"(What a set passes over as it moves along a polyline of at least one point, in the order of its points.
+
+path: points in rows. threads, progress, errors: as for sum.)");
+  m.def(
+      "penetration", &penetration, py::arg("a"), py::arg("b"), py::arg("threads") = 1, py::arg("progress") = py::none(),
+      R"(How two bounded sets stand to each other, and the shortest translation of b that makes them touch: nef.Penetration.
+
+The way out if they overlap, to contact if they are disjoint; closures and interiors decide. Exact. threads, progress: as for
+sum. Raises InputError if one is empty, UnsupportedError if one is unbounded.)");
+  bind(
+      "no_fit", nef::minkowski::no_fit_set,
+      R"(All translations of b for which a and b touch without overlap: facets, edges and points, slots that b fits exactly
+among them.
+
+threads, progress, errors: as for sum.)");
+  m.def(
+      "reach", &reach, py::arg("tool"), py::arg("part"), py::arg("start") = py::none(), py::arg("threads") = 1,
+      py::arg("progress") = py::none(),
+      R"(Where a translating tool can go outside of a part, from infinity or from `start`, and what it touches: nef.Reach.
+
+Contact is free, and so are passages as wide as the tool. Both sets must be bounded (UnsupportedError). threads, progress: as
+for sum. Raises InputError if the tool is empty or the start is not free.)");
+  m.def("component", &component, py::arg("a"), py::arg("point") = py::none(),
+        R"(The connected component of a set that holds a point, empty if the set does not hold it.
+
+Without a point: what reaches infinity. Connected means by paths within the set, passages of dimension 1 and 0 included.)");
+  m.def(
+      "hull", [](const nef::Polyhedron& a) { return call(items(a), [a] { return nef::minkowski::hull(a); }); },
+      py::arg("a"),
+      R"(The convex hull of a bounded set, open where the set is: the hull of an open set is open.
+
+Raises UnsupportedError for an unbounded set. nef.hull takes points.)");
   m.def("configuration_space", &configuration_space, py::arg("robot"), py::arg("obstacles"),
         py::arg("box") = py::none(), py::arg("threads") = 1, py::arg("progress") = py::none(),
         R"(Where a translating robot may be: the closed set of positions of its reference point, the origin.

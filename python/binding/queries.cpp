@@ -16,11 +16,6 @@
 namespace nef::python {
 namespace {
 
-// A named tuple of the module nef.results.
-py::object result_of(const char* type, const py::args& values) {
-  return py::module_::import("nef.results").attr(type)(*values);
-}
-
 py::object location_of(const Location& location) {
   return result_of("Location", py::make_tuple(location_name(location.kind), location.index, location.mark));
 }

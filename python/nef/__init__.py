@@ -29,12 +29,12 @@ from ._nef import (Polyhedron, box, eval, everything, from_bytes, halfspace, hul
 from .errors import Error, InputError, UnsupportedError
 from .meshes import from_mesh
 from .notebook import show
-from .results import Counts, Distance, Location, Moments, Polygon, RayHit, Section
+from .results import Counts, Distance, Location, Moments, Penetration, Polygon, RayHit, Reach, Section
 from . import meshes as _meshes, notebook as _notebook
 
 __all__ = [
-    "Counts", "Distance", "Error", "InputError", "Location", "Moments", "Polygon", "Polyhedron", "RayHit", "Section",
-    "UnsupportedError", "box", "empty", "eval", "everything", "from_bytes", "from_mesh", "halfspace", "hull",
+    "Counts", "Distance", "Error", "InputError", "Location", "Moments", "Penetration", "Polygon", "Polyhedron",
+    "RayHit", "Reach", "Section", "UnsupportedError", "box", "empty", "eval", "everything", "from_bytes", "from_mesh", "halfspace", "hull",
     "intersect_all", "overlay", "point", "polygon", "progress", "read", "segment", "show", "unite_all",
 ]
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Minkowski sums, erosions, openings, closings, offsets, convex decompositions and configuration spaces, exact.
+"""Minkowski sums, erosions, openings, closings, offsets, sweeps, hulls, convex decompositions and configuration spaces;
+how deep two sets penetrate, where one fits beside the other, and what of a part a tool can reach. All exact.
 
     >>> import nef
     >>> from nef import minkowski
@@ -7,8 +8,8 @@
     >>> minkowski.sum(a, a) == a.scale(2)
     True
 """
-from ._minkowski import (ball, ball_error, closing, configuration_space, decompose, erode, is_convex, negate, offset, opening,
-                         sum)
+from ._minkowski import (ball, ball_error, closing, component, configuration_space, decompose, erode, hull, is_convex, negate,
+                         no_fit, offset, opening, penetration, reach, sum, sweep)
 
-__all__ = ["ball", "ball_error", "closing", "configuration_space", "decompose", "erode", "is_convex", "negate", "offset",
-           "opening", "sum"]
+__all__ = ["ball", "ball_error", "closing", "component", "configuration_space", "decompose", "erode", "hull", "is_convex",
+           "negate", "no_fit", "offset", "opening", "penetration", "reach", "sum", "sweep"]

@@ -62,6 +62,28 @@ class Distance(NamedTuple):
     on_b: tuple
 
 
+class Penetration(NamedTuple):
+    """How two sets stand to each other, and how to make them touch."""
+
+    #: 'disjoint', 'touching' or 'overlapping'
+    contact: str
+    #: a shortest translation of the second set after which they touch, three Fractions; zero if they do
+    translation: tuple
+    #: the square of its length, a Fraction
+    squared_length: object
+
+
+class Reach(NamedTuple):
+    """Where a tool can go, and what it can touch there."""
+
+    #: the connected free positions of the tool's origin, a Polyhedron
+    positions: object
+    #: the part of the boundary of the part that the tool touches at one of them, a Polyhedron
+    touched: object
+    #: the rest of that boundary, a Polyhedron
+    untouched: object
+
+
 class Moments(NamedTuple):
     """Integrals over a solid of density one. Without volume there is neither a centroid nor what follows from it."""
 

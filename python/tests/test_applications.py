@@ -66,6 +66,58 @@ def test_opening_and_closing(needs):
             function(gap, nef.empty())
 
 
+def test_sweep_hull_and_components(needs):
+    minkowski = needs("minkowski")
+    path = [(0, 0, 0), (3, 0, 0), (3, 4, 0)]
+    assert minkowski.sweep(CUBE, path) == nef.box((0, 0, 0), (4, 1, 1)) | nef.box((3, 0, 0), (4, 5, 1))
+    assert minkowski.sweep(CUBE, [(1, 2, 3)]) == CUBE.translate((1, 2, 3))
+    two = CUBE.interior() | CUBE.translate((2, 0, 0)).interior()
+    assert minkowski.hull(two) == nef.box((0, 0, 0), (3, 1, 1)).interior()
+    assert minkowski.component(two, ("2.5", "0.5", "0.5")) == CUBE.translate((2, 0, 0)).interior()
+    assert minkowski.component(two, (0, 0, 0)).is_empty() and minkowski.component(two).is_empty()
+    assert minkowski.component(~CUBE) == ~CUBE
+    with pytest.raises(nef.InputError):
+        minkowski.sweep(CUBE, numpy.empty((0, 3)))
+    with pytest.raises(nef.UnsupportedError):
+        minkowski.hull(~CUBE)
+
+
+def test_penetration(needs):
+    minkowski = needs("minkowski")
+    inside = minkowski.penetration(nef.box((0, 0, 0), (4, 4, 4)), CUBE.translate((1, 1, Fraction(14, 5))))
+    assert inside.contact == "overlapping" and inside.squared_length == Fraction(36, 25)
+    assert inside.translation == (0, 0, Fraction(6, 5))
+    touching = minkowski.penetration(CUBE, CUBE.translate((1, 1, 1)))
+    assert touching == nef.Penetration("touching", (0, 0, 0), 0)
+    apart = minkowski.penetration(CUBE, CUBE.translate((4, 5, 0)))
+    assert apart.contact == "disjoint" and apart.translation == (-3, -4, 0) and apart.squared_length == 25
+    assert apart.squared_length == CUBE.distance(CUBE.translate((4, 5, 0))).squared
+    with pytest.raises(nef.InputError):
+        minkowski.penetration(CUBE, nef.empty())
+
+
+def test_no_fit_and_reach(needs):
+    minkowski = needs("minkowski")
+    # A slot as wide as the cube: it slides in there, and along all sides.
+    slotted = nef.box((0, 0, 0), (3, 3, 1)) - nef.box((1, 1, -1), (2, 4, 2)).interior()
+    fits = minkowski.no_fit(slotted, CUBE)
+    for x in range(-3, 8):
+        for y in range(-3, 8):
+            p = (Fraction(x, 2), Fraction(y, 2), 0)
+            moved = CUBE.translate(p)
+            d = slotted.distance(moved)
+            assert (p in fits) == (d.contact == "touching"), p
+    found = minkowski.reach(CUBE, slotted)
+    assert (1, 2, 0) in found.positions and (1, 1, 0) in found.positions
+    assert found.touched | found.untouched == slotted.closure().boundary()
+    assert (Fraction(3, 2), 1, Fraction(1, 2)) in found.touched  # the slot's end
+    hollow = nef.box((0, 0, 0), (9, 9, 9)) - nef.box((3, 3, 3), (6, 6, 6)).interior()
+    assert (3, 4, 4) in minkowski.reach(CUBE, hollow).untouched
+    assert (3, 4, 4) in minkowski.reach(CUBE, hollow, start=(4, 4, 4)).touched
+    with pytest.raises(nef.InputError):
+        minkowski.reach(CUBE, hollow, start=(1, 1, 1))
+
+
 def test_offset(needs):
     minkowski = needs("minkowski")
     ball = minkowski.ball(2, detail=3)

@@ -44,11 +44,13 @@ Polyhedron::Polyhedron(Complex&& complex) {
 
 const Complex& Polyhedron::complex() const { return Body::of(body_).complex; }
 
-bool Polyhedron::is_empty() const { return complex().vertex_count() == 0 && complex().volumes[0].mark == 0; }
+bool Polyhedron::is_empty() const { return complex().vertex_count() == 0 && complex().volumes[kOuterVolume].mark == 0; }
 
-bool Polyhedron::is_everything() const { return complex().vertex_count() == 0 && complex().volumes[0].mark == 1; }
+bool Polyhedron::is_everything() const {
+  return complex().vertex_count() == 0 && complex().volumes[kOuterVolume].mark == 1;
+}
 
-bool Polyhedron::is_bounded() const { return complex().volumes[0].mark == 0; }
+bool Polyhedron::is_bounded() const { return complex().volumes[kOuterVolume].mark == 0; }
 
 bool Polyhedron::is_open() const { return is_open_set(complex()); }
 

@@ -109,6 +109,9 @@ struct Location {
   Kind kind = Kind::kVolume;
   std::uint32_t index = 0;  ///< vertex, halfedge, facet or volume
   LabelId mark = 0;
+
+  [[nodiscard]] FacetId facet() const { return FacetId{index}; }
+  [[nodiscard]] VolumeId volume() const { return VolumeId{index}; }
 };
 
 /// Exact point location. O(log n) expected after the structure is built.

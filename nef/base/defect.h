@@ -12,9 +12,15 @@
 #include <utility>
 #include <vector>
 
+#include "nef/base/id.h"
+
 namespace nef {
 
 struct GuiltyItem {
+  GuiltyItem(const char* name, std::size_t number) : kind(name), index(number) {}
+  template <typename Tag>
+  GuiltyItem(const char* name, Id<Tag> id) : kind(name), index(id.index()) {}
+
   const char* kind;
   std::size_t index;
 };

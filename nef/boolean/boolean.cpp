@@ -124,7 +124,7 @@ bool equal(const Polyhedron& a, const Polyhedron& b) {
   // The representation is unique: different counts settle it without geometry.
   if (ca.vertex_count() != cb.vertex_count() || ca.edge_count() != cb.edge_count() ||
       ca.facet_count() != cb.facet_count() || ca.volume_count() != cb.volume_count() ||
-      ca.volumes[0].mark != cb.volumes[0].mark) {
+      ca.volumes[kOuterVolume].mark != cb.volumes[kOuterVolume].mark) {
     return false;
   }
   return overlay(a, b, [](LabelId x, LabelId y) { return static_cast<LabelId>(x != y); }).is_empty();

@@ -129,9 +129,8 @@ class LinkCopier {
   void copy_facet(std::size_t x, const Facet& facet) {
     const Complex& own = *operands_[x];
     const std::vector<Copy>& copies = copies_[x];
-    const std::span<const std::uint32_t> corners = own.facet_corners(facet);
-    const std::span<const std::uint32_t> inside =
-        std::span(own.isolated_vertices).subspan(facet.first_isolated, facet.isolated_count);
+    const std::span<const std::uint32_t> corners = own.corners_of(facet);
+    const std::span<const std::uint32_t> inside = own.isolated_vertices_of(facet);
     const std::size_t base = known_.corners.size();
     bool whole = true;
     for (const std::uint32_t corner : corners) {
@@ -148,12 +147,12 @@ class LinkCopier {
     }
     Facet copy;
     copy.plane = c_.shalfedges[known_.corners[base]].plane;
-    copy.first_cycle = static_cast<std::uint32_t>(known_.cycle_begin.size() - 1);
+    copy.first_cycle = CycleId{known_.cycle_begin.size() - 1};
     copy.cycle_count = facet.cycle_count;
     copy.first_isolated = static_cast<std::uint32_t>(known_.isolated_vertices.size());
     copy.isolated_count = facet.isolated_count;
-    for (std::uint32_t i = 0; i < facet.cycle_count; ++i) {
-      const auto size = static_cast<std::uint32_t>(own.cycle(facet.first_cycle + i).size());
+    for (const CycleId i : facet.cycles()) {
+      const auto size = static_cast<std::uint32_t>(own.corners_of(i).size());
       known_.cycle_begin.push_back(known_.cycle_begin.back() + size);
     }
     for (const std::uint32_t v : inside) known_.isolated_vertices.push_back(copies[v].vertex);

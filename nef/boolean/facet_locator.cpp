@@ -7,7 +7,7 @@
 
 namespace nef {
 
-const BoxTree& FacetLocator::tree(std::uint32_t facet) {
+const BoxTree& FacetLocator::tree(FacetId facet) {
   const auto [entry, is_new] = trees_.try_emplace(facet);
   if (is_new) {
     std::vector<Box> boxes;
@@ -19,7 +19,7 @@ const BoxTree& FacetLocator::tree(std::uint32_t facet) {
   return entry->second;
 }
 
-bool FacetLocator::surely_misses(std::uint32_t facet, const Box& box) {
+bool FacetLocator::surely_misses(FacetId facet, const Box& box) {
   const PlaneAxes axes(tables_.planes, operand_.facet_plane(facet));
   Box ray = box;
   ray.low[static_cast<std::size_t>(axes.first)] = -HUGE_VAL;
@@ -35,7 +35,7 @@ bool FacetLocator::surely_misses(std::uint32_t facet, const Box& box) {
   return parity.surely_outside();
 }
 
-Item FacetLocator::locate(std::uint32_t facet, PointId point) {
+Item FacetLocator::locate(FacetId facet, PointId point) {
   const PlaneTable& planes = tables_.planes;
   const PointTable& points = tables_.points;
   const PlaneId plane = operand_.facet_plane(facet);
@@ -87,14 +87,13 @@ Item FacetLocator::locate(std::uint32_t facet, PointId point) {
   });
   if (found.kind != Item::Kind::kNone || !inside) return found;
   const Facet& f = operand_.complex().facets[facet];
-  for (std::uint32_t i = 0; i < f.isolated_count; ++i) {
-    const std::uint32_t v = operand_.complex().isolated_vertices[f.first_isolated + i];
+  for (const std::uint32_t v : operand_.complex().isolated_vertices_of(f)) {
     if (compare_coordinate(points, operand_.point(v), point, axes.first) == 0 &&
         compare_coordinate(points, operand_.point(v), point, axes.second) == 0) {
       return {Item::Kind::kVertex, v};
     }
   }
-  return {Item::Kind::kFacet, facet};
+  return {Item::Kind::kFacet, facet.index()};
 }
 
 }  // namespace nef

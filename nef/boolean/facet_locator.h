@@ -16,15 +16,15 @@ class FacetLocator {
 
   /// The item of the (closed) facet that holds a point of its plane: the facet itself, an edge or
   /// a vertex of its boundary or an isolated vertex inside; kNone if the point lies outside.
-  [[nodiscard]] Item locate(std::uint32_t facet, PointId point);
+  [[nodiscard]] Item locate(FacetId facet, PointId point);
 
   /// True only if a point of the facet's plane that lies in `box` is not in the closed facet. In double
   /// precision, with proven bounds.
-  [[nodiscard]] bool surely_misses(std::uint32_t facet, const Box& box);
+  [[nodiscard]] bool surely_misses(FacetId facet, const Box& box);
 
   /// The boundary edges of the facet (as halfedges of its corners) whose boxes meet `box`.
   template <typename Visit>
-  void for_each_edge(std::uint32_t facet, const Box& box, Visit&& visit) {
+  void for_each_edge(FacetId facet, const Box& box, Visit&& visit) {
     const std::span<const std::uint32_t> corners = corners_of(facet);
     if (corners.size() <= kSmall) {
       for (const std::uint32_t corner : corners) visit(operand_.complex().corner_halfedge(corner));
@@ -36,14 +36,14 @@ class FacetLocator {
 
  private:
   static constexpr std::size_t kSmall = 24;
-  [[nodiscard]] std::span<const std::uint32_t> corners_of(std::uint32_t facet) const {
-    return operand_.complex().facet_corners(operand_.complex().facets[facet]);
+  [[nodiscard]] std::span<const std::uint32_t> corners_of(FacetId facet) const {
+    return operand_.complex().corners_of(facet);
   }
-  const BoxTree& tree(std::uint32_t facet);
+  const BoxTree& tree(FacetId facet);
 
   const Operand& operand_;
   const CommonTables& tables_;
-  std::unordered_map<std::uint32_t, BoxTree> trees_;
+  std::unordered_map<FacetId, BoxTree> trees_;
 };
 
 }  // namespace nef

@@ -44,7 +44,7 @@ class IntersectionFinder {
  private:
   // What of an operand can meet the other one.
   struct Near {
-    std::vector<std::uint32_t> facets;
+    std::vector<FacetId> facets;
     BoxTree facet_tree;
     std::vector<std::uint32_t> vertices;
     std::vector<std::uint32_t> edges;
@@ -55,13 +55,15 @@ class IntersectionFinder {
   };
 
   // Items of an operand that reach the other's bounds, and where.
+  template <typename I>
   struct Items {
-    std::vector<std::uint32_t> index;
+    std::vector<I> ids;
     std::vector<CellRange> cells;
   };
   struct Candidates {
     std::vector<CellRange> vertices;  // all, whether they reach or not
-    Items facets, bare_edges, bare_vertices;
+    Items<FacetId> facets;
+    Items<std::uint32_t> bare_edges, bare_vertices;
   };
 
   [[nodiscard]] CellRange edge_cells(std::size_t x, const Candidates& found, std::uint32_t halfedge) const {
@@ -74,9 +76,9 @@ class IntersectionFinder {
     const Operand& operand = operands_[x];
     const Complex& c = operand.complex();
     Candidates found;
-    const auto take = [&grid](Items& items, std::uint32_t index, const CellRange& cells) {
+    const auto take = [&grid](auto& items, auto id, const CellRange& cells) {
       if (!grid.reaches(cells)) return;
-      items.index.push_back(index);
+      items.ids.push_back(id);
       items.cells.push_back(cells);
     };
     const auto count = static_cast<std::uint32_t>(c.vertex_count());
@@ -88,9 +90,9 @@ class IntersectionFinder {
       if (first.shalfedges != last.shalfedges || first.sloops != last.sloops) continue;
       take(found.bare_vertices, v, found.vertices[v]);
     }
-    for (std::uint32_t f = 0; f < c.facets.size(); ++f) {
+    for (const FacetId f : c.facets.ids()) {
       CellRange cells;
-      for (const std::uint32_t corner : c.cycle(c.facets[f].first_cycle)) {
+      for (const std::uint32_t corner : c.corners_of(c.facets[f].first_cycle)) {
         cells.add(found.vertices[c.shalfedge_owner[corner]]);
       }
       take(found.facets, f, cells);
@@ -114,23 +116,22 @@ class IntersectionFinder {
     std::array<OccupancyGrid, 2> grids{OccupancyGrid(region, count), OccupancyGrid(region, count)};
     const std::array<Candidates, 2> found{candidates(0, grids[0]), candidates(1, grids[1])};
     for (std::size_t x = 0; x < 2; ++x) {
-      for (const Items* items : {&found[x].facets, &found[x].bare_edges, &found[x].bare_vertices}) {
-        for (const CellRange& cells : items->cells) grids[x].mark(cells);
+      for (const auto* cells : {&found[x].facets.cells, &found[x].bare_edges.cells, &found[x].bare_vertices.cells}) {
+        for (const CellRange& range : *cells) grids[x].mark(range);
       }
     }
     for (std::size_t x = 0; x < 2; ++x) collect(x, found[x], grids[1 - x]);
   }
 
   // The items that come near the other operand, with a tree of their boxes.
-  template <typename BoxOf>
-  static std::vector<std::uint32_t> keep(const Items& items, const OccupancyGrid& other, BoxOf&& box_of,
-                                         BoxTree& tree) {
-    std::vector<std::uint32_t> kept;
+  template <typename I, typename BoxOf>
+  static std::vector<I> keep(const Items<I>& items, const OccupancyGrid& other, BoxOf&& box_of, BoxTree& tree) {
+    std::vector<I> kept;
     std::vector<Box> boxes;
-    for (std::size_t i = 0; i < items.index.size(); ++i) {
+    for (std::size_t i = 0; i < items.ids.size(); ++i) {
       if (!other.touches(items.cells[i])) continue;
-      kept.push_back(items.index[i]);
-      boxes.push_back(box_of(items.index[i]));
+      kept.push_back(items.ids[i]);
+      boxes.push_back(box_of(items.ids[i]));
     }
     tree = BoxTree(boxes);
     return kept;
@@ -140,7 +141,7 @@ class IntersectionFinder {
     const Operand& operand = operands_[x];
     const Complex& c = operand.complex();
     Near& near = near_[x];
-    const auto facet_box = [&](std::uint32_t f) { return operand.facet_box(f); };
+    const auto facet_box = [&](FacetId f) { return operand.facet_box(f); };
     const auto edge_box = [&](std::uint32_t e) { return operand.edge_box(e); };
     const auto vertex_box = [&](std::uint32_t v) { return operand.vertex_box(v); };
     near.facets = keep(found.facets, other, facet_box, near.facet_tree);
@@ -175,7 +176,7 @@ class IntersectionFinder {
       tell_progress_of_item("vertices in facets", k, vertices.size());
       near_[1 - x].facet_tree.for_each_overlap(operands_[x].vertex_box(v), [&](std::uint32_t i) {
         if (result_.vertex_item[x][v].kind != Item::Kind::kNone) return;
-        const std::uint32_t facet = near_[1 - x].facets[i];
+        const FacetId facet = near_[1 - x].facets[i];
         if (side(other.facet_plane(facet), operands_[x].point(v)) != 0) return;
         const Item item = locators_[1 - x].locate(facet, operands_[x].point(v));
         if (item.kind != Item::Kind::kNone) place_vertex(x, v, item);
@@ -220,7 +221,7 @@ class IntersectionFinder {
       const PointId b = own.point(own.target(e));
       const Box box = own.edge_box(e);
       near_[1 - x].facet_tree.for_each_overlap(box, [&](std::uint32_t i) {
-        const std::uint32_t facet = near_[1 - x].facets[i];
+        const FacetId facet = near_[1 - x].facets[i];
         const PlaneId plane = other.facet_plane(facet);
         const int side_a = side(plane, a);
         const int side_b = side(plane, b);
@@ -235,7 +236,7 @@ class IntersectionFinder {
   }
 
   // Edge e of operand x passes through the plane of a facet of the other.
-  void pierce(std::size_t x, std::uint32_t e, std::uint32_t facet) {
+  void pierce(std::size_t x, std::uint32_t e, FacetId facet) {
     const Operand& own = operands_[x];
     const Box rough = piercing_box(tables_.planes, operands_[1 - x].facet_plane(facet), tables_.points,
                                    own.point(own.source(e)), own.point(own.target(e)));

@@ -48,9 +48,9 @@ Box Operand::edge_box(std::uint32_t halfedge) const {
   return box;
 }
 
-Box Operand::facet_box(std::uint32_t facet) const {
+Box Operand::facet_box(FacetId facet) const {
   Box box;
-  for (const std::uint32_t corner : complex_->cycle(complex_->facets[facet].first_cycle)) {
+  for (const std::uint32_t corner : complex_->corners_of(complex_->facets[facet].first_cycle)) {
     box.add_rounded(complex_->points.approximate(PointId{complex_->shalfedge_owner[corner]}));
   }
   return box;
@@ -77,7 +77,7 @@ SphereMapView Operand::pyramid(const Item& item, LabelId label, SphereMapBuffer&
       break;
     }
     case Item::Kind::kFacet: {
-      const Facet& facet = complex_->facets[item.index];
+      const Facet& facet = complex_->facets[item.facet()];
       scratch.assign_circle(plane(facet.plane), facet.mark, complex_->volumes[facet.volume_above].mark,
                             complex_->volumes[facet.volume_below].mark);
       break;

@@ -24,6 +24,7 @@ struct Item {
   enum class Kind : std::uint8_t { kNone, kVertex, kEdge, kFacet };
   Kind kind = Kind::kNone;
   std::uint32_t index = 0;
+  [[nodiscard]] FacetId facet() const { return FacetId{index}; }
   bool operator==(const Item&) const = default;
 };
 
@@ -48,7 +49,7 @@ class Operand {
   }
   /// The common row of each own one; empty if they are the same.
   [[nodiscard]] std::span<const std::uint32_t> common_rows() const { return rows_; }
-  [[nodiscard]] PlaneId facet_plane(std::uint32_t facet) const { return plane(complex_->facets[facet].plane); }
+  [[nodiscard]] PlaneId facet_plane(FacetId facet) const { return plane(complex_->facets[facet].plane); }
 
   /// The smaller halfedge of an edge.
   [[nodiscard]] std::uint32_t edge(std::uint32_t halfedge) const {
@@ -60,7 +61,7 @@ class Operand {
   [[nodiscard]] const Box& bounds() const { return bounds_; }
   [[nodiscard]] Box vertex_box(std::uint32_t vertex) const;
   [[nodiscard]] Box edge_box(std::uint32_t halfedge) const;
-  [[nodiscard]] Box facet_box(std::uint32_t facet) const;
+  [[nodiscard]] Box facet_box(FacetId facet) const;
 
   /// The plane other than `plane` (a common name) that holds the edge, and the side of it to the
   /// left of the halfedge in `plane`. See edge_side in nef/complex/facet_plane.h.

@@ -52,8 +52,8 @@ class ComplexOverlay {
   std::optional<Complex> finished(Intersections&& found) {
     const Complex& a = operands_[0].complex();
     const Complex& b = operands_[1].complex();
-    const LabelId outer = f_(a.volumes[0].mark, b.volumes[0].mark);
-    if (result_.is_first_operand() && outer == a.volumes[0].mark) return std::nullopt;
+    const LabelId outer = f_(a.volumes[kOuterVolume].mark, b.volumes[kOuterVolume].mark);
+    if (result_.is_first_operand() && outer == a.volumes[kOuterVolume].mark) return std::nullopt;
     ComplexBuilder builder(tables_.planes);
     result_.write(tables_.planes, builder);
     if ((a.has_box() || b.has_box()) && builder.has_idle_box()) return builder.finish(outer);

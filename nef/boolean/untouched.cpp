@@ -30,7 +30,7 @@ class UntouchedMarks {
   }
 
   std::vector<LabelId> run(const std::function<const QueryStructure&()>& queries) {
-    const LabelId outer = other_.complex().volumes[0].mark;
+    const LabelId outer = other_.complex().volumes[kOuterVolume].mark;
     const auto count = static_cast<std::uint32_t>(marks_.size());
     for (std::uint32_t v = 0; v < count; ++v) {
       if (!touched(v) && !own_.vertex_box(v).overlaps(other_.bounds())) settle(v, outer);
@@ -46,7 +46,7 @@ class UntouchedMarks {
     spread();
     for (std::uint32_t v = 0; v < count; ++v) {
       if (touched(v) || known_[v]) continue;
-      const std::uint32_t volume = queries().volume_at(other_.complex(), PointRef{&own_.complex().points, PointId{v}});
+      const VolumeId volume = queries().volume_at(other_.complex(), PointRef{&own_.complex().points, PointId{v}});
       settle(v, other_.complex().volumes[volume].mark);
       spread();
     }
@@ -90,7 +90,7 @@ class UntouchedMarks {
   // The mark of the other operand's volume that halfedge h leads into from `item`, toward w.
   LabelId mark_toward(const Item& item, std::uint32_t h, std::uint32_t w) const {
     if (item.kind == Item::Kind::kFacet) {
-      const Facet& facet = other_.complex().facets[item.index];
+      const Facet& facet = other_.complex().facets[item.facet()];
       const int side = side_of_plane(tables_.planes, other_.plane(facet.plane), tables_.points, own_.point(w));
       NEF_ASSERT(side != 0);
       return other_.complex().volumes[side > 0 ? facet.volume_above : facet.volume_below].mark;

@@ -43,7 +43,7 @@ void Complex::trim() {
 }
 
 std::size_t Complex::bytes() const {
-  const auto size = [](const auto& column) { return column.capacity() * sizeof(column[0]); };
+  const auto size = [](const auto& column) { return column.capacity() * sizeof(*column.begin()); };
   return planes.bytes() + points.bytes() + size(vertices) + size(svertices) + size(shalfedges) + size(sloops) +
          size(sfaces) + size(entries) + size(svertex_owner) + size(twin) + size(shalfedge_owner.pairs()) +
          size(shalfedge_facet.pairs()) + size(sloop_facet) + size(sface_shell) + size(facets) + size(cycle_begin) +

@@ -20,21 +20,12 @@
 #include <span>
 #include <vector>
 
+#include "nef/complex/ids.h"
 #include "nef/complex/pair_columns.h"
 #include "nef/geometry/point_table.h"
 #include "nef/sphere_map/sphere_map.h"
 
 namespace nef {
-
-using VertexId = Id<struct VertexTag>;
-using HalfedgeId = Id<struct HalfedgeTag>;    ///< = index into svertices
-using SHalfedgeId = Id<struct SHalfedgeTag>;  ///< = index into shalfedges
-using SLoopId = Id<struct SLoopTag>;
-using SFaceId = Id<struct SFaceTag>;
-using FacetId = Id<struct FacetTag>;          ///< both sides of a facet
-using HalffacetId = Id<struct HalffacetTag>;  ///< 2 * facet + side
-using ShellId = Id<struct ShellTag>;
-using VolumeId = Id<struct VolumeTag>;
 
 /// Where the sphere map of a vertex begins in each array; it ends where the next vertex's begins.
 struct VertexRecord {
@@ -50,17 +41,20 @@ struct VertexRecord {
 struct Facet {
   PlaneId plane;  ///< unflipped
   LabelId mark = 0;
-  std::uint32_t first_cycle = 0;  ///< the outer cycle; holes follow
+  CycleId first_cycle{0};  ///< the outer cycle; holes follow
   std::uint32_t cycle_count = 0;
   std::uint32_t first_isolated = 0;  ///< vertices inside the facet, in isolated_vertices
   std::uint32_t isolated_count = 0;
-  std::uint32_t volume_above = 0;  ///< on the positive side of the plane
-  std::uint32_t volume_below = 0;
+  VolumeId volume_above{0};  ///< on the positive side of the plane
+  VolumeId volume_below{0};
+
+  /// The outer cycle first.
+  [[nodiscard]] IdRange<CycleId> cycles() const { return {first_cycle, cycle_count}; }
 };
 
 /// A connected component of the boundary of a volume, as the sfaces that touch it.
 struct Shell {
-  std::uint32_t volume = 0;
+  VolumeId volume{0};
   std::uint32_t first_sface = 0;  ///< range in shell_sfaces
   std::uint32_t sface_count = 0;
 };
@@ -68,9 +62,11 @@ struct Shell {
 /// A connected open region of space with one mark.
 struct Volume {
   LabelId mark = 0;
-  std::uint32_t first_shell =
-      0;  ///< shells of a volume are contiguous; the outer shell (none for volume 0) comes first
+  ShellId first_shell{0};  ///< the outer shell (none for the outer volume); the others follow
   std::uint32_t shell_count = 0;
+
+  /// The outer shell first.
+  [[nodiscard]] IdRange<ShellId> shells() const { return {first_shell, shell_count}; }
 };
 
 struct Complex {
@@ -89,18 +85,18 @@ struct Complex {
   std::vector<std::uint32_t> svertex_owner;  ///< vertex
   std::vector<std::uint32_t> twin;           ///< halfedge at the other end of the edge
   CommonColumn shalfedge_owner;              ///< vertex
-  OppositeColumn shalfedge_facet;            ///< halffacet
-  std::vector<std::uint32_t> sloop_facet;    ///< halffacet
-  std::vector<std::uint32_t> sface_shell;
+  HalffacetColumn shalfedge_facet;
+  std::vector<HalffacetId> sloop_facet;
+  std::vector<ShellId> sface_shell;
 
-  std::vector<Facet> facets;
-  std::vector<std::uint32_t> cycle_begin{0};  ///< into corners; one more than there are cycles
-  std::vector<std::uint32_t> corners;         ///< shalfedges
+  IndexedVector<FacetId, Facet> facets;
+  IndexedVector<CycleId, std::uint32_t> cycle_begin{0};  ///< into corners; one more than there are cycles
+  std::vector<std::uint32_t> corners;                    ///< shalfedges
   std::vector<std::uint32_t> isolated_vertices;
 
-  std::vector<Shell> shells;
+  IndexedVector<ShellId, Shell> shells;
   std::vector<std::uint32_t> shell_sfaces;
-  std::vector<Volume> volumes;
+  IndexedVector<VolumeId, Volume> volumes;
   LabelId label_count = 2;  ///< every mark but kOutside is below it; at least 2
 
   [[nodiscard]] std::size_t vertex_count() const { return vertices.size() - 1; }
@@ -108,8 +104,12 @@ struct Complex {
   [[nodiscard]] std::size_t facet_count() const { return facets.size(); }
   [[nodiscard]] std::size_t volume_count() const { return volumes.size(); }
 
+  [[nodiscard]] IdRange<CycleId> cycle_ids() const {
+    return {CycleId{0}, static_cast<std::uint32_t>(cycle_begin.size() - 1)};
+  }
+
   /// True if the set is unbounded in a way that needed an infimaximal box.
-  [[nodiscard]] bool has_box() const { return !volumes.empty() && volumes[0].mark == kOutside; }
+  [[nodiscard]] bool has_box() const { return !volumes.empty() && volumes[kOuterVolume].mark == kOutside; }
 
   /// The sphere map of a vertex.
   [[nodiscard]] SphereMapView sphere_map(std::uint32_t vertex) const;
@@ -129,23 +129,35 @@ struct Complex {
   [[nodiscard]] std::uint32_t shalfedge_sface(std::uint32_t shalfedge) const {
     return vertices[shalfedge_owner[shalfedge]].sfaces + shalfedges[shalfedge].sface;
   }
-  [[nodiscard]] std::uint32_t sface_volume(std::uint32_t sface) const { return shells[sface_shell[sface]].volume; }
+  [[nodiscard]] VolumeId sface_volume(std::uint32_t sface) const { return shells[sface_shell[sface]].volume; }
 
   /// The volume on the side from which a halffacet is seen.
-  [[nodiscard]] std::uint32_t halffacet_volume(std::uint32_t halffacet) const {
-    const Facet& f = facets[halffacet >> 1U];
-    return (halffacet & 1U) != 0 ? f.volume_below : f.volume_above;
+  [[nodiscard]] VolumeId halffacet_volume(HalffacetId halffacet) const {
+    const Facet& f = facets[facet_of(halffacet)];
+    return is_below(halffacet) ? f.volume_below : f.volume_above;
   }
 
-  /// The corners of cycle `cycle` (a global cycle index: facet.first_cycle + i).
-  [[nodiscard]] std::span<const std::uint32_t> cycle(std::uint32_t cycle) const {
-    return {corners.data() + cycle_begin[cycle], cycle_begin[cycle + 1] - cycle_begin[cycle]};
+  /// The corners of a cycle.
+  [[nodiscard]] std::span<const std::uint32_t> corners_of(CycleId cycle) const {
+    return {corners.data() + cycle_begin[cycle], cycle_begin[cycle.next()] - cycle_begin[cycle]};
   }
   /// All corners of a facet, cycle after cycle.
-  [[nodiscard]] std::span<const std::uint32_t> facet_corners(const Facet& facet) const {
+  [[nodiscard]] std::span<const std::uint32_t> corners_of(const Facet& facet) const {
     const std::uint32_t first = cycle_begin[facet.first_cycle];
-    return {corners.data() + first, cycle_begin[facet.first_cycle + facet.cycle_count] - first};
+    return {corners.data() + first, cycle_begin[facet.cycles().end_id()] - first};
   }
+  [[nodiscard]] std::span<const std::uint32_t> corners_of(FacetId facet) const { return corners_of(facets[facet]); }
+
+  /// The vertices inside a facet.
+  [[nodiscard]] std::span<const std::uint32_t> isolated_vertices_of(const Facet& facet) const {
+    return {isolated_vertices.data() + facet.first_isolated, facet.isolated_count};
+  }
+
+  /// The sfaces of a shell.
+  [[nodiscard]] std::span<const std::uint32_t> sfaces_of(const Shell& shell) const {
+    return {shell_sfaces.data() + shell.first_sface, shell.sface_count};
+  }
+  [[nodiscard]] std::span<const std::uint32_t> sfaces_of(ShellId shell) const { return sfaces_of(shells[shell]); }
 
   /// The vertex that an sface belongs to. O(log n).
   [[nodiscard]] std::uint32_t sface_vertex(std::uint32_t sface) const;

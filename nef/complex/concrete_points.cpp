@@ -59,9 +59,9 @@ Winding winding_number(const std::vector<const Rational3*>& polygon, const Ratio
 }
 
 std::vector<const Rational3*> cycle_points(const Complex& complex, const std::vector<Rational3>& points,
-                                           std::uint32_t cycle) {
+                                           CycleId cycle) {
   std::vector<const Rational3*> result;
-  for (const std::uint32_t corner : complex.cycle(cycle)) {
+  for (const std::uint32_t corner : complex.corners_of(cycle)) {
     result.push_back(&points[complex.shalfedge_owner[corner]]);
   }
   return result;

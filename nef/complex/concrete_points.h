@@ -20,8 +20,7 @@ struct Winding {
 Winding winding_number(const std::vector<const Rational3*>& polygon, const Rational3& point, std::size_t axis);
 
 /// The corners of cycle `cycle` as points.
-std::vector<const Rational3*> cycle_points(const Complex& complex, const std::vector<Rational3>& points,
-                                           std::uint32_t cycle);
+std::vector<const Rational3*> cycle_points(const Complex& complex, const std::vector<Rational3>& points, CycleId cycle);
 
 /// An axis along which the plane of a facet can be projected, and +1 or -1 as counterclockwise
 /// about the plane's normal is counterclockwise in the projection or not.

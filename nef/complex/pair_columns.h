@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "nef/complex/ids.h"
+
 namespace nef {
 
 /// A number that both twins of a pair have in common.
@@ -25,25 +27,25 @@ class CommonColumn {
   std::vector<std::uint32_t> values_;
 };
 
-/// Numbers of twins that differ in the lowest bit: 2 f for one, 2 f + 1 for the other.
-class OppositeColumn {
+/// The halffacets that shalfedges lie on: twins lie on the two sides of one facet.
+class HalffacetColumn {
  public:
-  [[nodiscard]] std::uint32_t operator[](std::size_t half) const {
-    return values_[half >> 1U] ^ static_cast<std::uint32_t>(half & 1U);
+  [[nodiscard]] HalffacetId operator[](std::size_t half) const {
+    return HalffacetId{values_[half >> 1U].index() ^ static_cast<std::uint32_t>(half & 1U)};
   }
   /// Sets the twin's, too.
-  void set(std::size_t half, std::uint32_t value) {
-    values_[half >> 1U] = value ^ static_cast<std::uint32_t>(half & 1U);
+  void set(std::size_t half, HalffacetId value) {
+    values_[half >> 1U] = HalffacetId{value.index() ^ static_cast<std::uint32_t>(half & 1U)};
   }
-  void assign(std::size_t halves, std::uint32_t of_even) { values_.assign(halves / 2, of_even); }
+  void assign(std::size_t halves, HalffacetId of_even) { values_.assign(halves / 2, of_even); }
   [[nodiscard]] std::size_t size() const { return 2 * values_.size(); }
 
-  /// The number of the even one of each pair.
-  [[nodiscard]] std::vector<std::uint32_t>& pairs() { return values_; }
-  [[nodiscard]] const std::vector<std::uint32_t>& pairs() const { return values_; }
+  /// The one of the even shalfedge of each pair.
+  [[nodiscard]] std::vector<HalffacetId>& pairs() { return values_; }
+  [[nodiscard]] const std::vector<HalffacetId>& pairs() const { return values_; }
 
  private:
-  std::vector<std::uint32_t> values_;
+  std::vector<HalffacetId> values_;
 };
 
 }  // namespace nef

@@ -85,7 +85,9 @@ class PlaneSweep {
         return sweep->below_edge(sweep->edges_[a], sweep->edges_[b]);
       }
       // Searched with the rank of a vertex, as a type of its own.
-      bool operator()(std::uint32_t a, PointId rank) const { return sweep->below_vertex(sweep->edges_[a], rank.value); }
+      bool operator()(std::uint32_t a, PointId rank) const {
+        return sweep->below_vertex(sweep->edges_[a], rank.index());
+      }
     };
     std::multiset<std::uint32_t, Below> line(Below{this});
     std::vector<std::multiset<std::uint32_t, Below>::iterator> place(edges_.size());

@@ -108,7 +108,7 @@ void SolidLinks::link_facets(const Complex& result, KnownLinks& links) const {
     if (!push_cycle(f, links)) continue;
     Facet facet;
     facet.plane = PlaneId{faces_.plane[f].row() << 1U};
-    facet.first_cycle = static_cast<std::uint32_t>(links.facets.size());
+    facet.first_cycle = CycleId{links.facets.size()};
     facet.cycle_count = 1;
     links.facets.push_back(facet);
     links.cycle_begin.push_back(static_cast<std::uint32_t>(links.corners.size()));

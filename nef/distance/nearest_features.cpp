@@ -43,7 +43,7 @@ struct Side {
     std::vector<Box> boxes;
     for (const Facet& facet : c.facets) {
       Box& box = boxes.emplace_back();
-      for (const std::uint32_t corner : c.facet_corners(facet)) box.add(vertex_box(c, c.shalfedge_owner[corner]));
+      for (const std::uint32_t corner : c.corners_of(facet)) box.add(vertex_box(c, c.shalfedge_owner[corner]));
     }
     facets = BoxTree(boxes);
     boxes.clear();
@@ -64,9 +64,9 @@ struct Side {
   [[nodiscard]] Rational3 point(std::uint32_t vertex) const { return c.points.rational(PointId{vertex}); }
 
   // A tree for a facet with many corners, made at the first call.
-  const BoxTree* edges_of(std::uint32_t facet) {
+  const BoxTree* edges_of(FacetId facet) {
     constexpr std::size_t kMany = 64;
-    if (c.facet_corners(c.facets[facet]).size() < kMany) return nullptr;
+    if (c.corners_of(facet).size() < kMany) return nullptr;
     const auto [at, fresh] = trees.try_emplace(facet);
     if (fresh) at->second = facet_edge_tree(c, c.facets[facet]);
     return &at->second;
@@ -77,7 +77,7 @@ struct Side {
   std::vector<std::array<std::uint32_t, 2>> segments;
   std::vector<Box> segment_boxes;
   BoxTree segment_tree;
-  std::unordered_map<std::uint32_t, BoxTree> trees;
+  std::unordered_map<FacetId, BoxTree> trees;
 };
 
 class Search {
@@ -146,12 +146,12 @@ class Search {
     for (std::uint32_t v = 0; v < vertices.c.vertex_count(); ++v) {
       const Box box = vertex_box(vertices.c, v);
       facets.facets.for_each_if([&](const Box& other) { return least_square(box, other) <= limit_; },
-                                [&](std::uint32_t f) { meet_facet(vertices.point(v), facets, f, swapped); });
+                                [&](std::uint32_t f) { meet_facet(vertices.point(v), facets, FacetId{f}, swapped); });
     }
   }
 
   // The foot of the perpendicular, where it lies in the facet; otherwise an edge is as near.
-  void meet_facet(const Rational3& p, Side& side, std::uint32_t f, bool swapped) {
+  void meet_facet(const Rational3& p, Side& side, FacetId f, bool swapped) {
     const Facet& facet = side.c.facets[f];
     Rational3 normal;
     for (std::size_t i = 0; i < 3; ++i) normal[i] = Integer(side.c.planes.coefficient(facet.plane, i));

@@ -105,8 +105,8 @@ class Exporter {
 
   // A selected volume is unbounded if it is the outer one, or has a facet on an infimaximal box.
   void classify_volumes() {
-    std::vector<bool> unbounded(volumes_.size(), false);
-    if (!unbounded.empty()) unbounded[0] = true;
+    IndexedVector<VolumeId, bool> unbounded(volumes_.size(), false);
+    if (!unbounded.empty()) unbounded[kOuterVolume] = true;
     if (complex_.has_box()) {
       for (const Facet& facet : complex_.facets) {
         if (!complex_.planes.infimaximal(facet.plane)) continue;
@@ -114,7 +114,7 @@ class Exporter {
         unbounded[facet.volume_below] = true;
       }
     }
-    for (std::size_t v = 0; v < volumes_.size(); ++v) {
+    for (const VolumeId v : volumes_.ids()) {
       const LabelId mark = complex_.volumes[v].mark;
       if (mark == kOutside) {
         volumes_[v].other = true;
@@ -130,7 +130,7 @@ class Exporter {
   }
 
   void collect_facets() {
-    for (std::uint32_t f = 0; f < complex_.facet_count(); ++f) {
+    for (const FacetId f : complex_.facets.ids()) {
       const Facet& facet = complex_.facets[f];
       if (volumes_[facet.volume_above].selected != volumes_[facet.volume_below].selected) boundary_.push_back(f);
     }
@@ -140,17 +140,17 @@ class Exporter {
   void collect_lower_dimensional() {
     std::vector<bool> held(complex_.vertex_count(), false);
     std::vector<bool> in_facet(complex_.svertices.size(), false);
-    for (std::uint32_t f = 0; f < complex_.facet_count(); ++f) {
+    for (const FacetId f : complex_.facets.ids()) {
       const Facet& facet = complex_.facets[f];
       if (!is_selected(facet.mark) || sees_other(facet)) continue;
       boundary_.push_back(f);
-      for (const std::uint32_t corner : complex_.facet_corners(facet)) {
+      for (const std::uint32_t corner : complex_.corners_of(facet)) {
         const std::uint32_t h = complex_.corner_halfedge(corner);
         in_facet[h] = in_facet[complex_.twin[h]] = true;
         held[complex_.shalfedge_owner[corner]] = true;
       }
-      for (std::uint32_t i = 0; i < facet.isolated_count; ++i) {
-        held[complex_.isolated_vertices[facet.first_isolated + i]] = true;
+      for (const std::uint32_t v : complex_.isolated_vertices_of(facet)) {
+        held[v] = true;
       }
     }
     for (std::uint32_t h = 0; h < complex_.svertices.size(); ++h) {
@@ -170,7 +170,7 @@ class Exporter {
   // A volume on a side of the facet is lost as a whole.
   [[nodiscard]] bool sees_other(const Facet& facet) const {
     if (volumes_[facet.volume_above].other || volumes_[facet.volume_below].other) return true;
-    for (const std::uint32_t corner : complex_.facet_corners(facet)) {
+    for (const std::uint32_t corner : complex_.corners_of(facet)) {
       if (!finite(complex_.shalfedge_owner[corner])) return true;
     }
     return false;
@@ -182,8 +182,8 @@ class Exporter {
     for (const auto& [v, w] : lines_) number_[v] = number_[w] = 0;
     for (const std::uint32_t v : points_) number_[v] = 0;
     corner_vertices_.reserve(complex_.corners.size());
-    for (const std::uint32_t f : boundary_) {
-      for (const std::uint32_t corner : complex_.facet_corners(complex_.facets[f])) {
+    for (const FacetId f : boundary_) {
+      for (const std::uint32_t corner : complex_.corners_of(f)) {
         const std::uint32_t v = complex_.shalfedge_owner[corner];
         number_[v] = 0;
         corner_vertices_.push_back(v);
@@ -202,8 +202,7 @@ class Exporter {
                      std::vector<std::vector<std::uint32_t>>& rings) const {
     rings.resize(facet.cycle_count);
     for (std::uint32_t i = 0; i < facet.cycle_count; ++i) {
-      const std::size_t size = complex_.cycle(facet.first_cycle + i).size();
-      rings[i].resize(size);
+      rings[i].resize(complex_.corners_of(facet.cycles()[i]).size());
       for (std::uint32_t& v : rings[i]) v = number_[*corners++];
     }
   }
@@ -231,8 +230,8 @@ class Exporter {
    public:
     explicit Polygons(const Exporter& exporter) : number_(exporter.vertices_.size(), kUnused) {
       const std::uint32_t* corners = exporter.corner_vertices_.data();
-      for (const std::uint32_t f : exporter.boundary_) {
-        const std::size_t size = exporter.complex_.facet_corners(exporter.complex_.facets[f]).size();
+      for (const FacetId f : exporter.boundary_) {
+        const std::size_t size = exporter.complex_.corners_of(f).size();
         if (!exporter.is_triangle(exporter.complex_.facets[f])) {
           for (std::size_t i = 0; i < size; ++i) number_[exporter.number_[corners[i]]] = 0;
         }
@@ -281,7 +280,7 @@ class Exporter {
   };
 
   [[nodiscard]] bool is_triangle(const Facet& facet) const {
-    return facet.cycle_count == 1 && complex_.cycle(facet.first_cycle).size() == 3;
+    return facet.cycle_count == 1 && complex_.corners_of(facet.first_cycle).size() == 3;
   }
 
   void write_facets() {
@@ -291,7 +290,7 @@ class Exporter {
     faces_.face_begin.reserve(boundary_.size() + 1);
     faces_.corners.reserve(corner_vertices_.size());
     const std::uint32_t* corners = corner_vertices_.data();
-    for (const std::uint32_t f : boundary_) {
+    for (const FacetId f : boundary_) {
       const Facet& facet = complex_.facets[f];
       // Cycles turn counterclockwise as seen from above, which is outside if the solid lies below.
       const bool flip = volumes_[facet.volume_above].selected;
@@ -303,7 +302,7 @@ class Exporter {
         continue;
       }
       collect_rings(facet, corners, rings);
-      corners += complex_.facet_corners(facet).size();
+      corners += complex_.corners_of(facet).size();
       const bool whole = rings.size() == 1 &&
                          (!options_.only_convex || polygons.strictly_convex(rings[0], projection(facet.plane).first));
       if (options_.keep_polygons && whole && may_stay_polygon(rings[0])) {
@@ -406,8 +405,8 @@ class Exporter {
   void count_open_borders() {
     std::vector<bool> seen_edge(complex_.svertices.size(), false);
     std::vector<bool> seen_vertex(complex_.vertex_count(), false);
-    for (const std::uint32_t f : boundary_) {
-      for (const std::uint32_t corner : complex_.facet_corners(complex_.facets[f])) {
+    for (const FacetId f : boundary_) {
+      for (const std::uint32_t corner : complex_.corners_of(f)) {
         const std::uint32_t v = complex_.shalfedge_owner[corner];
         const std::uint32_t h = complex_.corner_halfedge(corner);
         if (!seen_vertex[v] && !is_selected(complex_.vertices[v].mark)) ++open_.vertices;
@@ -435,8 +434,8 @@ class Exporter {
 
   const Complex& complex_;
   const MeshExportOptions& options_;
-  std::vector<Sides> volumes_;
-  std::vector<std::uint32_t> boundary_;              // facets
+  IndexedVector<VolumeId, Sides> volumes_;
+  std::vector<FacetId> boundary_;
   std::vector<std::uint32_t> corner_vertices_;       // of the complex, of all corners of these
   std::vector<std::uint32_t> number_;                // in the mesh, of each vertex
   std::vector<Answer> passes_;                       // of each vertex of the mesh: may it be a corner of a polygon?

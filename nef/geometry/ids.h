@@ -1,27 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Typed 32-bit indices. Every element of the library is an index into a flat array of the object
-// that owns it; an index means nothing without that object.
+// The indices of planes and points.
 #pragma once
 
 #include <compare>
 #include <cstdint>
-#include <functional>
+
+#include "nef/base/id.h"
 
 namespace nef {
-
-/// A 32-bit index that cannot be mixed up with an index of another kind. `Tag` is never defined.
-template <typename Tag>
-struct Id {
-  static constexpr std::uint32_t kNone = 0xffffffffU;
-  std::uint32_t value = kNone;
-
-  constexpr Id() = default;
-  constexpr explicit Id(std::uint32_t v) : value(v) {}
-  constexpr explicit Id(std::size_t v) : value(static_cast<std::uint32_t>(v)) {}
-  [[nodiscard]] constexpr bool valid() const { return value != kNone; }
-  constexpr auto operator<=>(const Id&) const = default;
-};
 
 /// An oriented plane: twice its row in a PlaneTable, plus one if seen from its other side.
 /// Two planes of one table are the same point set iff their rows are equal.

@@ -136,8 +136,8 @@ void PointTable::push_approximation() {
 }
 
 PointId PointTable::push_from(const PointTable& other, PointId point) {
-  const PointId id{rows_.push_from(other.rows_, point.value)};
-  approximate_.push_back(other.approximate_[point.value]);
+  const PointId id{rows_.push_from(other.rows_, point.index())};
+  approximate_.push_back(other.approximate_[point.index()]);
   return id;
 }
 

@@ -46,19 +46,19 @@ class PointTable {
 
   /// Homogeneous coordinate: 0..2 for x, y, z; 3 for w; 4..6 for the factors of R.
   [[nodiscard]] IntegerView coordinate(PointId point, std::size_t column) const {
-    return rows_.at(point.value, column);
+    return rows_.at(point.index(), column);
   }
 
   /// The three doubles of a point.
-  [[nodiscard]] const std::array<double, 3>& approximate(PointId point) const { return approximate_[point.value]; }
+  [[nodiscard]] const std::array<double, 3>& approximate(PointId point) const { return approximate_[point.index()]; }
 
   /// Equal for points with the same homogeneous coordinates (as push makes them of equal points).
-  [[nodiscard]] std::uint64_t hash(PointId point) const { return rows_.hash(point.value); }
-  [[nodiscard]] bool identical(PointId a, PointId b) const { return rows_.equal(a.value, rows_, b.value); }
+  [[nodiscard]] std::uint64_t hash(PointId point) const { return rows_.hash(point.index()); }
+  [[nodiscard]] bool identical(PointId a, PointId b) const { return rows_.equal(a.index(), rows_, b.index()); }
 
   /// True if no coordinate has a part in R.
   [[nodiscard]] bool finite(PointId point) const {
-    return rows_.sign(point.value, 4) == 0 && rows_.sign(point.value, 5) == 0 && rows_.sign(point.value, 6) == 0;
+    return rows_.sign(point.index(), 4) == 0 && rows_.sign(point.index(), 5) == 0 && rows_.sign(point.index(), 6) == 0;
   }
 
   /// The exact coordinates of a finite point.

@@ -59,7 +59,7 @@ class WindingFiller {
     const MeshPoints points(c_.points);
     Triangulator triangulator(points);
     coverings_.resize(c_.facet_count());
-    for (std::uint32_t f = 0; f < c_.facet_count(); ++f) count_coverings(tree, f, inner_point(f, triangulator));
+    for (const FacetId f : c_.facets.ids()) count_coverings(tree, f, inner_point(f, triangulator));
   }
 
   static std::array<double, 3> rounded(const Rational3& p) {
@@ -67,12 +67,12 @@ class WindingFiller {
   }
 
   // The middle of one of the triangles that a facet can be cut into.
-  [[nodiscard]] Rational3 inner_point(std::uint32_t f, Triangulator& triangulator) const {
+  [[nodiscard]] Rational3 inner_point(FacetId f, Triangulator& triangulator) const {
     const Facet& facet = c_.facets[f];
     std::vector<std::vector<std::uint32_t>> rings;
-    for (std::uint32_t i = 0; i < facet.cycle_count; ++i) {
+    for (const CycleId i : facet.cycles()) {
       std::vector<std::uint32_t>& ring = rings.emplace_back();
-      for (const std::uint32_t corner : c_.cycle(facet.first_cycle + i)) ring.push_back(c_.shalfedge_owner[corner]);
+      for (const std::uint32_t corner : c_.corners_of(i)) ring.push_back(c_.shalfedge_owner[corner]);
     }
     std::vector<Triangulator::Triangle> triangles;
     const std::size_t axis = largest_component(facet.plane);
@@ -87,7 +87,7 @@ class WindingFiller {
     return middle;
   }
 
-  void count_coverings(const BoxTree& tree, std::uint32_t f, const Rational3& point) {
+  void count_coverings(const BoxTree& tree, FacetId f, const Rational3& point) {
     const PlaneId plane = c_.facets[f].plane;
     const std::size_t axis = largest_component(plane);
     const int up = c_.planes.coefficient(plane, axis).sign();
@@ -123,19 +123,19 @@ class WindingFiller {
   // Breadth first through the facets, from the outer volume.
   void find_windings() {
     struct Step {
-      std::uint32_t to = 0;
+      VolumeId to;
       int change = 0;
     };
-    std::vector<std::vector<Step>> beyond(c_.volumes.size());
-    for (std::uint32_t f = 0; f < c_.facet_count(); ++f) {
+    IndexedVector<VolumeId, std::vector<Step>> beyond(c_.volumes.size());
+    for (const FacetId f : c_.facets.ids()) {
       const Facet& facet = c_.facets[f];
       beyond[facet.volume_above].push_back({facet.volume_below, coverings_[f].net});
       beyond[facet.volume_below].push_back({facet.volume_above, -coverings_[f].net});
     }
-    std::vector<bool> known(c_.volumes.size(), false);
+    IndexedVector<VolumeId, bool> known(c_.volumes.size(), false);
     winding_.assign(c_.volumes.size(), 0);
-    known[0] = true;
-    std::vector<std::uint32_t> queue{0};
+    known[kOuterVolume] = true;
+    std::vector<VolumeId> queue{kOuterVolume};
     for (std::size_t i = 0; i < queue.size(); ++i) {
       for (const auto& [to, change] : beyond[queue[i]]) {
         const int winding = winding_[queue[i]] + change;
@@ -154,7 +154,7 @@ class WindingFiller {
   // Names a face that bounds a volume of a winding number that must not be.
   template <typename Wrong>
   [[noreturn]] void refuse(Wrong wrong) const {
-    for (std::uint32_t f = 0; f < c_.facet_count(); ++f) {
+    for (const FacetId f : c_.facets.ids()) {
       const Facet& facet = c_.facets[f];
       const int above = winding_[facet.volume_above];
       const int below = winding_[facet.volume_below];
@@ -176,7 +176,7 @@ class WindingFiller {
   Polyhedron fill() {
     Complex filled = c_;
     bool idle = false;  // facets with the same on both sides, or edges without facets
-    for (std::uint32_t v = 0; v < filled.volumes.size(); ++v) filled.volumes[v].mark = winding_[v] != 0 ? 1 : 0;
+    for (const VolumeId v : filled.volumes.ids()) filled.volumes[v].mark = winding_[v] != 0 ? 1 : 0;
     for (std::uint32_t s = 0; s < filled.sfaces.size(); ++s) {
       filled.sfaces[s].mark = filled.volumes[filled.sface_volume(s)].mark;
     }
@@ -197,8 +197,8 @@ class WindingFiller {
   const Complex& c_;
   const Mesh& mesh_;
   const MeshSurface& surface_;
-  std::vector<Covering> coverings_;
-  std::vector<int> winding_;
+  IndexedVector<FacetId, Covering> coverings_;
+  IndexedVector<VolumeId, int> winding_;
 };
 
 }  // namespace

@@ -65,7 +65,7 @@ void MeshFaces::number_points() {
     for (const std::uint32_t v : spatial_order(places)) {
       if (surface_.place[v] != v) continue;
       const PointId p = known.size() > 0 ? points_.push_from(known, PointId{v}) : points_.push(mesh_.vertices[v]);
-      point_of_[v] = p.value;
+      point_of_[v] = p.index();
       vertex_of_.push_back(v);
     }
     for (std::uint32_t v = 0; v < mesh_.vertices.size(); ++v) point_of_[v] = point_of_[surface_.place[v]];

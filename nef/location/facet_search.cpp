@@ -135,8 +135,9 @@ class ParityCount {
 FacetPlace locate_in_facet(const Complex& complex, const Facet& facet, const PointRef& point, const BoxTree* edges) {
   ParityCount count(complex, facet, point);
   if (edges == nullptr) {
-    for (std::uint32_t k = 0; k < facet.cycle_count && !count.on_boundary(); ++k) {
-      const std::span<const std::uint32_t> cycle = complex.cycle(facet.first_cycle + k);
+    for (const CycleId c : facet.cycles()) {
+      if (count.on_boundary()) break;
+      const std::span<const std::uint32_t> cycle = complex.corners_of(c);
       std::uint32_t v = complex.shalfedge_owner[cycle.front()];
       for (std::size_t i = 0; i < cycle.size() && !count.on_boundary(); ++i) {
         const std::uint32_t u = v;
@@ -145,7 +146,7 @@ FacetPlace locate_in_facet(const Complex& complex, const Facet& facet, const Poi
       }
     }
   } else {
-    const std::span<const std::uint32_t> corners = complex.facet_corners(facet);
+    const std::span<const std::uint32_t> corners = complex.corners_of(facet);
     const Box query = point_box(point);
     edges->for_each_if([&](const Box& box) { return !count.on_boundary() && count.may_matter(box, query); },
                        [&](std::uint32_t i) { count.add(corners[i]); });
@@ -155,7 +156,7 @@ FacetPlace locate_in_facet(const Complex& complex, const Facet& facet, const Poi
 
 BoxTree facet_edge_tree(const Complex& complex, const Facet& facet) {
   std::vector<Box> boxes;
-  const std::span<const std::uint32_t> corners = complex.facet_corners(facet);
+  const std::span<const std::uint32_t> corners = complex.corners_of(facet);
   boxes.reserve(corners.size());
   for (const std::uint32_t corner : corners) boxes.push_back(edge_box(complex, complex.corner_halfedge(corner)));
   return BoxTree(boxes);

@@ -23,7 +23,7 @@ struct FacetPlace {
 FacetPlace locate_in_facet(const Complex& complex, const Facet& facet, const PointRef& point, const BoxTree* edges);
 
 /// The tree over the boundary edges of a facet: item i is the edge that leaves corner i of
-/// complex.facet_corners(facet).
+/// complex.corners_of(facet).
 BoxTree facet_edge_tree(const Complex& complex, const Facet& facet);
 
 /// The box around a vertex, and the box around an edge.

@@ -44,11 +44,11 @@ struct QueryStructure::LargeFacet {
 QueryStructure::QueryStructure(const Complex& complex) {
   std::vector<Box> boxes;
   boxes.reserve(complex.facet_count());
-  for (std::uint32_t f = 0; f < complex.facet_count(); ++f) {
-    const std::span<const std::uint32_t> corners = complex.facet_corners(complex.facets[f]);
+  for (const FacetId f : complex.facets.ids()) {
+    const std::span<const std::uint32_t> corners = complex.corners_of(f);
     Box box;
     for (const std::uint32_t c : corners) box.add(vertex_box(complex, complex.shalfedge_owner[c]));
-    push_item(f, kFacetItem, box, boxes);
+    push_item(f.index(), kFacetItem, box, boxes);
     if (corners.size() > kLargeFacet) large_facets_.push_back(f);
   }
   for (std::uint32_t h = 0; h < complex.svertices.size(); ++h) {
@@ -72,7 +72,7 @@ void QueryStructure::push_item(std::uint32_t index, Primitive kind, const Box& b
   boxes.push_back(mirrored(box));
 }
 
-const BoxTree* QueryStructure::edge_tree(const Complex& complex, std::uint32_t facet) const {
+const BoxTree* QueryStructure::edge_tree(const Complex& complex, FacetId facet) const {
   const auto found = std::lower_bound(large_facets_.begin(), large_facets_.end(), facet);
   if (found == large_facets_.end() || *found != facet) return nullptr;
   LargeFacet& large = large_[static_cast<std::size_t>(found - large_facets_.begin())];
@@ -111,10 +111,12 @@ std::optional<ComplexHit> QueryStructure::item_at(const Complex& complex, const 
       default:
         break;
     }
-    const Facet& facet = complex.facets[index];
+    const FacetId f{index};
+    const Facet& facet = complex.facets[f];
     if (result || side_of_plane(complex.planes, facet.plane, point) != 0) return;
-    const FacetPlace place = locate_in_facet(complex, facet, point, edge_tree(complex, index));
-    if (place.kind == FacetPlace::Kind::kInside) result = ComplexHit{Kind::kFacet, 2 * index, kNone};
+    const FacetPlace place = locate_in_facet(complex, facet, point, edge_tree(complex, f));
+    if (place.kind == FacetPlace::Kind::kInside)
+      result = ComplexHit{Kind::kFacet, halffacet_of(f, false).index(), kNone};
     if (place.kind == FacetPlace::Kind::kEdge) result = ComplexHit{Kind::kEdge, place.index, kNone};
     if (place.kind == FacetPlace::Kind::kVertex) result = ComplexHit{Kind::kVertex, place.index, kNone};
   });
@@ -131,20 +133,20 @@ std::uint32_t QueryStructure::first_sface_minus_x(const Complex& complex, std::u
   if (!hit) return kNone;
   if (hit->kind == ComplexHit::Kind::kFacet) {
     // A corner is oriented like the positive halffacet; its twin looks to the other side.
-    const std::uint32_t corner = complex.facet_corners(complex.facets[hit->index >> 1U])[0];
-    return complex.shalfedge_sface(corner ^ (hit->index & 1U));
+    const std::uint32_t corner = complex.corners_of(facet_of(hit->halffacet()))[0];
+    return complex.shalfedge_sface(corner ^ (is_below(hit->halffacet()) ? 1U : 0U));
   }
   NEF_ASSERT(hit->sface != kNone);
   return hit->sface;
 }
 
-std::uint32_t QueryStructure::volume_at(const Complex& complex, const PointRef& point) const {
+VolumeId QueryStructure::volume_at(const Complex& complex, const PointRef& point) const {
   const std::optional<ComplexHit> hit = first_hit(complex, {point, minus_x()});
-  return hit ? volume_before(complex, *hit) : 0;
+  return hit ? volume_before(complex, *hit) : kOuterVolume;
 }
 
-std::uint32_t volume_before(const Complex& complex, const ComplexHit& hit) {
-  if (hit.kind == ComplexHit::Kind::kFacet) return complex.halffacet_volume(hit.index);
+VolumeId volume_before(const Complex& complex, const ComplexHit& hit) {
+  if (hit.kind == ComplexHit::Kind::kFacet) return complex.halffacet_volume(hit.halffacet());
   NEF_ASSERT(hit.sface != kNone);
   return complex.sface_volume(hit.sface);
 }

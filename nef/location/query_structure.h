@@ -23,6 +23,7 @@ struct ComplexHit {
   Kind kind = Kind::kVertex;
   /// A vertex; a halfedge; a halffacet (from a ray: the side that the ray comes from).
   std::uint32_t index = 0;
+  [[nodiscard]] HalffacetId halffacet() const { return HalffacetId{index}; }
   /// Vertex or edge met by a ray: the sface (global index, at that vertex or at the source of that
   /// halfedge) through which the ray comes. kNone if the ray comes along a facet or an edge, and
   /// for facets.
@@ -64,7 +65,7 @@ class QueryStructure {
   [[nodiscard]] std::uint32_t first_sface_minus_x(const Complex& complex, std::uint32_t vertex) const;
 
   /// The volume that holds a point which item_at does not find on anything.
-  [[nodiscard]] std::uint32_t volume_at(const Complex& complex, const PointRef& point) const;
+  [[nodiscard]] VolumeId volume_at(const Complex& complex, const PointRef& point) const;
 
   [[nodiscard]] std::size_t bytes() const;
 
@@ -77,19 +78,19 @@ class QueryStructure {
   enum Primitive : std::uint32_t { kFacetItem = 0, kEdgeItem = 1, kVertexItem = 2 };
 
   void push_item(std::uint32_t index, Primitive kind, const Box& box, std::vector<Box>& boxes);
-  [[nodiscard]] const BoxTree* edge_tree(const Complex& complex, std::uint32_t facet) const;
+  [[nodiscard]] const BoxTree* edge_tree(const Complex& complex, FacetId facet) const;
   [[nodiscard]] std::optional<std::uint32_t> free_vertex_at(const Complex& complex, const PointRef& point) const;
 
   // Holds the boxes mirrored at the origin, so that its order of traversal (small coordinates
   // first) goes outward from the origin of a ray towards -x, the direction that location uses.
   BoxTree tree_;
   std::vector<std::uint32_t> items_;
-  std::vector<std::uint32_t> large_facets_;  // sorted
-  std::shared_ptr<LargeFacet[]> large_;      // parallel
+  std::vector<FacetId> large_facets_;    // sorted
+  std::shared_ptr<LargeFacet[]> large_;  // parallel
 };
 
 /// The volume in which the ray runs just before the hit. The hit must have come through one (its
 /// `sface` is known, or it is a facet).
-std::uint32_t volume_before(const Complex& complex, const ComplexHit& hit);
+VolumeId volume_before(const Complex& complex, const ComplexHit& hit);
 
 }  // namespace nef

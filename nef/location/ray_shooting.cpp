@@ -71,7 +71,7 @@ class RayShooter {
         visit_edge(index);
         break;
       default:
-        visit_facet(index);
+        visit_facet(FacetId{index});
     }
   }
 
@@ -106,15 +106,15 @@ class RayShooter {
     }
   }
 
-  void visit_facet(std::uint32_t index) {
-    const Facet& facet = complex_.facets[index];
+  void visit_facet(FacetId f) {
+    const Facet& facet = complex_.facets[f];
     if (side_of_circle(complex_.planes, facet.plane, ray_.direction) == 0) {
-      if (side_of_plane(complex_.planes, facet.plane, ray_.origin) == 0) visit_boundary(index);
+      if (side_of_plane(complex_.planes, facet.plane, ray_.origin) == 0) visit_boundary(f);
       return;
     }
     const std::optional<PointRef> meeting = meet(facet.plane);
     if (!meeting || (hit_ && !nearer(*meeting))) return;
-    const FacetPlace place = locate_in_facet(complex_, facet, *meeting, structure_.edge_tree(complex_, index));
+    const FacetPlace place = locate_in_facet(complex_, facet, *meeting, structure_.edge_tree(complex_, f));
     switch (place.kind) {
       case FacetPlace::Kind::kOutside:
         return;
@@ -132,13 +132,13 @@ class RayShooter {
       }
     }
     const bool from_above = side_of_plane(complex_.planes, facet.plane, ray_.origin) > 0;
-    offer({ComplexHit::Kind::kFacet, 2 * index + (from_above ? 0U : 1U), kNone}, *meeting);
+    offer({ComplexHit::Kind::kFacet, halffacet_of(f, !from_above).index(), kNone}, *meeting);
   }
 
   // The ray runs in the plane of the facet.
-  void visit_boundary(std::uint32_t index) {
-    const std::span<const std::uint32_t> corners = complex_.facet_corners(complex_.facets[index]);
-    const BoxTree* edges = structure_.edge_tree(complex_, index);
+  void visit_boundary(FacetId f) {
+    const std::span<const std::uint32_t> corners = complex_.corners_of(f);
+    const BoxTree* edges = structure_.edge_tree(complex_, f);
     if (edges == nullptr) {
       for (const std::uint32_t corner : corners) visit_edge(complex_.corner_halfedge(corner));
     } else {

@@ -311,7 +311,7 @@ Complex canonical_complex(PlaneTable&& planes, const Complex& vertices, LabelId 
 
 Polyhedron in_canonical_order(const Polyhedron& set) {
   const Complex& c = set.complex();
-  return Polyhedron(canonical_complex(PlaneTable(c.planes), c, c.volumes[0].mark));
+  return Polyhedron(canonical_complex(PlaneTable(c.planes), c, c.volumes[kOuterVolume].mark));
 }
 
 }  // namespace nef

@@ -159,7 +159,7 @@ Complex synthesized(Complex&& image, LabelId outer) {
 Polyhedron transform(const Polyhedron& a, const AffineMap& map) {
   const IntegerMap exact(map);
   const Complex& c = a.complex();
-  if (!c.has_box()) return Polyhedron(synthesized(map_complex(c, exact, 1), c.volumes[0].mark));
+  if (!c.has_box()) return Polyhedron(synthesized(map_complex(c, exact, 1), c.volumes[kOuterVolume].mark));
   return Polyhedron(clip_to_infimaximal_box(synthesized(map_complex(c, exact, exact.box_factor()), kOutside)));
 }
 

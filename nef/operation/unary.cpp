@@ -28,7 +28,7 @@ class MarkChanger {
       if (!c_.points.finite(PointId{v})) mark_trace_on_box();
       result.add(c_.points, PointId{v}, drawing_);
     }
-    return result.finish(volume_mark(c_.volumes[0].mark));
+    return result.finish(volume_mark(c_.volumes[kOuterVolume].mark));
   }
 
  private:

@@ -31,7 +31,7 @@ class SectionReader {
 
  private:
   void add_polygon(const Facet& facet) {
-    for (const std::uint32_t corner : c_.facet_corners(facet)) {
+    for (const std::uint32_t corner : c_.corners_of(facet)) {
       if (is_box_vertex(c_, c_.shalfedge_owner[corner])) {
         ++out_.unbounded;
         return;
@@ -41,13 +41,13 @@ class SectionReader {
     Rational along = 0;
     for (std::size_t i = 0; i < 3; ++i) along += normal_[i] * Integer(c_.planes.coefficient(facet.plane, i));
     SectionPolygon polygon;
-    for (std::uint32_t i = 0; i < facet.cycle_count; ++i) {
+    for (const CycleId i : facet.cycles()) {
       std::vector<Rational3> ring;
-      for (const std::uint32_t corner : c_.cycle(facet.first_cycle + i)) {
+      for (const std::uint32_t corner : c_.corners_of(i)) {
         ring.push_back(c_.points.rational(PointId{c_.shalfedge_owner[corner]}));
       }
       if (along < 0) std::reverse(ring.begin(), ring.end());
-      if (i == 0) {
+      if (i == facet.first_cycle) {
         polygon.outer = std::move(ring);
       } else {
         polygon.holes.push_back(std::move(ring));

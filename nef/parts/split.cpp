@@ -129,14 +129,14 @@ class Components {
   }
 
   // The component of an item, or kNone for an item that is not in the set.
-  std::uint32_t of_volume(std::uint32_t volume) { return of(volume, c_.volumes[volume].mark); }
+  std::uint32_t of_volume(VolumeId volume) { return of(volume.index(), c_.volumes[volume].mark); }
   std::uint32_t of_sface(std::uint32_t v, std::uint32_t sface) {
     return of_volume(c_.sface_volume(c_.vertices[v].sfaces + sface));
   }
   std::uint32_t of_arc(std::uint32_t v, std::uint32_t shalfedge) {
-    return of_facet(c_.shalfedge_facet[c_.vertices[v].shalfedges + shalfedge] >> 1U);
+    return of_facet(facet_of(c_.shalfedge_facet[c_.vertices[v].shalfedges + shalfedge]));
   }
-  std::uint32_t of_circle(std::uint32_t v) { return of_facet(c_.sloop_facet[c_.vertices[v].sloops] >> 1U); }
+  std::uint32_t of_circle(std::uint32_t v) { return of_facet(facet_of(c_.sloop_facet[c_.vertices[v].sloops])); }
   std::uint32_t of_svertex(std::uint32_t v, std::uint32_t svertex) {
     const std::uint32_t h = c_.vertices[v].svertices + svertex;
     return of(edges_ + std::min(h, c_.twin[h]), c_.svertices[h].mark);
@@ -172,7 +172,7 @@ class Components {
 
  private:
   std::uint32_t of(std::uint32_t item, LabelId mark) { return is_selected(mark) ? sets_.find(item) : kNone; }
-  std::uint32_t of_facet(std::uint32_t facet) { return of(facets_ + facet, c_.facets[facet].mark); }
+  std::uint32_t of_facet(FacetId facet) { return of(facets_ + facet.index(), c_.facets[facet].mark); }
   void join(std::uint32_t a, std::uint32_t b) {
     if (a != kNone && b != kNone) sets_.unite(a, b);
   }
@@ -202,7 +202,7 @@ class Components {
 };
 
 // What the set has of a volume and its boundary around a vertex.
-void keep_volume(const Complex& c, std::uint32_t volume, std::uint32_t v, const SphereMapView& map, Kept& out) {
+void keep_volume(const Complex& c, VolumeId volume, std::uint32_t v, const SphereMapView& map, Kept& out) {
   out.sfaces.assign(map.sfaces.size(), false);
   out.arcs.assign(map.shalfedges.size() / 2, false);
   out.svertices.assign(map.svertices.size(), false);
@@ -239,7 +239,9 @@ std::vector<Polyhedron> split(const Polyhedron& a) {
     }
     return pieces[number[component]];
   };
-  if (const std::uint32_t outer = components.of_volume(0); outer != kNone) piece(outer).outer = c.volumes[0].mark;
+  if (const std::uint32_t outer = components.of_volume(kOuterVolume); outer != kNone) {
+    piece(outer).outer = c.volumes[kOuterVolume].mark;
+  }
   std::vector<std::uint32_t> found;
   for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
     components.around(v, found);
@@ -261,8 +263,8 @@ std::vector<Polyhedron> split(const Polyhedron& a) {
 
 std::vector<Polyhedron> split_volumes(const Polyhedron& a) {
   const Complex& c = a.complex();
-  std::vector<Piece> pieces(c.volume_count());
-  pieces[0].outer = is_selected(c.volumes[0].mark) ? c.volumes[0].mark : LabelId{0};
+  IndexedVector<VolumeId, Piece> pieces(c.volume_count());
+  pieces[kOuterVolume].outer = is_selected(c.volumes[kOuterVolume].mark) ? c.volumes[kOuterVolume].mark : LabelId{0};
   for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
     const std::uint32_t end = c.vertices[v + std::size_t{1}].sfaces;
     for (std::uint32_t sface = c.vertices[v].sfaces; sface < end; ++sface) {
@@ -272,7 +274,7 @@ std::vector<Polyhedron> split_volumes(const Polyhedron& a) {
   }
   std::vector<Polyhedron> result;
   PieceMaker maker(c);
-  for (std::uint32_t volume = 0; volume < c.volume_count(); ++volume) {
+  for (const VolumeId volume : c.volumes.ids()) {
     if (!is_selected(c.volumes[volume].mark)) continue;
     result.push_back(maker.make(pieces[volume], [&](std::uint32_t v, const SphereMapView& map, Kept& out) {
       keep_volume(c, volume, v, map, out);

@@ -13,11 +13,11 @@ namespace nef {
 std::vector<long> euler_numbers(const Complex& c) {
   std::vector<long> result(c.shells.size(), 0);
   ShellWalk walk(c);
-  for (std::uint32_t s = 0; s < c.shells.size(); ++s) {
-    long& euler = result[s];
+  for (const ShellId s : c.shells.ids()) {
+    long& euler = result[s.index()];
     walk.visit(
         s, [&](std::uint32_t) { ++euler; }, [&](std::uint32_t) { --euler; },
-        [&](std::uint32_t f) {
+        [&](FacetId f) {
           const Facet& facet = c.facets[f];
           euler += 1 - (static_cast<long>(facet.cycle_count) - 1) - static_cast<long>(facet.isolated_count);
         });
@@ -45,8 +45,8 @@ std::vector<std::optional<long>> genera(const Complex& c) {
   const std::vector<long> euler = euler_numbers(c);
   std::vector<std::optional<long>> result(c.shells.size());
   ShellWalk walk(c);
-  const auto nothing = [](std::uint32_t) {};
-  for (std::uint32_t s = 0; s < c.shells.size(); ++s) {
+  const auto nothing = [](auto) {};
+  for (const ShellId s : c.shells.ids()) {
     bool manifold = true;
     walk.visit(
         s,
@@ -54,7 +54,7 @@ std::vector<std::optional<long>> genera(const Complex& c) {
           manifold = manifold && !(c.has_box() && is_box_vertex(c, v)) && is_manifold_vertex(c, v);
         },
         nothing, nothing);
-    if (manifold) result[s] = (2 - euler[s]) / 2;
+    if (manifold) result[s.index()] = (2 - euler[s.index()]) / 2;
   }
   return result;
 }
@@ -66,16 +66,16 @@ Counts counts(const Complex& c) {
   for (std::uint32_t h = 0; h < c.svertices.size(); ++h) {
     if (h < c.twin[h] && !is_box_edge(c, h)) ++result.edges;
   }
-  for (std::uint32_t f = 0; f < c.facet_count(); ++f) result.facets += is_box_facet(c, f) ? 0 : 1;
+  for (const FacetId f : c.facets.ids()) result.facets += is_box_facet(c, f) ? 0 : 1;
   result.volumes = c.volume_count() - 1;
   ShellWalk walk(c);
-  for (std::uint32_t s = 0; s < c.shells.size(); ++s) {
+  for (const ShellId s : c.shells.ids()) {
     bool in_space = false;
     walk.visit(
         s, [&](std::uint32_t v) { in_space = in_space || !is_box_vertex(c, v); },
         [&](std::uint32_t h) { in_space = in_space || !is_box_edge(c, h); },
-        [&](std::uint32_t f) { in_space = in_space || !is_box_facet(c, f); });
-    result.shells += in_space && c.shells[s].volume != 0 ? 1 : 0;
+        [&](FacetId f) { in_space = in_space || !is_box_facet(c, f); });
+    result.shells += in_space && c.shells[s].volume != kOuterVolume ? 1 : 0;
   }
   return result;
 }

@@ -55,14 +55,11 @@ class IndexRange {
 inline IndexRange vertices(const Polyhedron& a) { return {0, a.complex().vertex_count()}; }
 /// Both halfedges of each edge; a.complex().twin has the other one.
 inline IndexRange halfedges(const Polyhedron& a) { return {0, a.complex().svertices.size()}; }
-inline IndexRange facets(const Polyhedron& a) { return {0, a.complex().facet_count()}; }
+inline IdRange<FacetId> facets(const Polyhedron& a) { return a.complex().facets.ids(); }
 /// The outer volume comes first.
-inline IndexRange volumes(const Polyhedron& a) { return {0, a.complex().volume_count()}; }
+inline IdRange<VolumeId> volumes(const Polyhedron& a) { return a.complex().volumes.ids(); }
 /// The shells of a volume, its outer one first (volume 0 has none).
-inline IndexRange shells(const Polyhedron& a, std::uint32_t volume) {
-  const Volume& v = a.complex().volumes[volume];
-  return {v.first_shell, v.first_shell + v.shell_count};
-}
+inline IdRange<ShellId> shells(const Polyhedron& a, VolumeId volume) { return a.complex().volumes[volume].shells(); }
 
 /// The point of a vertex; InputError for one on an infimaximal box, which is no point of space.
 Rational3 point(const Polyhedron& a, std::uint32_t vertex);
@@ -70,13 +67,12 @@ Rational3 point(const Polyhedron& a, std::uint32_t vertex);
 /// The cycles of a facet, the outer one first: calls cycle(std::span of vertices in order, facet to the left as seen
 /// from the positive side of its plane) for each.
 template <typename OnCycle>
-void visit_cycles(const Polyhedron& a, std::uint32_t facet, OnCycle&& cycle) {
+void visit_cycles(const Polyhedron& a, FacetId facet, OnCycle&& cycle) {
   const Complex& c = a.complex();
-  const Facet& f = c.facets[facet];
   std::vector<std::uint32_t> ring;
-  for (std::uint32_t k = f.first_cycle; k < f.first_cycle + f.cycle_count; ++k) {
+  for (const CycleId k : c.facets[facet].cycles()) {
     ring.clear();
-    for (const std::uint32_t corner : c.cycle(k)) ring.push_back(c.shalfedge_owner[corner]);
+    for (const std::uint32_t corner : c.corners_of(k)) ring.push_back(c.shalfedge_owner[corner]);
     cycle(std::span<const std::uint32_t>(ring));
   }
 }
@@ -84,7 +80,7 @@ void visit_cycles(const Polyhedron& a, std::uint32_t facet, OnCycle&& cycle) {
 /// Calls vertex(v), edge(halfedge; the smaller of the two) and facet(f) for all items of a shell, each once. O(n) for
 /// the first call's marks; to visit many shells of one set take a ShellWalk (nef/query/shell_items.h).
 template <typename OnVertex, typename OnEdge, typename OnFacet>
-void visit_shell(const Polyhedron& a, std::uint32_t shell, OnVertex&& vertex, OnEdge&& edge, OnFacet&& facet) {
+void visit_shell(const Polyhedron& a, ShellId shell, OnVertex&& vertex, OnEdge&& edge, OnFacet&& facet) {
   ShellWalk walk(a.complex());
   walk.visit(shell, std::forward<OnVertex>(vertex), std::forward<OnEdge>(edge), std::forward<OnFacet>(facet));
 }

@@ -18,21 +18,21 @@ Location location_of(const Complex& complex, const ComplexHit& hit) {
     case ComplexHit::Kind::kFacet:
       break;
   }
-  const std::uint32_t facet = hit.index >> 1U;
-  return {Location::Kind::kFacet, facet, complex.facets[facet].mark};
+  const FacetId facet = facet_of(hit.halffacet());
+  return {Location::Kind::kFacet, facet.index(), complex.facets[facet].mark};
 }
 
 }  // namespace
 
 Location locate(const Polyhedron& a, const Rational3& point) {
   const Complex& complex = a.complex();
-  if (complex.vertex_count() == 0) return {Location::Kind::kVolume, 0, complex.volumes[0].mark};
+  if (complex.vertex_count() == 0) return {Location::Kind::kVolume, 0, complex.volumes[kOuterVolume].mark};
   PointTable table;
   const PointRef query{&table, table.push(point)};
   const QueryStructure& structure = a.queries();
   if (const std::optional<ComplexHit> hit = structure.item_at(complex, query)) return location_of(complex, *hit);
-  const std::uint32_t volume = structure.volume_at(complex, query);
-  return {Location::Kind::kVolume, volume, complex.volumes[volume].mark};
+  const VolumeId volume = structure.volume_at(complex, query);
+  return {Location::Kind::kVolume, volume.index(), complex.volumes[volume].mark};
 }
 
 bool contains(const Polyhedron& a, const Rational3& point) { return locate(a, point).mark != 0; }
@@ -58,7 +58,7 @@ SphereMapBuffer local_pyramid(const Polyhedron& a, const Rational3& point) {
       break;
     }
     case Location::Kind::kFacet: {
-      const Facet& facet = complex.facets[where.index];
+      const Facet& facet = complex.facets[where.facet()];
       result.assign_circle(facet.plane, facet.mark, complex.volumes[facet.volume_above].mark,
                            complex.volumes[facet.volume_below].mark);
       break;
@@ -90,7 +90,7 @@ std::optional<RayHit> shoot_ray(const Polyhedron& a, const Rational3& origin, co
                              : hit.kind == ComplexHit::Kind::kEdge
                                  ? complex.planes.infimaximal(complex.svertices[hit.index].p) ||
                                        complex.planes.infimaximal(complex.svertices[hit.index].q)
-                                 : complex.planes.infimaximal(complex.facets[hit.index >> 1U].plane);
+                                 : complex.planes.infimaximal(complex.facets[facet_of(hit.halffacet())].plane);
     return !at_infinity && (!accept || accept(location_of(complex, hit)));
   };
   RayHit result;

@@ -114,11 +114,11 @@ class CellGrid {
 
   void mark_items() {
     // What lies on an infimaximal box is nowhere in space.
-    for (std::uint32_t f = 0; f < c_.facet_count(); ++f) {
+    for (const FacetId f : c_.facets.ids()) {
       if (is_box_facet(c_, f)) continue;
       const Facet& facet = c_.facets[f];
       Box box;
-      for (const std::uint32_t corner : c_.facet_corners(facet)) box.add(vertex_box(c_, c_.shalfedge_owner[corner]));
+      for (const std::uint32_t corner : c_.corners_of(facet)) box.add(vertex_box(c_, c_.shalfedge_owner[corner]));
       enter(box, &c_.planes.approximate(facet.plane));
     }
     for (std::uint32_t h = 0; h < c_.svertices.size(); ++h) {
@@ -182,7 +182,7 @@ std::vector<LabelId> locate_many(const Polyhedron& a, std::span<const std::array
     }
   }
   const Complex& complex = a.complex();
-  std::vector<LabelId> marks(points.size(), complex.volumes[0].mark);
+  std::vector<LabelId> marks(points.size(), complex.volumes[kOuterVolume].mark);
   if (complex.vertex_count() == 0 || points.empty()) return marks;
   static_cast<void>(a.queries());
   CellGrid grid(complex, points.size());

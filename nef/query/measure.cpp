@@ -35,7 +35,7 @@ class FacetRatio {
     }
     k_ = (l + 1) % 3;
     m_ = (l + 2) % 3;
-    const std::span<const std::uint32_t> corners = c_.facet_corners(facet);
+    const std::span<const std::uint32_t> corners = c_.corners_of(facet);
     if (corners.size() <= kSmall) {
       sum_small(corners);
     } else {
@@ -120,7 +120,7 @@ double times_root(const FacetRatio& ratio, const Integer& square) {
 }
 
 bool has_finite_vertices(const Complex& c, const Facet& facet) {
-  for (const std::uint32_t corner : c.facet_corners(facet)) {
+  for (const std::uint32_t corner : c.corners_of(facet)) {
     if (is_box_vertex(c, c.shalfedge_owner[corner])) return false;
   }
   return true;
@@ -129,10 +129,10 @@ bool has_finite_vertices(const Complex& c, const Facet& facet) {
 }  // namespace
 
 std::optional<Rational> volume(const Complex& c) {
-  if (is_selected(c.volumes[0].mark)) return std::nullopt;
+  if (is_selected(c.volumes[kOuterVolume].mark)) return std::nullopt;
   FacetRatio ratio(c);
   RationalSum sum;
-  for (std::uint32_t f = 0; f < c.facet_count(); ++f) {
+  for (const FacetId f : c.facets.ids()) {
     const Facet& facet = c.facets[f];
     const bool above = is_selected(c.volumes[facet.volume_above].mark);
     const bool below = is_selected(c.volumes[facet.volume_below].mark);
@@ -157,7 +157,7 @@ double surface_area(const Complex& c) {
   FacetRatio ratio(c);
   double area = 0;
   double lost = 0;  // Kahan's compensation
-  for (std::uint32_t f = 0; f < c.facet_count(); ++f) {
+  for (const FacetId f : c.facets.ids()) {
     const Facet& facet = c.facets[f];
     if (is_box_facet(c, f)) continue;
     if (!has_finite_vertices(c, facet)) return std::numeric_limits<double>::infinity();

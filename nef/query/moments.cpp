@@ -56,7 +56,7 @@ std::optional<Moments> moments(const Polyhedron& a) {
     const bool below = is_selected(c.volumes[facet.volume_below].mark);
     if (above == below) continue;
     // Cycles run counterclockwise as seen from above, so the sum is positive for a set that lies below.
-    const std::span<const std::uint32_t> corners = c.facet_corners(facet);
+    const std::span<const std::uint32_t> corners = c.corners_of(facet);
     const Rational3 apex = c.points.rational(PointId{c.shalfedge_owner[corners.front()]});
     for (const std::uint32_t corner : corners) {
       const std::uint32_t u = c.shalfedge_owner[corner];

@@ -8,8 +8,8 @@ namespace {
 // tells whether some volume at the item is in the set.
 template <typename Test>
 bool all_boundary_items(const Complex& c, const Test& test) {
-  const auto volume_selected = [&c](std::uint32_t volume) { return is_selected(c.volumes[volume].mark); };
-  for (std::uint32_t f = 0; f < c.facet_count(); ++f) {
+  const auto volume_selected = [&c](VolumeId volume) { return is_selected(c.volumes[volume].mark); };
+  for (const FacetId f : c.facets.ids()) {
     const Facet& facet = c.facets[f];
     if (is_box_facet(c, f)) continue;
     if (!test(facet.mark, volume_selected(facet.volume_above) || volume_selected(facet.volume_below))) return false;
@@ -47,7 +47,7 @@ bool is_box_edge(const Complex& complex, std::uint32_t halfedge) {
   return complex.planes.infimaximal(edge.p) || complex.planes.infimaximal(edge.q);
 }
 
-bool is_box_facet(const Complex& complex, std::uint32_t facet) {
+bool is_box_facet(const Complex& complex, FacetId facet) {
   return complex.planes.infimaximal(complex.facets[facet].plane);
 }
 
@@ -64,7 +64,7 @@ bool is_regular_set(const Complex& complex) {
 }
 
 bool is_bounded_set(const Complex& complex) {
-  if (is_selected(complex.volumes[0].mark)) return false;
+  if (is_selected(complex.volumes[kOuterVolume].mark)) return false;
   if (!complex.has_box()) return true;
   // A part of the set goes to infinity iff it reaches the box: on a facet that ends there, along
   // an edge, or through a volume.

@@ -16,16 +16,13 @@ namespace nef {
 class ShellWalk {
  public:
   explicit ShellWalk(const Complex& complex)
-      : c_(complex),
-        vertex_(complex.vertex_count(), kNone),
-        edge_(complex.svertices.size(), kNone),
-        facet_(complex.facet_count(), kNone) {}
+      : c_(complex), vertex_(complex.vertex_count()), edge_(complex.svertices.size()), facet_(complex.facet_count()) {}
 
   /// Calls vertex(v), edge(halfedge; the smaller of the two) and facet(f) for all items that the
   /// sfaces of `shell` touch. A shell may be walked once.
   template <typename OnVertex, typename OnEdge, typename OnFacet>
-  void visit(std::uint32_t shell, OnVertex&& vertex, OnEdge&& edge, OnFacet&& facet) {
-    const auto first_time = [shell](std::uint32_t& stamp) {
+  void visit(ShellId shell, OnVertex&& vertex, OnEdge&& edge, OnFacet&& facet) {
+    const auto first_time = [shell](ShellId& stamp) {
       const bool fresh = stamp != shell;
       stamp = shell;
       return fresh;
@@ -34,12 +31,11 @@ class ShellWalk {
       const std::uint32_t e = std::min(halfedge, c_.twin[halfedge]);
       if (first_time(edge_[e])) edge(e);
     };
-    const auto meet_facet = [&](std::uint32_t f) {
+    const auto meet_facet = [&](FacetId f) {
       if (first_time(facet_[f])) facet(f);
     };
     const Shell& range = c_.shells[shell];
-    for (std::uint32_t k = 0; k < range.sface_count; ++k) {
-      const std::uint32_t sface = c_.shell_sfaces[range.first_sface + k];
+    for (const std::uint32_t sface : c_.sfaces_of(range)) {
       const std::uint32_t v = c_.sface_vertex(sface);
       const VertexRecord& at = c_.vertices[v];
       if (first_time(vertex_[v])) vertex(v);
@@ -52,13 +48,13 @@ class ShellWalk {
             meet_edge(at.svertices + entry.index);
             break;
           case SFaceEntry::Kind::kLoop:
-            meet_facet(c_.sloop_facet[at.sloops + entry.index] >> 1U);
+            meet_facet(facet_of(c_.sloop_facet[at.sloops + entry.index]));
             break;
           case SFaceEntry::Kind::kCycle: {
             std::uint32_t e = entry.index;
             do {
               meet_edge(at.svertices + map.shalfedges[e].source);
-              meet_facet(c_.shalfedge_facet[at.shalfedges + e] >> 1U);
+              meet_facet(facet_of(c_.shalfedge_facet[at.shalfedges + e]));
               e = map.shalfedges[e].next;
             } while (e != entry.index);
           }
@@ -69,9 +65,9 @@ class ShellWalk {
 
  private:
   const Complex& c_;
-  std::vector<std::uint32_t> vertex_;
-  std::vector<std::uint32_t> edge_;
-  std::vector<std::uint32_t> facet_;
+  std::vector<ShellId> vertex_;
+  std::vector<ShellId> edge_;
+  IndexedVector<FacetId, ShellId> facet_;
 };
 
 }  // namespace nef

@@ -106,8 +106,8 @@ class FacetLinker {
     c_.corners.clear();
     c_.corners.reserve(traced_.size() + (known_ == nullptr ? 0 : known_->corners.size()));
     c_.isolated_vertices.clear();
-    c_.shalfedge_facet.assign(c_.shalfedges.size(), kNone);
-    c_.sloop_facet.assign(c_.sloops.size(), kNone);
+    c_.shalfedge_facet.assign(c_.shalfedges.size(), HalffacetId());
+    c_.sloop_facet.assign(c_.sloops.size(), HalffacetId());
     auto kept = known.begin();
     for (std::uint32_t row = 0; row + 1 < start.size(); ++row) {
       const auto first = isolated;
@@ -139,11 +139,11 @@ class FacetLinker {
     std::vector<std::uint32_t> all(cycles.begin(), cycles.end());
     std::vector<std::pair<std::uint32_t, std::uint32_t>> inside(points.begin(), points.end());
     for (const Facet& facet : facets) {
-      for (std::uint32_t i = facet.first_cycle; i < facet.first_cycle + facet.cycle_count; ++i) {
+      for (const CycleId i : facet.cycles()) {
         CycleRecord cycle;
         cycle.row = row;
         cycle.first = static_cast<std::uint32_t>(traced_.size());
-        cycle.count = known_->cycle_begin[i + 1] - known_->cycle_begin[i];
+        cycle.count = known_->cycle_begin[i.next()] - known_->cycle_begin[i];
         const auto corners = known_->corners.begin() + known_->cycle_begin[i];
         traced_.insert(traced_.end(), corners, corners + cycle.count);
         all.push_back(static_cast<std::uint32_t>(cycles_.size()));
@@ -162,9 +162,9 @@ class FacetLinker {
 
   void emit_known(const Facet& known) {
     Facet facet = begin_facet(known.plane.row(), known.cycle_count, known.isolated_count);
-    for (std::uint32_t i = known.first_cycle; i < known.first_cycle + known.cycle_count; ++i) {
+    for (const CycleId i : known.cycles()) {
       const std::uint32_t first = known_->cycle_begin[i];
-      add_cycle(std::span(known_->corners).subspan(first, known_->cycle_begin[i + 1] - first));
+      add_cycle(std::span(known_->corners).subspan(first, known_->cycle_begin[i.next()] - first));
     }
     end_facet(facet, std::span(known_->isolated_vertices).subspan(known.first_isolated, known.isolated_count));
   }
@@ -259,7 +259,7 @@ class FacetLinker {
   [[nodiscard]] Facet begin_facet(std::uint32_t row, std::size_t cycles, std::size_t inside) const {
     Facet facet;
     facet.plane = PlaneId{row << 1U};
-    facet.first_cycle = static_cast<std::uint32_t>(c_.cycle_begin.size() - 1);
+    facet.first_cycle = CycleId{c_.cycle_begin.size() - 1};
     facet.cycle_count = static_cast<std::uint32_t>(cycles);
     facet.first_isolated = static_cast<std::uint32_t>(c_.isolated_vertices.size());
     facet.isolated_count = static_cast<std::uint32_t>(inside);
@@ -267,22 +267,22 @@ class FacetLinker {
   }
 
   void add_cycle(std::span<const std::uint32_t> corners) {
-    const auto halffacet = static_cast<std::uint32_t>(2 * c_.facets.size());
+    const FacetId facet = c_.facets.end_id();
     for (const std::uint32_t corner : corners) {
       c_.corners.push_back(corner);
-      c_.shalfedge_facet.set(corner, halffacet);
+      c_.shalfedge_facet.set(corner, halffacet_of(facet, false));
     }
     c_.cycle_begin.push_back(static_cast<std::uint32_t>(c_.corners.size()));
   }
 
   void end_facet(Facet& facet, std::span<const std::uint32_t> inside) {
-    const auto halffacet = static_cast<std::uint32_t>(2 * c_.facets.size());
+    const FacetId id = c_.facets.end_id();
     facet.mark = c_.shalfedges[c_.corners[c_.cycle_begin[facet.first_cycle]]].mark;
     for (const std::uint32_t v : inside) {
       c_.isolated_vertices.push_back(v);
       const std::uint32_t first = c_.vertices[v].sloops;
       for (std::uint32_t l = first; l < first + 2; ++l) {
-        c_.sloop_facet[l] = halffacet + (c_.sloops[l].plane.flipped() ? 1U : 0U);
+        c_.sloop_facet[l] = halffacet_of(id, c_.sloops[l].plane.flipped());
       }
     }
     c_.facets.push_back(facet);

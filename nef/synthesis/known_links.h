@@ -16,10 +16,10 @@ struct KnownLinks {
   std::vector<std::uint32_t> twin;            ///< of each svertex; kNone where it is to be found
   std::vector<std::uint32_t> loose_vertices;  ///< the vertices of such svertices, ascending
 
-  std::vector<Facet> facets;                     ///< in the order of their planes; only planes and ranges are set
-  std::vector<std::uint32_t> cycle_begin{0};     ///< of the cycles of these facets
-  std::vector<std::uint32_t> corners;            ///< of these cycles, each cycle from its smallest corner on
-  std::vector<std::uint32_t> isolated_vertices;  ///< inside these facets
+  std::vector<Facet> facets;  ///< in the order of their planes; only planes and ranges are set
+  IndexedVector<CycleId, std::uint32_t> cycle_begin{0};  ///< of the cycles of these facets
+  std::vector<std::uint32_t> corners;                    ///< of these cycles, each cycle from its smallest corner on
+  std::vector<std::uint32_t> isolated_vertices;          ///< inside these facets
   std::vector<std::uint32_t>
       mixed_rows;  ///< of planes whose facets come from several complexes: their order is not known
 

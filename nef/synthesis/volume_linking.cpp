@@ -35,15 +35,14 @@ class VolumeLinker {
   void join_sfaces() {
     sfaces_.reset(c_.sfaces.size());
     for (const Facet& facet : c_.facets) {
-      const std::span<const std::uint32_t> corners = c_.facet_corners(facet);
+      const std::span<const std::uint32_t> corners = c_.corners_of(facet);
       std::uint32_t above = sfaces_.find(c_.shalfedge_sface(corners[0]));
       std::uint32_t below = sfaces_.find(c_.shalfedge_sface(corners[0] ^ 1U));
       for (const std::uint32_t corner : corners.subspan(1)) {
         above = join(above, c_.shalfedge_sface(corner));
         below = join(below, c_.shalfedge_sface(corner ^ 1U));
       }
-      for (std::uint32_t i = 0; i < facet.isolated_count; ++i) {
-        const std::uint32_t v = c_.isolated_vertices[facet.first_isolated + i];
+      for (const std::uint32_t v : c_.isolated_vertices_of(facet)) {
         const VertexRecord& record = c_.vertices[v];
         const std::uint32_t up = record.sloops + (c_.sloops[record.sloops].plane.flipped() ? 1U : 0U);
         sfaces_.unite(above, record.sfaces + c_.sloops[up].sface);
@@ -160,53 +159,56 @@ class VolumeLinker {
       detail::require(hit->sface != kNone, "a ray comes out of a volume", {{"vertex", v}});
       return hit->sface;
     }
-    const std::uint32_t corner = c_.facet_corners(c_.facets[hit->index >> 1U])[0];
-    return c_.shalfedge_sface(corner ^ (hit->index & 1U));
+    const std::uint32_t corner = c_.corners_of(facet_of(hit->halffacet()))[0];
+    return c_.shalfedge_sface(corner ^ (is_below(hit->halffacet()) ? 1U : 0U));
   }
 
   void number_volumes() {
     const auto count = static_cast<std::uint32_t>(c_.sfaces.size());
-    std::vector<std::uint32_t> shell_of(count, kNone);
+    std::vector<ShellId> shell_of(count);
     std::vector<std::uint32_t> roots;
     for (std::uint32_t f = 0; f < count; ++f) {
       if (sfaces_.find(f) == f) roots.push_back(f);
     }
-    std::vector<std::uint32_t> volume_number(count, kNone);
-    std::uint32_t volume_count = 0;
-    volume_number[outer_] = volume_count++;
+    std::vector<VolumeId> volume_number(count);
+    VolumeId next = kOuterVolume;
+    volume_number[outer_] = next;
+    ++next;
     for (const std::uint32_t root : roots) {
-      std::uint32_t& number = volume_number[volumes_.find(root)];
-      if (number == kNone) number = volume_count++;
+      VolumeId& number = volume_number[volumes_.find(root)];
+      if (number.valid()) continue;
+      number = next;
+      ++next;
     }
     std::vector<bool> is_inner(count, false);
     for (const std::uint32_t root : inner_) is_inner[root] = true;
     std::stable_sort(roots.begin(), roots.end(), [&](std::uint32_t a, std::uint32_t b) {
-      const std::uint32_t va = volume_number[volumes_.find(a)];
-      const std::uint32_t vb = volume_number[volumes_.find(b)];
+      const VolumeId va = volume_number[volumes_.find(a)];
+      const VolumeId vb = volume_number[volumes_.find(b)];
       return va != vb ? va < vb : is_inner[a] < is_inner[b];
     });
-    c_.volumes.assign(volume_count, {});
+    c_.volumes.assign(next.index(), {});
     c_.shells.clear();
     for (const std::uint32_t root : roots) {
-      Volume& volume = c_.volumes[volume_number[volumes_.find(root)]];
+      const VolumeId number = volume_number[volumes_.find(root)];
+      Volume& volume = c_.volumes[number];
       if (volume.shell_count++ == 0) {
-        volume.first_shell = static_cast<std::uint32_t>(c_.shells.size());
+        volume.first_shell = c_.shells.end_id();
         volume.mark = c_.sfaces[root].mark;
       }
       detail::require_one_mark(volume.mark == c_.sfaces[root].mark, "a volume has one mark", {{"sface", root}});
-      shell_of[root] = static_cast<std::uint32_t>(c_.shells.size());
-      c_.shells.push_back({volume_number[volumes_.find(root)], 0, 0});
+      shell_of[root] = c_.shells.push_back({number, 0, 0});
     }
     fill_shells(shell_of);
   }
 
-  void fill_shells(const std::vector<std::uint32_t>& shell_of) {
+  void fill_shells(const std::vector<ShellId>& shell_of) {
     const auto count = static_cast<std::uint32_t>(c_.sfaces.size());
     c_.sface_shell.resize(count);
     for (std::uint32_t f = 0; f < count; ++f) c_.sface_shell[f] = shell_of[sfaces_.find(f)];
     list_sfaces_of_shells(c_);
     for (Facet& facet : c_.facets) {
-      const std::uint32_t corner = c_.facet_corners(facet)[0];
+      const std::uint32_t corner = c_.corners_of(facet)[0];
       facet.volume_above = c_.sface_volume(c_.shalfedge_sface(corner));
       facet.volume_below = c_.sface_volume(c_.shalfedge_sface(corner ^ 1U));
     }
@@ -225,7 +227,7 @@ class VolumeLinker {
 
 void link_volumes(Complex& complex, LabelId outer) {
   if (complex.vertex_count() == 0) {
-    complex.volumes.assign(1, Volume{outer, 0, 0});
+    complex.volumes.assign(1, Volume{outer, ShellId{0}, 0});
     complex.shells.clear();
     return;
   }
@@ -234,7 +236,7 @@ void link_volumes(Complex& complex, LabelId outer) {
 
 void list_sfaces_of_shells(Complex& complex) {
   for (Shell& shell : complex.shells) shell.sface_count = 0;
-  for (const std::uint32_t s : complex.sface_shell) ++complex.shells[s].sface_count;
+  for (const ShellId s : complex.sface_shell) ++complex.shells[s].sface_count;
   std::uint32_t first = 0;
   for (Shell& shell : complex.shells) {
     shell.first_sface = first;

@@ -39,18 +39,6 @@ class SeamGlue {
 
   // Into the builder, whose planes are `planes`.
   void run(ComplexBuilder& builder) {
-    std::size_t vertices = 0;
-    VertexRecord items;
-    for (const Leaf& leaf : leaves_) {
-      const VertexRecord& own = leaf.set.complex().vertices.back();
-      vertices += leaf.set.complex().vertex_count();
-      items.svertices += own.svertices;
-      items.shalfedges += own.shalfedges;
-      items.sloops += own.sloops;
-      items.sfaces += own.sfaces;
-      items.entries += own.entries;
-    }
-    builder.reserve(vertices, items);
     for (std::uint32_t i = 0; i < leaves_.size(); ++i) take_leaf(i, builder);
     find_crossings();
     std::sort(members_.begin(), members_.end());
@@ -176,8 +164,8 @@ class SeamGlue {
       points_.pop();
       return at->second;
     }
-    known_points_.emplace(points_.hash(last), last.value);
-    return last.value;
+    known_points_.emplace(points_.hash(last), last.index());
+    return last.index();
   }
 
   void find_crossings() {
@@ -286,7 +274,7 @@ class SeamGlue {
         const std::uint32_t owner = c.svertex_owner[hit->index];
         edge_pyramid(c.sphere_map(owner), hit->index - c.vertices[owner].svertices, out);
       } else {
-        const Facet& facet = c.facets[hit->index >> 1U];
+        const Facet& facet = c.facets[facet_of(hit->halffacet())];
         out.assign_circle(facet.plane, facet.mark, c.volumes[facet.volume_above].mark,
                           c.volumes[facet.volume_below].mark);
       }

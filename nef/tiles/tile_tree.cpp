@@ -38,7 +38,8 @@ TileMeasure measure_tile(const Complex& complex) {
     result.box.add_rounded(complex.points.approximate(PointId{v}));
     result.uniform = false;
   }
-  if (result.uniform) result.mark = complex.vertex_count() == 0 ? complex.volumes[0].mark : complex.vertices[0].mark;
+  if (result.uniform)
+    result.mark = complex.vertex_count() == 0 ? complex.volumes[kOuterVolume].mark : complex.vertices[0].mark;
   return result;
 }
 
@@ -78,7 +79,7 @@ Polyhedron leaf_set(const TileRef& leaf, const Region& region) {
 
 LabelId mark_beyond(const TileNode& tile, const AxisPlane& plane, int side) {
   const Complex& c = tile.set.complex();
-  if (!c.has_box()) return c.volumes[0].mark;
+  if (!c.has_box()) return c.volumes[kOuterVolume].mark;
   // The region has corners beyond the plane, and there are no other vertices.
   std::uint32_t extreme = 0;
   for (std::uint32_t v = 1; v < c.vertex_count(); ++v) {

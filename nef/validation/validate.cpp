@@ -141,8 +141,8 @@ void check_marks(const Complex& c) {
   for (std::size_t e = 0; e < c.shalfedges.size(); ++e) require(known(c.shalfedges[e].mark), name, {{"shalfedge", e}});
   for (std::size_t l = 0; l < c.sloops.size(); ++l) require(known(c.sloops[l].mark), name, {{"sloop", l}});
   for (std::size_t s = 0; s < c.sfaces.size(); ++s) require(known(c.sfaces[s].mark), name, {{"sface", s}});
-  for (std::size_t f = 0; f < c.facets.size(); ++f) require(known(c.facets[f].mark), name, {{"facet", f}});
-  for (std::size_t v = 0; v < c.volumes.size(); ++v) require(known(c.volumes[v].mark), name, {{"volume", v}});
+  for (const FacetId f : c.facets.ids()) require(known(c.facets[f].mark), name, {{"facet", f}});
+  for (const VolumeId v : c.volumes.ids()) require(known(c.volumes[v].mark), name, {{"volume", v}});
 }
 
 // Only a box has points and planes at infinity, and only beyond it is the mark kOutside.
@@ -155,10 +155,10 @@ void check_outside(const Complex& c) {
   for (std::size_t h = 0; h < c.svertices.size(); ++h) {
     require(c.svertices[h].mark != kOutside, "only the outer volume is outside", {{"halfedge", h}});
   }
-  for (std::size_t i = 1; i < c.volumes.size(); ++i) {
-    require(c.volumes[i].mark != kOutside, "only the outer volume is outside", {{"volume", i}});
+  for (const VolumeId i : c.volumes.ids()) {
+    require(i == kOuterVolume || c.volumes[i].mark != kOutside, "only the outer volume is outside", {{"volume", i}});
   }
-  for (std::size_t f = 0; f < c.facets.size(); ++f) {
+  for (const FacetId f : c.facets.ids()) {
     require(c.facets[f].mark != kOutside, "only the outer volume is outside", {{"facet", f}});
   }
 }

@@ -22,22 +22,22 @@ bool on_box(const PlaneTable& planes, PlaneId plane, bool from_below) {
 void check_box(const Complex& c) {
   if (!c.has_box()) return;
   const char* const name = "what is outside lies beyond an infimaximal box";
-  require(c.volumes[0].shell_count == 1, name, {{"volume", 0}});
+  require(c.volumes[kOuterVolume].shell_count == 1, name, {{"volume", kOuterVolume}});
   bool any = false;
-  for (std::uint32_t f = 0; f < c.facets.size(); ++f) {
+  for (const FacetId f : c.facets.ids()) {
     const Facet& facet = c.facets[f];
     for (const bool from_below : {false, true}) {
-      if ((from_below ? facet.volume_below : facet.volume_above) != 0) continue;
+      if ((from_below ? facet.volume_below : facet.volume_above) != kOuterVolume) continue;
       any = true;
       require(on_box(c.planes, facet.plane, from_below), name, {{"facet", f}});
     }
   }
-  require(any, name, {{"volume", 0}});
+  require(any, name, {{"volume", kOuterVolume}});
   for (std::uint32_t h = 0; h < c.svertices.size(); ++h) {
     const SVertex& s = c.svertices[h];
     if (s.out != kNone) continue;
     const std::uint32_t sface = c.vertices[c.svertex_owner[h]].sfaces + s.sface;
-    require(c.sface_volume(sface) != 0, "nothing lies beyond an infimaximal box", {{"halfedge", h}});
+    require(c.sface_volume(sface) != kOuterVolume, "nothing lies beyond an infimaximal box", {{"halfedge", h}});
   }
 }
 

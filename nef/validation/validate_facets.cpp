@@ -16,35 +16,36 @@ void check_facet_ranges(const Complex& c) {
           "cycles cover the corners", {});
   std::size_t cycles = 0;
   std::size_t isolated = 0;
-  for (std::size_t f = 0; f < c.facets.size(); ++f) {
+  for (const FacetId f : c.facets.ids()) {
     const Facet& facet = c.facets[f];
     require(facet.plane.valid() && facet.plane.row() < c.planes.size() && !facet.plane.flipped(),
             "a facet has an unflipped plane", {{"facet", f}});
-    require(facet.first_cycle == cycles && facet.cycle_count > 0, "facets have cycles, one after the other",
+    require(facet.first_cycle == CycleId{cycles} && facet.cycle_count > 0, "facets have cycles, one after the other",
             {{"facet", f}});
     cycles += facet.cycle_count;
     if (facet.isolated_count > 0) {
       require(facet.first_isolated == isolated, "isolated vertices of facets follow each other", {{"facet", f}});
     }
     isolated += facet.isolated_count;
-    require(facet.volume_above < c.volumes.size() && facet.volume_below < c.volumes.size(), "volumes of a facet exist",
-            {{"facet", f}});
+    require(c.volumes.contains(facet.volume_above) && c.volumes.contains(facet.volume_below),
+            "volumes of a facet exist", {{"facet", f}});
   }
   require(cycles + 1 == c.cycle_begin.size(), "every cycle belongs to a facet", {{"cycles", cycles}});
   require(isolated == c.isolated_vertices.size(), "every isolated vertex belongs to a facet", {});
-  for (std::size_t i = 0; i + 1 < c.cycle_begin.size(); ++i) {
-    require(c.cycle_begin[i] < c.cycle_begin[i + 1], "cycles are not empty", {{"cycle", i}});
+  for (const CycleId i : c.cycle_ids()) {
+    require(c.cycle_begin[i] < c.cycle_begin[i.next()], "cycles are not empty", {{"cycle", i}});
   }
 }
 
-void check_corner(const Complex& c, std::uint32_t f, std::uint32_t corner) {
+void check_corner(const Complex& c, FacetId f, std::uint32_t corner) {
   const Facet& facet = c.facets[f];
   require(corner < c.shalfedges.size(), "corners are shalfedges", {{"facet", f}, {"corner", corner}});
   const SHalfedge& e = c.shalfedges[corner];
   require(e.plane == facet.plane, "corners lie in the plane of their facet", {{"facet", f}, {"shalfedge", corner}});
   require(e.mark == facet.mark, "corners have the mark of their facet", {{"facet", f}, {"shalfedge", corner}});
-  require(c.shalfedge_facet[corner] == 2 * f && c.shalfedge_facet[corner ^ 1U] == 2 * f + 1,
-          "shalfedges know their halffacet", {{"facet", f}, {"shalfedge", corner}});
+  require(
+      c.shalfedge_facet[corner] == halffacet_of(f, false) && c.shalfedge_facet[corner ^ 1U] == halffacet_of(f, true),
+      "shalfedges know their halffacet", {{"facet", f}, {"shalfedge", corner}});
   require(c.sface_volume(c.shalfedge_sface(corner)) == facet.volume_above &&
               c.sface_volume(c.shalfedge_sface(corner ^ 1U)) == facet.volume_below,
           "a facet has one volume on each side", {{"facet", f}, {"shalfedge", corner}});
@@ -52,9 +53,9 @@ void check_corner(const Complex& c, std::uint32_t f, std::uint32_t corner) {
 
 void check_cycles(const Complex& c) {
   std::vector<bool> met(c.shalfedges.size(), false);
-  for (std::uint32_t f = 0; f < c.facets.size(); ++f) {
-    for (std::uint32_t k = 0; k < c.facets[f].cycle_count; ++k) {
-      const std::span<const std::uint32_t> cycle = c.cycle(c.facets[f].first_cycle + k);
+  for (const FacetId f : c.facets.ids()) {
+    for (const CycleId k : c.facets[f].cycles()) {
+      const std::span<const std::uint32_t> cycle = c.corners_of(k);
       for (std::size_t i = 0; i < cycle.size(); ++i) {
         const std::uint32_t corner = cycle[i];
         check_corner(c, f, corner);
@@ -72,17 +73,16 @@ void check_cycles(const Complex& c) {
 
 void check_isolated_vertices(const Complex& c) {
   std::vector<bool> met(c.vertex_count(), false);
-  for (std::uint32_t f = 0; f < c.facets.size(); ++f) {
+  for (const FacetId f : c.facets.ids()) {
     const Facet& facet = c.facets[f];
-    for (std::uint32_t k = 0; k < facet.isolated_count; ++k) {
-      const std::uint32_t v = c.isolated_vertices[facet.first_isolated + k];
+    for (const std::uint32_t v : c.isolated_vertices_of(facet)) {
       require(v < c.vertex_count() && !met[v], "an isolated vertex lies in one facet", {{"facet", f}, {"vertex", v}});
       met[v] = true;
       const SphereMapView map = c.sphere_map(v);
       require(map.sloops.size() == 2, "a vertex inside a facet has a sloop", {{"facet", f}, {"vertex", v}});
       for (std::uint32_t side = 0; side < 2; ++side) {
         const SLoop& loop = map.sloops[side];
-        const std::uint32_t halffacet = 2 * f + (loop.plane.flipped() ? 1 : 0);
+        const HalffacetId halffacet = halffacet_of(f, loop.plane.flipped());
         require(loop.plane.row() == facet.plane.row() && loop.mark == facet.mark,
                 "a sloop has plane and mark of its facet", {{"facet", f}, {"vertex", v}});
         require(c.sloop_facet[c.vertices[v].sloops + side] == halffacet, "sloops know their halffacet",
@@ -113,19 +113,20 @@ Rational doubled_area(const std::vector<const Rational3*>& polygon, std::size_t 
 
 void check_nesting(const Complex& c) {
   const std::vector<Rational3> points = concrete_points(c);
-  for (std::uint32_t f = 0; f < c.facets.size(); ++f) {
+  for (const FacetId f : c.facets.ids()) {
     const Facet& facet = c.facets[f];
     const Projection projection = projection_of(c.planes, facet.plane);
     std::vector<std::vector<const Rational3*>> cycles;
     std::vector<Box> boxes(facet.cycle_count);
     for (std::uint32_t k = 0; k < facet.cycle_count; ++k) {
-      cycles.push_back(cycle_points(c, points, facet.first_cycle + k));
-      for (const std::uint32_t corner : c.cycle(facet.first_cycle + k)) {
+      const CycleId cycle = facet.cycles()[k];
+      cycles.push_back(cycle_points(c, points, cycle));
+      for (const std::uint32_t corner : c.corners_of(cycle)) {
         boxes[k].add_rounded(c.points.approximate(PointId{c.shalfedge_owner[corner]}));
       }
       const int area = projection.sign * sgn(doubled_area(cycles[k], projection.axis));
       require(k == 0 ? area > 0 : area <= 0, k == 0 ? "the outer cycle comes first" : "holes run clockwise",
-              {{"facet", f}, {"cycle", facet.first_cycle + k}});
+              {{"facet", f}, {"cycle", cycle}});
     }
     // A point of the facet: inside the outer cycle, outside of all holes but its own.
     const auto check_inside = [&](std::uint32_t vertex, std::size_t own, const GuiltyItem& item) {
@@ -139,10 +140,10 @@ void check_nesting(const Complex& c) {
       }
     };
     for (std::uint32_t k = 1; k < facet.cycle_count; ++k) {
-      check_inside(c.shalfedge_owner[c.cycle(facet.first_cycle + k)[0]], k, {"cycle", facet.first_cycle + k});
+      const CycleId cycle = facet.cycles()[k];
+      check_inside(c.shalfedge_owner[c.corners_of(cycle)[0]], k, {"cycle", cycle});
     }
-    for (std::uint32_t i = 0; i < facet.isolated_count; ++i) {
-      const std::uint32_t v = c.isolated_vertices[facet.first_isolated + i];
+    for (const std::uint32_t v : c.isolated_vertices_of(facet)) {
       check_inside(v, cycles.size(), {"vertex", v});
     }
   }
@@ -152,10 +153,10 @@ void check_nesting(const Complex& c) {
 
 void check_facets(const Complex& complex) {
   for (std::size_t s = 0; s < complex.sfaces.size(); ++s) {
-    require(complex.sface_shell[s] < complex.shells.size(), "sfaces have a shell", {{"sface", s}});
+    require(complex.shells.contains(complex.sface_shell[s]), "sfaces have a shell", {{"sface", s}});
   }
-  for (std::size_t s = 0; s < complex.shells.size(); ++s) {
-    require(complex.shells[s].volume < complex.volumes.size(), "shells have a volume", {{"shell", s}});
+  for (const ShellId s : complex.shells.ids()) {
+    require(complex.volumes.contains(complex.shells[s].volume), "shells have a volume", {{"shell", s}});
   }
   check_facet_ranges(complex);
   check_cycles(complex);

@@ -20,13 +20,12 @@ void check_partition(const Complex& c) {
   require(c.shell_sfaces.size() == c.sfaces.size(), "shells partition the sfaces", {});
   std::vector<bool> met(c.sfaces.size(), false);
   std::size_t used = 0;
-  for (std::uint32_t s = 0; s < c.shells.size(); ++s) {
+  for (const ShellId s : c.shells.ids()) {
     const Shell& shell = c.shells[s];
     require(shell.first_sface == used && shell.sface_count > 0 && shell.sface_count <= c.sfaces.size() - used,
             "shells have sfaces, one after the other", {{"shell", s}});
     used += shell.sface_count;
-    for (std::uint32_t k = 0; k < shell.sface_count; ++k) {
-      const std::uint32_t sface = c.shell_sfaces[shell.first_sface + k];
+    for (const std::uint32_t sface : c.sfaces_of(shell)) {
       require(sface < c.sfaces.size() && !met[sface] && c.sface_shell[sface] == s, "sfaces know their shell",
               {{"shell", s}, {"sface", sface}});
       met[sface] = true;
@@ -36,14 +35,14 @@ void check_partition(const Complex& c) {
   }
   require(used == c.sfaces.size(), "shells partition the sfaces", {});
   std::size_t shells = 0;
-  for (std::uint32_t i = 0; i < c.volumes.size(); ++i) {
+  for (const VolumeId i : c.volumes.ids()) {
     const Volume& volume = c.volumes[i];
-    require(volume.first_shell == shells || volume.shell_count == 0, "shells of volumes follow each other",
+    require(volume.first_shell == ShellId{shells} || volume.shell_count == 0, "shells of volumes follow each other",
             {{"volume", i}});
-    require(i == 0 || volume.shell_count > 0, "a volume has a boundary", {{"volume", i}});
-    for (std::uint32_t k = 0; k < volume.shell_count; ++k) {
-      require(volume.first_shell + k < c.shells.size() && c.shells[volume.first_shell + k].volume == i,
-              "shells know their volume", {{"volume", i}, {"shell", volume.first_shell + k}});
+    require(i == kOuterVolume || volume.shell_count > 0, "a volume has a boundary", {{"volume", i}});
+    for (const ShellId s : volume.shells()) {
+      require(c.shells.contains(s) && c.shells[s].volume == i, "shells know their volume",
+              {{"volume", i}, {"shell", s}});
     }
     shells += volume.shell_count;
   }
@@ -53,8 +52,8 @@ void check_partition(const Complex& c) {
 // Components of sfaces by way of edges without facets and of halffacets.
 void check_connection(const Complex& c) {
   UnionFind sfaces(c.sfaces.size());
-  std::vector<std::uint32_t> of_halffacet(2 * c.facets.size(), kNone);
-  const auto meet = [&](std::uint32_t halffacet, std::uint32_t sface) {
+  IndexedVector<HalffacetId, std::uint32_t> of_halffacet(2 * c.facets.size(), kNone);
+  const auto meet = [&](HalffacetId halffacet, std::uint32_t sface) {
     if (of_halffacet[halffacet] == kNone) {
       of_halffacet[halffacet] = sface;
     } else {
@@ -75,12 +74,12 @@ void check_connection(const Complex& c) {
     sfaces.unite(c.vertices[c.svertex_owner[h]].sfaces + c.svertices[h].sface,
                  c.vertices[c.svertex_owner[t]].sfaces + c.svertices[t].sface);
   }
-  std::vector<std::uint32_t> shell_of(c.sfaces.size(), kNone);
-  std::vector<std::uint32_t> root_of(c.shells.size(), kNone);
+  std::vector<ShellId> shell_of(c.sfaces.size());
+  IndexedVector<ShellId, std::uint32_t> root_of(c.shells.size(), kNone);
   for (std::uint32_t s = 0; s < c.sfaces.size(); ++s) {
     const std::uint32_t root = sfaces.find(s);
-    const std::uint32_t shell = c.sface_shell[s];
-    if (shell_of[root] == kNone) shell_of[root] = shell;
+    const ShellId shell = c.sface_shell[s];
+    if (!shell_of[root].valid()) shell_of[root] = shell;
     if (root_of[shell] == kNone) root_of[shell] = root;
     require(shell_of[root] == shell, "sfaces that are connected are in one shell", {{"sface", root}, {"sface", s}});
     require(root_of[shell] == root, "a shell is connected", {{"shell", shell}, {"sface", s}});
@@ -89,26 +88,25 @@ void check_connection(const Complex& c) {
 
 std::uint32_t lowest_vertex(const Complex& c, const Shell& shell) {
   std::uint32_t lowest = kNone;
-  for (std::uint32_t k = 0; k < shell.sface_count; ++k) {
-    const std::uint32_t v = c.sface_vertex(c.shell_sfaces[shell.first_sface + k]);
+  for (const std::uint32_t sface : c.sfaces_of(shell)) {
+    const std::uint32_t v = c.sface_vertex(sface);
     if (lowest == kNone || compare_lexicographic(c.points, PointId{v}, PointId{lowest}) < 0) lowest = v;
   }
   return lowest;
 }
 
 // Seen from its lowest vertex, an inner shell has the volume on the low side, an outer one not.
-bool is_outer(const Complex& c, std::uint32_t s) {
+bool is_outer(const Complex& c, ShellId s) {
   const std::uint32_t v = lowest_vertex(c, c.shells[s]);
   const SphereLocation low = locate(c.planes, c.sphere_map(v), Direction::exact(-1, 0, 0));
   return low.kind != SphereLocation::Kind::kSFace || c.sface_shell[c.vertices[v].sfaces + low.index] != s;
 }
 
 void check_outer_shells(const Complex& c) {
-  for (std::uint32_t i = 0; i < c.volumes.size(); ++i) {
-    for (std::uint32_t k = 0; k < c.volumes[i].shell_count; ++k) {
-      const std::uint32_t s = c.volumes[i].first_shell + k;
-      require(is_outer(c, s) == (i > 0 && k == 0), "the outer shell of a volume comes first, and volume 0 has none",
-              {{"volume", i}, {"shell", s}});
+  for (const VolumeId i : c.volumes.ids()) {
+    for (const ShellId s : c.volumes[i].shells()) {
+      require(is_outer(c, s) == (i != kOuterVolume && s == c.volumes[i].first_shell),
+              "the outer shell of a volume comes first, and volume 0 has none", {{"volume", i}, {"shell", s}});
     }
   }
 }
@@ -152,9 +150,9 @@ struct Targets {
 };
 Targets targets_of(const Complex& c) {
   std::vector<Box> boxes(c.facets.size());
-  for (std::size_t f = 0; f < c.facets.size(); ++f) {
-    for (const std::uint32_t corner : c.facet_corners(c.facets[f])) {
-      boxes[f].add_rounded(c.points.approximate(PointId{c.shalfedge_owner[corner]}));
+  for (const FacetId f : c.facets.ids()) {
+    for (const std::uint32_t corner : c.corners_of(f)) {
+      boxes[f.index()].add_rounded(c.points.approximate(PointId{c.shalfedge_owner[corner]}));
     }
   }
   return {concrete_points(c), BoxTree(boxes)};
@@ -163,7 +161,7 @@ Targets targets_of(const Complex& c) {
 // The nearest facet that a ray meets; fails if the ray comes upon a boundary.
 struct FirstFacet {
   bool degenerate = false;
-  std::uint32_t volume = 0;  // on the near side; the outer volume if nothing is met
+  VolumeId volume = kOuterVolume;  // on the near side; the outer volume if nothing is met
 };
 FirstFacet shoot(const Complex& c, const Targets& targets, std::uint32_t origin, const Vector& along) {
   const std::vector<Rational3>& points = targets.points;
@@ -174,8 +172,8 @@ FirstFacet shoot(const Complex& c, const Targets& targets, std::uint32_t origin,
   FirstFacet result;
   std::optional<Rational> nearest;
   const auto visit = [&](std::uint32_t f) {
-    const Facet& facet = c.facets[f];
-    const Rational3& anchor = points[c.shalfedge_owner[c.facet_corners(facet)[0]]];
+    const Facet& facet = c.facets[FacetId{f}];
+    const Rational3& anchor = points[c.shalfedge_owner[c.corners_of(facet)[0]]];
     Rational numerator = 0;
     Rational denominator = 0;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -189,8 +187,8 @@ FirstFacet shoot(const Complex& c, const Targets& targets, std::uint32_t origin,
     const Rational3 hit{from[0] + t * along[0], from[1] + t * along[1], from[2] + t * along[2]};
     const Projection projection = projection_of(c.planes, facet.plane);
     int number = 0;
-    for (std::uint32_t k = 0; k < facet.cycle_count; ++k) {
-      const Winding winding = winding_number(cycle_points(c, points, facet.first_cycle + k), hit, projection.axis);
+    for (const CycleId k : facet.cycles()) {
+      const Winding winding = winding_number(cycle_points(c, points, k), hit, projection.axis);
       result.degenerate = result.degenerate || winding.on_boundary;
       number += winding.number;
     }
@@ -203,8 +201,8 @@ FirstFacet shoot(const Complex& c, const Targets& targets, std::uint32_t origin,
 }
 
 // The volume that holds the surroundings of a shell.
-std::uint32_t volume_around(const Complex& c, const Targets& targets, std::uint32_t s) {
-  const std::uint32_t sface = c.shell_sfaces[c.shells[s].first_sface];
+VolumeId volume_around(const Complex& c, const Targets& targets, ShellId s) {
+  const std::uint32_t sface = c.sfaces_of(s).front();
   const std::uint32_t v = c.sface_vertex(sface);
   const std::uint32_t local = sface - c.vertices[v].sfaces;
   const SphereMapView map = c.sphere_map(v);
@@ -223,9 +221,9 @@ std::uint32_t volume_around(const Complex& c, const Targets& targets, std::uint3
 
 void check_nesting(const Complex& c) {
   const Targets targets = targets_of(c);
-  for (std::uint32_t i = 0; i < c.volumes.size(); ++i) {
-    for (std::uint32_t k = i == 0 ? 0 : 1; k < c.volumes[i].shell_count; ++k) {
-      const std::uint32_t s = c.volumes[i].first_shell + k;
+  for (const VolumeId i : c.volumes.ids()) {
+    for (const ShellId s : c.volumes[i].shells()) {
+      if (i != kOuterVolume && s == c.volumes[i].first_shell) continue;
       require(volume_around(c, targets, s) == i, "inner shells lie in their volume", {{"volume", i}, {"shell", s}});
     }
   }

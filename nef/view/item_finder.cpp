@@ -41,8 +41,8 @@ void find_items(const Complex& drawn, Scene& scene) {
     facet.index = index_if(found, Location::Kind::kFacet);
     if (found.kind == Location::Kind::kFacet) {
       // Both complexes see the facet from the same side of the same plane.
-      scene.volumes[facet.above].index = source.facets[found.index].volume_above;
-      scene.volumes[facet.below].index = source.facets[found.index].volume_below;
+      scene.volumes[facet.above].index = source.facets[found.facet()].volume_above.index();
+      scene.volumes[facet.below].index = source.facets[found.facet()].volume_below.index();
     } else if (found.kind == Location::Kind::kVolume) {
       // A cut through a volume: what lies behind it is part of that volume, what lies before it was cut away.
       const std::uint32_t kept = facet.above == 0 ? facet.below : facet.above;

@@ -238,7 +238,7 @@ class SceneWriter {
     }
     for (const SceneFacet& facet : scene.facets) {
       if (facet.index != kArtificial) {
-        const PlaneId plane = complex.facets[facet.index].plane;
+        const PlaneId plane = complex.facets[FacetId{facet.index}].plane;
         for (std::size_t i = 0; i < 4; ++i) {
           planes += (i == 0 ? "" : " ") + complex.planes.oriented_coefficient(plane, i).get_str();
         }

@@ -29,9 +29,9 @@ class SceneBuilder {
 
  private:
   void add_volumes() {
-    for (std::uint32_t v = 0; v < complex_.volume_count(); ++v) {
+    for (const VolumeId v : complex_.volumes.ids()) {
       const LabelId mark = complex_.volumes[v].mark;
-      scene_.volumes.push_back({v, mark == kOutside ? LabelId{0} : mark, v != 0});
+      scene_.volumes.push_back({v.index(), mark == kOutside ? LabelId{0} : mark, v != kOuterVolume});
     }
   }
 
@@ -63,9 +63,9 @@ class SceneBuilder {
   // The corners of a facet as rings of scene vertices; empty if one is infimaximal.
   std::vector<std::vector<std::uint32_t>> rings_of(const Facet& facet) const {
     std::vector<std::vector<std::uint32_t>> rings;
-    for (std::uint32_t i = 0; i < facet.cycle_count; ++i) {
+    for (const CycleId i : facet.cycles()) {
       std::vector<std::uint32_t>& ring = rings.emplace_back();
-      for (const std::uint32_t corner : complex_.cycle(facet.first_cycle + i)) {
+      for (const std::uint32_t corner : complex_.corners_of(i)) {
         ring.push_back(number_[complex_.shalfedge_owner[corner]]);
         if (ring.back() == kUnused) return {};
       }
@@ -76,7 +76,7 @@ class SceneBuilder {
   void add_facets() {
     const MeshPoints points(exact_);
     Triangulator triangulator(points);
-    for (std::uint32_t f = 0; f < complex_.facet_count(); ++f) {
+    for (const FacetId f : complex_.facets.ids()) {
       const Facet& facet = complex_.facets[f];
       const std::vector<std::vector<std::uint32_t>> rings = rings_of(facet);
       if (rings.empty()) continue;
@@ -89,12 +89,13 @@ class SceneBuilder {
         NEF_ASSERT(done);
       }
       const auto count = static_cast<std::uint32_t>(scene_.triangles.size()) - first;
-      scene_.facets.push_back({first, count, f, facet.mark, Origin::kOwn, facet.volume_above, facet.volume_below});
+      scene_.facets.push_back(
+          {first, count, f.index(), facet.mark, Origin::kOwn, facet.volume_above.index(), facet.volume_below.index()});
       for (const auto& ring : rings) {
         scene_.facet_vertices.insert(scene_.facet_vertices.end(), ring.begin(), ring.end());
       }
-      for (std::uint32_t i = 0; i < facet.isolated_count; ++i) {
-        scene_.facet_vertices.push_back(number_[complex_.isolated_vertices[facet.first_isolated + i]]);
+      for (const std::uint32_t v : complex_.isolated_vertices_of(facet)) {
+        scene_.facet_vertices.push_back(number_[v]);
       }
       scene_.facet_vertex_begin.push_back(static_cast<std::uint32_t>(scene_.facet_vertices.size()));
     }
@@ -170,7 +171,7 @@ Scene build_scene(const Polyhedron& polyhedron, const SceneOptions& options) {
   Polyhedron drawn = polyhedron;
   std::optional<std::array<Rational3, 2>> box;
   const Complex& complex = polyhedron.complex();
-  if (complex.has_box() || Scene::selected(complex.volumes[0].mark)) {
+  if (complex.has_box() || Scene::selected(complex.volumes[kOuterVolume].mark)) {
     box = options.box ? *options.box : visible_box({&polyhedron, 1});
     drawn = intersect(drawn, make_box((*box)[0], (*box)[1]));
     scene.box = {rounded((*box)[0]), rounded((*box)[1])};

@@ -43,15 +43,17 @@ SphereDrawing draw_sphere_map(const Complex& complex, std::uint32_t vertex) {
   for (std::uint32_t i = 0; i < map.shalfedges.size(); i += 2) {
     const SHalfedge& e = map.shalfedges[i];
     drawing.arcs.push_back({e.source, map.target(i), normal(complex.planes, e.plane), e.mark,
-                            complex.shalfedge_facet[at.shalfedges + i] >> 1U, e.sface, map.shalfedges[i + 1].sface});
+                            facet_of(complex.shalfedge_facet[at.shalfedges + i]).index(), e.sface,
+                            map.shalfedges[i + 1].sface});
   }
   for (std::uint32_t i = 0; i < map.sloops.size(); i += 2) {
     const SLoop& loop = map.sloops[i];
-    drawing.circles.push_back({normal(complex.planes, loop.plane), loop.mark, complex.sloop_facet[at.sloops + i] >> 1U,
-                               loop.sface, map.sloops[i + 1].sface});
+    drawing.circles.push_back({normal(complex.planes, loop.plane), loop.mark,
+                               facet_of(complex.sloop_facet[at.sloops + i]).index(), loop.sface,
+                               map.sloops[i + 1].sface});
   }
   for (std::uint32_t i = 0; i < map.sfaces.size(); ++i) {
-    drawing.regions.push_back({map.sfaces[i].mark, complex.sface_volume(at.sfaces + i)});
+    drawing.regions.push_back({map.sfaces[i].mark, complex.sface_volume(at.sfaces + i).index()});
   }
   return drawing;
 }

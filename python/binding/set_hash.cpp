@@ -37,7 +37,7 @@ std::int64_t set_hash(const Polyhedron& set) {
   }
   const Counts n = counts(set);
   for (const std::uint64_t count : {finite, std::uint64_t{n.edges}, std::uint64_t{n.facets}, std::uint64_t{n.volumes},
-                                    std::uint64_t{c.volumes[0].mark}}) {
+                                    std::uint64_t{c.volumes[kOuterVolume].mark}}) {
     sum = mixed(sum * 31 + count);
   }
   return static_cast<std::int64_t>(sum >> 1U);

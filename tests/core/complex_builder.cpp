@@ -150,7 +150,7 @@ TEST_CASE("A point that is no vertex is not added") {
   const Complex c = builder.finish(1);
   CHECK(c.vertex_count() == 0);
   CHECK(c.planes.size() == 0);
-  CHECK(c.volumes.at(0).mark == 1);
+  CHECK(c.volumes[kOuterVolume].mark == 1);
 }
 
 TEST_CASE("What is wrong first is told") {

@@ -17,7 +17,7 @@ bool same_bytes(const std::vector<Item>& a, const std::vector<Item>& b) {
   return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Item)) == 0);
 }
 
-bool same_facets(const std::vector<Facet>& a, const std::vector<Facet>& b) {
+bool same_facets(const IndexedVector<FacetId, Facet>& a, const IndexedVector<FacetId, Facet>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Facet& f, const Facet& g) {
     return f.plane == g.plane && f.mark == g.mark && f.first_cycle == g.first_cycle && f.cycle_count == g.cycle_count &&
            f.first_isolated == g.first_isolated && f.isolated_count == g.isolated_count &&
@@ -36,12 +36,12 @@ std::string difference_to_synthesis(const Complex& c) {
   again.sloops = c.sloops;
   again.sfaces = c.sfaces;
   again.entries = c.entries;
-  synthesize(again, c.volumes[0].mark);
+  synthesize(again, c.volumes[kOuterVolume].mark);
   if (!same_bytes(c.twin, again.twin)) return "twin";
   if (!same_bytes(c.svertex_owner, again.svertex_owner)) return "svertex_owner";
   if (!same_bytes(c.shalfedge_owner.pairs(), again.shalfedge_owner.pairs())) return "shalfedge_owner";
   if (!same_facets(c.facets, again.facets)) return "facets";
-  if (!same_bytes(c.cycle_begin, again.cycle_begin)) return "cycle_begin";
+  if (!same_bytes(c.cycle_begin.values(), again.cycle_begin.values())) return "cycle_begin";
   if (!same_bytes(c.corners, again.corners)) return "corners";
   if (!same_bytes(c.isolated_vertices, again.isolated_vertices)) return "isolated_vertices";
   if (!same_bytes(c.shalfedge_facet.pairs(), again.shalfedge_facet.pairs())) return "shalfedge_facet";
@@ -49,7 +49,7 @@ std::string difference_to_synthesis(const Complex& c) {
   if (!same_bytes(c.sface_shell, again.sface_shell)) return "sface_shell";
   if (!same_bytes(c.shell_sfaces, again.shell_sfaces)) return "shell_sfaces";
   if (c.shells.size() != again.shells.size() || c.volumes.size() != again.volumes.size()) return "volumes";
-  for (std::size_t i = 0; i < c.volumes.size(); ++i) {
+  for (const VolumeId i : c.volumes.ids()) {
     if (c.volumes[i].mark != again.volumes[i].mark || c.volumes[i].shell_count != again.volumes[i].shell_count) {
       return "volumes";
     }

@@ -46,7 +46,7 @@ TEST_CASE("items are walked through, and shells visit each of theirs once") {
   // Two facets have a hole; all cycles have four corners, which differ.
   int cycles = 0;
   int holes = 0;
-  for (const std::uint32_t f : facets(set)) {
+  for (const FacetId f : facets(set)) {
     int of_facet = 0;
     visit_cycles(set, f, [&](std::span<const std::uint32_t> ring) {
       CHECK(std::set<std::uint32_t>(ring.begin(), ring.end()).size() == 4);
@@ -61,13 +61,13 @@ TEST_CASE("items are walked through, and shells visit each of theirs once") {
   // The plate has two shells, one of them around the cavity; space and the cavity have one each.
   std::multiset<std::array<int, 3>> seen;
   std::multiset<int> shells_of;
-  for (const std::uint32_t volume : volumes(set)) {
+  for (const VolumeId volume : volumes(set)) {
     int count = 0;
-    for (const std::uint32_t shell : shells(set, volume)) {
+    for (const ShellId shell : shells(set, volume)) {
       std::array<int, 3> items{};
       visit_shell(
           set, shell, [&](std::uint32_t) { ++items[0]; }, [&](std::uint32_t) { ++items[1]; },
-          [&](std::uint32_t) { ++items[2]; });
+          [&](FacetId) { ++items[2]; });
       seen.insert(items);
       ++count;
     }

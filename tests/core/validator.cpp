@@ -55,6 +55,16 @@ struct Breaker {
     }
     x = old;
   }
+  template <typename Tag>
+  void index(const std::string& field, Id<Tag>& x, std::size_t end) {
+    const std::uint32_t old = x.index();
+    for (const std::uint32_t value : {0U, old + 1, old - 1, old ^ 1U, static_cast<std::uint32_t>(end), kNone}) {
+      if (value == old) continue;
+      x = Id<Tag>{value};
+      look(field);
+    }
+    x = Id<Tag>{old};
+  }
   void mark(const std::string& field, LabelId& x) {
     const LabelId old = x;
     for (const LabelId value : {LabelId{0}, LabelId{1}, LabelId{2}, kOutside}) {
@@ -72,9 +82,10 @@ struct Breaker {
     }
     x = old;
   }
-  void column(const std::string& field, std::vector<std::uint32_t>& column, std::size_t end) {
-    for (std::uint32_t& x : column) index(field, x, end);
-    column.push_back(0);
+  template <typename Index>
+  void column(const std::string& field, std::vector<Index>& column, std::size_t end) {
+    for (Index& x : column) index(field, x, end);
+    column.push_back(Index{0});
     look(field + " too long");
     column.pop_back();
   }
@@ -133,7 +144,7 @@ struct Breaker {
       index("volume above", f.volume_above, c.volumes.size());
       index("volume below", f.volume_below, c.volumes.size());
     }
-    column("begin of a cycle", c.cycle_begin, c.corners.size());
+    column("begin of a cycle", c.cycle_begin.values(), c.corners.size());
     column("corner", c.corners, c.shalfedges.size());
     column("isolated vertex", c.isolated_vertices, c.vertex_count());
     for (Shell& s : c.shells) {
@@ -196,13 +207,15 @@ TEST_CASE("the validator names the broken invariant and the guilty items") {
   CHECK(broken([](Complex& c) { c.twin[0] = 0; }) == "twins of halfedges are mutual, halfedge 0");
   CHECK(broken([](Complex& c) { c.points.pop(); }).find("one point for each vertex") == 0);
   CHECK(broken([](Complex& c) { c.corners.pop_back(); }).find("cycle") != std::string::npos);
-  CHECK(broken([](Complex& c) { std::swap(c.volumes[0].mark, c.volumes[1].mark); }).find("volume") !=
-        std::string::npos);
   CHECK(broken([](Complex& c) {
-          c.facets[2].plane = c.facets[2].plane.opposite();
+          std::swap(c.volumes[kOuterVolume].mark, c.volumes[VolumeId{1}].mark);
+        }).find("volume") != std::string::npos);
+  CHECK(broken([](Complex& c) {
+          Facet& facet = c.facets[FacetId{2}];
+          facet.plane = facet.plane.opposite();
         }).find("a facet has an unflipped plane, facet 2") == 0);
-  CHECK(broken([](Complex& c) { c.sface_shell[0] = kNone; }).find("sfaces have a shell") == 0);
-  CHECK_FALSE(broken([](Complex& c) { c.shells[1].volume += 1; }).empty());
+  CHECK(broken([](Complex& c) { c.sface_shell[0] = ShellId(); }).find("sfaces have a shell") == 0);
+  CHECK_FALSE(broken([](Complex& c) { ++c.shells[ShellId{1}].volume; }).empty());
 }
 
 }  // namespace nef::test

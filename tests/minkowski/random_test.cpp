@@ -63,7 +63,7 @@ std::vector<Rational3> adversarial_points(const Polyhedron& sum) {
     points.push_back(middle({vertex(c.svertex_owner[h]), vertex(c.target(h))}));
   }
   for (std::uint32_t f = 0; f < c.facet_count(); f += 1 + static_cast<std::uint32_t>(c.facet_count()) / 6) {
-    const auto corners = c.cycle(c.facets[f].first_cycle);
+    const auto corners = c.corners_of(c.facets[nef::FacetId{f}].first_cycle);
     if (corners.size() < 3) continue;
     const auto corner = [&](std::size_t k) { return vertex(c.shalfedge_owner[corners[k]]); };
     points.push_back(middle({corner(0), corner(1), corner(corners.size() / 2 + 1 - corners.size() % 2)}));

@@ -113,8 +113,8 @@ TEST_CASE("unbounded parts end at a visible box and keep their indices") {
       continue;
     }
     REQUIRE(facet.index < complex.facet_count());
-    CHECK(complex.facets[facet.index].mark == facet.mark);
-    CHECK_FALSE(complex.planes.infimaximal(complex.facets[facet.index].plane));
+    CHECK(complex.facets[FacetId{facet.index}].mark == facet.mark);
+    CHECK_FALSE(complex.planes.infimaximal(complex.facets[FacetId{facet.index}].plane));
   }
   const auto own = std::count_if(scene.edges.begin(), scene.edges.end(),
                                  [](const SceneEdge& edge) { return edge.index != kArtificial; });

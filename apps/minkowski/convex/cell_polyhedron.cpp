@@ -107,12 +107,12 @@ Polyhedron to_polyhedron(const ConvexCell& cell) {
     complex.svertices[h].mark = of.edge(complex.svertex_owner[h], complex.target(h)) ? 1 : 0;
   }
   for (Facet& facet : complex.facets) {
-    const auto corners = complex.facet_corners(facet);
+    const auto corners = complex.corners_of(facet);
     const auto owner = [&](std::size_t k) { return complex.shalfedge_owner[corners[k]]; };
     facet.mark = of.facet(owner(0), owner(1), owner(2)) ? 1 : 0;
   }
   for (std::uint32_t e = 0; e < complex.shalfedges.size(); ++e) {
-    complex.shalfedges[e].mark = complex.facets[complex.shalfedge_facet[e] >> 1U].mark;
+    complex.shalfedges[e].mark = complex.facets[facet_of(complex.shalfedge_facet[e])].mark;
   }
   return Polyhedron(std::move(complex));
 }

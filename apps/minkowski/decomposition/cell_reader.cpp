@@ -37,7 +37,7 @@ CellReader::CellReader(const Complex& complex)
       seen_halfedge_(complex.svertices.size(), 0),
       seen_vertex_(complex.vertex_count(), 0),
       local_(complex.vertex_count(), 0) {
-  for (std::uint32_t f = 0; f < complex.facet_count(); ++f) {
+  for (const FacetId f : complex.facets.ids()) {
     const Facet& facet = complex.facets[f];
     facets_of_volume_[facet.volume_above].push_back(f);
     // A facet with the same volume on both sides cannot bound a convex one.
@@ -47,7 +47,7 @@ CellReader::CellReader(const Complex& complex)
 
 bool CellReader::selected(LabelId label) const { return (label & kSelected) != 0 && label != kOutside; }
 
-void CellReader::collect_items(std::uint32_t volume) {
+void CellReader::collect_items(VolumeId volume) {
   ++turn_;
   volume_ = volume;
   facets_ = facets_of_volume_[volume];
@@ -59,9 +59,9 @@ void CellReader::collect_items(std::uint32_t volume) {
     local_[v] = static_cast<std::uint32_t>(vertices_.size());
     vertices_.push_back(v);
   };
-  for (const std::uint32_t f : facets_) {
+  for (const FacetId f : facets_) {
     const Facet& facet = complex_.facets[f];
-    for (const std::uint32_t c : complex_.facet_corners(facet)) {
+    for (const std::uint32_t c : complex_.corners_of(facet)) {
       add_vertex(complex_.shalfedge_owner[c]);
       const std::uint32_t forth = complex_.corner_halfedge(c);
       const std::uint32_t h = std::min(forth, complex_.twin[forth]);
@@ -69,14 +69,12 @@ void CellReader::collect_items(std::uint32_t volume) {
       seen_halfedge_[h] = turn_;
       halfedges_.push_back(h);
     }
-    for (std::uint32_t i = 0; i < facet.isolated_count; ++i) {
-      add_vertex(complex_.isolated_vertices[facet.first_isolated + i]);
-    }
+    for (const std::uint32_t v : complex_.isolated_vertices_of(facet)) add_vertex(v);
   }
 }
 
 void CellReader::take_all() {
-  for (const std::uint32_t f : facets_) facet_taken_[f] = 1;
+  for (const FacetId f : facets_) facet_taken_[f] = 1;
   for (const std::uint32_t h : halfedges_) halfedge_taken_[h] = 1;
   for (const std::uint32_t v : vertices_) vertex_taken_[v] = 1;
 }
@@ -103,8 +101,8 @@ CellReader::Carriers CellReader::carriers(const ConvexCell& cell) const {
     result.of_halfedge.push_back(
         common(result.of_vertex[local_[complex_.svertex_owner[h]]], result.of_vertex[local_[complex_.target(h)]]));
   }
-  for (const std::uint32_t f : facets_) {
-    const auto corners = complex_.facet_corners(complex_.facets[f]);
+  for (const FacetId f : facets_) {
+    const auto corners = complex_.corners_of(f);
     Faces faces = result.of_vertex[local_[complex_.shalfedge_owner[corners[0]]]];
     for (const std::uint32_t c : corners) faces = common(faces, result.of_vertex[local_[complex_.shalfedge_owner[c]]]);
     NEF_ASSERT(faces.size() == 1);
@@ -163,10 +161,10 @@ void CellReader::set_marks(ConvexCell& cell) {
 // vertex is extreme iff it lies in three such planes. The boundary of a face is what edges of its
 // facets remain when those inside the face, which occur in both directions, have cancelled out.
 CellBody CellReader::body() {
-  std::vector<std::uint32_t> by_plane(facets_);
-  const auto row = [&](std::uint32_t f) { return complex_.facets[f].plane.row(); };
+  std::vector<FacetId> by_plane(facets_);
+  const auto row = [&](FacetId f) { return complex_.facets[f].plane.row(); };
   std::sort(by_plane.begin(), by_plane.end(),
-            [&](std::uint32_t f, std::uint32_t g) { return row(f) != row(g) ? row(f) < row(g) : f < g; });
+            [&](FacetId f, FacetId g) { return row(f) != row(g) ? row(f) < row(g) : f < g; });
   count_planes(by_plane);
 
   CellBody body;
@@ -192,33 +190,33 @@ CellBody CellReader::body() {
 }
 
 // How many planes of the volume meet at each of its vertices.
-void CellReader::count_planes(std::span<const std::uint32_t> by_plane) {
+void CellReader::count_planes(std::span<const FacetId> by_plane) {
   planes_at_.assign(vertices_.size(), 0);
   std::vector<std::uint32_t> last_plane(vertices_.size(), kNone);
-  for (const std::uint32_t f : by_plane) {
+  for (const FacetId f : by_plane) {
     const Facet& facet = complex_.facets[f];
     const auto meet = [&](std::uint32_t v) {
       if (last_plane[local_[v]] == facet.plane.row()) return;
       last_plane[local_[v]] = facet.plane.row();
       ++planes_at_[local_[v]];
     };
-    for (const std::uint32_t c : complex_.facet_corners(facet)) meet(complex_.shalfedge_owner[c]);
-    for (std::uint32_t i = 0; i < facet.isolated_count; ++i) meet(complex_.isolated_vertices[facet.first_isolated + i]);
+    for (const std::uint32_t c : complex_.corners_of(facet)) meet(complex_.shalfedge_owner[c]);
+    for (const std::uint32_t v : complex_.isolated_vertices_of(facet)) meet(v);
   }
 }
 
 // The vertices around the union of some facets, all of one plane.
-std::vector<std::uint32_t> CellReader::outline(std::span<const std::uint32_t> facets) const {
+std::vector<std::uint32_t> CellReader::outline(std::span<const FacetId> facets) const {
   std::vector<std::uint32_t> ring;
   if (facets.size() == 1 && complex_.facets[facets[0]].cycle_count == 1) {
-    for (const std::uint32_t c : complex_.facet_corners(complex_.facets[facets[0]])) {
+    for (const std::uint32_t c : complex_.corners_of(facets[0])) {
       ring.push_back(complex_.shalfedge_owner[c]);
     }
     return ring;
   }
   std::map<std::uint32_t, std::uint32_t> open;  // halfedge -> its source, if its twin has not come yet
-  for (const std::uint32_t f : facets) {
-    for (const std::uint32_t c : complex_.facet_corners(complex_.facets[f])) {
+  for (const FacetId f : facets) {
+    for (const std::uint32_t c : complex_.corners_of(f)) {
       const std::uint32_t h = complex_.corner_halfedge(c);
       if (open.erase(complex_.twin[h]) == 0) open.emplace(h, complex_.shalfedge_owner[c]);
     }
@@ -240,7 +238,7 @@ void CellReader::set_boundary(ConvexCell& cell) {
   bool all = true;
   bool none = true;
   const auto note = [&](LabelId label) { (selected(label) ? none : all) = false; };
-  for (const std::uint32_t f : facets_) note(complex_.facets[f].mark);
+  for (const FacetId f : facets_) note(complex_.facets[f].mark);
   for (const std::uint32_t h : halfedges_) note(complex_.svertices[h].mark);
   for (const std::uint32_t v : vertices_) note(complex_.vertices[v].mark);
   if (all) {
@@ -255,7 +253,7 @@ void CellReader::set_boundary(ConvexCell& cell) {
 std::vector<ConvexCell> CellReader::solids() {
   std::vector<CellBody> closed;
   std::vector<ConvexCell> others;
-  for (std::uint32_t v = 0; v < complex_.volume_count(); ++v) {
+  for (const VolumeId v : complex_.volumes.ids()) {
     if (!selected(complex_.volumes[v].mark)) continue;
     collect_items(v);
     CellBody read = body();
@@ -275,7 +273,7 @@ std::vector<ConvexCell> CellReader::solids() {
 
 std::vector<ConvexCell> CellReader::open_solids() {
   std::vector<CellBody> bodies;
-  for (std::uint32_t v = 0; v < complex_.volume_count(); ++v) {
+  for (const VolumeId v : complex_.volumes.ids()) {
     if (!selected(complex_.volumes[v].mark)) continue;
     collect_items(v);
     bodies.push_back(body());
@@ -285,9 +283,9 @@ std::vector<ConvexCell> CellReader::open_solids() {
   return cells;
 }
 
-std::vector<std::uint32_t> CellReader::facets_to_cut() const {
-  std::vector<std::uint32_t> result;
-  for (std::uint32_t f = 0; f < complex_.facet_count(); ++f) {
+std::vector<FacetId> CellReader::facets_to_cut() const {
+  std::vector<FacetId> result;
+  for (const FacetId f : complex_.facets.ids()) {
     if (facet_taken_[f] != 0 || !selected(complex_.facets[f].mark)) continue;
     if (!reflex_corners(complex_, f).empty()) result.push_back(f);
   }
@@ -295,10 +293,10 @@ std::vector<std::uint32_t> CellReader::facets_to_cut() const {
 }
 
 // A convex facet: corners where the boundary goes straight on are inside a side.
-ConvexCell CellReader::polygon(std::uint32_t facet) {
+ConvexCell CellReader::polygon(FacetId facet) {
   const Facet& f = complex_.facets[facet];
   NEF_ASSERT(f.cycle_count == 1 && f.isolated_count == 0);
-  const auto corners = complex_.facet_corners(f);
+  const auto corners = complex_.corners_of(f);
   const std::size_t n = corners.size();
   std::vector<std::size_t> extreme;
   for (std::size_t k = 0; k < n; ++k) {
@@ -360,7 +358,7 @@ ConvexCell CellReader::segment(std::uint32_t halfedge) {
 
 std::vector<ConvexCell> CellReader::flat_cells() {
   std::vector<ConvexCell> cells;
-  for (std::uint32_t f = 0; f < complex_.facet_count(); ++f) {
+  for (const FacetId f : complex_.facets.ids()) {
     if (facet_taken_[f] == 0 && selected(complex_.facets[f].mark)) cells.push_back(polygon(f));
   }
   for (std::uint32_t h = 0; h < complex_.svertices.size(); ++h) {

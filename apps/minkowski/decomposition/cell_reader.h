@@ -32,7 +32,7 @@ class CellReader {
   std::vector<ConvexCell> open_solids();
 
   /// Selected facets that no solid took and that are not convex: cut them and start over.
-  [[nodiscard]] std::vector<std::uint32_t> facets_to_cut() const;
+  [[nodiscard]] std::vector<FacetId> facets_to_cut() const;
 
   /// The cells of dimension 2, 1, 0 for what is left. To be called last.
   std::vector<ConvexCell> flat_cells();
@@ -41,24 +41,26 @@ class CellReader {
   struct Carriers;
 
   [[nodiscard]] bool selected(LabelId label) const;
-  void collect_items(std::uint32_t volume);
+  void collect_items(VolumeId volume);
   CellBody body();
-  void count_planes(std::span<const std::uint32_t> by_plane);
-  [[nodiscard]] std::vector<std::uint32_t> outline(std::span<const std::uint32_t> facets) const;
+  void count_planes(std::span<const FacetId> by_plane);
+  [[nodiscard]] std::vector<std::uint32_t> outline(std::span<const FacetId> facets) const;
   void set_boundary(ConvexCell& cell);
   void set_marks(ConvexCell& cell);
   Carriers carriers(const ConvexCell& cell) const;
   void take_all();
-  ConvexCell polygon(std::uint32_t facet);
+  ConvexCell polygon(FacetId facet);
   ConvexCell segment(std::uint32_t halfedge);
 
   const Complex& complex_;
-  std::vector<std::vector<std::uint32_t>> facets_of_volume_;
-  std::vector<std::uint8_t> facet_taken_, halfedge_taken_, vertex_taken_;
+  IndexedVector<VolumeId, std::vector<FacetId>> facets_of_volume_;
+  IndexedVector<FacetId, std::uint8_t> facet_taken_;
+  std::vector<std::uint8_t> halfedge_taken_, vertex_taken_;
 
   // The volume at hand and the items on its boundary.
-  std::uint32_t volume_ = 0;
-  std::vector<std::uint32_t> facets_, halfedges_, vertices_;
+  VolumeId volume_ = kOuterVolume;
+  std::vector<FacetId> facets_;
+  std::vector<std::uint32_t> halfedges_, vertices_;
   std::vector<std::uint32_t> seen_halfedge_, seen_vertex_, local_;
   std::vector<std::uint32_t> planes_at_;  // per vertex of the volume
   std::uint32_t turn_ = 0;

@@ -82,7 +82,7 @@ void WallBuilder::erect_cross_wall(const ReflexEdge& edge, PlaneId plane, int wa
   Rational high = std::max(a[axis_], b[axis_]);
 
   slicer_.begin(frame);
-  for (const std::uint32_t f : facets_of_volume_[edge.volume]) slicer_.add_facet(f);
+  for (const FacetId f : facets_of_volume_[edge.volume]) slicer_.add_facet(f);
   const std::vector<Rational> u = stops(a[frame.u], way);
   std::vector<FlatPoint> floor;
   std::vector<FlatPoint> ceiling;

@@ -31,7 +31,7 @@ std::vector<ConvexCell> decompose_along(const Polyhedron& a, std::size_t axis) {
   {
     CellReader reader(walled.complex());
     std::vector<ConvexCell> cells = reader.solids();
-    const std::vector<std::uint32_t> to_cut = reader.facets_to_cut();
+    const std::vector<FacetId> to_cut = reader.facets_to_cut();
     if (to_cut.empty()) {
       std::vector<ConvexCell> flat = reader.flat_cells();
       std::move(flat.begin(), flat.end(), std::back_inserter(cells));
@@ -85,7 +85,7 @@ bool is_full_dimensional(const Polyhedron& a) {
 bool is_point(const Polyhedron& a) {
   const Complex& c = a.complex();
   return c.vertex_count() == 1 && c.svertices.empty() && c.sloops.empty() && c.vertices[0].mark == 1 &&
-         c.volumes[0].mark == 0;
+         c.volumes[kOuterVolume].mark == 0;
 }
 
 Polyhedron negate(const Polyhedron& a) {

@@ -33,7 +33,7 @@ Estimate estimate(const std::array<double, 2>& u, const std::array<double, 2>& h
 
 Box box_of(const Complex& complex, const Facet& facet) {
   Box box;
-  for (const std::uint32_t c : complex.facet_corners(facet)) {
+  for (const std::uint32_t c : complex.corners_of(facet)) {
     box.add_rounded(complex.points.approximate(PointId(complex.shalfedge_owner[c])));
   }
   return box;
@@ -89,10 +89,10 @@ const Rational3& PlaneSlicer::point(std::uint32_t vertex) {
   return points_[vertex];
 }
 
-bool PlaneSlicer::convex(std::uint32_t facet) {
+bool PlaneSlicer::convex(FacetId facet) {
   if (convex_[facet] < 0) {
     const Facet& f = complex_.facets[facet];
-    const bool triangle = f.cycle_count == 1 && f.isolated_count == 0 && complex_.facet_corners(f).size() == 3;
+    const bool triangle = f.cycle_count == 1 && f.isolated_count == 0 && complex_.corners_of(f).size() == 3;
     convex_[facet] = triangle || reflex_corners(complex_, facet).empty() ? 1 : 0;
   }
   return convex_[facet] != 0;
@@ -142,7 +142,7 @@ std::array<Rational, 2> PlaneSlicer::crossing(std::uint32_t a, std::uint32_t b) 
 
 // Point in polygon by the parity of crossings with a ray along one coordinate, for a point of the
 // facet's plane and of the slice that is not on the facet's boundary.
-bool PlaneSlicer::holds(std::uint32_t facet, const std::array<Rational, 2>& p) {
+bool PlaneSlicer::holds(FacetId facet, const std::array<Rational, 2>& p) {
   const Rational3 x = frame_.lift(p);
   const Facet& f = complex_.facets[facet];
   std::size_t drop = 0;
@@ -150,7 +150,7 @@ bool PlaneSlicer::holds(std::uint32_t facet, const std::array<Rational, 2>& p) {
   const std::size_t i = (drop + 1) % 3;
   const std::size_t j = (drop + 2) % 3;
   bool inside = false;
-  for (const std::uint32_t c : complex_.facet_corners(f)) {
+  for (const std::uint32_t c : complex_.corners_of(f)) {
     const Rational3& a = point(complex_.shalfedge_owner[c]);
     const Rational3& b = point(complex_.target(complex_.corner_halfedge(c)));
     if ((a[i] > x[i]) == (b[i] > x[i])) continue;
@@ -159,9 +159,9 @@ bool PlaneSlicer::holds(std::uint32_t facet, const std::array<Rational, 2>& p) {
   return inside;
 }
 
-void PlaneSlicer::add_facet(std::uint32_t facet) {
+void PlaneSlicer::add_facet(FacetId facet) {
   const Facet& f = complex_.facets[facet];
-  const auto corners = complex_.facet_corners(f);
+  const auto corners = complex_.corners_of(f);
   bool off = false;
   bool positive = false;
   bool negative = false;
@@ -208,7 +208,7 @@ void PlaneSlicer::add_isolated_edge(std::uint32_t halfedge) {
 }
 
 void PlaneSlicer::add_overlapping(const Box& query) {
-  facets_.for_each_overlap(query, [&](std::uint32_t f) { add_facet(f); });
+  facets_.for_each_overlap(query, [&](std::uint32_t f) { add_facet(FacetId{f}); });
   for (const std::uint32_t h : isolated_edges_) add_isolated_edge(h);
 }
 

@@ -54,14 +54,14 @@ class PlaneSlicer {
   /// Adds the cut with all facets and isolated edges whose boxes overlap `query`.
   void add_overlapping(const Box& query);
   /// Adds the cut with one facet. O(size of the facet); more for facets that are not convex.
-  void add_facet(std::uint32_t facet);
+  void add_facet(FacetId facet);
 
   [[nodiscard]] const std::vector<SliceSegment>& segments() const { return segments_; }
   [[nodiscard]] const std::vector<SliceUpright>& uprights() const { return uprights_; }
 
   /// The exact coordinates of a vertex; computed once.
   const Rational3& point(std::uint32_t vertex);
-  [[nodiscard]] const Box& facet_box(std::uint32_t facet) const { return facet_boxes_[facet]; }
+  [[nodiscard]] const Box& facet_box(FacetId facet) const { return facet_boxes_[facet.index()]; }
 
  private:
   int side(std::uint32_t vertex);
@@ -69,14 +69,14 @@ class PlaneSlicer {
   std::array<Rational, 2> crossing(std::uint32_t a, std::uint32_t b);
   void add_segment(const std::array<Rational, 2>& p, const std::array<Rational, 2>& q);
   void add_isolated_edge(std::uint32_t halfedge);
-  bool holds(std::uint32_t facet, const std::array<Rational, 2>& p);
-  bool convex(std::uint32_t facet);
+  bool holds(FacetId facet, const std::array<Rational, 2>& p);
+  bool convex(FacetId facet);
 
   const Complex& complex_;
   std::vector<Box> facet_boxes_;
   BoxTree facets_;
-  std::vector<std::int8_t> convex_;            // per facet: 1 yes, 0 no, -1 not asked yet
-  std::vector<std::uint32_t> isolated_edges_;  // halfedges without facets
+  IndexedVector<FacetId, std::int8_t> convex_;  // per facet: 1 yes, 0 no, -1 not asked yet
+  std::vector<std::uint32_t> isolated_edges_;   // halfedges without facets
   std::vector<Rational3> points_;
   std::vector<std::uint8_t> known_;
 

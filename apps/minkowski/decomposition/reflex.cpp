@@ -112,15 +112,15 @@ Direction cut_direction(const Complex& complex, PlaneId plane) {
   return g.is_zero() ? Direction::cross(n, axis_direction(1)) : g;
 }
 
-std::vector<ReflexCorner> reflex_corners(const Complex& complex, std::uint32_t facet) {
+std::vector<ReflexCorner> reflex_corners(const Complex& complex, FacetId facet) {
   std::vector<ReflexCorner> result;
   const Facet& f = complex.facets[facet];
   const Direction g = cut_direction(complex, f.plane);
   const std::array<Direction, 2> way = {g.negated(), g};
-  for (std::uint32_t i = 0; i < f.isolated_count; ++i) {
-    result.push_back({complex.isolated_vertices[f.first_isolated + i], {true, true}});
+  for (const std::uint32_t v : complex.isolated_vertices_of(f)) {
+    result.push_back({v, {true, true}});
   }
-  for (const std::uint32_t corner : complex.facet_corners(f)) {
+  for (const std::uint32_t corner : complex.corners_of(f)) {
     const std::uint32_t forth = complex.corner_halfedge(corner);
     const std::uint32_t back = complex.corner_back_halfedge(corner);
     const auto direction = [&](std::uint32_t h) {

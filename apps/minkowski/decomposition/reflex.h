@@ -24,7 +24,7 @@ struct CrossWall {
 /// without such edges (and without missing points) is convex.
 struct ReflexEdge {
   std::uint32_t halfedge = 0;
-  std::uint32_t volume = 0;
+  VolumeId volume = kOuterVolume;
   bool vertical = false;                ///< parallel to the axis; others get walls along the axis
   std::array<bool, 2> inside{};         ///< if not vertical: whether the volume goes on below, above the edge
   std::array<CrossWall, 2> cross_wall;  ///< if vertical: either one will do
@@ -50,6 +50,6 @@ struct ReflexCorner {
 Direction cut_direction(const Complex& complex, PlaneId plane);
 
 /// All reflex corners of one facet; none iff the facet is convex. O(size of the facet).
-std::vector<ReflexCorner> reflex_corners(const Complex& complex, std::uint32_t facet);
+std::vector<ReflexCorner> reflex_corners(const Complex& complex, FacetId facet);
 
 }  // namespace nef::minkowski

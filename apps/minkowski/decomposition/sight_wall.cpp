@@ -46,7 +46,7 @@ SliceFrame sight_frame(const Rational3& from, const Rational3& to, std::size_t a
 
 WallBuilder::WallBuilder(const Complex& complex, std::size_t axis)
     : complex_(complex), axis_(axis), slicer_(complex), facets_of_volume_(complex.volume_count()) {
-  for (std::uint32_t f = 0; f < complex.facet_count(); ++f) {
+  for (const FacetId f : complex.facets.ids()) {
     const Facet& facet = complex.facets[f];
     facets_of_volume_[facet.volume_above].push_back(f);
     if (facet.volume_below != facet.volume_above) facets_of_volume_[facet.volume_below].push_back(f);

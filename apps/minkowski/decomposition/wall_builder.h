@@ -63,7 +63,7 @@ class WallBuilder {
   const Complex& complex_;
   std::size_t axis_;
   PlaneSlicer slicer_;
-  std::vector<std::vector<std::uint32_t>> facets_of_volume_;
+  IndexedVector<VolumeId, std::vector<FacetId>> facets_of_volume_;
 };
 
 }  // namespace nef::minkowski

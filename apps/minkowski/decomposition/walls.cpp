@@ -44,7 +44,7 @@ void erect_cross_walls(const std::vector<ReflexEdge>& edges, WallBuilder& builde
   using Key = std::array<std::uint32_t, 2>;  // volume, row of the plane
   const auto key = [&](std::uint32_t e, std::size_t k) {
     const PlaneId plane = edges[e].cross_wall[k].plane;
-    return Key{edges[e].volume, plane.valid() ? plane.row() : PlaneId::kNone};
+    return Key{edges[e].volume.index(), plane.valid() ? plane.row() : PlaneId::kNone};
   };
   std::map<Key, std::vector<std::uint32_t>> users;
   for (std::uint32_t e = 0; e < edges.size(); ++e) {
@@ -89,9 +89,9 @@ Mesh next_walls(const Polyhedron& a, std::size_t axis) {
 // Where a ray inside a facet leaves it: the nearest point of the facet's boundary.
 class FacetRays {
  public:
-  FacetRays(const Complex& complex, std::uint32_t facet) : facet_(complex.facets[facet]) {
+  FacetRays(const Complex& complex, FacetId facet) : facet_(complex.facets[facet]) {
     while (complex.planes.coefficient(facet_.plane, drop_).sign() == 0) ++drop_;
-    for (const std::uint32_t c : complex.facet_corners(facet_)) {
+    for (const std::uint32_t c : complex.corners_of(facet_)) {
       edges_.push_back({complex.points.rational(PointId(complex.shalfedge_owner[c])),
                         complex.points.rational(PointId(complex.target(complex.corner_halfedge(c))))});
     }
@@ -151,10 +151,10 @@ Polyhedron erect_walls(const Polyhedron& a, std::size_t axis) {
   return result;
 }
 
-Polyhedron cut_facets(const Polyhedron& a, std::span<const std::uint32_t> facets) {
+Polyhedron cut_facets(const Polyhedron& a, std::span<const FacetId> facets) {
   const Complex& complex = a.complex();
   std::vector<Polyhedron> cuts;
-  for (const std::uint32_t f : facets) {
+  for (const FacetId f : facets) {
     const FacetRays rays(complex, f);
     const std::array<Integer, 3> d = cut_direction(complex, complex.facets[f].plane).integers();
     for (const ReflexCorner& corner : reflex_corners(complex, f)) {

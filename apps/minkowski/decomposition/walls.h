@@ -24,6 +24,6 @@ inline constexpr LabelId kCut = 4;
 Polyhedron erect_walls(const Polyhedron& a, std::size_t axis);
 
 /// The same set with cuts in the given facets, so that they become convex.
-Polyhedron cut_facets(const Polyhedron& a, std::span<const std::uint32_t> facets);
+Polyhedron cut_facets(const Polyhedron& a, std::span<const FacetId> facets);
 
 }  // namespace nef::minkowski

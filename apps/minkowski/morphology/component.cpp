@@ -24,8 +24,8 @@ class Connection {
         first_volume_(first_facet_ + c.facet_count()),
         sets_(first_volume_ + c.volume_count()) {
     for (std::uint32_t v = 0; v < c.vertex_count(); ++v) connect_at(v);
-    for (std::uint32_t f = 0; f < c.facet_count(); ++f) {
-      for (const std::uint32_t volume : {c.facets[f].volume_above, c.facets[f].volume_below}) {
+    for (const FacetId f : c.facets.ids()) {
+      for (const VolumeId volume : {c.facets[f].volume_above, c.facets[f].volume_below}) {
         join(of_facet(f), of_volume(volume));
       }
     }
@@ -36,14 +36,16 @@ class Connection {
   [[nodiscard]] std::uint32_t of_edge(std::uint32_t halfedge) const {
     return static_cast<std::uint32_t>(first_edge_ + std::min(halfedge, c_.twin[halfedge]));
   }
-  [[nodiscard]] std::uint32_t of_facet(std::uint32_t f) const { return static_cast<std::uint32_t>(first_facet_ + f); }
-  [[nodiscard]] std::uint32_t of_volume(std::uint32_t v) const { return static_cast<std::uint32_t>(first_volume_ + v); }
+  [[nodiscard]] std::uint32_t of_facet(FacetId f) const { return static_cast<std::uint32_t>(first_facet_ + f.index()); }
+  [[nodiscard]] std::uint32_t of_volume(VolumeId v) const {
+    return static_cast<std::uint32_t>(first_volume_ + v.index());
+  }
 
   [[nodiscard]] bool is_selected(std::uint32_t item) const {
     if (item < first_edge_) return c_.vertices[item].mark == kIn;
     if (item < first_facet_) return c_.svertices[item - first_edge_].mark == kIn;
-    if (item < first_volume_) return c_.facets[item - first_facet_].mark == kIn;
-    return c_.volumes[item - first_volume_].mark == kIn;
+    if (item < first_volume_) return c_.facets[FacetId{item - first_facet_}].mark == kIn;
+    return c_.volumes[VolumeId{item - first_volume_}].mark == kIn;
   }
   std::uint32_t component(std::uint32_t item) { return sets_.find(item); }
 
@@ -53,10 +55,10 @@ class Connection {
     visit(of_vertex(v));
     for (std::uint32_t h = c_.vertices[v].svertices; h < c_.vertices[v + 1].svertices; ++h) visit(of_edge(h));
     for (std::uint32_t e = c_.vertices[v].shalfedges; e < c_.vertices[v + 1].shalfedges; ++e) {
-      visit(of_facet(c_.shalfedge_facet[e] >> 1U));
+      visit(of_facet(facet_of(c_.shalfedge_facet[e])));
     }
     for (std::uint32_t l = c_.vertices[v].sloops; l < c_.vertices[v + 1].sloops; ++l) {
-      visit(of_facet(c_.sloop_facet[l] >> 1U));
+      visit(of_facet(facet_of(c_.sloop_facet[l])));
     }
     for (std::uint32_t f = c_.vertices[v].sfaces; f < c_.vertices[v + 1].sfaces; ++f) {
       visit(of_volume(c_.sface_volume(f)));
@@ -72,7 +74,7 @@ class Connection {
     for_each_at(v, [&](std::uint32_t item) { join(of_vertex(v), item); });
     for (std::uint32_t e = c_.vertices[v].shalfedges; e < c_.vertices[v + 1].shalfedges; ++e) {
       const std::uint32_t edge = of_edge(c_.corner_halfedge(e));
-      join(edge, of_facet(c_.shalfedge_facet[e] >> 1U));
+      join(edge, of_facet(facet_of(c_.shalfedge_facet[e])));
       join(edge, of_volume(c_.sface_volume(c_.shalfedge_sface(e))));
     }
     for (std::uint32_t h = c_.vertices[v].svertices; h < c_.vertices[v + 1].svertices; ++h) {
@@ -94,9 +96,9 @@ std::uint32_t item_at(const Polyhedron& a, const Connection& connection, const R
     case Location::Kind::kEdge:
       return connection.of_edge(at.index);
     case Location::Kind::kFacet:
-      return connection.of_facet(at.index);
+      return connection.of_facet(at.facet());
     default:
-      return connection.of_volume(at.index);
+      return connection.of_volume(at.volume());
   }
 }
 
@@ -114,13 +116,13 @@ Complex labelled(const Complex& original, const Connection& connection, const st
   }
   for (std::uint32_t h = 0; h < c.svertices.size(); ++h) mark(c.svertices[h].mark, connection.of_edge(h));
   for (std::uint32_t e = 0; e < c.shalfedges.size(); ++e) {
-    mark(c.shalfedges[e].mark, connection.of_facet(c.shalfedge_facet[e] >> 1U));
+    mark(c.shalfedges[e].mark, connection.of_facet(facet_of(c.shalfedge_facet[e])));
   }
   for (std::uint32_t l = 0; l < c.sloops.size(); ++l) {
-    mark(c.sloops[l].mark, connection.of_facet(c.sloop_facet[l] >> 1U));
+    mark(c.sloops[l].mark, connection.of_facet(facet_of(c.sloop_facet[l])));
   }
-  for (std::uint32_t f = 0; f < c.facet_count(); ++f) mark(c.facets[f].mark, connection.of_facet(f));
-  for (std::uint32_t v = 0; v < c.volume_count(); ++v) mark(c.volumes[v].mark, connection.of_volume(v));
+  for (const FacetId f : c.facets.ids()) mark(c.facets[f].mark, connection.of_facet(f));
+  for (const VolumeId v : c.volumes.ids()) mark(c.volumes[v].mark, connection.of_volume(v));
   c.label_count = 3;
   return c;
 }
@@ -141,7 +143,7 @@ Polyhedron component_of(const Polyhedron& a, const std::optional<Rational3>& poi
   if (point) {
     want(item_at(a, connection, *point));
   } else {
-    want(connection.of_volume(0));
+    want(connection.of_volume(kOuterVolume));
     for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
       if (!c.points.finite(PointId(v))) connection.for_each_at(v, want);
     }

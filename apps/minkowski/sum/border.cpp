@@ -109,10 +109,10 @@ class BorderRemover {
       if (!at_infinity(facet.plane)) facet.mark = thin(facet) ? 1 : 0;
     }
     for (std::uint32_t e = 0; e < c_.shalfedges.size(); ++e) {
-      result_.shalfedges[e].mark = result_.facets[c_.shalfedge_facet[e] >> 1U].mark;
+      result_.shalfedges[e].mark = result_.facets[facet_of(c_.shalfedge_facet[e])].mark;
     }
     for (std::uint32_t l = 0; l < c_.sloops.size(); ++l) {
-      result_.sloops[l].mark = result_.facets[c_.sloop_facet[l] >> 1U].mark;
+      result_.sloops[l].mark = result_.facets[facet_of(c_.sloop_facet[l])].mark;
     }
     for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) {
       const SphereMapView map = c_.sphere_map(v);

@@ -35,7 +35,7 @@ Corners roomy(const Corners& box) {
 
 }  // namespace
 
-bool is_cobounded(const Polyhedron& a) { return a.complex().volumes[0].mark == 1; }
+bool is_cobounded(const Polyhedron& a) { return a.complex().volumes[kOuterVolume].mark == 1; }
 
 NearHoles near_holes(const Polyhedron& a, const Polyhedron& b) {
   const std::optional<Corners> holes = bounding_box(complement(a));

@@ -35,7 +35,7 @@ std::set<std::array<Rational, 4>> dividing_planes(const Complex& c) {
   for (const ReflexEdge& edge : reflex_edges(c, 2)) result.insert(coefficients(c.svertices[edge.halfedge].p));
   for (const std::uint32_t v : lonely_vertices(c))
     result.insert({1, 0, 0, Rational(-c.points.rational(PointId(v))[0])});
-  for (std::uint32_t f = 0; f < c.facet_count(); ++f) {
+  for (const FacetId f : c.facets.ids()) {
     if (!selected(c.facets[f].mark) || c.planes.infimaximal(c.facets[f].plane)) continue;
     for (const ReflexCorner& corner : reflex_corners(c, f)) {
       const std::array<Rational, 4> own = coefficients(c.facets[f].plane);
@@ -77,22 +77,22 @@ class SpanReader {
  public:
   explicit SpanReader(const Complex& complex)
       : c_(complex), on_box_(complex.svertices.size(), false), facets_of_volume_(complex.volume_count()) {
-    for (std::uint32_t f = 0; f < c_.facet_count(); ++f) {
+    for (const FacetId f : c_.facets.ids()) {
       const Facet& facet = c_.facets[f];
       facets_of_volume_[facet.volume_above].push_back(f);
       if (facet.volume_below != facet.volume_above) facets_of_volume_[facet.volume_below].push_back(f);
       if (!c_.planes.infimaximal(facet.plane)) continue;
-      for (const std::uint32_t corner : c_.facet_corners(facet)) on_box_[edge(c_.corner_halfedge(corner))] = true;
+      for (const std::uint32_t corner : c_.corners_of(facet)) on_box_[edge(c_.corner_halfedge(corner))] = true;
     }
   }
 
   std::vector<SpannedSet> volumes() {
     std::vector<SpannedSet> result;
-    for (std::uint32_t v = 0; v < c_.volume_count(); ++v) {
+    for (const VolumeId v : c_.volumes.ids()) {
       if (!selected(c_.volumes[v].mark)) continue;
       begin();
       bool any = false;
-      for (const std::uint32_t f : facets_of_volume_[v]) {
+      for (const FacetId f : facets_of_volume_[v]) {
         add_facet(f);
         any = any || !c_.planes.infimaximal(c_.facets[f].plane);
       }
@@ -105,7 +105,7 @@ class SpanReader {
   // Facets, edges and vertices.
   std::vector<SpannedSet> others() {
     std::vector<SpannedSet> result;
-    for (std::uint32_t f = 0; f < c_.facet_count(); ++f) {
+    for (const FacetId f : c_.facets.ids()) {
       if (!selected(c_.facets[f].mark) || c_.planes.infimaximal(c_.facets[f].plane)) continue;
       begin();
       add_facet(f);
@@ -163,27 +163,25 @@ class SpanReader {
     if (!c_.points.finite(PointId(from)) && !c_.points.finite(PointId(to))) points_.insert(part(from, 0));
   }
 
-  void add_facet(std::uint32_t f) {
+  void add_facet(FacetId f) {
     const Facet& facet = c_.facets[f];
     bool bounded_by_edges = false;
-    for (const std::uint32_t corner : c_.facet_corners(facet)) {
+    for (const std::uint32_t corner : c_.corners_of(facet)) {
       const std::uint32_t h = edge(c_.corner_halfedge(corner));
       add_vertex(c_.shalfedge_owner[corner]);
       if (on_box_[h]) continue;
       bounded_by_edges = true;
       add_edge(h);
     }
-    for (std::uint32_t i = 0; i < facet.isolated_count; ++i) {
-      add_vertex(c_.isolated_vertices[facet.first_isolated + i]);
-    }
+    for (const std::uint32_t v : c_.isolated_vertices_of(facet)) add_vertex(v);
     if (c_.planes.infimaximal(facet.plane) || bounded_by_edges) return;
     // A whole plane: the constant part of any corner lies on it.
-    points_.insert(part(c_.shalfedge_owner[c_.facet_corners(facet)[0]], 0));
+    points_.insert(part(c_.shalfedge_owner[c_.corners_of(facet)[0]], 0));
   }
 
   const Complex& c_;
   std::vector<bool> on_box_;  // per edge (its smaller halfedge): in a wall of the box
-  std::vector<std::vector<std::uint32_t>> facets_of_volume_;
+  IndexedVector<VolumeId, std::vector<FacetId>> facets_of_volume_;
   std::set<Rational3> points_, rays_;
 };
 

@@ -71,7 +71,7 @@ std::span<const std::uint32_t> ExactCells::corners(std::uint32_t face) const {
 
 PointId ExactCells::point(std::uint32_t cell, std::uint32_t vertex) {
   std::uint32_t& id = point_of_[rounded_.first_vertex(cell) + vertex];
-  if (id == kNone) id = points.push(cells_[cell].mesh.vertices[vertex]).value;
+  if (id == kNone) id = points.push(cells_[cell].mesh.vertices[vertex]).index();
   return PointId{id};
 }
 

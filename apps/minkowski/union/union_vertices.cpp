@@ -14,7 +14,7 @@ UnionVertices::UnionVertices(std::span<const ConvexCell> cells, const RoundedCel
 std::uint32_t UnionVertices::add_vertex(std::uint32_t cell, std::uint32_t vertex) {
   const PointId point = exact_.point(cell, vertex);
   const std::uint32_t name = find_or_add(point);
-  if (name == point.value && located_.insert(name).second) add_point(point);
+  if (name == point.index() && located_.insert(name).second) add_point(point);
   return name;
 }
 
@@ -58,7 +58,7 @@ void UnionVertices::add_meeting(std::uint32_t f, std::uint32_t g, std::uint32_t 
     mpz_divexact(coordinates[i].get_mpz_t(), coordinates[i].get_mpz_t(), divisor.get_mpz_t());
   }
   const PointId point = points.push_homogeneous(coordinates);
-  if (find_or_add(point) == point.value) {
+  if (find_or_add(point) == point.index()) {
     add_point(point);
   } else {
     points.pop();
@@ -72,8 +72,8 @@ std::uint32_t UnionVertices::find_or_add(PointId point) {
   for (auto at = first; at != last; ++at) {
     if (exact_.points.identical(PointId{at->second}, point)) return at->second;
   }
-  seen_.emplace(hash, point.value);
-  return point.value;
+  seen_.emplace(hash, point.index());
+  return point.index();
 }
 
 // A pyramid whose planes are among those of another one holds that one. Sums of cells that share a
@@ -125,10 +125,10 @@ void UnionVertices::add_point(PointId point) {
   });
   if (inside || touched.empty()) return;
   work_ += 3000 * touched.size();
-  std::vector<std::uint32_t>& faces = faces_at_[point.value];
+  std::vector<std::uint32_t>& faces = faces_at_[point.index()];
   for (const CellLocation& at : touched) faces.insert(faces.end(), at.faces.begin(), at.faces.end());
   std::sort(faces.begin(), faces.end());
-  near_.emplace(grid_cell(exact_.points.approximate(point)), point.value);
+  near_.emplace(grid_cell(exact_.points.approximate(point)), point.index());
   drop_covered(touched);
   SphereMapBuffer* map = &maps_[0];
   exact_.pyramid(touched[0], *map);

@@ -48,7 +48,7 @@ ClearanceField::ClearanceField(const FreeSpace& free) {
   for (const Wall& wall : walls.walls()) {
     const CellId cell = free.tree().leaves()[wall.on].cell;
     if (cell == kNoCell) continue;
-    const Facet& facet = c.facets[free.cells().index(cell)];
+    const Facet& facet = c.facets[FacetId{free.cells().index(cell)}];
     const bool boundary = !free.is_free(free.cells().volume(facet.volume_above)) ||
                           !free.is_free(free.cells().volume(facet.volume_below)) || !free.is_free(cell);
     if (!boundary) continue;
@@ -58,7 +58,7 @@ ClearanceField::ClearanceField(const FreeSpace& free) {
   }
   // Forbidden edges and points may lie in no facet.
   const CellNumbering& cells = free.cells();
-  for (CellId cell = 0; cell < cells.facet(0); ++cell) {
+  for (CellId cell = 0; cell < cells.facet(FacetId{0}); ++cell) {
     if (free.is_free(cell)) continue;
     const std::vector<Rational3> ends = free.vertices(cell);
     const Vector3d a = to_vector(ends.front());

@@ -26,14 +26,14 @@ void append_incidences(const Complex& complex, const CellNumbering& cells, std::
     if (map.svertices[s].out == kNone) pairs.emplace_back(edge, volume(map.svertices[s].sface));
   }
   for (std::uint32_t e = 0; e < map.shalfedges.size(); ++e) {
-    const CellId facet = cells.facet(complex.shalfedge_facet[record.shalfedges + e] >> 1U);
+    const CellId facet = cells.facet(facet_of(complex.shalfedge_facet[record.shalfedges + e]));
     const CellId edge = cells.edge(record.svertices + map.shalfedges[e].source);
     pairs.emplace_back(vertex, facet);
     pairs.emplace_back(edge, facet);
     pairs.emplace_back(edge, volume(map.shalfedges[e].sface));
   }
   for (std::uint32_t l = 0; l < map.sloops.size(); ++l) {
-    pairs.emplace_back(vertex, cells.facet(complex.sloop_facet[record.sloops + l] >> 1U));
+    pairs.emplace_back(vertex, cells.facet(facet_of(complex.sloop_facet[record.sloops + l])));
   }
   for (std::uint32_t f = 0; f < map.sfaces.size(); ++f) pairs.emplace_back(vertex, volume(f));
 }
@@ -74,9 +74,9 @@ CellId FreeSpace::locate(const ExactPoint& point) const {
     case Location::Kind::kEdge:
       return cells_.edge(at.index);
     case Location::Kind::kFacet:
-      return cells_.facet(at.index);
+      return cells_.facet(at.facet());
     default:
-      return cells_.volume(at.index);
+      return cells_.volume(at.volume());
   }
 }
 
@@ -84,7 +84,7 @@ void FreeSpace::connect() {
   const Complex& c = complex();
   CellPairs pairs;
   for (std::uint32_t v = 0; v < c.vertex_count(); ++v) append_incidences(c, cells_, v, pairs);
-  for (std::uint32_t f = 0; f < c.facet_count(); ++f) {
+  for (const FacetId f : c.facets.ids()) {
     pairs.emplace_back(cells_.facet(f), cells_.volume(c.facets[f].volume_above));
     pairs.emplace_back(cells_.facet(f), cells_.volume(c.facets[f].volume_below));
   }
@@ -134,7 +134,7 @@ void FreeSpace::find_components() {
     ++component.cells;
     component.dimension = std::max(component.dimension, cells_.dimension(cell));
     // Without an infimaximal box only the outer volume is unbounded.
-    if (cell == cells_.volume(0)) component.bounded = false;
+    if (cell == cells_.volume(kOuterVolume)) component.bounded = false;
   }
 }
 
@@ -194,7 +194,7 @@ std::vector<Rational3> FreeSpace::vertices(CellId cell) const {
       break;
     }
     case 2:
-      for (const std::uint32_t corner : c.cycle(c.facets[i].first_cycle)) {
+      for (const std::uint32_t corner : c.corners_of(c.facets[FacetId{i}].first_cycle)) {
         result.push_back(c.points.rational(PointId{c.shalfedge_owner[corner]}));
       }
       break;

@@ -19,7 +19,7 @@ CellPool::CellPool(std::shared_ptr<const FreeSpace> freeSpace) : freeSpace_(std:
   }
   // Rooms may also meet in a mere edge or vertex, without any passage between them.
   const CellNumbering& numbering = freeSpace_->cells();
-  for (CellId cell = 0; cell < numbering.facet(0); ++cell) {
+  for (CellId cell = 0; cell < numbering.facet(FacetId{0}); ++cell) {
     if (!freeSpace_->is_free(cell)) continue;
     std::size_t rooms = 0;
     for (const CellId other : freeSpace_->neighbours(cell)) rooms += numbering.dimension(other) == 3 ? 1 : 0;

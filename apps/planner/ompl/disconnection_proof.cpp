@@ -37,7 +37,7 @@ std::vector<std::uint32_t> DisconnectionProof::boundaryFacets(std::uint32_t comp
   const Complex& c = freeSpace_->complex();
   const CellNumbering& cells = freeSpace_->cells();
   std::vector<std::uint32_t> result;
-  for (std::uint32_t f = 0; f < c.facet_count(); ++f) {
+  for (const FacetId f : c.facets.ids()) {
     const std::array<CellId, 3> around{cells.facet(f), cells.volume(c.facets[f].volume_above),
                                        cells.volume(c.facets[f].volume_below)};
     bool mine = false;
@@ -49,7 +49,7 @@ std::vector<std::uint32_t> DisconnectionProof::boundaryFacets(std::uint32_t comp
         mine = mine || freeSpace_->component(cell) == component;
       }
     }
-    if (mine && obstacle) result.push_back(f);
+    if (mine && obstacle) result.push_back(f.index());
   }
   return result;
 }

@@ -25,9 +25,9 @@ LabelId CellNumbering::mark(CellId cell) const {
     case 1:
       return complex_->svertices[halfedge_of_edge_[i]].mark;
     case 2:
-      return complex_->facets[i].mark;
+      return complex_->facets[FacetId{i}].mark;
     default:
-      return complex_->volumes[i].mark;
+      return complex_->volumes[VolumeId{i}].mark;
   }
 }
 

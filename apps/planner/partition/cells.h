@@ -24,8 +24,8 @@ class CellNumbering {
 
   [[nodiscard]] CellId vertex(std::uint32_t v) const { return v; }
   [[nodiscard]] CellId edge(std::uint32_t halfedge) const { return edges_ + edge_of_halfedge_[halfedge]; }
-  [[nodiscard]] CellId facet(std::uint32_t f) const { return facets_ + f; }
-  [[nodiscard]] CellId volume(std::uint32_t v) const { return volumes_ + v; }
+  [[nodiscard]] CellId facet(FacetId f) const { return facets_ + f.index(); }
+  [[nodiscard]] CellId volume(VolumeId v) const { return volumes_ + v.index(); }
 
   /// 0 vertex, 1 edge, 2 facet, 3 volume.
   [[nodiscard]] int dimension(CellId cell) const {

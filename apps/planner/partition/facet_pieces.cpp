@@ -25,7 +25,7 @@ bool convex_at(const Complex& complex, std::uint32_t corner) {
 
 bool is_convex(const Complex& complex, const Facet& facet) {
   if (facet.cycle_count != 1) return false;
-  for (const std::uint32_t corner : complex.facet_corners(facet)) {
+  for (const std::uint32_t corner : complex.corners_of(facet)) {
     if (!convex_at(complex, corner)) return false;
   }
   return true;
@@ -34,8 +34,7 @@ bool is_convex(const Complex& complex, const Facet& facet) {
 // Cuts a polygon until no edge of the facet runs through it.
 class Cutter {
  public:
-  Cutter(const Complex& complex, std::uint32_t f, const PlaneTable& planes, PointTable& points,
-         std::vector<ConvexPiece>& out)
+  Cutter(const Complex& complex, FacetId f, const PlaneTable& planes, PointTable& points, std::vector<ConvexPiece>& out)
       : complex_(complex), f_(f), planes_(planes), points_(points), out_(out) {}
 
   void cut(ConvexPiece polygon, std::vector<ConvexPiece> edges) {
@@ -69,7 +68,7 @@ class Cutter {
   }
 
   const Complex& complex_;
-  std::uint32_t f_;
+  FacetId f_;
   const PlaneTable& planes_;
   PointTable& points_;
   std::vector<ConvexPiece>& out_;
@@ -77,15 +76,15 @@ class Cutter {
 
 }  // namespace
 
-void append_facet_pieces(const Complex& complex, std::uint32_t f, CellId cell, const PlaneTable& planes,
-                         PointTable& points, const std::array<PlaneId, 6>& box, std::vector<ConvexPiece>& pieces) {
+void append_facet_pieces(const Complex& complex, FacetId f, CellId cell, const PlaneTable& planes, PointTable& points,
+                         const std::array<PlaneId, 6>& box, std::vector<ConvexPiece>& pieces) {
   const Facet& facet = complex.facets[f];
   if (is_convex(complex, facet)) {
     ConvexPiece piece;
     piece.cell = cell;
     piece.dimension = 2;
     piece.p = facet.plane;
-    for (const std::uint32_t corner : complex.facet_corners(facet)) {
+    for (const std::uint32_t corner : complex.corners_of(facet)) {
       piece.points.push_back(PointId{complex.shalfedge_owner[corner]});
       piece.sides.push_back(side_plane(complex, facet, complex.corner_halfedge(corner)));
       piece.seams.push_back(false);
@@ -94,7 +93,7 @@ void append_facet_pieces(const Complex& complex, std::uint32_t f, CellId cell, c
     return;
   }
   std::vector<ConvexPiece> edges;
-  for (const std::uint32_t corner : complex.facet_corners(facet)) {
+  for (const std::uint32_t corner : complex.corners_of(facet)) {
     const std::uint32_t halfedge = complex.corner_halfedge(corner);
     ConvexPiece edge;
     edge.dimension = 1;
@@ -108,14 +107,14 @@ void append_facet_pieces(const Complex& complex, std::uint32_t f, CellId cell, c
   Cutter(complex, f, planes, points, pieces).cut(std::move(whole), std::move(edges));
 }
 
-bool facet_contains(const Complex& complex, std::uint32_t f, const Rational3& point) {
+bool facet_contains(const Complex& complex, FacetId f, const Rational3& point) {
   const Facet& facet = complex.facets[f];
   std::size_t axis = 0;  // dropped: a component of the normal that is not zero
   while (complex.planes.coefficient(facet.plane, axis).sign() == 0) ++axis;
   const std::size_t u = (axis + 1) % 3;
   const std::size_t v = (axis + 2) % 3;
   bool inside = false;
-  for (const std::uint32_t corner : complex.facet_corners(facet)) {
+  for (const std::uint32_t corner : complex.corners_of(facet)) {
     const std::uint32_t halfedge = complex.corner_halfedge(corner);
     const Rational3 a = complex.points.rational(PointId{complex.svertex_owner[halfedge]});
     const Rational3 b = complex.points.rational(PointId{complex.target(halfedge)});

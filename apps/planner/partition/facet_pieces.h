@@ -11,10 +11,10 @@ namespace nef::planner {
 /// piece. Others are cut along the lines of their boundary edges: O(k^2) pieces at worst for k
 /// edges. New points are appended to `points`, which begins with the points of the complex; `planes`
 /// begins with its planes.
-void append_facet_pieces(const Complex& complex, std::uint32_t f, CellId cell, const PlaneTable& planes,
-                         PointTable& points, const std::array<PlaneId, 6>& box, std::vector<ConvexPiece>& pieces);
+void append_facet_pieces(const Complex& complex, FacetId f, CellId cell, const PlaneTable& planes, PointTable& points,
+                         const std::array<PlaneId, 6>& box, std::vector<ConvexPiece>& pieces);
 
 /// True if the point of the facet's plane lies in the facet; it must not lie on its boundary. O(k).
-bool facet_contains(const Complex& complex, std::uint32_t f, const Rational3& point);
+bool facet_contains(const Complex& complex, FacetId f, const Rational3& point);
 
 }  // namespace nef::planner

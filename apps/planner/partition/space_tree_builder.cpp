@@ -48,7 +48,7 @@ class SpaceTreeBuilder {
       if (complex_.twin[h] < h) continue;
       pieces.push_back(edge_piece(h));
     }
-    for (std::uint32_t f = 0; f < complex_.facet_count(); ++f) {
+    for (const FacetId f : complex_.facets.ids()) {
       append_facet_pieces(complex_, f, cells_.facet(f), tree_.planes, points_, tree_.box, pieces);
     }
     tree_.root = build(std::move(pieces), Region{});

@@ -65,8 +65,8 @@ void StationMaker::seam(std::uint32_t i) {
 
 Nudge StationMaker::normal(PlaneId plane) const { return Direction::normal(complex_.planes, plane).integers(); }
 
-void StationMaker::facet_and_volume(const ExactPoint& point, const SHalfedge& e, std::uint32_t facet,
-                                    std::uint32_t volume, const Nudge& along, bool at_vertex) {
+void StationMaker::facet_and_volume(const ExactPoint& point, const SHalfedge& e, FacetId facet, VolumeId volume,
+                                    const Nudge& along, bool at_vertex) {
   const Nudge n = normal(e.plane);
   const Nudge inward = cross(n, along);
   const std::array<Nudge, 3> nudges =
@@ -98,13 +98,13 @@ void StationMaker::vertex(std::uint32_t v) {
   for (std::uint32_t e = 0; e < map.shalfedges.size(); ++e) {
     const SHalfedge& shalfedge = map.shalfedges[e];
     const Nudge along = direction_of(complex_.planes, map.svertices[shalfedge.source]).integers();
-    facet_and_volume(point, shalfedge, complex_.shalfedge_facet[record.shalfedges + e] >> 1U,
+    facet_and_volume(point, shalfedge, facet_of(complex_.shalfedge_facet[record.shalfedges + e]),
                      volume_of(shalfedge.sface), along, true);
   }
   for (std::uint32_t l = 0; l < map.sloops.size(); ++l) {
     SHalfedge like;
     like.plane = map.sloops[l].plane;
-    facet_and_volume(point, like, complex_.sloop_facet[record.sloops + l] >> 1U, volume_of(map.sloops[l].sface),
+    facet_and_volume(point, like, facet_of(complex_.sloop_facet[record.sloops + l]), volume_of(map.sloops[l].sface),
                      across(normal(like.plane)), true);
   }
   if (map.trivial() && selected_(cells_.volume(volume_of(0)))) add(tree_.leaf_at(point, axes()));
@@ -128,7 +128,7 @@ void StationMaker::edge(std::uint32_t h) {
     const Nudge along = direction_of(complex_.planes, svertex).integers();
     std::uint32_t e = svertex.out;
     do {
-      facet_and_volume(point, map.shalfedges[e], complex_.shalfedge_facet[record.shalfedges + e] >> 1U,
+      facet_and_volume(point, map.shalfedges[e], facet_of(complex_.shalfedge_facet[record.shalfedges + e]),
                        volume_of(map.shalfedges[e].sface), along, false);
       e = map.next_around(e);
     } while (e != svertex.out);

@@ -34,8 +34,8 @@ class StationMaker {
   void vertex(std::uint32_t v);
   void edge(std::uint32_t h);
   // The zones of the facet and of the volume that begin at a point of their boundary, to the left of direction `along`.
-  void facet_and_volume(const ExactPoint& point, const SHalfedge& e, std::uint32_t facet, std::uint32_t volume,
-                        const Nudge& along, bool at_vertex);
+  void facet_and_volume(const ExactPoint& point, const SHalfedge& e, FacetId facet, VolumeId volume, const Nudge& along,
+                        bool at_vertex);
   [[nodiscard]] ZoneId zone_of_cell(CellId cell) const { return static_cast<ZoneId>(tree_.leaves().size()) + cell; }
   [[nodiscard]] Nudge normal(PlaneId plane) const;
 

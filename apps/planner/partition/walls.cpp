@@ -76,7 +76,7 @@ class WallCollector {
   void seam(const SpaceTree::Node& cut, const SpaceTree::Node& line, LeafId on, ConvexPiece&& piece) {
     const CellId cell = tree_.leaves()[on].cell;
     if (cell == kNoCell || !wanted_facet_(cell)) return;
-    const bool in_plane = complex_.facets[cells_.index(cell)].plane.row() == cut.plane.row();
+    const bool in_plane = complex_.facets[FacetId{cells_.index(cell)}].plane.row() == cut.plane.row();
     pair_up(in_plane ? line : cut, 1, on, std::move(piece), out_.seams);
   }
 
@@ -121,11 +121,11 @@ void name_volumes(const Complex& complex, const CellNumbering& cells, const std:
     if (tree.leaves()[wall.on].cell == kNoCell) same.unite(wall.below, wall.above);
   }
   // Leaves without walls lie beyond the box around everything, or there are no facets at all: the outer volume.
-  std::vector<CellId> volume(count, cells.volume(0));
+  std::vector<CellId> volume(count, cells.volume(kOuterVolume));
   for (const Wall& wall : walls) {
     const CellId cell = tree.leaves()[wall.on].cell;
     if (cell == kNoCell || cells.dimension(cell) != 2) continue;
-    const Facet& facet = complex.facets[cells.index(cell)];
+    const Facet& facet = complex.facets[FacetId{cells.index(cell)}];
     volume[same.find(wall.below)] = cells.volume(facet.volume_below);
     volume[same.find(wall.above)] = cells.volume(facet.volume_above);
   }

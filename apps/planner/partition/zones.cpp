@@ -34,7 +34,7 @@ Zones::Zones(const Complex& complex, const CellNumbering& cells, SpaceTree& tree
       walls_(
           complex, cells, tree, [&](CellId cell) { return cells.dimension(cell) == 2 && selected(cell); }, patience) {
   s_ = StationMaker(complex, cells, tree, walls_, selected, patience).make();
-  make_lists(tree.leaves().size() + cells.facet(0), zone_begin_, zone_stations_, [&](const auto& visit) {
+  make_lists(tree.leaves().size() + cells.facet(FacetId{0}), zone_begin_, zone_stations_, [&](const auto& visit) {
     for (StationId s = 0; s < s_.stations.size(); ++s) {
       for (const ZoneId zone : zones_of(s)) visit(zone, s);
     }
@@ -76,7 +76,7 @@ ZoneId Zones::zone_at(const ExactPoint& point) const {
   if (cells_->dimension(cell) <= 1) return static_cast<ZoneId>(tree_->leaves().size()) + cell;
   if (cells_->dimension(cell) == 3 || tree_->leaves()[leaf].dimension == 2) return leaf;
   // On a seam inside a facet: take a leaf of the facet beside it.
-  const Nudge n = Direction::normal(complex_->planes, complex_->facets[cells_->index(cell)].plane).integers();
+  const Nudge n = Direction::normal(complex_->planes, complex_->facets[FacetId{cells_->index(cell)}].plane).integers();
   const Nudge u = across(n);
   const std::array<Nudge, 2> nudges{u, cross(n, u)};
   return tree_->leaf_at(point, nudges);

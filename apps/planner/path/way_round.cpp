@@ -27,7 +27,7 @@ std::vector<Place> places(const FreeSpace& free, const CellFilter& filter, std::
   std::vector<Place> result;
   const CellNumbering& cells = free.cells();
   std::size_t edges = 0;
-  for (CellId cell = 0; cell < cells.facet(0); ++cell) {
+  for (CellId cell = 0; cell < cells.facet(FacetId{0}); ++cell) {
     if (!filter(cell)) continue;
     if (cells.dimension(cell) == 0) {
       result.push_back(make_place(free.vertices(cell)[0]));
@@ -37,7 +37,7 @@ std::vector<Place> places(const FreeSpace& free, const CellFilter& filter, std::
   }
   const std::size_t inner =
       edges == 0 || result.size() > limit ? 0 : std::min<std::size_t>(3, (limit - result.size()) / edges);
-  for (CellId cell = 0; cell < cells.facet(0) && inner > 0; ++cell) {
+  for (CellId cell = 0; cell < cells.facet(FacetId{0}) && inner > 0; ++cell) {
     if (!filter(cell) || cells.dimension(cell) != 1) continue;
     const std::vector<Rational3> ends = free.vertices(cell);
     for (std::size_t k = 1; k <= inner; ++k) {

@@ -70,19 +70,19 @@ std::vector<Mesh> connected_parts(const Mesh& mesh) {
 }
 
 // For each volume whether it is an odd number of separating facets away from the outer one; nothing if ways disagree.
-std::optional<std::vector<bool>> odd_volumes(const Complex& c) {
-  std::vector<std::vector<std::uint32_t>> beyond(c.volumes.size());
+std::optional<IndexedVector<VolumeId, bool>> odd_volumes(const Complex& c) {
+  IndexedVector<VolumeId, std::vector<VolumeId>> beyond(c.volumes.size());
   for (const Facet& facet : c.facets) {
     if (facet.volume_above == facet.volume_below) continue;
     beyond[facet.volume_above].push_back(facet.volume_below);
     beyond[facet.volume_below].push_back(facet.volume_above);
   }
-  std::vector<bool> odd(c.volumes.size(), false);
-  std::vector<bool> known(c.volumes.size(), false);
-  std::vector<std::uint32_t> queue{0};
-  known[0] = true;
+  IndexedVector<VolumeId, bool> odd(c.volumes.size(), false);
+  IndexedVector<VolumeId, bool> known(c.volumes.size(), false);
+  std::vector<VolumeId> queue{kOuterVolume};
+  known[kOuterVolume] = true;
   for (std::size_t i = 0; i < queue.size(); ++i) {
-    for (const std::uint32_t volume : beyond[queue[i]]) {
+    for (const VolumeId volume : beyond[queue[i]]) {
       if (!known[volume]) {
         known[volume] = true;
         odd[volume] = !odd[queue[i]];
@@ -97,11 +97,11 @@ std::optional<std::vector<bool>> odd_volumes(const Complex& c) {
 
 // The surface with its odd volumes filled; nothing if it has none or is ambiguous.
 std::optional<Polyhedron> filled(const Polyhedron& surface) {
-  const std::optional<std::vector<bool>> odd = odd_volumes(surface.complex());
+  const std::optional<IndexedVector<VolumeId, bool>> odd = odd_volumes(surface.complex());
   if (!odd || std::find(odd->begin(), odd->end(), true) == odd->end()) return std::nullopt;
   Complex c = surface.complex();
   for (std::uint32_t s = 0; s < c.sfaces.size(); ++s) c.sfaces[s].mark = (*odd)[c.sface_volume(s)] ? 1 : 0;
-  for (std::uint32_t v = 0; v < c.volumes.size(); ++v) c.volumes[v].mark = (*odd)[v] ? 1 : 0;
+  for (const VolumeId v : c.volumes.ids()) c.volumes[v].mark = (*odd)[v] ? 1 : 0;
   return closure(Polyhedron(std::move(c)));  // drops what is inside now
 }
 

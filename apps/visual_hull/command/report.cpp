@@ -109,13 +109,13 @@ MeasuredVolume approximate_volume(const nef::Polyhedron& hull) {
     const bool below = c.volumes[facet.volume_below].mark != 0;
     if (above == below || facet.cycle_count == 0) continue;
     // Twice the facet's area vector, about one of its corners: the products are as small as the facet.
-    const Vec corner0 = at(c.shalfedge_owner[c.cycle(facet.first_cycle).front()]);
+    const Vec corner0 = at(c.shalfedge_owner[c.corners_of(facet.first_cycle).front()]);
     Vec area = Vec::Zero();
     double products = 0;  // two of them make a component of a cross product
     double vague = 0;     // by how much their factors are off
     std::size_t corners_here = 0;
-    for (std::uint32_t k = 0; k < facet.cycle_count; ++k) {
-      for (const std::uint32_t corner : c.cycle(facet.first_cycle + k)) {
+    for (const nef::CycleId k : facet.cycles()) {
+      for (const std::uint32_t corner : c.corners_of(k)) {
         const Vec p = at(c.shalfedge_owner[corner]) - corner0;
         const Vec q = at(c.target(c.corner_halfedge(corner))) - corner0;
         area += p.cross(q);

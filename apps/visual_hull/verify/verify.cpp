@@ -127,9 +127,9 @@ std::vector<std::vector<std::vector<Vec>>> project_facets(const nef::Polyhedron&
   for (const nef::Facet& facet : complex.facets) {
     std::vector<std::vector<Vec>> cycles;
     bool visible = true;
-    for (std::uint32_t c = 0; c < facet.cycle_count; ++c) {
+    for (const nef::CycleId c : facet.cycles()) {
       cycles.emplace_back();
-      for (const std::uint32_t corner : complex.cycle(facet.first_cycle + c)) {
+      for (const std::uint32_t corner : complex.corners_of(c)) {
         const std::uint32_t v = complex.shalfedge_owner[corner];
         visible = visible && front[v];
         cycles.back().push_back(seen[v]);

@@ -15,8 +15,11 @@ class Writer {
     head();
     for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) vertex(v);
     for (std::uint32_t h = 0; h < c_.svertices.size(); ++h) halfedge(h);
-    for (std::uint32_t h = 0; h < 2 * c_.facet_count(); ++h) halffacet(h);
-    for (std::uint32_t v = 0; v < c_.volume_count(); ++v) volume(v);
+    for (const FacetId f : c_.facets.ids()) {
+      halffacet(halffacet_of(f, false));
+      halffacet(halffacet_of(f, true));
+    }
+    for (const VolumeId v : c_.volumes.ids()) volume(v);
     for (std::uint32_t e = 0; e < c_.shalfedges.size(); ++e) shalfedge(e);
     for (std::uint32_t l = 0; l < c_.sloops.size(); ++l) sloop(l);
     for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) sfaces(v);
@@ -30,8 +33,8 @@ class Writer {
   void link_facet_cycles() {
     next_.assign(c_.shalfedges.size(), 0);
     prev_.assign(c_.shalfedges.size(), 0);
-    for (std::uint32_t i = 0; i + 1 < c_.cycle_begin.size(); ++i) {
-      const auto corners = c_.cycle(i);
+    for (const CycleId i : c_.cycle_ids()) {
+      const auto corners = c_.corners_of(i);
       for (std::size_t k = 0; k < corners.size(); ++k) {
         const std::uint32_t here = corners[k];
         const std::uint32_t ahead = corners[(k + 1) % corners.size()];
@@ -123,35 +126,33 @@ class Writer {
     integer(through_origin ? Integer(0).get_mpz_t() : c_.planes.oriented_coefficient(plane, 3).get_mpz_t());
   }
 
-  void halffacet(std::uint32_t h) {
-    const Facet& facet = c_.facets[h >> 1U];
-    const bool above = (h & 1U) == 0;
-    begin(h);
-    number(h ^ 1U);
+  void halffacet(HalffacetId h) {
+    const Facet& facet = c_.facets[facet_of(h)];
+    const bool above = !is_below(h);
+    begin(h.index());
+    number(opposite(h).index());
     text_ += ',';
-    for (std::uint32_t i = 0; i < facet.cycle_count; ++i) {
-      const std::uint32_t corner = c_.cycle(facet.first_cycle + i)[0];
+    for (const CycleId i : facet.cycles()) {
+      const std::uint32_t corner = c_.corners_of(i)[0];
       number(above ? corner ^ 1U : corner);
     }
     text_ += " ,";
-    for (std::uint32_t i = 0; i < facet.isolated_count; ++i) {
-      const VertexRecord& record = c_.vertices[c_.isolated_vertices[facet.first_isolated + i]];
+    for (const std::uint32_t v : c_.isolated_vertices_of(facet)) {
+      const VertexRecord& record = c_.vertices[v];
       // As for shalfedges: the sloop on the opposite plane.
       const bool flipped = c_.sloops[record.sloops].plane.flipped();
       number(record.sloops + (flipped == above ? 0U : 1U));
     }
     text_ += " ,";
-    number(c_.halffacet_volume(h));
+    number(c_.halffacet_volume(h).index());
     plane(above ? facet.plane : facet.plane.opposite(), false);
     end(facet.mark);
   }
 
-  void volume(std::uint32_t v) {
+  void volume(VolumeId v) {
     const Volume& volume = c_.volumes[v];
-    begin(v);
-    for (std::uint32_t s = 0; s < volume.shell_count; ++s) {
-      number(c_.shell_sfaces[c_.shells[volume.first_shell + s].first_sface]);
-    }
+    begin(v.index());
+    for (const ShellId s : volume.shells()) number(c_.sfaces_of(s).front());
     end(volume.mark);
   }
 
@@ -170,7 +171,7 @@ class Writer {
     item(record.sfaces + s.sface);
     item(prev_[e]);
     item(next_[e]);
-    number(c_.shalfedge_facet[e] ^ 1U);
+    number(opposite(c_.shalfedge_facet[e]).index());
     plane(s.plane, true);
     end(s.mark);
   }
@@ -178,13 +179,12 @@ class Writer {
   void sloop(std::uint32_t l) {
     // Sloops come in pairs, one pair for a vertex; both belong to the vertex of the sface of either.
     const SLoop& loop = c_.sloops[l];
-    const std::uint32_t facet = c_.sloop_facet[l];
     begin(l);
     number(l ^ 1U);
     text_ += ',';
     number(c_.vertices[loop_owner(l)].sfaces + loop.sface);
     text_ += ',';
-    number(facet ^ 1U);
+    number(opposite(c_.sloop_facet[l]).index());
     plane(loop.plane, true);
     end(loop.mark);
   }
@@ -213,7 +213,7 @@ class Writer {
       list(SFaceEntry::Kind::kIsolatedVertex, record.svertices);
       list(SFaceEntry::Kind::kLoop, record.sloops);
       text_ += ',';
-      number(c_.sface_volume(record.sfaces + i));
+      number(c_.sface_volume(record.sfaces + i).index());
       end(face.mark);
     }
   }

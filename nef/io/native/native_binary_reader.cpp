@@ -348,9 +348,10 @@ class BinaryReader {
     const auto cycle_counts = column<std::uint32_t>(facets_);
     isolated_counts_ = column<std::uint32_t>(facets_);
     c_.cycle_begin.resize(cycles_ + 1);
-    for (std::uint32_t i = 0; i < cycles_; ++i) {
-      demand(lengths[i] > 0 && lengths[i] <= shalfedges_ / 2 - c_.cycle_begin[i], "a cycle is empty or too long");
-      c_.cycle_begin[i + 1] = c_.cycle_begin[i] + lengths[i];
+    for (const CycleId i : c_.cycle_ids()) {
+      const std::uint32_t length = lengths[i.index()];
+      demand(length > 0 && length <= shalfedges_ / 2 - c_.cycle_begin[i], "a cycle is empty or too long");
+      c_.cycle_begin[i.next()] = c_.cycle_begin[i] + length;
     }
     demand(c_.cycle_begin.back() == shalfedges_ / 2, "some corners are in no cycle");
     c_.corners.resize(shalfedges_ / 2);
@@ -358,47 +359,47 @@ class BinaryReader {
       c_.corners[i] = corners[i];
       demand(corners[i] < shalfedges_, "a corner does not exist");
     }
-    c_.shalfedge_facet.assign(shalfedges_, kNone);
+    c_.shalfedge_facet.assign(shalfedges_, HalffacetId());
     c_.facets.resize(facets_);
     std::uint32_t first = 0;
     std::uint32_t isolated = 0;
     for (std::uint32_t f = 0; f < facets_; ++f) {
       demand(cycle_counts[f] > 0 && cycle_counts[f] <= cycles_ - first, "a facet has no cycle");
       demand(isolated_counts_[f] <= isolated_ - isolated, "a facet has more isolated vertices than there are");
-      Facet& facet = c_.facets[f];
-      facet.first_cycle = first;
+      Facet& facet = c_.facets[FacetId{f}];
+      facet.first_cycle = CycleId{first};
       facet.cycle_count = cycle_counts[f];
       facet.first_isolated = isolated;
       facet.isolated_count = isolated_counts_[f];
-      const SHalfedge& corner = c_.shalfedges[c_.corners[c_.cycle_begin[first]]];
+      const SHalfedge& corner = c_.shalfedges[c_.corners_of(facet.first_cycle).front()];
       facet.plane = corner.plane;
       facet.mark = corner.mark;
       demand(!facet.plane.flipped(), "a facet is seen from the wrong side");
-      for (std::uint32_t k = first; k < first + facet.cycle_count; ++k) check_cycle(f, c_.cycle(k));
+      for (const CycleId k : facet.cycles()) check_cycle(FacetId{f}, c_.corners_of(k));
       first += facet.cycle_count;
       isolated += facet.isolated_count;
     }
     demand(first == cycles_ && isolated == isolated_, "some cycles or isolated vertices belong to no facet");
   }
 
-  void check_cycle(std::uint32_t f, std::span<const std::uint32_t> cycle) {
+  void check_cycle(FacetId f, std::span<const std::uint32_t> cycle) {
     std::uint32_t arriving = c_.twin[c_.corner_halfedge(cycle.back())];
     for (const std::uint32_t corner : cycle) {
       const SHalfedge& e = c_.shalfedges[corner];
-      demand(c_.shalfedge_facet.pairs()[corner / 2] == kNone, "a corner belongs to two facets");
+      demand(!c_.shalfedge_facet.pairs()[corner / 2].valid(), "a corner belongs to two facets");
       demand(e.plane == c_.facets[f].plane && e.mark == c_.facets[f].mark, "a corner belongs to another facet");
       demand(c_.corner_back_halfedge(corner) == arriving, "a cycle leaves its edges");
       arriving = c_.twin[c_.corner_halfedge(corner)];
-      c_.shalfedge_facet.set(corner, 2 * f);
+      c_.shalfedge_facet.set(corner, halffacet_of(f, false));
     }
   }
 
   void isolated_vertices() {
     const auto vertices = column<std::uint32_t>(isolated_);
     c_.isolated_vertices.resize(isolated_);
-    c_.sloop_facet.assign(sloops_, kNone);
+    c_.sloop_facet.assign(sloops_, HalffacetId());
     demand(isolated_ == sloops_ / 2, "the vertices inside facets are not those with sloops");
-    for (std::uint32_t f = 0; f < facets_; ++f) {
+    for (const FacetId f : c_.facets.ids()) {
       const Facet& facet = c_.facets[f];
       for (std::uint32_t i = facet.first_isolated; i < facet.first_isolated + facet.isolated_count; ++i) {
         const std::uint32_t v = vertices[i];
@@ -406,9 +407,9 @@ class BinaryReader {
                "a vertex inside a facet has no sloop");
         for (std::uint32_t l = c_.vertices[v].sloops; l < c_.vertices[v + 1].sloops; ++l) {
           const SLoop& loop = c_.sloops[l];
-          demand(c_.sloop_facet[l] == kNone && loop.plane.row() == facet.plane.row() && loop.mark == facet.mark,
+          demand(!c_.sloop_facet[l].valid() && loop.plane.row() == facet.plane.row() && loop.mark == facet.mark,
                  "a vertex belongs to another facet");
-          c_.sloop_facet[l] = 2 * f + (loop.plane.flipped() ? 1U : 0U);
+          c_.sloop_facet[l] = halffacet_of(f, loop.plane.flipped());
         }
         c_.isolated_vertices[i] = v;
       }
@@ -422,7 +423,7 @@ class BinaryReader {
     demand(volumes_ > 0, "there is no outer volume");
     c_.volumes.resize(volumes_);
     for (std::uint32_t i = 0; i < volumes_; ++i) {
-      c_.volumes[i].mark = mark(marks[i]);
+      c_.volumes[VolumeId{i}].mark = mark(marks[i]);
       demand(i == 0 || marks[i] != kOutside, "only the outer volume is outside");
     }
     c_.shells.resize(shells_);
@@ -430,14 +431,15 @@ class BinaryReader {
       const std::uint32_t volume = volume_of[s];
       demand(volume < volumes_ && (s == 0 || volume == volume_of[s - 1] || volume == volume_of[s - 1] + 1),
              "shells of volumes do not follow each other");
-      c_.shells[s].volume = volume;
-      if (c_.volumes[volume].shell_count++ == 0) c_.volumes[volume].first_shell = s;
+      c_.shells[ShellId{s}].volume = VolumeId{volume};
+      Volume& owner = c_.volumes[VolumeId{volume}];
+      if (owner.shell_count++ == 0) owner.first_shell = ShellId{s};
     }
     demand(shells_ == 0 ? volumes_ == 1 : volume_of[0] == 0 && volume_of[shells_ - 1] + 1 == volumes_,
            "a volume has no boundary");
     fill_shells(shell_of);
     for (Facet& facet : c_.facets) {
-      const std::uint32_t corner = c_.corners[c_.cycle_begin[facet.first_cycle]];
+      const std::uint32_t corner = c_.corners_of(facet).front();
       facet.volume_above = c_.sface_volume(c_.shalfedge_sface(corner));
       facet.volume_below = c_.sface_volume(c_.shalfedge_sface(corner ^ 1U));
     }
@@ -449,8 +451,8 @@ class BinaryReader {
   void fill_shells(const Column<std::uint32_t>& shell_of) {
     c_.sface_shell.resize(sfaces_);
     for (std::uint32_t f = 0; f < sfaces_; ++f) {
-      const std::uint32_t s = shell_of[f];
-      demand(s < shells_, "a shell does not exist");
+      const ShellId s{shell_of[f]};
+      demand(c_.shells.contains(s), "a shell does not exist");
       demand(c_.volumes[c_.shells[s].volume].mark == c_.sfaces[f].mark, "a volume has two marks");
       c_.sface_shell[f] = s;
     }

@@ -51,9 +51,11 @@ class BinaryWriter {
     text_.append(bytes, sizeof(T));
   }
 
-  template <typename T, typename Item, typename Field>
-  void column(const std::vector<Item>& items, Field&& field, std::size_t step = 1) {
-    for (std::size_t i = 0; i < items.size(); i += step) put(static_cast<T>(field(items[i])));
+  template <typename T, typename Items, typename Field>
+  void column(const Items& items, Field&& field, std::size_t step = 1) {
+    const auto first = items.begin();
+    for (std::size_t i = 0; i < items.size(); i += step)
+      put(static_cast<T>(field(first[static_cast<std::ptrdiff_t>(i)])));
   }
   void column(const std::vector<std::uint32_t>& values) {
     text_.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(std::uint32_t));
@@ -136,13 +138,13 @@ class BinaryWriter {
 
   void links() {
     column(c_.twin);
-    for (std::size_t i = 0; i + 1 < c_.cycle_begin.size(); ++i) put(c_.cycle_begin[i + 1] - c_.cycle_begin[i]);
+    for (const CycleId i : c_.cycle_ids()) put(static_cast<std::uint32_t>(c_.corners_of(i).size()));
     column(c_.corners);
     column<std::uint32_t>(c_.facets, [](const Facet& f) { return f.cycle_count; });
     column<std::uint32_t>(c_.facets, [](const Facet& f) { return f.isolated_count; });
     column(c_.isolated_vertices);
-    column(c_.sface_shell);
-    column<std::uint32_t>(c_.shells, [](const Shell& s) { return s.volume; });
+    column<std::uint32_t>(c_.sface_shell, [](ShellId s) { return s.index(); });
+    column<std::uint32_t>(c_.shells, [](const Shell& s) { return s.volume.index(); });
     column<LabelId>(c_.volumes, [](const Volume& v) { return v.mark; });
   }
 

@@ -23,7 +23,8 @@ class Reader {
       corrupt("its vertices do not fit together: " + defect->text());
     }
     Complex& complex = std::get<Complex>(made);
-    if (complex.volumes[0].mark != outer) corrupt("its outer volume is marked otherwise than its vertices say");
+    if (complex.volumes[kOuterVolume].mark != outer)
+      corrupt("its outer volume is marked otherwise than its vertices say");
     if (const std::string broken = detail::validate_links(complex); !broken.empty()) corrupt(broken);
     return Polyhedron(std::move(complex));
   }

@@ -12,7 +12,7 @@ class Writer {
   std::string run() {
     text_ = "nef 1\nplanes " + std::to_string(c_.planes.size()) + " vertices " + std::to_string(c_.vertex_count()) +
             " outer";
-    mark(c_.volumes[0].mark);
+    mark(c_.volumes[kOuterVolume].mark);
     text_ += '\n';
     for (std::uint32_t row = 0; row < c_.planes.size(); ++row) {
       for (std::size_t i = 0; i < 5; ++i) {

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The indices of the items of a complex.
+#pragma once
+
+#include "nef/base/id.h"
+
+namespace nef {
+
+using CycleId = Id<struct CycleTag>;          ///< a closed part of the boundary of a facet
+using FacetId = Id<struct FacetTag>;          ///< both sides of a facet
+using HalffacetId = Id<struct HalffacetTag>;  ///< one side of a facet
+using ShellId = Id<struct ShellTag>;
+using VolumeId = Id<struct VolumeTag>;
+
+/// Volume 0.
+inline constexpr VolumeId kOuterVolume{0};
+
+/// Halffacet 2f is facet f seen from the positive side of its unflipped plane, 2f + 1 from the other side.
+constexpr HalffacetId halffacet_of(FacetId facet, bool below) {
+  return HalffacetId{2 * facet.index() + (below ? 1U : 0U)};
+}
+constexpr FacetId facet_of(HalffacetId halffacet) { return FacetId{halffacet.index() >> 1U}; }
+constexpr bool is_below(HalffacetId halffacet) { return (halffacet.index() & 1U) != 0; }
+/// The other side of the same facet.
+constexpr HalffacetId opposite(HalffacetId halffacet) { return HalffacetId{halffacet.index() ^ 1U}; }
+
+}  // namespace nef

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // nef_bench_tiles cubes [LEVEL...] [--limit N]: tiny cubes off spheres of 8 * 4^LEVEL triangles, in tiles and without.
-// nef_bench_tiles chain [STEPS] [--limit N] [--size D]: many boxes, one after the other, off a sphere of 8 * 4^5
-// triangles, in tiles and without.
+// nef_bench_tiles chain [LEVEL [STEPS]] [--limit N] [--size D]: many boxes one after the other, plain, in tiles, and in
+// tiles where that pays.
+// nef_bench_tiles fold [LEVEL [COUNT]] [--limit N] [--size D]: such boxes off a sphere, all at once and in tiles.
 // CPU seconds of one thread. What is compared runs in turn, in one process.
 #include <cmath>
 #include <cstdlib>
@@ -13,6 +14,8 @@
 
 #include "bench/generators.h"
 #include "bench/report.h"
+#include "nef/io/native/native_binary.h"
+#include "nef/tiles/step_sequence.h"
 #include "nef/tiles/tiled_polyhedron.h"
 
 namespace nef::bench {
@@ -82,25 +85,63 @@ void cubes(int level, const Tiling& tiling) {
       same ? "the same" : "DIFFERENT");
 }
 
-void chain(int steps, double size, const Tiling& tiling) {
-  CubesOffSphere source(5);
-  Polyhedron plain = from_mesh(source.sphere());
-  TiledPolyhedron in_tiles(plain, tiling);
+// Boxes taken off and put back (every fifth one a symmetric difference), plain, in tiles, and in tiles where that pays.
+void chain(int level, int steps, double size, const Tiling& tiling) {
+  CubesOffSphere source(level);
+  const Polyhedron sphere = from_mesh(source.sphere());
+  const auto count = static_cast<std::size_t>(steps);
+  std::array<StepSequence, 3> runs{StepSequence(sphere, count, TileUse::kNever, tiling),
+                                   StepSequence(sphere, count, TileUse::kAlways, tiling),
+                                   StepSequence(sphere, count, TileUse::kWherePays, tiling)};
+  std::array<double, 3> hundred{};
+  std::array<double, 3> total{};
   double first_hundred = 0;
-  double tiled_sum = 0;
-  double plain_sum = 0;
+  double worst = 0;
   for (int i = 1; i <= steps; ++i) {
     const Polyhedron box = source.next(size);
-    tiled_sum += seconds_of([&] { in_tiles = subtract(in_tiles, box); });
-    plain_sum += seconds_of([&] { plain = subtract(plain, box); });
-    if (i % 100 != 0) continue;
-    if (i == 100) first_hundred = tiled_sum;
+    const BooleanOperator op = i % 5 == 0 ? BooleanOperator::kSymmetricDifference : BooleanOperator::kDifference;
+    for (std::size_t k = 0; k < 3; ++k) hundred[k] += seconds_of([&] { runs[k].apply(op, box); });
+    worst = std::max(worst, (total[2] + hundred[2]) / (total[0] + hundred[0]));
+    if (i % 100 != 0 && i != steps) continue;
+    if (i == 100) first_hundred = hundred[1];
     std::printf(
-        "steps %4d to %4d: %zu vertices, plain %.2f ms, tiled %.2f ms, plain / tiled %.2f, tiled / first %.2f, %s\n",
-        i - 99, i, plain.complex().vertex_count(), 10 * plain_sum, 10 * tiled_sum, plain_sum / tiled_sum,
-        tiled_sum / first_hundred, equal(in_tiles.polyhedron(), plain) ? "the same" : "DIFFERENT");
-    tiled_sum = plain_sum = 0;
+        "to step %4d: %zu vertices, plain %.2f ms a step, plain / tiled %.2f, plain / auto %.2f (%zu tiles), "
+        "tiled / its first hundred %.2f\n",
+        i, runs[0].vertex_count(), 10 * hundred[0], hundred[0] / hundred[1], hundred[0] / hundred[2],
+        runs[2].tile_count(), hundred[1] / first_hundred);
+    for (std::size_t k = 0; k < 3; ++k) total[k] += std::exchange(hundred[k], 0);
   }
+  std::array<Polyhedron, 3> results;
+  for (std::size_t k = 0; k < 3; ++k) total[k] += seconds_of([&] { results[k] = runs[k].result(); });
+  const bool same =
+      native_binary(results[0]) == native_binary(results[1]) && native_binary(results[0]) == native_binary(results[2]);
+  std::printf(
+      "result: plain %.2f s; tiled %.2f of it, auto %.2f (without cutting for tiled); auto / plain at the worst "
+      "step so far %.2f; files %s\n",
+      total[0], total[1] / total[0], total[2] / total[0], worst, same ? "the same" : "DIFFERENT");
+}
+
+// All at once: the sphere minus the union of the boxes, with tiles and without.
+void fold(int level, int count, double size, const Tiling& tiling) {
+  CubesOffSphere source(level);
+  const Polyhedron sphere = from_mesh(source.sphere());
+  std::vector<Polyhedron> boxes;
+  for (int i = 0; i < count; ++i) boxes.push_back(source.next(size));
+  Polyhedron at_once;
+  const double plain = seconds_of([&] { at_once = subtract(sphere, unite_all(boxes)); });
+  TiledPolyhedron in_tiles;
+  const double cutting = seconds_of([&] { in_tiles = TiledPolyhedron(sphere, tiling); });
+  const double steps = seconds_of([&] {
+    for (const Polyhedron& box : boxes) in_tiles = subtract(in_tiles, box);
+  });
+  Polyhedron glued;
+  const double gluing = seconds_of([&] { glued = in_tiles.polyhedron(); });
+  std::printf(
+      "%9zu triangles minus %d boxes: minus their union %.3f s; in tiles %.3f s (cutting %.3f, steps %.3f, gluing "
+      "%.3f), "
+      "union / tiles %.2f, %s\n",
+      source.sphere().face_count(), count, plain, cutting + steps + gluing, cutting, steps, gluing,
+      plain / (cutting + steps + gluing), equal(glued, at_once) ? "the same" : "DIFFERENT");
 }
 
 }  // namespace
@@ -110,7 +151,8 @@ int main(int argc, char** argv) {
   const std::vector<std::string> words(argv + 1, argv + argc);
   if (words.empty()) {
     std::fprintf(stderr,
-                 "usage: nef_bench_tiles cubes [LEVEL...] [--limit N] | chain [STEPS] [--size D] [--limit N]\n");
+                 "usage: nef_bench_tiles cubes [LEVEL...] | chain [LEVEL [STEPS]] | fold [LEVEL [COUNT]], [--size D] "
+                 "[--limit N]\n");
     return 2;
   }
   try {
@@ -127,7 +169,9 @@ int main(int argc, char** argv) {
       }
     }
     if (words[0] == "chain") {
-      nef::bench::chain(numbers.empty() ? 1000 : numbers[0], size, tiling);
+      nef::bench::chain(numbers.empty() ? 5 : numbers[0], numbers.size() < 2 ? 1000 : numbers[1], size, tiling);
+    } else if (words[0] == "fold") {
+      nef::bench::fold(numbers.empty() ? 6 : numbers[0], numbers.size() < 2 ? 1000 : numbers[1], size, tiling);
     } else {
       if (numbers.empty()) numbers = {7, 8};
       for (const int level : numbers) nef::bench::cubes(level, tiling);

@@ -99,8 +99,8 @@ void add_boolean_commands(CLI::App& app, Session& session) {
        [](Sets s, unsigned n) { return s.size() == 2 ? intersect(s[0], s[1]) : intersect_all(s, n); },
        [](const InputSet& inputs, std::size_t count) { return inputs.size() == count; }});
   add(app, session,
-      {"difference", "The points of the first set that are not in the second", 2,
-       [](Sets s, unsigned) { return subtract(s[0], s[1]); },
+      {"difference", "The points of the first set that are in none of the others", kMany,
+       [](Sets s, unsigned n) { return subtract(s[0], unite_all(s.subspan(1), n)); },
        [](const InputSet& inputs, std::size_t) { return inputs == InputSet{0}; }});
   add(app, session,
       {"symdiff", "The points of exactly one of two sets", 2,

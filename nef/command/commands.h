@@ -22,6 +22,7 @@ void add_decimate_command(CLI::App& app, Session& session);
 void add_query_commands(CLI::App& app, Session& session);
 void add_parts_commands(CLI::App& app, Session& session);
 void add_eval_command(CLI::App& app, Session& session, const CommandExtensions& extensions);
+void add_apply_command(CLI::App& app, Session& session, const CommandExtensions& extensions);
 void add_view_commands(CLI::App& app, Session& session);
 
 }  // namespace nef

@@ -32,6 +32,7 @@ void add_commands(CLI::App& app, Session& session, const CommandExtensions& exte
   add_query_commands(app, session);
   add_parts_commands(app, session);
   add_eval_command(app, session, extensions);
+  add_apply_command(app, session, extensions);
   add_view_commands(app, session);
 }
 

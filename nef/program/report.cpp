@@ -61,7 +61,7 @@ Measured measure(int repeat, const std::function<Polyhedron()>& operation) {
   return result;
 }
 
-void finish(Session& session, const std::string& command, const Measured& measured) {
+void finish(Session& session, const std::string& command, const Measured& measured, const Json& more) {
   session.store(measured.set);
   if (!session.json) {
     session.say(summary(measured.set));
@@ -74,6 +74,7 @@ void finish(Session& session, const std::string& command, const Measured& measur
   object["write_s"] = session.write_s;
   object["repeat"] = session.repeat;
   object["predicates"] = predicates_json(measured.predicates);
+  object.update(more);
   object["result"] = info_json(measured.set);
   session.print(std::move(object));
 }

@@ -38,7 +38,7 @@ struct Measured {
 Measured measure(int repeat, const std::function<Polyhedron()>& operation);
 
 /// Writes the result and prints what the flags ask for: a summary or a JSON object with load_s,
-/// op_s, write_s, predicates and result.
-void finish(Session& session, const std::string& command, const Measured& measured);
+/// op_s, write_s, predicates, the members of `more`, and result.
+void finish(Session& session, const std::string& command, const Measured& measured, const Json& more = Json::object());
 
 }  // namespace nef

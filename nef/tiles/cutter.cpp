@@ -2,9 +2,11 @@
 #include "nef/tiles/cutter.h"
 
 #include <algorithm>
+#include <thread>
 
 #include "nef/base/error.h"
 #include "nef/base/interruption.h"
+#include "nef/base/parallel.h"
 #include "nef/complex/local_pyramid.h"
 #include "nef/synthesis/complex_builder.h"
 #include "nef/synthesis/edge_linking.h"
@@ -33,6 +35,25 @@ void for_each_plane(Complex& c, Change&& change) {
   }
   for (SHalfedge& e : c.shalfedges) change(e.plane);
   for (SLoop& l : c.sloops) change(l.plane);
+}
+
+// The planes that a loose complex uses, in the order of the table, and renames them in it. `row`: scratch, kept between
+// calls for one table.
+PlaneTable own_planes(const PlaneTable& all, Complex& piece, std::vector<std::uint32_t>& row) {
+  std::vector<std::uint32_t> used;
+  row.resize(all.size(), kNone);
+  for_each_plane(piece, [&](PlaneId plane) {
+    if (row[plane.row()] != kNone) return;
+    row[plane.row()] = 0;
+    used.push_back(plane.row());
+  });
+  std::sort(used.begin(), used.end());
+  PlaneTable planes;
+  planes.reserve(used.size());
+  for (const std::uint32_t r : used) row[r] = planes.append_new(all, r);
+  for_each_plane(piece, [&row](PlaneId& plane) { plane = PlaneId{row[plane.row()] << 1U | (plane.value & 1U)}; });
+  for (const std::uint32_t r : used) row[r] = kNone;
+  return planes;
 }
 
 }  // namespace
@@ -181,21 +202,8 @@ std::array<Complex, 2> Cutter::cut(const Complex& piece, const AxisPlane& plane)
   return Halves(piece, planes_, plane.intern(planes_), overlay_).run();
 }
 
-// With planes of its own, in the order of the cutter's.
 Complex Cutter::linked(Complex&& piece) {
-  std::vector<std::uint32_t> used;
-  row_.resize(planes_.size(), kNone);
-  for_each_plane(piece, [&](PlaneId plane) {
-    if (row_[plane.row()] != kNone) return;
-    row_[plane.row()] = 0;
-    used.push_back(plane.row());
-  });
-  std::sort(used.begin(), used.end());
-  PlaneTable planes;
-  planes.reserve(used.size());
-  for (const std::uint32_t row : used) row_[row] = planes.append_new(planes_, row);
-  for_each_plane(piece, [this](PlaneId& plane) { plane = PlaneId{row_[plane.row()] << 1U | (plane.value & 1U)}; });
-  for (const std::uint32_t row : used) row_[row] = kNone;
+  PlaneTable planes = own_planes(planes_, piece, row_);
   KnownLinks known;
   known.twin = std::move(piece.twin);
   for (std::uint32_t e = 0; e < piece.shalfedges.size(); ++e) {
@@ -215,26 +223,85 @@ TileRef Cutter::leaf(Complex&& piece) {
   return tile_leaf(Polyhedron(linked(std::move(piece))));
 }
 
-TileRef Cutter::subdivide(Complex&& piece) {
+std::optional<Cutter::Halved> Cutter::halve(const Complex& piece) {
   for (std::size_t attempt = 0; attempt < 3 && piece.vertex_count() > limit_; ++attempt) {
-    const std::optional<AxisPlane> plane = halving_plane(piece, attempt);
+    std::optional<AxisPlane> plane = halving_plane(piece, attempt);
     if (!plane) continue;
-    std::array<Complex, 2> halves = cut(piece, *plane);
+    Halved result{std::move(*plane), {}};
+    result.halves = cut(piece, result.plane);
     // Where all surfaces run across the plane, nothing is gained.
-    const std::size_t most = std::max(halves[0].vertex_count(), halves[1].vertex_count());
-    if (most > piece.vertex_count() - piece.vertex_count() / 8) continue;
-    piece = Complex();
-    TileRef low = subdivide(std::move(halves[0]));
-    return cut_node(*plane, std::move(low), subdivide(std::move(halves[1])));
+    const std::size_t most = std::max(result.halves[0].vertex_count(), result.halves[1].vertex_count());
+    if (most <= piece.vertex_count() - piece.vertex_count() / 8) return result;
   }
-  return leaf(std::move(piece));
+  return std::nullopt;
 }
 
-TileRef subdivided(const Polyhedron& set, std::size_t limit) {
+TileRef Cutter::subdivide(Complex&& piece) {
+  std::optional<Halved> halved = halve(piece);
+  if (!halved) return leaf(std::move(piece));
+  piece = Complex();
+  TileRef low = subdivide(std::move(halved->halves[0]));
+  return cut_node(halved->plane, std::move(low), subdivide(std::move(halved->halves[1])));
+}
+
+namespace {
+
+// A part of a tree that is being made: a piece, or two parts.
+struct Part {
+  Complex piece;
+  AxisPlane plane;
+  std::array<std::size_t, 2> parts{};
+  bool halved = false;
+  TileRef tree;
+};
+
+// Halves the first piece, then its parts, until there are so many.
+std::vector<Part> first_parts(Cutter& cutter, Complex&& piece, std::size_t enough) {
+  std::vector<Part> parts(1);
+  parts[0].piece = std::move(piece);
+  std::size_t pieces = 1;
+  for (std::size_t i = 0; i < parts.size() && pieces < enough; ++i) {
+    std::optional<Cutter::Halved> halved = cutter.halve(parts[i].piece);
+    if (!halved) continue;
+    ++pieces;
+    parts[i].piece = Complex();
+    parts[i].plane = std::move(halved->plane);
+    parts[i].halved = true;
+    for (std::size_t x = 0; x < 2; ++x) {
+      parts[i].parts[x] = parts.size();
+      parts.emplace_back();
+      parts.back().piece = std::move(halved->halves[x]);
+    }
+  }
+  return parts;
+}
+
+TileRef subdivided_in_parallel(Cutter& cutter, Complex&& piece, std::size_t limit, unsigned threads) {
+  constexpr std::size_t kPartsPerThread = 4;
+  const std::size_t workers = threads == 0 ? std::max(1U, std::thread::hardware_concurrency()) : threads;
+  std::vector<Part> parts = first_parts(cutter, std::move(piece), kPartsPerThread * workers);
+  parallel_for(parts.size(), threads, [&](std::size_t i) {
+    if (parts[i].halved) return;
+    std::vector<std::uint32_t> row;
+    Cutter own(own_planes(cutter.planes(), parts[i].piece, row), limit);
+    parts[i].tree = own.subdivide(std::move(parts[i].piece));
+  });
+  for (std::size_t i = parts.size(); i-- > 0;) {
+    Part& part = parts[i];
+    if (part.halved) part.tree = cut_node(part.plane, parts[part.parts[0]].tree, parts[part.parts[1]].tree);
+  }
+  return parts[0].tree;
+}
+
+}  // namespace
+
+TileRef subdivided(const Polyhedron& set, std::size_t limit, unsigned threads) {
   const Complex& complex = set.complex();
   if (complex.vertex_count() <= limit) return tile_leaf(set);
   Cutter cutter(complex.planes, limit);
-  TileRef tree = cutter.subdivide(cutter.loose(complex));
+  Complex piece = cutter.loose(complex);
+  TileRef tree = threads == 1 ? cutter.subdivide(std::move(piece))
+                              : subdivided_in_parallel(cutter, std::move(piece), limit, threads);
   return tree.node->kind == TileNode::Kind::kTile ? tile_leaf(set) : tree;
 }
 

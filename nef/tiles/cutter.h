@@ -19,12 +19,21 @@ class Cutter {
   /// A tile of more vertices than `limit` is cut further.
   Cutter(PlaneTable planes, std::size_t limit) : planes_(std::move(planes)), limit_(limit) {}
 
+  [[nodiscard]] const PlaneTable& planes() const { return planes_; }
+
   /// The loose copy of a complex that has the cutter's planes, with an infimaximal box if it has none.
   Complex loose(const Complex& complex);
 
   /// The parts of a loose complex below and above a plane through its region. O(n), but for the local pyramids on the
   /// plane.
   std::array<Complex, 2> cut(const Complex& piece, const AxisPlane& plane);
+
+  /// A loose complex cut in the middle, if it is larger than the limit and planes can separate its vertices.
+  struct Halved {
+    AxisPlane plane;
+    std::array<Complex, 2> halves;
+  };
+  std::optional<Halved> halve(const Complex& piece);
 
   /// A loose complex as a tree of tiles.
   TileRef subdivide(Complex&& piece);
@@ -40,11 +49,12 @@ class Cutter {
   PlaneTable planes_;
   std::size_t limit_;
   SphereOverlay overlay_;
-  std::vector<std::uint32_t> row_;  // of each plane in the leaf that is being made
+  std::vector<std::uint32_t> row_;  // scratch of linked()
 };
 
-/// A set in its region as a tree of tiles of at most `limit` vertices, where planes can separate them. O(n log n).
-TileRef subdivided(const Polyhedron& set, std::size_t limit);
+/// A set in its region as a tree of tiles of at most `limit` vertices, where planes can separate them, on up to
+/// `threads` threads. O(n log n).
+TileRef subdivided(const Polyhedron& set, std::size_t limit, unsigned threads = 1);
 
 /// The parts of a leaf that is no uniform one on both sides of a plane through its region.
 std::array<TileRef, 2> cut_leaf(const TileRef& leaf, const AxisPlane& plane);

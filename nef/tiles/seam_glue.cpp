@@ -39,6 +39,18 @@ class SeamGlue {
 
   // Into the builder, whose planes are `planes`.
   void run(ComplexBuilder& builder) {
+    std::size_t vertices = 0;
+    VertexRecord items;
+    for (const Leaf& leaf : leaves_) {
+      const VertexRecord& own = leaf.set.complex().vertices.back();
+      vertices += leaf.set.complex().vertex_count();
+      items.svertices += own.svertices;
+      items.shalfedges += own.shalfedges;
+      items.sloops += own.sloops;
+      items.sfaces += own.sfaces;
+      items.entries += own.entries;
+    }
+    builder.reserve(vertices, items);
     for (std::uint32_t i = 0; i < leaves_.size(); ++i) take_leaf(i, builder);
     find_crossings();
     std::sort(members_.begin(), members_.end());

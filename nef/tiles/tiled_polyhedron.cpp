@@ -71,7 +71,7 @@ TileRef transformed(const TileRef& tree, const AffineMap& map, const std::array<
 TiledPolyhedron::TiledPolyhedron() : TiledPolyhedron(uniform_leaf(0), Tiling{}) {}
 
 TiledPolyhedron::TiledPolyhedron(const Polyhedron& set, const Tiling& tiling)
-    : TiledPolyhedron(subdivided(as_set(set), tiling.limit), tiling) {}
+    : TiledPolyhedron(subdivided(as_set(set), tiling.limit, tiling.threads), tiling) {}
 
 TiledPolyhedron::TiledPolyhedron(std::span<const Polyhedron> pieces, const Tiling& tiling)
     : TiledPolyhedron(unite_all(pieces, tiling.threads), tiling) {}

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
+#include <vector>
 
 #include "nef/base/interruption.h"
 #include "nef/base/parallel.h"
@@ -20,85 +22,136 @@ TileRef remarked(const TileRef& tree, const std::array<bool, 2>& f) {
   return f[0] ? tree.complement() : tree;
 }
 
+std::array<TileRef, 2> children(const TileRef& tree) {
+  if (!tree.complemented) return {tree.node->low, tree.node->high};
+  return {tree.node->low.complement(), tree.node->high.complement()};
+}
+
+bool reaches_infinity(const Box& box) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  return std::any_of(box.low.begin(), box.low.end(), [](double x) { return x == -kInfinity; }) ||
+         std::any_of(box.high.begin(), box.high.end(), [](double x) { return x == kInfinity; });
+}
+
 class TreeOverlay {
  public:
   TreeOverlay(const TruthTable& f, const Tiling& tiling) : f_(f), tiling_(tiling) {}
 
-  // `whole`: b reaches exactly as far as the region; otherwise it may reach farther.
-  [[nodiscard]] TileRef run(const TileRef& a, const TileRef& b, bool whole, const Region& region,
-                            unsigned threads) const {
-    check_interruption();
-    if (b.node->kind == Kind::kUniform) return beside_b(a, b.node->mark != 0);
-    if (whole && a.node->kind == Kind::kUniform) return beside_a(a.node->mark != 0, b);
-    if (whole && a.node == b.node) return with_itself(a, a.complemented != b.complemented);
-    if (a.node->kind == Kind::kCut) return below_cut(a, b, whole, region, threads);
-    if (b.node->kind == Kind::kCut) {
-      const AxisPlane& plane = b.node->plane;
-      const std::array<TileRef, 2> halves = cut_leaf(a, plane);
-      return both(a, plane, halves, children(b), {true, true}, region, threads);
+  // What is left to be done for a region.
+  struct Task {
+    TileRef a;
+    TileRef b;
+    bool whole = true;  // b reaches exactly as far as the region; otherwise it may reach farther
+    Region region;
+  };
+  // The same for the two sides of a plane.
+  struct Split {
+    const AxisPlane* plane = nullptr;  // of a node of one of the trees
+    std::array<Task, 2> tasks;
+  };
+
+  // The answer where no tile needs to be looked at.
+  [[nodiscard]] std::optional<TileRef> at_once(const Task& task) const {
+    const auto& [a, b, whole, region] = task;
+    if (b.node->kind == Kind::kUniform) {
+      const bool in_b = b.node->mark != 0;
+      return remarked(a, {value(false, in_b), value(true, in_b)});
     }
-    return leaves(a, b, region);
+    if (!whole) return std::nullopt;
+    if (a.node->kind == Kind::kUniform) {
+      const bool in_a = a.node->mark != 0;
+      return remarked(b, {value(in_a, false), value(in_a, true)});
+    }
+    if (a.node == b.node) {
+      const bool complements = a.complemented != b.complemented;
+      return remarked(a, {value(false, complements), value(true, !complements)});
+    }
+    return std::nullopt;
+  }
+
+  // Nothing for two leaves.
+  [[nodiscard]] std::optional<Split> split(const Task& task) const {
+    const bool cut_a = task.a.node->kind == Kind::kCut;
+    if (!cut_a && task.b.node->kind != Kind::kCut) return std::nullopt;
+    Split result;
+    result.plane = cut_a ? &task.a.node->plane : &task.b.node->plane;
+    const AxisPlane& plane = *result.plane;
+    const std::array<TileRef, 2> of_a = cut_a ? children(task.a) : cut_leaf(task.a, plane);
+    std::array<TileRef, 2> of_b{task.b, task.b};
+    bool whole = task.whole;
+    if (task.b.node->kind == Kind::kCut) {
+      of_b = cut_tree(task.b, plane);
+    } else if (const int side = plane.side(task.b.node->box); side != 0) {
+      const LabelId mark = mark_beyond(*task.b.node, plane, -side);
+      of_b[side < 0 ? 1 : 0] = uniform_leaf((mark != 0) != task.b.complemented ? 1 : 0);
+      whole = false;
+    } else if (task.b.node->vertices <= kSmall && !reaches_infinity(task.b.node->box)) {
+      whole = false;
+    } else {
+      of_b = cut_leaf(task.b, plane);
+    }
+    for (std::size_t x = 0; x < 2; ++x) {
+      result.tasks[x] = {of_a[x], of_b[x], whole, x == 0 ? task.region.below(plane) : task.region.above(plane)};
+    }
+    return result;
+  }
+
+  // The set of a task from those of its parts.
+  [[nodiscard]] TileRef joined(const Task& task, const AxisPlane& plane, const std::array<TileRef, 2>& result) const {
+    if (task.a.node->kind == Kind::kCut && result == children(task.a)) return task.a;
+    TileRef node = cut_node(plane, result[0], result[1]);
+    return shrunk(node) ? tile_leaf(glue_tiles(node, task.region)) : node;
+  }
+
+  [[nodiscard]] TileRef run(const Task& task) const {
+    check_interruption();
+    if (std::optional<TileRef> known = at_once(task)) return *known;
+    const std::optional<Split> parts = split(task);
+    if (!parts) return leaves(task);
+    const TileRef low = run(parts->tasks[0]);
+    return joined(task, *parts->plane, {low, run(parts->tasks[1])});
+  }
+
+  // The same on several threads. The first tasks are split one after the other.
+  [[nodiscard]] TileRef run_in_parallel(const Task& task) const {
+    struct Node {
+      Task task;
+      const AxisPlane* plane = nullptr;
+      std::array<std::size_t, 2> parts{};
+      std::optional<TileRef> result;
+    };
+    std::vector<Node> nodes{{task, nullptr, {}, {}}};
+    constexpr std::size_t kEnough = 256;
+    for (std::size_t i = 0; i < nodes.size() && nodes.size() < kEnough; ++i) {
+      nodes[i].result = at_once(nodes[i].task);
+      if (nodes[i].result) continue;
+      const std::optional<Split> parts = split(nodes[i].task);
+      if (!parts) continue;
+      nodes[i].plane = parts->plane;
+      for (std::size_t x = 0; x < 2; ++x) {
+        nodes[i].parts[x] = nodes.size();
+        nodes.push_back({parts->tasks[x], nullptr, {}, {}});
+      }
+    }
+    std::vector<std::size_t> open;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      if (!nodes[i].result && nodes[i].plane == nullptr) open.push_back(i);
+    }
+    parallel_for(open.size(), tiling_.threads,
+                 [&](std::size_t i) { nodes[open[i]].result = run(nodes[open[i]].task); });
+    for (std::size_t i = nodes.size(); i-- > 0;) {
+      Node& node = nodes[i];
+      if (node.plane == nullptr) continue;
+      node.result = joined(node.task, *node.plane, {*nodes[node.parts[0]].result, *nodes[node.parts[1]].result});
+    }
+    return *nodes[0].result;
   }
 
  private:
-  [[nodiscard]] bool value(bool in_a, bool in_b) const { return f_[2U * (in_a ? 1U : 0U) + (in_b ? 1U : 0U)]; }
-
-  [[nodiscard]] TileRef beside_b(const TileRef& a, bool in_b) const {
-    return remarked(a, {value(false, in_b), value(true, in_b)});
-  }
-  [[nodiscard]] TileRef beside_a(bool in_a, const TileRef& b) const {
-    return remarked(b, {value(in_a, false), value(in_a, true)});
-  }
-  [[nodiscard]] TileRef with_itself(const TileRef& a, bool complements) const {
-    return remarked(a, {value(false, complements), value(true, !complements)});
-  }
-
-  static std::array<TileRef, 2> children(const TileRef& tree) {
-    if (!tree.complemented) return {tree.node->low, tree.node->high};
-    return {tree.node->low.complement(), tree.node->high.complement()};
-  }
-
-  [[nodiscard]] TileRef below_cut(const TileRef& a, const TileRef& b, bool whole, const Region& region,
-                                  unsigned threads) const {
-    const AxisPlane& plane = a.node->plane;
-    std::array<TileRef, 2> parts{b, b};
-    std::array<bool, 2> exact{whole, whole};
-    if (b.node->kind == Kind::kCut) {
-      parts = cut_tree(b, plane);
-    } else if (const int side = plane.side(b.node->box); side != 0) {
-      const std::size_t beyond = side < 0 ? 1 : 0;
-      const LabelId mark = mark_beyond(*b.node, plane, -side);
-      parts[beyond] = uniform_leaf((mark != 0) != b.complemented ? 1 : 0);
-      exact = {false, false};
-    } else if (b.node->vertices <= kSmall && !unbounded(b.node->box)) {
-      exact = {false, false};
-    } else {
-      parts = cut_leaf(b, plane);
-    }
-    return both(a, plane, children(a), parts, exact, region, threads);
-  }
-
   // What is so small meets tiles as it is; it is cheaper to let them drop what is beyond their walls than to cut it.
   static constexpr std::size_t kSmall = 64;
 
-  static bool unbounded(const Box& box) {
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    return std::any_of(box.low.begin(), box.low.end(), [](double x) { return x == -kInfinity; }) ||
-           std::any_of(box.high.begin(), box.high.end(), [](double x) { return x == kInfinity; });
-  }
-
-  [[nodiscard]] TileRef both(const TileRef& a, const AxisPlane& plane, const std::array<TileRef, 2>& of_a,
-                             const std::array<TileRef, 2>& of_b, const std::array<bool, 2>& whole, const Region& region,
-                             unsigned threads) const {
-    std::array<TileRef, 2> result;
-    const auto run_half = [&](std::size_t x) {
-      result[x] = run(of_a[x], of_b[x], whole[x], x == 0 ? region.below(plane) : region.above(plane), threads);
-    };
-    parallel_for(2, threads, run_half);
-    if (a.node->kind == Kind::kCut && result == children(a)) return a;
-    TileRef node = cut_node(plane, result[0], result[1]);
-    return shrunk(node) ? tile_leaf(glue_tiles(node, region)) : node;
-  }
+  [[nodiscard]] bool value(bool in_a, bool in_b) const { return f_[2U * (in_a ? 1U : 0U) + (in_b ? 1U : 0U)]; }
 
   // Two leaves that have become small are better off as one.
   [[nodiscard]] bool shrunk(const TileRef& tree) const {
@@ -106,8 +159,10 @@ class TreeOverlay {
            tree.node->high.node->kind != Kind::kCut && tree.node->vertices < tiling_.limit / 2;
   }
 
-  [[nodiscard]] TileRef leaves(const TileRef& a, const TileRef& b, const Region& region) const {
-    const Polyhedron first = a.node->kind == Kind::kUniform ? leaf_set(a, region) : a.node->set;
+  [[nodiscard]] TileRef leaves(const Task& task) const {
+    const TileRef& a = task.a;
+    const TileRef& b = task.b;
+    const Polyhedron first = a.node->kind == Kind::kUniform ? leaf_set(a, task.region) : a.node->set;
     const auto marks = [&](LabelId x, LabelId y) {
       return static_cast<LabelId>(value((x != 0) != a.complemented, (y != 0) != b.complemented) ? 1 : 0);
     };
@@ -124,7 +179,9 @@ class TreeOverlay {
 }  // namespace
 
 TileRef overlay_trees(const TileRef& a, const TileRef& b, const TruthTable& f, const Tiling& tiling) {
-  return TreeOverlay(f, tiling).run(a, b, true, Region{}, tiling.threads);
+  const TreeOverlay overlay(f, tiling);
+  const TreeOverlay::Task task{a, b, true, Region{}};
+  return tiling.threads == 1 ? overlay.run(task) : overlay.run_in_parallel(task);
 }
 
 std::array<TileRef, 2> cut_tree(const TileRef& tree, const AxisPlane& plane) {

@@ -34,7 +34,7 @@ TEST_CASE("help and version everywhere") {
   CHECK(help.err.empty());
   for (const std::string command :
        {"union", "intersection", "difference", "symdiff", "complement", "interior", "closure", "boundary", "exterior",
-        "regularize", "transform", "info", "check", "equal", "locate", "ray", "convert", "eval"}) {
+        "regularize", "transform", "info", "check", "equal", "locate", "ray", "convert", "eval", "apply"}) {
     CHECK(help.out.find("  " + command) != std::string::npos);
     const Outcome own = here.nef(command + " --help");
     CHECK(own.code == 0);
@@ -48,7 +48,7 @@ TEST_CASE("usage errors are one line and exit code 2") {
   check_refused(here.nef(""), "subcommand");
   check_refused(here.nef("frobnicate a.off"), "frobnicate");
   check_refused(here.nef("union a.off"), "nef union --help");
-  check_refused(here.nef("difference a.off a.off a.off"), "nef difference --help");
+  check_refused(here.nef("difference a.off"), "nef difference --help");
   check_refused(here.nef("convert a.off"), "--output");
   check_refused(here.nef("info a.off --frob"), "--frob");
   check_refused(here.nef("locate a.off 1,2"), "1,2");

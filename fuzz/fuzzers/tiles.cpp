@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Sets in tiles under steps, with cuts through whatever lies there: boxes, flat and empty ones, and half-spaces, open
+// and closed, on a grid. A point is in the set iff the steps say so, by arithmetic on the primitives; and the file of
+// the glued set is that of the plain operations, byte for byte.
+#include <array>
+#include <string>
+#include <vector>
+
+#include "fuzz/fuzzer.h"
+#include "nef/construct/construct.h"
+#include "nef/io/native/native_binary.h"
+#include "nef/operation/canonical_order.h"
+#include "nef/tiles/tiled_polyhedron.h"
+#include "nef/tiles/tree_overlay.h"
+
+namespace nef::fuzz {
+namespace {
+
+constexpr int kGrid = 4;  // coordinates are 0 .. kGrid
+
+// An open or closed set a x + b y + c z + d <= 0, or a box; flat where its corners say so.
+struct Primitive {
+  bool box = true;
+  bool open = false;
+  std::array<int, 6> n{};
+
+  [[nodiscard]] bool holds(const Rational3& p) const {
+    if (!box) {
+      const int side = sgn(Rational(n[0] * p[0] + n[1] * p[1] + n[2] * p[2] + n[3]));
+      return open ? side < 0 : side <= 0;
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (open ? p[i] <= n[i] || p[i] >= n[i + 3] : p[i] < n[i] || p[i] > n[i + 3]) return false;
+    }
+    return true;
+  }
+  [[nodiscard]] Polyhedron make() const {
+    const Polyhedron closed =
+        box ? make_box({n[0], n[1], n[2]}, {n[3], n[4], n[5]}) : make_halfspace(n[0], n[1], n[2], n[3]);
+    return open ? interior(closed) : closed;
+  }
+  [[nodiscard]] std::string text() const {
+    std::string result = box ? "box(" : "halfspace(";
+    for (std::size_t i = 0; i < (box ? 6U : 4U); ++i) result += (i > 0 ? "," : "") + std::to_string(n[i]);
+    return open ? "interior(" + result + "))" : result + ")";
+  }
+};
+
+Primitive random_primitive(Choices& choices) {
+  Primitive result;
+  result.box = choices.below(3) != 2;
+  result.open = choices.one_in(3);
+  if (result.box) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      result.n[i] = choices.between(0, kGrid);
+      result.n[i + 3] = choices.between(result.n[i], kGrid);
+    }
+    return result;
+  }
+  for (std::size_t i = 0; i < 3; ++i) result.n[i] = choices.between(-1, 1);
+  if (result.n[0] == 0 && result.n[1] == 0 && result.n[2] == 0) result.n[choices.below(3)] = 1;
+  result.n[3] = choices.between(-kGrid, kGrid);
+  return result;
+}
+
+// The left fold of steps, plain, in tiles and point by point.
+class Fold {
+ public:
+  explicit Fold(const nef::Tiling& tiling) : tiled_(Polyhedron(), tiling) {}
+
+  void apply(char op, const Fold& other, bool plain_operand) {
+    const auto do_it = [op](const auto& a, const auto& b) {
+      return op == '+'   ? unite(a, b)
+             : op == '*' ? intersect(a, b)
+             : op == '-' ? subtract(a, b)
+                         : symmetric_difference(a, b);
+    };
+    tiled_ = plain_operand ? do_it(tiled_, other.plain_) : do_it(tiled_, other.tiled_);
+    plain_ = do_it(plain_, other.plain_);
+    others_.emplace_back(op, other.steps_text(), std::vector<Fold>{other});
+  }
+  void complement_all() {
+    tiled_ = complement(tiled_);
+    plain_ = complement(plain_);
+    others_.emplace_back('!', std::string(), std::vector<Fold>());
+  }
+  void cut(const AxisPlane& plane) {
+    const auto halves = cut_tree(tiled_.tree(), plane);
+    tiled_ = TiledPolyhedron(cut_node(plane, halves[0], halves[1]), tiled_.tiling());
+  }
+  static Fold of(const Primitive& primitive, const nef::Tiling& tiling) {
+    Fold result(tiling);
+    result.primitive_.push_back(primitive);
+    result.plain_ = primitive.make();
+    result.tiled_ = TiledPolyhedron(result.plain_, tiling);
+    return result;
+  }
+
+  [[nodiscard]] bool holds(const Rational3& p) const {
+    bool in = !primitive_.empty() && primitive_[0].holds(p);
+    for (const Other& other : others_) {
+      const bool b = !other.fold.empty() && other.fold[0].holds(p);
+      in = other.op == '+'   ? in || b
+           : other.op == '*' ? in && b
+           : other.op == '-' ? in && !b
+           : other.op == '^' ? in != b
+                             : !in;
+    }
+    return in;
+  }
+  [[nodiscard]] std::string steps_text() const {
+    std::string result = primitive_.empty() ? "nothing" : primitive_[0].text();
+    for (const Other& other : others_) {
+      result = other.op == '!' ? "!(" + result + ")" : "(" + result + " " + other.op + " " + other.text + ")";
+    }
+    return result;
+  }
+  [[nodiscard]] const TiledPolyhedron& tiled() const { return tiled_; }
+  [[nodiscard]] const Polyhedron& plain() const { return plain_; }
+
+ private:
+  struct Other {
+    Other(char symbol, std::string words, std::vector<Fold> folds)
+        : op(symbol), text(std::move(words)), fold(std::move(folds)) {}
+    char op;
+    std::string text;
+    std::vector<Fold> fold;  // one, but for a complement
+  };
+
+  std::vector<Primitive> primitive_;  // one, or none
+  std::vector<Other> others_;
+  TiledPolyhedron tiled_;
+  Polyhedron plain_;
+};
+
+void random_cuts(const Case& the_case, Fold& fold) {
+  Choices& choices = the_case.choices();
+  for (std::uint32_t i = choices.below(3); i > 0; --i) {
+    Rational at(choices.between(0, 2 * kGrid), 2);
+    at.canonicalize();
+    const std::size_t axis = choices.below(3);
+    the_case.tell(std::string("cut at ") + "xyz"[axis] + " = " + to_string(at));
+    fold.cut(AxisPlane(axis, at));
+  }
+}
+
+Fold random_fold(const Case& the_case, const nef::Tiling& tiling, int depth) {
+  Choices& choices = the_case.choices();
+  Fold result = Fold::of(random_primitive(choices), tiling);
+  random_cuts(the_case, result);
+  for (std::uint32_t i = 1 + choices.below(depth == 0 ? 4 : 2); i > 0; --i) {
+    if (choices.one_in(6)) {
+      result.complement_all();
+    } else {
+      const Fold other = depth < 1 && choices.one_in(3) ? random_fold(the_case, tiling, depth + 1)
+                                                        : Fold::of(random_primitive(choices), tiling);
+      result.apply("+-*^"[choices.below(4)], other, choices.below(2) == 0);
+    }
+    if (choices.one_in(3)) random_cuts(the_case, result);
+  }
+  return result;
+}
+
+void check(const Case& the_case, const Fold& fold) {
+  Choices& choices = the_case.choices();
+  const Polyhedron glued = the_case.valid(fold.tiled().polyhedron(), "glued");
+  for (int i = 0; i < 60; ++i) {
+    Rational3 p;
+    const int denominator = choices.below(4) == 0 ? 3 : 2;
+    for (Rational& x : p) {
+      x = Rational(choices.between(-1, denominator * kGrid + 1), denominator);
+      x.canonicalize();
+    }
+    const std::string where = to_string(p[0]) + "," + to_string(p[1]) + "," + to_string(p[2]);
+    Case::require(contains(fold.tiled(), p) == fold.holds(p), "membership in tiles: at " + where);
+    Case::require(contains(glued, p) == fold.holds(p), "membership when glued: at " + where);
+    the_case.count("points");
+  }
+  Case::require(native_binary(glued) == native_binary(in_canonical_order(fold.plain())), "bytes: of the glued set");
+  Case::require(volume(fold.tiled()) == volume(fold.plain()), "volume: in tiles");
+  the_case.count("tiles", fold.tiled().tile_count());
+}
+
+}  // namespace
+
+void fuzz_tiles(const Case& the_case) {
+  Choices& choices = the_case.choices();
+  const nef::Tiling tiling{choices.below(2) == 0 ? 1024U : 16U + choices.below(40), 1};
+  the_case.tell("at most " + std::to_string(tiling.limit) + " vertices in a tile");
+  const Fold fold = random_fold(the_case, tiling, 0);
+  the_case.tell(fold.steps_text());
+  check(the_case, fold);
+}
+
+}  // namespace nef::fuzz

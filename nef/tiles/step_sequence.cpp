@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/tiles/step_sequence.h"
+
+#include <algorithm>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "nef/operation/canonical_order.h"
+#include "nef/tiles/tile_tree.h"
+
+namespace nef {
+namespace {
+
+// Measured with bench/tiles in units of an operation on the whole set: cutting and gluing together cost about 8, a tile
+// costs what as many vertices of a whole set do, and seams make half of them again.
+constexpr double kCutAndGlue = 8;
+constexpr double kSeams = 1.5;
+constexpr double kOperandCut = 4;     // what is not small is cut on the way to the tiles
+constexpr double kMargin = 1.5;       // what the prediction must exceed the costs by
+constexpr std::size_t kSmallest = 2;  // tiles
+constexpr std::size_t kEvidence = 2;  // steps
+constexpr std::size_t kMemory = 8;    // steps that an average is taken over
+
+Polyhedron combined(BooleanOperator op, const Polyhedron& a, const Polyhedron& b) {
+  switch (op) {
+    case BooleanOperator::kUnion:
+      return unite(a, b);
+    case BooleanOperator::kIntersection:
+      return intersect(a, b);
+    case BooleanOperator::kDifference:
+      return subtract(a, b);
+    case BooleanOperator::kSymmetricDifference:
+      break;
+  }
+  return symmetric_difference(a, b);
+}
+
+TiledPolyhedron combined(BooleanOperator op, const TiledPolyhedron& a, const Polyhedron& b) {
+  switch (op) {
+    case BooleanOperator::kUnion:
+      return unite(a, b);
+    case BooleanOperator::kIntersection:
+      return intersect(a, b);
+    case BooleanOperator::kDifference:
+      return subtract(a, b);
+    case BooleanOperator::kSymmetricDifference:
+      break;
+  }
+  return symmetric_difference(a, b);
+}
+
+using Places = std::span<std::array<double, 3>>;
+
+// Vertices in the tiles that a box would meet, if they were cut. Reorders the places. O(n) for small boxes.
+std::size_t vertices_in(Places places, const Box& box, std::size_t limit) {
+  if (places.size() <= limit) return places.size();
+  Box bounds;
+  for (const std::array<double, 3>& p : places) bounds.add_rounded(p);
+  std::size_t axis = 0;
+  for (std::size_t i = 1; i < 3; ++i) {
+    if (bounds.high[i] - bounds.low[i] > bounds.high[axis] - bounds.low[axis]) axis = i;
+  }
+  const std::size_t middle = places.size() / 2;
+  std::nth_element(places.begin(), places.begin() + static_cast<std::ptrdiff_t>(middle), places.end(),
+                   [axis](const auto& p, const auto& q) { return p[axis] < q[axis]; });
+  const double at = places[middle][axis];
+  std::size_t count = 0;
+  if (box.low[axis] <= at) count += vertices_in(places.first(middle), box, limit);
+  if (box.high[axis] >= at) count += vertices_in(places.subspan(middle), box, limit);
+  return count;
+}
+
+std::size_t vertices_in(const Complex& complex, const Box& box, std::size_t limit) {
+  std::vector<std::array<double, 3>> places;
+  places.reserve(complex.vertex_count());
+  for (std::uint32_t v = 0; v < complex.vertex_count(); ++v) {
+    if (complex.points.finite(PointId{v})) places.push_back(complex.points.approximate(PointId{v}));
+  }
+  return vertices_in(places, box, limit);
+}
+
+std::size_t vertices_in(const TileRef& tree, const Box& box) {
+  if (tree.node->kind != TileNode::Kind::kCut) return tree.node->vertices;
+  const int side = tree.node->plane.side(box);
+  return (side <= 0 ? vertices_in(tree.node->low, box) : 0) + (side >= 0 ? vertices_in(tree.node->high, box) : 0);
+}
+
+}  // namespace
+
+StepSequence::StepSequence(Polyhedron start, std::size_t steps, TileUse use, const Tiling& tiling)
+    : plain_(std::move(start)), left_(steps), use_(use), tiling_(tiling) {
+  if (use_ == TileUse::kAlways) tiled_.emplace(std::exchange(plain_, Polyhedron()), tiling_);
+}
+
+// Vertices that an operation on tiles need not write.
+double StepSequence::saving(const Polyhedron& b) const {
+  const Box box = measure_tile(b.complex()).box;
+  const auto own = static_cast<double>(vertex_count()) / (tiled_ ? kSeams : 1);
+  // A tile of a whole set gets walls.
+  const double touched = tiled_ ? static_cast<double>(vertices_in(tiled_->tree(), box))
+                                : kSeams * static_cast<double>(vertices_in(plain_.complex(), box, tiling_.limit));
+  return own - touched - kOperandCut * static_cast<double>(b.complex().vertex_count());
+}
+
+void StepSequence::choose() {
+  const auto left = static_cast<double>(left_);
+  if (tiled_) {
+    const double own = static_cast<double>(vertex_count()) / kSeams;
+    if (-average_ * left < kCutAndGlue * kMargin * own) return;
+    plain_ = tiled_->polyhedron();
+    tiled_.reset();
+  } else {
+    const auto own = static_cast<double>(vertex_count());
+    if (seen_ < kEvidence || vertex_count() < kSmallest * tiling_.limit) return;
+    if (average_ * left < kCutAndGlue * kMargin * own) return;
+    tiled_.emplace(std::exchange(plain_, Polyhedron()), tiling_);
+  }
+}
+
+void StepSequence::apply(BooleanOperator op, const Polyhedron& b) {
+  if (use_ == TileUse::kWherePays) {
+    choose();
+    ++seen_;
+    average_ += (saving(b) - average_) / static_cast<double>(std::min(seen_, kMemory));
+  }
+  if (tiled_) {
+    tiled_ = combined(op, *tiled_, b);
+  } else {
+    plain_ = combined(op, plain_, b);
+  }
+  left_ -= std::min<std::size_t>(left_, 1);
+}
+
+std::size_t StepSequence::vertex_count() const {
+  return tiled_ ? tiled_->vertex_count() : plain_.complex().vertex_count();
+}
+
+Polyhedron StepSequence::result() const { return tiled_ ? tiled_->polyhedron() : in_canonical_order(plain_); }
+
+}  // namespace nef

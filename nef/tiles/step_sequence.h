@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A set that is changed by one Boolean operation after the other.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "nef/tiles/tiled_polyhedron.h"
+
+namespace nef {
+
+enum class BooleanOperator : std::uint8_t { kUnion, kIntersection, kDifference, kSymmetricDifference };
+
+/// Whether a sequence works in tiles.
+enum class TileUse : std::uint8_t {
+  kNever,
+  kAlways,
+  kWherePays  ///< once the steps so far were small beside the set, and the steps to come are worth the cutting
+};
+
+/// Does a known number of steps, in tiles where that pays. What decides are numbers of vertices, never the time on a
+/// clock, and the result is the same in any case.
+class StepSequence {
+ public:
+  /// `steps`: how many will follow.
+  StepSequence(Polyhedron start, std::size_t steps, TileUse use = TileUse::kWherePays, const Tiling& tiling = {});
+
+  /// The set becomes (the set) op b. Costs what the operation of Polyhedron or TiledPolyhedron does, and the cutting
+  /// where it begins to work in tiles.
+  void apply(BooleanOperator op, const Polyhedron& b);
+
+  /// How many tiles the set is in; none while it is in none.
+  [[nodiscard]] std::size_t tile_count() const { return tiled_ ? tiled_->tile_count() : 0; }
+  /// Vertices of the set, or of all its tiles.
+  [[nodiscard]] std::size_t vertex_count() const;
+
+  /// The set in canonical order.
+  [[nodiscard]] Polyhedron result() const;
+
+ private:
+  void choose();
+  [[nodiscard]] double saving(const Polyhedron& b) const;
+
+  Polyhedron plain_;
+  std::optional<TiledPolyhedron> tiled_;  // instead, while it works in tiles
+  std::size_t left_;
+  TileUse use_;
+  Tiling tiling_;
+  double average_ = 0;  // saving of a step by tiles, in vertices that need not be written; of late
+  std::size_t seen_ = 0;
+};
+
+}  // namespace nef

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// nef apply: many steps on one set.
+#include "command/process.h"
+
+namespace nef::test {
+namespace {
+
+using nlohmann::json;
+
+// A lattice of boxes taken off, some put back.
+std::string lattice(int n) {
+  std::ostringstream text;
+  text << "# steps\n\n";
+  for (int i = 0; i < n; ++i) {
+    for (int k = 0; k < n; ++k) {
+      text << "- box(" << i << ".25," << k << ".25,-1, " << i << ".75," << k << ".75,1)  # a hole\n";
+    }
+    text << "+ box(" << i << ",0,0, " << i << ".5,1/2,1/2)\n";
+  }
+  return text.str();
+}
+
+}  // namespace
+
+TEST_CASE("steps of all operators, with comments, and the promised JSON") {
+  const Workplace here;
+  here.write("a.off", cube_off(0, 2));
+  here.write("steps.txt",
+             "# from a cube\n\n  - box(1,1,1, 2,2,2)\n+ translate(file(\"a.off\"), 3,0,0) # beside it\r\n"
+             "*\thalfspace(0,0,1,-1)\n^ box(0,0,0, 1,1,1)");
+  const Outcome run = here.nef("apply a.off --steps steps.txt -o b.nef --json");
+  REQUIRE(run.code == 0);
+  const json report = run.json();
+  CHECK(report["command"] == "apply");
+  REQUIRE(report["steps"].size() == 4);
+  const std::vector<int> lines{3, 4, 5, 6};
+  const std::vector<std::string> operators{"-", "+", "*", "^"};
+  for (std::size_t i = 0; i < 4; ++i) {
+    CHECK(report["steps"][i]["line"] == lines[i]);
+    CHECK(report["steps"][i]["operator"] == operators[i]);
+    CHECK(report["steps"][i]["s"].get<double>() >= 0);
+    CHECK(report["steps"][i]["tiles"].is_null());
+  }
+  // [0,2]^3 without its upper corner has 7, below z = 1 it has 4, 3 of them outside of the unit cube; and 4 beside it.
+  CHECK(report["result"]["volume"] == "7");
+  const Outcome eval = here.nef(
+      "eval '(file(\"a.off\") - box(1,1,1, 2,2,2) + translate(file(\"a.off\"), 3,0,0)) * halfspace(0,0,1,-1) ^ "
+      "box(0,0,0, 1,1,1)' -o c.nef");
+  REQUIRE(eval.code == 0);
+  CHECK(here.nef("equal b.nef c.nef").code == 0);
+}
+
+TEST_CASE("the same file whatever the tiles and the threads") {
+  const Workplace here;
+  here.write("a.off", cube_off(0, 5));
+  here.write("steps.txt", lattice(5));
+  std::string first;
+  for (const std::string flags : {"--tiles off", "--tiles auto", "--tiles 40", "--tiles 100 --threads 1",
+                                  "--tiles 100 --threads 2", "--tiles 64 --threads 0"}) {
+    CAPTURE(flags);
+    const Outcome run = here.nef("apply a.off --steps steps.txt -o b.nef --json " + flags);
+    REQUIRE(run.code == 0);
+    const json last = run.json()["steps"].back();
+    if (flags.rfind("--tiles off", 0) == 0) CHECK(last["tiles"].is_null());
+    if (flags.find("0 --threads") != std::string::npos) CHECK(last["tiles"].get<int>() > 1);
+    if (first.empty()) first = here.read("b.nef");
+    CHECK(here.read("b.nef") == first);
+  }
+}
+
+TEST_CASE("wrong steps are told with their line, before anything is computed") {
+  const Workplace here;
+  here.write("a.off", cube_off(0, 2));
+  const auto refused = [&here](const std::string& steps, const std::string& words) {
+    here.write("steps.txt", steps);
+    check_refused(here.nef("apply a.off --steps steps.txt -o b.nef"), words);
+    CHECK_FALSE(std::filesystem::exists(here / "b.nef"));
+  };
+  refused("- box(0,0,0, 1,1,1)\n\nbox(0,0,0, 1,1,1)\n", "steps.txt: line 3, column 1: a step begins with");
+  refused("# none\n- box(0,0,0, 1,1)\n", "steps.txt: line 2, column");
+  refused("- file(\"missing.off\")\n", "missing.off");
+  refused("-\n", "steps.txt: line 1");
+  refused("- polygon(0,0,0, 1,0,0, 1,1,1, 0,1,0)\n", "steps.txt: line 1, column");
+  here.write("steps.txt", "- box(0,0,0, 1,1,1)\n");
+  check_refused(here.nef("apply a.off --steps steps.txt --tiles 3 -o b.nef"), "--tiles");
+  check_refused(here.nef("apply a.off --steps steps.txt --tiles -5 -o b.nef"), "--tiles");
+  check_refused(here.nef("apply a.off --steps steps.txt --tiles many -o b.nef"), "many");
+  check_refused(here.nef("apply a.off --steps nowhere.txt -o b.nef"), "nowhere.txt");
+  check_refused(here.nef("apply a.off -o b.nef"), "--steps");
+}
+
+TEST_CASE("the difference from several sets") {
+  const Workplace here;
+  here.write("a.off", cube_off(0, 3));
+  here.write("b.off", cube_off(0, 1));
+  here.write("c.off", cube_off(2, 3));
+  const Outcome run = here.nef("difference a.off b.off c.off --json");
+  REQUIRE(run.code == 0);
+  CHECK(run.json()["result"]["volume"] == "25");
+}
+
+}  // namespace nef::test

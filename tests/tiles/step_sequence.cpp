@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A sequence of steps gives the same set whether it works in tiles or not, and begins to where that pays.
+#include "nef/tiles/step_sequence.h"
+
+#include <catch2/catch.hpp>
+
+#include "nef/construct/round_shapes.h"
+#include "nef/io/native/native_binary.h"
+#include "tests/laws/laws.h"
+
+namespace nef::test {
+namespace {
+
+// A small box at one of many places on a sphere of radius 10.
+Polyhedron notch(int i) {
+  const int x = 3 * i % 7 - 3;
+  const int y = 5 * i % 11 - 5;
+  return make_box({Rational(2 * x + 1, 2), Rational(y), Rational(7)}, {Rational(2 * x + 3, 2), Rational(y + 1), 11});
+}
+
+}  // namespace
+
+TEST_CASE("many small steps are done in tiles, few are not") {
+  const Polyhedron sphere = make_sphere(10, 60);
+  const Tiling tiling{200, 1};
+  StepSequence few(sphere, 6, TileUse::kWherePays, tiling);
+  StepSequence many(sphere, 60, TileUse::kWherePays, tiling);
+  StepSequence never(sphere, 60, TileUse::kNever, tiling);
+  StepSequence always(sphere, 60, TileUse::kAlways, tiling);
+  for (int i = 0; i < 6; ++i) few.apply(BooleanOperator::kDifference, notch(i));
+  CHECK(few.tile_count() == 0);
+  bool begun = false;
+  for (int i = 0; i < 60; ++i) {
+    const auto op = i % 7 == 3 ? BooleanOperator::kSymmetricDifference : BooleanOperator::kDifference;
+    for (StepSequence* sequence : {&many, &never, &always}) sequence->apply(op, notch(i));
+    begun = begun || many.tile_count() > 1;
+  }
+  CHECK(begun);
+  CHECK(never.tile_count() == 0);
+  CHECK(always.tile_count() > 1);
+  CHECK(native_binary(many.result()) == native_binary(never.result()));
+  CHECK(native_binary(always.result()) == native_binary(never.result()));
+}
+
+TEST_CASE("large operands are met without tiles") {
+  const Polyhedron sphere = make_sphere(10, 60);
+  StepSequence sequence(sphere, 30, TileUse::kWherePays, Tiling{200, 1});
+  for (int i = 1; i <= 30; ++i) {
+    sequence.apply(BooleanOperator::kIntersection, make_sphere(10 - Rational(i, 50), 60));
+    CHECK(sequence.tile_count() == 0);
+  }
+}
+
+}  // namespace nef::test

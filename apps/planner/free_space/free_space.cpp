@@ -53,7 +53,8 @@ FreeSpace::FreeSpace(Polyhedron free) : free_(std::move(free)), cells_(free_.com
 FreeSpace::Partition::Partition(const FreeSpace& free, const Patience& patience)
     : tree(free.complex(), free.cells(), patience),
       zones(
-          free.complex(), free.cells(), tree, [&free](CellId cell) { return free.is_free(cell); }, patience) {}
+          free.complex(), free.cells(), tree, [&free](CellId cell) { return free.is_free(cell); }, patience),
+      seconds(watch.seconds()) {}
 
 const FreeSpace::Partition& FreeSpace::partition(const std::function<bool()>& stop) const {
   if (const Partition* ready = ready_.load(std::memory_order_acquire)) return *ready;
@@ -63,6 +64,16 @@ const FreeSpace::Partition& FreeSpace::partition(const std::function<bool()>& st
     ready_.store(partition_.get(), std::memory_order_release);
   }
   return *partition_;
+}
+
+const ItemTree& FreeSpace::items() const {
+  std::call_once(items_once_, [this] { items_ = std::make_unique<const ItemTree>(complex()); });
+  return *items_;
+}
+
+const EmptyGrid& FreeSpace::grid() const {
+  std::call_once(grid_once_, [this] { grid_ = std::make_unique<const EmptyGrid>(complex()); });
+  return *grid_;
 }
 
 CellId FreeSpace::locate(const ExactPoint& point) const {
@@ -89,8 +100,6 @@ void FreeSpace::connect() {
     pairs.emplace_back(cells_.facet(f), cells_.volume(c.facets[f].volume_below));
   }
   std::erase_if(pairs, [&](const auto& pair) { return cells_.mark(pair.first) == 0 || cells_.mark(pair.second) == 0; });
-  std::sort(pairs.begin(), pairs.end());
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   list_neighbours(pairs);
 }
 
@@ -107,6 +116,17 @@ void FreeSpace::list_neighbours(const CellPairs& pairs) {
     neighbours_[next[a]++] = b;
     neighbours_[next[b]++] = a;
   }
+  // Many pairs are seen from several vertices. The lists are short, so sorting each is cheap.
+  auto end = neighbours_.begin();
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    const auto first = neighbours_.begin() + neighbour_begin_[i];
+    const auto last = neighbours_.begin() + neighbour_begin_[i + 1];
+    neighbour_begin_[i] = static_cast<std::uint32_t>(end - neighbours_.begin());
+    std::sort(first, last);
+    end = std::copy(first, std::unique(first, last), end);
+  }
+  neighbour_begin_[cells_.size()] = static_cast<std::uint32_t>(end - neighbours_.begin());
+  neighbours_.erase(end, neighbours_.end());
 }
 
 void FreeSpace::find_components() {

@@ -13,9 +13,12 @@
 #include <string>
 #include <vector>
 
+#include "apps/planner/free_space/empty_grid.h"
+#include "apps/planner/free_space/item_tree.h"
 #include "apps/planner/partition/cells.h"
 #include "apps/planner/partition/space_tree.h"
 #include "apps/planner/partition/zones.h"
+#include "nef/base/stopwatch.h"
 #include "nef/polyhedron.h"
 
 namespace nef::planner {
@@ -58,9 +61,9 @@ struct TightPassage {
 };
 
 /// The truth about where the reference point may be, in two stages: the cells, how they touch, components and passages
-/// are there from the beginning (O(n log n) for n items of the complex); what paths and fast checks need, the partition
-/// of space and its roadmap, is made when first asked for, or by build_roadmap. Its answers never change, and any
-/// number of threads may ask.
+/// are there from the beginning (O(n log n) for n items of the complex); what paths and fast checks need, trees, the
+/// partition of space and its roadmap, is made when first asked for, or by build_roadmap. Its answers never change, and
+/// any number of threads may ask.
 class FreeSpace {
  public:
   /// `free` is the set of free positions; marks other than 0 are free. Throws UnsupportedError for
@@ -77,8 +80,17 @@ class FreeSpace {
   /// then; once it says true, Interrupted is thrown, and nothing is kept.
   void build_roadmap(const std::function<bool()>& stop = {}) const { static_cast<void>(partition(stop)); }
   [[nodiscard]] bool has_roadmap() const { return ready_.load(std::memory_order_acquire) != nullptr; }
+  /// What making it has taken; 0 without it.
+  [[nodiscard]] double roadmap_seconds() const {
+    const Partition* ready = ready_.load(std::memory_order_acquire);
+    return ready == nullptr ? 0 : ready->seconds;
+  }
   [[nodiscard]] const SpaceTree& tree() const { return partition().tree; }
   [[nodiscard]] const Zones& zones() const { return partition().zones; }
+  /// The boundary's items by where they are, made when first asked for: O(n log n), far cheaper than the partition.
+  [[nodiscard]] const ItemTree& items() const;
+  /// Cubes of space that no boundary enters, made when first asked for: O(n).
+  [[nodiscard]] const EmptyGrid& grid() const;
 
   [[nodiscard]] bool is_free(CellId cell) const { return component_[cell] != kNoComponent; }
   /// Component of a free cell.
@@ -118,8 +130,10 @@ class FreeSpace {
 
   struct Partition {
     Partition(const FreeSpace& free, const Patience& patience);
+    Stopwatch watch;
     SpaceTree tree;
     Zones zones;
+    double seconds;
   };
   const Partition& partition(const std::function<bool()>& stop = {}) const;
   void connect();
@@ -147,6 +161,10 @@ class FreeSpace {
   mutable std::mutex building_;
   mutable std::unique_ptr<const Partition> partition_;
   mutable std::atomic<const Partition*> ready_{nullptr};
+  mutable std::once_flag items_once_;
+  mutable std::unique_ptr<const ItemTree> items_;
+  mutable std::once_flag grid_once_;
+  mutable std::unique_ptr<const EmptyGrid> grid_;
 };
 
 }  // namespace nef::planner

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "apps/planner/free_space/direct_walk.h"
 #include "apps/planner/partition/segment_walk.h"
 
 namespace nef::planner {
@@ -16,6 +17,10 @@ bool segment_allowed(const FreeSpace& free, const CellFilter& filter, const Rati
   const ExactPoint pb(b);
   if (a == b) return filter(free.locate(pa));
   bool allowed = true;
+  if (!free.has_roadmap()) {
+    walk_directly(free, a, b, [&](const DirectPart& part) { return allowed = filter(part.cell); });
+    return allowed;
+  }
   walk_segment(free.tree(), pa, pb, [&](const SegmentPart& part) { return allowed = filter(part.cell); });
   return allowed;
 }
@@ -41,8 +46,17 @@ std::optional<Rational3> first_blocked_position(const FreeSpace& free, const Rat
   const ExactPoint pa(a);
   const ExactPoint pb(b);
   if (a == b) return free.is_free(pa) ? std::nullopt : std::optional<Rational3>(a);
-  const ExactSegment segment(free.tree().planes(), pa, pb);
   std::optional<Rational3> result;
+  if (!free.has_roadmap()) {
+    walk_directly(free, a, b, [&](const DirectPart& part) {
+      if (free.is_free(part.cell)) return true;
+      const Rational t = (part.begin + part.end) / 2;
+      result = Rational3{a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])};
+      return false;
+    });
+    return result;
+  }
+  const ExactSegment segment(free.tree().planes(), pa, pb);
   walk_segment(free.tree(), pa, pb, [&](const SegmentPart& part) {
     if (free.is_free(part.cell)) return true;
     result = segment.point((segment.exact(part.begin) + segment.exact(part.end)) / 2);
@@ -56,14 +70,19 @@ std::vector<CellOnSegment> cells_along(const FreeSpace& free, const Rational3& a
   const ExactPoint pa(a);
   const ExactPoint pb(b);
   if (a == b) return {{free.locate(pa), true}};
-  walk_segment(free.tree(), pa, pb, [&](const SegmentPart& part) {
+  const auto add = [&](const auto& part) {
     if (!result.empty() && result.back().cell == part.cell) {
       result.back().is_point = result.back().is_point && part.is_point;
     } else {
       result.push_back({part.cell, part.is_point});
     }
     return true;
-  });
+  };
+  if (free.has_roadmap()) {
+    walk_segment(free.tree(), pa, pb, add);
+  } else {
+    walk_directly(free, a, b, add);
+  }
   return result;
 }
 

@@ -130,7 +130,14 @@ void FreeSpace::find_touching_rooms() {
     return rooms;
   };
   const auto wanted = [&](CellId cell) {
-    return is_free(cell) && cells_.dimension(cell) < 2 && rooms_of(cell).size() > 1;
+    if (!is_free(cell) || cells_.dimension(cell) > 1) return false;
+    CellId first = kNoCell;  // most have no second one
+    for (const CellId other : neighbours(cell)) {
+      if (cells_.dimension(other) != 3) continue;
+      if (first != kNoCell && other != first) return true;
+      first = other;
+    }
+    return false;
   };
   std::vector<char> touching(cells_.size(), 0);
   for (CellId cell = 0; cell < cells_.size(); ++cell) touching[cell] = wanted(cell) ? 1 : 0;

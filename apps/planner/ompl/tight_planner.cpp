@@ -169,32 +169,17 @@ std::optional<ExactPath> TightPlanner::bestPath(std::size_t firstGoal, const ob:
       // The first pair is always answered: it takes no longer than noticing the time.
       interrupted = ptc && (i > firstGoal || &start != &starts_.front());
       if (interrupted) return best;
-      std::optional<ExactPath> path = find_path(*freeSpace_, start.position, goals_[i].position, options_);
+      std::optional<ExactPath> path;
+      try {
+        path = find_path(*freeSpace_, start.position, goals_[i].position, options_, [&ptc] { return ptc.eval(); });
+      } catch (const Interrupted&) {
+        interrupted = true;
+        return best;
+      }
       if (path && (!best || path->length < best->length)) best = std::move(path);
     }
   }
   return best;
-}
-
-bool TightPlanner::buildRoadmap(std::size_t firstGoal, const ob::PlannerTerminationCondition& ptc) {
-  if (freeSpace_->has_roadmap()) return true;
-  // What is in different components needs none.
-  const auto joined = [this](const Place& start, const Place& goal) {
-    return freeSpace_->component(start.cell) == freeSpace_->component(goal.cell);
-  };
-  bool needed = false;
-  for (const Place& start : starts_) {
-    for (std::size_t i = firstGoal; i < goals_.size(); ++i) needed = needed || joined(start, goals_[i]);
-  }
-  if (!needed) return true;
-  const Stopwatch watch;
-  try {
-    freeSpace_->build_roadmap([&ptc] { return ptc.eval(); });
-  } catch (const Interrupted&) {
-    return false;
-  }
-  preprocessing_ += watch.seconds();
-  return true;
 }
 
 void TightPlanner::addSolution(const ExactPath& path) {
@@ -238,8 +223,9 @@ ob::PlannerStatus TightPlanner::solve(const ob::PlannerTerminationCondition& ptc
   for (std::size_t asked = 0;; asked = goals_.size()) {
     const bool all = takeGoals(*region, ptc);
     bool interrupted = false;
-    if (!buildRoadmap(asked, ptc)) return ob::PlannerStatus::TIMEOUT;
+    const double roadmap_before = freeSpace_->roadmap_seconds();
     exactPath_ = bestPath(asked, ptc, interrupted);
+    preprocessing_ += freeSpace_->roadmap_seconds() - roadmap_before;
     if (exactPath_ && !isAccepted(*exactPath_)) return searchAnotherWay(ptc);
     if (exactPath_) {
       addSolution(*exactPath_);

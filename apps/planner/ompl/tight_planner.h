@@ -93,8 +93,6 @@ class TightPlanner : public ompl::base::Planner {
   void takeStarts();
   // Takes some goals that are not there yet. True if there are no more, and will be none.
   bool takeGoals(const ompl::base::GoalSampleableRegion& region, const ompl::base::PlannerTerminationCondition& ptc);
-  // Makes the roadmap if a start may be joined to one of the goals from an index on. False if stopped.
-  bool buildRoadmap(std::size_t firstGoal, const ompl::base::PlannerTerminationCondition& ptc);
   // The shortest path from a start to one of the goals from an index on.
   std::optional<ExactPath> bestPath(std::size_t firstGoal, const ompl::base::PlannerTerminationCondition& ptc,
                                     bool& interrupted);

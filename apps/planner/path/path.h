@@ -3,6 +3,7 @@
 // Exact paths through free space.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -30,9 +31,11 @@ struct ExactPath {
 };
 
 /// A path between two free points, or nothing if there is none within the options: a proof, since
-/// the roadmap is complete. The points must be free. Start equal to goal gives a path of one point.
+/// the roadmap is complete; it is made unless free space is large and a way is found without it. The points must be
+/// free. Start equal to goal gives a path of one point. `stop` is asked while the roadmap is made: see
+/// FreeSpace::build_roadmap.
 std::optional<ExactPath> find_path(const FreeSpace& free, const Rational3& start, const Rational3& goal,
-                                   const PathOptions& options = {});
+                                   const PathOptions& options = {}, const std::function<bool()>& stop = {});
 
 /// Describes given way-points; nothing if a segment leaves free space.
 std::optional<ExactPath> describe_path(const FreeSpace& free, std::vector<Rational3> points);
@@ -41,5 +44,11 @@ std::optional<ExactPath> describe_path(const FreeSpace& free, std::vector<Ration
 /// is checked. Nothing if there is no path.
 std::optional<std::vector<Rational3>> roadmap_path(const FreeSpace& free, const CellFilter& filter,
                                                    const Rational3& start, const Rational3& goal, bool clearance);
+
+/// Way-points from start to goal within the filter through cubes of space that no boundary enters (A*), or the straight
+/// segment; each segment is free. Nothing where free space is too narrow for that, which proves nothing. Needs no
+/// roadmap.
+std::optional<std::vector<Rational3>> wide_way(const FreeSpace& free, const CellFilter& filter, const Rational3& start,
+                                               const Rational3& goal);
 
 }  // namespace nef::planner

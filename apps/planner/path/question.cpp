@@ -37,14 +37,12 @@ Answer Problem::solve(const Rational3& start, const Rational3& goal, const PathO
   answer.start_component = free_->component(start_cell);
   answer.goal_component = free_->component(goal_cell);
   answer.thinness = free_->thinness(start_cell, goal_cell);
-  if (answer.thinness && !free_->has_roadmap()) {
-    answer.phases["query"] = watch.lap();
-    free_->build_roadmap();
-    answer.phases["roadmap"] = watch.lap();
-  }
+  const double roadmap_before = free_->roadmap_seconds();
   answer.path = find_path(*free_, start, goal, options);
   answer.status = answer.path ? Answer::Status::kPath : Answer::Status::kInfeasible;
-  answer.phases["query"] += watch.lap();
+  const double roadmap = free_->roadmap_seconds() - roadmap_before;
+  if (roadmap > 0) answer.phases["roadmap"] = roadmap;
+  answer.phases["query"] = watch.lap() - roadmap;
   return answer;
 }
 

@@ -2,6 +2,7 @@
 #include "apps/planner/path/triangle_pull.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "apps/planner/free_space/vectors.h"
@@ -22,13 +23,49 @@ class Triangle {
   Triangle(const Rational3& a, const Rational3& b, const Rational3& c) : a_(a), ac_(minus(c, a)), ab_(minus(b, a)) {
     normal_ = cross(ac_, ab_);
     size_ = dot(normal_, normal_);
+    approximate_normal_ = to_vector(normal_);
+    approximate_a_ = to_vector(a_);
     for (const Rational3* p : {&a, &b, &c}) {
       box_.add_rounded(to_array(to_vector(*p)));
     }
   }
   [[nodiscard]] bool flat() const { return size_ == 0; }
-  [[nodiscard]] const Box& box() const { return box_; }
+  /// True if the box may meet the triangle: its box and its plane, with a margin for all rounding.
+  [[nodiscard]] bool may_meet(const Box& box) const {
+    if (!box.overlaps(box_)) return false;
+    double value = 0;
+    double reach = 0;
+    double size = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double n = approximate_normal_[static_cast<Eigen::Index>(k)];
+      const double a = approximate_a_[static_cast<Eigen::Index>(k)];
+      value += n * ((box.low[k] + box.high[k]) / 2 - a);
+      reach += std::fabs(n) * (box.high[k] - box.low[k]) / 2;
+      size += std::fabs(n) * (std::fabs(box.low[k]) + std::fabs(box.high[k]) + std::fabs(a));
+    }
+    return !(std::fabs(value) > reach + 0x1p-44 * size);
+  }
   [[nodiscard]] Rational height(const Rational3& x) const { return dot(normal_, minus(x, a_)); }
+
+  /// False if, as doubles see it, the segment from x to y meets the triangle nowhere near. They may: what they overlook
+  /// is not tried.
+  [[nodiscard]] bool seems_met(const Vector3d& x, const Vector3d& y) const {
+    constexpr double kNear = 1e-9;
+    const Vector3d ab = to_vector(ab_);
+    const Vector3d ac = to_vector(ac_);
+    const Vector3d ax = x - approximate_a_;
+    const Vector3d along = y - x;
+    const double size = approximate_normal_.squaredNorm();
+    const double hx = approximate_normal_.dot(ax);
+    const double hy = approximate_normal_.dot(ax + along);
+    const double flat = kNear * std::sqrt(size) * (ab.norm() + ac.norm());
+    if (std::min(hx, hy) > flat || std::max(hx, hy) < -flat) return false;
+    if (std::fabs(hx - hy) <= 4 * flat) return true;
+    const Vector3d at = ax + hx / (hx - hy) * along;
+    const double u = at.cross(ab).dot(approximate_normal_) / size;
+    const double v = ac.cross(at).dot(approximate_normal_) / size;
+    return u >= -kNear && v >= -kNear && u + v <= 1 + kNear;
+  }
 
   /// Coordinates of a point of the plane, if it lies in the closed triangle.
   [[nodiscard]] std::optional<std::array<Rational, 2>> inside(const Rational3& x) const {
@@ -50,6 +87,8 @@ class Triangle {
   Rational3 ab_;
   Rational3 normal_;
   Rational size_;
+  Vector3d approximate_normal_;
+  Vector3d approximate_a_;
   Box box_;
 };
 
@@ -62,24 +101,37 @@ std::vector<Point2> meetings(const FreeSpace& free, const Triangle& triangle) {
   const auto add = [&](const Rational3& x) {
     if (const std::optional<Point2> uv = triangle.inside(x)) result.push_back(*uv);
   };
-  for (std::uint32_t h = 0; h < c.svertices.size(); ++h) {
-    if (c.twin[h] < h) continue;
+  const auto add_edge = [&](std::uint32_t h) {
     const PointId p{c.svertex_owner[h]};
     const PointId q{c.target(h)};
     Box box;
     box.add_rounded(c.points.approximate(p));
     box.add_rounded(c.points.approximate(q));
-    if (!box.overlaps(triangle.box())) continue;
+    if (!triangle.may_meet(box)) return;
+    if (!triangle.seems_met(to_vector(c.points.approximate(p)), to_vector(c.points.approximate(q)))) return;
     const Rational3 x = c.points.rational(p);
     const Rational3 y = c.points.rational(q);
     const Rational hx = triangle.height(x);
     const Rational hy = triangle.height(y);
     if (hx == 0) add(x);
     if (hy == 0) add(y);
-    if (sgn(hx) * sgn(hy) >= 0) continue;
+    if (sgn(hx) * sgn(hy) >= 0) return;
     const Rational t = hx / (hx - hy);
     add({x[0] + t * (y[0] - x[0]), x[1] + t * (y[1] - x[1]), x[2] + t * (y[2] - x[2])});
-  }
+  };
+  std::vector<std::uint32_t> edges;
+  const auto add_edges = [&](const ItemTree::Item& item) {
+    if (item.kind == ItemTree::Kind::kEdge) edges.push_back(item.index);
+    if (item.kind != ItemTree::Kind::kFacet) return;
+    for (const std::uint32_t corner : c.corners_of(c.facets[FacetId{item.index}])) {
+      const std::uint32_t h = c.corner_halfedge(corner);
+      edges.push_back(std::min(h, c.twin[h]));
+    }
+  };
+  free.items().for_each_if([&](const Box& box) { return triangle.may_meet(box); }, add_edges);
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  for (const std::uint32_t h : edges) add_edge(h);
   return result;
 }
 

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/planner/free_space/item_tree.h"
+
+#include <cmath>
+
+namespace nef::planner {
+
+ItemTree::ItemTree(const Complex& complex) {
+  const auto point = [&](std::uint32_t vertex) { return complex.points.approximate(PointId{vertex}); };
+  items_.reserve(complex.facet_count());
+  boxes_.reserve(complex.facet_count());
+  for (std::uint32_t f = 0; f < complex.facet_count(); ++f) {
+    Box box;
+    // The first cycle is the outer one.
+    for (const std::uint32_t corner : complex.corners_of(complex.facets[FacetId{f}].first_cycle)) {
+      box.add_rounded(point(complex.shalfedge_owner[corner]));
+    }
+    push({Kind::kFacet, f}, box);
+  }
+  for (std::uint32_t h = 0; h < complex.svertices.size(); ++h) {
+    if (complex.twin[h] < h || complex.svertices[h].out != kNone) continue;
+    Box box;
+    box.add_rounded(point(complex.svertex_owner[h]));
+    box.add_rounded(point(complex.target(h)));
+    push({Kind::kEdge, h}, box);
+  }
+  for (std::uint32_t v = 0; v < complex.vertex_count(); ++v) {
+    const SphereMapView map = complex.sphere_map(v);
+    if (!map.svertices.empty() || !map.sloops.empty()) continue;
+    Box box;
+    box.add_rounded(point(v));
+    push({Kind::kVertex, v}, box);
+  }
+  tree_ = BoxTree(boxes_);
+}
+
+void ItemTree::push(Item item, const Box& box) {
+  items_.push_back(item);
+  boxes_.push_back(box);
+}
+
+ItemTree::Reach::Reach(const Vector3d& a, const Vector3d& b) : from_(a), along_(b - a) {
+  box_.add_rounded(to_array(a));
+  box_.add_rounded(to_array(b));
+  size_ = a.cwiseAbs() + b.cwiseAbs();
+}
+
+// Separating axes: those of the box, and their cross products with the segment's direction. With sizes s the products
+// of the latter are off by less than 16 u s s; 64 leave room. What is not a number separates nothing.
+bool ItemTree::Reach::may_meet(const Box& box) const {
+  if (!box.overlaps(box_)) return false;
+  Vector3d off;
+  Vector3d half;
+  Vector3d size;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    off[i] = from_[i] - (box.low[k] + box.high[k]) / 2;
+    half[i] = (box.high[k] - box.low[k]) / 2;
+    size[i] = size_[i] + std::fabs(box.low[k]) + std::fabs(box.high[k]);
+  }
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const Eigen::Index j = (i + 1) % 3;
+    const Eigen::Index k = (i + 2) % 3;
+    const double distance = std::fabs(along_[j] * off[k] - along_[k] * off[j]);
+    const double reach = std::fabs(along_[j]) * half[k] + std::fabs(along_[k]) * half[j];
+    if (distance > reach + 64 * 0x1p-53 * size[j] * size[k] + 1e-300) return false;
+  }
+  return true;
+}
+
+}  // namespace nef::planner

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The items of a complex by where they are: what a segment may meet is found without any partition of space.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "apps/planner/free_space/vectors.h"
+#include "nef/complex/complex.h"
+#include "nef/geometry/box_tree.h"
+
+namespace nef::planner {
+
+/// A box tree over all facets, the edges on no facet and the vertices on no edge or facet: every point of the boundary
+/// lies in the box of one of them. For complexes without infimaximal box. O(n log n) to build; keeps no reference.
+class ItemTree {
+ public:
+  enum class Kind : std::uint8_t { kFacet, kEdge, kVertex };
+  struct Item {
+    Kind kind = Kind::kFacet;
+    std::uint32_t index = 0;  ///< facet, halfedge or vertex
+  };
+
+  explicit ItemTree(const Complex& complex);
+
+  /// Calls visit(item, its box) for all items whose boxes meet the segment, and maybe a few others.
+  template <typename Visit>
+  void for_each_along(const Vector3d& a, const Vector3d& b, Visit&& visit) const {
+    const Reach reach(a, b);
+    tree_.for_each_if([&reach](const Box& box) { return reach.may_meet(box); },
+                      [&](std::uint32_t i) { visit(items_[i], boxes_[i]); });
+  }
+  /// Calls visit(item) for all items whose boxes `accept` takes; it must take a box if it takes one inside it.
+  template <typename Accept, typename Visit>
+  void for_each_if(const Accept& accept, Visit&& visit) const {
+    tree_.for_each_if(accept, [&](std::uint32_t i) { visit(items_[i]); });
+  }
+
+ private:
+  // A segment whose ends are known to 2^-53 of their coordinates. "Meets a box" errs to yes.
+  class Reach {
+   public:
+    Reach(const Vector3d& a, const Vector3d& b);
+    [[nodiscard]] bool may_meet(const Box& box) const;
+
+   private:
+    Box box_;
+    Vector3d from_;
+    Vector3d along_;
+    Vector3d size_;
+  };
+
+  void push(Item item, const Box& box);
+
+  std::vector<Item> items_;
+  std::vector<Box> boxes_;
+  BoxTree tree_;
+};
+
+}  // namespace nef::planner

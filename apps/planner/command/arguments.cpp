@@ -11,8 +11,11 @@ A scene is JSON: {"robot": SHAPE, "obstacles": [SHAPE, ...], "start": [x, y, z],
 a mesh or nef file, or an expression such as "box(0,0,0, 9,3,3) - box(4,1,1, 5,2,2)". Numbers are exact:
 0.1 is one tenth, "1/3" a third. OMPL.app's .cfg files are read too.
 
+An assembly is {"parts": {"name": SHAPE, ...}}, each part at its assembled place.
+
 Exit codes: 0 a path; 1 proved that there is none (with --path: the given path leaves free space);
 2 bad input or usage; 3 start or goal not free; 4 (--ompl only) no answer within the time; 5 (rotation only) undecided.
+With --assembly: 0 a sequence, 1 inseparable, 3 parts overlap.
 --tight without -o only lists: it exits with 0 whatever the answer. --queries exits with the largest code of all.
 
 Examples:
@@ -21,6 +24,7 @@ Examples:
   planner scene.json --page scene.html -o scene.glb
   planner scene.json --prefer roomy --json
   planner scene.json --queries questions.txt --json
+  planner --assembly parts.json --page apart.html
   planner scene.json --ompl RRTConnect --time 5
   planner scene.json --benchmark bench.log --planners RRTConnect,PRMstar --runs 10)TEXT";
 
@@ -37,7 +41,10 @@ void declare_ompl(CLI::App& app, Arguments& a) {
 }  // namespace
 
 void declare(CLI::App& app, Arguments& a) {
-  app.add_option("scene", a.scene, "Scene (.json, or OMPL.app .cfg)")->required();
+  app.add_option("scene", a.scene, "Scene (.json, or OMPL.app .cfg)");
+  app.add_option("--assembly", a.assembly, "Take an assembly (.json) apart by translations, or prove that it is stuck");
+  app.add_option("--free-directions", a.free_directions,
+                 "With --assembly: the exact cone of directions in which this part can begin to move");
   app.add_option(
       "-o,--output", a.outputs,
       "Write the answer: .json report, .path (OMPL matrix), .glb (animated glTF), else text; may be repeated");

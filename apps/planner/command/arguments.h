@@ -14,6 +14,8 @@ namespace nef::planner {
 /// The command line. Options are described by `planner --help`.
 struct Arguments {
   std::string scene;
+  std::string assembly;
+  std::string free_directions;
   std::vector<std::string> outputs;
   std::string page;
   std::string start;

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "apps/planner/command/assembly_run.h"
 #include "apps/planner/command/ompl_runs.h"
 #include "apps/planner/command/scene_view.h"
 #include "apps/planner/command/turning_run.h"
@@ -184,6 +185,9 @@ int answer_question(const Arguments& a, const Problem& problem) {
 }  // namespace
 
 int run(const Arguments& a) {
+  if (!a.assembly.empty()) return run_assembly(a);
+  if (!a.free_directions.empty()) throw InputError("--free-directions asks about a part of an --assembly");
+  if (a.scene.empty()) throw InputError("scene is required: planner SCENE, or planner --assembly PARTS.json");
   check_usage(a);
   ProgressBar bar(!a.quiet && !a.json);
   BuildOptions build;

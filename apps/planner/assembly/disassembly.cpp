@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/planner/assembly/disassembly.h"
+
+#include <algorithm>
+#include <set>
+
+#include "apps/planner/assembly/blocking.h"
+#include "apps/planner/assembly/closed_sets.h"
+#include "apps/planner/free_space/free_positions.h"
+#include "apps/planner/path/path.h"
+#include "nef/base/error.h"
+
+namespace nef::planner {
+namespace {
+
+constexpr std::size_t kAllSubsets = 8;
+
+PartSet without(const PartSet& all, const PartSet& some) {
+  PartSet rest;
+  std::set_difference(all.begin(), all.end(), some.begin(), some.end(), std::back_inserter(rest));
+  return rest;
+}
+
+Rational3 negative(const Rational3& d) { return {-d[0], -d[1], -d[2]}; }
+
+class TakingApart {
+ public:
+  TakingApart(const Assembly& assembly, const DisassemblyProgress& progress)
+      : assembly_(assembly), progress_(progress), blocking_(assembly.parts) {}
+
+  Disassembly run() {
+    result_.overlap = blocking_.overlapping();
+    if (result_.overlap) return std::move(result_);
+    const std::optional<std::vector<Rational3>> all = blocking_.directions();
+    tells_all_ = all.has_value();
+    directions_ = all ? *all : axes();
+    PartSet whole;
+    for (std::size_t i = 0; i < assembly_.parts.size(); ++i) whole.push_back(i);
+    std::vector<PartSet> together{whole};
+    while (!together.empty()) {
+      const PartSet parts = together.back();
+      together.pop_back();
+      if (parts.size() < 2) continue;
+      if (progress_) progress_(result_.steps.size());
+      std::optional<DisassemblyStep> step = straight_step(parts);
+      if (!step) step = planned_step(parts);
+      if (!step) continue;
+      together.push_back(step->parts);  // comes after the rest
+      together.push_back(step->stay);
+      result_.steps.push_back(std::move(*step));
+    }
+    return std::move(result_);
+  }
+
+ private:
+  static std::vector<Rational3> axes() {
+    std::vector<Rational3> result;
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (const int sign : {1, -1}) {
+        Rational3 d;
+        d[i] = sign;
+        result.push_back(d);
+      }
+    }
+    return result;
+  }
+
+  // Who blocks whom among some parts, by their places in the list.
+  template <typename Blocks>
+  static BlockingGraph graph(const PartSet& parts, const Blocks& blocks) {
+    BlockingGraph graph(parts.size());
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      for (std::size_t j = 0; j < parts.size(); ++j) {
+        if (i != j && blocks(parts[i], parts[j])) graph[i].push_back(j);
+      }
+    }
+    return graph;
+  }
+
+  static PartSet named(const PartSet& parts, const std::vector<std::size_t>& places) {
+    PartSet result;
+    for (const std::size_t i : places) result.push_back(parts[i]);
+    std::sort(result.begin(), result.end());
+    return result;
+  }
+
+  // The smallest set that leaves in one straight motion: of the fewest parts, then of the smallest box. (Of two sides
+  // that part the smaller one moves.)
+  std::optional<DisassemblyStep> straight_step(const PartSet& parts) {
+    constexpr std::size_t kEnough = 26;  // with a single part found by then, the rest need not be tried
+    std::optional<DisassemblyStep> best;
+    std::pair<std::size_t, Rational> best_size;
+    for (std::size_t i = 0; i < directions_.size(); ++i) {
+      if (i >= kEnough && best && best_size.first == 1) break;
+      const Rational3& d = directions_[i];
+      const BlockingGraph blocked =
+          graph(parts, [&](std::size_t a, std::size_t b) { return blocking_.blocks(a, b, d); });
+      for (const std::vector<std::size_t>& closed : minimal_closed_sets(blocked)) {
+        PartSet moving = named(parts, closed);
+        if (moving.size() == parts.size()) continue;
+        PartSet stay = without(parts, moving);
+        Rational3 along = d;
+        if (size_of(stay) < size_of(moving)) {
+          std::swap(moving, stay);
+          along = negative(d);
+        }
+        const std::pair<std::size_t, Rational> size = size_of(moving);
+        if (best && best_size <= size) continue;
+        best_size = size;
+        best = DisassemblyStep{moving, stay, {Rational3{}, end_of(moving, stay, along)}, true};
+      }
+    }
+    return best;
+  }
+
+  // How many parts, and the volume of the box around them.
+  [[nodiscard]] std::pair<std::size_t, Rational> size_of(const PartSet& parts) const {
+    const std::array<Rational3, 2> box = box_of(parts);
+    Rational volume = 1;
+    for (std::size_t i = 0; i < 3; ++i) volume *= box[1][i] - box[0][i];
+    return {parts.size(), volume};
+  }
+
+  [[nodiscard]] std::array<Rational3, 2> box_of(const PartSet& parts) const {
+    std::array<Rational3, 2> box = *bounding_box(assembly_.parts[parts.front()]);
+    for (const std::size_t part : parts) {
+      const std::array<Rational3, 2> other = *bounding_box(assembly_.parts[part]);
+      for (std::size_t i = 0; i < 3; ++i) {
+        box[0][i] = std::min(box[0][i], other[0][i]);
+        box[1][i] = std::max(box[1][i], other[1][i]);
+      }
+    }
+    return box;
+  }
+
+  // How far along d until the boxes are apart, by a quarter of the moving one.
+  [[nodiscard]] Rational3 end_of(const PartSet& moving, const PartSet& stay, const Rational3& d) const {
+    const std::array<Rational3, 2> mine = box_of(moving);
+    const std::array<Rational3, 2> theirs = box_of(stay);
+    std::optional<Rational> least;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (d[i] == 0) continue;
+      const Rational gap = (mine[1][i] - mine[0][i]) / 4;
+      const Rational way =
+          d[i] > 0 ? Rational(theirs[1][i] - mine[0][i] + gap) : Rational(theirs[0][i] - mine[1][i] - gap);
+      const Rational t = std::max(Rational(0), Rational(way / d[i]));
+      if (!least || t < *least) least = t;
+    }
+    return {*least * d[0], *least * d[1], *least * d[2]};
+  }
+
+  // Sets that the complete planner is asked for, smallest first, each not larger than what stays.
+  std::vector<PartSet> candidates(const PartSet& parts, Inseparable& stuck) {
+    std::set<std::pair<std::size_t, PartSet>> found;
+    const auto add = [&](PartSet set) {
+      if (set.empty() || set.size() == parts.size()) return;
+      if (2 * set.size() > parts.size()) set = without(parts, set);
+      const std::size_t size = set.size();
+      found.emplace(size, std::move(set));
+    };
+    stuck.nothing_moves = tells_all_;
+    for (const Rational3& d : directions_) {
+      const BlockingGraph blocked =
+          graph(parts, [&](std::size_t a, std::size_t b) { return blocking_.blocks_at_once(a, b, d); });
+      const std::vector<std::vector<std::size_t>> minimal = minimal_closed_sets(blocked);
+      if (minimal.size() > 1 || minimal.front().size() < parts.size()) stuck.nothing_moves = false;
+      if (parts.size() <= kAllSubsets && tells_all_) {
+        for_each_closed_set(blocked, [&](const std::vector<std::size_t>& set) { add(named(parts, set)); });
+      } else {
+        for (const std::vector<std::size_t>& set : minimal) add(named(parts, set));
+      }
+    }
+    stuck.all_subassemblies = stuck.nothing_moves || (parts.size() <= kAllSubsets && tells_all_);
+    if (!stuck.all_subassemblies) {
+      for (const std::size_t part : parts) add({part});
+    }
+    std::vector<PartSet> result;
+    for (const auto& [size, set] : found) result.push_back(set);
+    return result;
+  }
+
+  std::optional<DisassemblyStep> planned_step(const PartSet& parts) {
+    Inseparable stuck;
+    stuck.parts = parts;
+    for (const PartSet& moving : candidates(parts, stuck)) {
+      const PartSet stay = without(parts, moving);
+      std::optional<std::vector<Rational3>> way = way_out(moving, stay);
+      if (way) return DisassemblyStep{moving, stay, std::move(*way), false};
+    }
+    for (const std::size_t a : parts) {
+      for (const std::size_t b : parts) {
+        if (a == b) continue;
+        const bool in_the_way = std::any_of(directions_.begin(), directions_.end(),
+                                            [&](const Rational3& d) { return blocking_.blocks(a, b, d); });
+        if (in_the_way) stuck.blocked_by.emplace_back(a, b);
+      }
+    }
+    result_.inseparable.push_back(std::move(stuck));
+    return std::nullopt;
+  }
+
+  // A path out of the way of the others; nothing if there is none.
+  [[nodiscard]] std::optional<std::vector<Rational3>> way_out(const PartSet& moving, const PartSet& stay) const {
+    Scene scene;
+    std::vector<Polyhedron> robot;
+    for (const std::size_t part : moving) robot.push_back(assembly_.parts[part]);
+    scene.robot = unite_all(robot);
+    for (const std::size_t part : stay) {
+      scene.obstacles.push_back(assembly_.parts[part]);
+      scene.obstacle_names.push_back(assembly_.names[part]);
+    }
+    const FreeSpace free(free_positions(scene));
+    const CellId here = free.locate(ExactPoint(Rational3{}));
+    NEF_ASSERT(free.is_free(here));
+    if (free.components()[free.component(here)].bounded) return std::nullopt;
+    // All of the boundary is inside these bounds, so whoever is on them is out.
+    const std::array<Rational3, 2> bounds = free.bounds();
+    std::optional<ExactPath> best;
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (const std::array<Rational, 3>& corner : bounds) {
+        Rational3 out;
+        out[i] = corner[i];
+        PathOptions options;
+        options.thorough = false;
+        std::optional<ExactPath> path = find_path(free, Rational3{}, out, options);
+        NEF_ASSERT(path.has_value());
+        if (!best || path->length < best->length) best = std::move(path);
+      }
+    }
+    return best->points;
+  }
+
+  const Assembly& assembly_;
+  const DisassemblyProgress& progress_;
+  Blocking blocking_;
+  std::vector<Rational3> directions_;
+  bool tells_all_ = false;  // the directions are enough for proofs
+  Disassembly result_;
+};
+
+}  // namespace
+
+Disassembly take_apart(const Assembly& assembly, const DisassemblyProgress& progress) {
+  return TakingApart(assembly, progress).run();
+}
+
+}  // namespace nef::planner

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Parts at their assembled places.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "nef/construct/construct.h"
+#include "nef/polyhedron.h"
+
+namespace nef::planner {
+
+/// Solids that stand together, each at its place.
+struct Assembly {
+  std::string name;  ///< the file's name without folders
+  std::vector<std::string> names;
+  std::vector<Polyhedron> parts;
+  Messages messages;  ///< what was done to the input
+};
+
+/// Reads {"parts": {"name": SHAPE, ...}}, SHAPE being a file (relative to this one) or an expression, as in scenes
+/// (scene.h). The parts are in the order of their names. Throws InputError unless each is a bounded solid.
+Assembly read_assembly(const std::string& path);
+
+/// The same from text; `folder` is where file names begin.
+Assembly parse_assembly(const std::string& text, const std::string& folder, const std::string& name);
+
+}  // namespace nef::planner

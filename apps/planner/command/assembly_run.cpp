@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/planner/command/assembly_run.h"
+
+#include <filesystem>
+#include <iostream>
+
+#include "apps/planner/assembly/blocking.h"
+#include "apps/planner/assembly/free_directions.h"
+#include "apps/planner/command/scene_view.h"
+#include "nef/base/error.h"
+#include "nef/base/stopwatch.h"
+#include "nef/io/file_bytes.h"
+#include "nef/io/polyhedron_file.h"
+#include "nef/program/exact_json.h"
+#include "nef/program/progress_bar.h"
+
+namespace nef::planner {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* kAllCovered = "all subassemblies";
+constexpr const char* kSomeCovered = "single parts and what the blocking graph ties together";
+
+void check_options(const Arguments& a) {
+  const bool other = !a.scene.empty() || !a.start.empty() || !a.goal.empty() || !a.contact.empty() || a.tight ||
+                     !a.given_path.empty() || !a.queries.empty() || !a.ompl.empty() || !a.benchmark.empty();
+  if (other) throw InputError("--assembly knows --json, --quiet, --page and -o only, and no scene");
+  if (!a.page.empty() && std::filesystem::path(a.page).extension() != ".html") {
+    throw InputError("--page " + a.page + ": the extension must be .html");
+  }
+  for (const std::string& file : a.outputs) {
+    if (!a.free_directions.empty()) break;  // sets, too
+    if (!is_view_file(file) && std::filesystem::path(file).extension() != ".json") {
+      throw InputError("-o " + file + ": with --assembly the extension must be .json, .html or .glb");
+    }
+  }
+}
+
+const char* status_of(const Disassembly& answer) {
+  if (answer.overlap) return "overlap";
+  return answer.inseparable.empty() ? "sequence" : "inseparable";
+}
+
+json names_of(const PartSet& parts, const Assembly& assembly) {
+  json result = json::array();
+  for (const std::size_t part : parts) result.push_back(assembly.names[part]);
+  return result;
+}
+
+std::string list_of(const PartSet& parts, const Assembly& assembly) {
+  std::string result;
+  for (const std::size_t part : parts) result += (result.empty() ? "" : ", ") + assembly.names[part];
+  return result;
+}
+
+json stuck_json(const Inseparable& stuck, const Assembly& assembly) {
+  json blocked = json::object();
+  for (const auto& [a, b] : stuck.blocked_by) blocked[assembly.names[a]].push_back(assembly.names[b]);
+  return {{"parts", names_of(stuck.parts, assembly)},
+          {"covered", stuck.all_subassemblies ? kAllCovered : kSomeCovered},
+          {"nothing_moves", stuck.nothing_moves},
+          {"blocked_by", std::move(blocked)}};
+}
+
+// Each part in a layer of its own. A step takes the same time as any other, along its path at constant speed.
+std::vector<view::Layer> layers_of(const Disassembly& answer, const Assembly& assembly) {
+  std::vector<view::Layer> layers;
+  view::SceneOptions options;
+  options.box = view::visible_box(assembly.parts);
+  const double slot = kPlaySeconds / static_cast<double>(std::max<std::size_t>(1, answer.steps.size()));
+  for (std::size_t part = 0; part < assembly.parts.size(); ++part) {
+    view::Layer& layer = layers.emplace_back();
+    layer.name = assembly.names[part];
+    layer.scene = view::build_scene(assembly.parts[part], options);
+    layer.color = view::palette_color(part);
+    if (answer.steps.empty()) continue;
+    view::Point at{0, 0, 0};
+    layer.motion.times.push_back(0);
+    layer.motion.offsets.push_back(at);
+    for (std::size_t k = 0; k < answer.steps.size(); ++k) {
+      const DisassemblyStep& step = answer.steps[k];
+      const bool moves = std::find(step.parts.begin(), step.parts.end(), part) != step.parts.end();
+      const view::Point begin = at;
+      double length = 0;
+      for (std::size_t i = 1; moves && i < step.path.size(); ++i) length += distance(step.path[i - 1], step.path[i]);
+      double way = 0;
+      for (std::size_t i = 1; moves && i < step.path.size(); ++i) {
+        way += distance(step.path[i - 1], step.path[i]);
+        for (std::size_t c = 0; c < 3; ++c) at[c] = begin[c] + nearest_double(step.path[i][c]);
+        const double time = slot * (static_cast<double>(k) + way / length);
+        if (!(time > layer.motion.times.back())) continue;
+        layer.motion.times.push_back(time);
+        layer.motion.offsets.push_back(at);
+      }
+      const double end = slot * static_cast<double>(k + 1);
+      if (end > layer.motion.times.back()) {
+        layer.motion.times.push_back(end);
+        layer.motion.offsets.push_back(at);
+      }
+    }
+  }
+  return layers;
+}
+
+void print(const Disassembly& answer, const Assembly& assembly) {
+  for (const std::string& message : assembly.messages) std::cout << "note: " << message << '\n';
+  std::cout << status_of(answer);
+  if (answer.overlap) {
+    std::cout << ": " << assembly.names[answer.overlap->first] << " and " << assembly.names[answer.overlap->second];
+  }
+  std::cout << '\n';
+  for (const DisassemblyStep& step : answer.steps) {
+    std::cout << list_of(step.parts, assembly) << (step.straight ? ": straight" : ": by a path of")
+              << (step.straight ? "" : " " + std::to_string(step.path.size()) + " way-points") << ", to";
+    for (const Rational& x : step.path.back()) std::cout << ' ' << to_string(x);
+    std::cout << '\n';
+  }
+  for (const Inseparable& stuck : answer.inseparable) {
+    std::cout << "inseparable: " << list_of(stuck.parts, assembly)
+              << (stuck.nothing_moves ? "; nothing of it can move" : "; nothing of it can leave") << " ("
+              << (stuck.all_subassemblies ? kAllCovered : kSomeCovered) << ")\n";
+    for (const std::size_t part : stuck.parts) {
+      PartSet by;
+      for (const auto& [a, b] : stuck.blocked_by) {
+        if (a == part) by.push_back(b);
+      }
+      std::cout << "  " << assembly.names[part] << " is blocked by " << list_of(by, assembly) << '\n';
+    }
+  }
+}
+
+// The cone of one part; with -o as a set, cut by the cube from -1 to 1.
+int tell_free_directions(const Arguments& a, const Assembly& assembly) {
+  const auto found = std::find(assembly.names.begin(), assembly.names.end(), a.free_directions);
+  if (found == assembly.names.end()) {
+    throw InputError("--free-directions " + a.free_directions + ": " + a.assembly + " has no such part");
+  }
+  if (const auto overlap = Blocking(assembly.parts).overlapping()) {
+    throw InputError(a.assembly + ": " + assembly.names[overlap->first] + " and " + assembly.names[overlap->second] +
+                     " overlap");
+  }
+  const FreeDirections free = free_directions(assembly, static_cast<std::size_t>(found - assembly.names.begin()));
+  json rays = json::array();
+  for (const std::array<Integer, 3>& ray : free.rays) {
+    rays.push_back({ray[0].get_str(), ray[1].get_str(), ray[2].get_str()});
+  }
+  const json report{{"assembly", assembly.name},
+                    {"part", a.free_directions},
+                    {"dimension", free.dimension},
+                    {"everything", free.everything},
+                    {"rays", rays}};
+  const std::string text = report.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
+  for (const std::string& file : a.outputs) {
+    const bool as_json = std::filesystem::path(file).extension() == ".json";
+    if (as_json) {
+      write_file(file, text);
+    } else {
+      write_polyhedron(file, free.cone);
+    }
+  }
+  if (a.json) {
+    std::cout << text;
+  } else if (!a.quiet) {
+    std::cout << (free.everything ? "every direction" : "dimension " + std::to_string(free.dimension)) << '\n';
+    for (const std::array<Integer, 3>& ray : free.rays) std::cout << ray[0] << ' ' << ray[1] << ' ' << ray[2] << '\n';
+  }
+  return 0;
+}
+
+}  // namespace
+
+json assembly_json(const Disassembly& answer, const Assembly& assembly) {
+  json result{{"assembly", assembly.name}, {"status", status_of(answer)}, {"steps", json::array()}};
+  for (const DisassemblyStep& step : answer.steps) {
+    json exact = json::array();
+    json doubles = json::array();
+    for (const Rational3& point : step.path) {
+      exact.push_back(exact_json(point));
+      doubles.push_back(double_json(point));
+    }
+    result["steps"].push_back({{"parts", names_of(step.parts, assembly)},
+                               {"stay", names_of(step.stay, assembly)},
+                               {"straight", step.straight},
+                               {"path", std::move(exact)},
+                               {"path_double", std::move(doubles)}});
+  }
+  for (const Inseparable& stuck : answer.inseparable) {
+    result["inseparable"].push_back(stuck_json(stuck, assembly));
+  }
+  if (answer.overlap)
+    result["overlap"] = {assembly.names[answer.overlap->first], assembly.names[answer.overlap->second]};
+  if (!assembly.messages.empty()) result["messages"] = assembly.messages;
+  return result;
+}
+
+int run_assembly(const Arguments& a) {
+  check_options(a);
+  const Stopwatch watch;
+  const Assembly assembly = read_assembly(a.assembly);
+  if (!a.free_directions.empty()) return tell_free_directions(a, assembly);
+  ProgressBar bar(!a.quiet && !a.json);
+  const Disassembly answer =
+      take_apart(assembly, [&](std::size_t steps) { bar.show("taking apart", steps, assembly.parts.size() - 1); });
+  bar.clear();
+  json report = assembly_json(answer, assembly);
+  report["phases"] = {{"assembly", watch.seconds()}};
+  const std::string text = report.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
+  std::vector<std::string> views;
+  if (!a.page.empty()) views.push_back(a.page);
+  for (const std::string& file : a.outputs) {
+    if (is_view_file(file)) {
+      views.push_back(file);
+    } else {
+      write_file(file, text);
+    }
+  }
+  if (!views.empty()) {
+    const std::vector<view::Layer> layers = layers_of(answer, assembly);
+    for (const std::string& file : views) write_view(layers, assembly.name, file);
+  }
+  if (a.json) {
+    std::cout << text;
+  } else if (!a.quiet) {
+    print(answer, assembly);
+  }
+  return answer.overlap ? 3 : answer.inseparable.empty() ? 0 : 1;
+}
+
+}  // namespace nef::planner

@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Assemblies come apart, or are proved not to: against a lattice search for assemblies of unit cubes, by sweeping every
+// step, and in scenes whose answers are known.
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <set>
+
+#include "apps/minkowski/minkowski.h"
+#include "apps/planner/assembly/closed_sets.h"
+#include "apps/planner/assembly/disassembly.h"
+#include "apps/planner/assembly/free_directions.h"
+#include "tests/planner/command_helpers.h"
+
+namespace nef::planner::test {
+namespace {
+
+Assembly load_assembly(const std::string& name) {
+  return read_assembly(source_folder() + "/data/planner/assembly/" + name + ".json");
+}
+
+Polyhedron united(const Assembly& assembly, const PartSet& set) {
+  std::vector<Polyhedron> parts;
+  for (const std::size_t part : set) parts.push_back(assembly.parts[part]);
+  return unite_all(parts);
+}
+
+// What is wrong with the steps; nothing if they are right. What moves must not meet, with its inside, what stays: its
+// sweeps are exact sums. At the end the boxes are apart. The steps must part what is together, down to single parts or
+// to what is said to be stuck.
+std::string complaint(const Assembly& assembly, const Disassembly& answer) {
+  PartSet all;
+  for (std::size_t i = 0; i < assembly.parts.size(); ++i) all.push_back(i);
+  std::set<PartSet> together{all};
+  for (const DisassemblyStep& step : answer.steps) {
+    PartSet both = step.parts;
+    both.insert(both.end(), step.stay.begin(), step.stay.end());
+    std::sort(both.begin(), both.end());
+    if (together.erase(both) != 1) return "a step of what is not together";
+    together.insert(step.parts);
+    together.insert(step.stay);
+    const Polyhedron moving = interior(united(assembly, step.parts));
+    const Polyhedron stay = united(assembly, step.stay);
+    if (step.path.front() != Rational3{}) return "a step begins elsewhere";
+    if (step.straight && step.path.size() != 2) return "not straight";
+    for (std::size_t i = 0; i + 1 < step.path.size(); ++i) {
+      const Polyhedron segment = make_segment(step.path[i], step.path[i + 1]);
+      if (!intersect(minkowski::minkowski_sum(moving, segment), stay).is_empty()) return "a step collides";
+    }
+    const auto mine = *bounding_box(moving);
+    const auto theirs = *bounding_box(stay);
+    bool apart = false;
+    for (std::size_t i = 0; i < 3; ++i) {
+      apart =
+          apart || mine[0][i] + step.path.back()[i] >= theirs[1][i] || mine[1][i] + step.path.back()[i] <= theirs[0][i];
+    }
+    if (!apart) return "not apart at the end";
+  }
+  for (const Inseparable& stuck : answer.inseparable) {
+    if (together.erase(stuck.parts) != 1) return "what is stuck is not together";
+  }
+  for (const PartSet& set : together) {
+    if (set.size() != 1) return "something is left together";
+  }
+  return {};
+}
+
+using Cell = std::array<int, 3>;
+using Cells = std::set<Cell>;
+
+// True if cubes can move away from others: by unit steps on the lattice, which lose nothing, since the free space of
+// cubes on a lattice consists of closed cells of that lattice.
+bool leaves(const Cells& moving, const Cells& stay, int size) {
+  const auto is_free = [&](const Cell& t) {
+    return std::none_of(moving.begin(), moving.end(), [&](const Cell& c) {
+      return stay.count({c[0] + t[0], c[1] + t[1], c[2] + t[2]}) != 0;
+    });
+  };
+  std::set<Cell> seen{{0, 0, 0}};
+  std::vector<Cell> stack{{0, 0, 0}};
+  while (!stack.empty()) {
+    const Cell at = stack.back();
+    stack.pop_back();
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (std::abs(at[i]) >= size) return true;
+      for (const int step : {1, -1}) {
+        Cell next = at;
+        next[i] += step;
+        if (is_free(next) && seen.insert(next).second) stack.push_back(next);
+      }
+    }
+  }
+  return false;
+}
+
+bool comes_apart(const std::vector<Cells>& parts, unsigned set, int size) {
+  if ((set & (set - 1)) == 0) return true;
+  for (unsigned moving = (set - 1) & set; moving != 0; moving = (moving - 1) & set) {
+    Cells mine;
+    Cells theirs;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      if ((set >> i & 1U) == 0) continue;
+      Cells& side = (moving >> i & 1U) != 0 ? mine : theirs;
+      side.insert(parts[i].begin(), parts[i].end());
+    }
+    if (leaves(mine, theirs, size)) {
+      return comes_apart(parts, moving, size) && comes_apart(parts, set & ~moving, size);
+    }
+  }
+  return false;
+}
+
+// Random cubes of a 3 x 3 x 3 block for each part; the last share stays empty.
+std::vector<Cells> random_cells(unsigned seed, unsigned count) {
+  std::mt19937 random(seed);
+  std::vector<Cells> cells(count);
+  for (int x = 0; x < 3; ++x) {
+    for (int y = 0; y < 3; ++y) {
+      for (int z = 0; z < 3; ++z) {
+        const auto owner = random() % (count + 1);
+        if (owner < count) cells[owner].insert({x, y, z});
+      }
+    }
+  }
+  return cells;
+}
+
+Assembly assembly_of(const std::vector<Cells>& cells) {
+  Assembly assembly;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    std::vector<Polyhedron> cubes;
+    for (const Cell& c : cells[i]) cubes.push_back(make_box({c[0], c[1], c[2]}, {c[0] + 1, c[1] + 1, c[2] + 1}));
+    REQUIRE_FALSE(cubes.empty());
+    assembly.parts.push_back(unite_all(cubes));
+    assembly.names.push_back(std::to_string(i));
+  }
+  return assembly;
+}
+
+TEST_CASE("the cone of free directions holds what a small step shows to be free") {
+  std::set<int> dimensions;
+  for (unsigned seed = 100; seed < 120; ++seed) {
+    INFO("seed " << seed);
+    const Assembly assembly = assembly_of(random_cells(seed, 3));
+    const FreeDirections free = free_directions(assembly, 1);
+    dimensions.insert(free.dimension);
+    const Polyhedron others = unite(assembly.parts[0], assembly.parts[2]);
+    for (int x = -1; x <= 1; ++x) {
+      for (int y = -1; y <= 1; ++y) {
+        for (int z = -1; z <= 1; ++z) {
+          // All faces are at whole coordinates, so a hundredth of a step is like the smallest one.
+          const Rational3 d{Rational(x, 100), Rational(y, 100), Rational(z, 100)};
+          const Polyhedron moved = transform(interior(assembly.parts[1]), AffineMap::translate(d));
+          CHECK(contains(free.cone, d) == intersect(moved, others).is_empty());
+        }
+      }
+    }
+    for (const std::array<Integer, 3>& ray : free.rays) {
+      CHECK(contains(free.cone, {Rational(ray[0], 100), Rational(ray[1], 100), Rational(ray[2], 100)}));
+    }
+  }
+  CHECK(dimensions.size() > 1);
+  CHECK(free_directions(load_assembly("rings"), 0).everything);
+  CHECK(free_directions(load_assembly("cube_in_a_box"), 1).dimension == 0);
+  const std::vector<std::array<Integer, 3>> along{{0, 1, 0}};
+  CHECK(free_directions(load_assembly("dovetail"), 1).rays == along);
+}
+
+TEST_CASE("assemblies of unit cubes come apart iff a search on the lattice says so") {
+  int stuck = 0;
+  int planned = 0;
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    INFO("seed " << seed);
+    const std::vector<Cells> cells = random_cells(seed, 2 + seed % 3);
+    const Assembly assembly = assembly_of(cells);
+    const Disassembly answer = take_apart(assembly);
+    CHECK(answer.inseparable.empty() == comes_apart(cells, (1U << cells.size()) - 1, 3));
+    CHECK(complaint(assembly, answer) == "");
+    for (const Inseparable& set : answer.inseparable) CHECK(set.all_subassemblies);
+    stuck += answer.inseparable.empty() ? 0 : 1;
+    for (const DisassemblyStep& step : answer.steps) planned += step.straight ? 0 : 1;
+  }
+  CHECK(stuck > 4);
+  CHECK(planned > 0);
+}
+
+TEST_CASE("minimal closed sets are those that a search through all sets finds") {
+  for (unsigned seed = 0; seed < 200; ++seed) {
+    std::mt19937 random(seed);
+    BlockingGraph graph(1 + random() % 6);
+    for (std::size_t i = 0; i < graph.size(); ++i) {
+      for (std::size_t j = 0; j < graph.size(); ++j) {
+        if (i != j && random() % 3 == 0) graph[i].push_back(j);
+      }
+    }
+    std::set<std::vector<std::size_t>> closed;
+    for_each_closed_set(graph, [&](const std::vector<std::size_t>& set) { closed.insert(set); });
+    std::vector<std::size_t> all(graph.size());
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
+    closed.insert(all);
+    std::set<std::vector<std::size_t>> minimal;
+    for (const std::vector<std::size_t>& set : closed) {
+      const bool has_smaller = std::any_of(closed.begin(), closed.end(), [&](const std::vector<std::size_t>& other) {
+        return other.size() < set.size() && std::includes(set.begin(), set.end(), other.begin(), other.end());
+      });
+      if (!has_smaller) minimal.insert(set);
+    }
+    std::set<std::vector<std::size_t>> found;
+    for (std::vector<std::size_t> set : minimal_closed_sets(graph)) {
+      std::sort(set.begin(), set.end());
+      found.insert(set);
+    }
+    CHECK(found == minimal);
+  }
+}
+
+TEST_CASE("known assemblies") {
+  struct Known {
+    const char* name;
+    bool apart;
+    std::size_t steps;
+    const char* first;  // the first part to go, or nothing
+  };
+  for (const Known& known :
+       {Known{"tray", true, 9, ""}, Known{"lid_and_pin", true, 2, "pin"}, Known{"peg", true, 1, ""},
+        Known{"dovetail", true, 1, "tail"}, Known{"rings", false, 0, ""}, Known{"burr", true, 5, "key"},
+        Known{"cube_in_a_box", false, 0, ""}}) {
+    INFO(known.name);
+    const Assembly assembly = load_assembly(known.name);
+    const Disassembly answer = take_apart(assembly);
+    CHECK(answer.inseparable.empty() == known.apart);
+    CHECK(answer.steps.size() == known.steps);
+    CHECK(complaint(assembly, answer) == "");
+    if (known.first[0] != 0) {
+      REQUIRE_FALSE(answer.steps.empty());
+      CHECK(assembly.names[answer.steps.front().parts.front()] == known.first);
+    }
+  }
+  const Inseparable rings = take_apart(load_assembly("rings")).inseparable.at(0);
+  CHECK(rings.all_subassemblies);
+  CHECK_FALSE(rings.nothing_moves);
+  CHECK(rings.blocked_by.size() == 2);
+  CHECK(take_apart(load_assembly("cube_in_a_box")).inseparable.at(0).nothing_moves);
+  // Both ends of the dovetail's groove but one are closed: there is one direction only.
+  const Disassembly tail = take_apart(load_assembly("dovetail"));
+  REQUIRE(tail.steps.size() == 1);
+  const Rational3 end = tail.steps.front().path.back();
+  CHECK(end[0] == 0);
+  CHECK(end[1] > 0);
+  CHECK(end[2] == 0);
+}
+
+TEST_CASE("planner --assembly: reports, exit codes, pages") {
+  const Folder folder;
+  const std::string data = source_folder() + "/data/planner/assembly/";
+  const Run pin = planner(folder, "--assembly " + data + "lid_and_pin.json --json --page " + folder.file("p.html") +
+                                      " -o " + folder.file("p.glb"));
+  CHECK(pin.code == 0);
+  const nlohmann::json report = nlohmann::json::parse(pin.out);
+  CHECK(report["status"] == "sequence");
+  REQUIRE(report["steps"].size() == 2);
+  CHECK(report["steps"][0]["parts"] == nlohmann::json{"pin"});
+  CHECK(report["steps"][0]["straight"] == true);
+  CHECK(report["steps"][0]["path"][0] == nlohmann::json{"0", "0", "0"});
+  CHECK(std::filesystem::file_size(folder.file("p.html")) > 1000);
+  CHECK(text_of(folder.file("p.glb")).find("\"animations\"") != std::string::npos);
+  const Run rings = planner(folder, "--assembly " + data + "rings.json");
+  CHECK(rings.code == 1);
+  CHECK(rings.out ==
+        "inseparable\ninseparable: ring 1, ring 2; nothing of it can leave (all subassemblies)\n"
+        "  ring 1 is blocked by ring 2\n  ring 2 is blocked by ring 1\n");
+  const std::string overlap =
+      folder.write("o.json", R"J({"parts": {"a": "box(0,0,0,2,2,2)", "b": "box(1,1,1,3,3,3)"}})J");
+  const Run bad = planner(folder, "--assembly " + overlap);
+  CHECK(bad.code == 3);
+  CHECK(bad.out == "overlap: a and b\n");
+  for (const char* text :
+       {"{}", "[]", R"J({"parts": {}})J", R"J({"parts": {"a": 1}})J", R"J({"parts": {"a": "nothing"}})J",
+        R"J({"parts": {"a": "box(0,0,0,1,1,0)"}})J", R"J({"parts": {"a": "box(0,0,0,1,1,1)"}, "x": 1})J"}) {
+    const Run wrong = planner(folder, "--assembly " + folder.write("bad.json", text));
+    CHECK(wrong.code == 2);
+    CHECK_THAT(wrong.err, Catch::Contains("bad.json"));
+  }
+  CHECK(planner(folder, "--assembly " + overlap + " --tight").code == 2);
+}
+
+}  // namespace
+}  // namespace nef::planner::test

@@ -13,8 +13,8 @@ import sys
 # The order of docs/architecture.md. A folder may include those before it, and itself.
 CORE = [
     "base", "number", "geometry", "sphere_map", "complex", "location", "synthesis", "boolean", "query", "mesh",
-    "construct", "operation", "tiles", "import", "export", "validation", "distance", "parts", "decimation", "io", "program", "view",
-    "command",
+    "construct", "operation", "tiles", "import", "export", "validation", "distance", "parts", "decimation", "io",
+    "program", "view", "command",
 ]
 # The public face stands between the folders that make it and those that use it.
 FACE = "polyhedron.h", "labeled_polyhedron.h"

@@ -186,7 +186,8 @@ void check(const Case& the_case, const Fold& fold) {
 
 void fuzz_tiles(const Case& the_case) {
   Choices& choices = the_case.choices();
-  const nef::Tiling tiling{choices.below(2) == 0 ? 1024U : 16U + choices.below(40), 1};
+  const std::size_t limit = choices.below(2) == 0 ? 1024 : 16 + choices.below(40);
+  const nef::Tiling tiling{limit, 1 + choices.below(2)};
   the_case.tell("at most " + std::to_string(tiling.limit) + " vertices in a tile");
   const Fold fold = random_fold(the_case, tiling, 0);
   the_case.tell(fold.steps_text());

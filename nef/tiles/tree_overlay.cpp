@@ -57,12 +57,12 @@ class TreeOverlay {
       const bool in_b = b.node->mark != 0;
       return remarked(a, {value(false, in_b), value(true, in_b)});
     }
-    if (!whole) return std::nullopt;
     if (a.node->kind == Kind::kUniform) {
       const bool in_a = a.node->mark != 0;
-      return remarked(b, {value(in_a, false), value(in_a, true)});
+      const std::array<bool, 2> of_b{value(in_a, false), value(in_a, true)};
+      if (whole || of_b[0] == of_b[1]) return remarked(b, of_b);
     }
-    if (a.node == b.node) {
+    if (whole && a.node == b.node) {
       const bool complements = a.complemented != b.complemented;
       return remarked(a, {value(false, complements), value(true, !complements)});
     }

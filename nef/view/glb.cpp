@@ -46,15 +46,24 @@ class GlbWriter {
                       {"translation", {center_[0], center_[2], -center_[1]}},
                       {"rotation", {-half, 0, 0, half}},
                       {"children", Json::array()}});
+    Json hidden = Json::array();
     for (std::size_t i = 0; i < layers_.size(); ++i) {
       const std::size_t node = add_layer(i);
-      nodes_[0]["children"].push_back(node);
+      (layers_[i].visible ? nodes_[0]["children"] : hidden).push_back(node);
     }
-    if (layers_.empty()) nodes_[0].erase("children");
-    Json document{{"asset", {{"version", "2.0"}, {"generator", "nef"}}},
-                  {"scene", 0},
-                  {"scenes", {{{"nodes", {0}}}}},
-                  {"nodes", nodes_}};
+    // glTF cannot hide a node; what is not to be seen at first is in a second scene only, under a root of its own.
+    Json scenes{{{"nodes", {0}}}};
+    if (!hidden.empty()) {
+      Json root = nodes_[0];
+      root["name"] = "hidden at first";
+      root["children"] = std::move(hidden);
+      scenes[0]["name"] = "shown at first";
+      scenes.push_back({{"name", "everything"}, {"nodes", {0, nodes_.size()}}});
+      nodes_.push_back(std::move(root));
+    }
+    if (nodes_[0]["children"].empty()) nodes_[0].erase("children");
+    Json document{
+        {"asset", {{"version", "2.0"}, {"generator", "nef"}}}, {"scene", 0}, {"scenes", scenes}, {"nodes", nodes_}};
     const auto add = [&document](const char* key, const Json& list) {
       if (!list.empty()) document[key] = list;
     };

@@ -43,6 +43,7 @@ class SceneWriter {
     if (const auto bounds = bounds_of(layers_, false)) {
       page["bounds"] = {relative((*bounds)[0]), relative((*bounds)[1])};
     }
+    if (const auto seen = bounds_of(layers_, true)) page["focus"] = {relative((*seen)[0]), relative((*seen)[1])};
     for (std::size_t i = 0; i < layers_.size(); ++i) page["layers"].push_back(layer(i));
     const std::string json = page.dump(-1, ' ', false, Json::error_handler_t::replace);
     const std::array<std::uint32_t, 1> length{static_cast<std::uint32_t>(json.size())};

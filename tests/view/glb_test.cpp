@@ -34,6 +34,35 @@ std::vector<Layer> moving_cubes() {
   return layers;
 }
 
+TEST_CASE("a layer that is not visible is in the second scene only") {
+  std::vector<Layer> layers = moving_cubes();
+  layers[0].visible = false;
+  const std::string bytes = glb_bytes(layers);
+  const Json json = Json::parse(bytes.substr(20, word(bytes, 12)));
+  const auto names_in = [&json](std::size_t scene) {
+    std::vector<std::string> names;
+    std::vector<std::size_t> open = json["scenes"][scene]["nodes"];
+    while (!open.empty()) {
+      const Json& node = json["nodes"][open.back()];
+      open.pop_back();
+      names.push_back(node["name"]);
+      for (const Json& child : node.value("children", Json::array())) open.push_back(child.get<std::size_t>());
+    }
+    return names;
+  };
+  const auto has = [](const std::vector<std::string>& names, const char* name) {
+    return std::count(names.begin(), names.end(), name) == 1;
+  };
+  CHECK(json["scene"] == 0);
+  CHECK(has(names_in(0), "robot"));
+  CHECK_FALSE(has(names_in(0), "obstacle"));
+  CHECK(has(names_in(1), "robot"));
+  CHECK(has(names_in(1), "obstacle"));
+  CHECK(names_in(1).size() == json["nodes"].size());
+  const std::string all = glb_bytes(moving_cubes());
+  CHECK(Json::parse(all.substr(20, word(all, 12)))["scenes"].size() == 1);
+}
+
 TEST_CASE("a glTF file has the chunks, nodes and arrays that the specification asks for") {
   const std::string bytes = glb_bytes(moving_cubes());
   REQUIRE(bytes.substr(0, 4) == "glTF");

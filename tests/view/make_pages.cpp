@@ -59,6 +59,12 @@ void write_all(const std::string& folder) {
                               png_bytes(red)});
   write_page(layers, folder + "/layers.html", {.title = "layers"});
 
+  // A small robot to begin with, a large free space to be switched on; two bodies in one layer.
+  std::vector<Layer> focus{layer_of("robot", unite(cube(0, 1), cube(3, 4))), layer_of("free space", cube(-100, 100))};
+  focus[1].visible = false;
+  write_page(focus, folder + "/focus.html", {.title = "focus"});
+  write_page({layer_of("two bodies", unite(cube(0, 1), cube(3, 4)))}, folder + "/bodies.html", {.title = "bodies"});
+
   write_page({terrain(224)}, folder + "/terrain.html", {.title = "100352 triangles"});
 }
 

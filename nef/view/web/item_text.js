@@ -3,7 +3,7 @@
 // What the page tells about an item, as HTML.
 import { ARTIFICIAL, isolated } from "./scene_data.js";
 
-const escaped = (text) => String(text).replace(/[&<>"]/g, (c) => `&#${c.charCodeAt(0)};`);
+export const escaped = (text) => String(text).replace(/[&<>"]/g, (c) => `&#${c.charCodeAt(0)};`);
 const row = (name, value, exact = false) => `<tr><td>${name}</td><td${exact ? ' class="exact"' : ""}>${value}</td></tr>`;
 const plural = (count, one) => `${count} ${one}${count === 1 ? "" : "s"}`;
 
@@ -12,12 +12,19 @@ export function markBadge(mark) {
   return `<span class="mark ${mark ? "in" : "out"}">${mark ? "selected" : "not selected"}${label}</span>`;
 }
 
+// What nobody reads at a glance has the nearest decimal beside it.
+function exactNumber(text, about) {
+  const decimal = text.includes("/") || text.length > 12 ? ` <span class="about">&asymp; ${Number(about.toPrecision(7))}</span>` : "";
+  return `<span class="number">${escaped(text)}</span>${decimal}`;
+}
+
 function pointRows(page, layer, vertex) {
   const line = layer.exact?.points()[vertex];
-  if (line) {
-    return line.split(" ").map((text, i) => row("xyz"[i], `<span class="number">${escaped(text)}</span>`, true)).join("");
-  }
   const { xyz } = layer.vertices;
+  if (line) {
+    const about = (i) => xyz[3 * vertex + i] + page.center[i];
+    return line.split(" ").map((text, i) => row("xyz"[i], exactNumber(text, about(i)), true)).join("");
+  }
   const near = [0, 1, 2].map((i) => (xyz[3 * vertex + i] + page.center[i]).toPrecision(7)).join(", ");
   return row("point", `about ${near}`) + row("", layer.exact ? "on the visible box" : "exact texts were left out of this page");
 }

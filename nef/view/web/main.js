@@ -24,7 +24,7 @@ class Viewer {
     this.radius = Math.hypot(...high.map((x, i) => x - low[i])) / 2 || 1;
     this.canvas = byId("view");
     this.renderer = new THREE.WebGLRenderer({ canvas: this.canvas, antialias: true, stencil: true });
-    this.renderer.setClearColor(0xf4f6f8);
+    this.#followColorScheme();
     this.camera = new THREE.PerspectiveCamera(32, 1, 0.1, 100);
     this.shared = sharedUniforms();
     this.scene = new THREE.Scene();
@@ -44,9 +44,23 @@ class Viewer {
     this.reset();
   }
 
+  // What is visible at first fills the view; what is not may be much larger.
   reset() {
-    this.control.target.set(0, 0, 0);
-    this.control.frame(START_DIRECTION, UP, this.radius * 1.08);
+    const [low, high] = this.page.focus ?? this.page.bounds ?? [[-1, -1, -1], [1, 1, 1]];
+    this.control.target.set(...low.map((x, i) => (x + high[i]) / 2));
+    const radius = Math.hypot(...high.map((x, i) => x - low[i])) / 2 || this.radius;
+    this.control.frame(START_DIRECTION, UP, radius * 1.08);
+  }
+
+  // Lines are dark and orange on either ground, so the dark one is a middle grey.
+  #followColorScheme() {
+    const dark = window.matchMedia("(prefers-color-scheme: dark)");
+    const apply = () => {
+      this.renderer.setClearColor(dark.matches ? 0x8b96a2 : 0xf4f6f8);
+      if (this.control) this.requestDraw();
+    };
+    dark.addEventListener("change", apply);
+    apply();
   }
 
   resize() {
@@ -152,7 +166,7 @@ class Viewer {
   makeControls() {
     document.querySelector("h1").textContent = this.page.title;
     makeLayerRows(this.views, () => this.requestDraw());
-    makeLegend();
+    makeLegend(this.page);
     const show = ["facets", "edges", "vertices"].map((name) => byId(`show-${name}`));
     const update = () => {
       for (const view of this.views) view.show(...show.map((box) => box.checked));

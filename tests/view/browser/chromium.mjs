@@ -82,6 +82,12 @@ export class Browser {
     await this.frame();
   }
 
+  // What a visitor's system says it likes better, such as ("prefers-color-scheme", "dark").
+  async prefer(name, value) {
+    await this.send("Emulation.setEmulatedMedia", { features: [{ name, value }] });
+    await this.frame();
+  }
+
   async evaluate(expression) {
     const { result, exceptionDetails } = await this.send("Runtime.evaluate",
       { expression, awaitPromise: true, returnByValue: true });

@@ -73,7 +73,7 @@ const tests = {
     const point = await browser.evaluate(vertexNamed("10/3", 1, "5/2"));
     await browser.click(...(await browser.evaluate(whereVertex(0, point))));
     const text = await browser.evaluate(itemText);
-    assert.match(text, /x10\/3y1z5\/2/);
+    assert.match(text, /x10\/3 \u2248 3\.333333y1z5\/2 \u2248 2\.5/);
     assert.match(text, /isolated/);
     // The middle of the front facet (y = 0), which the box and the sheet do not share.
     await browser.click(...(await browser.evaluate("nefViewer.picker.project([0.8, 0, 0.9].map((x, i) => x - nefViewer.page.center[i])).slice(0, 2)")));
@@ -151,6 +151,32 @@ const tests = {
     assert.deepEqual(await at(1), [0, -7, 0]);
     const red = await browser.evaluate(countPixels("nefViewer", "(r, g, b) => r > 240 && g < 15 && b < 15"));
     assert.ok(red > 50, "the image of the camera");
+  },
+
+  async "the first view is of what is visible, and the legend names what there is"(browser) {
+    const legend = "document.querySelector('#legend').textContent";
+    assert.match(await browser.evaluate(legend), /the box where unbounded parts are cut off/);
+    await browser.open(join(folder, "focus.html"));
+    const size = await browser.evaluate(`(() => { const at = (i) => nefViewer.picker.project(nefViewer.picker.vertexPoint(nefViewer.views[0], i));
+      const xs = Array.from({ length: 16 }, (_, i) => at(i)[0]); return Math.max(...xs) - Math.min(...xs); })()`);
+    assert.ok(size > 250, `the robot is ${size} pixels wide`);
+    assert.doesNotMatch(await browser.evaluate(legend), /the box where/);
+    assert.doesNotMatch(await browser.evaluate(legend), /volume 1/);
+    await browser.open(join(folder, "bodies.html"));
+    assert.match(await browser.evaluate(legend), /volume 1volume 2/);
+    assert.equal(await browser.evaluate("document.querySelectorAll('#legend .volume .swatch').length"), 2);
+  },
+
+  async "a dark page for those who want it"(browser) {
+    const paper = "getComputedStyle(document.querySelector('#panel')).backgroundColor";
+    const ground = countPixels("nefViewer", "(r, g, b) => r > 230 && g > 230 && b > 230");
+    const light = await browser.evaluate(paper);
+    assert.ok((await browser.evaluate(ground)) > 10000);
+    await browser.prefer("prefers-color-scheme", "dark");
+    assert.notEqual(await browser.evaluate(paper), light);
+    assert.ok((await browser.evaluate(ground)) < 1000, "the ground is not light any more");
+    await browser.prefer("prefers-color-scheme", "light");
+    assert.equal(await browser.evaluate(paper), light);
   },
 
   async "100,000 triangles are usable"(browser) {

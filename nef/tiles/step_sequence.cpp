@@ -22,21 +22,9 @@ constexpr std::size_t kSmallest = 2;  // tiles
 constexpr std::size_t kEvidence = 2;  // steps
 constexpr std::size_t kMemory = 8;    // steps that an average is taken over
 
-Polyhedron combined(BooleanOperator op, const Polyhedron& a, const Polyhedron& b) {
-  switch (op) {
-    case BooleanOperator::kUnion:
-      return unite(a, b);
-    case BooleanOperator::kIntersection:
-      return intersect(a, b);
-    case BooleanOperator::kDifference:
-      return subtract(a, b);
-    case BooleanOperator::kSymmetricDifference:
-      break;
-  }
-  return symmetric_difference(a, b);
-}
-
-TiledPolyhedron combined(BooleanOperator op, const TiledPolyhedron& a, const Polyhedron& b) {
+// Set: a Polyhedron or a TiledPolyhedron.
+template <typename Set>
+Set combined(BooleanOperator op, const Set& a, const Polyhedron& b) {
   switch (op) {
     case BooleanOperator::kUnion:
       return unite(a, b);

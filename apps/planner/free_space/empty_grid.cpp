@@ -200,9 +200,10 @@ void EmptyGrid::enter(const Complex& complex, const Facet& facet) {
   for (std::size_t i = 0; i < 3; ++i) in_box *= last[i] - first[i] + 1;
   // A small one may as well enter all that its plane parts.
   constexpr std::size_t kSmall = 64;
-  const FacetEdges edges(complex, facet);
+  std::optional<FacetEdges> edges;
   if (in_box > kSmall) {
-    for (const auto& [a, b] : edges.ends()) enter_edge(a, b);
+    edges.emplace(complex, facet);
+    for (const auto& [a, b] : edges->ends()) enter_edge(a, b);
   }
   const std::array<double, 4>& n = complex.planes.approximate(facet.plane);
   const Vector3d normal(n[0], n[1], n[2]);
@@ -216,7 +217,7 @@ void EmptyGrid::enter(const Complex& complex, const Facet& facet) {
         const double value = normal.dot(c) + n[3];
         const double size = normal.cwiseAbs().dot(c.cwiseAbs()) + std::fabs(n[3]) + half;
         if (std::fabs(value) > half + 0x1p-44 * size) continue;
-        const bool met = in_box <= kSmall || edges.surround(c - std::clamp(value / half, -1.0, 1.0) * reach);
+        const bool met = !edges || edges->surround(c - std::clamp(value / half, -1.0, 1.0) * reach);
         if (met) entered_[index({x, y, z})] = 1;
       }
     }

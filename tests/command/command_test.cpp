@@ -89,7 +89,7 @@ TEST_CASE("Boolean operations on files, with the promised JSON") {
   CHECK(here.nef("intersection a.off b.off c.off --json").json()["result"]["vertices"] == 1);
 }
 
-TEST_CASE("--origins tells from which operand each face comes") {
+TEST_CASE("a Boolean tells with --origins from which operand each face comes") {
   const Workplace here;
   here.write("left box.off", cube_off(0, 2));
   here.write("b.off", cube_off(1, 3));

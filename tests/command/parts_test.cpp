@@ -54,7 +54,8 @@ TEST_CASE("split writes a file for each part") {
   const Outcome volumes = here.nef("split a.nef -o cubes --volumes --format stl --json");
   CAPTURE(volumes.err);
   REQUIRE(volumes.json()["files"].size() == 3);
-  for (const auto& file : volumes.json()["files"]) {
+  const nlohmann::json files = volumes.json()["files"];  // a range over a part of a temporary would outlive it
+  for (const auto& file : files) {
     CHECK(here.nef("info " + file.get<std::string>() + " --json").json()["volume"] == "1");
   }
 }

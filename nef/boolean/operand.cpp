@@ -2,6 +2,7 @@
 #include "nef/boolean/operand.h"
 
 #include "nef/base/error.h"
+#include "nef/complex/item_boxes.h"
 #include "nef/complex/local_pyramid.h"
 #include "nef/sphere_map/sphere_geometry.h"
 
@@ -27,46 +28,21 @@ Operand::Operand(const Complex& complex, CommonTables& tables)
 
 void Operand::rename(SphereMapBuffer& map) const {
   if (rows_.empty()) return;
-  for (SVertex& v : map.svertices) {
-    v.p = plane(v.p);
-    v.q = plane(v.q);
-  }
-  for (SHalfedge& e : map.shalfedges) e.plane = plane(e.plane);
-  for (SLoop& l : map.sloops) l.plane = plane(l.plane);
+  for_each_plane(map, [this](PlaneId& own) { own = plane(own); });
 }
 
-Box Operand::vertex_box(std::uint32_t vertex) const {
-  Box box;
-  box.add_rounded(complex_->points.approximate(PointId{vertex}));
-  return box;
-}
+Box Operand::vertex_box(std::uint32_t vertex) const { return nef::vertex_box(*complex_, vertex); }
 
-Box Operand::edge_box(std::uint32_t halfedge) const {
-  Box box;
-  box.add_rounded(complex_->points.approximate(PointId{source(halfedge)}));
-  box.add_rounded(complex_->points.approximate(PointId{target(halfedge)}));
-  return box;
-}
+Box Operand::edge_box(std::uint32_t halfedge) const { return nef::edge_box(*complex_, halfedge); }
 
-Box Operand::facet_box(FacetId facet) const {
-  Box box;
-  for (const std::uint32_t corner : complex_->corners_of(complex_->facets[facet].first_cycle)) {
-    box.add_rounded(complex_->points.approximate(PointId{complex_->shalfedge_owner[corner]}));
-  }
-  return box;
-}
+Box Operand::facet_box(FacetId facet) const { return nef::facet_box(*complex_, complex_->facets[facet]); }
 
 SphereMapView Operand::pyramid(const Item& item, LabelId label, SphereMapBuffer& scratch) const {
   switch (item.kind) {
     case Item::Kind::kVertex: {
       const SphereMapView map = complex_->sphere_map(item.index);
       if (rows_.empty()) return map;
-      scratch.svertices.assign(map.svertices.begin(), map.svertices.end());
-      scratch.shalfedges.assign(map.shalfedges.begin(), map.shalfedges.end());
-      scratch.sloops.assign(map.sloops.begin(), map.sloops.end());
-      scratch.sfaces.assign(map.sfaces.begin(), map.sfaces.end());
-      scratch.entries.assign(map.entries.begin(), map.entries.end());
-      scratch.mark = map.mark;
+      scratch.assign(map);
       rename(scratch);
       break;
     }

@@ -164,12 +164,7 @@ class ComplexOverlay {
     const auto apply = [&change](LabelId& mark) {
       if (mark != kOutside) mark = change(mark);
     };
-    out_.svertices.assign(map.svertices.begin(), map.svertices.end());
-    out_.shalfedges.assign(map.shalfedges.begin(), map.shalfedges.end());
-    out_.sloops.assign(map.sloops.begin(), map.sloops.end());
-    out_.sfaces.assign(map.sfaces.begin(), map.sfaces.end());
-    out_.entries.assign(map.entries.begin(), map.entries.end());
-    out_.mark = map.mark;
+    out_.assign(map);
     apply(out_.mark);
     for (SVertex& item : out_.svertices) apply(item.mark);
     for (SHalfedge& item : out_.shalfedges) apply(item.mark);

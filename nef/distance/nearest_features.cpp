@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "nef/base/error.h"
+#include "nef/complex/item_boxes.h"
 #include "nef/geometry/box_tree.h"
 #include "nef/geometry/rational_vectors.h"
 #include "nef/location/facet_search.h"

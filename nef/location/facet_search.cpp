@@ -14,6 +14,9 @@
 #include <cmath>
 #include <vector>
 
+#include "nef/complex/facet_plane.h"
+#include "nef/complex/item_boxes.h"
+
 namespace nef {
 namespace {
 
@@ -28,14 +31,10 @@ class ParityCount {
  public:
   ParityCount(const Complex& complex, const Facet& facet, const PointRef& point)
       : complex_(complex), facet_(facet), point_(point) {
-    const std::array<double, 4>& n = complex.planes.approximate(facet.plane);
-    std::size_t l = 0;
-    for (std::size_t i = 1; i < 3; ++i) {
-      if (std::fabs(n[i]) > std::fabs(n[l])) l = i;
-    }
-    k_ = (l + 1) % 3;
-    m_ = (l + 2) % 3;
-    ray_sign_ = n[l] > 0 ? 1 : -1;
+    const PlaneAxes axes(complex.planes, facet.plane);
+    k_ = static_cast<std::size_t>(axes.first);
+    m_ = static_cast<std::size_t>(axes.second);
+    ray_sign_ = axes.positive ? 1 : -1;
     const std::array<double, 3>& x = point.approximate();
     for (std::size_t i = 0; i < 3; ++i) {
       const double margin = std::fabs(x[i]) * 0x1p-48 + 1e-290;
@@ -160,18 +159,6 @@ BoxTree facet_edge_tree(const Complex& complex, const Facet& facet) {
   boxes.reserve(corners.size());
   for (const std::uint32_t corner : corners) boxes.push_back(edge_box(complex, complex.corner_halfedge(corner)));
   return BoxTree(boxes);
-}
-
-Box vertex_box(const Complex& complex, std::uint32_t vertex) {
-  Box box;
-  box.add_rounded(complex.points.approximate(PointId{vertex}));
-  return box;
-}
-
-Box edge_box(const Complex& complex, std::uint32_t halfedge) {
-  Box box = vertex_box(complex, complex.svertex_owner[halfedge]);
-  box.add_rounded(complex.points.approximate(PointId{complex.target(halfedge)}));
-  return box;
 }
 
 Box mirrored(const Box& box) {

@@ -26,10 +26,6 @@ FacetPlace locate_in_facet(const Complex& complex, const Facet& facet, const Poi
 /// complex.corners_of(facet).
 BoxTree facet_edge_tree(const Complex& complex, const Facet& facet);
 
-/// The box around a vertex, and the box around an edge.
-Box vertex_box(const Complex& complex, std::uint32_t vertex);
-Box edge_box(const Complex& complex, std::uint32_t halfedge);
-
 /// The box around a point.
 Box point_box(const PointRef& point);
 

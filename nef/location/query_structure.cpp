@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "nef/base/error.h"
+#include "nef/complex/item_boxes.h"
 #include "nef/location/facet_search.h"
 
 namespace nef {

@@ -43,13 +43,7 @@ SphereMapBuffer local_pyramid(const Polyhedron& a, const Rational3& point) {
   SphereMapBuffer result;
   switch (where.kind) {
     case Location::Kind::kVertex: {
-      const SphereMapView map = complex.sphere_map(where.index);
-      result.svertices.assign(map.svertices.begin(), map.svertices.end());
-      result.shalfedges.assign(map.shalfedges.begin(), map.shalfedges.end());
-      result.sloops.assign(map.sloops.begin(), map.sloops.end());
-      result.sfaces.assign(map.sfaces.begin(), map.sfaces.end());
-      result.entries.assign(map.entries.begin(), map.entries.end());
-      result.mark = map.mark;
+      result.assign(complex.sphere_map(where.index));
       break;
     }
     case Location::Kind::kEdge: {

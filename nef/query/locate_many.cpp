@@ -16,6 +16,7 @@
 
 #include "nef/base/error.h"
 #include "nef/base/parallel.h"
+#include "nef/complex/item_boxes.h"
 #include "nef/geometry/box_tree.h"
 #include "nef/location/facet_search.h"
 #include "nef/query/predicates_of_sets.h"

@@ -11,7 +11,9 @@
 #include <cmath>
 #include <limits>
 
+#include "nef/complex/facet_plane.h"
 #include "nef/polyhedron.h"
+#include "nef/query/extreme_points.h"
 #include "nef/query/predicates_of_sets.h"
 #include "nef/query/rational_sum.h"
 
@@ -28,20 +30,17 @@ class FacetRatio {
   Integer denominator;
 
   void set(const Facet& facet) {
-    const std::array<double, 4>& n = c_.planes.approximate(facet.plane);
-    std::size_t l = 0;
-    for (std::size_t i = 1; i < 3; ++i) {
-      if (std::fabs(n[i]) > std::fabs(n[l])) l = i;
-    }
-    k_ = (l + 1) % 3;
-    m_ = (l + 2) % 3;
+    const PlaneAxes axes(c_.planes, facet.plane);
+    k_ = static_cast<std::size_t>(axes.first);
+    m_ = static_cast<std::size_t>(axes.second);
     const std::span<const std::uint32_t> corners = c_.corners_of(facet);
     if (corners.size() <= kSmall) {
       sum_small(corners);
     } else {
       sum_large(corners);
     }
-    mpz_mul(denominator.get_mpz_t(), denominator.get_mpz_t(), c_.planes.coefficient(facet.plane, l));
+    mpz_mul(denominator.get_mpz_t(), denominator.get_mpz_t(),
+            c_.planes.coefficient(facet.plane, static_cast<std::size_t>(axes.dropped)));
     denominator *= 2;
     if (sgn(denominator) < 0) {
       mpz_neg(denominator.get_mpz_t(), denominator.get_mpz_t());
@@ -176,25 +175,11 @@ double surface_area(const Complex& c) {
 }
 
 std::optional<std::array<Rational3, 2>> bounding_box(const Complex& c) {
-  std::array<std::array<PointId, 3>, 2> extreme;
+  ExtremePoints extreme(c.points);
   for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
-    if (is_box_vertex(c, v)) continue;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      for (std::size_t end = 0; end < 2; ++end) {
-        PointId& best = extreme[end][axis];
-        const int wanted = end == 0 ? -1 : 1;
-        if (!best.valid() || compare_coordinate(c.points, PointId{v}, best, static_cast<int>(axis)) == wanted) {
-          best = PointId{v};
-        }
-      }
-    }
+    if (!is_box_vertex(c, v)) extreme.add(PointId{v});
   }
-  if (!extreme[0][0].valid()) return std::nullopt;
-  std::array<Rational3, 2> result;
-  for (std::size_t end = 0; end < 2; ++end) {
-    for (std::size_t axis = 0; axis < 3; ++axis) result[end][axis] = c.points.rational(extreme[end][axis])[axis];
-  }
-  return result;
+  return extreme.box();
 }
 
 std::optional<Rational> volume(const Polyhedron& a) { return volume(a.complex()); }

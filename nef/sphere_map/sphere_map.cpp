@@ -12,6 +12,15 @@ void SphereMapBuffer::clear() {
   mark = 0;
 }
 
+void SphereMapBuffer::assign(const SphereMapView& map) {
+  svertices.assign(map.svertices.begin(), map.svertices.end());
+  shalfedges.assign(map.shalfedges.begin(), map.shalfedges.end());
+  sloops.assign(map.sloops.begin(), map.sloops.end());
+  sfaces.assign(map.sfaces.begin(), map.sfaces.end());
+  entries.assign(map.entries.begin(), map.entries.end());
+  mark = map.mark;
+}
+
 void SphereMapBuffer::assign_trivial(LabelId label) {
   clear();
   mark = label;

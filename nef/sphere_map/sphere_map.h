@@ -89,6 +89,7 @@ struct SphereMapBuffer {
   LabelId mark = 0;
 
   void clear();
+  void assign(const SphereMapView& map);
   [[nodiscard]] SphereMapView view() const { return {svertices, shalfedges, sloops, sfaces, entries, mark}; }
 
   /// The whole sphere is one sface; the centre has the same mark: a point inside a volume.
@@ -98,5 +99,17 @@ struct SphereMapBuffer {
   /// `positive` and `negative` are the marks on the sides of the oriented plane.
   void assign_circle(PlaneId plane, LabelId facet, LabelId positive, LabelId negative);
 };
+
+/// Calls change(plane) for the plane of every item of a sphere map that may change, or of many: anything that owns
+/// svertices, shalfedges and sloops.
+template <typename Items, typename Change>
+void for_each_plane(Items& items, Change&& change) {
+  for (SVertex& v : items.svertices) {
+    change(v.p);
+    change(v.q);
+  }
+  for (SHalfedge& e : items.shalfedges) change(e.plane);
+  for (SLoop& l : items.sloops) change(l.plane);
+}
 
 }  // namespace nef

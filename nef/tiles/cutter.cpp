@@ -27,16 +27,6 @@ void name_owners(Complex& c) {
   }
 }
 
-template <typename Change>
-void for_each_plane(Complex& c, Change&& change) {
-  for (SVertex& v : c.svertices) {
-    change(v.p);
-    change(v.q);
-  }
-  for (SHalfedge& e : c.shalfedges) change(e.plane);
-  for (SLoop& l : c.sloops) change(l.plane);
-}
-
 // The planes that a loose complex uses, in the order of the table, and renames them in it. `row`: scratch, kept between
 // calls for one table.
 PlaneTable own_planes(const PlaneTable& all, Complex& piece, std::vector<std::uint32_t>& row) {

@@ -109,13 +109,13 @@ class SeamGlue {
     }
     const AxisPlane& plane = tree.node->plane;
     spots_[index].plane = plane.intern(planes_);
-    const auto child = [&tree](const TileRef& own) { return tree.complemented ? own.complement() : own; };
+    const std::array<TileRef, 2> parts = children(tree);
     Walls below = walls;
     below.spot[2 * plane.axis + 1] = index;
     Walls above = walls;
     above.spot[2 * plane.axis] = index;
-    const std::uint32_t low = add(child(tree.node->low), region.below(plane), below);
-    const std::uint32_t high = add(child(tree.node->high), region.above(plane), above);
+    const std::uint32_t low = add(parts[0], region.below(plane), below);
+    const std::uint32_t high = add(parts[1], region.above(plane), above);
     spots_[index].low = low;
     spots_[index].high = high;
     return index;
@@ -291,20 +291,9 @@ class SeamGlue {
                           c.volumes[facet.volume_below].mark);
       }
     } else {
-      const SphereMapView map = c.sphere_map(vertex);
-      out.svertices.assign(map.svertices.begin(), map.svertices.end());
-      out.shalfedges.assign(map.shalfedges.begin(), map.shalfedges.end());
-      out.sloops.assign(map.sloops.begin(), map.sloops.end());
-      out.sfaces.assign(map.sfaces.begin(), map.sfaces.end());
-      out.entries.assign(map.entries.begin(), map.entries.end());
-      out.mark = map.mark;
+      out.assign(c.sphere_map(vertex));
     }
-    for (SVertex& v : out.svertices) {
-      v.p = renamed(leaf, v.p);
-      v.q = renamed(leaf, v.q);
-    }
-    for (SHalfedge& e : out.shalfedges) e.plane = renamed(leaf, e.plane);
-    for (SLoop& l : out.sloops) l.plane = renamed(leaf, l.plane);
+    for_each_plane(out, [&leaf](PlaneId& plane) { plane = renamed(leaf, plane); });
   }
 
   std::vector<Spot> spots_;

@@ -6,17 +6,13 @@
 #include <vector>
 
 #include "nef/complex/local_pyramid.h"
+#include "nef/query/extreme_points.h"
 #include "nef/sphere_map/overlay.h"
 
 namespace nef {
 namespace {
 
 using Kind = TileNode::Kind;
-
-TileRef child(const TileRef& tree, bool high) {
-  const TileRef& own = high ? tree.node->high : tree.node->low;
-  return tree.complemented ? own.complement() : own;
-}
 
 // Calls visit(leaf, region) for every leaf.
 template <typename Visit>
@@ -25,8 +21,9 @@ void for_each_leaf(const TileRef& tree, const Region& region, const Visit& visit
     visit(tree, region);
     return;
   }
-  for_each_leaf(child(tree, false), region.below(tree.node->plane), visit);
-  for_each_leaf(child(tree, true), region.above(tree.node->plane), visit);
+  const auto [low, high] = children(tree);
+  for_each_leaf(low, region.below(tree.node->plane), visit);
+  for_each_leaf(high, region.above(tree.node->plane), visit);
 }
 
 // The same for those whose regions hold the point.
@@ -38,18 +35,13 @@ void for_each_leaf_at(const TileRef& tree, const Region& region, const Rational3
   }
   const AxisPlane& plane = tree.node->plane;
   const int side = cmp(point[plane.axis], plane.at);
-  if (side <= 0) for_each_leaf_at(child(tree, false), region.below(plane), point, visit);
-  if (side >= 0) for_each_leaf_at(child(tree, true), region.above(plane), point, visit);
+  const auto [low, high] = children(tree);
+  if (side <= 0) for_each_leaf_at(low, region.below(plane), point, visit);
+  if (side >= 0) for_each_leaf_at(high, region.above(plane), point, visit);
 }
 
 void intern_planes(const PlaneTable& from, PlaneTable& to, SphereMapBuffer& map) {
-  const auto intern = [&](PlaneId& plane) { plane = to.intern_from(from, plane); };
-  for (SVertex& v : map.svertices) {
-    intern(v.p);
-    intern(v.q);
-  }
-  for (SHalfedge& e : map.shalfedges) intern(e.plane);
-  for (SLoop& l : map.sloops) intern(l.plane);
+  for_each_plane(map, [&](PlaneId& plane) { plane = to.intern_from(from, plane); });
 }
 
 // The item of the whole set with this local pyramid.
@@ -117,31 +109,23 @@ std::optional<std::array<Rational3, 2>> bounds_of_tiles(const TileRef& tree, boo
   for_each_leaf(tree, Region{}, [&](const TileRef& leaf, const Region&) {
     if (leaf.node->kind == Kind::kUniform || !is_bounded) return;
     const Complex& c = leaf.node->set.complex();
-    std::array<std::array<PointId, 3>, 2> extreme;
+    ExtremePoints extreme(c.points);
     for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
       if (!has_boundary(c.sphere_map(v))) continue;
       if (!c.points.finite(PointId{v})) {
         is_bounded = false;
         return;
       }
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        for (std::size_t end = 0; end < 2; ++end) {
-          PointId& best = extreme[end][axis];
-          const int wanted = end == 0 ? -1 : 1;
-          if (!best.valid() || compare_coordinate(c.points, PointId{v}, best, static_cast<int>(axis)) == wanted) {
-            best = PointId{v};
-          }
-        }
-      }
+      extreme.add(PointId{v});
     }
-    const bool first = !result;
-    if (first) result.emplace();
-    for (std::size_t end = 0; end < 2; ++end) {
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        Rational own = c.points.rational(extreme[end][axis])[axis];
-        Rational& best = (*result)[end][axis];
-        if (first || (end == 0 ? own < best : own > best)) best = std::move(own);
-      }
+    const std::array<Rational3, 2> own = *extreme.box();  // a tile has boundary
+    if (!result) {
+      result = own;
+      return;
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      (*result)[0][axis] = std::min((*result)[0][axis], own[0][axis]);
+      (*result)[1][axis] = std::max((*result)[1][axis], own[1][axis]);
     }
   });
   return result;

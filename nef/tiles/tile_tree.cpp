@@ -72,6 +72,11 @@ TileRef cut_node(const AxisPlane& plane, TileRef low, TileRef high) {
   return {std::make_shared<const TileNode>(std::move(node)), false};
 }
 
+std::array<TileRef, 2> children(const TileRef& cut) {
+  if (!cut.complemented) return {cut.node->low, cut.node->high};
+  return {cut.node->low.complement(), cut.node->high.complement()};
+}
+
 Polyhedron leaf_set(const TileRef& leaf, const Region& region) {
   if (leaf.node->kind == TileNode::Kind::kUniform) return Polyhedron(uniform_tile(region, leaf.node->mark));
   return leaf.complemented ? complement(leaf.node->set) : leaf.node->set;

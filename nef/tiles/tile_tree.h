@@ -3,6 +3,7 @@
 // The tree of tiles behind a TiledPolyhedron. Nodes never change, so that any number of trees share them.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 
@@ -57,6 +58,9 @@ TileRef tile_leaf(Polyhedron set);
 
 /// The node of a cut, or what is there instead: one leaf if both sides are the same mark.
 TileRef cut_node(const AxisPlane& plane, TileRef low, TileRef high);
+
+/// The parts below and above the plane of a cut, complemented where the tree is.
+std::array<TileRef, 2> children(const TileRef& cut);
 
 /// The set of a leaf, in its region.
 Polyhedron leaf_set(const TileRef& leaf, const Region& region);

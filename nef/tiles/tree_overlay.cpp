@@ -22,11 +22,6 @@ TileRef remarked(const TileRef& tree, const std::array<bool, 2>& f) {
   return f[0] ? tree.complement() : tree;
 }
 
-std::array<TileRef, 2> children(const TileRef& tree) {
-  if (!tree.complemented) return {tree.node->low, tree.node->high};
-  return {tree.node->low.complement(), tree.node->high.complement()};
-}
-
 bool reaches_infinity(const Box& box) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   return std::any_of(box.low.begin(), box.low.end(), [](double x) { return x == -kInfinity; }) ||
@@ -187,10 +182,8 @@ TileRef overlay_trees(const TileRef& a, const TileRef& b, const TruthTable& f, c
 std::array<TileRef, 2> cut_tree(const TileRef& tree, const AxisPlane& plane) {
   if (tree.node->kind == Kind::kUniform) return {tree, tree};
   if (tree.node->kind == Kind::kTile) return cut_leaf(tree, plane);
-  const auto child = [&tree](const TileRef& own) { return tree.complemented ? own.complement() : own; };
   const AxisPlane& own = tree.node->plane;
-  const TileRef low = child(tree.node->low);
-  const TileRef high = child(tree.node->high);
+  const auto [low, high] = children(tree);
   if (own == plane) return {low, high};
   if (own.axis != plane.axis) {
     const std::array<TileRef, 2> of_low = cut_tree(low, plane);

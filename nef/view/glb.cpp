@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "nef/io/file_bytes.h"
+#include "nef/io/mesh/face_groups.h"
 #include "nef/view/byte_text.h"
 
 namespace nef::view {
@@ -25,11 +26,6 @@ constexpr int kTriangles = 4;
 
 constexpr Color kInk{31, 58, 90};
 constexpr Color kOrange{217, 102, 43};
-
-double linear(std::uint8_t channel) {
-  const double c = channel / 255.0;
-  return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
-}
 
 class GlbWriter {
  public:
@@ -129,11 +125,12 @@ class GlbWriter {
   }
 
   std::size_t add_material(const Color& color, double opacity, bool two_sided) {
-    Json material{{"pbrMetallicRoughness",
-                   {{"baseColorFactor", {linear(color[0]), linear(color[1]), linear(color[2]), opacity}},
-                    {"metallicFactor", 0},
-                    {"roughnessFactor", 0.85}}},
-                  {"doubleSided", two_sided}};
+    Json material{
+        {"pbrMetallicRoughness",
+         {{"baseColorFactor", {linear_light(color[0]), linear_light(color[1]), linear_light(color[2]), opacity}},
+          {"metallicFactor", 0},
+          {"roughnessFactor", 0.85}}},
+        {"doubleSided", two_sided}};
     if (opacity < 1) material["alphaMode"] = "BLEND";
     materials_.push_back(material);
     return materials_.size() - 1;

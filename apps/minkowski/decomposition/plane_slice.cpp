@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "apps/minkowski/decomposition/reflex.h"
+#include "nef/complex/item_boxes.h"
 
 namespace nef::minkowski {
 namespace {
@@ -29,14 +30,6 @@ Estimate estimate(const std::array<double, 2>& u, const std::array<double, 2>& h
   result.error = 2 * (std::fabs(rise) * share_error + 24 * kUnit * height);
   if (!(span > 32 * kUnit * largest)) result.error = std::numeric_limits<double>::infinity();
   return result;
-}
-
-Box box_of(const Complex& complex, const Facet& facet) {
-  Box box;
-  for (const std::uint32_t c : complex.corners_of(facet)) {
-    box.add_rounded(complex.points.approximate(PointId(complex.shalfedge_owner[c])));
-  }
-  return box;
 }
 
 }  // namespace
@@ -74,7 +67,7 @@ PlaneSlicer::PlaneSlicer(const Complex& complex)
       known_(complex.vertex_count(), 0),
       side_slice_(complex.vertex_count(), 0),
       side_(complex.vertex_count(), 0) {
-  for (const Facet& f : complex.facets) facet_boxes_.push_back(box_of(complex, f));
+  for (const Facet& f : complex.facets) facet_boxes_.push_back(nef::facet_box(complex, f));
   facets_ = BoxTree(facet_boxes_);
   for (std::uint32_t h = 0; h < complex.svertices.size(); ++h) {
     if (h < complex.twin[h] && complex.svertices[h].out == kNone) isolated_edges_.push_back(h);

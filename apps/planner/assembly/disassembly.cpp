@@ -26,7 +26,9 @@ Rational3 negative(const Rational3& d) { return {-d[0], -d[1], -d[2]}; }
 class TakingApart {
  public:
   TakingApart(const Assembly& assembly, const DisassemblyProgress& progress)
-      : assembly_(assembly), progress_(progress), blocking_(assembly.parts) {}
+      : assembly_(assembly), progress_(progress), blocking_(assembly.parts) {
+    for (const Polyhedron& part : assembly.parts) boxes_.push_back(*bounding_box(part));
+  }
 
   Disassembly run() {
     result_.overlap = blocking_.overlapping();
@@ -122,9 +124,9 @@ class TakingApart {
   }
 
   [[nodiscard]] std::array<Rational3, 2> box_of(const PartSet& parts) const {
-    std::array<Rational3, 2> box = *bounding_box(assembly_.parts[parts.front()]);
+    std::array<Rational3, 2> box = boxes_[parts.front()];
     for (const std::size_t part : parts) {
-      const std::array<Rational3, 2> other = *bounding_box(assembly_.parts[part]);
+      const std::array<Rational3, 2>& other = boxes_[part];
       for (std::size_t i = 0; i < 3; ++i) {
         box[0][i] = std::min(box[0][i], other[0][i]);
         box[1][i] = std::max(box[1][i], other[1][i]);
@@ -233,6 +235,7 @@ class TakingApart {
   const Assembly& assembly_;
   const DisassemblyProgress& progress_;
   Blocking blocking_;
+  std::vector<std::array<Rational3, 2>> boxes_;  // of the parts
   std::vector<Rational3> directions_;
   bool tells_all_ = false;  // the directions are enough for proofs
   Disassembly result_;

@@ -8,7 +8,9 @@
 #include <cmath>
 #include <span>
 
-#include "nef/geometry/box_tree.h"
+#include "nef/base/interruption.h"
+#include "nef/complex/facet_plane.h"
+#include "nef/complex/item_boxes.h"
 
 namespace nef::planner {
 namespace {
@@ -25,28 +27,15 @@ double short_number_below(double x) {
   return std::ldexp(std::floor(fraction * 8), exponent - 3);
 }
 
-// A box around exact points: outward by more than the rounding of their doubles.
-Box box_of(const Complex& complex, const Facet& facet) {
-  Box box;
-  for (const std::uint32_t corner : complex.corners_of(facet.first_cycle)) {
-    box.add_rounded(complex.points.approximate(PointId{complex.shalfedge_owner[corner]}));
-  }
-  return box;
-}
-
 // The edges of a facet as doubles.
 class FacetEdges {
  public:
   using Ends = std::array<std::array<double, 3>, 2>;
 
   FacetEdges(const Complex& complex, const Facet& facet) {
-    const std::array<double, 4>& n = complex.planes.approximate(facet.plane);
-    std::size_t axis = 0;
-    for (std::size_t i = 1; i < 3; ++i) {
-      if (std::fabs(n[i]) > std::fabs(n[axis])) axis = i;
-    }
-    u_ = (axis + 1) % 3;
-    v_ = (axis + 2) % 3;
+    const PlaneAxes axes(complex.planes, facet.plane);
+    u_ = static_cast<std::size_t>(axes.first);
+    v_ = static_cast<std::size_t>(axes.second);
     const std::span<const std::uint32_t> corners = complex.corners_of(facet);
     ends_.reserve(corners.size());
     for (const std::uint32_t corner : corners) {
@@ -86,7 +75,10 @@ EmptyGrid::EmptyGrid(const Complex& complex) {
   choose_cubes(all.low, all.high, std::clamp(kCubesPerItem * items, kFewest, kMost));
   if (entered_.empty()) return;
   enter_rim();
-  for (const Facet& facet : complex.facets) enter(complex, facet);
+  for (const Facet& facet : complex.facets) {
+    check_interruption();
+    enter(complex, facet);
+  }
   for (std::uint32_t h = 0; h < complex.svertices.size(); ++h) {
     if (complex.twin[h] < h || complex.svertices[h].out != kNone) continue;
     enter_edge(complex.points.approximate(PointId{complex.svertex_owner[h]}),
@@ -94,8 +86,7 @@ EmptyGrid::EmptyGrid(const Complex& complex) {
   }
   for (std::uint32_t v = 0; v < complex.vertex_count(); ++v) {
     if (!complex.sphere_map(v).svertices.empty()) continue;
-    Box box;
-    box.add_rounded(complex.points.approximate(PointId{v}));
+    const Box box = vertex_box(complex, v);
     enter_box(box.low, box.high);
   }
 }
@@ -194,7 +185,7 @@ void EmptyGrid::enter_edge(const std::array<double, 3>& a, const std::array<doub
 // margin for the rounding of coefficients, coordinates and sums, meet it or not with all that the plane has in them;
 // a point of that, which is farther from all edges than doubles round, tells.
 void EmptyGrid::enter(const Complex& complex, const Facet& facet) {
-  const Box box = box_of(complex, facet);
+  const Box box = facet_box(complex, facet);
   const auto [first, last] = range(box.low, box.high);
   std::size_t in_box = 1;
   for (std::size_t i = 0; i < 3; ++i) in_box *= last[i] - first[i] + 1;

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "nef/base/error.h"
+#include "nef/base/interruption.h"
 #include "nef/base/union_find.h"
 
 namespace nef::planner {
@@ -50,17 +51,17 @@ FreeSpace::FreeSpace(Polyhedron free) : free_(std::move(free)), cells_(free_.com
   find_touching_rooms();
 }
 
-FreeSpace::Partition::Partition(const FreeSpace& free, const Patience& patience)
-    : tree(free.complex(), free.cells(), patience),
-      zones(
-          free.complex(), free.cells(), tree, [&free](CellId cell) { return free.is_free(cell); }, patience),
+FreeSpace::Partition::Partition(const FreeSpace& free)
+    : tree(free.complex(), free.cells()),
+      zones(free.complex(), free.cells(), tree, [&free](CellId cell) { return free.is_free(cell); }),
       seconds(watch.seconds()) {}
 
 const FreeSpace::Partition& FreeSpace::partition(const std::function<bool()>& stop) const {
   if (const Partition* ready = ready_.load(std::memory_order_acquire)) return *ready;
   const std::lock_guard<std::mutex> lock(building_);
   if (!partition_) {
-    partition_ = std::make_unique<const Partition>(*this, Patience(stop));
+    const Interruptible interruptible(stop);
+    partition_ = std::make_unique<const Partition>(*this);
     ready_.store(partition_.get(), std::memory_order_release);
   }
   return *partition_;

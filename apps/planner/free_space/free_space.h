@@ -129,7 +129,7 @@ class FreeSpace {
   static constexpr std::uint32_t kNoComponent = 0xffffffffU;
 
   struct Partition {
-    Partition(const FreeSpace& free, const Patience& patience);
+    explicit Partition(const FreeSpace& free);
     Stopwatch watch;
     SpaceTree tree;
     Zones zones;

@@ -3,33 +3,24 @@
 
 #include <cmath>
 
+#include "nef/complex/item_boxes.h"
+
 namespace nef::planner {
 
 ItemTree::ItemTree(const Complex& complex) {
-  const auto point = [&](std::uint32_t vertex) { return complex.points.approximate(PointId{vertex}); };
   items_.reserve(complex.facet_count());
   boxes_.reserve(complex.facet_count());
-  for (std::uint32_t f = 0; f < complex.facet_count(); ++f) {
-    Box box;
-    // The first cycle is the outer one.
-    for (const std::uint32_t corner : complex.corners_of(complex.facets[FacetId{f}].first_cycle)) {
-      box.add_rounded(point(complex.shalfedge_owner[corner]));
-    }
-    push({Kind::kFacet, f}, box);
+  for (const FacetId f : complex.facets.ids()) {
+    push({Kind::kFacet, f.index()}, facet_box(complex, complex.facets[f]));
   }
   for (std::uint32_t h = 0; h < complex.svertices.size(); ++h) {
     if (complex.twin[h] < h || complex.svertices[h].out != kNone) continue;
-    Box box;
-    box.add_rounded(point(complex.svertex_owner[h]));
-    box.add_rounded(point(complex.target(h)));
-    push({Kind::kEdge, h}, box);
+    push({Kind::kEdge, h}, edge_box(complex, h));
   }
   for (std::uint32_t v = 0; v < complex.vertex_count(); ++v) {
     const SphereMapView map = complex.sphere_map(v);
     if (!map.svertices.empty() || !map.sloops.empty()) continue;
-    Box box;
-    box.add_rounded(point(v));
-    push({Kind::kVertex, v}, box);
+    push({Kind::kVertex, v}, vertex_box(complex, v));
   }
   tree_ = BoxTree(boxes_);
 }

@@ -162,6 +162,8 @@ bool TightPlanner::takeGoals(const ob::GoalSampleableRegion& region, const ob::P
 
 std::optional<ExactPath> TightPlanner::bestPath(std::size_t firstGoal, const ob::PlannerTerminationCondition& ptc,
                                                 bool& interrupted) {
+  const std::function<bool()> stop = [&ptc] { return ptc.eval(); };
+  const Interruptible interruptible(stop);
   std::optional<ExactPath> best;
   interrupted = false;
   for (const Place& start : starts_) {
@@ -171,7 +173,7 @@ std::optional<ExactPath> TightPlanner::bestPath(std::size_t firstGoal, const ob:
       if (interrupted) return best;
       std::optional<ExactPath> path;
       try {
-        path = find_path(*freeSpace_, start.position, goals_[i].position, options_, [&ptc] { return ptc.eval(); });
+        path = find_path(*freeSpace_, start.position, goals_[i].position, options_);
       } catch (const Interrupted&) {
         interrupted = true;
         return best;

@@ -9,6 +9,7 @@
 #include "apps/planner/partition/facet_pieces.h"
 #include "apps/planner/partition/space_tree.h"
 #include "nef/base/error.h"
+#include "nef/base/interruption.h"
 #include "nef/geometry/predicates.h"
 
 namespace nef::planner {
@@ -27,8 +28,7 @@ bool same_plane(PlaneId a, PlaneId b) { return a.valid() && b.valid() && a.row()
 
 class SpaceTreeBuilder {
  public:
-  SpaceTreeBuilder(const Complex& complex, const CellNumbering& cells, Patience& patience)
-      : complex_(complex), cells_(cells), patience_(patience) {}
+  SpaceTreeBuilder(const Complex& complex, const CellNumbering& cells) : complex_(complex), cells_(cells) {}
 
   SpaceTree::Parts build() {
     if (complex_.has_box()) {
@@ -77,7 +77,7 @@ class SpaceTreeBuilder {
   }
 
   std::uint32_t build(Pieces pieces, const Region& region) {
-    patience_.check();
+    check_interruption();
     const PlaneId plane = choose_plane(pieces, region);
     if (!plane.valid()) return make_leaf(pieces, region);
     std::array<Pieces, 3> parts;
@@ -202,14 +202,13 @@ class SpaceTreeBuilder {
 
   const Complex& complex_;
   const CellNumbering& cells_;
-  Patience& patience_;
   SpaceTree::Parts tree_;
   PointTable points_;
 };
 
 }  // namespace
 
-SpaceTree::SpaceTree(const Complex& complex, const CellNumbering& cells, Patience patience)
-    : SpaceTree(SpaceTreeBuilder(complex, cells, patience).build()) {}
+SpaceTree::SpaceTree(const Complex& complex, const CellNumbering& cells)
+    : SpaceTree(SpaceTreeBuilder(complex, cells).build()) {}
 
 }  // namespace nef::planner

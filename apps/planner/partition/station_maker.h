@@ -14,8 +14,8 @@ class StationMaker {
  public:
   /// All arguments must outlive the object.
   StationMaker(const Complex& complex, const CellNumbering& cells, const SpaceTree& tree, const Walls& walls,
-               const std::function<bool(CellId)>& selected, Patience& patience)
-      : complex_(complex), cells_(cells), tree_(tree), walls_(walls), selected_(selected), patience_(patience) {}
+               const std::function<bool(CellId)>& selected)
+      : complex_(complex), cells_(cells), tree_(tree), walls_(walls), selected_(selected) {}
 
   /// O(items of the complex and walls) locations in the tree.
   Zones::Stations make();
@@ -44,7 +44,6 @@ class StationMaker {
   const SpaceTree& tree_;
   const Walls& walls_;
   const std::function<bool(CellId)>& selected_;
-  Patience& patience_;
   Zones::Stations out_;
 };
 

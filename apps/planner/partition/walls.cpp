@@ -5,6 +5,7 @@
 #include "apps/planner/partition/walls.h"
 
 #include "nef/base/error.h"
+#include "nef/base/interruption.h"
 #include "nef/base/union_find.h"
 
 namespace nef::planner {
@@ -13,13 +14,8 @@ namespace {
 class WallCollector {
  public:
   WallCollector(const Complex& complex, const CellNumbering& cells, const SpaceTree& tree,
-                const std::function<bool(CellId)>& wanted_facet, Patience& patience)
-      : complex_(complex),
-        cells_(cells),
-        tree_(tree),
-        planes_(tree.planes()),
-        wanted_facet_(wanted_facet),
-        patience_(patience) {}
+                const std::function<bool(CellId)>& wanted_facet)
+      : complex_(complex), cells_(cells), tree_(tree), planes_(tree.planes()), wanted_facet_(wanted_facet) {}
 
   WallLists run() {
     collect(tree_.root());
@@ -31,7 +27,7 @@ class WallCollector {
 
   void collect(std::uint32_t at) {
     if (SpaceTree::is_leaf(at)) return;
-    patience_.check();
+    check_interruption();
     const SpaceTree::Node& node = tree_.nodes()[at];
     std::optional<ConvexPiece> polygon = plane_in_box(node.plane, tree_.box(), planes_, out_.points);
     for (std::size_t i = 0; i < 6 && polygon; ++i) {
@@ -108,7 +104,6 @@ class WallCollector {
   const SpaceTree& tree_;
   const PlaneTable& planes_;
   const std::function<bool(CellId)>& wanted_facet_;
-  Patience& patience_;
   WallLists out_;
   std::vector<std::pair<PlaneId, int>> ancestors_;
 };
@@ -137,8 +132,8 @@ void name_volumes(const Complex& complex, const CellNumbering& cells, const std:
 }  // namespace
 
 Walls::Walls(const Complex& complex, const CellNumbering& cells, SpaceTree& tree,
-             const std::function<bool(CellId)>& wanted_facet, Patience& patience)
-    : Walls(WallCollector(complex, cells, tree, wanted_facet, patience).run()) {
+             const std::function<bool(CellId)>& wanted_facet)
+    : Walls(WallCollector(complex, cells, tree, wanted_facet).run()) {
   name_volumes(complex, cells, w_.walls, tree);
 }
 

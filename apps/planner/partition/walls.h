@@ -36,7 +36,7 @@ class Walls {
   /// Finds out the volume of every 3-dimensional leaf and stores it in the tree: a wall in a facet
   /// knows the volumes beside it, and a wall in no facet has the same volume on both sides.
   Walls(const Complex& complex, const CellNumbering& cells, SpaceTree& tree,
-        const std::function<bool(CellId)>& wanted_facet, Patience& patience);
+        const std::function<bool(CellId)>& wanted_facet);
 
   [[nodiscard]] const std::vector<Wall>& walls() const { return w_.walls; }
   [[nodiscard]] const std::vector<Wall>& seams() const { return w_.seams; }

@@ -41,10 +41,10 @@ class Zones {
     std::vector<ZoneId> zones;
   };
 
-  /// `selected` tells which cells are free. The tree and the complex must outlive the result. Throws
-  /// Interrupted if patience ends.
+  /// `selected` tells which cells are free. The tree and the complex must outlive the result. May throw
+  /// Interrupted.
   Zones(const Complex& complex, const CellNumbering& cells, SpaceTree& tree,
-        const std::function<bool(CellId)>& selected, Patience patience = {});
+        const std::function<bool(CellId)>& selected);
 
   [[nodiscard]] const Walls& walls() const { return walls_; }
   [[nodiscard]] std::span<const Station> stations() const { return s_.stations; }

@@ -29,19 +29,18 @@ constexpr std::size_t kPlacesForWayRound = 400;
 constexpr std::size_t kManyCells = 2000;
 
 std::optional<Waypoints> first_way(const FreeSpace& free, const CellFilter& filter, const Rational3& start,
-                                   const Rational3& goal, const PathOptions& options,
-                                   const std::function<bool()>& stop) {
+                                   const Rational3& goal, const PathOptions& options) {
   if (free.cells().size() >= kManyCells && !options.raw && !options.clearance) {
     if (std::optional<Waypoints> way = wide_way(free, filter, start, goal)) return way;
   }
-  free.build_roadmap(stop);
+  free.build_roadmap();
   return roadmap_path(free, filter, start, goal, options.clearance);
 }
 
 }  // namespace
 
 std::optional<ExactPath> find_path(const FreeSpace& free, const Rational3& start, const Rational3& goal,
-                                   const PathOptions& options, const std::function<bool()>& stop) {
+                                   const PathOptions& options) {
   const CellId start_cell = free.locate(ExactPoint(start));
   const CellId goal_cell = free.locate(ExactPoint(goal));
   if (!free.is_free(start_cell) || !free.is_free(goal_cell)) return std::nullopt;
@@ -54,14 +53,14 @@ std::optional<ExactPath> find_path(const FreeSpace& free, const Rational3& start
     require_junctions(free, filter, best->junction, start_cell, goal_cell);
   }
   if (!filter(start_cell) || !filter(goal_cell)) return std::nullopt;
-  std::optional<Waypoints> points = first_way(free, filter, start, goal, options, stop);
+  std::optional<Waypoints> points = first_way(free, filter, start, goal, options);
   // T and J need not be had by one and the same path; T counts first.
   if (!points && options.roomy) {
     PathOptions looser = options;
     looser.roomy = false;
     const std::optional<Thinness> best = free.thinness(start_cell, goal_cell);
     looser.min_dimension = std::max(options.min_dimension, best->piece);
-    return find_path(free, start, goal, looser, stop);
+    return find_path(free, start, goal, looser);
   }
   if (!points) return std::nullopt;
   if (!options.raw) {

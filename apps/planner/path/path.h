@@ -3,7 +3,6 @@
 // Exact paths through free space.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <vector>
 
@@ -32,10 +31,10 @@ struct ExactPath {
 
 /// A path between two free points, or nothing if there is none within the options: a proof, since
 /// the roadmap is complete; it is made unless free space is large and a way is found without it. The points must be
-/// free. Start equal to goal gives a path of one point. `stop` is asked while the roadmap is made: see
-/// FreeSpace::build_roadmap.
+/// free. Start equal to goal gives a path of one point. May throw Interrupted (nef/base/interruption.h)
+/// until a first way is found.
 std::optional<ExactPath> find_path(const FreeSpace& free, const Rational3& start, const Rational3& goal,
-                                   const PathOptions& options = {}, const std::function<bool()>& stop = {});
+                                   const PathOptions& options = {});
 
 /// Describes given way-points; nothing if a segment leaves free space.
 std::optional<ExactPath> describe_path(const FreeSpace& free, std::vector<Rational3> points);

@@ -7,6 +7,7 @@
 
 #include "apps/planner/path/a_star.h"
 #include "apps/planner/path/path.h"
+#include "nef/base/interruption.h"
 
 namespace nef::planner {
 namespace {
@@ -51,6 +52,7 @@ class WideWay {
       offer(grid_.index(cube), AStar::kNone, cost);
     }
     while (const std::optional<AStar::Node> node = search_.next()) {
+      check_interruption();
       if (std::find(to.begin(), to.end(), grid_.cube(*node)) != to.end()) return extract(search_.way_to(*node));
       expand(*node);
     }

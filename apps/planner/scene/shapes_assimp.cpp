@@ -12,6 +12,7 @@
 #include <cstring>
 #include <filesystem>
 #include <map>
+#include <new>
 #include <set>
 #include <span>
 
@@ -113,7 +114,12 @@ Triangles read_triangles(const std::string& path) {
   Assimp::Importer importer;
   const aiScene* scene = importer.ReadFile(
       path, aiProcess_GenNormals | aiProcess_Triangulate | aiProcess_JoinIdenticalVertices | aiProcess_SortByPType);
-  if (scene == nullptr) throw InputError(importer.GetErrorString());
+  if (scene == nullptr) {
+    const std::string why = importer.GetErrorString();
+    // It tells lack of memory in these words, which are nothing for a user; the bounds have their own.
+    if (why.find("std::bad_alloc") != std::string::npos) throw std::bad_alloc();
+    throw InputError(why);
+  }
   if (scene->mRootNode == nullptr || scene->mNumMeshes == 0) throw InputError("holds no mesh");
   Collector collector(*scene);
   collector.walk(*scene->mRootNode, aiMatrix4x4());

@@ -21,6 +21,11 @@ std::array<std::uint8_t, 3> group_color(std::size_t group) {
   return color;
 }
 
+double linear_light(std::uint8_t channel) {
+  const double x = channel / 255.0;
+  return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
+}
+
 std::string group_word(const std::string& name) {
   std::string word = name.empty() ? "_" : name;
   for (char& c : word) {

@@ -24,6 +24,9 @@ struct FaceGroups {
 /// apart, and so are neighbours among all.
 std::array<std::uint8_t, 3> group_color(std::size_t group);
 
+/// The light that a channel of a colour in sRGB stands for, from 0 to 1, as glTF wants it [IEC 61966-2-1].
+double linear_light(std::uint8_t channel);
+
 /// A name without white space or characters that end a word or a line in some format; "_" instead of these.
 std::string group_word(const std::string& name);
 

@@ -278,12 +278,6 @@ nlohmann::ordered_json& append_primitive(nlohmann::ordered_json& document, std::
   return document["meshes"][0]["primitives"].back();
 }
 
-// What sRGB numbers stand for, as glTF's factors are linear.
-double linear(std::uint8_t color) {
-  const double x = color / 255.0;
-  return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
-}
-
 void append_groups(nlohmann::ordered_json& document, std::string& binary, const MeshSurface& surface,
                    const FaceGroups& groups) {
   std::vector<std::vector<std::uint32_t>> triangles(groups.names.size());
@@ -295,11 +289,12 @@ void append_groups(nlohmann::ordered_json& document, std::string& binary, const 
     append_primitive(document, binary, surface, triangles[g])["material"] =
         document.value("materials", nlohmann::ordered_json::array()).size();
     const std::array<std::uint8_t, 3> color = group_color(g);
-    document["materials"].push_back({{"name", groups.names[g]},
-                                     {"pbrMetallicRoughness",
-                                      {{"baseColorFactor", {linear(color[0]), linear(color[1]), linear(color[2]), 1.0}},
-                                       {"metallicFactor", 0.0},
-                                       {"roughnessFactor", 0.8}}}});
+    document["materials"].push_back(
+        {{"name", groups.names[g]},
+         {"pbrMetallicRoughness",
+          {{"baseColorFactor", {linear_light(color[0]), linear_light(color[1]), linear_light(color[2]), 1.0}},
+           {"metallicFactor", 0.0},
+           {"roughnessFactor", 0.8}}}});
   }
 }
 

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/complex/item_boxes.h"
+
+namespace nef {
+
+Box vertex_box(const Complex& complex, std::uint32_t vertex) {
+  Box box;
+  box.add_rounded(complex.points.approximate(PointId{vertex}));
+  return box;
+}
+
+Box edge_box(const Complex& complex, std::uint32_t halfedge) {
+  Box box = vertex_box(complex, complex.svertex_owner[halfedge]);
+  box.add_rounded(complex.points.approximate(PointId{complex.target(halfedge)}));
+  return box;
+}
+
+Box facet_box(const Complex& complex, const Facet& facet) {
+  Box box;
+  // The first cycle is the outer one.
+  for (const std::uint32_t corner : complex.corners_of(facet.first_cycle)) {
+    box.add_rounded(complex.points.approximate(PointId{complex.shalfedge_owner[corner]}));
+  }
+  return box;
+}
+
+}  // namespace nef

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "nef/complex/complex.h"
+#include "nef/geometry/box_tree.h"
+
+namespace nef {
+
+// Boxes of doubles around exact items: rounded outward, so that items whose boxes do not meet do not meet either.
+Box vertex_box(const Complex& complex, std::uint32_t vertex);
+Box edge_box(const Complex& complex, std::uint32_t halfedge);
+Box facet_box(const Complex& complex, const Facet& facet);
+
+}  // namespace nef

@@ -7,8 +7,8 @@ namespace {
 constexpr const char* kFooter = R"TEXT(
 A scene is JSON: {"robot": SHAPE, "obstacles": [SHAPE, ...], "start": [x, y, z], "goal": [x, y, z],
 "box": [[x, y, z], [x, y, z]], "reference": [x, y, z], "contact": "allow"|"forbid",
-"rotation": {"axis": "z", "range": [0, 360]} (then start and goal have a fourth number, degrees)}. SHAPE is the path of
-a mesh or nef file, or an expression such as "box(0,0,0, 9,3,3) - box(4,1,1, 5,2,2)". Numbers are exact:
+"rotation": {"axis": "z" or [1, 2, 2], "range": [0, 360]} (then start and goal have a fourth number, degrees)}. SHAPE is
+the path of a mesh or nef file, or an expression such as "box(0,0,0, 9,3,3) - box(4,1,1, 5,2,2)". Numbers are exact:
 0.1 is one tenth, "1/3" a third. OMPL.app's .cfg files are read too.
 
 An assembly is {"parts": {"name": SHAPE, ...}}, each part at its assembled place.
@@ -63,7 +63,7 @@ void declare(CLI::App& app, Arguments& a) {
   app.add_flag("--raw", a.path.raw, "The way-points of the roadmap, without shortcuts");
   app.add_flag("--clearance", a.path.clearance, "Way-points inside volumes rather than in contact");
   app.add_flag("--se3", a.se3, "Path matrix with seven columns x y z qx qy qz qw");
-  app.add_option("--max-cells", a.max_cells, "A robot that turns: cells of angles before it stays undecided");
+  app.add_option("--max-cells", a.max_cells, "A robot that turns: cut its angles into so many cells at most");
   declare_ompl(app, a);
   app.add_option("--threads", a.threads, "Threads for the configuration space (0: all cores)");
   app.add_flag("-q,--quiet", a.quiet, "Print nothing but errors, and no progress bar");

@@ -59,56 +59,67 @@ int exit_code_of(Status status) {
 }
 
 // Exactly, and for people.
-json turn_json(const Turn& turn) {
+json turn_json(const Turn& turn, const TurningAxis& axis) {
   Integer quarter;
   mpz_fdiv_q(quarter.get_mpz_t(), turn.get_num_mpz_t(), turn.get_den_mpz_t());
+  json quaternion = json::array();
+  for (const Rational& x : axis.quaternion(turn)) quaternion.push_back(to_string(x));
   return {{"quarters", quarter.get_si()},
           {"half_tangent", to_string(Rational(turn - quarter))},
-          {"degrees", degrees_of(turn)}};
+          {"quaternion", std::move(quaternion)},
+          {"degrees", axis.degrees_of(turn)}};
 }
 
-json report(const TurningAnswer& answer, const Scene& scene, double seconds) {
+json axis_json(const Rational3& axis) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (axis[k] == 1 && axis[(k + 1) % 3] == 0 && axis[(k + 2) % 3] == 0) return std::string(1, "xyz"[k]);
+  }
+  return exact_json(axis);
+}
+
+json report(const TurningAnswer& answer, const Scene& scene, const TurningAxis& axis, double seconds) {
   json result{{"scene", scene.name},
               {"status", name_of(answer.status)},
               {"cells", answer.cells},
-              {"axis", std::string(1, static_cast<char>('x' + scene.rotation->axis))},
+              {"cells_looked_at", answer.looked_at},
+              {"axis", axis_json(scene.rotation->axis)},
               {"contact", scene.contact == ContactRule::kAllow ? "allow" : "forbid"},
               {"phases", {{"turning", seconds}}}};
   for (const Pose& pose : answer.path) {
     result["path"].push_back({{"position", exact_json(pose.position)},
                               {"position_double", double_json(pose.position)},
-                              {"turn", turn_json(pose.turn)}});
+                              {"turn", turn_json(pose.turn, axis)}});
   }
-  for (const Turn& turn : answer.breakpoints) result["proof"]["breakpoints"].push_back(turn_json(turn));
+  for (const Turn& turn : answer.breakpoints) result["proof"]["breakpoints"].push_back(turn_json(turn, axis));
   for (const TurnRange& range : answer.open_ranges) {
-    result["undecided"].push_back({turn_json(range.low), turn_json(range.high)});
+    result["undecided"].push_back({turn_json(range.low, axis), turn_json(range.high, axis)});
   }
   if (!scene.messages.empty()) result["messages"] = scene.messages;
   return result;
 }
 
 // x y z degrees, a way-point a line.
-std::string text_of(const TurningAnswer& answer) {
+std::string text_of(const TurningAnswer& answer, const TurningAxis& axis) {
   std::ostringstream out;
   out << std::setprecision(17);
   for (const Pose& pose : answer.path) {
     for (const Rational& x : pose.position) out << nearest_double(x) << ' ';
-    out << degrees_of(pose.turn) << '\n';
+    out << axis.degrees_of(pose.turn) << '\n';
   }
   return out.str();
 }
 
-void print(const Arguments& a, const TurningAnswer& answer, const Scene& scene) {
+void print(const Arguments& a, const TurningAnswer& answer, const Scene& scene, const TurningAxis& axis) {
   for (const std::string& message : scene.messages) std::cout << "note: " << message << '\n';
   std::cout << name_of(answer.status) << ", " << answer.cells << " cells of angles";
   if (answer.status == Status::kUndecided) {
     std::cout << "; open:";
     for (const TurnRange& range : answer.open_ranges) {
-      std::cout << ' ' << degrees_of(range.low) << ".." << degrees_of(range.high);
+      std::cout << ' ' << axis.degrees_of(range.low) << ".." << axis.degrees_of(range.high);
     }
   }
   std::cout << '\n';
-  if (a.outputs.empty()) std::cout << text_of(answer);
+  if (a.outputs.empty()) std::cout << text_of(answer, axis);
 }
 
 }  // namespace
@@ -119,17 +130,19 @@ int run_turning(const Arguments& a, const Scene& scene) {
   TurningLimits limits;
   limits.max_cells = a.max_cells;
   if (a.time_given) limits.stop = [&] { return watch.seconds() >= a.seconds; };
-  const TurningAnswer answer = find_turning_path(scene, question_of(scene), limits);
-  const std::string text =
-      report(answer, scene, watch.seconds()).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  const TurningQuestion question = question_of(scene);
+  const TurningAnswer answer = find_turning_path(scene, question, limits);
+  const std::string text = report(answer, scene, question.axis, watch.seconds())
+                               .dump(2, ' ', false, nlohmann::json::error_handler_t::replace) +
+                           "\n";
   for (const std::string& file : a.outputs) {
     const bool as_json = std::filesystem::path(file).extension() == ".json";
-    if (as_json || answer.status == Status::kPath) write_file(file, as_json ? text : text_of(answer));
+    if (as_json || answer.status == Status::kPath) write_file(file, as_json ? text : text_of(answer, question.axis));
   }
   if (a.json) {
     std::cout << text;
   } else if (!a.quiet) {
-    print(a, answer, scene);
+    print(a, answer, scene, question.axis);
   }
   return exit_code_of(answer.status);
 }

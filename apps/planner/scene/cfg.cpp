@@ -88,33 +88,59 @@ Rotation rotation_of(const ProblemKeys& keys, const std::string& state) {
            keys.number_or_zero(state + ".axis.z")}};
 }
 
-// Angles are compared as numbers, not modulo 2 pi, which is irrational.
-bool same(const Rotation& a, const Rotation& b) {
-  if (a.theta == 0 || b.theta == 0) return a.theta == b.theta;
-  Rational along;
+bool is_parallel(const Rational3& a, const Rational3& b) {
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3;
-    if (a.axis[i] * b.axis[j] != a.axis[j] * b.axis[i]) return false;
-    along += a.axis[i] * b.axis[i];
+    if (a[i] * b[j] != a[j] * b[i]) return false;
   }
-  return a.theta == (along < 0 ? Rational(-b.theta) : b.theta);
+  return true;
 }
 
-// The rotation that both states share, as a map; the identity for angle zero.
-AffineMap common_rotation(const ProblemKeys& keys, const std::string& path, Messages& messages) {
+// How both states are turned, about one axis that points the way of the start's. Angles are compared as numbers, not
+// modulo 2 pi, which is irrational.
+struct TwoRotations {
+  Rational3 axis;
+  Rational start;  // radians
+  Rational goal;
+};
+
+TwoRotations rotations_of(const ProblemKeys& keys, const std::string& path) {
   const Rotation start = rotation_of(keys, "start");
   const Rotation goal = rotation_of(keys, "goal");
-  if (!same(start, goal)) {
+  for (const auto& [state, rotation] : {std::pair("start", &start), std::pair("goal", &goal)}) {
+    if (rotation->theta != 0 && rotation->axis == Rational3{}) {
+      throw InputError(path + ": " + state + ".axis is the zero vector or missing");
+    }
+  }
+  if (goal.theta == 0) return {start.axis, start.theta, 0};
+  if (start.theta == 0) return {goal.axis, 0, goal.theta};
+  if (!is_parallel(start.axis, goal.axis)) {
     throw InputError(path +
-                     ": start and goal are turned differently, and this planner only translates: "
-                     "give both the same theta and axis");
+                     ": start and goal are turned about different axes, and this planner turns about one: give both "
+                     "the same axis");
   }
-  if (start.theta == 0) return AffineMap::identity();
-  for (const auto& [state, axis] : {std::pair("start", start.axis), std::pair("goal", goal.axis)}) {
-    if (axis == Rational3{}) throw InputError(path + ": " + state + ".axis is the zero vector or missing");
+  Rational along;
+  for (std::size_t i = 0; i < 3; ++i) along += start.axis[i] * goal.axis[i];
+  return {start.axis, start.theta, along < 0 ? Rational(-goal.theta) : goal.theta};
+}
+
+Rational degrees_of(const Rational& radians) { return exact_rational(nearest_double(radians) * 180 / M_PI); }
+
+// A rotation that both states share is applied to the robot once; else the scene is one of a robot that turns.
+void apply_rotations(const TwoRotations& rotations, const std::string& path, Scene& scene) {
+  if (rotations.start != rotations.goal) {
+    scene.rotation.emplace();
+    scene.rotation->axis = rotations.axis;
+    scene.rotation->start = degrees_of(rotations.start);
+    scene.rotation->goal = degrees_of(rotations.goal);
+    scene.messages.push_back(path +
+                             ": the robot turns about one axis only, by rational rotations within 1e-9 degrees "
+                             "of theta at start and goal");
+  } else if (rotations.start != 0) {
+    scene.messages.push_back(path + ": the robot is turned once by a rational rotation within 1e-9 degrees of theta");
+    scene.robot =
+        transform(scene.robot, AffineMap::rotate(rotations.axis, nearest_double(degrees_of(rotations.start))));
   }
-  messages.push_back(path + ": the robot is turned once by a rational rotation within 1e-9 degrees of theta");
-  return AffineMap::rotate(start.axis, nearest_double(start.theta) * 180 / M_PI);
 }
 
 std::string beside(const std::string& path, const std::string& file) {
@@ -137,8 +163,7 @@ Scene read_cfg(const std::string& path) {
     for (Rational& value : mean) value = -value;
     scene.robot = transform(scene.robot, AffineMap::translate(mean));
   }
-  const AffineMap rotation = common_rotation(keys, path, scene.messages);
-  scene.robot = transform(scene.robot, rotation);
+  apply_rotations(rotations_of(keys, path), path, scene);
   scene.obstacles.push_back(closure(read_shape_file(beside(path, keys.text("world")), &scene.messages)));
   scene.obstacle_names.push_back(keys.text("world"));
   scene.start = keys.point("start");

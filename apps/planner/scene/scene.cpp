@@ -60,6 +60,21 @@ void read_obstacles(const json& list, ShapeReader& shapes, const std::string& na
   }
 }
 
+Rational3 axis_of(const json& value, const std::string& what) {
+  if (value.is_array()) {
+    const Rational3 axis = point_of(value, what + ": axis");
+    if (axis == Rational3{}) throw InputError(what + ": axis must not be the zero vector");
+    return axis;
+  }
+  const std::string name = value.is_string() ? value.get<std::string>() : "";
+  if (name != "x" && name != "y" && name != "z") {
+    throw InputError(what + R"(: axis must be "x", "y", "z" or a direction such as [1, 2, 2])");
+  }
+  Rational3 axis;
+  axis[static_cast<std::size_t>(name[0] - 'x')] = 1;
+  return axis;
+}
+
 AxisRotation rotation_of(const json& value, const std::string& what) {
   AxisRotation rotation;
   if (!value.is_object()) throw InputError(what + R"(: expected {"axis": "z", "range": [0, 360]})");
@@ -67,9 +82,7 @@ AxisRotation rotation_of(const json& value, const std::string& what) {
     if (item.key() != "axis" && item.key() != "range") throw InputError(what + ": unknown key '" + item.key() + "'");
   }
   if (value.contains("axis")) {
-    const std::string axis = value["axis"].is_string() ? value["axis"].get<std::string>() : "";
-    if (axis != "x" && axis != "y" && axis != "z") throw InputError(what + R"(: axis must be "x", "y" or "z")");
-    rotation.axis = static_cast<std::size_t>(axis[0] - 'x');
+    rotation.axis = axis_of(value["axis"], what);
   }
   if (value.contains("range")) {
     const json& range = value["range"];

@@ -22,8 +22,8 @@ enum class ContactRule : std::uint8_t {
 
 /// The angles by which a robot may be turned about its reference point: the question has start and goal angles then.
 struct AxisRotation {
-  std::size_t axis = 2;  ///< of coordinates, 0 to 2
-  Rational low = 0;      ///< degrees
+  Rational3 axis{0, 0, 1};  ///< a direction of any length
+  Rational low = 0;         ///< degrees
   Rational high = 360;
   Rational start = 0;  ///< degrees of the start
   Rational goal = 0;
@@ -48,9 +48,9 @@ struct Scene {
 ///     { "robot": SHAPE, "obstacles": [SHAPE, ...],
 ///       "reference": POINT, "box": [POINT, POINT], "start": POINT, "goal": POINT,
 ///       "contact": "allow" | "forbid",
-///       "rotation": {"axis": "x" | "y" | "z", "range": [degrees, degrees]} }
+///       "rotation": {"axis": "x" | "y" | "z" | DIRECTION, "range": [degrees, degrees]} }
 ///
-/// robot and obstacles are required. POINT is three numbers or strings such as "1/3"; a JSON number
+/// robot and obstacles are required. POINT (and DIRECTION) is three numbers or strings such as "1/3"; a JSON number
 /// is the rational that its text spells (0.1 is one tenth). SHAPE is a string: the path of a mesh or
 /// nef file, relative to the scene, or else an expression of `nef eval` such as
 /// "box(0,0,0, 9,3,3) - box(1,1,1, 2,2,2)". With a rotation, start and goal have a fourth number: degrees. Throws
@@ -60,10 +60,11 @@ Scene read_scene(const std::string& path);
 /// The same from text; `folder` is where file names begin.
 Scene parse_scene(const std::string& text, const std::string& folder, const std::string& name);
 
-/// An OMPL.app problem: [problem] robot, world, start.*, goal.*, volume.*. The rotation of start
-/// and goal must be the same and is applied to the robot once. The robot's reference point is the
-/// mean of its vertices as OMPL.app computes it, unless `robot.origin = mesh`; our own keys are
-/// `contact` and exact numbers such as 1/3. A mesh that bounds no solid is what meaning_of (nearly_closed.h) says.
+/// An OMPL.app problem: [problem] robot, world, start.*, goal.*, volume.*. If the rotations of start and goal are the
+/// same, that one is applied to the robot once; if they differ, they must be about one axis, and the robot may turn
+/// about that, by any angle. The robot's reference point (also the centre of rotation) is the mean of its vertices as
+/// OMPL.app computes it, unless `robot.origin = mesh`; our own keys are `contact` and exact numbers such as 1/3. A mesh
+/// that bounds no solid is what meaning_of (nearly_closed.h) says.
 Scene read_cfg(const std::string& path);
 
 }  // namespace nef::planner

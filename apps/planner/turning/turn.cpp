@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nef/base/error.h"
+#include "nef/geometry/rational_vectors.h"
 #include "nef/number/simplest_between.h"
 
 namespace nef::planner {
@@ -15,68 +17,117 @@ Integer floor_of(const Rational& x) {
   return result;
 }
 
+std::optional<Rational> square_root(const Rational& x) {
+  if (mpz_perfect_square_p(x.get_num_mpz_t()) == 0 || mpz_perfect_square_p(x.get_den_mpz_t()) == 0) return {};
+  return Rational(Integer(sqrt(x.get_num())), Integer(sqrt(x.get_den())));
+}
+
+// What makes a vector about one long: exactly, if it can.
+Rational scale_of(const Rational3& direction) {
+  const Rational square = dot(direction, direction);
+  if (square == 0) throw InputError("the axis of rotation must not be the zero vector");
+  if (const std::optional<Rational> length = square_root(square)) return 1 / *length;
+  const Rational scale = exact_rational(1 / std::sqrt(nearest_double(square)));
+  return simplest_between(scale * Rational(19, 20), scale * Rational(21, 20));
+}
+
 }  // namespace
 
-Direction2 direction_of(const Turn& turn) {
+TurningAxis::TurningAxis(const Rational3& direction) {
+  const Rational scale = scale_of(direction);
+  for (std::size_t k = 0; k < 3; ++k) n_[k] = scale * direction[k];
+  square_ = dot(n_, n_);
+}
+
+TurningAxis::Half TurningAxis::half_of(const Turn& turn) const {
   const Integer quarter = floor_of(turn);
   const Rational t = turn - quarter;
-  const Rational square = t * t;
-  Direction2 d{(1 - square) / (1 + square), 2 * t / (1 + square)};
-  for (Integer k = quarter % 4 + 4; k % 4 != 0; --k) d = {-d.sine, d.cosine};
-  return d;
+  Half half{1, t};
+  if (mpz_odd_p(quarter.get_mpz_t()) != 0) half = {1 - t, 1 + t / square_};
+  // A half turn more: a factor of sqrt(-N). Two of them change the sign, which is the same rotation.
+  Integer half_turns;
+  mpz_fdiv_q_2exp(half_turns.get_mpz_t(), quarter.get_mpz_t(), 1);
+  if (mpz_odd_p(half_turns.get_mpz_t()) != 0) half = {-half.s * square_, half.w};
+  return half;
 }
 
-Rational half_tangent_between(const Turn& a, const Turn& b) {
-  const Integer quarter = floor_of(a);
-  const Rational ta = a - quarter;
-  const Rational tb = b - quarter;  // 1 at the end of the quarter
-  return (tb - ta) / (1 + ta * tb);
-}
-
-Turn turn_of_degrees(const Rational& degrees) {
-  const Integer quarter = floor_of(degrees / 90);
-  const Rational rest = degrees - 90 * quarter;
-  if (rest == 0) return Turn(quarter);
-  const double t = std::tan(nearest_double(rest) * M_PI / 360);
-  const Rational low = std::max(Rational(0), Rational(exact_rational(t) - exact_rational(1e-12)));
-  return quarter + simplest_between(low, exact_rational(t) + exact_rational(1e-12));
-}
-
-double degrees_of(const Turn& turn) {
-  const Integer quarter = floor_of(turn);
-  return 90 * quarter.get_d() + 360 / M_PI * std::atan(nearest_double(turn - quarter));
-}
-
-std::optional<Turn> turn_of_vector(const Rational& x, const Rational& y) {
-  if (x == 0 && y == 0) return std::nullopt;
-  // Into the first quarter: then t = y / (length + x).
-  Rational u = x;
-  Rational v = y;
-  int quarter = 0;
-  while (!(u > 0 && v >= 0)) {
-    const Rational w = u;
-    u = v;
-    v = -w;
-    ++quarter;
-  }
-  const Rational square = u * u + v * v;
-  if (mpz_perfect_square_p(square.get_num_mpz_t()) == 0 || mpz_perfect_square_p(square.get_den_mpz_t()) == 0) {
-    return std::nullopt;
-  }
-  const Rational length(Integer(sqrt(square.get_num())), Integer(sqrt(square.get_den())));
-  return Turn(quarter + v / (length + u));
-}
-
-AffineMap rotation_of(const Turn& turn, std::size_t axis) {
+AffineMap TurningAxis::rotation(const Turn& turn) const {
+  const auto [w, s] = half_of(turn);
+  const Rational length = w * w + square_ * s * s;
   AffineMap map = AffineMap::identity();
-  const Direction2 d = direction_of(turn);
-  const std::size_t i = (axis + 1) % 3;
-  const std::size_t j = (axis + 2) % 3;
-  map.linear[i][i] = d.cosine;
-  map.linear[i][j] = -d.sine;
-  map.linear[j][i] = d.sine;
-  map.linear[j][j] = d.cosine;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      map.linear[i][j] = 2 * s * s * n_[i] * n_[j] / length;
+      if (i == j) map.linear[i][j] += (w * w - square_ * s * s) / length;
+    }
+    // The cross product with n.
+    const std::size_t j = (i + 1) % 3;
+    const std::size_t k = (i + 2) % 3;
+    map.linear[i][j] -= 2 * w * s * n_[k] / length;
+    map.linear[i][k] += 2 * w * s * n_[j] / length;
+  }
   return map;
+}
+
+std::array<Rational, 4> TurningAxis::quaternion(const Turn& turn) const {
+  const auto [w, s] = half_of(turn);
+  return {w, s * n_[0], s * n_[1], s * n_[2]};
+}
+
+Rational TurningAxis::half_tangent_between(const Turn& a, const Turn& b) const {
+  const Half from = half_of(a);
+  const Half to = half_of(b);
+  return (from.w * to.s - from.s * to.w) / (from.w * to.w + square_ * from.s * to.s);
+}
+
+std::optional<Turn> TurningAxis::turn_between(const Rational3& from, const Rational3& to) const {
+  const auto across = [this](const Rational3& v) {
+    const Rational along = dot(v, n_) / square_;
+    return Rational3{v[0] - along * n_[0], v[1] - along * n_[1], v[2] - along * n_[2]};
+  };
+  const Rational3 a = across(from);
+  const Rational3 b = across(to);
+  if (is_zero(a) || is_zero(b)) return std::nullopt;
+  const std::optional<Rational> lengths = square_root(dot(a, a) * dot(b, b));
+  if (!lengths) return std::nullopt;
+  // tan(x / 2) = sin x / (1 + cos x)
+  Half half{*lengths + dot(a, b), dot(n_, cross(a, b)) / square_};
+  if (half.w == 0) return Turn(2);
+  Turn base = 0;
+  if (half.s / half.w < 0) {
+    half = {half.s * square_, -half.w};  // a half turn less
+    base = 2;
+  }
+  const Rational ratio = half.s / half.w;
+  if (ratio < 1) return base + ratio;
+  return base + 1 + square_ * (ratio - 1) / (square_ * ratio + 1);
+}
+
+Turn TurningAxis::turn_of_degrees(const Rational& degrees) const {
+  const Integer half_turns = floor_of(degrees / 180);
+  const Rational rest = degrees - 180 * half_turns;
+  const Turn base(2 * half_turns);
+  if (rest == 0) return base;
+  if (rest == 90 && square_ == 1) return base + 1;
+  const double length = std::sqrt(nearest_double(square_));
+  const double t = std::tan(nearest_double(rest) * M_PI / 360) / length;
+  const bool first = t < 1;
+  const double in_quarter = first ? t : length * length * (t - 1) / (length * length * t + 1);
+  const Rational near = std::clamp(exact_rational(in_quarter), Rational(0), Rational(1));
+  const Rational close = exact_rational(1e-12);
+  const Rational low = std::max(Rational(0), Rational(near - close));
+  return base + (first ? 0 : 1) + simplest_between(low, std::min(Rational(1), Rational(near + close)));
+}
+
+double TurningAxis::degrees_of(const Turn& turn) const {
+  const Integer quarter = floor_of(turn);
+  const double t = nearest_double(turn - quarter);
+  const double length = std::sqrt(nearest_double(square_));
+  Integer half_turns;
+  mpz_fdiv_q_2exp(half_turns.get_mpz_t(), quarter.get_mpz_t(), 1);
+  const bool odd = mpz_odd_p(quarter.get_mpz_t()) != 0;
+  const double begin = odd ? (square_ == 1 ? 90 : 360 / M_PI * std::atan(length)) : 0;
+  return 180 * half_turns.get_d() + begin + 360 / M_PI * std::atan(odd ? t / length : t * length);
 }
 
 }  // namespace nef::planner

@@ -6,12 +6,15 @@
 #include <memory>
 #include <set>
 
+#include "apps/minkowski/minkowski.h"
 #include "apps/planner/free_space/free_positions.h"
 #include "apps/planner/path/path.h"
 #include "apps/planner/turning/turning_robot.h"
 #include "nef/base/error.h"
+#include "nef/base/interruption.h"
 #include "nef/base/union_find.h"
 #include "nef/construct/construct.h"
+#include "nef/geometry/rational_vectors.h"
 
 namespace nef::planner {
 namespace {
@@ -29,7 +32,8 @@ struct Slice {
 struct Bridge {
   Node from = 0, to = 0;
   Turn from_turn, to_turn;
-  Rational3 position;
+  Rational3 position;                      // of a point in the component of ...
+  std::shared_ptr<const FreeSpace> outer;  // ... where the robot may turn
 };
 
 // A range of angles with the free space of its inner robot. A robot without an inner one meets nothing: one component.
@@ -39,14 +43,56 @@ struct Cell {
   std::vector<std::uint32_t> above;  // ... of the upper slice
 };
 
+Integer ceiling_of(const Rational& x) {
+  Integer result;
+  mpz_cdiv_q(result.get_mpz_t(), x.get_num_mpz_t(), x.get_den_mpz_t());
+  return result;
+}
+
 Turn middle_of(const Turn& a, const Turn& b) { return (a + b) / 2; }
+
+// The same scene for a solid robot, cut up once rather than for each free space: what is open and meets the inside of
+// an obstacle meets the inside of one of its pieces.
+Scene with_convex_obstacles(const Scene& scene) {
+  Scene result = scene;
+  result.obstacles.clear();
+  result.obstacle_names.clear();
+  for (std::size_t i = 0; i < scene.obstacles.size(); ++i) {
+    const Polyhedron& obstacle = scene.obstacles[i];
+    std::vector<Polyhedron> pieces;
+    if (obstacle.is_bounded() && obstacle.is_regular()) {
+      for (const minkowski::ConvexCell& cell : minkowski::decompose(obstacle)) {
+        if (cell.dimension == 3) pieces.push_back(convex_hull(cell.mesh.vertices));
+      }
+    } else {
+      pieces.push_back(obstacle);
+    }
+    for (Polyhedron& piece : pieces) {
+      result.obstacles.push_back(std::move(piece));
+      result.obstacle_names.push_back(scene.obstacle_names[i]);
+    }
+  }
+  return result;
+}
 
 class TurningSearch {
  public:
   TurningSearch(const Scene& scene, const TurningQuestion& question, const TurningLimits& limits)
-      : scene_(scene), q_(question), limits_(limits), robot_(scene.robot, question.axis) {}
+      : scene_(with_convex_obstacles(scene)), q_(question), limits_(limits), robot_(scene.robot, question.axis) {}
 
   TurningAnswer run() {
+    const Interruptible interruptible(limits_.stop);
+    try {
+      return answer();
+    } catch (const Interrupted&) {
+      // What was in question when the last cells were begun; at first, everything.
+      if (answer_.open_ranges.empty()) answer_.open_ranges.push_back({q_.low, q_.high});
+      return finished(TurningAnswer::Status::kUndecided);
+    }
+  }
+
+ private:
+  TurningAnswer answer() {
     find_parallel_faces();
     const Node start = node_of(q_.start);
     if (start == kNoNode) return finished(TurningAnswer::Status::kInvalidStart);
@@ -65,24 +111,24 @@ class TurningSearch {
         return finished(TurningAnswer::Status::kInfeasible);
       }
       NEF_ASSERT(!questionable->empty());
-      if (answer_.cells >= limits_.max_cells || (limits_.stop && limits_.stop())) {
-        for (const std::size_t i : *questionable) {
-          const Cell& cell = std::next(cells_.begin(), static_cast<std::ptrdiff_t>(i))->second;
-          answer_.open_ranges.push_back({cell.low, cell.high});
-        }
-        return finished(TurningAnswer::Status::kUndecided);
+      answer_.open_ranges.clear();
+      for (const std::size_t i : *questionable) {
+        const Cell& cell = std::next(cells_.begin(), static_cast<std::ptrdiff_t>(i))->second;
+        answer_.open_ranges.push_back({cell.low, cell.high});
       }
-      split(*questionable);
+      if (cells_.size() >= limits_.max_cells) return finished(TurningAnswer::Status::kUndecided);
+      for (const TurnRange& range : answer_.open_ranges) split(range);
     }
   }
 
- private:
   TurningAnswer finished(TurningAnswer::Status status) {
     answer_.status = status;
+    answer_.cells = cells_.size();
+    if (status != TurningAnswer::Status::kUndecided) answer_.open_ranges.clear();
     return std::move(answer_);
   }
 
-  [[nodiscard]] bool is_ring() const { return q_.low == 0 && q_.high == 4; }
+  [[nodiscard]] bool is_ring() const { return q_.high - q_.low == 4; }
   // Where a slice is kept: the ends of a ring are one.
   [[nodiscard]] Turn key(const Turn& turn) const { return is_ring() && turn == q_.high ? q_.low : turn; }
 
@@ -141,8 +187,9 @@ class TurningSearch {
     return result;
   }
 
-  void add_cell(const Turn& low, const Turn& high) {
-    ++answer_.cells;
+  // Its bridges are there at once.
+  Cell cell_between(const Turn& low, const Turn& high) {
+    ++answer_.looked_at;
     const Slice lower = slice(low);
     const Slice upper = slice(high);
     const auto outer = free_space_of(robot_.outer(low, high));
@@ -150,33 +197,27 @@ class TurningSearch {
     const std::vector<std::uint32_t> at_high = holders(*outer, *upper.free);
     const std::vector<Rational3> points = points_of(*outer);
     for (std::size_t i = 0; i < points.size(); ++i) {
-      bridges_.push_back({lower.first_node + at_low[i], upper.first_node + at_high[i], low, high, points[i]});
+      bridges_.push_back({lower.first_node + at_low[i], upper.first_node + at_high[i], low, high, points[i], outer});
     }
     const auto inner = free_space_of(robot_.inner(low, high));
-    cells_[low] = {low, high, holders(*lower.free, *inner), holders(*upper.free, *inner)};
+    return {low, high, holders(*lower.free, *inner), holders(*upper.free, *inner)};
   }
 
   // Quarters, start and goal are breakpoints from the beginning.
   void make_first_cells() {
     std::set<Turn> points{q_.low, q_.high, q_.start.turn, q_.goal.turn};
-    Integer quarter;
-    mpz_cdiv_q(quarter.get_mpz_t(), q_.low.get_num_mpz_t(), q_.low.get_den_mpz_t());
-    for (; Turn(quarter) < q_.high; ++quarter) points.insert(Turn(quarter));
-    for (auto next = std::next(points.begin()); next != points.end(); ++next) add_cell(*std::prev(next), *next);
+    for (Integer quarter = ceiling_of(q_.low); Turn(quarter) < q_.high; ++quarter) points.insert(Turn(quarter));
+    for (auto next = std::next(points.begin()); next != points.end(); ++next) {
+      cells_[*std::prev(next)] = cell_between(*std::prev(next), *next);
+    }
   }
 
-  void split(const std::vector<std::size_t>& which) {
-    std::vector<TurnRange> ranges;
-    for (const std::size_t i : which) {
-      const Cell& cell = std::next(cells_.begin(), static_cast<std::ptrdiff_t>(i))->second;
-      ranges.push_back({cell.low, cell.high});
-    }
-    for (const TurnRange& range : ranges) {
-      const Turn at = split_point(range);
-      cells_.erase(range.low);
-      add_cell(range.low, at);
-      add_cell(at, range.high);
-    }
+  void split(const TurnRange& range) {
+    const Turn at = split_point(range);
+    const Cell below = cell_between(range.low, at);
+    const Cell above = cell_between(at, range.high);
+    cells_[range.low] = below;
+    cells_[at] = above;
   }
 
   // An angle of parallel faces inside, the nearest to the middle; else the middle.
@@ -191,38 +232,47 @@ class TurningSearch {
 
   // Turns at which a face of the robot looks against a face of an obstacle, as far as they are rational.
   void find_parallel_faces() {
-    std::set<std::array<Rational, 2>> of_obstacles;
+    std::set<Rational3> of_obstacles;
     for (const Polyhedron& obstacle : scene_.obstacles) {
       const Complex& c = obstacle.complex();
       for (const Facet& facet : c.facets) {
         if (c.planes.infimaximal(facet.plane)) continue;
-        std::array<Rational, 2> n;
-        for (std::size_t k = 0; k < 2; ++k) {
-          n[k] = Rational(mpz_class(mpz_srcptr(c.planes.coefficient(facet.plane, (q_.axis + 1 + k) % 3))));
+        Rational3 n;
+        for (std::size_t k = 0; k < 3; ++k) {
+          n[k] = Rational(mpz_class(mpz_srcptr(c.planes.coefficient(facet.plane, k))));
         }
-        if (n[0] != 0 || n[1] != 0) of_obstacles.insert(normalized(n));
+        of_obstacles.insert(normalized(n));
       }
     }
-    std::set<std::array<Rational, 2>> of_robot;
-    for (const std::array<Rational, 2>& n : robot_.normals()) {
-      if (n[0] != 0 || n[1] != 0) of_robot.insert(normalized(n));
+    std::set<Rational3> of_robot;
+    for (const TurningRobot::Piece& piece : robot_.pieces()) {
+      for (const TurningRobot::Face& face : piece.faces) of_robot.insert(normalized(face.normal));
     }
-    for (const auto& n : of_robot) {
-      for (const auto& m : of_obstacles) {
-        // The angle from n to m or its opposite: both ways round, since facets have two sides.
-        const Rational cosine = n[0] * m[0] + n[1] * m[1];
-        const Rational sine = n[0] * m[1] - n[1] * m[0];
-        for (const int sign : {1, -1}) {
-          if (const std::optional<Turn> turn = turn_of_vector(sign * cosine, sign * sine)) parallel_.insert(*turn);
+    for (const Rational3& n : of_robot) {
+      for (const Rational3& m : of_obstacles) {
+        // The angle from n to m or its opposite, since facets have two sides; in the range, which may begin anywhere.
+        for (const Rational3& to : {m, Rational3{-m[0], -m[1], -m[2]}}) {
+          const std::optional<Turn> turn = q_.axis.turn_between(n, to);
+          if (!turn) break;
+          for (Turn at = *turn + 4 * ceiling_of((q_.low - *turn) / 4); at <= q_.high; at += 4) parallel_.insert(at);
         }
       }
     }
   }
 
-  // Equal for vectors of one direction.
-  static std::array<Rational, 2> normalized(const std::array<Rational, 2>& v) {
-    const Rational size = std::max(Rational(abs(v[0])), Rational(abs(v[1])));
-    return {v[0] / size, v[1] / size};
+  // Equal for vectors across the axis of one direction, and for those along it.
+  [[nodiscard]] Rational3 normalized(const Rational3& v) const {
+    const Rational3& axis = q_.axis.direction();
+    const Rational along = dot(v, axis) / q_.axis.square();
+    Rational3 across;
+    Rational size;
+    for (std::size_t k = 0; k < 3; ++k) {
+      across[k] = v[k] - along * axis[k];
+      size = std::max(size, Rational(abs(across[k])));
+    }
+    if (size == 0) return across;
+    for (Rational& x : across) x /= size;
+    return across;
   }
 
   // The bridges of a way from a component to another one; nothing if there is none.
@@ -332,28 +382,26 @@ class TurningSearch {
   std::vector<Pose> path_of(const std::vector<Bridge>& way) {
     std::vector<Pose> path{q_.start};
     Pose here = q_.start;
+    Turn full_turns = 0;  // angles go on where the ring is closed
     const auto walk_to = [&](const Rational3& position) {
-      const FreeSpace& free = *slice(here.turn).free;
+      const FreeSpace& free = *slice(here.turn - full_turns).free;
       const std::optional<ExactPath> part = find_path(free, here.position, position);
       NEF_ASSERT(part && describe_path(free, part->points));
       for (std::size_t i = 1; i < part->points.size(); ++i) path.push_back({part->points[i], here.turn});
       here.position = position;
     };
     for (const Bridge& bridge : way) {
-      here.turn = bridge.from_turn;  // the same angle, or the other end of the ring
-      if (path.back().turn != here.turn) path.push_back(here);
-      const auto ends = std::minmax(bridge.from_turn, bridge.to_turn);
-      const auto outer = free_space_of(robot_.outer(ends.first, ends.second));
-      walk_to(near_way(*outer, bridge.position, here.position));
-      NEF_ASSERT(contains(outer->set(), here.position));
-      here.turn = bridge.to_turn;
+      full_turns = here.turn - bridge.from_turn;
+      walk_to(near_way(*bridge.outer, bridge.position, here.position));
+      NEF_ASSERT(contains(bridge.outer->set(), here.position));
+      here.turn = bridge.to_turn + full_turns;
       path.push_back(here);
     }
     walk_to(q_.goal.position);
     return path;
   }
 
-  const Scene& scene_;
+  const Scene scene_;
   const TurningQuestion& q_;
   const TurningLimits& limits_;
   TurningRobot robot_;
@@ -372,11 +420,16 @@ TurningQuestion question_of(const Scene& scene) {
   if (!scene.start || !scene.goal) throw InputError(scene.name + ": a robot that turns needs a start and a goal");
   const AxisRotation& r = *scene.rotation;
   TurningQuestion question;
-  question.axis = r.axis;
-  question.low = turn_of_degrees(r.low);
-  question.high = turn_of_degrees(r.high);
-  question.start = {*scene.start, turn_of_degrees(r.start)};
-  question.goal = {*scene.goal, turn_of_degrees(r.goal)};
+  question.axis = TurningAxis(r.axis);
+  question.low = question.axis.turn_of_degrees(r.low);
+  question.high = question.axis.turn_of_degrees(r.high);
+  const auto in_range = [&](const Rational& degrees) {
+    const Turn turn = question.axis.turn_of_degrees(degrees);
+    const Turn moved = turn + 4 * ceiling_of((question.low - turn) / 4);
+    return moved <= question.high ? moved : turn;
+  };
+  question.start = {*scene.start, in_range(r.start)};
+  question.goal = {*scene.goal, in_range(r.goal)};
   return question;
 }
 

@@ -18,18 +18,18 @@ struct Pose {
   Turn turn;
 };
 
-/// A question about a robot that may turn about a coordinate axis through its reference point.
+/// A question about a robot that may turn about an axis through its reference point.
 struct TurningQuestion {
-  std::size_t axis = 2;  ///< 0 to 2
-  Turn low = 0;          ///< the range of angles; from 0 to 4 is the full circle, closed to a ring
+  TurningAxis axis{{0, 0, 1}};
+  Turn low = 0;  ///< the range of angles; one that is 4 wide is the full circle, closed to a ring
   Turn high = 4;
   Pose start;
   Pose goal;
 };
 
 struct TurningLimits {
-  std::size_t max_cells = 2000;  ///< cells of angles, split ones included
-  std::function<bool()> stop;    ///< asked between cells; true ends the search
+  std::size_t max_cells = 2000;  ///< cells of angles that the range is cut into
+  std::function<bool()> stop;    ///< asked now and then; true ends the search
 };
 
 /// A closed range of angles.
@@ -41,15 +41,18 @@ struct TurnRange {
 struct TurningAnswer {
   enum class Status : std::uint8_t { kPath, kInfeasible, kUndecided, kInvalidStart, kInvalidGoal };
   Status status = Status::kUndecided;
-  /// kPath: way-points; between two either the turn or the position stays.
+  /// kPath: way-points; between two either the turn or the position stays. Angles go on where the full circle closes,
+  /// so they may leave the range by full turns.
   std::vector<Pose> path;
   /// kInfeasible: the breakpoints of the proof. kUndecided: the ranges in question.
   std::vector<Turn> breakpoints;
   std::vector<TurnRange> open_ranges;
-  std::size_t cells = 0;  ///< looked at
+  std::size_t cells = 0;      ///< that the range is cut into in the end
+  std::size_t looked_at = 0;  ///< those that were split again, too
 };
 
-/// The question of a scene with a rotation, a start and a goal. Angles become rational turns.
+/// The question of a scene with a rotation, a start and a goal. Angles become rational turns; those of start and goal
+/// are taken into the range by full turns, if they can be.
 TurningQuestion question_of(const Scene& scene);
 
 /// Decides by cells of angles (docs/planner.md, "Turning"). For each cell [a, b] the free space of an outer robot,

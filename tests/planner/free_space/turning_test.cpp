@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
+#include <sstream>
 
 #include "apps/planner/free_space/free_positions.h"
 #include "apps/planner/free_space/free_space.h"
@@ -12,6 +13,7 @@
 #include "apps/planner/turning/turning_search.h"
 #include "nef/base/error.h"
 #include "nef/construct/construct.h"
+#include "nef/geometry/rational_vectors.h"
 #include "nef/program/exact_json.h"
 #include "tests/planner/command_helpers.h"
 
@@ -26,25 +28,65 @@ Rational ratio(long a, long b) {
   return r;
 }
 
-TEST_CASE("turns: exact quarters, rational sines, angles in order") {
-  CHECK(turn_of_degrees(0) == 0);
-  CHECK(turn_of_degrees(90) == 1);
-  CHECK(turn_of_degrees(-90) == -1);
-  CHECK(turn_of_degrees(360) == 4);
-  for (const int degrees : {-350, -91, -1, 1, 17, 45, 89, 91, 200, 359}) {
-    const Turn turn = turn_of_degrees(degrees);
-    CHECK(degrees_of(turn) == Approx(degrees).margin(1e-9));
-    const Direction2 d = direction_of(turn);
-    CHECK(d.cosine * d.cosine + d.sine * d.sine == 1);
-    CHECK(nearest_double(d.cosine) == Approx(std::cos(degrees * M_PI / 180)).margin(1e-9));
-    CHECK(nearest_double(d.sine) == Approx(std::sin(degrees * M_PI / 180)).margin(1e-9));
+Rational3 times(const Rational& factor, const Rational3& v) { return {factor * v[0], factor * v[1], factor * v[2]}; }
+
+// Axes whose length is one, rational, and irrational.
+const std::vector<Rational3>& axes() {
+  static const std::vector<Rational3> result{{1, 0, 0}, {0, 1, 0},  {0, 0, 3}, {1, 2, 2},
+                                             {1, 1, 1}, {-2, 3, 0}, {0, 1, -7}};
+  return result;
+}
+
+TEST_CASE("turns about an axis: rational rotations by the angles that they say, in order") {
+  for (const Rational3& direction : axes()) {
+    const TurningAxis axis(direction);
+    const double length = std::sqrt(nearest_double(dot(direction, direction)));
+    const Rational3 side = is_zero(cross(direction, Rational3{1, 0, 0})) ? Rational3{0, 1, 0} : Rational3{1, 0, 0};
+    const Rational3 across = cross(direction, side);
+    double before = -361;
+    for (const int degrees : {-360, -350, -180, -91, -1, 0, 1, 17, 45, 89, 90, 91, 180, 200, 359, 360, 377}) {
+      INFO(degrees);
+      const Turn turn = axis.turn_of_degrees(degrees);
+      CHECK(axis.degrees_of(turn) == Approx(degrees).margin(1e-8));
+      CHECK(axis.degrees_of(turn) > before);
+      before = axis.degrees_of(turn);
+      const AffineMap rotation = axis.rotation(turn);
+      CHECK(rotation.determinant() == 1);
+      CHECK(rotation(direction) == direction);
+      const Rational3 image = rotation(across);
+      const Rational square = dot(across, across);
+      CHECK(dot(image, image) == square);
+      const double radians = degrees * M_PI / 180;
+      CHECK(nearest_double(dot(image, across) / square) == Approx(std::cos(radians)).margin(1e-9));
+      CHECK(nearest_double(dot(direction, cross(across, image)) / square) / length ==
+            Approx(std::sin(radians)).margin(1e-9));
+      // The quaternion, by the formula for its matrix.
+      const auto [w, x, y, z] = axis.quaternion(turn);
+      const Rational norm = w * w + x * x + y * y + z * z;
+      CHECK(rotation.linear[0][0] == (w * w + x * x - y * y - z * z) / norm);
+      CHECK(rotation.linear[1][0] == 2 * (x * y + w * z) / norm);
+      CHECK(rotation.linear[2][1] == 2 * (y * z + w * x) / norm);
+    }
+    CHECK(axis.rotation(2)(across) == times(-1, across));
+    CHECK(axis.rotation(4)(across) == across);
+    const Turn a = axis.turn_of_degrees(80);
+    const Turn b = axis.turn_of_degrees(105);
+    CHECK(nearest_double(axis.half_tangent_between(a, b)) * std::sqrt(nearest_double(axis.square())) ==
+          Approx(std::tan(12.5 * M_PI / 180)));
+    for (const int degrees : {0, 17, 100, 180, 181, 300}) {
+      const Turn turn = axis.turn_of_degrees(degrees);
+      const Rational3 tilted = {across[0] + direction[0], across[1] + direction[1], across[2] + direction[2]};
+      CHECK(axis.turn_between(tilted, times(3, axis.rotation(turn)(tilted))) == turn);
+    }
+    CHECK_FALSE(axis.turn_between(across, direction).has_value());
   }
-  const std::optional<Turn> turn = turn_of_vector(-3, 4);
-  REQUIRE(turn.has_value());
-  CHECK(direction_of(*turn).cosine == ratio(-3, 5));
-  CHECK(direction_of(*turn).sine == ratio(4, 5));
-  CHECK_FALSE(turn_of_vector(1, 1).has_value());
-  CHECK(half_tangent_between(ratio(5, 4), 2) == ratio(3, 5));
+  const TurningAxis z({0, 0, 1});
+  CHECK(z.turn_of_degrees(90) == 1);
+  CHECK(z.turn_of_degrees(-90) == -1);
+  CHECK(z.turn_between({1, 0, 0}, {-3, 4, 0}) == Turn(1) + ratio(1, 3));
+  CHECK_FALSE(z.turn_between({1, 0, 0}, {1, 1, 0}).has_value());
+  CHECK(z.half_tangent_between(ratio(5, 4), 2) == ratio(3, 5));
+  CHECK_THROWS_AS(TurningAxis({0, 0, 0}), InputError);
 }
 
 TEST_CASE("the outer robot holds the robot at all angles, which all hold the inner one") {
@@ -52,14 +94,15 @@ TEST_CASE("the outer robot holds the robot at all angles, which all hold the inn
   const Polyhedron robots[] = {make_box({-1, -2, 0}, {3, 1, 1}), make_box({1, 1, -1}, {3, 2, 1}),
                                unite(make_box({-1, -1, -1}, {4, 1, 1}), make_box({-1, -1, -1}, {1, 3, 1}))};
   for (const Polyhedron& robot : robots) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const TurningRobot turning(robot, axis);
-      for (int i = 0; i < 4; ++i) {
+    for (const Rational3& direction : axes()) {
+      const TurningRobot turning(robot, TurningAxis(direction));
+      for (int i = 0; i < 2; ++i) {
         const long low = static_cast<long>(random() % 20);
         const Turn a = 1 + ratio(low, 32);
         const Turn b = a + ratio(1 + static_cast<long>(random() % 11), 32);
         const Polyhedron outer = turning.outer(a, b);
         const Polyhedron inner = turning.inner(a, b);
+        CHECK(inner.is_regular());
         for (int k = 0; k <= 4; ++k) {
           const Polyhedron at = turning.at(a + ratio(k, 4) * (b - a));
           CHECK(subtract(at, outer).is_empty());
@@ -69,12 +112,13 @@ TEST_CASE("the outer robot holds the robot at all angles, which all hold the inn
     }
   }
   // Narrow ranges: nearly the robot itself.
-  const TurningRobot bar(make_box({-3, -1, 0}, {3, 1, 1}), 2);
+  const TurningRobot bar(make_box({-3, -1, 0}, {3, 1, 1}), TurningAxis({0, 0, 1}));
   const Turn a = ratio(1, 3);
   const Turn b = a + ratio(1, 1000);
   CHECK(nearest_double(*volume(bar.inner(a, b))) == Approx(12).epsilon(0.01));
   CHECK(nearest_double(*volume(bar.outer(a, b))) == Approx(12).epsilon(0.01));
-  CHECK_THROWS_AS(TurningRobot(make_box({0, 0, 0}, {1, 1, 0}), 2), InputError);
+  CHECK(equal(bar.inner(0, 1), make_box({-1, -1, 0}, {1, 1, 1})));
+  CHECK_THROWS_AS(TurningRobot(make_box({0, 0, 0}, {1, 1, 0}), TurningAxis({0, 0, 1})), InputError);
 }
 
 Scene scene_of(const std::string& text) { return parse_scene(text, "", "test"); }
@@ -85,6 +129,10 @@ void check_path(const Scene& scene, const TurningQuestion& question, const Turni
   CHECK(answer.path.front().position == question.start.position);
   CHECK(answer.path.back().position == question.goal.position);
   const TurningRobot robot(scene.robot, question.axis);
+  CHECK(answer.path.front().turn == question.start.turn);
+  const Rational full_turns = (answer.path.back().turn - question.goal.turn) / 4;
+  CHECK(full_turns.get_den() == 1);
+  CHECK((full_turns == 0 || question.high - question.low == 4));
   const Polyhedron obstacles = unite_all(scene.obstacles);
   for (std::size_t i = 0; i + 1 < answer.path.size(); ++i) {
     const Pose& from = answer.path[i];
@@ -117,8 +165,46 @@ TEST_CASE("a bar round the corner of a corridor: the limit is known") {
     const TurningQuestion question = question_of(scene);
     const TurningAnswer answer = find_turning_path(scene, question);
     CHECK(answer.status == (fits ? Status::kPath : Status::kInfeasible));
-    CHECK(answer.cells < 100);
+    CHECK(answer.cells < 50);
     if (fits) check_path(scene, question, answer);
+  }
+}
+
+TEST_CASE("the corner turned in space: the same limit about any axis") {
+  // Rotations that take z to the axis.
+  for (const auto& [matrix, axis, range] :
+       {std::tuple("2/3,-1/3,2/3,0, 1/3,-2/3,-2/3,0, 2/3,2/3,-1/3,0", "[2, -2, -1]", "[0, 90]"),
+        std::tuple("1,0,0,0, 0,0,-1,0, 0,1,0,0", "[0, -1, 0]", "[-5, 95]"),
+        std::tuple("0,0,1,0, 1,0,0,0, 0,1,0,0", "x", "[-180, 180]")}) {
+    for (const auto& [length, fits] : {std::pair("3.5", true), std::pair("3.9", false)}) {
+      INFO(axis << ' ' << length);
+      nlohmann::json json = nlohmann::json::parse(corner(length));
+      const auto turned = [&](const std::string& shape) { return "transform(" + shape + ", " + matrix + ")"; };
+      json["robot"] = turned(json["robot"]);
+      json["obstacles"][0] = turned(json["obstacles"][0]);
+      // In place of the box of the reference point a floor and a ceiling that the bar just fits between.
+      json["obstacles"][1] = turned("box(-40,-40,-2, 40,40,3) - interior(box(-15,-15,0, 15,15,1))");
+      json.erase("box");
+      AffineMap map = AffineMap::identity();
+      std::istringstream numbers(matrix);
+      std::string number;
+      for (std::size_t k = 0; k < 12 && std::getline(numbers, number, ','); ++k) {
+        if (k % 4 != 3) map.linear[k / 4][k % 4] = parse_rational(number.substr(number.find_first_not_of(' ')));
+      }
+      CHECK(map.determinant() == 1);
+      const Scene flat = scene_of(corner(length));
+      json["rotation"] = {{"axis", axis[0] == '[' ? nlohmann::json::parse(axis) : nlohmann::json(axis)},
+                          {"range", nlohmann::json::parse(range)}};
+      json["start"] = exact_json(map(*flat.start));
+      json["goal"] = exact_json(map(*flat.goal));
+      json["start"].push_back(0);
+      json["goal"].push_back(90);
+      const Scene scene = scene_of(json.dump());
+      const TurningQuestion question = question_of(scene);
+      const TurningAnswer answer = find_turning_path(scene, question);
+      CHECK(answer.status == (fits ? Status::kPath : Status::kInfeasible));
+      if (fits) check_path(scene, question, answer);
+    }
   }
 }
 
@@ -180,7 +266,7 @@ TEST_CASE("random boxes in the plane against a fine grid of poses") {
     if (answer.status == Status::kInfeasible) ++proofs;
     if (answer.status == Status::kInfeasible || answer.status == Status::kPath) {
       // Is the goal reached by steps of 1/4 and 1/16 of a quarter?
-      const TurningRobot robot(scene.robot, 2);
+      const TurningRobot robot(scene.robot, question.axis);
       constexpr int kSteps = 49;
       constexpr int kTurns = 64;  // the full circle
       std::vector<char> free(static_cast<std::size_t>(kSteps * kSteps * kTurns), 0);
@@ -240,8 +326,8 @@ TEST_CASE("turning on the command line") {
   CHECK(planner(folder, scene + " -o x.glb").code == 2);
   CHECK(planner(folder, scene + " --quiet -o " + folder.file("way.txt")).code == 0);
   CHECK(text_of(folder.file("way.txt")).substr(0, 10) == "-12 -1 0 0");
-  for (const char* bad :
-       {R"("w")", R"({"axis": "w"})", R"({"range": [5, 0]})", R"({"turn": 3})", R"({"range": [0, 400]})"}) {
+  for (const char* bad : {R"("w")", R"({"axis": "w"})", R"({"axis": [0,0,0]})", R"({"axis": [1,0]})",
+                          R"({"range": [5, 0]})", R"({"turn": 3})", R"({"range": [0, 400]})"}) {
     const std::string text = R"J({"robot": "box(0,0,0,1,1,1)", "obstacles": [], "start": [0,0,0,0], "goal": [1,0,0,0],
       "rotation": )J" + std::string(bad) +
                              "}";

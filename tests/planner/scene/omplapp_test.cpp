@@ -7,8 +7,10 @@
 
 #include "apps/planner/scene/bounded_process.h"
 #include "apps/planner/scene/shapes.h"
+#include "apps/planner/turning/turning_search.h"
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
+#include "nef/program/exact_json.h"
 #include "tests/planner/command_helpers.h"
 #include "tests/planner/scene_helpers.h"
 #include "tests/support/paths.h"
@@ -33,16 +35,18 @@ TEST_CASE("a problem with COLLADA meshes: turned upright, double faces once, the
   CHECK(independent_complaint(scene, solved.free_space().set(), *answer.path, true) == "");
 }
 
-TEST_CASE("one rotation for start and goal turns the robot; two are an error") {
+TEST_CASE("one rotation for start and goal turns the robot once; two let it turn") {
   const Scene turned = read_scene(problem("wall_turned.cfg"));
   CHECK(volume(turned.robot) == Rational(1));
   CHECK(nearest_double((*bounding_box(turned.robot))[1][0]) == Approx((std::cos(0.3) + std::sin(0.3)) / 2));
   CHECK(turned.messages.size() == 1);
   CHECK(Problem(turned).solve().status == Answer::Status::kInfeasible);
   const Folder folder;
-  const Run run = planner(folder, problem("wall_rotating.cfg"));
-  CHECK(run.code == 2);
-  CHECK(run.err.find("start and goal are turned differently") != std::string::npos);
+  const Run run = planner(folder, problem("wall_rotating.cfg") + " --json");
+  CHECK(run.code == 0);
+  const nlohmann::json report = nlohmann::json::parse(run.out);
+  CHECK(report["path"].back()["turn"]["degrees"].get<double>() == Approx(1.5 * 180 / M_PI));
+  CHECK(report["axis"] == "z");
   CHECK(planner(folder, problem("wall.cfg") + " --json").code == 0);
 }
 
@@ -63,10 +67,11 @@ TEST_CASE("rotations are equal if they turn alike, however their axes are writte
     CHECK(equal(scene.robot, read_scene(problem("wall.cfg")).robot));
     CHECK(Problem(scene).solve().status == Answer::Status::kPath);
   }
-  for (const std::string& goal :
-       {turn("goal", quarter, "-1"), turn("goal", "0.5", "1"), turn("goal", quarter, "1") + "goal.axis.x = 1\n"}) {
-    CHECK_THROWS_AS(read_scene(folder.write("other.cfg", meshes + start + goal)), InputError);
+  for (const std::string& goal : {turn("goal", quarter, "-1"), turn("goal", "0.5", "1")}) {
+    CHECK(read_scene(folder.write("other.cfg", meshes + start + goal)).rotation.has_value());
   }
+  const std::string tilted = turn("goal", quarter, "1") + "goal.axis.x = 1\n";
+  CHECK_THROWS_AS(read_scene(folder.write("other.cfg", meshes + start + tilted)), InputError);
 }
 
 TEST_CASE("scenes name COLLADA meshes too") {
@@ -102,7 +107,25 @@ TEST_CASE("OMPL.app's .cfg with meshes: re-centred and turned once") {
   const auto turned = [](const std::string& what) {
     return what + ".x=-3\n" + what + ".y=0\n" + what + ".z=0\n" + what + ".theta=1.5\n" + what + ".axis.x=1\n";
   };
-  CHECK_THROWS_AS(read_scene(folder.write("c.cfg", head + turned("start") + goal)), InputError);
+  const auto replaced = [](std::string text, const std::string& from, const std::string& to) {
+    return text.replace(text.find(from), from.size(), to);
+  };
+  // Different angles: the robot turns, about one axis.
+  const Scene turns = read_scene(folder.write("c.cfg", head + turned("start") + goal));
+  REQUIRE(turns.rotation.has_value());
+  CHECK(turns.rotation->axis == Rational3{1, 0, 0});
+  CHECK(nearest_double(turns.rotation->start) == Approx(1.5 * 180 / M_PI));
+  CHECK(turns.rotation->goal == 0);
+  CHECK((*bounding_box(turns.robot))[0] == Rational3{-half, -half, -half});
+  const Scene other_way = read_scene(folder.write(
+      "o.cfg", head + turned("start") + replaced(turned("goal"), "goal.axis.x=1", "goal.axis.x=-2") + bounds));
+  REQUIRE(other_way.rotation.has_value());
+  CHECK(nearest_double(other_way.rotation->goal) == Approx(-1.5 * 180 / M_PI));
+  CHECK(question_of(other_way).goal.turn > 0);  // taken into the full circle
+  CHECK_THROWS_WITH(read_scene(folder.write("w.cfg", head + turned("start") + turned("goal") + "goal.axis.y=1\n")),
+                    Catch::Contains("different axes"));
+  CHECK_THROWS_AS(read_scene(folder.write("z.cfg", head + start + replaced(turned("goal"), "axis.x=1", "axis.x=0"))),
+                  InputError);
   const Scene rotated = read_scene(folder.write("d.cfg", head + turned("start") + turned("goal")));
   CHECK(nearest_double((*bounding_box(rotated.robot))[1][1]) == Approx((std::cos(1.5) + std::sin(1.5)) / 2));
   CHECK(volume(rotated.robot) == Rational(1));

@@ -99,7 +99,7 @@ class GlbWriter {
     return views_.size() - 1;
   }
 
-  // Floats in groups of `width` (1 or 3) with their bounds.
+  // Floats in groups of `width` (1, 3 or 4) with their bounds.
   std::size_t add_floats(const std::vector<float>& values, std::size_t width, int target) {
     std::vector<float> low(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(width));
     std::vector<float> high = low;
@@ -110,7 +110,9 @@ class GlbWriter {
     accessors_.push_back({{"bufferView", add_view(values, target)},
                           {"componentType", kFloat},
                           {"count", values.size() / width},
-                          {"type", width == 1 ? "SCALAR" : "VEC3"},
+                          {"type", width == 1   ? "SCALAR"
+                                   : width == 3 ? "VEC3"
+                                                : "VEC4"},
                           {"min", low},
                           {"max", high}});
     return accessors_.size() - 1;
@@ -159,8 +161,17 @@ class GlbWriter {
 
   std::size_t add_layer(std::size_t index) {
     const Layer& layer = layers_[index];
-    const std::size_t node = nodes_.size();
+    const std::size_t top = nodes_.size();
     nodes_.push_back({{"name", layer.name}});
+    std::size_t node = top;
+    if (!layer.motion.turns.empty()) {
+      // It turns about its pivot: the node is there, and what it holds is moved back.
+      const Point pivot = pivot_of(layer.motion);
+      nodes_[top]["translation"] = pivot;
+      nodes_[top]["children"] = {++node};
+      nodes_.push_back(
+          {{"name", layer.name + ", about its pivot"}, {"translation", {-pivot[0], -pivot[1], -pivot[2]}}});
+    }
     const Scene& scene = layer.scene;
     if (!scene.vertices.empty()) {
       std::vector<Point> points;
@@ -177,8 +188,13 @@ class GlbWriter {
       for (std::uint32_t i = 0; i < line.points.size(); ++i) indices.push_back(i);
       add_part(node, line.name, add_positions(line.points), indices, kLineStrip, add_material(line.color, 1, true));
     }
-    add_motion(layer, node);
-    return node;
+    add_motion(layer, top);
+    return top;
+  }
+
+  [[nodiscard]] Point pivot_of(const Motion& motion) const {
+    if (motion.turns.empty()) return {};
+    return {motion.pivot[0] - center_[0], motion.pivot[1] - center_[1], motion.pivot[2] - center_[2]};
   }
 
   void add_volumes(const Layer& layer, std::size_t node, std::size_t positions, const LayerColors& colors) {
@@ -236,14 +252,24 @@ class GlbWriter {
     std::vector<float> times;
     std::vector<float> offsets;
     for (const double time : layer.motion.times) times.push_back(static_cast<float>(time));
+    const Point pivot = pivot_of(layer.motion);
     for (const Point& offset : layer.motion.offsets) {
-      for (const double x : offset) offsets.push_back(static_cast<float>(x));
+      for (std::size_t k = 0; k < 3; ++k) offsets.push_back(static_cast<float>(pivot[k] + offset[k]));
+    }
+    std::vector<float> turns;
+    for (const auto& [w, x, y, z] : layer.motion.turns) {
+      for (const double q : {x, y, z, w}) turns.push_back(static_cast<float>(q));  // glTF's order
     }
     const std::size_t input = add_floats(times, 1, 0);
-    const std::size_t output = add_floats(offsets, 3, 0);
-    animations_.push_back({{"name", layer.name + " moves"},
-                           {"samplers", {{{"input", input}, {"output", output}, {"interpolation", "LINEAR"}}}},
-                           {"channels", {{{"sampler", 0}, {"target", {{"node", node}, {"path", "translation"}}}}}}});
+    Json samplers = Json::array();
+    Json channels = Json::array();
+    const auto add = [&](const char* path, std::size_t output) {
+      channels.push_back({{"sampler", samplers.size()}, {"target", {{"node", node}, {"path", path}}}});
+      samplers.push_back({{"input", input}, {"output", output}, {"interpolation", "LINEAR"}});
+    };
+    add("translation", add_floats(offsets, 3, 0));
+    if (!turns.empty()) add("rotation", add_floats(turns, 4, 0));
+    animations_.push_back({{"name", layer.name + " moves"}, {"samplers", samplers}, {"channels", channels}});
   }
 
   const std::vector<Layer>& layers_;

@@ -2,6 +2,7 @@
 #include "nef/view/layer.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace nef::view {
 namespace {
@@ -15,6 +16,15 @@ void add_point(std::optional<std::array<Point, 2>>& bounds, const Point& point) 
 }
 
 Point sum(const Point& a, const Point& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
+
+// A point wherever the turns of a motion take it.
+void add_moved(std::optional<std::array<Point, 2>>& bounds, const Motion& motion, const Point& point,
+               const Point& offset) {
+  if (motion.turns.empty()) return add_point(bounds, sum(point, offset));
+  const Point center = sum(motion.pivot, offset);
+  const double reach = std::hypot(point[0] - motion.pivot[0], point[1] - motion.pivot[1], point[2] - motion.pivot[2]);
+  for (const double r : {-reach, reach}) add_point(bounds, sum(center, {r, r, r}));
+}
 
 }  // namespace
 
@@ -58,7 +68,7 @@ std::optional<std::array<Point, 2>> bounds_of(const std::vector<Layer>& layers, 
     if (const auto bounds = layer.scene.bounds()) {
       for (const Point& corner : *bounds) {
         if (layer.motion.empty()) add_point(result, corner);
-        for (const Point& offset : layer.motion.offsets) add_point(result, sum(corner, offset));
+        for (const Point& offset : layer.motion.offsets) add_moved(result, layer.motion, corner, offset);
       }
     }
     for (const Polyline& line : layer.lines) {

@@ -15,10 +15,13 @@ namespace nef::view {
 
 using Color = std::array<std::uint8_t, 3>;  ///< red, green, blue as in sRGB
 
-/// A translation in time: at times[i] (seconds, increasing) the layer is moved by offsets[i], in between linearly.
+/// A motion in time: at times[i] (seconds, increasing) the layer is moved by offsets[i], in between linearly. If there
+/// are turns, it is first turned by turns[i] about the pivot, in between about one axis at constant speed.
 struct Motion {
   std::vector<double> times;
   std::vector<Point> offsets;
+  std::vector<std::array<double, 4>> turns{};  ///< unit quaternions w x y z, none or one for each time
+  Point pivot{};                               ///< where it is before any motion
   [[nodiscard]] bool empty() const { return times.empty(); }
 };
 

@@ -82,6 +82,10 @@ class SceneWriter {
               {"photos", photos(layer)}};
     if (scene.box) json["box"] = {relative((*scene.box)[0]), relative((*scene.box)[1])};
     if (!layer.motion.empty()) json["motion"] = {{"times", layer.motion.times}, {"offsets", layer.motion.offsets}};
+    if (!layer.motion.turns.empty()) {
+      json["motion"]["turns"] = layer.motion.turns;
+      json["motion"]["pivot"] = relative(layer.motion.pivot);
+    }
     add_exact(scene, json);
     return json;
   }

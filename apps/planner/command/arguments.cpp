@@ -64,6 +64,8 @@ void declare(CLI::App& app, Arguments& a) {
   app.add_flag("--clearance", a.path.clearance, "Way-points inside volumes rather than in contact");
   app.add_flag("--se3", a.se3, "Path matrix with seven columns x y z qx qy qz qw");
   app.add_option("--max-cells", a.max_cells, "A robot that turns: cut its angles into so many cells at most");
+  app.add_option("--check-proof", a.check_proof,
+                 "A robot that turns: verify the proof in this report (exit code 0: it holds, 1: it does not)");
   declare_ompl(app, a);
   app.add_option("--threads", a.threads, "Threads for the configuration space (0: all cores)");
   app.add_flag("-q,--quiet", a.quiet, "Print nothing but errors, and no progress bar");

@@ -24,6 +24,7 @@ struct Arguments {
   std::string prefer = "short";
   std::string given_path;
   std::string queries;
+  std::string check_proof;
   std::string ompl;
   std::string benchmark;
   std::vector<std::string> planners{"RRTConnect", "PRMstar", "BITstar"};

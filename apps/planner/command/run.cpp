@@ -201,6 +201,7 @@ int run(const Arguments& a) {
     bar.clear();
     return run_turning(a, scene);
   }
+  if (!a.check_proof.empty()) throw InputError("--check-proof is about robots that turn; the scene has no rotation");
   const Problem problem(std::move(scene), build);
   bar.clear();
   if (!a.queries.empty()) return answer_queries(a, problem);

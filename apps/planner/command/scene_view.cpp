@@ -10,23 +10,9 @@
 namespace nef::planner {
 namespace {
 
-constexpr view::Color kRobot{230, 120, 20};
-constexpr view::Color kObstacles{130, 140, 155};
 constexpr view::Color kFree{120, 190, 230};
 constexpr view::Color kTight{200, 30, 110};
-constexpr view::Color kPath{20, 90, 200};
 constexpr const char* kTightName = "tight passages";
-
-// A set with its place in the page; scenes come last, when the box that cuts all of them is known.
-struct Part {
-  std::string name;
-  Polyhedron set;
-  view::Color color;
-  double opacity = 1;
-  bool visible = true;
-};
-
-view::Point to_double(const Rational3& p) { return {nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2])}; }
 
 Polyhedron at(const Polyhedron& robot, const Rational3& position) {
   return transform(robot, AffineMap::translate(position));
@@ -66,8 +52,8 @@ Polyhedron ends(const Answer& answer, const Scene& scene) {
   return unite_all(points);
 }
 
-std::vector<Part> parts_of(const Answer& answer, const Scene& scene, const FreeSpace& free) {
-  std::vector<Part> parts;
+std::vector<ViewPart> parts_of(const Answer& answer, const Scene& scene, const FreeSpace& free) {
+  std::vector<ViewPart> parts;
   parts.push_back({"robot", at(scene.robot, first_position(answer, scene).value_or(Rational3{})), kRobot});
   const std::optional<Rational3> goal = answer.path ? answer.path->points.back() : scene.goal;
   if (goal) parts.push_back({"robot at the goal", at(scene.robot, *goal), kRobot, 0.3});
@@ -75,7 +61,7 @@ std::vector<Part> parts_of(const Answer& answer, const Scene& scene, const FreeS
   parts.push_back({kTightName, tight_part(free), kTight});
   parts.push_back({"free space", free.set(), kFree, 0.3, false});
   parts.push_back({answer.path ? "path" : "start and goal", ends(answer, scene), kPath});
-  std::erase_if(parts, [](const Part& part) { return part.set.is_empty(); });
+  std::erase_if(parts, [](const ViewPart& part) { return part.set.is_empty(); });
   return parts;
 }
 
@@ -102,24 +88,30 @@ std::string lower_extension_of(const std::string& file) {
 
 }  // namespace
 
-std::vector<view::Layer> view_layers(const Answer& answer, const Scene& scene, const FreeSpace& free) {
-  const std::vector<Part> parts = parts_of(answer, scene, free);
+std::vector<view::Layer> layers_of(const std::vector<ViewPart>& parts) {
   // The free space may be unbounded; it is cut where the rest is, so that this stays large.
   std::vector<Polyhedron> sets;
-  for (const Part& part : parts) {
+  for (const ViewPart& part : parts) {
     if (part.visible) sets.push_back(part.set);
   }
   view::SceneOptions options;
   options.box = view::visible_box(sets);
   std::vector<view::Layer> layers;
-  for (const Part& part : parts) {
+  for (const ViewPart& part : parts) {
     view::Layer& layer = layers.emplace_back();
     layer.name = part.name;
     layer.scene = view::build_scene(part.set, options);
     layer.color = part.color;
     layer.opacity = part.opacity;
     layer.visible = part.visible;
-    if (part.name == kTightName) layer.lines = tight_lines(free);
+  }
+  return layers;
+}
+
+std::vector<view::Layer> view_layers(const Answer& answer, const Scene& scene, const FreeSpace& free) {
+  std::vector<view::Layer> layers = layers_of(parts_of(answer, scene, free));
+  for (view::Layer& layer : layers) {
+    if (layer.name == kTightName) layer.lines = tight_lines(free);
   }
   if (answer.path && answer.path->points.size() > 1) {
     layers.front().motion = motion_along(*answer.path);

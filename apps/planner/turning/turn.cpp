@@ -33,6 +33,12 @@ Rational scale_of(const Rational3& direction) {
 
 }  // namespace
 
+Integer ceiling_of(const Rational& x) {
+  Integer result;
+  mpz_cdiv_q(result.get_mpz_t(), x.get_num_mpz_t(), x.get_den_mpz_t());
+  return result;
+}
+
 TurningAxis::TurningAxis(const Rational3& direction) {
   const Rational scale = scale_of(direction);
   for (std::size_t k = 0; k < 3; ++k) n_[k] = scale * direction[k];

@@ -60,4 +60,7 @@ class TurningAxis {
   Rational square_;
 };
 
+/// The least whole number that is no less.
+Integer ceiling_of(const Rational& x);
+
 }  // namespace nef::planner

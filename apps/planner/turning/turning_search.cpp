@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <set>
+#include <variant>
 
 #include "apps/minkowski/minkowski.h"
 #include "apps/planner/free_space/free_positions.h"
@@ -41,13 +42,12 @@ struct Cell {
   Turn low, high;
   std::vector<std::uint32_t> below;  // component of the inner free space that holds each component of the lower slice
   std::vector<std::uint32_t> above;  // ... of the upper slice
+  std::shared_ptr<const FreeSpace> inner;
 };
 
-Integer ceiling_of(const Rational& x) {
-  Integer result;
-  mpz_cdiv_q(result.get_mpz_t(), x.get_num_mpz_t(), x.get_den_mpz_t());
-  return result;
-}
+// A component of an inner free space: the index of its cell, and which component.
+using Room = std::pair<std::size_t, std::uint32_t>;
+using Rooms = std::set<Room>;
 
 Turn middle_of(const Turn& a, const Turn& b) { return (a + b) / 2; }
 
@@ -104,15 +104,15 @@ class TurningSearch {
         answer_.path = path_of(*way);
         return finished(TurningAnswer::Status::kPath);
       }
-      const std::optional<std::vector<std::size_t>> questionable = cells_in_question(start, goal);
-      if (!questionable) {
-        for (const auto& [low, cell] : cells_) answer_.breakpoints.push_back(low);
-        answer_.breakpoints.push_back(q_.high);
+      const std::variant<std::vector<std::size_t>, Rooms> found = cells_in_question(start, goal);
+      if (const Rooms* start_side = std::get_if<Rooms>(&found)) {
+        answer_.proof = proof_of(*start_side);
         return finished(TurningAnswer::Status::kInfeasible);
       }
-      NEF_ASSERT(!questionable->empty());
+      const auto& questionable = std::get<std::vector<std::size_t>>(found);
+      NEF_ASSERT(!questionable.empty());
       answer_.open_ranges.clear();
-      for (const std::size_t i : *questionable) {
+      for (const std::size_t i : questionable) {
         const Cell& cell = std::next(cells_.begin(), static_cast<std::ptrdiff_t>(i))->second;
         answer_.open_ranges.push_back({cell.low, cell.high});
       }
@@ -128,9 +128,8 @@ class TurningSearch {
     return std::move(answer_);
   }
 
-  [[nodiscard]] bool is_ring() const { return q_.high - q_.low == 4; }
   // Where a slice is kept: the ends of a ring are one.
-  [[nodiscard]] Turn key(const Turn& turn) const { return is_ring() && turn == q_.high ? q_.low : turn; }
+  [[nodiscard]] Turn key(const Turn& turn) const { return q_.is_ring() && turn == q_.high ? q_.low : turn; }
 
   [[nodiscard]] std::shared_ptr<const FreeSpace> free_space_of(const Polyhedron& robot) const {
     Scene scene = scene_;
@@ -200,7 +199,7 @@ class TurningSearch {
       bridges_.push_back({lower.first_node + at_low[i], upper.first_node + at_high[i], low, high, points[i], outer});
     }
     const auto inner = free_space_of(robot_.inner(low, high));
-    return {low, high, holders(*lower.free, *inner), holders(*upper.free, *inner)};
+    return {low, high, holders(*lower.free, *inner), holders(*upper.free, *inner), inner};
   }
 
   // Quarters, start and goal are breakpoints from the beginning.
@@ -314,13 +313,12 @@ class TurningSearch {
   }
 
   // A shortest way from start to goal through components of inner free spaces, and of it the cells whose step no
-  // bridges grant; nothing if there is no way, which is a proof.
-  [[nodiscard]] std::optional<std::vector<std::size_t>> cells_in_question(Node start, Node goal) const {
+  // bridges grant; or, if there is no way, the components that are joined to the start.
+  [[nodiscard]] std::variant<std::vector<std::size_t>, Rooms> cells_in_question(Node start, Node goal) const {
     UnionFind granted(node_count_);
     for (const Bridge& bridge : bridges_) granted.unite(bridge.from, bridge.to);
-    // Rooms (a cell and a component of its inner free space) and the nodes in them.
-    std::map<std::pair<std::size_t, std::uint32_t>, std::vector<Node>> members;
-    std::vector<std::vector<std::pair<std::size_t, std::uint32_t>>> rooms(node_count_);
+    std::map<Room, std::vector<Node>> members;
+    std::vector<std::vector<Room>> rooms(node_count_);
     std::size_t index = 0;
     for (const auto& [low, cell] : cells_) {
       for (const auto& [turn, holds] : {std::pair(&cell.low, &cell.below), std::pair(&cell.high, &cell.above)}) {
@@ -335,7 +333,7 @@ class TurningSearch {
     std::vector<Node> from(node_count_, kNoNode);
     std::vector<std::size_t> through(node_count_, 0);
     std::vector<bool> seen(node_count_, false);
-    std::set<std::pair<std::size_t, std::uint32_t>> entered;
+    Rooms entered;
     std::vector<Node> queue{start};
     seen[start] = true;
     for (std::size_t i = 0; i < queue.size() && !seen[goal]; ++i) {
@@ -350,7 +348,7 @@ class TurningSearch {
         }
       }
     }
-    if (!seen[goal]) return std::nullopt;
+    if (!seen[goal]) return entered;
     std::vector<std::size_t> result;
     UnionFind find = granted;
     for (Node node = goal; node != start; node = from[node]) {
@@ -359,6 +357,22 @@ class TurningSearch {
     std::sort(result.begin(), result.end());
     result.erase(std::unique(result.begin(), result.end()), result.end());
     return result;
+  }
+
+  [[nodiscard]] TurningProof proof_of(const Rooms& start_side) const {
+    TurningProof proof;
+    auto room = start_side.begin();
+    for (const auto& [low, cell] : cells_) {
+      proof.breakpoints.push_back(low);
+      TurningProof::Cell& entry = proof.cells.emplace_back();
+      for (Mesh& piece : robot_.inner_pieces(cell.low, cell.high)) entry.inner.push_back(std::move(piece.vertices));
+      const std::vector<Rational3> points = points_of(*cell.inner);
+      for (; room != start_side.end() && room->first == proof.cells.size() - 1; ++room) {
+        entry.start_side.push_back(points[room->second]);
+      }
+    }
+    proof.breakpoints.push_back(q_.high);
+    return proof;
   }
 
   // Of the vertices of a point's component the one that makes the shortest way from `here` to the goal; else the point.
@@ -414,24 +428,6 @@ class TurningSearch {
 };
 
 }  // namespace
-
-TurningQuestion question_of(const Scene& scene) {
-  if (!scene.rotation) throw InputError(scene.name + ": the scene has no rotation");
-  if (!scene.start || !scene.goal) throw InputError(scene.name + ": a robot that turns needs a start and a goal");
-  const AxisRotation& r = *scene.rotation;
-  TurningQuestion question;
-  question.axis = TurningAxis(r.axis);
-  question.low = question.axis.turn_of_degrees(r.low);
-  question.high = question.axis.turn_of_degrees(r.high);
-  const auto in_range = [&](const Rational& degrees) {
-    const Turn turn = question.axis.turn_of_degrees(degrees);
-    const Turn moved = turn + 4 * ceiling_of((question.low - turn) / 4);
-    return moved <= question.high ? moved : turn;
-  };
-  question.start = {*scene.start, in_range(r.start)};
-  question.goal = {*scene.goal, in_range(r.goal)};
-  return question;
-}
 
 TurningAnswer find_turning_path(const Scene& scene, const TurningQuestion& question, const TurningLimits& limits) {
   for (const Pose* pose : {&question.start, &question.goal}) {

@@ -7,25 +7,10 @@
 #include <optional>
 #include <vector>
 
-#include "apps/planner/scene/scene.h"
-#include "apps/planner/turning/turn.h"
+#include "apps/planner/turning/turning_proof.h"
+#include "apps/planner/turning/turning_question.h"
 
 namespace nef::planner {
-
-/// Where the reference point is, and how the robot is turned.
-struct Pose {
-  Rational3 position;
-  Turn turn;
-};
-
-/// A question about a robot that may turn about an axis through its reference point.
-struct TurningQuestion {
-  TurningAxis axis{{0, 0, 1}};
-  Turn low = 0;  ///< the range of angles; one that is 4 wide is the full circle, closed to a ring
-  Turn high = 4;
-  Pose start;
-  Pose goal;
-};
 
 struct TurningLimits {
   std::size_t max_cells = 2000;  ///< cells of angles that the range is cut into
@@ -44,16 +29,11 @@ struct TurningAnswer {
   /// kPath: way-points; between two either the turn or the position stays. Angles go on where the full circle closes,
   /// so they may leave the range by full turns.
   std::vector<Pose> path;
-  /// kInfeasible: the breakpoints of the proof. kUndecided: the ranges in question.
-  std::vector<Turn> breakpoints;
-  std::vector<TurnRange> open_ranges;
-  std::size_t cells = 0;      ///< that the range is cut into in the end
-  std::size_t looked_at = 0;  ///< those that were split again, too
+  std::optional<TurningProof> proof;   ///< kInfeasible
+  std::vector<TurnRange> open_ranges;  ///< kUndecided: those in question
+  std::size_t cells = 0;               ///< that the range is cut into in the end
+  std::size_t looked_at = 0;           ///< those that were split again, too
 };
-
-/// The question of a scene with a rotation, a start and a goal. Angles become rational turns; those of start and goal
-/// are taken into the range by full turns, if they can be.
-TurningQuestion question_of(const Scene& scene);
 
 /// Decides by cells of angles (docs/planner.md, "Turning"). For each cell [a, b] the free space of an outer robot,
 /// which holds the robot at every angle of the cell: there the robot may turn from a to b on the spot. Components of

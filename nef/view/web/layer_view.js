@@ -241,12 +241,24 @@ export class LayerView {
   setTime(time) {
     const { motion } = this.layer;
     if (!motion) return;
-    const { times, offsets } = motion;
+    const { times, offsets, turns, pivot } = motion;
     let i = 0;
     while (i + 2 < times.length && times[i + 1] < time) ++i;
     const j = Math.min(i + 1, times.length - 1);
     const span = times[j] - times[i];
     const t = span > 0 ? Math.min(1, Math.max(0, (time - times[i]) / span)) : 0;
     this.group.position.set(...offsets[i].map((x, k) => x + (offsets[j][k] - x) * t));
+    if (!turns) return;
+    const quaternion = ([w, x, y, z]) => new THREE.Quaternion(x, y, z, w);
+    this.group.quaternion.slerpQuaternions(quaternion(turns[i]), quaternion(turns[j]), t);
+    // About the pivot rather than the origin.
+    const about = new THREE.Vector3(...pivot);
+    this.group.position.add(about).sub(about.clone().applyQuaternion(this.group.quaternion));
+  }
+
+  // From the layer's coordinates to the page's.
+  matrix() {
+    this.group.updateMatrix();
+    return this.group.matrix;
   }
 }

@@ -123,6 +123,7 @@ class Viewer {
     this.highlight.material.depthTest = false; // seen through everything
     this.highlight.renderOrder = 1000;
     this.highlight.position.copy(view.group.position);
+    this.highlight.quaternion.copy(view.group.quaternion);
     this.scene.add(this.highlight);
   }
 

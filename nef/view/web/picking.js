@@ -43,7 +43,7 @@ export class Picker {
 
   // The same for all vertices of a layer, three numbers each.
   #projectAll(view) {
-    const matrix = new THREE.Matrix4().makeTranslation(view.group.position).premultiply(this.camera.matrixWorldInverse);
+    const matrix = view.matrix().clone().premultiply(this.camera.matrixWorldInverse);
     const m = matrix.elements;
     const p = this.camera.projectionMatrix.elements;
     const [w, h] = [this.canvas.clientWidth / 2, this.canvas.clientHeight / 2];
@@ -60,8 +60,7 @@ export class Picker {
   }
 
   vertexPoint(view, vertex) {
-    const { x, y, z } = view.group.position;
-    return add3(Array.from(view.layer.vertices.xyz.subarray(3 * vertex, 3 * vertex + 3)), [x, y, z]);
+    return new THREE.Vector3().fromArray(view.layer.vertices.xyz, 3 * vertex).applyMatrix4(view.matrix()).toArray();
   }
 
   #ray(x, y) {
@@ -80,11 +79,14 @@ export class Picker {
     this.views.forEach((view, layer) => {
       if (!view.group.visible || !view.facets.visible) return;
       const { begin, corners } = view.layer.facets;
-      const from = sub3(origin, view.group.position.toArray());
+      // The ray in the layer's coordinates.
+      const back = view.matrix().clone().invert();
+      const from = new THREE.Vector3(...origin).applyMatrix4(back).toArray();
+      const along = sub3(new THREE.Vector3(...add3(origin, direction)).applyMatrix4(back).toArray(), from);
       const { xyz } = view.layer.vertices;
       for (let f = 0; f + 1 < begin.length; ++f) {
         for (let i = 3 * begin[f]; i < 3 * begin[f + 1]; i += 3) {
-          const t = hitTriangle(from, direction, xyz, corners[i], corners[i + 1], corners[i + 2]);
+          const t = hitTriangle(from, along, xyz, corners[i], corners[i + 1], corners[i + 2]);
           if (t >= best.depth || this.section.cuts(add3(origin, scale3(direction, t)))) continue;
           best = { kind: "facet", layer, item: f, depth: t, solid: view.opacity.value > 0.995 };
         }

@@ -125,8 +125,10 @@ export class Section {
     if (this.on && this.caps.length === 0) this.#makeCaps();
     for (const { view, parts, cap } of this.caps) {
       for (const part of parts) part.visible = this.on && view.group.visible && view.facets.visible;
-      parts[0].position.copy(view.group.position);
-      parts[1].position.copy(view.group.position);
+      for (const part of [parts[0], parts[1]]) {
+        part.position.copy(view.group.position);
+        part.quaternion.copy(view.group.quaternion);
+      }
       cap.position.copy(this.normal).multiplyScalar(distance);
       cap.quaternion.setFromUnitVectors(new THREE.Vector3(0, 0, 1), this.normal);
     }

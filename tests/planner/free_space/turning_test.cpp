@@ -2,11 +2,14 @@
 //
 // Robots that turn about one axis: paths are checked pose by pose against the definition, proofs against scenes whose
 // answer is known in closed form and against a fine grid.
+#include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
 #include <sstream>
 
+#include "apps/planner/command/scene_view.h"
+#include "apps/planner/command/turning_view.h"
 #include "apps/planner/free_space/free_positions.h"
 #include "apps/planner/free_space/free_space.h"
 #include "apps/planner/turning/turning_robot.h"
@@ -15,6 +18,7 @@
 #include "nef/construct/construct.h"
 #include "nef/geometry/rational_vectors.h"
 #include "nef/program/exact_json.h"
+#include "nef/view/glb.h"
 #include "tests/planner/command_helpers.h"
 
 namespace nef::planner::test {
@@ -117,7 +121,8 @@ TEST_CASE("the outer robot holds the robot at all angles, which all hold the inn
   const Turn b = a + ratio(1, 1000);
   CHECK(nearest_double(*volume(bar.inner(a, b))) == Approx(12).epsilon(0.01));
   CHECK(nearest_double(*volume(bar.outer(a, b))) == Approx(12).epsilon(0.01));
-  CHECK(equal(bar.inner(0, 1), make_box({-1, -1, 0}, {1, 1, 1})));
+  const Polyhedron chords = intersect(make_halfspace(-1, 1, 0, -1), make_halfspace(1, -1, 0, -1));
+  CHECK(equal(bar.inner(0, 1), intersect(make_box({-1, -1, 0}, {1, 1, 1}), chords)));
   CHECK_THROWS_AS(TurningRobot(make_box({0, 0, 0}, {1, 1, 0}), TurningAxis({0, 0, 1})), InputError);
 }
 
@@ -263,7 +268,10 @@ TEST_CASE("random boxes in the plane against a fine grid of poses") {
       ++paths;
       check_path(scene, question, answer);
     }
-    if (answer.status == Status::kInfeasible) ++proofs;
+    if (answer.status == Status::kInfeasible) {
+      ++proofs;
+      CHECK(complaint_about(*answer.proof, scene, question).value_or("it holds") == "it holds");
+    }
     if (answer.status == Status::kInfeasible || answer.status == Status::kPath) {
       // Is the goal reached by steps of 1/4 and 1/16 of a quarter?
       const TurningRobot robot(scene.robot, question.axis);
@@ -308,6 +316,74 @@ TEST_CASE("random boxes in the plane against a fine grid of poses") {
   CHECK(proofs >= 3);
 }
 
+TEST_CASE("proofs hold when they are checked by other means, and spoilt ones do not") {
+  const Scene scene = scene_of(corner("3.7"));
+  const TurningQuestion question = question_of(scene);
+  const TurningAnswer answer = find_turning_path(scene, question);
+  REQUIRE(answer.proof.has_value());
+  CHECK_FALSE(complaint_about(*answer.proof, scene, question).has_value());
+  const auto complaint = [&](auto&& spoil) {
+    TurningProof proof = *answer.proof;
+    spoil(proof);
+    return complaint_about(proof, scene, question).value_or("it holds");
+  };
+  using Catch::Contains;
+  CHECK_THAT(complaint([](TurningProof& p) { p.breakpoints.pop_back(); }), Contains("between two breakpoints"));
+  CHECK_THAT(complaint([](TurningProof& p) { p.breakpoints.back() = ratio(7, 8); }), Contains("cover the range"));
+  CHECK_THAT(complaint([](TurningProof& p) { std::swap(p.breakpoints[1], p.breakpoints[2]); }),
+             Contains("out of order"));
+  // A cell as wide as two, with the inner robot of one of them.
+  CHECK_THAT(complaint([](TurningProof& p) {
+               p.breakpoints.erase(p.breakpoints.begin() + 1);
+               p.cells.erase(p.cells.begin());
+             }),
+             Contains("does not hold its inner robot"));
+  CHECK_THAT(complaint([](TurningProof& p) {
+               for (Rational3& v : p.cells[1].inner[0]) v = times(ratio(1001, 1000), v);
+             }),
+             Contains("does not hold its inner robot"));
+  CHECK_THAT(complaint([](TurningProof& p) {
+               p.breakpoints = {0, 1};
+               p.cells = {TurningProof::Cell{{}, p.cells[0].start_side}};
+             }),
+             Contains("are not apart"));
+  CHECK_THAT(complaint([](TurningProof& p) { p.cells[0].start_side.clear(); }), Contains("leaves out a component"));
+  CHECK_THAT(complaint([](TurningProof& p) {
+               p.cells[0].start_side.push_back({-1, 12, 0});
+             }),
+             Contains("not joined to the start"));
+  CHECK_THAT(complaint([](TurningProof& p) {
+               p.cells[0].start_side.push_back({5, 5, 0});
+             }),
+             Contains("not joined to the start"));
+  // Of another scene: the same bar, shorter.
+  const Scene shorter = scene_of(corner("3.5"));
+  CHECK(complaint_about(*answer.proof, shorter, question_of(shorter)).has_value());
+  TurningQuestion wider = question;
+  wider.high = 2;
+  CHECK(complaint_about(*answer.proof, scene, wider).has_value());
+}
+
+TEST_CASE("proofs about robots that are not convex, forbidden contact, tilted axes, rings") {
+  const std::string l_shape = "box(-1,-1,0, 1,0,1) + box(-1,-1,0, 0,2,1)";
+  // A wall with a window that the robot does not pass however it is turned, and one in which it merely does not fit.
+  const std::string window =
+      "box(3,-9,-9, 4,9,9) - interior(box(2,-1/2,-1/2, 5,1/2,1/2)) - interior(box(2,4,-1, 5,5,5/4))";
+  for (const std::string contact : {"allow", "forbid"}) {
+    for (const std::string axis : {R"("z")", "[1, 1, 1]", "[0, 3, 4]"}) {
+      INFO(contact << ' ' << axis);
+      const Scene scene = scene_of(R"J({"robot": ")J" + l_shape + R"J(", "obstacles": [")J" + window +
+                                   R"J("], "box": [[-1,-3,-3],[8,3,3]], "start": [0,0,0,0], "goal": [7,0,0,0],
+                                   "rotation": {"axis": )J" +
+                                   axis + R"J(}, "contact": ")J" + contact + R"J("})J");
+      const TurningQuestion question = question_of(scene);
+      const TurningAnswer answer = find_turning_path(scene, question, {.max_cells = 60, .stop = {}});
+      REQUIRE(answer.status == Status::kInfeasible);
+      CHECK(complaint_about(*answer.proof, scene, question).value_or("it holds") == "it holds");
+    }
+  }
+}
+
 TEST_CASE("turning on the command line") {
   const Folder folder;
   const std::string scene = folder.write("corner.json", corner("3.5"));
@@ -318,12 +394,23 @@ TEST_CASE("turning on the command line") {
   CHECK(report["path"].front()["turn"]["degrees"] == 0.0);
   CHECK(report["path"].back()["turn"]["quarters"] == 1);
   CHECK(report["path"].back()["position"][1] == "12");
-  CHECK(planner(folder, folder.write("long.json", corner("3.9"))).code == 1);
+  const std::string too_long = folder.write("long.json", corner("3.9"));
+  CHECK(planner(folder, too_long + " --quiet -o " + folder.file("proof.json")).code == 1);
+  const Run checked = planner(folder, too_long + " --check-proof " + folder.file("proof.json"));
+  CHECK(checked.code == 0);
+  CHECK_THAT(checked.out, Catch::StartsWith("the proof holds, "));
+  const Run other = planner(folder, scene + " --json --check-proof " + folder.file("proof.json"));
+  CHECK(other.code == 1);
+  CHECK(nlohmann::json::parse(other.out)["holds"] == false);
+  for (const char* broken : {"{}", R"({"proof": 3})", R"({"proof": {"breakpoints": [3], "cells": []}})",
+                             R"({"proof": {"breakpoints": [], "cells": [{"inner": [[]], "start_side": []}]}})"}) {
+    CHECK(planner(folder, too_long + " --check-proof " + folder.write("broken.json", broken)).code == 2);
+  }
   const Run open = planner(folder, folder.write("limit.json", corner("3.6568")) + " --max-cells 5");
   CHECK(open.code == 5);
   CHECK_THAT(open.out, Catch::Contains("undecided") && Catch::Contains("open:"));
   CHECK(planner(folder, scene + " --tight").code == 2);
-  CHECK(planner(folder, scene + " -o x.glb").code == 2);
+  CHECK(planner(folder, scene + " -o x.path").code == 2);
   CHECK(planner(folder, scene + " --quiet -o " + folder.file("way.txt")).code == 0);
   CHECK(text_of(folder.file("way.txt")).substr(0, 10) == "-12 -1 0 0");
   for (const char* bad : {R"("w")", R"({"axis": "w"})", R"({"axis": [0,0,0]})", R"({"axis": [1,0]})",
@@ -332,6 +419,49 @@ TEST_CASE("turning on the command line") {
       "rotation": )J" + std::string(bad) +
                              "}";
     CHECK(planner(folder, folder.write("bad.json", text)).code == 2);
+  }
+}
+
+// What a node of a glTF animation does at a time, as a viewer plays it: the image of a point of the layer's
+// coordinates.
+TEST_CASE("the motion in pages and glTF files takes every corner of the robot where the way-points do") {
+  for (const char* axis : {R"("z")", "[1, 1, 1]"}) {
+    const Scene scene = scene_of(R"J({"robot": "box(-1,-1/4,0, 3,1/4,1)", "obstacles": ["box(5,5,5,6,6,6)"],
+      "start": [3,4,5, 350], "goal": [9,4,5, 80], "rotation": {"axis": )J" +
+                                 std::string(axis) + "}}");
+    const TurningQuestion question = question_of(scene);
+    const TurningAnswer answer = find_turning_path(scene, question);
+    REQUIRE(answer.path.size() > 1);
+    const std::vector<view::Layer> layers = turning_layers(answer, scene, question);
+    REQUIRE(layers.front().name == "robot");
+    const view::Motion& motion = layers.front().motion;
+    REQUIRE(motion.times.size() == motion.turns.size());
+    CHECK(motion.times.back() == Approx(kPlaySeconds));
+    AffineMap start = question.axis.rotation(question.start.turn);
+    start.translation = question.start.position;
+    std::size_t k = 0;
+    for (std::size_t i = 0; i < answer.path.size(); ++i) {
+      const Pose& pose = answer.path[i];
+      if (i > 0 && pose.position == answer.path[i - 1].position && pose.turn == answer.path[i - 1].turn) continue;
+      AffineMap map = question.axis.rotation(pose.turn);
+      map.translation = pose.position;
+      for (const Rational3& corner : {Rational3{3, ratio(1, 4), 1}, Rational3{-1, 0, 0}}) {
+        const Rational3 drawn = start(corner);
+        const auto [w, x, y, z] = motion.turns[k];
+        CHECK(w * w + x * x + y * y + z * z == Approx(1));
+        Eigen::Vector3d moved(nearest_double(drawn[0]) - motion.pivot[0], nearest_double(drawn[1]) - motion.pivot[1],
+                              nearest_double(drawn[2]) - motion.pivot[2]);
+        moved = Eigen::Quaterniond(w, x, y, z) * moved;
+        for (std::size_t c = 0; c < 3; ++c) {
+          CHECK(moved[static_cast<Eigen::Index>(c)] + motion.pivot[c] + motion.offsets[k][c] ==
+                Approx(nearest_double(map(corner)[c])).margin(1e-6));
+        }
+      }
+      ++k;
+    }
+    CHECK(k == motion.times.size());
+    const std::string glb = view::glb_bytes(layers);
+    CHECK(glb.find("\"path\":\"rotation\"") != std::string::npos);
   }
 }
 

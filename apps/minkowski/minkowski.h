@@ -22,18 +22,20 @@ namespace nef::minkowski {
 
 /// How the sums of the pairs of cells are united. The set is the same for each.
 enum class UnionStrategy : std::uint8_t {
-  kAuto,      ///< as kNary where that is likely to be the fastest, else as kQueue
-  kTrivial,   ///< one after the other onto one growing result
-  kQueue,     ///< always the two oldest [Hachenberger 2009], in bounded memory
-  kPriority,  ///< always the two smallest, by number of vertices
-  kNary       ///< all at once, in batches of bounded size; explodes where many faces nearly coincide
+  kAuto,        ///< as kConvolution, kNary or kQueue, whichever is likely to be the fastest
+  kTrivial,     ///< one after the other onto one growing result
+  kQueue,       ///< always the two oldest [Hachenberger 2009], in bounded memory
+  kPriority,    ///< always the two smallest, by number of vertices
+  kNary,        ///< all at once, in batches of bounded size; explodes where many faces nearly coincide
+  kConvolution  ///< no cells: the facets of the reduced convolution are arranged; sets that are not bounded, closed
+                ///< and regular are united as for kAuto
 };
 
 struct MinkowskiOptions {
   UnionStrategy strategy = UnionStrategy::kAuto;
   unsigned threads = 1;  ///< 0: as many as the machine has; the result does not depend on it
-  /// Called after each pair of cells, and again and again while sums are united, with (pairs done, pairs in all),
-  /// always by the calling thread; false stops the sum: it throws nef::Interrupted.
+  /// Called after each pair of cells, and again and again while sums are united, with (pairs done, pairs in all), or
+  /// with thousandths of a convolution, always by the calling thread; false stops the sum: it throws nef::Interrupted.
   std::function<bool(std::size_t, std::size_t)> progress;
 };
 
@@ -42,9 +44,13 @@ struct MinkowskiReport {
   std::size_t cells_a = 0;
   std::size_t cells_b = 0;
   std::size_t pairs = 0;
-  std::size_t pairs_dropped = 0;      ///< sums that lie inside another one, found before the union
-  std::size_t united_at_once = 0;     ///< sums that went into unions of many at once
-  std::size_t united_two_by_two = 0;  ///< sums that went into unions of two sets
+  std::size_t pairs_dropped = 0;          ///< sums that lie inside another one, found before the union
+  std::size_t united_at_once = 0;         ///< sums that went into unions of many at once
+  std::size_t united_two_by_two = 0;      ///< sums that went into unions of two sets
+  std::size_t convolution_facets = 0;     ///< of the reduced convolution, if there was one
+  std::size_t convolution_intervals = 0;  ///< parts of the meetings of its facets where the boundary may be
+  std::size_t convolution_points = 0;     ///< points of it that were located exactly
+  std::size_t convolution_regions = 0;    ///< regions of which only an intersection could tell whether they are inside
   double seconds_decomposition = 0;
   double seconds_convex_sums = 0;
   double seconds_union = 0;

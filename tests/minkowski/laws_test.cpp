@@ -157,7 +157,7 @@ TEST_CASE("the four strategies give the same set") {
     const Polyhedron b = set(partners()[(i + 2) % partners().size()]);
     std::optional<Polyhedron> first;
     for (const UnionStrategy strategy : {UnionStrategy::kTrivial, UnionStrategy::kQueue, UnionStrategy::kPriority,
-                                         UnionStrategy::kNary, UnionStrategy::kAuto}) {
+                                         UnionStrategy::kNary, UnionStrategy::kConvolution, UnionStrategy::kAuto}) {
       CAPTURE(zoo()[i], static_cast<int>(strategy));
       nef::minkowski::MinkowskiOptions options;
       options.strategy = strategy;
@@ -220,6 +220,7 @@ TEST_CASE("x is in A + B iff A meets x - B, for unbounded sets") {
 TEST_CASE("the progress function counts the pairs and can stop the sum") {
   const Polyhedron a = set("box(0,0,0,3,1,1) + box(0,0,0,1,3,1)");
   nef::minkowski::MinkowskiOptions options;
+  options.strategy = nef::minkowski::UnionStrategy::kNary;
   std::size_t last = 0;
   options.progress = [&last](std::size_t done, std::size_t all) {
     // After each pair, and with the same numbers while sums are united.
@@ -234,6 +235,24 @@ TEST_CASE("the progress function counts the pairs and can stop the sum") {
   options.progress = [&](std::size_t done, std::size_t all) { return done < all || ++asked_at_the_end < 2; };
   CHECK_THROWS_AS(minkowski_sum(a, a, options), nef::Interrupted);  // in the union
   options.progress = [](std::size_t, std::size_t) { return false; };
+  CHECK_THROWS_AS(minkowski_sum(a, a, options), nef::Interrupted);
+}
+
+TEST_CASE("the progress function of a sum without cells counts thousandths and can stop it") {
+  const Polyhedron a = set("box(0,0,0,3,1,1) + box(0,0,0,1,3,1)");
+  nef::minkowski::MinkowskiOptions options;
+  options.strategy = nef::minkowski::UnionStrategy::kConvolution;
+  std::size_t last = 0;
+  options.progress = [&last](std::size_t done, std::size_t all) {
+    CHECK(last <= done);
+    CHECK(done <= all);
+    CHECK(all == 1000);
+    last = done;
+    return true;
+  };
+  minkowski_sum(a, a, options);
+  CHECK(last == 1000);  // the outside was tested
+  options.progress = [](std::size_t done, std::size_t all) { return done < all; };
   CHECK_THROWS_AS(minkowski_sum(a, a, options), nef::Interrupted);
 }
 

@@ -40,7 +40,7 @@ TEST_CASE("published sums, exactly, by every strategy") {
   for (std::size_t i = 0; i < known.size(); ++i) {
     const auto& [a, b, vertices, facets, content] = known[i];
     for (const UnionStrategy strategy : {UnionStrategy::kTrivial, UnionStrategy::kQueue, UnionStrategy::kPriority,
-                                         UnionStrategy::kNary, UnionStrategy::kAuto}) {
+                                         UnionStrategy::kNary, UnionStrategy::kConvolution, UnionStrategy::kAuto}) {
       CAPTURE(i, static_cast<int>(strategy));
       MinkowskiOptions options;
       options.strategy = strategy;
@@ -87,7 +87,7 @@ TEST_CASE("the polytopes of Fogel and Halperin: published counts, exact volumes,
       {pyramid, orthogonal, "131/261/132/2", Rational(mpz_class("23392576289"), mpz_class("1500000000"))}};
   for (const auto& [a, b, counts, content] : known) {
     for (const UnionStrategy strategy : {UnionStrategy::kTrivial, UnionStrategy::kQueue, UnionStrategy::kPriority,
-                                         UnionStrategy::kNary, UnionStrategy::kAuto}) {
+                                         UnionStrategy::kNary, UnionStrategy::kConvolution, UnionStrategy::kAuto}) {
       MinkowskiOptions options;
       options.strategy = strategy;
       const Polyhedron sum = nef::test::valid(minkowski_sum(a, b, options), "sum");
@@ -173,6 +173,12 @@ TEST_CASE("a mushroom plus a box: every sum of vertices is in it, and its shadow
   const Polyhedron b = set("box(-1/10,-1/10,-1/10,1/10,1/10,1/10)");
   nef::minkowski::MinkowskiReport report;
   const Polyhedron sum = nef::test::valid(minkowski_sum(a, b, {}, &report), "sum");
+  CHECK(report.cells_a == 0);  // no cells are the fastest way here
+  CHECK(report.convolution_facets > a.complex().facet_count());
+  MinkowskiOptions options;
+  options.strategy = UnionStrategy::kNary;
+  report = {};
+  CHECK(nef::equal(minkowski_sum(a, b, options, &report), sum));
   CHECK(report.cells_b == 1);
   CHECK(report.pairs == report.cells_a);
   CHECK(sum.is_closed());

@@ -58,7 +58,7 @@ TEST_CASE("sums are CGAL's, as sets, by every strategy") {
     CAPTURE(a, b);
     const Polyhedron expected = place.cgal_sum("exact", a, b);
     for (const UnionStrategy strategy : {UnionStrategy::kTrivial, UnionStrategy::kQueue, UnionStrategy::kPriority,
-                                         UnionStrategy::kNary, UnionStrategy::kAuto}) {
+                                         UnionStrategy::kNary, UnionStrategy::kConvolution, UnionStrategy::kAuto}) {
       MinkowskiOptions options;
       options.strategy = strategy;
       CHECK(nef::equal(nef::minkowski::minkowski_sum(nef::read_polyhedron(a), nef::read_polyhedron(b), options),

@@ -9,11 +9,10 @@ namespace nef::minkowski {
 namespace {
 
 const std::map<std::string, UnionStrategy>& strategies() {
-  static const std::map<std::string, UnionStrategy> kNames = {{"auto", UnionStrategy::kAuto},
-                                                              {"trivial", UnionStrategy::kTrivial},
-                                                              {"queue", UnionStrategy::kQueue},
-                                                              {"priority", UnionStrategy::kPriority},
-                                                              {"nary", UnionStrategy::kNary}};
+  static const std::map<std::string, UnionStrategy> kNames = {
+      {"auto", UnionStrategy::kAuto},   {"trivial", UnionStrategy::kTrivial},
+      {"queue", UnionStrategy::kQueue}, {"priority", UnionStrategy::kPriority},
+      {"nary", UnionStrategy::kNary},   {"convolution", UnionStrategy::kConvolution}};
   return kNames;
 }
 
@@ -154,8 +153,8 @@ void declare(CLI::App& app, Arguments& a) {
       "split), 4 N^2 + 2 vertices; inscribed (--inner, default) or circumscribed (--outer)");
   app.add_option("--box-tool", a.box_tool, "x,y,z: a box of these extents about the origin stands in for B");
   app.add_option("--union", a.union_name,
-                 "how sums of cells are united: auto (default), trivial, queue, priority, nary")
-      ->check(CLI::IsMember({"auto", "trivial", "queue", "priority", "nary"}));
+                 "how sums of cells are united: auto (default), trivial, queue, priority, nary, convolution")
+      ->check(CLI::IsMember({"auto", "trivial", "queue", "priority", "nary", "convolution"}));
   declare_tasks(app, a);
   app.add_flag("--as-surface", a.as_surface, "take the faces of meshes as a two-dimensional set");
   app.add_flag("--strict", a.strict, "refuse meshes with faces that are not exactly planar");

@@ -291,6 +291,12 @@ class Run {
     object["pairs"] = report_.pairs;
     object["pairs_dropped"] = report_.pairs_dropped;
     object["united"] = {{"at_once", report_.united_at_once}, {"two_by_two", report_.united_two_by_two}};
+    if (report_.convolution_facets > 0) {
+      object["convolution"] = {{"facets", report_.convolution_facets},
+                               {"intervals", report_.convolution_intervals},
+                               {"points", report_.convolution_points},
+                               {"regions_tested", report_.convolution_regions}};
+    }
     object["phases"] = {{"load_s", load_s_},
                         {"decomposition_s", report_.seconds_decomposition},
                         {"convex_sums_s", report_.seconds_convex_sums},

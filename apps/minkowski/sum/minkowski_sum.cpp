@@ -10,11 +10,13 @@
 // facet that is missing inside may be filled in: solids on both sides of a missing facet may be merged.
 #include <optional>
 
+#include "apps/minkowski/convolution/convolution_sum.h"
 #include "apps/minkowski/decomposition/decomposition.h"
 #include "apps/minkowski/minkowski.h"
 #include "apps/minkowski/sum/cobounded_sum.h"
 #include "apps/minkowski/sum/pair_sums.h"
 #include "apps/minkowski/sum/unbounded_sum.h"
+#include "nef/base/error.h"
 #include "nef/base/parallel.h"
 #include "nef/base/phase_timer.h"
 
@@ -52,8 +54,30 @@ Operands decompose_both(const Polyhedron& a, const Polyhedron& b, const Minkowsk
   return result;
 }
 
+std::optional<Polyhedron> sum_by_convolution(const Polyhedron& a, const Polyhedron& b, const MinkowskiOptions& options,
+                                             MinkowskiReport& report) {
+  const bool insist = options.strategy == UnionStrategy::kConvolution;
+  if (!insist && options.strategy != UnionStrategy::kAuto) return std::nullopt;
+  const PhaseTimer timer(report.seconds_union, report.predicates_union);
+  if (!has_convolution(a) || !has_convolution(b)) return std::nullopt;
+  ConvolutionOptions how;
+  how.only_if_fast = !insist;
+  how.poll = [&options](double share) {
+    constexpr std::size_t kAll = 1000;
+    if (options.progress && !options.progress(static_cast<std::size_t>(share * kAll), kAll)) throw Interrupted();
+  };
+  ConvolutionReport counts;
+  std::optional<Polyhedron> sum = convolution_sum(a, b, how, counts);
+  report.convolution_facets += counts.facets;
+  report.convolution_intervals += counts.intervals;
+  report.convolution_points += counts.points;
+  report.convolution_regions += counts.regions;
+  return sum;
+}
+
 Polyhedron bounded_sum(const Polyhedron& a, const Polyhedron& b, const MinkowskiOptions& options,
                        MinkowskiReport& report) {
+  if (std::optional<Polyhedron> sum = sum_by_convolution(a, b, options, report)) return *std::move(sum);
   const Operands cells = decompose_both(a, b, options, report);
   const Product product{cells.a, cells.b};
   return union_of_pair_sums({&product, 1}, options, report);

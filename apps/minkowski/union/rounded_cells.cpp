@@ -6,13 +6,12 @@
 #include <limits>
 
 namespace nef::minkowski {
-namespace {
 
 // For vertices within 2u*size (nearest doubles are within u relative), two edges a, b of a face of
 // extent L have components within e = 8u*size of the truth, so a component of a x b is within
 // 2 (2 L e + e^2) + 6u L^2; a third vector of extent M, within e likewise, gives a form within
 // 3 (M (4.1 L e + 6u L^2) + 2 L^2 e) + 12u * 6 L^2 M. M is at most 2 size. Any e > L/8 is refused.
-RoundedFace plane_through(const Vector& o, const Vector& p, const Vector& q, double size) {
+RoundedFace rounded_plane(const Vector& o, const Vector& p, const Vector& q, double size) {
   Vector a{};
   Vector b{};
   double extent = 0;
@@ -37,8 +36,6 @@ RoundedFace plane_through(const Vector& o, const Vector& p, const Vector& q, dou
   return face;
 }
 
-}  // namespace
-
 RoundedCells::RoundedCells(std::span<const ConvexCell> cells) {
   for (const ConvexCell& cell : cells) {
     Box& box = boxes_.emplace_back();
@@ -56,7 +53,7 @@ RoundedCells::RoundedCells(std::span<const ConvexCell> cells) {
     for (std::size_t f = 0; cells[i].dimension == 3 && f < mesh.face_count(); ++f) {
       // Far corners: the error is relative to the extent of the triangle.
       const auto face = mesh.face(f);
-      faces_.push_back(plane_through(v[face[0]], v[face[face.size() / 3]], v[face[2 * face.size() / 3]], extent_));
+      faces_.push_back(rounded_plane(v[face[0]], v[face[face.size() / 3]], v[face[2 * face.size() / 3]], extent_));
       cell_of_face_.push_back(i);
     }
     first_face_.push_back(static_cast<std::uint32_t>(faces_.size()));

@@ -38,6 +38,10 @@ struct RoundedFace {
   }
 };
 
+/// The plane of three points that turn counterclockwise from outside, each within 2u `size` of the truth in every
+/// coordinate, and none larger than `size`. Its slack is infinite if they are too close to tell.
+RoundedFace rounded_plane(const Vector& o, const Vector& p, const Vector& q, double size);
+
 /// Vertices, faces and boxes of a set of cells, flat. O(n) to build.
 class RoundedCells {
  public:

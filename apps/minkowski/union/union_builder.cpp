@@ -32,6 +32,7 @@ bool larger(const Polyhedron& a, const Polyhedron& b) {
 void UnionBuilder::add(ConvexCell cell) {
   switch (strategy_) {
     case UnionStrategy::kAuto:
+    case UnionStrategy::kConvolution:
       if (gave_up_ || cell.mesh.vertices.size() > kLargeCell) {
         add_to_group(cell);
       } else {
@@ -128,7 +129,7 @@ void UnionBuilder::unite_batch_of_solids() {
   SolidUnionOptions options;
   options.threads = threads_;
   options.poll = poll_;
-  if (strategy_ == UnionStrategy::kAuto) options.budget = kQueueWorkOfVertex * batch_vertices_;
+  if (strategy_ != UnionStrategy::kNary) options.budget = kQueueWorkOfVertex * batch_vertices_;
   std::optional<Polyhedron> all = try_unite_solids(batch_, options, &dropped_);
   if (all) {
     at_once_ += batch_.size();

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// From candidate points to the sum: which regions around them are inside.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <unordered_map>
+#include <vector>
+
+#include "apps/minkowski/convolution/facet_pyramids.h"
+#include "apps/minkowski/convolution/surviving_intervals.h"
+#include "nef/base/union_find.h"
+#include "nef/polyhedron.h"
+
+namespace nef::minkowski {
+
+/// What came of an arrangement of facets, for people who measure.
+struct ConvolutionCounts {
+  std::size_t points = 0;   ///< located exactly
+  std::size_t regions = 0;  ///< that needed a test of their own
+};
+
+/// Takes the points at which surviving intervals end, finds the regions around them, joins those that an interval
+/// joins, and makes the sum. A region is inside if it is just behind a facet. Of others, `contains` tells: it is asked
+/// for points on no facet.
+class ConvolutionRegions {
+ public:
+  using Contains = std::function<bool(const Rational3&)>;
+
+  /// All must outlive the object; the facets' tables get more planes and points.
+  ConvolutionRegions(ConvolutionFacets& facets, const RoundedFacets& rounded, const SurvivingIntervals& intervals);
+
+  /// The sum. To be called once. `poll` may throw.
+  Complex run(const Contains& contains, const std::function<void(double)>& poll);
+
+  [[nodiscard]] const ConvolutionCounts& counts() const { return counts_; }
+
+ private:
+  struct Vertex {
+    PointId point{0};
+    SphereMapBuffer map;             // sfaces are marked 1 if they are just behind a facet
+    std::uint32_t first_region = 0;  // of its sfaces
+  };
+
+  void add_interval(const SurvivingInterval& interval);
+  void add_points_of(const FacetSegment& s, const SegmentCut& cut);
+  void add_points_beyond(std::uint32_t f, std::uint32_t g, const SegmentEnd& end);
+  void add_points_near(const FacetSegment& s, const SegmentCut& cut, std::uint32_t facet);
+  void add_meeting(std::uint32_t f, std::uint32_t g, std::uint32_t h);
+  void add_corner(std::uint32_t corner);
+  void add_point(PointId point);
+  PointId find_or_add(PointId point, bool& is_new);
+  [[nodiscard]] std::uint32_t nearest(const FacetSegment& s, const SegmentCut& cut, bool last) const;
+  void join(const FacetSegment& s, const Vertex& from, const Vertex& to);
+  [[nodiscard]] std::uint32_t svertex_along(const Vertex& v, const FacetSegment& s, bool forward) const;
+  [[nodiscard]] std::vector<std::uint8_t> find_inside(const Contains& contains,
+                                                      const std::function<void(double)>& poll);
+  [[nodiscard]] Rational3 point_in(const Vertex& v, std::uint32_t sface);
+
+  ConvolutionFacets& facets_;
+  const SurvivingIntervals& intervals_;
+  BoxTree tree_;
+  FacetPyramids pyramids_;
+  std::vector<Vertex> vertices_;
+  std::unordered_multimap<std::uint64_t, std::uint32_t> seen_;  // hash of coordinates -> point
+  std::unordered_map<std::uint32_t, std::uint32_t> vertex_at_;  // point -> vertex, or kNone if all is inside there
+  struct TripleHash {
+    std::size_t operator()(const std::array<std::uint32_t, 3>& t) const {
+      std::uint64_t h = t[0];
+      for (const std::uint32_t x : {t[1], t[2]}) h = (h ^ (h >> 29U)) * 0x9e3779b97f4a7c15ULL + x;
+      return h ^ (h >> 32U);
+    }
+  };
+  std::unordered_map<std::array<std::uint32_t, 3>, std::uint32_t, TripleHash> tried_;  // planes -> point or kNone
+  std::vector<std::uint32_t> near_;                                                    // points at the cut at hand
+  struct Joint {
+    std::uint32_t segment = 0, from = 0, to = 0;  // vertices
+  };
+  std::vector<Joint> joints_;
+  UnionFind regions_{0};
+  ConvolutionCounts counts_;
+};
+
+}  // namespace nef::minkowski

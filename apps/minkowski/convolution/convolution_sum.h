@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Sums of solids from their reduced convolution, without convex cells.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+
+#include "nef/polyhedron.h"
+
+namespace nef::minkowski {
+
+/// How much there was to do.
+struct ConvolutionReport {
+  std::size_t facets = 0;     ///< of the reduced convolution
+  std::size_t segments = 0;   ///< pairs of facets that meet in one
+  std::size_t intervals = 0;  ///< parts of segments at which the boundary may be
+  std::size_t points = 0;     ///< located exactly
+  std::size_t regions = 0;    ///< of which only an intersection could tell whether they are inside
+};
+
+/// True for sets that convolution_sum takes: bounded, not empty, and the closure of their interiors. O(n).
+bool has_convolution(const Polyhedron& a);
+
+struct ConvolutionOptions {
+  /// Sets of which cells are likely to be faster are left alone: where both are convex, and where very many facets of
+  /// the convolution lie in one plane upon each other, as the caps of extrusions do.
+  bool only_if_fast = false;
+  std::function<void(double)> poll;  ///< called with the share that is done, 0 to 1; may throw
+};
+
+/// A + B for two such sets; nothing only if the options ask for that. The facets of the reduced convolution are
+/// arranged, without what is surely inside; what regions they leave is inside if it is just behind a facet, and the
+/// others are tested: x is in A + B iff A meets x - B.
+std::optional<Polyhedron> convolution_sum(const Polyhedron& a, const Polyhedron& b, const ConvolutionOptions& options,
+                                          ConvolutionReport& report);
+
+}  // namespace nef::minkowski

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "nef/sphere_map/sphere_map.h"
+
+namespace nef::minkowski {
+
+/// A direction inside of an sface, with integers that are no longer than need be. The map must not be trivial.
+/// O(size of the map), a few times.
+Direction direction_into(const PlaneTable& planes, const SphereMapView& map, std::uint32_t sface);
+
+}  // namespace nef::minkowski

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/minkowski/convolution/solid_features.h"
+
+#include <algorithm>
+
+#include "apps/minkowski/convolution/convex_pieces.h"
+
+namespace nef::minkowski {
+
+bool ConvexEdge::touches(const Direction& normal) const {
+  return sign_of_determinant(line, first, normal) > 0 && sign_of_determinant(line, normal, last) > 0;
+}
+
+SolidFeatures::SolidFeatures(const Polyhedron& solid) : c_(solid.complex()) {
+  points_.reserve(c_.vertex_count());
+  for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) points_.push_back(c_.points.rational(PointId{v}));
+  directions_.reserve(c_.svertices.size());
+  for (const SVertex& s : c_.svertices) directions_.push_back(direction_of(c_.planes, s));
+  add_facets();
+  for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) {
+    const std::uint32_t first = c_.vertices[v].svertices;
+    for (std::uint32_t h = first; h < c_.vertices[v + 1].svertices; ++h) {
+      if (h < c_.twin[h]) add_edge(v, h - first);
+    }
+  }
+}
+
+void SolidFeatures::add_facets() {
+  ConvexPieces pieces(c_);
+  for (const FacetId f : c_.facets.ids()) {
+    const Facet& facet = c_.facets[f];
+    const bool solid_above = c_.volumes[facet.volume_above].mark != 0;
+    SolidFacet& added = facets_.emplace_back();
+    added.normal = Direction::normal(c_.planes, solid_above ? facet.plane.opposite() : facet.plane);
+    added.pieces = pieces.cut(f);
+    if (!solid_above) continue;
+    for (std::vector<std::uint32_t>& piece : added.pieces) std::reverse(piece.begin(), piece.end());
+  }
+}
+
+// At most one wedge around an edge is free and larger than a half-turn.
+void SolidFeatures::add_edge(std::uint32_t vertex, std::uint32_t svertex) {
+  const SphereMapView map = c_.sphere_map(vertex);
+  const std::uint32_t halfedge = c_.vertices[vertex].svertices + svertex;
+  const Direction& line = directions_[halfedge];
+  const std::uint32_t out = map.svertices[svertex].out;
+  std::uint32_t e = out;
+  do {
+    const std::uint32_t next = map.next_around(e);
+    const PlaneId first = map.shalfedges[e].plane;
+    const PlaneId last = map.shalfedges[next].plane;
+    if (map.sfaces[map.shalfedges[e].sface].mark == 0 && orientation_around(c_.planes, line, first, last) < 0) {
+      edges_.push_back({vertex, c_.target(halfedge), line, Direction::normal(c_.planes, first),
+                        Direction::normal(c_.planes, last.opposite())});
+      return;
+    }
+    e = next;
+  } while (e != out);
+}
+
+bool SolidFeatures::is_peak(std::uint32_t vertex, const Direction& up) const {
+  for (std::uint32_t h = c_.vertices[vertex].svertices; h < c_.vertices[vertex + 1].svertices; ++h) {
+    if (sign_of_dot(directions_[h], up) >= 0) return false;
+  }
+  // All edges go down, so the open upper half-sphere is in one sface.
+  const SphereMapView map = c_.sphere_map(vertex);
+  return mark_at(map, locate(c_.planes, map, up)) == 0;
+}
+
+}  // namespace nef::minkowski

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The parts of the segments at which regions may be seen that no facet has behind it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "apps/minkowski/convolution/facet_segments.h"
+
+namespace nef::minkowski {
+
+/// Points of a segment that are next to each other, and in which order is not sure: its ends, and where other facets
+/// meet it.
+struct SegmentCut {
+  std::uint32_t first = 0, last = 0;  ///< range in SurvivingIntervals::cutting
+  std::array<bool, 2> is_end{};       ///< the segment may begin, end here
+  Interval at;                        ///< they are all here
+};
+
+/// An open part of a segment that no other facet meets.
+struct SurvivingInterval {
+  std::uint32_t segment = 0;
+  std::uint32_t from = 0, to = 0;  ///< cuts; the same one if doubles can not tell its ends apart
+};
+
+struct SurvivingIntervals {
+  std::vector<FacetSegment> segments;
+  std::vector<SegmentCut> cuts;
+  std::vector<std::uint32_t> cutting;  ///< facets
+  std::vector<SurvivingInterval> intervals;
+  /// Pairs of facets that share a side: key of the two corners -> facets.
+  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> at_side;
+};
+
+/// The key of a side in SurvivingIntervals::at_side.
+std::uint64_t side_key(const ConvolutionFacets& facets, std::uint32_t facet, std::uint32_t side);
+
+/// All segments, cut where they meet other facets, without intervals at which surely nothing is to be seen but the
+/// inside of the sum. What is just behind a facet is inside, and it stays so up to the next facet; so an interval goes
+/// if a facet crosses the segment at one of its ends and has the interval behind it. Where three facets cross, and no
+/// other is there, one octant is in front of all three; if one of its three edges goes, so do the others.
+/// In doubles: what is not sure, stays. O(n log n + k) for k pairs of segments on one facet whose boxes overlap.
+/// `poll` is called with the share that is done and may throw.
+SurvivingIntervals surviving_intervals(const ConvolutionFacets& facets, const RoundedFacets& rounded,
+                                       const std::function<void(double)>& poll);
+
+}  // namespace nef::minkowski

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Sums from the reduced convolution against the other strategies, and against the definition: x is in A + B iff A meets
+// x - B. Solids on a grid, which touch and cover each other in every way, and the same turned and moved by next to
+// nothing, so that doubles can not tell.
+#include <rapidcheck.h>
+
+#include <catch2/catch.hpp>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "apps/minkowski/convolution/convolution_sum.h"
+#include "apps/minkowski/minkowski.h"
+#include "apps/minkowski/morphology.h"
+#include "nef/construct/construct.h"
+#include "tests/support/random_polyhedra.h"
+
+namespace {
+
+using nef::Polyhedron;
+using nef::Rational;
+using nef::Rational3;
+using nef::minkowski::minkowski_sum;
+using nef::minkowski::MinkowskiOptions;
+using nef::minkowski::MinkowskiReport;
+using nef::minkowski::UnionStrategy;
+using nef::test::Recipe;
+using nef::test::recipes;
+using nef::test::valid;
+
+Polyhedron moved(const Polyhedron& a, const Rational3& by) { return nef::transform(a, nef::AffineMap::translate(by)); }
+
+Polyhedron convolution(const Polyhedron& a, const Polyhedron& b) {
+  MinkowskiOptions options;
+  options.strategy = UnionStrategy::kConvolution;
+  MinkowskiReport report;
+  Polyhedron sum = valid(minkowski_sum(a, b, options, &report), "sum");
+  CHECK(report.cells_a == 0);  // nothing was decomposed
+  return sum;
+}
+
+Polyhedron by_cells(const Polyhedron& a, const Polyhedron& b) {
+  MinkowskiOptions options;
+  options.strategy = UnionStrategy::kQueue;
+  return minkowski_sum(a, b, options);
+}
+
+void check(const std::string& what, int cases, const std::function<void()>& property) {
+  rc::detail::TestParams parameters = rc::detail::configuration().testParams;
+  parameters.maxSuccess = cases;
+  const auto result = rc::detail::checkTestable(property, rc::detail::TestMetadata{what, what}, parameters);
+  INFO(what);
+  std::ostringstream text;
+  rc::detail::printResultMessage(result, text);
+  INFO(text.str());
+  CHECK(result.is<rc::detail::SuccessResult>());
+}
+
+// Turned, so that no plane is parallel to an axis; sheared by next to nothing, or not.
+Polyhedron disturbed(const Polyhedron& a, int step) {
+  nef::AffineMap map = nef::AffineMap::identity();
+  const Rational tiny = Rational(step, 3) / Rational(nef::Integer(1) << 60);
+  const int m[3][3] = {{2, -1, 2}, {2, 2, -1}, {-1, 2, 2}};
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) map.linear[i][j] = Rational(m[i][j], 3);
+    map.linear[i][(i + 1) % 3] += tiny;
+  }
+  return nef::transform(a, map);
+}
+
+TEST_CASE("convolution: solids on a grid") {
+  check("grid", 300, [] {
+    const Polyhedron a = nef::regularize((*recipes(true, 5)).make());
+    const Polyhedron b = nef::regularize((*recipes(true, 3, 2)).make());
+    RC_PRE(!a.is_empty() && !b.is_empty());
+    const Polyhedron sum = convolution(a, b);
+    RC_ASSERT(nef::equal(sum, by_cells(a, b)));
+    const Polyhedron turned = nef::minkowski::negate(b);
+    for (std::uint32_t v = 0; v < sum.complex().vertex_count(); v += 5) {
+      Rational3 x = sum.complex().points.rational(nef::PointId{v});
+      for (const int k : {0, 1}) {  // on the boundary, and near it
+        x[static_cast<std::size_t>(v % 3)] += Rational(k, 7);
+        RC_ASSERT(nef::contains(sum, x) == !nef::intersect(a, moved(turned, x)).is_empty());
+      }
+    }
+  });
+}
+
+TEST_CASE("convolution: a facet around an edge that ends inside of it is not convex") {
+  const Polyhedron a =
+      nef::test::set("regularize(box(0,0,2,3,1,3) - hull(0,1,3,2,0,2,0,0,0,1,0,2)) + box(0,0,0,2,1,2)");
+  const Polyhedron b = nef::test::set("box(0,0,0,1,1,1)");
+  CHECK(nef::equal(convolution(a, b), by_cells(a, b)));
+}
+
+TEST_CASE("convolution: straight corners, of which three span no plane") {
+  const Polyhedron a = nef::test::set("hull(0,1,0,1,2,2,0,0,0,0,0,2) + box(0,0,2,1,1,3)");
+  const Polyhedron b = nef::test::set("box(0,0,0,1,1,1)");
+  CHECK(nef::equal(convolution(a, b), by_cells(a, b)));
+}
+
+TEST_CASE("convolution: facets that continue each other without a common side") {
+  const Polyhedron a = nef::test::set("box(0,0,0,2,1,1) + hull(1,0,2,1,2,1,2,0,0,0,0,2)");
+  const Polyhedron b = nef::test::set("box(0,0,0,1,1,1)");
+  CHECK(nef::equal(convolution(a, b), by_cells(a, b)));
+}
+
+// The frame and the rod meet in a ring for some x, so the winding number of the full convolution is zero there.
+TEST_CASE("convolution: rings, tunnels and cavities") {
+  const Polyhedron frame = nef::test::set("box(0,0,0,6,6,1) - interior(box(1,1,-1,5,5,2))");
+  const Polyhedron cavity = nef::test::set("box(0,0,0,6,6,6) - interior(box(1,1,1,5,5,5))");
+  const Polyhedron two = nef::test::set("box(0,0,0,1,1,1) + box(3,0,0,4,1,1)");
+  const Polyhedron rod = nef::test::set("box(0,0,0,1,1,4)");
+  const Polyhedron small = nef::test::set("box(0,0,0,1,2,3)");
+  const Polyhedron tight = nef::test::set("box(0,0,0,4,4,4)");
+  const std::vector<Polyhedron> solids = {frame, cavity, two, rod, small, tight};
+  for (std::size_t i = 0; i < solids.size(); ++i) {
+    for (std::size_t j = i; j < solids.size(); ++j) {
+      CAPTURE(i, j);
+      CHECK(nef::equal(convolution(solids[i], solids[j]), by_cells(solids[i], solids[j])));
+    }
+  }
+}
+
+TEST_CASE("convolution: solids that are turned, and all but parallel") {
+  check("turned", 150, [] {
+    const Polyhedron a = disturbed(nef::regularize((*recipes(true, 4)).make()), 0);
+    const Polyhedron b = disturbed(nef::regularize((*recipes(true, 3, 2)).make()), *rc::gen::inRange(-1, 2));
+    RC_PRE(!a.is_empty() && !b.is_empty());
+    RC_ASSERT(nef::equal(convolution(a, b), by_cells(a, b)));
+  });
+}
+
+}  // namespace

@@ -106,6 +106,12 @@ TEST_CASE("convolution: facets that continue each other without a common side") 
   CHECK(nef::equal(convolution(a, b), by_cells(a, b)));
 }
 
+TEST_CASE("convolution: a point on the line of a segment, but not on the segment") {
+  const Polyhedron a = nef::test::set("box(0,0,0,1,1,1) + box(0,1,1,1,2,2) + hull(0,0,0,0,0,1,2,2,2,1,0,0)");
+  const Polyhedron b = nef::test::set("regularize(hull(2,1,1,2,0,0,0,0,2,1,2,1) - box(0,1,1,1,2,2))");
+  CHECK(nef::equal(convolution(a, b), by_cells(a, b)));
+}
+
 // The frame and the rod meet in a ring for some x, so the winding number of the full convolution is zero there.
 TEST_CASE("convolution: rings, tunnels and cavities") {
   const Polyhedron frame = nef::test::set("box(0,0,0,6,6,1) - interior(box(1,1,-1,5,5,2))");

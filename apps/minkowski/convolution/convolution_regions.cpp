@@ -98,14 +98,17 @@ void ConvolutionRegions::add_meeting(std::uint32_t f, std::uint32_t g, std::uint
 
 void ConvolutionRegions::add_point(PointId point) {
   near_.push_back(point.index());
-  const auto [at, is_new] = vertex_at_.emplace(point.index(), kNone);
+  const auto [at, is_new] = known_.emplace(point.index(), KnownPoint());
   if (!is_new) return;
   ++counts_.points;
+  KnownPoint& known = at->second;
   const std::vector<FacetAtPoint>& facets = pyramids_.facets_at(point);
+  for (const FacetAtPoint& f : facets) known.facets.push_back(f.facet);
+  std::sort(known.facets.begin(), known.facets.end());
   if (facets.size() < 3) return;
   SphereMapBuffer map = pyramids_.draw(facets);
   if (!mark_inside(map)) return;
-  at->second = static_cast<std::uint32_t>(vertices_.size());
+  known.vertex = static_cast<std::uint32_t>(vertices_.size());
   vertices_.push_back({point, std::move(map), 0});
 }
 
@@ -146,7 +149,7 @@ void ConvolutionRegions::add_points_of(const FacetSegment& s, const SegmentCut& 
   for (std::uint32_t i = cut.first; i < cut.last; ++i) add_points_near(s, cut, intervals_.cutting[i]);
 }
 
-// Of the points at a cut that are on the segment's line, the first or last one.
+// Of the points of the segment at a cut, the first or last one.
 std::uint32_t ConvolutionRegions::nearest(const FacetSegment& s, const SegmentCut& cut, bool last) const {
   const std::size_t axis = main_axis(s);
   const double length = s.to[axis] - s.from[axis];
@@ -157,10 +160,9 @@ std::uint32_t ConvolutionRegions::nearest(const FacetSegment& s, const SegmentCu
     const PointId point{p};
     const double t = (facets_.points.approximate(point)[axis] - s.from[axis]) / length;
     if (!(t >= cut.at.low - doubt && t <= cut.at.high + doubt)) continue;
-    if (side_of_plane(facets_.planes, facets_.plane[s.f], facets_.points, point) != 0 ||
-        side_of_plane(facets_.planes, facets_.plane[s.g], facets_.points, point) != 0) {
+    const std::vector<std::uint32_t>& here = known_.at(p).facets;
+    if (!std::binary_search(here.begin(), here.end(), s.f) || !std::binary_search(here.begin(), here.end(), s.g))
       continue;
-    }
     if (best == kNone ||
         (compare_coordinate(facets_.points, point, PointId{best}, static_cast<int>(axis)) > 0) == (up == last)) {
       best = p;
@@ -177,8 +179,8 @@ void ConvolutionRegions::add_interval(const SurvivingInterval& interval) {
   add_points_of(s, intervals_.cuts[interval.to]);
   const std::uint32_t to = nearest(s, intervals_.cuts[interval.to], false);
   if (from == kNone || to == kNone || from == to || reach_of(s) < 100 * s.error) return;
-  const std::uint32_t v = vertex_at_.at(from);
-  const std::uint32_t w = vertex_at_.at(to);
+  const std::uint32_t v = known_.at(from).vertex;
+  const std::uint32_t w = known_.at(to).vertex;
   if (v != kNone && w != kNone) joints_.push_back({interval.segment, v, w});
 }
 
@@ -269,7 +271,8 @@ std::vector<std::uint8_t> ConvolutionRegions::find_inside(const Contains& contai
   return state;
 }
 
-Complex ConvolutionRegions::run(const Contains& contains, const std::function<void(double)>& poll) {
+std::variant<Complex, Defect> ConvolutionRegions::run(const Contains& contains,
+                                                      const std::function<void(double)>& poll) {
   for (std::size_t i = 0; i < intervals_.intervals.size(); ++i) {
     if (i % 64 == 0) poll(static_cast<double>(i) / static_cast<double>(intervals_.intervals.size()));
     add_interval(intervals_.intervals[i]);
@@ -299,7 +302,7 @@ Complex ConvolutionRegions::run(const Contains& contains, const std::function<vo
     drawing.load(facets_.planes, v.map.view());
     builder.add(facets_.points, v.point, drawing);
   }
-  return builder.finish(0);
+  return builder.try_finish(0);
 }
 
 }  // namespace nef::minkowski

@@ -6,10 +6,12 @@
 #include <cstdint>
 #include <functional>
 #include <unordered_map>
+#include <variant>
 #include <vector>
 
 #include "apps/minkowski/convolution/facet_pyramids.h"
 #include "apps/minkowski/convolution/surviving_intervals.h"
+#include "nef/base/defect.h"
 #include "nef/base/union_find.h"
 #include "nef/polyhedron.h"
 
@@ -31,8 +33,8 @@ class ConvolutionRegions {
   /// All must outlive the object; the facets' tables get more planes and points.
   ConvolutionRegions(ConvolutionFacets& facets, const RoundedFacets& rounded, const SurvivingIntervals& intervals);
 
-  /// The sum. To be called once. `poll` may throw.
-  Complex run(const Contains& contains, const std::function<void(double)>& poll);
+  /// The sum; or a defect, which would be a bug. To be called once. `poll` may throw.
+  std::variant<Complex, Defect> run(const Contains& contains, const std::function<void(double)>& poll);
 
   [[nodiscard]] const ConvolutionCounts& counts() const { return counts_; }
 
@@ -64,7 +66,11 @@ class ConvolutionRegions {
   FacetPyramids pyramids_;
   std::vector<Vertex> vertices_;
   std::unordered_multimap<std::uint64_t, std::uint32_t> seen_;  // hash of coordinates -> point
-  std::unordered_map<std::uint32_t, std::uint32_t> vertex_at_;  // point -> vertex, or kNone if all is inside there
+  struct KnownPoint {
+    std::uint32_t vertex = kNone;       // kNone if all is inside there
+    std::vector<std::uint32_t> facets;  // that hold it, in ascending order
+  };
+  std::unordered_map<std::uint32_t, KnownPoint> known_;  // point -> what is there
   struct TripleHash {
     std::size_t operator()(const std::array<std::uint32_t, 3>& t) const {
       std::uint64_t h = t[0];

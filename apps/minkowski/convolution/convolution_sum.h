@@ -30,9 +30,9 @@ struct ConvolutionOptions {
   std::function<void(double)> poll;  ///< called with the share that is done, 0 to 1; may throw
 };
 
-/// A + B for two such sets; nothing only if the options ask for that. The facets of the reduced convolution are
-/// arranged, without what is surely inside; what regions they leave is inside if it is just behind a facet, and the
-/// others are tested: x is in A + B iff A meets x - B.
+/// A + B for two such sets; nothing if the options ask for that, or if something went wrong that must not. The facets
+/// of the reduced convolution are arranged, without what is surely inside; what regions they leave is inside if it is
+/// just behind a facet, and the others are tested: x is in A + B iff A meets x - B.
 std::optional<Polyhedron> convolution_sum(const Polyhedron& a, const Polyhedron& b, const ConvolutionOptions& options,
                                           ConvolutionReport& report);
 

@@ -20,6 +20,7 @@ std::span<const Fuzzer> fuzzers() {
       Fuzzer{"voxels", "meshes that touch, nest, overlap or contradict each other, by winding numbers", fuzz_voxels},
       Fuzzer{"files", "damaged files of every format", fuzz_files},
       Fuzzer{"planning", "robots and obstacles of all dimensions on a grid, by breadth-first search", fuzz_planning},
+      Fuzzer{"turning", "flat robots that turn in a plane anywhere in space, by a fine grid of poses", fuzz_turning},
       Fuzzer{"visibility", "convex prisms among convex prisms, by an exact visibility graph", fuzz_visibility},
       Fuzzer{"silhouettes", "visual hulls of random cameras and polygons, point by point", fuzz_silhouettes},
       Fuzzer{"tiles", "sets in tiles under steps, with awkward cuts, point by point", fuzz_tiles},

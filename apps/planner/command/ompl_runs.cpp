@@ -9,6 +9,8 @@
 #include "apps/planner/command/report.h"
 #include "apps/planner/ompl/ompl_planners.h"
 #include "apps/planner/ompl/translation_planning.h"
+#include "apps/planner/turning_ompl/turning_planning.h"
+#include "nef/base/error.h"
 #include "nef/base/stopwatch.h"
 #include "nef/io/file_bytes.h"
 
@@ -84,6 +86,40 @@ OmplOutcome run_ompl(const Problem& problem, const OmplRequest& request) {
     outcome.exit_code = proved ? 1 : 4;
   }
   return outcome;
+}
+
+TurningAnswer run_turning_ompl(const Scene& scene, const std::string& planner, double seconds) {
+  const QuietOmpl quiet;
+  TurningAnswer answer;
+  TurningPlanning setup(scene);
+  setup.setPlanner(make_ompl_planner(planner, setup.getSpaceInformation()));
+  if (dynamic_cast<const TightPlanner*>(setup.getPlanner().get()) != nullptr) {
+    throw InputError("TightPlanner only translates; without --ompl the planner for robots that turn is used");
+  }
+  switch (static_cast<ob::PlannerStatus::StatusType>(setup.solve(seconds))) {
+    case ob::PlannerStatus::INVALID_START:
+      answer.status = TurningAnswer::Status::kInvalidStart;
+      return answer;
+    case ob::PlannerStatus::INVALID_GOAL:
+      answer.status = TurningAnswer::Status::kInvalidGoal;
+      return answer;
+    default:
+      break;
+  }
+  answer.open_ranges.push_back({setup.getQuestion().low, setup.getQuestion().high});
+  if (!setup.haveExactSolutionPath() || !setup.getSolutionPath().check()) return answer;
+  answer.status = TurningAnswer::Status::kPath;
+  answer.open_ranges.clear();
+  for (const ob::State* state : setup.getSolutionPath().getStates()) {
+    Pose pose = setup.space().pose(state);
+    // Angles go on by the shorter way round.
+    if (!answer.path.empty()) {
+      while (pose.turn - answer.path.back().turn > 2) pose.turn -= 4;
+      while (answer.path.back().turn - pose.turn > 2) pose.turn += 4;
+    }
+    answer.path.push_back(std::move(pose));
+  }
+  return answer;
 }
 
 int run_benchmark(const Problem& problem, const std::vector<std::string>& planners, double seconds, unsigned runs,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/planner/path/question.h"
+#include "apps/planner/turning/turning_search.h"
 
 namespace nef::planner {
 
@@ -25,6 +26,10 @@ struct OmplOutcome {
 
 /// Runs a planner. Its paths are checked exactly again before they count.
 OmplOutcome run_ompl(const Problem& problem, const OmplRequest& request);
+
+/// Runs a planner on the question of a scene with a rotation. kUndecided: no answer in time. Its path is checked again;
+/// between two way-points the robot may move and turn at once.
+TurningAnswer run_turning_ompl(const Scene& scene, const std::string& planner, double seconds);
 
 /// Writes OMPL's benchmark log (for ompl_benchmark_statistics): our planner and the given ones. Returns the exit code:
 /// 0, or 3 if start or goal is not free. Throws InputError if one is missing. TightPlanner's runs include the

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "apps/planner/command/ompl_runs.h"
 #include "apps/planner/command/scene_view.h"
 #include "apps/planner/command/turning_report.h"
 #include "apps/planner/command/turning_view.h"
@@ -15,11 +16,12 @@ namespace nef::planner {
 namespace {
 
 void check_options(const Arguments& a) {
-  const bool other = a.tight || !a.given_path.empty() || !a.queries.empty() || !a.ompl.empty() ||
-                     !a.benchmark.empty() || a.path.min_dimension > 0 || a.path.clearance || a.se3;
+  const bool other = a.tight || !a.given_path.empty() || !a.queries.empty() || !a.benchmark.empty() ||
+                     a.path.min_dimension > 0 || a.path.clearance || a.se3;
   if (other) {
     throw InputError(
-        "a scene with a rotation knows --json, --quiet, --page, -o, --max-cells, --time and --check-proof only");
+        "a scene with a rotation knows --json, --quiet, --page, -o, --max-cells, --time, --ompl and --check-proof "
+        "only");
   }
   for (const std::string& file : a.outputs) {
     const std::string extension = std::filesystem::path(file).extension().string();
@@ -31,7 +33,8 @@ void check_options(const Arguments& a) {
 
 void print(const Arguments& a, const TurningAnswer& answer, const Scene& scene, const TurningAxis& axis) {
   for (const std::string& message : scene.messages) std::cout << "note: " << message << '\n';
-  std::cout << name_of(answer.status) << ", " << answer.cells << " cells of angles";
+  std::cout << name_of(answer.status);
+  if (a.ompl.empty()) std::cout << ", " << answer.cells << " cells of angles";
   if (answer.status == TurningAnswer::Status::kUndecided) {
     std::cout << "; open:";
     for (const TurnRange& range : answer.open_ranges) {
@@ -67,7 +70,8 @@ int run_turning(const Arguments& a, const Scene& scene) {
   limits.max_cells = a.max_cells;
   if (a.time_given) limits.stop = [&] { return watch.seconds() >= a.seconds; };
   const TurningQuestion question = question_of(scene);
-  const TurningAnswer answer = find_turning_path(scene, question, limits);
+  const TurningAnswer answer =
+      a.ompl.empty() ? find_turning_path(scene, question, limits) : run_turning_ompl(scene, a.ompl, a.seconds);
   nlohmann::json report = turning_json(answer, scene, question.axis);
   report["phases"] = {{"turning", watch.seconds()}};
   const std::string text = report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
@@ -90,7 +94,8 @@ int run_turning(const Arguments& a, const Scene& scene) {
   } else if (!a.quiet) {
     print(a, answer, scene, question.axis);
   }
-  return exit_code_of(answer.status);
+  const bool no_answer = !a.ompl.empty() && answer.status == TurningAnswer::Status::kUndecided;
+  return no_answer ? 4 : exit_code_of(answer.status);
 }
 
 }  // namespace nef::planner

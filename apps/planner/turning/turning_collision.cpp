@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/planner/turning/turning_collision.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/minkowski/minkowski.h"
+#include "nef/base/error.h"
+#include "nef/construct/construct.h"
+#include "nef/geometry/rational_vectors.h"
+
+namespace nef::planner {
+namespace {
+
+using Vector = std::array<double, 3>;
+
+Vector to_doubles(const Rational3& p) { return {nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2])}; }
+
+double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+Vector difference(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+
+// See plane_between.
+constexpr double kError = 2e-14;
+
+// What a robot in the box can reach of an obstacle.
+Polyhedron within_reach(const Polyhedron& obstacle, const Scene& scene) {
+  if (obstacle.is_bounded()) return obstacle;
+  if (!scene.box) throw InputError("an obstacle is unbounded: give the scene a box");
+  Rational reach = 1;
+  for (const Rational3& corner : *bounding_box(scene.robot)) {
+    for (const Rational& x : corner) reach += abs(x);
+  }
+  Rational3 low = (*scene.box)[0];
+  Rational3 high = (*scene.box)[1];
+  for (std::size_t k = 0; k < 3; ++k) {
+    low[k] -= reach;
+    high[k] += reach;
+  }
+  return intersect(obstacle, make_box(low, high));
+}
+
+}  // namespace
+
+TurningCollision::TurningCollision(const Scene& scene, const TurningAxis& axis)
+    : robot_(scene.robot, axis), box_(scene.box), contact_(scene.contact) {
+  for (const TurningRobot::Piece& piece : robot_.pieces()) {
+    Shape& shape = shapes_.emplace_back();
+    for (const Rational3& v : piece.mesh.vertices) {
+      shape.points.push_back(to_doubles(v));
+      const Vector& p = shape.points.back();
+      shape.reach = std::max(shape.reach, std::abs(p[0]) + std::abs(p[1]) + std::abs(p[2]));
+    }
+    for (const TurningRobot::Face& face : piece.faces) shape.normals.push_back(to_doubles(face.normal));
+  }
+  for (const Polyhedron& obstacle : scene.obstacles) {
+    const Polyhedron bounded = within_reach(obstacle, scene);
+    const bool solid_everywhere = bounded.is_regular();
+    for (const minkowski::ConvexCell& cell : minkowski::decompose(closure(bounded))) {
+      if (cell.dimension < 3 && solid_everywhere) continue;  // walls between solid cells
+      Solid& solid = obstacles_.emplace_back();
+      solid.vertices = cell.mesh.vertices;
+      for (const Rational3& v : solid.vertices) solid.points.push_back(to_doubles(v));
+      for (std::size_t f = 0; f < cell.mesh.face_count(); ++f) {
+        const auto ring = cell.mesh.face(f);
+        const Rational3& p = solid.vertices[ring[0]];
+        const Rational3 n = cross(minus(solid.vertices[ring[1]], p), minus(solid.vertices[ring[2]], p));
+        solid.normals.push_back(to_doubles(n));
+        if (cell.dimension < 3) solid.normals.push_back(to_doubles({-n[0], -n[1], -n[2]}));
+      }
+      solid.flat = cell.dimension < 3;
+      measure(solid);
+      for (std::size_t k = 0; k < 3; ++k) {
+        solid.size = std::max({solid.size, std::abs(solid.low[k]), std::abs(solid.high[k])});
+      }
+    }
+  }
+}
+
+void TurningCollision::measure(Solid& solid) {
+  solid.low = solid.high = solid.points.front();
+  for (const Vector& p : solid.points) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      solid.low[k] = std::min(solid.low[k], p[k]);
+      solid.high[k] = std::max(solid.high[k], p[k]);
+    }
+  }
+}
+
+bool TurningCollision::in_box(const Rational3& position) const {
+  if (!box_) return true;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (position[k] < (*box_)[0][k] || position[k] > (*box_)[1][k]) return false;
+  }
+  return true;
+}
+
+// A direction in doubles is exact. Points are off by less than 32 roundings of the size M of what they were made of (a
+// matrix of rounded entries, a few sums and products), and a product of them by 4 more: 2^-53 * 36 * |n|_1 M, less than
+// half of the bound, for each of the two extremes.
+TurningCollision::Plane TurningCollision::plane_between(const Solid& a, const Solid& b) {
+  const double largest = std::max(a.size, b.size);
+  bool perhaps = false;
+  const auto separates = [&](const Vector& n) {
+    double most = -HUGE_VAL;
+    double least = HUGE_VAL;
+    for (const Vector& p : a.points) most = std::max(most, dot(n, p));
+    for (const Vector& p : b.points) least = std::min(least, dot(n, p));
+    const double error = kError * largest * (std::abs(n[0]) + std::abs(n[1]) + std::abs(n[2]));
+    perhaps = perhaps || least - most >= -error;
+    return least - most > error;
+  };
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (a.high[k] + kError * largest < b.low[k] || b.high[k] + kError * largest < a.low[k]) return Plane::kSurely;
+  }
+  for (const Vector& n : b.normals) {
+    if (separates({-n[0], -n[1], -n[2]})) return Plane::kSurely;
+  }
+  for (const Vector& n : a.normals) {
+    if (separates(n)) return Plane::kSurely;
+  }
+  if (perhaps) return Plane::kPerhaps;
+  // Towards each other, corrected a few times by the two vertices that stand in the way most.
+  Vector n;
+  for (std::size_t k = 0; k < 3; ++k) n[k] = b.low[k] + b.high[k] - a.low[k] - a.high[k];
+  for (int round = 0; round < 8; ++round) {
+    if (separates(n)) return Plane::kSurely;
+    const auto foremost = [&](const std::vector<Vector>& points, double sign) {
+      return *std::max_element(points.begin(), points.end(),
+                               [&](const Vector& p, const Vector& q) { return sign * dot(n, p) < sign * dot(n, q); });
+    };
+    const Vector between = difference(foremost(b.points, -1), foremost(a.points, 1));
+    const double size = std::sqrt(dot(n, n));
+    const double length = std::sqrt(dot(between, between));
+    if (!(size > 0) || !(length > 0)) break;
+    for (std::size_t k = 0; k < 3; ++k) n[k] = n[k] / size + between[k] / length;
+  }
+  return perhaps ? Plane::kPerhaps : Plane::kNone;
+}
+
+// Rounded normals tilt faces by some 2^-50 of the size, far less than the margin behind them that is asked for.
+// A point moves to the other side of the plane that it is farthest beyond, again and again, until it is behind all.
+bool TurningCollision::surely_overlap(const Solid& a, const Solid& b) {
+  const double margin = kError * std::max(a.size, b.size);
+  struct Side {
+    Vector normal;
+    double offset;
+  };
+  std::vector<Side> sides;
+  Vector p{};
+  for (const Solid* solid : {&a, &b}) {
+    for (const Vector& n : solid->normals) {
+      const double length = std::sqrt(dot(n, n));
+      const Vector unit{n[0] / length, n[1] / length, n[2] / length};
+      double most = -HUGE_VAL;
+      for (const Vector& q : solid->points) most = std::max(most, dot(unit, q));
+      sides.push_back({unit, most - 2 * margin});
+    }
+    for (std::size_t k = 0; k < 3; ++k) p[k] += (solid->low[k] + solid->high[k]) / 4;
+  }
+  constexpr int kRounds = 20;
+  for (int round = 0; round < kRounds; ++round) {
+    const Side* worst = nullptr;
+    double beyond = 0;
+    for (const Side& side : sides) {
+      const double there = dot(side.normal, p) - side.offset;
+      if (worst == nullptr || there > beyond) {
+        worst = &side;
+        beyond = there;
+      }
+    }
+    if (beyond < 0) return true;
+    const double step = 1.5 * beyond + 1e-6 * std::max(a.size, b.size);
+    for (std::size_t k = 0; k < 3; ++k) p[k] -= step * worst->normal[k];
+  }
+  return false;
+}
+
+// At a pose, or at one of three on the way.
+bool TurningCollision::surely_hits(std::size_t piece, const Swept& way, const Solid& obstacle) const {
+  if (obstacle.flat) return false;
+  for (const double t : {0.5, 0.25, 0.75}) {
+    Swept at = way;
+    at.moves = false;
+    for (std::size_t k = 0; k < 3; ++k) {
+      at.from.position[k] += t * (way.to.position[k] - way.from.position[k]);
+    }
+    if (surely_overlap(swept(piece, at), obstacle)) return true;
+    if (!way.moves) return false;
+  }
+  return false;
+}
+
+// Two convex sets, one of them open, are disjoint iff a plane lies between them: iff no difference of points of the
+// open sets is zero. For closed ones the same with the closed hull.
+bool TurningCollision::exactly_apart(const std::vector<Rational3>& a, const std::vector<Rational3>& b) const {
+  std::vector<Rational3> differences;
+  for (const Rational3& p : a) {
+    for (const Rational3& q : b) differences.push_back(minus(p, q));
+  }
+  const Mesh hull = convex_hull_mesh(differences);
+  for (std::size_t f = 0; f < hull.face_count(); ++f) {
+    const auto ring = hull.face(f);
+    const Rational3& p = hull.vertices[ring[0]];
+    const Rational beyond = -nef::dot(cross(minus(hull.vertices[ring[1]], p), minus(hull.vertices[ring[2]], p)), p);
+    if (beyond > 0 || (beyond == 0 && contact_ == ContactRule::kAllow)) return true;
+  }
+  return false;
+}
+
+std::vector<Rational3> TurningCollision::exactly_swept(const TurningRobot::Piece& piece, const Pose& from,
+                                                       const Pose& to) const {
+  const AffineMap at_from = axis().rotation(from.turn);
+  const AffineMap at_to = axis().rotation(to.turn);
+  const Rational tangent = axis().half_tangent_between(from.turn, to.turn);
+  std::vector<Rational3> result;
+  for (const Rational3& v : piece.mesh.vertices) {
+    std::vector<Rational3> arc{at_from(v)};
+    if (from.turn != to.turn) {
+      Rational3 corner = cross(axis().direction(), arc[0]);
+      for (std::size_t k = 0; k < 3; ++k) corner[k] = arc[0][k] + tangent * corner[k];
+      arc.push_back(corner);
+      arc.push_back(at_to(v));
+    }
+    for (const Rational3& p : arc) {
+      result.push_back({p[0] + from.position[0], p[1] + from.position[1], p[2] + from.position[2]});
+      if (from.position == to.position) continue;
+      result.push_back({p[0] + to.position[0], p[1] + to.position[1], p[2] + to.position[2]});
+    }
+  }
+  return result;
+}
+
+TurningCollision::Swept TurningCollision::sweep(const Pose& from, const Pose& to) const {
+  Swept swept;
+  swept.turns = from.turn != to.turn;
+  swept.moves = from.position != to.position;
+  for (const auto& [pose, end] : {std::pair(&from, &swept.from), std::pair(&to, &swept.to)}) {
+    const AffineMap map = axis().rotation(pose->turn);
+    for (std::size_t i = 0; i < 3; ++i) end->rotation[i] = to_doubles(map.linear[i]);
+    end->position = to_doubles(pose->position);
+    for (const double x : end->position) swept.size = std::max(swept.size, std::abs(x));
+  }
+  swept.tangent = nearest_double(axis().half_tangent_between(from.turn, to.turn));
+  return swept;
+}
+
+TurningCollision::Solid TurningCollision::swept(std::size_t piece, const Swept& sweep) const {
+  const Shape& shape = shapes_[piece];
+  Solid solid;
+  solid.size = 4 * shape.reach + sweep.size;
+  const auto turned = [](const Swept::End& end, const Vector& v) {
+    return Vector{dot(end.rotation[0], v), dot(end.rotation[1], v), dot(end.rotation[2], v)};
+  };
+  const auto add = [&](const Vector& p) {
+    for (const Swept::End* end : {&sweep.from, &sweep.to}) {
+      solid.points.push_back({p[0] + end->position[0], p[1] + end->position[1], p[2] + end->position[2]});
+      if (!sweep.moves) break;
+    }
+  };
+  const Vector n = to_doubles(axis().direction());
+  for (const Vector& v : shape.points) {
+    const Vector p = turned(sweep.from, v);
+    add(p);
+    if (!sweep.turns) continue;
+    add({p[0] + sweep.tangent * (n[1] * p[2] - n[2] * p[1]), p[1] + sweep.tangent * (n[2] * p[0] - n[0] * p[2]),
+         p[2] + sweep.tangent * (n[0] * p[1] - n[1] * p[0])});
+    add(turned(sweep.to, v));
+  }
+  for (const Vector& normal : shape.normals) {
+    solid.normals.push_back(turned(sweep.from, normal));
+    if (sweep.turns) solid.normals.push_back(turned(sweep.to, normal));
+  }
+  measure(solid);
+  return solid;
+}
+
+bool TurningCollision::is_free_at(const Turn& turn, const Rational3& from, const Rational3& to) const {
+  if (!in_box(from) || !in_box(to)) return false;
+  const Pose begin{from, turn};
+  const Pose end{to, turn};
+  const Swept way = sweep(begin, end);
+  std::vector<const Solid*> touched;
+  for (std::size_t i = 0; i < shapes_.size(); ++i) {
+    const Solid solid = swept(i, way);
+    for (const Solid& obstacle : obstacles_) {
+      const Plane plane = plane_between(solid, obstacle);
+      if (plane == Plane::kSurely) continue;
+      if (plane == Plane::kNone && surely_hits(i, way, obstacle)) return false;
+      if (!exactly_apart(exactly_swept(robot_.pieces()[i], begin, end), obstacle.vertices)) return false;
+      if (obstacle.flat) touched.push_back(&obstacle);
+    }
+  }
+  // What is flat may lie where pieces of the robot meet, on the borders of these and inside the robot.
+  if (robot_.pieces().size() == 1 || contact_ == ContactRule::kForbid) return true;
+  return std::none_of(touched.begin(), touched.end(),
+                      [&](const Solid* flat) { return meets_flat(*flat, turn, from, to); });
+}
+
+bool TurningCollision::meets_flat(const Solid& flat, const Turn& turn, const Rational3& from,
+                                  const Rational3& to) const {
+  const Polyhedron swept = minkowski::minkowski_sum(interior(robot_.at(turn)), make_segment(from, to));
+  return !intersect(swept, convex_hull(flat.vertices)).is_empty();
+}
+
+bool TurningCollision::is_free(const Pose& pose) const { return is_free_at(pose.turn, pose.position, pose.position); }
+
+bool TurningCollision::is_free(const Pose& from, const Pose& to, int depth) const {
+  if (from.turn == to.turn) return is_free_at(from.turn, from.position, to.position);
+  if (!is_free(to)) return false;
+  const auto surely_free = [&] {
+    if (!in_box(from.position) || !in_box(to.position)) return false;
+    const Swept way = sweep(from, to);
+    for (std::size_t i = 0; i < shapes_.size(); ++i) {
+      const Solid solid = swept(i, way);
+      for (const Solid& obstacle : obstacles_) {
+        const Plane plane = plane_between(solid, obstacle);
+        if (plane == Plane::kSurely) continue;
+        // What slides along a floor as it turns is free, too.
+        const bool sure_contact = !obstacle.flat || robot_.pieces().size() == 1;
+        if (plane == Plane::kNone || !sure_contact) return false;
+        if (!exactly_apart(exactly_swept(robot_.pieces()[i], from, to), obstacle.vertices)) return false;
+      }
+    }
+    return true;
+  };
+  // More than a quarter at once sweeps corners far out.
+  if (abs(to.turn - from.turn) <= 1 && surely_free()) return true;
+  if (depth == 0) return false;
+  Pose middle = from;
+  for (std::size_t k = 0; k < 3; ++k) middle.position[k] = (from.position[k] + to.position[k]) / 2;
+  middle.turn = axis().turn_of_degrees(exact_rational((axis().degrees_of(from.turn) + axis().degrees_of(to.turn)) / 2));
+  return is_free(from, middle, depth - 1) && is_free(middle, to, depth - 1);
+}
+
+}  // namespace nef::planner

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/planner/turning_ompl/turning_planning.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nef::planner {
+
+namespace ob = ompl::base;
+
+namespace {
+
+double reach_of(const Polyhedron& robot) {
+  double sum = 0;
+  const std::array<Rational3, 2> box = *bounding_box(robot);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double x = std::max(std::abs(nearest_double(box[0][k])), std::abs(nearest_double(box[1][k])));
+    sum += x * x;
+  }
+  return std::sqrt(sum);
+}
+
+ob::RealVectorBounds bounds_of(const Scene& scene, const TurningQuestion& question) {
+  Rational3 low = question.start.position;
+  Rational3 high = low;
+  const auto take = [&](const Rational3& point) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], point[k]);
+      high[k] = std::max(high[k], point[k]);
+    }
+  };
+  double room = 2 * reach_of(scene.robot) + 1;
+  if (scene.box) {
+    low = (*scene.box)[0];
+    high = (*scene.box)[1];
+    room = 0;
+  } else {
+    take(question.goal.position);
+    for (const Polyhedron& obstacle : scene.obstacles) {
+      if (const auto box = bounding_box(obstacle)) {
+        for (const Rational3& corner : *box) take(corner);
+      }
+    }
+  }
+  ob::RealVectorBounds bounds(3);
+  for (unsigned k = 0; k < 3; ++k) {
+    // OMPL refuses bounds without extent; the checker knows the box exactly.
+    bounds.setLow(k, std::nextafter(nearest_double(low[k]) - room, -HUGE_VAL));
+    bounds.setHigh(k, std::nextafter(nearest_double(high[k]) + room, HUGE_VAL));
+  }
+  return bounds;
+}
+
+// Samples in the box of the scene, exactly: it may be flat, and at coordinates that no double has.
+class BoxSampler : public ob::RealVectorStateSampler {
+ public:
+  BoxSampler(const ob::StateSpace* space, const std::array<Rational3, 2>& box)
+      : ob::RealVectorStateSampler(space), box_(box) {}
+  void sampleUniform(ob::State* state) override {
+    ob::RealVectorStateSampler::sampleUniform(state);
+    clamp(state);
+  }
+  void sampleUniformNear(ob::State* state, const ob::State* near, double distance) override {
+    ob::RealVectorStateSampler::sampleUniformNear(state, near, distance);
+    clamp(state);
+  }
+  void sampleGaussian(ob::State* state, const ob::State* mean, double deviation) override {
+    ob::RealVectorStateSampler::sampleGaussian(state, mean, deviation);
+    clamp(state);
+  }
+
+ private:
+  void clamp(ob::State* state) const {
+    auto* exact = static_cast<ExactTranslationSpace::StateType*>(state);
+    exact->dropExact();
+    Rational3 point = exact->exact();
+    for (std::size_t k = 0; k < 3; ++k) point[k] = std::clamp(point[k], box_[0][k], box_[1][k]);
+    exact->setExact(point);
+  }
+  std::array<Rational3, 2> box_;
+};
+
+std::shared_ptr<TurningSpace> space_for(const Scene& scene) {
+  const TurningQuestion question = question_of(scene);
+  auto space = std::make_shared<TurningSpace>(question.axis, reach_of(scene.robot));
+  space->setBounds(bounds_of(scene, question));
+  if (scene.box) {
+    space->as<ExactTranslationSpace>(0)->setStateSamplerAllocator(
+        [box = *scene.box](const ob::StateSpace* part) { return std::make_shared<BoxSampler>(part, box); });
+  }
+  return space;
+}
+
+}  // namespace
+
+TurningPlanning::TurningPlanning(const Scene& scene)
+    : ompl::geometric::SimpleSetup(space_for(scene)), scene_(scene), question_(question_of(scene)) {
+  const auto collision = std::make_shared<const TurningCollision>(scene_, question_.axis);
+  setStateValidityChecker(std::make_shared<TurningValidityChecker>(si_, collision, question_));
+  si_->setMotionValidator(std::make_shared<TurningMotionValidator>(si_, collision, question_));
+  ob::ScopedState<> start(si_);
+  ob::ScopedState<> goal(si_);
+  space().setPose(start.get(), question_.start);
+  space().setPose(goal.get(), question_.goal);
+  setStartAndGoalStates(start, goal);
+  setPlannerAllocator(
+      [this](const ob::SpaceInformationPtr& si) { return std::make_shared<TurningPlanner>(si, scene_, question_); });
+}
+
+}  // namespace nef::planner

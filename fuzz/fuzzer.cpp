@@ -25,6 +25,8 @@ std::span<const Fuzzer> fuzzers() {
       Fuzzer{"silhouettes", "visual hulls of random cameras and polygons, point by point", fuzz_silhouettes},
       Fuzzer{"tiles", "sets in tiles under steps, with awkward cuts, point by point", fuzz_tiles},
       Fuzzer{"sums", "Minkowski sums of open, closed and mixed sets on a grid", fuzz_sums},
+      Fuzzer{"convolutions", "Minkowski sums of solids without cells, by intersections and by cells",
+             fuzz_convolutions},
   };
   return kAll;
 }

@@ -131,6 +131,7 @@ class Bench:
         result["star + ball 28"] = lambda: [self.data("meshes/star.off"), ball(0.1)]
         result["mushroom + ball 28"] = lambda: [self.data("minkowski/mushroom.off"), ball(0.1)]
         result["cube - ball, + ball 15"] = self.carved
+        result["the same, closed"] = lambda: self.carved("regularize")
         result["mushroom + ball, 16 splits"] = lambda: [self.data("minkowski/mushroom.off"), "--ball", "1/10,16"]
         result["co-mushroom + cube"] = lambda: [
             self.nef(f'!file("{self.data("minkowski/mushroom.off")}")', "comushroom.nef"),
@@ -142,9 +143,10 @@ class Bench:
         result["scans of 1012"] = lambda: [self.make(bumpy_ball, "scan1012a.off", 23, 0), self.make(bumpy_ball, "scan1012b.off", 23, 1)]
         return result
 
-    def carved(self):
+    def carved(self, how=""):
+        """Without the ball's surface, so neither open nor closed, unless it is regularized."""
         self.make(latitude_ball, "ball24.off", 6.0, 24, 12, True)
-        carved = self.nef(f'box(-5,-5,-5, 5,5,5) - file("{self.path("ball24.off")}")', "carved.nef")
+        carved = self.nef(f'{how}(box(-5,-5,-5, 5,5,5) - file("{self.path("ball24.off")}"))', f"carved{how}.nef")
         return [carved, self.make(latitude_ball, "ball15.off", 1.0, 5, 3, True)]
 
     def run(self, operands, union, limit):
@@ -165,7 +167,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--bin", default=os.path.join(HERE, "..", "..", "build", "release", "bin"))
     parser.add_argument("--cases", nargs="*", help="run cases whose names hold one of these")
-    parser.add_argument("--unions", nargs="*", default=["default", "queue", "nary"])
+    parser.add_argument("--unions", nargs="*", default=["default", "convolution", "queue", "nary"])
     parser.add_argument("--limit", type=int, default=60, help="CPU seconds after which a run is ended")
     parser.add_argument("--keep", help="leave the operands in this directory")
     arguments = parser.parse_args()

@@ -25,6 +25,8 @@ Examples:
   planner scene.json --prefer roomy --json
   planner scene.json --queries questions.txt --json
   planner --assembly parts.json --page apart.html
+  planner scene.json --widest --precision 1/100
+  planner scene.json --keep-clear 0.1 --speed 2 --acceleration 5 -o path.csv
   planner scene.json --ompl RRTConnect --time 5
   planner scene.json --benchmark bench.log --planners RRTConnect,PRMstar --runs 10)TEXT";
 
@@ -38,6 +40,18 @@ void declare_ompl(CLI::App& app, Arguments& a) {
   app.add_option("--planners", a.planners, "OMPL planners for --benchmark")->delimiter(',');
 }
 
+void declare_clearance(CLI::App& app, Arguments& a) {
+  app.add_flag("--widest", a.widest,
+               "By which factor can the robot be scaled about its reference point and still pass?");
+  app.add_flag("--widest-box", a.widest_box, "By which r can it be made larger by the cube from -r to r?");
+  app.add_option("--precision", a.precision, "Relative width of the interval that these tell")->default_str("1/1000");
+  app.add_option("--keep-clear", a.keep_clear, "Keep at least this distance from all obstacles");
+  app.add_option("--speed", a.limits.speed, "Time stamps for way-points: speed of the reference point")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--acceleration", a.limits.acceleration, "... and its acceleration (without bound if not given)")
+      ->check(CLI::PositiveNumber);
+}
+
 }  // namespace
 
 void declare(CLI::App& app, Arguments& a) {
@@ -45,9 +59,9 @@ void declare(CLI::App& app, Arguments& a) {
   app.add_option("--assembly", a.assembly, "Take an assembly (.json) apart by translations, or prove that it is stuck");
   app.add_option("--free-directions", a.free_directions,
                  "With --assembly: the exact cone of directions in which this part can begin to move");
-  app.add_option(
-      "-o,--output", a.outputs,
-      "Write the answer: .json report, .path (OMPL matrix), .glb (animated glTF), else text; may be repeated");
+  app.add_option("-o,--output", a.outputs,
+                 "Write the answer: .json report, .path (OMPL matrix), .glb (animated glTF), .csv (time stamps), else "
+                 "text; may be repeated");
   app.add_option("--page", a.page, "Write a page (.html) in which the robot moves along the path");
   app.add_flag("--json", a.json, "Print the report as JSON");
   app.add_flag("--tight", a.tight, "List every tight passage; with --path those that a given path uses");
@@ -66,6 +80,7 @@ void declare(CLI::App& app, Arguments& a) {
   app.add_option("--max-cells", a.max_cells, "A robot that turns: cut its angles into so many cells at most");
   app.add_option("--check-proof", a.check_proof,
                  "A robot that turns: verify the proof in this report (exit code 0: it holds, 1: it does not)");
+  declare_clearance(app, a);
   declare_ompl(app, a);
   app.add_option("--threads", a.threads, "Threads for the configuration space (0: all cores)");
   app.add_flag("-q,--quiet", a.quiet, "Print nothing but errors, and no progress bar");

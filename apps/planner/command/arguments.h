@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/planner/clearance/timing.h"
 #include "apps/planner/path/path.h"
 
 namespace nef::planner {
@@ -25,6 +26,11 @@ struct Arguments {
   std::string given_path;
   std::string queries;
   std::string check_proof;
+  std::string keep_clear;
+  std::string precision = "1/1000";
+  MotionLimits limits{.speed = 0};
+  bool widest = false;
+  bool widest_box = false;
   std::string ompl;
   std::string benchmark;
   std::vector<std::string> planners{"RRTConnect", "PRMstar", "BITstar"};

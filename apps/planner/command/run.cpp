@@ -3,9 +3,13 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iomanip>
 #include <iostream>
+#include <sstream>
 
+#include "apps/planner/clearance/keep_clear.h"
 #include "apps/planner/command/assembly_run.h"
+#include "apps/planner/command/clearance_run.h"
 #include "apps/planner/command/ompl_runs.h"
 #include "apps/planner/command/scene_view.h"
 #include "apps/planner/command/turning_run.h"
@@ -47,22 +51,44 @@ void check_usage(const Arguments& a) {
       throw InputError("-o " + file + ": with --queries the extension must be .json");
     }
   }
+  check_clearance_usage(a);
   for (const std::string& name : a.planners) require_ompl_planner(name);
   if (!a.ompl.empty()) require_ompl_planner(a.ompl);
 }
 
-std::string rendered(const std::string& file, const Answer& answer, const Problem& problem, bool se3) {
+// Everything about an answer, time stamps and the widest robot too, if they were asked for.
+std::string report_of(const Arguments& a, const Answer& answer, const Problem& problem, const nlohmann::json& widest) {
+  nlohmann::json report = to_json(answer, problem.scene(), problem.free_space());
+  if (answer.path && a.limits.speed > 0) report["times"] = times_along(*answer.path, a.limits);
+  if (!widest.is_null()) report["widest"] = widest;
+  return report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+// t,x,y,z, a way-point a line.
+std::string timed_text(const ExactPath& path, const MotionLimits& limits) {
+  const std::vector<double> times = times_along(path, limits);
+  std::ostringstream out;
+  out << std::setprecision(17) << "t,x,y,z\n";
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    out << times[i];
+    for (const Rational& x : path.points[i]) out << ',' << nearest_double(x);
+    out << '\n';
+  }
+  return out.str();
+}
+
+std::string rendered(const Arguments& a, const std::string& file, const Answer& answer, const Problem& problem,
+                     const nlohmann::json& widest) {
   const std::string extension = std::filesystem::path(file).extension().string();
-  if (extension == ".json")
-    return to_json(answer, problem.scene(), problem.free_space())
-               .dump(2, ' ', false, nlohmann::json::error_handler_t::replace) +
-           "\n";
-  if (extension == ".path" || se3) return path_matrix(*answer.path, se3);
+  if (extension == ".json") return report_of(a, answer, problem, widest);
+  if (extension == ".csv") return timed_text(*answer.path, a.limits);
+  if (extension == ".path" || a.se3) return path_matrix(*answer.path, a.se3);
   return path_text(*answer.path);
 }
 
 // Reports and views are written whatever the answer; path formats only if there is a path.
-void write_outputs(const Arguments& a, const Answer& answer, const Problem& problem) {
+void write_outputs(const Arguments& a, const Answer& answer, const Problem& problem,
+                   const nlohmann::json& widest = nullptr) {
   std::vector<std::string> views;
   if (!a.page.empty()) views.push_back(a.page);
   for (const std::string& file : a.outputs) {
@@ -70,7 +96,7 @@ void write_outputs(const Arguments& a, const Answer& answer, const Problem& prob
     if (is_view_file(file)) {
       views.push_back(file);
     } else if (report || answer.path) {
-      write_file(file, rendered(file, answer, problem, a.se3));
+      write_file(file, rendered(a, file, answer, problem, widest));
     }
   }
   if (views.empty()) return;
@@ -92,14 +118,13 @@ void print_path(const Arguments& a, const Answer& answer) {
   if (a.outputs.empty()) std::cout << path_text(*answer.path);
 }
 
-void print(const Arguments& a, const Answer& answer, const Problem& problem) {
+void print(const Arguments& a, const Answer& answer, const Problem& problem, const nlohmann::json& widest = nullptr) {
   if (a.json) {
-    std::cout << to_json(answer, problem.scene(), problem.free_space())
-                     .dump(2, ' ', false, nlohmann::json::error_handler_t::replace)
-              << '\n';
+    std::cout << report_of(a, answer, problem, widest);
     return;
   }
   if (a.quiet) return;
+  if (!widest.is_null()) std::cout << widest_text(widest);
   for (const std::string& message : problem.scene().messages) std::cout << "note: " << message << '\n';
   std::cout << status_name(answer.status);
   if (answer.blocked_segment) std::cout << ": segment " << *answer.blocked_segment << " leaves free space";
@@ -164,7 +189,7 @@ int run_stock_planner(const Arguments& a, const Problem& problem) {
   return outcome.exit_code;
 }
 
-int answer_question(const Arguments& a, const Problem& problem) {
+int answer_question(const Arguments& a, const Problem& problem, const nlohmann::json& widest) {
   const Scene& scene = problem.scene();
   const bool list_only = a.tight && a.outputs.empty();
   // There is something to show without a question, too.
@@ -176,8 +201,8 @@ int answer_question(const Arguments& a, const Problem& problem) {
     options.roomy = a.prefer == "roomy";
     answer = problem.solve(options);
   }
-  write_outputs(a, answer, problem);
-  if (!list_only || a.json) print(a, answer, problem);
+  write_outputs(a, answer, problem, widest);
+  if (!list_only || a.json) print(a, answer, problem, widest);
   if (a.tight && !a.json && !a.quiet) std::cout << passages_text(problem.free_space());
   return list_only ? 0 : exit_code(answer);
 }
@@ -197,9 +222,12 @@ int run(const Arguments& a) {
   };
   bar.show("reading " + a.scene, 0, 0);
   Scene scene = scene_of(a);
+  if (!a.keep_clear.empty()) keep_clear(scene, parse_rational(a.keep_clear));
+  nlohmann::json widest;
+  if (a.widest || a.widest_box) widest = make_widest(a, scene);
   if (scene.rotation) {
     bar.clear();
-    return run_turning(a, scene);
+    return run_turning(a, scene, widest);
   }
   if (!a.check_proof.empty()) throw InputError("--check-proof is about robots that turn; the scene has no rotation");
   const Problem problem(std::move(scene), build);
@@ -208,7 +236,7 @@ int run(const Arguments& a) {
   if (!a.given_path.empty()) return check_given_path(a, problem);
   if (!a.benchmark.empty()) return run_benchmark(problem, a.planners, a.seconds, a.runs, a.benchmark, a.quiet);
   if (!a.ompl.empty()) return run_stock_planner(a, problem);
-  return answer_question(a, problem);
+  return answer_question(a, problem, widest);
 }
 
 }  // namespace nef::planner

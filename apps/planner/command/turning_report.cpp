@@ -131,6 +131,17 @@ std::string turning_text(const TurningAnswer& answer, const TurningAxis& axis) {
   return out.str();
 }
 
+std::string turning_csv(const TurningAnswer& answer, const TurningAxis& axis, const std::vector<double>& times) {
+  std::ostringstream out;
+  out << std::setprecision(17) << "t,x,y,z,degrees\n";
+  for (std::size_t i = 0; i < answer.path.size(); ++i) {
+    out << times[i];
+    for (const Rational& x : answer.path[i].position) out << ',' << nearest_double(x);
+    out << ',' << axis.degrees_of(answer.path[i].turn) << '\n';
+  }
+  return out.str();
+}
+
 TurningProof read_turning_proof(const std::string& file) {
   const json report = parse_exact_json(read_file(file), file);
   if (!report.is_object() || !report.contains("proof")) {

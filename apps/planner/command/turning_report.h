@@ -20,6 +20,9 @@ nlohmann::json turning_json(const TurningAnswer& answer, const Scene& scene, con
 /// x y z degrees in doubles, a way-point a line.
 std::string turning_text(const TurningAnswer& answer, const TurningAxis& axis);
 
+/// t,x,y,z,degrees, a way-point a line.
+std::string turning_csv(const TurningAnswer& answer, const TurningAxis& axis, const std::vector<double>& times);
+
 /// The proof in a report. Throws InputError if it has none, or a broken one.
 TurningProof read_turning_proof(const std::string& file);
 

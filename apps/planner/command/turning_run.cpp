@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "apps/planner/command/clearance_run.h"
 #include "apps/planner/command/ompl_runs.h"
 #include "apps/planner/command/scene_view.h"
 #include "apps/planner/command/turning_report.h"
@@ -25,8 +26,9 @@ void check_options(const Arguments& a) {
   }
   for (const std::string& file : a.outputs) {
     const std::string extension = std::filesystem::path(file).extension().string();
-    if (extension != ".json" && extension != ".txt" && !is_view_file(file)) {
-      throw InputError("-o " + file + ": for a scene with a rotation the extension must be .json, .txt, .glb or .html");
+    if (extension != ".json" && extension != ".txt" && extension != ".csv" && !is_view_file(file)) {
+      throw InputError("-o " + file +
+                       ": for a scene with a rotation the extension must be .json, .txt, .csv, .glb or .html");
     }
   }
 }
@@ -62,7 +64,7 @@ int check_proof(const Arguments& a, const Scene& scene) {
 
 }  // namespace
 
-int run_turning(const Arguments& a, const Scene& scene) {
+int run_turning(const Arguments& a, const Scene& scene, const nlohmann::json& widest) {
   check_options(a);
   if (!a.check_proof.empty()) return check_proof(a, scene);
   const Stopwatch watch;
@@ -73,6 +75,10 @@ int run_turning(const Arguments& a, const Scene& scene) {
   const TurningAnswer answer =
       a.ompl.empty() ? find_turning_path(scene, question, limits) : run_turning_ompl(scene, a.ompl, a.seconds);
   nlohmann::json report = turning_json(answer, scene, question.axis);
+  std::vector<double> times;
+  if (!answer.path.empty() && a.limits.speed > 0) times = times_along(answer.path, scene, question.axis, a.limits);
+  if (!times.empty()) report["times"] = times;
+  if (!widest.is_null()) report["widest"] = widest;
   report["phases"] = {{"turning", watch.seconds()}};
   const std::string text = report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
   std::vector<std::string> views;
@@ -82,7 +88,10 @@ int run_turning(const Arguments& a, const Scene& scene) {
     if (is_view_file(file)) {
       views.push_back(file);
     } else if (as_json || answer.status == TurningAnswer::Status::kPath) {
-      write_file(file, as_json ? text : turning_text(answer, question.axis));
+      const bool timed = std::filesystem::path(file).extension() == ".csv";
+      write_file(file, as_json ? text
+                       : timed ? turning_csv(answer, question.axis, times)
+                               : turning_text(answer, question.axis));
     }
   }
   if (!views.empty()) {
@@ -92,6 +101,7 @@ int run_turning(const Arguments& a, const Scene& scene) {
   if (a.json) {
     std::cout << text;
   } else if (!a.quiet) {
+    if (!widest.is_null()) std::cout << widest_text(widest);
     print(a, answer, scene, question.axis);
   }
   const bool no_answer = !a.ompl.empty() && answer.status == TurningAnswer::Status::kUndecided;

@@ -33,13 +33,8 @@ std::array<double, 4> quaternion_of(double degrees, const TurningAxis& axis) {
 }
 
 view::Motion motion_along(const std::vector<Pose>& path, const Polyhedron& robot, const TurningAxis& axis) {
-  const double reach = reach_of(robot);
   std::vector<double> way{0};
-  for (std::size_t i = 1; i < path.size(); ++i) {
-    const double turned = axis.degrees_of(path[i].turn) - axis.degrees_of(path[i - 1].turn);
-    way.push_back(way.back() + distance(path[i - 1].position, path[i].position) +
-                  std::abs(turned) * M_PI / 180 * reach);
-  }
+  for (const double length : lengths_of(path, robot, axis)) way.push_back(way.back() + length);
   view::Motion motion;
   motion.pivot = to_double(path.front().position);
   const double first = axis.degrees_of(path.front().turn);
@@ -54,6 +49,16 @@ view::Motion motion_along(const std::vector<Pose>& path, const Polyhedron& robot
 }
 
 }  // namespace
+
+std::vector<double> lengths_of(const std::vector<Pose>& path, const Polyhedron& robot, const TurningAxis& axis) {
+  const double reach = reach_of(robot);
+  std::vector<double> lengths;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const double turned = axis.degrees_of(path[i].turn) - axis.degrees_of(path[i - 1].turn);
+    lengths.push_back(distance(path[i - 1].position, path[i].position) + std::abs(turned) * M_PI / 180 * reach);
+  }
+  return lengths;
+}
 
 std::vector<view::Layer> turning_layers(const TurningAnswer& answer, const Scene& scene,
                                         const TurningQuestion& question) {

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/planner/clearance/keep_clear.h"
+
+#include "apps/minkowski/minkowski.h"
+#include "nef/base/error.h"
+
+namespace nef::planner {
+
+Polyhedron around_ball(const Rational& radius) {
+  // Half-spaces across the directions (1, 0, 0) and (2, 2, 1) / 3 in all orders and signs, which have rational lengths.
+  std::vector<Polyhedron> sides{make_box({-radius, -radius, -radius}, {radius, radius, radius})};
+  for (std::size_t one = 0; one < 3; ++one) {
+    for (int signs = 0; signs < 8; ++signs) {
+      Rational3 n{2, 2, 2};
+      n[one] = 1;
+      for (std::size_t k = 0; k < 3; ++k) {
+        if ((signs >> k & 1) != 0) n[k] = -n[k];
+      }
+      sides.push_back(make_halfspace(n[0], n[1], n[2], -3 * radius));
+    }
+  }
+  return intersect_all(sides);
+}
+
+void keep_clear(Scene& scene, const Rational& distance) {
+  if (distance <= 0) throw InputError("--keep-clear: the distance must be positive");
+  scene.robot = minkowski::minkowski_sum(scene.robot, around_ball(distance));
+  scene.messages.push_back("the robot is made larger by a polytope around the ball of radius " + to_string(distance) +
+                           ": paths keep at least that distance; some that keep less than 1.2 times as much are lost");
+}
+
+}  // namespace nef::planner

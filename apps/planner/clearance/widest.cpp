@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/planner/clearance/widest.h"
+
+#include "apps/minkowski/minkowski.h"
+#include "nef/base/error.h"
+#include "nef/number/simplest_between.h"
+
+namespace nef::planner {
+namespace {
+
+// Every facet has the origin on its inner side or in its plane.
+bool sees_all_from_origin(const Polyhedron& robot) {
+  const Complex& c = robot.complex();
+  for (const Facet& facet : c.facets) {
+    const int offset = mpz_sgn(mpz_srcptr(c.planes.coefficient(facet.plane, 3)));
+    const bool inside_above = c.volumes[facet.volume_above].mark != 0;
+    if (inside_above ? offset < 0 : offset > 0) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+Polyhedron grown(const Polyhedron& robot, Growth growth, const Rational& size) {
+  if (growth == Growth::kBox) {
+    if (size == 0) return robot;
+    return minkowski::minkowski_sum(robot, make_box({-size, -size, -size}, {size, size, size}));
+  }
+  if (!robot.is_regular() || !sees_all_from_origin(robot)) {
+    throw InputError(
+        "--widest: the robot must be a solid that sees all of itself from its reference point, or a smaller factor "
+        "need "
+        "not be easier; move the reference, or use --widest-box");
+  }
+  return transform(robot, AffineMap::scale({size, size, size}));
+}
+
+Widest find_widest(const Rational& first, const Rational& precision, bool down,
+                   const std::function<Verdict(const Rational&)>& verdict) {
+  constexpr int kDoublings = 20;
+  Widest result;
+  // False where the search ends.
+  const auto ask = [&](const Rational& size) {
+    ++result.questions;
+    switch (verdict(size)) {
+      case Verdict::kPath:
+        result.low = size;
+        return true;
+      case Verdict::kNone:
+        result.high = size;
+        return true;
+      default:
+        result.undecided = true;
+        return false;
+    }
+  };
+  if (!ask(first)) return result;
+  Rational size = first;
+  for (int i = 0; i < kDoublings && !result.high; ++i) {
+    size = size == 0 ? Rational(1) : Rational(2 * size);
+    if (!ask(size)) return result;
+  }
+  for (int i = 0; i < kDoublings && !result.low && down; ++i) {
+    size /= 2;
+    if (!ask(size)) return result;
+  }
+  while (result.low && result.high && *result.high - *result.low > precision * *result.high) {
+    const Rational quarter = (*result.high - *result.low) / 4;
+    if (!ask(simplest_between(*result.low + quarter, *result.high - quarter))) break;
+  }
+  return result;
+}
+
+}  // namespace nef::planner

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/planner/command/clearance_run.h"
+
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+
+#include "apps/planner/clearance/widest.h"
+#include "apps/planner/command/turning_view.h"
+#include "apps/planner/free_space/free_positions.h"
+#include "apps/planner/free_space/free_space.h"
+#include "nef/base/error.h"
+#include "nef/base/stopwatch.h"
+
+namespace nef::planner {
+namespace {
+
+Verdict verdict_on(const Scene& scene, const BuildOptions& build) {
+  const FreeSpace free(free_positions(scene, build));
+  const CellId start = free.locate(ExactPoint(*scene.start));
+  const CellId goal = free.locate(ExactPoint(*scene.goal));
+  if (!free.is_free(start) || !free.is_free(goal)) return Verdict::kNone;
+  return free.component(start) == free.component(goal) ? Verdict::kPath : Verdict::kNone;
+}
+
+Verdict turning_verdict_on(const Scene& scene, const TurningLimits& limits) {
+  switch (find_turning_path(scene, question_of(scene), limits).status) {
+    case TurningAnswer::Status::kPath:
+      return Verdict::kPath;
+    case TurningAnswer::Status::kUndecided:
+      return Verdict::kUndecided;
+    default:
+      return Verdict::kNone;
+  }
+}
+
+}  // namespace
+
+void check_clearance_usage(const Arguments& a) {
+  const bool widest = a.widest || a.widest_box;
+  if (a.widest && a.widest_box) throw InputError("--widest and --widest-box exclude each other");
+  if (widest && (a.tight || !a.given_path.empty() || !a.queries.empty() || !a.ompl.empty() || !a.benchmark.empty() ||
+                 !a.check_proof.empty())) {
+    throw InputError("--widest excludes --tight, --path, --queries, --ompl, --benchmark and --check-proof");
+  }
+  if (a.limits.acceleration > 0 && a.limits.speed <= 0) throw InputError("--acceleration wants a --speed, too");
+  for (const std::string& file : a.outputs) {
+    if (std::filesystem::path(file).extension() == ".csv" && a.limits.speed <= 0) {
+      throw InputError("-o " + file + ": time stamps want a --speed");
+    }
+  }
+}
+
+nlohmann::json make_widest(const Arguments& a, Scene& scene) {
+  if (!scene.start || !scene.goal) throw InputError(scene.name + ": --widest wants a start and a goal");
+  const Rational precision = parse_rational(a.precision);
+  if (precision <= 0) throw InputError("--precision must be positive");
+  const Growth growth = a.widest_box ? Growth::kBox : Growth::kScale;
+  const Polyhedron robot = scene.robot;
+  Rational smallest = growth == Growth::kBox ? 0 : 1;
+  BuildOptions build;
+  build.threads = a.threads;
+  TurningLimits limits;
+  limits.max_cells = a.max_cells;
+  const Stopwatch watch;
+  if (a.time_given) limits.stop = [&] { return watch.seconds() >= a.seconds; };
+  const Widest widest = find_widest(smallest, precision, growth == Growth::kScale, [&](const Rational& size) {
+    smallest = std::min(smallest, size);
+    scene.robot = grown(robot, growth, size);
+    return scene.rotation ? turning_verdict_on(scene, limits) : verdict_on(scene, build);
+  });
+  scene.robot = grown(robot, growth, widest.low.value_or(smallest));
+  nlohmann::json result{{"growth", growth == Growth::kBox ? "box" : "scale"},
+                        {"undecided", widest.undecided},
+                        {"questions", widest.questions}};
+  for (const auto& [key, value] : {std::pair("low", &widest.low), std::pair("high", &widest.high)}) {
+    if (!*value) continue;
+    result[key] = to_string(**value);
+    result[std::string(key) + "_double"] = nearest_double(**value);
+  }
+  return result;
+}
+
+std::string widest_text(const nlohmann::json& widest) {
+  std::ostringstream out;
+  const auto put = [&](const char* key) {
+    out << widest[key].get<std::string>() << " (" << widest[std::string(key) + "_double"].get<double>() << ")";
+  };
+  out << "widest: ";
+  if (widest.contains("low")) {
+    out << "a path at ";
+    put("low");
+  } else {
+    out << "no path at any size that was tried";
+  }
+  if (widest.contains("high")) {
+    out << ", none at ";
+    put("high");
+  } else if (!widest["undecided"].get<bool>()) {
+    out << ", and at any size that was tried";
+  }
+  if (widest["undecided"].get<bool>()) out << ", undecided between";
+  out << '\n';
+  return out.str();
+}
+
+std::vector<double> times_along(const ExactPath& path, const MotionLimits& limits) {
+  std::vector<double> lengths;
+  for (std::size_t i = 1; i < path.points.size(); ++i) lengths.push_back(distance(path.points[i - 1], path.points[i]));
+  return times_of(lengths, limits);
+}
+
+std::vector<double> times_along(const std::vector<Pose>& path, const Scene& scene, const TurningAxis& axis,
+                                const MotionLimits& limits) {
+  return times_of(lengths_of(path, scene.robot, axis), limits);
+}
+
+}  // namespace nef::planner

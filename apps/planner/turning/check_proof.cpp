@@ -54,7 +54,8 @@ Polyhedron within_reach(const Polyhedron& obstacle, const Scene& scene, const Ra
 // A number that is no less than the distance of any point of the robot.
 Rational reach_of(const Polyhedron& robot) {
   Rational sum = 1;
-  for (const Rational3& corner : *bounding_box(robot)) {
+  const std::array<Rational3, 2> box = *bounding_box(robot);
+  for (const Rational3& corner : box) {
     for (const Rational& x : corner) sum += abs(x);
   }
   return sum;

@@ -112,7 +112,7 @@ std::optional<Turn> TurningAxis::turn_between(const Rational3& from, const Ratio
 Turn TurningAxis::turn_of_degrees(const Rational& degrees) const {
   const Integer half_turns = floor_of(degrees / 180);
   const Rational rest = degrees - 180 * half_turns;
-  const Turn base(2 * half_turns);
+  Turn base(2 * half_turns);
   if (rest == 0) return base;
   if (rest == 90 && square_ == 1) return base + 1;
   const double length = std::sqrt(nearest_double(square_));

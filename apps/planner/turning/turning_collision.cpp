@@ -28,7 +28,8 @@ Polyhedron within_reach(const Polyhedron& obstacle, const Scene& scene) {
   if (obstacle.is_bounded()) return obstacle;
   if (!scene.box) throw InputError("an obstacle is unbounded: give the scene a box");
   Rational reach = 1;
-  for (const Rational3& corner : *bounding_box(scene.robot)) {
+  const std::array<Rational3, 2> robot = *bounding_box(scene.robot);
+  for (const Rational3& corner : robot) {
     for (const Rational& x : corner) reach += abs(x);
   }
   Rational3 low = (*scene.box)[0];

@@ -12,6 +12,7 @@
 #include "apps/planner/command/turning_view.h"
 #include "apps/planner/free_space/free_positions.h"
 #include "apps/planner/free_space/free_space.h"
+#include "apps/planner/turning/turning_collision.h"
 #include "apps/planner/turning/turning_robot.h"
 #include "apps/planner/turning/turning_search.h"
 #include "nef/base/error.h"
@@ -382,6 +383,21 @@ TEST_CASE("proofs about robots that are not convex, forbidden contact, tilted ax
       CHECK(complaint_about(*answer.proof, scene, question).value_or("it holds") == "it holds");
     }
   }
+}
+
+TEST_CASE("unbounded obstacles: cut where no robot in the box can reach") {
+  const Scene scene = scene_of(
+      R"J({"robot": "box(-1,-1/4,0, 1,1/4,1)", "obstacles": ["halfspace(1,0,0,-4) - interior(halfspace(1,0,0,-3))",
+    "box(3,1/8,-9, 4,9,9)"], "start": [0,0,0,0], "goal": [7,0,0,0], "box": [[-2,-3,0],[9,3,0]], "rotation": {}})J");
+  const TurningQuestion question = question_of(scene);
+  const TurningAnswer answer = find_turning_path(scene, question);
+  REQUIRE(answer.status == Status::kInfeasible);
+  CHECK(complaint_about(*answer.proof, scene, question).value_or("it holds") == "it holds");
+  const TurningCollision collision(scene, question.axis);
+  CHECK(collision.is_free(question.start));
+  CHECK_FALSE(collision.is_free({{ratio(7, 2), -2, 0}, 0}));
+  CHECK(collision.is_free({{2, -2, 0}, 0}));
+  CHECK_FALSE(collision.is_free({{ratio(21, 10), -2, 0}, 0}));
 }
 
 TEST_CASE("turning on the command line") {

@@ -56,7 +56,7 @@ Direction direction_into(const PlaneTable& planes, const SphereMapView& map, std
   const Integers normal = Direction::normal(planes, plane).integers();
   // Off the arc to its left, less and less.
   for (std::size_t ratio = 1;; ratio += ratio) {
-    const Direction candidate = direction(mean(on_side, normal, ratio));
+    Direction candidate = direction(mean(on_side, normal, ratio));
     const SphereLocation at = locate(planes, map, candidate);
     if (at.kind == SphereLocation::Kind::kSFace && at.index == sface) return candidate;
   }

@@ -32,7 +32,7 @@ struct SurvivingIntervals {
   std::vector<SegmentCut> cuts;
   std::vector<std::uint32_t> cutting;  ///< facets
   std::vector<SurvivingInterval> intervals;
-  /// Pairs of facets that share a side: key of the two corners -> facets.
+  /// Facets that share a side, by the key of its two corners.
   std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> at_side;
 };
 

@@ -290,7 +290,8 @@ class TurningCase {
   [[nodiscard]] int angle_count() const { return is_ring() ? kAngles : kAngles + 1; }
   [[nodiscard]] static Node node_of(const PlanarPose& pose) { return {pose.x, pose.y, pose.angle}; }
   [[nodiscard]] std::size_t index_of(const Node& node) const {
-    return static_cast<std::size_t>((node[2] * kPositions + node[1]) * kPositions + node[0]);
+    const auto at = [&](std::size_t k) { return static_cast<std::size_t>(node[k]); };
+    return (at(2) * kPositions + at(1)) * kPositions + at(0);
   }
 
   [[nodiscard]] double reach() const {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "nef/program/report.h"
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <vector>
 
@@ -32,16 +30,6 @@ Json point_json(const Rational3& point) {
   return Json::array({to_string(point[0]), to_string(point[1]), to_string(point[2])});
 }
 
-Json predicates_json(const PredicateCounts& counts) {
-  return {{"identity", counts.identity}, {"filter", counts.filter}, {"exact", counts.exact}};
-}
-
-std::size_t peak_memory_bytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
-}
-
 Measured measure(int repeat, const std::function<Polyhedron()>& operation) {
   Measured result;
   std::vector<double> times;
@@ -67,16 +55,11 @@ void finish(Session& session, const std::string& command, const Measured& measur
     session.say(summary(measured.set));
     return;
   }
-  Json object;
-  object["command"] = command;
-  object["load_s"] = session.load_s;
-  object["op_s"] = measured.seconds;
-  object["write_s"] = session.write_s;
-  object["repeat"] = session.repeat;
-  object["predicates"] = predicates_json(measured.predicates);
-  object.update(more);
-  object["result"] = info_json(measured.set);
-  session.print(std::move(object));
+  session.spent("op", measured.seconds, measured.predicates);
+  Json found{{"repeat", session.repeat}};
+  found.update(more);
+  found["result"] = info_json(measured.set);
+  session.print(command, found);
 }
 
 }  // namespace nef

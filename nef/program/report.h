@@ -5,7 +5,6 @@
 
 #include <functional>
 
-#include "nef/geometry/predicates.h"
 #include "nef/program/session.h"
 
 namespace nef {
@@ -21,12 +20,6 @@ std::string summary(const Polyhedron& set);
 std::string point_text(const Rational3& point);
 Json point_json(const Rational3& point);
 
-/// How many answers each stage of the predicates gave.
-Json predicates_json(const PredicateCounts& counts);
-
-/// The most memory that this process has held.
-std::size_t peak_memory_bytes();
-
 /// A result with the median time of its computation and the predicates of the last one.
 struct Measured {
   Polyhedron set;
@@ -37,8 +30,8 @@ struct Measured {
 /// Computes `repeat` times.
 Measured measure(int repeat, const std::function<Polyhedron()>& operation);
 
-/// Writes the result and prints what the flags ask for: a summary or a JSON object with load_s,
-/// op_s, write_s, predicates, the members of `more`, and result.
+/// Writes the result and prints what the flags ask for: a summary, or a report with the members of `more` and the set
+/// under `result`.
 void finish(Session& session, const std::string& command, const Measured& measured, const Json& more = Json::object());
 
 }  // namespace nef

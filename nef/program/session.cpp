@@ -26,7 +26,7 @@ std::vector<Polyhedron> Session::load_all(const std::vector<std::string>& paths)
     show_phase("reading", ++done, paths.size());
   });
   for (const Messages& some : notes) messages.insert(messages.end(), some.begin(), some.end());
-  load_s += watch.seconds();
+  load_s_ += watch.seconds();
   show_messages(first);
   show_phase("computing");
   return sets;
@@ -39,7 +39,7 @@ void Session::store(const Polyhedron& set) {
   const Stopwatch watch;
   const std::size_t first = messages.size();
   write_polyhedron(output, set, write_options(), &messages);
-  write_s += watch.seconds();
+  write_s_ += watch.seconds();
   show_messages(first);
 }
 
@@ -49,7 +49,7 @@ std::map<std::string, std::size_t> Session::store_groups(const Polyhedron& label
   const Stopwatch watch;
   const std::size_t first = messages.size();
   std::map<std::string, std::size_t> faces = write_groups(output, labeled, groups, write_options(), &messages);
-  write_s += watch.seconds();
+  write_s_ += watch.seconds();
   show_messages(first);
   return faces;
 }
@@ -79,11 +79,16 @@ void Session::say(const std::string& line) {
   if (!quiet && !json && output != "-") out_ << one_line(line) << '\n';
 }
 
-void Session::print(Json object) {
+void Session::spent(const std::string& phase, double seconds, std::optional<PredicateCounts> predicates) {
+  phases_.push_back({phase, seconds, predicates});
+}
+
+void Session::print(const std::string& command, const Json& found) {
   if (bar_) bar_->clear();
-  if (!messages.empty()) object["messages"] = messages;
-  // Paths may hold bytes that are no UTF-8; they are replaced rather than refused.
-  out_ << object.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+  std::vector<ReportPhase> phases{{"load", load_s_, {}}};
+  phases.insert(phases.end(), phases_.begin(), phases_.end());
+  if (!output.empty()) phases.push_back({"write", write_s_, {}});
+  out_ << report_text(run_report(command, found, phases, messages));
 }
 
 void Session::complain(const std::string& line) {

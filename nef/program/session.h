@@ -7,17 +7,15 @@
 #include <iosfwd>
 #include <map>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "nef/construct/construct.h"
 #include "nef/io/polyhedron_file.h"
 #include "nef/program/progress_bar.h"
+#include "nef/program/run_report.h"
 
 namespace nef {
-
-using Json = nlohmann::ordered_json;
 
 /// Exit codes of the program.
 enum ExitCode : int { kYes = 0, kNo = 1, kBad = 2 };
@@ -46,11 +44,9 @@ class Session {
   unsigned threads = 0;  ///< 0: as many as the machine has
 
   int exit_code = kYes;
-  double load_s = 0;
-  double write_s = 0;
   Messages messages;  ///< notes about what was done to inputs and what an output does not hold
 
-  /// Reads a set; its time is added to load_s, notes go to stderr unless quiet.
+  /// Reads a set; its time is added to the phase "load", notes go to stderr unless quiet.
   Polyhedron load(const std::string& path);
   /// The same for many, several at once.
   std::vector<Polyhedron> load_all(const std::vector<std::string>& paths);
@@ -66,8 +62,10 @@ class Session {
   void note(const std::string& text);
   /// Prints a line for people; nothing if quiet or --json.
   void say(const std::string& line);
-  /// Prints the one JSON object of a run, with the notes added.
-  void print(Json object);
+  /// Tells the report what a phase between reading and writing took.
+  void spent(const std::string& phase, double seconds, std::optional<PredicateCounts> predicates = std::nullopt);
+  /// Prints the report of the run (see run_report): what the command found, the phases so far, the notes.
+  void print(const std::string& command, const Json& found);
   /// Prints a line on stderr whatever the flags.
   void complain(const std::string& line);
 
@@ -76,6 +74,9 @@ class Session {
   PolyhedronWriteOptions write_options() const;
 
   std::string program_;
+  double load_s_ = 0;
+  double write_s_ = 0;
+  std::vector<ReportPhase> phases_;  // between reading and writing
   std::ostream& out_;
   std::ostream& err_;
   std::unique_ptr<ProgressBar> bar_;  // made when first needed: the flags are known then

@@ -57,8 +57,8 @@ TEST_CASE("meshes that bound no solid are refused, with the guilty elements") {
   const Workplace here;
   here.write("open.off", cube_without_last_face());
   check_refused(here.nef("info open.off"), "edge 3-1");
-  CHECK(here.nef("info open.off --as-surface --json").json()["volume"] == "0");
-  CHECK(here.nef("info open.off --as-surface --json").json()["facets"] == 5);
+  CHECK(here.nef("info open.off --as-surface --json").json()["result"]["volume"] == "0");
+  CHECK(here.nef("info open.off --as-surface --json").json()["result"]["facets"] == 5);
 
   here.write("turned.off", with_line(11, "4 1 3 2 0"));
   check_refused(here.nef("info turned.off"), "turned.off");
@@ -145,9 +145,9 @@ TEST_CASE("components that contradict each other are refused") {
     return text;
   };
   here.write("cavity.off", boxes(0, 9, 2, 5, true));
-  CHECK(here.nef("info cavity.off --json").json()["volume"] == "702");
+  CHECK(here.nef("info cavity.off --json").json()["result"]["volume"] == "702");
   here.write("beside.off", boxes(0, 3, 5, 9, false));
-  CHECK(here.nef("info beside.off --json").json()["volume"] == "91");
+  CHECK(here.nef("info beside.off --json").json()["result"]["volume"] == "91");
   here.write("nested.off", boxes(0, 9, 2, 5, false));
   here.write("turned.off", boxes(0, 3, 5, 9, true));
   for (const std::string file : {"nested.off", "turned.off"}) {
@@ -165,7 +165,7 @@ TEST_CASE("two cubes that share an edge or a vertex are legal") {
     CAPTURE(other);
     REQUIRE(here.nef("eval 'box(0,0,0, 2,2,2) + box(" + other + ")' -o two.off").code == 0);
     CHECK(here.nef("check two.off").code == 0);
-    CHECK(here.nef("info two.off --json").json()["volume"] == "16");
+    CHECK(here.nef("info two.off --json").json()["result"]["volume"] == "16");
   }
 }
 
@@ -205,8 +205,8 @@ TEST_CASE("The option --no-check changes nothing about a mesh that touches itsel
   const Outcome checked = here.nef("info touching.off --json");
   CAPTURE(checked.err);
   REQUIRE(checked.code == 0);
-  CHECK(checked.json()["volume"] == "196/3");
-  CHECK(here.nef("info touching.off --no-check --json").json() == checked.json());
+  CHECK(checked.json()["result"]["volume"] == "196/3");
+  CHECK(here.nef("info touching.off --no-check --json").json()["result"] == checked.json()["result"]);
   CHECK(here.nef("convert touching.off --no-check -o a.off").code == 0);
   CHECK(here.nef("check a.off").code == 0);
 }

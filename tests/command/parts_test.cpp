@@ -39,7 +39,7 @@ TEST_CASE("section writes drawings and sections in space") {
   CHECK(here.nef("equal s.nef t.nef").code == 0);
   REQUIRE(here.nef("section a.nef --plane 0,0,1,-1 -o s.off").code == 0);
   CHECK(here.nef("eval 'file(\"s.off\")' --as-surface -o u.nef").code == 0);
-  CHECK(here.nef("info u.nef --json").json()["area"] == 15.0);
+  CHECK(here.nef("info u.nef --json").json()["result"]["area"] == 15.0);
   check_refused(here.nef("section a.nef --plane 0,0,0,1 -o a.svg"), "normal");
   check_refused(here.nef("section a.nef --plane 0,0,1 -o a.svg"), "four numbers");
 }
@@ -56,7 +56,7 @@ TEST_CASE("split writes a file for each part") {
   REQUIRE(volumes.json()["files"].size() == 3);
   const nlohmann::json files = volumes.json()["files"];  // a range over a part of a temporary would outlive it
   for (const auto& file : files) {
-    CHECK(here.nef("info " + file.get<std::string>() + " --json").json()["volume"] == "1");
+    CHECK(here.nef("info " + file.get<std::string>() + " --json").json()["result"]["volume"] == "1");
   }
 }
 
@@ -91,7 +91,7 @@ TEST_CASE("repair says what it did, and whether that was enough") {
   here.write("open.off", open);
   CHECK(here.nef("repair open.off -o c.off").code == 1);
   CHECK(here.nef("repair open.off -o c.off --fill-holes").code == 0);
-  CHECK(here.nef("info c.off --json").json()["volume"] == "8");
+  CHECK(here.nef("info c.off --json").json()["result"]["volume"] == "8");
 }
 
 TEST_CASE("a dash is standard input and output") {

@@ -23,7 +23,7 @@ def run(programs: str, program: str, *arguments: str) -> str:
 
 def fitted(programs: str, path: str, turn: str, to: str) -> None:
     """The mesh in a box of size 1 about the origin, turned by an angle that is no nice one."""
-    low, high = json.loads(run(programs, "nef", "info", path, "--json"))["bbox"]
+    low, high = json.loads(run(programs, "nef", "info", path, "--json"))["result"]["bbox"]
     size = max(h - l for l, h in zip(low, high))
     middle = ",".join(str(-(l + h) / 2) for l, h in zip(low, high))
     run(programs, "nef", "transform", path, "--translate", middle, "--scale", f"1/{size}" if size >= 1 else str(1 / size),

@@ -8,6 +8,7 @@
 #include "tests/planner/command_helpers.h"
 #include "tests/planner/scene_helpers.h"
 #include "tests/support/paths.h"
+#include "tests/support/report_shape.h"
 
 namespace nef::planner::test {
 namespace {
@@ -26,7 +27,8 @@ TEST_CASE("exit codes and the JSON report") {
   CHECK(report["thinnest_junction"] == 0);
   CHECK(report["components"].size() == 2);
   CHECK(report["tight"][0]["dimension"] == 1);
-  CHECK(report["phases"].contains("configuration_space"));
+  CHECK(report["phases"].contains("configuration_space_s"));
+  nef::test::check_report_shape(report, "plan");
 
   const Run no = planner(folder, scene("s1_narrower") + " --json");
   CHECK(no.code == 1);
@@ -140,6 +142,7 @@ TEST_CASE("flags that all programs have") {
   const auto without_times = [](const Run& run) {
     auto report = nlohmann::json::parse(run.out);
     report.erase("phases");
+    report.erase("peak_memory_bytes");
     return report;
   };
   const std::string ask = scene("s9_gate_and_rail") + " --json --threads ";

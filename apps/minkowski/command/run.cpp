@@ -55,8 +55,9 @@ class Run {
     return set;
   }
 
-  void show(const Messages& messages) const {
+  void show(const Messages& messages) {
     for (const std::string& line : messages) {
+      messages_.push_back(line);
       if (!a_.quiet) std::cerr << "minkowski: " << line << "\n";
     }
   }
@@ -285,7 +286,6 @@ class Run {
 
   [[nodiscard]] Json base_report() const {
     Json object;
-    object["command"] = name(task_);
     object["union"] = a_.union_name;
     object["cells"] = {report_.cells_a, report_.cells_b};
     object["pairs"] = report_.pairs;
@@ -297,25 +297,23 @@ class Run {
                                {"points", report_.convolution_points},
                                {"regions_tested", report_.convolution_regions}};
     }
-    object["phases"] = {{"load_s", load_s_},
-                        {"decomposition_s", report_.seconds_decomposition},
-                        {"convex_sums_s", report_.seconds_convex_sums},
-                        {"union_s", report_.seconds_union},
-                        {"op_s", report_.seconds_total},
-                        {"write_s", write_s_}};
-    object["predicates"] = {{"decomposition", predicates_json(report_.predicates_decomposition)},
-                            {"convex_sums", predicates_json(report_.predicates_convex_sums)},
-                            {"union", predicates_json(report_.predicates_union)}};
-    object["peak_memory_bytes"] = peak_memory_bytes();
     for (const auto& [key, value] : details_.items()) object[key] = value;
     return object;
   }
 
-  void print_report(const Json& object) const {
-    if (a_.json) std::cout << object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
+  void print_report(const Json& found) const {
+    const std::vector<ReportPhase> phases{
+        {"load", load_s_, {}},
+        {"decomposition", report_.seconds_decomposition, report_.predicates_decomposition},
+        {"convex_sums", report_.seconds_convex_sums, report_.predicates_convex_sums},
+        {"union", report_.seconds_union, report_.predicates_union},
+        {"op", report_.seconds_total, {}},
+        {"write", write_s_, {}}};
+    const std::string text = report_text(run_report(name(task_), found, phases, messages_));
+    if (a_.json) std::cout << text;
     if (a_.report.empty()) return;
     const SignalsHeld held;
-    write_file(a_.report, object.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+    write_file(a_.report, text);
   }
 
   const Arguments& a_;
@@ -324,6 +322,7 @@ class Run {
   MinkowskiReport report_;
   Json details_ = Json::object();                          // of the task, for the report
   std::vector<std::pair<std::string, Polyhedron>> shown_;  // for the preview
+  Messages messages_;                                      // what was done to inputs, and what an output does not hold
   double load_s_ = 0;
   double write_s_ = 0;
 };

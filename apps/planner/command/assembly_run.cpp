@@ -13,6 +13,7 @@
 #include "nef/io/polyhedron_file.h"
 #include "nef/program/exact_json.h"
 #include "nef/program/progress_bar.h"
+#include "nef/program/run_report.h"
 
 namespace nef::planner {
 namespace {
@@ -140,6 +141,7 @@ int tell_free_directions(const Arguments& a, const Assembly& assembly) {
     throw InputError(a.assembly + ": " + assembly.names[overlap->first] + " and " + assembly.names[overlap->second] +
                      " overlap");
   }
+  const Stopwatch watch;
   const FreeDirections free = free_directions(assembly, static_cast<std::size_t>(found - assembly.names.begin()));
   json rays = json::array();
   for (const std::array<Integer, 3>& ray : free.rays) {
@@ -150,7 +152,8 @@ int tell_free_directions(const Arguments& a, const Assembly& assembly) {
                     {"dimension", free.dimension},
                     {"everything", free.everything},
                     {"rays", rays}};
-  const std::string text = report.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
+  const std::string text =
+      report_text(run_report("free_directions", report, {{"op", watch.seconds(), {}}}, assembly.messages));
   for (const std::string& file : a.outputs) {
     const bool as_json = std::filesystem::path(file).extension() == ".json";
     if (as_json) {
@@ -190,7 +193,6 @@ json assembly_json(const Disassembly& answer, const Assembly& assembly) {
   }
   if (answer.overlap)
     result["overlap"] = {assembly.names[answer.overlap->first], assembly.names[answer.overlap->second]};
-  if (!assembly.messages.empty()) result["messages"] = assembly.messages;
   return result;
 }
 
@@ -203,9 +205,8 @@ int run_assembly(const Arguments& a) {
   const Disassembly answer =
       take_apart(assembly, [&](std::size_t steps) { bar.show("taking apart", steps, assembly.parts.size() - 1); });
   bar.clear();
-  json report = assembly_json(answer, assembly);
-  report["phases"] = {{"assembly", watch.seconds()}};
-  const std::string text = report.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
+  const std::string text = report_text(
+      run_report("assembly", assembly_json(answer, assembly), {{"op", watch.seconds(), {}}}, assembly.messages));
   std::vector<std::string> views;
   if (!a.page.empty()) views.push_back(a.page);
   for (const std::string& file : a.outputs) {

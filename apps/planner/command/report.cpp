@@ -119,7 +119,6 @@ json answer_json(const Answer& answer, const Scene& scene) {
   if (answer.status == Answer::Status::kInfeasible) {
     result["proof"] = {{"start_component", answer.start_component}, {"goal_component", answer.goal_component}};
   }
-  result["phases"] = answer.phases;
   return result;
 }
 
@@ -134,14 +133,20 @@ json free_space_json(const Scene& scene, const FreeSpace& free) {
   result["tight"] = passages_json(free);
   result["touching"] = touching_json(free);
   result["contact"] = scene.contact == ContactRule::kAllow ? "allow" : "forbid";
-  if (!scene.messages.empty()) result["messages"] = scene.messages;
   return result;
 }
 
-json to_json(const Answer& answer, const Scene& scene, const FreeSpace& free) {
-  json result = free_space_json(scene, free);
-  result.update(answer_json(answer, scene));
-  return result;
+Json answer_report(const Answer& answer, const Scene& scene, const FreeSpace& free, const json& more) {
+  json found = free_space_json(scene, free);
+  found.update(answer_json(answer, scene));
+  found.update(more);
+  return run_report("plan", found, report_phases(answer.phases), scene.messages);
+}
+
+std::vector<ReportPhase> report_phases(const std::map<std::string, double>& seconds) {
+  std::vector<ReportPhase> list;
+  for (const auto& [name, value] : seconds) list.push_back({name, value, {}});
+  return list;
 }
 
 std::string passages_text(const FreeSpace& free) {

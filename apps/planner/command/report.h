@@ -3,10 +3,13 @@
 // Answers of the planner as data: JSON, text, OMPL's path matrix.
 #pragma once
 
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "apps/planner/path/answer.h"
+#include "nef/program/run_report.h"
 
 namespace nef::planner {
 
@@ -18,10 +21,12 @@ std::string status_name(Answer::Status status);
 
 /// The keys of one answer: status, path, proof, collision.
 nlohmann::json answer_json(const Answer& answer, const Scene& scene);
-/// Those of the scene and its free space: components, passages, contact, messages.
+/// Those of the scene and its free space: components, passages, contact.
 nlohmann::json free_space_json(const Scene& scene, const FreeSpace& free);
-/// All keys of the JSON report (see docs and `planner --help`).
-nlohmann::json to_json(const Answer& answer, const Scene& scene, const FreeSpace& free);
+/// The report of a question about a scene (see run_report), with `more` members.
+Json answer_report(const Answer& answer, const Scene& scene, const FreeSpace& free, const nlohmann::json& more);
+/// The phases of an answer for a report.
+std::vector<ReportPhase> report_phases(const std::map<std::string, double>& seconds);
 /// The tight passages alone.
 nlohmann::json passages_json(const FreeSpace& free);
 /// The places where rooms only touch.

@@ -58,10 +58,10 @@ void check_usage(const Arguments& a) {
 
 // Everything about an answer, time stamps and the widest robot too, if they were asked for.
 std::string report_of(const Arguments& a, const Answer& answer, const Problem& problem, const nlohmann::json& widest) {
-  nlohmann::json report = to_json(answer, problem.scene(), problem.free_space());
-  if (answer.path && a.limits.speed > 0) report["times"] = times_along(*answer.path, a.limits);
-  if (!widest.is_null()) report["widest"] = widest;
-  return report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  nlohmann::json more = nlohmann::json::object();
+  if (answer.path && a.limits.speed > 0) more["times_s"] = times_along(*answer.path, a.limits);
+  if (!widest.is_null()) more["widest"] = widest;
+  return report_text(answer_report(answer, problem.scene(), problem.free_space(), more));
 }
 
 // t,x,y,z, a way-point a line.
@@ -164,6 +164,7 @@ int answer_queries(const Arguments& a, const Problem& problem) {
       nlohmann::json entry = answer_json(answer, problem.scene());
       entry["start"] = exact_json(query.start);
       entry["goal"] = exact_json(query.goal);
+      entry["query_s"] = answer.phases.at("query");
       answers.push_back(std::move(entry));
     }
     if (a.json || a.quiet) continue;
@@ -175,9 +176,10 @@ int answer_queries(const Arguments& a, const Problem& problem) {
   if (!report) return code;
   nlohmann::json result = free_space_json(problem.scene(), problem.free_space());
   result["queries"] = std::move(answers);
-  for (const std::string& file : a.outputs)
-    write_file(file, result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
-  if (a.json) std::cout << result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+  const std::string text =
+      report_text(run_report("queries", result, report_phases(problem.phases()), problem.scene().messages));
+  for (const std::string& file : a.outputs) write_file(file, text);
+  if (a.json) std::cout << text;
   return code;
 }
 

@@ -117,7 +117,6 @@ json turning_json(const TurningAnswer& answer, const Scene& scene, const Turning
   for (const TurnRange& range : answer.open_ranges) {
     result["undecided"].push_back({turn_json(range.low, axis), turn_json(range.high, axis)});
   }
-  if (!scene.messages.empty()) result["messages"] = scene.messages;
   return result;
 }
 

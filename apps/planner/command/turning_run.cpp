@@ -12,6 +12,7 @@
 #include "nef/base/error.h"
 #include "nef/base/stopwatch.h"
 #include "nef/io/file_bytes.h"
+#include "nef/program/run_report.h"
 
 namespace nef::planner {
 namespace {
@@ -48,12 +49,13 @@ void print(const Arguments& a, const TurningAnswer& answer, const Scene& scene, 
 }
 
 int check_proof(const Arguments& a, const Scene& scene) {
+  const Stopwatch watch;
   const TurningProof proof = read_turning_proof(a.check_proof);
   const std::optional<std::string> complaint = complaint_about(proof, scene, question_of(scene));
   if (a.json) {
     nlohmann::json report{{"scene", scene.name}, {"holds", !complaint}, {"cells", proof.cells.size()}};
     if (complaint) report["complaint"] = *complaint;
-    std::cout << report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+    std::cout << report_text(run_report("check_proof", report, {{"op", watch.seconds(), {}}}, scene.messages));
   } else if (!a.quiet) {
     std::cout << (complaint ? "the proof does not hold: " + *complaint
                             : "the proof holds, " + std::to_string(proof.cells.size()) + " cells of angles")
@@ -77,10 +79,10 @@ int run_turning(const Arguments& a, const Scene& scene, const nlohmann::json& wi
   nlohmann::json report = turning_json(answer, scene, question.axis);
   std::vector<double> times;
   if (!answer.path.empty() && a.limits.speed > 0) times = times_along(answer.path, scene, question.axis, a.limits);
-  if (!times.empty()) report["times"] = times;
+  if (!times.empty()) report["times_s"] = times;
   if (!widest.is_null()) report["widest"] = widest;
-  report["phases"] = {{"turning", watch.seconds()}};
-  const std::string text = report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  const std::string text =
+      report_text(run_report("turning", report, {{"op", watch.seconds(), {}}}, scene.messages));
   std::vector<std::string> views;
   if (!a.page.empty()) views.push_back(a.page);
   for (const std::string& file : a.outputs) {

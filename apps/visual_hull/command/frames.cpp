@@ -243,7 +243,7 @@ int make_frames(const Arguments& a) {
       }
       entry = {{"frame", frames[i]}, {"images", nef::utf8(folder.string())}, {"images_state", images}};
       entry.update(made);
-      entry["seconds"] = watch.seconds();
+      entry["total_s"] = watch.seconds();
     }
     const std::lock_guard<std::mutex> lock(telling);
     if (known) ++kept;

@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-#include "nef/program/report.h"
+#include "nef/program/run_report.h"
 #include "nef/program/set_info.h"
 
 namespace visual_hull {
@@ -149,19 +149,8 @@ nlohmann::ordered_json make_report(const Result& result, const nef::Messages& me
   report["box"] = box_json(result.box);
   report["box_found"] = result.box_found;
   report["direct"] = result.direct;
-  nef::PredicateCounts total;
   bool verified = false;
   for (const ViewResult& view : result.views) verified = verified || view.verification.has_value();
-  for (std::size_t i = 0; i < kPhaseCount; ++i) {
-    const PhaseReport& phase = result.phases[i];
-    if (static_cast<Phase>(i) == Phase::kVerify && !verified) continue;
-    report["phases"][phase_name(static_cast<Phase>(i))] = {{"seconds", phase.seconds},
-                                                           {"predicates", nef::predicates_json(phase.predicates)}};
-    total.identity += phase.predicates.identity;
-    total.filter += phase.predicates.filter;
-    total.exact += phase.predicates.exact;
-  }
-  report["predicates"] = nef::predicates_json(total);
   report["result"] = result_json(result.hull, exact_volume);
   if (result.vanished) {
     report["vanished"] = {
@@ -169,9 +158,13 @@ nlohmann::ordered_json make_report(const Result& result, const nef::Messages& me
   }
   add_consistency(report, result);
   if (verified) report["verify"] = verify_json(result);
-  report["peak_memory_bytes"] = nef::peak_memory_bytes();
-  if (!messages.empty()) report["messages"] = messages;
-  return report;
+  std::vector<nef::ReportPhase> phases;
+  for (std::size_t i = 0; i < kPhaseCount; ++i) {
+    const PhaseReport& phase = result.phases[i];
+    if (static_cast<Phase>(i) == Phase::kVerify && !verified) continue;
+    phases.push_back({phase_name(static_cast<Phase>(i)), phase.seconds, phase.predicates});
+  }
+  return nef::run_report("hull", report, phases, messages);
 }
 
 std::string vanished_text(const Result& result) {

@@ -12,10 +12,9 @@
 
 namespace visual_hull {
 
-/// The report of a run as JSON: `views` (contours, holes, vertices, cone facets), `phases` (seconds and
-/// predicates), `result` (the keys of `nef info --json`, and the Euler number of each shell),
-/// `verify` if it was done, `box`, `suspects` (names) and measures in `views` if views were compared, `dropped`,
-/// `predicates`, `peak_memory_bytes`, and `messages` (what an output does not hold) if there are any.
+/// The report of a run (see nef::run_report): `views` (contours, holes, vertices, cone facets), `box`, `result` (the
+/// keys of nef::set_info, `volume_error`), `verify` if it was done, `suspects` (names) and measures in `views` if views
+/// were compared, `dropped`.
 nlohmann::ordered_json make_report(const Result& result, const nef::Messages& messages = {}, bool exact_volume = false);
 
 /// Why there is no hull, as one line.

@@ -55,7 +55,7 @@ Polyhedron apply_steps(const std::vector<BooleanStep>& steps, const std::string&
     Json entry;
     entry["line"] = step.line;
     entry["operator"] = std::string(1, step.symbol);
-    entry["s"] = watch.seconds();
+    entry["op_s"] = watch.seconds();
     entry["tiles"] = sequence.tile_count() == 0 ? Json() : Json(sequence.tile_count());
     report.push_back(std::move(entry));
   }

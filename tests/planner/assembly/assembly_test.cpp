@@ -12,6 +12,7 @@
 #include "apps/planner/assembly/disassembly.h"
 #include "apps/planner/assembly/free_directions.h"
 #include "tests/planner/command_helpers.h"
+#include "tests/support/report_shape.h"
 
 namespace nef::planner::test {
 namespace {
@@ -258,6 +259,7 @@ TEST_CASE("planner --assembly: reports, exit codes, pages") {
                                       " -o " + folder.file("p.glb"));
   CHECK(pin.code == 0);
   const nlohmann::json report = nlohmann::json::parse(pin.out);
+  nef::test::check_report_shape(report, "assembly");
   CHECK(report["status"] == "sequence");
   REQUIRE(report["steps"].size() == 2);
   CHECK(report["steps"][0]["parts"] == nlohmann::json{"pin"});

@@ -9,6 +9,7 @@
 #include "nef/program/exact_json.h"
 #include "tests/planner/command_helpers.h"
 #include "tests/planner/scene_helpers.h"
+#include "tests/support/report_shape.h"
 
 namespace nef::planner::test {
 namespace {
@@ -93,6 +94,7 @@ TEST_CASE("many questions about one scene") {
     {"start": [0,0,0], "goal": [4,4,4]}, {"start": [20,0,0], "goal": [0,0,0]}])J");
   const Run report = planner(folder, scene + " --json --queries " + list);
   CHECK(report.code == 3);
+  nef::test::check_report_shape(nlohmann::json::parse(report.out), "queries");
   const nlohmann::json answers = nlohmann::json::parse(report.out)["queries"];
   REQUIRE(answers.size() == 3);
   CHECK(answers[0]["status"] == "path");

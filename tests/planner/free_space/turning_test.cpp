@@ -21,6 +21,7 @@
 #include "nef/program/exact_json.h"
 #include "nef/view/glb.h"
 #include "tests/planner/command_helpers.h"
+#include "tests/support/report_shape.h"
 
 namespace nef::planner::test {
 namespace {
@@ -407,6 +408,7 @@ TEST_CASE("turning on the command line") {
   CHECK(run.code == 0);
   const nlohmann::json report = nlohmann::json::parse(run.out);
   CHECK(report["status"] == "path");
+  nef::test::check_report_shape(report, "turning");
   CHECK(report["path"].front()["turn"]["degrees"] == 0.0);
   CHECK(report["path"].back()["turn"]["quarters"] == 1);
   CHECK(report["path"].back()["position"][1] == "12");

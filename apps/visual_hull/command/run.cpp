@@ -145,7 +145,7 @@ int run(const Arguments& a) {
   visual_hull::timed(result.phases, Phase::kWrite, [&] { messages = write_files(a, result, bar); });
   if (!a.report.empty() || a.json) {
     bar.show("write report");
-    const std::string text = visual_hull::make_report(result, messages, a.exact_volume).dump(2) + "\n";
+    const std::string text = nef::report_text(visual_hull::make_report(result, messages, a.exact_volume));
     bar.clear();
     if (!a.report.empty()) write_text(a.report, text);
     if (a.json && a.report != "-") write_text("-", text);

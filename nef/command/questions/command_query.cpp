@@ -41,10 +41,9 @@ void add_locate(CLI::App& app, Session& session) {
       session.say(point_text(point) + ": " + location_text(location));
     }
     if (session.json) {
-      session.print({{"load_s", session.load_s},
-                     {"build_s", build_s},
-                     {"locate_s", watch.seconds()},
-                     {"points", std::move(results)}});
+      session.spent("build", build_s);
+      session.spent("op", watch.seconds());
+      session.print("locate", {{"points", std::move(results)}});
     }
   });
 }
@@ -60,9 +59,11 @@ void add_ray(CLI::App& app, Session& session) {
     const Rational3 origin = parse_triple((*ray)[0], "origin");
     const Rational3 direction = parse_triple((*ray)[1], "direction");
     const Polyhedron set = session.load(session.input);
+    const Stopwatch watch;
     const std::optional<RayHit> hit = shoot_ray(set, origin, direction);
     if (session.json) {
-      session.print({{"load_s", session.load_s}, {"hit", hit ? location_json(hit->point, hit->location) : Json()}});
+      session.spent("op", watch.seconds());
+      session.print("ray", {{"hit", hit ? location_json(hit->point, hit->location) : Json()}});
     } else {
       session.say(hit ? point_text(hit->point) + ": " + location_text(hit->location) : "nothing");
     }

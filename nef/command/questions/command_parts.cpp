@@ -52,13 +52,14 @@ void add_section(CLI::App& app, Session& session) {
     const double section_s = watch.seconds();
     if (!session.output.empty()) write_section(session, cut, normal);
     if (session.json) {
-      Json object{{"command", "section"}, {"load_s", session.load_s}, {"op_s", section_s}};
+      session.spent("op", section_s);
+      Json object;
       object["polygons"] = cut.polygons.size();
       object["segments"] = cut.segments.size();
       object["points"] = cut.points.size();
       object["unbounded"] = cut.unbounded;
       object["area"] = section_area(cut);
-      return session.print(std::move(object));
+      return session.print("section", object);
     }
     session.say(std::to_string(cut.polygons.size()) + " polygons, " + std::to_string(cut.segments.size()) +
                 " segments, " + std::to_string(cut.points.size()) + " points; area " + Json(section_area(cut)).dump());
@@ -96,11 +97,8 @@ void add_split(CLI::App& app, Session& session) {
       session.say(session.output + ": " + summary(parts[i]));
     }
     if (session.json) {
-      session.print({{"command", "split"},
-                     {"load_s", session.load_s},
-                     {"op_s", split_s},
-                     {"write_s", session.write_s},
-                     {"files", std::move(files)}});
+      session.spent("op", split_s);
+      session.print("split", {{"files", std::move(files)}});
     }
   });
 }
@@ -117,14 +115,13 @@ void add_distance(CLI::App& app, Session& session) {
     const std::optional<Distance> found = distance(a, b);
     if (!found) throw InputError("one of the sets is empty: there is no distance");
     if (session.json) {
-      return session.print({{"load_s", session.load_s},
-                            {"op_s", watch.seconds()},
-                            {"contact", contact_name(found->contact)},
-                            {"common_point", found->common_point},
-                            {"squared", to_string(found->squared)},
-                            {"distance", found->value()},
-                            {"on_a", point_json(found->on_a)},
-                            {"on_b", point_json(found->on_b)}});
+      session.spent("op", watch.seconds());
+      return session.print("distance", {{"contact", contact_name(found->contact)},
+                                        {"common_point", found->common_point},
+                                        {"squared", to_string(found->squared)},
+                                        {"distance", found->value()},
+                                        {"on_a", point_json(found->on_a)},
+                                        {"on_b", point_json(found->on_b)}});
     }
     session.say(std::string(contact_name(found->contact)) +
                 (found->contact == Contact::kTouching && !found->common_point ? ", without a common point" : ""));

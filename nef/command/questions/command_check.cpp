@@ -84,7 +84,7 @@ void add_check_command(CLI::App& app, Session& session) {
     }
     session.exit_code = good ? kYes : kNo;
     if (session.json) {
-      session.print({{"ok", good}, {"problems", problems}});
+      session.print("check", {{"ok", good}, {"problems", problems}});
     } else if (problems.empty()) {
       session.say("no problems");
     }

@@ -29,12 +29,10 @@ void add_decimate_command(CLI::App& app, Session& session) {
     session.say(std::to_string(decimated.mesh.face_count()) + " triangles; Hausdorff distance " + Json(low).dump() +
                 " to " + Json(high).dump());
     if (!session.json) return;
-    session.print({{"command", "decimate"},
-                   {"load_s", session.load_s},
-                   {"op_s", seconds},
-                   {"triangles", decimated.mesh.face_count()},
-                   {"vertices", decimated.mesh.vertices.size()},
-                   {"distance", {{"low", low}, {"high", high}}}});
+    session.spent("op", seconds);
+    session.print("decimate", {{"triangles", decimated.mesh.face_count()},
+                               {"vertices", decimated.mesh.vertices.size()},
+                               {"distance", {{"low", low}, {"high", high}}}});
   });
 }
 

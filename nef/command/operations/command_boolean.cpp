@@ -53,13 +53,8 @@ void finish_with_origins(Session& session, const Operation& operation, const std
   const std::map<std::string, std::size_t> faces = session.store_groups(labeled.polyhedron(), groups);
   const Polyhedron result = labeled.where(holds);
   if (session.json) {
-    session.print({{"command", operation.name},
-                   {"load_s", session.load_s},
-                   {"op_s", seconds},
-                   {"write_s", session.write_s},
-                   {"origins", faces},
-                   {"result", info_json(result)}});
-    return;
+    session.spent("op", seconds);
+    return session.print(operation.name, {{"origins", faces}, {"result", info_json(result)}});
   }
   session.say(summary(result));
   for (const auto& [name, count] : faces) {

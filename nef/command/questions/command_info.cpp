@@ -37,7 +37,7 @@ void add_info(CLI::App& app, Session& session) {
       "solid parts. genus: of each shell that is a closed manifold surface.");
   command->callback([&session] {
     Json info = set_info(session.load(session.input), {.exact = session.exact, .moments = true});
-    if (session.json) return session.print(std::move(info));
+    if (session.json) return session.print("info", {{"result", std::move(info)}});
     info["volume"] = volume_text(info);
     print_info(session, info);
   });
@@ -52,12 +52,7 @@ void add_convert(CLI::App& app, Session& session) {
     const Polyhedron set = session.load(session.input);
     session.store(set);
     if (!session.json) return session.say(summary(set));
-    Json object;
-    object["command"] = "convert";
-    object["load_s"] = session.load_s;
-    object["write_s"] = session.write_s;
-    object["result"] = info_json(set);
-    session.print(std::move(object));
+    session.print("convert", {{"result", info_json(set)}});
   });
 }
 
@@ -71,7 +66,7 @@ void add_equal(CLI::App& app, Session& session) {
     const bool same = equal(a, b);
     session.exit_code = same ? kYes : kNo;
     if (session.json) {
-      session.print({{"equal", same}});
+      session.print("equal", {{"equal", same}});
     } else {
       session.say(same ? "equal" : "different");
     }

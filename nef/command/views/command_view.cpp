@@ -29,15 +29,12 @@ std::vector<view::Layer> load_layers(Session& session, view::SceneOptions option
   return layers;
 }
 
-void report(Session& session, double view_s, const std::vector<view::Layer>& layers) {
+void report(Session& session, const std::string& command, double view_s, const std::vector<view::Layer>& layers) {
   if (!session.json) return;
   std::size_t triangles = 0;
   for (const view::Layer& layer : layers) triangles += layer.scene.triangles.size();
-  session.print({{"load_s", session.load_s},
-                 {"view_s", view_s},
-                 {"output", session.output},
-                 {"layers", layers.size()},
-                 {"triangles", triangles}});
+  session.spent("view", view_s);
+  session.print(command, {{"output", session.output}, {"layers", layers.size()}, {"triangles", triangles}});
 }
 
 CLI::Option* add_view_output(CLI::App* command, Session& session, const std::string& description) {
@@ -64,7 +61,7 @@ void add_view(CLI::App& app, Session& session) {
       view::write_page(layers, session.output, options);
     }
     session.say("wrote " + session.output);
-    report(session, watch.seconds(), layers);
+    report(session, "view", watch.seconds(), layers);
   });
 }
 
@@ -125,7 +122,7 @@ void add_picture(CLI::App& app, Session& session) {
     const Stopwatch watch;
     view::write_picture(layers, session.output, picture);
     session.say("wrote " + session.output);
-    report(session, watch.seconds(), layers);
+    report(session, "picture", watch.seconds(), layers);
   });
 }
 

@@ -26,9 +26,9 @@ void add_repair_command(CLI::App& app, Session& session) {
                                          : "the mesh bounds no solid still: " + repaired.problem);
     session.exit_code = repaired.problem.empty() ? kYes : kNo;
     if (session.json) {
-      session.print({{"ok", repaired.problem.empty()},
-                     {"done", repaired.done},
-                     {"problem", repaired.problem.empty() ? Json(nullptr) : Json(repaired.problem)}});
+      session.print("repair", {{"ok", repaired.problem.empty()},
+                               {"done", repaired.done},
+                               {"problem", repaired.problem.empty() ? Json(nullptr) : Json(repaired.problem)}});
     }
   });
 }

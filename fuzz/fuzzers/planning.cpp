@@ -159,7 +159,7 @@ class Positions {
   int count_ = 0;
 };
 
-std::string show(const Rational3& p) {
+std::string tuple_text(const Rational3& p) {
   return "(" + to_string(p[0]) + "," + to_string(p[1]) + "," + to_string(p[2]) + ")";
 }
 
@@ -227,11 +227,11 @@ class PlanningCase {
         for (int z = low_; z <= high_; ++z) {
           const GridCell c{x, y, z};
           const planner::CellId cell = free.locate(planner::ExactPoint(point_of(c)));
-          Case::require(free.is_free(cell) == truth.is_free(c),
-                        "free: position " + show(point_of(c)) + ", want " + (truth.is_free(c) ? "free" : "taken"));
+          Case::require(free.is_free(cell) == truth.is_free(c), "free: position " + tuple_text(point_of(c)) +
+                                                                    ", want " + (truth.is_free(c) ? "free" : "taken"));
           if (!truth.is_free(c)) continue;
           const auto [at, added] = same.try_emplace(truth.component(c), free.component(cell));
-          Case::require(at->second == free.component(cell), "components: of position " + show(point_of(c)));
+          Case::require(at->second == free.component(cell), "components: of position " + tuple_text(point_of(c)));
         }
       }
     }
@@ -252,7 +252,7 @@ class PlanningCase {
     const planner::Answer answer = problem.solve(point_of(start), point_of(goal), options);
     const bool reachable = truth.component(start) == truth.component(goal);
     Case::require((answer.status == planner::Answer::Status::kPath) == reachable,
-                  "reachable: from " + show(point_of(start)) + " to " + show(point_of(goal)) + ", want " +
+                  "reachable: from " + tuple_text(point_of(start)) + " to " + tuple_text(point_of(goal)) + ", want " +
                       (reachable ? "a path" : "none"));
     case_.count(reachable ? "paths" : "proofs");
     if (!answer.path) return;
@@ -260,7 +260,8 @@ class PlanningCase {
     Case::require(points.front() == point_of(start) && points.back() == point_of(goal), "path: wrong ends");
     for (std::size_t i = 0; i + 1 < points.size(); ++i) {
       const std::optional<GridCell> met = truth.first_met(points[i], points[i + 1]);
-      Case::require(!met, "path: from " + show(points[i]) + " to " + show(points[i + 1]) + " meets something");
+      Case::require(!met,
+                    "path: from " + tuple_text(points[i]) + " to " + tuple_text(points[i + 1]) + " meets something");
     }
   }
 

@@ -174,7 +174,7 @@ int place(const std::vector<TestView>& views, int half, const Rational3& p) {
   return result;
 }
 
-std::string show(const Rational3& p) {
+std::string point_term(const Rational3& p) {
   return "point(" + to_string(p[0]) + "," + to_string(p[1]) + "," + to_string(p[2]) + ")";
 }
 
@@ -196,10 +196,10 @@ void check_points(const Case& the_case, const std::vector<TestView>& views, int 
         for (Rational& value : p) value.canonicalize();
         const int where = place(views, half, p);
         if (result.vanished) {
-          Case::require(where < 1, "vanished: but " + show(p) + " is inside for all cameras");
+          Case::require(where < 1, "vanished: but " + point_term(p) + " is inside for all cameras");
         } else {
           Case::require(contains(result.hull, p) == (where >= 0),
-                        "membership: of " + show(p) + ", want " + (where >= 0 ? "inside" : "outside"));
+                        "membership: of " + point_term(p) + ", want " + (where >= 0 ? "inside" : "outside"));
         }
       }
     }

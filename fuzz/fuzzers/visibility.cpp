@@ -18,12 +18,12 @@ namespace {
 using Planar = std::array<Rational, 2>;
 using Polygon = std::vector<Planar>;
 
-int turn(const Planar& a, const Planar& b, const Planar& c) {
+int turn_of(const Planar& a, const Planar& b, const Planar& c) {
   return sgn(Rational((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])));
 }
 
 // Gift wrapping, counterclockwise; empty if the points are collinear.
-Polygon hull_of(const Polygon& points) {
+Polygon convex_polygon_of(const Polygon& points) {
   const Planar first = *std::min_element(points.begin(), points.end());
   Polygon hull;
   Planar at = first;
@@ -33,7 +33,7 @@ Polygon hull_of(const Polygon& points) {
     for (const Planar& p : points) {
       if (p == at) continue;
       const auto reach = [&](const Planar& q) { return Rational(abs(q[0] - at[0]) + abs(q[1] - at[1])); };
-      const int side = next == at ? -1 : turn(at, next, p);
+      const int side = next == at ? -1 : turn_of(at, next, p);
       if (side < 0 || (side == 0 && reach(p) > reach(next))) next = p;
     }
     at = next;
@@ -106,7 +106,7 @@ Planar random_planar(Choices& choices, int low, int high) {
 Polygon random_polygon(Choices& choices, int low, int high) {
   Polygon points;
   for (std::uint32_t i = 3 + choices.below(4); i > 0; --i) points.push_back(random_planar(choices, low, high));
-  const Polygon hull = hull_of(points);
+  const Polygon hull = convex_polygon_of(points);
   if (!hull.empty()) return hull;
   const Planar p = points.front();
   return {p, {p[0] + 1, p[1]}, {p[0], p[1] + 1}};
@@ -151,7 +151,7 @@ void fuzz_visibility(const Case& the_case) {
     for (const Planar& p : obstacle) {
       for (const Planar& q : robot) sums.push_back({p[0] - q[0], p[1] - q[1]});
     }
-    taken.push_back(hull_of(sums));
+    taken.push_back(convex_polygon_of(sums));
   }
   if (!turned) scene.box = {Rational3{-kHalf, -kHalf, 0}, Rational3{kHalf, kHalf, 1}};
   const planner::Problem problem(scene);
@@ -162,7 +162,7 @@ void fuzz_visibility(const Case& the_case) {
     const auto is_taken = [&](const Planar& p) {
       return std::any_of(taken.begin(), taken.end(), [&](const Polygon& polygon) {
         for (std::size_t k = 0; k < polygon.size(); ++k) {
-          if (turn(polygon[k], polygon[(k + 1) % polygon.size()], p) <= 0) return false;
+          if (turn_of(polygon[k], polygon[(k + 1) % polygon.size()], p) <= 0) return false;
         }
         return true;
       });

@@ -4,15 +4,10 @@
 #include "nef/number/simplest_between.h"
 
 #include "nef/base/error.h"
+#include "nef/number/floor.h"
 
 namespace nef {
 namespace {
-
-Integer floor_of(const Rational& x) {
-  Integer result;
-  mpz_fdiv_q(result.get_mpz_t(), x.get_num_mpz_t(), x.get_den_mpz_t());
-  return result;
-}
 
 // 0 < low <= high
 Rational simplest_positive(const Rational& low, const Rational& high) {

@@ -10,16 +10,11 @@
 #include <algorithm>
 
 #include "nef/base/error.h"
+#include "nef/number/floor.h"
 #include "nef/number/simplest_between.h"
 
 namespace nef {
 namespace {
-
-Integer floor_of(const Rational& x) {
-  Integer result;
-  mpz_fdiv_q(result.get_mpz_t(), x.get_num_mpz_t(), x.get_den_mpz_t());
-  return result;
-}
 
 // Fixed-point numbers: integers that stand for value * 2^-bits.
 class FixedPoint {

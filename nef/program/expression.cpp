@@ -9,9 +9,9 @@
 namespace nef {
 namespace {
 
-class Evaluator {
+class ExpressionEvaluator {
  public:
-  Evaluator(std::string_view text, const ExpressionOptions& options) : text_(text), options_(options) {}
+  ExpressionEvaluator(std::string_view text, const ExpressionOptions& options) : text_(text), options_(options) {}
 
   Polyhedron operator()(const SyntaxNode& node) {
     if (node.term == Term::kVariable) return variables_[node.variable];
@@ -155,7 +155,7 @@ class Evaluator {
 }  // namespace
 
 Polyhedron evaluate_expression(std::string_view text, const ExpressionOptions& options) {
-  return Evaluator(text, options)(parse_expression(text));
+  return ExpressionEvaluator(text, options)(parse_expression(text));
 }
 
 Polyhedron convex_hull_of_sets(std::span<const Polyhedron> sets) {

@@ -21,9 +21,9 @@ struct Shape {
 
 using Point2 = std::array<Rational, 2>;
 
-class Evaluator {
+class ModelEvaluator {
  public:
-  explicit Evaluator(const ExpressionOptions& options) : options_(options) {}
+  explicit ModelEvaluator(const ExpressionOptions& options) : options_(options) {}
 
   Shape operator()(const OpenScadNode& node) const {
     Shape shape = [&] {
@@ -415,7 +415,7 @@ class Evaluator {
 }  // namespace
 
 Polyhedron evaluate_openscad(std::string_view text, const ExpressionOptions& options) {
-  const Shape shape = Evaluator(options)(parse_openscad(text));
+  const Shape shape = ModelEvaluator(options)(parse_openscad(text));
   return shape.dimension == 2 ? intersect(shape.set, make_halfspace(0, 0, 1, 0)) : shape.set;
 }
 

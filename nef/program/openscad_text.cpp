@@ -10,13 +10,13 @@
 namespace nef {
 namespace {
 
-constexpr std::size_t kMaxDepth = 1000;
+constexpr std::size_t kDeepestFile = 1000;
 
 bool is_name_character(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '$'; }
 
-class Parser {
+class ModelParser {
  public:
-  explicit Parser(std::string_view text) : text_(text) {}
+  explicit ModelParser(std::string_view text) : text_(text) {}
 
   OpenScadNode parse() {
     OpenScadNode root;
@@ -70,7 +70,7 @@ class Parser {
   }
 
   void statement(std::vector<OpenScadNode>& siblings) {
-    if (++depth_ > kMaxDepth) fail("the file is nested too deeply");
+    if (++depth_ > kDeepestFile) fail("the file is nested too deeply");
     bool counts = true;
     for (;;) {
       if (take('%') || take('*')) {
@@ -115,7 +115,7 @@ class Parser {
   }
 
   OpenScadValue value() {
-    if (++depth_ > kMaxDepth) fail("a list is nested too deeply");
+    if (++depth_ > kDeepestFile) fail("a list is nested too deeply");
     OpenScadValue result;
     const char c = peek();
     if (take('[')) {
@@ -189,6 +189,6 @@ const OpenScadValue* OpenScadNode::find(std::string_view argument, std::size_t p
   return found == nullptr || std::holds_alternative<std::monostate>(found->is) ? nullptr : found;
 }
 
-OpenScadNode parse_openscad(std::string_view text) { return Parser(text).parse(); }
+OpenScadNode parse_openscad(std::string_view text) { return ModelParser(text).parse(); }
 
 }  // namespace nef

@@ -14,54 +14,55 @@ namespace nef {
 namespace {
 
 // How the arguments of a function look.
-enum class Shape : std::uint8_t { kBare, kPath, kNumbers, kPoints, kRings, kSets, kSetAndNumbers, kRotation };
+enum class ArgumentShape : std::uint8_t { kBare, kPath, kNumbers, kPoints, kRings, kSets, kSetAndNumbers, kRotation };
 
 struct Function {
   std::string_view name;
   Term term;
-  Shape shape;
+  ArgumentShape shape;
   std::size_t least = 0;  // numbers or sets
   std::size_t most = 0;
   std::string_view usage;
 };
 
 constexpr std::size_t kMany = static_cast<std::size_t>(-1);
-constexpr std::size_t kMaxDepth = 2000;
+constexpr std::size_t kDeepestExpression = 2000;
 
 constexpr std::array kFunctions{
-    Function{"nothing", Term::kNothing, Shape::kBare, 0, 0, "nothing"},
-    Function{"everything", Term::kEverything, Shape::kBare, 0, 0, "everything"},
-    Function{"file", Term::kFile, Shape::kPath, 0, 0, "file(\"path\")"},
-    Function{"box", Term::kBox, Shape::kNumbers, 6, 6, "box(x0,y0,z0, x1,y1,z1)"},
-    Function{"halfspace", Term::kHalfspace, Shape::kNumbers, 4, 4, "halfspace(a,b,c,d)"},
-    Function{"point", Term::kPoint, Shape::kPoints, 1, 1, "point(x,y,z)"},
-    Function{"segment", Term::kSegment, Shape::kPoints, 2, 2, "segment(x0,y0,z0, x1,y1,z1)"},
-    Function{"hull", Term::kHull, Shape::kPoints, 0, kMany, "hull(x,y,z, x,y,z, ...) or hull(A, B, ...)"},
-    Function{"sphere", Term::kSphere, Shape::kNumbers, 1, 2, "sphere(r[, corners])"},
-    Function{"cylinder", Term::kCylinder, Shape::kNumbers, 2, 4, "cylinder(h, r) or cylinder(h, r0, r1[, corners])"},
-    Function{"minkowski", Term::kMinkowski, Shape::kSets, 2, 2, "minkowski(A, B)"},
-    Function{"polygon", Term::kPolygon, Shape::kRings, 3, kMany, "polygon(x,y,z, x,y,z, x,y,z, ...)"},
-    Function{"union", Term::kUnion, Shape::kSets, 0, kMany, "union(A, B, ...)"},
-    Function{"intersection", Term::kIntersection, Shape::kSets, 0, kMany, "intersection(A, B, ...)"},
-    Function{"difference", Term::kDifference, Shape::kSets, 2, 2, "difference(A, B)"},
-    Function{"symdiff", Term::kSymmetricDifference, Shape::kSets, 2, 2, "symdiff(A, B)"},
-    Function{"complement", Term::kComplement, Shape::kSets, 1, 1, "complement(A)"},
-    Function{"interior", Term::kInterior, Shape::kSets, 1, 1, "interior(A)"},
-    Function{"closure", Term::kClosure, Shape::kSets, 1, 1, "closure(A)"},
-    Function{"boundary", Term::kBoundary, Shape::kSets, 1, 1, "boundary(A)"},
-    Function{"exterior", Term::kExterior, Shape::kSets, 1, 1, "exterior(A)"},
-    Function{"regularize", Term::kRegularize, Shape::kSets, 1, 1, "regularize(A)"},
-    Function{"translate", Term::kTranslate, Shape::kSetAndNumbers, 3, 3, "translate(A, x,y,z)"},
-    Function{"scale", Term::kScale, Shape::kSetAndNumbers, 1, 3, "scale(A, s) or scale(A, sx,sy,sz)"},
-    Function{"rotate", Term::kRotate, Shape::kRotation, 4, 5, "rotate(A, axis, degrees[, tolerance])"},
-    Function{"transform", Term::kTransform, Shape::kSetAndNumbers, 12, 16, "transform(A, 12 or 16 numbers)"},
+    Function{"nothing", Term::kNothing, ArgumentShape::kBare, 0, 0, "nothing"},
+    Function{"everything", Term::kEverything, ArgumentShape::kBare, 0, 0, "everything"},
+    Function{"file", Term::kFile, ArgumentShape::kPath, 0, 0, "file(\"path\")"},
+    Function{"box", Term::kBox, ArgumentShape::kNumbers, 6, 6, "box(x0,y0,z0, x1,y1,z1)"},
+    Function{"halfspace", Term::kHalfspace, ArgumentShape::kNumbers, 4, 4, "halfspace(a,b,c,d)"},
+    Function{"point", Term::kPoint, ArgumentShape::kPoints, 1, 1, "point(x,y,z)"},
+    Function{"segment", Term::kSegment, ArgumentShape::kPoints, 2, 2, "segment(x0,y0,z0, x1,y1,z1)"},
+    Function{"hull", Term::kHull, ArgumentShape::kPoints, 0, kMany, "hull(x,y,z, x,y,z, ...) or hull(A, B, ...)"},
+    Function{"sphere", Term::kSphere, ArgumentShape::kNumbers, 1, 2, "sphere(r[, corners])"},
+    Function{"cylinder", Term::kCylinder, ArgumentShape::kNumbers, 2, 4,
+             "cylinder(h, r) or cylinder(h, r0, r1[, corners])"},
+    Function{"minkowski", Term::kMinkowski, ArgumentShape::kSets, 2, 2, "minkowski(A, B)"},
+    Function{"polygon", Term::kPolygon, ArgumentShape::kRings, 3, kMany, "polygon(x,y,z, x,y,z, x,y,z, ...)"},
+    Function{"union", Term::kUnion, ArgumentShape::kSets, 0, kMany, "union(A, B, ...)"},
+    Function{"intersection", Term::kIntersection, ArgumentShape::kSets, 0, kMany, "intersection(A, B, ...)"},
+    Function{"difference", Term::kDifference, ArgumentShape::kSets, 2, 2, "difference(A, B)"},
+    Function{"symdiff", Term::kSymmetricDifference, ArgumentShape::kSets, 2, 2, "symdiff(A, B)"},
+    Function{"complement", Term::kComplement, ArgumentShape::kSets, 1, 1, "complement(A)"},
+    Function{"interior", Term::kInterior, ArgumentShape::kSets, 1, 1, "interior(A)"},
+    Function{"closure", Term::kClosure, ArgumentShape::kSets, 1, 1, "closure(A)"},
+    Function{"boundary", Term::kBoundary, ArgumentShape::kSets, 1, 1, "boundary(A)"},
+    Function{"exterior", Term::kExterior, ArgumentShape::kSets, 1, 1, "exterior(A)"},
+    Function{"regularize", Term::kRegularize, ArgumentShape::kSets, 1, 1, "regularize(A)"},
+    Function{"translate", Term::kTranslate, ArgumentShape::kSetAndNumbers, 3, 3, "translate(A, x,y,z)"},
+    Function{"scale", Term::kScale, ArgumentShape::kSetAndNumbers, 1, 3, "scale(A, s) or scale(A, sx,sy,sz)"},
+    Function{"rotate", Term::kRotate, ArgumentShape::kRotation, 4, 5, "rotate(A, axis, degrees[, tolerance])"},
+    Function{"transform", Term::kTransform, ArgumentShape::kSetAndNumbers, 12, 16, "transform(A, 12 or 16 numbers)"},
 };
 
 bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
-class Parser {
+class ExpressionParser {
  public:
-  explicit Parser(std::string_view text) : text_(text) {}
+  explicit ExpressionParser(std::string_view text) : text_(text) {}
 
   SyntaxNode parse() {
     SyntaxNode block;
@@ -227,7 +228,7 @@ class Parser {
   }
 
   SyntaxNode factor() {
-    if (++depth_ > kMaxDepth) fail("the expression is nested too deeply");
+    if (++depth_ > kDeepestExpression) fail("the expression is nested too deeply");
     const char c = peek();
     const std::size_t offset = at_;
     SyntaxNode node;
@@ -265,7 +266,7 @@ class Parser {
     SyntaxNode node;
     node.term = function->term;
     node.offset = offset;
-    if (function->shape == Shape::kBare) return node;
+    if (function->shape == ArgumentShape::kBare) return node;
     expect('(', function->usage);
     arguments(*function, node);
     if (peek() == ',') fail("too many arguments; usage: " + std::string(function->usage));
@@ -275,15 +276,15 @@ class Parser {
 
   void arguments(const Function& function, SyntaxNode& node) {
     switch (function.shape) {
-      case Shape::kBare:
+      case ArgumentShape::kBare:
         break;
-      case Shape::kPath:
+      case ArgumentShape::kPath:
         node.path = in_quotes(function);
         break;
-      case Shape::kNumbers:
+      case ArgumentShape::kNumbers:
         numbers(function, node);
         break;
-      case Shape::kPoints:
+      case ArgumentShape::kPoints:
         if (function.term == Term::kHull && begins_set()) {
           node.term = Term::kHullOfSets;
           do node.sets.push_back(sum());
@@ -292,19 +293,19 @@ class Parser {
         }
         node.rings.push_back(points(function));
         break;
-      case Shape::kRings:
+      case ArgumentShape::kRings:
         do node.rings.push_back(points(function));
         while (take(';'));
         break;
-      case Shape::kSets:
+      case ArgumentShape::kSets:
         sets(function, node);
         break;
-      case Shape::kSetAndNumbers:
+      case ArgumentShape::kSetAndNumbers:
         node.sets.push_back(sum());
         expect(',', function.usage);
         numbers(function, node);
         break;
-      case Shape::kRotation:
+      case ArgumentShape::kRotation:
         node.sets.push_back(sum());
         expect(',', function.usage);
         rotation(function, node);
@@ -370,7 +371,7 @@ class Parser {
   }
 
   Rational number_factor(std::string_view usage) {
-    if (++depth_ > kMaxDepth) fail("the expression is nested too deeply");
+    if (++depth_ > kDeepestExpression) fail("the expression is nested too deeply");
     Rational value;
     if (take('(')) {
       value = number(usage);
@@ -492,7 +493,7 @@ class Parser {
 
 }  // namespace
 
-SyntaxNode parse_expression(std::string_view text) { return Parser(text).parse(); }
+SyntaxNode parse_expression(std::string_view text) { return ExpressionParser(text).parse(); }
 
 std::string place_in_text(std::string_view text, std::size_t offset) {
   const std::string_view before = text.substr(0, offset);

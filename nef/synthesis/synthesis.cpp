@@ -3,23 +3,13 @@
 
 #include "nef/base/interruption.h"
 #include "nef/base/progress.h"
+#include "nef/complex/owners.h"
 #include "nef/synthesis/edge_linking.h"
 #include "nef/synthesis/facet_linking.h"
 #include "nef/synthesis/volume_linking.h"
 
 namespace nef {
 namespace {
-
-void name_owners(Complex& c) {
-  c.svertex_owner.resize(c.svertices.size());
-  c.shalfedge_owner.assign(c.shalfedges.size(), 0);
-  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
-    const VertexRecord& first = c.vertices[v];
-    const VertexRecord& last = c.vertices[v + 1];
-    for (std::uint32_t i = first.svertices; i < last.svertices; ++i) c.svertex_owner[i] = v;
-    for (std::uint32_t i = first.shalfedges; i < last.shalfedges; i += 2) c.shalfedge_owner.set(i, v);
-  }
-}
 
 LabelId count_labels(const Complex& c, LabelId outer) {
   LabelId largest = 1;
@@ -45,7 +35,8 @@ void begin(std::size_t step) {
 
 void synthesize(Complex& complex, LabelId outer) {
   complex.label_count = count_labels(complex, outer);
-  name_owners(complex);
+  name_svertex_owners(complex);
+  name_shalfedge_owners(complex);
   begin(1);
   link_edges(complex);
   begin(2);
@@ -57,7 +48,8 @@ void synthesize(Complex& complex, LabelId outer) {
 
 void synthesize(Complex& complex, LabelId outer, KnownLinks&& known) {
   complex.label_count = count_labels(complex, outer);
-  name_owners(complex);
+  name_svertex_owners(complex);
+  name_shalfedge_owners(complex);
   begin(1);
   link_edges(complex, known);
   begin(2);

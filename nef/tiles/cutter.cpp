@@ -8,6 +8,7 @@
 #include "nef/base/interruption.h"
 #include "nef/base/parallel.h"
 #include "nef/complex/local_pyramid.h"
+#include "nef/complex/owners.h"
 #include "nef/synthesis/complex_builder.h"
 #include "nef/synthesis/edge_linking.h"
 #include "nef/tiles/halving_plane.h"
@@ -18,14 +19,6 @@ namespace {
 // Of the two sides of a plane.
 template <typename T>
 using Sides = std::array<T, 2>;
-
-void name_owners(Complex& c) {
-  c.svertex_owner.resize(c.svertices.size());
-  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
-    std::fill(c.svertex_owner.begin() + c.vertices[v].svertices, c.svertex_owner.begin() + c.vertices[v + 1].svertices,
-              v);
-  }
-}
 
 // The planes that a loose complex uses, in the order of the table, and renames them in it. `row`: scratch, kept between
 // calls for one table.
@@ -116,7 +109,7 @@ class Cutter::Halves {
   // The ends of edges between copies are known.
   Complex finish(std::size_t x) {
     Complex half = builder_[x].take_so_far();
-    name_owners(half);
+    name_svertex_owners(half);
     const int side = x == 0 ? -1 : 1;
     KnownLinks known;
     known.twin.reserve(half.svertices.size());
@@ -182,7 +175,7 @@ Complex Cutter::loose(const Complex& complex) {
     for (const std::uint32_t h : corners.twin) twin.push_back(h + shift);
   }
   Complex result = builder.take_so_far();
-  name_owners(result);
+  name_svertex_owners(result);
   result.twin = std::move(twin);
   return result;
 }

@@ -111,7 +111,7 @@ Rational doubled_area(const std::vector<const Rational3*>& polygon, std::size_t 
   return area;
 }
 
-void check_nesting(const Complex& c) {
+void check_cycle_nesting(const Complex& c) {
   const std::vector<Rational3> points = concrete_points(c);
   for (const FacetId f : c.facets.ids()) {
     const Facet& facet = c.facets[f];
@@ -161,7 +161,7 @@ void check_facets(const Complex& complex) {
   check_facet_ranges(complex);
   check_cycles(complex);
   check_isolated_vertices(complex);
-  check_nesting(complex);
+  check_cycle_nesting(complex);
 }
 
 }  // namespace nef::detail

@@ -219,7 +219,7 @@ VolumeId volume_around(const Complex& c, const Targets& targets, ShellId s) {
   break_invariant(Defect::Kind::kStructure, "some direction leads into an sface", {{"sface", sface}});
 }
 
-void check_nesting(const Complex& c) {
+void check_shell_nesting(const Complex& c) {
   const Targets targets = targets_of(c);
   for (const VolumeId i : c.volumes.ids()) {
     for (const ShellId s : c.volumes[i].shells()) {
@@ -235,7 +235,7 @@ void check_volumes(const Complex& complex) {
   check_partition(complex);
   check_connection(complex);
   check_outer_shells(complex);
-  check_nesting(complex);
+  check_shell_nesting(complex);
 }
 
 }  // namespace nef::detail

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nef/number/floor.h"
 #include "nef/query/predicates_of_sets.h"
 #include "nef/view/scene.h"
 
@@ -54,12 +55,7 @@ Rational round_up(const Rational& value) {
 }
 
 // The nearest multiples of `unit` outside.
-Rational floor_to(const Rational& value, const Rational& unit) {
-  const Rational ratio = value / unit;
-  Integer quotient;
-  mpz_fdiv_q(quotient.get_mpz_t(), ratio.get_num_mpz_t(), ratio.get_den_mpz_t());
-  return quotient * unit;
-}
+Rational floor_to(const Rational& value, const Rational& unit) { return floor_of(Rational(value / unit)) * unit; }
 
 void extend(Extent& extent, const Complex& complex) {
   for (std::uint32_t v = 0; v < complex.vertex_count(); ++v) {

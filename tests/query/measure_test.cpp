@@ -17,20 +17,20 @@
 namespace nef {
 namespace {
 
-constexpr int kGrid = 5;
+constexpr int kCells = 5;
 
-// Which unit cells of [0, kGrid]^3 a set of boxes fills.
+// Which unit cells of [0, kCells]^3 a set of boxes fills.
 struct Cells {
-  std::array<bool, kGrid * kGrid * kGrid> full{};
+  std::array<bool, kCells * kCells * kCells> full{};
 
   [[nodiscard]] bool at(int x, int y, int z) const {
-    const auto inside = [](int c) { return c >= 0 && c < kGrid; };
-    return inside(x) && inside(y) && inside(z) && full[static_cast<std::size_t>((x * kGrid + y) * kGrid + z)];
+    const auto inside = [](int c) { return c >= 0 && c < kCells; };
+    return inside(x) && inside(y) && inside(z) && full[static_cast<std::size_t>((x * kCells + y) * kCells + z)];
   }
   void fill(const std::array<int, 3>& low, const std::array<int, 3>& high, bool value) {
     for (int x = low[0]; x < high[0]; ++x) {
       for (int y = low[1]; y < high[1]; ++y) {
-        for (int z = low[2]; z < high[2]; ++z) full[static_cast<std::size_t>((x * kGrid + y) * kGrid + z)] = value;
+        for (int z = low[2]; z < high[2]; ++z) full[static_cast<std::size_t>((x * kCells + y) * kCells + z)] = value;
       }
     }
   }
@@ -42,9 +42,9 @@ struct Cells {
   // Unit squares between a full and an empty cell.
   [[nodiscard]] int faces() const {
     int result = 0;
-    for (int x = -1; x < kGrid; ++x) {
-      for (int y = -1; y < kGrid; ++y) {
-        for (int z = -1; z < kGrid; ++z) {
+    for (int x = -1; x < kCells; ++x) {
+      for (int y = -1; y < kCells; ++y) {
+        for (int z = -1; z < kCells; ++z) {
           result +=
               (at(x, y, z) != at(x + 1, y, z)) + (at(x, y, z) != at(x, y + 1, z)) + (at(x, y, z) != at(x, y, z + 1));
         }
@@ -65,8 +65,8 @@ TEST_CASE("volume, area and properties of solids of cells") {
       std::array<int, 3> low{};
       std::array<int, 3> high{};
       for (std::size_t k = 0; k < 3; ++k) {
-        low[k] = *rc::gen::inRange(0, kGrid);
-        high[k] = *rc::gen::inRange(low[k] + 1, kGrid + 1);
+        low[k] = *rc::gen::inRange(0, kCells);
+        high[k] = *rc::gen::inRange(low[k] + 1, kCells + 1);
       }
       const bool add = i == 0 || *rc::gen::inRange(0, 3) > 0;
       cells.fill(low, high, add);
@@ -92,11 +92,11 @@ TEST_CASE("volume, area and properties of solids of cells") {
     RC_ASSERT(box.has_value() == (cells.count() > 0));
     for (std::size_t k = 0; box && k < 3; ++k) {
       // The extreme coordinates are those of extreme full cells.
-      int least = kGrid;
+      int least = kCells;
       int most = 0;
-      for (int x = 0; x < kGrid; ++x) {
-        for (int y = 0; y < kGrid; ++y) {
-          for (int z = 0; z < kGrid; ++z) {
+      for (int x = 0; x < kCells; ++x) {
+        for (int y = 0; y < kCells; ++y) {
+          for (int z = 0; z < kCells; ++z) {
             const std::array<int, 3> cell{x, y, z};
             if (!cells.at(x, y, z)) continue;
             least = std::min(least, cell[k]);

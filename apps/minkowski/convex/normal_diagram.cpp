@@ -8,25 +8,25 @@
 namespace nef::minkowski {
 namespace {
 
-using Vector = std::array<Integer, 3>;
+using IntegerVector = std::array<Integer, 3>;
 
 // Removes the common factor, so that numbers stay small.
-void reduce(Vector& v) {
+void reduce(IntegerVector& v) {
   Integer g = gcd(gcd(v[0], v[1]), v[2]);
   if (g > 1) {
     for (Integer& x : v) mpz_divexact(x.get_mpz_t(), x.get_mpz_t(), g.get_mpz_t());
   }
 }
 
-Vector cross(const Vector& a, const Vector& b) {
+IntegerVector cross(const IntegerVector& a, const IntegerVector& b) {
   return {Integer(a[1] * b[2] - a[2] * b[1]), Integer(a[2] * b[0] - a[0] * b[2]), Integer(a[0] * b[1] - a[1] * b[0])};
 }
 
 // A positive multiple of b - a in integers.
-Vector integer_difference(const Rational3& a, const Rational3& b) {
+IntegerVector integer_difference(const Rational3& a, const Rational3& b) {
   const Rational3 d = {Rational(b[0] - a[0]), Rational(b[1] - a[1]), Rational(b[2] - a[2])};
   const Integer w = lcm(lcm(d[0].get_den(), d[1].get_den()), d[2].get_den());
-  Vector v;
+  IntegerVector v;
   for (std::size_t i = 0; i < 3; ++i) {
     v[i] = w / d[i].get_den();
     v[i] *= d[i].get_num();
@@ -94,7 +94,7 @@ void NormalDiagram::set_directions() {
       break;
     }
   }
-  std::vector<Vector> scaled;
+  std::vector<IntegerVector> scaled;
   if (is_short) {
     scaled.resize(mesh.vertices.size());
     Integer factor;
@@ -107,10 +107,10 @@ void NormalDiagram::set_directions() {
   }
   const auto edge = [&](std::uint32_t a, std::uint32_t b) {
     if (!is_short) return integer_difference(mesh.vertices[a], mesh.vertices[b]);
-    return Vector{Integer(scaled[b][0] - scaled[a][0]), Integer(scaled[b][1] - scaled[a][1]),
-                  Integer(scaled[b][2] - scaled[a][2])};
+    return IntegerVector{Integer(scaled[b][0] - scaled[a][0]), Integer(scaled[b][1] - scaled[a][1]),
+                         Integer(scaled[b][2] - scaled[a][2])};
   };
-  std::vector<Vector> normals(mesh.face_count());
+  std::vector<IntegerVector> normals(mesh.face_count());
   normals_.reserve(normals.size());
   for (std::uint32_t f = 0; f < normals.size(); ++f) {
     const auto face = mesh.face(f);
@@ -126,7 +126,7 @@ void NormalDiagram::set_directions() {
   for (std::uint32_t c = 0; c < corner_count(); ++c) {
     if (twin_[c] < c) continue;
     // Counterclockwise about the outward normal of its left face, an edge runs along n_left x n_right.
-    const Vector d = is_short ? edge(source(c), target(c)) : cross(normals[face_[c]], normals[face_[twin_[c]]]);
+    const IntegerVector d = is_short ? edge(source(c), target(c)) : cross(normals[face_[c]], normals[face_[twin_[c]]]);
     lines_.push_back(Direction::exact(d[0], d[1], d[2]));
   }
 }

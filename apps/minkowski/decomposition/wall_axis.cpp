@@ -58,9 +58,9 @@ bool cross(const WallFoot& a, const WallFoot& b, std::size_t axis) {
   return height(a, of_a) < height(b, of_b);
 }
 
-class Estimate {
+class CellEstimate {
  public:
-  Estimate(const Complex& complex, std::size_t axis) : c_(complex), axis_(axis) {
+  CellEstimate(const Complex& complex, std::size_t axis) : c_(complex), axis_(axis) {
     for (const ReflexEdge& edge : reflex_edges(complex, axis)) add(edge);
   }
 
@@ -154,7 +154,7 @@ std::size_t wall_axis(const Complex& complex) {
   std::size_t fewest = 0;
   std::size_t most_vertical = 0;
   for (const std::size_t axis : {2U, 0U, 1U}) {
-    const Estimate estimate(complex, axis);
+    const CellEstimate estimate(complex, axis);
     const std::size_t cells = estimate.cells();
     // Walls of vertical edges are often one wall.
     const bool better = cells < fewest || (cells == fewest && estimate.vertical_edges() > most_vertical);

@@ -6,6 +6,7 @@
 
 #include "nef/base/error.h"
 #include "nef/construct/construct.h"
+#include "nef/number/floor.h"
 
 namespace nef::minkowski {
 namespace {
@@ -20,11 +21,6 @@ Corners roomy(const Corners& box) {
   Rational step = 1;
   while (step * 8 < extent) step *= 2;
   while (sgn(extent) > 0 && step * 4 > extent) step /= 2;
-  const auto floor_of = [](const Rational& x) {
-    Integer result;
-    mpz_fdiv_q(result.get_mpz_t(), x.get_num_mpz_t(), x.get_den_mpz_t());
-    return result;
-  };
   Corners result;
   for (std::size_t i = 0; i < 3; ++i) {
     result[0][i] = step * (floor_of(Rational(box[0][i] / step)) - 1);

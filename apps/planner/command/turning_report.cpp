@@ -6,6 +6,7 @@
 
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
+#include "nef/number/floor.h"
 #include "nef/program/exact_json.h"
 
 namespace nef::planner {
@@ -16,8 +17,7 @@ using Status = TurningAnswer::Status;
 
 // Exactly, and for people.
 json turn_json(const Turn& turn, const TurningAxis& axis) {
-  Integer quarter;
-  mpz_fdiv_q(quarter.get_mpz_t(), turn.get_num_mpz_t(), turn.get_den_mpz_t());
+  const Integer quarter = floor_of(turn);
   json quaternion = json::array();
   for (const Rational& x : axis.quaternion(turn)) quaternion.push_back(to_string(x));
   return {{"quarters", quarter.get_si()},

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "nef/base/error.h"
+#include "nef/number/floor.h"
 
 namespace nef::planner {
 namespace {
@@ -64,12 +65,8 @@ std::array<Rational3, 2> room_around(const Complex& complex) {
     const Rational low = exact_rational(least) - margin;
     const Rational high = exact_rational(largest) + margin;
     // Whole numbers keep the planes small.
-    Integer floor_low;
-    Integer ceil_high;
-    mpz_fdiv_q(floor_low.get_mpz_t(), low.get_num_mpz_t(), low.get_den_mpz_t());
-    mpz_cdiv_q(ceil_high.get_mpz_t(), high.get_num_mpz_t(), high.get_den_mpz_t());
-    corners[0][axis] = Rational(floor_low);
-    corners[1][axis] = Rational(ceil_high);
+    corners[0][axis] = Rational(floor_of(low));
+    corners[1][axis] = Rational(ceiling_of(high));
   }
   return corners;
 }

@@ -6,16 +6,11 @@
 
 #include "nef/base/error.h"
 #include "nef/geometry/rational_vectors.h"
+#include "nef/number/floor.h"
 #include "nef/number/simplest_between.h"
 
 namespace nef::planner {
 namespace {
-
-Integer floor_of(const Rational& x) {
-  Integer result;
-  mpz_fdiv_q(result.get_mpz_t(), x.get_num_mpz_t(), x.get_den_mpz_t());
-  return result;
-}
 
 std::optional<Rational> square_root(const Rational& x) {
   if (mpz_perfect_square_p(x.get_num_mpz_t()) == 0 || mpz_perfect_square_p(x.get_den_mpz_t()) == 0) return {};
@@ -32,12 +27,6 @@ Rational scale_of(const Rational3& direction) {
 }
 
 }  // namespace
-
-Integer ceiling_of(const Rational& x) {
-  Integer result;
-  mpz_cdiv_q(result.get_mpz_t(), x.get_num_mpz_t(), x.get_den_mpz_t());
-  return result;
-}
 
 TurningAxis::TurningAxis(const Rational3& direction) {
   const Rational scale = scale_of(direction);

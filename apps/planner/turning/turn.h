@@ -60,7 +60,4 @@ class TurningAxis {
   Rational square_;
 };
 
-/// The least whole number that is no less.
-Integer ceiling_of(const Rational& x);
-
 }  // namespace nef::planner

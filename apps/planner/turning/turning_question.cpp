@@ -2,6 +2,7 @@
 #include "apps/planner/turning/turning_question.h"
 
 #include "nef/base/error.h"
+#include "nef/number/floor.h"
 
 namespace nef::planner {
 

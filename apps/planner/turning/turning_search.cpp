@@ -16,6 +16,7 @@
 #include "nef/base/union_find.h"
 #include "nef/construct/construct.h"
 #include "nef/geometry/rational_vectors.h"
+#include "nef/number/floor.h"
 
 namespace nef::planner {
 namespace {

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "apps/visual_hull/scene/scene_number.h"
+#include "nef/number/floor.h"
 
 namespace visual_hull {
 namespace {
@@ -275,14 +276,8 @@ WorldBox loosen(const WorldBox& box) {
   const Rational step = exponent < 0 ? Rational(1, power) : Rational(power);
   WorldBox result;
   for (std::size_t i = 0; i < 3; ++i) {
-    Integer low;
-    Integer high;
-    const Rational l = box.low[i] / step;
-    const Rational h = box.high[i] / step;
-    mpz_fdiv_q(low.get_mpz_t(), l.get_num_mpz_t(), l.get_den_mpz_t());
-    mpz_cdiv_q(high.get_mpz_t(), h.get_num_mpz_t(), h.get_den_mpz_t());
-    result.low[i] = Rational(low - 1) * step;
-    result.high[i] = Rational(high + 1) * step;
+    result.low[i] = Rational(nef::floor_of(Rational(box.low[i] / step)) - 1) * step;
+    result.high[i] = Rational(nef::ceiling_of(Rational(box.high[i] / step)) + 1) * step;
   }
   return result;
 }

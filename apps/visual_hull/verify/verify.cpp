@@ -12,7 +12,7 @@ namespace visual_hull {
 namespace {
 
 using Vec = std::array<double, 2>;
-using Interval = std::array<double, 2>;
+using PixelInterval = std::array<double, 2>;
 
 /// Sets of intervals on equidistant horizontal lines.
 class ScanLines {
@@ -38,8 +38,8 @@ class ScanLines {
   void unite() {
     for (auto& line : lines_) {
       std::sort(line.begin(), line.end());
-      std::vector<Interval> merged;
-      for (const Interval& i : line) {
+      std::vector<PixelInterval> merged;
+      for (const PixelInterval& i : line) {
         if (!merged.empty() && i[0] <= merged.back()[1]) {
           merged.back()[1] = std::max(merged.back()[1], i[1]);
         } else {
@@ -53,7 +53,7 @@ class ScanLines {
   double area() const {
     double sum = 0;
     for (const auto& line : lines_) {
-      for (const Interval& i : line) sum += i[1] - i[0];
+      for (const PixelInterval& i : line) sum += i[1] - i[0];
     }
     return sum * step_;
   }
@@ -91,7 +91,7 @@ class ScanLines {
 
   double low_;
   double step_;
-  std::vector<std::vector<Interval>> lines_;
+  std::vector<std::vector<PixelInterval>> lines_;
   std::vector<std::vector<double>> crossings_;
 };
 

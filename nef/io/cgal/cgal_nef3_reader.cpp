@@ -35,9 +35,9 @@ struct FileLoop {
 };
 
 // The items of a file, each checked to be in range.
-class File {
+class Nef3File {
  public:
-  File(std::string_view text, const std::string& path) : cursor_(text, path) { read(); }
+  Nef3File(std::string_view text, const std::string& path) : cursor_(text, path) { read(); }
 
   std::vector<FileVertex> vertices;
   std::vector<FileSVertex> svertices;
@@ -243,7 +243,7 @@ class File {
 // Draws the sphere map of each vertex anew from directions, circles and marks.
 class Builder {
  public:
-  explicit Builder(const File& file) : file_(file) {}
+  explicit Builder(const Nef3File& file) : file_(file) {}
 
   std::variant<Complex, Defect> run() {
     // Directions keep a pointer to the planes: these are all interned before the first drawing.
@@ -353,7 +353,7 @@ class Builder {
     }
   }
 
-  const File& file_;
+  const Nef3File& file_;
   PlaneTable planes_;
   ComplexBuilder builder_{planes_};
   std::vector<PlaneId> arc_planes_;  // in the order of vertices
@@ -366,7 +366,7 @@ class Builder {
 }  // namespace
 
 Polyhedron read_nef3(std::string_view text, const std::string& path) {
-  const File file(text, path);
+  const Nef3File file(text, path);
   std::variant<Complex, Defect> made = Builder(file).run();
   if (const Defect* defect = std::get_if<Defect>(&made)) {
     file.fail(FileProblem::kSyntax,

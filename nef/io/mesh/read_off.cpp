@@ -24,7 +24,7 @@ std::size_t read_count(TextCursor& cursor, std::string_view word, const char* wh
   return static_cast<std::size_t>(count);
 }
 
-OffHeader read_header(TextCursor& cursor) {
+OffHeader read_off_header(TextCursor& cursor) {
   OffHeader header;
   std::string_view word = cursor.word();
   const std::size_t off = word.find("OFF");
@@ -104,7 +104,7 @@ void read_faces(TextCursor& cursor, const OffHeader& header, Mesh& mesh) {
 
 Mesh read_off(std::string_view bytes, const std::string& path) {
   TextCursor cursor(bytes, path);
-  const OffHeader header = read_header(cursor);
+  const OffHeader header = read_off_header(cursor);
   Mesh mesh;
   read_vertices(cursor, header, mesh);
   read_faces(cursor, header, mesh);

@@ -73,7 +73,7 @@ void read_property(TextCursor& cursor, Header& header) {
 }
 
 // The header is text in any format; it ends with the line end_header.
-Header read_header(TextCursor& cursor) {
+Header read_ply_header(TextCursor& cursor) {
   Header header;
   if (cursor.word() != "ply") cursor.fail(FileProblem::kSyntax, "a PLY file begins with the word ply");
   bool format = false;
@@ -300,7 +300,7 @@ Mesh read_elements(Source& source, const Header& header) {
 
 Mesh read_ply(std::string_view bytes, const std::string& path) {
   TextCursor cursor(bytes, path);
-  const Header header = read_header(cursor);
+  const Header header = read_ply_header(cursor);
   if (header.format == Header::Format::kText) {
     TextSource source(cursor);
     return read_elements(source, header);

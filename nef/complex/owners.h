@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Which vertex an svertex or shalfedge belongs to; the converse of the ranges in VertexRecord.
+#pragma once
+
+#include "nef/complex/complex.h"
+
+namespace nef {
+
+/// Fills svertex_owner from the vertices. O(n).
+void name_svertex_owners(Complex& complex);
+
+/// Fills shalfedge_owner from the vertices. O(n).
+void name_shalfedge_owners(Complex& complex);
+
+}  // namespace nef

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/visual_hull/viewing_edges/direct_hull.h"
 
+#include <atomic>
 #include <tuple>
 
 #include "apps/visual_hull/viewing_edges/hull_complex.h"
@@ -16,8 +17,8 @@ class EdgeFinder {
  public:
   EdgeFinder(const EdgeScene& scene, std::vector<SpotName>& found) : s_(scene), cutter_(scene, found) {}
 
-  // Edges on the edges of view i's cone.
-  void rays(std::uint32_t i) {
+  // Edges on the edges of view i's cone. This and what follows: false, or nothing, if something remains undecided.
+  [[nodiscard]] bool rays(std::uint32_t i) {
     const EdgeView& view = s_.views[i];
     for (std::uint32_t e = view.first_edge(); e < view.first_edge() + view.edge_count(); ++e) {
       if (s_.edges[e].place != e) continue;
@@ -29,27 +30,28 @@ class EdgeFinder {
       const double scale = 2 * reach / norm(ray.at);
       for (std::size_t k = 0; k < 3; ++k) far.at[k] += scale * ray.at[k];
       far.error = apex.error + scale * ray.error + reach * kRounding;
-      cutter_.cut({apex, far}, s_.edges[e].previous, e, i, i);
+      if (!cutter_.cut({apex, far}, s_.edges[e].previous, e, i, i)) return false;
     }
+    return true;
   }
 
   // Edges in a facet of each of two cones.
-  void pairs(std::uint32_t i, std::uint32_t j) {
+  [[nodiscard]] bool pairs(std::uint32_t i, std::uint32_t j) {
     meetings_.clear();
     spots_.clear();
-    sweep(i, j);
-    sweep(j, i);
+    if (!sweep(i, j) || !sweep(j, i)) return false;
     std::sort(meetings_.begin(), meetings_.end());
     for (std::size_t k = 0; k < meetings_.size();) {
       std::size_t end = k + 1;
       while (end < meetings_.size() && meetings_[end].edges == meetings_[k].edges) ++end;
       const auto [e, f] = meetings_[k].edges;
       const Spot& a = spots_[meetings_[k].spot];
-      if (end - k > 2) throw Undecided{};
-      cutter_.cut(end - k == 2 ? Interval{a, spots_[meetings_[k + 1].spot]} : Interval{a, far_end(a, e, f)}, e, f, i,
-                  j);
+      if (end - k > 2) return false;
+      const std::optional<Spot> b = end - k == 2 ? spots_[meetings_[k + 1].spot] : far_end(a, e, f);
+      if (!b || !cutter_.cut({a, *b}, e, f, i, j)) return false;
       k = end;
     }
+    return true;
   }
 
  private:
@@ -72,7 +74,7 @@ class EdgeFinder {
     double error = 0;
   };
 
-  Axis axis_between(std::uint32_t i, std::uint32_t j) const {
+  std::optional<Axis> axis_between(std::uint32_t i, std::uint32_t j) const {
     Axis axis;
     const Vector& a = s_.views[i].centre();
     const Vector& b = s_.views[j].centre();
@@ -81,7 +83,7 @@ class EdgeFinder {
     axis.error = a.error + b.error + length * kRounding;
     // (Nearly) one centre. The factor is a choice: with it angles below are good to about a millionth, and what they
     // miss is noticed (see kSlack).
-    if (!(length > axis.error * 1e6)) throw Undecided{};
+    if (!(length > axis.error * 1e6)) return std::nullopt;
     std::size_t least = 0;
     for (std::size_t k = 1; k < 3; ++k) {
       if (std::abs(axis.along[k]) < std::abs(axis.along[least])) least = k;
@@ -104,8 +106,10 @@ class EdgeFinder {
   }
 
   // Where the rays of view i meet the facets of view j.
-  void sweep(std::uint32_t i, std::uint32_t j) {
-    const Axis axis = axis_between(i, j);
+  [[nodiscard]] bool sweep(std::uint32_t i, std::uint32_t j) {
+    const std::optional<Axis> between = axis_between(i, j);
+    if (!between) return false;
+    const Axis& axis = *between;
     const EdgeView& from = s_.views[i];
     const EdgeView& to = s_.views[j];
     turns_.clear();
@@ -128,21 +132,28 @@ class EdgeFinder {
       // candidate that is missed all the same leaves a vertex without one of its edges, which direct_hull counts.
       constexpr double kSlack = 1e-7;
       if (!(std::abs(turn) < 3)) {  // also for NaN: all rays
-        for (const Turn& t : turns_) meet(axis, i, j, t.edge, f);
+        for (const Turn& t : turns_) {
+          if (!meet(axis, i, j, t.edge, f)) return false;
+        }
       } else {
         const double low = std::min(a, a + turn) - kSlack;
         const double high = std::max(a, a + turn) + kSlack;
         for (const double shift : {-2 * M_PI, 0.0, 2 * M_PI}) {
           auto it = std::lower_bound(turns_.begin(), turns_.end(), Turn{low + shift, 0});
-          for (; it != turns_.end() && it->angle <= high + shift; ++it) meet(axis, i, j, it->edge, f);
+          for (; it != turns_.end() && it->angle <= high + shift; ++it) {
+            if (!meet(axis, i, j, it->edge, f)) return false;
+          }
         }
       }
-      for (const std::uint32_t e : polar) meet(axis, i, j, e, f);
+      for (const std::uint32_t e : polar) {
+        if (!meet(axis, i, j, e, f)) return false;
+      }
     }
+    return true;
   }
 
   // The sign of det(axis, ray of e, ray of g): the side of ray g on which ray e passes.
-  int side(const Axis& axis, std::uint32_t i, std::uint32_t j, std::uint32_t e, std::uint32_t g) const {
+  std::optional<int> side(const Axis& axis, std::uint32_t i, std::uint32_t j, std::uint32_t e, std::uint32_t g) const {
     const Vector& r = s_.edges[e].ray;
     const Vector& q = s_.edges[g].ray;
     const double nr = norm(r.at);
@@ -166,15 +177,19 @@ class EdgeFinder {
       const std::size_t m = (k + 2) % 3;
       determinant += (b.centre()[k] - a.centre()[k]) * (x[l] * y[m] - x[m] * y[l]);
     }
-    if (sgn(determinant) == 0) throw Undecided{};
+    if (sgn(determinant) == 0) return std::nullopt;
     return sgn(determinant);
   }
 
   // Ray e of view i and the facet of edge f of view j.
-  void meet(const Axis& axis, std::uint32_t i, std::uint32_t j, std::uint32_t e, std::uint32_t f) {
-    if (side(axis, i, j, e, f) == side(axis, i, j, e, s_.edges[f].next)) return;
+  [[nodiscard]] bool meet(const Axis& axis, std::uint32_t i, std::uint32_t j, std::uint32_t e, std::uint32_t f) {
+    const std::optional<int> from_side = side(axis, i, j, e, f);
+    const std::optional<int> to_side = side(axis, i, j, e, s_.edges[f].next);
+    if (!from_side || !to_side) return false;
+    if (*from_side == *to_side) return true;
     Spot spot;
-    if (!pierce(i, j, e, f, spot)) return;
+    const std::optional<bool> in_front = pierce(i, j, e, f, spot);
+    if (!in_front || !*in_front) return in_front.has_value();
     const auto index = static_cast<std::uint32_t>(spots_.size());
     spots_.push_back(spot);
     for (std::uint32_t at = e; at != UINT32_MAX; at = s_.edges[at].next_at_place) {
@@ -182,10 +197,11 @@ class EdgeFinder {
         meetings_.push_back({i < j ? std::array{own, f} : std::array{f, own}, index});
       }
     }
+    return true;
   }
 
   // Where the line of ray e meets the plane of edge f; true if in front of both cameras.
-  bool pierce(std::uint32_t i, std::uint32_t j, std::uint32_t e, std::uint32_t f, Spot& spot) const {
+  std::optional<bool> pierce(std::uint32_t i, std::uint32_t j, std::uint32_t e, std::uint32_t f, Spot& spot) const {
     const ViewingEdge& edge = s_.edges[f];
     const Vector& ray = s_.edges[e].ray;
     const Vector& centre = s_.views[i].centre();
@@ -212,17 +228,18 @@ class EdgeFinder {
       if (depth < -depth_error) return false;
       if (depth > depth_error) return true;
     }
-    const Rational3 exact = s_.exact(spot);
-    const int own = sgn(s_.views[i].camera().depth(exact));
-    const int other = sgn(s_.views[j].camera().depth(exact));
-    if (own == 0 || other == 0) throw Undecided{};
+    const std::optional<Rational3> exact = s_.exact(spot);
+    if (!exact) return std::nullopt;
+    const int own = sgn(s_.views[i].camera().depth(*exact));
+    const int other = sgn(s_.views[j].camera().depth(*exact));
+    if (own == 0 || other == 0) return std::nullopt;
     if (own < 0 || other < 0) return false;
-    s_.refine(spot);
+    if (!s_.refine(spot)) return std::nullopt;
     return true;
   }
 
   // A point far out on the line of two edges' planes, in front of both cameras.
-  Spot far_end(const Spot& a, std::uint32_t e, std::uint32_t f) const {
+  std::optional<Spot> far_end(const Spot& a, std::uint32_t e, std::uint32_t f) const {
     const ViewingEdge& p = s_.edges[e];
     const ViewingEdge& q = s_.edges[f];
     Vec3 direction = cross(p.normal.at, q.normal.at);
@@ -230,18 +247,18 @@ class EdgeFinder {
     const double np = norm(p.normal.at);
     const double nq = norm(q.normal.at);
     const double error = 8 * (np * q.normal.error + nq * p.normal.error + np * nq * kRounding);
-    if (!(length > 4 * error)) throw Undecided{};
-    const auto deeper = [&](std::uint32_t view) {
+    if (!(length > 4 * error)) return std::nullopt;
+    const auto deeper = [&](std::uint32_t view) -> std::optional<bool> {
       const auto& m = s_.views[view].depth_row();
       const Vec3 row{m[0], m[1], m[2]};
       const double value = dot(row, direction);
-      if (!(std::abs(value) > 4 * norm(row) * (error + length * kRounding))) throw Undecided{};
+      if (!(std::abs(value) > 4 * norm(row) * (error + length * kRounding))) return std::nullopt;
       return value > 0;
     };
-    const bool forward = deeper(p.view);
-    if (forward != deeper(q.view)) throw Undecided{};
+    const std::optional<bool> forward = deeper(p.view);
+    if (!forward || forward != deeper(q.view)) return std::nullopt;
     const double reach = s_.reach(a.at);
-    const double scale = (forward ? 2 : -2) * reach / length;
+    const double scale = (*forward ? 2 : -2) * reach / length;
     Spot far;
     for (std::size_t k = 0; k < 3; ++k) far.at[k] = a.at[k] + scale * direction[k];
     far.error = a.error + std::abs(scale) * error + (reach + norm(a.at)) * kRounding;
@@ -255,22 +272,22 @@ class EdgeFinder {
   std::vector<Turn> turns_;
 };
 
-// The names of all vertices, once for each edge that ends there.
-std::vector<SpotName> vertex_names(const EdgeScene& scene, unsigned threads) {
+// The names of all vertices, once for each edge that ends there; nothing if one remains undecided.
+std::optional<std::vector<SpotName>> vertex_names(const EdgeScene& scene, unsigned threads) {
   const auto n = static_cast<std::uint32_t>(scene.views.size());
   std::vector<std::array<std::uint32_t, 2>> tasks;
   for (std::uint32_t i = 0; i < n; ++i) {
     for (std::uint32_t j = i; j < n; ++j) tasks.push_back({i, j});
   }
   std::vector<std::vector<SpotName>> found(tasks.size());
+  std::atomic<bool> decided = true;
   nef::parallel_for(tasks.size(), threads, [&](std::size_t k) {
+    if (!decided.load(std::memory_order_relaxed)) return;
     EdgeFinder finder(scene, found[k]);
-    if (tasks[k][0] == tasks[k][1]) {
-      finder.rays(tasks[k][0]);
-    } else {
-      finder.pairs(tasks[k][0], tasks[k][1]);
-    }
+    const auto [i, j] = tasks[k];
+    if (!(i == j ? finder.rays(i) : finder.pairs(i, j))) decided.store(false, std::memory_order_relaxed);
   });
+  if (!decided) return std::nullopt;
   std::vector<SpotName> names;
   for (const auto& part : found) names.insert(names.end(), part.begin(), part.end());
   return names;
@@ -290,24 +307,21 @@ std::size_t edges_at(const SpotName& name, const std::vector<ViewingEdge>& edges
 std::optional<nef::Polyhedron> direct_hull(const std::vector<DirectView>& views, const WorldBox& box,
                                            unsigned threads) {
   if (views.size() < 3) return std::nullopt;
-  try {
-    const EdgeScene scene(views, box);
-    std::vector<SpotName> names = vertex_names(scene, threads);
-    std::sort(names.begin(), names.end());
-    std::vector<SpotName> vertices;
-    for (std::size_t k = 0; k < names.size();) {
-      std::size_t end = k;
-      while (end < names.size() && names[end] == names[k]) ++end;
-      if (end - k != edges_at(names[k], scene.edges)) return std::nullopt;
-      vertices.push_back(names[k]);
-      k = end;
-    }
-    std::vector<const Camera*> cameras;
-    for (const DirectView& input : views) cameras.push_back(input.camera);
-    return complex_of(vertices, scene.edges, cameras);
-  } catch (const Undecided&) {
-    return std::nullopt;
+  const std::unique_ptr<const EdgeScene> scene = EdgeScene::make(views, box);
+  if (!scene) return std::nullopt;
+  std::optional<std::vector<SpotName>> names = vertex_names(*scene, threads);
+  if (!names) return std::nullopt;
+  std::sort(names->begin(), names->end());
+  std::vector<SpotName> vertices;
+  for (auto name = names->begin(); name != names->end();) {
+    const auto end = std::find_if(name, names->end(), [&](const SpotName& other) { return other != *name; });
+    if (static_cast<std::size_t>(end - name) != edges_at(*name, scene->edges)) return std::nullopt;
+    vertices.push_back(*name);
+    name = end;
   }
+  std::vector<const Camera*> cameras;
+  for (const DirectView& input : views) cameras.push_back(input.camera);
+  return complex_of(vertices, scene->edges, cameras);
 }
 
 }  // namespace visual_hull

@@ -12,27 +12,32 @@ constexpr std::size_t kExactSpots = 1000;
 
 }  // namespace
 
-EdgeScene::EdgeScene(const std::vector<DirectView>& inputs, const WorldBox& box) {
+std::unique_ptr<const EdgeScene> EdgeScene::make(const std::vector<DirectView>& inputs, const WorldBox& box) {
+  std::unique_ptr<EdgeScene> scene(new EdgeScene);
   for (std::size_t i = 0; i < 3; ++i) {
-    low[i] = nef::nearest_double(box.low[i]);
-    high[i] = nef::nearest_double(box.high[i]);
-    size = std::max(size, high[i] - low[i]);
+    scene->low[i] = nef::nearest_double(box.low[i]);
+    scene->high[i] = nef::nearest_double(box.high[i]);
+    scene->size = std::max(scene->size, scene->high[i] - scene->low[i]);
   }
   std::size_t edge_count = 0;
   for (const DirectView& input : inputs) edge_count += input.silhouette->vertex_count();
-  exact_budget_ = kExactSpots + edge_count;
-  edges.reserve(edge_count);
-  views.reserve(inputs.size());
+  scene->exact_budget_ = kExactSpots + edge_count;
+  scene->edges.reserve(edge_count);
+  scene->views.reserve(inputs.size());
   for (const DirectView& input : inputs) {
-    if (sgn(depth_range(*input.camera, box).nearest) <= 0) throw Undecided{};
-    views.emplace_back(*input.camera, *input.silhouette, static_cast<std::uint32_t>(views.size()), *this, edges);
+    if (sgn(depth_range(*input.camera, box).nearest) <= 0) return nullptr;
+    std::optional<EdgeView> view = EdgeView::make(
+        *input.camera, *input.silhouette, static_cast<std::uint32_t>(scene->views.size()), *scene, scene->edges);
+    if (!view) return nullptr;
+    scene->views.push_back(std::move(*view));
   }
+  return scene;
 }
 
-Rational3 EdgeScene::exact(const Spot& spot) const {
-  if (spot.name == kNoName) throw Undecided{};
+std::optional<Rational3> EdgeScene::exact(const Spot& spot) const {
+  if (spot.name == kNoName) return std::nullopt;
   // A sum over all threads, so whether it is exceeded does not depend on them.
-  if (exact_spots_.fetch_add(1, std::memory_order_relaxed) > exact_budget_) throw Undecided{};
+  if (exact_spots_.fetch_add(1, std::memory_order_relaxed) > exact_budget_) return std::nullopt;
   std::array<RationalPlane, 3> p;
   for (std::size_t i = 0; i < 3; ++i) {
     const ViewingEdge& edge = edges[spot.name[i]];
@@ -46,7 +51,7 @@ Rational3 EdgeScene::exact(const Spot& spot) const {
   const Rational3 rp = product(p[2].normal, p[0].normal);
   const Rational3 pq = product(p[0].normal, p[1].normal);
   const Rational determinant = p[0].normal[0] * qr[0] + p[0].normal[1] * qr[1] + p[0].normal[2] * qr[2];
-  if (sgn(determinant) == 0) throw Undecided{};
+  if (sgn(determinant) == 0) return std::nullopt;
   Rational3 x;
   for (std::size_t i = 0; i < 3; ++i) {
     x[i] = -(p[0].offset * qr[i] + p[1].offset * rp[i] + p[2].offset * pq[i]) / determinant;
@@ -69,15 +74,17 @@ double EdgeScene::height(const ViewingEdge& edge, const Vec3& at, double at_erro
   return value;
 }
 
-void EdgeScene::refine(Spot& spot) const {
+bool EdgeScene::refine(Spot& spot) const {
   ++nef::predicate_counts().exact;
-  const Rational3 x = exact(spot);
+  const std::optional<Rational3> x = exact(spot);
+  if (!x) return false;
   double largest = 0;
   for (std::size_t k = 0; k < 3; ++k) {
-    spot.at[k] = nef::nearest_double(x[k]);
+    spot.at[k] = nef::nearest_double((*x)[k]);
     largest = std::max(largest, std::abs(spot.at[k]));
   }
   spot.error = largest * kRounding;
+  return true;
 }
 
 double EdgeScene::reach(const Vec3& at) const {

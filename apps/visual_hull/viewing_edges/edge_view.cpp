@@ -25,8 +25,15 @@ Vector to_doubles(const Rational3& v) {
 
 }  // namespace
 
-EdgeView::EdgeView(const Camera& camera, const Silhouette& silhouette, std::uint32_t index, const ExactSpots& exact,
-                   std::vector<ViewingEdge>& edges)
+std::optional<EdgeView> EdgeView::make(const Camera& camera, const Silhouette& silhouette, std::uint32_t index,
+                                       const ExactSpots& exact, std::vector<ViewingEdge>& edges) {
+  EdgeView view(camera, exact, edges);
+  view.collect_edges(silhouette, index);
+  if (!view.join_places() || !view.build_grid()) return std::nullopt;
+  return view;
+}
+
+EdgeView::EdgeView(const Camera& camera, const ExactSpots& exact, std::vector<ViewingEdge>& edges)
     : camera_(camera), exact_(exact), edges_(edges), first_(static_cast<std::uint32_t>(edges.size())) {
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 4; ++j) matrix_[i][j] = nef::nearest_double(camera.matrix()[i][j]);
@@ -35,8 +42,6 @@ EdgeView::EdgeView(const Camera& camera, const Silhouette& silhouette, std::uint
   const auto& m = matrix_[2];
   const double length = std::sqrt(m[0] * m[0] + m[1] * m[1] + m[2] * m[2]);
   axis_ = {m[0] / length, m[1] / length, m[2] / length};
-  collect_edges(silhouette, index);
-  build_grid();
 }
 
 void EdgeView::collect_edges(const Silhouette& silhouette, std::uint32_t index) {
@@ -63,11 +68,10 @@ void EdgeView::collect_edges(const Silhouette& silhouette, std::uint32_t index) 
     }
   }
   count_ = static_cast<std::uint32_t>(edges_.size()) - first_;
-  join_places();
 }
 
-// Links the edges that start at the same point.
-void EdgeView::join_places() {
+// Links the edges that start at the same point. False where points are equal but for rounding.
+bool EdgeView::join_places() {
   std::vector<std::uint32_t> order(count_);
   std::iota(order.begin(), order.end(), first_);
   std::stable_sort(order.begin(), order.end(), [this](std::uint32_t a, std::uint32_t b) {
@@ -79,10 +83,11 @@ void EdgeView::join_places() {
     if (k == 0) continue;
     ViewingEdge& before = edges_[order[k - 1]];
     if (edge.from->approximate != before.from->approximate) continue;
-    if (!(*edge.from == *before.from)) throw Undecided{};  // equal but for rounding
+    if (!(*edge.from == *before.from)) return false;
     edge.place = before.place;
     before.next_at_place = order[k];
   }
+  return true;
 }
 
 void EdgeView::prepare_edge(ViewingEdge& edge, const Vector& ray0, const Vector& ray_u, const Vector& ray_v) const {
@@ -125,7 +130,7 @@ double EdgeView::depth(const Spot& spot, double& error) const {
   return value;
 }
 
-Seen EdgeView::project(const Spot& spot) const {
+std::optional<Seen> EdgeView::project(const Spot& spot) const {
   std::array<double, 3> x{};
   std::array<double, 3> error{};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -139,7 +144,7 @@ Seen EdgeView::project(const Spot& spot) const {
     }
     error[i] = size * kUnit + slope * spot.error * 1.0001;
   }
-  if (!(x[2] > 2 * error[2])) throw Undecided{};
+  if (!(x[2] > 2 * error[2])) return std::nullopt;
   Seen seen;
   seen.u = x[0] / x[2];
   seen.v = x[1] / x[2];
@@ -155,14 +160,16 @@ Seen EdgeView::seen(const Point2& point) {
   return {p[0], p[1], error, nullptr, &point};
 }
 
-Point2 EdgeView::exact(const Seen& p) const {
+std::optional<Point2> EdgeView::exact(const Seen& p) const {
   if (p.point != nullptr) return *p.point;
   if (p.spot == nullptr) return Point2::from_doubles(p.u, p.v);
-  const Projection q = camera_.project(exact_.exact(*p.spot));
-  return {q.x / q.depth, q.y / q.depth};
+  const std::optional<Rational3> x = exact_.exact(*p.spot);
+  if (!x) return std::nullopt;
+  const Projection q = camera_.project(*x);
+  return Point2{q.x / q.depth, q.y / q.depth};
 }
 
-int EdgeView::orient(const Seen& a, const Seen& b, const Seen& c) const {
+std::optional<int> EdgeView::orient(const Seen& a, const Seen& b, const Seen& c) const {
   const double bu = b.u - a.u;
   const double bv = b.v - a.v;
   const double cu = c.u - a.u;
@@ -179,18 +186,27 @@ int EdgeView::orient(const Seen& a, const Seen& b, const Seen& c) const {
     return value > 0 ? 1 : -1;
   }
   ++nef::predicate_counts().exact;
-  const int sign = orientation(exact(a), exact(b), exact(c));
-  if (sign == 0) throw Undecided{};  // degenerate
+  const std::array<std::optional<Point2>, 3> p{exact(a), exact(b), exact(c)};
+  if (!p[0] || !p[1] || !p[2]) return std::nullopt;
+  const int sign = orientation(*p[0], *p[1], *p[2]);
+  if (sign == 0) return std::nullopt;  // degenerate
   return sign;
 }
 
-bool EdgeView::crosses(const Seen& a, const Seen& b, std::uint32_t edge) const {
+std::optional<bool> EdgeView::crosses(const Seen& a, const Seen& b, std::uint32_t edge) const {
   const Seen c = seen(*edges_[edge].from);
   const Seen d = seen(*edges_[edge].to);
   const double slack = a.error + b.error + margin_;
   if (std::max(a.u, b.u) + slack < std::min(c.u, d.u) || std::max(c.u, d.u) + slack < std::min(a.u, b.u)) return false;
   if (std::max(a.v, b.v) + slack < std::min(c.v, d.v) || std::max(c.v, d.v) + slack < std::min(a.v, b.v)) return false;
-  return orient(c, d, a) != orient(c, d, b) && orient(a, b, c) != orient(a, b, d);
+  const std::optional<int> side_a = orient(c, d, a);
+  const std::optional<int> side_b = orient(c, d, b);
+  if (!side_a || !side_b) return std::nullopt;
+  if (*side_a == *side_b) return false;
+  const std::optional<int> side_c = orient(a, b, c);
+  const std::optional<int> side_d = orient(a, b, d);
+  if (!side_c || !side_d) return std::nullopt;
+  return *side_c != *side_d;
 }
 
 std::array<std::int64_t, 2> EdgeView::rows(double low, double high) const {
@@ -229,7 +245,7 @@ std::array<double, 2> EdgeView::reference(std::int64_t column, std::int64_t row)
           low_v_ + (static_cast<double>(row) + 0.48713) * side_};
 }
 
-void EdgeView::build_grid() {
+bool EdgeView::build_grid() {
   double high_u = -INFINITY;
   double high_v = -INFINITY;
   low_u_ = low_v_ = INFINITY;
@@ -242,7 +258,7 @@ void EdgeView::build_grid() {
   }
   const double width = high_u - low_u_;
   const double height = high_v - low_v_;
-  if (!(width > 0) || !(height > 0)) throw Undecided{};
+  if (!(width > 0) || !(height > 0)) return false;
   const double cells = 6.0 * count_ + 16;
   side_ = std::max({std::sqrt(width * height / cells), width / 4000, height / 4000});
   margin_ = side_ * 1e-3;
@@ -250,6 +266,12 @@ void EdgeView::build_grid() {
   low_v_ -= side_ / 3;
   width_ = static_cast<std::int64_t>((width + side_) / side_) + 1;
   height_ = static_cast<std::int64_t>((height + side_) / side_) + 1;
+  fill_cells();
+  return mark_cells();
+}
+
+// The edges that come near each cell.
+void EdgeView::fill_cells() {
   const auto cell_count = static_cast<std::size_t>(width_ * height_);
   cell_begin_.assign(cell_count + 1, 0);
   // Twice over the edges: count, then fill.
@@ -279,11 +301,11 @@ void EdgeView::build_grid() {
   const auto total = static_cast<std::uint32_t>(cell_edges_.size());
   std::move(cell_begin_.begin() + 1, cell_begin_.end(), cell_begin_.begin());
   cell_begin_[cell_count] = total;
-  mark_cells();
 }
 
-// Whether the reference points are inside: by the crossings of a line through those of a row.
-void EdgeView::mark_cells() {
+// Whether the reference points are inside: by the crossings of a line through those of a row. False if one is too near
+// to an edge, or the line to a vertex.
+bool EdgeView::mark_cells() {
   cell_inside_.assign(static_cast<std::size_t>(width_ * height_), false);
   std::vector<double> crossings;
   std::vector<std::uint32_t> edges;
@@ -298,7 +320,7 @@ void EdgeView::mark_cells() {
     for (const std::uint32_t e : edges) {
       const auto& a = edges_[e].from->approximate;
       const auto& b = edges_[e].to->approximate;
-      if (std::abs(a[1] - v) < safe || std::abs(b[1] - v) < safe) throw Undecided{};
+      if (std::abs(a[1] - v) < safe || std::abs(b[1] - v) < safe) return false;
       if ((a[1] < v) != (b[1] < v)) crossings.push_back(a[0] + (v - a[1]) / (b[1] - a[1]) * (b[0] - a[0]));
     }
     std::sort(crossings.begin(), crossings.end());
@@ -308,14 +330,15 @@ void EdgeView::mark_cells() {
       while (passed < crossings.size() && crossings[passed] < u) ++passed;
       const bool close = (passed > 0 && u - crossings[passed - 1] < safe) ||
                          (passed < crossings.size() && crossings[passed] - u < safe);
-      if (close) throw Undecided{};
+      if (close) return false;
       cell_inside_[static_cast<std::size_t>(row * width_ + column)] = passed % 2 == 1;
     }
   }
+  return true;
 }
 
-bool EdgeView::inside(const Seen& p) const {
-  if (!(p.error < margin_)) throw Undecided{};
+std::optional<bool> EdgeView::inside(const Seen& p) const {
+  if (!(p.error < margin_)) return std::nullopt;
   const double column = std::floor((p.u - low_u_) / side_);
   const double row = std::floor((p.v - low_v_) / side_);
   if (!(column >= 0 && row >= 0 && column < static_cast<double>(width_) && row < static_cast<double>(height_))) {
@@ -329,7 +352,9 @@ bool EdgeView::inside(const Seen& p) const {
   const std::array<double, 2> middle = reference(x, y);
   const Seen reference_point{middle[0], middle[1], 0, nullptr, nullptr};
   for (std::uint32_t i = cell_begin_[cell]; i < cell_begin_[cell + 1]; ++i) {
-    if (crosses(p, reference_point, cell_edges_[i])) result = !result;
+    const std::optional<bool> crossed = crosses(p, reference_point, cell_edges_[i]);
+    if (!crossed) return std::nullopt;
+    if (*crossed) result = !result;
   }
   return result;
 }

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A view as the direct way to the hull sees it: doubles with proven errors, and a grid over the silhouette.
+//
+// The direct way is not made for everything: degenerate positions, a hull that reaches its box, more exact answers than
+// it is worth. Functions that may meet such a thing return an optional, or whether all was decided; nothing (false)
+// goes up to direct_hull, and the general way takes over.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "apps/visual_hull/scene/camera.h"
@@ -12,10 +17,6 @@
 namespace visual_hull {
 
 using Vec3 = std::array<double, 3>;
-
-/// Thrown, and caught, where the direct way meets something that it is not made for: a degenerate position, a hull
-/// that reaches its box. No error: the general way takes over.
-struct Undecided {};
 
 /// Three edges of silhouettes (numbers in the list of all views' edges, ascending) whose planes meet in a point.
 using SpotName = std::array<std::uint32_t, 3>;
@@ -59,18 +60,19 @@ struct ViewingEdge {
   Vector ray;  ///< in which `from` is seen, of depth 1
 };
 
-/// Exact coordinates of a named spot; throws Undecided for others.
+/// Exact coordinates of a named spot; nothing for others.
 class ExactSpots {
  public:
   virtual ~ExactSpots() = default;
-  [[nodiscard]] virtual Rational3 exact(const Spot& spot) const = 0;
+  [[nodiscard]] virtual std::optional<Rational3> exact(const Spot& spot) const = 0;
 };
 
 class EdgeView {
  public:
-  /// Appends the view's edges to `edges`. Keeps references to all arguments.
-  EdgeView(const Camera& camera, const Silhouette& silhouette, std::uint32_t index, const ExactSpots& exact,
-           std::vector<ViewingEdge>& edges);
+  /// Appends the view's edges to `edges`. Keeps references to camera, exact and edges. Nothing if vertices are equal
+  /// but for rounding, the silhouette is flat, or lies on points of its grid.
+  static std::optional<EdgeView> make(const Camera& camera, const Silhouette& silhouette, std::uint32_t index,
+                                      const ExactSpots& exact, std::vector<ViewingEdge>& edges);
 
   [[nodiscard]] const Camera& camera() const { return camera_; }
   [[nodiscard]] std::uint32_t first_edge() const { return first_; }
@@ -84,18 +86,18 @@ class EdgeView {
   /// The row of the matrix that gives depth.
   [[nodiscard]] const std::array<double, 4>& depth_row() const { return matrix_[2]; }
 
-  /// The image of a spot in front of the camera; Undecided if it may not be in front. Refers to the spot.
-  [[nodiscard]] Seen project(const Spot& spot) const;
+  /// The image of a spot in front of the camera; nothing if it may not be in front. Refers to the spot.
+  [[nodiscard]] std::optional<Seen> project(const Spot& spot) const;
   [[nodiscard]] static Seen seen(const Point2& point);
 
-  /// True if a point that is not on the boundary lies in the silhouette.
-  [[nodiscard]] bool inside(const Seen& p) const;
+  /// True if the point lies in the silhouette; nothing if it may lie on the boundary.
+  [[nodiscard]] std::optional<bool> inside(const Seen& p) const;
 
-  /// Calls visit(edge) for every edge that the segment ab crosses. `stamps` has a number for each edge of the view that
-  /// is not yet `stamp`.
+  /// Calls visit(edge) for every edge that the segment ab crosses; false if one of them remains undecided. `stamps` has
+  /// a number for each edge of the view that is not yet `stamp`.
   template <typename Visit>
-  void visit_crossed(const Seen& a, const Seen& b, std::vector<std::uint32_t>& stamps, std::uint32_t stamp,
-                     Visit&& visit) const {
+  [[nodiscard]] bool visit_crossed(const Seen& a, const Seen& b, std::vector<std::uint32_t>& stamps,
+                                   std::uint32_t stamp, Visit&& visit) const {
     const double slack = a.error + b.error + margin_;
     const auto [top, bottom] = rows(std::min(a.v, b.v) - slack, std::max(a.v, b.v) + slack);
     for (std::int64_t row = top; row <= bottom; ++row) {
@@ -106,21 +108,26 @@ class EdgeView {
           const std::uint32_t e = cell_edges_[i];
           if (stamps[e - first_] == stamp) continue;
           stamps[e - first_] = stamp;
-          if (crosses(a, b, e)) visit(e);
+          const std::optional<bool> crossed = crosses(a, b, e);
+          if (!crossed) return false;
+          if (*crossed) visit(e);
         }
       }
     }
+    return true;
   }
 
  private:
+  EdgeView(const Camera& camera, const ExactSpots& exact, std::vector<ViewingEdge>& edges);
   void collect_edges(const Silhouette& silhouette, std::uint32_t index);
-  void join_places();
+  [[nodiscard]] bool join_places();
   void prepare_edge(ViewingEdge& edge, const Vector& ray0, const Vector& ray_u, const Vector& ray_v) const;
-  void build_grid();
-  void mark_cells();
-  [[nodiscard]] bool crosses(const Seen& a, const Seen& b, std::uint32_t edge) const;
-  [[nodiscard]] int orient(const Seen& a, const Seen& b, const Seen& c) const;
-  [[nodiscard]] Point2 exact(const Seen& p) const;
+  [[nodiscard]] bool build_grid();
+  void fill_cells();
+  [[nodiscard]] bool mark_cells();
+  [[nodiscard]] std::optional<bool> crosses(const Seen& a, const Seen& b, std::uint32_t edge) const;
+  [[nodiscard]] std::optional<int> orient(const Seen& a, const Seen& b, const Seen& c) const;
+  [[nodiscard]] std::optional<Point2> exact(const Seen& p) const;
   [[nodiscard]] std::array<std::int64_t, 2> rows(double low, double high) const;
   [[nodiscard]] std::array<std::int64_t, 2> columns(double u0, double v0, double u1, double v1, std::int64_t row,
                                                     double slack) const;

@@ -22,7 +22,8 @@ class ComplexWriter {
   ComplexWriter(const std::vector<ViewingEdge>& edges, const std::vector<const Camera*>& cameras)
       : edges_(edges), cameras_(cameras), planes_(edges.size()) {}
 
-  void add(const SpotName& name) {
+  // False if a corner is straight, or planes share a line.
+  [[nodiscard]] bool add(const SpotName& name) {
     corners_.clear();
     PlaneId across = plane(name[2]);
     if (const auto first = corner_of(name, edges_)) {
@@ -33,13 +34,13 @@ class ComplexWriter {
         const ViewingEdge& out = edges_[e];
         const ViewingEdge& in = edges_[out.previous];
         const int turn = orientation(*in.from, *out.from, *out.to);
-        if (turn == 0) throw Undecided{};
+        if (turn == 0) return false;
         corners_.push_back({plane(out.previous), plane(e), turn < 0, out.previous, e});
       }
     } else {
       corners_.push_back({plane(name[0]), plane(name[1]), false, name[0], name[1]});
     }
-    push_vertex(across);
+    return push_vertex(across);
   }
 
   nef::Polyhedron finish() { return nef::Polyhedron(builder_.finish(0)); }
@@ -64,13 +65,13 @@ class ComplexWriter {
     std::uint32_t out_node = 0;
   };
 
-  void push_vertex(PlaneId r) {
+  [[nodiscard]] bool push_vertex(PlaneId r) {
     map_.clear();
     std::uint32_t ray = nef::kNone;
     bool turned = false;  // the same for all corners on a ray
     for (Corner& c : corners_) {
       const int s = nef::side_of_circle(table_, r, nef::Direction::cross(table_, c.in, c.out));
-      if (s == 0) throw Undecided{};
+      if (s == 0) return false;
       turned = (s > 0) == c.reflex;
       if (ray == nef::kNone) ray = s > 0 ? add_node(c.in, c.out) : add_node(c.out, c.in);
       c.out_node = turned ? add_node(r, c.out) : add_node(c.out, r);
@@ -93,6 +94,7 @@ class ComplexWriter {
     }
     map_.centre = 1;
     builder_.add({corners_[0].in, corners_[0].out, r}, map_);
+    return true;
   }
 
   // Where rings touch: the region left of an edge that leaves the vertex ends at the next edge, which arrives.
@@ -149,10 +151,12 @@ std::optional<std::uint32_t> corner_of(const SpotName& name, const std::vector<V
   return std::nullopt;
 }
 
-nef::Polyhedron complex_of(const std::vector<SpotName>& vertices, const std::vector<ViewingEdge>& edges,
-                           const std::vector<const Camera*>& cameras) {
+std::optional<nef::Polyhedron> complex_of(const std::vector<SpotName>& vertices, const std::vector<ViewingEdge>& edges,
+                                          const std::vector<const Camera*>& cameras) {
   ComplexWriter writer(edges, cameras);
-  for (const SpotName& name : vertices) writer.add(name);
+  for (const SpotName& name : vertices) {
+    if (!writer.add(name)) return std::nullopt;
+  }
   return writer.finish();
 }
 

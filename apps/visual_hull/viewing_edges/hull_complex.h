@@ -14,9 +14,9 @@ namespace visual_hull {
 std::optional<std::uint32_t> corner_of(const SpotName& name, const std::vector<ViewingEdge>& edges);
 
 /// The closed solid with the given vertices, in each of which exactly the planes of three edges meet: of three views,
-/// or two neighbours in one silhouette (with those of rings that touch there) and one of another view. Throws Undecided
-/// for a straight corner. `cameras` are those of the views. O(n log n).
-nef::Polyhedron complex_of(const std::vector<SpotName>& vertices, const std::vector<ViewingEdge>& edges,
-                           const std::vector<const Camera*>& cameras);
+/// or two neighbours in one silhouette (with those of rings that touch there) and one of another view. Nothing if a
+/// corner is straight. `cameras` are those of the views. O(n log n).
+std::optional<nef::Polyhedron> complex_of(const std::vector<SpotName>& vertices, const std::vector<ViewingEdge>& edges,
+                                          const std::vector<const Camera*>& cameras);
 
 }  // namespace visual_hull

@@ -23,15 +23,14 @@ class LineCutter {
   LineCutter(const EdgeScene& scene, std::vector<SpotName>& found)
       : s_(scene), found_(found), stamps_(scene.views.size()) {}
 
-  // What all views but i and j leave of an interval on the line of two edges' planes.
-  void cut(Interval whole, std::uint32_t e, std::uint32_t f, std::uint32_t i, std::uint32_t j) {
-    refine_ends(whole, s_.size * 1e-6);  // good enough to find the box
+  // What all views but i and j leave of an interval on the line of two edges' planes. False if that remains undecided.
+  [[nodiscard]] bool cut(Interval whole, std::uint32_t e, std::uint32_t f, std::uint32_t i, std::uint32_t j) {
+    if (!refine_ends(whole, s_.size * 1e-6)) return false;  // good enough to find the box
     Interval clipped = whole;
-    if (!clip_to_box(clipped)) return;
-    if (refine_ends(whole, s_.size * kGoodEnd)) {
-      clipped = whole;
-      if (!clip_to_box(clipped)) return;
-    }
+    if (!clip_to_box(clipped)) return true;
+    if (!refine_ends(whole, s_.size * kGoodEnd)) return false;
+    clipped = whole;
+    if (!clip_to_box(clipped)) return true;
     left_.assign(1, clipped);
     line_ = clipped;
     const std::size_t n = s_.views.size();
@@ -40,14 +39,17 @@ class LineCutter {
       const std::size_t view = (first + k) % n;
       if (view == i || view == j) continue;
       next_.clear();
-      for (const Interval& interval : left_) cut_by_view(interval, e, f, static_cast<std::uint32_t>(view));
+      for (const Interval& interval : left_) {
+        if (!cut_by_view(interval, e, f, static_cast<std::uint32_t>(view))) return false;
+      }
       left_.swap(next_);
     }
     for (const Interval& interval : left_) {
-      if (interval.from.name == kNoName || interval.to.name == kNoName) throw Undecided{};
+      if (interval.from.name == kNoName || interval.to.name == kNoName) return false;
       found_.push_back(interval.from.name);
       found_.push_back(interval.to.name);
     }
+    return true;
   }
 
  private:
@@ -57,15 +59,13 @@ class LineCutter {
   static constexpr double kGoodEnd = 1e-9;
   static constexpr double kGoodPlace = 1e-7;
 
-  // Makes named ends exact that are not within an error; true if there was one.
-  bool refine_ends(Interval& interval, double error) const {
-    bool any = false;
+  // Makes named ends exact that are not within an error; false if that is not possible.
+  [[nodiscard]] bool refine_ends(Interval& interval, double error) const {
     for (Spot* spot : {&interval.from, &interval.to}) {
       if (spot->error <= error || spot->name == kNoName) continue;
-      s_.refine(*spot);
-      any = true;
+      if (!s_.refine(*spot)) return false;
     }
-    return any;
+    return true;
   }
 
   // The view that looks across the interval most: likely to cut off much.
@@ -135,28 +135,28 @@ class LineCutter {
     std::uint32_t edge = 0;
   };
 
-  void cut_by_view(const Interval& interval, std::uint32_t e, std::uint32_t f, std::uint32_t view) {
+  [[nodiscard]] bool cut_by_view(const Interval& interval, std::uint32_t e, std::uint32_t f, std::uint32_t view) {
     const EdgeView& v = s_.views[view];
-    const Seen a = v.project(interval.from);
-    const Seen b = v.project(interval.to);
+    const std::optional<Seen> a = v.project(interval.from);
+    const std::optional<Seen> b = v.project(interval.to);
+    if (!a || !b) return false;
     auto& stamps = stamps_[view];
     if (stamps.empty()) stamps.resize(v.edge_count(), 0);
     events_.clear();
-    v.visit_crossed(a, b, stamps, ++stamp_, [&](std::uint32_t g) { events_.push_back(event(g)); });
-    bool inside = v.inside(a);
-    if (events_.empty()) {
-      if (inside) next_.push_back(interval);
-      return;
-    }
-    sort_events(e, f);
+    if (!v.visit_crossed(*a, *b, stamps, ++stamp_, [&](std::uint32_t g) { events_.push_back(event(g)); })) return false;
+    const std::optional<bool> starts_inside = v.inside(*a);
+    if (!starts_inside || !sort_events(e, f)) return false;
+    bool inside = *starts_inside;
     Spot from = interval.from;
-    for (std::size_t k = 0; k < events_.size(); ++k) {
-      const Spot at = spot_of(events_[k], e, f);
-      if (inside) next_.push_back({from, at});
+    for (const Event& event : events_) {
+      const std::optional<Spot> at = spot_of(event, e, f);
+      if (!at) return false;
+      if (inside) next_.push_back({from, *at});
       inside = !inside;
-      from = at;
+      from = *at;
     }
     if (inside) next_.push_back({from, interval.to});
+    return true;
   }
 
   // Where the plane of an edge cuts the line, 0 and 1 at its ends. (From the ends of what is left of it, errors would
@@ -174,26 +174,30 @@ class LineCutter {
     return result;
   }
 
-  void sort_events(std::uint32_t e, std::uint32_t f) {
+  // False if two of them may be in one place.
+  [[nodiscard]] bool sort_events(std::uint32_t e, std::uint32_t f) {
     const auto exactly = [&] {
-      refine_ends(line_, 0);
-      for (Event& event : events_) event = exact_event(event, e, f);
+      if (!refine_ends(line_, 0)) return false;
+      for (Event& event : events_) {
+        if (!make_exact(event, e, f)) return false;
+      }
+      return true;
     };
     const auto vague = [](const Event& x) { return !(x.error < 1e-3); };
     const auto earlier = [](const Event& x, const Event& y) { return x.t < y.t; };
     const auto close = [](const Event& x, const Event& y) { return !(y.t - x.t > x.error + y.error); };
-    if (std::any_of(events_.begin(), events_.end(), vague)) exactly();
+    if (std::any_of(events_.begin(), events_.end(), vague) && !exactly()) return false;
     std::sort(events_.begin(), events_.end(), earlier);
-    if (std::adjacent_find(events_.begin(), events_.end(), close) == events_.end()) return;
-    exactly();
+    if (std::adjacent_find(events_.begin(), events_.end(), close) == events_.end()) return true;
+    if (!exactly()) return false;
     std::sort(events_.begin(), events_.end(), earlier);
-    if (std::adjacent_find(events_.begin(), events_.end(), close) != events_.end()) throw Undecided{};
+    return std::adjacent_find(events_.begin(), events_.end(), close) == events_.end();
   }
 
-  Event exact_event(Event event, std::uint32_t e, std::uint32_t f) const {
+  [[nodiscard]] bool make_exact(Event& event, std::uint32_t e, std::uint32_t f) const {
     Spot spot;
     spot.name = sorted_name(e, f, event.edge);
-    s_.refine(spot);
+    if (!s_.refine(spot)) return false;
     Vec3 d{};
     Vec3 x{};
     for (std::size_t k = 0; k < 3; ++k) {
@@ -204,11 +208,10 @@ class LineCutter {
     const double square = dot(d, d);
     event.t = dot(x, d) / square;
     event.error = 8 * (spot.error + line_.from.error + line_.to.error) / std::sqrt(square) + 8 * kRounding;
-    if (!(event.error < 0.01)) throw Undecided{};
-    return event;
+    return event.error < 0.01;
   }
 
-  Spot spot_of(const Event& event, std::uint32_t e, std::uint32_t f) const {
+  [[nodiscard]] std::optional<Spot> spot_of(const Event& event, std::uint32_t e, std::uint32_t f) const {
     Spot spot;
     spot.name = sorted_name(e, f, event.edge);
     double largest = 0;
@@ -221,7 +224,7 @@ class LineCutter {
     }
     spot.error =
         (1 - event.t) * line_.from.error + event.t * line_.to.error + length * event.error + largest * kRounding;
-    if (spot.error > s_.size * kGoodPlace) s_.refine(spot);
+    if (spot.error > s_.size * kGoodPlace && !s_.refine(spot)) return std::nullopt;
     return spot;
   }
 

@@ -16,7 +16,7 @@
 #include "nef/io/native/native_binary.h"
 #include "nef/io/native/native_format.h"
 #include "nef/mesh/mesh_check.h"
-#include "nef/program/expression.h"
+#include "nef/program/expression/expression.h"
 
 namespace nef::fuzz {
 namespace {

@@ -13,7 +13,7 @@ import sys
 # The order of docs/architecture.md. A folder may include those before it, and itself.
 CORE = [
     "base", "number", "geometry", "sphere_map", "complex", "location", "synthesis", "boolean", "query", "mesh",
-    "construct", "operation", "tiles", "import", "export", "validation", "distance", "parts", "decimation", "io",
+    "construct", "operation", "tiles", "import", "export", "validation", "distance", "parts", "remeshing", "io",
     "program", "view", "command",
 ]
 # The public face stands between the folders that make it and those that use it.

@@ -19,6 +19,7 @@ void add_info_commands(CLI::App& app, Session& session);
 void add_check_command(CLI::App& app, Session& session);
 void add_repair_command(CLI::App& app, Session& session);
 void add_decimate_command(CLI::App& app, Session& session);
+void add_subdivide_command(CLI::App& app, Session& session);
 void add_query_commands(CLI::App& app, Session& session);
 void add_parts_commands(CLI::App& app, Session& session);
 void add_eval_command(CLI::App& app, Session& session, const CommandExtensions& extensions);

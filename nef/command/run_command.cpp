@@ -29,6 +29,7 @@ void add_commands(CLI::App& app, Session& session, const CommandExtensions& exte
   add_check_command(app, session);
   add_repair_command(app, session);
   add_decimate_command(app, session);
+  add_subdivide_command(app, session);
   add_query_commands(app, session);
   add_parts_commands(app, session);
   add_eval_command(app, session, extensions);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nef/decimation/decimate.h"
+#include "nef/remeshing/decimate.h"
 
-#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Tools/Decimater/DecimaterT.hh>
 #include <OpenMesh/Tools/Decimater/ModNormalFlippingT.hh>
 #include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
@@ -17,15 +16,10 @@
 #include "nef/export/convert_openmesh.h"
 #include "nef/export/to_mesh.h"
 #include "nef/mesh/edge_order.h"
+#include "nef/remeshing/triangle_mesh.h"
 
 namespace nef {
 namespace {
-
-struct Traits : OpenMesh::DefaultTraits {
-  using Point = OpenMesh::Vec3d;
-  using Normal = OpenMesh::Vec3d;
-};
-using TriangleMesh = OpenMesh::TriMesh_ArrayKernelT<Traits>;
 
 // A mesh without edges or vertices at which several sheets meet, and for each of its vertices the one that it was.
 struct Sheets {

@@ -6,7 +6,7 @@
 #include <cstddef>
 
 #include "nef/construct/construct.h"
-#include "nef/decimation/hausdorff.h"
+#include "nef/remeshing/hausdorff.h"
 
 namespace nef {
 

@@ -7,7 +7,7 @@
 
 #include "nef/io/file_bytes.h"
 #include "nef/io/mesh/face_groups.h"
-#include "nef/view/byte_text.h"
+#include "nef/view/page/byte_text.h"
 
 namespace nef::view {
 namespace {

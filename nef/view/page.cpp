@@ -4,8 +4,8 @@
 #include "nef/base/error.h"
 #include "nef/base/in_quotes.h"
 #include "nef/io/file_bytes.h"
-#include "nef/view/byte_text.h"
-#include "nef/view/viewer_bundle.h"
+#include "nef/view/page/byte_text.h"
+#include "nef/view/page/viewer_bundle.h"
 
 namespace nef::view {
 namespace {

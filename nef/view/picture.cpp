@@ -6,7 +6,7 @@
 
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
-#include "nef/view/raster.h"
+#include "nef/view/picture/raster.h"
 
 namespace nef::view {
 namespace {

@@ -8,7 +8,7 @@
 #include "nef/construct/construct.h"
 #include "nef/mesh/triangulate.h"
 #include "nef/query/predicates_of_sets.h"
-#include "nef/view/item_finder.h"
+#include "nef/view/scene/item_finder.h"
 
 namespace nef::view {
 namespace {

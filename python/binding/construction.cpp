@@ -3,12 +3,12 @@
 // Functions that make sets.
 #include <pybind11/stl.h>
 
-#include "binding/bindings.h"
-#include "binding/errors.h"
+#include "binding/base/bindings.h"
+#include "binding/base/errors.h"
 #include "binding/meshes.h"
 #include "nef/construct/construct.h"
 #include "nef/io/polyhedron_file.h"
-#include "nef/program/expression.h"
+#include "nef/program/expression/expression.h"
 
 namespace nef::python {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <ctime>
 
-#include "binding/bindings.h"
+#include "binding/base/bindings.h"
 #include "binding/meshes.h"
 #include "nef/export/to_mesh.h"
 #include "nef/io/native/native_format.h"

@@ -3,7 +3,7 @@
 // Meshes between arrays and the library.
 #pragma once
 
-#include "binding/numbers.h"
+#include "binding/base/numbers.h"
 #include "nef/export/to_mesh.h"
 
 namespace nef::python {

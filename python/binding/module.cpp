@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "binding/bindings.h"
-#include "binding/errors.h"
+#include "binding/base/bindings.h"
+#include "binding/base/errors.h"
 
 PYBIND11_MODULE(_nef, module) {
   module.doc() = "The core of the package nef; see there.";

@@ -4,8 +4,8 @@
 #include <pybind11/operators.h>
 #include <pybind11/stl.h>
 
-#include "binding/bindings.h"
-#include "binding/set_hash.h"
+#include "binding/base/bindings.h"
+#include "binding/base/set_hash.h"
 #include "nef/parts/split.h"
 
 namespace nef::python {

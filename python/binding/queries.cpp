@@ -5,7 +5,7 @@
 
 #include <set>
 
-#include "binding/bindings.h"
+#include "binding/base/bindings.h"
 #include "nef/distance/distance.h"
 #include "nef/operation/for_each_mark.h"
 #include "nef/parts/section.h"

@@ -3,7 +3,7 @@
 // Pictures and pages.
 #include <pybind11/stl.h>
 
-#include "binding/bindings.h"
+#include "binding/base/bindings.h"
 #include "nef/view/page.h"
 #include "nef/view/picture.h"
 

@@ -39,7 +39,7 @@ TEST_CASE("steps of all operators, with comments, and the promised JSON") {
   for (std::size_t i = 0; i < 4; ++i) {
     CHECK(report["steps"][i]["line"] == lines[i]);
     CHECK(report["steps"][i]["operator"] == operators[i]);
-    CHECK(report["steps"][i]["s"].get<double>() >= 0);
+    CHECK(report["steps"][i]["op_s"].get<double>() >= 0);
     CHECK(report["steps"][i]["tiles"].is_null());
   }
   // [0,2]^3 without its upper corner has 7, below z = 1 it has 4, 3 of them outside of the unit cube; and 4 beside it.

@@ -5,7 +5,7 @@
 
 #include <array>
 
-#include "nef/program/expression.h"
+#include "nef/program/expression/expression.h"
 #include "nef/program/numbers.h"
 
 namespace nef {

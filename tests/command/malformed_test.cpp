@@ -189,7 +189,7 @@ TEST_CASE("a mesh from a pipe is read once") {
   const std::string command = "cd '" + here.path().string() + "' && cat a.off | '" + program_folder() +
                               "/nef' info /dev/stdin --json > out.json";
   REQUIRE(std::system(command.c_str()) == 0);
-  CHECK(nlohmann::json::parse(here.read("out.json"))["volume"] == "8");
+  CHECK(nlohmann::json::parse(here.read("out.json"))["result"]["volume"] == "8");
 }
 
 TEST_CASE("The option --no-check changes nothing about a mesh that touches itself") {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "command/process.h"
-#include "nef/program/openscad.h"
+#include "nef/program/expression/openscad.h"
 
 namespace nef::test {
 namespace {

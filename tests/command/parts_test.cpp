@@ -2,6 +2,7 @@
 //
 // nef section, split, distance, repair; standard input and output; what nef info prints.
 #include "command/process.h"
+#include "support/report_shape.h"
 #include "tests/support/paths.h"
 
 namespace nef::test {
@@ -94,10 +95,28 @@ TEST_CASE("repair says what it did, and whether that was enough") {
   CHECK(here.nef("info c.off --json").json()["result"]["volume"] == "8");
 }
 
+TEST_CASE("subdivided meshes are files, and what cannot be subdivided is one line") {
+  const Workplace here;
+  here.write("a.off", cube_off(0, 2));
+  const Outcome fine = here.nef("subdivide a.off --times 2 -o fine.ply --json");
+  CHECK(fine.code == 0);
+  test::check_report_shape(fine.json(), "subdivide");
+  CHECK(fine.json()["triangles"] == 12 * 16);
+  CHECK(here.nef("equal a.off fine.ply").code == 0);
+  REQUIRE(here.nef("subdivide fine.ply --scheme loop -o round.off").code == 0);
+  CHECK(here.nef("check round.off").code == 0);
+  CHECK(here.nef("difference round.off a.off --json").json()["result"]["volume"] == "0");  // smoothed, it shrinks
+  REQUIRE(here.nef("eval 'box(0,0,0,1,1,1) + box(1,1,0,2,2,1)' -o pinched.nef").code == 0);
+  check_refused(here.nef("subdivide pinched.nef --scheme loop -o b.off"), "several sheets");
+  check_refused(here.nef("subdivide a.off --times 0 -o b.off"), "--times");
+  REQUIRE(here.nef("eval 'point(0,0,0)' -o point.nef").code == 0);
+  check_refused(here.nef("subdivide point.nef -o b.off"), "no bounded solid part");
+}
+
 TEST_CASE("a dash is standard input and output") {
   const Workplace here;
   CHECK(shell(here, "NEF eval 'box(0,0,0,1,1,2)' -o - | NEF info - --json > info.json") == 0);
-  CHECK(nlohmann::json::parse(here.read("info.json"))["volume"] == "2");
+  CHECK(nlohmann::json::parse(here.read("info.json"))["result"]["volume"] == "2");
   CHECK(shell(here, "NEF eval 'box(0,0,0,1,1,2)' -o - --format off > a.off") == 0);
   CHECK(here.read("a.off").find("OFF\n8 6 0\n") == 0);
   CHECK(shell(here, "NEF convert - -o b.stl < a.off") == 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nef/decimation/decimate.h"
+#include "nef/remeshing/decimate.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

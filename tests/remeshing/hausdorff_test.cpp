@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nef/decimation/hausdorff.h"
+#include "nef/remeshing/hausdorff.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

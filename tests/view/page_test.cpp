@@ -10,7 +10,7 @@
 
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
-#include "nef/view/byte_text.h"
+#include "nef/view/page/byte_text.h"
 #include "nef/view/page.h"
 #include "view/sets.h"
 

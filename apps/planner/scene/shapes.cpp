@@ -10,7 +10,7 @@
 #include "nef/io/file_bytes.h"
 #include "nef/io/mesh/mesh_reader.h"
 #include "nef/io/polyhedron_file.h"
-#include "nef/program/expression.h"
+#include "nef/program/expression/expression.h"
 
 namespace nef::planner {
 namespace {

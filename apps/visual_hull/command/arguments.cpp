@@ -89,6 +89,9 @@ void add_output_options(CLI::App& app, Arguments& a) {
   app.add_flag("--exact", a.exact, "Exact coordinates in mesh files (not STL)");
   app.add_flag("--binary", a.binary, "Binary STL or PLY");
   app.add_flag("--text", a.text, ".nef as text");
+  app.add_option("--decimate", a.decimate, "Write a mesh of about N triangles, and tell how far it is from the hull")
+      ->check(CLI::PositiveNumber)
+      ->type_name("N");
   app.add_flag("--verify", a.verify, "Project the hull back into every view; exit code 1 if it is not inside");
   app.add_option("--way", a.way,
                  "Vertex by vertex (direct), by intersecting cones, or as is best; the hull is the same")

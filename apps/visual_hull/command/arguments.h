@@ -18,6 +18,7 @@ struct Arguments {
   bool exact = false;
   bool binary = false;
   bool text = false;
+  std::size_t decimate = 0;  ///< triangles; 0: not
   double min_area = 0;
   double simplify = 0;
   bool outer = false;

@@ -19,7 +19,7 @@
 #include "nef/base/parallel.h"
 #include "nef/base/stopwatch.h"
 #include "nef/io/file_bytes.h"
-#include "nef/io/polyhedron_file.h"
+#include "apps/visual_hull/command/hull_file.h"
 #include "nef/program/progress_bar.h"
 #include "nef/program/run_program.h"
 
@@ -70,6 +70,7 @@ json settings_of(const Arguments& a) {
           {"drop_suspects", a.drop_suspects},
           {"at_least", a.at_least},
           {"verify", a.verify},
+          {"decimate", a.decimate},
           {"exact", a.exact},
           {"binary", a.binary},
           {"text", a.text}};
@@ -145,11 +146,8 @@ json entry_of(const Result& result, const fs::path& output, const Arguments& a) 
   if (result.vanished) {
     entry["message"] = nef::utf8(vanished_text(result));
   } else {
-    nef::PolyhedronWriteOptions format;
-    format.exact = a.exact;
-    format.binary = a.binary;
-    format.text = a.text;
-    nef::write_polyhedron(output.string(), result.hull, format);
+    const std::optional<nef::DecimatedMesh> decimated = write_hull(output.string(), result.hull, a, nullptr);
+    if (decimated) entry["decimated"] = decimation_json(*decimated);
     const nef::Counts counts = nef::counts(result.hull);
     entry["output"] = nef::utf8(output.string());
     entry["vertices"] = counts.vertices;

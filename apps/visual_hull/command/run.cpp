@@ -1,28 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-//
-// visual_hull SCENE [options]: the exact visual hull of calibrated silhouettes.
+#include "apps/visual_hull/command/run.h"
+
 #include <cstdio>
 #include <iostream>
-#include <opencv2/core/utility.hpp>
-#include <opencv2/core/utils/logger.hpp>
 
-#include "apps/visual_hull/command/arguments.h"
 #include "apps/visual_hull/command/frames.h"
+#include "apps/visual_hull/command/hull_file.h"
 #include "apps/visual_hull/command/overlay.h"
 #include "apps/visual_hull/command/pictures.h"
 #include "apps/visual_hull/command/report.h"
 #include "apps/visual_hull/scene/understanding.h"
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
-#include "nef/io/polyhedron_file.h"
 #include "nef/program/progress_bar.h"
 #include "nef/program/run_program.h"
+#include "nef/program/run_report.h"
 
+namespace visual_hull {
 namespace {
 
 namespace fs = std::filesystem;
-using visual_hull::Arguments;
-using visual_hull::Phase;
 
 constexpr int kDone = 0;
 constexpr int kBad = 2;  // bad input or usage
@@ -38,7 +35,7 @@ void write_text(const std::string& path, const std::string& text) {
   }
 }
 
-std::string box_text(const visual_hull::WorldBox& box) {
+std::string box_text(const WorldBox& box) {
   std::string text;
   for (const auto* corner : {&box.low, &box.high}) {
     for (const auto& c : *corner) {
@@ -51,47 +48,47 @@ std::string box_text(const visual_hull::WorldBox& box) {
 }
 
 // Which view disagrees with the others; without a clear one the first three, without a verdict.
-void tell_suspects(const Arguments& a, const visual_hull::Result& result, std::ostream& say) {
+void tell_suspects(const Arguments& a, const Result& result, std::ostream& say) {
   if (!a.quiet) {
-    for (const std::string& line : visual_hull::verdict_lines(result)) complain(line);
+    for (const std::string& line : verdict_lines(result)) complain(line);
   }
   if (a.quiet || a.json || !result.consistency) return;
-  for (const std::string& line : visual_hull::suspects_table(result)) say << line << "\n";
+  for (const std::string& line : suspects_table(result)) say << line << "\n";
 }
 
 // What is understood, without a hull.
-int check_scene(const Arguments& a, const visual_hull::Scene& scene) {
+int check_scene(const Arguments& a, const Scene& scene) {
   std::vector<fs::path> images;
   std::string missing;
   try {
-    images = visual_hull::images_of(scene, visual_hull::scene_folder(a.scene),
+    images = images_of(scene, scene_folder(a.scene),
                                     a.images.empty() ? std::nullopt : std::optional<fs::path>(a.images));
   } catch (const nef::Error& error) {
     missing = error.what();
   }
-  std::cout << visual_hull::understood(scene) << "\n";
-  for (const std::string& line : visual_hull::view_lines(scene, images)) std::cout << line << "\n";
+  std::cout << understood(scene) << "\n";
+  for (const std::string& line : view_lines(scene, images)) std::cout << line << "\n";
   if (missing.empty()) return kDone;
   complain(missing);
   return kBad;
 }
 
 // Tells people what has come out; the exit code.
-int conclude(const Arguments& a, const visual_hull::Scene& scene, const visual_hull::Result& result) {
+int conclude(const Arguments& a, const Scene& scene, const Result& result) {
   const bool talk = !a.quiet && !a.json;
   std::ostream& say = a.report == "-" ? std::cerr : std::cout;
-  if (talk) say << visual_hull::understood(scene) << "\n";
+  if (talk) say << understood(scene) << "\n";
   if (talk && result.box_found && !result.vanished) say << "box found: --box=" << box_text(result.box) << "\n";
   tell_suspects(a, result, say);
   if (result.vanished) {
-    complain(visual_hull::vanished_text(result));
+    complain(vanished_text(result));
     return kNo;
   }
-  if (talk) say << visual_hull::summary(result) << "\n";
+  if (talk) say << summary(result) << "\n";
   bool inside = true;
-  for (const visual_hull::ViewResult& view : result.views) {
+  for (const ViewResult& view : result.views) {
     if (!view.verification) continue;
-    const visual_hull::Verification& v = *view.verification;
+    const Verification& v = *view.verification;
     inside = inside && v.inside;
     if (!v.inside) complain("view " + view.name + ": not inside: " + v.problem);
     if (!talk) continue;
@@ -102,25 +99,24 @@ int conclude(const Arguments& a, const visual_hull::Scene& scene, const visual_h
   return inside ? kDone : kNo;
 }
 
-// What is asked for, into files. A hull that vanished has pictures of its views only.
-nef::Messages write_files(const Arguments& a, const visual_hull::Result& result, nef::ProgressBar& bar) {
+struct Written {
   nef::Messages messages;
+  std::optional<nef::DecimatedMesh> decimated;
+};
+
+// What is asked for, into files. A hull that vanished has pictures of its views only.
+Written write_files(const Arguments& a, const Result& result, nef::ProgressBar& bar) {
+  Written written;
   const auto step = [&](const std::string& target, bool solid, const std::function<void()>& write) {
     if (target.empty() || (solid && result.vanished)) return;
     bar.show("write " + target);
     write();
   };
-  step(a.output, true, [&] {
-    nef::PolyhedronWriteOptions format;
-    format.exact = a.exact;
-    format.binary = a.binary;
-    format.text = a.text;
-    nef::write_polyhedron(a.output, result.hull, format, &messages);
-  });
-  step(a.overlay, false, [&] { visual_hull::write_overlays(result, result.origin, a.overlay); });
-  step(a.preview, true, [&] { visual_hull::write_preview(result, a.preview); });
-  step(a.page, true, [&] { visual_hull::write_page(result, result.origin, a.page); });
-  return messages;
+  step(a.output, true, [&] { written.decimated = write_hull(a.output, result.hull, a, &written.messages); });
+  step(a.overlay, false, [&] { write_overlays(result, result.origin, a.overlay); });
+  step(a.preview, true, [&] { write_preview(result, a.preview); });
+  step(a.page, true, [&] { write_page(result, result.origin, a.page); });
+  return written;
 }
 
 void check_page_name(const std::string& page) {
@@ -129,42 +125,38 @@ void check_page_name(const std::string& page) {
   }
 }
 
+}  // namespace
+
 int run(const Arguments& a) {
-  if (!a.frames.empty()) return visual_hull::make_frames(a);
+  check_output(a);
+  if (!a.frames.empty()) return make_frames(a);
   check_page_name(a.page);
   nef::ProgressBar bar(!a.quiet);
-  const visual_hull::Options options = visual_hull::to_options(a);
-  const visual_hull::Scene scene = visual_hull::scene_of(a);
+  const Options options = to_options(a);
+  const Scene scene = scene_of(a);
   if (a.check) return check_scene(a, scene);
-  visual_hull::Result result =
-      visual_hull::compute(scene, visual_hull::scene_folder(a.scene), options,
+  Result result =
+      compute(scene, scene_folder(a.scene), options,
                            [&bar](Phase phase, const std::string& view, std::size_t done, std::size_t total) {
-                             bar.show(std::string(visual_hull::phase_name(phase)) + " " + view, done, total);
+                             bar.show(std::string(phase_name(phase)) + " " + view, done, total);
                            });
-  nef::Messages messages;
-  visual_hull::timed(result.phases, Phase::kWrite, [&] { messages = write_files(a, result, bar); });
+  Written written;
+  timed(result.phases, Phase::kWrite, [&] { written = write_files(a, result, bar); });
   if (!a.report.empty() || a.json) {
     bar.show("write report");
-    const std::string text = nef::report_text(visual_hull::make_report(result, messages, a.exact_volume));
+    nlohmann::ordered_json report = make_report(result, written.messages, a.exact_volume);
+    if (written.decimated) report["decimated"] = decimation_json(*written.decimated);
+    const std::string text = nef::report_text(report);
     bar.clear();
     if (!a.report.empty()) write_text(a.report, text);
     if (a.json && a.report != "-") write_text("-", text);
   }
   bar.clear();
   if (!a.quiet && !a.json) {
-    for (const std::string& message : messages) complain("note: " + message);
+    for (const std::string& message : written.messages) complain("note: " + message);
+    if (written.decimated) (a.report == "-" ? std::cerr : std::cout) << decimation_text(*written.decimated) << "\n";
   }
   return conclude(a, scene, result);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);  // errors are ours to tell
-  cv::setNumThreads(1);                                                   // threads have whole views to work on
-  Arguments arguments;
-  CLI::App app{
-      "Exact visual hulls from calibrated silhouettes: a closed solid, in rational numbers, without tolerance."};
-  visual_hull::add_options(app, arguments);
-  return nef::run_program(app, argc, argv, [&arguments] { return run(arguments); });
-}
+}  // namespace visual_hull

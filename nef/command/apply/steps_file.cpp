@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "nef/io/file_bytes.h"
-#include "nef/program/syntax_tree.h"
+#include "nef/program/expression/syntax_tree.h"
 
 namespace nef {
 namespace {

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "nef/program/expression.h"
+#include "nef/program/expression/expression.h"
 #include "nef/tiles/step_sequence.h"
 
 namespace nef {

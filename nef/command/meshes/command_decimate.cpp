@@ -3,7 +3,7 @@
 // nef decimate
 #include "nef/base/stopwatch.h"
 #include "nef/command/commands.h"
-#include "nef/decimation/decimate.h"
+#include "nef/remeshing/decimate.h"
 #include "nef/io/mesh/mesh_writer.h"
 
 namespace nef {

@@ -5,8 +5,8 @@
 
 #include "nef/command/commands.h"
 #include "nef/io/file_bytes.h"
-#include "nef/program/expression.h"
-#include "nef/program/openscad.h"
+#include "nef/program/expression/expression.h"
+#include "nef/program/expression/openscad.h"
 
 namespace nef {
 namespace {

@@ -4,7 +4,7 @@
 #include <map>
 
 #include "nef/command/commands.h"
-#include "nef/program/expression.h"
+#include "nef/program/expression/expression.h"
 #include "nef/program/numbers.h"
 
 namespace nef {

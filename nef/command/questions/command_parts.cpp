@@ -5,7 +5,7 @@
 
 #include "nef/base/stopwatch.h"
 #include "nef/command/commands.h"
-#include "nef/command/section_drawing.h"
+#include "nef/command/questions/section_drawing.h"
 #include "nef/distance/distance.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/polyhedron_file.h"

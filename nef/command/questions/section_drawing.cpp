@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nef/command/section_drawing.h"
+#include "nef/command/questions/section_drawing.h"
 
 #include <algorithm>
 #include <array>

@@ -43,7 +43,7 @@ const bytes = Buffer.from(page, "utf8");
 const rows = [];
 for (let i = 0; i < bytes.length; i += 32) rows.push([...bytes.subarray(i, i + 32)].join(","));
 writeFileSync(bundlePath, `// Written by nef/view/web/bundle.mjs from nef/view/web and three.js (MIT licence).
-#include "nef/view/viewer_bundle.h"
+#include "nef/view/page/viewer_bundle.h"
 namespace {
 constexpr unsigned char kPage[] = {
 ${rows.join(",\n")}};

@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "apps/planner/free_space/free_space.h"
-#include "nef/program/expression.h"
+#include "nef/program/expression/expression.h"
 
 namespace nef::planner::test {
 namespace {

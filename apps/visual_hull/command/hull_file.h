@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The file of a hull, whole or decimated.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "apps/visual_hull/command/arguments.h"
+#include "nef/remeshing/decimate.h"
+
+namespace visual_hull {
+
+/// Throws nef::InputError if what is asked of the output cannot be had.
+void check_output(const Arguments& arguments);
+
+/// Writes the hull as the arguments have it: whole, or with --decimate as a mesh of fewer triangles, which is returned.
+/// Notes go to `messages` if that is not null.
+std::optional<nef::DecimatedMesh> write_hull(const std::string& path, const nef::Polyhedron& hull,
+                                             const Arguments& arguments, nef::Messages* messages);
+
+/// For the report: `triangles`, `vertices`, and `distance` from the hull (bounds of Hausdorff's, `low` and `high`).
+nlohmann::ordered_json decimation_json(const nef::DecimatedMesh& decimated);
+/// The same in a line.
+std::string decimation_text(const nef::DecimatedMesh& decimated);
+
+}  // namespace visual_hull

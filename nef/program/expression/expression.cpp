@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Evaluates syntax trees.
+#include "nef/program/expression/expression.h"
+
+#include "nef/construct/round_shapes.h"
+#include "nef/program/expression/syntax_tree.h"
+
+namespace nef {
+namespace {
+
+class ExpressionEvaluator {
+ public:
+  ExpressionEvaluator(std::string_view text, const ExpressionOptions& options) : text_(text), options_(options) {}
+
+  Polyhedron operator()(const SyntaxNode& node) {
+    if (node.term == Term::kVariable) return variables_[node.variable];
+    if (node.term == Term::kBlock) {
+      for (std::size_t i = 0; i + 1 < node.sets.size(); ++i) variables_.push_back((*this)(node.sets[i]));
+      return (*this)(node.sets.back());
+    }
+    std::vector<Polyhedron> sets;
+    sets.reserve(node.sets.size());
+    for (const SyntaxNode& child : node.sets) sets.push_back((*this)(child));
+    if (node.term == Term::kFile) return file(node);
+    if (node.term == Term::kMinkowski && !options_.minkowski) {
+      throw ExpressionError(place_in_text(text_, node.offset) + ": Minkowski sums cannot be computed here",
+                            node.offset);
+    }
+    try {
+      if (node.term == Term::kMinkowski) return options_.minkowski(sets[0], sets[1]);
+      return make(node, sets);
+    } catch (const InputError& error) {
+      throw ExpressionError(place_in_text(text_, node.offset) + ": " + error.what(), node.offset);
+    }
+  }
+
+ private:
+  [[nodiscard]] Polyhedron file(const SyntaxNode& node) const {
+    if (!options_.load) {
+      throw ExpressionError(place_in_text(text_, node.offset) + ": files cannot be read here", node.offset);
+    }
+    return options_.load(node.path);
+  }
+
+  static Polyhedron make(const SyntaxNode& node, std::span<const Polyhedron> sets) {
+    const std::vector<Rational>& n = node.numbers;
+    switch (node.term) {
+      case Term::kNothing:
+      case Term::kFile:  // made by file()
+        return Polyhedron();
+      case Term::kEverything:
+        return Polyhedron::everything();
+      case Term::kBox:
+        return make_box({n[0], n[1], n[2]}, {n[3], n[4], n[5]});
+      case Term::kHalfspace:
+        return make_halfspace(n[0], n[1], n[2], n[3]);
+      case Term::kPoint:
+        return make_point(node.rings[0][0]);
+      case Term::kSegment:
+        return make_segment(node.rings[0][0], node.rings[0][1]);
+      case Term::kHull:
+        return convex_hull(node.rings[0]);
+      case Term::kHullOfSets:
+        return convex_hull_of_sets(sets);
+      case Term::kSphere:
+        return make_sphere(n[0], corners_of(n, 1));
+      case Term::kCylinder:
+        return make_cylinder(n[0], n[1], n.size() > 2 ? n[2] : n[1], corners_of(n, 3));
+      case Term::kPolygon:
+        return make_polygon(node.rings);
+      case Term::kTranslate:
+      case Term::kScale:
+      case Term::kRotate:
+      case Term::kTransform:
+        return transform(sets[0], map_of(node));
+      case Term::kChain:
+        return chain(node.operators, sets);
+      default:
+        return combine(node.term, sets);
+    }
+  }
+
+  // The number of corners of a round shape, if it is given.
+  static unsigned corners_of(std::span<const Rational> numbers, std::size_t at) {
+    constexpr unsigned kUsual = 32;
+    if (numbers.size() <= at) return kUsual;
+    const Rational& n = numbers[at];
+    if (n.get_den() != 1 || n < 3 || n > 100000) throw InputError("the number of corners is one from 3 to 100000");
+    return static_cast<unsigned>(n.get_num().get_ui());
+  }
+
+  static AffineMap map_of(const SyntaxNode& node) {
+    const std::vector<Rational>& n = node.numbers;
+    switch (node.term) {
+      case Term::kTranslate:
+        return AffineMap::translate({n[0], n[1], n[2]});
+      case Term::kScale:
+        return n.size() == 1 ? AffineMap::scale({n[0], n[0], n[0]}) : AffineMap::scale({n[0], n[1], n[2]});
+      case Term::kRotate: {
+        const Rational3 axis{n[0], n[1], n[2]};
+        const double degrees = nearest_double(n[3]);
+        return n.size() == 4 ? AffineMap::rotate(axis, degrees)
+                             : AffineMap::rotate(axis, degrees, nearest_double(n[4]));
+      }
+      default:
+        return affine_map_of(n);
+    }
+  }
+
+  // Runs of one operator at a time.
+  static Polyhedron chain(std::span<const Term> operators, std::span<const Polyhedron> sets) {
+    Polyhedron result = sets[0];
+    for (std::size_t first = 0, last = 0; first < operators.size(); first = last) {
+      std::vector<Polyhedron> run{std::move(result)};
+      for (; last < operators.size() && operators[last] == operators[first]; ++last) run.push_back(sets[last + 1]);
+      result = combine(operators[first], run);
+    }
+    return result;
+  }
+
+  static Polyhedron combine(Term term, std::span<const Polyhedron> sets) {
+    switch (term) {
+      case Term::kUnion:
+        return unite_all(sets);
+      case Term::kIntersection:
+        return intersect_all(sets);
+      case Term::kDifference:
+        return subtract(sets[0], sets.size() == 2 ? sets[1] : unite_all(sets.subspan(1)));
+      case Term::kSymmetricDifference: {
+        Polyhedron result = sets[0];
+        for (const Polyhedron& set : sets.subspan(1)) result = symmetric_difference(result, set);
+        return result;
+      }
+      case Term::kInterior:
+        return interior(sets[0]);
+      case Term::kClosure:
+        return closure(sets[0]);
+      case Term::kBoundary:
+        return boundary(sets[0]);
+      case Term::kExterior:
+        return exterior(sets[0]);
+      case Term::kRegularize:
+        return regularize(sets[0]);
+      default:
+        return complement(sets[0]);
+    }
+  }
+
+  std::string_view text_;
+  const ExpressionOptions& options_;
+  std::vector<Polyhedron> variables_;
+};
+
+}  // namespace
+
+Polyhedron evaluate_expression(std::string_view text, const ExpressionOptions& options) {
+  return ExpressionEvaluator(text, options)(parse_expression(text));
+}
+
+Polyhedron convex_hull_of_sets(std::span<const Polyhedron> sets) {
+  std::vector<Rational3> points;
+  for (const Polyhedron& set : sets) {
+    if (!set.is_bounded()) throw InputError("the hull of an unbounded set is not computed");
+    const Complex& c = set.complex();
+    for (std::uint32_t v = 0; v < c.vertex_count(); ++v) points.push_back(c.points.rational(PointId{v}));
+  }
+  return convex_hull(points);
+}
+
+AffineMap affine_map_of(std::span<const Rational> n) {
+  if (n.size() != 12 && n.size() != 16) {
+    throw InputError("a matrix has 12 or 16 numbers (rows of 3x4 or 4x4), not " + std::to_string(n.size()));
+  }
+  Rational w = 1;
+  if (n.size() == 16) {
+    w = n[15];
+    if (n[12] != 0 || n[13] != 0 || n[14] != 0 || w == 0) {
+      throw InputError("the last row of an affine 4x4 matrix is 0,0,0,w with w other than 0");
+    }
+  }
+  AffineMap map;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) map.linear[i][j] = n[4 * i + j] / w;
+    map.translation[i] = n[4 * i + 3] / w;
+  }
+  return map;
+}
+
+}  // namespace nef

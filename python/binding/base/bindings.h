@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The parts of the extension module nef._nef.
+#pragma once
+
+#include "binding/base/call.h"
+#include "binding/base/numbers.h"
+#include "nef/polyhedron.h"
+
+namespace nef::python {
+
+/// The size of a set, for call().
+inline std::size_t items(const Polyhedron& set) { return set.complex().vertex_count(); }
+inline std::size_t items(const std::vector<Polyhedron>& sets) {
+  std::size_t sum = 0;
+  for (const Polyhedron& set : sets) sum += items(set) + 100;
+  return sum;
+}
+
+/// A named tuple of the module nef.results.
+inline py::object result_of(const char* type, const py::args& values) {
+  return py::module_::import("nef.results").attr(type)(*values);
+}
+
+using PolyhedronClass = py::class_<Polyhedron>;
+
+void bind_operations(PolyhedronClass& polyhedron);
+void bind_queries(py::module_& module, PolyhedronClass& polyhedron);
+void bind_files(py::module_& module, PolyhedronClass& polyhedron);
+void bind_construction(py::module_& module);
+void bind_view(py::module_& module);
+
+}  // namespace nef::python

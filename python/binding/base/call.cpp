@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "binding/base/call.h"
+
+namespace nef::python {
+namespace {
+
+// Each extension module has calls of its own to wait for.
+void wait_at_exit() {
+  static bool done = false;  // guarded by the interpreter's lock
+  if (done) return;
+  done = true;
+  py::module_::import("atexit").attr("register")(py::cpp_function(&wait_for_abandoned_calls));
+}
+
+}  // namespace
+
+bool in_main_thread() {
+  wait_at_exit();
+  // The main thread never changes while the interpreter lives (after a fork it is the one that forked).
+  const py::module_ threading = py::module_::import("threading");
+  return PyThread_get_thread_ident() == py::cast<unsigned long>(threading.attr("main_thread")().attr("ident"));
+}
+
+std::atomic<int>& abandoned_calls() {
+  static std::atomic<int> count{0};
+  return count;
+}
+
+void wait_for_abandoned_calls() {
+  constexpr std::chrono::milliseconds kStep{10};
+  constexpr int kSteps = 500;
+  const py::gil_scoped_release unlocked;
+  for (int i = 0; i < kSteps && abandoned_calls() > 0; ++i) std::this_thread::sleep_for(kStep);
+}
+
+ProgressFunction::ProgressFunction(const py::object& function) {
+  if (function.is_none()) return;
+  if (PyCallable_Check(function.ptr()) == 0) throw py::type_error("progress must be a function or None");
+  function_ = std::shared_ptr<py::object>(new py::object(function), [](py::object* held) {
+    const py::gil_scoped_acquire locked;
+    delete held;
+  });
+}
+
+ProgressFunction& progress_of_thread() {
+  thread_local ProgressFunction current;
+  return current;
+}
+
+ToldProgress::ToldProgress(const ProgressFunction& told)
+    : told_(told ? nef::ProgressFunction(
+                       [told](const char* phase, std::size_t done, std::size_t total) { told(phase, done, total); })
+                 : nef::ProgressFunction()),
+      listener_(told_) {}
+
+}  // namespace nef::python

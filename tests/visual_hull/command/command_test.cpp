@@ -1,0 +1,350 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The command as a user runs it, on the data that comes with the project.
+#include <catch2/catch.hpp>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "nef/base/error.h"
+#include "nef/construct/construct.h"
+#include "nef/io/file_bytes.h"
+#include "nef/io/polyhedron_file.h"
+#include "tests/support/paths.h"
+#include "tests/support/report_shape.h"
+#include "tests/visual_hull/command/run_command.h"
+#include "tests/visual_hull/helpers.h"
+#include "tests/visual_hull/scratch.h"
+
+namespace visual_hull {
+namespace {
+
+using Catch::Contains;
+using testing::Outcome;
+using testing::run;
+using testing::Scratch;
+
+std::string data(const std::string& name) { return source_folder() + "/data/visual_hull/" + name; }
+
+nlohmann::json read_json(const std::filesystem::path& file) {
+  return nlohmann::json::parse(nef::read_file(file.string()));
+}
+
+TEST_CASE("Three letters: output, report and verification") {
+  const Scratch s;
+  const std::string off = (s.folder() / "hull.off").string();
+  const std::string nef = (s.folder() / "hull.nef").string();
+  const std::string report = (s.folder() / "report.json").string();
+  const Outcome outcome = run(data("letters/nef.vsh") + " -o " + nef + " --verify --exact-volume --report " + report +
+                              " --overlay " + (s.folder() / "views").string());
+  INFO(outcome.output);
+  REQUIRE(outcome.code == 0);
+  CHECK(outcome.output.find('\r') == std::string::npos);  // no bar in a pipe
+  CHECK(outcome.output.find('\x1b') == std::string::npos);
+  const nlohmann::json r = read_json(report);
+  REQUIRE(r["views"].size() == 3);
+  CHECK(r["views"][0]["contours"] == 1);
+  CHECK(r["views"][0]["holes"] == 0);
+  CHECK(r["views"][0]["polygon_vertices"] == 10);
+  CHECK(r["views"][0]["cone_facets"] == 12);  // ten sides and two caps
+  for (const char* phase : {"load", "contours", "cones", "intersection", "verify", "write"}) {
+    CHECK(r["phases"].contains(phase + std::string("_s")));
+    CHECK(r["predicates_by_phase"].contains(phase));
+  }
+  nef::test::check_report_shape(r, "hull");
+  // CGAL 5.5 intersecting the same three cones gives the same counts (bench/visual_hull).
+  CHECK(r["result"]["vertices"] == 101);
+  CHECK(r["result"]["facets"] == 67);
+  CHECK(r["result"]["closed"] == true);
+  CHECK(r["result"]["bounded"] == true);
+  REQUIRE(r["verify"].size() == 3);
+  for (const auto& view : r["verify"]) CHECK(view["inside"] == true);
+  std::size_t pictures = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(s.folder() / "views")) {
+    CHECK_FALSE(cv::imread(entry.path().string()).empty());
+    ++pictures;
+  }
+  CHECK(pictures == 3);
+  const nef::Polyhedron hull = nef::read_polyhedron(nef);
+  CHECK(nef::to_string(nef::volume(hull).value()) == r["result"]["volume"]);
+  CHECK(run(data("letters/nef.vsh") + " -q -o " + off).output.empty());
+  CHECK(std::filesystem::exists(off));
+}
+
+// The volume of the voxels whose centres project into all masks, in double precision.
+double voxel_volume(const Scene& scene, const std::string& folder, const WorldBox& box, int steps) {
+  std::vector<cv::Mat> masks;
+  std::vector<std::array<std::array<double, 4>, 3>> p;
+  for (const View& view : scene.views) {
+    masks.push_back(cv::imread(find_image(folder, view.image.string()).string(), cv::IMREAD_GRAYSCALE));
+    p.emplace_back();
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t j = 0; j < 4; ++j) p.back()[i][j] = nef::nearest_double(view.camera.matrix()[i][j]);
+    }
+  }
+  std::array<double, 3> low{};
+  std::array<double, 3> step{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    low[i] = nef::nearest_double(box.low[i]);
+    step[i] = (nef::nearest_double(box.high[i]) - low[i]) / steps;
+  }
+  std::size_t count = 0;
+  for (int a = 0; a < steps; ++a) {
+    for (int b = 0; b < steps; ++b) {
+      for (int c = 0; c < steps; ++c) {
+        const std::array<double, 3> x{low[0] + (a + 0.5) * step[0], low[1] + (b + 0.5) * step[1],
+                                      low[2] + (c + 0.5) * step[2]};
+        bool in = true;
+        for (std::size_t v = 0; v < masks.size() && in; ++v) {
+          std::array<double, 3> q{};
+          for (std::size_t i = 0; i < 3; ++i)
+            q[i] = p[v][i][0] * x[0] + p[v][i][1] * x[1] + p[v][i][2] * x[2] + p[v][i][3];
+          const int u = static_cast<int>(std::lround(q[0] / q[2]));
+          const int w = static_cast<int>(std::lround(q[1] / q[2]));
+          in = u >= 0 && w >= 0 && u < masks[v].cols && w < masks[v].rows && masks[v].at<std::uint8_t>(w, u) != 0;
+        }
+        count += in ? 1 : 0;
+      }
+    }
+  }
+  return static_cast<double>(count) * step[0] * step[1] * step[2];
+}
+
+TEST_CASE("Rendered silhouettes agree with their voxel hull, and every view with the hull") {
+  const std::string model = "eight";
+  const Scratch s;
+  const std::string report = (s.folder() / "report.json").string();
+  const Outcome outcome = run(data(model + "/" + model + ".json") + " --simplify 0.75 --verify --report " + report);
+  INFO(outcome.output);
+  REQUIRE(outcome.code == 0);
+  CHECK_THAT(outcome.output, Contains("box found: --box="));
+  const nlohmann::json r = read_json(report);
+  std::size_t holes = 0;
+  for (const auto& view : r["views"]) holes += view["holes"].get<std::size_t>();
+  CHECK(holes >= 4);
+  WorldBox box;
+  for (std::size_t i = 0; i < 3; ++i) {
+    box.low[i] = nef::parse_rational(r["box"][i].get<std::string>());
+    box.high[i] = nef::parse_rational(r["box"][3 + i].get<std::string>());
+  }
+  const Scene scene = read_scene(data(model + "/" + model + ".json"));
+  const double voxels = voxel_volume(scene, data(model), box, 100);
+  CHECK(r["result"]["volume_double"].get<double>() == Approx(voxels).epsilon(0.02));
+  // The figure eight has two holes, and the largest piece of the hull keeps them.
+  CHECK(r["result"]["euler_numbers"][0] == -2);
+}
+
+TEST_CASE("An outer hull contains the hull of the full contours") {
+  const Scene scene = read_scene(data("eight/eight.json"));
+  Scene few = scene;
+  few.views.resize(3);
+  Options full;
+  const Result exact = compute(few, data("eight"), full);
+  Options outer;
+  outer.silhouette.simplify = {1.5, true};
+  outer.box = exact.box;
+  const Result loose = compute(few, data("eight"), outer);
+  CHECK(testing::subset(exact.hull, loose.hull));
+  for (std::size_t i = 0; i < few.views.size(); ++i) {
+    CHECK(loose.views[i].silhouette.region.vertex_count() * 2 < exact.views[i].silhouette.region.vertex_count());
+  }
+}
+
+TEST_CASE("Bad use and bad input: one line, exit code 2") {
+  const Scratch s;
+  const auto fails = [](const Outcome& outcome, const std::string& part) {
+    INFO(outcome.output);
+    CHECK(outcome.code == 2);
+    CHECK_THAT(outcome.output, Contains(part));
+    CHECK(std::count(outcome.output.begin(), outcome.output.end(), '\n') == 1);
+  };
+  fails(run(""), "SCENE is required");
+  fails(run("nowhere.json"), "no such file");
+  fails(run(s.folder().string()), "is a directory");
+  fails(run(data("letters/nef.vsh") + " --simplify -3"), "--simplify");
+  fails(run(data("letters/nef.vsh") + " --border maybe"), "--border");
+  fails(run(data("letters/nef.vsh") + " --box 0,0,0,1,1"), "six numbers");
+  fails(run(data("letters/nef.vsh") + " --box 0,0,0,0,1,1"), "flat along x");
+  fails(run(data("letters/nef.vsh") + " --frobnicate"), "--frobnicate");
+  fails(run(data("letters/nef.vsh") + " --threads -1"), "--threads");
+  fails(run(data("letters/nef.vsh") + " --simplify nan"), "--simplify");
+  fails(run(data("letters/nef.vsh") + " --box 0,0,0,nan,1,1"), "'nan' in '0,0,0,nan,1,1' is no number");
+  fails(run(data("letters/nef.vsh") + " --threshold bright"), "neither a number nor otsu");
+  fails(run(data("letters/nef.vsh") + " --channel infrared"), "--channel");
+  fails(run(data("letters/nef.vsh") + " --min-area -1"), "--min-area");
+  fails(run(data("letters/nef.vsh") + " --pixel-origin middle"), "--pixel-origin");
+  fails(run(data("letters/nef.vsh") + " --report " + s.folder().string()), "is a directory");
+  fails(run(data("letters/nef.vsh") + " --overlay " + data("letters/nef.vsh")), "cannot make the directory");
+  fails(run(data("letters/nef.vsh") + " --silhouette " + (s.folder() / "none.json").string()), "no such file");
+  fails(run(data("eight/eight.json") + " --images " + data("letters")), "holds 0 images, but the scene has 12 views");
+  fails(run(data("eight/eight.json") + " --images /no/such/place"), "is not a directory of images");
+  fails(run(data("eight/eight.json") + " --channel red"), "1 channels only");
+  fails(run(data("eight/eight.json") + " --min-area 1e6"), "view eight_00.png: the silhouette is empty without");
+  fails(run(data("letters/nef.vsh") + " --silhouette " + s.write("eight.json", "[[[0,0],[1,1],[1,0],[0,1]]]").string()),
+        "view 1: polygon 1 crosses itself");
+  fails(run(data("letters/nef.vsh") + " --silhouette " + s.write("nan.json", "[[[0,0],[1,1],[1,NaN]]]").string()),
+        "not valid JSON");
+  fails(run(data("letters/nef.vsh") + " --silhouette " + s.write("line.json", "[[[0,0],[1,1],[2,2]]]").string()),
+        "has no area");
+  fails(run(data("letters/nef.vsh") + " --silhouette " + s.write("none.json", "[]").string()),
+        "view 1: the silhouette is empty");
+  fails(run(data("letters/nef.vsh") + " -o " + (s.folder() / "x.unknown").string()), "unknown");
+  fails(run(data("letters/nef.vsh") + " -o " + (s.folder() / "no/such/folder/x.off").string()), "x.off");
+  const std::string one = "a 100 0 0 0 0 100 0 0 0 0 1 10\n";
+  fails(run(s.write("p.txt", one).string()), "view a: there is no image");
+  cv::imwrite((s.folder() / "a.png").string(), cv::Mat(8, 8, CV_8U, cv::Scalar(0)));
+  fails(run((s.folder() / "p.txt").string()), "view a: the silhouette is empty");
+  cv::imwrite((s.folder() / "a.png").string(), cv::Mat(8, 8, CV_8U, cv::Scalar(255)));
+  fails(run((s.folder() / "p.txt").string()), "give a box with --box");
+  fails(run((s.folder() / "p.txt").string() + " --silhouette b=x.json"), "no view 'b'");
+  CHECK(run((s.folder() / "p.txt").string() + " --box -1,-1,-1,1,1,1").code == 0);
+  CHECK(run("--help").code == 0);
+}
+
+TEST_CASE("A decimated hull is a legal mesh of few triangles, whose distance is told") {
+  const Scratch s;
+  const std::string mesh = (s.folder() / "hull.off").string();
+  const std::string scene = data("letters/mpi.vsh") + " -o " + mesh;
+  const Outcome outcome = run(scene + " --decimate 60 --json");
+  REQUIRE(outcome.code == 0);
+  const nlohmann::json decimated = nlohmann::json::parse(outcome.output)["decimated"];
+  CHECK(decimated["triangles"] <= 60);
+  CHECK(decimated["distance"]["low"] > 0);
+  CHECK(decimated["distance"]["high"] >= decimated["distance"]["low"]);
+  const nef::Polyhedron small = nef::read_polyhedron(mesh);
+  CHECK(nef::counts(small).vertices == decimated["vertices"]);
+  REQUIRE(run(scene).code == 0);
+  CHECK(nef::counts(nef::read_polyhedron(mesh)).vertices == 101);
+  CHECK_THAT(run(scene + " --decimate 60").output, Contains("decimated to"));
+  CHECK(run(data("letters/mpi.vsh") + " --decimate 60").code == 2);
+  CHECK_THAT(run(data("letters/mpi.vsh") + " --decimate 60 -o a.nef").output, Contains("a.nef is none"));
+}
+
+TEST_CASE("The option --json prints the report and nothing else, --quiet nothing at all") {
+  const Scratch s;
+  const std::string report = (s.folder() / "r.json").string();
+  const Outcome outcome =
+      run(data("letters/mpi.vsh") + " --json --verify --exact-volume --threads 1 --report " + report);
+  REQUIRE(outcome.code == 0);
+  const nlohmann::json printed = nlohmann::json::parse(outcome.output);
+  CHECK(printed == read_json(report));
+  for (const char* key : {"views", "result", "verify", "box", "predicates"}) {
+    CHECK(printed.contains(key));
+  }
+  for (const char* key : {"vertices", "edges", "facets", "volumes", "shells", "bounded", "open", "closed", "regular",
+                          "volume", "volume_double", "area", "bbox", "bbox_exact", "euler_numbers"}) {
+    CHECK(printed["result"].contains(key));  // the keys of nef info --json
+  }
+  CHECK(printed["result"]["volume_double"].get<double>() ==
+        nef::nearest_double(nef::parse_rational(printed["result"]["volume"].get<std::string>())));
+  CHECK(run(data("letters/mpi.vsh") + " --quiet --verify").output.empty());
+  CHECK(run(data("letters/mpi.vsh") + " --verify --report -").output.find("\"views\"") != std::string::npos);
+  const Outcome version = run("--version");
+  CHECK(version.code == 0);
+  CHECK_THAT(version.output, Contains("visual_hull 0."));
+}
+
+TEST_CASE("The volume is a double with a bound for its error, unless the exact one is asked for") {
+  const std::string scene = data("eight/eight.json") + " --simplify 2 --json";
+  const nlohmann::json quick = nlohmann::json::parse(run(scene).output)["result"];
+  const nlohmann::json exact = nlohmann::json::parse(run(scene + " --exact-volume").output)["result"];
+  CHECK(quick["volume"].is_null());
+  const double error = quick["volume_error"];
+  const double volume = quick["volume_double"];
+  CHECK(error < 1e-8 * volume);
+  CHECK(abs(nef::parse_rational(exact["volume"].get<std::string>()) - nef::exact_rational(volume)) <=
+        nef::exact_rational(error));
+}
+
+TEST_CASE("Both ways write the same hull; the direct one is refused where it cannot be gone") {
+  const Scratch s;
+  const std::string scene = data("elk/elk.json") + " --simplify 1 -q";
+  const std::string direct = (s.folder() / "direct.nef").string();
+  const std::string cones = (s.folder() / "cones.nef").string();
+  CHECK(run(scene + " --way direct -o " + direct).code == 0);
+  CHECK(run(scene + " --way cones -o " + cones).code == 0);
+  CHECK(nef::equal(nef::read_polyhedron(direct), nef::read_polyhedron(cones)));
+  const auto two = s.write("p.txt", "a 10 0 0 0 0 10 0 0 0 0 1 0\nb 10 0 0 0 0 10 0 0 0 0 1 0\n");
+  const auto a = s.write("a.json", "[[[0,0],[1,0],[1,1],[0,1]]]");
+  const Outcome refused = run(two.string() + " --silhouette " + a.string() + " --silhouette " + a.string() +
+                              " --box=-5,-5,1,5,5,2 --way direct");
+  CHECK(refused.code == 2);
+  CHECK_THAT(refused.output, Contains("use --way cones"));
+}
+
+TEST_CASE("A check says what is understood and computes nothing") {
+  const Outcome check = run(data("elk/elk.json") + " --check");
+  CHECK(check.code == 0);
+  CHECK_THAT(check.output, Contains("12 views from a JSON scene"));
+  CHECK_THAT(check.output, Contains("focal length 400 pixels"));
+  CHECK_THAT(check.output, Contains("elk_11.png"));
+  const Scratch s;
+  const auto lost = s.write("p.txt", "a 10 0 0 0 0 10 0 0 0 0 1 0\n");
+  const Outcome missing = run(lost.string() + " --check");
+  CHECK(missing.code == 2);
+  CHECK_THAT(missing.output, Contains("there is no image"));
+}
+
+TEST_CASE("Suspects are listed in the report, none on a clean set") {
+  const nlohmann::json report =
+      nlohmann::json::parse(run(data("elk/elk.json") + " --simplify 1 --suspects --json -q").output);
+  CHECK(report["suspects"].empty());
+  for (const auto& view : report["views"]) {
+    for (const char* key : {"residual", "fall", "removed", "relative", "score"}) CHECK(view.contains(key));
+  }
+}
+
+TEST_CASE("Help names every option") {
+  const std::string help = run("--help").output;
+  for (const char* option :
+       {"--images",   "--silhouette", "--threshold",     "--channel",  "--invert",      "--pixel-origin", "--border",
+        "--min-area", "--simplify",   "--outer",         "--box",      "--output",      "--exact",        "--binary",
+        "--verify",   "--report",     "--overlay",       "--preview",  "--page",        "--threads",      "--json",
+        "--quiet",    "--version",    "Exit codes",      "--check",    "--up",          "--matrices",     "--turntable",
+        "--way",      "--suspects",   "--drop-suspects", "--at-least", "--exact-volume"}) {
+    CHECK_THAT(help, Contains(option));
+  }
+}
+
+TEST_CASE("What a format does not hold is told, unless nobody listens") {
+  // One camera's two views agree in a square and touch along u = 3: a solid, and a facet that no mesh file holds.
+  const Scratch s;
+  const auto scene = s.write("p.txt", "a 10 0 0 0 0 10 0 0 0 0 1 0\nb 10 0 0 0 0 10 0 0 0 0 1 0\n");
+  const auto a = s.write("a.json", "[[[0,0],[1,0],[1,1],[0,1]], [[2,0],[3,0],[3,1],[2,1]]]");
+  const auto b = s.write("b.json", "[[[0,0],[1,0],[1,1],[0,1]], [[3,0],[4,0],[4,1],[3,1]]]");
+  const std::string arguments = scene.string() + " --silhouette " + a.string() + " --silhouette " + b.string() +
+                                " --box=-5,-5,1,5,5,2 -o " + (s.folder() / "x.off").string();
+  const Outcome loud = run(arguments);
+  CHECK(loud.code == 0);
+  CHECK_THAT(loud.output, Contains("visual_hull: note: "));
+  const Outcome json = run(arguments + " --json");
+  CHECK(nlohmann::json::parse(json.output)["messages"].size() >= 1);
+  CHECK(run(arguments + " -q").output.empty());
+  const Outcome exact = run(scene.string() + " --silhouette " + a.string() + " --silhouette " + b.string() +
+                            " --box=-5,-5,1,5,5,2 -o " + (s.folder() / "x.nef").string());
+  CHECK(exact.output.find("note") == std::string::npos);
+}
+
+TEST_CASE("Preview and page from the command line") {
+  const Scratch s;
+  const Outcome outcome = run(data("letters/mpi.vsh") + " --preview " + (s.folder() / "p").string());
+  CHECK(outcome.code == 0);
+  CHECK_FALSE(cv::imread((s.folder() / "p" / "hull_top.png").string()).empty());
+  const Outcome page = run(data("letters/mpi.vsh") + " --page " + (s.folder() / "x.htm").string());
+  CHECK(page.code == 2);
+  CHECK_THAT(page.output, Contains("the extension must be .html"));
+}
+
+TEST_CASE("An empty hull is exit code 1 and names the view") {
+  const Scratch s;
+  const auto scene = s.write("p.txt", "a 10 0 0 0 0 10 0 0 0 0 1 10\nb 10 0 0 0 0 10 0 0 0 0 1 10\n");
+  const auto left = s.write("left.json", "[[[0,0],[1,0],[1,1],[0,1]]]");
+  const auto right = s.write("right.json", "{\"polygons\": [[[2,0],[\"7/2\",0],[3,1.5]]]}");
+  const Outcome outcome = run(scene.string() + " --silhouette " + left.string() + " --silhouette b=" + right.string() +
+                              " --box=-5,-5,-5,5,5,5");
+  CHECK(outcome.code == 1);
+  CHECK_THAT(outcome.output, Contains("the hull is empty: views a and b have no point in common"));
+}
+
+}  // namespace
+}  // namespace visual_hull

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The direct way to the hull gives what intersecting the cones gives, or nothing.
+#include "apps/visual_hull/viewing_edges/direct_hull.h"
+
+#include "apps/visual_hull/cones/bounds.h"
+#include "apps/visual_hull/cones/intersection.h"
+#include "tests/support/paths.h"
+#include "tests/visual_hull/helpers.h"
+
+namespace visual_hull {
+namespace {
+
+using testing::axis_camera;
+using testing::random_mask;
+
+struct Seen {
+  Camera camera;
+  Silhouette silhouette;
+};
+
+std::optional<WorldBox> enclosing_box(const std::vector<Seen>& views) {
+  std::vector<HalfSpace> half_spaces;
+  for (const Seen& view : views) {
+    const std::vector<HalfSpace> cone = convex_cone(view.camera, view.silhouette);
+    half_spaces.insert(half_spaces.end(), cone.begin(), cone.end());
+  }
+  const Bounds bounds = bounds_of(half_spaces);
+  if (bounds.kind != Bounds::Kind::kBox) return std::nullopt;
+  return loosen(bounds.box);
+}
+
+std::optional<nef::Polyhedron> directly(const std::vector<Seen>& views, const WorldBox& box) {
+  std::vector<DirectView> inputs;
+  for (const Seen& view : views) inputs.push_back({&view.camera, &view.silhouette});
+  return direct_hull(inputs, box, 1);
+}
+
+nef::Polyhedron by_cones(const std::vector<Seen>& views, const WorldBox& box) {
+  std::vector<Part> parts;
+  for (const Seen& view : views) parts.push_back({make_cone(view.camera, view.silhouette, box), {}});
+  parts.push_back({nef::make_box(box.low, box.high), {}});
+  return intersect_parts(parts);
+}
+
+// A mask of s x s pixels as seen from a camera on an axis, turned a little so that nothing is in special position.
+Seen view_of_mask(std::size_t axis, int direction, const cv::Mat& mask, int skew) {
+  Rational3 centre;
+  for (std::size_t i = 0; i < 3; ++i) centre[i] = Rational(skew * static_cast<int>(i + 2), 97);
+  centre[axis] = -40 * direction + Rational(skew, 89);
+  Seen seen{axis_camera(centre, axis, direction, "view"), trace_contours(mask, PixelOrigin::kCorner)};
+  for (Ring& ring : seen.silhouette.rings) {
+    for (Point2& p : ring) {
+      const Rational u = (p.x - Rational(mask.cols, 2)) / 20;
+      const Rational v = (p.y - Rational(mask.rows, 2)) / 20;
+      p = Point2(u + v * Rational(skew, 1009), v + u * Rational(skew, 2003));
+    }
+  }
+  return seen;
+}
+
+TEST_CASE("Random masks, holes and touching rings included: the direct way agrees with the cones") {
+  std::size_t used = 0;
+  testing::property("equal where it answers", [&used] {
+    std::vector<Seen> views;
+    const int smoothing = *rc::gen::inRange(0, 2);
+    const std::size_t count = *rc::gen::inRange<std::size_t>(3, 6);
+    for (std::size_t i = 0; i < count; ++i) {
+      const cv::Mat mask = random_mask(7, 7, smoothing, *rc::gen::arbitrary<std::uint64_t>());
+      if (cv::countNonZero(mask) == 0) RC_DISCARD();
+      views.push_back(view_of_mask(i % 3, i < 3 ? 1 : -1, mask, *rc::gen::inRange(1, 200)));
+    }
+    const std::optional<WorldBox> box = enclosing_box(views);
+    if (!box) return;
+    const std::optional<nef::Polyhedron> hull = directly(views, *box);
+    if (!hull) return;
+    ++used;
+    RC_ASSERT(nef::validate(hull->complex()) == "");
+    RC_ASSERT(nef::equal(*hull, by_cones(views, *box)));
+  });
+  CHECK(used >= 60);  // of a hundred: it is not there to give up
+}
+
+TEST_CASE("The views of a real scene go the direct way, on any number of threads", "[parallel]") {
+  const std::filesystem::path folder = source_folder() + "/data/visual_hull/elk";
+  const Scene scene = read_scene(folder / "elk.json");
+  Options options;
+  options.silhouette.simplify.tolerance = 1;
+  const Result direct = compute(scene, folder, options);
+  CHECK(direct.direct);
+  options.way = Way::kCones;
+  const Result cones = compute(scene, folder, options);
+  CHECK_FALSE(cones.direct);
+  CHECK(nef::equal(direct.hull, cones.hull));
+  options.way = Way::kBest;
+  options.threads = 3;
+  const Result threads = compute(scene, folder, options);
+  CHECK(nef::counts(threads.hull).vertices == nef::counts(direct.hull).vertices);
+  CHECK(nef::equal(direct.hull, threads.hull));
+}
+
+TEST_CASE("What the direct way is not made for it leaves to the cones") {
+  const cv::Mat full(7, 7, CV_8U, cv::Scalar(255));
+  std::vector<Seen> views{view_of_mask(0, 1, full, 3), view_of_mask(1, 1, full, 5), view_of_mask(2, 1, full, 7)};
+  const WorldBox box = enclosing_box(views).value();
+  CHECK(directly(views, box).has_value());
+  std::vector<Seen> twice = views;
+  twice.push_back(views[0]);  // one centre
+  CHECK_FALSE(directly(twice, box).has_value());
+  twice.back() = views[1];
+  CHECK_FALSE(directly(twice, box).has_value());
+  // Cameras whose planes coincide: both see the plane z = 0 as an edge.
+  const auto half = [](const Rational3& centre, std::size_t axis) {
+    return Seen{axis_camera(centre, axis, 1), make_silhouette({axis == 0 ? testing::rectangle(-0.25, 0, 0.25, 0.25)
+                                                                         : testing::rectangle(0, -0.25, 0.25, 0.25)},
+                                                              "")};
+  };
+  const std::vector<Seen> sharing{half({-40, 0, 0}, 0), half({0, -40, 0}, 1), view_of_mask(2, 1, full, 7)};
+  CHECK_FALSE(directly(sharing, enclosing_box(sharing).value()).has_value());
+  // A camera in the box.
+  CHECK_FALSE(directly(views, {{-100, -100, -100}, {100, 100, 100}}).has_value());
+}
+
+}  // namespace
+}  // namespace visual_hull

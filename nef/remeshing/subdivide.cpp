@@ -7,9 +7,12 @@
 #include <array>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
+#include "nef/base/error.h"
 #include "nef/export/convert_openmesh.h"
 #include "nef/mesh/edge_order.h"
+#include "nef/remeshing/sheets.h"
 #include "nef/remeshing/triangle_mesh.h"
 
 namespace nef {
@@ -45,13 +48,15 @@ Mesh halved_edges(const Mesh& mesh) {
 }
 
 Mesh smoothed(const Mesh& mesh, unsigned times) {
-  Messages separate;
-  auto work = mesh_to_openmesh<TriangleMesh>(mesh, &separate);
-  if (!separate.empty()) {
+  std::vector<std::uint32_t> sources = sheets_of(mesh).original;
+  std::sort(sources.begin(), sources.end());
+  if (std::adjacent_find(sources.begin(), sources.end()) != sources.end()) {
     throw InputError(
-        "Loop's scheme is for surfaces that are flat around each point but for bending; here several sheets meet in an "
-        "edge or a vertex. The midpoint scheme takes any mesh");
+        "Loop's scheme is for surfaces of one sheet; here several of them meet in an edge or a vertex. The midpoint "
+        "scheme "
+        "takes any mesh");
   }
+  auto work = mesh_to_openmesh<TriangleMesh>(mesh);
   OpenMesh::Subdivider::Uniform::LoopT<TriangleMesh, double> loop;
   // It has a table of weights by valence and does not look at its end.
   std::size_t valence = 0;

@@ -15,8 +15,8 @@ enum class SubdivisionScheme : std::uint8_t {
 };
 
 /// Each triangle in four, `times` times; faces of more corners are refused, as are, with Loop's scheme, edges of more
-/// than two triangles and vertices at which several sheets meet (InputError). With the midpoint scheme the mesh stays as
-/// legal as it was; a smoothed one may cross itself. Deterministic. O(4^times n).
+/// than two triangles and vertices at which several sheets meet (InputError). With the midpoint scheme the mesh stays
+/// as legal as it was; a smoothed one may cross itself. Deterministic. O(4^times n).
 Mesh subdivide(const Mesh& triangles, SubdivisionScheme scheme, unsigned times);
 
 }  // namespace nef

@@ -7,6 +7,8 @@
 
 #include <ostream>
 
+#include "nef/number/floor.h"
+
 namespace nef::planner {
 
 namespace ob = ompl::base;

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "nef/number/floor.h"
+
 namespace nef::planner {
 
 namespace ob = ompl::base;

@@ -166,8 +166,8 @@ TEST_CASE("widest robots and time stamps on the command line") {
   CHECK_THAT(text_of(folder.file("p.csv")), Catch::StartsWith("t,x,y,z\n0,0,0,0\n"));
   CHECK(planner(folder, scene + " --keep-clear 0.3").code == 1);
   const auto timed = report(scene + " --speed 3");
-  CHECK(timed["times"].back().get<double>() == Approx(3));
-  CHECK(timed["times"].size() == timed["path"].size());
+  CHECK(timed["times_s"].back().get<double>() == Approx(3));
+  CHECK(timed["times_s"].size() == timed["path"].size());
   const Run way = planner(folder, corner + " --speed 1 -o " + folder.file("t.csv"));
   CHECK(way.code == 0);
   CHECK_THAT(text_of(folder.file("t.csv")), Catch::StartsWith("t,x,y,z,degrees\n0,-12,-1,0,0\n"));

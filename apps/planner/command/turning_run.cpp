@@ -81,8 +81,7 @@ int run_turning(const Arguments& a, const Scene& scene, const nlohmann::json& wi
   if (!answer.path.empty() && a.limits.speed > 0) times = times_along(answer.path, scene, question.axis, a.limits);
   if (!times.empty()) report["times_s"] = times;
   if (!widest.is_null()) report["widest"] = widest;
-  const std::string text =
-      report_text(run_report("turning", report, {{"op", watch.seconds(), {}}}, scene.messages));
+  const std::string text = report_text(run_report("turning", report, {{"op", watch.seconds(), {}}}, scene.messages));
   std::vector<std::string> views;
   if (!a.page.empty()) views.push_back(a.page);
   for (const std::string& file : a.outputs) {

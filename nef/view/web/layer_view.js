@@ -63,27 +63,34 @@ function facetGeometry(layer) {
   return geometry;
 }
 
-// segments: {start: [x, y, z], end: [x, y, z], rgb, width}
+// segments: {start: [x, y, z], end: [x, y, z], rgb, width}. Four vertices each rather than one instance of a quad: cards
+// draw many tiny instances slowly, and a processor that stands in for one takes minutes for 100,000 of them.
 export function lineMesh(segments, shared) {
-  const count = segments.length;
+  const count = 4 * segments.length;
+  const corner = new Int8Array(count * 3);
   const start = new Float32Array(count * 3);
   const end = new Float32Array(count * 3);
   const color = new Uint8Array(count * 4);
   const width = new Float32Array(count);
+  const index = new Uint32Array(6 * segments.length);
   segments.forEach((segment, i) => {
-    start.set(segment.start, 3 * i);
-    end.set(segment.end, 3 * i);
-    color.set(segment.rgb, 4 * i);
-    width[i] = segment.width;
+    for (let k = 0; k < 4; ++k) {
+      const vertex = 4 * i + k;
+      corner.set([k >> 1, k % 2 === 0 ? -1 : 1, 0], 3 * vertex);
+      start.set(segment.start, 3 * vertex);
+      end.set(segment.end, 3 * vertex);
+      color.set(segment.rgb, 4 * vertex);
+      width[vertex] = segment.width;
+    }
+    index.set([0, 2, 1, 1, 2, 3].map((k) => 4 * i + k), 6 * i);
   });
-  const geometry = new THREE.InstancedBufferGeometry();
-  geometry.instanceCount = count;
-  geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array([0, -1, 0, 0, 1, 0, 1, -1, 0, 1, 1, 0]), 3));
-  geometry.setIndex([0, 2, 1, 1, 2, 3]);
-  geometry.setAttribute("start", new THREE.InstancedBufferAttribute(start, 3));
-  geometry.setAttribute("end", new THREE.InstancedBufferAttribute(end, 3));
-  geometry.setAttribute("color", new THREE.InstancedBufferAttribute(color, 4, true));
-  geometry.setAttribute("width", new THREE.InstancedBufferAttribute(width, 1));
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.BufferAttribute(corner, 3));
+  geometry.setIndex(new THREE.BufferAttribute(index, 1));
+  geometry.setAttribute("start", new THREE.BufferAttribute(start, 3));
+  geometry.setAttribute("end", new THREE.BufferAttribute(end, 3));
+  geometry.setAttribute("color", new THREE.BufferAttribute(color, 4, true));
+  geometry.setAttribute("width", new THREE.BufferAttribute(width, 1));
   const material = lineMaterial(shared);
   material.side = THREE.DoubleSide;
   const mesh = new THREE.Mesh(geometry, material);

@@ -71,7 +71,7 @@ void main() {
   });
 }
 
-// Instanced quads: attributes start, end, color, and width in pixels.
+// Quads: attributes start, end, color, and width in pixels; position tells the corner.
 export function lineMaterial(shared) {
   return new THREE.ShaderMaterial({
     uniforms: { ...shared },

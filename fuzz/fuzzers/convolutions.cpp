@@ -11,7 +11,7 @@
 namespace nef::fuzz {
 namespace {
 
-Rational3 random_point(Choices& choices, int size) {
+Rational3 grid_point(Choices& choices, int size) {
   Rational3 p;
   for (Rational& x : p) x = choices.between(0, size);
   return p;
@@ -27,10 +27,10 @@ Solid random_solid(Choices& choices, int steps, int size) {
   for (int i = 0; i < steps; ++i) {
     std::vector<Rational3> points;
     if (choices.one_in(2)) {
-      for (int k = choices.between(4, 6); k > 0; --k) points.push_back(random_point(choices, size));
+      for (int k = choices.between(4, 6); k > 0; --k) points.push_back(grid_point(choices, size));
     } else {
-      const Rational3 low = random_point(choices, size - 1);
-      Rational3 high = random_point(choices, size - 1);
+      const Rational3 low = grid_point(choices, size - 1);
+      Rational3 high = grid_point(choices, size - 1);
       for (std::size_t k = 0; k < 3; ++k) high[k] = low[k] + 1 + high[k] / 2;
       for (unsigned k = 0; k < 8; ++k) {
         points.push_back(
@@ -49,7 +49,7 @@ Solid random_solid(Choices& choices, int steps, int size) {
   return solid;
 }
 
-AffineMap random_map(Choices& choices) {
+AffineMap random_shear(Choices& choices) {
   AffineMap map = AffineMap::identity();
   if (choices.one_in(3)) return map;
   map.linear[0][1] = Rational(choices.between(-2, 2), 3);
@@ -70,7 +70,7 @@ void fuzz_convolutions(const Case& the_case) {
   the_case.tell("a = " + a.text);
   the_case.tell("b = " + b.text);
   if (a.set.is_empty() || b.set.is_empty()) return;
-  const AffineMap map = random_map(choices);
+  const AffineMap map = random_shear(choices);
   AffineMap nearly = map;
   nearly.linear[1][0] += Rational(choices.between(-1, 1), 3) / Rational(Integer(1) << 60U);
   if (nearly.determinant() == 0) return;

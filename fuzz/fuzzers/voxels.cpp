@@ -18,12 +18,12 @@
 namespace nef::fuzz {
 namespace {
 
-constexpr int kWidth = 4;
+constexpr int kVoxelWidth = 4;
 using Cell = std::array<int, 3>;
 
 // A cell of the grid as a number, and back.
-constexpr int kCells = kWidth * kWidth * kWidth;
-Cell cell_at(int i) { return {i % kWidth, i / kWidth % kWidth, i / kWidth / kWidth}; }
+constexpr int kCells = kVoxelWidth * kVoxelWidth * kVoxelWidth;
+Cell cell_at(int i) { return {i % kVoxelWidth, i / kVoxelWidth % kVoxelWidth, i / kVoxelWidth / kVoxelWidth}; }
 
 struct Component {
   std::vector<std::vector<Cell>> faces;  // outward
@@ -51,8 +51,8 @@ Component random_box(Choices& choices) {
   Cell low;
   Cell high;
   for (std::size_t i = 0; i < 3; ++i) {
-    low[i] = choices.between(0, kWidth - 1);
-    high[i] = choices.between(low[i] + 1, kWidth);
+    low[i] = choices.between(0, kVoxelWidth - 1);
+    high[i] = choices.between(low[i] + 1, kVoxelWidth);
   }
   for (std::size_t axis = 0; axis < 3; ++axis) {
     for (const bool positive : {false, true}) result.faces.push_back(side_of(low, high, axis, positive));
@@ -73,9 +73,9 @@ Component random_voxels(Choices& choices) {
   for (int i = 0; i < kCells; ++i) result.holds[static_cast<std::size_t>(i)] = choices.one_in(density);
   const auto holds = [&](const Cell& c) {
     for (const int x : c) {
-      if (x < 0 || x >= kWidth) return false;
+      if (x < 0 || x >= kVoxelWidth) return false;
     }
-    return static_cast<bool>(result.holds[static_cast<std::size_t>(c[0] + kWidth * (c[1] + kWidth * c[2]))]);
+    return static_cast<bool>(result.holds[static_cast<std::size_t>(c[0] + kVoxelWidth * (c[1] + kVoxelWidth * c[2]))]);
   };
   for (int i = 0; i < kCells; ++i) {
     const Cell c = cell_at(i);
@@ -112,7 +112,7 @@ Component random_tetrahedron(Choices& choices) {
   Component result;
   result.is_tetrahedron = true;
   for (Cell& corner : result.tetrahedron) {
-    for (int& x : corner) x = choices.between(0, kWidth);
+    for (int& x : corner) x = choices.between(0, kVoxelWidth);
   }
   std::array<Cell, 4>& t = result.tetrahedron;
   const long v = volume(twelfths(t));
@@ -185,7 +185,7 @@ class MeshCase {
     Choices& choices = case_.choices();
     for (std::size_t axis = 0; axis < 3; ++axis) {
       Rational at = 0;
-      for (int i = 0; i <= kWidth; ++i) {
+      for (int i = 0; i <= kVoxelWidth; ++i) {
         places_[axis].push_back(at);
         at += only_cells_ ? Rational(6 + choices.below(3) * 4, 6) : Rational(1);
       }

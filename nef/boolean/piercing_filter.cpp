@@ -9,7 +9,7 @@
 namespace nef {
 namespace {
 
-constexpr double kUnit = 0x1p-53;
+constexpr double kRoundingUnit = 0x1p-53;
 
 struct Form {
   double low = 0;  ///< of the absolute value
@@ -23,7 +23,7 @@ Form absolute_form(const std::array<double, 4>& n, const std::array<double, 3>& 
   const double t1 = n[1] * x[1];
   const double t2 = n[2] * x[2];
   const double value = std::fabs(t0 + t1 + t2 + n[3]);
-  const double error = 16 * kUnit * (std::fabs(t0) + std::fabs(t1) + std::fabs(t2) + std::fabs(n[3])) + 1e-300;
+  const double error = 16 * kRoundingUnit * (std::fabs(t0) + std::fabs(t1) + std::fabs(t2) + std::fabs(n[3])) + 1e-300;
   return {value > error ? value - error : 0.0, value + error};
 }
 
@@ -36,8 +36,8 @@ Box piercing_box(const PlaneTable& planes, PlaneId plane, const PointTable& poin
   const Form at_b = absolute_form(planes.approximate(plane), y);
   // The crossing is a + t (b - a), t = |form(a)| / (|form(a)| + |form(b)|), rising in the first and falling in
   // the second; three roundings each, 4u at most.
-  const double from = at_a.low / (at_a.low + at_b.high) * (1 - 8 * kUnit);
-  const double to = std::min(1.0, at_a.high / (at_a.high + at_b.low) * (1 + 8 * kUnit));
+  const double from = at_a.low / (at_a.low + at_b.high) * (1 - 8 * kRoundingUnit);
+  const double to = std::min(1.0, at_a.high / (at_a.high + at_b.low) * (1 + 8 * kRoundingUnit));
   Box box;
   for (std::size_t i = 0; i < 3; ++i) {
     const double d = y[i] - x[i];
@@ -45,7 +45,7 @@ Box piercing_box(const PlaneTable& planes, PlaneId plane, const PointTable& poin
     const double q = x[i] + to * d;
     // A point between the ends inherits at most their errors, 4u of the larger; d, product and sum
     // round by at most 2u + u + u of |x| + |y|: 8u in all, 16u is safe.
-    const double margin = 16 * kUnit * (std::fabs(x[i]) + std::fabs(y[i])) + 1e-300;
+    const double margin = 16 * kRoundingUnit * (std::fabs(x[i]) + std::fabs(y[i])) + 1e-300;
     const bool known = margin < HUGE_VAL && from >= 0 && to <= 1;
     box.low[i] = known ? std::min(p, q) - margin : -HUGE_VAL;
     box.high[i] = known ? std::max(p, q) + margin : HUGE_VAL;
@@ -61,7 +61,7 @@ RoughParity::RoughParity(const Box& point, int first, int second)
 
 void RoughParity::add(const std::array<double, 3>& a, const std::array<double, 3>& b) {
   if (!certain_) return;
-  const auto error_of = [](double value) { return std::fabs(value) * (8 * kUnit) + 1e-300; };
+  const auto error_of = [](double value) { return std::fabs(value) * (8 * kRoundingUnit) + 1e-300; };
   const double ef = std::max(error_of(a[first_]), error_of(b[first_]));
   const double es = std::max(error_of(a[second_]), error_of(b[second_]));
   // Beyond the point, where the ray does not go.
@@ -89,7 +89,7 @@ void RoughParity::add(const std::array<double, 3>& a, const std::array<double, 3
   // are off by 2 (2 size e + e^2), and round by 4u size^2.
   const double e = 3 * std::max(ef, es) + std::max(high_[0] - low_[0], high_[1] - low_[1]);
   const double size = std::max({std::fabs(uf), std::fabs(us), std::fabs(vf), std::fabs(vs)});
-  const double bound = 2 * (2 * size * e + e * e) + 8 * kUnit * size * size + 1e-300;
+  const double bound = 2 * (2 * size * e + e * e) + 8 * kRoundingUnit * size * size + 1e-300;
   if (!(std::fabs(cross) > bound) || !(std::fabs(cross) < HUGE_VAL)) {
     certain_ = false;
     return;

@@ -8,6 +8,7 @@
 #include "nef/io/file_bytes.h"
 #include "nef/io/mesh/face_groups.h"
 #include "nef/view/page/byte_text.h"
+#include "nef/view/scene/palette.h"
 
 namespace nef::view {
 namespace {
@@ -23,9 +24,6 @@ constexpr int kPoints = 0;
 constexpr int kLines = 1;
 constexpr int kLineStrip = 3;
 constexpr int kTriangles = 4;
-
-constexpr Color kInk{31, 58, 90};
-constexpr Color kOrange{217, 102, 43};
 
 class GlbWriter {
  public:

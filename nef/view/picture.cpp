@@ -7,6 +7,7 @@
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
 #include "nef/view/picture/raster.h"
+#include "nef/view/scene/palette.h"
 
 namespace nef::view {
 namespace {
@@ -15,8 +16,6 @@ constexpr std::uint32_t kFactor = 3;  // samples along each side of a pixel
 constexpr std::uint32_t kLargest = 16384;
 constexpr std::size_t kBandSamples = std::size_t{16} << 20U;
 constexpr Point kDefaultFrom{0.55, -0.75, 0.42};
-constexpr Color kInk{31, 58, 90};
-constexpr Color kOrange{217, 102, 43};
 constexpr Color kWhite{255, 255, 255};
 constexpr Color kGrey{150, 162, 174};
 const Point kLight = unit({0.35, 0.65, 0.7});  // along the camera's axes

@@ -11,7 +11,7 @@ namespace nef::minkowski {
 namespace {
 
 // A ring without equal neighbours and without points inside its sides.
-class Ring {
+class WallRing {
  public:
   using Point = std::array<Rational, 2>;
   void push(const Point& p) {
@@ -119,7 +119,7 @@ void WallBuilder::erect_sight_wall(const Rational3& from, const Rational3& to, b
   const std::vector<Run> runs = visible(base, u, upwards);
 
   // Along the edge, then back along what is seen.
-  Ring ring;
+  WallRing ring;
   ring.push({base.u[0], base.h[0]});
   ring.push({base.u[1], base.h[1]});
   for (std::size_t k = runs.size(); k-- > 0;) {

@@ -12,9 +12,9 @@ namespace nef::minkowski {
 namespace {
 
 // Selected sfaces and everything on the sphere around a vertex, joined where they touch.
-class Link {
+class SphericalLink {
  public:
-  explicit Link(const SphereMapView& map)
+  explicit SphericalLink(const SphereMapView& map)
       : map_(map), sets_(map.svertices.size() + map.sloops.size() + map.sfaces.size()) {
     for (std::uint32_t e = 0; e < map.shalfedges.size(); e += 2) sets_.unite(map.shalfedges[e].source, map.target(e));
     for (std::uint32_t l = 0; l < map.sloops.size(); l += 2) sets_.unite(loop(l), loop(l + 1));
@@ -83,7 +83,7 @@ bool vertex_is_border(const SphereMapView& map) {
   if (map.trivial()) return false;  // an isolated point
   // By Alexander's duality the link has as many loops as there are holes beside the first.
   const auto holes = std::count_if(map.sfaces.begin(), map.sfaces.end(), [](const SFace& f) { return f.mark == 0; });
-  return holes == 1 && Link(map).component_count() == 1;
+  return holes == 1 && SphericalLink(map).component_count() == 1;
 }
 
 bool edge_is_border(const SphereMapView& map, std::uint32_t svertex) {

@@ -22,7 +22,7 @@
 namespace nef::minkowski {
 namespace {
 
-bool selected(LabelId label) { return (label & kSelected) != 0 && label != kOutside; }
+bool is_selected(LabelId label) { return (label & kSelected) != 0 && label != kOutside; }
 
 // Planes that divide every reflex edge and corner; each as the four coefficients of its form.
 std::set<std::array<Rational, 4>> dividing_planes(const Complex& c) {
@@ -36,7 +36,7 @@ std::set<std::array<Rational, 4>> dividing_planes(const Complex& c) {
   for (const std::uint32_t v : lonely_vertices(c))
     result.insert({1, 0, 0, Rational(-c.points.rational(PointId(v))[0])});
   for (const FacetId f : c.facets.ids()) {
-    if (!selected(c.facets[f].mark) || c.planes.infimaximal(c.facets[f].plane)) continue;
+    if (!is_selected(c.facets[f].mark) || c.planes.infimaximal(c.facets[f].plane)) continue;
     for (const ReflexCorner& corner : reflex_corners(c, f)) {
       const std::array<Rational, 4> own = coefficients(c.facets[f].plane);
       const std::array<Integer, 3> g = cut_direction(c, c.facets[f].plane).integers();
@@ -67,7 +67,7 @@ Polyhedron cut_into_convex_items(const Polyhedron& a) {
     std::vector<Polyhedron> walls;
     for (const std::array<Rational, 4>& n : planes) walls.push_back(boundary(make_halfspace(n[0], n[1], n[2], n[3])));
     result = overlay(result, unite_all(walls), [](LabelId own, LabelId wall) -> LabelId {
-      return selected(own) && wall != 0 ? static_cast<LabelId>(own | kWall) : own;
+      return is_selected(own) && wall != 0 ? static_cast<LabelId>(own | kWall) : own;
     });
   }
 }
@@ -89,7 +89,7 @@ class SpanReader {
   std::vector<SpannedSet> volumes() {
     std::vector<SpannedSet> result;
     for (const VolumeId v : c_.volumes.ids()) {
-      if (!selected(c_.volumes[v].mark)) continue;
+      if (!is_selected(c_.volumes[v].mark)) continue;
       begin();
       bool any = false;
       for (const FacetId f : facets_of_volume_[v]) {
@@ -106,19 +106,19 @@ class SpanReader {
   std::vector<SpannedSet> others() {
     std::vector<SpannedSet> result;
     for (const FacetId f : c_.facets.ids()) {
-      if (!selected(c_.facets[f].mark) || c_.planes.infimaximal(c_.facets[f].plane)) continue;
+      if (!is_selected(c_.facets[f].mark) || c_.planes.infimaximal(c_.facets[f].plane)) continue;
       begin();
       add_facet(f);
       result.push_back(end());
     }
     for (std::uint32_t h = 0; h < c_.svertices.size(); ++h) {
-      if (edge(h) != h || on_box_[h] || !selected(c_.svertices[h].mark)) continue;
+      if (edge(h) != h || on_box_[h] || !is_selected(c_.svertices[h].mark)) continue;
       begin();
       add_edge(h);
       result.push_back(end());
     }
     for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) {
-      if (!selected(c_.vertices[v].mark) || !c_.points.finite(PointId(v))) continue;
+      if (!is_selected(c_.vertices[v].mark) || !c_.points.finite(PointId(v))) continue;
       begin();
       add_vertex(v);
       result.push_back(end());

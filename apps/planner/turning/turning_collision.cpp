@@ -16,7 +16,7 @@ using Vector = std::array<double, 3>;
 
 Vector to_doubles(const Rational3& p) { return {nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2])}; }
 
-double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+double product_of(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 Vector difference(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
@@ -105,8 +105,8 @@ TurningCollision::Plane TurningCollision::plane_between(const Solid& a, const So
   const auto separates = [&](const Vector& n) {
     double most = -HUGE_VAL;
     double least = HUGE_VAL;
-    for (const Vector& p : a.points) most = std::max(most, dot(n, p));
-    for (const Vector& p : b.points) least = std::min(least, dot(n, p));
+    for (const Vector& p : a.points) most = std::max(most, product_of(n, p));
+    for (const Vector& p : b.points) least = std::min(least, product_of(n, p));
     const double error = kError * largest * (std::abs(n[0]) + std::abs(n[1]) + std::abs(n[2]));
     perhaps = perhaps || least - most >= -error;
     return least - most > error;
@@ -127,12 +127,13 @@ TurningCollision::Plane TurningCollision::plane_between(const Solid& a, const So
   for (int round = 0; round < 8; ++round) {
     if (separates(n)) return Plane::kSurely;
     const auto foremost = [&](const std::vector<Vector>& points, double sign) {
-      return *std::max_element(points.begin(), points.end(),
-                               [&](const Vector& p, const Vector& q) { return sign * dot(n, p) < sign * dot(n, q); });
+      return *std::max_element(points.begin(), points.end(), [&](const Vector& p, const Vector& q) {
+        return sign * product_of(n, p) < sign * product_of(n, q);
+      });
     };
     const Vector between = difference(foremost(b.points, -1), foremost(a.points, 1));
-    const double size = std::sqrt(dot(n, n));
-    const double length = std::sqrt(dot(between, between));
+    const double size = std::sqrt(product_of(n, n));
+    const double length = std::sqrt(product_of(between, between));
     if (!(size > 0) || !(length > 0)) break;
     for (std::size_t k = 0; k < 3; ++k) n[k] = n[k] / size + between[k] / length;
   }
@@ -151,10 +152,10 @@ bool TurningCollision::surely_overlap(const Solid& a, const Solid& b) {
   Vector p{};
   for (const Solid* solid : {&a, &b}) {
     for (const Vector& n : solid->normals) {
-      const double length = std::sqrt(dot(n, n));
+      const double length = std::sqrt(product_of(n, n));
       const Vector unit{n[0] / length, n[1] / length, n[2] / length};
       double most = -HUGE_VAL;
-      for (const Vector& q : solid->points) most = std::max(most, dot(unit, q));
+      for (const Vector& q : solid->points) most = std::max(most, product_of(unit, q));
       sides.push_back({unit, most - 2 * margin});
     }
     for (std::size_t k = 0; k < 3; ++k) p[k] += (solid->low[k] + solid->high[k]) / 4;
@@ -164,7 +165,7 @@ bool TurningCollision::surely_overlap(const Solid& a, const Solid& b) {
     const Side* worst = nullptr;
     double beyond = 0;
     for (const Side& side : sides) {
-      const double there = dot(side.normal, p) - side.offset;
+      const double there = product_of(side.normal, p) - side.offset;
       if (worst == nullptr || there > beyond) {
         worst = &side;
         beyond = there;
@@ -251,7 +252,7 @@ TurningCollision::Solid TurningCollision::swept(std::size_t piece, const Swept& 
   Solid solid;
   solid.size = 4 * shape.reach + sweep.size;
   const auto turned = [](const Swept::End& end, const Vector& v) {
-    return Vector{dot(end.rotation[0], v), dot(end.rotation[1], v), dot(end.rotation[2], v)};
+    return Vector{product_of(end.rotation[0], v), product_of(end.rotation[1], v), product_of(end.rotation[2], v)};
   };
   const auto add = [&](const Vector& p) {
     for (const Swept::End* end : {&sweep.from, &sweep.to}) {

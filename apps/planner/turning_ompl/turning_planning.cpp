@@ -10,7 +10,7 @@ namespace ob = ompl::base;
 
 namespace {
 
-double reach_of(const Polyhedron& robot) {
+double radius_of(const Polyhedron& robot) {
   double sum = 0;
   const std::array<Rational3, 2> box = *bounding_box(robot);
   for (std::size_t k = 0; k < 3; ++k) {
@@ -29,7 +29,7 @@ ob::RealVectorBounds bounds_of(const Scene& scene, const TurningQuestion& questi
       high[k] = std::max(high[k], point[k]);
     }
   };
-  double room = 2 * reach_of(scene.robot) + 1;
+  double room = 2 * radius_of(scene.robot) + 1;
   if (scene.box) {
     low = (*scene.box)[0];
     high = (*scene.box)[1];
@@ -82,7 +82,7 @@ class BoxSampler : public ob::RealVectorStateSampler {
 
 std::shared_ptr<TurningSpace> space_for(const Scene& scene) {
   const TurningQuestion question = question_of(scene);
-  auto space = std::make_shared<TurningSpace>(question.axis, reach_of(scene.robot));
+  auto space = std::make_shared<TurningSpace>(question.axis, radius_of(scene.robot));
   space->setBounds(bounds_of(scene, question));
   if (scene.box) {
     space->as<ExactTranslationSpace>(0)->setStateSamplerAllocator(

@@ -15,7 +15,7 @@ const TurningSpace& space_of(const ob::SpaceInformation& si) {
   return *static_cast<const TurningSpace*>(si.getStateSpace().get());
 }
 
-bool is_finite(const ob::State* state) {
+bool is_finite_pose(const ob::State* state) {
   const auto* compound = static_cast<const ob::CompoundState*>(state);
   const double* values = compound->as<ExactTranslationSpace::StateType>(0)->values;
   return std::isfinite(values[0]) && std::isfinite(values[1]) && std::isfinite(values[2]) &&
@@ -33,7 +33,7 @@ TurningValidityChecker::TurningValidityChecker(const ob::SpaceInformationPtr& si
     : ob::StateValidityChecker(si), collision_(std::move(collision)), low_(question.low), high_(question.high) {}
 
 bool TurningValidityChecker::isValid(const ob::State* state) const {
-  if (!is_finite(state)) return false;
+  if (!is_finite_pose(state)) return false;
   const Pose pose = space_of(*si_).pose(state);
   return moved_from(pose.turn, low_) <= high_ && collision_->is_free(pose);
 }
@@ -48,7 +48,7 @@ TurningMotionValidator::TurningMotionValidator(const ob::SpaceInformationPtr& si
       depth_(depth) {}
 
 bool TurningMotionValidator::isFree(const ob::State* s1, const ob::State* s2) const {
-  if (!is_finite(s1) || !is_finite(s2)) return false;
+  if (!is_finite_pose(s1) || !is_finite_pose(s2)) return false;
   const TurningSpace& space = space_of(*si_);
   Pose from = space.pose(s1);
   Pose to = space.pose(s2);

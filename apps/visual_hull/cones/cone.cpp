@@ -29,7 +29,7 @@ struct Corner {
 };
 
 /// A point where one ring has a vertex, or several touch.
-struct Place {
+struct RayPlace {
   Point2 point;
   std::vector<Corner> corners;
 };
@@ -54,7 +54,7 @@ class ConeBuilder {
       const RationalPlane plane = plane_through(camera, edge.from, edge.to);
       edge.plane = planes_.intern(plane.normal, plane.offset);
     }
-    for (const Place& place : places_) choose_ray_planes(place);
+    for (const RayPlace& place : places_) choose_ray_planes(place);
   }
 
   /// The solid between two depths.
@@ -109,7 +109,7 @@ class ConeBuilder {
   }
 
   // Two planes p, q with n_p x n_q along the ray of a place.
-  void choose_ray_planes(const Place& place) {
+  void choose_ray_planes(const RayPlace& place) {
     std::vector<std::uint32_t> at;
     for (const Corner& corner : place.corners) {
       at.push_back(corner.in_edge);
@@ -160,7 +160,7 @@ class ConeBuilder {
 
   void add_cap_vertex(std::size_t index, PlaneId cap_plane, Cap cap) {
     map_.clear();
-    const Place& place = places_[index];
+    const RayPlace& place = places_[index];
     const auto& ray = rays_[index];
     // The edge along the ray goes on to the far cap, or back from it.
     const std::uint32_t along = cap == Cap::kNear ? add_node(ray[0], ray[1]) : add_node(ray[1], ray[0]);
@@ -217,7 +217,7 @@ class ConeBuilder {
   nef::Polyhedron finish() { return nef::Polyhedron(builder_.finish(0)); }
 
   bool positive_;
-  std::vector<Place> places_;
+  std::vector<RayPlace> places_;
   std::vector<RingEdge> edges_;
   std::vector<std::array<PlaneId, 2>> rays_;
   nef::PlaneTable planes_;

@@ -27,7 +27,7 @@ namespace nef {
 namespace {
 
 using Point = std::array<double, 3>;
-using Triangle = std::array<std::uint32_t, 3>;
+using VertexTriple = std::array<std::uint32_t, 3>;
 
 constexpr int kRounds = 24;
 
@@ -146,7 +146,7 @@ class Mender {
   [[nodiscard]] Mesh mesh_of_triangles(const Reading& reading) const {
     Mesh mesh;
     mesh.vertices = read(reading);
-    for (const Triangle& t : triangles_) mesh.push_face(t);
+    for (const VertexTriple& t : triangles_) mesh.push_face(t);
     return mesh;
   }
 
@@ -162,19 +162,19 @@ class Mender {
     std::vector<std::uint32_t> vertex(points_.size());
     for (std::uint32_t v = 0; v < points_.size(); ++v) vertex[v] = vertex_at.emplace(points_[v], v).first->second;
     struct Face {
-      Triangle corners;
+      VertexTriple corners;
       std::uint32_t face_of;
     };
-    std::map<Triangle, std::vector<Face>> by_corners;
+    std::map<VertexTriple, std::vector<Face>> by_corners;
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
-      Triangle t = triangles_[i];
+      VertexTriple t = triangles_[i];
       for (std::uint32_t& v : t) v = vertex[v];
       if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
       std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-      Triangle sorted = t;
+      VertexTriple sorted = t;
       std::sort(sorted.begin(), sorted.end());
       std::vector<Face>& same = by_corners[sorted];
-      const auto is_opposite = [&t](const Face& face) { return face.corners == Triangle{t[0], t[2], t[1]}; };
+      const auto is_opposite = [&t](const Face& face) { return face.corners == VertexTriple{t[0], t[2], t[1]}; };
       const auto opposite = std::find_if(same.begin(), same.end(), is_opposite);
       if (opposite != same.end()) {
         same.erase(opposite);
@@ -216,12 +216,12 @@ class Mender {
   }
 
   // The side i of a triangle goes from corner i to the next.
-  [[nodiscard]] std::array<double, 3> squared_sides(const Triangle& t) const {
+  [[nodiscard]] std::array<double, 3> squared_sides(const VertexTriple& t) const {
     return {squared_distance(t[0], t[1]), squared_distance(t[1], t[2]), squared_distance(t[2], t[0])};
   }
 
   [[nodiscard]] bool is_thin(std::uint32_t t, int round) const {
-    const Triangle& c = triangles_[t];
+    const VertexTriple& c = triangles_[t];
     double reach = 0;
     Point u{};
     Point v{};
@@ -240,7 +240,7 @@ class Mender {
   // Contracts a needle, flips the long side of a cap. False if neither can be done.
   bool remove_thin(std::uint32_t t) {
     if (touched_[t]) return true;
-    const Triangle c = triangles_[t];
+    const VertexTriple c = triangles_[t];
     const std::array<double, 3> sides = squared_sides(c);
     const auto shortest = static_cast<std::size_t>(std::min_element(sides.begin(), sides.end()) - sides.begin());
     const auto longest = static_cast<std::size_t>(std::max_element(sides.begin(), sides.end()) - sides.begin());
@@ -314,7 +314,7 @@ class Mender {
   std::mt19937 random_;  // the same for the same mesh
   std::vector<Point> points_;
   std::vector<Point> nearest_;
-  std::vector<Triangle> triangles_;
+  std::vector<VertexTriple> triangles_;
   std::vector<std::uint32_t> face_of_;  // of each triangle: the face of the exact mesh
   std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> neighbours_;  // by directed side
   std::vector<bool> touched_;                                                 // triangles that this round changed

@@ -14,7 +14,7 @@ namespace nef::test {
 namespace {
 
 // The coordinate planes, and x = 1.
-struct Planes {
+struct BuilderPlanes {
   PlaneTable table;
   PlaneId x = table.intern(1, 0, 0, 0);
   PlaneId y = table.intern(0, 1, 0, 0);
@@ -37,7 +37,7 @@ std::string defect_of(ComplexBuilder& builder) {
 }
 
 // An end of an edge along +x at the origin.
-Arrangement end_of_edge(const Planes& planes) {
+Arrangement end_of_edge(const BuilderPlanes& planes) {
   Arrangement drawing;
   drawing.centre = 1;
   drawing.nodes.push_back(planes.toward(planes.y, planes.z));
@@ -45,7 +45,7 @@ Arrangement end_of_edge(const Planes& planes) {
 }
 
 // A corner of a polygon in z = 0 at (1, 0, 0), with edges along -x and +y.
-Arrangement corner_of_polygon(const Planes& planes) {
+Arrangement corner_of_polygon(const BuilderPlanes& planes) {
   Arrangement drawing;
   drawing.centre = 1;
   drawing.nodes.push_back(planes.toward(planes.z, planes.y));
@@ -81,7 +81,7 @@ SolidFaces boxes(std::initializer_list<std::pair<int, bool>> sizes) {
 }  // namespace
 
 TEST_CASE("An edge without its other end is a defect") {
-  Planes planes;
+  BuilderPlanes planes;
   ComplexBuilder builder(planes.table);
   Arrangement drawing = end_of_edge(planes);
   CHECK(builder.add({0, 0, 0}, drawing));
@@ -89,7 +89,7 @@ TEST_CASE("An edge without its other end is a defect") {
 }
 
 TEST_CASE("Where nobody's data may be wrong a defect is a bug, and no error of the user's") {
-  Planes planes;
+  BuilderPlanes planes;
   ComplexBuilder builder(planes.table);
   Arrangement drawing = end_of_edge(planes);
   builder.add({0, 0, 0}, drawing);
@@ -99,7 +99,7 @@ TEST_CASE("Where nobody's data may be wrong a defect is a bug, and no error of t
 
 // This used to be read from outside of the arrays.
 TEST_CASE("An edge with a facet at one end only is a defect") {
-  Planes planes;
+  BuilderPlanes planes;
   ComplexBuilder builder(planes.table);
   Arrangement bare = end_of_edge(planes);
   Arrangement corner = corner_of_polygon(planes);
@@ -109,7 +109,7 @@ TEST_CASE("An edge with a facet at one end only is a defect") {
 }
 
 TEST_CASE("An edge from a vertex to itself is a defect") {
-  Planes planes;
+  BuilderPlanes planes;
   ComplexBuilder builder(planes.table);
   Arrangement drawing = end_of_edge(planes);
   drawing.nodes.push_back(planes.toward(planes.z, planes.y));
@@ -119,7 +119,7 @@ TEST_CASE("An edge from a vertex to itself is a defect") {
 }
 
 TEST_CASE("Two directions of one line that do not meet are a defect") {
-  Planes planes;
+  BuilderPlanes planes;
   ComplexBuilder builder(planes.table);
   for (const int at : {0, 1, 2}) {
     Arrangement drawing = end_of_edge(planes);
@@ -142,7 +142,7 @@ TEST_CASE("Boxes in a box that are turned the wrong way contradict it") {
 }
 
 TEST_CASE("A point that is no vertex is not added") {
-  Planes planes;
+  BuilderPlanes planes;
   ComplexBuilder builder(planes.table);
   Arrangement inside_edge = end_of_edge(planes);
   inside_edge.nodes.push_back(planes.toward(planes.z, planes.y));
@@ -154,7 +154,7 @@ TEST_CASE("A point that is no vertex is not added") {
 }
 
 TEST_CASE("What is wrong first is told") {
-  Planes planes;
+  BuilderPlanes planes;
   ComplexBuilder builder(planes.table);
   Arrangement contradictory;  // a great circle of two halves with different marks on one side
   contradictory.nodes.push_back(planes.toward(planes.y, planes.z));

@@ -13,9 +13,6 @@ nef_packages=(
 nef_test_packages=(catch2 librapidcheck-dev libcgal-dev chromium npm
   python3-pytest python3-meshio python3-matplotlib python3-pip python3-wheel)
 nef_lint_packages=(clang clang-format clang-tidy)
-# For building everything once: sources are compiled eight at a time, which spares their common headers. Who changes
-# things configures with the preset alone.
-nef_whole_build=(-DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=8)
 
 install_missing() {
   local wanted=() package

@@ -8,6 +8,6 @@ install_missing "${nef_packages[@]}" "${nef_test_packages[@]}"
 export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1
 preset=${NEF_PRESET:-release}
 # The demo leaves them out.
-cmake --preset "$preset" "${nef_whole_build[@]}" -DNEF_BUILD_TESTS=ON -DNEF_BUILD_BENCH=ON -DNEF_BUILD_PYTHON=ON >/dev/null
+cmake --preset "$preset" -DNEF_BUILD_TESTS=ON -DNEF_BUILD_BENCH=ON -DNEF_BUILD_PYTHON=ON >/dev/null
 cmake --build --preset "$preset"
 ctest --preset "$preset" --parallel "$(nproc)"

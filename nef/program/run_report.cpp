@@ -28,7 +28,9 @@ Json run_report(const std::string& command, const Json& found, const std::vector
   return report;
 }
 
-std::string report_text(const Json& report) { return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
+std::string report_text(const Json& report) {
+  return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
 
 Json predicates_json(const PredicateCounts& counts) {
   return {{"identity", counts.identity}, {"filter", counts.filter}, {"exact", counts.exact}};

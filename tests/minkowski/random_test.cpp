@@ -87,7 +87,7 @@ TEST_CASE("random: x is in A + B iff A meets x - B; sums commute") {
   });
 }
 
-TEST_CASE("random: the four strategies and any number of threads give the same set", "[parallel]") {
+TEST_CASE("random: the four strategies and any number of threads give the same set", "[threads]") {
   check("strategies", 150, [] {
     const Polyhedron a = (*recipes(true, 4)).make();
     const Polyhedron b = (*recipes(true, 3, 2)).make();

@@ -53,9 +53,9 @@ TEST_CASE("Loop's scheme: the weights of the paper, and volume near that of the 
   // A regular octahedron has valence 4 everywhere. Loop's weight is then
   // a = (40 - (3 + 2 cos 90)^2) / 64 = 31/64: the neighbours of a vertex cancel out, so it moves to 1 - a of itself;
   // the middle of an edge is 3/8 (p + q) + 1/8 of two opposite ones, which cancel out.
-  const Mesh octahedron = mesh_of(convex_hull(std::array<Rational3, 6>{
-      Rational3{1, 0, 0}, Rational3{-1, 0, 0}, Rational3{0, 1, 0}, Rational3{0, -1, 0}, Rational3{0, 0, 1},
-      Rational3{0, 0, -1}}));
+  const Mesh octahedron =
+      mesh_of(convex_hull(std::array<Rational3, 6>{Rational3{1, 0, 0}, Rational3{-1, 0, 0}, Rational3{0, 1, 0},
+                                                   Rational3{0, -1, 0}, Rational3{0, 0, 1}, Rational3{0, 0, -1}}));
   const Mesh once = subdivide(octahedron, SubdivisionScheme::kLoop, 1);
   REQUIRE(once.vertices.size() == 18);
   std::size_t corners = 0;

@@ -58,7 +58,7 @@ TEST_CASE("a plain operand need not be cut") {
   });
 }
 
-TEST_CASE("tiles small enough to split and join under way", "[parallel]") {
+TEST_CASE("tiles small enough to split and join under way", "[threads]") {
   for_all_cut_pairs("small tiles", 4, [](const Polyhedron& a, const Polyhedron& b, const Cuts&, const Cuts&) {
     const Tiling tiling{*rc::gen::inRange<std::size_t>(8, 40), *rc::gen::element(1U, 2U)};
     const TiledPolyhedron x(a, tiling);

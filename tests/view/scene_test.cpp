@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "nef/base/error.h"
-#include "nef/view/picture/picture_camera.h"
 #include "nef/view/page/sphere_drawing.h"
+#include "nef/view/picture/picture_camera.h"
 #include "view/sets.h"
 
 namespace nef::view {

@@ -2,8 +2,8 @@
 //
 // The bookkeeping of A* [Hart, Nilsson, Raphael 1968] over numbered nodes. Who searches expands nodes itself, so
 // that edges that are costly to check are checked only when they would improve something (as in
-// [Bohlin, Kavraki 2000]), which a library's search over a graph with given edges does not allow. Where edges cost nothing
-// Boost.Graph's search is slower, too: bench/planner/grid_search.cpp.
+// [Bohlin, Kavraki 2000]), which a library's search over a graph with given edges does not allow. Where edges cost
+// nothing Boost.Graph's search is slower, too: bench/planner/grid_search.cpp.
 #pragma once
 
 #include <algorithm>

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "apps/visual_hull/command/hull_file.h"
 #include "apps/visual_hull/command/report.h"
 #include "apps/visual_hull/scene/understanding.h"
 #include "apps/visual_hull/stream.h"
@@ -19,7 +20,6 @@
 #include "nef/base/parallel.h"
 #include "nef/base/stopwatch.h"
 #include "nef/io/file_bytes.h"
-#include "apps/visual_hull/command/hull_file.h"
 #include "nef/program/progress_bar.h"
 #include "nef/program/run_program.h"
 

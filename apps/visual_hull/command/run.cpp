@@ -61,8 +61,8 @@ int check_scene(const Arguments& a, const Scene& scene) {
   std::vector<fs::path> images;
   std::string missing;
   try {
-    images = images_of(scene, scene_folder(a.scene),
-                                    a.images.empty() ? std::nullopt : std::optional<fs::path>(a.images));
+    images =
+        images_of(scene, scene_folder(a.scene), a.images.empty() ? std::nullopt : std::optional<fs::path>(a.images));
   } catch (const nef::Error& error) {
     missing = error.what();
   }
@@ -135,11 +135,10 @@ int run(const Arguments& a) {
   const Options options = to_options(a);
   const Scene scene = scene_of(a);
   if (a.check) return check_scene(a, scene);
-  Result result =
-      compute(scene, scene_folder(a.scene), options,
-                           [&bar](Phase phase, const std::string& view, std::size_t done, std::size_t total) {
-                             bar.show(std::string(phase_name(phase)) + " " + view, done, total);
-                           });
+  Result result = compute(scene, scene_folder(a.scene), options,
+                          [&bar](Phase phase, const std::string& view, std::size_t done, std::size_t total) {
+                            bar.show(std::string(phase_name(phase)) + " " + view, done, total);
+                          });
   Written written;
   timed(result.phases, Phase::kWrite, [&] { written = write_files(a, result, bar); });
   if (!a.report.empty() || a.json) {

@@ -3,8 +3,8 @@
 // nef decimate
 #include "nef/base/stopwatch.h"
 #include "nef/command/commands.h"
-#include "nef/remeshing/decimate.h"
 #include "nef/io/mesh/mesh_writer.h"
+#include "nef/remeshing/decimate.h"
 
 namespace nef {
 

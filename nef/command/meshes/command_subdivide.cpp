@@ -24,8 +24,8 @@ void require_legal(const Mesh& mesh) {
 }  // namespace
 
 void add_subdivide_command(CLI::App& app, Session& session) {
-  CLI::App* command = add_subcommand(app, session, "subdivide",
-                                     "A mesh of more triangles for a solid: each in four, the same surface or smoothed");
+  CLI::App* command = add_subcommand(
+      app, session, "subdivide", "A mesh of more triangles for a solid: each in four, the same surface or smoothed");
   struct Flags {
     unsigned times = 1;
     std::string scheme = "midpoint";
@@ -42,7 +42,8 @@ void add_subdivide_command(CLI::App& app, Session& session) {
   add_output_flags(command, session)->required();
   command->callback([&session, flags] {
     MeshExport whole = to_mesh(session.load(session.input));
-    if (whole.mesh.face_count() == 0) throw InputError("the set has no bounded solid part, so there is no mesh to subdivide");
+    if (whole.mesh.face_count() == 0)
+      throw InputError("the set has no bounded solid part, so there is no mesh to subdivide");
     for (const std::string& line : whole.lost) session.note(line);
     const Stopwatch watch;
     const bool smooth = flags->scheme == "loop";

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "nef/view/page/byte_text.h"
 #include "nef/view/page.h"
+#include "nef/view/page/byte_text.h"
 #include "nef/view/page/sphere_drawing.h"
 
 namespace nef::view {

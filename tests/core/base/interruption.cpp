@@ -33,7 +33,7 @@ TEST_CASE("what is stopped throws, and the operands are whole") {
   CHECK(volume(unite(a, b)) == Rational(15));
 }
 
-TEST_CASE("threads are stopped with the one that they work for", "[parallel]") {
+TEST_CASE("threads are stopped with the one that they work for", "[threads]") {
   for (const unsigned threads : {1U, 2U, 0U}) {
     std::atomic<bool> stop{false};
     std::atomic<int> begun{0};
@@ -63,7 +63,7 @@ TEST_CASE("threads are stopped with the one that they work for", "[parallel]") {
   CHECK_FALSE(thrown);
 }
 
-TEST_CASE("a function that is asked stops what goes on inside one operation", "[parallel]") {
+TEST_CASE("a function that is asked stops what goes on inside one operation", "[threads]") {
   // Some 200 vertices meet: many more questions than there are steps of the operation.
   std::vector<Polyhedron> columns;
   std::vector<Polyhedron> rows;

@@ -63,7 +63,7 @@ TEST_CASE("a Boolean tells its phases, and only while somebody listens") {
   CHECK(told.in_order);
 }
 
-TEST_CASE("many sets are counted as they are combined, by the thread that waits", "[parallel]") {
+TEST_CASE("many sets are counted as they are combined, by the thread that waits", "[threads]") {
   std::vector<Polyhedron> sets;
   for (int i = 0; i < 40; ++i) sets.push_back(make_box({2 * i, 0, 0}, {2 * i + 1, 1, 1}));
   for (const unsigned threads : {1U, 2U, 0U}) {
@@ -82,7 +82,7 @@ TEST_CASE("many sets are counted as they are combined, by the thread that waits"
   }
 }
 
-TEST_CASE("what a listener throws ends the computation and leaves the operands whole", "[parallel]") {
+TEST_CASE("what a listener throws ends the computation and leaves the operands whole", "[threads]") {
   const Polyhedron a = test::set("box(0,0,0,2,2,2)");
   const Polyhedron b = test::set("box(1,1,1,3,3,3)");
   for (const unsigned threads : {1U, 2U}) {

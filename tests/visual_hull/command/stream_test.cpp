@@ -48,7 +48,7 @@ void write_frame(const fs::path& folder, const Scene& scene, int k) {
   }
 }
 
-TEST_CASE("A stream gives the hull that each frame has by itself, on any number of threads", "[parallel]") {
+TEST_CASE("A stream gives the hull that each frame has by itself, on any number of threads", "[threads]") {
   const Scene scene = read_scene(elk() / "elk.json");
   Options options;
   options.silhouette.simplify.tolerance = 1;

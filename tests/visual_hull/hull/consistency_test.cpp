@@ -105,7 +105,7 @@ TEST_CASE("The damaged view is named, and leaving it out brings the hull back") 
   }
 }
 
-TEST_CASE("The comparison does not depend on the number of threads", "[parallel]") {
+TEST_CASE("The comparison does not depend on the number of threads", "[threads]") {
   const Copy copy("elk");
   copy.damage(3, shifted(copy.mask(3), 4, 3));
   const Result one = copy.compare();

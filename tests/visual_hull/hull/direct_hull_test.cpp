@@ -81,7 +81,7 @@ TEST_CASE("Random masks, holes and touching rings included: the direct way agree
   CHECK(used >= 60);  // of a hundred: it is not there to give up
 }
 
-TEST_CASE("The views of a real scene go the direct way, on any number of threads", "[parallel]") {
+TEST_CASE("The views of a real scene go the direct way, on any number of threads", "[threads]") {
   const std::filesystem::path folder = source_folder() + "/data/visual_hull/elk";
   const Scene scene = read_scene(folder / "elk.json");
   Options options;

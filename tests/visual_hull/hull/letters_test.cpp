@@ -79,7 +79,7 @@ TEST_CASE("Vertices of the letters' hull lie on three cone planes each, as camer
   }
 }
 
-TEST_CASE("Any number of threads gives the same complex", "[parallel]") {
+TEST_CASE("Any number of threads gives the same complex", "[threads]") {
   const Scene scene = read_scene(source_folder() + "/data/visual_hull/eight/eight.json");
   Options options;
   options.silhouette.simplify.tolerance = 2;

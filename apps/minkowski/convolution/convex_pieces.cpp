@@ -2,9 +2,9 @@
 #include "apps/minkowski/convolution/convex_pieces.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "nef/base/error.h"
+#include "nef/complex/facet_plane.h"
 
 namespace nef::minkowski {
 
@@ -44,12 +44,9 @@ bool ConvexPieces::merge(Ring& ring, const Ring& other) const {
 
 std::vector<std::vector<std::uint32_t>> ConvexPieces::cut(FacetId id) {
   const Facet& facet = c_.facets[id];
-  const auto& normal = c_.planes.approximate(facet.plane);
-  axis_ = 0;
-  for (std::size_t i = 1; i < 3; ++i) {
-    if (std::fabs(normal[i]) > std::fabs(normal[axis_])) axis_ = i;
-  }
-  sign_ = c_.planes.coefficient(facet.plane, axis_).sign();
+  const PlaneAxes axes(c_.planes, facet.plane);
+  axis_ = static_cast<std::size_t>(axes.dropped);
+  sign_ = axes.positive ? 1 : -1;
   std::vector<Ring> rings;
   for (const CycleId cycle : facet.cycles()) {
     Ring& ring = rings.emplace_back();

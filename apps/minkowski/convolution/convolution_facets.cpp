@@ -6,6 +6,7 @@
 #include "apps/minkowski/union/exact_cells.h"
 #include "nef/base/interruption.h"
 #include "nef/construct/planar_hull.h"
+#include "nef/mesh/edge_order.h"
 
 namespace nef::minkowski {
 namespace {
@@ -98,8 +99,7 @@ class Convolution {
   }
 
   std::uint32_t corner(const Pair& p) {
-    const std::uint64_t key = static_cast<std::uint64_t>(p.a) << 32U | p.b;
-    const auto [at, is_new] = number_.emplace(key, static_cast<std::uint32_t>(result_.points.size()));
+    const auto [at, is_new] = number_.emplace(pair_key(p.a, p.b), static_cast<std::uint32_t>(result_.points.size()));
     if (is_new) {
       const Rational3 point = sum(p);
       result_.points.push(point);

@@ -43,57 +43,17 @@ std::size_t main_axis(const FacetSegment& s) {
 
 ConvolutionRegions::ConvolutionRegions(ConvolutionFacets& facets, const RoundedFacets& rounded,
                                        const SurvivingIntervals& intervals)
-    : facets_(facets), intervals_(intervals), tree_(rounded.boxes()), pyramids_(facets, rounded, tree_) {}
+    : facets_(facets),
+      intervals_(intervals),
+      tree_(rounded.boxes()),
+      pyramids_(facets, rounded, tree_),
+      meetings_(facets.planes, facets.points) {}
 
-// The first point with the same coordinates, which may be the point itself.
-PointId ConvolutionRegions::find_or_add(PointId point, bool& is_new) {
-  const std::uint64_t hash = facets_.points.hash(point);
-  const auto [first, last] = seen_.equal_range(hash);
-  is_new = false;
-  for (auto at = first; at != last; ++at) {
-    if (facets_.points.identical(PointId{at->second}, point)) return PointId{at->second};
-  }
-  is_new = true;
-  seen_.emplace(hash, point.index());
-  return point;
-}
-
-void ConvolutionRegions::add_corner(std::uint32_t corner) {
-  bool is_new = false;
-  const PointId point = find_or_add(PointId{corner}, is_new);
-  add_point(point);
-}
+void ConvolutionRegions::add_corner(std::uint32_t corner) { add_point(meetings_.first_equal(PointId{corner})); }
 
 void ConvolutionRegions::add_meeting(std::uint32_t f, std::uint32_t g, std::uint32_t h) {
-  const std::array<PlaneId, 3> planes = {facets_.plane[f], facets_.plane[g], facets_.plane[h]};
-  std::array<std::uint32_t, 3> rows = {planes[0].row(), planes[1].row(), planes[2].row()};
-  std::sort(rows.begin(), rows.end());
-  if (rows[0] == rows[1] || rows[1] == rows[2]) return;
-  const auto [tried, is_first] = tried_.emplace(rows, kNone);
-  if (!is_first) {
-    if (tried->second != kNone) add_point(PointId{tried->second});
-    return;
-  }
-  PointTable& points = facets_.points;
-  const std::optional<PointId> raw = points.push_intersection(facets_.planes, planes[0], planes[1], planes[2]);
-  if (!raw) return;
-  // Without a common factor equal points have equal coordinates.
-  std::array<Integer, 7> coordinates;
-  Integer divisor;
-  for (std::size_t i = 0; i < 4; ++i) {
-    mpz_set(coordinates[i].get_mpz_t(), points.coordinate(*raw, i));
-    mpz_gcd(divisor.get_mpz_t(), divisor.get_mpz_t(), coordinates[i].get_mpz_t());
-  }
-  points.pop();
-  for (std::size_t i = 0; i < 4; ++i) {
-    mpz_divexact(coordinates[i].get_mpz_t(), coordinates[i].get_mpz_t(), divisor.get_mpz_t());
-  }
-  bool is_new = false;
-  const PointId pushed = points.push_homogeneous(coordinates);
-  const PointId point = find_or_add(pushed, is_new);
-  if (!is_new) points.pop();
-  tried->second = point.index();
-  add_point(point);
+  const std::optional<Meeting> meeting = meetings_.meet({facets_.plane[f], facets_.plane[g], facets_.plane[h]});
+  if (meeting) add_point(meeting->point);
 }
 
 void ConvolutionRegions::add_point(PointId point) {

@@ -11,6 +11,7 @@
 
 #include "apps/minkowski/convolution/facet_pyramids.h"
 #include "apps/minkowski/convolution/surviving_intervals.h"
+#include "apps/minkowski/union/meeting_points.h"
 #include "nef/base/defect.h"
 #include "nef/base/union_find.h"
 #include "nef/polyhedron.h"
@@ -52,7 +53,6 @@ class ConvolutionRegions {
   void add_meeting(std::uint32_t f, std::uint32_t g, std::uint32_t h);
   void add_corner(std::uint32_t corner);
   void add_point(PointId point);
-  PointId find_or_add(PointId point, bool& is_new);
   [[nodiscard]] std::uint32_t nearest(const FacetSegment& s, const SegmentCut& cut, bool last) const;
   void join(const FacetSegment& s, const Vertex& from, const Vertex& to);
   [[nodiscard]] std::uint32_t svertex_along(const Vertex& v, const FacetSegment& s, bool forward) const;
@@ -65,21 +65,13 @@ class ConvolutionRegions {
   BoxTree tree_;
   FacetPyramids pyramids_;
   std::vector<Vertex> vertices_;
-  std::unordered_multimap<std::uint64_t, std::uint32_t> seen_;  // hash of coordinates -> point
+  MeetingPoints meetings_;
   struct KnownPoint {
     std::uint32_t vertex = kNone;       // kNone if all is inside there
     std::vector<std::uint32_t> facets;  // that hold it, in ascending order
   };
   std::unordered_map<std::uint32_t, KnownPoint> known_;  // point -> what is there
-  struct TripleHash {
-    std::size_t operator()(const std::array<std::uint32_t, 3>& t) const {
-      std::uint64_t h = t[0];
-      for (const std::uint32_t x : {t[1], t[2]}) h = (h ^ (h >> 29U)) * 0x9e3779b97f4a7c15ULL + x;
-      return h ^ (h >> 32U);
-    }
-  };
-  std::unordered_map<std::array<std::uint32_t, 3>, std::uint32_t, TripleHash> tried_;  // planes -> point or kNone
-  std::vector<std::uint32_t> near_;                                                    // points at the cut at hand
+  std::vector<std::uint32_t> near_;                      // points at the cut at hand
   struct Joint {
     std::uint32_t segment = 0, from = 0, to = 0;  // vertices
   };

@@ -4,16 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nef/complex/facet_plane.h"
+
 namespace nef::minkowski {
 
 ProjectionAxis projection_axis(const PlaneTable& planes, PlaneId plane) {
-  const std::array<double, 4>& normal = planes.approximate(plane);
-  std::size_t axis = 0;
-  for (std::size_t i = 1; i < 3; ++i) {
-    if (std::fabs(normal[i]) > std::fabs(normal[axis])) axis = i;
-  }
-  const int sign = planes.coefficient(plane, axis).sign();
-  return {axis, plane.flipped() ? -sign : sign};
+  const PlaneAxes axes(planes, plane);
+  return {static_cast<std::size_t>(axes.dropped), axes.positive != plane.flipped() ? 1 : -1};
 }
 
 RoundedFacets::RoundedFacets(const ConvolutionFacets& facets) : facets_(facets) {

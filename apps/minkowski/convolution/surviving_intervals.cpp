@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "nef/geometry/box_tree.h"
+#include "nef/mesh/edge_order.h"
 
 namespace nef::minkowski {
 namespace {
@@ -340,7 +341,7 @@ std::uint64_t side_key(const ConvolutionFacets& facets, std::uint32_t facet, std
   const auto ring = facets.ring(facet);
   const std::uint32_t u = ring[side];
   const std::uint32_t v = ring[side + 1 < ring.size() ? side + 1 : 0];
-  return static_cast<std::uint64_t>(std::min(u, v)) << 32U | std::max(u, v);
+  return pair_key(std::min(u, v), std::max(u, v));
 }
 
 SurvivingIntervals surviving_intervals(const ConvolutionFacets& facets, const RoundedFacets& rounded,

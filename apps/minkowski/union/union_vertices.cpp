@@ -13,7 +13,7 @@ UnionVertices::UnionVertices(std::span<const ConvexCell> cells, const RoundedCel
 
 std::uint32_t UnionVertices::add_vertex(std::uint32_t cell, std::uint32_t vertex) {
   const PointId point = exact_.point(cell, vertex);
-  const std::uint32_t name = find_or_add(point);
+  const std::uint32_t name = meetings_.first_equal(point).index();
   if (name == point.index() && located_.insert(name).second) add_point(point);
   return name;
 }
@@ -38,42 +38,11 @@ void UnionVertices::add_meeting(std::uint32_t f, std::uint32_t g, std::uint32_t 
     if (is_on(at->second, h) && is_on(at->second, f) && is_on(at->second, g)) return;
   }
   const std::array<PlaneId, 3> planes = {exact_.plane(f), exact_.plane(g), exact_.plane(h)};
-  std::array<std::uint32_t, 3> rows = {planes[0].row(), planes[1].row(), planes[2].row()};
-  std::sort(rows.begin(), rows.end());
-  if (rows[0] == rows[1] || rows[1] == rows[2] || !tried_.insert(rows).second) return;
-  PointTable& points = exact_.points;
-  const std::optional<PointId> raw = points.push_intersection(exact_.planes, planes[0], planes[1], planes[2]);
-  if (!raw) return;
-  // Without a common factor equal points have equal coordinates.
-  std::array<Integer, 7> coordinates;
-  Integer divisor;
+  const std::optional<Meeting> meeting = meetings_.meet(planes);
+  if (!meeting || meeting->planes_known) return;
   // Weights of exact steps against one evaluation of a form: measured, and they decide about time only.
-  work_ += 1500 + 800 * mpz_size(points.coordinate(*raw, 3));
-  for (std::size_t i = 0; i < 4; ++i) {
-    mpz_set(coordinates[i].get_mpz_t(), points.coordinate(*raw, i));
-    mpz_gcd(divisor.get_mpz_t(), divisor.get_mpz_t(), coordinates[i].get_mpz_t());
-  }
-  points.pop();
-  for (std::size_t i = 0; i < 4; ++i) {
-    mpz_divexact(coordinates[i].get_mpz_t(), coordinates[i].get_mpz_t(), divisor.get_mpz_t());
-  }
-  const PointId point = points.push_homogeneous(coordinates);
-  if (find_or_add(point) == point.index()) {
-    add_point(point);
-  } else {
-    points.pop();
-  }
-}
-
-// The first point with the same coordinates, which may be the point itself.
-std::uint32_t UnionVertices::find_or_add(PointId point) {
-  const std::uint64_t hash = exact_.points.hash(point);
-  const auto [first, last] = seen_.equal_range(hash);
-  for (auto at = first; at != last; ++at) {
-    if (exact_.points.identical(PointId{at->second}, point)) return at->second;
-  }
-  seen_.emplace(hash, point.index());
-  return point.index();
+  work_ += 1500 + 800 * meeting->limbs;
+  if (meeting->is_new) add_point(meeting->point);
 }
 
 // A pyramid whose planes are among those of another one holds that one. Sums of cells that share a

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "apps/minkowski/union/exact_cells.h"
+#include "apps/minkowski/union/meeting_points.h"
 #include "nef/geometry/box_tree.h"
 #include "nef/sphere_map/overlay.h"
 #include "nef/synthesis/complex_builder.h"
@@ -41,7 +42,6 @@ class UnionVertices {
   Complex finish();
 
  private:
-  std::uint32_t find_or_add(PointId point);
   void add_point(PointId point);
   [[nodiscard]] std::uint64_t grid_cell(const Vector& x) const;
   void drop_covered(std::vector<CellLocation>& touched);
@@ -50,16 +50,8 @@ class UnionVertices {
   const RoundedCells& rounded_;
   const BoxTree& boxes_;
   ExactCells exact_;
-  std::unordered_multimap<std::uint64_t, std::uint32_t> seen_;  // hash of coordinates -> point
-  std::unordered_set<std::uint32_t> located_;                   // vertices of cells among them
-  struct TripleHash {
-    std::size_t operator()(const std::array<std::uint32_t, 3>& t) const {
-      std::uint64_t h = t[0];
-      for (const std::uint32_t x : {t[1], t[2]}) h = (h ^ (h >> 29U)) * 0x9e3779b97f4a7c15ULL + x;
-      return h ^ (h >> 32U);
-    }
-  };
-  std::unordered_set<std::array<std::uint32_t, 3>, TripleHash> tried_;      // rows of planes
+  MeetingPoints meetings_{exact_.planes, exact_.points};
+  std::unordered_set<std::uint32_t> located_;                               // vertices of cells among them
   std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> faces_at_;  // of candidates that are left
   std::unordered_multimap<std::uint64_t, std::uint32_t> near_;              // grid cell -> such a candidate
   SphereOverlay overlay_;

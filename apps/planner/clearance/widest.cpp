@@ -29,8 +29,7 @@ Polyhedron grown(const Polyhedron& robot, Growth growth, const Rational& size) {
   if (!robot.is_regular() || !sees_all_from_origin(robot)) {
     throw InputError(
         "--widest: the robot must be a solid that sees all of itself from its reference point, or a smaller factor "
-        "need "
-        "not be easier; move the reference, or use --widest-box");
+        "need not be easier; move the reference, or use --widest-box");
   }
   return transform(robot, AffineMap::scale({size, size, size}));
 }

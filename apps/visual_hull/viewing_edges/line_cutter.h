@@ -28,9 +28,12 @@ class LineCutter {
     if (!refine_ends(whole, s_.size * 1e-6)) return false;  // good enough to find the box
     Interval clipped = whole;
     if (!clip_to_box(clipped)) return true;
+    const Interval rough = whole;
     if (!refine_ends(whole, s_.size * kGoodEnd)) return false;
-    clipped = whole;
-    if (!clip_to_box(clipped)) return true;
+    if (whole.from.error != rough.from.error || whole.to.error != rough.to.error) {
+      clipped = whole;
+      if (!clip_to_box(clipped)) return true;
+    }
     left_.assign(1, clipped);
     line_ = clipped;
     const std::size_t n = s_.views.size();

@@ -14,6 +14,7 @@
 #include "apps/minkowski/minkowski.h"
 #include "apps/minkowski/morphology.h"
 #include "nef/construct/construct.h"
+#include "tests/support/fixed_cases.h"
 #include "tests/support/random_polyhedra.h"
 
 namespace {
@@ -25,6 +26,7 @@ using nef::minkowski::minkowski_sum;
 using nef::minkowski::MinkowskiOptions;
 using nef::minkowski::MinkowskiReport;
 using nef::minkowski::UnionStrategy;
+using nef::test::check;
 using nef::test::Recipe;
 using nef::test::recipes;
 using nef::test::valid;
@@ -44,17 +46,6 @@ Polyhedron by_cells(const Polyhedron& a, const Polyhedron& b) {
   MinkowskiOptions options;
   options.strategy = UnionStrategy::kQueue;
   return minkowski_sum(a, b, options);
-}
-
-void check(const std::string& what, int cases, const std::function<void()>& property) {
-  rc::detail::TestParams parameters = rc::detail::configuration().testParams;
-  parameters.maxSuccess = cases;
-  const auto result = rc::detail::checkTestable(property, rc::detail::TestMetadata{what, what}, parameters);
-  INFO(what);
-  std::ostringstream text;
-  rc::detail::printResultMessage(result, text);
-  INFO(text.str());
-  CHECK(result.is<rc::detail::SuccessResult>());
 }
 
 // Turned, so that no plane is parallel to an axis; sheared by next to nothing, or not.

@@ -13,6 +13,7 @@
 #include "apps/minkowski/minkowski.h"
 #include "apps/minkowski/union/solid_union.h"
 #include "nef/construct/convex_hull.h"
+#include "tests/support/fixed_cases.h"
 #include "tests/support/random_polyhedra.h"
 
 namespace {
@@ -26,23 +27,12 @@ using nef::minkowski::minkowski_sum;
 using nef::minkowski::MinkowskiOptions;
 using nef::minkowski::negate;
 using nef::minkowski::UnionStrategy;
+using nef::test::check;
 using nef::test::Recipe;
 using nef::test::recipes;
 using nef::test::valid;
 
 Polyhedron moved(const Polyhedron& a, const Rational3& by) { return nef::transform(a, nef::AffineMap::translate(by)); }
-
-// Few cases of large sets say more than many of small ones; a fixed number keeps the time within bounds.
-void check(const std::string& what, int cases, const std::function<void()>& property) {
-  rc::detail::TestParams parameters = rc::detail::configuration().testParams;
-  parameters.maxSuccess = cases;
-  const auto result = rc::detail::checkTestable(property, rc::detail::TestMetadata{what, what}, parameters);
-  INFO(what);
-  std::ostringstream text;
-  rc::detail::printResultMessage(result, text);
-  INFO(text.str());
-  CHECK(result.is<rc::detail::SuccessResult>());
-}
 
 // Vertices, middles of edges, and middles of corners of facets of a sum: where it is decided.
 std::vector<Rational3> adversarial_points(const Polyhedron& sum) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "apps/minkowski/minkowski.h"
+#include "apps/planner/turning/reachable_part.h"
 #include "apps/planner/turning/turning_proof.h"
 #include "nef/base/error.h"
 #include "nef/base/union_find.h"
@@ -38,29 +39,6 @@ std::vector<Points> pieces_of(const Polyhedron& set) {
   return pieces;
 }
 
-// An obstacle, cut where no robot of the box can reach.
-Polyhedron within_reach(const Polyhedron& obstacle, const Scene& scene, const Rational& reach) {
-  if (obstacle.is_bounded()) return obstacle;
-  if (!scene.box) throw InputError("an obstacle is unbounded: give the scene a box");
-  Rational3 low = (*scene.box)[0];
-  Rational3 high = (*scene.box)[1];
-  for (std::size_t k = 0; k < 3; ++k) {
-    low[k] -= reach;
-    high[k] += reach;
-  }
-  return intersect(obstacle, make_box(low, high));
-}
-
-// A number that is no less than the distance of any point of the robot.
-Rational reach_of(const Polyhedron& robot) {
-  Rational sum = 1;
-  const std::array<Rational3, 2> box = *bounding_box(robot);
-  for (const Rational3& corner : box) {
-    for (const Rational& x : corner) sum += abs(x);
-  }
-  return sum;
-}
-
 class ProofCheck {
  public:
   ProofCheck(const TurningProof& proof, const Scene& scene, const TurningQuestion& question)
@@ -68,7 +46,7 @@ class ProofCheck {
     require(scene.robot.is_bounded() && scene.robot.is_regular(), "the robot is no bounded solid");
     robot_ = pieces_of(scene.robot);
     for (const Polyhedron& obstacle : scene.obstacles) {
-      for (Points& piece : pieces_of(closure(within_reach(obstacle, scene, reach_of(scene.robot))))) {
+      for (Points& piece : pieces_of(closure(reachable_part(obstacle, scene)))) {
         obstacles_.push_back(std::move(piece));
       }
     }

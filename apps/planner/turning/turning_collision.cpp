@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "apps/minkowski/minkowski.h"
+#include "apps/planner/turning/reachable_part.h"
 #include "nef/base/error.h"
 #include "nef/construct/construct.h"
 #include "nef/geometry/rational_vectors.h"
@@ -23,24 +24,6 @@ Vector difference(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] 
 // See plane_between.
 constexpr double kError = 2e-14;
 
-// What a robot in the box can reach of an obstacle.
-Polyhedron within_reach(const Polyhedron& obstacle, const Scene& scene) {
-  if (obstacle.is_bounded()) return obstacle;
-  if (!scene.box) throw InputError("an obstacle is unbounded: give the scene a box");
-  Rational reach = 1;
-  const std::array<Rational3, 2> robot = *bounding_box(scene.robot);
-  for (const Rational3& corner : robot) {
-    for (const Rational& x : corner) reach += abs(x);
-  }
-  Rational3 low = (*scene.box)[0];
-  Rational3 high = (*scene.box)[1];
-  for (std::size_t k = 0; k < 3; ++k) {
-    low[k] -= reach;
-    high[k] += reach;
-  }
-  return intersect(obstacle, make_box(low, high));
-}
-
 }  // namespace
 
 TurningCollision::TurningCollision(const Scene& scene, const TurningAxis& axis)
@@ -55,7 +38,7 @@ TurningCollision::TurningCollision(const Scene& scene, const TurningAxis& axis)
     for (const TurningRobot::Face& face : piece.faces) shape.normals.push_back(to_doubles(face.normal));
   }
   for (const Polyhedron& obstacle : scene.obstacles) {
-    const Polyhedron bounded = within_reach(obstacle, scene);
+    const Polyhedron bounded = reachable_part(obstacle, scene);
     const bool solid_everywhere = bounded.is_regular();
     for (const minkowski::ConvexCell& cell : minkowski::decompose(closure(bounded))) {
       if (cell.dimension < 3 && solid_everywhere) continue;  // walls between solid cells

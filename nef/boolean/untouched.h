@@ -12,7 +12,7 @@ namespace nef {
 /// For every vertex of operand x that lies on nothing of the other operand: the mark of the
 /// other's volume that holds it (others: unspecified). Vertices that an uncrossed edge joins share
 /// their answer; touched ends and crossed edges give it away; only a component with neither asks
-/// for a point location (design note, section 4.3).
+/// for a point location.
 std::vector<LabelId> marks_of_untouched(const std::array<Operand, 2>& operands, std::size_t x,
                                         const CommonTables& tables, const Intersections& intersections,
                                         const std::function<const QueryStructure&()>& queries_of_other);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Interned planes: each plane is held once, so that coplanar means same row and no arithmetic is
-// ever spent on that question (shared design note, section 2; the thesis' own bottleneck, 9.6.3).
+// ever spent on that question, which is the bottleneck of the thesis' own implementation (9.6.3).
 #pragma once
 
 #include <array>

@@ -7,8 +7,8 @@
 #include <map>
 #include <utility>
 
+#include "apps/minkowski/cells/exact_cells.h"
 #include "apps/minkowski/convex/convex_cell.h"
-#include "apps/minkowski/union/exact_cells.h"
 #include "nef/base/error.h"
 #include "nef/construct/solid.h"
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "apps/minkowski/union/exact_cells.h"
+#include "apps/minkowski/cells/exact_cells.h"
 #include "nef/base/interruption.h"
 #include "nef/construct/planar_hull.h"
 #include "nef/mesh/edge_order.h"

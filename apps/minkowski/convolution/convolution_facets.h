@@ -8,8 +8,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "apps/minkowski/cells/rounded_cells.h"
 #include "apps/minkowski/convolution/solid_features.h"
-#include "apps/minkowski/union/rounded_cells.h"
 #include "nef/geometry/point_table.h"
 
 namespace nef::minkowski {

@@ -9,9 +9,9 @@
 #include <variant>
 #include <vector>
 
+#include "apps/minkowski/cells/meeting_points.h"
 #include "apps/minkowski/convolution/facet_pyramids.h"
 #include "apps/minkowski/convolution/surviving_intervals.h"
-#include "apps/minkowski/union/meeting_points.h"
 #include "nef/base/defect.h"
 #include "nef/base/union_find.h"
 #include "nef/polyhedron.h"

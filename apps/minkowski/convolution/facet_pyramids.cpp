@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "apps/minkowski/union/exact_cells.h"
+#include "apps/minkowski/cells/exact_cells.h"
 
 namespace nef::minkowski {
 namespace {

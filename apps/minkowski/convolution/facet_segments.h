@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
+#include "apps/minkowski/cells/segment.h"
 #include "apps/minkowski/convolution/rounded_facets.h"
-#include "apps/minkowski/union/segment.h"
 
 namespace nef::minkowski {
 

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "apps/minkowski/cells/rounded_cells.h"
 #include "apps/minkowski/convolution/convolution_facets.h"
-#include "apps/minkowski/union/rounded_cells.h"
 
 namespace nef::minkowski {
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "apps/minkowski/union/rounded_cells.h"
+#include "apps/minkowski/cells/rounded_cells.h"
 
 namespace nef::minkowski {
 

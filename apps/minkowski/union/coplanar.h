@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "apps/minkowski/cells/exact_cells.h"
 #include "apps/minkowski/convex/convex_cell.h"
-#include "apps/minkowski/union/exact_cells.h"
 
 namespace nef::minkowski {
 

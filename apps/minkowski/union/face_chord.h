@@ -8,8 +8,8 @@
 #include <optional>
 #include <vector>
 
-#include "apps/minkowski/union/exact_cells.h"
-#include "apps/minkowski/union/segment.h"
+#include "apps/minkowski/cells/exact_cells.h"
+#include "apps/minkowski/cells/segment.h"
 
 namespace nef::minkowski {
 

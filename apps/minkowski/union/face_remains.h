@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "apps/minkowski/union/rounded_cells.h"
+#include "apps/minkowski/cells/rounded_cells.h"
 
 namespace nef::minkowski {
 

@@ -15,10 +15,10 @@
 
 #include <algorithm>
 
+#include "apps/minkowski/cells/segment.h"
 #include "apps/minkowski/union/coplanar.h"
 #include "apps/minkowski/union/face_chord.h"
 #include "apps/minkowski/union/repeated_cells.h"
-#include "apps/minkowski/union/segment.h"
 #include "apps/minkowski/union/union_vertices.h"
 #include "apps/minkowski/union/visible_faces.h"
 #include "nef/base/error.h"

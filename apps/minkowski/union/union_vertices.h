@@ -10,8 +10,8 @@
 #include <unordered_set>
 #include <vector>
 
-#include "apps/minkowski/union/exact_cells.h"
-#include "apps/minkowski/union/meeting_points.h"
+#include "apps/minkowski/cells/exact_cells.h"
+#include "apps/minkowski/cells/meeting_points.h"
 #include "nef/geometry/box_tree.h"
 #include "nef/sphere_map/overlay.h"
 #include "nef/synthesis/complex_builder.h"

@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
+#include "apps/minkowski/cells/exact_cells.h"
+#include "apps/minkowski/cells/rounded_cells.h"
 #include "apps/minkowski/union/coplanar.h"
-#include "apps/minkowski/union/exact_cells.h"
-#include "apps/minkowski/union/rounded_cells.h"
 
 namespace nef::minkowski {
 

@@ -115,8 +115,7 @@ class FreeSpace {
   [[nodiscard]] CellId locate(const ExactPoint& point) const;
   [[nodiscard]] bool is_free(const ExactPoint& point) const { return is_free(locate(point)); }
 
-  /// T and J between two free cells (shared/planner.md section 7); nothing if they are not
-  /// connected. O(cells).
+  /// T and J between two free cells; nothing if they are not connected. O(cells).
   [[nodiscard]] std::optional<Thinness> thinness(CellId start, CellId goal) const;
 
   /// Vertices of a cell, in boundary order of the first cycle for a facet; none for a volume.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/minkowski/union/segment.h"
+#include "apps/minkowski/cells/segment.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/minkowski/union/meeting_points.h"
+#include "apps/minkowski/cells/meeting_points.h"
 
 #include <algorithm>
 

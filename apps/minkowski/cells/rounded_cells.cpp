@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/minkowski/union/rounded_cells.h"
+#include "apps/minkowski/cells/rounded_cells.h"
 
 #include <algorithm>
 #include <cmath>

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "apps/minkowski/union/rounded_cells.h"
+#include "apps/minkowski/cells/rounded_cells.h"
 #include "nef/geometry/predicates.h"
 #include "nef/sphere_map/arrangement.h"
 

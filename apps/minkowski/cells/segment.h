@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "apps/minkowski/union/rounded_cells.h"
+#include "apps/minkowski/cells/rounded_cells.h"
 #include "nef/sphere_map/sphere_map.h"
 
 namespace nef::minkowski {

@@ -8,6 +8,7 @@
 #include "nef/base/parallel.h"
 #include "nef/base/stopwatch.h"
 #include "nef/io/polyhedron_file.h"
+#include "nef/program/common_options.h"
 #include "nef/program/run_program.h"
 
 namespace nef {
@@ -108,32 +109,26 @@ void Session::show_messages(std::size_t first) {
 }
 
 void add_run_flags(CLI::App* command, Session& session) {
-  command->add_flag("--json", session.json, "print one JSON object on stdout and nothing else there");
-  command->add_flag("-q,--quiet", session.quiet, "print no notes and no summary");
-  command->add_option("--threads", session.threads, "threads to use at most; 0 (default): as many as the machine has")
-      ->check(CLI::Range(0U, 4096U));
+  add_run_options(*command, session.json, session.quiet, session.threads);
 }
 
 void add_input_flags(CLI::App* command, Session& session) {
-  command->add_flag("--strict", session.mesh.strict, "refuse faces that are not exactly planar");
-  command->add_flag("--as-surface", session.mesh.as_surface, "take meshes as two-dimensional sets; they may be open");
+  add_mesh_input_options(*command, session.mesh.strict, session.mesh.as_surface);
   command->add_flag(
       "--no-check", session.no_check,
-      "taken for the sake of old scripts: meshes are always checked, which is a fourth of the time of reading them");
+      "Taken for the sake of old scripts: meshes are always checked, which is a fourth of the time of reading them");
 }
 
 CLI::Option* add_output_flags(CLI::App* command, Session& session) {
-  command->add_flag("--exact", session.exact, "write exact coordinates (p/q) to OFF, OBJ or PLY");
-  command->add_flag("--binary", session.binary, "write binary STL or PLY");
-  command->add_flag("--text", session.text, "write .nef as text");
+  add_file_output_options(*command, session.exact, session.binary, session.text);
   command->add_flag("--polygons", session.polygons,
-                    "write faces that are not convex as polygons, too, instead of cutting them into triangles");
-  command->add_option("--format", session.format, "format to write, whatever the name of the file; nef for -o -")
+                    "Write faces that are not convex as polygons, too, instead of cutting them into triangles");
+  command->add_option("--format", session.format, "Format to write, whatever the name of the file; nef for -o -")
       ->check(CLI::IsMember({"nef", "nef3", "off", "obj", "stl", "ply", "glb", "3mf"}));
   return command
       ->add_option(
           "-o,--output", session.output,
-          "file to write, - for standard output; its extension (nef, nef3, off, obj, stl, ply, glb, 3mf) picks the "
+          "File to write, - for standard output; its extension (nef, nef3, off, obj, stl, ply, glb, 3mf) picks the "
           "format")
       ->check([](const std::string& path) { return std::string(path.empty() ? "the name of the file is empty" : ""); });
 }

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "nef/base/error.h"
+#include "nef/program/common_options.h"
 
 namespace nef::minkowski {
 namespace {
@@ -39,30 +40,34 @@ std::vector<TaskOption> task_options(const Arguments& a) {
 
 void declare_tasks(CLI::App& app, Arguments& a) {
   app.add_flag("--erode", a.erode, "A eroded by B: all x for which B moved by x lies in A");
-  app.add_flag("--open", a.open, "the opening of A by B: all of A that B covers as it moves within A");
-  app.add_flag("--close", a.close, "the closing of A by B: A + B, eroded by B");
+  app.add_flag("--open", a.open, "The opening of A by B: all of A that B covers as it moves within A");
+  app.add_flag("--close", a.close, "The closing of A by B: A + B, eroded by B");
   app.add_option("--offset", a.offset,
                  "R or R,N: A grown by a ball of radius R, shrunk if R < 0; the result lies around the exact answer "
-                 "(--outer, default) or inside of it (--inner); N: how fine the ball is (8), see --ball");
-  app.add_flag("--inner", a.inner, "of --offset, --ball: inside of what round balls would give");
-  app.add_flag("--outer", a.outer, "of --offset, --ball: around what round balls would give");
-  app.add_option("--sweep", a.sweep, "points x,y,z: what A passes over as it moves along the polyline through them")
-      ->expected(-1);
-  app.add_flag("--hull", a.hull, "the convex hull of A");
+                 "(--outer, default) or inside of it (--inner); N: how fine the ball is (8), see --ball")
+      ->type_name("R[,N]");
+  app.add_flag("--inner", a.inner, "Of --offset, --ball: inside of what round balls would give");
+  app.add_flag("--outer", a.outer, "Of --offset, --ball: around what round balls would give");
+  app.add_option("--sweep", a.sweep, "Points x,y,z: what A passes over as it moves along the polyline through them")
+      ->expected(-1)
+      ->type_name("X,Y,Z");
+  app.add_flag("--hull", a.hull, "The convex hull of A");
   app.add_flag("--penetration", a.penetration,
-               "whether A and B are disjoint, touch or overlap, and the shortest translation of B to contact");
-  app.add_flag("--no-fit", a.no_fit, "the translations of B for which it touches A without overlap");
+               "Whether A and B are disjoint, touch or overlap, and the shortest translation of B to contact");
+  app.add_flag("--no-fit", a.no_fit, "The translations of B for which it touches A without overlap");
   app.add_flag("--reach", a.reach,
                "TOOL PART: the free positions of the tool (its origin) that are connected to the outside");
-  app.add_option("--from", a.from, "x,y,z, of --reach: connected to this position instead");
-  app.add_option("--touched", a.touched, "of --reach: a file for what of the part's boundary the tool can touch");
-  app.add_option("--untouched", a.untouched, "of --reach: a file for what of it the tool cannot touch");
-  app.add_flag("--decompose", a.decompose, "write the convex cells of A, to one mesh file or into a directory");
-  app.add_option("--format", a.format, "of cells in a directory: off (default), ply, obj, or nef (exact, with marks)")
+  app.add_option("--from", a.from, "x,y,z, of --reach: connected to this position instead")->type_name("X,Y,Z");
+  app.add_option("--touched", a.touched, "Of --reach: a file for what of the part's boundary the tool can touch")
+      ->type_name("FILE");
+  app.add_option("--untouched", a.untouched, "Of --reach: a file for what of it the tool cannot touch")
+      ->type_name("FILE");
+  app.add_flag("--decompose", a.decompose, "Write the convex cells of A, to one mesh file or into a directory");
+  app.add_option("--format", a.format, "Of cells in a directory: off (default), ply, obj, or nef (exact, with marks)")
       ->check(CLI::IsMember({"off", "ply", "obj", "nef"}));
-  app.add_flag("--configuration-space", a.configuration_space, "free positions of a robot among obstacles");
-  app.add_option("--robot", a.robot, "the robot; its reference point is the origin");
-  app.add_option("--obstacles", a.obstacles, "the obstacles")->expected(-1);
+  app.add_flag("--configuration-space", a.configuration_space, "Free positions of a robot among obstacles");
+  app.add_option("--robot", a.robot, "The robot; its reference point is the origin")->type_name("FILE");
+  app.add_option("--obstacles", a.obstacles, "The obstacles")->expected(-1)->type_name("FILE");
   app.add_option("--box", a.box,
                  "x0,y0,z0,x1,y1,z1: what bounds the reference point (two words x0,y0,z0 x1,y1,z1 will do)")
       ->expected(1, 2)
@@ -139,34 +144,33 @@ void check_operands(const Arguments& a, Task task) {
 }  // namespace
 
 void declare(CLI::App& app, Arguments& a) {
-  app.add_option("operands", a.operands, "A and B: .nef, .nef3, or a mesh (off, obj, stl, ply, glb, 3mf)");
-  app.add_option("-o,--output", a.output, "where the result goes; the extension says the format");
-  app.add_flag("--open-a", a.open_a, "take the interior of A");
-  app.add_flag("--open-b", a.open_b, "take the interior of B");
-  app.add_flag("--negate-b", a.negate_b, "take -B instead of B");
+  app.add_option("operands", a.operands, "A and B: .nef, .nef3, or a mesh (off, obj, stl, ply, glb, 3mf)")
+      ->type_name("FILE");
+  app.add_option("-o,--output", a.output, "Where the result goes; the extension says the format")->type_name("FILE");
+  app.add_flag("--open-a", a.open_a, "Take the interior of A");
+  app.add_flag("--open-b", a.open_b, "Take the interior of B");
+  app.add_flag("--negate-b", a.negate_b, "Take -B instead of B");
   app.add_flag("--hull-b", a.hull_b,
-               "take the convex hull of B, which holds B: for balls and the like whose coordinates "
+               "Take the convex hull of B, which holds B: for balls and the like whose coordinates "
                "were rounded, so that they are not quite convex");
   app.add_option(
-      "--ball", a.ball,
-      "R,N: a ball of radius R stands in for B: an octahedron whose edges are split into N parts (1 does not "
-      "split), 4 N^2 + 2 vertices; inscribed (--inner, default) or circumscribed (--outer)");
-  app.add_option("--box-tool", a.box_tool, "x,y,z: a box of these extents about the origin stands in for B");
+         "--ball", a.ball,
+         "R,N: a ball of radius R stands in for B: an octahedron whose edges are split into N parts (1 does not "
+         "split), 4 N^2 + 2 vertices; inscribed (--inner, default) or circumscribed (--outer)")
+      ->type_name("R,N");
+  app.add_option("--box-tool", a.box_tool, "x,y,z: a box of these extents about the origin stands in for B")
+      ->type_name("X,Y,Z");
   app.add_option("--union", a.union_name,
-                 "how sums of cells are united: auto (default), trivial, queue, priority, nary, convolution")
+                 "How sums of cells are united: auto (default), trivial, queue, priority, nary, convolution")
       ->check(CLI::IsMember({"auto", "trivial", "queue", "priority", "nary", "convolution"}));
   declare_tasks(app, a);
-  app.add_flag("--as-surface", a.as_surface, "take the faces of meshes as a two-dimensional set");
-  app.add_flag("--strict", a.strict, "refuse meshes with faces that are not exactly planar");
-  app.add_flag("--exact", a.exact, "exact coordinates in mesh files");
-  app.add_flag("--binary", a.binary, "binary STL or PLY");
-  app.add_flag("--text", a.text, ".nef as text");
-  app.add_option("--report", a.report, "write a JSON report: cells, pairs, times, predicates, memory, result");
-  app.add_option("--preview", a.preview, "write pictures (PNG) of the operands and the result into this directory")
+  add_mesh_input_options(app, a.strict, a.as_surface);
+  add_file_output_options(app, a.exact, a.binary, a.text);
+  app.add_option("--report", a.report, "Write a JSON report: cells, pairs, times, predicates, memory, result")
+      ->type_name("FILE");
+  app.add_option("--preview", a.preview, "Write pictures (PNG) of the operands and the result into this directory")
       ->type_name("DIR");
-  app.add_option("--threads", a.threads, "threads to use at most; 0 (default): as many as the machine has");
-  app.add_flag("--json", a.json, "print the report to stdout");
-  app.add_flag("-q,--quiet", a.quiet, "print nothing but errors");
+  add_run_options(app, a.json, a.quiet, a.threads);
 }
 
 std::string name(Task task) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/planner/command/arguments.h"
 
+#include "nef/program/common_options.h"
+
 namespace nef::planner {
 namespace {
 
@@ -45,7 +47,7 @@ void declare_clearance(CLI::App& app, Arguments& a) {
                "By which factor can the robot be scaled about its reference point and still pass?");
   app.add_flag("--widest-box", a.widest_box, "By which r can it be made larger by the cube from -r to r?");
   app.add_option("--precision", a.precision, "Relative width of the interval that these tell")->default_str("1/1000");
-  app.add_option("--keep-clear", a.keep_clear, "Keep at least this distance from all obstacles");
+  app.add_option("--keep-clear", a.keep_clear, "Keep at least this distance from all obstacles")->type_name("D");
   app.add_option("--speed", a.limits.speed, "Time stamps for way-points: speed of the reference point")
       ->check(CLI::PositiveNumber);
   app.add_option("--acceleration", a.limits.acceleration, "... and its acceleration (without bound if not given)")
@@ -55,20 +57,24 @@ void declare_clearance(CLI::App& app, Arguments& a) {
 }  // namespace
 
 void declare(CLI::App& app, Arguments& a) {
-  app.add_option("scene", a.scene, "Scene (.json, or OMPL.app .cfg)");
-  app.add_option("--assembly", a.assembly, "Take an assembly (.json) apart by translations, or prove that it is stuck");
+  app.add_option("scene", a.scene, "Scene (.json, or OMPL.app .cfg)")->type_name("FILE");
+  app.add_option("--assembly", a.assembly, "Take an assembly (.json) apart by translations, or prove that it is stuck")
+      ->type_name("FILE");
   app.add_option("--free-directions", a.free_directions,
-                 "With --assembly: the exact cone of directions in which this part can begin to move");
+                 "With --assembly: the exact cone of directions in which this part can begin to move")
+      ->type_name("PART");
   app.add_option("-o,--output", a.outputs,
                  "Write the answer: .json report, .path (OMPL matrix), .glb (animated glTF), .csv (time stamps), else "
-                 "text; may be repeated");
-  app.add_option("--page", a.page, "Write a page (.html) in which the robot moves along the path");
-  app.add_flag("--json", a.json, "Print the report as JSON");
+                 "text; may be repeated")
+      ->type_name("FILE");
+  app.add_option("--page", a.page, "Write a page (.html) in which the robot moves along the path")->type_name("FILE");
   app.add_flag("--tight", a.tight, "List every tight passage; with --path those that a given path uses");
-  app.add_option("--path", a.given_path, "Check this path (a report or lines of numbers) instead of looking for one");
-  app.add_option("--queries", a.queries, "Answer many questions: six numbers a line, start and goal (or JSON)");
-  app.add_option("--start", a.start, "x,y,z in place of the scene's start");
-  app.add_option("--goal", a.goal, "x,y,z in place of the scene's goal");
+  app.add_option("--path", a.given_path, "Check this path (a report or lines of numbers) instead of looking for one")
+      ->type_name("FILE");
+  app.add_option("--queries", a.queries, "Answer many questions: six numbers a line, start and goal (or JSON)")
+      ->type_name("FILE");
+  app.add_option("--start", a.start, "x,y,z in place of the scene's start")->type_name("X,Y,Z");
+  app.add_option("--goal", a.goal, "x,y,z in place of the scene's goal")->type_name("X,Y,Z");
   app.add_option("--contact", a.contact, "May the robot touch obstacles?")->check(CLI::IsMember({"allow", "forbid"}));
   app.add_option("--prefer", a.prefer, "short: any passage will do; roomy: thin passages only where needed")
       ->check(CLI::IsMember({"short", "roomy"}));
@@ -79,11 +85,11 @@ void declare(CLI::App& app, Arguments& a) {
   app.add_flag("--se3", a.se3, "Path matrix with seven columns x y z qx qy qz qw");
   app.add_option("--max-cells", a.max_cells, "A robot that turns: cut its angles into so many cells at most");
   app.add_option("--check-proof", a.check_proof,
-                 "A robot that turns: verify the proof in this report (exit code 0: it holds, 1: it does not)");
+                 "A robot that turns: verify the proof in this report (exit code 0: it holds, 1: it does not)")
+      ->type_name("FILE");
   declare_clearance(app, a);
   declare_ompl(app, a);
-  app.add_option("--threads", a.threads, "Threads for the configuration space (0: all cores)");
-  app.add_flag("-q,--quiet", a.quiet, "Print nothing but errors, and no progress bar");
+  add_run_options(app, a.json, a.quiet, a.threads);
   app.footer(kFooter);
 }
 

@@ -5,6 +5,7 @@
 #include "apps/visual_hull/formats/turntable.h"
 #include "apps/visual_hull/scene/axes.h"
 #include "nef/base/error.h"
+#include "nef/program/common_options.h"
 
 namespace visual_hull {
 namespace {
@@ -86,9 +87,7 @@ void add_input_options(CLI::App& app, Arguments& a) {
 
 void add_output_options(CLI::App& app, Arguments& a) {
   app.add_option("-o,--output", a.output, "Write the hull (format by extension)")->type_name("FILE");
-  app.add_flag("--exact", a.exact, "Exact coordinates in mesh files (not STL)");
-  app.add_flag("--binary", a.binary, "Binary STL or PLY");
-  app.add_flag("--text", a.text, ".nef as text");
+  add_file_output_options(app, a.exact, a.binary, a.text);
   app.add_option("--decimate", a.decimate, "Write a mesh of about N triangles, and tell how far it is from the hull")
       ->check(CLI::PositiveNumber)
       ->type_name("N");
@@ -109,9 +108,7 @@ void add_output_options(CLI::App& app, Arguments& a) {
   app.add_option("--preview", a.preview, "Directory for pictures of the hull from four sides")->type_name("DIR");
   app.add_option("--page", a.page, "Write a page that shows the hull with its cameras and their images")
       ->type_name("FILE.html");
-  app.add_option("--threads", a.threads, "Threads to work with; 0: as many as there are cores")->capture_default_str();
-  app.add_flag("--json", a.json, "Print the report, and nothing else, on standard output");
-  app.add_flag("-q,--quiet", a.quiet, "Print nothing but errors");
+  add_run_options(app, a.json, a.quiet, a.threads);
 }
 
 }  // namespace

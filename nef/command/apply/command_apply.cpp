@@ -68,13 +68,13 @@ Polyhedron apply_steps(const std::vector<BooleanStep>& steps, const std::string&
 void add_apply_command(CLI::App& app, Session& session, const CommandExtensions& extensions) {
   CLI::App* command = add_subcommand(app, session, "apply", "A set changed by many steps, in tiles where that pays");
   const auto flags = std::make_shared<Flags>();
-  command->add_option("input", session.input, "the set to begin with, as a file")->required();
-  command->add_option("--steps", flags->steps, "a file with one operator and expression a line; - for standard input")
+  command->add_option("input", session.input, "The set to begin with, as a file")->required();
+  command->add_option("--steps", flags->steps, "A file with one operator and expression a line; - for standard input")
       ->required()
       ->type_name("FILE");
   command
       ->add_option("--tiles", flags->tiles,
-                   "vertices that a tile may have; off: none; auto: tiles where the steps are small and many")
+                   "Vertices that a tile may have; off: none; auto: tiles where the steps are small and many")
       ->type_name("N|off|auto")
       ->capture_default_str();
   add_input_flags(command, session);

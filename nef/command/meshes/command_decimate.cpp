@@ -12,8 +12,8 @@ void add_decimate_command(CLI::App& app, Session& session) {
   CLI::App* command = add_subcommand(app, session, "decimate",
                                      "A mesh of fewer triangles for a solid, legal still, and how far it is from it");
   const auto triangles = std::make_shared<std::size_t>(0);
-  command->add_option("input", session.input, "the set, as a file")->required();
-  command->add_option("--triangles", *triangles, "how many to aim at")->required()->check(CLI::PositiveNumber);
+  command->add_option("input", session.input, "The set, as a file")->required();
+  command->add_option("--triangles", *triangles, "How many to aim at")->required()->check(CLI::PositiveNumber);
   add_input_flags(command, session);
   add_output_flags(command, session)->required();
   command->callback([&session, triangles] {

@@ -13,8 +13,8 @@ void add_repair_command(CLI::App& app, Session& session) {
       app, session, "repair",
       "Make a mesh that nearly bounds a solid bound one, and say how. Exit code 0 if it does then, 1 if not");
   const auto options = std::make_shared<RepairOptions>();
-  command->add_option("input", session.input, "the mesh, as a file")->required();
-  command->add_flag("--fill-holes", options->fill_holes, "close planar holes with a face");
+  command->add_option("input", session.input, "The mesh, as a file")->required();
+  command->add_flag("--fill-holes", options->fill_holes, "Close planar holes with a face");
   add_output_flags(command, session)->required();
   command->callback([&session, options] {
     const RepairedMesh repaired = repair_mesh(read_mesh(session.input), *options);

@@ -31,11 +31,11 @@ void add_subdivide_command(CLI::App& app, Session& session) {
     std::string scheme = "midpoint";
   };
   const auto flags = std::make_shared<Flags>();
-  command->add_option("input", session.input, "the set, as a file")->required();
-  command->add_option("--times", flags->times, "how often; each time there are four times as many triangles")
+  command->add_option("input", session.input, "The set, as a file")->required();
+  command->add_option("--times", flags->times, "How often; each time there are four times as many triangles")
       ->check(CLI::Range(1U, 12U))
       ->capture_default_str();
-  command->add_option("--scheme", flags->scheme, "midpoint keeps the surface, exactly; loop smooths it")
+  command->add_option("--scheme", flags->scheme, "Midpoint keeps the surface, exactly; loop smooths it")
       ->check(CLI::IsMember({"midpoint", "loop"}))
       ->capture_default_str();
   add_input_flags(command, session);

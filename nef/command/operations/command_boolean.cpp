@@ -64,14 +64,14 @@ void finish_with_origins(Session& session, const Operation& operation, const std
 
 void add(CLI::App& app, Session& session, const Operation& operation) {
   CLI::App* command = add_subcommand(app, session, operation.name, operation.description);
-  command->add_option("inputs", session.inputs, "the operands, as files")->required()->expected(2, operation.most);
+  command->add_option("inputs", session.inputs, "The operands, as files")->required()->expected(2, operation.most);
   add_input_flags(command, session);
   add_output_flags(command, session);
-  CLI::Option* repeat = command->add_option("--repeat", session.repeat, "compute N times and report the median")
+  CLI::Option* repeat = command->add_option("--repeat", session.repeat, "Compute N times and report the median")
                             ->check(CLI::Range(1, 1000000));
   command
       ->add_flag("--origins", session.origins,
-                 "write from which operand each face comes: groups in OBJ, colours in OFF, PLY and GLB")
+                 "Write from which operand each face comes: groups in OBJ, colours in OFF, PLY and GLB")
       ->excludes(repeat);
   command->callback([&session, operation] {
     const std::vector<Polyhedron> sets = session.load_all(session.inputs);

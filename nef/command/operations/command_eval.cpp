@@ -38,11 +38,11 @@ void add_eval_command(CLI::App& app, Session& session, const CommandExtensions& 
   command->add_option(
       "expression", flags->text,
       "e.g. 'box(0,0,0, 2,2,2) - file(\"part.off\") * halfspace(0,0,1,-1)', or the name of a .csg file");
-  command->add_option("-f,--file", flags->script, "a file with the expression; .csg: a model flattened by OpenSCAD")
+  command->add_option("-f,--file", flags->script, "A file with the expression; .csg: a model flattened by OpenSCAD")
       ->type_name("FILE");
   add_input_flags(command, session);
   add_output_flags(command, session);
-  command->add_option("--repeat", session.repeat, "compute N times and report the median")
+  command->add_option("--repeat", session.repeat, "Compute N times and report the median")
       ->check(CLI::Range(1, 1000000));
   command->footer(
       "Operators: + union, * intersection, - difference, ^ symmetric difference, ! complement.\n"

@@ -54,7 +54,7 @@ void add_transform_command(CLI::App& app, Session& session) {
   const auto steps = std::make_shared<Steps>();
   CLI::App* command =
       add_subcommand(app, session, "transform", "The image under an affine map; steps are done in the order given");
-  command->add_option("input", session.input, "the set, as a file")->required();
+  command->add_option("input", session.input, "The set, as a file")->required();
   const auto step = [&](const std::string& flag, const std::string& type, Make make, const std::string& text) {
     // One text for each occurrence, so that steps may be repeated.
     CLI::Option* option = command->add_option_function<std::vector<std::string>>(
@@ -64,10 +64,10 @@ void add_transform_command(CLI::App& app, Session& session) {
   };
   step(
       "--translate", "X,Y,Z", [](const std::string& t) { return AffineMap::translate(parse_triple(t, "--translate")); },
-      "move by a vector");
-  step("--scale", "S|SX,SY,SZ", scale_map, "scale about the origin");
+      "Move by a vector");
+  step("--scale", "S|SX,SY,SZ", scale_map, "Scale about the origin");
   step("--rotate", "AXIS,DEGREES[,TOLERANCE]", rotation_map,
-       "rotate about an axis (x, y, z or a,b,c) through the origin, by an angle within the tolerance (1e-9 degrees), "
+       "Rotate about an axis (x, y, z or a,b,c) through the origin, by an angle within the tolerance (1e-9 degrees), "
        "exactly orthogonally");
   step("--matrix", "NUMBERS", matrix_map, "12 or 16 numbers: the rows of a 3x4 or 4x4 matrix, separated by commas");
   add_input_flags(command, session);

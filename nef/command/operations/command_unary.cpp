@@ -11,10 +11,10 @@ using Operation = Polyhedron (*)(const Polyhedron&);
 void add(CLI::App& app, Session& session, const std::string& name, const std::string& description,
          Operation operation) {
   CLI::App* command = add_subcommand(app, session, name, description);
-  command->add_option("input", session.input, "the set, as a file")->required();
+  command->add_option("input", session.input, "The set, as a file")->required();
   add_input_flags(command, session);
   add_output_flags(command, session);
-  command->add_option("--repeat", session.repeat, "compute N times and report the median")
+  command->add_option("--repeat", session.repeat, "Compute N times and report the median")
       ->check(CLI::Range(1, 1000000));
   command->callback([&session, name, operation] {
     const Polyhedron set = session.load(session.input);

@@ -68,9 +68,9 @@ Json check_complex_file(Session& session, const std::string& path) {
 void add_check_command(CLI::App& app, Session& session) {
   CLI::App* command =
       add_subcommand(app, session, "check", "What is wrong with a mesh? Exit code 0 if it bounds a solid, 1 if not");
-  command->add_option("input", session.input, "the mesh, as a file")->required();
+  command->add_option("input", session.input, "The mesh, as a file")->required();
   command->add_flag("--no-check", session.no_check,
-                    "do not look for self-intersections and components that contradict each other");
+                    "Do not look for self-intersections and components that contradict each other");
   command->callback([&session] {
     const std::string& path = session.input;
     const std::string extension = lower_extension(path);

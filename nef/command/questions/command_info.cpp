@@ -29,9 +29,9 @@ std::string volume_text(const Json& info) {
 
 void add_info(CLI::App& app, Session& session) {
   CLI::App* command = add_subcommand(app, session, "info", "Counts, properties and exact measures of a set");
-  command->add_option("input", session.input, "the set, as a file")->required();
+  command->add_option("input", session.input, "The set, as a file")->required();
   add_input_flags(command, session);
-  command->add_flag("--exact", session.exact, "print exact numbers however long they are");
+  command->add_flag("--exact", session.exact, "Print exact numbers however long they are");
   command->footer(
       "Centroid, inertia tensor (about the centroid, density 1), principal moments and their axes are those of the\n"
       "solid parts. genus: of each shell that is a closed manifold surface.");
@@ -45,7 +45,7 @@ void add_info(CLI::App& app, Session& session) {
 
 void add_convert(CLI::App& app, Session& session) {
   CLI::App* command = add_subcommand(app, session, "convert", "Read a set and write it in another format");
-  command->add_option("input", session.input, "the set, as a file")->required();
+  command->add_option("input", session.input, "The set, as a file")->required();
   add_input_flags(command, session);
   add_output_flags(command, session)->required();
   command->callback([&session] {
@@ -58,7 +58,7 @@ void add_convert(CLI::App& app, Session& session) {
 
 void add_equal(CLI::App& app, Session& session) {
   CLI::App* command = add_subcommand(app, session, "equal", "Are two sets the same? Exit code 0 if they are, 1 if not");
-  command->add_option("inputs", session.inputs, "the two sets, as files")->required()->expected(2);
+  command->add_option("inputs", session.inputs, "The two sets, as files")->required()->expected(2);
   add_input_flags(command, session);
   command->callback([&session] {
     const Polyhedron a = session.load(session.inputs[0]);

@@ -34,8 +34,8 @@ void write_section(Session& session, const Section& section, const Rational3& no
 void add_section(CLI::App& app, Session& session) {
   CLI::App* command = add_subcommand(app, session, "section", "The exact intersection of a set and a plane");
   const auto plane = std::make_shared<std::string>();
-  command->add_option("input", session.input, "the set, as a file")->required();
-  command->add_option("--plane", *plane, "the plane ax+by+cz+d = 0")->required()->type_name("A,B,C,D");
+  command->add_option("input", session.input, "The set, as a file")->required();
+  command->add_option("--plane", *plane, "The plane ax+by+cz+d = 0")->required()->type_name("A,B,C,D");
   add_input_flags(command, session);
   add_output_flags(command, session)
       ->description(
@@ -72,9 +72,9 @@ void add_split(CLI::App& app, Session& session) {
     bool volumes = false;
   };
   const auto flags = std::make_shared<Flags>();
-  command->add_option("input", session.input, "the set, as a file")->required();
+  command->add_option("input", session.input, "The set, as a file")->required();
   command->add_flag("--volumes", flags->volumes,
-                    "one part for each volume instead of each connected component: what touches in edges comes apart");
+                    "One part for each volume instead of each connected component: what touches in edges comes apart");
   add_input_flags(command, session);
   add_output_flags(command, session)
       ->required()
@@ -106,7 +106,7 @@ void add_split(CLI::App& app, Session& session) {
 void add_distance(CLI::App& app, Session& session) {
   CLI::App* command =
       add_subcommand(app, session, "distance", "How far apart are two sets? The exact square, and nearest points");
-  command->add_option("inputs", session.inputs, "the two sets, as files")->required()->expected(2);
+  command->add_option("inputs", session.inputs, "The two sets, as files")->required()->expected(2);
   add_input_flags(command, session);
   command->callback([&session] {
     const Polyhedron a = session.load(session.inputs[0]);

@@ -23,8 +23,8 @@ std::string location_text(const Location& location) {
 void add_locate(CLI::App& app, Session& session) {
   CLI::App* command = add_subcommand(app, session, "locate", "Which vertex, edge, facet or volume holds a point?");
   const auto points = std::make_shared<std::vector<std::string>>();
-  command->add_option("input", session.input, "the set, as a file")->required();
-  command->add_option("points", *points, "points x,y,z")->required()->type_name("X,Y,Z");
+  command->add_option("input", session.input, "The set, as a file")->required();
+  command->add_option("points", *points, "Points x,y,z")->required()->type_name("X,Y,Z");
   add_input_flags(command, session);
   command->callback([&session, points] {
     std::vector<Rational3> queries;
@@ -51,9 +51,9 @@ void add_locate(CLI::App& app, Session& session) {
 void add_ray(CLI::App& app, Session& session) {
   CLI::App* command = add_subcommand(app, session, "ray", "What does a ray meet first?");
   const auto ray = std::make_shared<std::vector<std::string>>(2);
-  command->add_option("input", session.input, "the set, as a file")->required();
-  command->add_option("origin", (*ray)[0], "where the ray begins; not part of it")->required()->type_name("X,Y,Z");
-  command->add_option("direction", (*ray)[1], "where it goes")->required()->type_name("DX,DY,DZ");
+  command->add_option("input", session.input, "The set, as a file")->required();
+  command->add_option("origin", (*ray)[0], "Where the ray begins; not part of it")->required()->type_name("X,Y,Z");
+  command->add_option("direction", (*ray)[1], "Where it goes")->required()->type_name("DX,DY,DZ");
   add_input_flags(command, session);
   command->callback([&session, ray] {
     const Rational3 origin = parse_triple((*ray)[0], "origin");

@@ -43,8 +43,8 @@ CLI::Option* add_view_output(CLI::App* command, Session& session, const std::str
 
 void add_view(CLI::App& app, Session& session) {
   CLI::App* command = add_subcommand(app, session, "view", "Write a page to look at sets in a browser.");
-  command->add_option("inputs", session.inputs, "the sets, as files; each becomes a layer")->required()->expected(-1);
-  add_view_output(command, session, "the page (.html, nothing else is needed to show it) or a glTF file (.glb)");
+  command->add_option("inputs", session.inputs, "The sets, as files; each becomes a layer")->required()->expected(-1);
+  add_view_output(command, session, "The page (.html, nothing else is needed to show it) or a glTF file (.glb)");
   add_input_flags(command, session);
   command->callback([&session] {
     const std::string extension = lower_extension(session.output);
@@ -95,11 +95,11 @@ void add_picture(CLI::App& app, Session& session) {
     std::string section;
   };
   const auto flags = std::make_shared<Flags>();
-  command->add_option("inputs", session.inputs, "the sets, as files")->required()->expected(-1);
-  add_view_output(command, session, "the picture (.png)");
-  command->add_option("--from", flags->from, "direction from the middle to the eye")->type_name("X,Y,Z");
-  command->add_option("--size", flags->size, "pixels; 1200x900 if not given")->type_name("WxH");
-  command->add_option("--section", flags->section, "show only ax+by+cz+d <= 0, cut exactly")->type_name("A,B,C,D");
+  command->add_option("inputs", session.inputs, "The sets, as files")->required()->expected(-1);
+  add_view_output(command, session, "The picture (.png)");
+  command->add_option("--from", flags->from, "Direction from the middle to the eye")->type_name("X,Y,Z");
+  command->add_option("--size", flags->size, "Pixels; 1200x900 if not given")->type_name("WxH");
+  command->add_option("--section", flags->section, "Show only ax+by+cz+d <= 0, cut exactly")->type_name("A,B,C,D");
   add_input_flags(command, session);
   command->callback([&session, flags] {
     if (lower_extension(session.output) != "png") throw InputError(session.output + ": the extension must be .png");

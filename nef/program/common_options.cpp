@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/program/common_options.h"
+
+#include <CLI/CLI.hpp>
+
+namespace nef {
+
+void add_run_options(CLI::App& app, bool& json, bool& quiet, unsigned& threads) {
+  app.add_flag("--json", json, "Print the report, and nothing else, on standard output");
+  app.add_flag("-q,--quiet", quiet, "Print nothing but errors");
+  app.add_option("--threads", threads, "Threads to use at most; 0: as many as the machine has")
+      ->check(CLI::Range(0U, 4096U))
+      ->capture_default_str();
+}
+
+void add_mesh_input_options(CLI::App& app, bool& strict, bool& as_surface) {
+  app.add_flag("--strict", strict, "Refuse meshes with faces that are not exactly planar");
+  app.add_flag("--as-surface", as_surface, "Take meshes as two-dimensional sets; they may be open");
+}
+
+void add_file_output_options(CLI::App& app, bool& exact, bool& binary, bool& text) {
+  app.add_flag("--exact", exact, "Exact coordinates (p/q) in OFF, OBJ and PLY");
+  app.add_flag("--binary", binary, "Binary STL or PLY");
+  app.add_flag("--text", text, ".nef as text");
+}
+
+}  // namespace nef

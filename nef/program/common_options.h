@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Options that all programs have, in the same words.
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace nef {
+
+/// --json, -q and --threads.
+void add_run_options(CLI::App& app, bool& json, bool& quiet, unsigned& threads);
+
+/// --strict and --as-surface: how meshes are read.
+void add_mesh_input_options(CLI::App& app, bool& strict, bool& as_surface);
+
+/// --exact, --binary and --text: how sets are written.
+void add_file_output_options(CLI::App& app, bool& exact, bool& binary, bool& text);
+
+}  // namespace nef

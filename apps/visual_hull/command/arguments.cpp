@@ -87,7 +87,7 @@ void add_input_options(CLI::App& app, Arguments& a) {
 
 void add_output_options(CLI::App& app, Arguments& a) {
   app.add_option("-o,--output", a.output, "Write the hull (format by extension)")->type_name("FILE");
-  add_file_output_options(app, a.exact, a.binary, a.text);
+  nef::add_file_output_options(app, a.exact, a.binary, a.text);
   app.add_option("--decimate", a.decimate, "Write a mesh of about N triangles, and tell how far it is from the hull")
       ->check(CLI::PositiveNumber)
       ->type_name("N");
@@ -108,7 +108,7 @@ void add_output_options(CLI::App& app, Arguments& a) {
   app.add_option("--preview", a.preview, "Directory for pictures of the hull from four sides")->type_name("DIR");
   app.add_option("--page", a.page, "Write a page that shows the hull with its cameras and their images")
       ->type_name("FILE.html");
-  add_run_options(app, a.json, a.quiet, a.threads);
+  nef::add_run_options(app, a.json, a.quiet, a.threads);
 }
 
 }  // namespace

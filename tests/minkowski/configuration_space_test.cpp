@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "apps/minkowski/minkowski.h"
+#include "apps/minkowski/sum/fixed_obstacles.h"
+#include "nef/construct/convex_hull.h"
 #include "tests/support/literals.h"
 
 namespace {
@@ -105,6 +107,50 @@ TEST_CASE("obstacles without end") {
   const std::vector<Polyhedron> walls = {set("halfspace(1,0,0,0)"), set("halfspace(-1,0,0,1)")};
   CHECK(nef::equal(configuration_space(set("box(0,0,0,1,1,1)"), walls), set("boundary(halfspace(1,0,0,0))")));
   CHECK(nef::equal(configuration_space(set("point(0,0,0)"), walls), set("halfspace(-1,0,0,0) * halfspace(1,0,0,-1)")));
+}
+
+TEST_CASE("obstacles cut up once: the same free spaces for any robot of convex pieces") {
+  const std::vector<std::vector<std::string>> obstacle_lists = {
+      {},
+      {"box(0,0,0,5,5,3) - interior(box(1,1,-1,4,3,4)) - interior(box(2,2,-1,4,4,4))", "box(-4,-4,0,-2,-2,1)"},
+      {"box(-4,-4,-4,4,4,4) - interior(box(-4,-1,-2,3,2,2))", "box(20,0,0,30,1,1)"},  // a wall remains at -4
+      {"box(0,0,0,1,1,1) + polygon(1,0,0, 4,0,0, 4,3,0, 1,3,0) + segment(0,0,1, 0,0,4)", "point(-3,0,0)"}};
+  using Box = std::array<Rational3, 2>;
+  const std::vector<std::vector<Box>> robots = {
+      {},
+      {Box{Rational3{0, 0, 0}, Rational3{1, 2, 1}}},
+      {Box{Rational3{0, 0, 0}, Rational3{2, 1, 1}}, Box{Rational3{0, 1, 0}, Rational3{1, 3, 1}},
+       Box{Rational3{1, 1, -1}, Rational3{2, 2, 2}}}};
+  for (const std::vector<std::string>& list : obstacle_lists) {
+    std::vector<Polyhedron> obstacles;
+    for (const std::string& text : list) obstacles.push_back(set(text));
+    for (const std::vector<Box>& boxes : robots) {
+      std::vector<nef::Mesh> pieces;
+      std::vector<Polyhedron> parts;
+      for (const auto& [low, high] : boxes) {
+        parts.push_back(nef::make_box(low, high));
+        std::vector<Rational3> corners;
+        for (std::size_t k = 0; k < 8; ++k) {
+          corners.push_back(
+              {(k & 1U) != 0 ? high[0] : low[0], (k & 2U) != 0 ? high[1] : low[1], (k & 4U) != 0 ? high[2] : low[2]});
+        }
+        pieces.push_back(nef::convex_hull_mesh(corners));
+      }
+      const Polyhedron robot = nef::unite_all(parts);
+      for (const bool bounded : {false, true}) {
+        const auto box = bounded ? kBox : std::nullopt;
+        const Polyhedron all = bounded ? nef::make_box((*kBox)[0], (*kBox)[1]) : Polyhedron::everything();
+        const auto free = [&](bool may_touch) {
+          const nef::minkowski::FixedObstacles fixed(obstacles, box, may_touch);
+          return nef::test::valid(fixed.free_positions(pieces), "free space");
+        };
+        CHECK(nef::equal(free(true), boxes.empty() ? all : configuration_space(robot, obstacles, box)));
+        const Polyhedron touched =
+            nef::minkowski::minkowski_sum(nef::unite_all(obstacles), nef::minkowski::negate(robot));
+        CHECK(nef::equal(free(false), nef::subtract(all, touched)));
+      }
+    }
+  }
 }
 
 }  // namespace

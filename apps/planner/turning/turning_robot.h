@@ -33,8 +33,14 @@ class TurningRobot {
   /// The robot turned.
   [[nodiscard]] Polyhedron at(const Turn& turn) const { return transform(robot_, axis_.rotation(turn)); }
 
-  /// Holds the robot at every angle from a to b, which are less than a half turn apart: for each piece the hull of its
-  /// vertices at both ends and, for each vertex, the meeting point of the tangents to its arc there.
+  /// The convex pieces of the robot turned.
+  [[nodiscard]] std::vector<Mesh> pieces_at(const Turn& turn) const;
+
+  /// Convex pieces that hold the robot at every angle from a to b, which are less than a half turn apart: for each
+  /// piece of the robot the hull of its vertices at both ends and, for each vertex, the meeting point of the tangents
+  /// to its arc there.
+  [[nodiscard]] std::vector<Mesh> outer_pieces(const Turn& a, const Turn& b) const;
+  /// The union of these.
   [[nodiscard]] Polyhedron outer(const Turn& a, const Turn& b) const;
 
   /// Lies in the robot at every angle from a to b: for each piece that leaves something, what its turned copies at both

@@ -12,11 +12,13 @@
 #include "apps/planner/command/turning_view.h"
 #include "apps/planner/free_space/free_positions.h"
 #include "apps/planner/free_space/free_space.h"
+#include "apps/planner/turning/clipped_polytope.h"
 #include "apps/planner/turning/turning_collision.h"
 #include "apps/planner/turning/turning_robot.h"
 #include "apps/planner/turning/turning_search.h"
 #include "nef/base/error.h"
 #include "nef/construct/construct.h"
+#include "nef/construct/convex_hull.h"
 #include "nef/geometry/rational_vectors.h"
 #include "nef/program/exact_json.h"
 #include "nef/view/glb.h"
@@ -93,6 +95,33 @@ TEST_CASE("turns about an axis: rational rotations by the angles that they say, 
   CHECK_FALSE(z.turn_between({1, 0, 0}, {1, 1, 0}).has_value());
   CHECK(z.half_tangent_between(ratio(5, 4), 2) == ratio(3, 5));
   CHECK_THROWS_AS(TurningAxis({0, 0, 0}), InputError);
+}
+
+TEST_CASE("a convex solid cut by planes, through its vertices, edges and faces as well") {
+  std::mt19937 random(5);
+  const auto number = [&](int low, int high) {
+    return Rational(low + static_cast<int>(random() % static_cast<unsigned>(high - low + 1)));
+  };
+  for (int i = 0; i < 300; ++i) {
+    // A grid as coarse as this makes planes through vertices ordinary.
+    std::vector<Rational3> points;
+    for (int k = 0; k < 6; ++k) points.push_back({number(-2, 2), number(-2, 2), number(-2, 2)});
+    if (hull_of(points).dimension < 3) continue;
+    std::optional<Mesh> rest = convex_hull_mesh(points);
+    Polyhedron expected = convex_hull(points);
+    for (int k = 0; k < 3; ++k) {
+      const Rational3 normal{number(-1, 1), number(-1, 1), number(-1, 1)};
+      if (is_zero(normal)) continue;
+      const Rational offset = number(-2, 3);
+      expected = regularize(intersect(expected, make_halfspace(normal[0], normal[1], normal[2], -offset)));
+      if (rest) rest = clipped(std::move(*rest), normal, offset);
+      REQUIRE(rest.has_value() == !expected.is_empty());
+      if (!rest) break;
+      const Polyhedron cut = from_mesh(*rest, MeshOptions{.strict = true});  // with all its checks
+      REQUIRE(equal(cut, expected));
+      REQUIRE(rest->face_count() == cut.complex().facets.size());
+    }
+  }
 }
 
 TEST_CASE("the outer robot holds the robot at all angles, which all hold the inner one") {
@@ -334,14 +363,19 @@ TEST_CASE("proofs hold when they are checked by other means, and spoilt ones do 
   CHECK_THAT(complaint([](TurningProof& p) { p.breakpoints.back() = ratio(7, 8); }), Contains("cover the range"));
   CHECK_THAT(complaint([](TurningProof& p) { std::swap(p.breakpoints[1], p.breakpoints[2]); }),
              Contains("out of order"));
-  // A cell as wide as two, with the inner robot of one of them.
-  CHECK_THAT(complaint([](TurningProof& p) {
-               p.breakpoints.erase(p.breakpoints.begin() + 1);
-               p.cells.erase(p.cells.begin());
+  // The last cell that the start reaches. (Cells may have the inner robot of a wider range around them.)
+  std::size_t last = 0;
+  for (std::size_t i = 0; i < answer.proof->cells.size(); ++i) {
+    if (!answer.proof->cells[i].start_side.empty()) last = i;
+  }
+  REQUIRE(last > 0);
+  CHECK_THAT(complaint([&](TurningProof& p) {
+               p.breakpoints = {0, 1};
+               p.cells = {p.cells[last]};
              }),
              Contains("does not hold its inner robot"));
-  CHECK_THAT(complaint([](TurningProof& p) {
-               for (Rational3& v : p.cells[1].inner[0]) v = times(ratio(1001, 1000), v);
+  CHECK_THAT(complaint([&](TurningProof& p) {
+               for (Rational3& v : p.cells[last].inner[0]) v = times(ratio(1001, 1000), v);
              }),
              Contains("does not hold its inner robot"));
   CHECK_THAT(complaint([](TurningProof& p) {
@@ -350,8 +384,8 @@ TEST_CASE("proofs hold when they are checked by other means, and spoilt ones do 
              }),
              Contains("are not apart"));
   CHECK_THAT(complaint([](TurningProof& p) { p.cells[0].start_side.clear(); }), Contains("leaves out a component"));
-  CHECK_THAT(complaint([](TurningProof& p) {
-               p.cells[0].start_side.push_back({-1, 12, 0});
+  CHECK_THAT(complaint([&](TurningProof& p) {
+               p.cells[last].start_side.push_back({-1, 12, 0});
              }),
              Contains("not joined to the start"));
   CHECK_THAT(complaint([](TurningProof& p) {

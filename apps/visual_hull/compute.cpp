@@ -25,9 +25,6 @@ namespace {
 
 constexpr std::size_t kDirectVertices = 150;  // of all polygons: with fewer the general way is as fast
 
-// With more views, pairs are so many that halving them step by step is faster.
-constexpr std::size_t kDirectViews = 16;
-
 constexpr std::size_t kFewestViews = 3;  // that are left when suspects are dropped
 
 using Views = std::vector<ViewResult>;
@@ -147,9 +144,7 @@ std::size_t polygon_vertices(const Views& views) {
   return vertices;
 }
 
-bool worth_direct(const Views& views) {
-  return polygon_vertices(views) >= kDirectVertices && views.size() <= kDirectViews;
-}
+bool worth_direct(const Views& views) { return polygon_vertices(views) >= kDirectVertices; }
 
 /// The box to look at, in the coordinates of the place.
 struct Room {
@@ -376,7 +371,9 @@ const char* phase_name(Phase phase) {
 void timed(PhaseReports& reports, Phase phase, const std::function<void()>& work) {
   PhaseReport& report = reports[static_cast<std::size_t>(phase)];
   const nef::PhaseTimer timer(report.seconds, report.predicates);
+  const nef::ProcessStopwatch processor;
   work();
+  report.cpu_seconds += processor.seconds();
 }
 
 namespace {

@@ -32,7 +32,8 @@ const char* phase_name(Phase phase);
 
 /// Time and answers of predicates in one phase.
 struct PhaseReport {
-  double seconds = 0;
+  double seconds = 0;      ///< on the wall
+  double cpu_seconds = 0;  ///< of all threads of the process
   nef::PredicateCounts predicates;
 };
 using PhaseReports = std::array<PhaseReport, kPhaseCount>;

@@ -58,7 +58,8 @@ inline Silhouette convex_silhouette(const Camera& camera, const std::vector<Rati
   // Gift wrapping: the next vertex has all others to its left.
   std::size_t first = 0;
   for (std::size_t i = 1; i < points.size(); ++i) {
-    if (points[i].x < points[first].x || (points[i].x == points[first].x && points[i].y < points[first].y)) first = i;
+    if (points[i].x() < points[first].x() || (points[i].x() == points[first].x() && points[i].y() < points[first].y()))
+      first = i;
   }
   Ring hull;
   std::size_t at = first;
@@ -73,8 +74,8 @@ inline Silhouette convex_silhouette(const Camera& camera, const std::vector<Rati
       }
       const int turn = orientation(points[at], points[next], points[i]);
       const auto reach = [&](std::size_t k) {
-        const Rational dx = points[k].x - points[at].x;
-        const Rational dy = points[k].y - points[at].y;
+        const Rational dx = points[k].x() - points[at].x();
+        const Rational dy = points[k].y() - points[at].y();
         return Rational(dx * dx + dy * dy);
       };
       if (turn < 0 || (turn == 0 && reach(i) > reach(next))) next = i;

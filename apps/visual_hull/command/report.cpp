@@ -163,6 +163,7 @@ nlohmann::ordered_json make_report(const Result& result, const nef::Messages& me
     const PhaseReport& phase = result.phases[i];
     if (static_cast<Phase>(i) == Phase::kVerify && !verified) continue;
     phases.push_back({phase_name(static_cast<Phase>(i)), phase.seconds, phase.predicates});
+    report["cpu"][std::string(phase_name(static_cast<Phase>(i))) + "_s"] = phase.cpu_seconds;
   }
   return nef::run_report("hull", report, phases, messages);
 }

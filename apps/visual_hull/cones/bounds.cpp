@@ -213,10 +213,7 @@ class ProvenOptimum {
 std::vector<HalfSpace> convex_cone(const Camera& camera, const Silhouette& silhouette) {
   Ring points;
   for (const Ring& ring : silhouette.rings) points.insert(points.end(), ring.begin(), ring.end());
-  std::sort(points.begin(), points.end(), [](const Point2& a, const Point2& b) {
-    const int order = cmp(a.x, b.x);
-    return order != 0 ? order < 0 : a.y < b.y;
-  });
+  std::sort(points.begin(), points.end(), lexicographically_less);
   Ring hull;
   for (int pass = 0; pass < 2; ++pass) {  // lower chain, then upper
     const std::size_t base = hull.size();

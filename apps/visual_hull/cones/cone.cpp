@@ -41,11 +41,6 @@ struct RingEdge {
   PlaneId plane;
 };
 
-bool lexicographic_less(const Point2& a, const Point2& b) {
-  const int order = cmp(a.x, b.x);
-  return order != 0 ? order < 0 : a.y < b.y;
-}
-
 class ConeBuilder {
  public:
   ConeBuilder(const Camera& camera, const Silhouette& silhouette) : positive_(camera.handedness() > 0) {
@@ -76,7 +71,7 @@ class ConeBuilder {
 
   // Straight vertices matter only where another ring touches.
   static std::vector<Ring> without_straight_vertices(const Silhouette& silhouette) {
-    std::map<Point2, int, decltype(&lexicographic_less)> count(&lexicographic_less);
+    std::map<Point2, int, decltype(&lexicographically_less)> count(&lexicographically_less);
     for (const Ring& ring : silhouette.rings) {
       for (const Point2& p : ring) ++count[p];
     }
@@ -94,7 +89,7 @@ class ConeBuilder {
   }
 
   void collect(const Silhouette& silhouette) {
-    std::map<Point2, std::uint32_t, decltype(&lexicographic_less)> index(&lexicographic_less);
+    std::map<Point2, std::uint32_t, decltype(&lexicographically_less)> index(&lexicographically_less);
     for (const Ring& ring : without_straight_vertices(silhouette)) {
       const auto first = static_cast<std::uint32_t>(edges_.size());
       const auto n = static_cast<std::uint32_t>(ring.size());
@@ -121,7 +116,8 @@ class ConeBuilder {
         const RingEdge& b = edges_[at[j]];
         if (a.plane.row() == b.plane.row()) continue;
         // The third component of l_a x l_b is the turn from one edge's direction to the other's.
-        const Rational turn = (a.to.x - a.from.x) * (b.to.y - b.from.y) - (a.to.y - a.from.y) * (b.to.x - b.from.x);
+        const Rational turn =
+            (a.to.x() - a.from.x()) * (b.to.y() - b.from.y()) - (a.to.y() - a.from.y()) * (b.to.x() - b.from.x());
         const bool forward = (sgn(turn) > 0) == positive_;
         rays_.push_back(forward ? std::array{a.plane, b.plane} : std::array{b.plane, a.plane});
         return;
@@ -210,8 +206,8 @@ class ConeBuilder {
   }
 
   static bool upper_half(const Point2& centre, const Point2& tip) {
-    const int dy = cmp(tip.y, centre.y);
-    return dy > 0 || (dy == 0 && tip.x > centre.x);
+    const int dy = compare_coordinate(tip, centre, 1);
+    return dy > 0 || (dy == 0 && compare_coordinate(tip, centre, 0) > 0);
   }
 
   nef::Polyhedron finish() { return nef::Polyhedron(builder_.finish(0)); }

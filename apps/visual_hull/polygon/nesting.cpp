@@ -39,7 +39,7 @@ struct EdgeSoup {
   }
 };
 
-std::string describe(const Point2& p) { return "(" + nef::to_string(p.x) + ", " + nef::to_string(p.y) + ")"; }
+std::string describe(const Point2& p) { return "(" + nef::to_string(p.x()) + ", " + nef::to_string(p.y()) + ")"; }
 
 // Drops repeated and straight vertices until none is left (dropping one may reveal another).
 void clean(Ring& ring) {
@@ -87,8 +87,8 @@ void split_at_touches(std::vector<Ring>& rings) {
       const Point2& b = rings[r][(i + 1) % rings[r].size()];
       auto& list = inserted[r][i];
       std::sort(list.begin(), list.end(), [&](const Point2& p, const Point2& q) {
-        if (a.x != b.x) return (p.x < q.x) == (a.x < b.x) && p.x != q.x;
-        return (p.y < q.y) == (a.y < b.y) && p.y != q.y;
+        const std::size_t axis = compare_coordinate(a, b, 0) != 0 ? 0 : 1;
+        return compare_coordinate(p, q, axis) * compare_coordinate(a, b, axis) > 0;
       });
       split.push_back(a);
       split.insert(split.end(), list.begin(), list.end());
@@ -136,8 +136,7 @@ std::string find_crossing(const std::vector<Ring>& rings) {
 bool contains_strictly(const Ring& outer, const Ring& inner) {
   // Rings meet in vertices only and no edge is common, so the middle of an edge of one is not on the other, whereas
   // each vertex may be.
-  const Point2 middle((inner[0].x + inner[1].x) / 2, (inner[0].y + inner[1].y) / 2);
-  return locate(outer, middle) == Side::kInside;
+  return locate(outer, midpoint(inner[0], inner[1])) == Side::kInside;
 }
 
 nef::Box ring_box(const Ring& ring) {
@@ -220,8 +219,7 @@ std::string check(const Silhouette& silhouette) {
     for (std::size_t k = 0; k < ring.size(); ++k) {
       const Point2& a = ring[k];
       const Point2& b = ring[(k + 1) % ring.size()];
-      const Point2 middle((a.x + b.x) / 2, (a.y + b.y) / 2);
-      if ((locate(silhouette.rings[outer], middle) == Side::kInside) != first) return false;
+      if ((locate(silhouette.rings[outer], midpoint(a, b)) == Side::kInside) != first) return false;
     }
     return true;
   };

@@ -6,33 +6,65 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nef/base/error.h"
+
 namespace visual_hull {
 namespace {
 
-bool is_lattice(const Rational& value, double approximate) {
-  // den == 2^k with k <= 8 and |value| < 2^16: 24 bits, so differences have 25 and products 50.
-  return std::abs(approximate) < 65536.0 && value.get_den() <= 256 && mpz_popcount(value.get_den_mpz_t()) == 1;
-}
+// v == k 2^-8 and |v| < 2^16: 24 bits, so differences have 25 and products 50.
+bool is_lattice(double v) { return std::abs(v) < 65536.0 && v * 256 == std::floor(v * 256); }
 
 int exact_orientation(const Point2& a, const Point2& b, const Point2& c) {
-  const Rational left = (b.x - a.x) * (c.y - a.y);
-  const Rational right = (b.y - a.y) * (c.x - a.x);
+  const Rational left = (b.x() - a.x()) * (c.y() - a.y());
+  const Rational right = (b.y() - a.y()) * (c.x() - a.x());
   return cmp(left, right);
 }
 
 }  // namespace
 
-Point2::Point2(const Rational& x_in, const Rational& y_in)
-    : x(x_in), y(y_in), approximate{nef::nearest_double(x_in), nef::nearest_double(y_in)} {
-  lattice = is_lattice(x, approximate[0]) && is_lattice(y, approximate[1]);
+Point2::Point2(const Rational& x, const Rational& y) : approximate{nef::nearest_double(x), nef::nearest_double(y)} {
+  if (x == approximate[0] && y == approximate[1]) {
+    lattice = is_lattice(approximate[0]) && is_lattice(approximate[1]);
+  } else {
+    lattice = false;
+    exact_ = std::make_shared<const std::array<Rational, 2>>(std::array{x, y});
+  }
 }
 
-Point2 Point2::from_doubles(double x, double y) { return {nef::exact_rational(x), nef::exact_rational(y)}; }
+Point2 Point2::from_doubles(double x, double y) {
+  if (!std::isfinite(x) || !std::isfinite(y)) throw nef::InputError("a coordinate is not a finite number");
+  Point2 point;
+  point.approximate = {x, y};
+  point.lattice = is_lattice(x) && is_lattice(y);
+  return point;
+}
+
+Rational Point2::coordinate(std::size_t axis) const {
+  return exact_ != nullptr ? (*exact_)[axis] : Rational(approximate[axis]);
+}
 
 bool Point2::operator==(const Point2& other) const {
-  if (lattice != other.lattice) return false;
-  if (lattice) return approximate == other.approximate;
-  return x == other.x && y == other.y;
+  if (approximate != other.approximate || is_double() != other.is_double()) return false;
+  return is_double() || *exact_ == *other.exact_;
+}
+
+// Rounding to nearest is monotone, so doubles that differ decide.
+int compare_coordinate(const Point2& a, const Point2& b, std::size_t axis) {
+  if (a.approximate[axis] != b.approximate[axis]) return a.approximate[axis] < b.approximate[axis] ? -1 : 1;
+  if (a.is_double() && b.is_double()) return 0;
+  return cmp(a.coordinate(axis), b.coordinate(axis));
+}
+
+bool lexicographically_less(const Point2& a, const Point2& b) {
+  const int order = compare_coordinate(a, b, 0);
+  return order != 0 ? order < 0 : compare_coordinate(a, b, 1) < 0;
+}
+
+Point2 midpoint(const Point2& a, const Point2& b) {
+  if (a.lattice && b.lattice) {  // 25 bits
+    return Point2::from_doubles((a.approximate[0] + b.approximate[0]) / 2, (a.approximate[1] + b.approximate[1]) / 2);
+  }
+  return {(a.x() + b.x()) / 2, (a.y() + b.y()) / 2};
 }
 
 int orientation(const Point2& a, const Point2& b, const Point2& c) {
@@ -64,13 +96,10 @@ namespace {
 
 // a <= p <= b or b <= p <= a in both coordinates.
 bool in_box(const Point2& a, const Point2& b, const Point2& p) {
-  const auto between = [](const Rational& s, const Rational& t, const Rational& q, double ds, double dt, double dq) {
-    if (dq < std::min(ds, dt) || dq > std::max(ds, dt)) return false;  // rounding to nearest is monotone
-    if (dq > std::min(ds, dt) && dq < std::max(ds, dt)) return true;
-    return (s <= q && q <= t) || (t <= q && q <= s);
-  };
-  return between(a.x, b.x, p.x, a.approximate[0], b.approximate[0], p.approximate[0]) &&
-         between(a.y, b.y, p.y, a.approximate[1], b.approximate[1], p.approximate[1]);
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    if (compare_coordinate(a, p, axis) * compare_coordinate(b, p, axis) > 0) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -100,8 +129,7 @@ int ring_orientation(const Ring& ring) {
   if (n < 3) return 0;
   std::size_t lowest = 0;
   for (std::size_t i = 1; i < n; ++i) {
-    const int order = cmp(ring[i].x, ring[lowest].x);
-    if (order < 0 || (order == 0 && ring[i].y < ring[lowest].y)) lowest = i;
+    if (lexicographically_less(ring[i], ring[lowest])) lowest = i;
   }
   // At a lexicographic extreme the turn is the ring's, unless it is straight or a spike.
   return orientation(ring[(lowest + n - 1) % n], ring[lowest], ring[(lowest + 1) % n]);
@@ -117,23 +145,13 @@ double twice_area(const Ring& ring) {
   return sum;
 }
 
-namespace {
-
-int compare_y(const Point2& p, const Point2& q) {
-  if (p.approximate[1] != q.approximate[1]) return p.approximate[1] < q.approximate[1] ? -1 : 1;
-  if (p.lattice && q.lattice) return 0;
-  return cmp(p.y, q.y);
-}
-
-}  // namespace
-
 Side locate(const Ring& ring, const Point2& point) {
   bool inside = false;
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const Point2& a = ring[i];
     const Point2& b = ring[i + 1 < ring.size() ? i + 1 : 0];
-    const int ya = compare_y(a, point);
-    const int yb = compare_y(b, point);
+    const int ya = compare_coordinate(a, point, 1);
+    const int yb = compare_coordinate(b, point, 1);
     if (ya * yb > 0) continue;
     if (on_segment(a, b, point)) return Side::kBoundary;
     if ((ya > 0) == (yb > 0)) continue;  // half-open rule: a vertex on the ray belongs to what is above

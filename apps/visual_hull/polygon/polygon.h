@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -15,19 +16,36 @@ using nef::Integer;
 using nef::Rational;
 using nef::Rational3;
 
-/// A point of an image plane: u to the right, v down.
+/// A point of an image plane: u to the right, v down. Coordinates that are doubles take no other memory.
 struct Point2 {
-  Rational x, y;
   std::array<double, 2> approximate{};  ///< nearest doubles
-  bool lattice = false;                 ///< both are multiples of 2^-8 below 2^16: determinants of doubles are exact
+  bool lattice = true;                  ///< both are multiples of 2^-8 below 2^16: determinants of doubles are exact
 
-  Point2() = default;
-  Point2(const Rational& x_in, const Rational& y_in);
-  /// A point whose coordinates are doubles, taken as the numbers that they are.
+  Point2() = default;  ///< the origin
+  Point2(const Rational& x, const Rational& y);
+  /// A point whose coordinates are doubles, taken as the numbers that they are. Throws InputError unless finite.
   static Point2 from_doubles(double x, double y);
 
+  [[nodiscard]] Rational x() const { return coordinate(0); }
+  [[nodiscard]] Rational y() const { return coordinate(1); }
+  [[nodiscard]] Rational coordinate(std::size_t axis) const;
+  /// True if `approximate` is the point itself.
+  [[nodiscard]] bool is_double() const { return exact_ == nullptr; }
+
   bool operator==(const Point2& other) const;
+
+ private:
+  std::shared_ptr<const std::array<Rational, 2>> exact_;  // where the doubles are not
 };
+
+/// -1, 0 or 1: the order of two coordinates. Exact; O(1) where they differ as doubles or are doubles.
+int compare_coordinate(const Point2& a, const Point2& b, std::size_t axis);
+
+/// Lexicographic order, by x first. Exact.
+bool lexicographically_less(const Point2& a, const Point2& b);
+
+/// Exact.
+Point2 midpoint(const Point2& a, const Point2& b);
 
 /// sign((b - a) x (c - a)): +1 if c lies to the left of the ray from a through b in (u, v)
 /// algebra (on a screen, where v points down, that is clockwise). Exact; double filter first.

@@ -31,8 +31,8 @@ Side SilhouetteIndex::locate(const Point2& point) const {
   tree_.for_each_overlap(query, [&](std::uint32_t i) {
     const Point2& a = *edges_[i][0];
     const Point2& b = *edges_[i][1];
-    const int ya = cmp(a.y, point.y);
-    const int yb = cmp(b.y, point.y);
+    const int ya = compare_coordinate(a, point, 1);
+    const int yb = compare_coordinate(b, point, 1);
     if (ya * yb > 0) return;
     if (on_segment(a, b, point)) boundary = true;
     if ((ya > 0) == (yb > 0)) return;

@@ -67,13 +67,13 @@ Rational Camera::depth(const Rational3& point) const {
 
 Rational3 Camera::ray(const Point2& p) const {
   Rational3 direction;
-  for (std::size_t i = 0; i < 3; ++i) direction[i] = inverse_[i][0] * p.x + inverse_[i][1] * p.y + inverse_[i][2];
+  for (std::size_t i = 0; i < 3; ++i) direction[i] = inverse_[i][0] * p.x() + inverse_[i][1] * p.y() + inverse_[i][2];
   return direction;
 }
 
 RationalPlane plane_through(const Camera& camera, const Point2& a, const Point2& b) {
   // l = a x b is the line; l . (P X) = 0 is the plane. l . x > 0 for x to the left, x3 > 0.
-  const Rational3 line{a.y - b.y, b.x - a.x, a.x * b.y - a.y * b.x};
+  const Rational3 line{a.y() - b.y(), b.x() - a.x(), a.x() * b.y() - a.y() * b.x()};
   RationalPlane plane;
   const Matrix34& p = camera.matrix();
   for (std::size_t i = 0; i < 3; ++i) {

@@ -19,19 +19,19 @@ constexpr std::array<int, 4> kStepY{0, 1, 0, -1};
 
 class Tracer {
  public:
-  Tracer(const cv::Mat& mask, PixelOrigin origin)
-      : width_(mask.cols + 1),
+  Tracer(const cv::Mat& mask, PixelOrigin origin, DiagonalPixels diagonal)
+      : diagonal_(diagonal),
+        width_(mask.cols + 1),
         height_(mask.rows + 1),
         shift_(origin == PixelOrigin::kCenter ? -0.5 : 0.0),
-        out_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), 0),
-        position_(out_.size(), -1) {
+        out_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), 0) {
     collect_sides(mask);
   }
 
   std::vector<Ring> trace() {
     std::size_t corner = 0;
     while ((corner = next_with_sides(corner)) < out_.size()) {
-      while (out_[corner] != 0) walk_from(corner);
+      while (has_sides(corner)) diagonal_ == DiagonalPixels::kTouch ? walk_from(corner) : walk_joined(corner);
     }
     return std::move(rings_);
   }
@@ -49,10 +49,18 @@ class Tracer {
     return word;
   }
 
+  // Set where two sides leave a corner, for good.
+  static constexpr std::uint8_t kPinch = 16;
+  static constexpr std::uint8_t kSides = 15;
+
+  bool has_sides(std::size_t corner) const { return (out_[corner] & kSides) != 0; }
+  bool is_pinch(std::size_t corner) const { return (out_[corner] & kPinch) != 0; }
+
   // The first corner from `corner` on that a side leaves; most words of eight corners have none.
   std::size_t next_with_sides(std::size_t corner) const {
-    while (corner + kWord <= out_.size() && word_at(&out_[corner]) == 0) corner += kWord;
-    while (corner < out_.size() && out_[corner] == 0) ++corner;
+    constexpr std::uint64_t kAnySide = 0x0f0f0f0f0f0f0f0f;
+    while (corner + kWord <= out_.size() && (word_at(&out_[corner]) & kAnySide) == 0) corner += kWord;
+    while (corner < out_.size() && !has_sides(corner)) ++corner;
     return corner;
   }
 
@@ -75,30 +83,82 @@ class Tracer {
 
   // The sides above and to the left of pixel (x, y).
   void add_sides(int x, int y, bool set, bool above, bool left) {
-    if (set && !above) out_[corner(x, y)] |= 1U;
-    if (above && !set) out_[corner(x + 1, y)] |= 4U;
-    if (left && !set) out_[corner(x, y)] |= 2U;
-    if (set && !left) out_[corner(x, y + 1)] |= 8U;
+    if (set && !above) add_side(corner(x, y), 1U);
+    if (above && !set) add_side(corner(x + 1, y), 4U);
+    if (left && !set) add_side(corner(x, y), 2U);
+    if (set && !left) add_side(corner(x, y + 1), 8U);
   }
 
+  void add_side(std::size_t corner, unsigned side) {
+    std::uint8_t& out = out_[corner];
+    out = static_cast<std::uint8_t>(out | side | (out != 0 ? kPinch : 0U));
+  }
+
+  // Only where a walk began, or two sides leave a corner, can it come by again.
   void walk_from(std::size_t start) {
     path_.assign(1, start);
-    position_[start] = 0;
+    passed_.assign(1, {start, 0});
     std::size_t at = start;
-    while (out_[at] != 0) {
+    while (has_sides(at)) {
       unsigned direction = 0;
       while ((out_[at] >> direction & 1U) == 0) ++direction;
       out_[at] = static_cast<std::uint8_t>(out_[at] & ~(1U << direction));
-      at = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(at) + kStepX[direction] +
-                                    static_cast<std::ptrdiff_t>(kStepY[direction]) * width_);
-      if (position_[at] < 0) {
-        position_[at] = static_cast<std::int32_t>(path_.size());
-        path_.push_back(at);
-      } else {
-        cut_loop(static_cast<std::size_t>(position_[at]));
+      at = step(at, direction);
+      if (at == start || is_pinch(at)) {
+        const auto before =
+            std::find_if(passed_.begin(), passed_.end(), [at](const Passed& passed) { return passed.corner == at; });
+        if (before != passed_.end()) {
+          cut_loop(before->place);
+          passed_.erase(before + 1, passed_.end());
+          continue;
+        }
+        passed_.push_back({at, path_.size()});
       }
+      path_.push_back(at);
     }
-    position_[start] = -1;
+  }
+
+  std::size_t step(std::size_t at, unsigned direction) const {
+    return static_cast<std::size_t>(static_cast<std::ptrdiff_t>(at) + kStepX[direction] +
+                                    static_cast<std::ptrdiff_t>(kStepY[direction]) * width_);
+  }
+
+  void push(Ring& ring, std::size_t at, double x, double y) const {
+    const std::size_t row = at / static_cast<std::size_t>(width_);
+    const std::size_t column = at % static_cast<std::size_t>(width_);
+    ring.push_back(
+        Point2::from_doubles(static_cast<double>(column) + shift_ + x, static_cast<double>(row) + shift_ + y));
+  }
+
+  // At a corner of two pixels the walk turns away from the one whose side it came along, to the other, and the corner
+  // is passed a quarter of a pixel before and behind it. So no place is visited twice.
+  void walk_joined(std::size_t start) {
+    constexpr double kQuarter = 0.25;
+    Ring ring;
+    unsigned first = 0;
+    while ((out_[start] >> first & 1U) == 0) ++first;
+    std::size_t at = start;
+    unsigned direction = first;
+    do {
+      out_[at] = static_cast<std::uint8_t>(out_[at] & ~(1U << direction));
+      at = step(at, direction);
+      const unsigned back = (direction + 2) % 4;
+      const unsigned right = (direction + 3) % 4;
+      if (is_pinch(at)) {
+        push(ring, at, kQuarter * kStepX[back], kQuarter * kStepY[back]);
+        push(ring, at, kQuarter * kStepX[right], kQuarter * kStepY[right]);
+        direction = right;
+      } else {
+        unsigned next = first;  // at the start its side is gone
+        if (at != start) {
+          next = 0;
+          while ((out_[at] >> next & 1U) == 0) ++next;
+        }
+        if (next != direction) push(ring, at, 0, 0);
+        direction = next;
+      }
+    } while (at != start || direction != first);
+    rings_.push_back(std::move(ring));
   }
 
   // The corners from `first` on are a simple cycle; only `first` stays on the path.
@@ -110,29 +170,31 @@ class Tracer {
       const std::size_t here = path_[first + i];
       const std::size_t after = path_[first + (i + 1) % n];
       if (after - here == here - before) continue;  // straight on; wraps around alike for negative steps
-      const std::size_t row = here / static_cast<std::size_t>(width_);
-      const std::size_t column = here % static_cast<std::size_t>(width_);
-      ring.push_back(Point2::from_doubles(static_cast<double>(column) + shift_, static_cast<double>(row) + shift_));
+      push(ring, here, 0, 0);
     }
     rings_.push_back(std::move(ring));
-    for (std::size_t i = first + 1; i < path_.size(); ++i) position_[path_[i]] = -1;
     path_.resize(first + 1);
   }
 
+  DiagonalPixels diagonal_;
   int width_;
   int height_;
   double shift_;
   std::vector<std::uint8_t> out_;
-  std::vector<std::int32_t> position_;  // on the path, -1 if not
+  struct Passed {
+    std::size_t corner = 0;
+    std::size_t place = 0;  // on the path
+  };
+  std::vector<Passed> passed_;  // the start and corners of two pixels, in the order of the path
   std::vector<std::size_t> path_;
   std::vector<Ring> rings_;
 };
 
 }  // namespace
 
-Silhouette trace_contours(const cv::Mat& mask, PixelOrigin origin) {
+Silhouette trace_contours(const cv::Mat& mask, PixelOrigin origin, DiagonalPixels diagonal) {
   CV_Assert(mask.type() == CV_8UC1);
-  return nest(Tracer(mask, origin).trace());
+  return nest(Tracer(mask, origin, diagonal).trace());
 }
 
 bool touches_frame(const cv::Mat& mask) {

@@ -10,11 +10,17 @@
 
 namespace visual_hull {
 
+/// What becomes of a corner in which two pixels of the object meet that have no side in common.
+enum class DiagonalPixels : std::uint8_t {
+  kTouch,  ///< it stays as it is: a vertex of two rings, and a line in which the hull touches itself
+  kJoin,   ///< the pixels are joined: a quarter of the sides that meet there is cut off, to their outside
+};
+
 /// The boundary of the union of the closed pixels that are not zero in `mask` (8 bits, one
 /// channel), along the edges of the pixels, as simple rings that meet in corners at most: where
-/// two pixels touch in a corner only, so do the rings. Straight runs are one edge. Unlike contours
-/// through pixel centres this loses no half pixel on either side. O(pixels).
-Silhouette trace_contours(const cv::Mat& mask, PixelOrigin origin);
+/// two pixels touch in a corner only, so do the rings, or with kJoin none do. Straight runs are one edge. Unlike
+/// contours through pixel centres this loses no half pixel on either side. O(pixels).
+Silhouette trace_contours(const cv::Mat& mask, PixelOrigin origin, DiagonalPixels diagonal = DiagonalPixels::kTouch);
 
 /// True if a pixel of the mask on the frame of the image is set.
 bool touches_frame(const cv::Mat& mask);

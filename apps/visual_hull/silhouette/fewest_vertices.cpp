@@ -10,7 +10,21 @@ namespace {
 
 using Vec = std::array<double, 2>;
 
-/// The directions from one point that pass within the tolerance of all points shown to it.
+double square_to_segment(const Vec& p, const Vec& a, const Vec& b) {
+  const double dx = b[0] - a[0];
+  const double dy = b[1] - a[1];
+  const double length = dx * dx + dy * dy;
+  double t = length > 0 ? ((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / length : 0.0;
+  t = std::clamp(t, 0.0, 1.0);
+  const double ex = p[0] - a[0] - t * dx;
+  const double ey = p[1] - a[1] - t * dy;
+  return ex * ex + ey * ey;
+}
+
+double cross(const Vec& a, const Vec& b) { return a[0] * b[1] - a[1] * b[0]; }
+
+/// The directions from one point that pass within the tolerance of all points shown to it: a wedge of less than half a
+/// turn.
 class Wedge {
  public:
   Wedge(const Vec& apex, double tolerance) : apex_(apex), tolerance_(tolerance) {}
@@ -19,37 +33,42 @@ class Wedge {
   bool narrow(const Vec& p) {
     const double dx = p[0] - apex_[0];
     const double dy = p[1] - apex_[1];
-    const double distance = std::hypot(dx, dy);
-    if (distance <= tolerance_) return true;  // near the apex itself: any direction will do
-    const double half = std::asin(std::min(1.0, tolerance_ / distance)) + kSlack;
-    const double angle = std::atan2(dy, dx);
+    const double square = dx * dx + dy * dy;
+    const double reach = tolerance_ * (1 + kSlack);
+    if (square <= reach * reach) return true;  // near the apex itself: any direction will do
+    const double distance = std::sqrt(square);
+    const double sine = reach / distance;
+    const double cosine = std::sqrt((1 - sine) * (1 + sine));
+    const Vec low{dx * cosine + dy * sine, dy * cosine - dx * sine};
+    const Vec high{dx * cosine - dy * sine, dy * cosine + dx * sine};
     if (!known_) {
       known_ = true;
-      base_ = angle;
-      low_ = -half;
-      high_ = half;
+      low_ = low;
+      high_ = high;
       return true;
     }
-    const double relative = std::remainder(angle - base_, 2 * M_PI);
-    low_ = std::max(low_, relative - half);
-    high_ = std::min(high_, relative + half);
-    return low_ <= high_;
+    const bool low_inside = within(low, low_, high_);
+    if (!low_inside && !within(low_, low, high)) return false;
+    if (low_inside) low_ = low;
+    if (within(high, low_, high_)) high_ = high;
+    return true;
   }
 
   [[nodiscard]] bool admits(const Vec& p) const {
-    if (!known_) return true;
-    const double relative = std::remainder(std::atan2(p[1] - apex_[1], p[0] - apex_[0]) - base_, 2 * M_PI);
-    return relative >= low_ - kSlack && relative <= high_ + kSlack;
+    return !known_ || within({p[0] - apex_[0], p[1] - apex_[1]}, low_, high_);
   }
 
  private:
   static constexpr double kSlack = 1e-9;  // the wedge only saves work; distances decide
+  static bool within(const Vec& v, const Vec& low, const Vec& high) {
+    return cross(low, v) >= 0 && cross(v, high) >= 0;
+  }
+
   Vec apex_;
   double tolerance_;
   bool known_ = false;
-  double base_ = 0;
-  double low_ = 0;
-  double high_ = 0;
+  Vec low_{};
+  Vec high_{};
 };
 
 struct State {
@@ -84,10 +103,11 @@ class ShortestPath {
 
   void relax(std::uint32_t i, std::uint32_t j, std::uint32_t count) {
     double squares = states_[i].squares;
+    const double limit = tolerance_ * tolerance_ * (1 - 1e-12);  // a distance that passes does so with its rounding
     for (std::uint32_t k = i + 1; k < j; ++k) {
-      const double distance = distance_to_segment(points_[k], points_[i], points_[j]);
-      if (distance > tolerance_) return;
-      squares += distance * distance;
+      const double square = square_to_segment(points_[k], points_[i], points_[j]);
+      if (square > limit) return;
+      squares += square;
       if (count == states_[j].count && squares >= states_[j].squares) return;
     }
     if (count < states_[j].count || squares < states_[j].squares) states_[j] = {count, squares, i};
@@ -101,16 +121,7 @@ class ShortestPath {
 
 }  // namespace
 
-double distance_to_segment(const Vec& p, const Vec& a, const Vec& b) {
-  const double dx = b[0] - a[0];
-  const double dy = b[1] - a[1];
-  const double length = dx * dx + dy * dy;
-  double t = length > 0 ? ((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / length : 0.0;
-  t = std::clamp(t, 0.0, 1.0);
-  const double ex = p[0] - a[0] - t * dx;
-  const double ey = p[1] - a[1] - t * dy;
-  return std::sqrt(ex * ex + ey * ey);
-}
+double distance_to_segment(const Vec& p, const Vec& a, const Vec& b) { return std::sqrt(square_to_segment(p, a, b)); }
 
 std::vector<bool> fewest_vertices(const Ring& ring, const std::vector<bool>& pinned, double tolerance) {
   const auto n = static_cast<std::uint32_t>(ring.size());

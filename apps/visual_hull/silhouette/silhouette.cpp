@@ -116,9 +116,10 @@ Silhouette seen_background(const cv::Mat& mask, const cv::Mat& unseen, const Sil
   cv::Mat padded;
   cv::copyMakeBorder(keep, padded, 1, 1, 1, 1, cv::BORDER_CONSTANT, cv::Scalar(255));
   const PixelOrigin origin = options.origin;
-  Silhouette traced = without_specks(trace_contours(padded, origin), options.min_area, options.simplify.outer);
+  Silhouette traced =
+      without_specks(trace_contours(padded, origin, options.diagonal), options.min_area, options.simplify.outer);
   for (Ring& ring : traced.rings) {  // the frame has grown by one pixel to the left and above
-    for (Point2& p : ring) p = Point2(p.x - 1, p.y - 1);
+    for (Point2& p : ring) p = Point2(p.x() - 1, p.y() - 1);
   }
   result.contour_vertices = traced.vertex_count();
   Silhouette simple = simplify(traced, options.simplify);
@@ -203,7 +204,7 @@ ViewSilhouette silhouette_of_mask(const cv::Mat& mask, const cv::Mat& unseen, co
   ViewSilhouette result;
   result.image_size = mask.size();
   const Silhouette traced =
-      without_specks(trace_contours(mask, options.origin), options.min_area, options.simplify.outer);
+      without_specks(trace_contours(mask, options.origin, options.diagonal), options.min_area, options.simplify.outer);
   if (traced.empty()) {
     throw nef::InputError("view " + view + ": the silhouette is empty without contours of less than " +
                           std::to_string(options.min_area) + " square pixels (--min-area)");

@@ -24,6 +24,7 @@ struct SilhouetteOptions {
   PixelOrigin origin = PixelOrigin::kCenter;
   Border border = Border::kOutside;
   SimplifyOptions simplify;
+  DiagonalPixels diagonal = DiagonalPixels::kTouch;
   double min_area = 0;  ///< square pixels; contours around less are noise of photographs: islands go, holes are filled
 };
 

@@ -17,13 +17,15 @@
 // edge between them. The other direction follows: the original chain is connected, so it projects onto the
 // whole edge, up to its ends, which are near their matches.
 //
-// Without `outer`, the polygon of fewest vertices is known for each ring by itself; the vertices that it
-// leaves out go first, with the topology as the only condition, and the deviation is checked when they are
-// gone. A ring where that fails (others are in its way) starts anew with the greedy choice alone.
+// Without `outer`, the polygon of fewest vertices is known for each ring by itself. Nearly always these polygons are a
+// silhouette with the rings and the nesting of the original, which is checked, and all that is left is to try the
+// vertices that they begin with. Otherwise the vertices that they leave out go one by one, with the topology as the
+// only condition, and the deviation is checked when they are gone. A ring where that fails (others are in its way)
+// starts anew with the greedy choice alone.
 #include "apps/visual_hull/silhouette/simplify.h"
 
 #include <cmath>
-#include <map>
+#include <optional>
 #include <queue>
 
 #include "apps/visual_hull/polygon/edge_grid.h"
@@ -62,16 +64,65 @@ struct Move {
   }
 };
 
+// Distances are computed with relative errors of a few 2^-53: stay below the bound.
+double within(double tolerance) { return tolerance * (1 - 1e-9); }
+
+// Vertices in which rings touch.
+std::vector<std::vector<bool>> shared_vertices(const Silhouette& silhouette) {
+  struct Place {
+    Vec point{};  // equal points have equal doubles
+    std::uint32_t ring = 0;
+    std::uint32_t vertex = 0;
+  };
+  std::vector<Place> places;
+  std::vector<std::vector<bool>> shared;
+  for (std::uint32_t r = 0; r < silhouette.rings.size(); ++r) {
+    const Ring& ring = silhouette.rings[r];
+    shared.emplace_back(ring.size(), false);
+    for (std::uint32_t i = 0; i < ring.size(); ++i) places.push_back({ring[i].approximate, r, i});
+  }
+  std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) { return a.point < b.point; });
+  for (std::size_t k = 1; k < places.size(); ++k) {
+    if (places[k - 1].point != places[k].point) continue;
+    for (const Place& place : {places[k - 1], places[k]}) shared[place.ring][place.vertex] = true;
+  }
+  return shared;
+}
+
+// The vertices of the polygons of fewest vertices, each ring for itself; nothing if one is none, or if the rings get
+// into each other's way.
+std::optional<std::vector<std::vector<bool>>> fewest_together(const Silhouette& silhouette, double tolerance) {
+  const std::vector<std::vector<bool>> pinned = shared_vertices(silhouette);
+  std::vector<std::vector<bool>> keep;
+  std::vector<Ring> simple;
+  for (std::size_t r = 0; r < silhouette.rings.size(); ++r) {
+    const Ring& ring = silhouette.rings[r];
+    keep.push_back(fewest_vertices(ring, pinned[r], tolerance));
+    Ring kept;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      if (keep[r][i]) kept.push_back(ring[i]);
+    }
+    if (kept.size() < 3) return std::nullopt;
+    simple.push_back(std::move(kept));
+  }
+  const Silhouette nested = nest(std::move(simple));
+  if (nested.parent != silhouette.parent || nested.depth != silhouette.depth || !check(nested).empty()) {
+    return std::nullopt;
+  }
+  return keep;
+}
+
 class Simplifier {
  public:
-  Simplifier(const Silhouette& silhouette, const SimplifyOptions& options)
+  /// Begins with the vertices to be kept only, if they are told (ring by ring): they are known to be a silhouette.
+  Simplifier(const Silhouette& silhouette, const SimplifyOptions& options,
+             const std::vector<std::vector<bool>>* keep = nullptr)
       : original_(silhouette),
         outer_(options.outer),
-        // Distances are computed with relative errors of a few 2^-53: stay below the bound.
-        tolerance_(options.tolerance * (1 - 1e-9)),
-        grid_(bounds_of(silhouette), silhouette.vertex_count()) {
+        tolerance_(within(options.tolerance)),
+        grid_(bounds_of(silhouette), keep != nullptr ? count(*keep) : silhouette.vertex_count()) {
     step_ = tolerance_ > 0 ? std::exp2(std::floor(std::log2(tolerance_ / 8))) : 0;
-    build();
+    build(keep);
   }
 
   /// Rings for which the fewest vertices could not be had. They are to be tried with `greedy`.
@@ -133,18 +184,26 @@ class Simplifier {
     return box;
   }
 
-  void build() {
-    std::map<std::array<double, 2>, std::uint32_t> seen;  // equal points have equal doubles
+  static std::size_t count(const std::vector<std::vector<bool>>& flags) {
+    std::size_t sum = 0;
+    for (const auto& ring : flags) sum += static_cast<std::size_t>(std::count(ring.begin(), ring.end(), true));
+    return sum;
+  }
+
+  void build(const std::vector<std::vector<bool>>* keep) {
+    const std::vector<std::vector<bool>> pinned = shared_vertices(original_);
     for (std::uint32_t r = 0; r < original_.rings.size(); ++r) {
       const Ring& ring = original_.rings[r];
       const auto first = static_cast<std::uint32_t>(nodes_.size());
-      const auto n = static_cast<std::uint32_t>(ring.size());
-      for (std::uint32_t i = 0; i < n; ++i) {
-        nodes_.push_back({ring[i], first + (i + n - 1) % n, first + (i + 1) % n, r, 2 * i, 0, false, true});
-        const auto [it, is_new] = seen.emplace(ring[i].approximate, first + i);
-        if (!is_new) nodes_[it->second].pinned = nodes_.back().pinned = true;
+      for (std::uint32_t i = 0; i < ring.size(); ++i) {
+        if (keep != nullptr && !(*keep)[r][i]) continue;
+        const auto node = static_cast<std::uint32_t>(nodes_.size());
+        nodes_.push_back({ring[i], node - 1, node + 1, r, 2 * i, 0, pinned[r][i], true});
       }
-      size_.push_back(n);
+      const auto last = static_cast<std::uint32_t>(nodes_.size() - 1);
+      nodes_[first].prev = last;
+      nodes_[last].next = first;
+      size_.push_back(last + 1 - first);
     }
     for (std::uint32_t i = 0; i < nodes_.size(); ++i) grid_.insert(i, edge_box(i));
   }
@@ -413,6 +472,9 @@ Silhouette simplify(const Silhouette& silhouette, const SimplifyOptions& options
   }
   if (silhouette.empty() || options.tolerance == 0) return silhouette;
   if (options.outer) return Simplifier(silhouette, options).run();
+  if (const auto keep = fewest_together(silhouette, within(options.tolerance))) {
+    return Simplifier(silhouette, options, &*keep).run();
+  }
   for (std::vector<bool> greedy(silhouette.rings.size(), false);;) {
     Simplifier simplifier(silhouette, options);
     const std::vector<bool> failed = simplifier.remove_guided(greedy);

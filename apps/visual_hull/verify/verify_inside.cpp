@@ -162,14 +162,14 @@ class InsideCheck {
       if (sc == 0 && on_segment(a, b, *c)) stops.push_back(c);
       if (sd == 0 && on_segment(a, b, *d)) stops.push_back(d);
     }
-    const bool by_x = a.x != b.x;
+    const std::size_t axis = compare_coordinate(a, b, 0) != 0 ? 0 : 1;
     std::sort(stops.begin(), stops.end(),
-              [by_x](const Point2* p, const Point2* q) { return by_x ? p->x < q->x : p->y < q->y; });
+              [axis](const Point2* p, const Point2* q) { return compare_coordinate(*p, *q, axis) < 0; });
     for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
       const Point2& p = *stops[i];
       const Point2& q = *stops[i + 1];
       if (p == q) continue;
-      if (index_.locate(Point2((p.x + q.x) / 2, (p.y + q.y) / 2)) == Side::kOutside) return false;
+      if (index_.locate(midpoint(p, q)) == Side::kOutside) return false;
     }
     return true;
   }
@@ -188,8 +188,8 @@ class InsideCheck {
     Rational step = half;
     for (int k = 0; k < 200; ++k, step *= half) {
       // The background is to the right of the edge: (dx, dy) turned to (dy, -dx).
-      const Point2 p((ring[0].x + ring[1].x) / 2 + step * (ring[1].y - ring[0].y),
-                     (ring[0].y + ring[1].y) / 2 - step * (ring[1].x - ring[0].x));
+      const Point2 p((ring[0].x() + ring[1].x()) / 2 + step * (ring[1].y() - ring[0].y()),
+                     (ring[0].y() + ring[1].y()) / 2 - step * (ring[1].x() - ring[0].x()));
       if (locate(ring, p) == Side::kInside && !in_child(p)) return p;
     }
     return std::nullopt;

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <tuple>
 
+#include "apps/visual_hull/viewing_edges/facet_pairs.h"
 #include "apps/visual_hull/viewing_edges/hull_complex.h"
 #include "apps/visual_hull/viewing_edges/line_cutter.h"
 #include "nef/base/parallel.h"
@@ -12,16 +13,18 @@
 namespace visual_hull {
 namespace {
 
-/// Finds the edges of the hull on one pair of views, or on the rays of one.
+/// Finds the edges of the hull on pairs of facets and on rays.
 class EdgeFinder {
  public:
   EdgeFinder(const EdgeScene& scene, std::vector<SpotName>& found) : s_(scene), cutter_(scene, found) {}
 
-  // Edges on the edges of view i's cone. This and what follows: false, or nothing, if something remains undecided.
-  [[nodiscard]] bool rays(std::uint32_t i) {
-    const EdgeView& view = s_.views[i];
-    for (std::uint32_t e = view.first_edge(); e < view.first_edge() + view.edge_count(); ++e) {
+  // Edges on the edges of cones, in which the silhouettes' edges of a range begin. This and what follows: false, or
+  // nothing, if something remains undecided.
+  [[nodiscard]] bool rays(std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t e = begin; e < end; ++e) {
       if (s_.edges[e].place != e) continue;
+      const std::uint32_t i = s_.edges[e].view;
+      const EdgeView& view = s_.views[i];
       const Vector& ray = s_.edges[e].ray;
       Spot apex{view.centre().at, view.centre().error, kNoName};
       // A far end beyond the box; the apex is in front of it.
@@ -35,130 +38,56 @@ class EdgeFinder {
     return true;
   }
 
-  // Edges in a facet of each of two cones.
-  [[nodiscard]] bool pairs(std::uint32_t i, std::uint32_t j) {
-    meetings_.clear();
-    spots_.clear();
-    if (!sweep(i, j) || !sweep(j, i)) return false;
-    std::sort(meetings_.begin(), meetings_.end());
-    for (std::size_t k = 0; k < meetings_.size();) {
-      std::size_t end = k + 1;
-      while (end < meetings_.size() && meetings_[end].edges == meetings_[k].edges) ++end;
-      const auto [e, f] = meetings_[k].edges;
-      const Spot& a = spots_[meetings_[k].spot];
-      if (end - k > 2) return false;
-      const std::optional<Spot> b = end - k == 2 ? spots_[meetings_[k + 1].spot] : far_end(a, e, f);
-      if (!b || !cutter_.cut({a, *b}, e, f, i, j)) return false;
-      k = end;
+  // Edges in the facets of two edges of different views.
+  [[nodiscard]] bool pair(std::uint32_t e, std::uint32_t f) {
+    const std::uint32_t i = s_.edges[e].view;
+    const std::uint32_t j = s_.edges[f].view;
+    const Axis axis = axis_between(i, j);
+    const std::array<std::uint32_t, 2> rays{s_.edges[e].place, s_.edges[s_.edges[e].next].place};
+    const std::array<std::uint32_t, 2> others{s_.edges[f].place, s_.edges[s_.edges[f].next].place};
+    std::array<std::array<int, 2>, 2> sides{};
+    for (std::size_t k = 0; k < 2; ++k) {
+      for (std::size_t l = 0; l < 2; ++l) {
+        const std::optional<int> s = side(axis, i, j, rays[k], others[l]);
+        if (!s) return false;
+        sides[k][l] = *s;
+      }
     }
-    return true;
+    spots_.clear();
+    for (std::size_t k = 0; k < 2; ++k) {
+      if (sides[k][0] != sides[k][1] && !pierce(i, j, rays[k], f)) return false;
+      if (sides[0][k] != sides[1][k] && !pierce(j, i, others[k], e)) return false;
+    }
+    if (spots_.empty()) return true;
+    if (spots_.size() > 2) return false;
+    const std::optional<Spot> end = spots_.size() == 2 ? spots_[1] : far_end(spots_[0], e, f);
+    return end && cutter_.cut({spots_[0], *end}, e, f, i, j);
   }
 
  private:
-  /// A place where the facets of two edges (of the first view and the second) begin or end to meet.
-  struct Meeting {
-    std::array<std::uint32_t, 2> edges{};
-    std::uint32_t spot = 0;
-    bool operator<(const Meeting& o) const { return std::tie(edges, spot) < std::tie(o.edges, o.spot); }
-  };
-
-  /// A ray as seen along the line through the two centres.
-  struct Turn {
-    double angle = 0;
-    std::uint32_t edge = 0;
-    bool operator<(const Turn& o) const { return angle < o.angle; }
-  };
-
   struct Axis {
-    Vec3 along{}, u{}, w{};
+    Vec3 along{};
+    double length = 0;
     double error = 0;
   };
 
-  std::optional<Axis> axis_between(std::uint32_t i, std::uint32_t j) const {
+  [[nodiscard]] Axis axis_between(std::uint32_t i, std::uint32_t j) const {
     Axis axis;
     const Vector& a = s_.views[i].centre();
     const Vector& b = s_.views[j].centre();
     for (std::size_t k = 0; k < 3; ++k) axis.along[k] = b.at[k] - a.at[k];
-    const double length = norm(axis.along);
-    axis.error = a.error + b.error + length * kRounding;
-    // (Nearly) one centre. The factor is a choice: with it angles below are good to about a millionth, and what they
-    // miss is noticed (see kSlack).
-    if (!(length > axis.error * 1e6)) return std::nullopt;
-    std::size_t least = 0;
-    for (std::size_t k = 1; k < 3; ++k) {
-      if (std::abs(axis.along[k]) < std::abs(axis.along[least])) least = k;
-    }
-    Vec3 unit{};
-    unit[least] = 1;
-    axis.u = cross(axis.along, unit);
-    const double scale = norm(axis.u);
-    for (double& c : axis.u) c /= scale;
-    axis.w = cross(axis.along, axis.u);
-    for (double& c : axis.w) c /= length;
+    axis.length = norm(axis.along);
+    axis.error = a.error + b.error + axis.length * kRounding;
     return axis;
-  }
-
-  // The angle of a ray around the axis; NaN if it runs nearly along the axis: such rays are tried with all facets.
-  static double angle_of(const Axis& axis, const Vec3& ray) {
-    const double x = dot(ray, axis.u);
-    const double y = dot(ray, axis.w);
-    return std::hypot(x, y) > 1e-6 * norm(ray) ? std::atan2(y, x) : NAN;
-  }
-
-  // Where the rays of view i meet the facets of view j.
-  [[nodiscard]] bool sweep(std::uint32_t i, std::uint32_t j) {
-    const std::optional<Axis> between = axis_between(i, j);
-    if (!between) return false;
-    const Axis& axis = *between;
-    const EdgeView& from = s_.views[i];
-    const EdgeView& to = s_.views[j];
-    turns_.clear();
-    std::vector<std::uint32_t> polar;
-    for (std::uint32_t e = from.first_edge(); e < from.first_edge() + from.edge_count(); ++e) {
-      if (s_.edges[e].place != e) continue;
-      const double angle = angle_of(axis, s_.edges[e].ray.at);
-      if (std::isnan(angle)) {
-        polar.push_back(e);
-      } else {
-        turns_.push_back({angle, e});
-      }
-    }
-    std::sort(turns_.begin(), turns_.end());
-    for (std::uint32_t f = to.first_edge(); f < to.first_edge() + to.edge_count(); ++f) {
-      const double a = angle_of(axis, s_.edges[f].ray.at);
-      const double b = angle_of(axis, s_.edges[s_.edges[f].next].ray.at);
-      const double turn = std::remainder(b - a, 2 * M_PI);
-      // A choice, far above the roundings of angles: it only adds candidates, each of which `meet` decides exactly. A
-      // candidate that is missed all the same leaves a vertex without one of its edges, which direct_hull counts.
-      constexpr double kSlack = 1e-7;
-      if (!(std::abs(turn) < 3)) {  // also for NaN: all rays
-        for (const Turn& t : turns_) {
-          if (!meet(axis, i, j, t.edge, f)) return false;
-        }
-      } else {
-        const double low = std::min(a, a + turn) - kSlack;
-        const double high = std::max(a, a + turn) + kSlack;
-        for (const double shift : {-2 * M_PI, 0.0, 2 * M_PI}) {
-          auto it = std::lower_bound(turns_.begin(), turns_.end(), Turn{low + shift, 0});
-          for (; it != turns_.end() && it->angle <= high + shift; ++it) {
-            if (!meet(axis, i, j, it->edge, f)) return false;
-          }
-        }
-      }
-      for (const std::uint32_t e : polar) {
-        if (!meet(axis, i, j, e, f)) return false;
-      }
-    }
-    return true;
   }
 
   // The sign of det(axis, ray of e, ray of g): the side of ray g on which ray e passes.
   std::optional<int> side(const Axis& axis, std::uint32_t i, std::uint32_t j, std::uint32_t e, std::uint32_t g) const {
     const Vector& r = s_.edges[e].ray;
     const Vector& q = s_.edges[g].ray;
-    const double nr = norm(r.at);
-    const double nq = norm(q.at);
-    const double nb = norm(axis.along);
+    const double nr = s_.edges[e].ray_length;
+    const double nq = s_.edges[g].ray_length;
+    const double nb = axis.length;
     const double value = dot(axis.along, cross(r.at, q.at));
     // Each factor is off by its error; 16 covers norms of components and the roundings.
     const double bound = 16 * (nb * nr * nq * kRounding + axis.error * nr * nq + nb * (r.error * nq + q.error * nr));
@@ -181,23 +110,12 @@ class EdgeFinder {
     return sgn(determinant);
   }
 
-  // Ray e of view i and the facet of edge f of view j.
-  [[nodiscard]] bool meet(const Axis& axis, std::uint32_t i, std::uint32_t j, std::uint32_t e, std::uint32_t f) {
-    const std::optional<int> from_side = side(axis, i, j, e, f);
-    const std::optional<int> to_side = side(axis, i, j, e, s_.edges[f].next);
-    if (!from_side || !to_side) return false;
-    if (*from_side == *to_side) return true;
+  // Ray e of view i, which passes through the facet of edge f of view j or behind a camera.
+  [[nodiscard]] bool pierce(std::uint32_t i, std::uint32_t j, std::uint32_t e, std::uint32_t f) {
     Spot spot;
     const std::optional<bool> in_front = pierce(i, j, e, f, spot);
-    if (!in_front || !*in_front) return in_front.has_value();
-    const auto index = static_cast<std::uint32_t>(spots_.size());
-    spots_.push_back(spot);
-    for (std::uint32_t at = e; at != UINT32_MAX; at = s_.edges[at].next_at_place) {
-      for (const std::uint32_t own : {s_.edges[at].previous, at}) {
-        meetings_.push_back({i < j ? std::array{own, f} : std::array{f, own}, index});
-      }
-    }
-    return true;
+    if (in_front && *in_front) spots_.push_back(spot);
+    return in_front.has_value();
   }
 
   // Where the line of ray e meets the plane of edge f; true if in front of both cameras.
@@ -267,25 +185,45 @@ class EdgeFinder {
 
   const EdgeScene& s_;
   LineCutter cutter_;
-  std::vector<Meeting> meetings_;
   std::vector<Spot> spots_;
-  std::vector<Turn> turns_;
 };
+
+// (Nearly) one centre: not for the direct way.
+bool centres_apart(const EdgeScene& scene) {
+  for (std::size_t i = 0; i < scene.views.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const Vector& a = scene.views[i].centre();
+      const Vector& b = scene.views[j].centre();
+      const double distance = norm({b.at[0] - a.at[0], b.at[1] - a.at[1], b.at[2] - a.at[2]});
+      if (!(distance > (a.error + b.error + distance * kRounding) * 1e6)) return false;
+    }
+  }
+  return true;
+}
 
 // The names of all vertices, once for each edge that ends there; nothing if one remains undecided.
 std::optional<std::vector<SpotName>> vertex_names(const EdgeScene& scene, unsigned threads) {
-  const auto n = static_cast<std::uint32_t>(scene.views.size());
-  std::vector<std::array<std::uint32_t, 2>> tasks;
-  for (std::uint32_t i = 0; i < n; ++i) {
-    for (std::uint32_t j = i; j < n; ++j) tasks.push_back({i, j});
-  }
-  std::vector<std::vector<SpotName>> found(tasks.size());
+  constexpr std::size_t kRays = 64;  // a task; what is found does not depend on these, nor on the threads
+  constexpr std::size_t kPairs = 4096;
+  const FacetPairs pairs = facet_pairs(scene, threads);
+  const std::size_t ray_tasks = (scene.edges.size() + kRays - 1) / kRays;
+  const std::size_t tasks = ray_tasks + (pairs.size() + kPairs - 1) / kPairs;
+  std::vector<std::vector<SpotName>> found(tasks);
   std::atomic<bool> decided = true;
-  nef::parallel_for(tasks.size(), threads, [&](std::size_t k) {
+  nef::parallel_for(tasks, threads, [&](std::size_t k) {
     if (!decided.load(std::memory_order_relaxed)) return;
     EdgeFinder finder(scene, found[k]);
-    const auto [i, j] = tasks[k];
-    if (!(i == j ? finder.rays(i) : finder.pairs(i, j))) decided.store(false, std::memory_order_relaxed);
+    bool good = true;
+    if (k < ray_tasks) {
+      good = finder.rays(static_cast<std::uint32_t>(k * kRays),
+                         static_cast<std::uint32_t>(std::min((k + 1) * kRays, scene.edges.size())));
+    } else {
+      const std::size_t first = (k - ray_tasks) * kPairs;
+      for (std::size_t p = first; good && p < std::min(first + kPairs, pairs.size()); ++p) {
+        good = finder.pair(pairs[p][0], pairs[p][1]);
+      }
+    }
+    if (!good) decided.store(false, std::memory_order_relaxed);
   });
   if (!decided) return std::nullopt;
   std::vector<SpotName> names;
@@ -308,7 +246,7 @@ std::optional<nef::Polyhedron> direct_hull(const std::vector<DirectView>& views,
                                            unsigned threads) {
   if (views.size() < 3) return std::nullopt;
   const std::unique_ptr<const EdgeScene> scene = EdgeScene::make(views, box);
-  if (!scene) return std::nullopt;
+  if (!scene || !centres_apart(*scene)) return std::nullopt;
   std::optional<std::vector<SpotName>> names = vertex_names(*scene, threads);
   if (!names) return std::nullopt;
   std::sort(names->begin(), names->end());

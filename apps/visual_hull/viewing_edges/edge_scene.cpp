@@ -19,6 +19,10 @@ std::unique_ptr<const EdgeScene> EdgeScene::make(const std::vector<DirectView>& 
     scene->high[i] = nef::nearest_double(box.high[i]);
     scene->size = std::max(scene->size, scene->high[i] - scene->low[i]);
   }
+  Vec3 reach{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    reach[i] = std::max(std::abs(scene->low[i]), std::abs(scene->high[i])) + scene->size / 100;
+  }
   std::size_t edge_count = 0;
   for (const DirectView& input : inputs) edge_count += input.silhouette->vertex_count();
   scene->exact_budget_ = kExactSpots + edge_count;
@@ -27,7 +31,7 @@ std::unique_ptr<const EdgeScene> EdgeScene::make(const std::vector<DirectView>& 
   for (const DirectView& input : inputs) {
     if (sgn(depth_range(*input.camera, box).nearest) <= 0) return nullptr;
     std::optional<EdgeView> view = EdgeView::make(
-        *input.camera, *input.silhouette, static_cast<std::uint32_t>(scene->views.size()), *scene, scene->edges);
+        *input.camera, *input.silhouette, static_cast<std::uint32_t>(scene->views.size()), reach, *scene, scene->edges);
     if (!view) return nullptr;
     scene->views.push_back(std::move(*view));
   }

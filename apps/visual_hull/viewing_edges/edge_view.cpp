@@ -26,17 +26,25 @@ Vector to_doubles(const Rational3& v) {
 }  // namespace
 
 std::optional<EdgeView> EdgeView::make(const Camera& camera, const Silhouette& silhouette, std::uint32_t index,
-                                       const ExactSpots& exact, std::vector<ViewingEdge>& edges) {
-  EdgeView view(camera, exact, edges);
+                                       const Vec3& reach, const ExactSpots& exact, std::vector<ViewingEdge>& edges) {
+  EdgeView view(camera, reach, exact, edges);
   view.collect_edges(silhouette, index);
   if (!view.join_places() || !view.build_grid()) return std::nullopt;
   return view;
 }
 
-EdgeView::EdgeView(const Camera& camera, const ExactSpots& exact, std::vector<ViewingEdge>& edges)
+EdgeView::EdgeView(const Camera& camera, const Vec3& reach, const ExactSpots& exact, std::vector<ViewingEdge>& edges)
     : camera_(camera), exact_(exact), edges_(edges), first_(static_cast<std::uint32_t>(edges.size())) {
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 4; ++j) matrix_[i][j] = nef::nearest_double(camera.matrix()[i][j]);
+    double size = std::abs(matrix_[i][3]);
+    double slope = 0;
+    for (std::size_t j = 0; j < 3; ++j) {
+      size += std::abs(matrix_[i][j]) * reach[j];
+      slope += std::abs(matrix_[i][j]);
+    }
+    rounding_[i] = size * kUnit;
+    slope_[i] = slope * 1.0001;
   }
   centre_ = to_doubles(camera.centre());
   const auto& m = matrix_[2];
@@ -65,6 +73,7 @@ void EdgeView::collect_edges(const Silhouette& silhouette, std::uint32_t index) 
       edge.previous = base + static_cast<std::uint32_t>((k + n - 1) % n);
       prepare_edge(edge, ray0, ray_u, ray_v);
       edges_.push_back(edge);
+      ends_.push_back({seen(*edge.from), seen(*edge.to)});
     }
   }
   count_ = static_cast<std::uint32_t>(edges_.size()) - first_;
@@ -114,6 +123,7 @@ void EdgeView::prepare_edge(ViewingEdge& edge, const Vector& ray0, const Vector&
     const double inherited = ray0.error + std::abs(a[0]) * ray_u.error + std::abs(a[1]) * ray_v.error;
     edge.ray.error = std::max(edge.ray.error, size * kUnit + inherited);
   }
+  edge.ray_length = std::hypot(edge.ray.at[0], edge.ray.at[1], edge.ray.at[2]);
 }
 
 double EdgeView::depth(const Spot& spot, double& error) const {
@@ -131,27 +141,43 @@ double EdgeView::depth(const Spot& spot, double& error) const {
 }
 
 std::optional<Seen> EdgeView::project(const Spot& spot) const {
-  std::array<double, 3> x{};
-  std::array<double, 3> error{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    x[i] = matrix_[i][3];
-    double size = std::abs(x[i]);
-    double slope = 0;
-    for (std::size_t j = 0; j < 3; ++j) {
-      x[i] += matrix_[i][j] * spot.at[j];
-      size += std::abs(matrix_[i][j] * spot.at[j]);
-      slope += std::abs(matrix_[i][j]);
-    }
-    error[i] = size * kUnit + slope * spot.error * 1.0001;
-  }
-  if (!(x[2] > 2 * error[2])) return std::nullopt;
+  const auto row = [&](std::size_t i) {
+    return matrix_[i][0] * spot.at[0] + matrix_[i][1] * spot.at[1] + matrix_[i][2] * spot.at[2] + matrix_[i][3];
+  };
+  const double depth = row(2);
+  const double depth_error = rounding_[2] + slope_[2] * spot.error;
+  if (!(depth > 2 * depth_error)) return std::nullopt;
   Seen seen;
-  seen.u = x[0] / x[2];
-  seen.v = x[1] / x[2];
+  seen.u = row(0) / depth;
+  seen.v = row(1) / depth;
   const double largest = std::max(std::abs(seen.u), std::abs(seen.v));
-  seen.error = (std::max(error[0], error[1]) + error[2] * largest) / (x[2] - error[2]) * 1.0001 + largest * 0x1p-51;
+  const double error = std::max(rounding_[0], rounding_[1]) + std::max(slope_[0], slope_[1]) * spot.error;
+  seen.error = (error + depth_error * largest) / (depth - depth_error) * 1.0001 + largest * 0x1p-51;
   seen.spot = &spot;
   return seen;
+}
+
+// (x + a) / (z + c) - x / z = (a - (x / z) c) / (z + c).
+std::optional<EdgeView::Window> EdgeView::window(const Vec3& middle, const Vec3& half) const {
+  std::array<double, 3> x{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    x[i] = matrix_[i][0] * middle[0] + matrix_[i][1] * middle[1] + matrix_[i][2] * middle[2] + matrix_[i][3];
+  }
+  const double reach =
+      std::abs(matrix_[2][0]) * half[0] + std::abs(matrix_[2][1]) * half[1] + std::abs(matrix_[2][2]) * half[2];
+  const double nearest = x[2] - reach;
+  if (!(nearest > 4 * rounding_[2])) return std::nullopt;
+  Window result;
+  for (std::size_t i = 0; i < 2; ++i) {
+    result.middle[i] = x[i] / x[2];
+    double spread = 0;
+    for (std::size_t j = 0; j < 3; ++j) spread += std::abs(matrix_[i][j] - result.middle[i] * matrix_[2][j]) * half[j];
+    // Of the middle, of the quotients and of the sums: far below the margin, or the window tells nothing.
+    const double error = 4 * (rounding_[i] + rounding_[2] * std::abs(result.middle[i]) + spread * kUnit) / nearest;
+    if (!(error < margin_)) return std::nullopt;
+    result.half[i] = spread / nearest + 2 * margin_;
+  }
+  return result;
 }
 
 Seen EdgeView::seen(const Point2& point) {
@@ -194,8 +220,7 @@ std::optional<int> EdgeView::orient(const Seen& a, const Seen& b, const Seen& c)
 }
 
 std::optional<bool> EdgeView::crosses(const Seen& a, const Seen& b, std::uint32_t edge) const {
-  const Seen c = seen(*edges_[edge].from);
-  const Seen d = seen(*edges_[edge].to);
+  const auto& [c, d] = ends_[edge - first_];
   const double slack = a.error + b.error + margin_;
   if (std::max(a.u, b.u) + slack < std::min(c.u, d.u) || std::max(c.u, d.u) + slack < std::min(a.u, b.u)) return false;
   if (std::max(a.v, b.v) + slack < std::min(c.v, d.v) || std::max(c.v, d.v) + slack < std::min(a.v, b.v)) return false;
@@ -217,6 +242,15 @@ std::array<std::int64_t, 2> EdgeView::rows(double low, double high) const {
   return {static_cast<std::int64_t>(std::max(first_row, 0.0)), static_cast<std::int64_t>(std::min(last_row, last))};
 }
 
+std::array<std::int64_t, 2> EdgeView::columns(double low, double high) const {
+  const double last = static_cast<double>(width_ - 1);
+  const double first_column = std::floor((low - low_u_) / side_);
+  const double last_column = std::floor((high - low_u_) / side_);
+  if (!(first_column <= last) || !(last_column >= 0)) return {0, -1};
+  return {static_cast<std::int64_t>(std::max(first_column, 0.0)),
+          static_cast<std::int64_t>(std::min(last_column, last))};
+}
+
 // The columns that a segment passes in a row.
 std::array<std::int64_t, 2> EdgeView::columns(double u0, double v0, double u1, double v1, std::int64_t row,
                                               double slack) const {
@@ -231,12 +265,7 @@ std::array<std::int64_t, 2> EdgeView::columns(double u0, double v0, double u1, d
     low = std::max(low, std::min(x0, x1));
     high = std::min(high, std::max(x0, x1));
   }
-  const double last = static_cast<double>(width_ - 1);
-  const double first_column = std::floor((low - slack - low_u_) / side_);
-  const double last_column = std::floor((high + slack - low_u_) / side_);
-  if (!(first_column <= last) || !(last_column >= 0)) return {0, -1};
-  return {static_cast<std::int64_t>(std::max(first_column, 0.0)),
-          static_cast<std::int64_t>(std::min(last_column, last))};
+  return columns(low - slack, high + slack);
 }
 
 std::array<double, 2> EdgeView::reference(std::int64_t column, std::int64_t row) const {
@@ -259,7 +288,7 @@ bool EdgeView::build_grid() {
   const double width = high_u - low_u_;
   const double height = high_v - low_v_;
   if (!(width > 0) || !(height > 0)) return false;
-  const double cells = 6.0 * count_ + 16;
+  const double cells = 16.0 * count_ + 16;
   side_ = std::max({std::sqrt(width * height / cells), width / 4000, height / 4000});
   margin_ = side_ * 1e-3;
   low_u_ -= side_ / 3;
@@ -267,6 +296,7 @@ bool EdgeView::build_grid() {
   width_ = static_cast<std::int64_t>((width + side_) / side_) + 1;
   height_ = static_cast<std::int64_t>((height + side_) / side_) + 1;
   fill_cells();
+  sum_cells();
   return mark_cells();
 }
 
@@ -301,6 +331,42 @@ void EdgeView::fill_cells() {
   const auto total = static_cast<std::uint32_t>(cell_edges_.size());
   std::move(cell_begin_.begin() + 1, cell_begin_.end(), cell_begin_.begin());
   cell_begin_[cell_count] = total;
+}
+
+void EdgeView::sum_cells() {
+  const auto width = static_cast<std::size_t>(width_);
+  const auto height = static_cast<std::size_t>(height_);
+  crossed_cells_.assign((width + 1) * (height + 1), 0);
+  for (std::size_t y = 0; y < height; ++y) {
+    std::uint32_t row = 0;
+    for (std::size_t x = 0; x < width; ++x) {
+      const std::size_t cell = y * width + x;
+      if (cell_begin_[cell] != cell_begin_[cell + 1]) ++row;
+      crossed_cells_[(y + 1) * (width + 1) + x + 1] = crossed_cells_[y * (width + 1) + x + 1] + row;
+    }
+  }
+}
+
+std::optional<bool> EdgeView::all_inside(const Seen& a, const Seen& b) const {
+  const double slack = a.error + b.error;
+  if (!(slack < margin_)) return std::nullopt;
+  const double left = std::floor((std::min(a.u, b.u) - low_u_) / side_);
+  const double right = std::floor((std::max(a.u, b.u) - low_u_) / side_);
+  const double top = std::floor((std::min(a.v, b.v) - low_v_) / side_);
+  const double bottom = std::floor((std::max(a.v, b.v) - low_v_) / side_);
+  const auto width = static_cast<double>(width_);
+  const auto height = static_cast<double>(height_);
+  if (right < 0 || bottom < 0 || left >= width || top >= height) return false;
+  if (!(left >= 0 && top >= 0 && right < width && bottom < height)) return std::nullopt;
+  const auto x0 = static_cast<std::size_t>(left);
+  const auto x1 = static_cast<std::size_t>(right) + 1;
+  const auto y0 = static_cast<std::size_t>(top);
+  const auto y1 = static_cast<std::size_t>(bottom) + 1;
+  const auto sum = [this](std::size_t x, std::size_t y) {
+    return crossed_cells_[y * static_cast<std::size_t>(width_ + 1) + x];
+  };
+  if (sum(x1, y1) + sum(x0, y0) != sum(x0, y1) + sum(x1, y0)) return std::nullopt;
+  return cell_inside_[y0 * static_cast<std::size_t>(width_) + x0];
 }
 
 // Whether the reference points are inside: by the crossings of a line through those of a row. False if one is too near

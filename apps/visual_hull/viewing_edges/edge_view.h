@@ -58,6 +58,7 @@ struct ViewingEdge {
   double offset = 0;
   double offset_error = 0;
   Vector ray;  ///< in which `from` is seen, of depth 1
+  double ray_length = 0;
 };
 
 /// Exact coordinates of a named spot; nothing for others.
@@ -69,10 +70,11 @@ class ExactSpots {
 
 class EdgeView {
  public:
-  /// Appends the view's edges to `edges`. Keeps references to camera, exact and edges. Nothing if vertices are equal
-  /// but for rounding, the silhouette is flat, or lies on points of its grid.
+  /// Appends the view's edges to `edges`. Keeps references to camera, exact and edges. Coordinates of spots to be
+  /// projected are at most `reach`. Nothing if vertices are equal but for rounding, the silhouette is flat, or lies on
+  /// points of its grid.
   static std::optional<EdgeView> make(const Camera& camera, const Silhouette& silhouette, std::uint32_t index,
-                                      const ExactSpots& exact, std::vector<ViewingEdge>& edges);
+                                      const Vec3& reach, const ExactSpots& exact, std::vector<ViewingEdge>& edges);
 
   [[nodiscard]] const Camera& camera() const { return camera_; }
   [[nodiscard]] std::uint32_t first_edge() const { return first_; }
@@ -90,6 +92,20 @@ class EdgeView {
   [[nodiscard]] std::optional<Seen> project(const Spot& spot) const;
   [[nodiscard]] static Seen seen(const Point2& point);
 
+  /// A rectangle of the image, and where its middle is.
+  struct Window {
+    std::array<double, 2> middle{}, half{};
+  };
+  /// Holds the images of all points of a box, with some room for roundings; nothing if some may not be in front.
+  [[nodiscard]] std::optional<Window> window(const Vec3& middle, const Vec3& half) const;
+  /// The middle as the pair of doubles that it is.
+  [[nodiscard]] static Seen middle_of(const Window& window) {
+    return {window.middle[0], window.middle[1], 0, nullptr, nullptr};
+  }
+
+  /// Whether the silhouette covers all of a segment, or nothing of it, as the grid tells at a glance.
+  [[nodiscard]] std::optional<bool> all_inside(const Seen& a, const Seen& b) const;
+
   /// True if the point lies in the silhouette; nothing if it may lie on the boundary.
   [[nodiscard]] std::optional<bool> inside(const Seen& p) const;
 
@@ -100,8 +116,10 @@ class EdgeView {
                                    std::uint32_t stamp, Visit&& visit) const {
     const double slack = a.error + b.error + margin_;
     const auto [top, bottom] = rows(std::min(a.v, b.v) - slack, std::max(a.v, b.v) + slack);
+    const bool flat = bottom - top <= 1;  // all columns between the ends are as well
     for (std::int64_t row = top; row <= bottom; ++row) {
-      const auto [left, right] = columns(a.u, a.v, b.u, b.v, row, slack);
+      const auto [left, right] = flat ? columns(std::min(a.u, b.u) - slack, std::max(a.u, b.u) + slack)
+                                      : columns(a.u, a.v, b.u, b.v, row, slack);
       for (std::int64_t column = left; column <= right; ++column) {
         const std::size_t cell = static_cast<std::size_t>(row * width_ + column);
         for (std::uint32_t i = cell_begin_[cell]; i < cell_begin_[cell + 1]; ++i) {
@@ -118,17 +136,19 @@ class EdgeView {
   }
 
  private:
-  EdgeView(const Camera& camera, const ExactSpots& exact, std::vector<ViewingEdge>& edges);
+  EdgeView(const Camera& camera, const Vec3& reach, const ExactSpots& exact, std::vector<ViewingEdge>& edges);
   void collect_edges(const Silhouette& silhouette, std::uint32_t index);
   [[nodiscard]] bool join_places();
   void prepare_edge(ViewingEdge& edge, const Vector& ray0, const Vector& ray_u, const Vector& ray_v) const;
   [[nodiscard]] bool build_grid();
   void fill_cells();
+  void sum_cells();
   [[nodiscard]] bool mark_cells();
   [[nodiscard]] std::optional<bool> crosses(const Seen& a, const Seen& b, std::uint32_t edge) const;
   [[nodiscard]] std::optional<int> orient(const Seen& a, const Seen& b, const Seen& c) const;
   [[nodiscard]] std::optional<Point2> exact(const Seen& p) const;
   [[nodiscard]] std::array<std::int64_t, 2> rows(double low, double high) const;
+  [[nodiscard]] std::array<std::int64_t, 2> columns(double low, double high) const;
   [[nodiscard]] std::array<std::int64_t, 2> columns(double u0, double v0, double u1, double v1, std::int64_t row,
                                                     double slack) const;
   [[nodiscard]] std::array<double, 2> reference(std::int64_t column, std::int64_t row) const;
@@ -139,8 +159,11 @@ class EdgeView {
   std::uint32_t first_ = 0;
   std::uint32_t count_ = 0;
   std::array<std::array<double, 4>, 3> matrix_{};
+  Vec3 rounding_{};  // of each row of the matrix times a spot
+  Vec3 slope_{};     // sums of magnitudes of the rows: by how much errors of spots grow
   Vector centre_;
   Vec3 axis_{};
+  std::vector<std::array<Seen, 2>> ends_;  // of edges
   // The grid: `side_` wide cells from (low_u_, low_v_) on; each has a reference point, inside or not.
   double low_u_ = 0;
   double low_v_ = 0;
@@ -151,6 +174,7 @@ class EdgeView {
   std::vector<std::uint32_t> cell_begin_;
   std::vector<std::uint32_t> cell_edges_;
   std::vector<bool> cell_inside_;
+  std::vector<std::uint32_t> crossed_cells_;  // cells with edges above and to the left of each corner of the grid
 };
 
 }  // namespace visual_hull

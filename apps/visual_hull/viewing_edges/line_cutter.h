@@ -4,6 +4,8 @@
 // McMillan 2001].
 #pragma once
 
+#include <algorithm>
+#include <numeric>
 #include <optional>
 #include <vector>
 
@@ -21,7 +23,9 @@ class LineCutter {
  public:
   /// Appends the names of the ends of what is left to `found`, which must outlive the cutter.
   LineCutter(const EdgeScene& scene, std::vector<SpotName>& found)
-      : s_(scene), found_(found), stamps_(scene.views.size()) {}
+      : s_(scene), found_(found), order_(scene.views.size()), stamps_(scene.views.size()) {
+    std::iota(order_.begin(), order_.end(), 0U);
+  }
 
   // What all views but i and j leave of an interval on the line of two edges' planes. False if that remains undecided.
   [[nodiscard]] bool cut(Interval whole, std::uint32_t e, std::uint32_t f, std::uint32_t i, std::uint32_t j) {
@@ -36,16 +40,16 @@ class LineCutter {
     }
     left_.assign(1, clipped);
     line_ = clipped;
-    const std::size_t n = s_.views.size();
-    const std::size_t first = best_view(clipped, i, j);
-    for (std::size_t k = 0; k < n && !left_.empty(); ++k) {
-      const std::size_t view = (first + k) % n;
+    if (i == j) prefer(best_view(clipped, i, j));
+    for (std::size_t k = 0; k < order_.size() && !left_.empty(); ++k) {
+      const std::uint32_t view = order_[k];
       if (view == i || view == j) continue;
       next_.clear();
       for (const Interval& interval : left_) {
-        if (!cut_by_view(interval, e, f, static_cast<std::uint32_t>(view))) return false;
+        if (!cut_by_view(interval, e, f, view)) return false;
       }
       left_.swap(next_);
+      if (left_.empty()) prefer(view);
     }
     for (const Interval& interval : left_) {
       if (interval.from.name == kNoName || interval.to.name == kNoName) return false;
@@ -71,13 +75,19 @@ class LineCutter {
     return true;
   }
 
+  // What a view cuts off entirely, it will probably cut off nearby, too: it comes first from now on.
+  void prefer(std::uint32_t view) {
+    const auto at = std::find(order_.begin(), order_.end(), view);
+    std::rotate(order_.begin(), at, at + 1);
+  }
+
   // The view that looks across the interval most: likely to cut off much.
-  std::size_t best_view(const Interval& interval, std::uint32_t i, std::uint32_t j) const {
+  std::uint32_t best_view(const Interval& interval, std::uint32_t i, std::uint32_t j) const {
     Vec3 direction{};
     for (std::size_t k = 0; k < 3; ++k) direction[k] = interval.to.at[k] - interval.from.at[k];
-    std::size_t best = 0;
+    std::uint32_t best = 0;
     double least = INFINITY;
-    for (std::size_t view = 0; view < s_.views.size(); ++view) {
+    for (std::uint32_t view = 0; view < s_.views.size(); ++view) {
       if (view == i || view == j) continue;
       const double along = std::abs(dot(s_.views[view].axis(), direction));
       if (along < least) {
@@ -143,6 +153,10 @@ class LineCutter {
     const std::optional<Seen> a = v.project(interval.from);
     const std::optional<Seen> b = v.project(interval.to);
     if (!a || !b) return false;
+    if (const std::optional<bool> all = v.all_inside(*a, *b)) {
+      if (*all) next_.push_back(interval);
+      return true;
+    }
     auto& stamps = stamps_[view];
     if (stamps.empty()) stamps.resize(v.edge_count(), 0);
     events_.clear();
@@ -237,6 +251,7 @@ class LineCutter {
   std::vector<Interval> left_;
   std::vector<Interval> next_;
   std::vector<Event> events_;
+  std::vector<std::uint32_t> order_;  // of views
   std::vector<std::vector<std::uint32_t>> stamps_;
   std::uint32_t stamp_ = 0;
 };

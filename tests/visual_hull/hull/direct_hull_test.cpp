@@ -51,8 +51,8 @@ Seen view_of_mask(std::size_t axis, int direction, const cv::Mat& mask, int skew
   Seen seen{axis_camera(centre, axis, direction, "view"), trace_contours(mask, PixelOrigin::kCorner)};
   for (Ring& ring : seen.silhouette.rings) {
     for (Point2& p : ring) {
-      const Rational u = (p.x - Rational(mask.cols, 2)) / 20;
-      const Rational v = (p.y - Rational(mask.rows, 2)) / 20;
+      const Rational u = (p.x() - Rational(mask.cols, 2)) / 20;
+      const Rational v = (p.y() - Rational(mask.rows, 2)) / 20;
       p = Point2(u + v * Rational(skew, 1009), v + u * Rational(skew, 2003));
     }
   }
@@ -79,6 +79,51 @@ TEST_CASE("Random masks, holes and touching rings included: the direct way agree
     RC_ASSERT(nef::equal(*hull, by_cones(views, *box)));
   });
   CHECK(used >= 60);  // of a hundred: it is not there to give up
+}
+
+// A closed curve with bumps, and a hole in its middle if that is asked for.
+Silhouette bumpy(std::size_t view, std::size_t vertices, bool hole) {
+  std::vector<Ring> rings(hole ? 2 : 1);
+  for (std::size_t r = 0; r < rings.size(); ++r) {
+    for (std::size_t i = 0; i < vertices; ++i) {
+      const double angle = 2 * M_PI * static_cast<double>(i) / static_cast<double>(vertices);
+      const double phase = 1.7 * static_cast<double>(view);
+      const double radius = (r == 0 ? 180 : 40) + 22 * std::sin(5 * angle + phase) + 9 * std::sin(13 * angle - phase);
+      rings[r].push_back(Point2::from_doubles(std::round(16 * radius * std::cos(angle)) / 16,
+                                              std::round(16 * radius * std::sin(angle)) / 16));
+    }
+  }
+  return make_silhouette(rings, "");
+}
+
+// At distance 10 on a spiral over the sphere, looking at the origin; its numbers have six decimals.
+Camera spiral_camera(std::size_t index, std::size_t count) {
+  const double z = 1 - (2 * static_cast<double>(index) + 1) / static_cast<double>(count);
+  const double angle = 2.399963 * static_cast<double>(index);
+  const double r = std::sqrt(1 - z * z);
+  const std::array<std::array<double, 3>, 3> rows{{{-std::sin(angle), std::cos(angle), 0},
+                                                   {-z * std::cos(angle), -z * std::sin(angle), r},
+                                                   {-r * std::cos(angle), -r * std::sin(angle), -z}}};
+  Matrix3 rotation;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) rotation[i][j] = Rational(std::lround(rows[i][j] * 1e6), 1000000);
+  }
+  const Matrix3 k{{{800, 0, 0}, {0, 800, 0}, {0, 0, 1}}};
+  return Camera::from_parts(std::to_string(index), k, rotation, {0, 0, 10});
+}
+
+TEST_CASE("Many views, of many vertices or few, with holes or without: the direct way agrees with the cones") {
+  for (const auto& [count, vertices] : {std::array<std::size_t, 2>{17, 40}, {24, 24}, {40, 9}}) {
+    for (const bool hole : {false, true}) {
+      std::vector<Seen> views;
+      for (std::size_t i = 0; i < count; ++i) views.push_back({spiral_camera(i, count), bumpy(i, vertices, hole)});
+      const WorldBox box = enclosing_box(views).value();
+      const std::optional<nef::Polyhedron> hull = directly(views, box);
+      REQUIRE(hull.has_value());
+      CHECK(nef::validate(hull->complex()) == "");
+      CHECK(nef::equal(*hull, by_cones(views, box)));
+    }
+  }
 }
 
 TEST_CASE("The views of a real scene go the direct way, on any number of threads", "[threads]") {

@@ -284,7 +284,7 @@ TEST_CASE("Random masks from three sides: the hull verifies in every view") {
       if (cv::countNonZero(mask) == 0) RC_DISCARD();
       Silhouette traced = trace_contours(mask, PixelOrigin::kCorner);
       for (Ring& ring : traced.rings) {
-        for (Point2& p : ring) p = Point2((p.x - 5) / 20, (p.y - 5) / 20);
+        for (Point2& p : ring) p = Point2((p.x() - 5) / 20, (p.y() - 5) / 20);
       }
       views.emplace_back(axis_camera(centre, axis, 1, std::to_string(axis)), traced.rings);
     }

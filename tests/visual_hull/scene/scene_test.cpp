@@ -126,8 +126,8 @@ TEST_CASE("JSON numbers and strings are the rationals that they spell") {
   CHECK(m[1][1] == Rational(1, 1000));
   CHECK(m[2][2] == Rational("12345678901234567890123"));
   CHECK(scene.views[1].camera.matrix()[0][3] == 41);
-  CHECK(scene.views[1].polygons.value()[0][1].x == Rational(1, 7));
-  CHECK(scene.views[1].polygons.value()[0][2].y == Rational(3, 10));
+  CHECK(scene.views[1].polygons.value()[0][1].x() == Rational(1, 7));
+  CHECK(scene.views[1].polygons.value()[0][2].y() == Rational(3, 10));
   CHECK(scene.views[1].distortion.coefficients.size() == 5);
   CHECK(scene.box->high[2] == Rational(1, 10));
   REQUIRE(scene.threshold.has_value());

@@ -2,6 +2,7 @@
 #include "apps/visual_hull/silhouette/contour.h"
 
 #include <catch2/catch.hpp>
+#include <set>
 
 #include "nef/base/error.h"
 #include "tests/visual_hull/helpers.h"
@@ -65,6 +66,12 @@ TEST_CASE("Pixels that touch in a corner only make rings that touch there") {
   CHECK(diagonal.vertex_count() == 8);
   CHECK(check(diagonal).empty());
   // The chain closes in a corner: an outer ring and a hole that touch there.
+  const Silhouette joined = trace_contours(picture({"#.", ".#"}), PixelOrigin::kCorner, DiagonalPixels::kJoin);
+  CHECK(joined.rings.size() == 1);
+  CHECK(joined.vertex_count() == 10);
+  CHECK(check(joined).empty());
+  CHECK(area(joined) == 2 + 1.0 / 16);  // two triangles with legs of a quarter
+  CHECK(locate(joined, Point2(1, 1)) == Side::kInside);
   const Silhouette closed = trace_contours(picture({".##", "#.#", "###"}), PixelOrigin::kCorner);
   CHECK(closed.rings.size() == 2);
   CHECK(closed.hole_count() == 1);
@@ -96,6 +103,30 @@ TEST_CASE("Contours hold exactly the pixels that are set") {
       for (int x = 0; x < width; ++x) {
         RC_ASSERT((locate(s, Point2(x, y)) == Side::kInside) == (mask.at<std::uint8_t>(y, x) != 0));
       }
+    }
+  });
+}
+
+TEST_CASE("Joined diagonal pixels add two small triangles each, and no two rings touch") {
+  testing::property("area, pixels, and the promises of a silhouette", [] {
+    const int width = *rc::gen::inRange(1, 24);
+    const int height = *rc::gen::inRange(1, 24);
+    const cv::Mat mask = random_mask(width, height, *rc::gen::inRange(0, 3), *rc::gen::arbitrary<std::uint64_t>());
+    const Silhouette s = trace_contours(mask, PixelOrigin::kCenter, DiagonalPixels::kJoin);
+    RC_ASSERT(check(s) == "");
+    const auto set = [&mask](int x, int y) { return mask.at<std::uint8_t>(y, x) != 0; };
+    int pinches = 0;
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        RC_ASSERT((locate(s, Point2(x, y)) == Side::kInside) == set(x, y));
+        if (x == 0 || y == 0 || set(x, y) == set(x - 1, y) || set(x, y) == set(x, y - 1)) continue;
+        if (set(x, y) == set(x - 1, y - 1)) ++pinches;
+      }
+    }
+    RC_ASSERT(area(s) == cv::countNonZero(mask) + pinches / 16.0);
+    std::set<std::array<double, 2>> places;
+    for (const Ring& ring : s.rings) {
+      for (const Point2& p : ring) RC_ASSERT(places.insert(p.approximate).second);
     }
   });
 }
@@ -182,7 +213,7 @@ TEST_CASE("Orientation is exact where doubles are not") {
   const Point2 b(Rational(4, 3), Rational(4, 9));
   const Point2 c(Rational(1000000, 3), Rational(1000000, 9));
   CHECK(orientation(a, b, c) == 0);
-  const Point2 above(c.x, c.y + Rational(1, Integer("1000000000000000000000000")));
+  const Point2 above(c.x(), c.y() + Rational(1, Integer("1000000000000000000000000")));
   CHECK(orientation(a, b, above) == 1);
   CHECK(orientation(b, a, above) == -1);
   CHECK(on_segment(a, c, b));

@@ -64,7 +64,7 @@ TEST_CASE("Simplified silhouettes stay simple, nested and near, whatever the tol
         const Point2& a = ring[i];
         const Point2& b = ring[(i + 1) % ring.size()];
         for (int k = 0; k < 4; ++k) {
-          const Point2 p(a.x + (b.x - a.x) * Rational(k) / 4, a.y + (b.y - a.y) * Rational(k) / 4);
+          const Point2 p(a.x() + (b.x() - a.x()) * Rational(k) / 4, a.y() + (b.y() - a.y()) * Rational(k) / 4);
           RC_ASSERT(locate(after, p) != Side::kOutside);
         }
       }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "apps/visual_hull/scene/camera_planes.h"
 #include "apps/visual_hull/scene/scene_number.h"
 #include "nef/number/floor.h"
 
@@ -14,6 +15,7 @@ namespace {
 // Beyond the numbers of a scene, in bits; what lies beyond the half of it is unbounded.
 constexpr unsigned kLimitBits = 210;
 constexpr double kLimit = 0x1p210;
+constexpr std::size_t kMostBits = 400;  // of coefficients: with a point beyond the limit their products are doubles
 static_assert(kLimit / 2 > kLargestNumber);
 
 /// a . x <= b.
@@ -225,8 +227,18 @@ std::vector<HalfSpace> convex_cone(const Camera& camera, const Silhouette& silho
     std::reverse(points.begin(), points.end());
   }
   std::vector<HalfSpace> result;
+  const CameraPlanes planes(camera);
   for (std::size_t i = 0; i < hull.size(); ++i) {
-    result.push_back(plane_through(camera, hull[i], hull[(i + 1) % hull.size()]));
+    const std::array<Integer, 4> plane = planes.through(hull[i], hull[(i + 1) % hull.size()]);
+    result.push_back({{plane[0], plane[1], plane[2]}, plane[3]});
+    // Within the range of doubles.
+    std::size_t bits = 0;
+    for (const Integer& value : plane) bits = std::max(bits, mpz_sizeinbase(value.get_mpz_t(), 2));
+    if (bits <= kMostBits) continue;
+    HalfSpace& scaled = result.back();
+    for (Rational* value : {&scaled.normal[0], &scaled.normal[1], &scaled.normal[2], &scaled.offset}) {
+      mpq_div_2exp(value->get_mpq_t(), value->get_mpq_t(), bits - kMostBits);
+    }
   }
   return result;
 }

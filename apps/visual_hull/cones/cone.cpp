@@ -10,6 +10,8 @@
 // image is counterclockwise about m_3; with det(M) < 0 both are reversed.
 #include "apps/visual_hull/cones/cone.h"
 
+#include "apps/visual_hull/scene/camera_planes.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -45,9 +47,10 @@ class ConeBuilder {
  public:
   ConeBuilder(const Camera& camera, const Silhouette& silhouette) : positive_(camera.handedness() > 0) {
     collect(silhouette);
+    const CameraPlanes planes(camera);
     for (RingEdge& edge : edges_) {
-      const RationalPlane plane = plane_through(camera, edge.from, edge.to);
-      edge.plane = planes_.intern(plane.normal, plane.offset);
+      const auto [a, b, c, d] = planes.through(edge.from, edge.to);
+      edge.plane = planes_.intern(a, b, c, d);
     }
     for (const RayPlace& place : places_) choose_ray_planes(place);
   }

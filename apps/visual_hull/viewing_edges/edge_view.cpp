@@ -219,6 +219,13 @@ std::optional<int> EdgeView::orient(const Seen& a, const Seen& b, const Seen& c)
   return sign;
 }
 
+std::optional<bool> EdgeView::left_of(const Seen& p, std::uint32_t edge) const {
+  const auto& [c, d] = ends_[edge - first_];
+  const std::optional<int> side = orient(c, d, p);
+  if (!side) return std::nullopt;
+  return *side > 0;
+}
+
 std::optional<bool> EdgeView::crosses(const Seen& a, const Seen& b, std::uint32_t edge) const {
   const auto& [c, d] = ends_[edge - first_];
   const double slack = a.error + b.error + margin_;
@@ -288,7 +295,7 @@ bool EdgeView::build_grid() {
   const double width = high_u - low_u_;
   const double height = high_v - low_v_;
   if (!(width > 0) || !(height > 0)) return false;
-  const double cells = 16.0 * count_ + 16;
+  const double cells = 48.0 * count_ + 16;
   side_ = std::max({std::sqrt(width * height / cells), width / 4000, height / 4000});
   margin_ = side_ * 1e-3;
   low_u_ -= side_ / 3;

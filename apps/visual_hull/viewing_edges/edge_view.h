@@ -109,6 +109,9 @@ class EdgeView {
   /// True if the point lies in the silhouette; nothing if it may lie on the boundary.
   [[nodiscard]] std::optional<bool> inside(const Seen& p) const;
 
+  /// True if the point lies to the left of an edge, where the region is; nothing if it may lie on its line.
+  [[nodiscard]] std::optional<bool> left_of(const Seen& p, std::uint32_t edge) const;
+
   /// Calls visit(edge) for every edge that the segment ab crosses; false if one of them remains undecided. `stamps` has
   /// a number for each edge of the view that is not yet `stamp`.
   template <typename Visit>

@@ -11,9 +11,10 @@ namespace visual_hull {
 namespace {
 
 // Choices between the time of one more halving and that of the pairs that it saves.
-constexpr std::size_t kFewFacets = 10;
+constexpr std::size_t kFewFacets = 16;
 constexpr unsigned kDeepest = 30;  // halvings: ten along each axis
 constexpr unsigned kTaskDepth = 7;
+constexpr unsigned kLook = 3;  // every third time
 
 // Far above the roundings of the sums below, far below the size of a part.
 constexpr double kSlack = 1e-10;
@@ -76,46 +77,54 @@ class Halving {
     half.half[axis] /= 2;
     for (const double side : {-1.0, 1.0}) {
       half.middle[axis] = part.middle[axis] + side * half.half[axis];
-      if (narrow(half, first, views_end)) descend(half, views_end, edges_end, depth + 1);
+      if (narrow(half, first, views_end, depth + 1)) descend(half, views_end, edges_end, depth + 1);
       views_.resize(views_end);
       edges_.resize(edges_end);
     }
   }
 
-  // Appends what the views show in a part; false if one of them shows nothing of the hull.
-  bool narrow(const Part& part, std::size_t first, std::size_t end) {
+  // Appends what the views show in a part; false if one of them shows nothing of the hull. Planes are asked first:
+  // where some pass, what the window tells from parent to child is little.
+  bool narrow(const Part& part, std::size_t first, std::size_t end, unsigned depth) {
+    const bool look = depth % kLook == 0;
     for (std::size_t k = first; k < end; ++k) {
       const Shown shown = views_[k];
-      const EdgeView& view = s_.views[shown.view];
-      const std::optional<EdgeView::Window> window = view.window(part.middle, part.half);
       const auto begin = static_cast<std::uint32_t>(edges_.size());
       for (std::uint32_t i = shown.begin; i < shown.end; ++i) {
-        const std::uint32_t e = edges_[i];
-        if (!window || passes(facets_[e], *window, part)) edges_.push_back(e);
+        if (passes(facets_[edges_[i]], part)) edges_.push_back(edges_[i]);
       }
-      if (edges_.size() > begin) {
-        views_.push_back({shown.view, begin, static_cast<std::uint32_t>(edges_.size())});
-      } else if (window && view.inside(EdgeView::middle_of(*window)) == false) {
-        std::swap(views_[k], views_[first]);  // it may reject the neighbour, too
-        return false;
+      if (look || edges_.size() == begin) {
+        const EdgeView& view = s_.views[shown.view];
+        const std::optional<EdgeView::Window> window = view.window(part.middle, part.half);
+        if (window) {
+          edges_.erase(std::remove_if(edges_.begin() + begin, edges_.end(),
+                                      [&](std::uint32_t e) { return beside(facets_[e], *window); }),
+                       edges_.end());
+          if (edges_.size() == begin && view.inside(EdgeView::middle_of(*window)) == false) {
+            std::swap(views_[k], views_[first]);  // it may reject the neighbour, too
+            return false;
+          }
+        }
       }
+      if (edges_.size() > begin) views_.push_back({shown.view, begin, static_cast<std::uint32_t>(edges_.size())});
     }
     return true;
   }
 
-  static bool passes(const Facet& facet, const EdgeView::Window& window, const Part& part) {
-    for (std::size_t k = 0; k < 2; ++k) {
-      if (facet.low[k] > window.middle[k] + window.half[k] || facet.high[k] < window.middle[k] - window.half[k]) {
-        return false;
-      }
-    }
-    double height = facet.offset;
-    double reach = facet.error;
-    for (std::size_t k = 0; k < 3; ++k) {
-      height += facet.normal[k] * part.middle[k];
-      reach += std::abs(facet.normal[k]) * part.half[k];
-    }
+  static bool passes(const Facet& facet, const Part& part) {
+    const Vec3& n = facet.normal;
+    const double height = facet.offset + n[0] * part.middle[0] + n[1] * part.middle[1] + n[2] * part.middle[2];
+    const double reach =
+        facet.error + std::abs(n[0]) * part.half[0] + std::abs(n[1]) * part.half[1] + std::abs(n[2]) * part.half[2];
     return std::abs(height) <= reach;
+  }
+
+  static bool beside(const Facet& facet, const EdgeView::Window& window) {
+    for (std::size_t k = 0; k < 2; ++k) {
+      if (facet.low[k] > window.middle[k] + window.half[k]) return true;
+      if (facet.high[k] < window.middle[k] - window.half[k]) return true;
+    }
+    return false;
   }
 
   void give(const Part& part, std::size_t first, std::size_t first_edge, unsigned depth) {
@@ -191,13 +200,11 @@ FacetPairs once_each(const std::vector<FacetPairs>& found, std::size_t edges) {
   FacetPairs pairs;
   std::vector<std::uint32_t> seen(edges, UINT32_MAX);
   for (std::uint32_t e = 0; e < edges; ++e) {
-    const std::size_t first = pairs.size();
     for (std::size_t i = begin[e]; i < begin[e + 1]; ++i) {
       if (seen[others[i]] == e) continue;
       seen[others[i]] = e;
       pairs.push_back({e, others[i]});
     }
-    std::sort(pairs.begin() + static_cast<std::ptrdiff_t>(first), pairs.end());
   }
   return pairs;
 }

@@ -9,7 +9,7 @@
 
 namespace visual_hull {
 
-/// Pairs of edges of different views, the smaller number first, ascending, each once.
+/// Pairs of edges of different views, the smaller number first, by that number, each once.
 using FacetPairs = std::vector<std::array<std::uint32_t, 2>>;
 
 /// All pairs of edges in whose two facets an edge of the hull can lie, and some more. Space is halved again and again;

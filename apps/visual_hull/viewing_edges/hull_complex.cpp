@@ -10,6 +10,7 @@
 #include "apps/visual_hull/viewing_edges/hull_complex.h"
 
 #include "apps/visual_hull/cones/boundary_node.h"
+#include "apps/visual_hull/scene/camera_planes.h"
 #include "nef/synthesis/complex_builder.h"
 
 namespace visual_hull {
@@ -20,7 +21,9 @@ using nef::PlaneId;
 class ComplexWriter {
  public:
   ComplexWriter(const std::vector<ViewingEdge>& edges, const std::vector<const Camera*>& cameras)
-      : edges_(edges), cameras_(cameras), planes_(edges.size()) {}
+      : edges_(edges), planes_(edges.size()) {
+    for (const Camera* camera : cameras) cameras_.emplace_back(*camera);
+  }
 
   // False if a corner is straight, or planes share a line.
   [[nodiscard]] bool add(const SpotName& name) {
@@ -49,8 +52,8 @@ class ComplexWriter {
   PlaneId plane(std::uint32_t edge) {
     if (!planes_[edge].valid()) {
       const ViewingEdge& e = edges_[edge];
-      const RationalPlane exact = plane_through(*cameras_[e.view], *e.from, *e.to);
-      planes_[edge] = table_.intern(exact.normal, exact.offset);
+      const auto [a, b, c, d] = cameras_[e.view].through(*e.from, *e.to);
+      planes_[edge] = table_.intern(a, b, c, d);
     }
     return planes_[edge];
   }
@@ -132,7 +135,7 @@ class ComplexWriter {
   }
 
   const std::vector<ViewingEdge>& edges_;
-  const std::vector<const Camera*>& cameras_;
+  std::vector<CameraPlanes> cameras_;
   std::vector<PlaneId> planes_;
   std::vector<Corner> corners_;
   nef::PlaneTable table_;

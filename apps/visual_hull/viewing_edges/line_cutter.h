@@ -161,8 +161,14 @@ class LineCutter {
     if (stamps.empty()) stamps.resize(v.edge_count(), 0);
     events_.clear();
     if (!v.visit_crossed(*a, *b, stamps, ++stamp_, [&](std::uint32_t g) { events_.push_back(event(g)); })) return false;
-    const std::optional<bool> starts_inside = v.inside(*a);
-    if (!starts_inside || !sort_events(e, f)) return false;
+    if (events_.empty()) {
+      const std::optional<bool> all = v.inside(*a);
+      if (all && *all) next_.push_back(interval);
+      return all.has_value();
+    }
+    if (!sort_events(e, f)) return false;
+    const std::optional<bool> starts_inside = v.left_of(*a, events_[0].edge);
+    if (!starts_inside) return false;
     bool inside = *starts_inside;
     Spot from = interval.from;
     for (const Event& event : events_) {

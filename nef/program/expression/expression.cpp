@@ -4,6 +4,7 @@
 #include "nef/program/expression/expression.h"
 
 #include "nef/construct/round_shapes.h"
+#include "nef/program/expression/scanner.h"
 #include "nef/program/expression/syntax_tree.h"
 
 namespace nef {

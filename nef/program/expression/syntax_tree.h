@@ -62,7 +62,4 @@ struct SyntaxNode {
 /// Parses a whole text. Throws ExpressionError.
 SyntaxNode parse_expression(std::string_view text);
 
-/// "column C" or "line L, column C" of a byte of the text.
-std::string place_in_text(std::string_view text, std::size_t offset);
-
 }  // namespace nef

@@ -49,7 +49,7 @@ Solid random_solid(Choices& choices, int steps, int size) {
   return solid;
 }
 
-AffineMap random_shear(Choices& choices) {
+AffineMap random_slight_shear(Choices& choices) {
   AffineMap map = AffineMap::identity();
   if (choices.one_in(3)) return map;
   map.linear[0][1] = Rational(choices.between(-2, 2), 3);
@@ -70,7 +70,7 @@ void fuzz_convolutions(const Case& the_case) {
   the_case.tell("a = " + a.text);
   the_case.tell("b = " + b.text);
   if (a.set.is_empty() || b.set.is_empty()) return;
-  const AffineMap map = random_shear(choices);
+  const AffineMap map = random_slight_shear(choices);
   AffineMap nearly = map;
   nearly.linear[1][0] += Rational(choices.between(-1, 1), 3) / Rational(Integer(1) << 60U);
   if (nearly.determinant() == 0) return;

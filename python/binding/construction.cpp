@@ -33,12 +33,6 @@ Polyhedron polygon(const py::list& rings) {
   return make_polygon(held);
 }
 
-void warn(const Messages& messages) {
-  for (const std::string& message : messages) {
-    if (PyErr_WarnEx(PyExc_UserWarning, message.c_str(), 2) != 0) throw py::error_already_set();
-  }
-}
-
 Polyhedron solid_from_mesh(py::handle vertices, py::handle faces, bool strict, bool surface, bool check) {
   const auto mesh = std::make_shared<const Mesh>(mesh_from_arrays(vertices, faces));
   const MeshOptions options{strict, surface, check};

@@ -6,6 +6,7 @@
 #include <ctime>
 
 #include "binding/base/bindings.h"
+#include "binding/base/errors.h"
 #include "binding/meshes.h"
 #include "nef/export/to_mesh.h"
 #include "nef/io/native/native_format.h"
@@ -13,12 +14,6 @@
 
 namespace nef::python {
 namespace {
-
-void warn(const Messages& messages) {
-  for (const std::string& message : messages) {
-    if (PyErr_WarnEx(PyExc_UserWarning, message.c_str(), 2) != 0) throw py::error_already_set();
-  }
-}
 
 std::string path_text(py::handle path) {
   const py::object text = py::module_::import("os").attr("fspath")(path);

@@ -10,13 +10,13 @@
 namespace nef::test {
 namespace {
 
-Polyhedron eval(const std::string& text) { return evaluate_openscad(text); }
+Polyhedron eval_openscad(const std::string& text) { return evaluate_openscad(text); }
 
-double volume_of(const std::string& text) { return nearest_double(*volume(eval(text))); }
+double volume_of(const std::string& text) { return nearest_double(*volume(eval_openscad(text))); }
 
-std::string refusal(const std::string& text) {
+std::string openscad_refusal(const std::string& text) {
   try {
-    eval(text);
+    eval_openscad(text);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -31,40 +31,41 @@ double polygon_area(unsigned corners, double radius) {
 }  // namespace
 
 TEST_CASE("OpenSCAD: cubes, lists, comments and modifiers", "[openscad]") {
-  CHECK(equal(eval("cube(size = [1, 2, 3], center = false);"), make_box({0, 0, 0}, {1, 2, 3})));
-  CHECK(equal(eval("cube(size=0.2,center=true); // a tenth each side\n"),
+  CHECK(equal(eval_openscad("cube(size = [1, 2, 3], center = false);"), make_box({0, 0, 0}, {1, 2, 3})));
+  CHECK(equal(eval_openscad("cube(size=0.2,center=true); // a tenth each side\n"),
               make_box({Rational(-1, 10), Rational(-1, 10), Rational(-1, 10)},
                        {Rational(1, 10), Rational(1, 10), Rational(1, 10)})));
-  CHECK(equal(eval("/* a\nb */ %cube([9,9,9]); *cube(7); #group() { cube(1); }"), make_box({0, 0, 0}, {1, 1, 1})));
-  CHECK(eval("").is_empty());
-  CHECK(eval("cube([0, 1, 1]); group();").is_empty());
-  CHECK(equal(eval("multmatrix([[0,-1,0,1.5],[1,0,0,0],[0,0,1,1e-1],[0,0,0,1]]) { cube([1,2,3]); }"),
+  CHECK(equal(eval_openscad("/* a\nb */ %cube([9,9,9]); *cube(7); #group() { cube(1); }"),
+              make_box({0, 0, 0}, {1, 1, 1})));
+  CHECK(eval_openscad("").is_empty());
+  CHECK(eval_openscad("cube([0, 1, 1]); group();").is_empty());
+  CHECK(equal(eval_openscad("multmatrix([[0,-1,0,1.5],[1,0,0,0],[0,0,1,1e-1],[0,0,0,1]]) { cube([1,2,3]); }"),
               make_box({Rational(-1, 2), 0, Rational(1, 10)}, {Rational(3, 2), 1, Rational(31, 10)})));
 }
 
 TEST_CASE("OpenSCAD: Booleans are regularized, and nothing is nothing", "[openscad]") {
   const Polyhedron cube = make_box({0, 0, 0}, {1, 1, 1});
-  CHECK(
-      equal(eval("difference() { cube([2,1,1]); multmatrix([[1,0,0,1],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) { cube(1); } }"),
-            cube));
+  CHECK(equal(eval_openscad(
+                  "difference() { cube([2,1,1]); multmatrix([[1,0,0,1],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) { cube(1); } }"),
+              cube));
 }
 
 TEST_CASE("OpenSCAD: intersections, hulls, differences of nothing", "[openscad]") {
   const Polyhedron cube = make_box({0, 0, 0}, {1, 1, 1});
   const std::string beside = "multmatrix([[1,0,0,1],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) { cube(1); }";
-  CHECK(eval("intersection() { cube(1); " + beside + " }").is_empty());
-  CHECK(equal(eval("intersection() { cube(3); cube(1); }"), cube));
-  CHECK(eval("intersection() { cube(3); group(); }").is_empty());
-  CHECK(eval("difference() { group(); cube(1); }").is_empty());
-  CHECK(equal(eval("difference() { cube(1); }"), cube));
-  CHECK(equal(eval("hull() { cube(1); multmatrix([[1,0,0,4],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) { cube(1); } }"),
+  CHECK(eval_openscad("intersection() { cube(1); " + beside + " }").is_empty());
+  CHECK(equal(eval_openscad("intersection() { cube(3); cube(1); }"), cube));
+  CHECK(eval_openscad("intersection() { cube(3); group(); }").is_empty());
+  CHECK(eval_openscad("difference() { group(); cube(1); }").is_empty());
+  CHECK(equal(eval_openscad("difference() { cube(1); }"), cube));
+  CHECK(equal(eval_openscad("hull() { cube(1); multmatrix([[1,0,0,4],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) { cube(1); } }"),
               make_box({0, 0, 0}, {5, 1, 1})));
 }
 
 TEST_CASE("OpenSCAD: how many corners circles have", "[openscad]") {
   // $fn wins; 360 / $fa and the circumference / $fs bound the number otherwise; five at least.
   const auto corners = [](const std::string& arguments) {
-    return counts(eval("cylinder(" + arguments + ", h = 1, center = false);")).facets - 2;
+    return counts(eval_openscad("cylinder(" + arguments + ", h = 1, center = false);")).facets - 2;
   };
   CHECK(corners("$fn = 7, $fa = 12, $fs = 2, r1 = 3, r2 = 3") == 7);
   CHECK(corners("$fn = 2, $fa = 12, $fs = 2, r1 = 3, r2 = 3") == 3);
@@ -88,7 +89,7 @@ TEST_CASE("OpenSCAD: spheres are rings without poles", "[openscad]") {
       const double s = 5 * std::sin(b);
       expected += h / 3 * (polygon_area(n, r) + polygon_area(n, s) + polygon_area(n, 1) * r * s);
     }
-    const Polyhedron set = eval("sphere($fn = " + std::to_string(n) + ", $fa = 12, $fs = 2, r = 5);");
+    const Polyhedron set = eval_openscad("sphere($fn = " + std::to_string(n) + ", $fa = 12, $fs = 2, r = 5);");
     CHECK(nearest_double(*volume(set)) == Approx(expected).epsilon(1e-13));
     // Planar trapezoids all around, a polygon at each end.
     CHECK(counts(set).facets == (rings - 1) * n + 2);
@@ -96,45 +97,47 @@ TEST_CASE("OpenSCAD: spheres are rings without poles", "[openscad]") {
 }
 
 TEST_CASE("OpenSCAD: flat shapes and what is made of them", "[openscad]") {
-  CHECK(
-      equal(eval("square(size = [2, 3], center = true);"), make_box({-1, Rational(-3, 2), 0}, {1, Rational(3, 2), 0})));
+  CHECK(equal(eval_openscad("square(size = [2, 3], center = true);"),
+              make_box({-1, Rational(-3, 2), 0}, {1, Rational(3, 2), 0})));
   const std::string ring =
       "polygon(points = [[0,0],[3,0],[3,3],[0,3],[1,1],[2,1],[2,2],[1,2]], "
       "paths = [[0,1,2,3],[4,5,6,7]], convexity = 1);";
-  CHECK(surface_area(eval(ring)) == Approx(8));
-  CHECK(volume(eval("linear_extrude(height = 5, center = true, scale = [1, 1]) { " + ring + " }")) == Rational(40));
-  CHECK(volume(eval("linear_extrude(height = 3, scale = 0) { " + ring + " }")) == Rational(8));
-  CHECK(volume(eval("linear_extrude(height = 3, scale = [2, 2]) { square(1); }")) == Rational(7));
+  CHECK(surface_area(eval_openscad(ring)) == Approx(8));
+  CHECK(volume(eval_openscad("linear_extrude(height = 5, center = true, scale = [1, 1]) { " + ring + " }")) ==
+        Rational(40));
+  CHECK(volume(eval_openscad("linear_extrude(height = 3, scale = 0) { " + ring + " }")) == Rational(8));
+  CHECK(volume(eval_openscad("linear_extrude(height = 3, scale = [2, 2]) { square(1); }")) == Rational(7));
   // A square turned about z: a ring of trapezoids.
   const std::string turned =
       "rotate_extrude(angle = 360, $fn = 12) { multmatrix([[1,0,0,2],[0,1,0,0],[0,0,1,0],"
       "[0,0,0,1]]) { square(1); } }";
   CHECK(volume_of(turned) == Approx(polygon_area(12, 3) - polygon_area(12, 2)).epsilon(1e-13));
-  CHECK(counts(eval(turned)).volumes == 2);
+  CHECK(counts(eval_openscad(turned)).volumes == 2);
   CHECK(volume_of("rotate_extrude(angle = 90, $fn = 16) { square([2, 3]); }") ==
         Approx(3 * polygon_area(16, 2) / 4).epsilon(1e-13));
 }
 
 TEST_CASE("OpenSCAD: solids from points run clockwise", "[openscad]") {
-  CHECK(volume(eval("polyhedron(points = [[0,0,0],[1,0,0],[0,1,0],[0,0,1]], "
-                    "faces = [[0,1,2],[0,3,1],[1,3,2],[0,2,3]], convexity = 1);")) == Rational(1, 6));
+  CHECK(volume(eval_openscad("polyhedron(points = [[0,0,0],[1,0,0],[0,1,0],[0,0,1]], "
+                             "faces = [[0,1,2],[0,3,1],[1,3,2],[0,2,3]], convexity = 1);")) == Rational(1, 6));
 }
 
 TEST_CASE("OpenSCAD: what is wrong, and where", "[openscad]") {
-  CHECK(refusal("cube(1)") == "line 1: expected ';', found the end");
-  CHECK(refusal("\n\ngroup() { cube(1);") == "line 3: '{' of line 3 is not closed");
-  CHECK(refusal("cube(1);\ncube(w);").rfind("line 2: 'w' is no number", 0) == 0);
-  CHECK(refusal("group() {\n text(text = \"a\"); }").rfind("line 2: text: this is not supported", 0) == 0);
-  CHECK(refusal("group() {\n square(1);\n cube(1); }") == "line 1: group: it mixes 2D and 3D objects");
-  CHECK(refusal("minkowski() { cube(1); cube(1); }") == "line 1: minkowski: Minkowski sums cannot be computed here");
-  CHECK(refusal("import(file = \"a.stl\");") == "line 1: import: files cannot be read here");
-  CHECK(refusal("polyhedron(points = [[0,0,0]], faces = [[0,1,2]]);").find("an index names no point") !=
+  CHECK(openscad_refusal("cube(1)") == "line 1: expected ';', found the end");
+  CHECK(openscad_refusal("\n\ngroup() { cube(1);") == "line 3: '{' of line 3 is not closed");
+  CHECK(openscad_refusal("cube(1);\ncube(w);").rfind("line 2: 'w' is no number", 0) == 0);
+  CHECK(openscad_refusal("group() {\n text(text = \"a\"); }").rfind("line 2: text: this is not supported", 0) == 0);
+  CHECK(openscad_refusal("group() {\n square(1);\n cube(1); }") == "line 1: group: it mixes 2D and 3D objects");
+  CHECK(openscad_refusal("minkowski() { cube(1); cube(1); }") ==
+        "line 1: minkowski: Minkowski sums cannot be computed here");
+  CHECK(openscad_refusal("import(file = \"a.stl\");") == "line 1: import: files cannot be read here");
+  CHECK(openscad_refusal("polyhedron(points = [[0,0,0]], faces = [[0,1,2]]);").find("an index names no point") !=
         std::string::npos);
-  CHECK(refusal("polygon(points = [[0,0],[1,1],[1,0],[0,1]]);").rfind("line 1: polygon: ", 0) == 0);
-  CHECK(refusal(std::string(100000, '[')).rfind("line 1: ", 0) == 0);
+  CHECK(openscad_refusal("polygon(points = [[0,0],[1,1],[1,0],[0,1]]);").rfind("line 1: polygon: ", 0) == 0);
+  CHECK(openscad_refusal(std::string(100000, '[')).rfind("line 1: ", 0) == 0);
   std::string deep;
   for (int i = 0; i < 5000; ++i) deep += "group(){";
-  CHECK(refusal(deep).find("nested too deeply") != std::string::npos);
+  CHECK(openscad_refusal(deep).find("nested too deeply") != std::string::npos);
 }
 
 TEST_CASE("OpenSCAD: the program reads models and what they import, and sums are computed", "[openscad]") {

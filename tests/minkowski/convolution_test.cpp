@@ -15,6 +15,7 @@
 #include "apps/minkowski/morphology.h"
 #include "nef/construct/construct.h"
 #include "tests/support/fixed_cases.h"
+#include "tests/support/hard_points.h"
 #include "tests/support/random_polyhedra.h"
 
 namespace {
@@ -27,11 +28,10 @@ using nef::minkowski::MinkowskiOptions;
 using nef::minkowski::MinkowskiReport;
 using nef::minkowski::UnionStrategy;
 using nef::test::check;
+using nef::test::moved;
 using nef::test::Recipe;
 using nef::test::recipes;
 using nef::test::valid;
-
-Polyhedron moved(const Polyhedron& a, const Rational3& by) { return nef::transform(a, nef::AffineMap::translate(by)); }
 
 Polyhedron convolution(const Polyhedron& a, const Polyhedron& b) {
   MinkowskiOptions options;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apps/minkowski/minkowski.h"
+#include "tests/support/hard_points.h"
 #include "tests/support/literals.h"
 
 namespace {
@@ -16,6 +17,8 @@ using nef::Polyhedron;
 using nef::Rational;
 using nef::Rational3;
 using nef::minkowski::minkowski_sum;
+using nef::test::hard_points;
+using nef::test::moved;
 using nef::test::set;
 using nef::test::valid;
 
@@ -58,27 +61,6 @@ const std::vector<std::string>& partners() {
   return kSets;
 }
 
-Polyhedron moved(const Polyhedron& a, const Rational3& by) { return nef::transform(a, nef::AffineMap::translate(by)); }
-
-// Points that are hard for a sum: its vertices, and the middles of its edges and between vertices.
-std::vector<Rational3> adversarial_points(const Polyhedron& sum) {
-  const nef::Complex& c = sum.complex();
-  std::vector<Rational3> points;
-  std::vector<Rational3> vertices;
-  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) vertices.push_back(c.points.rational(nef::PointId(v)));
-  const auto middle = [](const Rational3& a, const Rational3& b) {
-    return Rational3{Rational((a[0] + b[0]) / 2), Rational((a[1] + b[1]) / 2), Rational((a[2] + b[2]) / 2)};
-  };
-  for (std::size_t v = 0; v < vertices.size(); v += 1 + vertices.size() / 12) {
-    points.push_back(vertices[v]);
-    points.push_back(middle(vertices[v], vertices[(v * 7 + 3) % vertices.size()]));
-  }
-  for (std::uint32_t h = 0; h < c.svertices.size(); h += 1 + static_cast<std::uint32_t>(c.svertices.size()) / 12) {
-    points.push_back(middle(vertices[c.svertex_owner[h]], vertices[c.target(h)]));
-  }
-  return points;
-}
-
 TEST_CASE("sums commute, and x is in A + B iff A meets x - B") {
   for (std::size_t i = 0; i < zoo().size(); ++i) {
     const std::string& text_b = partners()[i % partners().size()];
@@ -88,7 +70,7 @@ TEST_CASE("sums commute, and x is in A + B iff A meets x - B") {
     const Polyhedron sum = valid(minkowski_sum(a, b), "sum");
     CHECK(nef::equal(sum, minkowski_sum(b, a)));
     const Polyhedron turned = nef::minkowski::negate(b);
-    std::vector<Rational3> points = adversarial_points(sum);
+    std::vector<Rational3> points = hard_points(sum, 12);
     for (std::size_t k = 0; k < points.size(); ++k) {
       const bool meets = !nef::intersect(a, moved(turned, points[k])).is_empty();
       CAPTURE(nef::to_string(points[k][0]), nef::to_string(points[k][1]), nef::to_string(points[k][2]));

@@ -8,6 +8,7 @@
 
 #include "apps/minkowski/convex/tools.h"
 #include "apps/minkowski/morphology.h"
+#include "tests/support/hard_points.h"
 #include "tests/support/literals.h"
 #include "tests/support/random_polyhedra.h"
 
@@ -18,12 +19,11 @@ using nef::Rational;
 using nef::Rational3;
 using nef::minkowski::minkowski_sum;
 using nef::minkowski::Side;
+using nef::test::moved;
 using nef::test::Recipe;
 using nef::test::recipes;
 using nef::test::set;
 using nef::test::valid;
-
-Polyhedron moved(const Polyhedron& a, const Rational3& by) { return transform(a, nef::AffineMap::translate(by)); }
 
 Rational dot(const Rational3& a, const Rational3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 

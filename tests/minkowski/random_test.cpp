@@ -14,6 +14,7 @@
 #include "apps/minkowski/union/solid_union.h"
 #include "nef/construct/convex_hull.h"
 #include "tests/support/fixed_cases.h"
+#include "tests/support/hard_points.h"
 #include "tests/support/random_polyhedra.h"
 
 namespace {
@@ -28,38 +29,11 @@ using nef::minkowski::MinkowskiOptions;
 using nef::minkowski::negate;
 using nef::minkowski::UnionStrategy;
 using nef::test::check;
+using nef::test::hard_points;
+using nef::test::moved;
 using nef::test::Recipe;
 using nef::test::recipes;
 using nef::test::valid;
-
-Polyhedron moved(const Polyhedron& a, const Rational3& by) { return nef::transform(a, nef::AffineMap::translate(by)); }
-
-// Vertices, middles of edges, and middles of corners of facets of a sum: where it is decided.
-std::vector<Rational3> adversarial_points(const Polyhedron& sum) {
-  const nef::Complex& c = sum.complex();
-  const auto vertex = [&](std::uint32_t v) { return c.points.rational(nef::PointId(v)); };
-  const auto middle = [](const std::vector<Rational3>& points) {
-    Rational3 m;
-    for (const Rational3& p : points) {
-      for (std::size_t i = 0; i < 3; ++i) m[i] += p[i] / static_cast<unsigned long>(points.size());
-    }
-    return m;
-  };
-  std::vector<Rational3> points;
-  for (std::uint32_t v = 0; v < c.vertex_count(); v += 1 + static_cast<std::uint32_t>(c.vertex_count()) / 6) {
-    points.push_back(vertex(v));
-  }
-  for (std::uint32_t h = 0; h < c.svertices.size(); h += 1 + static_cast<std::uint32_t>(c.svertices.size()) / 6) {
-    points.push_back(middle({vertex(c.svertex_owner[h]), vertex(c.target(h))}));
-  }
-  for (std::uint32_t f = 0; f < c.facet_count(); f += 1 + static_cast<std::uint32_t>(c.facet_count()) / 6) {
-    const auto corners = c.corners_of(c.facets[nef::FacetId{f}].first_cycle);
-    if (corners.size() < 3) continue;
-    const auto corner = [&](std::size_t k) { return vertex(c.shalfedge_owner[corners[k]]); };
-    points.push_back(middle({corner(0), corner(1), corner(corners.size() / 2 + 1 - corners.size() % 2)}));
-  }
-  return points;
-}
 
 TEST_CASE("random: x is in A + B iff A meets x - B; sums commute") {
   check("membership", 300, [] {
@@ -71,7 +45,7 @@ TEST_CASE("random: x is in A + B iff A meets x - B; sums commute") {
     RC_ASSERT(nef::equal(sum, minkowski_sum(b, a)));
     RC_ASSERT(sum.is_empty() == (a.is_empty() || b.is_empty()));
     const Polyhedron turned = negate(b);
-    for (const Rational3& x : adversarial_points(sum)) {
+    for (const Rational3& x : hard_points(sum, 6)) {
       RC_ASSERT(nef::contains(sum, x) == !nef::intersect(a, moved(turned, x)).is_empty());
     }
   });

@@ -23,7 +23,7 @@ using nlohmann::json;
 constexpr const char* kAllCovered = "all subassemblies";
 constexpr const char* kSomeCovered = "single parts and what the blocking graph ties together";
 
-void check_options(const Arguments& a) {
+void check_assembly_options(const Arguments& a) {
   const bool other = !a.scene.empty() || !a.start.empty() || !a.goal.empty() || !a.contact.empty() || a.tight ||
                      !a.given_path.empty() || !a.queries.empty() || !a.ompl.empty() || !a.benchmark.empty();
   if (other) throw InputError("--assembly knows --json, --quiet, --page and -o only, and no scene");
@@ -197,7 +197,7 @@ json assembly_json(const Disassembly& answer, const Assembly& assembly) {
 }
 
 int run_assembly(const Arguments& a) {
-  check_options(a);
+  check_assembly_options(a);
   const Stopwatch watch;
   const Assembly assembly = read_assembly(a.assembly);
   if (!a.free_directions.empty()) return tell_free_directions(a, assembly);

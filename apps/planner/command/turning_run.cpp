@@ -17,7 +17,7 @@
 namespace nef::planner {
 namespace {
 
-void check_options(const Arguments& a) {
+void check_turning_options(const Arguments& a) {
   const bool other = a.tight || !a.given_path.empty() || !a.queries.empty() || !a.benchmark.empty() ||
                      a.path.min_dimension > 0 || a.path.clearance || a.se3;
   if (other) {
@@ -67,7 +67,7 @@ int check_proof(const Arguments& a, const Scene& scene) {
 }  // namespace
 
 int run_turning(const Arguments& a, const Scene& scene, const nlohmann::json& widest) {
-  check_options(a);
+  check_turning_options(a);
   if (!a.check_proof.empty()) return check_proof(a, scene);
   const Stopwatch watch;
   TurningLimits limits;

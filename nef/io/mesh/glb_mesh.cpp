@@ -26,9 +26,9 @@ constexpr std::uint32_t kBinaryChunk = 0x004e4942;
 enum ComponentType : int { kUint8 = 5121, kUint16 = 5123, kUint32 = 5125, kFloat = 5126 };
 enum PrimitiveMode : int { kTriangles = 4, kTriangleStrip = 5, kTriangleFan = 6 };
 
-class Reader {
+class GlbReader {
  public:
-  Reader(std::string_view bytes, const std::string& path) : path_(path) {
+  GlbReader(std::string_view bytes, const std::string& path) : path_(path) {
     BinaryCursor header(bytes, path, 0, std::endian::little);
     if (header.take<std::uint32_t>("header") != kMagic) fail(FileProblem::kSyntax, "this is no binary glTF");
     if (header.take<std::uint32_t>("header") != 2) fail(FileProblem::kUnsupported, "only version 2 of glTF is read");
@@ -300,7 +300,7 @@ void append_groups(nlohmann::ordered_json& document, std::string& binary, const 
 
 }  // namespace
 
-Mesh read_glb(std::string_view bytes, const std::string& path) { return Reader(bytes, path).read(); }
+Mesh read_glb(std::string_view bytes, const std::string& path) { return GlbReader(bytes, path).read(); }
 
 std::string glb_bytes(const Mesh& mesh, const FaceGroups& groups) {
   const MeshSurface surface(mesh);

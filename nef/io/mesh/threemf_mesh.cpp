@@ -172,9 +172,9 @@ std::string model_part(ZipArchive& archive, const std::string& path) {
   return target.starts_with("/") ? target : "/" + target;
 }
 
-class Reader {
+class ModelReader {
  public:
-  Reader(std::string_view bytes, const std::string& path) : path_(path), archive_(bytes, path) {}
+  ModelReader(std::string_view bytes, const std::string& path) : path_(path), archive_(bytes, path) {}
 
   Mesh read() {
     const std::string root = model_part(archive_, path_);
@@ -244,7 +244,7 @@ class Reader {
 
 }  // namespace
 
-Mesh read_3mf(std::string_view bytes, const std::string& path) { return Reader(bytes, path).read(); }
+Mesh read_3mf(std::string_view bytes, const std::string& path) { return ModelReader(bytes, path).read(); }
 
 std::string threemf_bytes(const Mesh& mesh) {
   const MeshSurface surface(mesh);

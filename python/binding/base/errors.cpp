@@ -7,9 +7,10 @@
 #include "nef/program/expression/expression.h"
 
 namespace nef::python {
-namespace {
 
 namespace py = pybind11;
+
+namespace {
 
 void raise(const char* type, const Error& error, const py::dict& attributes) {
   const py::object exception = py::module_::import("nef.errors").attr(type);
@@ -35,6 +36,12 @@ py::dict guilty_elements(const MeshError& error) {
 }
 
 }  // namespace
+
+void warn(const Messages& messages) {
+  for (const std::string& message : messages) {
+    if (PyErr_WarnEx(PyExc_UserWarning, message.c_str(), 2) != 0) throw py::error_already_set();
+  }
+}
 
 void register_errors() {
   py::register_exception_translator([](std::exception_ptr pointer) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "nef/base/error.h"
+#include "nef/construct/construct.h"
 #include "nef/mesh/mesh_check.h"
 
 namespace nef::python {
@@ -19,6 +20,9 @@ class MeshError : public InputError {
  private:
   std::vector<MeshProblem> problems_;
 };
+
+/// Gives each note as a UserWarning of Python, at the line of the caller.
+void warn(const Messages& messages);
 
 /// Makes the exceptions of nef.errors out of those of the suite, for all extension modules. Called once.
 void register_errors();

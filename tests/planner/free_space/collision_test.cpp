@@ -22,7 +22,7 @@ Polyhedron random_box(std::mt19937& random, int span) {
   return make_box(low, high);
 }
 
-Scene random_scene(std::mt19937& random) {
+Scene random_sets(std::mt19937& random) {
   Scene scene;
   scene.robot = unite(random_box(random, 1), random_box(random, 1));
   for (int i = 0; i < 3; ++i) {
@@ -53,7 +53,7 @@ TEST_CASE("a position is free or hits something, for robots and obstacles of mix
   for (unsigned seed = 0; seed < 60; ++seed) {
     INFO("seed " << seed);
     std::mt19937 random(seed);
-    Scene scene = random_scene(random);
+    Scene scene = random_sets(random);
     for (const ContactRule contact : {ContactRule::kAllow, ContactRule::kForbid}) {
       scene.contact = contact;
       const FreeSpace free(free_positions(scene));

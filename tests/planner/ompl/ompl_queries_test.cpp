@@ -57,8 +57,8 @@ struct EndlessGoal : ob::GoalSampleableRegion {
   mutable int drawn_ = 0;
 };
 
-struct World {
-  World() : problem(load("s1_tight_hole")), setup(problem), si(setup.getSpaceInformation()), planner(si) {
+struct PlannedWorld {
+  PlannedWorld() : problem(load("s1_tight_hole")), setup(problem), si(setup.getSpaceInformation()), planner(si) {
     setup.setup();
     planner.setup();
   }
@@ -69,7 +69,7 @@ struct World {
 };
 
 TEST_CASE("goals out of reach and invalid ones are answered without waiting for the time to end") {
-  World world;
+  PlannedWorld world;
   const ob::PlannerTerminationCondition never = ob::plannerNonTerminatingCondition();
   auto goals = std::make_shared<ob::GoalStates>(world.si);
   goals->addState(at(world.si, 4, 0, 0));
@@ -84,7 +84,7 @@ TEST_CASE("goals out of reach and invalid ones are answered without waiting for 
 }
 
 TEST_CASE("a goal region without end: the search goes on until the time is over, and nothing is proved") {
-  World world;
+  PlannedWorld world;
   const EndlessGoal::Point outside{-2, 0, 0};
   const EndlessGoal::Point in_the_wall{4, 0, 0};
   const EndlessGoal::Point in_reach{7, 1, 1};
@@ -102,7 +102,7 @@ TEST_CASE("a goal region without end: the search goes on until the time is over,
 }
 
 TEST_CASE("goals that a thread finds later are waited for") {
-  World world;
+  PlannedWorld world;
   int drawn = 0;
   const auto sampler = [&](const ob::GoalLazySamples* /*goal*/, ob::State* state) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
@@ -115,7 +115,7 @@ TEST_CASE("goals that a thread finds later are waited for") {
 }
 
 TEST_CASE("another problem for the same planner forgets the states of the first") {
-  World world;
+  PlannedWorld world;
   const auto goal_at = [&](double x) {
     auto goals = std::make_shared<ob::GoalStates>(world.si);
     goals->addState(at(world.si, x, 1, 1));
@@ -161,7 +161,7 @@ TEST_CASE("start and goal may lie far out, also after the first solution") {
 }
 
 TEST_CASE("planner data: start and goal are marked, every edge is a free motion") {
-  World world;
+  PlannedWorld world;
   auto goals = std::make_shared<ob::GoalStates>(world.si);
   goals->addState(at(world.si, 7, 1, 1));
   REQUIRE(ask(world.planner, goals, ob::plannerNonTerminatingCondition()));
@@ -182,7 +182,7 @@ TEST_CASE("planner data: start and goal are marked, every edge is a free motion"
 }
 
 TEST_CASE("states that are no numbers are not valid, nor are motions to them") {
-  const World world;
+  const PlannedWorld world;
   for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
     const ob::ScopedState<> good = at(world.si, 1, 1, 1);
     const ob::ScopedState<> state = at(world.si, 1, bad, 1);
@@ -199,7 +199,7 @@ TEST_CASE("states that are no numbers are not valid, nor are motions to them") {
 }
 
 TEST_CASE("states are printed with their rationals") {
-  const World world;
+  const PlannedWorld world;
   ob::ScopedState<> state = at(world.si, 0.25, 1, 1);
   const auto text = [&] {
     std::ostringstream out;

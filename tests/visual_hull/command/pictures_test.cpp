@@ -15,12 +15,12 @@ namespace {
 
 using testing::Scratch;
 
-std::string data(const std::string& name) { return source_folder() + "/data/visual_hull/" + name; }
+std::string hull_data(const std::string& name) { return source_folder() + "/data/visual_hull/" + name; }
 
 Result eight() {
   Options options;
   options.silhouette.simplify.tolerance = 3;
-  return compute(read_scene(data("eight/eight.json")), data("eight"), options);
+  return compute(read_scene(hull_data("eight/eight.json")), hull_data("eight"), options);
 }
 
 // (u, v) of a point of space, in double precision.
@@ -57,7 +57,7 @@ TEST_CASE("A page has the hull, and each camera with its image where the camera 
 }
 
 TEST_CASE("Views of polygons show their outline and lines of sight; corner origins shift the frame") {
-  const Result letters = compute(read_scene(data("letters/mpi.vsh")), {}, {});
+  const Result letters = compute(read_scene(hull_data("letters/mpi.vsh")), {}, {});
   const auto layers = page_layers(letters, PixelOrigin::kCenter);
   CHECK(layers[1].photos.empty());
   CHECK(layers[1].lines.size() == 4 + 3 * 4);  // four rings, four lines of sight for each camera
@@ -85,7 +85,7 @@ TEST_CASE("Images that browsers do not know become PNGs") {
 
 TEST_CASE("A preview is four pictures of the hull") {
   const Scratch s;
-  const Result letters = compute(read_scene(data("letters/mpi.vsh")), {}, {});
+  const Result letters = compute(read_scene(hull_data("letters/mpi.vsh")), {}, {});
   write_preview(letters, s.folder() / "deep" / "down");
   for (const char* name : {"hull.png", "hull_front.png", "hull_right.png", "hull_top.png"}) {
     const cv::Mat picture = cv::imread((s.folder() / "deep" / "down" / name).string(), cv::IMREAD_GRAYSCALE);

@@ -6,10 +6,10 @@
 namespace nef {
 namespace {
 
-using Operation = Polyhedron (*)(const Polyhedron&);
+using UnaryOperation = Polyhedron (*)(const Polyhedron&);
 
 void add(CLI::App& app, Session& session, const std::string& name, const std::string& description,
-         Operation operation) {
+         UnaryOperation operation) {
   CLI::App* command = add_subcommand(app, session, name, description);
   command->add_option("input", session.input, "The set, as a file")->required();
   add_input_flags(command, session);

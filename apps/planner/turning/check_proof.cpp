@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <iterator>
 
 #include "apps/minkowski/minkowski.h"
 #include "apps/planner/turning/reachable_part.h"
@@ -15,18 +16,12 @@ namespace {
 
 using Points = std::vector<Rational3>;
 
-// Thrown where the proof does not hold.
-struct Complaint {
-  std::string text;
-};
+// What does not hold; nothing if all does.
+using Complaint = std::optional<std::string>;
 
-void require(bool holds, const std::string& text) {
-  if (!holds) throw Complaint{text};
-}
-
-// The convex pieces of a set by their vertices, and that they are no more than the set; of a solid the solid ones. (The
+// The convex pieces of a set by their vertices, if they are no more than the set; of a solid the solid ones. (The
 // inside of a solid without the walls between the pieces is dense in it, so it meets the same open sets.)
-std::vector<Points> pieces_of(const Polyhedron& set) {
+std::optional<std::vector<Points>> pieces_of(const Polyhedron& set) {
   std::vector<Points> pieces;
   std::vector<Polyhedron> hulls;
   const bool solid = set.is_regular();
@@ -35,52 +30,62 @@ std::vector<Points> pieces_of(const Polyhedron& set) {
     pieces.push_back(cell.mesh.vertices);
     hulls.push_back(convex_hull(pieces.back()));
   }
-  require(subtract(unite_all(hulls), set).is_empty(), "a set was cut into pieces that are not in it");
+  if (!subtract(unite_all(hulls), set).is_empty()) return std::nullopt;
   return pieces;
 }
 
 class ProofCheck {
  public:
   ProofCheck(const TurningProof& proof, const Scene& scene, const TurningQuestion& question)
-      : proof_(proof), scene_(scene), q_(question) {
-    require(scene.robot.is_bounded() && scene.robot.is_regular(), "the robot is no bounded solid");
-    robot_ = pieces_of(scene.robot);
-    for (const Polyhedron& obstacle : scene.obstacles) {
-      for (Points& piece : pieces_of(closure(reachable_part(obstacle, scene)))) {
-        obstacles_.push_back(std::move(piece));
-      }
-    }
-    for (const Points& piece : robot_) meshes_.push_back(convex_hull_mesh(piece));
-  }
+      : proof_(proof), scene_(scene), q_(question) {}
 
-  void run() {
-    check_breakpoints();
-    for (std::size_t i = 0; i < proof_.cells.size(); ++i) check_inner(i);
-    join();
-    check_sides();
+  Complaint run() {
+    for (const auto check : {&ProofCheck::cut_up, &ProofCheck::check_breakpoints, &ProofCheck::check_inner_robots,
+                             &ProofCheck::join, &ProofCheck::check_sides}) {
+      if (Complaint complaint = (this->*check)()) return complaint;
+    }
+    return std::nullopt;
   }
 
  private:
+  Complaint cut_up() {
+    static const std::string kWrongPieces = "a set was cut into pieces that are not in it";
+    if (!scene_.robot.is_bounded() || !scene_.robot.is_regular()) return "the robot is no bounded solid";
+    std::optional<std::vector<Points>> robot = pieces_of(scene_.robot);
+    if (!robot) return kWrongPieces;
+    robot_ = *std::move(robot);
+    for (const Points& piece : robot_) meshes_.push_back(convex_hull_mesh(piece));
+    for (const Polyhedron& obstacle : scene_.obstacles) {
+      std::optional<std::vector<Points>> pieces = pieces_of(closure(reachable_part(obstacle, scene_)));
+      if (!pieces) return kWrongPieces;
+      std::move(pieces->begin(), pieces->end(), std::back_inserter(obstacles_));
+    }
+    return std::nullopt;
+  }
+
   [[nodiscard]] std::string cell_name(std::size_t i) const {
     return "cell " + std::to_string(i) + " (" + std::to_string(q_.axis.degrees_of(proof_.breakpoints[i])) + " to " +
            std::to_string(q_.axis.degrees_of(proof_.breakpoints[i + 1])) + " degrees)";
   }
 
-  void check_breakpoints() const {
+  Complaint check_breakpoints() {
     const std::vector<Turn>& at = proof_.breakpoints;
-    require(at.size() == proof_.cells.size() + 1 && at.size() >= 2, "there must be a cell between two breakpoints");
-    require(at.front() == q_.low && at.back() == q_.high, "the breakpoints do not cover the range of the scene");
+    if (at.size() != proof_.cells.size() + 1 || at.size() < 2) return "there must be a cell between two breakpoints";
+    if (at.front() != q_.low || at.back() != q_.high) return "the breakpoints do not cover the range of the scene";
     for (const Turn& end : {q_.start.turn, q_.goal.turn}) {
-      require(std::find(at.begin(), at.end(), end) != at.end(), "start and goal must be at breakpoints");
+      if (std::find(at.begin(), at.end(), end) == at.end()) return "start and goal must be at breakpoints";
     }
     const Rational3& n = q_.axis.direction();
     const Rational3 across = cross(n, n[0] == 0 && n[1] == 0 ? Rational3{1, 0, 0} : Rational3{0, 0, 1});
     for (std::size_t i = 0; i + 1 < at.size(); ++i) {
-      require(at[i] < at[i + 1] && at[i + 1] - at[i] < 2, "breakpoint " + std::to_string(i + 1) + " is out of order");
+      if (at[i] >= at[i + 1] || at[i + 1] - at[i] >= 2) {
+        return "breakpoint " + std::to_string(i + 1) + " is out of order";
+      }
       const Rational3 from = q_.axis.rotation(at[i])(across);
       const Rational3 to = q_.axis.rotation(at[i + 1])(across);
-      require(dot(n, cross(from, to)) > 0, cell_name(i) + " is wider than a half turn");
+      if (dot(n, cross(from, to)) <= 0) return cell_name(i) + " is wider than a half turn";
     }
+    return std::nullopt;
   }
 
   // True if a point that stands still is in the robot's piece at every angle from a to b.
@@ -110,16 +115,19 @@ class ProofCheck {
     return true;
   }
 
-  void check_inner(std::size_t i) const {
-    const AffineMap at_a = q_.axis.rotation(proof_.breakpoints[i]);
-    const AffineMap at_b = q_.axis.rotation(proof_.breakpoints[i + 1]);
-    for (const Points& inner : proof_.cells[i].inner) {
-      const bool held = std::any_of(meshes_.begin(), meshes_.end(), [&](const Mesh& piece) {
-        return std::all_of(inner.begin(), inner.end(),
-                           [&](const Rational3& v) { return stays_inside(v, piece, at_a, at_b); });
-      });
-      require(held, "the robot does not hold its inner robot at every angle of " + cell_name(i));
+  Complaint check_inner_robots() {
+    for (std::size_t i = 0; i < proof_.cells.size(); ++i) {
+      const AffineMap at_a = q_.axis.rotation(proof_.breakpoints[i]);
+      const AffineMap at_b = q_.axis.rotation(proof_.breakpoints[i + 1]);
+      for (const Points& inner : proof_.cells[i].inner) {
+        const bool held = std::any_of(meshes_.begin(), meshes_.end(), [&](const Mesh& piece) {
+          return std::all_of(inner.begin(), inner.end(),
+                             [&](const Rational3& v) { return stays_inside(v, piece, at_a, at_b); });
+        });
+        if (!held) return "the robot does not hold its inner robot at every angle of " + cell_name(i);
+      }
     }
+    return std::nullopt;
   }
 
   // The components of the positions at which no piece of the robot is in the way.
@@ -150,7 +158,7 @@ class ProofCheck {
 
   // Breakpoint 0, cell 0, breakpoint 1, ...: the components of each, and their numbers among all. The last breakpoint
   // of a ring is the first one.
-  void join() {
+  Complaint join() {
     for (std::size_t i = 0; i < proof_.breakpoints.size(); ++i) {
       const bool closes = i + 1 == proof_.breakpoints.size() && q_.is_ring();
       layers_.push_back(closes ? layers_.front() : layer_of(robot_at(proof_.breakpoints[i])));
@@ -166,6 +174,7 @@ class ProofCheck {
         }
       }
     }
+    return std::nullopt;
   }
 
   struct Layer {
@@ -186,31 +195,34 @@ class ProofCheck {
     return std::nullopt;
   }
 
-  [[nodiscard]] std::uint32_t end_of(const Pose& pose, const std::string& name) const {
+  // The number of the component of a start or goal; nothing if that is not free.
+  [[nodiscard]] std::optional<std::uint32_t> end_of(const Pose& pose) const {
     const auto at = std::find(proof_.breakpoints.begin(), proof_.breakpoints.end(), pose.turn);
-    const auto component =
-        component_at(layers_[2 * static_cast<std::size_t>(at - proof_.breakpoints.begin())], pose.position);
-    require(component.has_value(), "the " + name + " is not free");
-    return *component;
+    return component_at(layers_[2 * static_cast<std::size_t>(at - proof_.breakpoints.begin())], pose.position);
   }
 
-  void check_sides() {
-    const std::uint32_t start = joined_.find(end_of(q_.start, "start"));
-    require(joined_.find(end_of(q_.goal, "goal")) != start, "start and goal are not apart");
+  Complaint check_sides() {
+    const std::optional<std::uint32_t> start = end_of(q_.start);
+    const std::optional<std::uint32_t> goal = end_of(q_.goal);
+    if (!start || !goal) return std::string("the ") + (start ? "goal" : "start") + " is not free";
+    const std::uint32_t side = joined_.find(*start);
+    if (joined_.find(*goal) == side) return "start and goal are not apart";
     for (std::size_t i = 0; i < proof_.cells.size(); ++i) {
       const Layer& layer = layers_[2 * i + 1];
       std::vector<bool> named(layer.components.size(), false);
       for (const Rational3& point : proof_.cells[i].start_side) {
         const auto component = component_at(layer, point);
-        require(component && joined_.find(*component) == start,
-                cell_name(i) + " names a position that is not joined to the start");
+        if (!component || joined_.find(*component) != side) {
+          return cell_name(i) + " names a position that is not joined to the start";
+        }
         named[*component - layer.first] = true;
       }
       for (std::size_t a = 0; a < named.size(); ++a) {
-        const bool of_start = joined_.find(static_cast<std::uint32_t>(layer.first + a)) == start;
-        require(named[a] == of_start, cell_name(i) + " leaves out a component that is joined to the start");
+        const bool of_start = joined_.find(static_cast<std::uint32_t>(layer.first + a)) == side;
+        if (named[a] != of_start) return cell_name(i) + " leaves out a component that is joined to the start";
       }
     }
+    return std::nullopt;
   }
 
   const TurningProof& proof_;
@@ -228,12 +240,7 @@ class ProofCheck {
 
 std::optional<std::string> complaint_about(const TurningProof& proof, const Scene& scene,
                                            const TurningQuestion& question) {
-  try {
-    ProofCheck(proof, scene, question).run();
-    return std::nullopt;
-  } catch (const Complaint& complaint) {
-    return complaint.text;
-  }
+  return ProofCheck(proof, scene, question).run();
 }
 
 }  // namespace nef::planner

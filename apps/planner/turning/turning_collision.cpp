@@ -13,14 +13,6 @@
 namespace nef::planner {
 namespace {
 
-using Vector = std::array<double, 3>;
-
-Vector to_doubles(const Rational3& p) { return {nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2])}; }
-
-double product_of(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-Vector difference(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-
 // See plane_between.
 constexpr double kError = 2e-14;
 
@@ -31,11 +23,10 @@ TurningCollision::TurningCollision(const Scene& scene, const TurningAxis& axis)
   for (const TurningRobot::Piece& piece : robot_.pieces()) {
     Shape& shape = shapes_.emplace_back();
     for (const Rational3& v : piece.mesh.vertices) {
-      shape.points.push_back(to_doubles(v));
-      const Vector& p = shape.points.back();
-      shape.reach = std::max(shape.reach, std::abs(p[0]) + std::abs(p[1]) + std::abs(p[2]));
+      shape.points.push_back(to_vector(v));
+      shape.reach = std::max(shape.reach, shape.points.back().lpNorm<1>());
     }
-    for (const TurningRobot::Face& face : piece.faces) shape.normals.push_back(to_doubles(face.normal));
+    for (const TurningRobot::Face& face : piece.faces) shape.normals.push_back(to_vector(face.normal));
   }
   for (const Polyhedron& obstacle : scene.obstacles) {
     const Polyhedron bounded = reachable_part(obstacle, scene);
@@ -44,30 +35,26 @@ TurningCollision::TurningCollision(const Scene& scene, const TurningAxis& axis)
       if (cell.dimension < 3 && solid_everywhere) continue;  // walls between solid cells
       Solid& solid = obstacles_.emplace_back();
       solid.vertices = cell.mesh.vertices;
-      for (const Rational3& v : solid.vertices) solid.points.push_back(to_doubles(v));
+      for (const Rational3& v : solid.vertices) solid.points.push_back(to_vector(v));
       for (std::size_t f = 0; f < cell.mesh.face_count(); ++f) {
         const auto ring = cell.mesh.face(f);
         const Rational3& p = solid.vertices[ring[0]];
         const Rational3 n = cross(minus(solid.vertices[ring[1]], p), minus(solid.vertices[ring[2]], p));
-        solid.normals.push_back(to_doubles(n));
-        if (cell.dimension < 3) solid.normals.push_back(to_doubles({-n[0], -n[1], -n[2]}));
+        solid.normals.push_back(to_vector(n));
+        if (cell.dimension < 3) solid.normals.push_back(-solid.normals.back());
       }
       solid.flat = cell.dimension < 3;
       measure(solid);
-      for (std::size_t k = 0; k < 3; ++k) {
-        solid.size = std::max({solid.size, std::abs(solid.low[k]), std::abs(solid.high[k])});
-      }
+      solid.size = std::max({solid.size, solid.low.lpNorm<Eigen::Infinity>(), solid.high.lpNorm<Eigen::Infinity>()});
     }
   }
 }
 
 void TurningCollision::measure(Solid& solid) {
   solid.low = solid.high = solid.points.front();
-  for (const Vector& p : solid.points) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      solid.low[k] = std::min(solid.low[k], p[k]);
-      solid.high[k] = std::max(solid.high[k], p[k]);
-    }
+  for (const Vector3d& p : solid.points) {
+    solid.low = solid.low.cwiseMin(p);
+    solid.high = solid.high.cwiseMax(p);
   }
 }
 
@@ -85,40 +72,38 @@ bool TurningCollision::in_box(const Rational3& position) const {
 TurningCollision::Plane TurningCollision::plane_between(const Solid& a, const Solid& b) {
   const double largest = std::max(a.size, b.size);
   bool perhaps = false;
-  const auto separates = [&](const Vector& n) {
+  const auto separates = [&](const Vector3d& n) {
     double most = -HUGE_VAL;
     double least = HUGE_VAL;
-    for (const Vector& p : a.points) most = std::max(most, product_of(n, p));
-    for (const Vector& p : b.points) least = std::min(least, product_of(n, p));
-    const double error = kError * largest * (std::abs(n[0]) + std::abs(n[1]) + std::abs(n[2]));
+    for (const Vector3d& p : a.points) most = std::max(most, n.dot(p));
+    for (const Vector3d& p : b.points) least = std::min(least, n.dot(p));
+    const double error = kError * largest * n.lpNorm<1>();
     perhaps = perhaps || least - most >= -error;
     return least - most > error;
   };
-  for (std::size_t k = 0; k < 3; ++k) {
+  for (Eigen::Index k = 0; k < 3; ++k) {
     if (a.high[k] + kError * largest < b.low[k] || b.high[k] + kError * largest < a.low[k]) return Plane::kSurely;
   }
-  for (const Vector& n : b.normals) {
-    if (separates({-n[0], -n[1], -n[2]})) return Plane::kSurely;
+  for (const Vector3d& n : b.normals) {
+    if (separates(-n)) return Plane::kSurely;
   }
-  for (const Vector& n : a.normals) {
+  for (const Vector3d& n : a.normals) {
     if (separates(n)) return Plane::kSurely;
   }
   if (perhaps) return Plane::kPerhaps;
   // Towards each other, corrected a few times by the two vertices that stand in the way most.
-  Vector n;
-  for (std::size_t k = 0; k < 3; ++k) n[k] = b.low[k] + b.high[k] - a.low[k] - a.high[k];
+  Vector3d n = b.low + b.high - a.low - a.high;
   for (int round = 0; round < 8; ++round) {
     if (separates(n)) return Plane::kSurely;
-    const auto foremost = [&](const std::vector<Vector>& points, double sign) {
-      return *std::max_element(points.begin(), points.end(), [&](const Vector& p, const Vector& q) {
-        return sign * product_of(n, p) < sign * product_of(n, q);
-      });
+    const auto foremost = [&](const std::vector<Vector3d>& points, double sign) {
+      return *std::max_element(points.begin(), points.end(),
+                               [&](const Vector3d& p, const Vector3d& q) { return sign * n.dot(p) < sign * n.dot(q); });
     };
-    const Vector between = difference(foremost(b.points, -1), foremost(a.points, 1));
-    const double size = std::sqrt(product_of(n, n));
-    const double length = std::sqrt(product_of(between, between));
+    const Vector3d between = foremost(b.points, -1) - foremost(a.points, 1);
+    const double size = n.norm();
+    const double length = between.norm();
     if (!(size > 0) || !(length > 0)) break;
-    for (std::size_t k = 0; k < 3; ++k) n[k] = n[k] / size + between[k] / length;
+    n = n / size + between / length;
   }
   return perhaps ? Plane::kPerhaps : Plane::kNone;
 }
@@ -128,27 +113,25 @@ TurningCollision::Plane TurningCollision::plane_between(const Solid& a, const So
 bool TurningCollision::surely_overlap(const Solid& a, const Solid& b) {
   const double margin = kError * std::max(a.size, b.size);
   struct Side {
-    Vector normal;
+    Vector3d normal;
     double offset;
   };
   std::vector<Side> sides;
-  Vector p{};
+  Vector3d p = (a.low + a.high + b.low + b.high) / 4;
   for (const Solid* solid : {&a, &b}) {
-    for (const Vector& n : solid->normals) {
-      const double length = std::sqrt(product_of(n, n));
-      const Vector unit{n[0] / length, n[1] / length, n[2] / length};
+    for (const Vector3d& n : solid->normals) {
+      const Vector3d unit = n / n.norm();
       double most = -HUGE_VAL;
-      for (const Vector& q : solid->points) most = std::max(most, product_of(unit, q));
+      for (const Vector3d& q : solid->points) most = std::max(most, unit.dot(q));
       sides.push_back({unit, most - 2 * margin});
     }
-    for (std::size_t k = 0; k < 3; ++k) p[k] += (solid->low[k] + solid->high[k]) / 4;
   }
   constexpr int kRounds = 20;
   for (int round = 0; round < kRounds; ++round) {
     const Side* worst = nullptr;
     double beyond = 0;
     for (const Side& side : sides) {
-      const double there = product_of(side.normal, p) - side.offset;
+      const double there = side.normal.dot(p) - side.offset;
       if (worst == nullptr || there > beyond) {
         worst = &side;
         beyond = there;
@@ -156,7 +139,7 @@ bool TurningCollision::surely_overlap(const Solid& a, const Solid& b) {
     }
     if (beyond < 0) return true;
     const double step = 1.5 * beyond + 1e-6 * std::max(a.size, b.size);
-    for (std::size_t k = 0; k < 3; ++k) p[k] -= step * worst->normal[k];
+    p -= step * worst->normal;
   }
   return false;
 }
@@ -167,9 +150,7 @@ bool TurningCollision::surely_hits(std::size_t piece, const Swept& way, const So
   for (const double t : {0.5, 0.25, 0.75}) {
     Swept at = way;
     at.moves = false;
-    for (std::size_t k = 0; k < 3; ++k) {
-      at.from.position[k] += t * (way.to.position[k] - way.from.position[k]);
-    }
+    at.from.position += t * (way.to.position - way.from.position);
     if (surely_overlap(swept(piece, at), obstacle)) return true;
     if (!way.moves) return false;
   }
@@ -222,9 +203,9 @@ TurningCollision::Swept TurningCollision::sweep(const Pose& from, const Pose& to
   swept.moves = from.position != to.position;
   for (const auto& [pose, end] : {std::pair(&from, &swept.from), std::pair(&to, &swept.to)}) {
     const AffineMap map = axis().rotation(pose->turn);
-    for (std::size_t i = 0; i < 3; ++i) end->rotation[i] = to_doubles(map.linear[i]);
-    end->position = to_doubles(pose->position);
-    for (const double x : end->position) swept.size = std::max(swept.size, std::abs(x));
+    for (std::size_t i = 0; i < 3; ++i) end->rotation.row(static_cast<Eigen::Index>(i)) = to_vector(map.linear[i]);
+    end->position = to_vector(pose->position);
+    swept.size = std::max(swept.size, end->position.lpNorm<Eigen::Infinity>());
   }
   swept.tangent = nearest_double(axis().half_tangent_between(from.turn, to.turn));
   return swept;
@@ -234,27 +215,21 @@ TurningCollision::Solid TurningCollision::swept(std::size_t piece, const Swept& 
   const Shape& shape = shapes_[piece];
   Solid solid;
   solid.size = 4 * shape.reach + sweep.size;
-  const auto turned = [](const Swept::End& end, const Vector& v) {
-    return Vector{product_of(end.rotation[0], v), product_of(end.rotation[1], v), product_of(end.rotation[2], v)};
+  const auto add = [&](const Vector3d& p) {
+    solid.points.push_back(p + sweep.from.position);
+    if (sweep.moves) solid.points.push_back(p + sweep.to.position);
   };
-  const auto add = [&](const Vector& p) {
-    for (const Swept::End* end : {&sweep.from, &sweep.to}) {
-      solid.points.push_back({p[0] + end->position[0], p[1] + end->position[1], p[2] + end->position[2]});
-      if (!sweep.moves) break;
-    }
-  };
-  const Vector n = to_doubles(axis().direction());
-  for (const Vector& v : shape.points) {
-    const Vector p = turned(sweep.from, v);
+  const Vector3d n = to_vector(axis().direction());
+  for (const Vector3d& v : shape.points) {
+    const Vector3d p = sweep.from.rotation * v;
     add(p);
     if (!sweep.turns) continue;
-    add({p[0] + sweep.tangent * (n[1] * p[2] - n[2] * p[1]), p[1] + sweep.tangent * (n[2] * p[0] - n[0] * p[2]),
-         p[2] + sweep.tangent * (n[0] * p[1] - n[1] * p[0])});
-    add(turned(sweep.to, v));
+    add(p + sweep.tangent * n.cross(p));
+    add(sweep.to.rotation * v);
   }
-  for (const Vector& normal : shape.normals) {
-    solid.normals.push_back(turned(sweep.from, normal));
-    if (sweep.turns) solid.normals.push_back(turned(sweep.to, normal));
+  for (const Vector3d& normal : shape.normals) {
+    solid.normals.emplace_back(sweep.from.rotation * normal);
+    if (sweep.turns) solid.normals.emplace_back(sweep.to.rotation * normal);
   }
   measure(solid);
   return solid;

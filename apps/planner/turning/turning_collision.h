@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "apps/planner/free_space/vectors.h"
 #include "apps/planner/turning/turning_question.h"
 #include "apps/planner/turning/turning_robot.h"
 
@@ -29,24 +30,24 @@ class TurningCollision {
  private:
   struct Solid {
     std::vector<Rational3> vertices;  // of obstacles
-    std::vector<std::array<double, 3>> points;
-    std::vector<std::array<double, 3>> normals;  // directions in which to look for a plane first
-    std::array<double, 3> low{};
-    std::array<double, 3> high{};
+    std::vector<Vector3d> points;
+    std::vector<Vector3d> normals;  // directions in which to look for a plane first
+    Vector3d low = Vector3d::Zero();
+    Vector3d high = Vector3d::Zero();
     double size = 0;  // no less than any number that the points were made of
     bool flat = false;
   };
   // A piece of the robot in doubles.
   struct Shape {
-    std::vector<std::array<double, 3>> points;
-    std::vector<std::array<double, 3>> normals;
+    std::vector<Vector3d> points;
+    std::vector<Vector3d> normals;
     double reach = 0;
   };
   // A motion in doubles.
   struct Swept {
     struct End {
-      std::array<std::array<double, 3>, 3> rotation{};
-      std::array<double, 3> position{};
+      Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+      Vector3d position = Vector3d::Zero();
     };
     End from, to;
     double tangent = 0;

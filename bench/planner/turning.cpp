@@ -92,7 +92,7 @@ Question dense(unsigned seed) {
   constexpr int kSide = 12;
   const bool has_heights = seed % 2 == 1;
   Question q;
-  const Polyhedron bar = make_box({Rational(-1), Rational(-1, 4), 0}, {Rational(1), Rational(1, 4), 1});
+  const Polyhedron bar = make_box({Rational(-3, 2), Rational(-1, 4), 0}, {Rational(3, 2), Rational(1, 4), 1});
   q.scene.robot = seed % 3 == 2 ? unite(bar, make_box({Rational(1, 2), Rational(-1, 4), 0}, {1, 1, 1})) : bar;
   const Rational top = has_heights ? 3 : 0;
   q.scene.box = {Rational3{0, 0, 0}, Rational3{kSide, kSide, top}};
@@ -107,7 +107,7 @@ Question dense(unsigned seed) {
     for (std::size_t k = 0; k < 2; ++k) map.translation[k] = at[k];
     const Rational low = has_heights ? number(-8, 16) : Rational(-1);
     const Rational high = has_heights ? low + number(8, 24) : Rational(2);
-    add(q.scene, transform(make_box({0, 0, low}, {number(4, 16), number(2, 8), high}), map));
+    add(q.scene, transform(make_box({0, 0, low}, {number(6, 20), number(3, 10), high}), map));
   }
   const TurningCollision collision(q.scene, q.turning.axis);
   const auto free_pose = [&](int low, int high) {

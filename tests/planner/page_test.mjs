@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// node page_test.mjs PLANNER SCENES FOLDER: the planner writes a page, and a headless Chromium moves the robot in it
-// and switches the free space. Exit code 77 and a word if something that is needed is not installed.
+// node page_test.mjs PLANNER SCENES FOLDER: the planner writes pages, and a headless Chromium moves robots in them, turns
+// one and switches the free space. Exit code 77 and a word if something that is needed is not installed.
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
-import { mkdirSync, writeFileSync } from "node:fs";
+import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { Browser, findChromium } from "../view/browser/chromium.mjs";
 
@@ -48,6 +48,35 @@ async function check(browser, page) {
   assert.deepEqual(browser.errors, []);
 }
 
+// A bar goes round the corner of a corridor: from (-12, -1) at 0 degrees to (-1, 12) at 90.
+async function checkTurn(browser, page, path) {
+  await browser.open(page);
+  const place = async (share) => {
+    await browser.evaluate(`(() => { const s = document.querySelector("#time-slider");
+      s.value = ${share}; s.dispatchEvent(new Event("input")); })()`);
+    // Where the middle of the bar and a point on its long axis are.
+    return browser.evaluate(`(() => { const group = ${view("robot")}.group; group.updateMatrixWorld(true);
+      const at = (x) => { const p = group.position.clone().set(x, 0, 0).applyMatrix4(group.matrix); return [p.x, p.y]; };
+      return [at(0), at(1)]; })()`);
+  };
+  const direction = ([from, to]) => (Math.atan2(to[1] - from[1], to[0] - from[0]) * 180) / Math.PI;
+  // The layer is drawn where the robot begins, so it has turned by as much as its axis has.
+  const begin = await place(0);
+  assert.ok(Math.abs(direction(begin)) < 0.01, `${begin}`);
+  let before = -0.01;
+  for (const share of [0.25, 0.5, 0.75, 1]) {
+    const angle = direction(await place(share));
+    assert.ok(angle >= before, `${angle} after ${before} degrees`);
+    before = angle - 0.01;
+  }
+  const end = await place(1);
+  assert.ok(Math.abs(direction(end) - 90) < 0.01, `${end}`);
+  await browser.frame();
+  writeFileSync(join(folder, "turned.png"), await browser.screenshot());
+  assert.ok(path.length > 2);
+  assert.deepEqual(browser.errors, []);
+}
+
 const chromium = findChromium();
 if (!chromium) skip("Chromium is not installed (apt-get install chromium)");
 mkdirSync(folder, { recursive: true });
@@ -55,9 +84,16 @@ const page = join(folder, "s1.html");
 const made = spawnSync(planner, [join(scenes, "s1_tight_hole.json"), "--page", page], { encoding: "utf8" });
 if (/viewer bundle|npm/.test(made.stderr)) skip("pages cannot be written: npm was missing when this was configured");
 assert.equal(made.status, 0, made.stderr);
+const turning = join(folder, "corner.html");
+const report = join(folder, "corner.json");
+const turned = spawnSync(planner, [join(scenes, "corner.json"), "--quiet", "--page", turning, "-o", report], {
+  encoding: "utf8",
+});
+assert.equal(turned.status, 0, turned.stderr);
 const browser = new Browser(chromium);
 try {
   await check(browser, page);
+  await checkTurn(browser, turning, JSON.parse(readFileSync(report, "utf8")).path);
   console.log("the robot moves along its path");
 } finally {
   await browser.close();

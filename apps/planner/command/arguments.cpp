@@ -73,14 +73,19 @@ void declare(CLI::App& app, Arguments& a) {
       ->type_name("FILE");
   app.add_option("--queries", a.queries, "Answer many questions: six numbers a line, start and goal (or JSON)")
       ->type_name("FILE");
-  app.add_option("--start", a.start, "x,y,z in place of the scene's start")->type_name("X,Y,Z");
-  app.add_option("--goal", a.goal, "x,y,z in place of the scene's goal")->type_name("X,Y,Z");
+  app.add_option("--start", a.start, "x,y,z in place of the scene's start; x,y,z,degrees for a robot that turns")
+      ->type_name("X,Y,Z");
+  app.add_option("--goal", a.goal, "... in place of the scene's goal")->type_name("X,Y,Z");
   app.add_option("--contact", a.contact, "May the robot touch obstacles?")->check(CLI::IsMember({"allow", "forbid"}));
   app.add_option("--prefer", a.prefer, "short: any passage will do; roomy: thin passages only where needed")
       ->check(CLI::IsMember({"short", "roomy"}));
   app.add_option("--min-dimension", a.path.min_dimension, "Stay where free space is at least this thick")
       ->check(CLI::Range(0, 3));
   app.add_flag("--raw", a.path.raw, "The way-points of the roadmap, without shortcuts");
+  app.add_flag("!--quick", a.path.thorough,
+               "The first way found, pulled a few times, rather than the shortest of several ways round");
+  app.add_option("--digits", a.path.digits, "Round way-points to so many decimals where the motions stay free")
+      ->check(CLI::Range(0U, 300U));
   app.add_flag("--clearance", a.path.clearance, "Way-points inside volumes rather than in contact");
   app.add_flag("--se3", a.se3, "Path matrix with seven columns x y z qx qy qz qw");
   app.add_option("--max-cells", a.max_cells, "A robot that turns: cut its angles into so many cells at most");

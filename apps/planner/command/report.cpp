@@ -57,6 +57,7 @@ void add_path(const ExactPath& path, json& result) {
   result["path_thinnest_piece"] = path.thinness.piece;
   result["path_thinnest_junction"] = path.thinness.junction;
   result["passages_used"] = path.passages;
+  result["unrounded"] = path.unrounded;
 }
 
 }  // namespace
@@ -141,6 +142,12 @@ Json answer_report(const Answer& answer, const Scene& scene, const FreeSpace& fr
   found.update(answer_json(answer, scene));
   found.update(more);
   return run_report("plan", found, report_phases(answer.phases), scene.messages);
+}
+
+std::string unrounded_text(const std::vector<std::size_t>& waypoints) {
+  std::string text = "more decimals than --digits, for want of free way-points with fewer:";
+  for (const std::size_t i : waypoints) text += ' ' + std::to_string(i);
+  return text + '\n';
 }
 
 std::vector<ReportPhase> report_phases(const std::map<std::string, double>& seconds) {

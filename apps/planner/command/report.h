@@ -19,6 +19,9 @@ int exit_code(const Answer& answer);
 /// "path", "infeasible", "invalid_start", "invalid_goal", "free_space", "blocked".
 std::string status_name(Answer::Status status);
 
+/// A line that names way-points which could not be rounded.
+std::string unrounded_text(const std::vector<std::size_t>& waypoints);
+
 /// The keys of one answer: status, path, proof, collision.
 nlohmann::json answer_json(const Answer& answer, const Scene& scene);
 /// Those of the scene and its free space: components, passages, contact.

@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <iomanip>
 #include <iostream>
-#include <sstream>
 
 #include "apps/planner/clearance/keep_clear.h"
 #include "apps/planner/command/assembly_run.h"
@@ -17,8 +15,10 @@
 #include "apps/planner/path/path_file.h"
 #include "apps/planner/path/queries.h"
 #include "apps/planner/path/question.h"
+#include "apps/planner/path/wide_answer.h"
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
+#include "nef/io/number_text.h"
 #include "nef/program/exact_json.h"
 #include "nef/program/numbers.h"
 #include "nef/program/progress_bar.h"
@@ -26,10 +26,22 @@
 namespace nef::planner {
 namespace {
 
+// A position and, if the robot turns, degrees; if they are left out, those of the scene stay.
+Rational3 end_of(const std::string& text, const std::string& option, Rational* degrees) {
+  if (degrees == nullptr) return parse_triple(text, option);
+  const std::vector<Rational> numbers = parse_numbers(text, option);
+  if (numbers.size() != 3 && numbers.size() != 4) {
+    throw InputError(option + ": expected x,y,z or x,y,z,degrees instead of '" + text + "'");
+  }
+  if (numbers.size() == 4) *degrees = numbers[3];
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
 Scene scene_of(const Arguments& a) {
   Scene scene = read_scene(a.scene);
-  if (!a.start.empty()) scene.start = parse_triple(a.start, "--start");
-  if (!a.goal.empty()) scene.goal = parse_triple(a.goal, "--goal");
+  Rational* const no_angle = nullptr;
+  if (!a.start.empty()) scene.start = end_of(a.start, "--start", scene.rotation ? &scene.rotation->start : no_angle);
+  if (!a.goal.empty()) scene.goal = end_of(a.goal, "--goal", scene.rotation ? &scene.rotation->goal : no_angle);
   if (!a.contact.empty()) scene.contact = a.contact == "allow" ? ContactRule::kAllow : ContactRule::kForbid;
   return scene;
 }
@@ -56,38 +68,48 @@ void check_usage(const Arguments& a) {
   if (!a.ompl.empty()) require_ompl_planner(a.ompl);
 }
 
+// A scene and the free space in which answers were looked for: all of it, or what has room.
+struct Asked {
+  // NOLINTNEXTLINE(google-explicit-constructor): a problem is both
+  Asked(const Problem& problem) : scene(problem.scene()), free(problem.free_space()) {}
+  Asked(const Scene& its_scene, const FreeSpace& wide) : scene(its_scene), free(wide), only_wide(true) {}
+  const Scene& scene;
+  const FreeSpace& free;
+  bool only_wide = false;
+};
+
 // Everything about an answer, time stamps and the widest robot too, if they were asked for.
-std::string report_of(const Arguments& a, const Answer& answer, const Problem& problem, const nlohmann::json& widest) {
+std::string report_of(const Arguments& a, const Answer& answer, const Asked& asked, const nlohmann::json& widest) {
   nlohmann::json more = nlohmann::json::object();
   if (answer.path && a.limits.speed > 0) more["times_s"] = times_along(*answer.path, a.limits);
   if (!widest.is_null()) more["widest"] = widest;
-  return report_text(answer_report(answer, problem.scene(), problem.free_space(), more));
+  if (asked.only_wide) more["components"] = more["tight"] = more["touching"] = nullptr;
+  return report_text(answer_report(answer, asked.scene, asked.free, more));
 }
 
 // t,x,y,z, a way-point a line.
 std::string timed_text(const ExactPath& path, const MotionLimits& limits) {
   const std::vector<double> times = times_along(path, limits);
-  std::ostringstream out;
-  out << std::setprecision(17) << "t,x,y,z\n";
+  std::string out = "t,x,y,z\n";
   for (std::size_t i = 0; i < times.size(); ++i) {
-    out << times[i];
-    for (const Rational& x : path.points[i]) out << ',' << nearest_double(x);
-    out << '\n';
+    append_number(out, times[i]);
+    for (const Rational& x : path.points[i]) append_number(out += ',', nearest_double(x));
+    out += '\n';
   }
-  return out.str();
+  return out;
 }
 
-std::string rendered(const Arguments& a, const std::string& file, const Answer& answer, const Problem& problem,
+std::string rendered(const Arguments& a, const std::string& file, const Answer& answer, const Asked& asked,
                      const nlohmann::json& widest) {
   const std::string extension = std::filesystem::path(file).extension().string();
-  if (extension == ".json") return report_of(a, answer, problem, widest);
+  if (extension == ".json") return report_of(a, answer, asked, widest);
   if (extension == ".csv") return timed_text(*answer.path, a.limits);
   if (extension == ".path" || a.se3) return path_matrix(*answer.path, a.se3);
   return path_text(*answer.path);
 }
 
 // Reports and views are written whatever the answer; path formats only if there is a path.
-void write_outputs(const Arguments& a, const Answer& answer, const Problem& problem,
+void write_outputs(const Arguments& a, const Answer& answer, const Asked& asked,
                    const nlohmann::json& widest = nullptr) {
   std::vector<std::string> views;
   if (!a.page.empty()) views.push_back(a.page);
@@ -96,12 +118,12 @@ void write_outputs(const Arguments& a, const Answer& answer, const Problem& prob
     if (is_view_file(file)) {
       views.push_back(file);
     } else if (report || answer.path) {
-      write_file(file, rendered(a, file, answer, problem, widest));
+      write_file(file, rendered(a, file, answer, asked, widest));
     }
   }
   if (views.empty()) return;
-  const std::vector<view::Layer> layers = view_layers(answer, problem.scene(), problem.free_space());
-  for (const std::string& file : views) write_view(layers, problem.scene().name, file);
+  const std::vector<view::Layer> layers = view_layers(answer, asked.scene, asked.free);
+  for (const std::string& file : views) write_view(layers, asked.scene.name, file);
 }
 
 void print_path(const Arguments& a, const Answer& answer) {
@@ -115,20 +137,21 @@ void print_path(const Arguments& a, const Answer& answer) {
               << "; try --prefer roomy)";
   }
   std::cout << '\n';
+  if (!answer.path->unrounded.empty()) std::cout << unrounded_text(answer.path->unrounded);
   if (a.outputs.empty()) std::cout << path_text(*answer.path);
 }
 
-void print(const Arguments& a, const Answer& answer, const Problem& problem, const nlohmann::json& widest = nullptr) {
+void print(const Arguments& a, const Answer& answer, const Asked& asked, const nlohmann::json& widest = nullptr) {
   if (a.json) {
-    std::cout << report_of(a, answer, problem, widest);
+    std::cout << report_of(a, answer, asked, widest);
     return;
   }
   if (a.quiet) return;
   if (!widest.is_null()) std::cout << widest_text(widest);
-  for (const std::string& message : problem.scene().messages) std::cout << "note: " << message << '\n';
+  for (const std::string& message : asked.scene.messages) std::cout << "note: " << message << '\n';
   std::cout << status_name(answer.status);
   if (answer.blocked_segment) std::cout << ": segment " << *answer.blocked_segment << " leaves free space";
-  if (answer.collision) std::cout << ": " << describe(*answer.collision, problem.scene());
+  if (answer.collision) std::cout << ": " << describe(*answer.collision, asked.scene);
   if (answer.status == Answer::Status::kInfeasible) {
     std::cout << ": start is in component " << answer.start_component << ", goal in component "
               << answer.goal_component;
@@ -209,6 +232,29 @@ int answer_question(const Arguments& a, const Problem& problem, const nlohmann::
   return list_only ? 0 : exit_code(answer);
 }
 
+// True if only a path is asked for, and nothing about free space.
+bool asks_for_a_path_only(const Arguments& a) {
+  return !a.tight && !a.path.raw && a.page.empty() && a.given_path.empty() && a.queries.empty() && a.ompl.empty() &&
+         a.benchmark.empty() && std::none_of(a.outputs.begin(), a.outputs.end(), is_view_file);
+}
+
+// Looks for a path without cells and tight passages; nothing if there is none like that.
+std::optional<int> answer_without_tight_passages(const Arguments& a, const Scene& scene, const BuildOptions& build,
+                                                 const nlohmann::json& widest, ProgressBar& bar) {
+  if (!asks_for_a_path_only(a) || !may_have_wide_answer(scene)) return std::nullopt;
+  PathOptions options = a.path;
+  options.roomy = a.prefer == "roomy";
+  const std::optional<WideAnswer> found = wide_answer(scene, options, build);
+  if (!found) return std::nullopt;
+  bar.clear();
+  Scene told = scene;
+  told.messages.emplace_back("tight passages were not looked for, since there is a path with room; --tight lists them");
+  const Asked asked(told, *found->free);
+  write_outputs(a, found->answer, asked, widest);
+  print(a, found->answer, asked, widest);
+  return exit_code(found->answer);
+}
+
 }  // namespace
 
 int run(const Arguments& a) {
@@ -232,6 +278,7 @@ int run(const Arguments& a) {
     return run_turning(a, scene, widest);
   }
   if (!a.check_proof.empty()) throw InputError("--check-proof is about robots that turn; the scene has no rotation");
+  if (const std::optional<int> code = answer_without_tight_passages(a, scene, build, widest, bar)) return *code;
   const Problem problem(std::move(scene), build);
   bar.clear();
   if (!a.queries.empty()) return answer_queries(a, problem);

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/planner/command/turning_report.h"
 
-#include <iomanip>
-#include <sstream>
-
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
+#include "nef/io/number_text.h"
 #include "nef/number/floor.h"
 #include "nef/program/exact_json.h"
 
@@ -113,6 +111,7 @@ json turning_json(const TurningAnswer& answer, const Scene& scene, const Turning
                               {"position_double", double_json(pose.position)},
                               {"turn", turn_json(pose.turn, axis)}});
   }
+  if (!answer.path.empty()) result["unrounded"] = answer.unrounded;
   if (answer.proof) result["proof"] = proof_json(*answer.proof, axis);
   for (const TurnRange& range : answer.open_ranges) {
     result["undecided"].push_back({turn_json(range.low, axis), turn_json(range.high, axis)});
@@ -121,24 +120,27 @@ json turning_json(const TurningAnswer& answer, const Scene& scene, const Turning
 }
 
 std::string turning_text(const TurningAnswer& answer, const TurningAxis& axis) {
-  std::ostringstream out;
-  out << std::setprecision(17);
+  std::string out;
   for (const Pose& pose : answer.path) {
-    for (const Rational& x : pose.position) out << nearest_double(x) << ' ';
-    out << axis.degrees_of(pose.turn) << '\n';
+    for (const Rational& x : pose.position) {
+      append_number(out, nearest_double(x));
+      out += ' ';
+    }
+    append_number(out, axis.degrees_of(pose.turn));
+    out += '\n';
   }
-  return out.str();
+  return out;
 }
 
 std::string turning_csv(const TurningAnswer& answer, const TurningAxis& axis, const std::vector<double>& times) {
-  std::ostringstream out;
-  out << std::setprecision(17) << "t,x,y,z,degrees\n";
+  std::string out = "t,x,y,z,degrees\n";
   for (std::size_t i = 0; i < answer.path.size(); ++i) {
-    out << times[i];
-    for (const Rational& x : answer.path[i].position) out << ',' << nearest_double(x);
-    out << ',' << axis.degrees_of(answer.path[i].turn) << '\n';
+    append_number(out, times[i]);
+    for (const Rational& x : answer.path[i].position) append_number(out += ',', nearest_double(x));
+    append_number(out += ',', axis.degrees_of(answer.path[i].turn));
+    out += '\n';
   }
-  return out.str();
+  return out;
 }
 
 TurningProof read_turning_proof(const std::string& file) {

@@ -6,6 +6,7 @@
 
 #include "apps/planner/command/clearance_run.h"
 #include "apps/planner/command/ompl_runs.h"
+#include "apps/planner/command/report.h"
 #include "apps/planner/command/scene_view.h"
 #include "apps/planner/command/turning_report.h"
 #include "apps/planner/command/turning_view.h"
@@ -22,8 +23,8 @@ void check_turning_options(const Arguments& a) {
                      a.path.min_dimension > 0 || a.path.clearance || a.se3;
   if (other) {
     throw InputError(
-        "a scene with a rotation knows --json, --quiet, --page, -o, --max-cells, --time, --ompl and --check-proof "
-        "only");
+        "a scene with a rotation knows --json, --quiet, --page, -o, --max-cells, --time, --digits, --ompl and "
+        "--check-proof only");
   }
   for (const std::string& file : a.outputs) {
     const std::string extension = std::filesystem::path(file).extension().string();
@@ -45,6 +46,7 @@ void print(const Arguments& a, const TurningAnswer& answer, const Scene& scene, 
     }
   }
   std::cout << '\n';
+  if (!answer.unrounded.empty()) std::cout << unrounded_text(answer.unrounded);
   if (a.outputs.empty()) std::cout << turning_text(answer, axis);
 }
 
@@ -72,6 +74,7 @@ int run_turning(const Arguments& a, const Scene& scene, const nlohmann::json& wi
   const Stopwatch watch;
   TurningLimits limits;
   limits.max_cells = a.max_cells;
+  limits.digits = a.path.digits;
   if (a.time_given) limits.stop = [&] { return watch.seconds() >= a.seconds; };
   const TurningQuestion question = question_of(scene);
   const TurningAnswer answer =

@@ -48,7 +48,6 @@ TightPlanner::TightPlanner(const ob::SpaceInformationPtr& si) : TightPlanner(si,
 
 TightPlanner::TightPlanner(const ob::SpaceInformationPtr& si, FreeSpaceBuilder builder)
     : ob::Planner(si, "TightPlanner"), builder_(std::move(builder)) {
-  options_.thorough = false;
   declare();
 }
 
@@ -74,6 +73,7 @@ void TightPlanner::declare() {
   declareParam<bool>("roomy", this, &TightPlanner::setRoomy, &TightPlanner::getRoomy, "0,1");
   declareParam<bool>("clearance", this, &TightPlanner::setClearance, &TightPlanner::getClearance, "0,1");
   declareParam<bool>("thorough", this, &TightPlanner::setThorough, &TightPlanner::getThorough, "0,1");
+  declareParam<int>("digits", this, &TightPlanner::setDigits, &TightPlanner::getDigits, "-1:1:300");
   declareParam<bool>("keep_roadmap", this, &TightPlanner::setKeepRoadmap, &TightPlanner::getKeepRoadmap, "0,1");
   addPlannerProgressProperty("preprocessing REAL", [this] { return std::to_string(preprocessing_); });
   addPlannerProgressProperty("free cells INTEGER", [this] {

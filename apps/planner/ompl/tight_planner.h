@@ -10,6 +10,7 @@
 #include <functional>
 #include <memory>
 
+#include "apps/planner/ompl/digits_parameter.h"
 #include "apps/planner/ompl/disconnection_proof.h"
 #include "apps/planner/ompl/exact_translation_space.h"
 #include "apps/planner/path/path.h"
@@ -69,9 +70,16 @@ class TightPlanner : public ompl::base::Planner {
   /** \brief Way-points inside volumes rather than in contact. */
   void setClearance(bool clearance) { options_.clearance = clearance; }
   bool getClearance() const { return options_.clearance; }
-  /** \brief Look for the shortest of several ways round, too (off: answers in a millisecond or two). */
+  /** \brief Look for the shortest of several ways round, as far as affordable, and pull until nothing is gained any
+      more; the default, as in the command. Off: the first way found, pulled a few times, mostly in a millisecond or two
+      (the command's --quick). */
   void setThorough(bool thorough) { options_.thorough = thorough; }
   bool getThorough() const { return options_.thorough; }
+  /** \brief Round way-points to so many decimals where the motions stay free; -1: as many as they have.
+      Throws std::invalid_argument for other negative numbers or more than 300. `unrounded` of getExactPath() tells
+     which way-points have more all the same. */
+  void setDigits(int digits) { options_.digits = digits_of_parameter(digits); }
+  int getDigits() const { return parameter_of_digits(options_.digits); }
   /** \brief Keep the free space when clear() is called. */
   void setKeepRoadmap(bool keep) { keepRoadmap_ = keep; }
   bool getKeepRoadmap() const { return keepRoadmap_; }

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "apps/planner/path/shorten.h"
+#include "apps/planner/path/simple_points.h"
 #include "nef/base/error.h"
 
 namespace nef::planner {
@@ -70,8 +71,15 @@ std::optional<ExactPath> find_path(const FreeSpace& free, const Rational3& start
       take_shorter_way_round(free, filter, *points, kPlacesForWayRound);
     }
   }
+  const SegmentCheck allowed = [&](const Rational3& a, const Rational3& b) {
+    return segment_allowed(free, filter, a, b);
+  };
+  if (!options.raw && !options.clearance) straighten(allowed, *points);
+  std::vector<std::size_t> unrounded;
+  if (options.digits) unrounded = round_points(allowed, *points, *options.digits);
   std::optional<ExactPath> path = describe_path(free, std::move(*points));
   NEF_ASSERT(path.has_value());
+  path->unrounded = std::move(unrounded);
   return path;
 }
 

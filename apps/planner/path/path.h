@@ -16,7 +16,11 @@ struct PathOptions {
   bool clearance = false;  ///< way-points inside volumes rather than in contact, where there is a choice
   bool roomy = false;      ///< the best T first, then the best J, then short (else just short)
   int min_dimension = 0;   ///< stay where free space is locally at least this thick (T >= min_dimension)
-  bool thorough = true;    ///< look for the shortest of several ways round, as far as affordable
+  /// Look for the shortest of several ways round, as far as affordable, and pull until nothing is gained any more; else
+  /// the first way found, pulled a few times.
+  bool thorough = true;
+  /// Round way-points to so many decimals where the motions stay within the options.
+  std::optional<unsigned> digits;
 };
 
 /// A path with rational way-points. Every segment is known to lie in free space.
@@ -27,6 +31,9 @@ struct ExactPath {
   Thinness thinness;                    ///< T and J of this very path
   double length = 0;
   std::uint64_t segments_checked = 0;
+  /// Way-points between the ends with more decimals than were asked for, since no rounded ones that were tried are
+  /// free.
+  std::vector<std::size_t> unrounded;
 };
 
 /// A path between two free points, or nothing if there is none within the options: a proof, since

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/planner/path/path_file.h"
 
-#include <iomanip>
 #include <sstream>
 
 #include "nef/io/file_bytes.h"
+#include "nef/io/number_text.h"
 #include "nef/program/exact_json.h"
 #include "nef/program/numbers.h"
 
@@ -34,23 +34,26 @@ std::vector<Rational3> points_of_lines(const std::string& text, const std::strin
 }  // namespace
 
 std::string path_text(const ExactPath& path) {
-  std::ostringstream out;
-  out << std::setprecision(17);
+  std::string out;
   for (const Rational3& p : path.points) {
-    out << nearest_double(p[0]) << ' ' << nearest_double(p[1]) << ' ' << nearest_double(p[2]) << '\n';
+    for (const Rational& x : p) {
+      append_number(out, nearest_double(x));
+      out += &x == &p.back() ? '\n' : ' ';
+    }
   }
-  return out.str();
+  return out;
 }
 
 std::string path_matrix(const ExactPath& path, bool se3) {
-  std::ostringstream out;
-  out << std::setprecision(17);
+  std::string out;
   for (const Rational3& p : path.points) {
-    for (const Rational& x : p) out << nearest_double(x) << ' ';
-    out << (se3 ? "0 0 0 1 \n" : "\n");
+    for (const Rational& x : p) {
+      append_number(out, nearest_double(x));
+      out += ' ';
+    }
+    out += se3 ? "0 0 0 1 \n" : "\n";
   }
-  out << '\n';
-  return out.str();
+  return out + '\n';
 }
 
 std::vector<Rational3> read_waypoints(const std::string& file) {

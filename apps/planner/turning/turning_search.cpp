@@ -6,6 +6,7 @@
 #include <set>
 
 #include "apps/planner/path/path.h"
+#include "apps/planner/path/simple_points.h"
 #include "apps/planner/turning/parallel_faces.h"
 #include "apps/planner/turning/turning_cells.h"
 #include "nef/base/error.h"
@@ -229,12 +230,22 @@ class TurningSearch {
     return proof;
   }
 
-  // Of the vertices of a point's component the one that makes the shortest way from `here` to the goal; else the point.
-  [[nodiscard]] Rational3 near_way(const FreeSpace& outer, const Rational3& point, const Rational3& here) const {
-    const std::uint32_t component = outer.component(outer.locate(ExactPoint(point)));
+  // Where to turn in the bridge's component of its outer free space: here, or at the goal, or at the vertex that makes
+  // the shortest way from here to the goal.
+  [[nodiscard]] Rational3 turning_place(const Bridge& bridge, const Rational3& here) const {
+    const FreeSpace& outer = *bridge.outer;
+    const auto component_at = [&](const Rational3& point) -> std::optional<std::uint32_t> {
+      const CellId cell = outer.locate(ExactPoint(point));
+      if (!outer.is_free(cell)) return std::nullopt;
+      return outer.component(cell);
+    };
+    const std::optional<std::uint32_t> component = component_at(bridge.position);
+    for (const Rational3& simple : {here, q_.goal.position}) {
+      if (component_at(simple) == component) return simple;
+    }
     const auto length = [&](const Rational3& x) { return distance(here, x) + distance(x, q_.goal.position); };
-    Rational3 best = point;
-    double least = length(point);
+    Rational3 best = bridge.position;
+    double least = length(best);
     for (CellId cell = 0; cell < outer.cells().size() && outer.cells().dimension(cell) == 0; ++cell) {
       if (!outer.is_free(cell) || outer.component(cell) != component) continue;
       const Rational3 vertex = outer.vertices(cell).front();
@@ -242,6 +253,10 @@ class TurningSearch {
         least = there;
         best = vertex;
       }
+    }
+    if (!limits_.digits || is_rounded(best, *limits_.digits)) return best;
+    for (const Rational3& point : rounded_points(best, *limits_.digits)) {
+      if (component_at(point) == component) return point;
     }
     return best;
   }
@@ -251,21 +266,27 @@ class TurningSearch {
     std::vector<Pose> path{q_.start};
     Pose here = q_.start;
     Turn full_turns = 0;  // angles go on where the ring is closed
+    PathOptions options;
+    options.digits = limits_.digits;
     const auto walk_to = [&](const Rational3& position) {
       const FreeSpace& free = cells_.slice(here.turn - full_turns);
-      const std::optional<ExactPath> part = find_path(free, here.position, position);
+      const std::optional<ExactPath> part = find_path(free, here.position, position, options);
       NEF_ASSERT(part && describe_path(free, part->points));
       for (std::size_t i = 1; i < part->points.size(); ++i) path.push_back({part->points[i], here.turn});
       here.position = position;
     };
     for (const Bridge& bridge : way) {
       full_turns = here.turn - bridge.from_turn;
-      walk_to(near_way(*bridge.outer, bridge.position, here.position));
+      walk_to(turning_place(bridge, here.position));
       NEF_ASSERT(contains(bridge.outer->set(), here.position));
       here.turn = bridge.to_turn + full_turns;
       path.push_back(here);
     }
     walk_to(q_.goal.position);
+    for (std::size_t i = 1; limits_.digits && i + 1 < path.size(); ++i) {
+      const bool is_end = path[i].position == q_.start.position || path[i].position == q_.goal.position;
+      if (!is_end && !is_rounded(path[i].position, *limits_.digits)) answer_.unrounded.push_back(i);
+    }
     return path;
   }
 

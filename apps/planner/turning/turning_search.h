@@ -15,6 +15,8 @@ namespace nef::planner {
 struct TurningLimits {
   std::size_t max_cells = 2000;  ///< cells of angles that the range is cut into
   std::function<bool()> stop;    ///< asked now and then; true ends the search
+  /// Round way-points to so many decimals where the motions stay free. (Turns have the digits that their cells have.)
+  std::optional<unsigned> digits = {};
 };
 
 /// A closed range of angles.
@@ -29,6 +31,7 @@ struct TurningAnswer {
   /// kPath: way-points; between two either the turn or the position stays. Angles go on where the full circle closes,
   /// so they may leave the range by full turns.
   std::vector<Pose> path;
+  std::vector<std::size_t> unrounded;  ///< way-points between the ends with more decimals than were asked for
   std::optional<TurningProof> proof;   ///< kInfeasible
   std::vector<TurnRange> open_ranges;  ///< kUndecided: those in question
   std::size_t cells = 0;               ///< that the range is cut into in the end

@@ -32,6 +32,7 @@ TurningPlanner::TurningPlanner(const ob::SpaceInformationPtr& si, Scene scene, T
   specs_.provingSolutionNonExistence = true;
   declareParam<unsigned int>("max_cells", this, &TurningPlanner::setMaxCells, &TurningPlanner::getMaxCells,
                              "1:1:100000");
+  declareParam<int>("digits", this, &TurningPlanner::setDigits, &TurningPlanner::getDigits, "-1:1:300");
   addPlannerProgressProperty("cells INTEGER", [this] { return std::to_string(answer_ ? answer_->looked_at : 0); });
 }
 
@@ -55,6 +56,7 @@ ob::PlannerStatus TurningPlanner::solve(const ob::PlannerTerminationCondition& p
   question_.goal = into_range(space.pose(goal));
   TurningLimits limits;
   limits.max_cells = maxCells_;
+  limits.digits = digits_;
   limits.stop = [&ptc] { return ptc.eval(); };
   answer_ = find_turning_path(scene_, question_, limits);
   switch (answer_->status) {

@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 
+#include "apps/planner/ompl/digits_parameter.h"
 #include "apps/planner/scene/scene.h"
 #include "apps/planner/turning/turning_search.h"
 #include "apps/planner/turning_ompl/turning_space.h"
@@ -51,6 +52,10 @@ class TurningPlanner : public ompl::base::Planner {
   /** \brief Cells that the range is cut into at most. */
   void setMaxCells(unsigned int cells) { maxCells_ = cells; }
   unsigned int getMaxCells() const { return maxCells_; }
+  /** \brief Round way-points to so many decimals where the motions stay free; -1: as many as they have. As
+      TightPlanner::setDigits. */
+  void setDigits(int digits) { digits_ = digits_of_parameter(digits); }
+  int getDigits() const { return parameter_of_digits(digits_); }
   /** \brief What the last search found. */
   const std::optional<TurningAnswer>& getAnswer() const { return answer_; }
 
@@ -58,6 +63,7 @@ class TurningPlanner : public ompl::base::Planner {
   Scene scene_;
   TurningQuestion question_;
   unsigned int maxCells_ = 2000;
+  std::optional<unsigned> digits_;
   std::optional<TurningAnswer> answer_;
 };
 

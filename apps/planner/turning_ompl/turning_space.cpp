@@ -61,6 +61,8 @@ void TurnSpace::interpolate(const ob::State* from, const ob::State* to, double t
 
 TurningSpace::TurningSpace(const TurningAxis& axis, double weightOfAngles) : axis_(axis) {
   setName("Turning" + getName());
+  // A part in R^n and one of rotations: what OMPL's informed samplers, which ask for this type, know how to sample.
+  type_ = ob::STATE_SPACE_SE3;
   addSubspace(std::make_shared<ExactTranslationSpace>(), 1.0);
   addSubspace(std::make_shared<TurnSpace>(), weightOfAngles);
   lock();

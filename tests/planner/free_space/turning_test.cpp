@@ -461,6 +461,15 @@ TEST_CASE("turning on the command line") {
   const Run open = planner(folder, folder.write("limit.json", corner("3.6568")) + " --max-cells 5");
   CHECK(open.code == 5);
   CHECK_THAT(open.out, Catch::Contains("undecided") && Catch::Contains("open:"));
+  const Run elsewhere = planner(folder, scene + " --json --digits 1 --start -11,-1,0,15 --goal -1,11,0");
+  CHECK(elsewhere.code == 0);
+  const nlohmann::json moved = nlohmann::json::parse(elsewhere.out);
+  CHECK(moved["path"].front()["position"][0] == "-11");
+  CHECK(moved["path"].front()["turn"]["degrees"] == Approx(15));
+  CHECK(moved["path"].back()["turn"]["quarters"] == 1);
+  CHECK(moved["unrounded"].is_array());
+  CHECK(planner(folder, scene + " --start 1,2").code == 2);
+  CHECK(planner(folder, nef::planner::test::scene("s1_tight_hole") + " --start 1,0.5,0.5,3").code == 2);
   CHECK(planner(folder, scene + " --tight").code == 2);
   CHECK(planner(folder, scene + " -o x.path").code == 2);
   CHECK(planner(folder, scene + " --quiet -o " + folder.file("way.txt")).code == 0);

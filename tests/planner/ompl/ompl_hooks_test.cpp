@@ -67,7 +67,7 @@ TEST_CASE("declared parameters set what they name") {
   TightPlanner planner(world.si);
   std::map<std::string, std::string> values;
   planner.params().getParams(values);
-  for (const char* name : {"min_dimension", "roomy", "clearance", "thorough", "keep_roadmap"}) {
+  for (const char* name : {"min_dimension", "roomy", "clearance", "thorough", "digits", "keep_roadmap"}) {
     CHECK(values.count(name) == 1);
   }
   CHECK(planner.params().setParam("min_dimension", "3"));
@@ -76,8 +76,13 @@ TEST_CASE("declared parameters set what they name") {
   CHECK(planner.getRoomy());
   CHECK(planner.params().setParam("clearance", "1"));
   CHECK(planner.getClearance());
-  CHECK(planner.params().setParam("thorough", "1"));
-  CHECK(planner.getThorough());
+  CHECK(planner.getThorough() == PathOptions().thorough);  // the command's default
+  CHECK(planner.params().setParam("thorough", "0"));
+  CHECK_FALSE(planner.getThorough());
+  CHECK(planner.getDigits() == -1);
+  CHECK_FALSE(planner.params().setParam("digits", "-2"));
+  CHECK(planner.params().setParam("digits", "4"));
+  CHECK(planner.getDigits() == 4);
   CHECK(planner.params().setParam("keep_roadmap", "0"));
   CHECK_FALSE(planner.getKeepRoadmap());
   planner.setProblemDefinition(world.definition);

@@ -10,6 +10,7 @@
 #include "apps/planner/free_space/free_positions.h"
 #include "apps/planner/free_space/segments.h"
 #include "apps/planner/ompl/ompl_planners.h"
+#include "apps/planner/path/simple_points.h"
 #include "apps/planner/turning_ompl/turning_planning.h"
 #include "nef/base/error.h"
 #include "nef/construct/construct.h"
@@ -225,6 +226,40 @@ TEST_CASE("stock planners for robots that turn, on the command line") {
   CHECK_THAT(text_of(folder.file("way.txt")), Catch::StartsWith("-12 -1 0 0\n"));
   CHECK(planner(folder, folder.write("long.json", corner("3.9")) + " --ompl RRTConnect --time 0.2").code == 4);
   CHECK(planner(folder, scene + " --ompl TightPlanner").code == 2);
+}
+
+TEST_CASE("informed samplers work on poses: BIT* and its family find ways round a box") {
+  ompl::msg::setLogLevel(ompl::msg::LOG_NONE);
+  const Scene scene = scene_of(R"J({"robot": "box(-1,-1/4,0, 1,1/4,1)", "obstacles": ["box(2,-2,-1, 3,2,2)"],
+    "start": [0,0,0,0], "goal": [5,0,0,90], "rotation": {}, "box": [[-4,-6,-1],[9,6,1]]})J");
+  for (const char* name : {"BITstar", "InformedRRTstar", "AITstar"}) {
+    INFO(name);
+    TurningPlanning setup(scene);
+    setup.setPlanner(make_ompl_planner(name, setup.getSpaceInformation()));
+    REQUIRE_NOTHROW(setup.solve(
+        ob::plannerOrTerminationCondition(ob::timedPlannerTerminationCondition(30.0),
+                                          ob::exactSolnPlannerTerminationCondition(setup.getProblemDefinition()))));
+    CHECK(setup.haveExactSolutionPath());
+    CHECK(setup.getSolutionPath().check());
+  }
+}
+
+TEST_CASE("way-points of TurningPlanner with so many digits") {
+  ompl::msg::setLogLevel(ompl::msg::LOG_NONE);
+  TurningPlanning setup(scene_of(corner("3.5")));
+  setup.setup();
+  REQUIRE(setup.getPlanner()->params().setParam("digits", "2"));
+  CHECK_FALSE(setup.getPlanner()->params().setParam("digits", "301"));
+  REQUIRE(setup.solve(60.0) == ob::PlannerStatus::EXACT_SOLUTION);
+  CHECK(setup.getSolutionPath().check());
+  const auto& answer = *setup.getPlanner()->as<TurningPlanner>()->getAnswer();
+  std::size_t rounded_count = 0;
+  for (std::size_t i = 1; i + 1 < answer.path.size(); ++i) {
+    const bool named = std::find(answer.unrounded.begin(), answer.unrounded.end(), i) != answer.unrounded.end();
+    CHECK(is_rounded(answer.path[i].position, 2) != named);
+    rounded_count += named ? 0 : 1;
+  }
+  CHECK(rounded_count > 0);
 }
 
 }  // namespace

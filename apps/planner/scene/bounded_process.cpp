@@ -29,21 +29,22 @@ void limit(decltype(RLIMIT_AS) resource, rlim_t value) {
   setrlimit(resource, &now);
 }
 
-rlim_t address_space() {
+// At most so many bytes more than there are now.
+void limit_memory(std::size_t bytes) {
+#ifndef NEF_SANITIZED
   std::ifstream pages("/proc/self/statm");
   rlim_t count = 0;
   pages >> count;
-  return count * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
+  limit(RLIMIT_AS, count * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + bytes);
+#else
+  static_cast<void>(bytes);  // sanitizers reserve terabytes of address space
+#endif
 }
 
 void set_bounds(std::size_t bytes, unsigned seconds) {
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, seconds);
-#ifndef NEF_SANITIZED
-  limit(RLIMIT_AS, address_space() + bytes);
-#else
-  static_cast<void>(bytes);
-#endif
+  limit_memory(bytes);
 }
 
 bool write_all(int descriptor, std::string_view text) {

@@ -13,6 +13,7 @@
 #include "nef/io/native/native_binary.h"
 #include "nef/io/native/native_format.h"
 #include "nef/io/number_text.h"
+#include "nef/mesh/separate_sheets.h"
 
 namespace nef {
 
@@ -62,6 +63,18 @@ void round_and_mend(Mesh& mesh, const std::string& extension, MeshWriteOptions& 
   options.groups.of_face = std::move(groups);
 }
 
+void separate(Mesh& mesh, const std::string& extension, Messages& notes) {
+  if (extension == "stl") {
+    throw UnsupportedError(
+        "STL names no vertices, so sheets that touch can not be told apart in it; write OFF, OBJ, PLY, GLB or 3MF");
+  }
+  SeparatedSheets separated = separate_sheets(mesh);
+  mesh = std::move(separated.mesh);
+  if (separated.copies == 0) return;
+  notes.push_back("the solid touches itself, in " + std::to_string(separated.edges) +
+                  " edges: " + std::to_string(separated.copies) + " vertices are in the file once more");
+}
+
 // The faces' groups, numbered by name.
 FaceGroups groups_of(const MeshExport& result, const BoundaryGroups& groups) {
   std::map<std::array<LabelId, 2>, std::string> name;
@@ -104,6 +117,8 @@ FaceGroups write_boundary(const std::string& path, const std::string& extension,
     report_wires(result, notes);
   }
   if (result.closed && options.check) round_and_mend(result.mesh, extension, write_options, notes);
+  if (options.manifold && result.closed && groups == nullptr) separate(result.mesh, extension, notes);
+  if (options.vertex_colors) write_options.vertex_colors = options.vertex_colors(result.mesh);
   if (groups != nullptr && !has_groups(extension)) {
     notes.push_back("groups of faces are not in the file: the format has none; write OBJ, OFF, PLY or GLB");
   }

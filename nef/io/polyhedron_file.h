@@ -3,9 +3,12 @@
 // Polyhedra from and to files of every format, chosen by extension.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "nef/construct/construct.h"
 #include "nef/io/mesh/mesh_writer.h"
@@ -19,11 +22,15 @@ namespace nef {
 Polyhedron read_polyhedron(const std::string& path, const MeshOptions& options = {}, Messages* messages = nullptr);
 
 struct PolyhedronWriteOptions {
-  bool exact = false;       ///< exact coordinates in mesh files (not STL)
-  bool binary = false;      ///< binary STL or PLY
-  bool text = false;        ///< .nef as text; it is binary otherwise
-  bool polygons = false;    ///< faces that are not convex stay polygons, too, in OFF, OBJ, PLY
-  bool check = true;        ///< check what was rounded, and mend it
+  bool exact = false;     ///< exact coordinates in mesh files (not STL)
+  bool binary = false;    ///< binary STL or PLY
+  bool text = false;      ///< .nef as text; it is binary otherwise
+  bool polygons = false;  ///< faces that are not convex stay polygons, too, in OFF, OBJ, PLY
+  bool check = true;      ///< check what was rounded, and mend it
+  bool manifold = false;  ///< in mesh files each edge has two faces (separate_sheets; not in STL, and
+                          ///< not together with groups)
+  /// Red, green and blue for the vertices of the mesh that goes to a file; PLY and GLB only.
+  std::function<std::vector<std::array<std::uint8_t, 3>>(const Mesh&)> vertex_colors = {};
   std::string format = {};  ///< instead of the extension of the path, which may be none
 };
 

@@ -34,6 +34,20 @@ struct MeshSurface {
   std::vector<std::uint32_t> rings;  ///< corners of the planar faces that were cut, as places; none of irregular ones
   std::vector<std::uint32_t> ring_begin{0};  ///< of each face in `rings`, and the end
 
+  /// The corners of a triangle as its face names them, instead of the smallest vertices at their points.
+  [[nodiscard]] std::array<std::uint32_t, 3> corners_in_face(const Mesh& mesh, std::uint32_t triangle) const {
+    std::array<std::uint32_t, 3> corners = triangles[triangle];
+    for (std::uint32_t& v : corners) {
+      for (const std::uint32_t own : mesh.face(face_of[triangle])) {
+        if (place[own] == v) {
+          v = own;
+          break;
+        }
+      }
+    }
+    return corners;
+  }
+
   /// The corners of a planar face that was cut and names no vertex twice; none for others.
   [[nodiscard]] std::span<const std::uint32_t> ring(std::uint32_t face) const {
     return std::span(rings).subspan(ring_begin[face], ring_begin[face + 1] - ring_begin[face]);

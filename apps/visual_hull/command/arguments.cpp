@@ -91,6 +91,12 @@ void add_output_options(CLI::App& app, Arguments& a) {
   app.add_option("--decimate", a.decimate, "Write a mesh of about N triangles, and tell how far it is from the hull")
       ->check(CLI::PositiveNumber)
       ->type_name("N");
+  app.add_flag(
+      "--manifold", a.manifold,
+      "Write a mesh in which each edge has two faces: diagonal pixels are joined, what touches still is split");
+  app.add_flag("--color", a.color,
+               "Vertices get the mean colour of the views that see them (PLY, GLB); photographs of masks/NAME are "
+               "looked up in images/");
   app.add_flag("--verify", a.verify, "Project the hull back into every view; exit code 1 if it is not inside");
   app.add_option("--way", a.way,
                  "Vertex by vertex (direct), by intersecting cones, or as is best; the hull is the same")
@@ -125,6 +131,7 @@ Options to_options(const Arguments& a) {
   Options options;
   options.silhouette.simplify = {a.simplify, a.outer};
   options.silhouette.min_area = a.min_area;
+  if (a.manifold) options.silhouette.diagonal = DiagonalPixels::kJoin;
   options.silhouette.border = a.border == "unknown" ? Border::kUnknown : Border::kOutside;
   if (!a.origin.empty()) options.origin = a.origin == "corner" ? PixelOrigin::kCorner : PixelOrigin::kCenter;
   if (!a.threshold.empty()) options.silhouette.threshold = parse_threshold(a.threshold);

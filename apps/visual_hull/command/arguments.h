@@ -22,6 +22,8 @@ struct Arguments {
   double min_area = 0;
   double simplify = 0;
   bool outer = false;
+  bool manifold = false;
+  bool color = false;
   std::string border = "outside";
   std::string box;
   std::string origin;

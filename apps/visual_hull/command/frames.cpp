@@ -56,6 +56,8 @@ json settings_of(const Arguments& a) {
           {"scene_written", error ? 0 : written.time_since_epoch().count()},
           {"simplify", a.simplify},
           {"outer", a.outer},
+          {"manifold", a.manifold},
+          {"color", a.color},
           {"min_area", a.min_area},
           {"border", a.border},
           {"box", a.box},
@@ -146,7 +148,7 @@ json entry_of(const Result& result, const fs::path& output, const Arguments& a) 
   if (result.vanished) {
     entry["message"] = nef::utf8(vanished_text(result));
   } else {
-    const std::optional<nef::DecimatedMesh> decimated = write_hull(output.string(), result.hull, a, nullptr);
+    const std::optional<nef::DecimatedMesh> decimated = write_hull(output.string(), result, a, nullptr);
     if (decimated) entry["decimated"] = decimation_json(*decimated);
     const nef::Counts counts = nef::counts(result.hull);
     entry["output"] = nef::utf8(output.string());

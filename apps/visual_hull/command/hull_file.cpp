@@ -3,35 +3,66 @@
 
 #include <fmt/format.h>
 
+#include "apps/visual_hull/color/vertex_colors.h"
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/mesh/mesh_writer.h"
 #include "nef/io/polyhedron_file.h"
+#include "nef/mesh/separate_sheets.h"
 
 namespace visual_hull {
 
-void check_output(const Arguments& a) {
-  if (a.decimate == 0) return;
-  if (a.output.empty()) throw nef::InputError("--decimate writes a mesh: give it a name with -o");
-  const std::string extension = nef::lower_extension(a.output);
-  if (extension == "nef" || extension == "nef3") {
-    throw nef::InputError("--decimate writes a mesh, and " + a.output + " is none: off, obj, stl, ply, glb, 3mf");
-  }
+namespace {
+
+void need_mesh(const Arguments& a, const std::string& option, bool (*suits)(const std::string&), const char* formats) {
+  if (a.output.empty()) throw nef::InputError(option + " writes a mesh: give it a name with -o");
+  if (suits(nef::lower_extension(a.output))) return;
+  throw nef::InputError(option + ": " + a.output + " cannot hold that; " + formats + " can");
 }
 
-std::optional<nef::DecimatedMesh> write_hull(const std::string& path, const nef::Polyhedron& hull, const Arguments& a,
+std::vector<Color> colors_of(const nef::Mesh& mesh, const Result& result, const Arguments& a, nef::Messages* messages) {
+  VertexColors found = vertex_colors(mesh, result.views, result.origin, a.threads);
+  if (found.unseen > 0 && messages != nullptr) {
+    messages->push_back(fmt::format("{} of {} vertices are seen by no view: they have the colours of their neighbours",
+                                    found.unseen, found.colors.size()));
+  }
+  return std::move(found.colors);
+}
+
+}  // namespace
+
+void check_output(const Arguments& a) {
+  const auto is_mesh = [](const std::string& extension) { return extension != "nef" && extension != "nef3"; };
+  const auto names_vertices = [](const std::string& extension) {
+    return extension != "nef" && extension != "nef3" && extension != "stl";
+  };
+  if (a.decimate != 0) need_mesh(a, "--decimate", is_mesh, "OFF, OBJ, STL, PLY, GLB and 3MF");
+  if (a.manifold) need_mesh(a, "--manifold", names_vertices, "OFF, OBJ, PLY, GLB and 3MF");
+  if (a.color) need_mesh(a, "--color", nef::has_vertex_colors, "PLY and GLB");
+}
+
+std::optional<nef::DecimatedMesh> write_hull(const std::string& path, const Result& result, const Arguments& a,
                                              nef::Messages* messages) {
   if (a.decimate == 0) {
     nef::PolyhedronWriteOptions format;
     format.exact = a.exact;
     format.binary = a.binary;
     format.text = a.text;
-    nef::write_polyhedron(path, hull, format, messages);
+    format.manifold = a.manifold;
+    if (a.color) {
+      format.vertex_colors = [&](const nef::Mesh& mesh) { return colors_of(mesh, result, a, messages); };
+    }
+    nef::write_polyhedron(path, result.hull, format, messages);
     return std::nullopt;
   }
-  nef::DecimatedMesh decimated = nef::decimate(hull, a.decimate);
+  nef::DecimatedMesh decimated = nef::decimate(result.hull, a.decimate);
   if (messages != nullptr) messages->insert(messages->end(), decimated.notes.begin(), decimated.notes.end());
-  nef::write_mesh(path, decimated.mesh, {.exact = a.exact, .binary = a.binary}, messages);
+  if (a.manifold) decimated.mesh = nef::separate_sheets(decimated.mesh).mesh;
+  nef::MeshWriteOptions format;
+  format.exact = a.exact;
+  format.binary = a.binary;
+  if (a.color) format.vertex_colors = colors_of(decimated.mesh, result, a, messages);
+  nef::write_mesh(path, decimated.mesh, format, messages);
   return decimated;
 }
 

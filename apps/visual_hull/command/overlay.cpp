@@ -2,6 +2,7 @@
 #include "apps/visual_hull/command/overlay.h"
 
 #include <algorithm>
+#include <opencv2/calib3d.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -32,7 +33,10 @@ cv::Mat load_canvas(const ViewResult& view, PixelOrigin origin, Frame& frame) {
     cv::Mat image = cv::imread(view.image.string(), cv::IMREAD_COLOR);
     if (!image.empty()) {
       if (origin == PixelOrigin::kCorner) frame.u0 = frame.v0 = 0.5;
-      return image;
+      if (view.distortion.coefficients.empty()) return image;
+      cv::Mat straight;
+      cv::undistort(image, straight, opencv_intrinsics(view.distortion, origin), view.distortion.coefficients);
+      return straight;
     }
   }
   Rectangle box;

@@ -6,6 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "apps/visual_hull/command/overlay.h"
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
 #include "nef/view/page.h"
@@ -97,10 +98,20 @@ bool embed_image(const ViewResult& view, PixelOrigin origin, nef::view::Photo& p
   return true;
 }
 
-void add_image(Layer& layer, const ViewResult& view, PixelOrigin origin, const ImagePlane& plane) {
+// The overlay, which marks the residual.
+void embed_overlay(const ViewResult& view, const Result& result, PixelOrigin origin, nef::view::Photo& photo) {
+  std::vector<unsigned char> bytes;
+  if (!cv::imencode(".png", draw_overlay(view, result.hull, origin), bytes)) return;
+  photo.media_type = "image/png";
+  photo.bytes.assign(bytes.begin(), bytes.end());
+}
+
+void add_image(Layer& layer, const ViewResult& view, const Result& result, PixelOrigin origin,
+               const ImagePlane& plane) {
   nef::view::Photo photo;
   photo.name = view.name;
   if (!embed_image(view, origin, photo)) return;
+  if (result.consistency) embed_overlay(view, result, origin, photo);
   // The frame runs along the outer sides of the pixels.
   const double shift = origin == PixelOrigin::kCenter ? -0.5 : 0;
   const double right = view.silhouette.image_size.width + shift;
@@ -166,7 +177,7 @@ std::vector<Layer> page_layers(const Result& result, PixelOrigin origin) {
     if (view.image.empty()) {
       add_outline(cameras, view, plane);
     } else {
-      add_image(cameras, view, origin, plane);
+      add_image(cameras, view, result, origin, plane);
     }
   }
   layers.push_back(std::move(cameras));

@@ -112,7 +112,7 @@ Written write_files(const Arguments& a, const Result& result, nef::ProgressBar& 
     bar.show("write " + target);
     write();
   };
-  step(a.output, true, [&] { written.decimated = write_hull(a.output, result.hull, a, &written.messages); });
+  step(a.output, true, [&] { written.decimated = write_hull(a.output, result, a, &written.messages); });
   step(a.overlay, false, [&] { write_overlays(result, result.origin, a.overlay); });
   step(a.preview, true, [&] { write_preview(result, a.preview); });
   step(a.page, true, [&] { write_page(result, result.origin, a.page); });

@@ -23,7 +23,19 @@ SightView::SightView(const ComparedView& view) : matrix_(to_doubles(*view.camera
     area_ += twice_area(ring) / 2;
   }
   ring_begin_.push_back(static_cast<std::uint32_t>(u_.size()));
+  for (std::size_t r = 0; r + 1 < ring_begin_.size(); ++r) {
+    const std::uint32_t last = ring_begin_[r + 1] - 1;
+    for (std::uint32_t begin = ring_begin_[r]; begin < last; begin += kRun)
+      add_run(begin, std::min(begin + kRun, last));
+  }
   angle_ = std::abs(inverse_.determinant()) * area_;
+}
+
+void SightView::add_run(std::uint32_t begin, std::uint32_t end) {
+  const auto [left, right] = std::minmax_element(u_.begin() + begin, u_.begin() + end + 1);
+  const auto [top, bottom] = std::minmax_element(v_.begin() + begin, v_.begin() + end + 1);
+  runs_.push_back(
+      {begin, end, (*left + *right) / 2, (*top + *bottom) / 2, std::hypot(*right - *left, *bottom - *top) / 2});
 }
 
 Eigen::Vector3d SightView::ray(const Eigen::Vector2d& image) const { return inverse_ * image.homogeneous(); }
@@ -85,15 +97,18 @@ void SightView::cut(const Eigen::Vector3d& centre, const Eigen::Vector3d& direct
   const auto place = [&](double s) { return (a_along + s * b_along) / (a[2] + s * b[2]); };
   const auto depth = [&](double t) { return (t * a[2] - a_along) / (b_along - t * b[2]); };
 
-  thread_local std::vector<double> side;
   thread_local std::vector<double> crossings;
-  side.resize(u_.size());
-  for (std::size_t k = 0; k < u_.size(); ++k) side[k] = line[0] * u_[k] + line[1] * v_[k] + line[2];
   crossings.clear();
-  for (std::size_t r = 0; r + 1 < ring_begin_.size(); ++r) {
-    for (std::size_t k = ring_begin_[r]; k + 1 < ring_begin_[r + 1]; ++k) {
-      if ((side[k] <= 0) == (side[k + 1] <= 0)) continue;
-      const double share = side[k] / (side[k] - side[k + 1]);
+  const auto side = [&](std::size_t k) { return line[0] * u_[k] + line[1] * v_[k] + line[2]; };
+  for (const Run& run : runs_) {
+    // Twice the radius, far above roundings: a run that is left out is not crossed.
+    if (std::abs(line[0] * run.u + line[1] * run.v + line[2]) > 2 * run.radius * length) continue;
+    double before = side(run.begin);
+    for (std::size_t k = run.begin; k < run.end; ++k) {
+      const double here = before;
+      before = side(k + 1);
+      if ((here <= 0) == (before <= 0)) continue;
+      const double share = here / (here - before);
       const Eigen::Vector2d p(u_[k] + share * (u_[k + 1] - u_[k]), v_[k] + share * (v_[k + 1] - v_[k]));
       crossings.push_back(along.dot(p));
     }

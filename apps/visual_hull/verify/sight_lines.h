@@ -38,6 +38,7 @@ class SightView {
 
  private:
   [[nodiscard]] bool inside(const Eigen::Vector2d& p) const;
+  void add_run(std::uint32_t begin, std::uint32_t end);
 
   Eigen::Matrix<double, 3, 4> matrix_;
   Eigen::Matrix3d inverse_;
@@ -47,6 +48,16 @@ class SightView {
   // Vertices ring by ring, each ring closed by its first vertex again.
   std::vector<double> u_, v_;
   std::vector<std::uint32_t> ring_begin_;
+  /// Some sides in a row, between vertices begin and end, in a circle: most lines pass by most of them.
+  struct Run {
+    std::uint32_t begin = 0;
+    std::uint32_t end = 0;
+    double u = 0;
+    double v = 0;
+    double radius = 0;
+  };
+  static constexpr std::uint32_t kRun = 12;
+  std::vector<Run> runs_;
 };
 
 /// The range of depths at which a line is in a box; empty (from > to) if it misses it.

@@ -259,11 +259,11 @@ void append_chunk(std::string& bytes, std::uint32_t type, std::string chunk, cha
 }
 
 // A part of the triangles, with views of their own for the indices.
-nlohmann::ordered_json& append_primitive(nlohmann::ordered_json& document, std::string& binary,
+nlohmann::ordered_json& append_primitive(nlohmann::ordered_json& document, std::string& binary, const Mesh& mesh,
                                          const MeshSurface& surface, const std::vector<std::uint32_t>& triangles) {
   const std::size_t begin = binary.size();
   for (const std::uint32_t t : triangles) {
-    for (const std::uint32_t v : surface.triangles[t]) append_little_endian(binary, v);
+    for (const std::uint32_t v : surface.corners_in_face(mesh, t)) append_little_endian(binary, v);
   }
   constexpr int kIndices = 34963;  // what the view is for: ELEMENT_ARRAY_BUFFER
   nlohmann::ordered_json primitive{
@@ -278,7 +278,30 @@ nlohmann::ordered_json& append_primitive(nlohmann::ordered_json& document, std::
   return document["meshes"][0]["primitives"].back();
 }
 
-void append_groups(nlohmann::ordered_json& document, std::string& binary, const MeshSurface& surface,
+// sRGB becomes linear light, which has more than eight bits.
+void append_colors(nlohmann::ordered_json& document, std::string& binary,
+                   const std::vector<std::array<std::uint8_t, 3>>& colors) {
+  const std::size_t begin = binary.size();
+  constexpr std::uint16_t kFull = 65535;
+  for (const auto& color : colors) {
+    for (const std::uint8_t channel : color) {
+      append_little_endian(binary, static_cast<std::uint16_t>(std::lround(kFull * linear_light(channel))));
+    }
+    append_little_endian(binary, kFull);  // opaque
+  }
+  constexpr int kVertices = 34962;
+  document["accessors"].push_back({{"bufferView", document["bufferViews"].size()},
+                                   {"componentType", int{kUint16}},
+                                   {"normalized", true},
+                                   {"count", colors.size()},
+                                   {"type", "VEC4"}});
+  document["bufferViews"].push_back(
+      {{"buffer", 0}, {"byteOffset", begin}, {"byteLength", binary.size() - begin}, {"target", kVertices}});
+  document["materials"] = {
+      {{"name", "colours"}, {"pbrMetallicRoughness", {{"metallicFactor", 0.0}, {"roughnessFactor", 1.0}}}}};
+}
+
+void append_groups(nlohmann::ordered_json& document, std::string& binary, const Mesh& mesh, const MeshSurface& surface,
                    const FaceGroups& groups) {
   std::vector<std::vector<std::uint32_t>> triangles(groups.names.size());
   for (std::uint32_t t = 0; t < surface.triangles.size(); ++t) {
@@ -286,7 +309,7 @@ void append_groups(nlohmann::ordered_json& document, std::string& binary, const 
   }
   for (std::size_t g = 0; g < triangles.size(); ++g) {
     if (triangles[g].empty()) continue;
-    append_primitive(document, binary, surface, triangles[g])["material"] =
+    append_primitive(document, binary, mesh, surface, triangles[g])["material"] =
         document.value("materials", nlohmann::ordered_json::array()).size();
     const std::array<std::uint8_t, 3> color = group_color(g);
     document["materials"].push_back(
@@ -302,7 +325,8 @@ void append_groups(nlohmann::ordered_json& document, std::string& binary, const 
 
 Mesh read_glb(std::string_view bytes, const std::string& path) { return GlbReader(bytes, path).read(); }
 
-std::string glb_bytes(const Mesh& mesh, const FaceGroups& groups) {
+std::string glb_bytes(const Mesh& mesh, const FaceGroups& groups,
+                      const std::vector<std::array<std::uint8_t, 3>>& vertex_colors) {
   const MeshSurface surface(mesh);
   std::string binary;
   std::array<float, 3> low{};
@@ -330,12 +354,18 @@ std::string glb_bytes(const Mesh& mesh, const FaceGroups& groups) {
     constexpr int kVertices = 34962;  // what the view is for: ARRAY_BUFFER
     document["bufferViews"] = {
         {{"buffer", 0}, {"byteOffset", 0}, {"byteLength", binary.size()}, {"target", kVertices}}};
+    const std::size_t colors = document["accessors"].size();
+    if (!vertex_colors.empty()) append_colors(document, binary, vertex_colors);
     if (groups.none()) {
       std::vector<std::uint32_t> all(surface.triangles.size());
       std::iota(all.begin(), all.end(), 0U);
-      append_primitive(document, binary, surface, all);
+      append_primitive(document, binary, mesh, surface, all);
+      if (!vertex_colors.empty()) document["meshes"][0]["primitives"].back()["material"] = 0;
     }
-    append_groups(document, binary, surface, groups);
+    append_groups(document, binary, mesh, surface, groups);
+    if (!vertex_colors.empty()) {
+      for (auto& primitive : document["meshes"][0]["primitives"]) primitive["attributes"]["COLOR_0"] = colors;
+    }
     document["buffers"] = {{{"byteLength", binary.size()}}};
   }
   std::string chunks;

@@ -3,8 +3,11 @@
 // Meshes in binary glTF 2.0 (.glb): positions in single precision, triangles.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "nef/construct/construct.h"
 #include "nef/io/mesh/face_groups.h"
@@ -17,7 +20,9 @@ namespace nef {
 Mesh read_glb(std::string_view bytes, const std::string& path);
 
 /// One node with the mesh's triangles; its matrix turns z up to y up, so that the numbers are the mesh's, rounded to
-/// the nearest floats. Each group of faces is a primitive with a material of its name.
-std::string glb_bytes(const Mesh& mesh, const FaceGroups& groups = {});
+/// the nearest floats. Each group of faces is a primitive with a material of its name. `vertex_colors`: in sRGB, of
+/// every vertex, or none.
+std::string glb_bytes(const Mesh& mesh, const FaceGroups& groups = {},
+                      const std::vector<std::array<std::uint8_t, 3>>& vertex_colors = {});
 
 }  // namespace nef

@@ -191,18 +191,28 @@ std::string ply_bytes(const Mesh& mesh, const MeshWriteOptions& options) {
     bytes += "comment group " + std::to_string(g) + " " + group_word(groups.names[g]) + "\n";
   }
   bytes += "element vertex " + std::to_string(mesh.vertices.size());
-  bytes += "\nproperty double x\nproperty double y\nproperty double z\nelement face ";
-  bytes += std::to_string(mesh.face_count()) + "\nproperty list int int vertex_indices\n";
+  bytes += "\nproperty double x\nproperty double y\nproperty double z\n";
+  const bool colored = !options.vertex_colors.empty();
+  if (colored) bytes += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+  bytes += "element face " + std::to_string(mesh.face_count()) + "\nproperty list int int vertex_indices\n";
   if (!groups.none()) {
     bytes += "property int group\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n";
   }
   bytes += "end_header\n";
-  for (const Rational3& p : mesh.vertices) {
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const Rational3& p = mesh.vertices[v];
     if (options.binary) {
       for (const Rational& x : p) append_little_endian(bytes, nearest_double(x));
-    } else {
-      append_point(bytes, p, options.exact);
+      if (colored) {
+        for (const std::uint8_t x : options.vertex_colors[v]) append_little_endian(bytes, x);
+      }
+      continue;
     }
+    append_point(bytes, p, options.exact);
+    if (!colored) continue;
+    bytes.pop_back();  // the end of the line
+    append_color(bytes, options.vertex_colors[v]);
+    bytes += '\n';
   }
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {
     const auto face = mesh.face(f);
@@ -229,6 +239,8 @@ std::string ply_bytes(const Mesh& mesh, const MeshWriteOptions& options) {
   }
   return bytes;
 }
+
+bool has_vertex_colors(const std::string& extension) { return extension == "ply" || extension == "glb"; }
 
 bool has_groups(const std::string& extension) {
   return extension == "off" || extension == "obj" || extension == "ply" || extension == "glb";
@@ -278,6 +290,9 @@ void write_mesh(const std::string& path, const Mesh& mesh, const MeshWriteOption
     refuse(path, "exact coordinates need OFF, OBJ or text PLY");
   }
   if (options.binary && extension != "stl" && extension != "ply") refuse(path, "only STL and PLY can be binary");
+  if (!options.vertex_colors.empty() && !has_vertex_colors(extension)) {
+    refuse(path, "the format has no colours of vertices; write PLY or GLB");
+  }
   refuse_infinite(mesh, extension, options);
   std::string bytes;
   if (extension == "off") {
@@ -289,7 +304,7 @@ void write_mesh(const std::string& path, const Mesh& mesh, const MeshWriteOption
   } else if (extension == "ply") {
     bytes = ply_bytes(mesh, options);
   } else if (extension == "glb") {
-    bytes = glb_bytes(mesh, options.groups);
+    bytes = glb_bytes(mesh, options.groups, options.vertex_colors);
   } else if (extension == "3mf") {
     bytes = threemf_bytes(mesh);
   } else {

@@ -27,6 +27,8 @@ struct MeshWriteOptions {
   /// Groups of faces: `g name` in OBJ, colours in OFF, numbers and colours (names as comments) in PLY, named materials
   /// in GLB. Other formats have none.
   FaceGroups groups = {};
+  /// Red, green and blue (sRGB) of every vertex, or none; PLY and GLB only.
+  std::vector<std::array<std::uint8_t, 3>> vertex_colors = {};
 };
 
 /// Writes a mesh in the format that the extension names (off, obj, stl, ply, glb, 3mf), beside the target first and
@@ -36,6 +38,9 @@ struct MeshWriteOptions {
 /// that the format does not have, coordinates beyond the range of its numbers, or a file that cannot be written.
 void write_mesh(const std::string& path, const Mesh& mesh, const MeshWriteOptions& options = {},
                 Messages* messages = nullptr);
+
+/// True if a format holds colours of vertices.
+bool has_vertex_colors(const std::string& extension);
 
 /// True if a format holds groups of faces.
 bool has_groups(const std::string& extension);

@@ -265,7 +265,8 @@ std::string threemf_bytes(const Mesh& mesh) {
       model += "/>\n";
     }
     model += "   </vertices>\n   <triangles>\n";
-    for (const auto& t : surface.triangles) {
+    for (std::uint32_t k = 0; k < surface.triangles.size(); ++k) {
+      const std::array<std::uint32_t, 3> t = surface.corners_in_face(mesh, k);
       model += "    <triangle v1=\"" + std::to_string(t[0]) + "\" v2=\"" + std::to_string(t[1]) + "\" v3=\"" +
                std::to_string(t[2]) + "\"/>\n";
     }

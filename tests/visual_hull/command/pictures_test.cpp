@@ -83,6 +83,22 @@ TEST_CASE("Images that browsers do not know become PNGs") {
   CHECK(cv::norm(back, image, cv::NORM_INF) == 0);
 }
 
+TEST_CASE("With the views compared, a page shows what the hull does not cover of a silhouette, in yellow") {
+  Result result = eight();
+  const auto yellow = [&result] {
+    const std::string bytes = page_layers(result, PixelOrigin::kCenter)[1].photos[0].bytes;
+    const cv::Mat picture = cv::imdecode(std::vector<char>(bytes.begin(), bytes.end()), cv::IMREAD_COLOR);
+    cv::Mat found;
+    cv::inRange(picture, cv::Scalar(0, 150, 200), cv::Scalar(160, 255, 255), found);
+    return cv::countNonZero(found);
+  };
+  CHECK(yellow() == 0);
+  result.consistency = Consistency{};
+  const int before = yellow();
+  result.hull = nef::intersect(result.hull, nef::make_box({-100, -100, 0}, {100, 100, 100}));  // the half is gone
+  CHECK(yellow() > before + 1000);
+}
+
 TEST_CASE("A preview is four pictures of the hull") {
   const Scratch s;
   const Result letters = compute(read_scene(hull_data("letters/mpi.vsh")), {}, {});

@@ -2,7 +2,10 @@
 #include "apps/planner/path/shorten.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include "apps/planner/free_space/vectors.h"
 #include "apps/planner/path/triangle_pull.h"
@@ -116,6 +119,49 @@ void polish(const FreeSpace& free, const CellFilter& filter, Waypoints& path, st
   }
 }
 
+// What was tried in vain is not tried again: most of a path stays as it is from round to round.
+struct TriedInVain {
+  std::set<std::pair<Rational3, Rational3>> shortcuts;
+  std::set<std::array<Rational3, 3>> pulls;   // of a way-point with its neighbours
+  std::set<std::array<Rational3, 3>> slides;  // ...
+};
+
+bool may_use(const FreeSpace& free, const CellFilter& filter, const Rational3& a, const Rational3& b,
+             TriedInVain* tried) {
+  if (tried == nullptr) return segment_allowed(free, filter, a, b);
+  if (tried->shortcuts.contains({a, b})) return false;
+  if (segment_allowed(free, filter, a, b)) return true;
+  tried->shortcuts.emplace(a, b);
+  return false;
+}
+
+void leave_out(const FreeSpace& free, const CellFilter& filter, Waypoints& path, bool clearance, TriedInVain* tried) {
+  for (std::size_t i = 0; i + 2 < path.size(); ++i) {
+    for (std::size_t j = path.size() - 1; j > i + 1; --j) {
+      if (!may_use(free, filter, path[i], path[j], tried)) continue;
+      if (clearance && !keeps_clearance(free, path, i, j)) continue;
+      path.erase(path.begin() + static_cast<std::ptrdiff_t>(i) + 1, path.begin() + static_cast<std::ptrdiff_t>(j));
+      break;
+    }
+  }
+}
+
+// Does something with each way-point between the ends that did not fail with the same neighbours before.
+template <typename Change>
+bool change_each(Waypoints& path, std::set<std::array<Rational3, 3>>& tried, const Change& change) {
+  bool changed = false;
+  for (std::size_t i = 1; i + 1 < path.size(); ++i) {
+    std::array<Rational3, 3> corner{path[i - 1], path[i], path[i + 1]};
+    if (tried.contains(corner)) continue;
+    if (change(i)) {
+      changed = true;
+    } else {
+      tried.insert(std::move(corner));
+    }
+  }
+  return changed;
+}
+
 }  // namespace
 
 double length_of(const Waypoints& path) {
@@ -125,24 +171,18 @@ double length_of(const Waypoints& path) {
 }
 
 void shortcut(const FreeSpace& free, const CellFilter& filter, Waypoints& path, bool clearance) {
-  for (std::size_t i = 0; i + 2 < path.size(); ++i) {
-    for (std::size_t j = path.size() - 1; j > i + 1; --j) {
-      if (!segment_allowed(free, filter, path[i], path[j])) continue;
-      if (clearance && !keeps_clearance(free, path, i, j)) continue;
-      path.erase(path.begin() + static_cast<std::ptrdiff_t>(i) + 1, path.begin() + static_cast<std::ptrdiff_t>(j));
-      break;
-    }
-  }
+  leave_out(free, filter, path, clearance, nullptr);
 }
 
 void tighten(const FreeSpace& free, const CellFilter& filter, Waypoints& path, int rounds) {
   double length = length_of(path);
+  TriedInVain tried;
   for (int round = 0; round < rounds; ++round) {
-    bool changed = false;
-    for (std::size_t i = 1; i + 1 < path.size(); ++i) changed = pull_corner(free, filter, path, i) || changed;
-    for (std::size_t i = 1; i + 1 < path.size(); ++i) changed = slide(free, filter, path, i) || changed;
-    if (!changed) break;
-    shortcut(free, filter, path, false);
+    const bool pulled =
+        change_each(path, tried.pulls, [&](std::size_t i) { return pull_corner(free, filter, path, i); });
+    const bool slid = change_each(path, tried.slides, [&](std::size_t i) { return slide(free, filter, path, i); });
+    if (!pulled && !slid) break;
+    leave_out(free, filter, path, false, &tried);
     const double shorter = length_of(path);
     if (round > 4 && shorter > length * (1 - 1e-12)) break;
     length = shorter;

@@ -60,8 +60,9 @@ Seen view_of_mask(std::size_t axis, int direction, const cv::Mat& mask, int skew
 }
 
 TEST_CASE("Random masks, holes and touching rings included: the direct way agrees with the cones") {
+  std::size_t asked = 0;
   std::size_t used = 0;
-  testing::property("equal where it answers", [&used] {
+  testing::property("equal where it answers", [&] {
     std::vector<Seen> views;
     const int smoothing = *rc::gen::inRange(0, 2);
     const std::size_t count = *rc::gen::inRange<std::size_t>(3, 6);
@@ -72,13 +73,14 @@ TEST_CASE("Random masks, holes and touching rings included: the direct way agree
     }
     const std::optional<WorldBox> box = enclosing_box(views);
     if (!box) return;
+    ++asked;
     const std::optional<nef::Polyhedron> hull = directly(views, *box);
     if (!hull) return;
     ++used;
     RC_ASSERT(nef::validate(hull->complex()) == "");
     RC_ASSERT(nef::equal(*hull, by_cones(views, *box)));
   });
-  CHECK(used >= 60);  // of a hundred: it is not there to give up
+  CHECK(5 * used >= 3 * asked);  // it is not there to give up
 }
 
 // A closed curve with bumps, and a hole in its middle if that is asked for.

@@ -182,7 +182,7 @@ TEST_CASE("A box of six colours, and one that hides a part of another") {
   }
 }
 
-TEST_CASE("--color writes colours to PLY and GLB, and nowhere else") {
+TEST_CASE("Colours are written to PLY and GLB, and nowhere else (--color)") {
   const testing::Scratch scratch;
   const std::filesystem::path file = render({{{-1, -0.8, -0.9}, {1, 0.8, 0.9}, kSix}}, scratch);
   const std::string ply = (scratch.folder() / "hull.ply").string();

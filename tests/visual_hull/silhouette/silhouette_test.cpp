@@ -109,8 +109,7 @@ TEST_CASE("Lens distortion is undone before the contour is taken") {
   cv::undistortPoints(pixels, straight, k, lens, cv::noArray(), k);
   cv::Mat distorted(size, CV_8U, cv::Scalar(0));
   for (std::size_t i = 0; i < pixels.size(); ++i) {
-    const bool in =
-        straight[i].x > 40.5 && straight[i].x < 159.5 && straight[i].y > 30.5 && straight[i].y < 119.5;
+    const bool in = straight[i].x > 40.5 && straight[i].x < 159.5 && straight[i].y > 30.5 && straight[i].y < 119.5;
     distorted.at<std::uint8_t>(pixels[i]) = in ? 255 : 0;
   }
   const Scratch scratch;

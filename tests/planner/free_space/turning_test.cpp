@@ -215,7 +215,9 @@ TEST_CASE("the corner turned in space: the same limit about any axis") {
     for (const auto& [length, fits] : {std::pair("3.5", true), std::pair("3.9", false)}) {
       INFO(axis << ' ' << length);
       nlohmann::json json = nlohmann::json::parse(corner(length));
-      const auto turned = [&](const std::string& shape) { return "transform(" + shape + ", " + matrix + ")"; };
+      const auto turned = [by = std::string(matrix)](const std::string& shape) {
+        return "transform(" + shape + ", " + by + ")";
+      };
       json["robot"] = turned(json["robot"]);
       json["obstacles"][0] = turned(json["obstacles"][0]);
       // In place of the box of the reference point a floor and a ceiling that the bar just fits between.

@@ -34,8 +34,9 @@ enum class UnionStrategy : std::uint8_t {
 struct MinkowskiOptions {
   UnionStrategy strategy = UnionStrategy::kAuto;
   unsigned threads = 1;  ///< 0: as many as the machine has; the result does not depend on it
-  /// Called after each pair of cells, and again and again while sums are united, with (pairs done, pairs in all), or
-  /// with thousandths of a convolution, always by the calling thread; false stops the sum: it throws nef::Interrupted.
+  /// Called after each pair of cells, and again and again while sums are united or a convolution is arranged, with the
+  /// work that is done in thousandths of all: (done, 1000), always by the calling thread; false stops the sum: it
+  /// throws nef::Interrupted. What consists of several sums (an opening) counts anew for each.
   std::function<bool(std::size_t, std::size_t)> progress;
 };
 

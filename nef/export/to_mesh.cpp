@@ -324,7 +324,8 @@ class Exporter {
   void note_marks(const Facet& facet, bool flip) {
     if (!options_.face_marks) return;
     fill_marks();
-    std::array<LabelId, 2> marks{complex_.volumes[facet.volume_below].mark, complex_.volumes[facet.volume_above].mark};
+    std::array<LabelId, 3> marks{complex_.volumes[facet.volume_below].mark, complex_.volumes[facet.volume_above].mark,
+                                 facet.mark};
     if (flip) std::swap(marks[0], marks[1]);
     face_marks_.push_back(marks);
   }
@@ -448,7 +449,7 @@ class Exporter {
   Items cracks_;
   std::vector<std::uint32_t> vertices_;  // of the complex, of each vertex of the mesh
   Mesh faces_;                           // its vertices come last
-  std::vector<std::array<LabelId, 2>> face_marks_;
+  std::vector<std::array<LabelId, 3>> face_marks_;
   std::vector<std::string> lost_;
 };
 

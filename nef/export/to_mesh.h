@@ -24,7 +24,7 @@ struct MeshExportOptions {
   std::function<bool(const Rational3&)> polygon_corner;
   /// Which marks count as belonging to the set; by default all but 0.
   std::function<bool(LabelId)> selected;
-  /// Tell of every face which marks the volumes on its two sides have.
+  /// Tell of every face which marks the volumes on its two sides and its facet have.
   bool face_marks = false;
 };
 
@@ -34,8 +34,9 @@ struct MeshExport {
   std::vector<std::array<std::uint32_t, 2>> lines;  ///< between vertices of the mesh, of a set without solid parts
   std::vector<std::uint32_t> points;                ///< the same
   std::vector<std::string> lost;  ///< a line for everything that the mesh does not hold; empty if it is the whole set
-  /// If asked for: the marks of the volumes inside and outside of each face (of a surface: below and above it).
-  std::vector<std::array<LabelId, 2>> face_marks;
+  /// If asked for: the marks of the volumes inside and outside of each face (of a surface: below and above it), and of
+  /// its facet.
+  std::vector<std::array<LabelId, 3>> face_marks;
 };
 
 /// The facets between the bounded selected volumes and the rest of space. The mesh is the boundary of the closure of

@@ -77,9 +77,9 @@ void separate(Mesh& mesh, const std::string& extension, Messages& notes) {
 
 // The faces' groups, numbered by name.
 FaceGroups groups_of(const MeshExport& result, const BoundaryGroups& groups) {
-  std::map<std::array<LabelId, 2>, std::string> name;
+  std::map<std::array<LabelId, 3>, std::string> name;
   for (const auto& marks : result.face_marks) {
-    if (!name.contains(marks)) name.emplace(marks, groups.name(marks[0], marks[1]));
+    if (!name.contains(marks)) name.emplace(marks, groups.name(marks[0], marks[1], marks[2]));
   }
   std::map<std::string, std::uint32_t> number;
   for (const auto& [marks, text] : name) number.emplace(text, 0);

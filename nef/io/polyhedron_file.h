@@ -48,8 +48,8 @@ void write_polyhedron(const std::string& path, const Polyhedron& polyhedron, con
 struct BoundaryGroups {
   /// Which marks belong to the set.
   std::function<bool(LabelId)> selected;
-  /// The name of the group of a face between volumes of these marks.
-  std::function<std::string(LabelId inside, LabelId outside)> name;
+  /// The name of the group of a face between volumes of these marks, in a facet of that one.
+  std::function<std::string(LabelId inside, LabelId outside, LabelId facet)> name;
 };
 
 /// Writes the points with selected marks like write_polyhedron, to a mesh format, and tells from face to face which

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <cmath>
 
+#include "nef/query/approximate_volume.h"
 #include "nef/query/measure.h"
 #include "nef/query/moments.h"
 
@@ -41,6 +42,10 @@ void add_volume(Json& info, const Polyhedron& set, const SetInfoOptions& options
   const std::optional<Rational> content = options.volume ? volume(set) : std::nullopt;
   if (!content) {
     for (const char* key : {"volume", "volume_double", "volume_digits"}) info[key] = nullptr;
+    if (options.volume || !set.is_bounded()) return;
+    const MeasuredVolume measured = approximate_volume(set);
+    info["volume_double"] = number_or_null(measured.value);
+    info["volume_error"] = number_or_null(measured.error);
     return;
   }
   const std::string text = to_string(*content);

@@ -9,7 +9,7 @@
 namespace nef {
 
 struct SetInfoOptions {
-  bool volume = true;    ///< compute the volume, which with long coordinates takes longer than all the rest
+  bool volume = true;    ///< compute the exact volume, which with long coordinates takes longer than all the rest
   bool exact = false;    ///< exact numbers however long they are, instead of those of kShortNumber characters at most
   bool moments = false;  ///< the centroid and the moments of inertia, too
 };
@@ -18,7 +18,8 @@ struct SetInfoOptions {
 inline constexpr std::size_t kShortNumber = 100;
 
 /// Everything that `nef info` tells about a set: counts, properties, measures. Numbers that are infinite, undefined,
-/// too long or not wanted are null. `volume_digits` says how many digits the exact volume has (numerator and
+/// too long or not wanted are null. Where the exact volume is not wanted, `volume_double` is off by at most
+/// `volume_error`. `volume_digits` says how many digits the exact volume has (numerator and
 /// denominator together).
 nlohmann::ordered_json set_info(const Polyhedron& set, const SetInfoOptions& options = {});
 

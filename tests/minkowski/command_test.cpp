@@ -66,11 +66,16 @@ TEST_CASE("command: a sum, and what its report says") {
   CHECK(report["cells"] == json({2, 1}));
   CHECK(report["pairs"] == 2);
   CHECK(report["union"] == "queue");
-  CHECK(report["result"]["volume"] == "24");
+  CHECK(report["result"]["volume"].is_null());
+  CHECK(report["result"]["volume_double"].get<double>() ==
+        Approx(24).epsilon(0).margin(report["result"]["volume_error"]));
+  CHECK(report["result"]["volume_error"].get<double>() < 1e-9);
   CHECK(report["result"]["closed"] == true);
   CHECK(report["phases"]["op_s"].get<double>() > 0);
   CHECK(report["predicates_by_phase"].contains("union"));
   nef::test::check_report_shape(report, "sum");
+  const Outcome exact = place.run("a.nef b.nef -o sum.nef --json --exact-volume");
+  CHECK(json::parse(exact.out)["result"]["volume"] == "24");
 }
 
 TEST_CASE("command: open operands, a mirrored one, offsets by a ball and a box") {
@@ -134,11 +139,44 @@ TEST_CASE("command: free space with a tight passage") {
   place.write("left.nef", "box(-20,-20,-20,-1,20,20)");
   place.write("right.nef", "box(0,-20,-20,20,20,20)");
   const Outcome outcome = place.run(
-      "--configuration-space --robot robot.nef --obstacles left.nef right.nef --box -5,-5,-5 5,5,5 -o free.nef --json");
+      "--configuration-space --robot robot.nef --obstacles left.nef right.nef --box -5,-5,-5 5,5,5 -o free.nef --json "
+      "--exact-volume");
   CAPTURE(outcome.err);
   REQUIRE(outcome.code == 0);
   CHECK(json::parse(outcome.out)["result"]["volume"] == "0");
   CHECK(nef::equal(nef::read_polyhedron(place / "free.nef"), set("polygon(-1,-5,-5, -1,5,-5, -1,5,5, -1,-5,5)")));
+}
+
+TEST_CASE("command: what a tool can touch, as labels of the part's faces") {
+  const Place place;
+  // A box with a pocket that is too narrow for the tool: the upper rim is touched, the walls and the floor are not.
+  place.write("part.nef", "box(0,0,0,8,8,4) - interior(box(3,3,1,4,4,5))");
+  place.write("tool.nef", "box(-1,-1,0,1,1,3)");
+  const Outcome outcome =
+      place.run("tool.nef part.nef --reach -o positions.nef --labels labels.obj --preview pictures --json");
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.code == 0);
+  const json report = json::parse(outcome.out);
+  CHECK(report["touched_area"].get<double>() == Approx(4 * 32 + 2 * 64 - 1));
+  CHECK(report["untouched_area"].get<double>() == Approx(4 * 3 + 1));
+  CHECK(report["faces"]["untouched"] == 5);
+  CHECK(report["faces"]["touched"].get<int>() > 5);
+  const std::string text = place.read("labels.obj");
+  CHECK(text.find("g touched\n") != std::string::npos);
+  CHECK(text.find("g untouched\n") != std::string::npos);
+  const nef::Mesh mesh = nef::read_mesh(place / "labels.obj");
+  CHECK(nef::equal(nef::from_mesh(mesh), nef::read_polyhedron(place / "part.nef")));
+  CHECK(place.read("pictures/labels.png").rfind("\x89PNG", 0) == 0);
+  // A wide pocket of which the tool touches the floor, but not where it is undercut: the floor is in both groups.
+  place.write("part.nef", "box(0,0,0,8,8,4) - interior(box(2,2,1,5,5,5)) - interior(box(2,2,1,7,5,2))");
+  const Outcome undercut = place.run("tool.nef part.nef --reach -o positions.nef --labels labels.ply --json");
+  REQUIRE(undercut.code == 0);
+  // The undercut's floor, ceiling, end and sides.
+  CHECK(json::parse(undercut.out)["untouched_area"].get<double>() == Approx(6 + 6 + 3 + 2 * 2));
+  CHECK(place.read("labels.ply").find("comment group 1 untouched") != std::string::npos);
+  const Outcome refused = place.run("tool.nef part.nef --reach -o positions.nef --labels labels.nef");
+  CHECK(refused.code == 2);
+  CHECK(refused.err.find("labels.nef") != std::string::npos);
 }
 
 TEST_CASE("command: bad usage and bad input are one line on stderr, code 2, and no file") {
@@ -174,6 +212,7 @@ TEST_CASE("command: bad usage and bad input are one line on stderr, code 2, and 
       {"a.nef --inner --outer --ball 1,1 -o out.nef", "exclude"},
       {"a.nef a.nef --inner -o out.nef", "--inner"},
       {"a.nef a.nef --from 1,1,1 -o out.nef", "--reach"},
+      {"a.nef a.nef --labels out.obj -o out.nef", "--reach"},
       {"a.nef a.nef --reach --from 1,1 -o out.nef", "--from"},
       {"a.nef a.nef --reach --from 1/4,1/4,1/4 -o out.nef", "overlaps"},
       {"a.nef a.nef -o out.xyz", "out.xyz"}};

@@ -62,6 +62,11 @@ void declare_tasks(CLI::App& app, Arguments& a) {
       ->type_name("FILE");
   app.add_option("--untouched", a.untouched, "Of --reach: a file for what of it the tool cannot touch")
       ->type_name("FILE");
+  app.add_option(
+         "--labels", a.labels,
+         "Of --reach: a mesh file for the part's whole boundary, its faces in two groups, touched and untouched "
+         "(groups in OBJ, colours in OFF, PLY and GLB)")
+      ->type_name("FILE");
   app.add_flag("--decompose", a.decompose, "Write the convex cells of A, to one mesh file or into a directory");
   app.add_option("--format", a.format, "Of cells in a directory: off (default), ply, obj, or nef (exact, with marks)")
       ->check(CLI::IsMember({"off", "ply", "obj", "nef"}));
@@ -102,8 +107,8 @@ void check_output(const Arguments& a, Task task) {
   if (!a.format.empty() && task != Task::kDecompose) {
     throw InputError("--format goes with --decompose; -o names a file by its extension");
   }
-  if (task != Task::kReach && (!a.from.empty() || !a.touched.empty() || !a.untouched.empty())) {
-    throw InputError("--from, --touched and --untouched go with --reach");
+  if (task != Task::kReach && !(a.from.empty() && a.touched.empty() && a.untouched.empty() && a.labels.empty())) {
+    throw InputError("--from, --touched, --untouched and --labels go with --reach");
   }
   if (a.inner && a.outer) throw InputError("--inner and --outer exclude each other: give one of them");
   if ((a.inner || a.outer) && task != Task::kOffset && a.ball.empty()) {
@@ -168,6 +173,8 @@ void declare(CLI::App& app, Arguments& a) {
   add_file_output_options(app, a.exact, a.binary, a.text);
   app.add_option("--report", a.report, "Write a JSON report: cells, pairs, times, predicates, memory, result")
       ->type_name("FILE");
+  app.add_flag("--exact-volume", a.exact_volume,
+               "Report the exact volume of the result, too: it may have millions of digits");
   app.add_option("--preview", a.preview, "Write pictures (PNG) of the operands and the result into this directory")
       ->type_name("DIR");
   add_run_options(app, a.json, a.quiet, a.threads);

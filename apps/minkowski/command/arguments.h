@@ -39,13 +39,14 @@ struct Arguments {
   bool as_surface = false, strict = false;
   unsigned threads = 0;  ///< 0: as many as the machine has
   bool exact = false, binary = false, text = false, quiet = false, json = false;
+  bool exact_volume = false;
 
   std::string ball, box_tool;  ///< as written: "R,N", "x,y,z"
   bool inner = false, outer = false;
   bool erode = false, open = false, close = false, hull = false, no_fit = false, penetration = false, reach = false;
   std::string offset;  ///< "R" or "R,N"
   std::vector<std::string> sweep;
-  std::string from, touched, untouched;
+  std::string from, touched, untouched, labels;
   bool decompose = false;
   std::string format;  ///< of the files in a directory of cells; empty: off
 

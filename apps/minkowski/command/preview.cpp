@@ -43,6 +43,20 @@ void write_previews(const std::string& directory, const std::vector<std::pair<st
   }
 }
 
+void write_joint_preview(const std::string& directory, const std::string& name,
+                         const std::vector<std::pair<std::string, Polyhedron>>& sets) {
+  std::vector<view::Layer> layers;
+  view::SceneOptions options;
+  options.indices = false;
+  for (const auto& [layer_name, set] : sets) {
+    view::Layer& layer = layers.emplace_back();
+    layer.name = layer_name;
+    layer.scene = view::build_scene(set, options);
+    layer.color = view::palette_color(layers.size() - 1);
+  }
+  view::write_picture(layers, picture_path(directory, name));
+}
+
 void write_cell_preview(const std::string& directory, std::span<const ConvexCell> cells) {
   Rational3 middle;
   std::size_t count = 0;

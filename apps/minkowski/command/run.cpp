@@ -17,6 +17,7 @@
 #include "nef/program/numbers.h"
 #include "nef/program/progress_bar.h"
 #include "nef/program/report.h"
+#include "nef/program/set_info.h"
 
 namespace nef::minkowski {
 namespace {
@@ -109,8 +110,8 @@ class Run {
 
   Polyhedron compute() {
     ProgressBar bar(!a_.quiet);
-    options_.progress = [&bar](std::size_t done, std::size_t all) {
-      bar.show("pairs of cells", done, all);
+    options_.progress = [this, &bar](std::size_t done, std::size_t all) {
+      bar.show(name(task_) + ", %", done / 10, all / 10);
       return true;
     };
     switch (task_) {
@@ -225,11 +226,34 @@ class Run {
     if (!a_.from.empty()) from = parse_triple(a_.from, "--from");
     const Reach found = reach(tool, part, from, options_, &report_);
     shown_ = {{"tool", tool}, {"part", part}, {"touched", found.touched}, {"untouched", found.untouched}};
+    if (!a_.preview.empty()) {
+      const SignalsHeld held;
+      write_joint_preview(a_.preview, "labels", {{"touched", found.touched}, {"untouched", found.untouched}});
+    }
     if (!a_.touched.empty()) store(a_.touched, found.touched);
     if (!a_.untouched.empty()) store(a_.untouched, found.untouched);
+    if (!a_.labels.empty()) store_labels(part, found);
     details_["touched_area"] = surface_area(found.touched);
     details_["untouched_area"] = surface_area(found.untouched);
     return found.positions;
+  }
+
+  // The part's boundary, face by face with what the tool can do there.
+  void store_labels(const Polyhedron& part, const Reach& found) {
+    const Stopwatch watch;
+    const SignalsHeld held;
+    enum : LabelId { kBody = 1, kTouched = 2 };
+    const Polyhedron labeled = overlay(closure(part), found.touched, [](LabelId body, LabelId touched) -> LabelId {
+      return touched != 0 ? LabelId{kTouched} : body;
+    });
+    BoundaryGroups groups;
+    groups.selected = [](LabelId mark) { return mark == kBody || mark == kTouched; };
+    groups.name = [](LabelId, LabelId, LabelId facet) { return facet == kTouched ? "touched" : "untouched"; };
+    Messages messages;
+    const PolyhedronWriteOptions options{.exact = a_.exact, .binary = a_.binary, .text = a_.text};
+    details_["faces"] = write_groups(a_.labels, labeled, groups, options, &messages);
+    write_s_ += watch.seconds();
+    show(messages);
   }
 
   Polyhedron free_space() {
@@ -280,7 +304,7 @@ class Run {
 
   [[nodiscard]] Json report(const Polyhedron& result) const {
     Json object = base_report();
-    object["result"] = info_json(result);
+    object["result"] = set_info(result, {.volume = a_.exact_volume, .exact = a_.exact_volume});
     return object;
   }
 

@@ -85,7 +85,7 @@ bool FixedObstacles::matters(const Box& a, const Box& b) const {
 }
 
 Polyhedron FixedObstacles::free_positions(std::span<const Mesh> robot) const {
-  UnionBuilder forbidden(UnionStrategy::kAuto, 1, check_interruption);
+  UnionBuilder forbidden(UnionStrategy::kAuto, 1, 0, [](double) { check_interruption(); });
   const Operand pieces(reflected(robot, may_touch_));
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const Box box = box_of(pieces.cell(i).mesh);

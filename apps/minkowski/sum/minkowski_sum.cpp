@@ -16,6 +16,7 @@
 #include "apps/minkowski/sum/cobounded_sum.h"
 #include "apps/minkowski/sum/pair_sums.h"
 #include "apps/minkowski/sum/unbounded_sum.h"
+#include "apps/minkowski/sum/work_progress.h"
 #include "nef/base/error.h"
 #include "nef/base/parallel.h"
 #include "nef/base/phase_timer.h"
@@ -62,10 +63,7 @@ std::optional<Polyhedron> sum_by_convolution(const Polyhedron& a, const Polyhedr
   if (!has_convolution(a) || !has_convolution(b)) return std::nullopt;
   ConvolutionOptions how;
   how.only_if_fast = !insist;
-  how.poll = [&options](double share) {
-    constexpr std::size_t kAll = 1000;
-    if (options.progress && !options.progress(static_cast<std::size_t>(share * kAll), kAll)) throw Interrupted();
-  };
+  how.poll = WorkProgress(options);
   ConvolutionReport counts;
   std::optional<Polyhedron> sum = convolution_sum(a, b, how, counts);
   report.convolution_facets += counts.facets;

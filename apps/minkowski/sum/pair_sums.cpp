@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "apps/minkowski/sum/work_progress.h"
 #include "apps/minkowski/union/union_builder.h"
 #include "nef/base/error.h"
 #include "nef/base/parallel.h"
@@ -45,11 +46,15 @@ Polyhedron union_of_pair_sums(std::span<const Product> products, const Minkowski
   std::size_t all = 0;
   for (const Product& product : products) all += product.a.size() * product.b.size();
   report.pairs += all;
-  std::size_t done = 0;
-  const auto poll = [&] {
-    if (options.progress && !options.progress(done, all)) throw Interrupted();
-  };
-  UnionBuilder builder(options.strategy, options.threads, poll);
+  const WorkProgress progress(options);
+  std::size_t summed = 0;
+  double united = 0;  // share
+  // Measured: the union takes about four fifths of the time.
+  const auto poll = [&] { progress(0.2 * static_cast<double>(summed) / static_cast<double>(all) + 0.8 * united); };
+  UnionBuilder builder(options.strategy, options.threads, all, [&](double share) {
+    united = share;
+    poll();
+  });
   for (const Product& product : products) {
     const std::size_t pairs = product.a.size() * product.b.size();
     for (std::size_t first = 0; first < pairs; first += kBlock) {
@@ -57,13 +62,14 @@ Polyhedron union_of_pair_sums(std::span<const Product> products, const Minkowski
       const PhaseTimer timer(report.seconds_union, report.predicates_union);
       for (ConvexCell& sum : sums) {  // in order, whoever made them
         builder.add(std::move(sum));
-        ++done;
+        ++summed;
         poll();
       }
     }
   }
   const PhaseTimer timer(report.seconds_union, report.predicates_union);
   Polyhedron result = builder.finish();
+  progress(1);
   report.pairs_dropped += builder.dropped();
   report.united_at_once += builder.united_at_once();
   report.united_two_by_two += builder.united_two_by_two();

@@ -14,6 +14,7 @@
 #include "apps/minkowski/decomposition/decomposition.h"
 #include "apps/minkowski/decomposition/reflex.h"
 #include "apps/minkowski/decomposition/walls.h"
+#include "apps/minkowski/sum/work_progress.h"
 #include "nef/base/error.h"
 #include "nef/base/parallel.h"
 #include "nef/base/phase_timer.h"
@@ -225,18 +226,21 @@ Polyhedron unbounded_sum(const Polyhedron& a, const Polyhedron& b, const Minkows
   }
   report.pairs += pairs;
   std::vector<Polyhedron> sums(pairs);
+  const WorkProgress progress(options);
   std::size_t done = 0;
   {
     const PhaseTimer timer(report.seconds_convex_sums, report.predicates_convex_sums);
     for (const SpannedSet& c : cells_a) {
       for (const SpannedSet& d : cells_b) {
         sums[done++] = to_polyhedron(sum_of(c, d), parts == Parts::kClosedSolids);
-        if (options.progress && !options.progress(done, pairs)) throw Interrupted();
+        progress(static_cast<double>(done) / static_cast<double>(2 * pairs));
       }
     }
   }
   const PhaseTimer timer(report.seconds_union, report.predicates_union);
-  return unite_all(sums, options.threads);
+  Polyhedron result = unite_all(sums, options.threads);
+  progress(1);
+  return result;
 }
 
 }  // namespace nef::minkowski

@@ -45,7 +45,7 @@ class SolidUnion {
   // All candidates; false if the budget did not suffice.
   bool search() {
     for (std::uint32_t i = 0; i < visible_.faces.size(); ++i) {
-      if (poll_) poll_();
+      if (poll_) poll_(static_cast<double>(i) / static_cast<double>(visible_.faces.size()));
       search_face(i);
       if (exhausted()) return false;
     }
@@ -254,7 +254,7 @@ class SolidUnion {
   VisibleFaces visible_;
   BoxTree tree_;  // over the boxes of visible faces
   std::uint64_t budget_;
-  const std::function<void()>& poll_;
+  const std::function<void(double)>& poll_;
   std::uint64_t work_ = 0;
 
   // Scratch.

@@ -22,7 +22,7 @@ struct SolidUnionOptions {
   /// The union is given up when it has taken so many evaluations of a plane's form (a few nanoseconds each). Counted,
   /// not timed: the same for every run.
   std::uint64_t budget = std::numeric_limits<std::uint64_t>::max();
-  std::function<void()> poll;  ///< if given, called for each face that is left; may throw
+  std::function<void(double)> poll;  ///< if given, called for each face that is left, with the share done; may throw
 };
 
 /// The union of convex cells of dimension 3, with their marks; nothing if the budget did not suffice. Facets inside of

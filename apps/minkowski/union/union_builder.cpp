@@ -2,6 +2,7 @@
 #include "apps/minkowski/union/union_builder.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "apps/minkowski/union/containment.h"
@@ -29,6 +30,25 @@ bool larger(const Polyhedron& a, const Polyhedron& b) {
 
 }  // namespace
 
+UnionBuilder::UnionBuilder(UnionStrategy strategy, unsigned threads, std::size_t expected,
+                           std::function<void(double)> poll)
+    : strategy_(strategy),
+      threads_(threads),
+      poll_(std::move(poll)),
+      expected_(std::max(1.0, static_cast<double>(expected))) {
+  if (strategy == UnionStrategy::kQueue) merges_of_piece_ = std::max(1.0, std::log2(expected_));
+}
+
+void UnionBuilder::settle(double pieces) {
+  settled_ += pieces;
+  poll();
+}
+
+// With pieces of a batch that is being united.
+void UnionBuilder::poll(double more) {
+  if (poll_) poll_(std::min(1.0, (settled_ + more) / expected_));
+}
+
 void UnionBuilder::add(ConvexCell cell) {
   switch (strategy_) {
     case UnionStrategy::kAuto:
@@ -44,6 +64,7 @@ void UnionBuilder::add(ConvexCell cell) {
       return;
     case UnionStrategy::kTrivial:
       result_ = unite(result_, to_polyhedron(cell));
+      settle((2 * static_cast<double>(two_by_two_) + 1) / expected_);  // of squares
       break;
     case UnionStrategy::kPriority:
       add_ranked(to_polyhedron(cell));
@@ -71,7 +92,9 @@ void UnionBuilder::add_to_group(const ConvexCell& cell) {
 
 void UnionBuilder::flush_group() {
   if (group_.empty()) return;
+  poll();
   add_queued(unite_all(group_, threads_));
+  settle(static_cast<double>(group_.size()));
   group_.clear();
   group_vertices_ = 0;
 }
@@ -81,8 +104,8 @@ void UnionBuilder::flush_group() {
 void UnionBuilder::add_queued(Polyhedron piece) {
   std::size_t level = 0;
   for (; level < levels_.size() && !levels_[level].is_empty(); ++level) {
-    if (poll_) poll_();
     piece = unite(levels_[level], piece);
+    settle(strategy_ == UnionStrategy::kQueue ? std::ldexp(1, static_cast<int>(level) + 1) / merges_of_piece_ : 0);
     levels_[level] = Polyhedron();
   }
   if (level == levels_.size()) levels_.emplace_back();
@@ -96,7 +119,7 @@ void UnionBuilder::add_ranked(Polyhedron piece) {
 }
 
 void UnionBuilder::merge_smallest() {
-  if (poll_) poll_();
+  settle(1);
   std::pop_heap(ranked_.begin(), ranked_.end(), larger);
   const Polyhedron a = std::move(ranked_.back());
   ranked_.pop_back();
@@ -118,6 +141,7 @@ void UnionBuilder::flush() {
     dropped_ += static_cast<std::size_t>(batch_.end() - first_flat) - pieces.size();
     two_by_two_ += pieces.size();
     add_queued(unite_all(pieces, threads_));
+    settle(static_cast<double>(batch_.end() - first_flat));
     batch_.erase(first_flat, batch_.end());
   }
   if (!batch_.empty()) unite_batch_of_solids();
@@ -128,12 +152,14 @@ void UnionBuilder::flush() {
 void UnionBuilder::unite_batch_of_solids() {
   SolidUnionOptions options;
   options.threads = threads_;
-  options.poll = poll_;
+  const auto all = static_cast<double>(batch_.size());
+  options.poll = [this, all](double share) { poll(share * all); };
   if (strategy_ != UnionStrategy::kNary) options.budget = kQueueWorkOfVertex * batch_vertices_;
-  std::optional<Polyhedron> all = try_unite_solids(batch_, options, &dropped_);
-  if (all) {
+  std::optional<Polyhedron> sum = try_unite_solids(batch_, options, &dropped_);
+  if (sum) {
     at_once_ += batch_.size();
-    add_queued(*std::move(all));
+    add_queued(*std::move(sum));
+    settle(all);
   } else {
     gave_up_ = true;
     for (const ConvexCell& cell : batch_) add_to_group(cell);

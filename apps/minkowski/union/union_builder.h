@@ -21,9 +21,10 @@ namespace nef::minkowski {
 /// of the better of the two.
 class UnionBuilder {
  public:
-  /// `poll`, if given, is called now and then while pieces are united, and may throw.
-  explicit UnionBuilder(UnionStrategy strategy, unsigned threads = 1, std::function<void()> poll = {})
-      : strategy_(strategy), threads_(threads), poll_(std::move(poll)) {}
+  /// Adds up to `expected` pieces. `poll`, if given, is called now and then while they are united, with the share of
+  /// that work that is done, which is an estimate from how the strategy's cost grows. It may throw.
+  explicit UnionBuilder(UnionStrategy strategy, unsigned threads = 1, std::size_t expected = 0,
+                        std::function<void(double)> poll = {});
 
   void add(ConvexCell cell);
   /// The union of everything added. Call once.
@@ -36,6 +37,8 @@ class UnionBuilder {
   [[nodiscard]] std::size_t united_two_by_two() const { return two_by_two_; }
 
  private:
+  void settle(double pieces);
+  void poll(double more = 0);
   void add_to_batch(ConvexCell cell);
   void add_queued(Polyhedron piece);
   void add_to_group(const ConvexCell& cell);
@@ -47,7 +50,10 @@ class UnionBuilder {
 
   UnionStrategy strategy_;
   unsigned threads_;
-  std::function<void()> poll_;
+  std::function<void(double)> poll_;
+  double expected_ = 1;             // pieces
+  double merges_of_piece_ = 1;      // queue: unions that each piece goes through
+  double settled_ = 0;              // pieces by which the work is done
   Polyhedron result_;               // trivial
   std::vector<Polyhedron> levels_;  // queue: level i is empty or the union of 2^i pieces
   std::vector<Polyhedron> ranked_;  // priority: a heap, the smallest on top

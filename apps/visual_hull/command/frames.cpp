@@ -22,6 +22,7 @@
 #include "nef/io/file_bytes.h"
 #include "nef/program/progress_bar.h"
 #include "nef/program/run_program.h"
+#include "nef/query/approximate_volume.h"
 
 namespace visual_hull {
 namespace fs = std::filesystem;
@@ -154,7 +155,7 @@ json entry_of(const Result& result, const fs::path& output, const Arguments& a) 
     entry["output"] = nef::utf8(output.string());
     entry["vertices"] = counts.vertices;
     entry["facets"] = counts.facets;
-    entry["volume"] = approximate_volume(result.hull).value;
+    entry["volume"] = nef::approximate_volume(result.hull).value;
   }
   for (const Dropped& dropped : result.dropped) entry["dropped"].push_back(nef::utf8(dropped.view));
   if (a.verify && !result.vanished) {

@@ -4,12 +4,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
 
 #include "nef/program/run_report.h"
 #include "nef/program/set_info.h"
+#include "nef/query/approximate_volume.h"
 
 namespace visual_hull {
 namespace {
@@ -37,17 +36,6 @@ json view_json(const ViewResult& view) {
              {"keeps_unseen", s.background}};
   if (s.image_size.area() > 0) entry["image_size"] = {s.image_size.width, s.image_size.height};
   return entry;
-}
-
-// The keys of `nef info --json`; the exact volume only where it is asked for.
-json result_json(const nef::Polyhedron& hull, bool exact_volume) {
-  json info = nef::set_info(hull, {.volume = exact_volume, .exact = exact_volume});
-  if (!exact_volume && hull.is_bounded()) {
-    const MeasuredVolume volume = approximate_volume(hull);
-    info["volume_double"] = volume.value;
-    info["volume_error"] = volume.error;
-  }
-  return info;
 }
 
 json measures_json(const ViewConsistency& m) {
@@ -86,62 +74,6 @@ json verify_json(const Result& result) {
 
 }  // namespace
 
-MeasuredVolume approximate_volume(const nef::Polyhedron& hull) {
-  using Vec = Eigen::Vector3d;
-  const nef::Complex& c = hull.complex();
-  if (c.vertex_count() == 0) return {};
-  const auto at = [&c](std::uint32_t vertex) {
-    const auto& p = c.points.approximate(nef::PointId(vertex));
-    return Vec(p[0], p[1], p[2]);
-  };
-  // Relative to a point of the hull: little is lost by cancellation.
-  const Vec origin = at(0);
-  double largest = 0;
-  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) largest = std::max(largest, at(v).cwiseAbs().maxCoeff());
-  // A coordinate is off by 2^-51 of itself (PointTable::approximate), a difference of two by e.
-  const double e = largest * 0x1p-49;
-  double sum = 0;
-  double sizes = 0;  // of the products that are summed
-  double error = 0;  // of each of them
-  std::size_t terms = 0;
-  for (const nef::Facet& facet : c.facets) {
-    const bool above = c.volumes[facet.volume_above].mark != 0;
-    const bool below = c.volumes[facet.volume_below].mark != 0;
-    if (above == below || facet.cycle_count == 0) continue;
-    // Twice the facet's area vector, about one of its corners: the products are as small as the facet.
-    const Vec corner0 = at(c.shalfedge_owner[c.corners_of(facet.first_cycle).front()]);
-    Vec area = Vec::Zero();
-    double products = 0;  // two of them make a component of a cross product
-    double vague = 0;     // by how much their factors are off
-    std::size_t corners_here = 0;
-    for (const nef::CycleId k : facet.cycles()) {
-      for (const std::uint32_t corner : c.corners_of(k)) {
-        const Vec p = at(c.shalfedge_owner[corner]) - corner0;
-        const Vec q = at(c.target(c.corner_halfedge(corner))) - corner0;
-        area += p.cross(q);
-        const double p_size = p.cwiseAbs().maxCoeff();
-        const double q_size = q.cwiseAbs().maxCoeff();
-        products += 2 * p_size * q_size;
-        vague += 2 * e * (p_size + q_size + e);
-        ++corners_here;
-      }
-    }
-    const std::array<double, 4>& n = c.planes.approximate(facet.plane);
-    const bool upward = (area[0] * n[0] + area[1] * n[1] + area[2] * n[2] > 0) != facet.plane.flipped();
-    const Vec place = corner0 - origin;
-    sum += (upward == below ? 1 : -1) * place.dot(area);
-    // A component of the area: its factors, two roundings a product, one a term of the sum.
-    const double area_error = vague + products * static_cast<double>(corners_here + 4) * 0x1p-52;
-    const double reach = place.cwiseAbs().maxCoeff();
-    const double size = 3 * reach * area.cwiseAbs().maxCoeff();
-    // Thrice, for facets so small that the sign of their area may be wrong.
-    error += 3 * (3 * reach * area_error + 3 * e * (area.cwiseAbs().maxCoeff() + area_error) + size * 0x1p-50);
-    sizes += size;
-    ++terms;
-  }
-  return {sum / 6, (error + sizes * static_cast<double>(terms) * 0x1p-52) / 6};
-}
-
 nlohmann::ordered_json make_report(const Result& result, const nef::Messages& messages, bool exact_volume) {
   json report;
   report["views"] = json::array();
@@ -151,7 +83,7 @@ nlohmann::ordered_json make_report(const Result& result, const nef::Messages& me
   report["direct"] = result.direct;
   bool verified = false;
   for (const ViewResult& view : result.views) verified = verified || view.verification.has_value();
-  report["result"] = result_json(result.hull, exact_volume);
+  report["result"] = nef::set_info(result.hull, {.volume = exact_volume, .exact = exact_volume});
   if (result.vanished) {
     report["vanished"] = {
         {"view", result.vanished->view}, {"reason", result.vanished->reason}, {"sets", result.vanished->sets}};
@@ -232,7 +164,7 @@ std::string summary(const Result& result) {
   return fmt::format(
       "{} views, {} polygon vertices -> hull with {} vertices, {} edges, {} facets, volume {:.6g} ({:.3g} s)",
       result.views.size(), vertices, counts.vertices, counts.edges, counts.facets,
-      approximate_volume(result.hull).value, seconds);
+      nef::approximate_volume(result.hull).value, seconds);
 }
 
 }  // namespace visual_hull

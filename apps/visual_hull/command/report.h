@@ -13,7 +13,7 @@
 namespace visual_hull {
 
 /// The report of a run (see nef::run_report): `views` (contours, holes, vertices, cone facets), `box`, `result` (the
-/// keys of nef::set_info, `volume_error`), `verify` if it was done, `suspects` (names) and measures in `views` if views
+/// keys of nef::set_info), `verify` if it was done, `suspects` (names) and measures in `views` if views
 /// were compared, `dropped`.
 nlohmann::ordered_json make_report(const Result& result, const nef::Messages& messages = {}, bool exact_volume = false);
 
@@ -26,16 +26,6 @@ std::vector<std::string> verdict_lines(const Result& result);
 
 /// A line a view, best suspects first: residual R, fall D, removed U, relative d, score S.
 std::vector<std::string> suspects_table(const Result& result);
-
-/// A volume in double precision that is off by at most `error`.
-struct MeasuredVolume {
-  double value = 0;
-  double error = 0;
-};
-
-/// The volume of a bounded hull: the exact one of a detailed hull takes longer than the hull itself and has millions of
-/// digits. O(n).
-MeasuredVolume approximate_volume(const nef::Polyhedron& hull);
 
 /// What a silhouette that its frame cuts means, and what to do about it.
 std::string cut_note(const std::string& view);

@@ -43,7 +43,7 @@ void finish_with_origins(Session& session, const Operation& operation, const std
   const std::vector<std::string> names = short_names(session.inputs);
   BoundaryGroups groups;
   groups.selected = [&](LabelId mark) { return mark < labeled.labels().size() && holds(labeled.label(mark)); };
-  groups.name = [&](LabelId inside, LabelId outside) {
+  groups.name = [&](LabelId inside, LabelId outside, LabelId) {
     std::string text;
     for (const std::uint32_t input : origins(labeled.label(inside), labeled.label(outside))) {
       text += (text.empty() ? "" : "+") + names[input];

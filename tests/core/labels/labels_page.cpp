@@ -21,7 +21,7 @@ std::vector<bool> cut_by_b(const nef::Polyhedron& a, const nef::Polyhedron& b, n
   options.face_marks = true;
   nef::MeshExport result = nef::to_mesh(labeled.polyhedron(), options);
   std::vector<bool> cut;
-  for (const auto& [inside, outside] : result.face_marks) {
+  for (const auto& [inside, outside, facet] : result.face_marks) {
     const InputSet from = nef::origins(labeled.label(inside), labeled.label(outside));
     cut.push_back(std::find(from.begin(), from.end(), 1U) != from.end());
   }

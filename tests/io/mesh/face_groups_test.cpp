@@ -42,7 +42,7 @@ std::string letters(const InputSet& inputs) {
 struct LabeledUnion {
   explicit LabeledUnion(const std::vector<Polyhedron>& sets) : labeled(label_inputs(sets)) {
     groups.selected = [this](LabelId mark) { return mark < labeled.labels().size() && !labeled.label(mark).empty(); };
-    groups.name = [this](LabelId inside, LabelId outside) {
+    groups.name = [this](LabelId inside, LabelId outside, LabelId) {
       return letters(origins(labeled.label(inside), labeled.label(outside)));
     };
   }
@@ -86,7 +86,7 @@ TEST_CASE("a face lies on the boundary of the inputs that it is said to come fro
       const MeshExport result = to_mesh(labeled.polyhedron(), options);
       REQUIRE(result.face_marks.size() == result.mesh.face_count());
       for (std::size_t f = 0; f < result.mesh.face_count(); ++f) {
-        const auto [inside, outside] = result.face_marks[f];
+        const auto [inside, outside, facet] = result.face_marks[f];
         CHECK(options.selected(inside));
         CHECK_FALSE(options.selected(outside));
         InputSet expected;

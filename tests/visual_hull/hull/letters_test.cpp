@@ -3,7 +3,7 @@
 // The thesis' kind of example: three letters, one for each camera, with polygons of our own.
 #include <algorithm>
 
-#include "apps/visual_hull/command/report.h"
+#include "nef/query/approximate_volume.h"
 #include "tests/support/paths.h"
 #include "tests/visual_hull/helpers.h"
 
@@ -39,7 +39,7 @@ TEST_CASE("M, P and I: both legs of the M carry the hole of the P") {
   // The I lies on its side: its two bars run along y through the legs of the M, and in each of them the P is whole. One
   // piece with two tunnels has genus 2: V - E + F = 2 - 2 * 2, inside and outside.
   CHECK(nef::euler_numbers(result.hull) == std::vector<long>{-2, -2});
-  CHECK(approximate_volume(result.hull).value ==
+  CHECK(nef::approximate_volume(result.hull).value ==
         Approx(nef::nearest_double(nef::volume(result.hull).value())).epsilon(1e-12));
 }
 

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/query/approximate_volume.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace nef {
+namespace {
+
+using Vec = std::array<double, 3>;
+
+Vec difference(const Vec& a, const Vec& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+double dot(const Vec& a, const Vec& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Vec cross(const Vec& a, const Vec& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+double size_of(const Vec& a) { return std::max({std::fabs(a[0]), std::fabs(a[1]), std::fabs(a[2])}); }
+
+// Twice the area vector of a facet about one of its corners: the products are as small as the facet.
+struct Area {
+  Vec vector{};
+  double error = 0;  // of a component
+};
+
+// Coordinates are off by e at most.
+Area twice_area(const Complex& c, const Facet& facet, const Vec& corner0, double e) {
+  Area area;
+  double products = 0;  // two of them make a component of a cross product
+  double vague = 0;     // by how much their factors are off
+  std::size_t corners = 0;
+  for (const CycleId k : facet.cycles()) {
+    for (const std::uint32_t corner : c.corners_of(k)) {
+      const Vec p = difference(c.points.approximate(PointId(c.shalfedge_owner[corner])), corner0);
+      const Vec q = difference(c.points.approximate(PointId(c.target(c.corner_halfedge(corner)))), corner0);
+      const Vec product = cross(p, q);
+      for (std::size_t i = 0; i < 3; ++i) area.vector[i] += product[i];
+      products += 2 * size_of(p) * size_of(q);
+      vague += 2 * e * (size_of(p) + size_of(q) + e);
+      ++corners;
+    }
+  }
+  // Its factors, two roundings a product, one a term of the sum.
+  area.error = vague + products * static_cast<double>(corners + 4) * 0x1p-52;
+  return area;
+}
+
+}  // namespace
+
+MeasuredVolume approximate_volume(const Polyhedron& bounded) {
+  const Complex& c = bounded.complex();
+  if (c.vertex_count() == 0) return {};
+  // Relative to a point of the set: little is lost by cancellation.
+  const Vec origin = c.points.approximate(PointId(0U));
+  double largest = 0;
+  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
+    largest = std::max(largest, size_of(c.points.approximate(PointId(v))));
+  }
+  // A coordinate is off by 2^-51 of itself (PointTable::approximate), a difference of two by e.
+  const double e = largest * 0x1p-49;
+  double sum = 0;
+  double sizes = 0;  // of the products that are summed
+  double error = 0;  // of each of them
+  std::size_t terms = 0;
+  for (const Facet& facet : c.facets) {
+    const bool above = c.volumes[facet.volume_above].mark != 0;
+    const bool below = c.volumes[facet.volume_below].mark != 0;
+    if (above == below || facet.cycle_count == 0) continue;
+    const Vec corner0 = c.points.approximate(PointId(c.shalfedge_owner[c.corners_of(facet.first_cycle).front()]));
+    const Area area = twice_area(c, facet, corner0, e);
+    const std::array<double, 4>& n = c.planes.approximate(facet.plane);
+    const bool upward = (dot(area.vector, {n[0], n[1], n[2]}) > 0) != facet.plane.flipped();
+    const Vec place = difference(corner0, origin);
+    sum += (upward == below ? 1 : -1) * dot(place, area.vector);
+    const double reach = size_of(place);
+    const double size = 3 * reach * size_of(area.vector);
+    // Thrice, for facets so small that the sign of their area may be wrong.
+    error += 3 * (3 * reach * area.error + 3 * e * (size_of(area.vector) + area.error) + size * 0x1p-50);
+    sizes += size;
+    ++terms;
+  }
+  return {sum / 6, (error + sizes * static_cast<double>(terms) * 0x1p-52) / 6};
+}
+
+}  // namespace nef

@@ -3,9 +3,13 @@
 // A large scene: random boxes (200 unless told otherwise) and an L-shaped robot. Time per phase, and the
 // cost of state and motion checks in a free space of that size.
 //
-//   bench_planner_many_boxes [boxes] [seed]
+//   bench_planner_many_boxes [boxes] [seed] [changes]
+//
+// With the number of changes given, only these are timed.
 #include <ompl/util/Console.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <random>
@@ -70,27 +74,85 @@ void time_checks(const FreeSpace& free) {
               1e6 * motion, valid / kRounds, points.size());
 }
 
-// One box more, and the same question again.
-void time_change(const Problem& problem) {
-  const Scene& scene = problem.scene();
-  double begin = processor();
-  const auto lap = [&begin] {
-    const double passed = processor() - begin;
-    begin += passed;
-    return 1e3 * passed;
+// Boxes of side 1 to 2 near the diagonal, where ways are.
+Polyhedron further_box(std::mt19937& random) {
+  std::uniform_int_distribution<int> place(16, 480);
+  std::uniform_int_distribution<int> off(-32, 32);
+  const int along = place(random);
+  const auto number = [](int sixteenths) {
+    Rational value(sixteenths, 16);
+    value.canonicalize();
+    return value;
   };
-  Polyhedron set = with_obstacle(scene, problem.free_space().set(), make_box({14, 14, 14}, {16, 17, 15}));
-  const double positions = lap();
-  const FreeSpace free(std::move(set));
-  const double cells = lap();
+  const std::array<int, 3> low{along + off(random), along + off(random), along + off(random)};
+  return make_box({number(low[0]), number(low[1]), number(low[2])},
+                  {number(low[0] + 32), number(low[1] + 24), number(low[2] + 16)});
+}
+
+// One box more, and the same question again: what each part of that takes, from the same scene with one of several
+// boxes.
+void time_changes(const Problem& problem, int changes) {
+  const Scene& scene = problem.scene();
+  std::mt19937 random(5);
   PathOptions options;
   options.thorough = false;
-  const bool found = find_path(free, *scene.start, *scene.goal, options).has_value();
-  const double path = lap();
-  const double all = positions + cells + path;
-  free.build_roadmap();
-  std::printf("one box more: free positions %.1f ms, cells %.1f ms, %s %.1f ms, together %.1f ms; a roadmap %.1f ms\n",
-              positions, cells, found ? "path" : "no path", path, all, lap());
+  std::array<double, 3> sums{};
+  double longest = 0;
+  for (int i = 0; i < changes; ++i) {
+    const Polyhedron box = further_box(random);
+    double begin = processor();
+    const auto lap = [&begin] {
+      const double passed = processor() - begin;
+      begin += passed;
+      return 1e3 * passed;
+    };
+    Polyhedron set = with_obstacle(scene, problem.free_space().set(), box);
+    const double positions = lap();
+    const FreeSpace free(std::move(set));
+    const double cells = lap();
+    find_path(free, *scene.start, *scene.goal, options);
+    const double path = lap();
+    sums[0] += positions;
+    sums[1] += cells;
+    sums[2] += path;
+    longest = std::max(longest, positions + cells + path);
+  }
+  for (double& sum : sums) sum /= changes;
+  std::printf("one box more: free positions %.1f ms, cells %.1f ms, path %.1f ms, together %.1f ms, at most %.1f ms\n",
+              sums[0], sums[1], sums[2], sums[0] + sums[1] + sums[2], longest);
+}
+
+// The same as users of OMPL do it: a box comes, a question, it goes, a question.
+void time_planning(const Problem& problem, int changes) {
+  TranslationPlanning setup(problem);
+  std::mt19937 random(5);
+  std::array<double, 2> sums{};
+  std::array<double, 2> longest{};
+  const auto ask = [&](std::size_t which, double begin) {
+    setup.clear();
+    setup.solve(60.0);
+    const double passed = 1e3 * (processor() - begin);
+    sums[which] += passed / changes;
+    longest[which] = std::max(longest[which], passed);
+    if (getenv("DBG"))
+      std::printf("%zu %.1f roadmap %.1f status %s len %g\n", which, passed,
+                  1e3 * setup.getFreeSpace()->roadmap_seconds(), setup.getLastPlannerStatus().asString().c_str(),
+                  setup.haveSolutionPath() ? setup.getSolutionPath().length() : 0.0);
+  };
+  setup.solve(60.0);
+  for (int i = 0; i < changes; ++i) {
+    const Polyhedron box = further_box(random);
+    double begin = processor();
+    setup.addObstacle(box);
+    ask(0, begin);
+    begin = processor();
+    setup.removeObstacle(setup.getScene().obstacles.size() - 1);
+    ask(1, begin);
+  }
+  std::printf(
+      "TranslationPlanning: a box comes, and a question %.1f ms, at most %.1f; it goes, and a question %.1f ms, "
+      "at most %.1f\n",
+      sums[0], longest[0], sums[1], longest[1]);
 }
 
 // How much of a stock planner's time its checks take in this scene.
@@ -125,11 +187,17 @@ int main(int argc, char** argv) {
   std::printf("%d boxes: %s, length %.4f\n", boxes, status_name(answer.status).c_str(),
               answer.path ? answer.path->length : 0.0);
   for (const auto& [phase, seconds] : answer.phases) std::printf("  %-20s %.3f s\n", phase.c_str(), seconds);
-  std::printf("%zu cells, %zu leaves, %zu stations, %zu components, %zu tight passages\n", free.cells().size(),
-              free.tree().leaves().size(), free.zones().stations().size(), free.components().size(),
+  std::printf("%zu cells, %zu components, %zu tight passages\n", free.cells().size(), free.components().size(),
               free.passages().size());
   std::printf("%.3f processor seconds from the boxes to the path\n", processor_all);
-  time_change(problem);
+  const int changes = argc > 3 ? std::atoi(argv[3]) : 20;
+  time_changes(problem, changes);
+  time_planning(problem, changes);
+  if (argc > 3) return 0;
+  const double before_roadmap = processor();
+  free.build_roadmap();
+  std::printf("a roadmap %.1f ms: %zu leaves, %zu stations\n", 1e3 * (processor() - before_roadmap),
+              free.tree().leaves().size(), free.zones().stations().size());
   time_checks(free);
   for (const char* name : {"RRTConnect", "PRM", "EST"}) share_of_checks(problem, name);
   return 0;

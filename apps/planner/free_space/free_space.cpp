@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The incidence graph of the free cells, read off the sphere maps: what a sphere map shows around
-// a vertex (an edge) is what touches it.
+// Components are those of the graph of incidences.
 #include "apps/planner/free_space/free_space.h"
 
 #include <algorithm>
@@ -11,42 +10,14 @@
 #include "nef/base/union_find.h"
 
 namespace nef::planner {
-namespace {
-
-using CellPairs = std::vector<std::pair<CellId, CellId>>;
-
-// Everything around vertex v: pairs (vertex, larger cell), and per svertex pairs (edge, larger cell).
-void append_incidences(const Complex& complex, const CellNumbering& cells, std::uint32_t v, CellPairs& pairs) {
-  const SphereMapView map = complex.sphere_map(v);
-  const VertexRecord& record = complex.vertices[v];
-  const auto volume = [&](std::uint32_t sface) { return cells.volume(complex.sface_volume(record.sfaces + sface)); };
-  const CellId vertex = cells.vertex(v);
-  for (std::uint32_t s = 0; s < map.svertices.size(); ++s) {
-    const CellId edge = cells.edge(record.svertices + s);
-    pairs.emplace_back(vertex, edge);
-    if (map.svertices[s].out == kNone) pairs.emplace_back(edge, volume(map.svertices[s].sface));
-  }
-  for (std::uint32_t e = 0; e < map.shalfedges.size(); ++e) {
-    const CellId facet = cells.facet(facet_of(complex.shalfedge_facet[record.shalfedges + e]));
-    const CellId edge = cells.edge(record.svertices + map.shalfedges[e].source);
-    pairs.emplace_back(vertex, facet);
-    pairs.emplace_back(edge, facet);
-    pairs.emplace_back(edge, volume(map.shalfedges[e].sface));
-  }
-  for (std::uint32_t l = 0; l < map.sloops.size(); ++l) {
-    pairs.emplace_back(vertex, cells.facet(facet_of(complex.sloop_facet[record.sloops + l])));
-  }
-  for (std::uint32_t f = 0; f < map.sfaces.size(); ++f) pairs.emplace_back(vertex, volume(f));
-}
-
-}  // namespace
-
 FreeSpace::FreeSpace(Polyhedron free) : free_(std::move(free)), cells_(free_.complex()) {
   if (complex().has_box()) {
     throw UnsupportedError("the free space is bounded by infinitely long edges or facets: give the scene a box");
   }
-  connect();
-  find_components();
+  std::vector<bool> free_cells(cells_.size());
+  for (CellId cell = 0; cell < cells_.size(); ++cell) free_cells[cell] = cells_.mark(cell) != 0;
+  incidences_ = Incidences(complex(), cells_, free_cells);
+  find_components(free_cells);
   find_passages();
   find_touching_rooms();
 }
@@ -92,59 +63,20 @@ CellId FreeSpace::locate(const ExactPoint& point) const {
   }
 }
 
-void FreeSpace::connect() {
-  const Complex& c = complex();
-  CellPairs pairs;
-  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) append_incidences(c, cells_, v, pairs);
-  for (const FacetId f : c.facets.ids()) {
-    pairs.emplace_back(cells_.facet(f), cells_.volume(c.facets[f].volume_above));
-    pairs.emplace_back(cells_.facet(f), cells_.volume(c.facets[f].volume_below));
-  }
-  std::erase_if(pairs, [&](const auto& pair) { return cells_.mark(pair.first) == 0 || cells_.mark(pair.second) == 0; });
-  list_neighbours(pairs);
-}
-
-void FreeSpace::list_neighbours(const CellPairs& pairs) {
-  neighbour_begin_.assign(cells_.size() + 1, 0);
-  for (const auto& [a, b] : pairs) {
-    ++neighbour_begin_[a + 1];
-    ++neighbour_begin_[b + 1];
-  }
-  for (std::size_t i = 0; i < cells_.size(); ++i) neighbour_begin_[i + 1] += neighbour_begin_[i];
-  neighbours_.resize(2 * pairs.size());
-  std::vector<std::uint32_t> next(neighbour_begin_.begin(), neighbour_begin_.end() - 1);
-  for (const auto& [a, b] : pairs) {
-    neighbours_[next[a]++] = b;
-    neighbours_[next[b]++] = a;
-  }
-  // Many pairs are seen from several vertices. The lists are short, so sorting each is cheap.
-  auto end = neighbours_.begin();
-  for (std::size_t i = 0; i < cells_.size(); ++i) {
-    const auto first = neighbours_.begin() + neighbour_begin_[i];
-    const auto last = neighbours_.begin() + neighbour_begin_[i + 1];
-    neighbour_begin_[i] = static_cast<std::uint32_t>(end - neighbours_.begin());
-    std::sort(first, last);
-    end = std::copy(first, std::unique(first, last), end);
-  }
-  neighbour_begin_[cells_.size()] = static_cast<std::uint32_t>(end - neighbours_.begin());
-  neighbours_.erase(end, neighbours_.end());
-}
-
-void FreeSpace::find_components() {
+void FreeSpace::find_components(const std::vector<bool>& free_cells) {
   UnionFind sets(cells_.size());
   local_dimension_.assign(cells_.size(), -1);
   for (CellId cell = 0; cell < cells_.size(); ++cell) {
-    if (cells_.mark(cell) == 0) continue;
+    if (!free_cells[cell]) continue;
     local_dimension_[cell] = cells_.dimension(cell);
-    for (const CellId other : neighbours(cell)) {
-      sets.unite(cell, other);
-      local_dimension_[cell] = std::max(local_dimension_[cell], cells_.dimension(other));
-    }
+    const std::span<const CellId> larger = incidences_.larger(cell);
+    for (const CellId other : larger) sets.unite(cell, other);
+    if (!larger.empty()) local_dimension_[cell] = cells_.dimension(larger.back());
   }
   component_.assign(cells_.size(), kNoComponent);
   std::vector<std::uint32_t> index(cells_.size(), kNoComponent);
   for (CellId cell = 0; cell < cells_.size(); ++cell) {
-    if (cells_.mark(cell) == 0) continue;
+    if (!free_cells[cell]) continue;
     std::uint32_t& number = index[sets.find(cell)];
     if (number == kNoComponent) {
       number = static_cast<std::uint32_t>(components_.size());
@@ -184,6 +116,7 @@ bool FreeSpace::connected(CellId start, CellId goal, const Allowed& allowed) con
 
 std::optional<Thinness> FreeSpace::thinness(CellId start, CellId goal) const {
   if (!is_free(start) || !is_free(goal) || component_[start] != component_[goal]) return std::nullopt;
+  if (start == goal && cells_.dimension(start) == 3) return Thinness{3, 3};
   Thinness result;
   for (int k = std::min(local_dimension_[start], local_dimension_[goal]); k > 0; --k) {
     if (connected(start, goal, [&](CellId cell) { return local_dimension_[cell] >= k; })) {

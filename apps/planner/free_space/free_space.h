@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "apps/planner/free_space/empty_grid.h"
+#include "apps/planner/free_space/incidences.h"
 #include "apps/planner/free_space/item_tree.h"
 #include "apps/planner/partition/cells.h"
 #include "apps/planner/partition/space_tree.h"
@@ -98,9 +99,7 @@ class FreeSpace {
   /// The largest dimension of free cells that hold the cell in their closure (itself included).
   [[nodiscard]] int local_dimension(CellId cell) const { return local_dimension_[cell]; }
   /// The free cells that touch a free cell (one lies in the closure of the other).
-  [[nodiscard]] std::span<const CellId> neighbours(CellId cell) const {
-    return {neighbours_.data() + neighbour_begin_[cell], neighbour_begin_[cell + 1] - neighbour_begin_[cell]};
-  }
+  [[nodiscard]] std::span<const CellId> neighbours(CellId cell) const { return incidences_.of(cell); }
   /// Index of the tight passage that the cell belongs to; nothing if it is in none.
   [[nodiscard]] std::optional<std::uint32_t> passage_of(CellId cell) const;
 
@@ -135,9 +134,7 @@ class FreeSpace {
     double seconds;
   };
   const Partition& partition(const std::function<bool()>& stop = {}) const;
-  void connect();
-  void list_neighbours(const std::vector<std::pair<CellId, CellId>>& pairs);
-  void find_components();
+  void find_components(const std::vector<bool>& free_cells);
   void find_passages();
   void find_mouths(TightPassage& passage) const;
   [[nodiscard]] std::optional<Thinness> bottleneck(const TightPassage& passage) const;
@@ -149,11 +146,10 @@ class FreeSpace {
 
   Polyhedron free_;
   CellNumbering cells_;
+  Incidences incidences_;
   std::vector<std::uint32_t> component_;
   std::vector<int> local_dimension_;
   std::vector<std::uint32_t> passage_;
-  std::vector<std::uint32_t> neighbour_begin_;
-  std::vector<CellId> neighbours_;
   std::vector<Component> components_;
   std::vector<TightPassage> passages_;
   std::vector<TouchingRooms> touching_;

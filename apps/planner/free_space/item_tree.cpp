@@ -8,8 +8,13 @@
 namespace nef::planner {
 
 ItemTree::ItemTree(const Complex& complex) {
+  std::vector<Box> boxes;
   items_.reserve(complex.facet_count());
-  boxes_.reserve(complex.facet_count());
+  boxes.reserve(complex.facet_count());
+  const auto push = [&](const Item& item, const Box& box) {
+    items_.push_back(item);
+    boxes.push_back(box);
+  };
   for (const FacetId f : complex.facets.ids()) {
     push({Kind::kFacet, f.index()}, facet_box(complex, complex.facets[f]));
   }
@@ -22,12 +27,7 @@ ItemTree::ItemTree(const Complex& complex) {
     if (!map.svertices.empty() || !map.sloops.empty()) continue;
     push({Kind::kVertex, v}, vertex_box(complex, v));
   }
-  tree_ = BoxTree(boxes_);
-}
-
-void ItemTree::push(Item item, const Box& box) {
-  items_.push_back(item);
-  boxes_.push_back(box);
+  tree_ = BoxTree(boxes);
 }
 
 ItemTree::Reach::Reach(const Vector3d& a, const Vector3d& b) : from_(a), along_(b - a) {

@@ -25,12 +25,13 @@ class ItemTree {
 
   explicit ItemTree(const Complex& complex);
 
-  /// Calls visit(item, its box) for all items whose boxes meet the segment, and maybe a few others.
+  /// Calls visit(item) for all items whose boxes meet the segment, and maybe a few others, until it returns false.
   template <typename Visit>
   void for_each_along(const Vector3d& a, const Vector3d& b, Visit&& visit) const {
     const Reach reach(a, b);
-    tree_.for_each_if([&reach](const Box& box) { return reach.may_meet(box); },
-                      [&](std::uint32_t i) { visit(items_[i], boxes_[i]); });
+    bool more = true;
+    tree_.for_each_if([&](const Box& box) { return more && reach.may_meet(box); },
+                      [&](std::uint32_t i) { more = visit(items_[i]); });
   }
   /// Calls visit(item) for all items whose boxes `accept` takes; it must take a box if it takes one inside it.
   template <typename Accept, typename Visit>
@@ -52,10 +53,7 @@ class ItemTree {
     Vector3d size_;
   };
 
-  void push(Item item, const Box& box);
-
   std::vector<Item> items_;
-  std::vector<Box> boxes_;
   BoxTree tree_;
 };
 

@@ -16,11 +16,8 @@ bool segment_allowed(const FreeSpace& free, const CellFilter& filter, const Rati
   const ExactPoint pa(a);
   const ExactPoint pb(b);
   if (a == b) return filter(free.locate(pa));
+  if (!free.has_roadmap()) return stays_directly(free, a, b, std::cref(filter));
   bool allowed = true;
-  if (!free.has_roadmap()) {
-    walk_directly(free, a, b, [&](const DirectPart& part) { return allowed = filter(part.cell); });
-    return allowed;
-  }
   walk_segment(free.tree(), pa, pb, [&](const SegmentPart& part) { return allowed = filter(part.cell); });
   return allowed;
 }

@@ -46,8 +46,8 @@ Rational3 CellPool::draw(ompl::RNG& rng) const {
   return drawFrom(cells_[static_cast<std::size_t>(rng.uniformInt(0, static_cast<int>(cells_.size()) - 1))], rng);
 }
 
-// A convex combination of vertices with dyadic weights; in a facet that is not convex it may miss
-// the facet, and then the facet's own middle is taken.
+// A convex combination of vertices with dyadic weights; in a facet that is not convex it may miss the facet, and then
+// some place at one of its corners is taken.
 Rational3 CellPool::drawFrom(CellId cell, ompl::RNG& rng) const {
   const std::vector<Rational3> vertices = freeSpace_->vertices(cell);
   std::vector<Rational> weights;
@@ -62,7 +62,24 @@ Rational3 CellPool::drawFrom(CellId cell, ompl::RNG& rng) const {
     for (std::size_t k = 0; k < 3; ++k) point[k] += share * vertices[i][k];
   }
   if (freeSpace_->locate(ExactPoint(point)) == cell) return point;
-  return freeSpace_->zones().interior_point(freeSpace_->zones().zone_in(cell));
+  return atCorner(cell, vertices, static_cast<std::size_t>(rng.uniformInt(0, static_cast<int>(vertices.size()) - 1)));
+}
+
+// From a corner towards its neighbours together, or away from both if it is reflex, one comes into the facet. The
+// lowest corner is convex, so this ends.
+Rational3 CellPool::atCorner(CellId cell, const std::vector<Rational3>& cycle, std::size_t first) const {
+  for (Rational step(1, 2);; step /= 4) {
+    for (std::size_t i = 0; i < cycle.size(); ++i) {
+      const Rational3& corner = cycle[(first + i) % cycle.size()];
+      const Rational3& before = cycle[(first + i + cycle.size() - 1) % cycle.size()];
+      const Rational3& after = cycle[(first + i + 1) % cycle.size()];
+      for (const int sign : {1, -1}) {
+        Rational3 point = corner;
+        for (std::size_t k = 0; k < 3; ++k) point[k] += sign * step * (before[k] + after[k] - 2 * corner[k]);
+        if (freeSpace_->locate(ExactPoint(point)) == cell) return point;
+      }
+    }
+  }
 }
 
 CellSampler::CellSampler(const ob::StateSpace* space, std::shared_ptr<const FreeSpace> freeSpace, double share)

@@ -27,6 +27,7 @@ class CellPool {
 
  private:
   Rational3 drawFrom(CellId cell, ompl::RNG& rng) const;
+  Rational3 atCorner(CellId cell, const std::vector<Rational3>& cycle, std::size_t first) const;
 
   std::shared_ptr<const FreeSpace> freeSpace_;
   std::vector<Rational3> points_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/planner/ompl/exact_translation_space.h"
 
+#include <ompl/base/spaces/RealVectorStateProjections.h>
+
 #include <algorithm>
 #include <ostream>
 
@@ -67,6 +69,13 @@ ExactPoint ExactTranslationSpace::StateType::point() const {
 ExactTranslationSpace::ExactTranslationSpace(std::shared_ptr<const FreeSpace> freeSpace)
     : ob::RealVectorStateSpace(3), freeSpace_(std::move(freeSpace)) {
   setName("ExactTranslation" + getName());
+}
+
+// The position itself, in cells of a share of the bounds. OMPL's own choice in three dimensions is a random plane, and
+// draws a thousand samples to find out how large its cells must be, each time the bounds or the free space change.
+void ExactTranslationSpace::registerProjections() {
+  registerDefaultProjection(
+      std::make_shared<ob::RealVectorOrthogonalProjectionEvaluator>(this, std::vector<unsigned int>{0, 1, 2}));
 }
 
 ob::State* ExactTranslationSpace::allocState() const {

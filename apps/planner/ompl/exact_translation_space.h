@@ -53,6 +53,7 @@ class ExactTranslationSpace : public ompl::base::RealVectorStateSpace {
   void setCellShare(double share) { cellShare_ = share; }
   double getCellShare() const { return cellShare_; }
 
+  void registerProjections() override;
   ompl::base::State* allocState() const override;
   void freeState(ompl::base::State* state) const override;
   void copyState(ompl::base::State* destination, const ompl::base::State* source) const override;

@@ -11,6 +11,7 @@
 #include <chrono>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 
 #include "apps/minkowski/minkowski.h"
 #include "apps/planner/free_space/free_positions.h"
@@ -62,7 +63,7 @@ void TightPlanner::setMinDimension(unsigned int dimension) {
   if (dimension > 3) {
     throw std::invalid_argument("min_dimension must be 0, 1, 2 or 3, not " + std::to_string(dimension));
   }
-  options_.min_dimension = static_cast<int>(dimension);
+  set(options_.min_dimension, static_cast<int>(dimension));
 }
 
 void TightPlanner::declare() {
@@ -107,6 +108,8 @@ bool TightPlanner::updateFreeSpace(const std::function<bool()>& stop) {
   if (!present) throw ompl::Exception(name_, "there is no free space: use a NefStateValidityChecker");
   if (present == freeSpace_) return true;
   clearQuery();  // its places are those of another free space
+  knownWay_ = std::exchange(lastWay_, {});
+  if (!std::exchange(keepWay_, false)) knownWay_.clear();
   freeSpace_ = std::move(present);
   preprocessing_ = watch.seconds();
   return true;
@@ -165,6 +168,8 @@ std::optional<ExactPath> TightPlanner::bestPath(std::size_t firstGoal, const ob:
   const std::function<bool()> stop = [&ptc] { return ptc.eval(); };
   const Interruptible interruptible(stop);
   std::optional<ExactPath> best;
+  PathOptions options = options_;
+  options.known = knownWay_;
   interrupted = false;
   for (const Place& start : starts_) {
     for (std::size_t i = firstGoal; i < goals_.size(); ++i) {
@@ -173,7 +178,7 @@ std::optional<ExactPath> TightPlanner::bestPath(std::size_t firstGoal, const ob:
       if (interrupted) return best;
       std::optional<ExactPath> path;
       try {
-        path = find_path(*freeSpace_, start.position, goals_[i].position, options_);
+        path = find_path(*freeSpace_, start.position, goals_[i].position, options);
       } catch (const Interrupted&) {
         interrupted = true;
         return best;
@@ -230,6 +235,8 @@ ob::PlannerStatus TightPlanner::solve(const ob::PlannerTerminationCondition& ptc
     preprocessing_ += freeSpace_->roadmap_seconds() - roadmap_before;
     if (exactPath_ && !isAccepted(*exactPath_)) return searchAnotherWay(ptc);
     if (exactPath_) {
+      lastWay_ = exactPath_->points;
+      knownWay_.clear();
       addSolution(*exactPath_);
       return ob::PlannerStatus::EXACT_SOLUTION;
     }

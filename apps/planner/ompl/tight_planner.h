@@ -52,6 +52,9 @@ class TightPlanner : public ompl::base::Planner {
   void setup() override;
   void clear() override;
   void clearQuery() override;
+  /** \brief Whether the next free space will be a part of the present one, as when an obstacle comes: then the last way
+      answers the first question there if that is the same and the way is free still. */
+  void keepWay(bool keep) { keepWay_ = keep; }
   /** \brief Another problem for the same free space; forgets start and goal states, as PRM does. */
   void setProblemDefinition(const ompl::base::ProblemDefinitionPtr& pdef) override;
   ompl::base::PlannerStatus solve(const ompl::base::PlannerTerminationCondition& ptc) override;
@@ -65,20 +68,20 @@ class TightPlanner : public ompl::base::Planner {
   void setMinDimension(unsigned int dimension);
   unsigned int getMinDimension() const { return static_cast<unsigned int>(options_.min_dimension); }
   /** \brief Prefer the thickest passages to the shortest path. */
-  void setRoomy(bool roomy) { options_.roomy = roomy; }
+  void setRoomy(bool roomy) { set(options_.roomy, roomy); }
   bool getRoomy() const { return options_.roomy; }
   /** \brief Way-points inside volumes rather than in contact. */
-  void setClearance(bool clearance) { options_.clearance = clearance; }
+  void setClearance(bool clearance) { set(options_.clearance, clearance); }
   bool getClearance() const { return options_.clearance; }
   /** \brief Look for the shortest of several ways round, as far as affordable, and pull until nothing is gained any
       more; the default, as in the command. Off: the first way found, pulled a few times, mostly in a millisecond or two
       (the command's --quick). */
-  void setThorough(bool thorough) { options_.thorough = thorough; }
+  void setThorough(bool thorough) { set(options_.thorough, thorough); }
   bool getThorough() const { return options_.thorough; }
   /** \brief Round way-points to so many decimals where the motions stay free; -1: as many as they have.
       Throws std::invalid_argument for other negative numbers or more than 300. `unrounded` of getExactPath() tells
      which way-points have more all the same. */
-  void setDigits(int digits) { options_.digits = digits_of_parameter(digits); }
+  void setDigits(int digits) { set(options_.digits, digits_of_parameter(digits)); }
   int getDigits() const { return parameter_of_digits(options_.digits); }
   /** \brief Keep the free space when clear() is called. */
   void setKeepRoadmap(bool keep) { keepRoadmap_ = keep; }
@@ -95,6 +98,13 @@ class TightPlanner : public ompl::base::Planner {
     Rational3 position;
     CellId cell = kNoCell;
   };
+  // Sets an option; the last way answered another question then.
+  template <typename Value>
+  void set(Value& option, const Value& value) {
+    option = value;
+    lastWay_.clear();
+    knownWay_.clear();
+  }
   void declare();
   // Builds the free space, or takes that of the space information, which may have been replaced. False if stopped.
   bool updateFreeSpace(const std::function<bool()>& stop);
@@ -117,6 +127,9 @@ class TightPlanner : public ompl::base::Planner {
   std::shared_ptr<const FreeSpace> freeSpace_;
   PathOptions options_;
   bool keepRoadmap_ = true;
+  bool keepWay_ = false;
+  std::vector<Rational3> lastWay_;   // the last answer
+  std::vector<Rational3> knownWay_;  // the last one in a free space that held the present one
   double preprocessing_ = 0;
   std::vector<Place> starts_;
   std::vector<Place> goals_;

@@ -119,6 +119,8 @@ void TranslationPlanning::obstacleChanged(std::optional<std::size_t> gone) {
   changes.push_back({gone ? Polyhedron() : scene_.obstacles.back(), gone});
   before_ = std::move(before);
   changes_ = std::move(changes);
+  const bool only_came = std::none_of(changes_.begin(), changes_.end(), [](const Change& c) { return c.gone; });
+  if (TightPlanner* planner = getTightPlanner(); planner != nullptr) planner->keepWay(only_came);
 }
 
 Polyhedron TranslationPlanning::presentFreePositions(const BuildOptions& options) const {
@@ -158,6 +160,7 @@ void TranslationPlanning::changed() {
   changes_.clear();
   freeSpace_.reset();
   configured_ = false;
+  if (TightPlanner* planner = getTightPlanner(); planner != nullptr) planner->keepWay(false);
   if (planner_) planner_->clear();
 }
 

@@ -24,13 +24,16 @@ class AStar {
   using Node = std::uint32_t;
   static constexpr Node kNone = 0xffffffffU;
 
-  explicit AStar(std::size_t nodes) : cost_(nodes, HUGE_VAL), from_(nodes, kNone), settled_(nodes, false) {}
+  explicit AStar(std::size_t nodes) : bound_(nodes, HUGE_VAL), cost_(nodes), from_(nodes) {}
 
-  /// True if a way of this cost to a node would be better than any known one.
-  [[nodiscard]] bool improves(Node node, double cost) const { return !settled_[node] && cost < cost_[node]; }
+  /// No way leads over the node.
+  void close(Node node) { bound_[node] = kClosed; }
+  /// True if a way of this cost, not below 0, to a node would be better than any known one.
+  [[nodiscard]] bool improves(Node node, double cost) const { return cost < bound_[node]; }
   /// Notes a way that improves: over node `from` (kNone: from the start) at this cost; `estimate` is a lower bound of
   /// the cost from start to goal over the node.
   void offer(Node node, Node from, double cost, double estimate) {
+    bound_[node] = cost;
     cost_[node] = cost;
     from_[node] = from;
     open_.emplace(estimate, node);
@@ -40,13 +43,14 @@ class AStar {
     while (!open_.empty()) {
       const Node node = open_.top().second;
       open_.pop();
-      if (settled_[node]) continue;
-      settled_[node] = true;
+      if (bound_[node] == kClosed) continue;
+      close(node);
       return node;
     }
     return std::nullopt;
   }
 
+  /// The cost of the best way to a node that was offered one.
   [[nodiscard]] double cost(Node node) const { return cost_[node]; }
   /// The nodes of the best way to a node, from the first one.
   [[nodiscard]] std::vector<Node> way_to(Node node) const {
@@ -59,9 +63,11 @@ class AStar {
  private:
   using Entry = std::pair<double, Node>;
 
+  static constexpr double kClosed = -1;
+
+  std::vector<double> bound_;  // of what improves: the cost of a node, or kClosed where it is settled
   std::vector<double> cost_;
   std::vector<Node> from_;
-  std::vector<bool> settled_;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open_;
 };
 

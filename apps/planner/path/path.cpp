@@ -38,6 +38,15 @@ std::optional<Waypoints> first_way(const FreeSpace& free, const CellFilter& filt
   return roadmap_path(free, filter, start, goal, options.clearance);
 }
 
+// True if the known path, if any, is one from start to goal within the filter.
+bool serves(const Waypoints& known, const Rational3& start, const Rational3& goal, const SegmentCheck& allowed) {
+  if (known.empty() || known.front() != start || known.back() != goal) return false;
+  for (std::size_t i = 0; i + 1 < known.size(); ++i) {
+    if (!allowed(known[i], known[i + 1])) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 std::optional<ExactPath> find_path(const FreeSpace& free, const Rational3& start, const Rational3& goal,
@@ -54,6 +63,15 @@ std::optional<ExactPath> find_path(const FreeSpace& free, const Rational3& start
     require_junctions(free, filter, best->junction, start_cell, goal_cell);
   }
   if (!filter(start_cell) || !filter(goal_cell)) return std::nullopt;
+  const SegmentCheck allowed = [&](const Rational3& a, const Rational3& b) {
+    return segment_allowed(free, filter, a, b);
+  };
+  if (serves(options.known, start, goal, allowed)) {
+    std::optional<ExactPath> path = describe_path(free, options.known);
+    NEF_ASSERT(path.has_value());
+    if (options.digits) path->unrounded = unrounded_points(path->points, *options.digits);
+    return path;
+  }
   std::optional<Waypoints> points = first_way(free, filter, start, goal, options);
   // T and J need not be had by one and the same path; T counts first.
   if (!points && options.roomy) {
@@ -71,9 +89,6 @@ std::optional<ExactPath> find_path(const FreeSpace& free, const Rational3& start
       take_shorter_way_round(free, filter, *points, kPlacesForWayRound);
     }
   }
-  const SegmentCheck allowed = [&](const Rational3& a, const Rational3& b) {
-    return segment_allowed(free, filter, a, b);
-  };
   if (!options.raw && !options.clearance) straighten(allowed, *points);
   std::vector<std::size_t> unrounded;
   if (options.digits) unrounded = round_points(allowed, *points, *options.digits);

@@ -21,6 +21,9 @@ struct PathOptions {
   bool thorough = true;
   /// Round way-points to so many decimals where the motions stay within the options.
   std::optional<unsigned> digits;
+  /// A path that answered the same question with the same options in a free space that held the present one: if it is
+  /// free still, it is the answer again, since nothing can have become better.
+  std::vector<Rational3> known;
 };
 
 /// A path with rational way-points. Every segment is known to lie in free space.

@@ -86,6 +86,14 @@ Rational rounded(const Rational& x, unsigned digits) {
   return result;
 }
 
+Rational rounded_up(const Rational& x, unsigned digits) {
+  Integer power;
+  mpz_ui_pow_ui(power.get_mpz_t(), 10, digits);
+  Rational result(ceiling_of(x * power), power);
+  result.canonicalize();
+  return result;
+}
+
 std::vector<Rational3> rounded_points(const Rational3& x, unsigned digits) {
   std::array<std::array<Rational, 2>, 3> choices;  // the nearest multiple, and the next one on the other side
   Integer power;
@@ -118,18 +126,23 @@ bool is_rounded(const Rational3& x, unsigned digits) {
   return std::all_of(x.begin(), x.end(), [&](const Rational& value) { return rounded(value, digits) == value; });
 }
 
-std::vector<std::size_t> round_points(const SegmentCheck& allowed, Points& path, unsigned digits) {
-  std::vector<std::size_t> unrounded;
+std::vector<std::size_t> unrounded_points(const Points& path, unsigned digits) {
+  std::vector<std::size_t> result;
   for (std::size_t i = 1; i + 1 < path.size(); ++i) {
-    if (is_rounded(path[i], digits)) continue;
+    if (!is_rounded(path[i], digits)) result.push_back(i);
+  }
+  return result;
+}
+
+std::vector<std::size_t> round_points(const SegmentCheck& allowed, Points& path, unsigned digits) {
+  for (const std::size_t i : unrounded_points(path, digits)) {
     for (const Rational3& point : rounded_points(path[i], digits)) {
       if (!allowed(path[i - 1], point) || !allowed(point, path[i + 1])) continue;
       path[i] = point;
       break;
     }
-    if (!is_rounded(path[i], digits)) unrounded.push_back(i);
   }
-  return unrounded;
+  return unrounded_points(path, digits);
 }
 
 }  // namespace nef::planner

@@ -22,12 +22,18 @@ void straighten(const SegmentCheck& allowed, std::vector<Rational3>& path);
 /// The multiple of 10^-digits that is nearest to a number.
 Rational rounded(const Rational& x, unsigned digits);
 
+/// The least multiple of 10^-digits that is not below a number.
+Rational rounded_up(const Rational& x, unsigned digits);
+
 /// Points near `x` that are worth trying in place of it, the nearest to it in each group: all coordinates rounded to
 /// `digits` decimals, up or down, then two of them, then one. Never `x` itself.
 std::vector<Rational3> rounded_points(const Rational3& x, unsigned digits);
 
 /// True if no coordinate has more than so many decimals.
 bool is_rounded(const Rational3& x, unsigned digits);
+
+/// The indices of way-points between the ends that have coordinates with more decimals.
+std::vector<std::size_t> unrounded_points(const std::vector<Rational3>& path, unsigned digits);
 
 /// Rounds the way-points between the ends to `digits` decimals as far as that is allowed; where all coordinates cannot
 /// be rounded, as many as can be. Returns the indices of those with coordinates that have more digits: in passages that

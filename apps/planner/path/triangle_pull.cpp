@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <optional>
+#include <utility>
 
 #include "apps/planner/free_space/vectors.h"
 #include "nef/geometry/box_tree.h"
@@ -11,11 +13,16 @@
 namespace nef::planner {
 namespace {
 
+// Doubles take points that are so near, as a share of the triangle, for the same.
+constexpr double kNear = 1e-9;
+
 Rational3 minus(const Rational3& a, const Rational3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 Rational dot(const Rational3& a, const Rational3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 Rational3 cross(const Rational3& a, const Rational3& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
+
+using Point2 = std::array<Rational, 2>;
 
 // Corner b of the triangle a, b, c in coordinates (u, v) with x = a + u (c - a) + v (b - a).
 class Triangle {
@@ -25,6 +32,8 @@ class Triangle {
     size_ = dot(normal_, normal_);
     approximate_normal_ = to_vector(normal_);
     approximate_a_ = to_vector(a_);
+    approximate_ab_ = to_vector(ab_);
+    approximate_ac_ = to_vector(ac_);
     for (const Rational3* p : {&a, &b, &c}) {
       box_.add_rounded(to_array(to_vector(*p)));
     }
@@ -47,24 +56,28 @@ class Triangle {
   }
   [[nodiscard]] Rational height(const Rational3& x) const { return dot(normal_, minus(x, a_)); }
 
-  /// False if, as doubles see it, the segment from x to y meets the triangle nowhere near. They may: what they overlook
-  /// is not tried.
-  [[nodiscard]] bool seems_met(const Vector3d& x, const Vector3d& y) const {
-    constexpr double kNear = 1e-9;
-    const Vector3d ab = to_vector(ab_);
-    const Vector3d ac = to_vector(ac_);
+  /// How far a segment from x to y is from meeting the triangle, and where it meets it, as doubles see it. They may:
+  /// what they overlook is not tried.
+  struct Meeting {
+    enum class Kind : std::uint8_t { kNone, kPoint, kAlong } kind = Kind::kNone;
+    std::array<double, 2> at{};  ///< the point (u, v)
+  };
+  [[nodiscard]] Meeting meeting(const Vector3d& x, const Vector3d& y) const {
+    const Vector3d& ab = approximate_ab_;
+    const Vector3d& ac = approximate_ac_;
     const Vector3d ax = x - approximate_a_;
     const Vector3d along = y - x;
     const double size = approximate_normal_.squaredNorm();
     const double hx = approximate_normal_.dot(ax);
     const double hy = approximate_normal_.dot(ax + along);
     const double flat = kNear * std::sqrt(size) * (ab.norm() + ac.norm());
-    if (std::min(hx, hy) > flat || std::max(hx, hy) < -flat) return false;
-    if (std::fabs(hx - hy) <= 4 * flat) return true;
+    if (std::min(hx, hy) > flat || std::max(hx, hy) < -flat) return {};
+    if (std::fabs(hx - hy) <= 4 * flat) return {Meeting::Kind::kAlong, {}};
     const Vector3d at = ax + hx / (hx - hy) * along;
     const double u = at.cross(ab).dot(approximate_normal_) / size;
     const double v = ac.cross(at).dot(approximate_normal_) / size;
-    return u >= -kNear && v >= -kNear && u + v <= 1 + kNear;
+    if (!(u >= -kNear && v >= -kNear && u + v <= 1 + kNear)) return {};
+    return {Meeting::Kind::kPoint, {u, v}};
   }
 
   /// Coordinates of a point of the plane, if it lies in the closed triangle.
@@ -89,73 +102,108 @@ class Triangle {
   Rational size_;
   Vector3d approximate_normal_;
   Vector3d approximate_a_;
+  Vector3d approximate_ab_;
+  Vector3d approximate_ac_;
   Box box_;
 };
-
-using Point2 = std::array<Rational, 2>;
-
-// The points in which edges meet the triangle.
-std::vector<Point2> meetings(const FreeSpace& free, const Triangle& triangle) {
-  const Complex& c = free.complex();
-  std::vector<Point2> result;
-  const auto add = [&](const Rational3& x) {
-    if (const std::optional<Point2> uv = triangle.inside(x)) result.push_back(*uv);
-  };
-  const auto add_edge = [&](std::uint32_t h) {
-    const PointId p{c.svertex_owner[h]};
-    const PointId q{c.target(h)};
-    Box box;
-    box.add_rounded(c.points.approximate(p));
-    box.add_rounded(c.points.approximate(q));
-    if (!triangle.may_meet(box)) return;
-    if (!triangle.seems_met(to_vector(c.points.approximate(p)), to_vector(c.points.approximate(q)))) return;
-    const Rational3 x = c.points.rational(p);
-    const Rational3 y = c.points.rational(q);
-    const Rational hx = triangle.height(x);
-    const Rational hy = triangle.height(y);
-    if (hx == 0) add(x);
-    if (hy == 0) add(y);
-    if (sgn(hx) * sgn(hy) >= 0) return;
-    const Rational t = hx / (hx - hy);
-    add({x[0] + t * (y[0] - x[0]), x[1] + t * (y[1] - x[1]), x[2] + t * (y[2] - x[2])});
-  };
-  std::vector<std::uint32_t> edges;
-  const auto add_edges = [&](const ItemTree::Item& item) {
-    if (item.kind == ItemTree::Kind::kEdge) edges.push_back(item.index);
-    if (item.kind != ItemTree::Kind::kFacet) return;
-    for (const std::uint32_t corner : c.corners_of(c.facets[FacetId{item.index}])) {
-      const std::uint32_t h = c.corner_halfedge(corner);
-      edges.push_back(std::min(h, c.twin[h]));
-    }
-  };
-  free.items().for_each_if([&](const Box& box) { return triangle.may_meet(box); }, add_edges);
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  for (const std::uint32_t h : edges) add_edge(h);
-  return result;
-}
 
 // The upper hull from (0,0) to (1,0), ends included, by the monotone chain of [Andrew 1979]: the boundary of the convex
 // hull of all points without the side between the two. The triangle's corner is (0,1), so points may share u = 0 with
 // the first end and be above it, but nothing is left of it.
-std::vector<Point2> taut_string(std::vector<Point2> points) {
-  std::erase_if(points, [](const Point2& p) { return p[1] == 0; });
+template <typename Number>
+std::vector<std::array<Number, 2>> taut_string(std::vector<std::array<Number, 2>> points) {
+  using Point = std::array<Number, 2>;
+  std::erase_if(points, [](const Point& p) { return p[1] <= 0; });
   std::sort(points.begin(), points.end());
   points.erase(std::unique(points.begin(), points.end()), points.end());
-  points.insert(points.begin(), {0, 0});
-  points.push_back({1, 0});
-  std::vector<Point2> hull;
-  for (const Point2& p : points) {
+  points.insert(points.begin(), Point{0, 0});
+  points.push_back(Point{1, 0});
+  std::vector<Point> hull;
+  for (const Point& p : points) {
     while (hull.size() >= 2) {
-      const Point2& a = hull[hull.size() - 2];
-      const Point2& b = hull.back();
-      const Rational turn = (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
+      const Point& a = hull[hull.size() - 2];
+      const Point& b = hull.back();
+      const Number turn = (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
       if (turn < 0) break;
       hull.pop_back();
     }
     hull.push_back(p);
   }
   return hull;
+}
+
+// The height of a hull at u.
+double height_at(const std::vector<std::array<double, 2>>& hull, double u) {
+  double height = 0;
+  for (std::size_t i = 0; i + 1 < hull.size(); ++i) {
+    const auto& [a, b] = std::array{hull[i], hull[i + 1]};
+    if (u < a[0] || u > b[0]) continue;
+    const double at = b[0] > a[0] ? a[1] + (u - a[0]) / (b[0] - a[0]) * (b[1] - a[1]) : std::max(a[1], b[1]);
+    height = std::max(height, at);
+  }
+  return height;
+}
+
+// The edges near the triangle, by one of their halfedges.
+std::vector<std::uint32_t> edges_near(const FreeSpace& free, const Triangle& triangle) {
+  const Complex& c = free.complex();
+  std::vector<std::uint32_t> edges;
+  const auto add = [&](std::uint32_t h) {
+    Box box;
+    box.add_rounded(c.points.approximate(PointId{c.svertex_owner[h]}));
+    box.add_rounded(c.points.approximate(PointId{c.target(h)}));
+    if (triangle.may_meet(box)) edges.push_back(std::min(h, c.twin[h]));
+  };
+  free.items().for_each_if([&](const Box& box) { return triangle.may_meet(box); },
+                           [&](const ItemTree::Item& item) {
+                             if (item.kind == ItemTree::Kind::kEdge) add(item.index);
+                             if (item.kind != ItemTree::Kind::kFacet) return;
+                             for (const std::uint32_t corner : c.corners_of(FacetId{item.index})) {
+                               add(c.corner_halfedge(corner));
+                             }
+                           });
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return edges;
+}
+
+// The points in which an edge meets the triangle, exactly.
+void append_meetings(const Complex& c, std::uint32_t halfedge, const Triangle& triangle, std::vector<Point2>& points) {
+  const auto add = [&](const Rational3& x) {
+    if (const std::optional<Point2> uv = triangle.inside(x)) points.push_back(*uv);
+  };
+  const Rational3 x = c.points.rational(PointId{c.svertex_owner[halfedge]});
+  const Rational3 y = c.points.rational(PointId{c.target(halfedge)});
+  const Rational hx = triangle.height(x);
+  const Rational hy = triangle.height(y);
+  if (hx == 0) add(x);
+  if (hy == 0) add(y);
+  if (sgn(hx) * sgn(hy) >= 0) return;
+  const Rational t = hx / (hx - hy);
+  add({x[0] + t * (y[0] - x[0]), x[1] + t * (y[1] - x[1]), x[2] + t * (y[2] - x[2])});
+}
+
+// The points in which edges meet the triangle, but for those that are well below a string over all of them.
+std::vector<Point2> upper_meetings(const FreeSpace& free, const Triangle& triangle) {
+  using Meeting = Triangle::Meeting;
+  const Complex& c = free.complex();
+  std::vector<std::pair<std::uint32_t, Meeting>> met;
+  std::vector<std::array<double, 2>> rough;
+  for (const std::uint32_t h : edges_near(free, triangle)) {
+    const Meeting meeting = triangle.meeting(to_vector(c.points.approximate(PointId{c.svertex_owner[h]})),
+                                             to_vector(c.points.approximate(PointId{c.target(h)})));
+    if (meeting.kind == Meeting::Kind::kNone) continue;
+    met.emplace_back(h, meeting);
+    if (meeting.kind == Meeting::Kind::kPoint) rough.push_back(meeting.at);
+  }
+  const std::vector<std::array<double, 2>> hull = taut_string(std::move(rough));
+  std::vector<Point2> result;
+  for (const auto& [h, meeting] : met) {
+    const bool matters =
+        meeting.kind == Meeting::Kind::kAlong || meeting.at[1] >= height_at(hull, meeting.at[0]) - 2 * kNear;
+    if (matters) append_meetings(c, h, triangle, result);
+  }
+  return result;
 }
 
 }  // namespace
@@ -167,7 +215,7 @@ bool pull_corner(const FreeSpace& free, const CellFilter& filter, Waypoints& pat
   }
   const Triangle triangle(path[i - 1], path[i], path[i + 1]);
   if (triangle.flat()) return false;
-  std::vector<Point2> hits = meetings(free, triangle);
+  std::vector<Point2> hits = upper_meetings(free, triangle);
   const Point2 corner{0, 1};
   // A string over the corner itself is the path as it is.
   if (std::find(hits.begin(), hits.end(), corner) != hits.end()) return false;

@@ -22,21 +22,20 @@ double span(const Place& a, const Place& b) { return (a.approximate - b.approxim
 
 Place make_place(const Rational3& p) { return {p, to_vector(p)}; }
 
-// Vertices and three points on each edge; fewer if that would be too many.
+// Vertices and three points on each edge; fewer if that would be too many. Nothing if the vertices alone are.
 std::vector<Place> places(const FreeSpace& free, const CellFilter& filter, std::size_t limit) {
   std::vector<Place> result;
   const CellNumbering& cells = free.cells();
+  std::size_t vertices = 0;
   std::size_t edges = 0;
   for (CellId cell = 0; cell < cells.facet(FacetId{0}); ++cell) {
-    if (!filter(cell)) continue;
-    if (cells.dimension(cell) == 0) {
-      result.push_back(make_place(free.vertices(cell)[0]));
-    } else {
-      ++edges;
-    }
+    if (filter(cell)) ++(cells.dimension(cell) == 0 ? vertices : edges);
   }
-  const std::size_t inner =
-      edges == 0 || result.size() > limit ? 0 : std::min<std::size_t>(3, (limit - result.size()) / edges);
+  if (vertices > limit) return {};
+  for (CellId cell = 0; cell < cells.facet(FacetId{0}); ++cell) {
+    if (filter(cell) && cells.dimension(cell) == 0) result.push_back(make_place(free.vertices(cell)[0]));
+  }
+  const std::size_t inner = edges == 0 ? 0 : std::min<std::size_t>(3, (limit - vertices) / edges);
   for (CellId cell = 0; cell < cells.facet(FacetId{0}) && inner > 0; ++cell) {
     if (!filter(cell) || cells.dimension(cell) != 1) continue;
     const std::vector<Rational3> ends = free.vertices(cell);
@@ -83,7 +82,7 @@ void take_shorter_way_round(const FreeSpace& free, const CellFilter& filter, Way
   if (path.size() <= 2) return;
   std::vector<Place> all{make_place(path.front()), make_place(path.back())};
   const std::vector<Place> inner = places(free, filter, limit);
-  if (inner.size() > limit) return;
+  if (inner.empty()) return;
   all.insert(all.end(), inner.begin(), inner.end());
   // The few points on the edges cost some length that sliding gets back: let the way be a little
   // longer than the present one.

@@ -38,7 +38,10 @@ class WideWay {
       : free_(free), filter_(filter), grid_(free.grid()), start_(start), goal_(goal), search_(grid_.size()) {
     for_each_around({1, 1, 1}, 1, [&](const Cube& next) {
       const Cube middle{1, 1, 1};
-      if (next != middle) steps_.push_back({grid_.index(next) - grid_.index(middle), steps_between(middle, next)});
+      if (next == middle) return;
+      Step step{grid_.index(next) - grid_.index(middle), {}, steps_between(middle, next)};
+      for (std::size_t i = 0; i < 3; ++i) step.by[i] = next[i] - middle[i];
+      steps_.push_back(step);
     });
   }
 
@@ -47,22 +50,28 @@ class WideWay {
     const std::vector<Cube> to = portals(goal_);
     if (from.empty() || to.empty()) return std::nullopt;
     goal_cube_ = grid_.nearest(to_vector(goal_));
+    for (AStar::Node node = 0; node < grid_.size(); ++node) {
+      if (!grid_.is_empty(node)) search_.close(node);
+    }
+    std::vector<AStar::Node> ends;
+    for (const Cube& cube : to) ends.push_back(grid_.index(cube));
     for (const Cube& cube : from) {
       const double cost = (grid_.centre(cube) - to_vector(start_)).norm() / grid_.side();
-      offer(grid_.index(cube), AStar::kNone, cost);
+      offer(cube, grid_.index(cube), AStar::kNone, cost);
     }
     while (const std::optional<AStar::Node> node = search_.next()) {
       check_interruption();
-      if (std::find(to.begin(), to.end(), grid_.cube(*node)) != to.end()) return extract(search_.way_to(*node));
+      if (std::find(ends.begin(), ends.end(), *node) != ends.end()) return extract(search_.way_to(*node));
       expand(*node);
     }
     return std::nullopt;
   }
 
  private:
-  // To one of the 26 neighbours.
+  // To one of the 26 neighbours; differences are modulo 2^32.
   struct Step {
     AStar::Node offset = 0;
+    Cube by{};
     double length = 0;
   };
 
@@ -101,15 +110,17 @@ class WideWay {
 
   void expand(AStar::Node node) {
     const double cost = search_.cost(node);
+    const Cube at = grid_.cube(node);
     for (const Step& step : steps_) {
-      const AStar::Node next = node + step.offset;  // modulo 2^32
-      if (grid_.is_empty(next)) offer(next, node, cost + step.length);
+      const AStar::Node next = node + step.offset;
+      if (!search_.improves(next, cost + step.length)) continue;
+      offer({at[0] + step.by[0], at[1] + step.by[1], at[2] + step.by[2]}, next, node, cost + step.length);
     }
   }
 
-  void offer(AStar::Node node, AStar::Node from, double cost) {
-    if (!search_.improves(node, cost)) return;
-    search_.offer(node, from, cost, cost + kHaste * steps_between(grid_.cube(node), goal_cube_));
+  // A way to the cube of this number that improves.
+  void offer(const Cube& cube, AStar::Node node, AStar::Node from, double cost) {
+    search_.offer(node, from, cost, cost + kHaste * steps_between(cube, goal_cube_));
   }
 
   // The way's points where it turns.

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "apps/planner/free_space/free_positions.h"
+#include "apps/planner/ompl/cell_sampler.h"
 #include "apps/planner/ompl/translation_planning.h"
 #include "nef/program/exact_json.h"
 #include "tests/planner/command_helpers.h"
@@ -80,6 +81,67 @@ TEST_CASE("TranslationPlanning: obstacles come and go between queries") {
   CHECK_FALSE(ask());
   CHECK(same());
   CHECK_THROWS_AS(setup.removeObstacle(99), std::out_of_range);
+}
+
+TEST_CASE("TranslationPlanning: an obstacle that leaves the way free leaves the way") {
+  namespace ob = ompl::base;
+  TranslationPlanning setup;
+  setup.setRobot(make_box({0, 0, 0}, {1, 1, 1}));
+  setup.addObstacle(make_box({4, -3, -3}, {5, 3, 3}));
+  setup.setExactStartAndGoal({0, 0, 0}, {8, 0, 0});
+  REQUIRE(setup.solve(60.0) == ob::PlannerStatus::EXACT_SOLUTION);
+  const auto points = [&] { return setup.getTightPlanner()->getExactPath()->points; };
+  const std::vector<Rational3> first = points();
+  const auto ask = [&] {
+    setup.clear();
+    REQUIRE(setup.solve(60.0) == ob::PlannerStatus::EXACT_SOLUTION);
+    CHECK(equal(setup.getFreeSpace()->set(), free_positions(setup.getScene())));
+    CHECK(describe_path(*setup.getFreeSpace(), points()).has_value());
+    return points();
+  };
+  setup.addObstacle(make_box({20, 0, 0}, {21, 1, 1}));
+  CHECK(ask() == first);
+  // One on the way.
+  const Rational3& bend = first[1];
+  setup.addObstacle(make_box(bend, {bend[0] + Rational(1, 100), bend[1] + 1, bend[2] + 1}));
+  const std::vector<Rational3> second = ask();
+  CHECK(second != first);
+  // Once it has gone the old way is the best again, though the one in between is still free.
+  setup.removeObstacle(2);
+  CHECK(ask() == first);
+  // Another question, and other options, have other answers.
+  setup.addObstacle(make_box({25, 0, 0}, {26, 1, 1}));
+  setup.setExactStartAndGoal({0, 0, 0}, {0, 5, 0});
+  CHECK(ask().size() == 2);
+  setup.setExactStartAndGoal({0, 0, 0}, {8, 0, 0});
+  CHECK(ask() == first);
+  setup.addObstacle(make_box({30, 0, 0}, {31, 1, 1}));
+  setup.getTightPlanner()->setMinDimension(3);
+  ask();
+  CHECK(setup.getTightPlanner()->getExactPath()->thinness.piece == 3);
+}
+
+TEST_CASE("TightPlanner needs no roadmap for OMPL's own setup, nor to draw from facets of any shape") {
+  TranslationPlanning setup;
+  setup.setRobot(make_box({0, 0, 0}, {1, 1, 1}));
+  setup.addObstacle(make_box({0, 0, -1}, {9, 9, 0}));
+  // The passage between the two is shaped like an L.
+  setup.addObstacle(unite(make_box({0, 0, 1}, {9, 3, 2}), make_box({0, 0, 1}, {3, 9, 2})));
+  setup.setExactStartAndGoal({-5, -5, 0}, {20, 20, 0});
+  setup.setup();
+  const std::shared_ptr<const FreeSpace> free = setup.getFreeSpace();
+  CHECK_FALSE(free->has_roadmap());
+  CHECK(setup.getStateSpace()->getDefaultProjection()->getDimension() == 3);
+  const CellPool pool(free);
+  ompl::RNG random(7);
+  int concave = 0;
+  for (int i = 0; i < 400; ++i) {
+    const CellId cell = free->locate(ExactPoint(pool.draw(random)));
+    REQUIRE(free->is_free(cell));
+    if (free->cells().dimension(cell) == 2 && free->vertices(cell).size() == 6) ++concave;
+  }
+  CHECK(concave > 5);
+  CHECK_FALSE(free->has_roadmap());
 }
 
 TEST_CASE("many questions about one scene") {

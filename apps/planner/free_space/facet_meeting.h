@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Where a segment crosses the plane of a facet: in the facet or beside it, as far as doubles can tell for sure.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "apps/planner/free_space/vectors.h"
+#include "apps/planner/partition/exact_point.h"
+#include "nef/complex/complex.h"
+
+namespace nef::planner {
+
+/// A point known by doubles and how far off each coordinate may be.
+struct RoughPoint {
+  std::array<double, 3> at{};
+  std::array<double, 3> error{};
+};
+
+/// The point of the segment `from` + t (`to` - `from`) in which a linear form vanishes that has these values at its
+/// ends; nothing if the values do not tell them apart for sure. `from` and `to` are within 2^-53 relative of the truth.
+std::optional<RoughPoint> crossing_point(const Vector3d& from, const Vector3d& to, const Approximation& form_at_from,
+                                         const Approximation& form_at_to);
+
+/// Where a point lies that is in the plane of a facet.
+enum class InFacet : std::uint8_t {
+  kOutside,  ///< surely not in the facet's closure
+  kInside,   ///< surely within its cycles: in the facet, or on a vertex inside it
+  kUnsure,
+};
+/// By counting edges beside the point. O(corners).
+InFacet place_in_facet(const Complex& complex, const Facet& facet, const RoughPoint& point);
+
+}  // namespace nef::planner

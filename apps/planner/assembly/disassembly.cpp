@@ -8,6 +8,7 @@
 #include "apps/planner/assembly/closed_sets.h"
 #include "apps/planner/free_space/free_positions.h"
 #include "apps/planner/path/path.h"
+#include "apps/planner/path/simple_points.h"
 #include "nef/base/error.h"
 
 namespace nef::planner {
@@ -25,8 +26,8 @@ Rational3 negative(const Rational3& d) { return {-d[0], -d[1], -d[2]}; }
 
 class TakingApart {
  public:
-  TakingApart(const Assembly& assembly, const DisassemblyProgress& progress)
-      : assembly_(assembly), progress_(progress), blocking_(assembly.parts) {
+  TakingApart(const Assembly& assembly, const DisassemblyProgress& progress, std::optional<unsigned> digits)
+      : assembly_(assembly), progress_(progress), digits_(digits), blocking_(assembly.parts) {
     for (const Polyhedron& part : assembly.parts) boxes_.push_back(*bounding_box(part));
   }
 
@@ -109,7 +110,7 @@ class TakingApart {
         const std::pair<std::size_t, Rational> size = size_of(moving);
         if (best && best_size <= size) continue;
         best_size = size;
-        best = DisassemblyStep{moving, stay, {Rational3{}, end_of(moving, stay, along)}, true};
+        best = DisassemblyStep{moving, stay, {Rational3{}, end_of(moving, stay, along)}, true, {}};
       }
     }
     return best;
@@ -148,7 +149,12 @@ class TakingApart {
       const Rational t = std::max(Rational(0), Rational(way / d[i]));
       if (!least || t < *least) least = t;
     }
-    return {*least * d[0], *least * d[1], *least * d[2]};
+    if (!digits_) return {*least * d[0], *least * d[1], *least * d[2]};
+    // A decimal multiple of a whole vector is as rounded; a little farther does no harm.
+    Integer denominator = 1;
+    for (const Rational& x : d) mpz_lcm(denominator.get_mpz_t(), denominator.get_mpz_t(), x.get_den_mpz_t());
+    const Rational t = rounded_up(*least / denominator, *digits_) * denominator;
+    return {t * d[0], t * d[1], t * d[2]};
   }
 
   // Sets that the complete planner is asked for, smallest first, each not larger than what stays.
@@ -186,8 +192,8 @@ class TakingApart {
     stuck.parts = parts;
     for (const PartSet& moving : candidates(parts, stuck)) {
       const PartSet stay = without(parts, moving);
-      std::optional<std::vector<Rational3>> way = way_out(moving, stay);
-      if (way) return DisassemblyStep{moving, stay, std::move(*way), false};
+      std::optional<ExactPath> way = way_out(moving, stay);
+      if (way) return DisassemblyStep{moving, stay, std::move(way->points), false, std::move(way->unrounded)};
     }
     for (const std::size_t a : parts) {
       for (const std::size_t b : parts) {
@@ -202,7 +208,7 @@ class TakingApart {
   }
 
   // A path out of the way of the others; nothing if there is none.
-  [[nodiscard]] std::optional<std::vector<Rational3>> way_out(const PartSet& moving, const PartSet& stay) const {
+  [[nodiscard]] std::optional<ExactPath> way_out(const PartSet& moving, const PartSet& stay) const {
     Scene scene;
     std::vector<Polyhedron> robot;
     for (const std::size_t part : moving) robot.push_back(assembly_.parts[part]);
@@ -215,25 +221,32 @@ class TakingApart {
     const CellId here = free.locate(ExactPoint(Rational3{}));
     NEF_ASSERT(free.is_free(here));
     if (free.components()[free.component(here)].bounded) return std::nullopt;
-    // All of the boundary is inside these bounds, so whoever is on them is out.
+    // All of the boundary is inside these bounds, so whoever is on them or beyond is out.
     const std::array<Rational3, 2> bounds = free.bounds();
+    const auto out_of = [&](std::size_t side, std::size_t i) {
+      const Rational& bound = bounds[side][i];
+      if (!digits_) return bound;
+      return side == 1 ? rounded_up(bound, *digits_) : Rational(-rounded_up(-bound, *digits_));
+    };
     std::optional<ExactPath> best;
     for (std::size_t i = 0; i < 3; ++i) {
-      for (const std::array<Rational, 3>& corner : bounds) {
+      for (const std::size_t side : {0, 1}) {
         Rational3 out;
-        out[i] = corner[i];
+        out[i] = out_of(side, i);
         PathOptions options;
         options.thorough = false;
+        options.digits = digits_;
         std::optional<ExactPath> path = find_path(free, Rational3{}, out, options);
         NEF_ASSERT(path.has_value());
         if (!best || path->length < best->length) best = std::move(path);
       }
     }
-    return best->points;
+    return best;
   }
 
   const Assembly& assembly_;
   const DisassemblyProgress& progress_;
+  std::optional<unsigned> digits_;
   Blocking blocking_;
   std::vector<std::array<Rational3, 2>> boxes_;  // of the parts
   std::vector<Rational3> directions_;
@@ -243,8 +256,8 @@ class TakingApart {
 
 }  // namespace
 
-Disassembly take_apart(const Assembly& assembly, const DisassemblyProgress& progress) {
-  return TakingApart(assembly, progress).run();
+Disassembly take_apart(const Assembly& assembly, const DisassemblyProgress& progress, std::optional<unsigned> digits) {
+  return TakingApart(assembly, progress, digits).run();
 }
 
 }  // namespace nef::planner

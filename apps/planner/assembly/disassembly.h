@@ -23,7 +23,8 @@ struct DisassemblyStep {
   PartSet stay;
   /// Way-points relative to where they began. At the end the boxes of the two are apart.
   std::vector<Rational3> path;
-  bool straight = false;  ///< one motion, which may go on for ever
+  bool straight = false;               ///< one motion, which may go on for ever
+  std::vector<std::size_t> unrounded;  ///< way-points with more decimals than were asked for
 };
 
 /// Parts that do not come apart.
@@ -54,6 +55,9 @@ using DisassemblyProgress = std::function<void(std::size_t steps)>;
 /// planner is asked: of a set of up to 8 parts for every subset that can begin to move, of a larger one for single
 /// parts and for what the graphs of who blocks whom at once do not tie together. If in every direction those graphs
 /// tie all parts together, nothing can begin to move, which is a proof for every subset.
-Disassembly take_apart(const Assembly& assembly, const DisassemblyProgress& progress = {});
+///
+/// With `digits`, way-points have at most so many decimals where that is free, ends always.
+Disassembly take_apart(const Assembly& assembly, const DisassemblyProgress& progress = {},
+                       std::optional<unsigned> digits = std::nullopt);
 
 }  // namespace nef::planner

@@ -6,6 +6,7 @@
 
 #include "apps/planner/assembly/blocking.h"
 #include "apps/planner/assembly/free_directions.h"
+#include "apps/planner/command/report.h"
 #include "apps/planner/command/scene_view.h"
 #include "nef/base/error.h"
 #include "nef/base/stopwatch.h"
@@ -25,8 +26,13 @@ constexpr const char* kSomeCovered = "single parts and what the blocking graph t
 
 void check_assembly_options(const Arguments& a) {
   const bool other = !a.scene.empty() || !a.start.empty() || !a.goal.empty() || !a.contact.empty() || a.tight ||
-                     !a.given_path.empty() || !a.queries.empty() || !a.ompl.empty() || !a.benchmark.empty();
-  if (other) throw InputError("--assembly knows --json, --quiet, --page and -o only, and no scene");
+                     !a.given_path.empty() || !a.queries.empty() || !a.ompl.empty() || !a.benchmark.empty() ||
+                     a.widest || a.widest_box || !a.keep_clear.empty() || a.limits.speed > 0 || a.prefer != "short" ||
+                     a.path.clearance || a.path.raw || a.path.min_dimension > 0 || a.se3;
+  if (other) throw InputError("--assembly knows --digits, --json, --quiet, --page and -o only, and no scene");
+  if (!a.free_directions.empty() && a.path.digits) {
+    throw InputError("--free-directions has no way-points: --digits does not go with it");
+  }
   if (!a.page.empty() && std::filesystem::path(a.page).extension() != ".html") {
     throw InputError("--page " + a.page + ": the extension must be .html");
   }
@@ -116,6 +122,7 @@ void print(const Disassembly& answer, const Assembly& assembly) {
               << (step.straight ? "" : " " + std::to_string(step.path.size()) + " way-points") << ", to";
     for (const Rational& x : step.path.back()) std::cout << ' ' << to_string(x);
     std::cout << '\n';
+    if (!step.unrounded.empty()) std::cout << unrounded_text(step.unrounded);
   }
   for (const Inseparable& stuck : answer.inseparable) {
     std::cout << "inseparable: " << list_of(stuck.parts, assembly)
@@ -186,6 +193,7 @@ json assembly_json(const Disassembly& answer, const Assembly& assembly) {
                                {"stay", names_of(step.stay, assembly)},
                                {"straight", step.straight},
                                {"path", std::move(exact)},
+                               {"unrounded", step.unrounded},
                                {"path_double", std::move(doubles)}});
   }
   for (const Inseparable& stuck : answer.inseparable) {
@@ -202,8 +210,8 @@ int run_assembly(const Arguments& a) {
   const Assembly assembly = read_assembly(a.assembly);
   if (!a.free_directions.empty()) return tell_free_directions(a, assembly);
   ProgressBar bar(!a.quiet && !a.json);
-  const Disassembly answer =
-      take_apart(assembly, [&](std::size_t steps) { bar.show("taking apart", steps, assembly.parts.size() - 1); });
+  const Disassembly answer = take_apart(
+      assembly, [&](std::size_t steps) { bar.show("taking apart", steps, assembly.parts.size() - 1); }, a.path.digits);
   bar.clear();
   const std::string text = report_text(
       run_report("assembly", assembly_json(answer, assembly), {{"op", watch.seconds(), {}}}, assembly.messages));

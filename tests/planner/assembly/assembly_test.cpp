@@ -11,6 +11,7 @@
 #include "apps/planner/assembly/closed_sets.h"
 #include "apps/planner/assembly/disassembly.h"
 #include "apps/planner/assembly/free_directions.h"
+#include "nef/program/exact_json.h"
 #include "tests/planner/command_helpers.h"
 #include "tests/support/report_shape.h"
 
@@ -252,6 +253,79 @@ TEST_CASE("known assemblies") {
   CHECK(end[2] == 0);
 }
 
+// The longest decimal fraction among the coordinates; -1 if one has no end.
+int decimals_of(const std::vector<Rational3>& path) {
+  int most = 0;
+  for (const Rational3& point : path) {
+    for (Rational x : point) {
+      int count = 0;
+      for (; x.get_den() != 1 && count < 40; ++count) x *= 10;
+      if (count == 40) return -1;
+      most = std::max(most, count);
+    }
+  }
+  return most;
+}
+
+// Thirds and sevenths, so that nothing is a decimal number by itself, and one part of three that has to go round a
+// corner.
+Assembly odd_assembly() {
+  const auto third = [](int n) { return Rational(n, 3); };
+  Assembly assembly;
+  assembly.name = "odd";
+  const auto add = [&](const char* name, const Polyhedron& part) {
+    assembly.names.emplace_back(name);
+    assembly.parts.push_back(transform(part, AffineMap::translate({Rational(1, 7), Rational(2, 7), Rational(-1, 7)})));
+  };
+  // A channel with a bend, closed above and below: the part in it goes along x, then along y.
+  const Polyhedron block = make_box({0, 0, third(-1)}, {third(20), third(20), third(4)});
+  const Polyhedron channel = unite(make_box({third(4), third(4), 0}, {third(13), third(8), 1}),
+                                   make_box({third(9), third(4), 0}, {third(13), 7, 1}));
+  add("block", subtract(block, channel));
+  add("slider", make_box({third(4), third(4), 0}, {third(7), third(7), 1}));
+  return assembly;
+}
+
+TEST_CASE("way-points of assemblies in bounded decimals") {
+  const Assembly odd = odd_assembly();
+  const Disassembly exact = take_apart(odd);
+  REQUIRE(exact.steps.size() == 1);
+  CHECK_FALSE(exact.steps.front().straight);
+  CHECK(decimals_of(exact.steps.front().path) == -1);
+  CHECK(exact.steps.front().unrounded.empty());
+  for (const unsigned digits : {1U, 3U, 8U}) {
+    const Disassembly answer = take_apart(odd, {}, digits);
+    REQUIRE(answer.steps.size() == 1);
+    CHECK(answer.inseparable.empty());
+    CHECK(complaint(odd, answer) == "");
+    const DisassemblyStep& step = answer.steps.front();
+    CHECK(decimals_of({step.path.front(), step.path.back()}) <= static_cast<int>(digits));
+    for (std::size_t i = 0; i < step.path.size(); ++i) {
+      const int count = decimals_of({step.path[i]});
+      const bool more = count < 0 || count > static_cast<int>(digits);
+      CHECK(more == (std::count(step.unrounded.begin(), step.unrounded.end(), i) == 1));
+    }
+  }
+  // One straight motion, in a direction without rational length: its end is rounded, and on the ray still.
+  Assembly wedge;
+  wedge.name = "wedge";
+  wedge.names = {"groove", "wedge"};
+  AffineMap shear = AffineMap::identity();
+  shear.linear[0][2] = Rational(2, 7);
+  shear.linear[1][2] = Rational(1, 3);
+  const Polyhedron peg = transform(make_box({1, 1, 1}, {2, 2, 3}), shear);
+  wedge.parts = {subtract(transform(make_box({0, 0, 0}, {3, 3, 3}), shear), peg), peg};
+  const Disassembly way = take_apart(wedge, {}, 2);
+  REQUIRE(way.steps.size() == 1);
+  CHECK(way.steps.front().straight);
+  CHECK(complaint(wedge, way) == "");
+  const Rational3 end = way.steps.front().path.back();
+  CHECK(decimals_of({end}) <= 2);
+  CHECK(decimals_of({end}) >= 0);
+  CHECK(end[0] == end[2] * Rational(2, 7));
+  CHECK(end[1] == end[2] * Rational(1, 3));
+}
+
 TEST_CASE("planner --assembly: reports, exit codes, pages") {
   const Folder folder;
   const std::string data = source_folder() + "/data/planner/assembly/";
@@ -285,6 +359,15 @@ TEST_CASE("planner --assembly: reports, exit codes, pages") {
     CHECK_THAT(wrong.err, Catch::Contains("bad.json"));
   }
   CHECK(planner(folder, "--assembly " + overlap + " --tight").code == 2);
+  CHECK(planner(folder, "--assembly " + overlap + " --widest").code == 2);
+  const std::string odd = folder.write("odd.json", R"J({"parts": {"a": "box(0,0,0, 1,1,1/3)",
+    "b": "box(0,0,1/3, 1,1,6/7)"}})J");
+  const Run digits = planner(folder, "--assembly " + odd + " --digits 2 --json");
+  CHECK(digits.code == 0);
+  const nlohmann::json step = nlohmann::json::parse(digits.out)["steps"][0];
+  CHECK(step["unrounded"] == nlohmann::json::array());
+  for (const auto& x : step["path"][1]) CHECK(decimals_of({{rational_of(x, "x"), 0, 0}}) <= 2);
+  CHECK(planner(folder, "--assembly " + odd + " --free-directions a --digits 2").code == 2);
 }
 
 }  // namespace

@@ -27,8 +27,8 @@ enum class UnionStrategy : std::uint8_t {
   kQueue,       ///< always the two oldest [Hachenberger 2009], in bounded memory
   kPriority,    ///< always the two smallest, by number of vertices
   kNary,        ///< all at once, in batches of bounded size; explodes where many faces nearly coincide
-  kConvolution  ///< no cells: the facets of the reduced convolution are arranged; sets that are not bounded, closed
-                ///< and regular are united as for kAuto
+  kConvolution  ///< no cells: the facets of the reduced convolution are arranged; bounded sets that lie in the closure
+                ///< of their interiors, others (and some rare ones of these) are united as for kAuto
 };
 
 struct MinkowskiOptions {
@@ -51,7 +51,7 @@ struct MinkowskiReport {
   std::size_t convolution_facets = 0;     ///< of the reduced convolution, if there was one
   std::size_t convolution_intervals = 0;  ///< parts of the meetings of its facets where the boundary may be
   std::size_t convolution_points = 0;     ///< points of it that were located exactly
-  std::size_t convolution_regions = 0;    ///< regions of which only an intersection could tell whether they are inside
+  std::size_t convolution_regions = 0;    ///< regions and boundary items of which only an intersection could tell
   double seconds_decomposition = 0;
   double seconds_convex_sums = 0;
   double seconds_union = 0;

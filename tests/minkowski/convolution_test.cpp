@@ -8,6 +8,7 @@
 #include <catch2/catch.hpp>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "apps/minkowski/convolution/convolution_sum.h"
@@ -76,6 +77,92 @@ TEST_CASE("convolution: solids on a grid") {
       }
     }
   });
+}
+
+// Both, if the convolution was taken, which it need not be: with pieces of dimension 2 and less it is not.
+bool sums_agree(const Polyhedron& a, const Polyhedron& b) {
+  MinkowskiOptions options;
+  options.strategy = UnionStrategy::kConvolution;
+  MinkowskiReport report;
+  const Polyhedron sum = valid(minkowski_sum(a, b, options, &report), "sum");
+  return nef::equal(sum, by_cells(a, b));
+}
+
+// Solids with any part of their boundary, and with points, segments and facets missing inside.
+TEST_CASE("convolution: open solids and such with parts of their boundary, on a grid") {
+  check("marks", 300, [] {
+    const Polyhedron full_a = (*recipes(true, 5)).make();
+    const Polyhedron full_b = (*recipes(true, 3, 2)).make();
+    // What is no part of the closure of the interior goes.
+    const Polyhedron a = nef::intersect(full_a, nef::regularize(full_a));
+    const Polyhedron b = nef::intersect(full_b, nef::regularize(full_b));
+    RC_PRE(!a.is_empty() && !b.is_empty());
+    RC_ASSERT(sums_agree(a, b));
+    RC_ASSERT(sums_agree(nef::interior(a), b));
+    RC_ASSERT(sums_agree(a, nef::interior(nef::closure(b))));
+  });
+}
+
+TEST_CASE("convolution: solids with parts of their boundary that are turned, and all but parallel") {
+  check("turned marks", 150, [] {
+    const Polyhedron full_a = (*recipes(true, 4)).make();
+    const Polyhedron full_b = (*recipes(true, 3, 2)).make();
+    const Polyhedron a = disturbed(nef::intersect(full_a, nef::regularize(full_a)), 0);
+    const Polyhedron b = disturbed(nef::intersect(full_b, nef::regularize(full_b)), *rc::gen::inRange(-1, 2));
+    RC_PRE(!a.is_empty() && !b.is_empty());
+    RC_ASSERT(sums_agree(a, b));
+    RC_ASSERT(sums_agree(nef::interior(a), b));
+  });
+}
+
+// Where the open robot just does not fit: slots, shafts, pockets, and one that fits in no direction at all.
+TEST_CASE("convolution: passages as wide as what passes") {
+  const Polyhedron slot = nef::test::set("interior(box(0,0,0,9,9,3) - box(4,-1,1,5,10,4))");
+  const Polyhedron shaft = nef::test::set("interior(box(0,0,0,9,9,9) - box(4,4,-1,5,5,10))");
+  const Polyhedron pocket = nef::test::set("interior(box(0,0,0,9,9,9) - box(4,4,4,5,5,5))");
+  const Polyhedron corner = nef::test::set("interior(box(0,0,0,9,9,9) - hull(4,4,4, 6,4,4, 4,6,4, 4,4,6))");
+  const Polyhedron cube = nef::test::set("box(0,0,0,1,1,1)");
+  const Polyhedron tip = nef::minkowski::negate(nef::test::set("hull(0,0,0, 2,0,0, 0,2,0, 0,0,2)"));
+  // Three rods that meet in a point, and a block that leaves just a little more room around them.
+  const Polyhedron rods = nef::test::set(
+      "hull(0,0,0, 4,1,0, 4,0,1, 4,-1,0, 4,0,-1) + hull(0,0,0, 1,4,0, 0,4,1, -1,4,0, 0,4,-1) +"
+      "hull(0,0,0, 1,0,4, 0,1,4, -1,0,4, 0,-1,4)");
+  const Polyhedron block = nef::test::set(
+      "box(-3,-3,-3,3,3,3) - hull(0,0,0, 8,3,0, 8,0,3, 8,-3,0, 8,0,-3) - hull(0,0,0, 3,8,0, 0,8,3, -3,8,0, 0,8,-3) -"
+      "hull(0,0,0, 3,0,8, 0,3,8, -3,0,8, 0,-3,8)");
+  const std::vector<std::pair<Polyhedron, Polyhedron>> pairs = {
+      {slot, nef::minkowski::negate(cube)},   {shaft, nef::minkowski::negate(cube)},
+      {pocket, nef::minkowski::negate(cube)}, {corner, tip},
+      {block, nef::minkowski::negate(rods)},  {nef::interior(block), nef::minkowski::negate(rods)}};
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    CAPTURE(i);
+    const auto& [a, b] = pairs[i];
+    CHECK(nef::equal(convolution(a, b), by_cells(a, b)));
+    CHECK(nef::equal(convolution(a, nef::interior(b)), by_cells(a, nef::interior(b))));
+  }
+  CHECK(nef::counts(convolution(pocket, nef::minkowski::negate(cube))).vertices == 9);  // a point is missing
+}
+
+// The sum need not have the marks of its facets throughout: parts of their sides add to them, too.
+TEST_CASE("convolution: marks of parallel facets and edges") {
+  const std::vector<std::string> sets = {
+      "box(0,0,0,2,2,2)",
+      "interior(box(0,0,0,1,3,2))",
+      "box(0,0,0,2,2,2) - box(1,-1,1,3,3,3)",
+      "box(0,0,0,2,1,2) - segment(0,0,0,2,0,0)",
+      "box(0,0,0,2,1,2) - segment(0,0,0,1,0,0)",
+      "box(0,0,0,1,1,1) - polygon(0,0,1, 1,0,1, 1,1,1, 0,1,1) + segment(0,0,1, 1,0,1)",
+      "interior(box(0,0,0,2,2,1)) + point(0,0,0)",
+      "interior(box(0,0,0,2,2,1)) + polygon(1,0,0, 2,0,0, 2,2,0, 1,2,0)",
+      "interior(box(0,0,0,2,2,2)) + segment(0,0,0,2,0,0) + segment(0,0,2,2,0,2) + segment(0,0,0,0,0,2)",
+      "box(0,0,0,4,4,4) - box(1,1,1,3,3,3)",
+      "hull(0,0,0,2,0,0,0,2,0,0,0,2) - hull(0,0,0,2,0,0,0,2,0)"};
+  for (const std::string& one : sets) {
+    for (const std::string& other : sets) {
+      CAPTURE(one, other);
+      CHECK(sums_agree(nef::test::set(one), nef::test::set(other)));
+    }
+  }
 }
 
 TEST_CASE("convolution: a facet around an edge that ends inside of it is not convex") {

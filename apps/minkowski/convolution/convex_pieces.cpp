@@ -5,6 +5,7 @@
 
 #include "nef/base/error.h"
 #include "nef/complex/facet_plane.h"
+#include "nef/mesh/edge_order.h"
 
 namespace nef::minkowski {
 
@@ -22,6 +23,18 @@ bool ConvexPieces::is_convex(const Ring& ring) const {
   return true;
 }
 
+// Remembers the edges that have the facet on both sides.
+void ConvexPieces::find_slits(const std::vector<Ring>& rings) {
+  sides_.clear();
+  for (const Ring& ring : rings) {
+    for (std::size_t i = 0; i < ring.size(); ++i) sides_.insert(pair_key(ring[i], ring[(i + 1) % ring.size()]));
+  }
+}
+
+bool ConvexPieces::is_slit(std::uint32_t u, std::uint32_t v) const {
+  return sides_.count(pair_key(u, v)) > 0 && sides_.count(pair_key(v, u)) > 0;
+}
+
 // Takes `other` into `ring` across a side that both have, if the result is convex.
 bool ConvexPieces::merge(Ring& ring, const Ring& other) const {
   const std::size_t n = ring.size();
@@ -29,6 +42,7 @@ bool ConvexPieces::merge(Ring& ring, const Ring& other) const {
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j < m; ++j) {
       if (ring[i] != other[(j + 1) % m] || ring[(i + 1) % n] != other[j]) continue;
+      if (is_slit(ring[i], other[j])) return false;
       const bool convex = turns_left(ring[(i + n - 1) % n], ring[i], other[(j + 2) % m]) &&
                           turns_left(other[(j + m - 1) % m], other[j], ring[(i + 2) % n]);
       if (!convex) return false;
@@ -53,6 +67,7 @@ std::vector<std::vector<std::uint32_t>> ConvexPieces::cut(FacetId id) {
     for (const std::uint32_t corner : c_.corners_of(cycle)) ring.push_back(c_.shalfedge_owner[corner]);
   }
   if (rings.size() == 1 && is_convex(rings[0])) return rings;
+  find_slits(rings);
   std::vector<Triangulator::Triangle> triangles;
   const bool done = triangulator_.triangulate(rings, axis_, sign_, triangles);
   NEF_ASSERT(done);

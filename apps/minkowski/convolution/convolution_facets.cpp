@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "apps/minkowski/cells/exact_cells.h"
+#include "apps/minkowski/convolution/polygon_sum.h"
 #include "nef/base/interruption.h"
-#include "nef/construct/planar_hull.h"
 #include "nef/mesh/edge_order.h"
 
 namespace nef::minkowski {
@@ -16,9 +16,17 @@ struct Pair {
   std::uint32_t a = 0, b = 0;
 };
 
+// If one of the sets has nothing of its boundary, so has the sum; if both have all of it, so has the sum.
+BoundaryMarks marks_of_sum(BoundaryMarks a, BoundaryMarks b) {
+  if (a == BoundaryMarks::kNone || b == BoundaryMarks::kNone) return BoundaryMarks::kNone;
+  return a == b ? a : BoundaryMarks::kMixed;
+}
+
 class Convolution {
  public:
-  Convolution(const SolidFeatures& a, const SolidFeatures& b) : a_(a), b_(b) {}
+  Convolution(const SolidFeatures& a, const SolidFeatures& b) : a_(a), b_(b) {
+    result_.marks = marks_of_sum(a.marks(), b.marks());
+  }
 
   ConvolutionFacets run() {
     touch_facets(a_, b_, false);
@@ -33,41 +41,27 @@ class Convolution {
   }
 
  private:
+  [[nodiscard]] bool mixed() const { return result_.marks == BoundaryMarks::kMixed; }
+
   // Facets of one solid with edges and vertices of the other one.
   void touch_facets(const SolidFeatures& ours, const SolidFeatures& theirs, bool swapped) {
-    const auto pair = [swapped](std::uint32_t own, std::uint32_t other) {
-      return swapped ? Pair{other, own} : Pair{own, other};
-    };
     for (const SolidFacet& facet : ours.facets()) {
       check_interruption();
       for (std::uint32_t v = 0; v < theirs.points().size(); ++v) {
         if (!theirs.is_peak(v, facet.normal)) continue;
-        for (const std::vector<std::uint32_t>& piece : facet.pieces) {
-          ring_.clear();
-          for (const std::uint32_t u : piece) ring_.push_back(pair(u, v));
-          push(facet.normal);
-        }
+        for (const FacetPiece& piece : facet.pieces) add_moved(ours, piece, theirs, v, swapped, facet.normal);
       }
       for (const ConvexEdge& edge : theirs.edges()) {
         if (sign_of_dot(edge.line, facet.normal) != 0 || !edge.touches(facet.normal)) continue;
-        for (const std::vector<std::uint32_t>& piece : facet.pieces) {
-          ring_.clear();
-          for (const std::uint32_t u : piece) ring_.insert(ring_.end(), {pair(u, edge.from), pair(u, edge.to)});
-          push_hull(facet.normal);
-        }
+        const FacetPiece segment{{edge.from, edge.to}, {edge.mark, edge.mark}, edge.mark};
+        for (const FacetPiece& piece : facet.pieces) add_sum(ours, piece, theirs, segment, swapped, facet.normal);
       }
     }
   }
 
   void add_parallel_facets(const SolidFacet& f, const SolidFacet& g) {
-    for (const std::vector<std::uint32_t>& p : f.pieces) {
-      for (const std::vector<std::uint32_t>& q : g.pieces) {
-        ring_.clear();
-        for (const std::uint32_t a : p) {
-          for (const std::uint32_t b : q) ring_.push_back({a, b});
-        }
-        push_hull(f.normal);
-      }
+    for (const FacetPiece& p : f.pieces) {
+      for (const FacetPiece& q : g.pieces) add_sum(a_, p, b_, q, false, f.normal);
     }
   }
 
@@ -84,12 +78,74 @@ class Convolution {
         if (of_b != -of_a || sign_of_dot(a.line, b.first) != of_a) continue;
         Direction normal = Direction::cross(b.line, a.line);
         if (of_a < 0) normal = normal.negated();
-        ring_ = {{a.from, b.from}, {a.to, b.from}, {a.to, b.to}, {a.from, b.to}};
         // About b x a the edges a, b turn clockwise.
-        if (of_a > 0) std::reverse(ring_.begin(), ring_.end());
-        push(normal);
+        add_parallelogram(a, b, of_a > 0, normal);
       }
     }
+  }
+
+  [[nodiscard]] static Pair pair(std::uint32_t own, std::uint32_t other, bool swapped) {
+    return swapped ? Pair{other, own} : Pair{own, other};
+  }
+
+  // A piece of a facet and a vertex.
+  void add_moved(const SolidFeatures& ours, const FacetPiece& piece, const SolidFeatures& theirs, std::uint32_t v,
+                 bool swapped, const Direction& normal) {
+    const std::uint8_t mark = theirs.mark(v);
+    for (std::size_t i = 0; i < piece.ring.size(); ++i) {
+      push_corner(pair(piece.ring[i], v, swapped), ours.mark(piece.ring[i]) & mark, piece.sides[i] & mark);
+    }
+    push_facet(normal, piece.mark & mark);
+  }
+
+  void add_parallelogram(const ConvexEdge& a, const ConvexEdge& b, bool reversed, const Direction& normal) {
+    const auto add = [&](std::uint32_t v, std::uint32_t w, std::uint8_t side) {
+      push_corner({v, w}, a_.mark(v) & b_.mark(w), side);
+    };
+    const auto with_a = [&](std::uint32_t w) { return static_cast<std::uint8_t>(a.mark & b_.mark(w)); };
+    const auto with_b = [&](std::uint32_t v) { return static_cast<std::uint8_t>(b.mark & a_.mark(v)); };
+    if (reversed) {
+      add(a.from, b.to, with_a(b.to));
+      add(a.to, b.to, with_b(a.to));
+      add(a.to, b.from, with_a(b.from));
+      add(a.from, b.from, with_b(a.from));
+    } else {
+      add(a.from, b.from, with_a(b.from));
+      add(a.to, b.from, with_b(a.to));
+      add(a.to, b.to, with_a(b.to));
+      add(a.from, b.to, with_b(a.from));
+    }
+    push_facet(normal, a.mark & b.mark);
+  }
+
+  [[nodiscard]] MarkedPolygon polygon(const SolidFeatures& of, const FacetPiece& piece) const {
+    MarkedPolygon result;
+    result.inside = piece.mark;
+    result.sides = piece.sides;
+    for (const std::uint32_t v : piece.ring) {
+      result.corners.push_back(of.points()[v]);
+      result.corner_marks.push_back(mixed() ? of.mark(v) : 1);
+    }
+    if (!mixed()) {
+      result.inside = 1;
+      result.sides.assign(piece.ring.size(), 1);
+    }
+    return result;
+  }
+
+  // A piece of a facet, and a piece or an edge parallel to it.
+  void add_sum(const SolidFeatures& ours, const FacetPiece& piece, const SolidFeatures& theirs, const FacetPiece& other,
+               bool swapped, const Direction& normal) {
+    const MarkedPolygon p = polygon(ours, piece);
+    const MarkedPolygon q = polygon(theirs, other);
+    const std::array<Integer, 3>& n = normal.integers();
+    for (const SumCorner& c : polygon_sum(p, q, {Rational(n[0]), Rational(n[1]), Rational(n[2])})) {
+      push_corner(pair(piece.ring[c.p], other.ring[c.q], swapped), c.mark, c.side);
+    }
+    push_facet(normal, p.inside & q.inside);
+    // What of the inside belongs to the sum all the same lies in sums of parts, whose borders it may end at.
+    if ((p.inside & q.inside) != 0 || p.is_void() || q.is_void()) return;
+    result_.marks_are_told = false;
   }
 
   [[nodiscard]] Rational3 sum(const Pair& p) const {
@@ -108,32 +164,25 @@ class Convolution {
     return at->second;
   }
 
-  // The polygon ring_.
-  void push(const Direction& normal) {
-    for (const Pair& p : ring_) result_.corners.push_back(corner(p));
+  // A corner of the facet that is being made, and the side that begins there.
+  void push_corner(const Pair& p, int mark, int side) {
+    result_.corners.push_back(corner(p));
+    if (!mixed()) return;
+    result_.corner_marks.push_back(static_cast<std::uint8_t>(mark));
+    result_.side_marks.push_back(static_cast<std::uint8_t>(side));
+  }
+
+  void push_facet(const Direction& normal, int inside) {
     const PointId first{result_.corners[result_.begin.back()]};
     result_.plane.push_back(plane_through(result_.planes, result_.points, normal.integers(), first));
     result_.begin.push_back(static_cast<std::uint32_t>(result_.corners.size()));
-  }
-
-  // The convex hull of ring_.
-  void push_hull(const Direction& normal) {
-    std::vector<Rational3> points;
-    for (const Pair& p : ring_) points.push_back(sum(p));
-    const std::array<Integer, 3>& n = normal.integers();
-    std::vector<Pair> hull;
-    for (const std::uint32_t i : detail::planar_hull(points, {Rational(n[0]), Rational(n[1]), Rational(n[2])})) {
-      hull.push_back(ring_[i]);
-    }
-    ring_ = std::move(hull);
-    push(normal);
+    if (mixed()) result_.inside_marks.push_back(static_cast<std::uint8_t>(inside));
   }
 
   const SolidFeatures& a_;
   const SolidFeatures& b_;
   ConvolutionFacets result_;
   std::unordered_map<std::uint64_t, std::uint32_t> number_;
-  std::vector<Pair> ring_;
 };
 
 }  // namespace

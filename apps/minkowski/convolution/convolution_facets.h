@@ -24,6 +24,15 @@ struct ConvolutionFacets {
   std::vector<std::uint32_t> begin{0};
   std::vector<std::uint32_t> corners;  ///< counterclockwise from outside; some may be straight
 
+  /// Where something of a facet that lies on the boundary of the sum belongs to it: everywhere, nowhere, or where these
+  /// marks say so, of insides per facet, of corners, and of the sides that begin at them.
+  BoundaryMarks marks = BoundaryMarks::kAll;
+  std::vector<std::uint8_t> inside_marks;
+  std::vector<std::uint8_t> corner_marks;
+  std::vector<std::uint8_t> side_marks;
+  /// False if marks could not be told by these facets.
+  bool marks_are_told = true;
+
   [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(plane.size()); }
   [[nodiscard]] std::span<const std::uint32_t> ring(std::uint32_t facet) const {
     return {corners.data() + begin[facet], begin[facet + 1] - begin[facet]};
@@ -33,12 +42,13 @@ struct ConvolutionFacets {
 /// The sums of features of A and B at which A and a translate of -B can touch without one entering the other
 /// nearby: facet and peak, two convex edges whose arcs of normals cross, facet and parallel edge, parallel facets.
 ///
-/// A and B are bounded closed regular sets. Just behind each facet is the inside of A + B: there a boundary point of
-/// one solid meets the inside of the other. And the facets cover the boundary of A + B: a point x inside of a facet of
-/// the sum, but for a set without area, is a + b for items a of A and b of B whose sum has area and whose local cones
-/// K_a and -K_b have no inside in common. So either one of them is a facet and the other cone is on one side of its
-/// plane (it touches that plane in a point, an edge or a facet), or both are edges, and K_a + K_b, which does not
-/// change along either, is a half-space. O(n m) signs for n and m features, most of which are doubles.
+/// A and B are bounded, and their boundaries bound them (SolidFeatures). Just behind each facet is the inside of A + B:
+/// there a boundary point of one solid meets the inside of the other. And the facets cover the boundary of A + B: a
+/// point x inside of a facet of the sum, but for a set without area, is a + b for items a of A and b of B whose sum has
+/// area and whose local cones K_a and -K_b have no inside in common. So either one of them is a facet and the other
+/// cone is on one side of its plane (it touches that plane in a point, an edge or a facet), or both are edges, and K_a
+/// + K_b, which does not change along either, is a half-space. O(n m) signs for n and m features, most of which are
+/// doubles.
 ConvolutionFacets reduced_convolution(const SolidFeatures& a, const SolidFeatures& b);
 
 }  // namespace nef::minkowski

@@ -42,11 +42,15 @@ std::size_t main_axis(const FacetSegment& s) {
 }  // namespace
 
 ConvolutionRegions::ConvolutionRegions(ConvolutionFacets& facets, const RoundedFacets& rounded,
-                                       const SurvivingIntervals& intervals)
+                                       const SurvivingIntervals& intervals, SumMembership& membership)
     : facets_(facets),
+      rounded_(rounded),
       intervals_(intervals),
       tree_(rounded.boxes()),
       pyramids_(facets, rounded, tree_),
+      membership_(membership),
+      marker_(pyramids_, facets, membership),
+      is_closed_(facets.marks == BoundaryMarks::kAll),
       meetings_(facets.planes, facets.points) {}
 
 void ConvolutionRegions::add_corner(std::uint32_t corner) { add_point(meetings_.first_equal(PointId{corner})); }
@@ -65,11 +69,94 @@ void ConvolutionRegions::add_point(PointId point) {
   const std::vector<FacetAtPoint>& facets = pyramids_.facets_at(point);
   for (const FacetAtPoint& f : facets) known.facets.push_back(f.facet);
   std::sort(known.facets.begin(), known.facets.end());
-  if (facets.size() < 3) return;
-  SphereMapBuffer map = pyramids_.draw(facets);
-  if (!mark_inside(map)) return;
+  // Where marks are mixed, a corner in the middle of another facet may be a vertex.
+  if (facets.size() < (facets_.marks == BoundaryMarks::kMixed ? 1 : 3)) return;
+  SphereMapBuffer map = pyramids_.draw(facets, point);
+  if (!is_of_use(point, map)) return;
   known.vertex = static_cast<std::uint32_t>(vertices_.size());
-  vertices_.push_back({point, std::move(map), 0});
+  vertices_.push_back({point, std::move(map), 0, false});
+}
+
+// True if the sum may have a vertex at a point. Marks regions that are inside.
+bool ConvolutionRegions::is_of_use(PointId point, SphereMapBuffer& map) const {
+  const bool open = mark_inside(map);
+  if (is_closed_ || (open && !among_passages_)) return open;
+  if (!open && !BoundaryMarker::may_have_passages(map.view())) return false;
+  return !membership_.surely_in_inside(facets_.points.rational(point));
+}
+
+// Before all others but ends of intervals. Whether the sum has a vertex there is not to be seen from facets.
+void ConvolutionRegions::add_saddle_point(const SaddlePoint& saddle) {
+  const PointId point = meetings_.first_equal(facets_.points.push(saddle.point));
+  near_.clear();
+  add_point(point);
+  KnownPoint& known = known_.at(point.index());
+  if (known.vertex == kNone) {
+    const std::vector<FacetAtPoint>& facets = pyramids_.facets_at(point);
+    SphereMapBuffer map;
+    map.assign_trivial(0);
+    if (!facets.empty()) map = pyramids_.draw(facets, point);
+    mark_inside(map);
+    known.vertex = static_cast<std::uint32_t>(vertices_.size());
+    vertices_.push_back({point, std::move(map), 0, true});
+  }
+  Vertex& v = vertices_[known.vertex];
+  v.is_saddle_point = true;
+  if (saddle.mark != 0) v.map.mark |= kInSum;
+}
+
+// Points around passages: where facets are not in general position.
+void ConvolutionRegions::add_passages() {
+  among_passages_ = true;
+  for (const auto& [segment, cut] : intervals_.doubtful) {
+    add_points_of(intervals_.segments[segment], intervals_.cuts[cut]);
+  }
+  for (const std::uint32_t corner : intervals_.touching) add_corner(corner);
+  if (facets_.marks == BoundaryMarks::kMixed) add_changes_of_marks();
+  tree_.for_each_pair([&](std::uint32_t f, std::uint32_t g) {
+    if (facets_.plane[f].row() != facets_.plane[g].row()) return;
+    if (facets_.marks == BoundaryMarks::kMixed || facets_.plane[f] != facets_.plane[g]) add_crossings(f, g);
+  });
+}
+
+// Corners at which the marks along the border of a facet change: where that is straight, no segment ends there.
+void ConvolutionRegions::add_changes_of_marks() {
+  for (std::uint32_t f = 0; f < facets_.size(); ++f) {
+    const std::uint32_t begin = facets_.begin[f];
+    const std::uint32_t end = facets_.begin[f + 1];
+    for (std::uint32_t i = begin; i < end; ++i) {
+      const std::uint8_t mark = facets_.corner_marks[i];
+      const std::uint8_t before = facets_.side_marks[i > begin ? i - 1 : end - 1];
+      if (mark != before || mark != facets_.side_marks[i]) add_corner(facets_.corners[i]);
+    }
+  }
+}
+
+// The corners of two facets in one plane that the other one holds, and where their sides cross.
+void ConvolutionRegions::add_crossings(std::uint32_t f, std::uint32_t g) {
+  const auto ring = facets_.ring(f);
+  const auto other = facets_.ring(g);
+  const auto box_of = [&](std::span<const std::uint32_t> corners, std::size_t i) {
+    Box box;
+    box.add_rounded(facets_.rounded[corners[i]]);
+    box.add_rounded(facets_.rounded[corners[i + 1 < corners.size() ? i + 1 : 0]]);
+    return box;
+  };
+  for (const std::uint32_t corner : ring) {
+    if (pyramids_.holds(g, PointId{corner})) add_corner(corner);
+  }
+  for (const std::uint32_t corner : other) {
+    if (pyramids_.holds(f, PointId{corner})) add_corner(corner);
+  }
+  for (std::uint32_t i = 0; i < ring.size(); ++i) {
+    const Box side = box_of(ring, i);
+    for (std::uint32_t j = 0; j < other.size(); ++j) {
+      if (!side.overlaps(box_of(other, j))) continue;
+      const std::optional<Meeting> meeting =
+          meetings_.meet({facets_.plane[f], pyramids_.side_plane(f, i), pyramids_.side_plane(g, j)});
+      if (meeting) add_point(meeting->point);
+    }
+  }
 }
 
 // The points where the facet beyond a side may meet the segment's facets.
@@ -178,39 +265,8 @@ void ConvolutionRegions::join(const FacetSegment& s, const Vertex& from, const V
   } while (e != first);
 }
 
-// A point of a region near a vertex, so near that no facet is between.
-Rational3 ConvolutionRegions::point_in(const Vertex& v, std::uint32_t sface) {
-  const std::array<Integer, 3> d = direction_into(facets_.planes, v.map.view(), sface).integers();
-  const Rational3 at = facets_.points.rational(v.point);
-  const std::vector<FacetAtPoint> here = pyramids_.facets_at(v.point);
-  const Box bounds = tree_.bounds();
-  double extent = 0;
-  std::size_t bits = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    extent = std::max(extent, bounds.high[i] - bounds.low[i]);
-    bits = std::max(bits, mpz_sizeinbase(d[i].get_mpz_t(), 2));
-  }
-  int exponent = 0;
-  std::frexp(extent, &exponent);
-  for (int step = exponent - static_cast<int>(bits) - 3;; step -= 2) {
-    Rational factor(1);
-    if (step < 0) {
-      mpq_div_2exp(factor.get_mpq_t(), factor.get_mpq_t(), static_cast<mp_bitcnt_t>(-step));
-    } else {
-      mpq_mul_2exp(factor.get_mpq_t(), factor.get_mpq_t(), static_cast<mp_bitcnt_t>(step));
-    }
-    Rational3 x;
-    for (std::size_t i = 0; i < 3; ++i) x[i] = at[i] + factor * d[i];
-    const PointId there = facets_.points.push(x);
-    const bool clear = pyramids_.sees(v.point, there, here);
-    facets_.points.pop();
-    if (clear) return x;
-  }
-}
-
 // For each region around a vertex whether it is inside.
-std::vector<std::uint8_t> ConvolutionRegions::find_inside(const Contains& contains,
-                                                          const std::function<void(double)>& poll) {
+std::vector<std::uint8_t> ConvolutionRegions::find_inside(const std::function<void(double)>& poll) {
   enum : std::uint8_t { kOut, kIn, kUnknown };
   std::vector<std::uint8_t> state(regions_.size(), kUnknown);
   for (const Vertex& v : vertices_) {
@@ -223,20 +279,24 @@ std::vector<std::uint8_t> ConvolutionRegions::find_inside(const Contains& contai
       std::uint8_t& known = state[regions_.find(v.first_region + f)];
       if (known != kUnknown) continue;
       poll(1);
-      ++counts_.regions;
-      known = contains(point_in(v, f)) ? kIn : kOut;
+      ++counts_.tested;
+      const Direction into =
+          v.map.view().trivial() ? Direction::exact(1, 0, 0) : direction_into(facets_.planes, v.map.view(), f);
+      known = membership_.in_closure(pyramids_.point_towards(v.point, into)) ? kIn : kOut;
     }
   }
   for (std::uint32_t r = 0; r < state.size(); ++r) state[r] = state[regions_.find(r)];
   return state;
 }
 
-std::variant<Complex, Defect> ConvolutionRegions::run(const Contains& contains,
+std::variant<Complex, Defect> ConvolutionRegions::run(std::span<const SaddlePoint> saddles,
                                                       const std::function<void(double)>& poll) {
   for (std::size_t i = 0; i < intervals_.intervals.size(); ++i) {
     if (i % 64 == 0) poll(static_cast<double>(i) / static_cast<double>(intervals_.intervals.size()));
     add_interval(intervals_.intervals[i]);
   }
+  for (const SaddlePoint& saddle : saddles) add_saddle_point(saddle);
+  if (!is_closed_) add_passages();
   std::uint32_t regions = 0;
   for (Vertex& v : vertices_) {
     v.first_region = regions;
@@ -244,7 +304,7 @@ std::variant<Complex, Defect> ConvolutionRegions::run(const Contains& contains,
   }
   regions_.reset(regions);
   for (const Joint& j : joints_) join(intervals_.segments[j.segment], vertices_[j.from], vertices_[j.to]);
-  const std::vector<std::uint8_t> inside = find_inside(contains, poll);
+  const std::vector<std::uint8_t> inside = find_inside(poll);
   ComplexBuilder builder(facets_.planes);
   Arrangement drawing;
   for (Vertex& v : vertices_) {
@@ -253,15 +313,19 @@ std::variant<Complex, Defect> ConvolutionRegions::run(const Contains& contains,
       v.map.sfaces[f].mark = inside[v.first_region + f];
       all = all && v.map.sfaces[f].mark != 0;
     }
-    if (all) continue;
-    // The sum is closed.
-    for (SHalfedge& e : v.map.shalfedges) e.mark = 1;
-    for (SLoop& l : v.map.sloops) l.mark = 1;
-    for (SVertex& s : v.map.svertices) s.mark = 1;
-    v.map.mark = 1;
+    if (is_closed_) {
+      if (all) continue;
+      for (SHalfedge& e : v.map.shalfedges) e.mark = 1;
+      for (SLoop& l : v.map.sloops) l.mark = 1;
+      for (SVertex& s : v.map.svertices) s.mark = 1;
+      v.map.mark = 1;
+    } else {
+      marker_.mark(v.point, v.is_saddle_point, v.map);
+    }
     drawing.load(facets_.planes, v.map.view());
     builder.add(facets_.points, v.point, drawing);
   }
+  counts_.tested += marker_.tested();
   return builder.try_finish(0);
 }
 

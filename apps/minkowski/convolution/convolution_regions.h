@@ -5,12 +5,16 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <unordered_map>
 #include <variant>
 #include <vector>
 
 #include "apps/minkowski/cells/meeting_points.h"
+#include "apps/minkowski/convolution/boundary_marker.h"
 #include "apps/minkowski/convolution/facet_pyramids.h"
+#include "apps/minkowski/convolution/interlock.h"
+#include "apps/minkowski/convolution/sum_membership.h"
 #include "apps/minkowski/convolution/surviving_intervals.h"
 #include "nef/base/defect.h"
 #include "nef/base/union_find.h"
@@ -20,22 +24,23 @@ namespace nef::minkowski {
 
 /// What came of an arrangement of facets, for people who measure.
 struct ConvolutionCounts {
-  std::size_t points = 0;   ///< located exactly
-  std::size_t regions = 0;  ///< that needed a test of their own
+  std::size_t points = 0;  ///< located exactly
+  std::size_t tested = 0;  ///< regions and boundary items that only an intersection could tell
 };
 
 /// Takes the points at which surviving intervals end, finds the regions around them, joins those that an interval
-/// joins, and makes the sum. A region is inside if it is just behind a facet. Of others, `contains` tells: it is asked
-/// for points on no facet.
+/// joins, and makes the sum. A region is inside if it is just behind a facet. Of others, a point on no facet is put to
+/// the definition. If the sum need not be closed, so are places where it may be as narrow as it can be, and what cannot
+/// be told by facets there.
 class ConvolutionRegions {
  public:
-  using Contains = std::function<bool(const Rational3&)>;
-
   /// All must outlive the object; the facets' tables get more planes and points.
-  ConvolutionRegions(ConvolutionFacets& facets, const RoundedFacets& rounded, const SurvivingIntervals& intervals);
+  ConvolutionRegions(ConvolutionFacets& facets, const RoundedFacets& rounded, const SurvivingIntervals& intervals,
+                     SumMembership& membership);
 
-  /// The sum; or a defect, which would be a bug. To be called once. `poll` may throw.
-  std::variant<Complex, Defect> run(const Contains& contains, const std::function<void(double)>& poll);
+  /// The sum; or a defect, which would be a bug. To be called once, with the saddle points of a sum that need not be
+  /// closed. `poll` may throw.
+  std::variant<Complex, Defect> run(std::span<const SaddlePoint> saddles, const std::function<void(double)>& poll);
 
   [[nodiscard]] const ConvolutionCounts& counts() const { return counts_; }
 
@@ -44,6 +49,7 @@ class ConvolutionRegions {
     PointId point{0};
     SphereMapBuffer map;             // sfaces are marked 1 if they are just behind a facet
     std::uint32_t first_region = 0;  // of its sfaces
+    bool is_saddle_point = false;
   };
 
   void add_interval(const SurvivingInterval& interval);
@@ -56,14 +62,22 @@ class ConvolutionRegions {
   [[nodiscard]] std::uint32_t nearest(const FacetSegment& s, const SegmentCut& cut, bool last) const;
   void join(const FacetSegment& s, const Vertex& from, const Vertex& to);
   [[nodiscard]] std::uint32_t svertex_along(const Vertex& v, const FacetSegment& s, bool forward) const;
-  [[nodiscard]] std::vector<std::uint8_t> find_inside(const Contains& contains,
-                                                      const std::function<void(double)>& poll);
-  [[nodiscard]] Rational3 point_in(const Vertex& v, std::uint32_t sface);
+  void add_saddle_point(const SaddlePoint& saddle);
+  void add_passages();
+  void add_changes_of_marks();
+  void add_crossings(std::uint32_t f, std::uint32_t g);
+  [[nodiscard]] bool is_of_use(PointId point, SphereMapBuffer& map) const;
+  [[nodiscard]] std::vector<std::uint8_t> find_inside(const std::function<void(double)>& poll);
 
   ConvolutionFacets& facets_;
+  const RoundedFacets& rounded_;
   const SurvivingIntervals& intervals_;
   BoxTree tree_;
   FacetPyramids pyramids_;
+  SumMembership& membership_;
+  BoundaryMarker marker_;
+  bool is_closed_;
+  bool among_passages_ = false;  // the points at hand are not ends of surviving intervals
   std::vector<Vertex> vertices_;
   MeetingPoints meetings_;
   struct KnownPoint {

@@ -1,17 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/minkowski/convolution/convolution_sum.h"
 
+#include <algorithm>
 #include <variant>
 #include <vector>
 
 #include "apps/minkowski/convolution/convolution_regions.h"
+#include "apps/minkowski/convolution/interlock.h"
+#include "apps/minkowski/decomposition/decomposition.h"
 #include "apps/minkowski/minkowski.h"
 
 namespace nef::minkowski {
 
-bool has_convolution(const Polyhedron& a) { return !a.is_empty() && a.is_bounded() && a.is_regular(); }
+bool has_convolution(const Polyhedron& a) { return !a.is_empty() && a.is_bounded() && is_full_dimensional(a); }
 
 namespace {
+
+// True if all items of the boundary have the inside of the set on one side and nothing of it on another.
+bool is_bounded_by_facets(const Complex& c) {
+  for (const Facet& f : c.facets) {
+    if ((c.volumes[f.volume_above].mark != 0) == (c.volumes[f.volume_below].mark != 0)) return false;
+  }
+  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
+    if (c.sphere_map(v).trivial()) return false;
+  }
+  return std::all_of(c.svertices.begin(), c.svertices.end(), [](const SVertex& s) { return s.out != kNone; });
+}
+
+// With points, segments and facets that are missing inside: they change no sum of sets that lie in the closures of
+// their interiors (see minkowski_sum.cpp).
+Polyhedron filled(const Polyhedron& a) {
+  return is_bounded_by_facets(a.complex()) ? a : unite(a, interior(regularize(a)));
+}
 
 // How many pairs of facets lie in one plane.
 std::size_t coplanar_pairs(const ConvolutionFacets& facets) {
@@ -20,33 +40,6 @@ std::size_t coplanar_pairs(const ConvolutionFacets& facets) {
   for (const PlaneId plane : facets.plane) pairs += count[plane.row()]++;
   return pairs;
 }
-
-// The definition: x is in A + B iff A meets x - B.
-class Membership {
- public:
-  Membership(const Polyhedron& a, const Polyhedron& b) : a_(a), b_(b), turned_(negate(b)) {}
-
-  [[nodiscard]] bool operator()(const Rational3& x) const {
-    return reaches(a_, b_, x) || reaches(b_, a_, x) ||
-           !intersect(a_, transform(turned_, AffineMap::translate(x))).is_empty();
-  }
-
- private:
-  // True if x - v is in A for one of some vertices v of B: mostly that settles it, for a hundredth of the price.
-  static bool reaches(const Polyhedron& a, const Polyhedron& b, const Rational3& x) {
-    constexpr std::size_t kAsked = 32;
-    const std::size_t count = b.complex().vertex_count();
-    for (std::size_t v = 0; v < count; v += 1 + count / kAsked) {
-      const Rational3 p = b.complex().points.rational(PointId{static_cast<std::uint32_t>(v)});
-      if (contains(a, {x[0] - p[0], x[1] - p[1], x[2] - p[2]})) return true;
-    }
-    return false;
-  }
-
-  const Polyhedron& a_;
-  const Polyhedron& b_;
-  Polyhedron turned_;
-};
 
 // Measured: stars and gears have a hundred pairs a facet, meshes with many parallel facets about one.
 constexpr std::size_t kCoplanarPairs = 8;
@@ -64,25 +57,37 @@ bool are_caps(const SolidFeatures& a, const SolidFeatures& b) {
 
 }  // namespace
 
-std::optional<Polyhedron> convolution_sum(const Polyhedron& a, const Polyhedron& b, const ConvolutionOptions& options,
-                                          ConvolutionReport& report) {
-  if (options.only_if_fast && is_convex(a) && is_convex(b)) return std::nullopt;
+std::optional<Polyhedron> convolution_sum(const Polyhedron& set_a, const Polyhedron& set_b,
+                                          const ConvolutionOptions& options, ConvolutionReport& report) {
+  if (options.only_if_fast && is_convex(set_a) && is_convex(set_b)) return std::nullopt;
+  const Polyhedron a = filled(set_a);
+  const Polyhedron b = filled(set_b);
   const SolidFeatures of_a(a);
   const SolidFeatures of_b(b);
   if (options.only_if_fast && are_caps(of_a, of_b)) return std::nullopt;
   ConvolutionFacets facets = reduced_convolution(of_a, of_b);
+  if (!facets.marks_are_told) return std::nullopt;
   if (options.only_if_fast && coplanar_pairs(facets) > kCoplanarPairs * facets.size()) return std::nullopt;
+  SumMembership membership(a, b);
+  const bool is_closed = facets.marks == BoundaryMarks::kAll;
+  std::vector<SaddlePoint> saddles;
+  if (!is_closed && !(of_a.has_plain_facets() && of_b.has_plain_facets())) return std::nullopt;
+  if (!is_closed && !is_convex(closure(a)) && !is_convex(closure(b))) {
+    if (!of_a.has_simple_edges() || !of_b.has_simple_edges()) return std::nullopt;
+    saddles = saddle_points(a, b, membership);
+  }
   const auto poll = [&options](double share) {
     if (options.poll) options.poll(share);
   };
   const RoundedFacets rounded(facets);
-  const SurvivingIntervals intervals = surviving_intervals(facets, rounded, [&poll](double share) { poll(share / 2); });
-  ConvolutionRegions regions(facets, rounded, intervals);
-  std::variant<Complex, Defect> sum = regions.run(Membership(a, b), [&poll](double share) { poll((1 + share) / 2); });
+  const SurvivingIntervals intervals =
+      surviving_intervals(facets, rounded, !is_closed, [&poll](double share) { poll(share / 2); });
+  ConvolutionRegions regions(facets, rounded, intervals, membership);
+  std::variant<Complex, Defect> sum = regions.run(saddles, [&poll](double share) { poll((1 + share) / 2); });
   // Synthesis checks what it is given; should it refuse, the cells are there, and the tests see that they were needed.
   if (std::holds_alternative<Defect>(sum)) return std::nullopt;
   report = {facets.size(), intervals.segments.size(), intervals.intervals.size(), regions.counts().points,
-            regions.counts().regions};
+            regions.counts().tested};
   return Polyhedron(std::get<Complex>(std::move(sum)));
 }
 

@@ -44,22 +44,39 @@ Integers inside_circle(const PlaneTable& planes, PlaneId plane) {
   return {Integer(1), Integer(0), Integer(0)};
 }
 
+// Off the arc or circle of a plane to its left, less and less.
+Direction beside(const PlaneTable& planes, const SphereMapView& map, std::uint32_t sface, PlaneId plane,
+                 const Integers& on_side) {
+  const Integers normal = Direction::normal(planes, plane).integers();
+  for (std::size_t ratio = 1;; ratio += ratio) {
+    Direction candidate = direction(mean(on_side, normal, ratio));
+    const SphereLocation at = locate(planes, map, candidate);
+    if (at.kind == SphereLocation::Kind::kSFace && at.index == sface) return candidate;
+  }
+}
+
 }  // namespace
 
 Direction direction_into(const PlaneTable& planes, const SphereMapView& map, std::uint32_t sface) {
   NEF_ASSERT(map.sfaces[sface].entry_count > 0);
   const SFaceEntry& entry = map.entries[map.sfaces[sface].entries];
   NEF_ASSERT(entry.kind != SFaceEntry::Kind::kIsolatedVertex);  // drawings of arcs have none
-  const bool is_loop = entry.kind == SFaceEntry::Kind::kLoop;
-  const PlaneId plane = is_loop ? map.sloops[entry.index].plane : map.shalfedges[entry.index].plane;
-  const Integers on_side = is_loop ? inside_circle(planes, plane) : inside_arc(planes, map, entry.index);
-  const Integers normal = Direction::normal(planes, plane).integers();
-  // Off the arc to its left, less and less.
-  for (std::size_t ratio = 1;; ratio += ratio) {
-    Direction candidate = direction(mean(on_side, normal, ratio));
-    const SphereLocation at = locate(planes, map, candidate);
-    if (at.kind == SphereLocation::Kind::kSFace && at.index == sface) return candidate;
-  }
+  if (entry.kind == SFaceEntry::Kind::kCycle) return direction_into(planes, map, sface, entry.index);
+  const PlaneId plane = map.sloops[entry.index].plane;
+  return beside(planes, map, sface, plane, inside_circle(planes, plane));
+}
+
+Direction direction_into(const PlaneTable& planes, const SphereMapView& map, std::uint32_t sface,
+                         std::uint32_t shalfedge) {
+  return beside(planes, map, sface, map.shalfedges[shalfedge].plane, inside_arc(planes, map, shalfedge));
+}
+
+Direction direction_on_arc(const PlaneTable& planes, const SphereMapView& map, std::uint32_t shalfedge) {
+  return direction(inside_arc(planes, map, shalfedge));
+}
+
+Direction direction_on_circle(const PlaneTable& planes, PlaneId plane) {
+  return direction(inside_circle(planes, plane));
 }
 
 }  // namespace nef::minkowski

@@ -46,6 +46,17 @@ SegmentFinder::ChordEnd SegmentFinder::crossing(std::uint32_t facet, std::uint32
   return end;
 }
 
+// If all that a facet has in common with the plane of another one is a corner, which is not also one of that.
+void SegmentFinder::note_touching(std::uint32_t other) {
+  if (found_.empty()) return;
+  const std::uint32_t corner = found_[0].why.index;
+  const auto others = facets_.ring(other);
+  if (std::find(others.begin(), others.end(), corner) != others.end()) return;
+  Box box;
+  box.add_rounded(facets_.rounded[corner]);
+  if (box.overlaps(rounded_.box(other))) touching_.push_back(corner);
+}
+
 // What a facet has in common with the plane of another one; false if that is less than a segment.
 bool SegmentFinder::find_chord(std::uint32_t facet, std::uint32_t other, Chord& chord) {
   const auto ring = facets_.ring(facet);
@@ -73,7 +84,10 @@ bool SegmentFinder::find_chord(std::uint32_t facet, std::uint32_t other, Chord& 
       found_.push_back(crossing(facet, other, i));
     }
   }
-  if (found_.size() < 2) return false;
+  if (found_.size() < 2) {
+    note_touching(other);
+    return false;
+  }
   // More than two if a side in the plane has straight corners: then the ends are those that are farthest apart.
   double largest = -1;
   for (std::size_t i = 0; i < found_.size(); ++i) {

@@ -42,6 +42,9 @@ class SegmentFinder {
   /// Nothing if the facets are in one plane or surely have less than a segment in common.
   std::optional<FacetSegment> find(std::uint32_t f, std::uint32_t g);
 
+  /// Corners of a facet that may lie on another one, which has nothing else in common with it, of all pairs so far.
+  [[nodiscard]] const std::vector<std::uint32_t>& touching_corners() const { return touching_; }
+
  private:
   struct ChordEnd {
     Vector point{};
@@ -53,6 +56,7 @@ class SegmentFinder {
     bool above = false, below = false;  // on which sides of the plane the facet has corners
   };
   [[nodiscard]] bool surely_apart(std::uint32_t facet, std::uint32_t other) const;
+  void note_touching(std::uint32_t other);
   [[nodiscard]] bool find_chord(std::uint32_t facet, std::uint32_t other, Chord& chord);
   [[nodiscard]] ChordEnd crossing(std::uint32_t facet, std::uint32_t other, std::uint32_t side) const;
   [[nodiscard]] std::optional<FacetSegment> overlap(Chord& f, Chord& g) const;
@@ -62,6 +66,7 @@ class SegmentFinder {
   std::vector<int> signs_;
   std::vector<double> values_;
   std::vector<ChordEnd> found_;
+  std::vector<std::uint32_t> touching_;
 };
 
 }  // namespace nef::minkowski

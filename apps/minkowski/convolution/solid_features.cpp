@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "apps/minkowski/convolution/convex_pieces.h"
+#include "nef/mesh/edge_order.h"
 
 namespace nef::minkowski {
 
@@ -14,6 +15,7 @@ bool ConvexEdge::touches(const Direction& normal) const {
 SolidFeatures::SolidFeatures(const Polyhedron& solid) : c_(solid.complex()) {
   points_.reserve(c_.vertex_count());
   for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) points_.push_back(c_.points.rational(PointId{v}));
+  find_marks();
   directions_.reserve(c_.svertices.size());
   for (const SVertex& s : c_.svertices) directions_.push_back(direction_of(c_.planes, s));
   add_facets();
@@ -25,6 +27,43 @@ SolidFeatures::SolidFeatures(const Polyhedron& solid) : c_(solid.complex()) {
   }
 }
 
+void SolidFeatures::find_marks() {
+  bool any = false;
+  bool all = true;
+  const auto look_at = [&](LabelId mark) {
+    any = any || mark != 0;
+    all = all && mark != 0;
+  };
+  for (const Facet& f : c_.facets) look_at(f.mark);
+  for (const SVertex& s : c_.svertices) look_at(s.mark);
+  for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) {
+    look_at(c_.vertices[v].mark);
+    for (const SLoop& loop : c_.sphere_map(v).sloops) {
+      has_plain_facets_ = has_plain_facets_ && loop.mark == c_.vertices[v].mark;
+    }
+  }
+  marks_ = all ? BoundaryMarks::kAll : any ? BoundaryMarks::kMixed : BoundaryMarks::kNone;
+  if (marks_ != BoundaryMarks::kMixed) return;
+  for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) {
+    for (std::uint32_t h = c_.vertices[v].svertices; h < c_.vertices[v + 1].svertices; ++h) {
+      const std::uint32_t w = c_.target(h);
+      if (v < w) edge_marks_.emplace(pair_key(v, w), c_.svertices[h].mark != 0 ? 1 : 0);
+    }
+  }
+}
+
+// What is no edge is a cut through the facet.
+void SolidFeatures::mark_sides(FacetPiece& piece) const {
+  piece.sides.assign(piece.ring.size(), piece.mark);
+  if (marks_ != BoundaryMarks::kMixed) return;
+  for (std::size_t i = 0; i < piece.ring.size(); ++i) {
+    const std::uint32_t u = piece.ring[i];
+    const std::uint32_t w = piece.ring[i + 1 < piece.ring.size() ? i + 1 : 0];
+    const auto edge = edge_marks_.find(pair_key(std::min(u, w), std::max(u, w)));
+    if (edge != edge_marks_.end()) piece.sides[i] = edge->second;
+  }
+}
+
 void SolidFeatures::add_facets() {
   ConvexPieces pieces(c_);
   for (const FacetId f : c_.facets.ids()) {
@@ -32,9 +71,13 @@ void SolidFeatures::add_facets() {
     const bool solid_above = c_.volumes[facet.volume_above].mark != 0;
     SolidFacet& added = facets_.emplace_back();
     added.normal = Direction::normal(c_.planes, solid_above ? facet.plane.opposite() : facet.plane);
-    added.pieces = pieces.cut(f);
-    if (!solid_above) continue;
-    for (std::vector<std::uint32_t>& piece : added.pieces) std::reverse(piece.begin(), piece.end());
+    for (std::vector<std::uint32_t>& ring : pieces.cut(f)) {
+      if (solid_above) std::reverse(ring.begin(), ring.end());
+      FacetPiece& piece = added.pieces.emplace_back();
+      piece.ring = std::move(ring);
+      piece.mark = facet.mark != 0 ? 1 : 0;
+      mark_sides(piece);
+    }
   }
 }
 
@@ -45,13 +88,20 @@ void SolidFeatures::add_edge(std::uint32_t vertex, std::uint32_t svertex) {
   const Direction& line = directions_[halfedge];
   const std::uint32_t out = map.svertices[svertex].out;
   std::uint32_t e = out;
+  std::size_t solid = 0;
+  do {
+    solid += map.sfaces[map.shalfedges[e].sface].mark != 0 ? 1 : 0;
+    e = map.next_around(e);
+  } while (e != out);
+  has_simple_edges_ = has_simple_edges_ && solid == 1;
   do {
     const std::uint32_t next = map.next_around(e);
     const PlaneId first = map.shalfedges[e].plane;
     const PlaneId last = map.shalfedges[next].plane;
     if (map.sfaces[map.shalfedges[e].sface].mark == 0 && orientation_around(c_.planes, line, first, last) < 0) {
       edges_.push_back({vertex, c_.target(halfedge), line, Direction::normal(c_.planes, first),
-                        Direction::normal(c_.planes, last.opposite())});
+                        Direction::normal(c_.planes, last.opposite()),
+                        static_cast<std::uint8_t>(map.svertices[svertex].mark != 0 ? 1 : 0)});
       return;
     }
     e = next;
@@ -59,6 +109,7 @@ void SolidFeatures::add_edge(std::uint32_t vertex, std::uint32_t svertex) {
 }
 
 bool SolidFeatures::is_peak(std::uint32_t vertex, const Direction& up) const {
+  if (c_.vertices[vertex].svertices == c_.vertices[vertex + 1].svertices) return false;  // inside a facet
   for (std::uint32_t h = c_.vertices[vertex].svertices; h < c_.vertices[vertex + 1].svertices; ++h) {
     if (sign_of_dot(directions_[h], up) >= 0) return false;
   }

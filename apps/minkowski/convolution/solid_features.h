@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <unordered_map>
 #include <vector>
 
 #include "nef/polyhedron.h"
@@ -12,10 +13,17 @@
 
 namespace nef::minkowski {
 
+/// A convex polygon, or a segment as a ring of two, with the marks of what it consists of.
+struct FacetPiece {
+  std::vector<std::uint32_t> ring;  ///< vertices, counterclockwise from outside; some may be straight
+  std::vector<std::uint8_t> sides;  ///< marks; side i runs from vertex i to the next one
+  std::uint8_t mark = 1;            ///< of the inside
+};
+
 /// A facet of a solid.
 struct SolidFacet {
-  Direction normal;                                ///< outward
-  std::vector<std::vector<std::uint32_t>> pieces;  ///< convex polygons, counterclockwise from outside, of vertices
+  Direction normal;  ///< outward
+  std::vector<FacetPiece> pieces;
 };
 
 /// An edge at which more than a half-turn is free. The normals of the planes that touch the solid there form an arc,
@@ -24,16 +32,28 @@ struct ConvexEdge {
   std::uint32_t from = 0, to = 0;
   Direction line;  ///< from `from` to `to`
   Direction first, last;
+  std::uint8_t mark = 1;
 
   /// True if a direction that is normal to the edge lies in the inside of the arc.
   [[nodiscard]] bool touches(const Direction& normal) const;
 };
 
-/// Facets, convex edges and vertices of a bounded closed regular set.
+/// Which points of a boundary belong to the set.
+enum class BoundaryMarks : std::uint8_t { kAll, kNone, kMixed };
+
+/// Facets, convex edges and vertices of a bounded set all of whose facets have the inside of the set on one side and
+/// nothing of it on the other.
 class SolidFeatures {
  public:
   /// The solid must outlive the object. O(n), and for facets that are not convex what a triangulation takes.
   explicit SolidFeatures(const Polyhedron& solid);
+
+  [[nodiscard]] BoundaryMarks marks() const { return marks_; }
+  [[nodiscard]] std::uint8_t mark(std::uint32_t vertex) const { return c_.vertices[vertex].mark != 0 ? 1 : 0; }
+  /// True if the solid fills one wedge around every edge.
+  [[nodiscard]] bool has_simple_edges() const { return has_simple_edges_; }
+  /// True if no facet has a single point inside that is marked unlike it.
+  [[nodiscard]] bool has_plain_facets() const { return has_plain_facets_; }
 
   [[nodiscard]] const std::vector<SolidFacet>& facets() const { return facets_; }
   [[nodiscard]] const std::vector<ConvexEdge>& edges() const { return edges_; }
@@ -43,14 +63,20 @@ class SolidFeatures {
   [[nodiscard]] bool is_peak(std::uint32_t vertex, const Direction& up) const;
 
  private:
+  void find_marks();
   void add_facets();
+  void mark_sides(FacetPiece& piece) const;
   void add_edge(std::uint32_t vertex, std::uint32_t svertex);
 
   const Complex& c_;
   std::vector<Rational3> points_;
   std::vector<SolidFacet> facets_;
   std::vector<ConvexEdge> edges_;
-  std::vector<Direction> directions_;  // of halfedges, away from their vertices
+  std::vector<Direction> directions_;                           // of halfedges, away from their vertices
+  std::unordered_map<std::uint64_t, std::uint8_t> edge_marks_;  // by the key of the ends, if marks are mixed
+  BoundaryMarks marks_ = BoundaryMarks::kAll;
+  bool has_simple_edges_ = true;
+  bool has_plain_facets_ = true;
 };
 
 }  // namespace nef::minkowski

@@ -30,14 +30,15 @@ struct Link {
 
 class IntervalSearch {
  public:
-  IntervalSearch(const ConvolutionFacets& facets, const RoundedFacets& rounded)
-      : facets_(facets), rounded_(rounded), finder_(facets, rounded) {}
+  IntervalSearch(const ConvolutionFacets& facets, const RoundedFacets& rounded, bool passages)
+      : facets_(facets), rounded_(rounded), finder_(facets, rounded), passages_(passages) {}
 
   SurvivingIntervals run(const std::function<void(double)>& poll) {
     find_sides();
     BoxTree(rounded_.boxes()).for_each_pair([&](std::uint32_t f, std::uint32_t g) {
       if (std::optional<FacetSegment> s = finder_.find(f, g)) result_.segments.push_back(*s);
     });
+    if (passages_) result_.touching = finder_.touching_corners();
     collect_by_facet();
     for (std::uint32_t i = 0; i < result_.segments.size(); ++i) {
       if (i % 256 == 0) poll(static_cast<double>(i) / static_cast<double>(result_.segments.size()));
@@ -178,7 +179,7 @@ class IntervalSearch {
 
   void cut(std::uint32_t segment) {
     const FacetSegment& s = result_.segments[segment];
-    if (!s.faces_a_region && !s.is_side_of_both) return;
+    if (!s.faces_a_region && !s.is_side_of_both && !passages_) return;
     find_events(s);
     find_cuts(s);
     for (Cut& cut : cuts_) judge(s, cut);
@@ -193,6 +194,9 @@ class IntervalSearch {
       }
       return number[i];
     };
+    for (std::size_t i = 0; passages_ && i < cuts_.size(); ++i) {
+      if (!is_plain(s, cuts_[i])) result_.doubtful.push_back({segment, number_of(i)});
+    }
     if (cuts_.size() == 1 && s.faces_a_region) {
       const std::uint32_t all = number_of(0);
       result_.intervals.push_back({segment, all, all});
@@ -212,6 +216,17 @@ class IntervalSearch {
         links_.push_back(side->link);
       }
     }
+  }
+
+  // True if the facets at a cut are surely in general position: one facet crosses the segment inside of all three; or
+  // the segment ends where a side of one facet crosses the inside of the other one, or at a corner that they share.
+  [[nodiscard]] bool is_plain(const FacetSegment& s, const Cut& cut) const {
+    const std::uint32_t count = cut.last - cut.first;
+    if (!cut.is_end[0] && !cut.is_end[1]) return count == 1 && events_[cut.first].front != 0;
+    if (count > 0 || cut.is_end[0] == cut.is_end[1]) return false;
+    const SegmentEnd& end = s.ends[cut.is_end[0] ? 0 : 1];
+    if (end.kind == SegmentEnd::Kind::kSide) return true;
+    return end.kind == SegmentEnd::Kind::kCorner && has_corner(s.f, end.index) && has_corner(s.g, end.index);
   }
 
   // Groups events that are not surely apart.
@@ -327,6 +342,7 @@ class IntervalSearch {
   const ConvolutionFacets& facets_;
   const RoundedFacets& rounded_;
   SegmentFinder finder_;
+  bool passages_;
   SurvivingIntervals result_;
   std::vector<std::uint32_t> first_of_, meeting_;  // by facet, those that it has a segment with
   std::vector<Link> links_;
@@ -344,9 +360,9 @@ std::uint64_t side_key(const ConvolutionFacets& facets, std::uint32_t facet, std
   return pair_key(std::min(u, v), std::max(u, v));
 }
 
-SurvivingIntervals surviving_intervals(const ConvolutionFacets& facets, const RoundedFacets& rounded,
+SurvivingIntervals surviving_intervals(const ConvolutionFacets& facets, const RoundedFacets& rounded, bool passages,
                                        const std::function<void(double)>& poll) {
-  return IntervalSearch(facets, rounded).run(poll);
+  return IntervalSearch(facets, rounded, passages).run(poll);
 }
 
 }  // namespace nef::minkowski

@@ -32,6 +32,10 @@ struct SurvivingIntervals {
   std::vector<SegmentCut> cuts;
   std::vector<std::uint32_t> cutting;  ///< facets
   std::vector<SurvivingInterval> intervals;
+  /// What else a sum that lacks parts of its boundary has to look at: cuts where it is not sure that facets are in
+  /// general position, as segments and cuts, and corners that may touch other facets.
+  std::vector<std::array<std::uint32_t, 2>> doubtful;
+  std::vector<std::uint32_t> touching;
   /// Facets that share a side, by the key of its two corners.
   std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> at_side;
 };
@@ -44,8 +48,9 @@ std::uint64_t side_key(const ConvolutionFacets& facets, std::uint32_t facet, std
 /// if a facet crosses the segment at one of its ends and has the interval behind it. Where three facets cross, and no
 /// other is there, one octant is in front of all three; if one of its three edges goes, so do the others.
 /// In doubles: what is not sure, stays. O(n log n + k) for k pairs of segments on one facet whose boxes overlap.
-/// `poll` is called with the share that is done and may throw.
-SurvivingIntervals surviving_intervals(const ConvolutionFacets& facets, const RoundedFacets& rounded,
+/// `poll` is called with the share that is done and may throw. With `passages`, doubtful cuts and touching corners,
+/// too.
+SurvivingIntervals surviving_intervals(const ConvolutionFacets& facets, const RoundedFacets& rounded, bool passages,
                                        const std::function<void(double)>& poll);
 
 }  // namespace nef::minkowski

@@ -22,6 +22,8 @@ std::span<const Fuzzer> fuzzers() {
       Fuzzer{"planning", "robots and obstacles of all dimensions on a grid, by breadth-first search", fuzz_planning},
       Fuzzer{"turning", "flat robots that turn in a plane anywhere in space, by a fine grid of poses", fuzz_turning},
       Fuzzer{"visibility", "convex prisms among convex prisms, by an exact visibility graph", fuzz_visibility},
+      Fuzzer{"wide", "solids among meshes: paths with room, swept piece by piece and against the complete way",
+             fuzz_wide},
       Fuzzer{"silhouettes", "visual hulls of random cameras and polygons, point by point", fuzz_silhouettes},
       Fuzzer{"tiles", "sets in tiles under steps, with awkward cuts, point by point", fuzz_tiles},
       Fuzzer{"sums", "Minkowski sums of open, closed and mixed sets on a grid", fuzz_sums},

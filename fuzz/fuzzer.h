@@ -71,6 +71,7 @@ void fuzz_convolutions(const Case& the_case);
 void fuzz_planning(const Case& the_case);
 void fuzz_turning(const Case& the_case);
 void fuzz_visibility(const Case& the_case);
+void fuzz_wide(const Case& the_case);
 void fuzz_tiles(const Case& the_case);
 void fuzz_silhouettes(const Case& the_case);
 

@@ -147,6 +147,80 @@ Complex map_complex(const Complex& c, const IntegerMap& map, const Integer& box_
   return result;
 }
 
+// A translation keeps normals, up to a factor that clears denominators, sphere maps and links: only offsets and points
+// are new. Scratch numbers keep their limbs from row to row.
+class Translation {
+ public:
+  explicit Translation(const IntegerMap& map) : t_(map.t), w_(map.w) {}
+
+  static bool is_one(const IntegerMap& map) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t j = 0; j < 3; ++j) {
+        if (map.m[i][j] != (i == j ? map.w : Integer(0))) return false;
+      }
+    }
+    return true;
+  }
+
+  Complex operator()(const Complex& c) {
+    Complex result = c;
+    result.planes = PlaneTable();
+    result.planes.reserve(c.planes.size());
+    for (std::uint32_t row = 0; row < c.planes.size(); ++row) move_plane(c.planes, row, result.planes);
+    result.planes.trim();
+    result.points = PointTable();
+    result.points.reserve(c.points.size());
+    for (std::uint32_t v = 0; v < c.points.size(); ++v) move_point(c.points, PointId{v}, result.points);
+    return result;
+  }
+
+ private:
+  // n.x + d = 0 becomes w n.x + (w d - n.t) = 0.
+  void move_plane(const PlaneTable& from, std::uint32_t row, PlaneTable& to) {
+    const PlaneId plane{row << 1U};
+    NEF_ASSERT(!from.infimaximal(plane));
+    mpz_mul(new_[3].get_mpz_t(), from.coefficient(plane, 3), w_.get_mpz_t());
+    mpz_set_ui(divisor_.get_mpz_t(), 0);
+    for (std::size_t i = 0; i < 3; ++i) {
+      mpz_submul(new_[3].get_mpz_t(), from.coefficient(plane, i), t_[i].get_mpz_t());
+      mpz_gcd(divisor_.get_mpz_t(), divisor_.get_mpz_t(), from.coefficient(plane, i));
+      mpz_mul(new_[i].get_mpz_t(), from.coefficient(plane, i), w_.get_mpz_t());
+    }
+    mpz_mul(divisor_.get_mpz_t(), divisor_.get_mpz_t(), w_.get_mpz_t());
+    mpz_gcd(divisor_.get_mpz_t(), divisor_.get_mpz_t(), new_[3].get_mpz_t());
+    if (divisor_ != 1) divide();
+    const PlaneId moved =
+        to.intern_primitive({new_[0].get_mpz_t(), new_[1].get_mpz_t(), new_[2].get_mpz_t(), new_[3].get_mpz_t()});
+    NEF_ASSERT(moved == plane);
+  }
+
+  void move_point(const PointTable& from, PointId point, PointTable& to) {
+    NEF_ASSERT(from.finite(point));
+    const IntegerView unit = from.coordinate(point, 3);
+    mpz_mul(new_[3].get_mpz_t(), unit, w_.get_mpz_t());
+    mpz_set(divisor_.get_mpz_t(), new_[3].get_mpz_t());
+    for (std::size_t i = 0; i < 3; ++i) {
+      mpz_mul(new_[i].get_mpz_t(), from.coordinate(point, i), w_.get_mpz_t());
+      mpz_addmul(new_[i].get_mpz_t(), t_[i].get_mpz_t(), unit);
+      if (divisor_ != 1) mpz_gcd(divisor_.get_mpz_t(), divisor_.get_mpz_t(), new_[i].get_mpz_t());
+    }
+    if (divisor_ != 1) divide();
+    to.push_homogeneous(new_);
+  }
+
+  // All four by their common divisor.
+  void divide() {
+    for (std::size_t i = 0; i < 4; ++i) {
+      mpz_divexact(new_[i].get_mpz_t(), new_[i].get_mpz_t(), divisor_.get_mpz_t());
+    }
+  }
+
+  const std::array<Integer, 3>& t_;
+  const Integer& w_;
+  std::array<Integer, 7> new_;
+  Integer divisor_;
+};
+
 Complex synthesized(Complex&& image, LabelId outer) {
   PlaneTable planes = std::move(image.planes);
   ComplexBuilder builder(planes);
@@ -159,6 +233,7 @@ Complex synthesized(Complex&& image, LabelId outer) {
 Polyhedron transform(const Polyhedron& a, const AffineMap& map) {
   const IntegerMap exact(map);
   const Complex& c = a.complex();
+  if (!c.has_box() && Translation::is_one(exact)) return Polyhedron(Translation(exact)(c));
   if (!c.has_box()) return Polyhedron(synthesized(map_complex(c, exact, 1), c.volumes[kOuterVolume].mark));
   return Polyhedron(clip_to_infimaximal_box(synthesized(map_complex(c, exact, exact.box_factor()), kOutside)));
 }

@@ -37,16 +37,19 @@ Polyhedron wide_positions(const Scene& scene, const BuildOptions& build) {
 
 }  // namespace
 
+bool can_have_wide_answer(const Scene& scene) {
+  return scene.contact == ContactRule::kAllow && scene.start && scene.goal && is_bounded_solid(scene.robot) &&
+         std::all_of(scene.obstacles.begin(), scene.obstacles.end(), is_bounded_solid);
+}
+
 bool may_have_wide_answer(const Scene& scene) {
-  if (scene.contact != ContactRule::kAllow || !scene.start || !scene.goal || !is_bounded_solid(scene.robot))
-    return false;
   const auto is_mesh = [](const Polyhedron& set) { return set.complex().facets.size() >= kMeshFacets; };
-  return std::all_of(scene.obstacles.begin(), scene.obstacles.end(), is_bounded_solid) &&
-         (is_mesh(scene.robot) || std::any_of(scene.obstacles.begin(), scene.obstacles.end(), is_mesh));
+  return (is_mesh(scene.robot) || std::any_of(scene.obstacles.begin(), scene.obstacles.end(), is_mesh)) &&
+         can_have_wide_answer(scene);
 }
 
 std::optional<WideAnswer> wide_answer(const Scene& scene, const PathOptions& options, const BuildOptions& build) {
-  NEF_ASSERT(may_have_wide_answer(scene));
+  NEF_ASSERT(can_have_wide_answer(scene));
   const Interruptible interruptible(build.stop);
   Stopwatch watch;
   WideAnswer result;

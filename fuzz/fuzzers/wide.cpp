@@ -168,7 +168,7 @@ class WideCase {
     make_scene();
     const planner::Problem problem(scene_);
     for (int i = 0; i < 3; ++i) {
-      scene_.start = random_point(choices_, kHalf);
+      scene_.start = random_point(choices_, in_a_box_ ? 2 : kHalf);
       scene_.goal = random_point(choices_, kHalf);
       ask(problem);
     }
@@ -179,8 +179,9 @@ class WideCase {
 
   void make_scene() {
     robot_ = choices_.one_in(4) ? bumpy_ball(choices_, 2, {}) : random_hulls(choices_, 2, 1);
-    if (choices_.one_in(3)) obstacles_.push_back(box_with_window(choices_, 4));
-    if (choices_.below(2) == 0)
+    in_a_box_ = choices_.below(2) == 1;
+    if (in_a_box_) obstacles_.push_back(box_with_window(choices_, 4));
+    if (choices_.below(in_a_box_ ? 4 : 2) == 0)
       obstacles_.push_back(bumpy_ball(choices_, 3 + choices_.below(2), random_point(choices_, 3)));
     for (std::uint32_t i = choices_.below(4); i > 0; --i) {
       Solid solid = random_hulls(choices_, 2, 2);
@@ -243,6 +244,7 @@ class WideCase {
   Solid robot_;
   std::vector<Solid> obstacles_;
   planner::Scene scene_;
+  bool in_a_box_ = false;
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include "nef/program/exact_json.h"
 #include "tests/planner/command_helpers.h"
 #include "tests/planner/scene_helpers.h"
 #include "tests/support/paths.h"
@@ -205,6 +206,19 @@ TEST_CASE("the example program runs") {
   const std::string out = text_of(folder.file("out"));
   CHECK(out.find("TightPlanner: Exact solution, length 7.16667, checked yes") != std::string::npos);
   CHECK(out.find("No path: the free space has 2 components") != std::string::npos);
+}
+
+TEST_CASE("what OMPL's planners find is rounded by --digits") {
+  const Folder folder;
+  const std::string scene = source_folder() + "/data/planner/s7_one_box.json";
+  const Run run = planner(folder, scene + " --ompl RRTConnect --time 20 --digits 2 --json");
+  REQUIRE(run.code == 0);
+  const nlohmann::json report = nlohmann::json::parse(run.out);
+  CHECK(report["unrounded"] == nlohmann::json::array());
+  for (const auto& point : report["path"]) {
+    for (const auto& x : point) CHECK(Rational(rational_of(x, "x") * 100).get_den() == 1);
+  }
+  CHECK(planner(folder, source_folder() + "/data/planner/corner.json --ompl RRTConnect --digits 2").code == 2);
 }
 
 }  // namespace

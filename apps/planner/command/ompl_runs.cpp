@@ -9,6 +9,7 @@
 #include "apps/planner/command/report.h"
 #include "apps/planner/ompl/ompl_planners.h"
 #include "apps/planner/ompl/translation_planning.h"
+#include "apps/planner/path/simple_points.h"
 #include "apps/planner/turning_ompl/turning_planning.h"
 #include "nef/base/error.h"
 #include "nef/base/stopwatch.h"
@@ -40,10 +41,22 @@ class QuietOmpl {
   ompl::msg::LogLevel level_;
 };
 
-void take_path(const Problem& problem, TranslationPlanning& setup, OmplOutcome& outcome) {
+// The path with rounded way-points.
+ExactPath rounded_path(const FreeSpace& free, ExactPath path, unsigned digits) {
+  const CellFilter filter(free);
+  const std::vector<std::size_t> unrounded = round_points(
+      [&](const Rational3& a, const Rational3& b) { return segment_allowed(free, filter, a, b); }, path.points, digits);
+  path = *describe_path(free, std::move(path.points));
+  path.unrounded = unrounded;
+  return path;
+}
+
+void take_path(const Problem& problem, TranslationPlanning& setup, const OmplRequest& request, OmplOutcome& outcome) {
   if (!setup.haveExactSolutionPath()) return;
-  std::optional<ExactPath> path = describe_path(problem.free_space(), exact_points(setup.getSolutionPath()));
+  const FreeSpace& free = problem.free_space();
+  std::optional<ExactPath> path = describe_path(free, exact_points(setup.getSolutionPath()));
   if (!path) return;  // not a path after all
+  if (request.digits) path = rounded_path(free, std::move(*path), *request.digits);
   ++outcome.solved;
   if (!outcome.answer.path || path->length < outcome.answer.path->length) outcome.answer.path = std::move(path);
 }
@@ -67,7 +80,7 @@ OmplOutcome run_ompl(const Problem& problem, const OmplRequest& request) {
     setup.solve(request.seconds);
     seconds += watch.seconds();
     proved = proved || setup.getProblemDefinition()->hasSolutionNonExistenceProof();
-    take_path(problem, setup, outcome);
+    take_path(problem, setup, request, outcome);
   }
   outcome.answer.phases["ompl"] = seconds;
   std::ostringstream line;

@@ -3,6 +3,7 @@
 // OMPL's own planners on the exact free space, and benchmarks of them beside ours.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@ struct OmplRequest {
   std::string planner;
   double seconds = 10;
   unsigned runs = 1;
+  std::optional<unsigned> digits = std::nullopt;  ///< round way-points to so many decimals where the motions stay free
 };
 
 struct OmplOutcome {

@@ -207,7 +207,7 @@ int answer_queries(const Arguments& a, const Problem& problem) {
 }
 
 int run_stock_planner(const Arguments& a, const Problem& problem) {
-  const OmplOutcome outcome = run_ompl(problem, {a.ompl, a.seconds, a.runs});
+  const OmplOutcome outcome = run_ompl(problem, {a.ompl, a.seconds, a.runs, a.path.digits});
   write_outputs(a, outcome.answer, problem);
   if (!a.quiet && !a.json) std::cout << outcome.summary << '\n';
   if (a.json || outcome.answer.path) print(a, outcome.answer, problem);

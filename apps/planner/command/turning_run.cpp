@@ -26,6 +26,9 @@ void check_turning_options(const Arguments& a) {
         "a scene with a rotation knows --json, --quiet, --page, -o, --max-cells, --time, --digits, --ompl and "
         "--check-proof only");
   }
+  if (!a.ompl.empty() && a.path.digits) {
+    throw InputError("--digits: what OMPL's planners find for a robot that turns is not rounded");
+  }
   for (const std::string& file : a.outputs) {
     const std::string extension = std::filesystem::path(file).extension().string();
     if (extension != ".json" && extension != ".txt" && extension != ".csv" && !is_view_file(file)) {

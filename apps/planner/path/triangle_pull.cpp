@@ -136,7 +136,8 @@ std::vector<std::array<Number, 2>> taut_string(std::vector<std::array<Number, 2>
 double height_at(const std::vector<std::array<double, 2>>& hull, double u) {
   double height = 0;
   for (std::size_t i = 0; i + 1 < hull.size(); ++i) {
-    const auto& [a, b] = std::array{hull[i], hull[i + 1]};
+    const std::array<double, 2>& a = hull[i];
+    const std::array<double, 2>& b = hull[i + 1];
     if (u < a[0] || u > b[0]) continue;
     const double at = b[0] > a[0] ? a[1] + (u - a[0]) / (b[0] - a[0]) * (b[1] - a[1]) : std::max(a[1], b[1]);
     height = std::max(height, at);

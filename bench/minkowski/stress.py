@@ -3,6 +3,8 @@
 """Sums that make unions explode: makes the operands, runs `minkowski` on each, prints CPU seconds and peak memory.
 
     bench/minkowski/stress.py [--bin DIR] [--cases NAME ...] [--unions auto queue nary] [--limit SECONDS] [--keep DIR]
+    bench/minkowski/stress.py --cgal --manifold PREFIX ...      peers beside, where they are there
+    bench/minkowski/stress.py --growth                          families that grow, with exponents
 
 Extrusions (stars, gears) have caps in common planes; a ball written in doubles is convex but for 10^-16; a cube minus a
 ball is all reflex edges. Processor seconds of the whole process on one thread, with reading and writing.
@@ -103,7 +105,7 @@ def bumpy_ball(path, n, seed):
 
 class Bench:
     def __init__(self, binaries, folder):
-        self.binaries, self.folder = binaries, folder
+        self.binaries, self.folder, self.manifold = binaries, folder, None
 
     def path(self, name):
         return os.path.join(self.folder, name)
@@ -133,6 +135,7 @@ class Bench:
         result["cube - ball, + ball 15"] = self.carved
         result["the same, closed"] = lambda: self.carved("regularize")
         result["mushroom + ball, 16 splits"] = lambda: [self.data("minkowski/mushroom.off"), "--ball", "1/10,16"]
+        result["mushroom + mushroom"] = lambda: [self.data("minkowski/mushroom.off")] * 2
         result["co-mushroom + cube"] = lambda: [
             self.nef(f'!file("{self.data("minkowski/mushroom.off")}")', "comushroom.nef"),
             self.data("minkowski/cube.off")]
@@ -149,11 +152,30 @@ class Bench:
         carved = self.nef(f'{how}(box(-5,-5,-5, 5,5,5) - file("{self.path("ball24.off")}"))', f"carved{how}.nef")
         return [carved, self.make(latitude_ball, "ball15.off", 1.0, 5, 3, True)]
 
-    def run(self, operands, union, limit):
+    def command(self, operands, engine):
+        """The command line of an engine: a strategy of ours, or a peer."""
+        if engine == "cgal":
+            return [os.path.join(self.binaries, "sum_peer"), "exact", *operands, self.path("peer.nef3")]
+        if engine == "manifold":
+            return [self.manifold, *(self.triangles(operand) for operand in operands)]
         command = [os.path.join(self.binaries, "minkowski"), *operands, "-o", self.path("sum.nef"), "--threads", "1"]
-        if union != "default":
-            command += ["--union", union]
+        return command + (["--union", engine] if engine != "default" else [])
+
+    def triangles(self, operand):
+        """The operand in the one format that holds triangles only, in text."""
+        name = os.path.splitext(os.path.basename(operand))[0] + ".stl"
+        subprocess.run([os.path.join(self.binaries, "nef"), "convert", operand, "-o", self.path(name), "-q"],
+                       check=True, capture_output=True)
+        return self.path(name)
+
+    def run(self, operands, engine, limit):
+        try:
+            command = self.command(operands, engine)
+        except subprocess.CalledProcessError:
+            return 0.0, 0.0, False, "not for this engine"
+        environment = dict(os.environ, OMP_NUM_THREADS="1")
         process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                                   env=environment,
                                    preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (limit, limit)))
         output = process.stdout.read()
         _, status, usage = os.wait4(process.pid, 0)
@@ -162,12 +184,66 @@ class Bench:
         line = output.strip().split("\n")[-1][-72:]
         return seconds, usage.ru_maxrss / 1024, status == 0, line
 
+    def cells(self, operand):
+        """How many convex cells an operand has."""
+        done = subprocess.run([os.path.join(self.binaries, "minkowski"), "--decompose", operand, "-o",
+                               self.path("cells.off")], check=True, capture_output=True, text=True)
+        return int(done.stdout.split()[0])
+
+    def families(self):
+        """name -> pairs of operands that grow together."""
+        return {
+            "generic": [[self.make(bumpy_ball, f"bumpy{n}{seed}.off", n, seed) for seed in (0, 1)]
+                        for n in (5, 7, 9, 11, 13)],
+            "extruded": [[self.make(star_prism, f"grow{k}.off", k, 0), self.make(star_prism, f"grown{k}.off", k, 0.4)]
+                         for k in (6, 9, 13, 18, 24)],
+            "nearly convex": [[self.make(latitude_ball, f"ball{n}.off", 1.0, n, n // 2, True),
+                               self.make(latitude_ball, f"other{n}.off", 0.7, n + 1, n // 2, True)]
+                              for n in (8, 12, 16, 22, 30)],
+        }
+
+
+def exponent(points):
+    """The slope of the line through the logarithms of points (x, y)."""
+    logs = [(math.log(x), math.log(y)) for x, y in points if x > 1 and y > 0]
+    mean_x = sum(x for x, _ in logs) / len(logs)
+    mean_y = sum(y for _, y in logs) / len(logs)
+    return (sum((x - mean_x) * (y - mean_y) for x, y in logs) / sum((x - mean_x) ** 2 for x, _ in logs))
+
+
+def growth(bench, limit):
+    """Seconds over the number of pairs of cells, by the default strategy."""
+    print(f"{'family':14} {'cells':>12} {'CPU s':>8} {'peak MB':>8}")
+    for name, pairs in bench.families().items():
+        points = []
+        for operands in pairs:
+            k, l = (bench.cells(operand) for operand in operands)
+            seconds, peak, done, line = bench.run(operands, "default", limit)
+            print(f"{name:14} {f'{k} x {l}':>12} {seconds:8.3f} {peak:8.0f}  {line if done else 'not done: ' + line}",
+                  flush=True)
+            if done:
+                points.append((k * l, seconds))
+        if len(points) > 1:
+            print(f"{name:14} seconds grow as the pairs of cells to the power {exponent(points):.2f}", flush=True)
+
+
+def build_manifold_peer(binaries, prefix):
+    """The program for the library installed at a prefix."""
+    folder = os.path.join(os.path.dirname(os.path.abspath(binaries)), "manifold_peer")
+    for command in (["cmake", "-S", os.path.join(HERE, "..", "manifold"), "-B", folder,
+                     "-DCMAKE_PREFIX_PATH=" + os.path.abspath(prefix)], ["cmake", "--build", folder]):
+        subprocess.run(command, check=True, capture_output=True)
+    return os.path.join(folder, "nef_bench_manifold_sum")
+
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--bin", default=os.path.join(HERE, "..", "..", "build", "release", "bin"))
     parser.add_argument("--cases", nargs="*", help="run cases whose names hold one of these")
     parser.add_argument("--unions", nargs="*", default=["default", "convolution", "queue", "nary"])
+    parser.add_argument("--growth", action="store_true", help="instead: families of operands that grow, with exponents")
+    parser.add_argument("--cgal", action="store_true", help="CGAL's minkowski_sum_3 (the program sum_peer) beside ours")
+    parser.add_argument("--manifold", metavar="PREFIX", help="the Manifold library installed there beside ours (doubles)")
     parser.add_argument("--limit", type=int, default=60, help="CPU seconds after which a run is ended")
     parser.add_argument("--keep", help="leave the operands in this directory")
     arguments = parser.parse_args()
@@ -175,12 +251,21 @@ def main():
         folder = arguments.keep or temporary
         os.makedirs(folder, exist_ok=True)
         bench = Bench(os.path.abspath(arguments.bin), os.path.abspath(folder))
+        if arguments.growth:
+            growth(bench, arguments.limit)
+            return 0
+        engines = list(arguments.unions)
+        if arguments.cgal:
+            engines.append("cgal")
+        if arguments.manifold:
+            bench.manifold = build_manifold_peer(arguments.bin, arguments.manifold)
+            engines.append("manifold")
         print(f"{'case':28} {'union':8} {'CPU s':>8} {'peak MB':>8}")
         for name, make in bench.cases().items():
             if arguments.cases and not any(part in name for part in arguments.cases):
                 continue
             operands = make()
-            for union in arguments.unions:
+            for union in engines:
                 seconds, peak, done, line = bench.run(operands, union, arguments.limit)
                 print(f"{name:28} {union:8} {seconds:8.2f} {peak:8.0f}  {line if done else 'not done: ' + line}",
                       flush=True)

@@ -90,6 +90,8 @@ void fuzz_convolutions(const Case& the_case) {
   AffineMap nearly = map;
   nearly.linear[1][0] += Rational(choices.between(-1, 1), 3) / Rational(Integer(1) << 60U);
   if (nearly.determinant() == 0) return;
+  the_case.tell("sheared by [0][1] " + to_string(map.linear[0][1]) + ", [1][2] " + to_string(map.linear[1][2]) +
+                ", [2][0] " + to_string(map.linear[2][0]) + "; b by [1][0] " + to_string(nearly.linear[1][0]));
   const Polyhedron first = transform(a.set, map);
   const Polyhedron second = transform(b.set, nearly);
   minkowski::MinkowskiOptions options;

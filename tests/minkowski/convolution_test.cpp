@@ -79,6 +79,23 @@ TEST_CASE("convolution: solids on a grid") {
   });
 }
 
+// Facets that overlap in one plane, and facets that are nearly parallel, meet a segment at points whose order doubles
+// can not tell. What lies between them may be all of the segment that is on the boundary.
+TEST_CASE("convolution: an edge that lies within one cut of a segment") {
+  const Polyhedron a = nef::test::set(
+      "regularize(regularize(regularize(regularize(regularize(nothing + hull(0,2,0, 5/2,2,0, 0,9/2,0, 5/2,9/2,0, 0,2,2,"
+      "5/2,2,2, 0,9/2,2, 5/2,9/2,2)) - hull(1,2,0, 3,2,0, 1,3,0, 3,3,0, 1,2,5/2, 3,2,5/2, 1,3,5/2, 3,3,5/2)) +"
+      "hull(4,3,1, 1,3,3, 4,4,1, 1,2,4)) - hull(2,4,4, 0,1,3, 3,1,4, 0,1,0, 0,2,2, 2,3,3)) +"
+      "hull(2,2,0, 7/2,2,0, 2,9/2,0, 7/2,9/2,0, 2,2,2, 7/2,2,2, 2,9/2,2, 7/2,9/2,2))");
+  const Polyhedron b = nef::test::set(
+      "regularize(regularize(regularize(nothing + hull(0,0,0, 1,1,1, 2,2,1, 2,1,1, 0,1,2)) - hull(1,0,2, 0,1,0, 2,1,2,"
+      "0,2,2, 0,0,1)) + hull(0,1,0, 1,1,0, 0,5/2,0, 1,5/2,0, 0,1,3/2, 1,1,3/2, 0,5/2,3/2, 1,5/2,3/2))");
+  nef::AffineMap shear = nef::AffineMap::identity();
+  shear.linear[1][0] = Rational(1, 3) / Rational(nef::Integer(1) << 60);
+  const Polyhedron sheared = nef::transform(b, shear);
+  CHECK(nef::equal(convolution(a, sheared), by_cells(a, sheared)));
+}
+
 // Both, if the convolution was taken, which it need not be: with pieces of dimension 2 and less it is not.
 bool sums_agree(const Polyhedron& a, const Polyhedron& b) {
   MinkowskiOptions options;

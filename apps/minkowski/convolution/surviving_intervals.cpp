@@ -197,9 +197,10 @@ class IntervalSearch {
     for (std::size_t i = 0; passages_ && i < cuts_.size(); ++i) {
       if (!is_plain(s, cuts_[i])) result_.doubtful.push_back({segment, number_of(i)});
     }
-    if (cuts_.size() == 1 && s.faces_a_region) {
-      const std::uint32_t all = number_of(0);
-      result_.intervals.push_back({segment, all, all});
+    for (std::size_t i = 0; s.faces_a_region && i < cuts_.size(); ++i) {
+      if (!may_hold_intervals(cuts_[i])) continue;
+      const std::uint32_t here = number_of(i);
+      result_.intervals.push_back({segment, here, here});
     }
     for (std::size_t i = 0; i + 1 < cuts_.size(); ++i) {
       Side& after = cuts_[i].side[1];
@@ -216,6 +217,19 @@ class IntervalSearch {
         links_.push_back(side->link);
       }
     }
+  }
+
+  // True if what lies between the points of a cut need not be behind a facet. It is, in whatever order they come, if
+  // all facets cross the segment the same way.
+  [[nodiscard]] bool may_hold_intervals(const Cut& cut) const {
+    if (cut.is_end[0] && cut.is_end[1]) return true;
+    if (cut.first == cut.last) return false;
+    const int front = events_[cut.first].front;
+    if (cut.is_end[0] || cut.is_end[1] || front == 0) return true;
+    for (std::uint32_t i = cut.first; i < cut.last; ++i) {
+      if (events_[i].front != front) return true;
+    }
+    return false;
   }
 
   // True if the facets at a cut are surely in general position: one facet crosses the segment inside of all three; or

@@ -24,7 +24,7 @@ struct SegmentCut {
 /// An open part of a segment that no other facet meets.
 struct SurvivingInterval {
   std::uint32_t segment = 0;
-  std::uint32_t from = 0, to = 0;  ///< cuts; the same one if doubles can not tell its ends apart
+  std::uint32_t from = 0, to = 0;  ///< cuts; the same one for all that is between its points, if there is anything
 };
 
 struct SurvivingIntervals {

@@ -147,24 +147,31 @@ class CellEstimate {
   std::map<Corner, Ends> ends_;
 };
 
-}  // namespace
+struct Choice {
+  std::size_t axis = 0;
+  std::size_t cells = 0;
+};
 
-std::size_t wall_axis(const Complex& complex) {
-  std::size_t best = 0;
-  std::size_t fewest = 0;
+Choice best_choice(const Complex& complex) {
+  Choice best;
   std::size_t most_vertical = 0;
   for (const std::size_t axis : {2U, 0U, 1U}) {
     const CellEstimate estimate(complex, axis);
     const std::size_t cells = estimate.cells();
     // Walls of vertical edges are often one wall.
-    const bool better = cells < fewest || (cells == fewest && estimate.vertical_edges() > most_vertical);
+    const bool better = cells < best.cells || (cells == best.cells && estimate.vertical_edges() > most_vertical);
     if (axis != 2 && !better) continue;
-    best = axis;
-    fewest = cells;
+    best = {axis, cells};
     most_vertical = estimate.vertical_edges();
-    if (fewest == 1) break;
+    if (best.cells == 1) break;
   }
   return best;
 }
+
+}  // namespace
+
+std::size_t wall_axis(const Complex& complex) { return best_choice(complex).axis; }
+
+std::size_t estimated_cells(const Complex& complex) { return best_choice(complex).cells; }
 
 }  // namespace nef::minkowski

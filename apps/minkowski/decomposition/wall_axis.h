@@ -13,4 +13,7 @@ namespace nef::minkowski {
 /// complex; 2 if all are alike. Only an estimate, but always the same for the same complex. O(n log n) expected.
 std::size_t wall_axis(const Complex& complex);
 
+/// About how many cells that makes: right within 40 % for the models at hand, mostly 15. O(n log n) expected.
+std::size_t estimated_cells(const Complex& complex);
+
 }  // namespace nef::minkowski

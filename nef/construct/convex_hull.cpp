@@ -15,13 +15,10 @@
 #include "nef/base/error.h"
 #include "nef/construct/planar_hull.h"
 #include "nef/geometry/predicates.h"
+#include "nef/geometry/rational_vectors.h"
 
 namespace nef {
 namespace {
-
-using detail::cross_product;
-using detail::difference;
-using detail::dot_product;
 
 constexpr std::uint32_t kNobody = 0xffffffffU;
 
@@ -103,8 +100,8 @@ double Quickhull::orient(const Triangle& t, std::uint32_t point, double& bound) 
 PlaneId Quickhull::plane_of(Triangle& t) {
   if (!t.plane.valid()) {
     const Rational3& o = points_[t.vertex[0]];
-    const Rational3 normal = cross_product(difference(points_[t.vertex[1]], o), difference(points_[t.vertex[2]], o));
-    t.plane = planes_.intern(normal, Rational(-dot_product(normal, o)));
+    const Rational3 normal = cross(minus(points_[t.vertex[1]], o), minus(points_[t.vertex[2]], o));
+    t.plane = planes_.intern(normal, Rational(-dot(normal, o)));
   }
   return t.plane;
 }
@@ -149,43 +146,43 @@ std::vector<std::uint32_t> Quickhull::span() {
     return false;
   };
   using Vector = std::array<double, 3>;
-  const auto minus = [](const Vector& a, const Vector& b) { return Vector{a[0] - b[0], a[1] - b[1], a[2] - b[2]}; };
+  const auto difference = [](const Vector& a, const Vector& b) {
+    return Vector{a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+  };
   const auto times = [](const Vector& a, const Vector& b) {
     return Vector{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
   };
-  const auto dot = [](const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
+  const auto product = [](const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
 
   const Vector o = approximate(0);
   const Rational3& origin = points_[0];
-  if (!extend([&](const Vector& p) { return dot(minus(p, o), minus(p, o)); },
+  if (!extend([&](const Vector& p) { return product(difference(p, o), difference(p, o)); },
               [&](std::uint32_t i) { return points_[i] != origin; })) {
     return simplex;
   }
-  const Vector d = minus(approximate(simplex[1]), o);
-  const Rational3 direction = difference(points_[simplex[1]], origin);
+  const Vector d = difference(approximate(simplex[1]), o);
+  const Rational3 direction = minus(points_[simplex[1]], origin);
   if (!extend(
           [&](const Vector& p) {
-            const Vector n = times(d, minus(p, o));
-            return dot(n, n);
+            const Vector n = times(d, difference(p, o));
+            return product(n, n);
           },
-          [&](std::uint32_t i) {
-            return !detail::is_zero(cross_product(direction, difference(points_[i], origin)));
-          })) {
+          [&](std::uint32_t i) { return !is_zero(cross(direction, minus(points_[i], origin))); })) {
     return simplex;
   }
-  const Vector n = times(d, minus(approximate(simplex[2]), o));
-  const Rational3 normal = cross_product(direction, difference(points_[simplex[2]], origin));
-  extend([&](const Vector& p) { return std::fabs(dot(n, minus(p, o))); },
-         [&](std::uint32_t i) { return sgn(dot_product(normal, difference(points_[i], origin))) != 0; });
+  const Vector n = times(d, difference(approximate(simplex[2]), o));
+  const Rational3 normal = cross(direction, minus(points_[simplex[2]], origin));
+  extend([&](const Vector& p) { return std::fabs(product(n, difference(p, o))); },
+         [&](std::uint32_t i) { return sgn(dot(normal, minus(points_[i], origin))) != 0; });
   return simplex;
 }
 
 void Quickhull::start(const std::vector<std::uint32_t>& simplex) {
   std::array<std::uint32_t, 4> v = {simplex[0], simplex[1], simplex[2], simplex[3]};
   const Rational3& o = points_[v[0]];
-  const Rational3 normal = cross_product(difference(points_[v[1]], o), difference(points_[v[2]], o));
+  const Rational3 normal = cross(minus(points_[v[1]], o), minus(points_[v[2]], o));
   // The fourth point is to lie below the first three.
-  if (sgn(dot_product(normal, difference(points_[v[3]], o))) > 0) std::swap(v[1], v[2]);
+  if (sgn(dot(normal, minus(points_[v[3]], o))) > 0) std::swap(v[1], v[2]);
   constexpr std::array<std::array<std::uint32_t, 3>, 4> kFaces = {{{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}}};
   triangles_.resize(4);
   for (std::uint32_t f = 0; f < 4; ++f) {
@@ -290,11 +287,10 @@ Hull Quickhull::flat_hull(const std::vector<std::uint32_t>& simplex) const {
   if (simplex.size() < 2) {
     hull.source = simplex;
   } else {
-    const Rational3 d = difference(points_[simplex[1]], points_[simplex[0]]);
-    hull.source =
-        simplex.size() == 2
-            ? detail::linear_hull(points_, d)
-            : detail::planar_hull(points_, cross_product(d, difference(points_[simplex[2]], points_[simplex[0]])));
+    const Rational3 d = minus(points_[simplex[1]], points_[simplex[0]]);
+    hull.source = simplex.size() == 2
+                      ? detail::linear_hull(points_, d)
+                      : detail::planar_hull(points_, cross(d, minus(points_[simplex[2]], points_[simplex[0]])));
   }
   std::vector<std::uint32_t> corners;
   for (const std::uint32_t i : hull.source) {

@@ -6,19 +6,6 @@
 
 namespace nef::detail {
 
-Rational3 difference(const Rational3& a, const Rational3& b) {
-  return {Rational(a[0] - b[0]), Rational(a[1] - b[1]), Rational(a[2] - b[2])};
-}
-
-Rational3 cross_product(const Rational3& a, const Rational3& b) {
-  return {Rational(a[1] * b[2] - a[2] * b[1]), Rational(a[2] * b[0] - a[0] * b[2]),
-          Rational(a[0] * b[1] - a[1] * b[0])};
-}
-
-Rational dot_product(const Rational3& a, const Rational3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-bool is_zero(const Rational3& v) { return sgn(v[0]) == 0 && sgn(v[1]) == 0 && sgn(v[2]) == 0; }
-
 std::vector<std::uint32_t> linear_hull(std::span<const Rational3> points, const Rational3& direction) {
   // Order along a line is the order of any coordinate in which it is not constant.
   std::size_t axis = 0;

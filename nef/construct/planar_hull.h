@@ -11,11 +11,6 @@
 
 namespace nef::detail {
 
-Rational3 difference(const Rational3& a, const Rational3& b);
-Rational3 cross_product(const Rational3& a, const Rational3& b);
-Rational dot_product(const Rational3& a, const Rational3& b);
-bool is_zero(const Rational3& v);
-
 /// Indices of the two ends of points on one line with the given direction.
 std::vector<std::uint32_t> linear_hull(std::span<const Rational3> points, const Rational3& direction);
 

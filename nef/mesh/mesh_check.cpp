@@ -8,6 +8,7 @@
 #include <set>
 #include <tuple>
 
+#include "nef/mesh/area_vector.h"
 #include "nef/mesh/edge_order.h"
 #include "nef/mesh/mesh_surface.h"
 #include "nef/mesh/surface_contacts.h"
@@ -348,21 +349,6 @@ int volume_sign(const Mesh& mesh, const MeshSurface& surface) {
         a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
   }
   return sgn(exact);
-}
-
-Rational3 area_vector(const Mesh& mesh, std::span<const std::uint32_t> face) {
-  Rational3 area{};
-  const Rational3& o = mesh.vertices[face[0]];
-  for (std::size_t i = 1; i + 1 < face.size(); ++i) {
-    const Rational3& p = mesh.vertices[face[i]];
-    const Rational3& q = mesh.vertices[face[i + 1]];
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::size_t j = (axis + 1) % 3;
-      const std::size_t k = (axis + 2) % 3;
-      area[axis] += (p[j] - o[j]) * (q[k] - o[k]) - (p[k] - o[k]) * (q[j] - o[j]);
-    }
-  }
-  return area;
 }
 
 }  // namespace

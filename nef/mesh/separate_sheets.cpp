@@ -10,18 +10,12 @@
 #include <string>
 
 #include "nef/base/error.h"
+#include "nef/geometry/rational_vectors.h"
+#include "nef/mesh/area_vector.h"
 #include "nef/mesh/edge_order.h"
 
 namespace nef {
 namespace {
-
-Rational3 difference(const Rational3& a, const Rational3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-
-Rational3 cross(const Rational3& a, const Rational3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-Rational dot(const Rational3& a, const Rational3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /// The side of a face from its corner `corner` (in the mesh's list) to the next one.
 struct FaceSide {
@@ -96,10 +90,10 @@ class Separator {
   // By the directions in which the faces leave the edge.
   void sort_around(std::span<FaceSide> sides) const {
     const auto [u, v] = ends(sides[0]);
-    const Rational3 along = difference(mesh_.vertices[v], mesh_.vertices[u]);
+    const Rational3 along = minus(mesh_.vertices[v], mesh_.vertices[u]);
     std::vector<Rational3> direction;
     for (const FaceSide& side : sides) {
-      const Rational3 w = cross(area_vector(side.face), along);
+      const Rational3 w = cross(area_vector(mesh_, mesh_.face(side.face)), along);
       direction.push_back(side.forward ? w : Rational3{-w[0], -w[1], -w[2]});
     }
     // The first direction and what lies less than half a turn behind it comes first.
@@ -122,18 +116,6 @@ class Separator {
 
   static std::array<std::uint32_t, 2> ends(const FaceSide& side) {
     return {static_cast<std::uint32_t>(side.key >> 32U), static_cast<std::uint32_t>(side.key)};
-  }
-
-  Rational3 area_vector(std::uint32_t face) const {
-    const auto ring = mesh_.face(face);
-    const Rational3& origin = mesh_.vertices[ring[0]];
-    Rational3 sum;
-    for (std::size_t k = 1; k + 1 < ring.size(); ++k) {
-      const Rational3 area =
-          cross(difference(mesh_.vertices[ring[k]], origin), difference(mesh_.vertices[ring[k + 1]], origin));
-      for (std::size_t i = 0; i < 3; ++i) sum[i] += area[i];
-    }
-    return sum;
   }
 
   // The first corner of a vertex keeps its number, others get new ones behind.

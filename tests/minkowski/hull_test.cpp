@@ -11,15 +11,16 @@
 #include "nef/base/error.h"
 #include "nef/construct/convex_hull.h"
 #include "nef/construct/planar_hull.h"
+#include "nef/geometry/rational_vectors.h"
 
 namespace {
 
+using nef::cross;
+using nef::dot;
 using nef::Hull;
+using nef::minus;
 using nef::Rational;
 using nef::Rational3;
-using nef::detail::cross_product;
-using nef::detail::difference;
-using nef::detail::dot_product;
 
 Rational3 point(int x, int y, int z) { return {Rational(x), Rational(y), Rational(z)}; }
 
@@ -33,16 +34,16 @@ void check_solid(const Hull& hull, const std::vector<Rational3>& points) {
     const auto face = mesh.face(f);
     REQUIRE(face.size() >= 3);
     const Rational3& o = mesh.vertices[face[0]];
-    const Rational3 n = cross_product(difference(mesh.vertices[face[1]], o), difference(mesh.vertices[face[2]], o));
-    REQUIRE_FALSE(nef::detail::is_zero(n));  // no collinear corners
+    const Rational3 n = cross(minus(mesh.vertices[face[1]], o), minus(mesh.vertices[face[2]], o));
+    REQUIRE_FALSE(nef::is_zero(n));  // no collinear corners
     std::size_t on_face = 0;
     for (const Rational3& v : mesh.vertices) {
-      const int side = sgn(dot_product(n, difference(v, o)));
+      const int side = sgn(dot(n, minus(v, o)));
       REQUIRE(side <= 0);
       if (side == 0) ++on_face;
     }
     REQUIRE(on_face == face.size());  // so no two faces are coplanar
-    for (const Rational3& p : points) REQUIRE(sgn(dot_product(n, difference(p, o))) <= 0);
+    for (const Rational3& p : points) REQUIRE(sgn(dot(n, minus(p, o))) <= 0);
     for (std::size_t i = 0; i < face.size(); ++i) {
       ++edges[{face[i], face[(i + 1) % face.size()]}];
       faces_at[face[i]].insert(f);

@@ -8,12 +8,14 @@
 
 #include "apps/minkowski/convex/tools.h"
 #include "apps/minkowski/morphology.h"
+#include "nef/geometry/rational_vectors.h"
 #include "tests/support/hard_points.h"
 #include "tests/support/literals.h"
 #include "tests/support/random_polyhedra.h"
 
 namespace {
 
+using nef::dot;
 using nef::Polyhedron;
 using nef::Rational;
 using nef::Rational3;
@@ -24,8 +26,6 @@ using nef::test::Recipe;
 using nef::test::recipes;
 using nef::test::set;
 using nef::test::valid;
-
-Rational dot(const Rational3& a, const Rational3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 TEST_CASE("erosion is its definition, for sets of all kinds, with bounded complement, too") {
   CHECK(rc::check("erosion", [] {

@@ -9,6 +9,7 @@
 #include "apps/minkowski/convex/tools.h"
 #include "apps/minkowski/minkowski.h"
 #include "nef/construct/planar_hull.h"
+#include "nef/geometry/rational_vectors.h"
 #include "nef/io/mesh/mesh_reader.h"
 #include "tests/support/literals.h"
 #include "tests/support/minkowski_shapes.h"
@@ -126,7 +127,7 @@ Rational double_shadow(const ConvexCell& cell, std::size_t axis) {
   Rational area;
   const std::vector<std::uint32_t> ring = nef::detail::planar_hull(flat, normal);
   for (std::size_t k = 0; k < ring.size(); ++k) {
-    area += nef::detail::cross_product(flat[ring[k]], flat[ring[(k + 1) % ring.size()]])[axis];
+    area += nef::cross(flat[ring[k]], flat[ring[(k + 1) % ring.size()]])[axis];
   }
   return area;
 }

@@ -13,6 +13,13 @@ namespace nef::planner::test {
 
 using nef::test::oblique_rotation;
 
+/// a/b in lowest terms.
+inline Rational ratio(long a, long b) {
+  Rational result(a, b);
+  result.canonicalize();
+  return result;
+}
+
 /// A scene of data/planner, without its extension.
 inline Scene load(const std::string& name) { return read_scene(source_folder() + "/data/planner/" + name + ".json"); }
 

@@ -8,13 +8,14 @@
 #include "nef/base/error.h"
 #include "nef/construct/convex_hull.h"
 #include "nef/construct/planar_hull.h"
+#include "nef/geometry/rational_vectors.h"
 
 namespace nef::minkowski {
 namespace {
 
-using detail::cross_product;
-using detail::difference;
-using detail::dot_product;
+using nef::cross;
+using nef::dot;
+using nef::minus;
 
 Rational3 plus(const Rational3& a, const Rational3& b) {
   return {Rational(a[0] + b[0]), Rational(a[1] + b[1]), Rational(a[2] + b[2])};
@@ -27,12 +28,12 @@ class Constraints {
 
   // Keeps the half-space unless a ray leaves it.
   void add(const Rational3& n, const Rational3& p) {
-    if (std::any_of(rays_.begin(), rays_.end(), [&](const Rational3& r) { return sgn(dot_product(n, r)) > 0; })) return;
-    sets_.push_back(make_halfspace(n[0], n[1], n[2], Rational(-dot_product(n, p)), closed_));
+    if (std::any_of(rays_.begin(), rays_.end(), [&](const Rational3& r) { return sgn(dot(n, r)) > 0; })) return;
+    sets_.push_back(make_halfspace(n[0], n[1], n[2], Rational(-dot(n, p)), closed_));
   }
   // The plane n.x = n.p.
   void add_plane(const Rational3& n, const Rational3& p) {
-    sets_.push_back(boundary(make_halfspace(n[0], n[1], n[2], Rational(-dot_product(n, p)))));
+    sets_.push_back(boundary(make_halfspace(n[0], n[1], n[2], Rational(-dot(n, p)))));
   }
   [[nodiscard]] Polyhedron meet() const { return intersect_all(sets_); }
 
@@ -62,10 +63,10 @@ Polyhedron to_polyhedron(const SpannedSet& set, bool closed) {
   Constraints constraints(set.rays, closed);
   if (mesh.face_count() == 0) {
     NEF_ASSERT(mesh.vertices.size() == 2);
-    const Rational3 d = difference(mesh.vertices[1], mesh.vertices[0]);
+    const Rational3 d = minus(mesh.vertices[1], mesh.vertices[0]);
     const Rational3 n = across(d);
     constraints.add_plane(n, mesh.vertices[0]);
-    constraints.add_plane(cross_product(d, n), mesh.vertices[0]);
+    constraints.add_plane(cross(d, n), mesh.vertices[0]);
     constraints.add(d, mesh.vertices[1]);
     constraints.add({Rational(-d[0]), Rational(-d[1]), Rational(-d[2])}, mesh.vertices[0]);
     return constraints.meet();
@@ -73,14 +74,14 @@ Polyhedron to_polyhedron(const SpannedSet& set, bool closed) {
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {
     const auto face = mesh.face(f);
     const auto corner = [&](std::size_t k) -> const Rational3& { return mesh.vertices[face[k % face.size()]]; };
-    const Rational3 n = cross_product(difference(corner(1), corner(0)), difference(corner(2), corner(0)));
+    const Rational3 n = cross(minus(corner(1), corner(0)), minus(corner(2), corner(0)));
     if (mesh.face_count() > 1) {
       constraints.add(n, corner(0));
       continue;
     }
     constraints.add_plane(n, corner(0));
     for (std::size_t k = 0; k < face.size(); ++k) {
-      constraints.add(cross_product(difference(corner(k + 1), corner(k)), n), corner(k));
+      constraints.add(cross(minus(corner(k + 1), corner(k)), n), corner(k));
     }
   }
   return constraints.meet();

@@ -8,6 +8,7 @@
 #include "apps/minkowski/decomposition/walls.h"
 #include "nef/base/error.h"
 #include "nef/construct/planar_hull.h"
+#include "nef/geometry/rational_vectors.h"
 
 namespace nef::minkowski {
 namespace {
@@ -86,15 +87,14 @@ CellReader::Carriers CellReader::carriers(const ConvexCell& cell) const {
   for (std::size_t f = 0; f < cell.mesh.face_count(); ++f) {
     const auto face = cell.mesh.face(f);
     const Rational3& o = cell.mesh.vertices[face[0]];
-    normals.push_back(detail::cross_product(detail::difference(cell.mesh.vertices[face[1]], o),
-                                            detail::difference(cell.mesh.vertices[face[2]], o)));
+    normals.push_back(cross(minus(cell.mesh.vertices[face[1]], o), minus(cell.mesh.vertices[face[2]], o)));
     origins.push_back(o);
   }
   for (const std::uint32_t v : vertices_) {
     const Rational3 p = complex_.points.rational(PointId(v));
     Faces& faces = result.of_vertex.emplace_back();
     for (std::uint32_t f = 0; f < normals.size(); ++f) {
-      if (sgn(detail::dot_product(normals[f], detail::difference(p, origins[f]))) == 0) faces.push_back(f);
+      if (sgn(dot(normals[f], minus(p, origins[f]))) == 0) faces.push_back(f);
     }
   }
   for (const std::uint32_t h : halfedges_) {

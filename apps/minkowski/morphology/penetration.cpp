@@ -5,6 +5,7 @@
 #include "apps/minkowski/decomposition/decomposition.h"
 #include "apps/minkowski/morphology.h"
 #include "nef/base/error.h"
+#include "nef/geometry/rational_vectors.h"
 
 namespace nef::minkowski {
 namespace {
@@ -13,8 +14,6 @@ struct Candidate {
   Rational squared_length;
   Rational3 point;
 };
-
-Rational dot(const Rational3& a, const Rational3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 Rational3 times(const Rational& s, const Rational3& a) {
   return {Rational(s * a[0]), Rational(s * a[1]), Rational(s * a[2])};

@@ -14,6 +14,12 @@ namespace {
 
 using Points = std::vector<Rational3>;
 
+Integer power_of_ten(unsigned exponent) {
+  Integer power;
+  mpz_ui_pow_ui(power.get_mpz_t(), 10, exponent);
+  return power;
+}
+
 // What doubles cannot tell apart in a sum of a few lengths.
 constexpr double kRounding = 1e-13;
 
@@ -79,8 +85,7 @@ void straighten(const SegmentCheck& allowed, Points& path) {
 }
 
 Rational rounded(const Rational& x, unsigned digits) {
-  Integer power;
-  mpz_ui_pow_ui(power.get_mpz_t(), 10, digits);
+  const Integer power = power_of_ten(digits);
   Rational result(floor_of(x * power + Rational(1, 2)), power);
   result.canonicalize();
   return result;
@@ -96,9 +101,7 @@ Rational rounded_up(const Rational& x, unsigned digits) {
 
 std::vector<Rational3> rounded_points(const Rational3& x, unsigned digits) {
   std::array<std::array<Rational, 2>, 3> choices;  // the nearest multiple, and the next one on the other side
-  Integer power;
-  mpz_ui_pow_ui(power.get_mpz_t(), 10, digits);
-  const Rational unit(1, power);
+  const Rational unit(1, power_of_ten(digits));
   for (std::size_t k = 0; k < 3; ++k) {
     const Rational near = rounded(x[k], digits);
     choices[k] = {near, near == x[k] ? near : near > x[k] ? Rational(near - unit) : Rational(near + unit)};

@@ -9,18 +9,13 @@
 
 #include "apps/planner/free_space/vectors.h"
 #include "nef/geometry/box_tree.h"
+#include "nef/geometry/rational_vectors.h"
 
 namespace nef::planner {
 namespace {
 
 // Doubles take points that are so near, as a share of the triangle, for the same.
 constexpr double kNear = 1e-9;
-
-Rational3 minus(const Rational3& a, const Rational3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Rational dot(const Rational3& a, const Rational3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Rational3 cross(const Rational3& a, const Rational3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 
 using Point2 = std::array<Rational, 2>;
 

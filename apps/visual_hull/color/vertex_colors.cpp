@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <mutex>
-#include <opencv2/calib3d.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -26,15 +25,12 @@ struct Sum {
 
 cv::Mat load_photograph(const ViewResult& view, PixelOrigin origin) {
   const std::filesystem::path file = photograph_of(view.image);
-  cv::Mat image = cv::imread(file.string(), cv::IMREAD_COLOR);
+  cv::Mat image = read_photograph(file, view.distortion, origin);
   if (image.empty()) throw nef::InputError("view " + view.name + ": cannot read the image " + file.string());
   if (image.size() != view.silhouette.image_size) {
     throw nef::InputError("view " + view.name + ": " + file.string() + " has not the size of the silhouette's image");
   }
-  if (view.distortion.coefficients.empty()) return image;
-  cv::Mat straight;
-  cv::undistort(image, straight, opencv_intrinsics(view.distortion, origin), view.distortion.coefficients);
-  return straight;
+  return image;
 }
 
 // The silhouette's pixels, and those of them all whose neighbours are in it, too.

@@ -2,7 +2,6 @@
 #include "apps/visual_hull/command/overlay.h"
 
 #include <algorithm>
-#include <opencv2/calib3d.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -30,13 +29,10 @@ struct Frame {
 
 cv::Mat load_canvas(const ViewResult& view, PixelOrigin origin, Frame& frame) {
   if (!view.image.empty()) {
-    cv::Mat image = cv::imread(view.image.string(), cv::IMREAD_COLOR);
+    cv::Mat image = read_photograph(view.image, view.distortion, origin);
     if (!image.empty()) {
       if (origin == PixelOrigin::kCorner) frame.u0 = frame.v0 = 0.5;
-      if (view.distortion.coefficients.empty()) return image;
-      cv::Mat straight;
-      cv::undistort(image, straight, opencv_intrinsics(view.distortion, origin), view.distortion.coefficients);
-      return straight;
+      return image;
     }
   }
   Rectangle box;

@@ -2,7 +2,6 @@
 #include "apps/visual_hull/command/pictures.h"
 
 #include <algorithm>
-#include <opencv2/calib3d.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -79,13 +78,8 @@ bool embed_image(const ViewResult& view, PixelOrigin origin, nef::view::Photo& p
     photo.bytes = nef::read_file(view.image.string());
     return true;
   }
-  cv::Mat image = cv::imread(view.image.string(), cv::IMREAD_COLOR);
+  cv::Mat image = read_photograph(view.image, view.distortion, origin);
   if (image.empty()) return false;
-  if (!view.distortion.coefficients.empty()) {
-    cv::Mat straight;
-    cv::undistort(image, straight, opencv_intrinsics(view.distortion, origin), view.distortion.coefficients);
-    image = straight;
-  }
   const int longest = std::max(image.cols, image.rows);
   if (longest > kLongestSide) {
     const double scale = static_cast<double>(kLongestSide) / longest;

@@ -4,10 +4,15 @@
 #include "apps/visual_hull/scene/scene_number.h"
 #include "nef/base/error.h"
 #include "nef/base/in_quotes.h"
+#include "nef/geometry/rational_vectors.h"
 #include "nef/io/text_cursor.h"
 
 namespace visual_hull {
 namespace {
+
+using nef::cross;
+using nef::dot;
+using nef::minus;
 
 class Reader {
  public:
@@ -52,12 +57,6 @@ class Reader {
   nef::TextCursor cursor_;
   Quote quote_ = Quote::kNever;
 };
-
-Rational3 minus(const Rational3& a, const Rational3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Rational dot(const Rational3& a, const Rational3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Rational3 cross(const Rational3& a, const Rational3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 
 // The normal of the plane through all points, on the side away from the centre.
 Rational3 common_normal(const std::vector<std::vector<Rational3>>& polygons, const Rational3& centre,

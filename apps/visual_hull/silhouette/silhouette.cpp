@@ -147,6 +147,14 @@ cv::Mat opencv_intrinsics(const Distortion& distortion, PixelOrigin origin) {
   return k;
 }
 
+cv::Mat read_photograph(const std::filesystem::path& image, const Distortion& distortion, PixelOrigin origin) {
+  cv::Mat photograph = cv::imread(image.string(), cv::IMREAD_COLOR);
+  if (photograph.empty() || distortion.coefficients.empty()) return photograph;
+  cv::Mat straight;
+  cv::undistort(photograph, straight, opencv_intrinsics(distortion, origin), distortion.coefficients);
+  return straight;
+}
+
 cv::Mat make_mask(const cv::Mat& image, const ThresholdOptions& options) {
   cv::Mat mask;
   switch (options.kind) {

@@ -48,6 +48,9 @@ cv::Mat read_mask(const std::filesystem::path& image, const View& view, const Si
 /// The intrinsics as OpenCV wants them, whose whole image coordinates are centres of pixels: 3x3, double.
 cv::Mat opencv_intrinsics(const Distortion& distortion, PixelOrigin origin);
 
+/// A photograph in colour (blue, green, red), without its lens distortion; empty if it cannot be read.
+cv::Mat read_photograph(const std::filesystem::path& image, const Distortion& distortion, PixelOrigin origin);
+
 /// The mask of an image that is loaded already. Throws InputError if it has no such channel.
 cv::Mat make_mask(const cv::Mat& image, const ThresholdOptions& options);
 

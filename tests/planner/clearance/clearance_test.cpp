@@ -14,15 +14,10 @@
 #include "nef/distance/distance.h"
 #include "nef/program/exact_json.h"
 #include "tests/planner/command_helpers.h"
+#include "tests/planner/scene_helpers.h"
 
 namespace nef::planner::test {
 namespace {
-
-Rational ratio(long a, long b) {
-  Rational r(a, b);
-  r.canonicalize();
-  return r;
-}
 
 TEST_CASE("bisection: simple critical sizes are met, others are between; what is undecided is said") {
   for (const Rational& critical : {ratio(3, 2), ratio(1, 7), ratio(100, 3), Rational(1)}) {

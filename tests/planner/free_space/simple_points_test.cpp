@@ -16,12 +16,6 @@
 namespace nef::planner::test {
 namespace {
 
-Rational fraction(long a, long b) {
-  Rational r(a, b);
-  r.canonicalize();
-  return r;
-}
-
 double length_of(const std::vector<Rational3>& path) {
   double sum = 0;
   for (std::size_t i = 0; i + 1 < path.size(); ++i) sum += distance(path[i], path[i + 1]);
@@ -29,27 +23,27 @@ double length_of(const std::vector<Rational3>& path) {
 }
 
 TEST_CASE("a wobble goes where nothing asks for it, and stays where something does") {
-  const std::vector<Rational3> wobbling{{0, 0, 0}, {1, 2, fraction(-27, 10000)}, {2, 2, fraction(1, 1000)}, {3, 0, 0}};
+  const std::vector<Rational3> wobbling{{0, 0, 0}, {1, 2, ratio(-27, 10000)}, {2, 2, ratio(1, 1000)}, {3, 0, 0}};
   std::vector<Rational3> path = wobbling;
   straighten([](const Rational3&, const Rational3&) { return true; }, path);
   for (const Rational3& point : path) CHECK(point[2] == 0);
   // Nothing below z = 1/1000 may be used in the middle: the whole cannot be flat, and no length is gained elsewhere.
   path = wobbling;
-  const auto high = [](const Rational3& p) { return p[0] <= 1 || p[0] >= 3 || p[2] >= fraction(1, 1000); };
+  const auto high = [](const Rational3& p) { return p[0] <= 1 || p[0] >= 3 || p[2] >= ratio(1, 1000); };
   straighten([&](const Rational3& a, const Rational3& b) { return high(a) && high(b) && b[0] == a[0] + 1; }, path);
   CHECK(path[1][2] == 0);
-  CHECK(path[2][2] == fraction(1, 1000));
+  CHECK(path[2][2] == ratio(1, 1000));
   CHECK(length_of(path) <= length_of(wobbling));
 }
 
 TEST_CASE("rounded points: the nearest first, all coordinates before some, never the point itself") {
-  CHECK(rounded(fraction(1, 3), 2) == fraction(33, 100));
-  CHECK(rounded(fraction(-1, 3), 0) == 0);
-  CHECK(rounded(fraction(-2, 3), 1) == fraction(-7, 10));
-  const std::vector<Rational3> points = rounded_points({fraction(1, 3), fraction(1, 2), 1}, 1);
+  CHECK(rounded(ratio(1, 3), 2) == ratio(33, 100));
+  CHECK(rounded(ratio(-1, 3), 0) == 0);
+  CHECK(rounded(ratio(-2, 3), 1) == ratio(-7, 10));
+  const std::vector<Rational3> points = rounded_points({ratio(1, 3), ratio(1, 2), 1}, 1);
   REQUIRE_FALSE(points.empty());
-  CHECK(points.front() == Rational3{fraction(3, 10), fraction(1, 2), 1});
-  for (const Rational3& p : points) CHECK(p != Rational3{fraction(1, 3), fraction(1, 2), 1});
+  CHECK(points.front() == Rational3{ratio(3, 10), ratio(1, 2), 1});
+  for (const Rational3& p : points) CHECK(p != Rational3{ratio(1, 3), ratio(1, 2), 1});
   CHECK(rounded_points({1, 2, 3}, 0).empty());
 }
 
@@ -58,7 +52,7 @@ TEST_CASE("paths of so many digits are free, as long as the others but for that,
   for (unsigned seed = 0; seed < 6; ++seed) {
     std::mt19937 random(seed);
     const auto number = [&](int low, int high) {
-      return fraction(std::uniform_int_distribution<int>(low, high)(random), 7);
+      return ratio(std::uniform_int_distribution<int>(low, high)(random), 7);
     };
     Scene scene;
     scene.robot = unite(make_box({0, 0, 0}, {2, 1, 1}), make_box({0, 0, 0}, {1, 1, 2}));
@@ -71,7 +65,7 @@ TEST_CASE("paths of so many digits are free, as long as the others but for that,
       scene.obstacle_names.emplace_back("box");
     }
     scene.start = Rational3{-3, -3, -3};
-    scene.goal = Rational3{fraction(41, 4), fraction(38, 4), fraction(37, 4)};
+    scene.goal = Rational3{ratio(41, 4), ratio(38, 4), ratio(37, 4)};
     const Problem problem(scene);
     const Answer exact = problem.solve();
     REQUIRE(exact.path.has_value());

@@ -23,18 +23,13 @@
 #include "nef/program/exact_json.h"
 #include "nef/view/glb.h"
 #include "tests/planner/command_helpers.h"
+#include "tests/planner/scene_helpers.h"
 #include "tests/support/report_shape.h"
 
 namespace nef::planner::test {
 namespace {
 
 using Status = TurningAnswer::Status;
-
-Rational ratio(long a, long b) {
-  Rational r(a, b);
-  r.canonicalize();
-  return r;
-}
 
 Rational3 times(const Rational& factor, const Rational3& v) { return {factor * v[0], factor * v[1], factor * v[2]}; }
 

@@ -16,17 +16,12 @@
 #include "nef/base/error.h"
 #include "nef/construct/construct.h"
 #include "tests/planner/command_helpers.h"
+#include "tests/planner/scene_helpers.h"
 
 namespace nef::planner::test {
 namespace {
 
 namespace ob = ompl::base;
-
-Rational ratio(long a, long b) {
-  Rational r(a, b);
-  r.canonicalize();
-  return r;
-}
 
 Scene scene_of(const std::string& text) { return parse_scene(text, "", "test"); }
 

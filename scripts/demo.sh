@@ -6,6 +6,6 @@ cd "$(dirname "$0")/.."
 source scripts/setup.sh
 install_missing "${nef_packages[@]}" npm
 export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1
-cmake --preset release -DNEF_COMPILE_BY_FOLDER=ON -DNEF_BUILD_TESTS=OFF -DNEF_BUILD_BENCH=OFF -DNEF_BUILD_PYTHON=OFF >/dev/null
+cmake --preset release -DNEF_COMPILE_TOGETHER=ON -DNEF_BUILD_TESTS=OFF -DNEF_BUILD_BENCH=OFF -DNEF_BUILD_PYTHON=OFF >/dev/null
 cmake --build --preset release
 exec python3 scripts/demo.py build/release/bin demo

@@ -7,10 +7,10 @@ install_missing "${nef_packages[@]}" "${nef_test_packages[@]}"
 # With ccache, a clone elsewhere finds what this one has compiled.
 export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1
 preset=${NEF_PRESET:-release}
-# What the demo leaves out, and (in CI's preset) the benchmarks. Who builds once compiles folders.
-once=$([ "$preset" = release ] && echo ON || echo OFF)
+# What the demo leaves out, and (in CI's preset) the benchmarks.
 benchmarks=$([ "$preset" = release ] && echo OFF || echo ON)
-cmake --preset "$preset" -DNEF_COMPILE_BY_FOLDER="$once" -DNEF_BUILD_TESTS=ON -DNEF_BUILD_BENCH="$benchmarks" \
+cmake --preset "$preset" -DNEF_COMPILE_TOGETHER=ON -DNEF_BUILD_TESTS=ON -DNEF_BUILD_BENCH="$benchmarks" \
   -DNEF_BUILD_PYTHON=ON >/dev/null
 cmake --build --preset "$preset"
-ctest --preset "$preset" --parallel "$(nproc)"
+# One more than there are cores, since browsers and package tools wait now and then.
+ctest --preset "$preset" --parallel "$(($(nproc) + 1))"

@@ -10,6 +10,7 @@
 
 #include "fuzz/fuzzer.h"
 #include "nef/construct/construct.h"
+#include "nef/geometry/vectors.h"
 #include "nef/io/native/native_format.h"
 
 namespace nef::fuzz {
@@ -17,11 +18,6 @@ namespace {
 
 using Vector = Rational3;
 
-Rational dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vector cross(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-bool zero(const Vector& a) { return a[0] == 0 && a[1] == 0 && a[2] == 0; }
 Vector moved(const Vector& p, const Rational& t, const Vector& d) {
   return {p[0] + t * d[0], p[1] + t * d[1], p[2] + t * d[2]};
 }
@@ -105,7 +101,7 @@ class Cells {
     bool lines = false;
     for (std::size_t j = 0; j < planes_.size(); ++j) {
       const Vector direction = cross(plane.normal, planes_[j].normal);
-      if (zero(direction)) continue;
+      if (is_zero(direction)) continue;
       lines = true;
       add_line(plane, planes_[j], direction);
     }
@@ -302,7 +298,7 @@ std::vector<Plane> random_planes(Choices& choices) {
   const int shift = choices.between(0, 3);
   for (Plane& plane : planes) {
     for (Rational& x : plane.normal) x = choices.below(2) == 0 ? 0 : choices.between(-slope, slope);
-    if (zero(plane.normal)) plane.normal[choices.below(3)] = 1;
+    if (is_zero(plane.normal)) plane.normal[choices.below(3)] = 1;
     plane.offset = choices.between(-shift, shift);
   }
   return planes;

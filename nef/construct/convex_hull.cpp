@@ -15,14 +15,14 @@
 #include "nef/base/error.h"
 #include "nef/construct/planar_hull.h"
 #include "nef/geometry/predicates.h"
-#include "nef/geometry/rational_vectors.h"
+#include "nef/geometry/vectors.h"
 
 namespace nef {
 namespace {
 
 constexpr std::uint32_t kNobody = 0xffffffffU;
 
-struct Triangle {
+struct HullTriangle {
   std::array<std::uint32_t, 3> vertex{};
   std::array<std::uint32_t, 3> across{};  // the triangle beyond the edge vertex[i], vertex[i+1]
   std::vector<std::uint32_t> outside;     // points strictly above that were given to this triangle
@@ -52,9 +52,9 @@ class Quickhull {
   void find_visible(std::uint32_t triangle, std::uint32_t point);
   void cone(std::uint32_t point);
   void hand_out(std::uint32_t point, std::uint32_t first_triangle);
-  double orient(const Triangle& t, std::uint32_t point, double& bound) const;
-  PlaneId plane_of(Triangle& t);
-  bool above(Triangle& t, std::uint32_t point, double& height);
+  double orient(const HullTriangle& t, std::uint32_t point, double& bound) const;
+  PlaneId plane_of(HullTriangle& t);
+  bool above(HullTriangle& t, std::uint32_t point, double& height);
   Hull flat_hull(const std::vector<std::uint32_t>& simplex) const;
   Hull merge();
 
@@ -66,7 +66,7 @@ class Quickhull {
   PointTable table_;
   PlaneTable planes_;
   double largest_ = 0;
-  std::vector<Triangle> triangles_;
+  std::vector<HullTriangle> triangles_;
   std::vector<std::uint32_t> todo_;  // triangles that may have points outside
   std::vector<std::uint32_t> visible_;
   std::vector<std::uint32_t> seen_;  // per triangle: the point it was last tested with
@@ -79,7 +79,7 @@ class Quickhull {
 // absolute error of at most e = 10uM, M the largest coordinate, rounding included. For differences
 // of at most D the determinant's six products of three change by less than 6 * 3 D^2 e (1 + 1/32)
 // if e <= D/64, and evaluating it rounds by less than 6 * 8u D^3. Hence 20 D^2 e + 64u D^3.
-double Quickhull::orient(const Triangle& t, std::uint32_t point, double& bound) const {
+double Quickhull::orient(const HullTriangle& t, std::uint32_t point, double& bound) const {
   const std::array<double, 3>& o = approximate(t.vertex[0]);
   std::array<std::array<double, 3>, 3> d{};
   double extent = 0;
@@ -97,7 +97,7 @@ double Quickhull::orient(const Triangle& t, std::uint32_t point, double& bound) 
          d[2][2] * (d[0][0] * d[1][1] - d[0][1] * d[1][0]);
 }
 
-PlaneId Quickhull::plane_of(Triangle& t) {
+PlaneId Quickhull::plane_of(HullTriangle& t) {
   if (!t.plane.valid()) {
     const Rational3& o = points_[t.vertex[0]];
     const Rational3 normal = cross(minus(points_[t.vertex[1]], o), minus(points_[t.vertex[2]], o));
@@ -107,7 +107,7 @@ PlaneId Quickhull::plane_of(Triangle& t) {
 }
 
 // `height` is only for choosing a far point.
-bool Quickhull::above(Triangle& t, std::uint32_t point, double& height) {
+bool Quickhull::above(HullTriangle& t, std::uint32_t point, double& height) {
   double bound = 0;
   height = orient(t, point, bound);
   if (std::fabs(height) > bound && std::fabs(height) < std::numeric_limits<double>::infinity()) {
@@ -207,7 +207,7 @@ void Quickhull::start(const std::vector<std::uint32_t>& simplex) {
 // Gives a point to the first triangle from `first_triangle` on that it lies above; forgets it if there is none.
 void Quickhull::hand_out(std::uint32_t point, std::uint32_t first_triangle) {
   for (std::uint32_t f = first_triangle; f < triangles_.size(); ++f) {
-    Triangle& t = triangles_[f];
+    HullTriangle& t = triangles_[f];
     double height = 0;
     if (!above(t, point, height)) continue;
     t.outside.push_back(point);
@@ -248,12 +248,12 @@ void Quickhull::cone(std::uint32_t point) {
       const auto fresh = static_cast<std::uint32_t>(triangles_.size());
       const std::uint32_t from = triangles_[f].vertex[i];
       const std::uint32_t to = triangles_[f].vertex[(i + 1) % 3];
-      Triangle& other = triangles_[beyond];
+      HullTriangle& other = triangles_[beyond];
       for (std::size_t k = 0; k < 3; ++k) {
         if (other.vertex[k] == to) other.across[k] = fresh;
       }
       leaving[from] = fresh;
-      Triangle& t = triangles_.emplace_back();
+      HullTriangle& t = triangles_.emplace_back();
       t.vertex = {from, to, point};
       t.across[0] = beyond;
     }
@@ -309,7 +309,7 @@ Hull Quickhull::merge() {
   std::unordered_map<std::uint32_t, std::vector<std::array<std::uint32_t, 2>>> boundary;  // per plane: edges
   std::vector<std::uint32_t> order;                                                       // planes as they come
   std::vector<std::uint32_t> planes_around(points_.size(), 0);
-  for (Triangle& t : triangles_) {
+  for (HullTriangle& t : triangles_) {
     if (!t.alive) continue;
     const PlaneId plane = plane_of(t);
     for (std::size_t i = 0; i < 3; ++i) {

@@ -6,7 +6,7 @@
 
 #include "nef/base/error.h"
 #include "nef/construct/construct.h"
-#include "nef/geometry/rational_vectors.h"
+#include "nef/geometry/vectors.h"
 #include "nef/mesh/simple_ring.h"
 #include "nef/synthesis/complex_builder.h"
 

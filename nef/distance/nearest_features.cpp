@@ -10,7 +10,7 @@
 #include "nef/base/error.h"
 #include "nef/complex/item_boxes.h"
 #include "nef/geometry/box_tree.h"
-#include "nef/geometry/rational_vectors.h"
+#include "nef/geometry/vectors.h"
 #include "nef/location/facet_search.h"
 
 namespace nef {

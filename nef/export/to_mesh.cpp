@@ -15,13 +15,13 @@ namespace {
 
 constexpr std::uint32_t kUnused = 0xffffffffU;
 
-// Which sides of space an item sees.
-struct Sides {
+// What kinds of volumes an item sees.
+struct SeenVolumes {
   bool selected = false;    // a volume that goes into the mesh
   bool unselected = false;  // one that does not belong to the set
   bool other = false;       // one that is lost as a whole, or lies beyond an infimaximal box
 
-  void add(const Sides& volume) {
+  void add(const SeenVolumes& volume) {
     selected = selected || volume.selected;
     unselected = unselected || volume.unselected;
     other = other || volume.other;
@@ -351,7 +351,7 @@ class Exporter {
   }
 
   // Sorts an item by what its mark and the volumes around it say about the mesh.
-  void judge(const Sides& sides, LabelId mark, std::size_t Items::*member) {
+  void judge(const SeenVolumes& sides, LabelId mark, std::size_t Items::*member) {
     const bool selected = is_selected(mark);
     if (sides.selected && !selected) {
       Items& items = sides.unselected || sides.other ? open_ : cracks_;
@@ -362,7 +362,7 @@ class Exporter {
 
   void look_for_losses() {
     for (const Facet& facet : complex_.facets) {
-      Sides sides = volumes_[facet.volume_above];
+      SeenVolumes sides = volumes_[facet.volume_above];
       sides.add(volumes_[facet.volume_below]);
       judge(sides, facet.mark, &Items::facets);
     }
@@ -374,7 +374,7 @@ class Exporter {
       const VertexRecord& end = complex_.vertices[v + 1];
       const bool at_facet = all_facets && (record.shalfedges < end.shalfedges || record.sloops < end.sloops);
       if (!at_facet || !is_selected(record.mark)) {
-        Sides sides;
+        SeenVolumes sides;
         for (std::uint32_t s = record.sfaces; s < end.sfaces; ++s) sides.add(volumes_[complex_.sface_volume(s)]);
         judge(sides, record.mark, &Items::vertices);
       }
@@ -388,12 +388,12 @@ class Exporter {
     }
   }
 
-  [[nodiscard]] Sides sides_of_edge(std::uint32_t vertex, std::uint32_t halfedge) const {
+  [[nodiscard]] SeenVolumes sides_of_edge(std::uint32_t vertex, std::uint32_t halfedge) const {
     const SphereMapView map = complex_.sphere_map(vertex);
     const VertexRecord& record = complex_.vertices[vertex];
     const SVertex& svertex = complex_.svertices[halfedge];
     if (svertex.out == kNone) return volumes_[complex_.sface_volume(record.sfaces + svertex.sface)];
-    Sides sides;
+    SeenVolumes sides;
     std::uint32_t e = svertex.out;
     do {
       sides.add(volumes_[complex_.sface_volume(record.sfaces + map.shalfedges[e].sface)]);
@@ -435,7 +435,7 @@ class Exporter {
 
   const Complex& complex_;
   const MeshExportOptions& options_;
-  IndexedVector<VolumeId, Sides> volumes_;
+  IndexedVector<VolumeId, SeenVolumes> volumes_;
   std::vector<FacetId> boundary_;
   std::vector<std::uint32_t> corner_vertices_;       // of the complex, of all corners of these
   std::vector<std::uint32_t> number_;                // in the mesh, of each vertex

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "nef/base/error.h"
-#include "nef/geometry/rational_vectors.h"
+#include "nef/geometry/vectors.h"
 #include "nef/import/mesh_faces.h"
 #include "nef/mesh/surface_contacts.h"
 #include "nef/mesh/triangulate.h"

@@ -11,7 +11,7 @@
 
 #include "nef/base/error.h"
 #include "nef/base/union_find.h"
-#include "nef/geometry/rational_vectors.h"
+#include "nef/geometry/vectors.h"
 #include "nef/mesh/edge_order.h"
 #include "nef/mesh/mesh_surface.h"
 #include "nef/mesh/vertex_merger.h"

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "nef/geometry/rational_vectors.h"
+#include "nef/geometry/vectors.h"
 #include "nef/mesh/mesh.h"
 
 namespace nef {

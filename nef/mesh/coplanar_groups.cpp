@@ -13,7 +13,7 @@
 namespace nef {
 namespace {
 
-struct Side {
+struct PolygonSide {
   std::uint64_t key = 0;  // smaller corner, larger corner
   std::uint32_t polygon = 0;
   std::uint32_t from = 0;
@@ -52,14 +52,14 @@ class Grouper {
   }
 
   // A corner of the polygon off the line of a side: convex strictly, it has no other there.
-  std::uint32_t corner_beside(const Side& side) const {
+  std::uint32_t corner_beside(const PolygonSide& side) const {
     for (const std::uint32_t v : polygons_[side.polygon]) {
       if (v != side.from && v != side.to) return v;
     }
     return side.from;
   }
 
-  void join(Side& a, Side& b) {
+  void join(PolygonSide& a, PolygonSide& b) {
     if (a.from != b.to) return;
     const std::uint32_t p = corner_beside(a);
     const std::uint32_t q = corner_beside(b);
@@ -87,7 +87,7 @@ class Grouper {
       groups[number[root]].members.push_back(p);
     }
     borders.resize(groups.size());
-    for (const Side& side : sides_) {
+    for (const PolygonSide& side : sides_) {
       const std::uint32_t root = joined_.find(side.polygon);
       if (size[root] > 1 && !side.inner) borders[number[root]].push_back({side.from, side.to});
     }
@@ -166,7 +166,7 @@ class Grouper {
   const MeshPoints& points_;
   const std::vector<std::span<const std::uint32_t>>& polygons_;
   UnionFind joined_;
-  std::vector<Side> sides_;
+  std::vector<PolygonSide> sides_;
 };
 
 }  // namespace

@@ -16,8 +16,6 @@
 namespace nef {
 namespace {
 
-using Kind = MeshProblemKind;
-
 std::string number(std::size_t value) { return std::to_string(value); }
 
 std::string edge_text(const std::array<std::uint32_t, 2>& edge) {
@@ -60,7 +58,7 @@ class Report {
   std::vector<MeshProblem> problems_;
 };
 
-MeshProblem face_problem(Kind kind, std::uint32_t face, std::string what) {
+MeshProblem face_problem(MeshProblemKind kind, std::uint32_t face, std::string what) {
   MeshProblem problem;
   problem.kind = kind;
   problem.faces = {face};
@@ -73,13 +71,14 @@ void check_faces(const Mesh& mesh, const MeshSurface& surface, Report& report) {
     switch (surface.defects[f]) {
       case FaceDefect::kNone:
         if (surface.irregular[f]) {
-          MeshProblem problem = face_problem(Kind::kDegenerateFace, f, "comes to a vertex twice; it is cut there");
+          MeshProblem problem =
+              face_problem(MeshProblemKind::kDegenerateFace, f, "comes to a vertex twice; it is cut there");
           problem.legal = true;
           report.add(std::move(problem));
         }
         break;
       case FaceDefect::kBadIndex: {
-        MeshProblem problem = face_problem(Kind::kBadIndex, f, "");
+        MeshProblem problem = face_problem(MeshProblemKind::kBadIndex, f, "");
         for (const std::uint32_t v : mesh.face(f)) {
           if (v >= mesh.vertices.size()) problem.vertices.push_back(v);
         }
@@ -89,16 +88,16 @@ void check_faces(const Mesh& mesh, const MeshSurface& surface, Report& report) {
         break;
       }
       case FaceDefect::kTooFewCorners:
-        report.add(face_problem(Kind::kDegenerateFace, f, "has fewer than three corners"));
+        report.add(face_problem(MeshProblemKind::kDegenerateFace, f, "has fewer than three corners"));
         break;
       case FaceDefect::kNoArea: {
-        MeshProblem problem = face_problem(Kind::kDegenerateFace, f, "has no area and is left out");
+        MeshProblem problem = face_problem(MeshProblemKind::kDegenerateFace, f, "has no area and is left out");
         problem.legal = true;
         report.add(std::move(problem));
         break;
       }
       case FaceDefect::kCrossesItself:
-        report.add(face_problem(Kind::kSelfIntersection, f, "crosses itself"));
+        report.add(face_problem(MeshProblemKind::kSelfIntersection, f, "crosses itself"));
         break;
     }
   }
@@ -161,7 +160,7 @@ void check_duplicates(const Mesh& mesh, const MeshSurface& surface, Report& repo
   std::sort(pairs.begin(), pairs.end());
   for (const auto& [f, g] : pairs) {
     MeshProblem problem;
-    problem.kind = Kind::kDuplicateFace;
+    problem.kind = MeshProblemKind::kDuplicateFace;
     problem.faces = {f, g};
     problem.legal = turned_against(mesh, surface, f, g);
     problem.text = face_list(problem.faces) + " have the same corners";
@@ -224,13 +223,13 @@ bool check_edges(const Mesh& mesh, const MeshSurface& surface, const SurfaceCont
     for (std::size_t i = first; i < last; ++i) problem.faces.push_back(edges[i].face);
     problem.text = edge_text(problem.edges[0]);
     if (count == 1) {
-      problem.kind = Kind::kOpenBorder;
+      problem.kind = MeshProblemKind::kOpenBorder;
       problem.text += " belongs to " + face_list(problem.faces) + " only: the surface is open there";
     } else if (count == 2) {
-      problem.kind = Kind::kInconsistentOrientation;
+      problem.kind = MeshProblemKind::kInconsistentOrientation;
       problem.text += " is run through in the same direction by " + face_list(problem.faces) + ": flip one of them";
     } else {
-      problem.kind = Kind::kNonManifoldEdge;
+      problem.kind = MeshProblemKind::kNonManifoldEdge;
       problem.legal = even && !crosses(edges[first].key);
       problem.text += " belongs to " + number(count) + " faces (" + face_list(problem.faces) + ")";
       problem.text += problem.legal ? ", which pair up: solids touch there"
@@ -246,7 +245,7 @@ MeshProblem contact_problem(SurfaceContacts::Kind kind, std::uint32_t f, std::ui
   using Contact = SurfaceContacts::Kind;
   MeshProblem problem;
   problem.legal = kind == Contact::kTouch || kind == Contact::kCover;
-  problem.kind = problem.legal ? Kind::kTouching : Kind::kSelfIntersection;
+  problem.kind = problem.legal ? MeshProblemKind::kTouching : MeshProblemKind::kSelfIntersection;
   problem.faces = f == g ? std::vector<std::uint32_t>{f} : std::vector<std::uint32_t>{std::min(f, g), std::max(f, g)};
   problem.text = face_list(problem.faces);
   if (kind == Contact::kTouch) {
@@ -287,7 +286,7 @@ void check_contacts(const MeshSurface& surface, const SurfaceContacts& contacts,
     MeshProblem problem = contact_problem(contact.kind, contact.f, contact.g);
     if (contact.kind == Contact::kOverlap && !covered.empty() && (covered[contact.f] || covered[contact.g])) {
       // A third face may undo one of the two; the winding numbers will tell.
-      problem.kind = Kind::kTouching;
+      problem.kind = MeshProblemKind::kTouching;
       problem.legal = true;
     }
     report.add(std::move(problem));
@@ -297,7 +296,7 @@ void check_contacts(const MeshSurface& surface, const SurfaceContacts& contacts,
 void check_planarity(const Mesh& mesh, const MeshSurface& surface, Report& report) {
   for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
     if (surface.planar[f]) continue;
-    MeshProblem problem = face_problem(Kind::kNonPlanarFace, f, "is not planar: a corner is ");
+    MeshProblem problem = face_problem(MeshProblemKind::kNonPlanarFace, f, "is not planar: a corner is ");
     problem.text += face_deviation_text(mesh, f) + " off its plane";
     problem.legal = true;
     report.add(std::move(problem));
@@ -312,7 +311,7 @@ void check_vertices(const Mesh& mesh, const MeshSurface& surface, Report& report
   for (std::uint32_t v = 0; v < used.size(); ++v) {
     if (used[surface.place[v]]) continue;
     MeshProblem problem;
-    problem.kind = Kind::kIsolatedVertex;
+    problem.kind = MeshProblemKind::kIsolatedVertex;
     problem.legal = true;
     problem.vertices = {v};
     problem.text = "vertex " + number(v) + " belongs to no face";
@@ -355,27 +354,27 @@ int volume_sign(const Mesh& mesh, const MeshSurface& surface) {
 
 const char* name(MeshProblemKind kind) {
   switch (kind) {
-    case Kind::kBadIndex:
+    case MeshProblemKind::kBadIndex:
       return "bad index";
-    case Kind::kDegenerateFace:
+    case MeshProblemKind::kDegenerateFace:
       return "degenerate face";
-    case Kind::kDuplicateFace:
+    case MeshProblemKind::kDuplicateFace:
       return "duplicate face";
-    case Kind::kOpenBorder:
+    case MeshProblemKind::kOpenBorder:
       return "open border";
-    case Kind::kNonManifoldEdge:
+    case MeshProblemKind::kNonManifoldEdge:
       return "non-manifold edge";
-    case Kind::kInconsistentOrientation:
+    case MeshProblemKind::kInconsistentOrientation:
       return "inconsistent orientation";
-    case Kind::kSelfIntersection:
+    case MeshProblemKind::kSelfIntersection:
       return "self-intersection";
-    case Kind::kTouching:
+    case MeshProblemKind::kTouching:
       return "touching";
-    case Kind::kNonPlanarFace:
+    case MeshProblemKind::kNonPlanarFace:
       return "non-planar face";
-    case Kind::kIsolatedVertex:
+    case MeshProblemKind::kIsolatedVertex:
       return "isolated vertex";
-    case Kind::kInsideOut:
+    case MeshProblemKind::kInsideOut:
       return "inside out";
   }
   return "unknown problem";
@@ -396,7 +395,7 @@ std::vector<MeshProblem> check_mesh(const Mesh& mesh, const MeshSurface& surface
   check_vertices(mesh, surface, report);
   if (closed && !surface.triangles.empty() && volume_sign(mesh, surface) < 0) {
     MeshProblem problem;
-    problem.kind = Kind::kInsideOut;
+    problem.kind = MeshProblemKind::kInsideOut;
     problem.legal = true;
     problem.text = "the mesh is inside out: its faces are clockwise as seen from outside";
     report.add(std::move(problem));

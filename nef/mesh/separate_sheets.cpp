@@ -10,7 +10,7 @@
 #include <string>
 
 #include "nef/base/error.h"
-#include "nef/geometry/rational_vectors.h"
+#include "nef/geometry/vectors.h"
 #include "nef/mesh/area_vector.h"
 #include "nef/mesh/edge_order.h"
 

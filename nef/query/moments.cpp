@@ -5,7 +5,7 @@
 //     integral of x = V / 4 sum v_i,   integral of x x^T = V / 20 (s s^T + sum v_i v_i^T),   s = sum v_i.
 #include "nef/query/moments.h"
 
-#include "nef/geometry/rational_vectors.h"
+#include "nef/geometry/vectors.h"
 #include "nef/query/measure.h"
 #include "nef/query/predicates_of_sets.h"
 #include "nef/query/rational_sum.h"

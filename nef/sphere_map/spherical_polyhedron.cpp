@@ -2,6 +2,7 @@
 #include "nef/sphere_map/spherical_polyhedron.h"
 
 #include "nef/base/error.h"
+#include "nef/geometry/vectors.h"
 #include "nef/sphere_map/overlay.h"
 
 namespace nef {
@@ -9,14 +10,8 @@ namespace {
 
 using Vector = SphericalPolyhedron::Vector;
 
-bool is_zero(const Vector& v) { return v[0] == 0 && v[1] == 0 && v[2] == 0; }
-
 void require_direction(const Vector& v) {
   if (is_zero(v)) throw InputError("(0,0,0) is no direction");
-}
-
-Vector cross(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
 PlaneId intern(PlaneTable& planes, const Vector& normal) { return planes.intern(normal[0], normal[1], normal[2], 0); }

@@ -8,7 +8,7 @@
 
 #include "apps/minkowski/convex/tools.h"
 #include "apps/minkowski/morphology.h"
-#include "nef/geometry/rational_vectors.h"
+#include "nef/geometry/vectors.h"
 #include "tests/support/hard_points.h"
 #include "tests/support/literals.h"
 #include "tests/support/random_polyhedra.h"

@@ -9,7 +9,7 @@
 #include "apps/minkowski/convex/tools.h"
 #include "apps/minkowski/minkowski.h"
 #include "nef/construct/planar_hull.h"
-#include "nef/geometry/rational_vectors.h"
+#include "nef/geometry/vectors.h"
 #include "nef/io/mesh/mesh_reader.h"
 #include "tests/support/literals.h"
 #include "tests/support/minkowski_shapes.h"

@@ -23,6 +23,19 @@ inline Rational ratio(long a, long b) {
 /// A scene of data/planner, without its extension.
 inline Scene load(const std::string& name) { return read_scene(source_folder() + "/data/planner/" + name + ".json"); }
 
+/// A scene in the words of a file.
+inline Scene scene_of(const std::string& text) { return parse_scene(text, "", "test"); }
+
+/// A scene in which a bar of length `length` and width 1 turns round the corner of a corridor of width 2. At 45 degrees
+/// its outer side is half of its length away from the outer corner, so it fits iff length / 2 + 1 <= 2 sqrt(2): the
+/// limit is 3.65685.
+inline std::string corner(const std::string& length) {
+  return R"J({"robot": "box(-)J" + length + R"J(/2,-1/2,0, )J" + length +
+         R"J(/2,1/2,1)", "rotation": {"range": [0, 90]},
+    "obstacles": ["box(-20,-20,-1, 20,20,2) - interior(box(-20,-2,-2, 0,0,3)) - interior(box(-2,-2,-2, 0,20,3))"],
+    "box": [[-15,-15,0],[15,15,0]], "start": [-12,-1,0, 0], "goal": [-1,12,0, 90]})J";
+}
+
 /// The scene with obstacles, start and goal mapped by `map` and the robot by its linear part. Boxes are axis-parallel,
 /// so the scene must have none.
 Scene mapped(const Scene& scene, const AffineMap& map);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "nef/base/error.h"
+#include "nef/geometry/vectors.h"
 #include "nef/view/page/sphere_drawing.h"
 #include "nef/view/picture/picture_camera.h"
 #include "view/sets.h"

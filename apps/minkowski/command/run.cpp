@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <iostream>
 
+#include "apps/minkowski/command/arguments.h"
 #include "apps/minkowski/command/preview.h"
 #include "apps/minkowski/command/signals_held.h"
 #include "apps/minkowski/command/write_cells.h"
@@ -17,6 +18,7 @@
 #include "nef/program/numbers.h"
 #include "nef/program/progress_bar.h"
 #include "nef/program/report.h"
+#include "nef/program/run_program.h"
 #include "nef/program/set_info.h"
 
 namespace nef::minkowski {
@@ -353,6 +355,17 @@ class Run {
 
 }  // namespace
 
-void run(const Arguments& arguments) { Run(arguments, check(arguments)).run(); }
+int run_command(int argc, char** argv) {
+  CLI::App app("Exact Minkowski sums of any two polyhedral sets: minkowski A B -o OUT");
+  app.name("minkowski");
+  app.set_version_flag("--version", std::string("minkowski ") + NEF_VERSION);
+  app.footer("Exit codes: 0 done, 2 bad input or usage.");
+  Arguments arguments;
+  declare(app, arguments);
+  return run_program(app, argc, argv, [&arguments] {
+    Run(arguments, check(arguments)).run();
+    return 0;
+  });
+}
 
 }  // namespace nef::minkowski

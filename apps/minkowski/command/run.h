@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-//
-// The tasks of the program `minkowski`.
 #pragma once
-
-#include "apps/minkowski/command/arguments.h"
 
 namespace nef::minkowski {
 
-/// Reads the operands, does the task, writes result and report. Notes go to stderr. Throws Error.
-void run(const Arguments& arguments);
+/// The program `minkowski`: reads the operands, does the task, writes result and report. Notes, and errors as one line,
+/// go to stderr. The exit code: 0, or 2 for bad input or usage.
+int run_command(int argc, char** argv);
 
 }  // namespace nef::minkowski

@@ -18,7 +18,7 @@
 namespace nef::minkowski {
 namespace {
 
-using Pair = std::array<std::uint32_t, 2>;
+using VertexPair = std::array<std::uint32_t, 2>;
 
 // A cyclic chain of corners of one cell: a face, or an edge there and back.
 using Loop = std::vector<std::uint32_t>;
@@ -65,7 +65,7 @@ class SolidSum {
   const NormalDiagram& q_;
   std::vector<std::uint32_t> start_in_q_;  // per face of p: a vertex of q that is extreme along its normal
   ConvexCell sum_;
-  std::vector<Pair> pairs_;  // per vertex of the sum
+  std::vector<VertexPair> pairs_;  // per vertex of the sum
   std::unordered_map<std::uint64_t, std::uint32_t> vertex_;
   std::vector<std::uint32_t> face_;
 };
@@ -316,8 +316,8 @@ void SolidSum::set_marks() {
     for (std::size_t f = 0; f < mesh.face_count(); ++f) {
       const auto face = mesh.face(f);
       for (std::size_t k = 0; k < face.size(); ++k) {
-        const Pair from = pairs_[face[k]];
-        const Pair to = pairs_[face[(k + 1) % face.size()]];
+        const VertexPair from = pairs_[face[k]];
+        const VertexPair to = pairs_[face[(k + 1) % face.size()]];
         sum_.edge_marks.push_back(joined_mark(p_, from[0], to[0]) && joined_mark(q_, from[1], to[1]) ? 1 : 0);
       }
     }

@@ -4,6 +4,7 @@
 #include <unordered_map>
 
 #include "nef/base/error.h"
+#include "nef/geometry/vectors.h"
 
 namespace nef::minkowski {
 namespace {
@@ -16,10 +17,6 @@ void reduce(IntegerVector& v) {
   if (g > 1) {
     for (Integer& x : v) mpz_divexact(x.get_mpz_t(), x.get_mpz_t(), g.get_mpz_t());
   }
-}
-
-IntegerVector cross(const IntegerVector& a, const IntegerVector& b) {
-  return {Integer(a[1] * b[2] - a[2] * b[1]), Integer(a[2] * b[0] - a[0] * b[2]), Integer(a[0] * b[1] - a[1] * b[0])};
 }
 
 // A positive multiple of b - a in integers.

@@ -8,7 +8,7 @@
 #include "nef/base/error.h"
 #include "nef/construct/convex_hull.h"
 #include "nef/construct/planar_hull.h"
-#include "nef/geometry/rational_vectors.h"
+#include "nef/geometry/vectors.h"
 
 namespace nef::minkowski {
 namespace {

@@ -5,7 +5,7 @@
 #include "apps/minkowski/decomposition/decomposition.h"
 #include "apps/minkowski/morphology.h"
 #include "nef/base/error.h"
-#include "nef/geometry/rational_vectors.h"
+#include "nef/geometry/vectors.h"
 
 namespace nef::minkowski {
 namespace {

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "apps/minkowski/minkowski.h"
-#include "nef/geometry/rational_vectors.h"
+#include "nef/geometry/vectors.h"
 
 namespace nef::planner {
 namespace {

@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "apps/planner/clearance/keep_clear.h"
+#include "apps/planner/command/arguments.h"
 #include "apps/planner/command/assembly_run.h"
 #include "apps/planner/command/clearance_run.h"
 #include "apps/planner/command/ompl_runs.h"
@@ -22,6 +23,7 @@
 #include "nef/program/exact_json.h"
 #include "nef/program/numbers.h"
 #include "nef/program/progress_bar.h"
+#include "nef/program/run_program.h"
 
 namespace nef::planner {
 namespace {
@@ -255,8 +257,6 @@ std::optional<int> answer_without_tight_passages(const Arguments& a, const Scene
   return exit_code(found->answer);
 }
 
-}  // namespace
-
 int run(const Arguments& a) {
   if (!a.assembly.empty()) return run_assembly(a);
   if (!a.free_directions.empty()) throw InputError("--free-directions asks about a part of an --assembly");
@@ -286,6 +286,16 @@ int run(const Arguments& a) {
   if (!a.benchmark.empty()) return run_benchmark(problem, a.planners, a.seconds, a.runs, a.benchmark, a.quiet);
   if (!a.ompl.empty()) return run_stock_planner(a, problem);
   return answer_question(a, problem, widest);
+}
+
+}  // namespace
+
+int run_command(int argc, char** argv) {
+  CLI::App app("Plans the motion of a translating robot exactly: a path, or a proof that there is none.", "planner");
+  app.set_version_flag("--version", std::string("planner " NEF_VERSION));
+  Arguments arguments;
+  declare(app, arguments);
+  return run_program(app, argc, argv, [&arguments] { return run(arguments); });
 }
 
 }  // namespace nef::planner

@@ -6,12 +6,9 @@
 #include <array>
 
 #include "apps/planner/partition/space_tree.h"
+#include "nef/geometry/vectors.h"
 
 namespace nef::planner {
-
-inline Nudge cross(const Nudge& a, const Nudge& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 
 /// x, y and z.
 inline const std::array<Nudge, 3>& axes() {
@@ -23,7 +20,7 @@ inline const std::array<Nudge, 3>& axes() {
 inline Nudge across(const Nudge& n) {
   for (const Nudge& axis : axes()) {
     Nudge u = cross(n, axis);
-    if (u[0] != 0 || u[1] != 0 || u[2] != 0) return u;
+    if (!is_zero(u)) return u;
   }
   return n;
 }

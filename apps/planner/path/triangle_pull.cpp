@@ -9,7 +9,7 @@
 
 #include "apps/planner/free_space/vectors.h"
 #include "nef/geometry/box_tree.h"
-#include "nef/geometry/rational_vectors.h"
+#include "nef/geometry/vectors.h"
 
 namespace nef::planner {
 namespace {

@@ -8,7 +8,7 @@
 #include "nef/base/error.h"
 #include "nef/base/union_find.h"
 #include "nef/construct/construct.h"
-#include "nef/geometry/rational_vectors.h"
+#include "nef/geometry/vectors.h"
 #include "nef/parts/split.h"
 
 namespace nef::planner {

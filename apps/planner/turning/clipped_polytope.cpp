@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "nef/base/error.h"
-#include "nef/geometry/rational_vectors.h"
+#include "nef/geometry/vectors.h"
 
 namespace nef::planner {
 namespace {

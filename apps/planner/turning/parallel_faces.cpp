@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "nef/complex/complex.h"
-#include "nef/geometry/rational_vectors.h"
+#include "nef/geometry/vectors.h"
 #include "nef/number/floor.h"
 
 namespace nef::planner {

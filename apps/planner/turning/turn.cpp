@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "nef/base/error.h"
-#include "nef/geometry/rational_vectors.h"
+#include "nef/geometry/vectors.h"
 #include "nef/number/floor.h"
 #include "nef/number/simplest_between.h"
 

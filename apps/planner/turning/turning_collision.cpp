@@ -8,7 +8,7 @@
 #include "apps/planner/turning/reachable_part.h"
 #include "nef/base/error.h"
 #include "nef/construct/construct.h"
-#include "nef/geometry/rational_vectors.h"
+#include "nef/geometry/vectors.h"
 
 namespace nef::planner {
 namespace {

@@ -7,7 +7,7 @@
 #include "apps/planner/turning/clipped_polytope.h"
 #include "nef/base/error.h"
 #include "nef/construct/construct.h"
-#include "nef/geometry/rational_vectors.h"
+#include "nef/geometry/vectors.h"
 
 namespace nef::planner {
 namespace {

@@ -12,7 +12,7 @@
 #include "nef/base/error.h"
 #include "nef/base/interruption.h"
 #include "nef/base/union_find.h"
-#include "nef/geometry/rational_vectors.h"
+#include "nef/geometry/vectors.h"
 #include "nef/number/floor.h"
 
 namespace nef::planner {

@@ -3,7 +3,10 @@
 
 #include <cstdio>
 #include <iostream>
+#include <opencv2/core/utility.hpp>
+#include <opencv2/core/utils/logger.hpp>
 
+#include "apps/visual_hull/command/arguments.h"
 #include "apps/visual_hull/command/frames.h"
 #include "apps/visual_hull/command/hull_file.h"
 #include "apps/visual_hull/command/overlay.h"
@@ -125,8 +128,6 @@ void check_page_name(const std::string& page) {
   }
 }
 
-}  // namespace
-
 int run(const Arguments& a) {
   check_output(a);
   if (!a.frames.empty()) return make_frames(a);
@@ -156,6 +157,18 @@ int run(const Arguments& a) {
     if (written.decimated) (a.report == "-" ? std::cerr : std::cout) << decimation_text(*written.decimated) << "\n";
   }
   return conclude(a, scene, result);
+}
+
+}  // namespace
+
+int run_command(int argc, char** argv) {
+  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);  // errors are ours to tell
+  cv::setNumThreads(1);                                                   // threads have whole views to work on
+  Arguments arguments;
+  CLI::App app{
+      "Exact visual hulls from calibrated silhouettes: a closed solid, in rational numbers, without tolerance."};
+  add_options(app, arguments);
+  return nef::run_program(app, argc, argv, [&arguments] { return run(arguments); });
 }
 
 }  // namespace visual_hull

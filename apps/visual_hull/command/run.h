@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "apps/visual_hull/command/arguments.h"
-
 namespace visual_hull {
 
-/// Does what the command line says; the exit code: 0, or 1 if the hull is empty or flat, or --verify failed, or 2 if
-/// --check finds that an image is missing. Throws nef::InputError.
-int run(const Arguments& arguments);
+/// The program `visual_hull`: does what the command line says; errors go to stderr as one line. The exit code: 0, or 1
+/// if the hull is empty or flat, or --verify failed, or 2 for bad input or usage, or if --check finds that an image is
+/// missing.
+int run_command(int argc, char** argv);
 
 }  // namespace visual_hull

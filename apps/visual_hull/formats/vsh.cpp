@@ -4,7 +4,7 @@
 #include "apps/visual_hull/scene/scene_number.h"
 #include "nef/base/error.h"
 #include "nef/base/in_quotes.h"
-#include "nef/geometry/rational_vectors.h"
+#include "nef/geometry/vectors.h"
 #include "nef/io/text_cursor.h"
 
 namespace visual_hull {

@@ -95,7 +95,7 @@ int orientation(const Point2& a, const Point2& b, const Point2& c) {
 namespace {
 
 // a <= p <= b or b <= p <= a in both coordinates.
-bool in_box(const Point2& a, const Point2& b, const Point2& p) {
+bool in_rectangle(const Point2& a, const Point2& b, const Point2& p) {
   for (std::size_t axis = 0; axis < 2; ++axis) {
     if (compare_coordinate(a, p, axis) * compare_coordinate(b, p, axis) > 0) return false;
   }
@@ -105,7 +105,7 @@ bool in_box(const Point2& a, const Point2& b, const Point2& p) {
 }  // namespace
 
 bool on_segment(const Point2& a, const Point2& b, const Point2& p) {
-  return in_box(a, b, p) && orientation(a, b, p) == 0;
+  return in_rectangle(a, b, p) && orientation(a, b, p) == 0;
 }
 
 bool segments_meet(const Point2& a, const Point2& b, const Point2& c, const Point2& d) {
@@ -120,8 +120,8 @@ bool segments_meet(const Point2& a, const Point2& b, const Point2& c, const Poin
   const int cdb = orientation(c, d, b);
   if (cda * cdb > 0) return false;
   if (abc * abd < 0 && cda * cdb < 0) return true;
-  return (abc == 0 && in_box(a, b, c)) || (abd == 0 && in_box(a, b, d)) || (cda == 0 && in_box(c, d, a)) ||
-         (cdb == 0 && in_box(c, d, b));
+  return (abc == 0 && in_rectangle(a, b, c)) || (abd == 0 && in_rectangle(a, b, d)) ||
+         (cda == 0 && in_rectangle(c, d, a)) || (cdb == 0 && in_rectangle(c, d, b));
 }
 
 int ring_orientation(const Ring& ring) {

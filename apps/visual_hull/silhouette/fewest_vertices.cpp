@@ -21,7 +21,7 @@ double square_to_segment(const Vec& p, const Vec& a, const Vec& b) {
   return ex * ex + ey * ey;
 }
 
-double cross(const Vec& a, const Vec& b) { return a[0] * b[1] - a[1] * b[0]; }
+double determinant(const Vec& a, const Vec& b) { return a[0] * b[1] - a[1] * b[0]; }
 
 /// The directions from one point that pass within the tolerance of all points shown to it: a wedge of less than half a
 /// turn.
@@ -61,7 +61,7 @@ class Wedge {
  private:
   static constexpr double kSlack = 1e-9;  // the wedge only saves work; distances decide
   static bool within(const Vec& v, const Vec& low, const Vec& high) {
-    return cross(low, v) >= 0 && cross(v, high) >= 0;
+    return determinant(low, v) >= 0 && determinant(v, high) >= 0;
   }
 
   Vec apex_;

@@ -13,10 +13,13 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "nef/base/error.h"
+#include "nef/geometry/vectors.h"
 #include "nef/io/mesh/mesh_reader.h"
 
 namespace {
 
+using nef::cross;
+using nef::dot;
 using Vec3 = std::array<double, 3>;
 
 struct Arguments {
@@ -35,10 +38,6 @@ struct View {
   std::array<std::array<double, 4>, 3> rt{};
 };
 
-Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 Vec3 unit(const Vec3& a) {
   const double length = std::sqrt(dot(a, a));
   return {a[0] / length, a[1] / length, a[2] / length};

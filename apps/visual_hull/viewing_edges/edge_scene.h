@@ -11,16 +11,15 @@
 
 #include "apps/visual_hull/viewing_edges/direct_hull.h"
 #include "apps/visual_hull/viewing_edges/edge_view.h"
+#include "nef/geometry/vectors.h"
 
 namespace visual_hull {
 
 /// The relative error that a few roundings of doubles have, with room.
 inline constexpr double kRounding = 0x1p-50;
 
-inline double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-inline Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
+using nef::cross;
+using nef::dot;
 inline double norm(const Vec3& a) { return std::sqrt(dot(a, a)); }
 
 inline SpotName sorted_name(std::uint32_t a, std::uint32_t b, std::uint32_t c) {

@@ -12,7 +12,7 @@
 namespace nef {
 namespace {
 
-struct Flags {
+struct ApplyFlags {
   std::string steps;
   std::string tiles = "auto";
 };
@@ -67,7 +67,7 @@ Polyhedron apply_steps(const std::vector<BooleanStep>& steps, const std::string&
 
 void add_apply_command(CLI::App& app, Session& session, const CommandExtensions& extensions) {
   CLI::App* command = add_subcommand(app, session, "apply", "A set changed by many steps, in tiles where that pays");
-  const auto flags = std::make_shared<Flags>();
+  const auto flags = std::make_shared<ApplyFlags>();
   command->add_option("input", session.input, "The set to begin with, as a file")->required();
   command->add_option("--steps", flags->steps, "A file with one operator and expression a line; - for standard input")
       ->required()

@@ -11,7 +11,7 @@
 namespace nef {
 namespace {
 
-struct Flags {
+struct EvalFlags {
   std::string text;
   std::string script;
 };
@@ -34,7 +34,7 @@ Polyhedron evaluate_file(const std::string& path, const std::string& text, bool 
 
 void add_eval_command(CLI::App& app, Session& session, const CommandExtensions& extensions) {
   CLI::App* command = add_subcommand(app, session, "eval", "The set that an expression, a script or a .csg describes");
-  const auto flags = std::make_shared<Flags>();
+  const auto flags = std::make_shared<EvalFlags>();
   command->add_option(
       "expression", flags->text,
       "e.g. 'box(0,0,0, 2,2,2) - file(\"part.off\") * halfspace(0,0,1,-1)', or the name of a .csg file");

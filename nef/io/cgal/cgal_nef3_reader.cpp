@@ -9,28 +9,28 @@
 namespace nef {
 namespace {
 
-using Vector = std::array<Rational, 4>;
+using HomogeneousVector = std::array<Rational, 4>;
 
 struct FileVertex {
   std::int64_t svertices = 0, shalfedges = 0, sfaces = 0;  // first of each
   std::int64_t svertex_end = 0, shalfedge_end = 0, sface_end = 0;
   std::int64_t sloop = -2;
-  Vector point;
+  HomogeneousVector point;
   LabelId mark = 0;
 };
 struct FileSVertex {
   std::int64_t isolated_sface = -2;
-  Vector direction;
+  HomogeneousVector direction;
   LabelId mark = 0;
 };
 struct FileArc {
   std::int64_t twin = 0, source = 0, sface = 0;
-  Vector circle;
+  HomogeneousVector circle;
   LabelId mark = 0;
 };
 struct FileLoop {
   std::int64_t twin = 0, sface = 0;
-  Vector circle;
+  HomogeneousVector circle;
   LabelId mark = 0;
 };
 
@@ -106,8 +106,8 @@ class Nef3File {
     expect("{");
   }
 
-  Vector vector() {
-    Vector result;
+  HomogeneousVector vector() {
+    HomogeneousVector result;
     for (Rational& x : result) cursor_.parse(word(), x, "coordinate on line", cursor_.line());
     return result;
   }
@@ -269,16 +269,16 @@ class Builder {
   void intern_planes(const FileVertex& v) {
     const Rational3 point = point_of(v);
     for (std::int64_t e = v.shalfedges; e < v.shalfedge_end; ++e) {
-      const Vector& c = file_.arcs[static_cast<std::size_t>(e)].circle;
+      const HomogeneousVector& c = file_.arcs[static_cast<std::size_t>(e)].circle;
       arc_planes_.push_back(plane_through(point, {c[0], c[1], c[2]}));
     }
     if (v.sloop >= 0) {
-      const Vector& c = file_.loops[static_cast<std::size_t>(v.sloop)].circle;
+      const HomogeneousVector& c = file_.loops[static_cast<std::size_t>(v.sloop)].circle;
       loop_planes_.push_back(plane_through(point, {c[0], c[1], c[2]}));
     }
     for (std::int64_t s = v.svertices; s < v.svertex_end; ++s) {
       // Two planes through the edge; simplification replaces them by those of facets where there are any.
-      const Vector& d = file_.svertices[static_cast<std::size_t>(s)].direction;
+      const HomogeneousVector& d = file_.svertices[static_cast<std::size_t>(s)].direction;
       const Rational3 n = d[0] == 0 && d[1] == 0 ? Rational3{1, 0, 0} : Rational3{Rational(-d[1]), d[0], Rational(0)};
       const Rational3 m{d[1] * n[2] - d[2] * n[1], d[2] * n[0] - d[0] * n[2], d[0] * n[1] - d[1] * n[0]};
       // n x m = d (n . n) - n (d . n) is a positive multiple of d.
@@ -344,7 +344,7 @@ class Builder {
 
   // The direction of a halfedge must lie on the circle of a shalfedge that ends there.
   void check_direction(std::int64_t svertex, PlaneId plane) const {
-    const Vector& d = file_.svertices[static_cast<std::size_t>(svertex)].direction;
+    const HomogeneousVector& d = file_.svertices[static_cast<std::size_t>(svertex)].direction;
     Rational dot = 0;
     for (std::size_t i = 0; i < 3; ++i) dot += d[i] * planes_.oriented_coefficient(plane, i);
     if (dot != 0) {

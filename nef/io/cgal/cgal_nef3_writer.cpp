@@ -6,9 +6,9 @@
 namespace nef {
 namespace {
 
-class Writer {
+class Nef3Writer {
  public:
-  explicit Writer(const Complex& complex) : c_(complex) {}
+  explicit Nef3Writer(const Complex& complex) : c_(complex) {}
 
   std::string run() {
     link_facet_cycles();
@@ -232,7 +232,7 @@ std::string nef3_text(const Polyhedron& polyhedron, Messages* messages) {
   if (polyhedron.complex().has_box()) {
     throw UnsupportedError("the set is unbounded, which .nef3 of a standard kernel cannot hold; write .nef instead");
   }
-  Writer writer(polyhedron.complex());
+  Nef3Writer writer(polyhedron.complex());
   std::string text = writer.run();
   if (writer.met_other_marks() && messages != nullptr) {
     messages->push_back("marks other than 0 and 1 were written as 1; .nef keeps them");

@@ -105,7 +105,7 @@ std::string binary_stl(const Mesh& mesh, const MeshSurface& surface) {
   return bytes;
 }
 
-[[noreturn]] void refuse(const std::string& path, const std::string& what) {
+[[noreturn]] void refuse_format(const std::string& path, const std::string& what) {
   throw FileError(FileProblem::kUnreadable, path + ": " + what);
 }
 
@@ -287,11 +287,11 @@ bool survives_writing(const Rational3& point, const std::string& extension, cons
 void write_mesh(const std::string& path, const Mesh& mesh, const MeshWriteOptions& options, Messages* messages) {
   const std::string extension = options.format.empty() ? lower_extension(path) : options.format;
   if (options.exact && (options.binary || extension == "stl" || extension == "glb" || extension == "3mf")) {
-    refuse(path, "exact coordinates need OFF, OBJ or text PLY");
+    refuse_format(path, "exact coordinates need OFF, OBJ or text PLY");
   }
-  if (options.binary && extension != "stl" && extension != "ply") refuse(path, "only STL and PLY can be binary");
+  if (options.binary && extension != "stl" && extension != "ply") refuse_format(path, "only STL and PLY can be binary");
   if (!options.vertex_colors.empty() && !has_vertex_colors(extension)) {
-    refuse(path, "the format has no colours of vertices; write PLY or GLB");
+    refuse_format(path, "the format has no colours of vertices; write PLY or GLB");
   }
   refuse_infinite(mesh, extension, options);
   std::string bytes;
@@ -308,7 +308,7 @@ void write_mesh(const std::string& path, const Mesh& mesh, const MeshWriteOption
   } else if (extension == "3mf") {
     bytes = threemf_bytes(mesh);
   } else {
-    refuse(path, "the extension names no mesh format; use off, obj, stl, ply, glb or 3mf");
+    refuse_format(path, "the extension names no mesh format; use off, obj, stl, ply, glb or 3mf");
   }
   if (messages != nullptr && !options.exact) {
     report_merged_vertices(mesh, is_single_precision(extension, options), *messages);

@@ -39,7 +39,7 @@ struct Object {
 };
 
 // One XML file of the archive.
-struct Part {
+struct ArchivePart {
   std::map<std::string, Object> objects;
   std::vector<Use> items;
 };
@@ -55,7 +55,7 @@ class PartReader {
     events_.parse({}, true);
   }
 
-  Part take() { return std::move(part_); }
+  ArchivePart take() { return std::move(part_); }
 
  private:
   [[noreturn]] void fail(FileProblem problem, const std::string& what) const {
@@ -147,7 +147,7 @@ class PartReader {
   }
 
   std::string name_;
-  Part part_;
+  ArchivePart part_;
   Object* object_ = nullptr;
   XmlEvents events_;
 };
@@ -187,10 +187,10 @@ class ModelReader {
     throw FileError(problem, path_ + ": " + what);
   }
 
-  const Part& part(const std::string& name) {
+  const ArchivePart& part(const std::string& name) {
     const auto found = parts_.find(name);
     if (found != parts_.end()) return found->second;
-    const Part& result = parts_.emplace(name, PartReader(archive_, path_, name).take()).first->second;
+    const ArchivePart& result = parts_.emplace(name, PartReader(archive_, path_, name).take()).first->second;
     for (const auto& [id, object] : result.objects) stored_ += object.triangles.size();
     return result;
   }
@@ -208,7 +208,7 @@ class ModelReader {
   void place(const Use& use, const AffineMap& outer, int depth) {
     constexpr int kDeepest = 100;
     if (depth > kDeepest) fail(FileProblem::kUnsupported, "its components are nested too deeply");
-    const Part& home = part(use.part.starts_with("/") ? use.part : "/" + use.part);
+    const ArchivePart& home = part(use.part.starts_with("/") ? use.part : "/" + use.part);
     const auto found = home.objects.find(use.id);
     if (found == home.objects.end()) {
       fail(FileProblem::kBadIndex, "there is no object " + in_quotes(use.id) + " in " + in_quotes(use.part));
@@ -235,9 +235,9 @@ class ModelReader {
 
   const std::string& path_;
   ZipArchive archive_;
-  std::map<std::string, Part> parts_;  // by name with a slash in front
-  std::size_t stored_ = 0;             // triangles in all parts read
-  std::size_t placed_ = 0;             // triangles and objects placed
+  std::map<std::string, ArchivePart> parts_;  // by name with a slash in front
+  std::size_t stored_ = 0;                    // triangles in all parts read
+  std::size_t placed_ = 0;                    // triangles and objects placed
   Mesh mesh_;
   VertexMerger merger_{mesh_.vertices};
 };

@@ -5,9 +5,9 @@
 namespace nef {
 namespace {
 
-class Writer {
+class NativeWriter {
  public:
-  explicit Writer(const Complex& complex) : c_(complex) {}
+  explicit NativeWriter(const Complex& complex) : c_(complex) {}
 
   std::string run() {
     text_ = "nef 1\nplanes " + std::to_string(c_.planes.size()) + " vertices " + std::to_string(c_.vertex_count()) +
@@ -102,6 +102,6 @@ class Writer {
 
 }  // namespace
 
-std::string native_text(const Polyhedron& polyhedron) { return Writer(polyhedron.complex()).run(); }
+std::string native_text(const Polyhedron& polyhedron) { return NativeWriter(polyhedron.complex()).run(); }
 
 }  // namespace nef

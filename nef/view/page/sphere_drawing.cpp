@@ -8,7 +8,7 @@ namespace nef::view {
 namespace {
 
 // Unit vector along exact integers of any size: scaled by a common power of two first.
-std::array<double, 3> unit(const std::array<Integer, 3>& v) {
+std::array<double, 3> unit_vector(const std::array<Integer, 3>& v) {
   std::size_t bits = 0;
   for (const Integer& x : v) bits = std::max(bits, x == 0 ? 0 : mpz_sizeinbase(x.get_mpz_t(), 2));
   std::array<double, 3> d{};
@@ -25,8 +25,8 @@ std::array<double, 3> unit(const std::array<Integer, 3>& v) {
 }
 
 std::array<double, 3> normal(const PlaneTable& planes, PlaneId plane) {
-  return unit({planes.oriented_coefficient(plane, 0), planes.oriented_coefficient(plane, 1),
-               planes.oriented_coefficient(plane, 2)});
+  return unit_vector({planes.oriented_coefficient(plane, 0), planes.oriented_coefficient(plane, 1),
+                      planes.oriented_coefficient(plane, 2)});
 }
 
 }  // namespace
@@ -38,7 +38,8 @@ SphereDrawing draw_sphere_map(const Complex& complex, std::uint32_t vertex) {
   drawing.mark = map.mark;
   for (std::uint32_t i = 0; i < map.svertices.size(); ++i) {
     const SVertex& s = map.svertices[i];
-    drawing.dots.push_back({unit(Direction::cross(complex.planes, s.p, s.q).integers()), s.mark, at.svertices + i});
+    drawing.dots.push_back(
+        {unit_vector(Direction::cross(complex.planes, s.p, s.q).integers()), s.mark, at.svertices + i});
   }
   for (std::uint32_t i = 0; i < map.shalfedges.size(); i += 2) {
     const SHalfedge& e = map.shalfedges[i];

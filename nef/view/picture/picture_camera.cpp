@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "nef/view/picture/picture_camera.h"
 
+#include "nef/geometry/vectors.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -11,14 +13,6 @@ constexpr double kHalfAngle = 0.22;  // of the shorter side, in radians
 constexpr double kMargin = 1.07;
 
 }  // namespace
-
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-Point cross(const Point& a, const Point& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
 Point unit(const Point& a) {
   const double length = std::sqrt(dot(a, a));

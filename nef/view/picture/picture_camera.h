@@ -44,9 +44,6 @@ class PictureCamera {
   double height_;
 };
 
-double dot(const Point& a, const Point& b);
-Point cross(const Point& a, const Point& b);
-Point minus(const Point& a, const Point& b);
 Point unit(const Point& a);
 
 }  // namespace nef::view

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "nef/geometry/vectors.h"
 #include "nef/view/layer.h"
 #include "nef/view/picture/picture_camera.h"
 

@@ -7,7 +7,7 @@
 
 #include "nef/construct/construct.h"
 #include "nef/export/to_mesh.h"
-#include "nef/geometry/rational_vectors.h"
+#include "nef/geometry/vectors.h"
 #include "nef/io/mesh/mend_rounded.h"
 #include "nef/io/mesh/mesh_reader.h"
 #include "nef/io/polyhedron_file.h"

@@ -140,7 +140,7 @@ struct GridSets {
   std::vector<CellSet> obstacles;
 };
 
-Scene scene_of(const GridSets& sets) {
+Scene scene_of_sets(const GridSets& sets) {
   Scene scene;
   scene.robot = polyhedron(sets.robot);
   for (const CellSet& obstacle : sets.obstacles) scene.obstacles.push_back(polyhedron(obstacle));
@@ -165,7 +165,7 @@ Arrangement truth_of(const GridSets& sets) {
 }
 
 void check(const GridSets& sets, std::mt19937& random) {
-  const Scene scene = scene_of(sets);
+  const Scene scene = scene_of_sets(sets);
   const Arrangement truth = truth_of(sets);
   const FreeSpace free(free_positions(scene));
   int count = 0;

@@ -19,7 +19,7 @@
 #include "nef/base/error.h"
 #include "nef/construct/construct.h"
 #include "nef/construct/convex_hull.h"
-#include "nef/geometry/rational_vectors.h"
+#include "nef/geometry/vectors.h"
 #include "nef/program/exact_json.h"
 #include "nef/view/glb.h"
 #include "tests/planner/command_helpers.h"
@@ -28,8 +28,6 @@
 
 namespace nef::planner::test {
 namespace {
-
-using Status = TurningAnswer::Status;
 
 Rational3 times(const Rational& factor, const Rational3& v) { return {factor * v[0], factor * v[1], factor * v[2]}; }
 
@@ -152,8 +150,6 @@ TEST_CASE("the outer robot holds the robot at all angles, which all hold the inn
   CHECK_THROWS_AS(TurningRobot(make_box({0, 0, 0}, {1, 1, 0}), TurningAxis({0, 0, 1})), InputError);
 }
 
-Scene scene_of(const std::string& text) { return parse_scene(text, "", "test"); }
-
 // The robot in no obstacle, at poses all along every motion; one coordinate changes at a time.
 void check_path(const Scene& scene, const TurningQuestion& question, const TurningAnswer& answer) {
   REQUIRE(answer.path.size() > 0);
@@ -180,22 +176,13 @@ void check_path(const Scene& scene, const TurningQuestion& question, const Turni
   }
 }
 
-// A bar of length `length` and width 1 round the corner of a corridor of width 2. At 45 degrees its outer side is half
-// of its length away from the outer corner, so it fits iff length / 2 + 1 <= 2 sqrt(2): the limit is 3.65685.
-std::string corner(const std::string& length) {
-  return R"J({"robot": "box(-)J" + length + R"J(/2,-1/2,0, )J" + length +
-         R"J(/2,1/2,1)", "rotation": {"range": [0, 90]},
-    "obstacles": ["box(-20,-20,-1, 20,20,2) - interior(box(-20,-2,-2, 0,0,3)) - interior(box(-2,-2,-2, 0,20,3))"],
-    "box": [[-15,-15,0],[15,15,0]], "start": [-12,-1,0, 0], "goal": [-1,12,0, 90]})J";
-}
-
 TEST_CASE("a bar round the corner of a corridor: the limit is known") {
   for (const auto& [length, fits] : {std::pair("3.62", true), std::pair("3.5", true), std::pair("3.70", false)}) {
     INFO(length);
     const Scene scene = scene_of(corner(length));
     const TurningQuestion question = question_of(scene);
     const TurningAnswer answer = find_turning_path(scene, question);
-    CHECK(answer.status == (fits ? Status::kPath : Status::kInfeasible));
+    CHECK(answer.status == (fits ? TurningAnswer::Status::kPath : TurningAnswer::Status::kInfeasible));
     CHECK(answer.cells < 50);
     if (fits) check_path(scene, question, answer);
   }
@@ -235,7 +222,7 @@ TEST_CASE("the corner turned in space: the same limit about any axis") {
       const Scene scene = scene_of(json.dump());
       const TurningQuestion question = question_of(scene);
       const TurningAnswer answer = find_turning_path(scene, question);
-      CHECK(answer.status == (fits ? Status::kPath : Status::kInfeasible));
+      CHECK(answer.status == (fits ? TurningAnswer::Status::kPath : TurningAnswer::Status::kInfeasible));
       if (fits) check_path(scene, question, answer);
     }
   }
@@ -257,7 +244,7 @@ TEST_CASE("exact contact at an angle of parallel faces is found: a slot turned b
     const TurningQuestion question = question_of(scene);
     const TurningAnswer answer = find_turning_path(scene, question);
     // Round the block there is no way inside the box but through the slot.
-    CHECK(answer.status == (fits ? Status::kPath : Status::kInfeasible));
+    CHECK(answer.status == (fits ? TurningAnswer::Status::kPath : TurningAnswer::Status::kInfeasible));
     CHECK(answer.cells < 80);
     if (fits) check_path(scene, question, answer);
   }
@@ -292,15 +279,15 @@ TEST_CASE("random boxes in the plane against a fine grid of poses") {
     question.start = {{-1, -1, 0}, 0};
     question.goal = {{ratio(19, 2), ratio(19, 2), 0}, 1};
     const TurningAnswer answer = find_turning_path(scene, question, {.max_cells = 400, .stop = {}});
-    if (answer.status == Status::kPath) {
+    if (answer.status == TurningAnswer::Status::kPath) {
       ++paths;
       check_path(scene, question, answer);
     }
-    if (answer.status == Status::kInfeasible) {
+    if (answer.status == TurningAnswer::Status::kInfeasible) {
       ++proofs;
       CHECK(complaint_about(*answer.proof, scene, question).value_or("it holds") == "it holds");
     }
-    if (answer.status == Status::kInfeasible || answer.status == Status::kPath) {
+    if (answer.status == TurningAnswer::Status::kInfeasible || answer.status == TurningAnswer::Status::kPath) {
       // Is the goal reached by steps of 1/4 and 1/16 of a quarter?
       const TurningRobot robot(scene.robot, question.axis);
       constexpr int kSteps = 49;
@@ -337,7 +324,7 @@ TEST_CASE("random boxes in the plane against a fine grid of poses") {
           queue.push_back({ni, nk, nt});
         }
       }
-      CHECK((answer.status == Status::kPath || !reached));
+      CHECK((answer.status == TurningAnswer::Status::kPath || !reached));
     }
   }
   CHECK(paths >= 3);
@@ -411,7 +398,7 @@ TEST_CASE("proofs about robots that are not convex, forbidden contact, tilted ax
                                    axis + R"J(}, "contact": ")J" + contact + R"J("})J");
       const TurningQuestion question = question_of(scene);
       const TurningAnswer answer = find_turning_path(scene, question, {.max_cells = 60, .stop = {}});
-      REQUIRE(answer.status == Status::kInfeasible);
+      REQUIRE(answer.status == TurningAnswer::Status::kInfeasible);
       CHECK(complaint_about(*answer.proof, scene, question).value_or("it holds") == "it holds");
     }
   }
@@ -423,7 +410,7 @@ TEST_CASE("unbounded obstacles: cut where no robot in the box can reach") {
     "box(3,1/8,-9, 4,9,9)"], "start": [0,0,0,0], "goal": [7,0,0,0], "box": [[-2,-3,0],[9,3,0]], "rotation": {}})J");
   const TurningQuestion question = question_of(scene);
   const TurningAnswer answer = find_turning_path(scene, question);
-  REQUIRE(answer.status == Status::kInfeasible);
+  REQUIRE(answer.status == TurningAnswer::Status::kInfeasible);
   CHECK(complaint_about(*answer.proof, scene, question).value_or("it holds") == "it holds");
   const TurningCollision collision(scene, question.axis);
   CHECK(collision.is_free(question.start));

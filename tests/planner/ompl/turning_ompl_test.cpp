@@ -23,15 +23,6 @@ namespace {
 
 namespace ob = ompl::base;
 
-Scene scene_of(const std::string& text) { return parse_scene(text, "", "test"); }
-
-std::string corner(const std::string& length) {
-  return R"J({"robot": "box(-)J" + length + R"J(/2,-1/2,0, )J" + length +
-         R"J(/2,1/2,1)", "rotation": {"range": [0, 90]},
-    "obstacles": ["box(-20,-20,-1, 20,20,2) - interior(box(-20,-2,-2, 0,0,3)) - interior(box(-2,-2,-2, 0,20,3))"],
-    "box": [[-15,-15,0],[15,15,0]], "start": [-12,-1,0, 0], "goal": [-1,12,0, 90]})J";
-}
-
 // An L among turned boxes, all over the place.
 Scene random_scene(std::mt19937& random, const std::string& axis, ContactRule contact) {
   Scene scene = scene_of(R"J({"robot": "box(-1,-1/2,0, 1,0,1) + box(-1,-1/2,0, -1/2,1,1/2)", "obstacles": [],

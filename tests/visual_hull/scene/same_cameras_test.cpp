@@ -9,6 +9,7 @@
 #include <random>
 
 #include "apps/visual_hull/formats/turntable.h"
+#include "nef/geometry/vectors.h"
 #include "nef/polyhedron.h"
 #include "tests/visual_hull/helpers.h"
 #include "tests/visual_hull/scene/mat_file.h"
@@ -17,14 +18,12 @@
 namespace visual_hull {
 namespace {
 
+using nef::cross;
+using nef::dot;
 using testing::Scratch;
 
 using Vector = std::array<double, 3>;
 
-Vector cross(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 Vector unit(const Vector& a) {
   const double length = std::sqrt(dot(a, a));
   return {a[0] / length, a[1] / length, a[2] / length};
@@ -33,7 +32,7 @@ Vector unit(const Vector& a) {
 constexpr int kViews = 7;
 constexpr int kWidth = 64;
 constexpr int kHeight = 48;
-constexpr double kFocal = 50;
+constexpr double kFocalLength = 50;
 constexpr double kCentreX = 30;  // whole coordinates are centres of pixels
 constexpr double kCentreY = 25;
 constexpr double kRadius = 30;
@@ -45,7 +44,8 @@ struct Stand {
 
   [[nodiscard]] std::array<double, 2> see(const Vector& point) const {
     const Vector d{point[0] - centre[0], point[1] - centre[1], point[2] - centre[2]};
-    return {kFocal * dot(d, right) / dot(d, ahead) + kCentreX, kFocal * dot(d, down) / dot(d, ahead) + kCentreY};
+    return {kFocalLength * dot(d, right) / dot(d, ahead) + kCentreX,
+            kFocalLength * dot(d, down) / dot(d, ahead) + kCentreY};
   }
   [[nodiscard]] Vector translation() const { return {-dot(right, centre), -dot(down, centre), -dot(ahead, centre)}; }
 };
@@ -102,10 +102,10 @@ std::string text_of(const std::vector<double>& numbers, const char* between = " 
 std::vector<double> matrix_of(const Stand& s) {
   const Vector t = s.translation();
   std::vector<double> p;
-  for (std::size_t k = 0; k < 3; ++k) p.push_back(kFocal * s.right[k] + kCentreX * s.ahead[k]);
-  p.push_back(kFocal * t[0] + kCentreX * t[2]);
-  for (std::size_t k = 0; k < 3; ++k) p.push_back(kFocal * s.down[k] + kCentreY * s.ahead[k]);
-  p.push_back(kFocal * t[1] + kCentreY * t[2]);
+  for (std::size_t k = 0; k < 3; ++k) p.push_back(kFocalLength * s.right[k] + kCentreX * s.ahead[k]);
+  p.push_back(kFocalLength * t[0] + kCentreX * t[2]);
+  for (std::size_t k = 0; k < 3; ++k) p.push_back(kFocalLength * s.down[k] + kCentreY * s.ahead[k]);
+  p.push_back(kFocalLength * t[1] + kCentreY * t[2]);
   p.insert(p.end(), s.ahead.begin(), s.ahead.end());
   p.push_back(t[2]);
   return p;
@@ -175,7 +175,7 @@ class Formats {
     add("matrices", matrices());
     add("Middlebury", middlebury());
     add("blocks", blocks());
-    result.emplace_back("turntable", make_turntable({kViews, {kFocal, kCentreX, kCentreY}, kRadius, kStand}));
+    result.emplace_back("turntable", make_turntable({kViews, {kFocalLength, kCentreX, kCentreY}, kRadius, kStand}));
     return result;
   }
 
@@ -193,8 +193,9 @@ class Formats {
       if (whole) {
         text += "\"P\": [" + text_of(matrix_of(s), ", ") + "]}";
       } else {
-        text += "\"K\": [" + text_of({kFocal, 0, kCentreX, 0, kFocal, kCentreY, 0, 0, 1}, ", ") + "], \"R\": [" +
-                text_of(rotation_of(s), ", ") + "], \"t\": [" + text_of({t[0], t[1], t[2]}, ", ") + "]}";
+        text += "\"K\": [" + text_of({kFocalLength, 0, kCentreX, 0, kFocalLength, kCentreY, 0, 0, 1}, ", ") +
+                "], \"R\": [" + text_of(rotation_of(s), ", ") + "], \"t\": [" + text_of({t[0], t[1], t[2]}, ", ") +
+                "]}";
       }
     }
     return scratch.write(whole ? "p.json" : "krt.json", "{\"cameras\": [" + text + "]}");
@@ -210,9 +211,10 @@ class Formats {
       text += std::string(i == 0 ? "" : ",\n") + R"({"file_path": ")" + name_of(i) + R"(", "transform_matrix": [)" +
               text_of(m, ", ") + ", 0, 0, 0, 1]}";
     }
-    return scratch.write("transforms.json", "{" + ("\"fl_x\": " + text_of({kFocal})) + ", \"w\": 64, \"h\": 48, " +
-                                                "\"cx\": " + text_of({kCentreX + 0.5}) + ", \"cy\": " +
-                                                text_of({kCentreY + 0.5}) + ", \"frames\": [" + text + "]}");
+    return scratch.write("transforms.json", "{" + ("\"fl_x\": " + text_of({kFocalLength})) +
+                                                ", \"w\": 64, \"h\": 48, " + "\"cx\": " + text_of({kCentreX + 0.5}) +
+                                                ", \"cy\": " + text_of({kCentreY + 0.5}) + ", \"frames\": [" + text +
+                                                "]}");
   }
 
   std::filesystem::path colmap_text() const {
@@ -226,7 +228,7 @@ class Formats {
     }
     std::filesystem::create_directories(scratch.folder() / "colmap/sparse/0");
     scratch.write("colmap/sparse/0/cameras.txt",
-                  "1 SIMPLE_PINHOLE 64 48 " + text_of({kFocal, kCentreX + 0.5, kCentreY + 0.5}) + "\n");
+                  "1 SIMPLE_PINHOLE 64 48 " + text_of({kFocalLength, kCentreX + 0.5, kCentreY + 0.5}) + "\n");
     scratch.write("colmap/sparse/0/images.txt", images);
     return scratch.folder() / "colmap";
   }
@@ -239,7 +241,7 @@ class Formats {
     put<std::int32_t>(cameras, 1);
     put<std::uint64_t>(cameras, kWidth);
     put<std::uint64_t>(cameras, kHeight);
-    for (const double x : {kFocal, kFocal, kCentreX + 0.5, kCentreY + 0.5}) put<double>(cameras, x);
+    for (const double x : {kFocalLength, kFocalLength, kCentreX + 0.5, kCentreY + 0.5}) put<double>(cameras, x);
     std::string images;
     put<std::uint64_t>(images, kViews);
     for (int i = 0; i < kViews; ++i) {
@@ -263,7 +265,7 @@ class Formats {
       text += name + ": !!opencv-matrix\n   rows: " + std::to_string(rows) + "\n   cols: " + std::to_string(columns) +
               "\n   dt: d\n   data: [ " + text_of(numbers, ", ") + " ]\n";
     };
-    matrix("K", 3, 3, {kFocal, 0, kCentreX, 0, kFocal, kCentreY, 0, 0, 1});
+    matrix("K", 3, 3, {kFocalLength, 0, kCentreX, 0, kFocalLength, kCentreY, 0, 0, 1});
     for (int i = 0; i < kViews; ++i) {
       const Stand& s = stands[static_cast<std::size_t>(i)];
       const Vector t = s.translation();
@@ -315,15 +317,15 @@ class Formats {
     for (int i = 0; i < kViews; ++i) {
       const Stand& s = stands[static_cast<std::size_t>(i)];
       const Vector t = s.translation();
-      text += name_of(i) + " " + text_of({kFocal, 0, kCentreX, 0, kFocal, kCentreY, 0, 0, 1}) + " " +
+      text += name_of(i) + " " + text_of({kFocalLength, 0, kCentreX, 0, kFocalLength, kCentreY, 0, 0, 1}) + " " +
               text_of(rotation_of(s)) + " " + text_of({t[0], t[1], t[2]}) + "\n";
     }
     return scratch.write("table_par.txt", text);
   }
 
   std::filesystem::path blocks() const {
-    std::string text =
-        "#Intrinsic parameter\n" + text_of({kFocal, 0, kCentreX}) + "\n" + text_of({0, kFocal, kCentreY}) + "\n0 0 1\n";
+    std::string text = "#Intrinsic parameter\n" + text_of({kFocalLength, 0, kCentreX}) + "\n" +
+                       text_of({0, kFocalLength, kCentreY}) + "\n0 0 1\n";
     for (int i = 0; i < kViews; ++i) {
       const Stand& s = stands[static_cast<std::size_t>(i)];
       const std::vector<double> r = rotation_of(s);

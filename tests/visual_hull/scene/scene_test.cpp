@@ -15,7 +15,7 @@ namespace {
 using Catch::Contains;
 using testing::Scratch;
 
-std::string refusal(const Scratch& scratch, const std::string& name, const std::string& text) {
+std::string refusal_of_scene(const Scratch& scratch, const std::string& name, const std::string& text) {
   try {
     read_scene(scratch.write(name, text));
   } catch (const nef::Error& error) {
@@ -88,10 +88,11 @@ TEST_CASE("Blocks of intrinsic and extrinsic parameters are K [R | t]") {
   CHECK(scene.views[0].camera.matrix() == expected);
   CHECK(scene.views[1].name == "2");
   CHECK(scene.views[1].camera.centre() == Rational3{-1, -2, -3});
-  CHECK_THAT(refusal(scratch, "d.txt", head + "#Extrinsic\n1 0 0 0.5\n0 1 0 0\n"), Contains("ends inside a matrix"));
-  CHECK_THAT(refusal(scratch, "e.txt", head + "#Extrinsic\n1 0 0\n"), Contains("line 9: a row of 4 numbers"));
-  CHECK_THAT(refusal(scratch, "f.txt", "#Extrinsic\n1 0 0 1\n"), Contains("intrinsic parameters are missing"));
-  CHECK_THAT(refusal(scratch, "g.txt", head + "#Extrinsic\n1 0 0 x\n"), Contains("'x' is not a number"));
+  CHECK_THAT(refusal_of_scene(scratch, "d.txt", head + "#Extrinsic\n1 0 0 0.5\n0 1 0 0\n"),
+             Contains("ends inside a matrix"));
+  CHECK_THAT(refusal_of_scene(scratch, "e.txt", head + "#Extrinsic\n1 0 0\n"), Contains("line 9: a row of 4 numbers"));
+  CHECK_THAT(refusal_of_scene(scratch, "f.txt", "#Extrinsic\n1 0 0 1\n"), Contains("intrinsic parameters are missing"));
+  CHECK_THAT(refusal_of_scene(scratch, "g.txt", head + "#Extrinsic\n1 0 0 x\n"), Contains("'x' is not a number"));
 }
 
 TEST_CASE("A folder of cameras has a view for each of its files") {
@@ -155,30 +156,35 @@ TEST_CASE("A .vsh camera maps the points of its polygon's plane to two of their 
 
 TEST_CASE("Malformed scenes are refused in one line that says where") {
   const Scratch s;
-  CHECK_THAT(refusal(s, "e.txt", ""), Contains("the file is empty"));
-  CHECK_THAT(refusal(s, "c.txt", "# nothing\n"), Contains("there is no camera"));
-  CHECK_THAT(refusal(s, "w.txt", "a 1 2 3\nb 4 5 6\n"), Contains("w.txt, line 1"));
-  CHECK_THAT(refusal(s, "n.txt", "a 1 0 0 0 0 1 0 0 0 0 1 nan\n"), Contains("line 1: 'nan' is not a number"));
-  CHECK_THAT(refusal(s, "s.txt", "flat 1 0 0 0 0 1 0 0 0 0 0 1\n"), Contains("view flat: the matrix is singular"));
-  CHECK_THAT(refusal(s, "m.txt", "3\na 1 0 0 0 0 1 0 0 0 0 1 0\n"), Contains("announces 3 views, but there are 1"));
-  CHECK_THAT(refusal(s, "r.txt", "a\n1 0 0 0\n0 1 0 0\n"), Contains("ends inside the matrix of view 'a'"));
-  CHECK_THAT(refusal(s, "j.json", "{\"cameras\": [}"), Contains("j.json:1: not valid JSON near"));
-  CHECK_THAT(refusal(s, "l.json", "{}"), Contains("a scene needs a list 'cameras'"));
-  CHECK_THAT(refusal(s, "k.json", R"({"cameras": [{"image": "a", "K": [1,0,0,0,1,0,0,0,1]}]})"),
+  CHECK_THAT(refusal_of_scene(s, "e.txt", ""), Contains("the file is empty"));
+  CHECK_THAT(refusal_of_scene(s, "c.txt", "# nothing\n"), Contains("there is no camera"));
+  CHECK_THAT(refusal_of_scene(s, "w.txt", "a 1 2 3\nb 4 5 6\n"), Contains("w.txt, line 1"));
+  CHECK_THAT(refusal_of_scene(s, "n.txt", "a 1 0 0 0 0 1 0 0 0 0 1 nan\n"), Contains("line 1: 'nan' is not a number"));
+  CHECK_THAT(refusal_of_scene(s, "s.txt", "flat 1 0 0 0 0 1 0 0 0 0 0 1\n"),
+             Contains("view flat: the matrix is singular"));
+  CHECK_THAT(refusal_of_scene(s, "m.txt", "3\na 1 0 0 0 0 1 0 0 0 0 1 0\n"),
+             Contains("announces 3 views, but there are 1"));
+  CHECK_THAT(refusal_of_scene(s, "r.txt", "a\n1 0 0 0\n0 1 0 0\n"), Contains("ends inside the matrix of view 'a'"));
+  CHECK_THAT(refusal_of_scene(s, "j.json", "{\"cameras\": [}"), Contains("j.json:1: not valid JSON near"));
+  CHECK_THAT(refusal_of_scene(s, "l.json", "{}"), Contains("a scene needs a list 'cameras'"));
+  CHECK_THAT(refusal_of_scene(s, "k.json", R"({"cameras": [{"image": "a", "K": [1,0,0,0,1,0,0,0,1]}]})"),
              Contains("'R' is missing"));
-  CHECK_THAT(refusal(s, "p.json", R"({"cameras": [{"image": "a", "P": [1, 2]}]})"),
+  CHECK_THAT(refusal_of_scene(s, "p.json", R"({"cameras": [{"image": "a", "P": [1, 2]}]})"),
              Contains("12 numbers are needed, not 2"));
-  CHECK_THAT(refusal(s, "x.json", R"({"cameras": [{"P": [1,0,0,0,0,1,0,0,0,0,1,true]}]})"), Contains("not true"));
-  CHECK_THAT(refusal(s, "d.json", R"({"cameras": [{"P": [1,0,0,0,0,1,0,0,0,0,1,0], "distortion": [1]}]})"),
+  CHECK_THAT(refusal_of_scene(s, "x.json", R"({"cameras": [{"P": [1,0,0,0,0,1,0,0,0,0,1,true]}]})"),
+             Contains("not true"));
+  CHECK_THAT(refusal_of_scene(s, "d.json", R"({"cameras": [{"P": [1,0,0,0,0,1,0,0,0,0,1,0], "distortion": [1]}]})"),
              Contains("needs the intrinsics"));
-  CHECK_THAT(refusal(s, "b.json", R"({"cameras": [{"P": [1,0,0,0,0,1,0,0,0,0,1,0]}], "box": [0,0,0,1,1,0]})"),
+  CHECK_THAT(refusal_of_scene(s, "b.json", R"({"cameras": [{"P": [1,0,0,0,0,1,0,0,0,0,1,0]}], "box": [0,0,0,1,1,0]})"),
              Contains("flat along z"));
-  CHECK_THAT(refusal(s, "a.vsh", "0 0 0 1 1"), Contains("ends before the room's largest corner"));
-  CHECK_THAT(refusal(s, "b.vsh", "0 0 0 1 1 1 1 5 5 5 1 4 0 0 0 1 0 0 1 1 0 0 1 1"),
+  CHECK_THAT(refusal_of_scene(s, "a.vsh", "0 0 0 1 1"), Contains("ends before the room's largest corner"));
+  CHECK_THAT(refusal_of_scene(s, "b.vsh", "0 0 0 1 1 1 1 5 5 5 1 4 0 0 0 1 0 0 1 1 0 0 1 1"),
              Contains("point 4 of polygon 1 is not in the plane"));
-  CHECK_THAT(refusal(s, "c.vsh", "0 0 0 1 1 1 1 5 5 0 1 3 0 0 0 1 0 0 1 1 0"), Contains("holds the camera's centre"));
-  CHECK_THAT(refusal(s, "d.vsh", "0 0 0 1 1 1 1 5 5 5 1 2 0 0 0 1 0 0"), Contains("'2' is not a number of points"));
-  CHECK_THAT(refusal(s, "f.vsh", "0 0 0 1 1 1 1 5 5 5 1 3 0 0 0 1 0 0 1 1 0 7"),
+  CHECK_THAT(refusal_of_scene(s, "c.vsh", "0 0 0 1 1 1 1 5 5 0 1 3 0 0 0 1 0 0 1 1 0"),
+             Contains("holds the camera's centre"));
+  CHECK_THAT(refusal_of_scene(s, "d.vsh", "0 0 0 1 1 1 1 5 5 5 1 2 0 0 0 1 0 0"),
+             Contains("'2' is not a number of points"));
+  CHECK_THAT(refusal_of_scene(s, "f.vsh", "0 0 0 1 1 1 1 5 5 5 1 3 0 0 0 1 0 0 1 1 0 7"),
              Contains("'7' follows after the last camera"));
   CHECK_THROWS_WITH(read_scene(s.folder()), Contains("is a directory"));
   CHECK_THROWS_WITH(read_scene(s.folder() / "absent"), Contains("no such file"));

@@ -5,16 +5,13 @@
 #include <array>
 #include <cmath>
 
+#include "nef/geometry/vectors.h"
+
 namespace nef {
 namespace {
 
 using Vec = std::array<double, 3>;
 
-Vec difference(const Vec& a, const Vec& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-double dot(const Vec& a, const Vec& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vec cross(const Vec& a, const Vec& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 double size_of(const Vec& a) { return std::max({std::fabs(a[0]), std::fabs(a[1]), std::fabs(a[2])}); }
 
 // Twice the area vector of a facet about one of its corners: the products are as small as the facet.
@@ -31,8 +28,8 @@ Area twice_area(const Complex& c, const Facet& facet, const Vec& corner0, double
   std::size_t corners = 0;
   for (const CycleId k : facet.cycles()) {
     for (const std::uint32_t corner : c.corners_of(k)) {
-      const Vec p = difference(c.points.approximate(PointId(c.shalfedge_owner[corner])), corner0);
-      const Vec q = difference(c.points.approximate(PointId(c.target(c.corner_halfedge(corner)))), corner0);
+      const Vec p = minus(c.points.approximate(PointId(c.shalfedge_owner[corner])), corner0);
+      const Vec q = minus(c.points.approximate(PointId(c.target(c.corner_halfedge(corner)))), corner0);
       const Vec product = cross(p, q);
       for (std::size_t i = 0; i < 3; ++i) area.vector[i] += product[i];
       products += 2 * size_of(p) * size_of(q);
@@ -70,7 +67,7 @@ MeasuredVolume approximate_volume(const Polyhedron& bounded) {
     const Area area = twice_area(c, facet, corner0, e);
     const std::array<double, 4>& n = c.planes.approximate(facet.plane);
     const bool upward = (dot(area.vector, {n[0], n[1], n[2]}) > 0) != facet.plane.flipped();
-    const Vec place = difference(corner0, origin);
+    const Vec place = minus(corner0, origin);
     sum += (upward == below ? 1 : -1) * dot(place, area.vector);
     const double reach = size_of(place);
     const double size = 3 * reach * size_of(area.vector);

@@ -24,23 +24,23 @@ std::string text_of(const Rational3& p) {
 }
 
 // A solid, and the corners of convex pieces whose union it is.
-struct Solid {
+struct MeshSolid {
   Polyhedron set;
   std::vector<Points> pieces;
 };
 
-Rational3 random_point(Choices& choices, int half) {
+Rational3 random_corner(Choices& choices, int half) {
   return {Rational(choices.between(-half, half)), Rational(choices.between(-half, half)),
           Rational(choices.between(-half, half))};
 }
 
 // The union of a few hulls.
-Solid random_hulls(Choices& choices, std::uint32_t most, int half) {
-  Solid solid;
+MeshSolid random_hulls(Choices& choices, std::uint32_t most, int half) {
+  MeshSolid solid;
   for (std::uint32_t i = 1 + choices.below(most); i > 0; --i) {
-    const Rational3 at = random_point(choices, half);
+    const Rational3 at = random_corner(choices, half);
     Points points{at, plus(at, {1, 0, 0}), plus(at, {0, 1, 0}), plus(at, {0, 0, 1})};
-    for (std::uint32_t k = choices.below(4); k > 0; --k) points.push_back(plus(at, random_point(choices, half)));
+    for (std::uint32_t k = choices.below(4); k > 0; --k) points.push_back(plus(at, random_corner(choices, half)));
     solid.set = unite(solid.set, convex_hull(points));
     solid.pieces.push_back(std::move(points));
   }
@@ -49,7 +49,7 @@ Solid random_hulls(Choices& choices, std::uint32_t most, int half) {
 
 // An octahedron whose faces are cut into n^2 triangles, each corner moved along its ray from the middle: what it bounds
 // is the union of the tetrahedra over its triangles.
-Solid bumpy_ball(Choices& choices, int n, const Rational3& middle) {
+MeshSolid bumpy_ball(Choices& choices, int n, const Rational3& middle) {
   const int low = choices.between(2, 5);
   const int rough = choices.between(0, 2);
   Mesh mesh;
@@ -70,7 +70,7 @@ Solid bumpy_ball(Choices& choices, int n, const Rational3& middle) {
   const auto index = [&](const std::array<int, 3>& at) {
     return std::find_if(corners.begin(), corners.end(), [&](const auto& c) { return c.first == at; })->second;
   };
-  Solid solid;
+  MeshSolid solid;
   const auto triangle = [&](const std::array<std::array<int, 3>, 3>& at, bool turned) {
     std::array<std::uint32_t, 3> face{index(at[0]), index(at[1]), index(at[2])};
     if (turned) std::swap(face[1], face[2]);
@@ -96,11 +96,11 @@ Solid bumpy_ball(Choices& choices, int n, const Rational3& middle) {
 }
 
 // A hollow box around the origin with a window in one wall.
-Solid box_with_window(Choices& choices, int half) {
+MeshSolid box_with_window(Choices& choices, int half) {
   const Rational low = Rational(choices.between(-2, 1));
   const Rational width(choices.between(2, 12), 4);
   const Rational height(choices.between(2, 12), 4);
-  const auto add = [](Solid& solid, const Rational3& a, const Rational3& b) {
+  const auto add = [](MeshSolid& solid, const Rational3& a, const Rational3& b) {
     Points points;
     for (const int corner : {0, 1, 2, 3, 4, 5, 6, 7}) {
       Rational3 p;
@@ -112,7 +112,7 @@ Solid box_with_window(Choices& choices, int half) {
   };
   const Rational in = half;
   const Rational out = half + 1;
-  Solid solid;
+  MeshSolid solid;
   for (std::size_t i = 0; i < 3; ++i) {
     for (const int side : {-1, 1}) {
       Rational3 a{-out, -out, -out};
@@ -134,7 +134,7 @@ Solid box_with_window(Choices& choices, int half) {
 
 // True if some piece of the robot that moves from one position to another meets some piece of an obstacle with its
 // inside.
-bool collides(const Solid& robot, const Solid& obstacle, const Rational3& from, const Rational3& to) {
+bool collides(const MeshSolid& robot, const MeshSolid& obstacle, const Rational3& from, const Rational3& to) {
   for (const Points& piece : robot.pieces) {
     Points swept;
     for (const Rational3& p : piece) {
@@ -168,8 +168,8 @@ class WideCase {
     make_scene();
     const planner::Problem problem(scene_);
     for (int i = 0; i < 3; ++i) {
-      scene_.start = random_point(choices_, in_a_box_ ? 2 : kHalf);
-      scene_.goal = random_point(choices_, kHalf);
+      scene_.start = random_corner(choices_, in_a_box_ ? 2 : kHalf);
+      scene_.goal = random_corner(choices_, kHalf);
       ask(problem);
     }
   }
@@ -182,10 +182,10 @@ class WideCase {
     in_a_box_ = choices_.below(2) == 1;
     if (in_a_box_) obstacles_.push_back(box_with_window(choices_, 4));
     if (choices_.below(in_a_box_ ? 4 : 2) == 0)
-      obstacles_.push_back(bumpy_ball(choices_, 3 + choices_.below(2), random_point(choices_, 3)));
+      obstacles_.push_back(bumpy_ball(choices_, 3 + choices_.below(2), random_corner(choices_, 3)));
     for (std::uint32_t i = choices_.below(4); i > 0; --i) {
-      Solid solid = random_hulls(choices_, 2, 2);
-      const Rational3 at = random_point(choices_, 4);
+      MeshSolid solid = random_hulls(choices_, 2, 2);
+      const Rational3 at = random_corner(choices_, 4);
       solid.set = transform(solid.set, AffineMap::translate(at));
       for (Points& piece : solid.pieces) {
         for (Rational3& p : piece) p = plus(p, at);
@@ -194,7 +194,7 @@ class WideCase {
     }
     scene_.robot = robot_.set;
     case_.tell("robot of " + std::to_string(robot_.pieces.size()) + " pieces");
-    for (const Solid& obstacle : obstacles_) {
+    for (const MeshSolid& obstacle : obstacles_) {
       case_.tell("obstacle of " + std::to_string(obstacle.pieces.size()) + " pieces");
       scene_.obstacles.push_back(obstacle.set);
       scene_.obstacle_names.emplace_back("obstacle");
@@ -225,7 +225,7 @@ class WideCase {
   void check(const Points& path, const std::string& question) {
     Case::require(path.front() == *scene_.start && path.back() == *scene_.goal, "ends: " + question);
     for (std::size_t i = 0; i + 1 < path.size(); ++i) {
-      for (const Solid& obstacle : obstacles_) {
+      for (const MeshSolid& obstacle : obstacles_) {
         Case::require(!collides(robot_, obstacle, path[i], path[i + 1]),
                       "collision: " + question + " between " + text_of(path[i]) + " and " + text_of(path[i + 1]));
       }
@@ -241,8 +241,8 @@ class WideCase {
 
   const Case& case_;
   Choices& choices_;
-  Solid robot_;
-  std::vector<Solid> obstacles_;
+  MeshSolid robot_;
+  std::vector<MeshSolid> obstacles_;
   planner::Scene scene_;
   bool in_a_box_ = false;
 };

@@ -11,6 +11,8 @@ namespace nef {
 struct CommandExtensions {
   /// minkowski(A, B) in expressions and .csg files; refused where there is none.
   std::function<Polyhedron(const Polyhedron& a, const Polyhedron& b)> minkowski;
+  /// ball(r, n) in expressions; refused where there is none.
+  std::function<Polyhedron(const Rational& radius, const Rational& splits)> ball;
 };
 
 /// The program `nef`: its arguments in, files, standard output and the exit code out. All work is in the subcommands

@@ -308,6 +308,9 @@ TEST_CASE("command: the recipes of the documentation run, and do what they say")
   CHECK(nef::equal(result("eroded"), set("box(0,0,0, 2,7,1) + box(4,0,0, 7,7,1) + box(0,0,0, 7,7,0)")));
   CHECK(nef::equal(result("opened"), set("box(0,0,0, 8,8,2) - interior(box(3,-1,1, 4,9,3))")));
   CHECK(nef::equal(result("closed"), set("box(0,0,0, 8,8,2) + box(8,2,0, 12,5/2,2)")));
+  CHECK(nef::equal(result("also_eroded"), result("eroded")));
+  CHECK(nef::equal(result("also_swept"), result("swept")));
+  CHECK(nef::subtract(result("inner_grown"), result("grown")).is_empty());
   CHECK(nef::contains(result("swept"), {nef::Rational(7, 2), 2, 1}));
   CHECK(nef::contains(result("contact"), {3, 2, 1}));
   CHECK(nef::contains(result("positions"), {nef::Rational(7, 2), 2, 1}));

@@ -44,7 +44,6 @@ std::size_t main_axis(const FacetSegment& s) {
 ConvolutionRegions::ConvolutionRegions(ConvolutionFacets& facets, const RoundedFacets& rounded,
                                        const SurvivingIntervals& intervals, SumMembership& membership)
     : facets_(facets),
-      rounded_(rounded),
       intervals_(intervals),
       tree_(rounded.boxes()),
       pyramids_(facets, rounded, tree_),

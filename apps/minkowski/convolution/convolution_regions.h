@@ -70,7 +70,6 @@ class ConvolutionRegions {
   [[nodiscard]] std::vector<std::uint8_t> find_inside(const std::function<void(double)>& poll);
 
   ConvolutionFacets& facets_;
-  const RoundedFacets& rounded_;
   const SurvivingIntervals& intervals_;
   BoxTree tree_;
   FacetPyramids pyramids_;

@@ -47,10 +47,10 @@ void add_eval_command(CLI::App& app, Session& session, const CommandExtensions& 
   command->footer(
       "Operators: + union, * intersection, - difference, ^ symmetric difference, ! complement.\n"
       "Sets: file(\"a.off\") box(x0,y0,z0, x1,y1,z1) halfspace(a,b,c,d) for ax+by+cz+d <= 0, hull(points),\n"
-      "  point(x,y,z) segment(points) polygon(points; hole; ...) sphere(r[, corners]) cylinder(h, r)\n"
-      "  cylinder(h, r0, r1[, corners]) everything nothing\n"
+      "  point(x,y,z) segment(points) polyline(points) polygon(points; hole; ...) sphere(r[, corners])\n"
+      "  cylinder(h, r) cylinder(h, r0, r1[, corners]) ball(r, n) as minkowski --ball, everything nothing\n"
       "Functions: interior closure boundary exterior regularize complement (A), union intersection hull (A, B, ...),\n"
-      "  difference symdiff minkowski (A, B), translate(A, x,y,z) scale(A, s) rotate(A, axis, degrees[, tolerance])\n"
+      "  difference symdiff minkowski erode (A, B), translate(A, x,y,z) scale(A, s) rotate(A, axis, degrees[, tolerance])\n"
       "  transform(A, 12 or 16 numbers)\n"
       "Variables: h = 7/2; a = cylinder(2*h, 1); a + translate(a, [0,0,h])\n"
       "Numbers are exact: 0.1 is one tenth, 1/3 is allowed. A list of numbers may stand in brackets.\n"
@@ -61,6 +61,7 @@ void add_eval_command(CLI::App& app, Session& session, const CommandExtensions& 
     ExpressionOptions options;
     options.load = [&session](const std::string& path) { return session.load(path); };
     options.minkowski = extensions.minkowski;
+    options.ball = extensions.ball;
     std::string path = flags->script;
     if (path.empty() && lower_extension(flags->text) == "csg") path = flags->text;
     if (flags->text.empty() == flags->script.empty()) {

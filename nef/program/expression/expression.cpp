@@ -24,12 +24,15 @@ class ExpressionEvaluator {
     sets.reserve(node.sets.size());
     for (const SyntaxNode& child : node.sets) sets.push_back((*this)(child));
     if (node.term == Term::kFile) return file(node);
-    if (node.term == Term::kMinkowski && !options_.minkowski) {
+    const bool is_sum = node.term == Term::kMinkowski || node.term == Term::kErode;
+    if ((is_sum && !options_.minkowski) || (node.term == Term::kBall && !options_.ball)) {
       throw ExpressionError(place_in_text(text_, node.offset) + ": Minkowski sums cannot be computed here",
                             node.offset);
     }
     try {
       if (node.term == Term::kMinkowski) return options_.minkowski(sets[0], sets[1]);
+      if (node.term == Term::kErode) return erode(sets[0], sets[1]);
+      if (node.term == Term::kBall) return options_.ball(node.numbers[0], node.numbers[1]);
       return make(node, sets);
     } catch (const InputError& error) {
       throw ExpressionError(place_in_text(text_, node.offset) + ": " + error.what(), node.offset);
@@ -37,6 +40,17 @@ class ExpressionEvaluator {
   }
 
  private:
+  // What of A stays when -B moves over what is not in A.
+  [[nodiscard]] Polyhedron erode(const Polyhedron& a, const Polyhedron& b) const {
+    return complement(options_.minkowski(complement(a), transform(b, AffineMap::scale({-1, -1, -1}))));
+  }
+
+  static Polyhedron polyline(std::span<const Rational3> points) {
+    std::vector<Polyhedron> segments;
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) segments.push_back(make_segment(points[i], points[i + 1]));
+    return unite_all(segments);
+  }
+
   [[nodiscard]] Polyhedron file(const SyntaxNode& node) const {
     if (!options_.load) {
       throw ExpressionError(place_in_text(text_, node.offset) + ": files cannot be read here", node.offset);
@@ -60,6 +74,8 @@ class ExpressionEvaluator {
         return make_point(node.rings[0][0]);
       case Term::kSegment:
         return make_segment(node.rings[0][0], node.rings[0][1]);
+      case Term::kPolyline:
+        return polyline(node.rings[0]);
       case Term::kHull:
         return convex_hull(node.rings[0]);
       case Term::kHullOfSets:

@@ -9,9 +9,9 @@
 //   factor   := '!' factor | '(' sum ')' | primary       complement
 //   primary  := everything | nothing | name
 //             | file("path") | box(x0,y0,z0, x1,y1,z1) | halfspace(a,b,c,d)    ax+by+cz+d <= 0
-//             | point(x,y,z) | segment(points) | hull(points) | polygon(points; points...)
+//             | point(x,y,z) | segment(points) | polyline(points) | hull(points) | polygon(points; points...)
 //             | sphere(r) | sphere(r, corners) | cylinder(h, r) | cylinder(h, r0, r1) | cylinder(h, r0, r1, corners)
-//             | hull(sum, ...) | minkowski(sum, sum)
+//             | hull(sum, ...) | minkowski(sum, sum) | erode(sum, sum) | ball(r, n)
 //             | union(sum, ...) | intersection(sum, ...) | difference(sum, sum) | symdiff(sum, sum)
 //             | complement(sum) | interior(sum) | closure(sum) | boundary(sum) | exterior(sum)
 //             | regularize(sum)
@@ -52,8 +52,10 @@ class ExpressionError : public InputError {
 struct ExpressionOptions {
   /// Makes the set of `file("path")`. Without it, files are refused.
   std::function<Polyhedron(const std::string& path)> load;
-  /// Makes minkowski(A, B). Without it, sums are refused.
+  /// Makes minkowski(A, B), and erode(A, B) by it. Without it, both are refused.
   std::function<Polyhedron(const Polyhedron& a, const Polyhedron& b)> minkowski = {};
+  /// Makes ball(r, n). Without it, balls are refused.
+  std::function<Polyhedron(const Rational& radius, const Rational& splits)> ball = {};
 };
 
 /// The set that `text` describes. The whole text is parsed before anything is computed. Throws

@@ -3,10 +3,11 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 source scripts/setup.sh
+preset=${NEF_PRESET:-release}
 install_missing "${nef_packages[@]}" "${nef_test_packages[@]}"
+[ "$preset" = release ] || install_missing "${nef_oracle_packages[@]}"
 # With ccache, a clone elsewhere finds what this one has compiled.
 export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1
-preset=${NEF_PRESET:-release}
 # What the demo leaves out, and (in CI's preset) the benchmarks.
 benchmarks=$([ "$preset" = release ] && echo OFF || echo ON)
 cmake --preset "$preset" -DNEF_COMPILE_TOGETHER=ON -DNEF_BUILD_TESTS=ON -DNEF_BUILD_BENCH="$benchmarks" \

@@ -108,12 +108,13 @@ class FlushCover {
 
   // What is left of the faces of a cell.
   [[nodiscard]] std::vector<Rest> rests(std::uint32_t cell, FaceRemains& remains) const {
-    const std::vector<std::uint32_t> flush = flush_faces(cell);
     std::vector<std::uint32_t> neighbours = cells_near(cell, rounded_.box(cell), boxes_);
+    const std::vector<char> covers = covering(cell, neighbours);
+    const std::vector<std::uint32_t> flush = flush_faces(cell, covers);
     std::vector<Rest> result;
     for (const std::uint32_t h : flush) remains.ignore(h);
     for (std::uint32_t f = rounded_.first_face(cell); f < rounded_.end_face(cell); ++f) {
-      const std::vector<std::uint32_t> absent = yielding_faces(cell, f);
+      const std::vector<std::uint32_t> absent = yielding_faces(cell, f, covers);
       for (const std::uint32_t h : absent) remains.heed(h);
       const Box box = remains.box_of_rest(ring_of(f, rounded_, exact_), neighbours);
       for (const std::uint32_t h : absent) remains.ignore(h);
@@ -124,13 +125,20 @@ class FlushCover {
   }
 
  private:
-  // Faces of cells that may cover this one, in planes of its faces.
-  [[nodiscard]] std::vector<std::uint32_t> flush_faces(std::uint32_t cell) const {
+  // For every cell: whether it is a neighbour that may cover this one where both are flush.
+  [[nodiscard]] std::vector<char> covering(std::uint32_t cell, std::span<const std::uint32_t> neighbours) const {
+    std::vector<char> covers(cells_.size(), 0);
+    for (const std::uint32_t d : neighbours) covers[d] = d != cell && may_cover(cells_, d, cell, Pyramid::kLarger);
+    return covers;
+  }
+
+  // Faces of covering cells in planes of faces of this one. Extrusions have thousands of caps in one plane, so that all
+  // but the neighbours' are told by a look at a table.
+  [[nodiscard]] std::vector<std::uint32_t> flush_faces(std::uint32_t cell, std::span<const char> covers) const {
     std::vector<std::uint32_t> result;
     planes_.for_each(cell, [&](PlaneId plane) {
       faces_.for_each(plane, [&](std::uint32_t h) {
-        const std::uint32_t d = rounded_.cell_of_face(h);
-        if (d != cell && may_cover(cells_, d, cell, Pyramid::kLarger)) result.push_back(h);
+        if (covers[rounded_.cell_of_face(h)] != 0) result.push_back(h);
       });
     });
     return result;
@@ -138,14 +146,13 @@ class FlushCover {
 
   // Those of the flush faces that are in the plane of face f and whose cells must not cover f, being equal to its cell
   // there and not the ones to stay.
-  [[nodiscard]] std::vector<std::uint32_t> yielding_faces(std::uint32_t cell, std::uint32_t f) const {
+  [[nodiscard]] std::vector<std::uint32_t> yielding_faces(std::uint32_t cell, std::uint32_t f,
+                                                          std::span<const char> covers) const {
     std::vector<std::uint32_t> result;
     if (!exact_.known_plane(f).valid()) return result;
     faces_.for_each(exact_.known_plane(f), [&](std::uint32_t h) {
       const std::uint32_t d = rounded_.cell_of_face(h);
-      if (d != cell && may_cover(cells_, d, cell, Pyramid::kLarger) && !may_cover(cells_, d, cell, Pyramid::kEqual)) {
-        result.push_back(h);
-      }
+      if (covers[d] != 0 && !may_cover(cells_, d, cell, Pyramid::kEqual)) result.push_back(h);
     });
     return result;
   }

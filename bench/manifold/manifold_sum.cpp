@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// nef_bench_manifold_sum A.stl B.stl: the Minkowski sum of two solids by the Manifold library (doubles, not exact). Reads
-// STL in text, since that library takes triangles only, and prints the triangles and the volume of the sum.
+// nef_bench_manifold_sum A.stl B.stl: the Minkowski sum of two solids by the Manifold library (doubles, not exact).
+// Reads STL in text, since that library takes triangles only, and prints the triangles and the volume of the sum.
 #include <manifold/manifold.h>
 
 #include <array>

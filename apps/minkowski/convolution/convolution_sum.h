@@ -17,7 +17,7 @@ struct ConvolutionReport {
   std::size_t segments = 0;   ///< pairs of facets that meet in one
   std::size_t intervals = 0;  ///< parts of segments at which the boundary may be
   std::size_t points = 0;     ///< located exactly
-  std::size_t regions = 0;    ///< and boundary items of which only an intersection could tell whether they are in the sum
+  std::size_t regions = 0;  ///< and boundary items of which only an intersection could tell whether they are in the sum
 };
 
 /// True for sets that convolution_sum takes: bounded, not empty, and in the closure of their interiors. O(n).
@@ -33,9 +33,10 @@ struct ConvolutionOptions {
 /// A + B for two such sets; nothing if the options ask for that, or if something went wrong that must not. The facets
 /// of the reduced convolution are arranged, without what is surely inside; what regions they leave is inside if it is
 /// just behind a facet, and the others are tested: x is in A + B iff A meets x - B. If A or B lacks something of its
-/// boundary, so may the sum, and passages as narrow as what passes (BoundaryMarker). Nothing also for these, all rare, of
-/// sets that are not closed: edges with more than one wedge where neither set is convex; a single point in a facet that
-/// is marked unlike it; a facet that is not in the set with an edge or vertex that is, and something parallel to it.
+/// boundary, so may the sum, and passages as narrow as what passes (BoundaryMarker). Nothing also for these, all rare,
+/// of sets that are not closed: edges with more than one wedge where neither set is convex; a single point in a facet
+/// that is marked unlike it; a facet that is not in the set with an edge or vertex that is, and something parallel to
+/// it.
 std::optional<Polyhedron> convolution_sum(const Polyhedron& a, const Polyhedron& b, const ConvolutionOptions& options,
                                           ConvolutionReport& report);
 

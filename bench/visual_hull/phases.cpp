@@ -16,6 +16,7 @@
 #include "nef/export/to_mesh.h"
 #include "nef/io/mesh/mesh_writer.h"
 #include "nef/program/report.h"
+#include "nef/query/approximate_volume.h"
 #include "nef/query/measure.h"
 
 namespace visual_hull::bench {
@@ -126,7 +127,7 @@ void measure(const std::string& file, const Settings& settings) {
     double volume = 0;
     const double seconds = seconds_of([&] { volume = carve(masks, result, settings.voxels); });
     std::cout << fmt::format(" {:>8.3f} {:>+8.2f} %", seconds,
-                             100 * (volume / approximate_volume(result.hull).value - 1));
+                             100 * (volume / nef::approximate_volume(result.hull).value - 1));
   }
   std::cout << std::endl;
 }

@@ -6,6 +6,7 @@
 
 #include "apps/minkowski/convolution/direction_into.h"
 #include "nef/base/interruption.h"
+#include "nef/geometry/vectors.h"
 #include "nef/sphere_map/sphere_geometry.h"
 
 namespace nef::minkowski {
@@ -116,15 +117,10 @@ std::vector<Saddle> saddles(const Complex& c) {
 
 // True if the part of an arc between two directions, less than a half-turn apart, is in the inside of a convex cone.
 bool enters(const std::vector<Direction>& normals, const Direction& from, const Direction& to) {
-  const auto dot = [](const Direction& u, const Direction& v) {
-    const std::array<Integer, 3>& a = u.integers();
-    const std::array<Integer, 3>& b = v.integers();
-    return Integer(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]);
-  };
   std::vector<std::array<Integer, 2>> forms;  // of (1 - t) from + t to, at t = 0 and 1
   for (const Direction& n : normals) {
     if (sign_of_dot(n, from) <= 0 && sign_of_dot(n, to) <= 0) return false;
-    forms.push_back({dot(n, from), dot(n, to)});
+    forms.push_back({dot(n.integers(), from.integers()), dot(n.integers(), to.integers())});
   }
   Rational low = 0;
   Rational high = 1;

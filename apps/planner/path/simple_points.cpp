@@ -92,8 +92,7 @@ Rational rounded(const Rational& x, unsigned digits) {
 }
 
 Rational rounded_up(const Rational& x, unsigned digits) {
-  Integer power;
-  mpz_ui_pow_ui(power.get_mpz_t(), 10, digits);
+  const Integer power = power_of_ten(digits);
   Rational result(ceiling_of(x * power), power);
   result.canonicalize();
   return result;

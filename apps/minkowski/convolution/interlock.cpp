@@ -15,7 +15,8 @@ namespace {
 // Of the boundary of a solid on the sphere around a vertex: counterclockwise about its normal.
 struct Arc {
   Direction normal, from, to;
-  int turn = 0;  // 1 if less than a half-turn, 0 if that, -1 if more
+  Direction between;  // a quarter-turn after `from`, if the arc is a half-turn or more
+  int turn = 0;       // 1 if less than a half-turn, 0 if that, -1 if more
 
   // For a direction on the same great circle.
   [[nodiscard]] bool has_inside(const Direction& d) const {
@@ -32,10 +33,10 @@ struct Saddle {
   std::uint32_t vertex = 0;
   std::vector<Direction> into, back;  // the second ones are opposite to the first
   std::vector<Arc> arcs;
-  /// Of the convex hull of the solid there, unless that is all of space: normals, positive inside, of planes the
-  /// extreme ones of which bound it; and a direction inside of it.
-  std::vector<Direction> hull;
-  Direction middle;
+  /// Of the convex hull of the solid there, unless that is all of space, turned about the vertex: normals, positive
+  /// inside, of planes the extreme ones of which bound it; and a direction inside of it.
+  std::vector<Direction> turned_hull;
+  Direction turned_middle;
 };
 
 // Around an edge with one wedge: 1 if that is convex, -1 if it is reflex, 0 if it is flat.
@@ -82,14 +83,14 @@ void find_hull(const Complex& c, const SphereMapView& map, Saddle& saddle) {
       if (normal.is_zero()) continue;
       const bool bounds =
           std::all_of(edges.begin(), edges.end(), [&](const Direction& d) { return sign_of_dot(normal, d) >= 0; });
-      if (bounds) normals.push_back(normal);
+      if (bounds) normals.push_back(normal.negated());
     }
   }
   if (normals.empty()) return;
-  const SphereLocation opposite = locate(c.planes, map, normals.front().negated());
+  const SphereLocation opposite = locate(c.planes, map, normals.front());
   if (opposite.kind != SphereLocation::Kind::kSFace || map.sfaces[opposite.index].mark != 0) return;
-  saddle.middle = Direction::exact(sum[0], sum[1], sum[2]);
-  saddle.hull = std::move(normals);
+  saddle.turned_middle = Direction::exact(sum[0], sum[1], sum[2]).negated();
+  saddle.turned_hull = std::move(normals);
 }
 
 std::vector<Saddle> saddles(const Complex& c) {
@@ -106,7 +107,8 @@ std::vector<Saddle> saddles(const Complex& c) {
       const Direction to = direction_of(c.planes, map.svertices[map.target(e)]);
       const Direction normal = Direction::normal(c.planes, map.shalfedges[e].plane);
       saddle.into.push_back(from);
-      saddle.arcs.push_back({normal, from, to, orientation_on_circle(c.planes, map.shalfedges[e].plane, from, to)});
+      const int turn = orientation_on_circle(c.planes, map.shalfedges[e].plane, from, to);
+      saddle.arcs.push_back({normal, from, to, turn > 0 ? Direction() : direction_on_arc(c.planes, map, e), turn});
     }
     for (const Direction& d : saddle.into) saddle.back.push_back(d.negated());
     find_hull(c, map, saddle);
@@ -139,27 +141,22 @@ bool enters(const std::vector<Direction>& normals, const Direction& from, const 
 
 // True if the convex hull of one solid at its saddle, turned about that, surely does not enter the other one.
 bool fits(const Complex& c, const Saddle& saddle, const Saddle& other) {
-  if (other.hull.empty()) return false;
-  std::vector<Direction> normals;
-  for (const Direction& n : other.hull) normals.push_back(n.negated());
-  const SphereMapView map = c.sphere_map(saddle.vertex);
-  for (std::uint32_t e = 0; e < map.shalfedges.size(); e += 2) {
-    const Direction from = direction_of(c.planes, map.svertices[map.shalfedges[e].source]);
-    const Direction to = direction_of(c.planes, map.svertices[map.target(e)]);
-    const int turn = orientation_on_circle(c.planes, map.shalfedges[e].plane, from, to);
-    if (turn > 0) {
-      if (enters(normals, from, to)) return false;
+  const std::vector<Direction>& hull = other.turned_hull;
+  if (hull.empty()) return false;
+  for (const Arc& arc : saddle.arcs) {
+    if (arc.turn > 0) {
+      if (enters(hull, arc.from, arc.to)) return false;
       continue;
     }
-    const Direction quarter = direction_on_arc(c.planes, map, e);
-    if (enters(normals, from, quarter)) return false;
-    if (turn == 0) {
-      if (enters(normals, quarter, to)) return false;
-    } else if (enters(normals, quarter, from.negated()) || enters(normals, from.negated(), to)) {
+    if (enters(hull, arc.from, arc.between)) return false;
+    if (arc.turn == 0) {
+      if (enters(hull, arc.between, arc.to)) return false;
+    } else if (enters(hull, arc.between, arc.from.negated()) || enters(hull, arc.from.negated(), arc.to)) {
       return false;
     }
   }
-  const SphereLocation at = locate(c.planes, map, other.middle.negated());
+  const SphereMapView map = c.sphere_map(saddle.vertex);
+  const SphereLocation at = locate(c.planes, map, other.turned_middle);
   return at.kind == SphereLocation::Kind::kSFace && map.sfaces[at.index].mark == 0;
 }
 

@@ -11,6 +11,8 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "apps/minkowski/convex/convex_cell.h"
@@ -20,7 +22,7 @@
 
 namespace nef::minkowski {
 
-/// How the sums of the pairs of cells are united. The set is the same for each.
+/// How sums are made: how the sums of the pairs of cells are united, or without cells. The set is the same for each.
 enum class UnionStrategy : std::uint8_t {
   kAuto,        ///< as kConvolution, kNary or kQueue, whichever is likely to be the fastest
   kTrivial,     ///< one after the other onto one growing result
@@ -31,6 +33,9 @@ enum class UnionStrategy : std::uint8_t {
                 ///< of their interiors, others (and some rare ones of these) are united as for kAuto
 };
 
+/// "auto", "trivial", ...: how the program spells it.
+std::string_view strategy_name(UnionStrategy strategy);
+
 struct MinkowskiOptions {
   UnionStrategy strategy = UnionStrategy::kAuto;
   unsigned threads = 1;  ///< 0: as many as the machine has; the result does not depend on it
@@ -40,8 +45,16 @@ struct MinkowskiOptions {
   std::function<bool(std::size_t, std::size_t)> progress;
 };
 
+/// How a sum was made, in words: a strategy by its name in the program (`nary, queue`: one, then the other), `none`
+/// if nothing had to be united, `planes` for unbounded operands; and why that.
+struct StrategyChoice {
+  std::string chosen;
+  std::string why;
+};
+
 /// What was done, for people who measure.
 struct MinkowskiReport {
+  std::vector<StrategyChoice> choices;  ///< one for each sum: two of an opening
   std::size_t cells_a = 0;
   std::size_t cells_b = 0;
   std::size_t pairs = 0;

@@ -78,6 +78,50 @@ TEST_CASE("command: a sum, and what its report says") {
   CHECK(json::parse(exact.out)["result"]["volume"] == "24");
 }
 
+TEST_CASE("command: the report says which strategy was taken, and why") {
+  const Place place;
+  place.write("a.nef", kL);
+  place.write("cube.nef", "box(0,0,0,1,1,1)");
+  place.write("thin.nef", "segment(0,0,0,1,1,1)");
+  place.write("hole.nef", "!(box(0,0,0,3,1,1) + box(0,0,0,1,3,1))");
+  place.write("half.nef", "halfspace(1,0,0,0)");
+  const auto strategies = [&](const std::string& arguments) {
+    const Outcome outcome = place.run(arguments + " -o out.nef --json");
+    CAPTURE(arguments, outcome.err);
+    REQUIRE(outcome.code == 0);
+    const json found = json::parse(outcome.out)["strategies"];
+    for (const json& strategy : found) CHECK_FALSE(strategy["why"].get<std::string>().empty());
+    return found;
+  };
+  CHECK(strategies("a.nef a.nef")[0]["chosen"] == "convolution");
+  CHECK(strategies("cube.nef cube.nef")[0]["why"] == "both operands are convex");
+  CHECK(strategies("a.nef thin.nef")[0]["why"].get<std::string>().find("B has parts that are not solid") == 0);
+  CHECK(strategies("hole.nef cube.nef")[0]["why"].get<std::string>().find("bounded complement") != std::string::npos);
+  CHECK(strategies("half.nef cube.nef")[0]["chosen"] == "planes");
+  CHECK(strategies("a.nef cube.nef --open").size() == 2);
+  const json asked = strategies("a.nef a.nef --union priority");
+  CHECK(asked[0]["chosen"] == "priority");
+  CHECK(asked[0]["why"] == "asked for");
+}
+
+TEST_CASE("command: a B that is convex but for rounding is noticed, whatever the strategy") {
+  const Place place;
+  place.write("a.nef", kL);
+  // A cube whose top is split along a diagonal that sags by 10^-12.
+  std::ofstream(place / "b.off") << "OFF\n8 7 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1.000000000001\n1 1 1\n"
+                                    "0 1 1.000000000001\n4 0 3 2 1\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n"
+                                    "3 4 5 6\n3 4 6 7\n";
+  for (const char* strategy : {"auto", "nary", "convolution"}) {
+    CAPTURE(strategy);
+    const Outcome outcome = place.run("a.nef b.off -o sum.nef --union " + std::string(strategy));
+    CHECK(outcome.code == 0);
+    CHECK(outcome.err.find("B is convex but for 3e-13 of its volume: --hull-b takes its hull") != std::string::npos);
+  }
+  const Outcome hull = place.run("a.nef b.off -o hull.nef --hull-b");
+  CHECK(hull.err.empty());
+  CHECK(nef::subtract(nef::read_polyhedron(place / "sum.nef"), nef::read_polyhedron(place / "hull.nef")).is_empty());
+}
+
 TEST_CASE("command: open operands, a mirrored one, offsets by a ball and a box") {
   const Place place;
   place.write("a.nef", kL);

@@ -17,6 +17,7 @@
 #include "nef/construct/construct.h"
 #include "tests/support/fixed_cases.h"
 #include "tests/support/hard_points.h"
+#include "tests/support/minkowski_shapes.h"
 #include "tests/support/random_polyhedra.h"
 
 namespace {
@@ -231,6 +232,32 @@ TEST_CASE("convolution: solids that are turned, and all but parallel") {
     RC_PRE(!a.is_empty() && !b.is_empty());
     RC_ASSERT(nef::equal(convolution(a, b), by_cells(a, b)));
   });
+}
+
+// The same complex, not only the same set.
+void check_any_threads(const Polyhedron& a, const Polyhedron& b) {
+  MinkowskiOptions options;
+  options.strategy = UnionStrategy::kConvolution;
+  const Polyhedron one = minkowski_sum(a, b, options);
+  options.threads = 3;
+  const Polyhedron three = minkowski_sum(a, b, options);
+  const nef::Complex& c = one.complex();
+  const nef::Complex& d = three.complex();
+  REQUIRE(c.vertex_count() == d.vertex_count());
+  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
+    CHECK(c.points.rational(nef::PointId(v)) == d.points.rational(nef::PointId(v)));
+  }
+  CHECK(nef::equal(one, three));
+}
+
+TEST_CASE("convolution: any number of threads gives the same complex", "[threads]") {
+  const Polyhedron mushroom = nef::from_mesh(nef::test::mushroom());
+  const Polyhedron ball = to_polyhedron(nef::minkowski::ball_approximation(1, 2, nef::minkowski::Side::kInner).cell);
+  check_any_threads(mushroom, ball);
+  check_any_threads(nef::interior(mushroom), ball);
+  check_any_threads(nef::subtract(nef::test::set("box(0,0,0,6,6,6)"), mushroom), ball);
+  check_any_threads(nef::test::set("box(0,0,0,6,6,6) - interior(box(1,1,1,5,5,5))"),
+                    nef::test::set("box(0,0,0,4,4,4)"));
 }
 
 }  // namespace

@@ -242,7 +242,7 @@ TEST_CASE("the progress function of a sum without cells counts thousandths and c
     return true;
   };
   minkowski_sum(a, a, options);
-  CHECK(last == 1000);  // the outside was tested
+  CHECK(last == 1000);
   options.progress = [](std::size_t done, std::size_t all) { return done < all; };
   CHECK_THROWS_AS(minkowski_sum(a, a, options), nef::Interrupted);
 }

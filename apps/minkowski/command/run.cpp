@@ -91,7 +91,15 @@ class Run {
     details_["ball"] = {{"side", side == Side::kInner ? "inner" : "outer"},
                         {"error", to_string(ball.error)},
                         {"vertices", ball.cell.mesh.vertices.size()}};
+    tell_error("ball", side, ball.error);
     return to_polyhedron(ball.cell);
+  }
+
+  // For people; the report has the exact numbers.
+  void tell_error(const std::string& what, Side side, const Rational& error) const {
+    if (a_.quiet || a_.json) return;
+    std::cout << what << ": " << (side == Side::kInner ? "inner" : "outer") << ", within " << nearest_double(error)
+              << " of the round one\n";
   }
 
   static int splits(const Rational& n, const std::string& option) {
@@ -151,9 +159,11 @@ class Run {
     const Side side = a_.inner ? Side::kInner : Side::kOuter;
     if (sgn(numbers[0]) != 0) {
       const Side of_ball = (sgn(numbers[0]) > 0) == (side == Side::kInner) ? Side::kInner : Side::kOuter;
+      const Rational error = ball_approximation(abs(numbers[0]), n, of_ball).error;
       details_["offset"] = {{"radius", to_string(numbers[0])},
                             {"side", side == Side::kInner ? "inner" : "outer"},
-                            {"error", to_string(ball_approximation(abs(numbers[0]), n, of_ball).error)}};
+                            {"error", to_string(error)}};
+      tell_error("offset", side, error);
     }
     return offset(a, numbers[0], n, side, options_, &report_);
   }
@@ -171,13 +181,14 @@ class Run {
   Polyhedron of_two() {
     const auto [a, b] = both_operands();
     Polyhedron result = combined(a, b);
-    if (report_.cells_b > 1 && !a_.quiet) {
-      if (const std::optional<Rational> excess = excess_of_hull(b)) {
-        show({"B is convex but for " + scientific(*excess) + " of its volume, so it was cut into " +
-              std::to_string(report_.cells_b) + " cells; --hull-b takes its hull, which holds it and is one"});
-      }
-    }
+    offer_hull(b);
     return result;
+  }
+
+  void offer_hull(const Polyhedron& b) {
+    const std::optional<Rational> excess = excess_of_hull(b);
+    if (!excess) return;
+    show({"B is convex but for " + scientific(*excess) + " of its volume: --hull-b takes its hull, which holds B"});
   }
 
   Polyhedron combined(const Polyhedron& a, const Polyhedron& b) {
@@ -313,6 +324,9 @@ class Run {
   [[nodiscard]] Json base_report() const {
     Json object;
     object["union"] = a_.union_name;
+    for (const StrategyChoice& choice : report_.choices) {
+      object["strategies"].push_back({{"chosen", choice.chosen}, {"why", choice.why}});
+    }
     object["cells"] = {report_.cells_a, report_.cells_b};
     object["pairs"] = report_.pairs;
     object["pairs_dropped"] = report_.pairs_dropped;

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "apps/minkowski/convolution/direction_into.h"
+#include "nef/base/parallel.h"
 #include "nef/sphere_map/sphere_geometry.h"
 
 namespace nef::minkowski {
@@ -113,48 +114,59 @@ bool BoundaryMarker::may_have_passages(const SphereMapView& map) {
   return centre_may_be_passage(map);
 }
 
-bool BoundaryMarker::is_in_sum(PointId point, const Direction& towards) {
-  ++tested_;
-  return membership_.in_sum(pyramids_.point_towards(point, towards));
-}
-
 void BoundaryMarker::mark(PointId point, bool is_saddle_point, SphereMapBuffer& map) {
   const SphereMapBuffer drawn = map;
   const SphereMapView view = drawn.view();
   const auto inside = [&](std::uint32_t sface) { return view.sfaces[sface].mark != 0; };
   const auto told = [](LabelId mark) { return static_cast<LabelId>((mark & kInSum) != 0 ? 1 : 0); };
+  const auto ask_towards = [&](const Direction& direction, LabelId& mark, LabelId& twin) {
+    ask(pyramids_.point_towards(point, direction), mark, twin);
+  };
   for (std::uint32_t e = 0; e < view.shalfedges.size(); e += 2) {
     const SHalfedge& half = view.shalfedges[e];
-    LabelId mark = told(half.mark);
-    if (inside(half.sface) && inside(view.shalfedges[e + 1].sface)) {
-      mark = !is_behind_and_before(half) || is_in_sum(point, direction_on_arc(facets_.planes, view, e)) ? 1 : 0;
-    }
-    map.shalfedges[e].mark = map.shalfedges[e + 1].mark = mark;
+    const bool enclosed = inside(half.sface) && inside(view.shalfedges[e + 1].sface);
+    LabelId& mark = map.shalfedges[e].mark;
+    LabelId& twin = map.shalfedges[e + 1].mark;
+    mark = twin = enclosed ? 1 : told(half.mark);
+    if (enclosed && is_behind_and_before(half)) ask_towards(direction_on_arc(facets_.planes, view, e), mark, twin);
   }
   for (std::uint32_t l = 0; l < view.sloops.size(); l += 2) {
     const SLoop& half = view.sloops[l];
-    LabelId mark = told(half.mark);
-    if (inside(half.sface) && inside(view.sloops[l + 1].sface)) {
-      mark = !is_behind_and_before(half) || is_in_sum(point, direction_on_circle(facets_.planes, half.plane)) ? 1 : 0;
+    const bool enclosed = inside(half.sface) && inside(view.sloops[l + 1].sface);
+    LabelId& mark = map.sloops[l].mark;
+    LabelId& twin = map.sloops[l + 1].mark;
+    mark = twin = enclosed ? 1 : told(half.mark);
+    if (enclosed && is_behind_and_before(half)) {
+      ask_towards(direction_on_circle(facets_.planes, half.plane), mark, twin);
     }
-    map.sloops[l].mark = map.sloops[l + 1].mark = mark;
   }
   for (std::uint32_t s = 0; s < view.svertices.size(); ++s) {
     const std::vector<std::uint32_t> arcs = around(view, s);
-    LabelId mark = told(view.svertices[s].mark);
-    if (std::all_of(arcs.begin(), arcs.end(), [&](std::uint32_t e) { return inside(view.shalfedges[e].sface); })) {
-      mark =
-          !edge_may_be_passage(view, arcs) || is_in_sum(point, direction_of(facets_.planes, view.svertices[s])) ? 1 : 0;
+    const bool enclosed =
+        std::all_of(arcs.begin(), arcs.end(), [&](std::uint32_t e) { return inside(view.shalfedges[e].sface); });
+    LabelId& mark = map.svertices[s].mark;
+    mark = enclosed ? 1 : told(view.svertices[s].mark);
+    if (enclosed && edge_may_be_passage(view, arcs)) {
+      ask_towards(direction_of(facets_.planes, view.svertices[s]), mark, mark);
     }
-    map.svertices[s].mark = mark;
   }
-  map.mark = told(view.mark);
   const bool enclosed = std::all_of(view.sfaces.begin(), view.sfaces.end(), [](const SFace& f) { return f.mark != 0; });
-  if (!enclosed) return;
-  map.mark = 1;
-  if (!is_saddle_point && !centre_may_be_passage(view)) return;
-  ++tested_;
-  map.mark = membership_.in_sum(facets_.points.rational(point)) ? 1 : 0;
+  map.mark = enclosed ? 1 : told(view.mark);
+  if (enclosed && (is_saddle_point || centre_may_be_passage(view))) {
+    ask(facets_.points.rational(point), map.mark, map.mark);
+  }
+}
+
+void BoundaryMarker::answer(const SumMembership& membership, unsigned threads,
+                            const std::function<void(double)>& poll) {
+  constexpr std::size_t kBlock = 256;
+  for (std::size_t first = 0; first < questions_.size(); first += kBlock) {
+    poll(static_cast<double>(first) / static_cast<double>(questions_.size()));
+    parallel_for(std::min(kBlock, questions_.size() - first), threads, [&](std::size_t k) {
+      const Question& q = questions_[first + k];
+      *q.mark = *q.twin = membership.in_sum(q.point) ? 1 : 0;
+    });
+  }
 }
 
 }  // namespace nef::minkowski

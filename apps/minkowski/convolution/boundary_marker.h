@@ -3,7 +3,10 @@
 // Sums that lack parts of their boundary: which items around a point belong to them.
 #pragma once
 
-#include "apps/minkowski/convolution/facet_pyramids.h"
+#include <functional>
+#include <vector>
+
+#include "apps/minkowski/convolution/pyramid_drawer.h"
 #include "apps/minkowski/convolution/sum_membership.h"
 
 namespace nef::minkowski {
@@ -27,27 +30,36 @@ namespace nef::minkowski {
 /// D without an inside: see interlock.h.
 class BoundaryMarker {
  public:
-  /// All must outlive the object.
-  BoundaryMarker(FacetPyramids& pyramids, const ConvolutionFacets& facets, SumMembership& membership)
-      : pyramids_(pyramids), facets_(facets), membership_(membership) {}
+  /// Both must outlive the object.
+  BoundaryMarker(FacetPyramids& pyramids, const ConvolutionFacets& facets) : pyramids_(pyramids), facets_(facets) {}
 
   /// False if no item around a point can be a passage, going by the drawing around it alone.
   static bool may_have_passages(const SphereMapView& map);
 
   /// Gives all items but the regions, which are marked 0 or 1 already, their final marks instead of those of the
-  /// drawing.
+  /// drawing. Items of which only the definition can tell are put off until answer(); their maps must stay where they
+  /// are.
   void mark(PointId point, bool is_saddle_point, SphereMapBuffer& map);
 
+  /// Puts what is open to the definition, on up to `threads` threads. `poll` is called by the calling thread with the
+  /// share that is done and may throw.
+  void answer(const SumMembership& membership, unsigned threads, const std::function<void(double)>& poll);
+
   /// Points that were put to the definition.
-  [[nodiscard]] std::size_t tested() const { return tested_; }
+  [[nodiscard]] std::size_t tested() const { return questions_.size(); }
 
  private:
-  [[nodiscard]] bool is_in_sum(PointId point, const Direction& towards);
+  // Whether a point belongs to the sum, and what is marked so.
+  struct Question {
+    Rational3 point;
+    LabelId* mark = nullptr;
+    LabelId* twin = nullptr;  // of halves; else the same
+  };
+  void ask(const Rational3& point, LabelId& mark, LabelId& twin) { questions_.push_back({point, &mark, &twin}); }
 
   FacetPyramids& pyramids_;
   const ConvolutionFacets& facets_;
-  SumMembership& membership_;
-  std::size_t tested_ = 0;
+  std::vector<Question> questions_;
 };
 
 }  // namespace nef::minkowski

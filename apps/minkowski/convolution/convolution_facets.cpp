@@ -6,6 +6,7 @@
 #include "apps/minkowski/cells/exact_cells.h"
 #include "apps/minkowski/convolution/polygon_sum.h"
 #include "nef/base/interruption.h"
+#include "nef/base/parallel.h"
 #include "nef/mesh/edge_order.h"
 
 namespace nef::minkowski {
@@ -24,7 +25,7 @@ BoundaryMarks marks_of_sum(BoundaryMarks a, BoundaryMarks b) {
 
 class Convolution {
  public:
-  Convolution(const SolidFeatures& a, const SolidFeatures& b) : a_(a), b_(b) {
+  Convolution(const SolidFeatures& a, const SolidFeatures& b, unsigned threads) : a_(a), b_(b), threads_(threads) {
     result_.marks = marks_of_sum(a.marks(), b.marks());
   }
 
@@ -43,16 +44,35 @@ class Convolution {
  private:
   [[nodiscard]] bool mixed() const { return result_.marks == BoundaryMarks::kMixed; }
 
+  // What of the other solid a facet touches.
+  struct Touched {
+    std::vector<std::uint32_t> peaks, edges;
+  };
+
+  static Touched touched_by(const SolidFacet& facet, const SolidFeatures& theirs) {
+    Touched result;
+    for (std::uint32_t v = 0; v < theirs.points().size(); ++v) {
+      if (theirs.is_peak(v, facet.normal)) result.peaks.push_back(v);
+    }
+    for (std::uint32_t e = 0; e < theirs.edges().size(); ++e) {
+      const ConvexEdge& edge = theirs.edges()[e];
+      if (sign_of_dot(edge.line, facet.normal) == 0 && edge.touches(facet.normal)) result.edges.push_back(e);
+    }
+    return result;
+  }
+
   // Facets of one solid with edges and vertices of the other one.
   void touch_facets(const SolidFeatures& ours, const SolidFeatures& theirs, bool swapped) {
-    for (const SolidFacet& facet : ours.facets()) {
+    std::vector<Touched> touched(ours.facets().size());
+    parallel_for(touched.size(), threads_, [&](std::size_t f) { touched[f] = touched_by(ours.facets()[f], theirs); });
+    for (std::size_t f = 0; f < touched.size(); ++f) {
       check_interruption();
-      for (std::uint32_t v = 0; v < theirs.points().size(); ++v) {
-        if (!theirs.is_peak(v, facet.normal)) continue;
+      const SolidFacet& facet = ours.facets()[f];
+      for (const std::uint32_t v : touched[f].peaks) {
         for (const FacetPiece& piece : facet.pieces) add_moved(ours, piece, theirs, v, swapped, facet.normal);
       }
-      for (const ConvexEdge& edge : theirs.edges()) {
-        if (sign_of_dot(edge.line, facet.normal) != 0 || !edge.touches(facet.normal)) continue;
+      for (const std::uint32_t e : touched[f].edges) {
+        const ConvexEdge& edge = theirs.edges()[e];
         const FacetPiece segment{{edge.from, edge.to}, {edge.mark, edge.mark}, edge.mark};
         for (const FacetPiece& piece : facet.pieces) add_sum(ours, piece, theirs, segment, swapped, facet.normal);
       }
@@ -69,17 +89,30 @@ class Convolution {
   // other's circle, and cross where the circles do on the same side of the sphere. Walking along arc A, which runs
   // counterclockwise about edge a, one comes to the side `to` of b's circle at y with sign(y . (b x a)) = to.
   void cross_edges() {
-    for (const ConvexEdge& a : a_.edges()) {
-      check_interruption();
-      for (const ConvexEdge& b : b_.edges()) {
+    struct Crossing {
+      std::uint32_t b = 0;
+      int side = 0;
+    };
+    std::vector<std::vector<Crossing>> crossings(a_.edges().size());
+    parallel_for(crossings.size(), threads_, [&](std::size_t i) {
+      const ConvexEdge& a = a_.edges()[i];
+      for (std::uint32_t j = 0; j < b_.edges().size(); ++j) {
+        const ConvexEdge& b = b_.edges()[j];
         const int of_a = sign_of_dot(b.line, a.last);
         if (of_a == 0 || sign_of_dot(b.line, a.first) != -of_a) continue;
         const int of_b = sign_of_dot(a.line, b.last);
-        if (of_b != -of_a || sign_of_dot(a.line, b.first) != of_a) continue;
+        if (of_b == -of_a && sign_of_dot(a.line, b.first) == of_a) crossings[i].push_back({j, of_a});
+      }
+    });
+    for (std::size_t i = 0; i < crossings.size(); ++i) {
+      check_interruption();
+      const ConvexEdge& a = a_.edges()[i];
+      for (const Crossing& crossing : crossings[i]) {
+        const ConvexEdge& b = b_.edges()[crossing.b];
         Direction normal = Direction::cross(b.line, a.line);
-        if (of_a < 0) normal = normal.negated();
+        if (crossing.side < 0) normal = normal.negated();
         // About b x a the edges a, b turn clockwise.
-        add_parallelogram(a, b, of_a > 0, normal);
+        add_parallelogram(a, b, crossing.side > 0, normal);
       }
     }
   }
@@ -181,14 +214,15 @@ class Convolution {
 
   const SolidFeatures& a_;
   const SolidFeatures& b_;
+  unsigned threads_;
   ConvolutionFacets result_;
   std::unordered_map<std::uint64_t, std::uint32_t> number_;
 };
 
 }  // namespace
 
-ConvolutionFacets reduced_convolution(const SolidFeatures& a, const SolidFeatures& b) {
-  return Convolution(a, b).run();
+ConvolutionFacets reduced_convolution(const SolidFeatures& a, const SolidFeatures& b, unsigned threads) {
+  return Convolution(a, b, threads).run();
 }
 
 }  // namespace nef::minkowski

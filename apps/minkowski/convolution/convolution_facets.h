@@ -48,7 +48,7 @@ struct ConvolutionFacets {
 /// area and whose local cones K_a and -K_b have no inside in common. So either one of them is a facet and the other
 /// cone is on one side of its plane (it touches that plane in a point, an edge or a facet), or both are edges, and K_a
 /// + K_b, which does not change along either, is a half-space. O(n m) signs for n and m features, most of which are
-/// doubles.
-ConvolutionFacets reduced_convolution(const SolidFeatures& a, const SolidFeatures& b);
+/// doubles, on up to `threads` threads (0: as many as the machine has).
+ConvolutionFacets reduced_convolution(const SolidFeatures& a, const SolidFeatures& b, unsigned threads);
 
 }  // namespace nef::minkowski

@@ -7,6 +7,7 @@
 
 #include "apps/minkowski/convolution/direction_into.h"
 #include "nef/base/error.h"
+#include "nef/base/parallel.h"
 #include "nef/sphere_map/sphere_geometry.h"
 #include "nef/synthesis/complex_builder.h"
 
@@ -42,13 +43,15 @@ std::size_t main_axis(const FacetSegment& s) {
 }  // namespace
 
 ConvolutionRegions::ConvolutionRegions(ConvolutionFacets& facets, const RoundedFacets& rounded,
-                                       const SurvivingIntervals& intervals, SumMembership& membership)
+                                       const SurvivingIntervals& intervals, const SumMembership& membership,
+                                       unsigned threads)
     : facets_(facets),
       intervals_(intervals),
       tree_(rounded.boxes()),
       pyramids_(facets, rounded, tree_),
       membership_(membership),
-      marker_(pyramids_, facets, membership),
+      threads_(threads),
+      marker_(pyramids_, facets),
       is_closed_(facets.marks == BoundaryMarks::kAll),
       meetings_(facets.planes, facets.points) {}
 
@@ -70,10 +73,28 @@ void ConvolutionRegions::add_point(PointId point) {
   std::sort(known.facets.begin(), known.facets.end());
   // Where marks are mixed, a corner in the middle of another facet may be a vertex.
   if (facets.size() < (facets_.marks == BoundaryMarks::kMixed ? 1 : 3)) return;
-  SphereMapBuffer map = pyramids_.draw(facets, point);
-  if (!is_of_use(point, map)) return;
-  known.vertex = static_cast<std::uint32_t>(vertices_.size());
-  vertices_.push_back({point, std::move(map), 0, false});
+  undrawn_.push_back({point, facets});
+  constexpr std::size_t kManyPoints = 4096;
+  if (undrawn_.size() >= kManyPoints) draw_points();
+}
+
+// What is put off so that several threads have something to do.
+void ConvolutionRegions::draw_points() {
+  constexpr std::size_t kChunk = 64;
+  std::vector<std::optional<SphereMapBuffer>> maps(undrawn_.size());
+  parallel_for((undrawn_.size() + kChunk - 1) / kChunk, threads_, [&](std::size_t chunk) {
+    PyramidDrawer drawer(facets_, pyramids_);
+    for (std::size_t i = chunk * kChunk; i < std::min(undrawn_.size(), (chunk + 1) * kChunk); ++i) {
+      SphereMapBuffer map = drawer.draw(undrawn_[i].facets, undrawn_[i].point);
+      if (is_of_use(undrawn_[i].point, map)) maps[i] = std::move(map);
+    }
+  });
+  for (std::size_t i = 0; i < undrawn_.size(); ++i) {
+    if (!maps[i]) continue;
+    known_.at(undrawn_[i].point.index()).vertex = static_cast<std::uint32_t>(vertices_.size());
+    vertices_.push_back({undrawn_[i].point, *std::move(maps[i]), 0, false});
+  }
+  undrawn_.clear();
 }
 
 // True if the sum may have a vertex at a point. Marks regions that are inside.
@@ -89,12 +110,10 @@ void ConvolutionRegions::add_saddle_point(const SaddlePoint& saddle) {
   const PointId point = meetings_.first_equal(facets_.points.push(saddle.point));
   near_.clear();
   add_point(point);
+  draw_points();
   KnownPoint& known = known_.at(point.index());
   if (known.vertex == kNone) {
-    const std::vector<FacetAtPoint>& facets = pyramids_.facets_at(point);
-    SphereMapBuffer map;
-    map.assign_trivial(0);
-    if (!facets.empty()) map = pyramids_.draw(facets, point);
+    SphereMapBuffer map = PyramidDrawer(facets_, pyramids_).draw(pyramids_.facets_at(point), point);
     mark_inside(map);
     known.vertex = static_cast<std::uint32_t>(vertices_.size());
     vertices_.push_back({point, std::move(map), 0, true});
@@ -225,9 +244,7 @@ void ConvolutionRegions::add_interval(const SurvivingInterval& interval) {
   add_points_of(s, intervals_.cuts[interval.to]);
   const std::uint32_t to = nearest(s, intervals_.cuts[interval.to], false);
   if (from == kNone || to == kNone || from == to || reach_of(s) < 100 * s.error) return;
-  const std::uint32_t v = known_.at(from).vertex;
-  const std::uint32_t w = known_.at(to).vertex;
-  if (v != kNone && w != kNone) joints_.push_back({interval.segment, v, w});
+  joints_.push_back({interval.segment, from, to});
 }
 
 std::uint32_t ConvolutionRegions::svertex_along(const Vertex& v, const FacetSegment& s, bool forward) const {
@@ -264,56 +281,74 @@ void ConvolutionRegions::join(const FacetSegment& s, const Vertex& from, const V
   } while (e != first);
 }
 
-// For each region around a vertex whether it is inside.
-std::vector<std::uint8_t> ConvolutionRegions::find_inside(const std::function<void(double)>& poll) {
-  enum : std::uint8_t { kOut, kIn, kUnknown };
-  std::vector<std::uint8_t> state(regions_.size(), kUnknown);
-  for (const Vertex& v : vertices_) {
-    for (std::uint32_t f = 0; f < v.map.sfaces.size(); ++f) {
-      if (v.map.sfaces[f].mark != 0) state[regions_.find(v.first_region + f)] = kIn;
-    }
-  }
-  for (const Vertex& v : vertices_) {
-    for (std::uint32_t f = 0; f < v.map.sfaces.size(); ++f) {
-      std::uint8_t& known = state[regions_.find(v.first_region + f)];
-      if (known != kUnknown) continue;
-      poll(1);
-      ++counts_.tested;
-      const Direction into =
-          v.map.view().trivial() ? Direction::exact(1, 0, 0) : direction_into(facets_.planes, v.map.view(), f);
-      known = membership_.in_closure(pyramids_.point_towards(v.point, into)) ? kIn : kOut;
-    }
-  }
-  for (std::uint32_t r = 0; r < state.size(); ++r) state[r] = state[regions_.find(r)];
-  return state;
-}
-
-std::variant<Complex, Defect> ConvolutionRegions::run(std::span<const SaddlePoint> saddles,
-                                                      const std::function<void(double)>& poll) {
-  for (std::size_t i = 0; i < intervals_.intervals.size(); ++i) {
-    if (i % 64 == 0) poll(static_cast<double>(i) / static_cast<double>(intervals_.intervals.size()));
-    add_interval(intervals_.intervals[i]);
-  }
-  for (const SaddlePoint& saddle : saddles) add_saddle_point(saddle);
-  if (!is_closed_) add_passages();
+void ConvolutionRegions::join_regions() {
   std::uint32_t regions = 0;
   for (Vertex& v : vertices_) {
     v.first_region = regions;
     regions += static_cast<std::uint32_t>(v.map.sfaces.size());
   }
   regions_.reset(regions);
-  for (const Joint& j : joints_) join(intervals_.segments[j.segment], vertices_[j.from], vertices_[j.to]);
-  const std::vector<std::uint8_t> inside = find_inside(poll);
-  ComplexBuilder builder(facets_.planes);
-  Arrangement drawing;
-  for (Vertex& v : vertices_) {
-    bool all = true;
+  for (const Joint& j : joints_) {
+    const std::uint32_t from = known_.at(j.from).vertex;
+    const std::uint32_t to = known_.at(j.to).vertex;
+    if (from != kNone && to != kNone) join(intervals_.segments[j.segment], vertices_[from], vertices_[to]);
+  }
+}
+
+// For each region around a vertex whether it is inside.
+std::vector<std::uint8_t> ConvolutionRegions::find_inside(const std::function<void(double)>& poll) {
+  enum : std::uint8_t { kOut, kIn, kUnknown, kAsked };
+  std::vector<std::uint8_t> state(regions_.size(), kUnknown);
+  for (const Vertex& v : vertices_) {
     for (std::uint32_t f = 0; f < v.map.sfaces.size(); ++f) {
-      v.map.sfaces[f].mark = inside[v.first_region + f];
-      all = all && v.map.sfaces[f].mark != 0;
+      if (v.map.sfaces[f].mark != 0) state[regions_.find(v.first_region + f)] = kIn;
     }
+  }
+  struct Question {
+    std::uint32_t region = 0;
+    Rational3 point;
+  };
+  std::vector<Question> questions;
+  for (const Vertex& v : vertices_) {
+    for (std::uint32_t f = 0; f < v.map.sfaces.size(); ++f) {
+      const std::uint32_t region = regions_.find(v.first_region + f);
+      if (state[region] != kUnknown) continue;
+      state[region] = kAsked;
+      const Direction into =
+          v.map.view().trivial() ? Direction::exact(1, 0, 0) : direction_into(facets_.planes, v.map.view(), f);
+      questions.push_back({region, pyramids_.point_towards(v.point, into)});
+    }
+  }
+  constexpr std::size_t kBlock = 64;
+  for (std::size_t first = 0; first < questions.size(); first += kBlock) {
+    poll(static_cast<double>(first) / static_cast<double>(questions.size()));
+    parallel_for(std::min(kBlock, questions.size() - first), threads_, [&](std::size_t k) {
+      const Question& q = questions[first + k];
+      state[q.region] = membership_.in_closure(q.point) ? kIn : kOut;
+    });
+  }
+  counts_.tested += questions.size();
+  for (std::uint32_t r = 0; r < state.size(); ++r) state[r] = state[regions_.find(r)];
+  return state;
+}
+
+void ConvolutionRegions::add_points(std::span<const SaddlePoint> saddles, const std::function<void(double)>& poll) {
+  for (std::size_t i = 0; i < intervals_.intervals.size(); ++i) {
+    if (i % 64 == 0) poll(static_cast<double>(i) / static_cast<double>(intervals_.intervals.size()));
+    add_interval(intervals_.intervals[i]);
+  }
+  draw_points();
+  for (const SaddlePoint& saddle : saddles) add_saddle_point(saddle);
+  if (!is_closed_) add_passages();
+  draw_points();
+}
+
+// All items around all vertices.
+void ConvolutionRegions::mark_boundary(const std::vector<std::uint8_t>& inside,
+                                       const std::function<void(double)>& poll) {
+  for (Vertex& v : vertices_) {
+    for (std::uint32_t f = 0; f < v.map.sfaces.size(); ++f) v.map.sfaces[f].mark = inside[v.first_region + f];
     if (is_closed_) {
-      if (all) continue;
       for (SHalfedge& e : v.map.shalfedges) e.mark = 1;
       for (SLoop& l : v.map.sloops) l.mark = 1;
       for (SVertex& s : v.map.svertices) s.mark = 1;
@@ -321,11 +356,29 @@ std::variant<Complex, Defect> ConvolutionRegions::run(std::span<const SaddlePoin
     } else {
       marker_.mark(v.point, v.is_saddle_point, v.map);
     }
+  }
+  marker_.answer(membership_, threads_, poll);
+  counts_.tested += marker_.tested();
+}
+
+std::variant<Complex, Defect> ConvolutionRegions::run(std::span<const SaddlePoint> saddles,
+                                                      const std::function<void(double)>& poll) {
+  // Shares of the time are measured, for the bar only.
+  add_points(saddles, [&poll](double share) { poll(0.4 * share); });
+  join_regions();
+  const std::vector<std::uint8_t> inside = find_inside([&poll](double share) { poll(0.4 + 0.4 * share); });
+  mark_boundary(inside, [&poll](double share) { poll(0.8 + 0.15 * share); });
+  ComplexBuilder builder(facets_.planes);
+  Arrangement drawing;
+  for (const Vertex& v : vertices_) {
+    const auto is_inside = [](const SFace& f) { return f.mark != 0; };
+    if (is_closed_ && std::all_of(v.map.sfaces.begin(), v.map.sfaces.end(), is_inside)) continue;
     drawing.load(facets_.planes, v.map.view());
     builder.add(facets_.points, v.point, drawing);
   }
-  counts_.tested += marker_.tested();
-  return builder.try_finish(0);
+  std::variant<Complex, Defect> sum = builder.try_finish(0);
+  poll(1);
+  return sum;
 }
 
 }  // namespace nef::minkowski

@@ -12,8 +12,8 @@
 
 #include "apps/minkowski/cells/meeting_points.h"
 #include "apps/minkowski/convolution/boundary_marker.h"
-#include "apps/minkowski/convolution/facet_pyramids.h"
 #include "apps/minkowski/convolution/interlock.h"
+#include "apps/minkowski/convolution/pyramid_drawer.h"
 #include "apps/minkowski/convolution/sum_membership.h"
 #include "apps/minkowski/convolution/surviving_intervals.h"
 #include "nef/base/defect.h"
@@ -36,10 +36,10 @@ class ConvolutionRegions {
  public:
   /// All must outlive the object; the facets' tables get more planes and points.
   ConvolutionRegions(ConvolutionFacets& facets, const RoundedFacets& rounded, const SurvivingIntervals& intervals,
-                     SumMembership& membership);
+                     const SumMembership& membership, unsigned threads);
 
   /// The sum; or a defect, which would be a bug. To be called once, with the saddle points of a sum that need not be
-  /// closed. `poll` may throw.
+  /// closed. `poll` is called with the share that is done and may throw.
   std::variant<Complex, Defect> run(std::span<const SaddlePoint> saddles, const std::function<void(double)>& poll);
 
   [[nodiscard]] const ConvolutionCounts& counts() const { return counts_; }
@@ -59,6 +59,7 @@ class ConvolutionRegions {
   void add_meeting(std::uint32_t f, std::uint32_t g, std::uint32_t h);
   void add_corner(std::uint32_t corner);
   void add_point(PointId point);
+  void draw_points();
   [[nodiscard]] std::uint32_t nearest(const FacetSegment& s, const SegmentCut& cut, bool last) const;
   void join(const FacetSegment& s, const Vertex& from, const Vertex& to);
   [[nodiscard]] std::uint32_t svertex_along(const Vertex& v, const FacetSegment& s, bool forward) const;
@@ -67,13 +68,17 @@ class ConvolutionRegions {
   void add_changes_of_marks();
   void add_crossings(std::uint32_t f, std::uint32_t g);
   [[nodiscard]] bool is_of_use(PointId point, SphereMapBuffer& map) const;
+  void add_points(std::span<const SaddlePoint> saddles, const std::function<void(double)>& poll);
+  void join_regions();
   [[nodiscard]] std::vector<std::uint8_t> find_inside(const std::function<void(double)>& poll);
+  void mark_boundary(const std::vector<std::uint8_t>& inside, const std::function<void(double)>& poll);
 
   ConvolutionFacets& facets_;
   const SurvivingIntervals& intervals_;
   BoxTree tree_;
   FacetPyramids pyramids_;
-  SumMembership& membership_;
+  const SumMembership& membership_;
+  unsigned threads_;
   BoundaryMarker marker_;
   bool is_closed_;
   bool among_passages_ = false;  // the points at hand are not ends of surviving intervals
@@ -84,9 +89,14 @@ class ConvolutionRegions {
     std::vector<std::uint32_t> facets;  // that hold it, in ascending order
   };
   std::unordered_map<std::uint32_t, KnownPoint> known_;  // point -> what is there
-  std::vector<std::uint32_t> near_;                      // points at the cut at hand
+  struct Undrawn {
+    PointId point{0};
+    std::vector<FacetAtPoint> facets;
+  };
+  std::vector<Undrawn> undrawn_;     // points, known already, that may be vertices
+  std::vector<std::uint32_t> near_;  // points at the cut at hand
   struct Joint {
-    std::uint32_t segment = 0, from = 0, to = 0;  // vertices
+    std::uint32_t segment = 0, from = 0, to = 0;  // points
   };
   std::vector<Joint> joints_;
   UnionFind regions_{0};

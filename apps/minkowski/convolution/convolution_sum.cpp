@@ -2,6 +2,7 @@
 #include "apps/minkowski/convolution/convolution_sum.h"
 
 #include <algorithm>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -47,11 +48,22 @@ std::size_t coplanar_pairs(const ConvolutionFacets& facets) {
 constexpr std::size_t kCoplanarPairs = 8;
 constexpr std::size_t kCoplanarPairsOfCells = 16;
 
-// True if so many facets lie in one plane upon each other that cells are likely to be faster.
-bool are_stacked(const ConvolutionFacets& facets, const Polyhedron& a, const Polyhedron& b) {
+std::string plural(std::size_t count, const std::string& what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
+// Whether so many facets lie in one plane upon each other that cells are likely to be faster.
+struct Stacking {
+  bool is_high = false;
+  std::string why;
+};
+
+Stacking stacking(const ConvolutionFacets& facets, const Polyhedron& a, const Polyhedron& b) {
   const std::size_t pairs = coplanar_pairs(facets);
-  if (pairs <= kCoplanarPairs * facets.size()) return false;
-  return pairs > kCoplanarPairsOfCells * estimated_cells(a.complex()) * estimated_cells(b.complex());
+  std::string why = plural(pairs, "pair") + " of " + plural(facets.size(), "convolution facet") + " in one plane";
+  if (pairs <= kCoplanarPairs * facets.size()) return {false, std::move(why)};
+  const std::size_t cells = estimated_cells(a.complex()) * estimated_cells(b.complex());
+  return {pairs > kCoplanarPairsOfCells * cells, why + ", about " + plural(cells, "pair") + " of cells"};
 }
 
 // So many sums of pieces of two parallel facets tell that before anything is summed.
@@ -70,34 +82,56 @@ bool are_caps(const SolidFeatures& a, const SolidFeatures& b) {
 
 std::optional<Polyhedron> convolution_sum(const Polyhedron& set_a, const Polyhedron& set_b,
                                           const ConvolutionOptions& options, ConvolutionReport& report) {
-  if (options.only_if_fast && is_convex(set_a) && is_convex(set_b)) return std::nullopt;
+  const auto decline = [&report](std::string why) {
+    report.why = std::move(why);
+    return std::nullopt;
+  };
+  if (options.only_if_fast && is_convex(set_a) && is_convex(set_b)) return decline("both operands are convex");
   const Polyhedron a = filled(set_a);
   const Polyhedron b = filled(set_b);
   const SolidFeatures of_a(a);
   const SolidFeatures of_b(b);
-  if (options.only_if_fast && are_caps(of_a, of_b)) return std::nullopt;
-  ConvolutionFacets facets = reduced_convolution(of_a, of_b);
-  if (!facets.marks_are_told) return std::nullopt;
-  if (options.only_if_fast && are_stacked(facets, a, b)) return std::nullopt;
-  SumMembership membership(a, b);
+  if (options.only_if_fast && are_caps(of_a, of_b)) return decline("parallel facets of many pieces");
+  ConvolutionFacets facets = reduced_convolution(of_a, of_b, options.threads);
+  if (!facets.marks_are_told) return decline("a facet that is not in its set has a border that is");
+  Stacking stacked;
+  if (options.only_if_fast) {
+    stacked = stacking(facets, a, b);
+    if (stacked.is_high) return decline(std::move(stacked.why));
+  }
+  const SumMembership membership(a, b);
   const bool is_closed = facets.marks == BoundaryMarks::kAll;
   std::vector<SaddlePoint> saddles;
-  if (!is_closed && !(of_a.has_plain_facets() && of_b.has_plain_facets())) return std::nullopt;
+  if (!is_closed && !(of_a.has_plain_facets() && of_b.has_plain_facets())) {
+    return decline("a single point in a facet is marked unlike it");
+  }
   if (!is_closed && !is_convex(closure(a)) && !is_convex(closure(b))) {
-    if (!of_a.has_simple_edges() || !of_b.has_simple_edges()) return std::nullopt;
+    if (!of_a.has_simple_edges() || !of_b.has_simple_edges()) {
+      return decline("an edge has several wedges, neither operand is convex, and one is not closed");
+    }
     saddles = saddle_points(a, b, membership);
   }
   const auto poll = [&options](double share) {
     if (options.poll) options.poll(share);
   };
+  // Shares of the time are measured, for the bar only.
+  constexpr double kOfIntervals = 0.2;
   const RoundedFacets rounded(facets);
-  const SurvivingIntervals intervals =
-      surviving_intervals(facets, rounded, !is_closed, [&poll](double share) { poll(share / 2); });
-  ConvolutionRegions regions(facets, rounded, intervals, membership);
-  std::variant<Complex, Defect> sum = regions.run(saddles, [&poll](double share) { poll((1 + share) / 2); });
+  IntervalOptions how;
+  how.passages = !is_closed;
+  how.threads = options.threads;
+  how.poll = [&poll](double share) { poll(kOfIntervals * share); };
+  const SurvivingIntervals intervals = surviving_intervals(facets, rounded, how);
+  ConvolutionRegions regions(facets, rounded, intervals, membership, options.threads);
+  std::variant<Complex, Defect> sum =
+      regions.run(saddles, [&poll](double share) { poll(kOfIntervals + (1 - kOfIntervals) * share); });
   // Synthesis checks what it is given; should it refuse, the cells are there, and the tests see that they were needed.
-  if (std::holds_alternative<Defect>(sum)) return std::nullopt;
-  report = {facets.size(), intervals.segments.size(), intervals.intervals.size(), regions.counts().points,
+  if (std::holds_alternative<Defect>(sum)) return decline("the convolution had a defect: please report it");
+  report = {stacked.why,
+            facets.size(),
+            intervals.segments.size(),
+            intervals.intervals.size(),
+            regions.counts().points,
             regions.counts().tested};
   return Polyhedron(std::get<Complex>(std::move(sum)));
 }

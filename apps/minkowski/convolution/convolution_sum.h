@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <string>
 
 #include "nef/polyhedron.h"
 
@@ -13,6 +14,7 @@ namespace nef::minkowski {
 
 /// How much there was to do.
 struct ConvolutionReport {
+  std::string why;            ///< the sum was made so, or was not, in words
   std::size_t facets = 0;     ///< of the reduced convolution
   std::size_t segments = 0;   ///< pairs of facets that meet in one
   std::size_t intervals = 0;  ///< parts of segments at which the boundary may be
@@ -27,6 +29,7 @@ struct ConvolutionOptions {
   /// Sets of which cells are likely to be faster are left alone: where both are convex, and where very many facets of
   /// the convolution lie in one plane upon each other, as the caps of extrusions do.
   bool only_if_fast = false;
+  unsigned threads = 1;              ///< 0: as many as the machine has; the result does not depend on it
   std::function<void(double)> poll;  ///< called with the share that is done, 0 to 1; may throw
 };
 

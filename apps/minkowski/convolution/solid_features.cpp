@@ -2,6 +2,7 @@
 #include "apps/minkowski/convolution/solid_features.h"
 
 #include <algorithm>
+#include <tuple>
 
 #include "apps/minkowski/convolution/convex_pieces.h"
 #include "nef/mesh/edge_order.h"
@@ -24,6 +25,16 @@ SolidFeatures::SolidFeatures(const Polyhedron& solid) : c_(solid.complex()) {
     for (std::uint32_t h = first; h < c_.vertices[v + 1].svertices; ++h) {
       if (h < c_.twin[h]) add_edge(v, h - first);
     }
+  }
+  know_integers();
+}
+
+// Directions find their integers when they are first asked, which several threads must not do at once.
+void SolidFeatures::know_integers() const {
+  for (const Direction& d : directions_) std::ignore = d.integers();
+  for (const SolidFacet& f : facets_) std::ignore = f.normal.integers();
+  for (const ConvexEdge& e : edges_) {
+    for (const Direction* d : {&e.line, &e.first, &e.last}) std::ignore = d->integers();
   }
 }
 

@@ -42,7 +42,7 @@ struct ConvexEdge {
 enum class BoundaryMarks : std::uint8_t { kAll, kNone, kMixed };
 
 /// Facets, convex edges and vertices of a bounded set all of whose facets have the inside of the set on one side and
-/// nothing of it on the other.
+/// nothing of it on the other. May be shared between threads.
 class SolidFeatures {
  public:
   /// The solid must outlive the object. O(n), and for facets that are not convex what a triangulation takes.
@@ -67,6 +67,7 @@ class SolidFeatures {
   void add_facets();
   void mark_sides(FacetPiece& piece) const;
   void add_edge(std::uint32_t vertex, std::uint32_t svertex);
+  void know_integers() const;
 
   const Complex& c_;
   std::vector<Rational3> points_;

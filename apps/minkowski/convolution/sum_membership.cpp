@@ -35,19 +35,21 @@ bool SumMembership::surely_in_inside(const Rational3& x) const {
   return reach(a_, b_, x) == 2 || reach(b_, a_, x) == 2;
 }
 
-bool SumMembership::in_sum(const Rational3& x) {
+bool SumMembership::in_sum(const Rational3& x) const {
   return reach(a_, b_, x) > 0 || reach(b_, a_, x) > 0 || meet(sets_, x);
 }
 
-bool SumMembership::in_closure(const Rational3& x) {
+bool SumMembership::in_closure(const Rational3& x) const {
   if (reach(a_, b_, x) > 0 || reach(b_, a_, x) > 0) return true;
-  if (!closures_) closures_ = Operands{closure(a_), closure(sets_.turned_b)};
+  std::call_once(closures_once_, [this] { closures_ = Operands{closure(a_), closure(sets_.turned_b)}; });
   return meet(*closures_, x);
 }
 
-bool SumMembership::in_inside(const Rational3& x) {
+bool SumMembership::in_inside(const Rational3& x) const {
   if (surely_in_inside(x)) return true;
-  if (!insides_) insides_ = Operands{interior(regularize(a_)), interior(regularize(sets_.turned_b))};
+  std::call_once(insides_once_, [this] {
+    insides_ = Operands{interior(regularize(a_)), interior(regularize(sets_.turned_b))};
+  });
   return meet(*insides_, x);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <mutex>
 #include <optional>
 
 #include "nef/polyhedron.h"
@@ -15,11 +16,11 @@ class SumMembership {
   SumMembership(const Polyhedron& a, const Polyhedron& b);
 
   /// True for a point of the closure of the sum.
-  [[nodiscard]] bool in_closure(const Rational3& x);
+  [[nodiscard]] bool in_closure(const Rational3& x) const;
   /// True for a point of the sum.
-  [[nodiscard]] bool in_sum(const Rational3& x);
+  [[nodiscard]] bool in_sum(const Rational3& x) const;
   /// True for a point of the sum of the interiors of the closures; also where single points of the sets are missing.
-  [[nodiscard]] bool in_inside(const Rational3& x);
+  [[nodiscard]] bool in_inside(const Rational3& x) const;
   /// The same, if that is easily seen.
   [[nodiscard]] bool surely_in_inside(const Rational3& x) const;
 
@@ -32,7 +33,9 @@ class SumMembership {
   const Polyhedron& a_;
   const Polyhedron& b_;
   Operands sets_;
-  std::optional<Operands> closures_, insides_;  // made when they are needed
+  // Made when they are needed.
+  mutable std::once_flag closures_once_, insides_once_;
+  mutable std::optional<Operands> closures_, insides_;
 };
 
 }  // namespace nef::minkowski

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "nef/base/parallel.h"
 #include "nef/geometry/box_tree.h"
 #include "nef/mesh/edge_order.h"
 
@@ -28,54 +29,55 @@ struct Link {
   bool operator<(const Link& other) const { return at < other.at; }
 };
 
-class IntervalSearch {
+// Which facets a facet has a segment with.
+class MeetingFacets {
  public:
-  IntervalSearch(const ConvolutionFacets& facets, const RoundedFacets& rounded, bool passages)
-      : facets_(facets), rounded_(rounded), finder_(facets, rounded), passages_(passages) {}
-
-  SurvivingIntervals run(const std::function<void(double)>& poll) {
-    find_sides();
-    BoxTree(rounded_.boxes()).for_each_pair([&](std::uint32_t f, std::uint32_t g) {
-      if (std::optional<FacetSegment> s = finder_.find(f, g)) result_.segments.push_back(*s);
-    });
-    if (passages_) result_.touching = finder_.touching_corners();
-    collect_by_facet();
-    for (std::uint32_t i = 0; i < result_.segments.size(); ++i) {
-      if (i % 256 == 0) poll(static_cast<double>(i) / static_cast<double>(result_.segments.size()));
-      cut(i);
+  void collect(std::uint32_t facets, std::span<const FacetSegment> segments) {
+    first_.assign(facets + std::size_t{1}, 0);
+    for (const FacetSegment& s : segments) {
+      ++first_[s.f + 1];
+      ++first_[s.g + 1];
     }
-    peel();
-    return std::move(result_);
-  }
-
- private:
-  void find_sides() {
-    for (std::uint32_t f = 0; f < facets_.size(); ++f) {
-      for (std::uint32_t i = 0; i < facets_.ring(f).size(); ++i) {
-        result_.at_side[side_key(facets_, f, i)].push_back(f);
-      }
-    }
-  }
-
-  void collect_by_facet() {
-    first_of_.assign(facets_.size() + 1, 0);
-    for (const FacetSegment& s : result_.segments) {
-      ++first_of_[s.f + 1];
-      ++first_of_[s.g + 1];
-    }
-    for (std::size_t f = 1; f < first_of_.size(); ++f) first_of_[f] += first_of_[f - 1];
-    meeting_.resize(first_of_.back());
-    std::vector<std::uint32_t> at(first_of_.begin(), first_of_.end() - 1);
-    for (const FacetSegment& s : result_.segments) {
+    for (std::size_t f = 1; f < first_.size(); ++f) first_[f] += first_[f - 1];
+    meeting_.resize(first_.back());
+    std::vector<std::uint32_t> at(first_.begin(), first_.end() - 1);
+    for (const FacetSegment& s : segments) {
       meeting_[at[s.f]++] = s.g;
       meeting_[at[s.g]++] = s.f;
     }
   }
-
-  [[nodiscard]] std::span<const std::uint32_t> meeting(std::uint32_t f) const {
-    return std::span(meeting_).subspan(first_of_[f], first_of_[f + 1] - first_of_[f]);
+  [[nodiscard]] std::span<const std::uint32_t> operator()(std::uint32_t f) const {
+    return std::span(meeting_).subspan(first_[f], first_[f + 1] - first_[f]);
   }
 
+ private:
+  std::vector<std::uint32_t> first_, meeting_;
+};
+
+// What comes of cutting a run of segments; numbers of cuts and intervals, and places in `cutting`, count from its
+// start.
+struct CutSegments {
+  std::vector<SegmentCut> cuts;
+  std::vector<std::uint32_t> cutting;
+  std::vector<SurvivingInterval> intervals;
+  std::vector<std::array<std::uint32_t, 2>> doubtful;
+  std::vector<Link> links;
+};
+
+// Cuts segments. Not to be shared between threads.
+class SegmentCutter {
+ public:
+  // All must outlive the object; of `found` the segments and what is at sides.
+  SegmentCutter(const ConvolutionFacets& facets, const RoundedFacets& rounded, const SurvivingIntervals& found,
+                const MeetingFacets& meeting, bool passages)
+      : facets_(facets), rounded_(rounded), found_(found), meeting_(meeting), passages_(passages) {}
+
+  CutSegments run(std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) cut(static_cast<std::uint32_t>(i));
+    return std::move(result_);
+  }
+
+ private:
   [[nodiscard]] bool has_corner(std::uint32_t facet, std::uint32_t corner) const {
     const auto ring = facets_.ring(facet);
     return std::find(ring.begin(), ring.end(), corner) != ring.end();
@@ -85,7 +87,7 @@ class IntervalSearch {
   [[nodiscard]] bool ends_on(const SegmentEnd& end, std::uint32_t h) const {
     if (end.kind == SegmentEnd::Kind::kCorner) return has_corner(h, end.index);
     if (end.kind == SegmentEnd::Kind::kUnsure) return false;
-    const std::vector<std::uint32_t>& same = result_.at_side.at(side_key(facets_, end.facet, end.index));
+    const std::vector<std::uint32_t>& same = found_.at_side.at(side_key(facets_, end.facet, end.index));
     return std::find(same.begin(), same.end(), h) != same.end();
   }
 
@@ -152,13 +154,13 @@ class IntervalSearch {
       if (const std::optional<Event> e = event(s, h)) events_.push_back(*e);
     };
     // What meets the segment meets both facets; but facets in the plane of one have segments with the other one only.
-    const bool few_on_f = meeting(s.f).size() < meeting(s.g).size();
+    const bool few_on_f = meeting_(s.f).size() < meeting_(s.g).size();
     const std::uint32_t few = few_on_f ? s.f : s.g;
     const std::uint32_t many = few_on_f ? s.g : s.f;
-    for (const std::uint32_t h : meeting(few)) {
+    for (const std::uint32_t h : meeting_(few)) {
       if (h != many) look_at(h);
     }
-    for (const std::uint32_t h : meeting(many)) {
+    for (const std::uint32_t h : meeting_(many)) {
       if (h != few && facets_.plane[h].row() == facets_.plane[few].row()) look_at(h);
     }
     std::sort(events_.begin(), events_.end(), [](const Event& a, const Event& b) { return a.at.low < b.at.low; });
@@ -178,7 +180,7 @@ class IntervalSearch {
   };
 
   void cut(std::uint32_t segment) {
-    const FacetSegment& s = result_.segments[segment];
+    const FacetSegment& s = found_.segments[segment];
     if (!s.faces_a_region && !s.is_side_of_both && !passages_) return;
     find_events(s);
     find_cuts(s);
@@ -214,7 +216,7 @@ class IntervalSearch {
       for (Side* side : {&after, &before}) {
         if (!side->linked) continue;
         side->link.interval = interval;
-        links_.push_back(side->link);
+        result_.links.push_back(side->link);
       }
     }
   }
@@ -293,7 +295,7 @@ class IntervalSearch {
   void judge_end(const FacetSegment& s, Cut& cut, std::size_t side) const {
     const SegmentEnd& end = s.ends[cut.is_end[0] ? 0 : 1];
     if (end.kind != SegmentEnd::Kind::kSide) return;
-    const std::vector<std::uint32_t>& same = result_.at_side.at(side_key(facets_, end.facet, end.index));
+    const std::vector<std::uint32_t>& same = found_.at_side.at(side_key(facets_, end.facet, end.index));
     if (same.size() == 1) cut.side[side].gone = true;  // beyond the side one comes from the front to the back
     if (same.size() != 2) return;
     const std::uint32_t beyond = same[0] == end.facet ? same[1] : same[0];
@@ -306,6 +308,108 @@ class IntervalSearch {
     Triple t = {f, g, h};
     std::sort(t.begin(), t.end());
     return t;
+  }
+
+  const ConvolutionFacets& facets_;
+  const RoundedFacets& rounded_;
+  const SurvivingIntervals& found_;
+  const MeetingFacets& meeting_;
+  bool passages_;
+  CutSegments result_;
+  // Of the segment at hand.
+  std::vector<Event> events_;
+  std::vector<Cut> cuts_;
+};
+
+class IntervalSearch {
+ public:
+  IntervalSearch(const ConvolutionFacets& facets, const RoundedFacets& rounded, const IntervalOptions& options)
+      : facets_(facets), rounded_(rounded), options_(options) {}
+
+  SurvivingIntervals run() {
+    find_sides();
+    find_segments();
+    meeting_.collect(facets_.size(), result_.segments);
+    cut_segments();
+    peel();
+    return std::move(result_);
+  }
+
+ private:
+  void find_sides() {
+    for (std::uint32_t f = 0; f < facets_.size(); ++f) {
+      for (std::uint32_t i = 0; i < facets_.ring(f).size(); ++i) {
+        result_.at_side[side_key(facets_, f, i)].push_back(f);
+      }
+    }
+  }
+
+  // Blocks of pairs keep memory low and give several threads something to do.
+  void find_segments() {
+    constexpr std::size_t kBlock = std::size_t{1} << 17U;
+    std::vector<std::array<std::uint32_t, 2>> pairs;
+    BoxTree(rounded_.boxes()).for_each_pair([&](std::uint32_t f, std::uint32_t g) {
+      pairs.push_back({f, g});
+      if (pairs.size() < kBlock) return;
+      find_segments_of(pairs);
+      pairs.clear();
+    });
+    find_segments_of(pairs);
+  }
+
+  void find_segments_of(std::span<const std::array<std::uint32_t, 2>> pairs) {
+    constexpr std::size_t kChunk = 2048;
+    struct Found {
+      std::vector<FacetSegment> segments;
+      std::vector<std::uint32_t> touching;
+    };
+    std::vector<Found> found((pairs.size() + kChunk - 1) / kChunk);
+    parallel_for(found.size(), options_.threads, [&](std::size_t chunk) {
+      SegmentFinder finder(facets_, rounded_);
+      for (const auto& [f, g] : pairs.subspan(chunk * kChunk, std::min(kChunk, pairs.size() - chunk * kChunk))) {
+        if (std::optional<FacetSegment> s = finder.find(f, g)) found[chunk].segments.push_back(*s);
+      }
+      if (options_.passages) found[chunk].touching = finder.touching_corners();
+    });
+    for (const Found& part : found) {
+      result_.segments.insert(result_.segments.end(), part.segments.begin(), part.segments.end());
+      result_.touching.insert(result_.touching.end(), part.touching.begin(), part.touching.end());
+    }
+  }
+
+  void cut_segments() {
+    constexpr std::size_t kChunk = 256;
+    constexpr std::size_t kBlock = 16 * kChunk;
+    const std::size_t all = result_.segments.size();
+    for (std::size_t block = 0; block < all; block += kBlock) {
+      options_.poll(static_cast<double>(block) / static_cast<double>(all));
+      const std::size_t end = std::min(all, block + kBlock);
+      std::vector<CutSegments> parts((end - block + kChunk - 1) / kChunk);
+      parallel_for(parts.size(), options_.threads, [&](std::size_t chunk) {
+        const std::size_t first = block + chunk * kChunk;
+        parts[chunk] = SegmentCutter(facets_, rounded_, result_, meeting_, options_.passages)
+                           .run(first, std::min(end, first + kChunk));
+      });
+      for (const CutSegments& part : parts) append(part);
+    }
+  }
+
+  void append(const CutSegments& part) {
+    const auto cuts = static_cast<std::uint32_t>(result_.cuts.size());
+    const auto cutting = static_cast<std::uint32_t>(result_.cutting.size());
+    const auto intervals = static_cast<std::uint32_t>(result_.intervals.size());
+    for (const SegmentCut& c : part.cuts) {
+      result_.cuts.push_back({c.first + cutting, c.last + cutting, c.is_end, c.at});
+    }
+    result_.cutting.insert(result_.cutting.end(), part.cutting.begin(), part.cutting.end());
+    for (const SurvivingInterval& i : part.intervals) {
+      result_.intervals.push_back({i.segment, i.from + cuts, i.to + cuts});
+    }
+    for (const auto& [segment, cut] : part.doubtful) result_.doubtful.push_back({segment, cut + cuts});
+    for (Link link : part.links) {
+      if (link.interval != kNone) link.interval += intervals;
+      links_.push_back(link);
+    }
   }
 
   // What is linked to an interval that is gone, goes.
@@ -355,14 +459,10 @@ class IntervalSearch {
 
   const ConvolutionFacets& facets_;
   const RoundedFacets& rounded_;
-  SegmentFinder finder_;
-  bool passages_;
+  const IntervalOptions& options_;
   SurvivingIntervals result_;
-  std::vector<std::uint32_t> first_of_, meeting_;  // by facet, those that it has a segment with
+  MeetingFacets meeting_;
   std::vector<Link> links_;
-  // Of the segment at hand.
-  std::vector<Event> events_;
-  std::vector<Cut> cuts_;
 };
 
 }  // namespace
@@ -374,9 +474,9 @@ std::uint64_t side_key(const ConvolutionFacets& facets, std::uint32_t facet, std
   return pair_key(std::min(u, v), std::max(u, v));
 }
 
-SurvivingIntervals surviving_intervals(const ConvolutionFacets& facets, const RoundedFacets& rounded, bool passages,
-                                       const std::function<void(double)>& poll) {
-  return IntervalSearch(facets, rounded, passages).run(poll);
+SurvivingIntervals surviving_intervals(const ConvolutionFacets& facets, const RoundedFacets& rounded,
+                                       const IntervalOptions& options) {
+  return IntervalSearch(facets, rounded, options).run();
 }
 
 }  // namespace nef::minkowski

@@ -43,14 +43,18 @@ struct SurvivingIntervals {
 /// The key of a side in SurvivingIntervals::at_side.
 std::uint64_t side_key(const ConvolutionFacets& facets, std::uint32_t facet, std::uint32_t side);
 
+struct IntervalOptions {
+  bool passages = false;             ///< find doubtful cuts and touching corners, too
+  unsigned threads = 1;              ///< 0: as many as the machine has; the result does not depend on it
+  std::function<void(double)> poll;  ///< called with the share that is done; may throw; not empty
+};
+
 /// All segments, cut where they meet other facets, without intervals at which surely nothing is to be seen but the
 /// inside of the sum. What is just behind a facet is inside, and it stays so up to the next facet; so an interval goes
 /// if a facet crosses the segment at one of its ends and has the interval behind it. Where three facets cross, and no
 /// other is there, one octant is in front of all three; if one of its three edges goes, so do the others.
 /// In doubles: what is not sure, stays. O(n log n + k) for k pairs of segments on one facet whose boxes overlap.
-/// `poll` is called with the share that is done and may throw. With `passages`, doubtful cuts and touching corners,
-/// too.
-SurvivingIntervals surviving_intervals(const ConvolutionFacets& facets, const RoundedFacets& rounded, bool passages,
-                                       const std::function<void(double)>& poll);
+SurvivingIntervals surviving_intervals(const ConvolutionFacets& facets, const RoundedFacets& rounded,
+                                       const IntervalOptions& options);
 
 }  // namespace nef::minkowski

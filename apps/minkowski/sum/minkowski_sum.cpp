@@ -10,13 +10,12 @@
 // facet that is missing inside may be filled in: solids on both sides of a missing facet may be merged.
 #include <optional>
 
-#include "apps/minkowski/convolution/convolution_sum.h"
 #include "apps/minkowski/decomposition/decomposition.h"
 #include "apps/minkowski/minkowski.h"
 #include "apps/minkowski/sum/cobounded_sum.h"
 #include "apps/minkowski/sum/pair_sums.h"
+#include "apps/minkowski/sum/strategy_choice.h"
 #include "apps/minkowski/sum/unbounded_sum.h"
-#include "apps/minkowski/sum/work_progress.h"
 #include "nef/base/error.h"
 #include "nef/base/parallel.h"
 #include "nef/base/phase_timer.h"
@@ -55,46 +54,41 @@ Operands decompose_both(const Polyhedron& a, const Polyhedron& b, const Minkowsk
   return result;
 }
 
-std::optional<Polyhedron> sum_by_convolution(const Polyhedron& a, const Polyhedron& b, const MinkowskiOptions& options,
-                                             MinkowskiReport& report) {
-  const bool insist = options.strategy == UnionStrategy::kConvolution;
-  if (!insist && options.strategy != UnionStrategy::kAuto) return std::nullopt;
-  const PhaseTimer timer(report.seconds_union, report.predicates_union);
-  if (!has_convolution(a) || !has_convolution(b)) return std::nullopt;
-  ConvolutionOptions how;
-  how.only_if_fast = !insist;
-  how.poll = WorkProgress(options);
-  ConvolutionReport counts;
-  std::optional<Polyhedron> sum = convolution_sum(a, b, how, counts);
-  report.convolution_facets += counts.facets;
-  report.convolution_intervals += counts.intervals;
-  report.convolution_points += counts.points;
-  report.convolution_regions += counts.regions;
-  return sum;
-}
-
 Polyhedron bounded_sum(const Polyhedron& a, const Polyhedron& b, const MinkowskiOptions& options,
                        MinkowskiReport& report) {
-  if (std::optional<Polyhedron> sum = sum_by_convolution(a, b, options, report)) return *std::move(sum);
+  std::string why;
+  if (std::optional<Polyhedron> sum = sum_by_convolution(a, b, options, report, why)) {
+    report.choices.push_back({"convolution", std::move(why)});
+    return *std::move(sum);
+  }
   const Operands cells = decompose_both(a, b, options, report);
   const Product product{cells.a, cells.b};
-  return union_of_pair_sums({&product, 1}, options, report);
+  return union_of_pair_sums_for(std::move(why), {&product, 1}, options, report);
 }
 
 // With an unbounded set, a set of bounded complement sums to everything: the former never fits into a hole of the
 // latter.
 Polyhedron cobounded_sum(const Polyhedron& a, const Polyhedron& b, const MinkowskiOptions& options,
                          MinkowskiReport& report) {
-  if (!b.is_bounded()) return Polyhedron::everything();
+  if (!b.is_bounded()) {
+    report.choices.push_back({"none", "one operand is unbounded and does not fit into the other's complement"});
+    return Polyhedron::everything();
+  }
   const NearHoles near = near_holes(a, b);
-  return unite(bounded_sum(near.part, b, options, report), near.beyond);
+  Polyhedron sum = bounded_sum(near.part, b, options, report);
+  report.choices.back().why += "; within a box around the bounded complement of an operand";
+  return unite(sum, near.beyond);
 }
 
 Polyhedron any_sum(const Polyhedron& a, const Polyhedron& b, const MinkowskiOptions& options, MinkowskiReport& report) {
-  if (std::optional<Polyhedron> sum = simple_sum(a, b)) return *std::move(sum);
+  if (std::optional<Polyhedron> sum = simple_sum(a, b)) {
+    report.choices.push_back({"none", "an operand is empty, a single point, or everything"});
+    return *std::move(sum);
+  }
   if (a.is_bounded() && b.is_bounded()) return bounded_sum(a, b, options, report);
   if (is_cobounded(a)) return cobounded_sum(a, b, options, report);
   if (is_cobounded(b)) return cobounded_sum(b, a, options, report);
+  report.choices.push_back({"planes", "an operand and its complement are unbounded"});
   return unbounded_sum(a, b, options, report);
 }
 

@@ -47,11 +47,6 @@ class PlanesOfCells {
     }
   }
 
-  /// Calls visit(plane) for the known planes of a cell.
-  template <typename Visit>
-  void for_each(std::uint32_t cell, const Visit& visit) const {
-    for (std::uint32_t k = begin_[cell]; k < begin_[cell + 1]; ++k) visit(planes_[k]);
-  }
   /// True if a cell is known to have a face in an oriented plane; false if `plane` is not valid. O(log faces).
   [[nodiscard]] bool has(std::uint32_t cell, PlaneId plane) const {
     return plane.valid() &&
@@ -61,6 +56,31 @@ class PlanesOfCells {
  private:
   std::vector<PlaneId> planes_;
   std::vector<std::uint32_t> begin_{0};
+};
+
+/// Which faces of other cells are flush with a cell: in the plane of a face of it, on the same side. All arguments of
+/// the constructor must outlive the object.
+class FlushFaces {
+ public:
+  FlushFaces(std::span<const ConvexCell> cells, const RoundedCells& rounded, const ExactCells& exact,
+             const PlanesOfCells& planes)
+      : cells_(cells), rounded_(rounded), exact_(exact), planes_(planes) {}
+
+  /// True if the cell of face h, as if it had no such face, covers what it then holds of face f of another cell.
+  /// O(log faces).
+  [[nodiscard]] bool may_miss(std::uint32_t h, std::uint32_t f) const {
+    const PlaneId plane = exact_.known_plane(h);
+    const std::uint32_t cell = rounded_.cell_of_face(f);
+    if (!planes_.has(cell, plane)) return false;
+    const Pyramid pyramid = plane == exact_.known_plane(f) ? Pyramid::kEqual : Pyramid::kLarger;
+    return may_cover(cells_, rounded_.cell_of_face(h), cell, pyramid);
+  }
+
+ private:
+  std::span<const ConvexCell> cells_;
+  const RoundedCells& rounded_;
+  const ExactCells& exact_;
+  const PlanesOfCells& planes_;
 };
 
 }  // namespace nef::minkowski

@@ -9,23 +9,19 @@
 #include "apps/minkowski/union/face_remains.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "nef/sphere_map/sphere_map.h"
 
 namespace nef::minkowski {
 
-FaceRemains::FaceRemains(const RoundedCells& cells) : cells_(cells) {
-  surely_inside_.reserve(cells.face_count());
+FaceRemains::FaceRemains(const RoundedCells& cells, const FlushFaces& flush, const BoxTree& boxes)
+    : cells_(cells), flush_(flush), boxes_(boxes) {
+  inside_.reserve(cells.face_count());
   for (std::uint32_t f = 0; f < cells.face_count(); ++f) {
-    surely_inside_.push_back(-4 * cells.face(f).slack - cells.face(f).weight * cells.extent() * 0x1p-30);
+    inside_.push_back(-4 * cells.face(f).slack - cells.face(f).weight * cells.extent() * 0x1p-30);
   }
-  inside_ = surely_inside_;
+  for (std::uint32_t c = 0; c < cells.size(); ++c) beyond_.push_back(cells.first_face(c));
 }
-
-void FaceRemains::ignore(std::uint32_t face) { inside_[face] = std::numeric_limits<double>::infinity(); }
-
-void FaceRemains::heed(std::uint32_t face) { inside_[face] = surely_inside_[face]; }
 
 Vector FaceRemains::Polygon::centre() const {
   Vector sum{};
@@ -36,21 +32,47 @@ Vector FaceRemains::Polygon::centre() const {
   return sum;
 }
 
-// A cell that has x inside; kNone if none has.
-std::uint32_t FaceRemains::cell_around(const Vector& x, std::vector<std::uint32_t>& neighbours) const {
-  for (std::size_t k = 0; k < neighbours.size(); ++k) {
-    const std::uint32_t cell = neighbours[k];
-    const Box& box = cells_.box(cell);
-    if (x[0] < box.low[0] || x[0] > box.high[0] || x[1] < box.low[1] || x[1] > box.high[1] || x[2] < box.low[2] ||
-        x[2] > box.high[2]) {
-      continue;
-    }
-    std::uint32_t h = cells_.first_face(cell);
-    const std::uint32_t end = cells_.end_face(cell);
-    while (h < end && cells_.face(h).value(x) < inside_[h]) ++h;
-    if (h < end) continue;
-    const auto begin = neighbours.begin();
+// Points next to each other are mostly beyond the same face.
+bool FaceRemains::has_inside(std::uint32_t cell, const Vector& x) {
+  const Box& box = cells_.box(cell);
+  if (x[0] < box.low[0] || x[0] > box.high[0] || x[1] < box.low[1] || x[1] > box.high[1] || x[2] < box.low[2] ||
+      x[2] > box.high[2]) {
+    return false;
+  }
+  const auto is_beyond = [&](std::uint32_t h) {
+    return !(cells_.face(h).value(x) < inside_[h]) && !flush_.may_miss(h, face_);
+  };
+  if (is_beyond(beyond_[cell])) return false;
+  const std::uint32_t end = cells_.end_face(cell);
+  for (std::uint32_t h = cells_.first_face(cell); h < end; ++h) {
+    if (!is_beyond(h)) continue;
+    beyond_[cell] = h;
+    return false;
+  }
+  return true;
+}
+
+// A cell that has x inside; kNone if none has. Those that took something away are likely to do so for the next face.
+std::uint32_t FaceRemains::cell_around(const Vector& x) {
+  const std::uint32_t own = cells_.cell_of_face(face_);
+  for (std::size_t k = 0; k < helpful_.size(); ++k) {
+    if (helpful_[k] == own || !has_inside(helpful_[k], x)) continue;
+    const auto begin = helpful_.begin();
     std::rotate(begin, begin + static_cast<std::ptrdiff_t>(k), begin + static_cast<std::ptrdiff_t>(k) + 1);
+    return helpful_[0];
+  }
+  if (neighbours_of_ != own) {
+    neighbours_of_ = own;
+    neighbours_.clear();
+    boxes_.for_each_overlap(cells_.box(own), [&](std::uint32_t other) {
+      if (other != own) neighbours_.push_back(other);
+    });
+  }
+  for (const std::uint32_t cell : neighbours_) {
+    if (!has_inside(cell, x)) continue;
+    constexpr std::size_t kHelpful = 32;
+    if (helpful_.size() == kHelpful) helpful_.pop_back();
+    helpful_.insert(helpful_.begin(), cell);
     return cell;
   }
   return kNone;
@@ -69,7 +91,7 @@ bool FaceRemains::subtract(const Polygon& polygon, std::uint32_t cell) {
       values_.push_back(face.value(rest.v[k]) - inside_[h]);
       (values_.back() < 0 ? in : out) = true;
     }
-    if (!out) continue;
+    if (!out || flush_.may_miss(h, face_)) continue;
     if (!in) return false;
     if (rest.size + 2 > kCorners) return false;
     Polygon inside;
@@ -91,7 +113,8 @@ bool FaceRemains::subtract(const Polygon& polygon, std::uint32_t cell) {
   return true;
 }
 
-Box FaceRemains::box_of_rest(std::span<const Vector> ring, std::vector<std::uint32_t>& neighbours) {
+Box FaceRemains::box_of_rest(std::uint32_t face, std::span<const Vector> ring) {
+  face_ = face;
   Box box;
   const double drift = cells_.extent() * 0x1p-30;
   const auto keep = [&](std::span<const Vector> polygon) {
@@ -119,7 +142,7 @@ Box FaceRemains::box_of_rest(std::span<const Vector> ring, std::vector<std::uint
     const Polygon polygon = todo_.back();
     todo_.pop_back();
     const bool look = count++ < kSubtractions && visible < kVisiblePieces;
-    const std::uint32_t cell = look ? cell_around(polygon.centre(), neighbours) : kNone;
+    const std::uint32_t cell = look ? cell_around(polygon.centre()) : kNone;
     if (cell != kNone && subtract(polygon, cell)) {
       todo_.insert(todo_.end(), outside_.begin(), outside_.end());
     } else {

@@ -8,25 +8,22 @@
 #include <vector>
 
 #include "apps/minkowski/cells/rounded_cells.h"
+#include "apps/minkowski/union/coplanar.h"
+#include "nef/geometry/box_tree.h"
 
 namespace nef::minkowski {
 
-/// Subtracts the insides of cells from a face, in doubles and on the safe side.
+/// Subtracts the insides of cells from a face, in doubles and on the safe side. A cell whose face is flush takes away
+/// what is inside of its other faces.
 class FaceRemains {
  public:
-  /// The cells must outlive the object.
-  explicit FaceRemains(const RoundedCells& cells);
+  /// All must outlive the object. `boxes` is a tree over the cells' boxes.
+  FaceRemains(const RoundedCells& cells, const FlushFaces& flush, const BoxTree& boxes);
 
-  /// The box around what may be left of the convex polygon `ring` (rounded corners of a face) without
-  /// the insides of the `neighbours`; an empty box (low > high) if surely nothing is left. Cells that
-  /// took something away move to the front of the list: they are likely to do so for the next face.
-  Box box_of_rest(std::span<const Vector> ring, std::vector<std::uint32_t>& neighbours);
-
-  /// From now on the cell of `face` counts as if it had no such face: it takes away what is inside of its other faces.
-  /// For polygons in the plane of that face, whose insides it then hides as well.
-  void ignore(std::uint32_t face);
-  /// Undoes that.
-  void heed(std::uint32_t face);
+  /// The box around what may be left of a face, whose rounded corners are `ring`, without the insides of other cells;
+  /// an empty box (low > high) if surely nothing is left. Which cells took something away from the faces before has to
+  /// do with how small the box is, but not with whether it is empty.
+  Box box_of_rest(std::uint32_t face, std::span<const Vector> ring);
 
  private:
   static constexpr std::size_t kCorners = 24;
@@ -35,12 +32,19 @@ class FaceRemains {
     std::size_t size = 0;
     [[nodiscard]] Vector centre() const;
   };
-  std::uint32_t cell_around(const Vector& x, std::vector<std::uint32_t>& neighbours) const;
+  [[nodiscard]] bool has_inside(std::uint32_t cell, const Vector& x);
+  std::uint32_t cell_around(const Vector& x);
   bool subtract(const Polygon& polygon, std::uint32_t cell);
 
   const RoundedCells& cells_;
-  std::vector<double> surely_inside_;  // per face: a value below it is surely inside
-  std::vector<double> inside_;         // the same, but for faces that are ignored
+  const FlushFaces& flush_;
+  const BoxTree& boxes_;
+  std::vector<double> inside_;             // per face: a value below it is surely inside
+  std::vector<std::uint32_t> beyond_;      // per cell: the face beyond which the point was that was asked for last
+  std::vector<std::uint32_t> helpful_;     // cells that took something away, the last one first
+  std::vector<std::uint32_t> neighbours_;  // of the cell whose box is neighbours_of_
+  std::uint32_t neighbours_of_ = kNone;
+  std::uint32_t face_ = 0;  // the one at hand
   std::vector<Polygon> todo_, outside_;
   std::vector<double> values_;
 };

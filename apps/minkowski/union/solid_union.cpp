@@ -38,7 +38,9 @@ class SolidUnion {
         visible_(visible_faces(cells, rounded, boxes_, exact_, options.threads)),
         tree_(visible_.boxes),
         budget_(options.budget),
-        poll_(options.poll) {}
+        poll_(options.poll) {
+    for (std::uint32_t c = 0; c < rounded.size(); ++c) apart_.push_back(rounded.first_face(c));
+  }
 
   [[nodiscard]] std::size_t hidden_cells() const { return visible_.hidden_cells; }
 
@@ -74,20 +76,24 @@ class SolidUnion {
     });
   }
 
-  // The cells that may have a part of the face inside or touch it.
+  // The cells that may have a part of the face inside or touch it. A plane that keeps a cell from one face is likely to
+  // keep it from the next one.
   void find_neighbours(std::uint32_t face, const Box& box) {
     neighbours_.clear();
+    ring_.clear();
+    for (const std::uint32_t v : exact_.corners(face)) ring_.push_back(corner(face, v));
     const std::uint32_t own = rounded_.cell_of_face(face);
-    const auto ring = exact_.corners(face);
+    const auto is_beyond = [&](std::uint32_t h) {
+      ++work_;
+      const RoundedFace& plane = rounded_.face(h);
+      return std::all_of(ring_.begin(), ring_.end(), [&](const Vector& x) { return plane.value(x) > plane.slack; });
+    };
     boxes_.for_each_overlap(box, [&](std::uint32_t cell) {
-      if (cell == own) return;
-      work_ += rounded_.end_face(cell) - rounded_.first_face(cell);
+      if (cell == own || is_beyond(apart_[cell])) return;
       for (std::uint32_t h = rounded_.first_face(cell); h < rounded_.end_face(cell); ++h) {
-        const RoundedFace& plane = rounded_.face(h);
-        if (std::all_of(ring.begin(), ring.end(),
-                        [&](std::uint32_t v) { return plane.value(corner(face, v)) > plane.slack; })) {
-          return;
-        }
+        if (!is_beyond(h)) continue;
+        apart_[cell] = h;
+        return;
       }
       neighbours_.push_back(cell);
     });
@@ -259,6 +265,8 @@ class SolidUnion {
 
   // Scratch.
   std::vector<std::uint32_t> neighbours_;  // of the face at hand
+  std::vector<Vector> ring_;               // its corners
+  std::vector<std::uint32_t> apart_;       // per cell, a face of it beyond which the last face was
   Segment segment_;
   std::vector<Interval> pieces_;
   std::vector<FormOnSegment> forms_;

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/minkowski/sum/strategy_choice.h"
+
+#include <utility>
+
+#include "apps/minkowski/convolution/convolution_sum.h"
+#include "apps/minkowski/sum/work_progress.h"
+#include "nef/base/phase_timer.h"
+
+namespace nef::minkowski {
+namespace {
+
+// The strategy that united cells, after the reason why there are any.
+StrategyChoice choice_of_cells(UnionStrategy strategy, std::size_t at_once, std::size_t two_by_two, std::string why) {
+  if (strategy != UnionStrategy::kAuto && strategy != UnionStrategy::kConvolution) {
+    return {std::string(strategy_name(strategy)), std::move(why)};
+  }
+  if (two_by_two == 0) return {"nary", std::move(why)};
+  why += "; " + std::to_string(two_by_two) + (two_by_two == 1 ? " sum of cells is" : " sums of cells are") +
+         " flat, have many vertices, or nearly coincide with others";
+  return {at_once == 0 ? "queue" : "nary, queue", std::move(why)};
+}
+
+}  // namespace
+
+std::string_view strategy_name(UnionStrategy strategy) {
+  switch (strategy) {
+    case UnionStrategy::kAuto:
+      return "auto";
+    case UnionStrategy::kTrivial:
+      return "trivial";
+    case UnionStrategy::kQueue:
+      return "queue";
+    case UnionStrategy::kPriority:
+      return "priority";
+    case UnionStrategy::kNary:
+      return "nary";
+    case UnionStrategy::kConvolution:
+      return "convolution";
+  }
+  return "auto";
+}
+
+std::optional<Polyhedron> sum_by_convolution(const Polyhedron& a, const Polyhedron& b, const MinkowskiOptions& options,
+                                             MinkowskiReport& report, std::string& why) {
+  const bool insist = options.strategy == UnionStrategy::kConvolution;
+  why = "asked for";
+  if (!insist && options.strategy != UnionStrategy::kAuto) return std::nullopt;
+  const PhaseTimer timer(report.seconds_union, report.predicates_union);
+  for (const Polyhedron* set : {&a, &b}) {
+    if (has_convolution(*set)) continue;
+    why = std::string(set == &a ? "A" : "B") + " has parts that are not solid";
+    return std::nullopt;
+  }
+  ConvolutionOptions how;
+  how.only_if_fast = !insist;
+  how.threads = options.threads;
+  how.poll = WorkProgress(options);
+  ConvolutionReport counts;
+  std::optional<Polyhedron> sum = convolution_sum(a, b, how, counts);
+  if (!sum || !insist) why = counts.why;
+  report.convolution_facets += counts.facets;
+  report.convolution_intervals += counts.intervals;
+  report.convolution_points += counts.points;
+  report.convolution_regions += counts.regions;
+  return sum;
+}
+
+Polyhedron union_of_pair_sums_for(std::string why, std::span<const Product> products, const MinkowskiOptions& options,
+                                  MinkowskiReport& report) {
+  const std::size_t at_once = report.united_at_once;
+  const std::size_t two_by_two = report.united_two_by_two;
+  Polyhedron sum = union_of_pair_sums(products, options, report);
+  report.choices.push_back(choice_of_cells(options.strategy, report.united_at_once - at_once,
+                                           report.united_two_by_two - two_by_two, std::move(why)));
+  return sum;
+}
+
+}  // namespace nef::minkowski

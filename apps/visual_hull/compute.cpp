@@ -250,7 +250,7 @@ std::optional<nef::Polyhedron> direct(const Run& run, const Views& views, const 
   }
   run.tell(Phase::kIntersection, "edges", 0, 1);
   std::optional<nef::Polyhedron> hull = direct_hull(inputs, *room.enclosing, run.options.threads);
-  if (hull && hull->is_empty()) return std::nullopt;  // the general way finds out why
+  if (hull && nef::counts(*hull).volumes < 2) return std::nullopt;  // empty or flat: the general way finds out why
   return hull;
 }
 
@@ -326,8 +326,9 @@ void find_hull(const Run& run, const Place& place, const Room& room, Result& res
   }
   if (!result.direct && run.options.way == Way::kDirect) {
     throw nef::InputError(
-        "--way direct: the views are not in general position (cones that share planes, rings that "
-        "touch, a camera or background in the box, fewer than three views); use --way cones");
+        "--way direct: not for these views (fewer than three, a camera in the box, background, a box that cuts the "
+        "hull, "
+        "or too many coincidences that doubles do not decide); use --way cones");
   }
   if (!result.direct && !room.empty) {
     timed(result.phases, Phase::kCones, [&] { parts = cones_of(run, result.views, place, room); });

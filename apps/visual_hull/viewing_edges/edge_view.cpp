@@ -14,27 +14,67 @@ namespace {
 
 constexpr double kUnit = 0x1p-50;
 
-Vector to_doubles(const Rational3& v) {
-  Vector result;
-  for (std::size_t i = 0; i < 3; ++i) {
-    result.at[i] = nef::nearest_double(v[i]);
-    result.error = std::max(result.error, std::abs(result.at[i]) * kUnit);
-  }
-  return result;
+Seen seen(const Point2& point) {
+  const auto& p = point.approximate;
+  return {p[0], p[1], point.lattice ? 0 : std::max(std::abs(p[0]), std::abs(p[1])) * 0x1p-52};
 }
+
+// The sign of (b - a) x (c - a); nothing if doubles do not decide.
+std::optional<int> orient(const Seen& a, const Seen& b, const Seen& c) {
+  const double bu = b.u - a.u;
+  const double bv = b.v - a.v;
+  const double cu = c.u - a.u;
+  const double cv = c.v - a.v;
+  const double left = bu * cv;
+  const double right = bv * cu;
+  // A difference is off by 2e and its rounding, a product of two by at most 2e(|x| + |y|) + 4e^2 and roundings.
+  const double e = std::max({a.error, b.error, c.error});
+  const double sum = std::abs(bu) + std::abs(bv) + std::abs(cu) + std::abs(cv);
+  const double bound = 3 * e * sum + 9 * e * e + (std::abs(left) + std::abs(right)) * kUnit;
+  const double value = left - right;
+  if (!(std::abs(value) > bound)) return std::nullopt;
+  return value > 0 ? 1 : -1;
+}
+
+// What exact location asks of a point of the image: on which side of a line it lies.
+class PointImage {
+ public:
+  explicit PointImage(const Point2& point) : point_(point) {}
+  int side(const Point2& a, const Point2& b) const { return orientation(a, b, point_); }
+
+ private:
+  const Point2& point_;
+};
+
+// The same of the image of a point in front of the camera.
+class SpaceImage {
+ public:
+  SpaceImage(const CameraPlanes& planes, const ExactPoint& point) : planes_(planes), point_(point) {}
+  int side(const Point2& a, const Point2& b) const { return side_of(planes_.through(a, b), point_); }
+
+ private:
+  const CameraPlanes& planes_;
+  const ExactPoint& point_;
+};
 
 }  // namespace
 
+int side_of(const std::array<Integer, 4>& plane, const ExactPoint& point) {
+  Integer sum = plane[0] * point[0];
+  for (std::size_t i = 1; i < 4; ++i) mpz_addmul(sum.get_mpz_t(), plane[i].get_mpz_t(), point[i].get_mpz_t());
+  return sgn(sum);
+}
+
 std::optional<EdgeView> EdgeView::make(const Camera& camera, const Silhouette& silhouette, std::uint32_t index,
-                                       const Vec3& reach, const ExactSpots& exact, std::vector<ViewingEdge>& edges) {
-  EdgeView view(camera, reach, exact, edges);
+                                       std::uint32_t first, const Vec3& reach, std::span<ViewingEdge> edges) {
+  EdgeView view(camera, first, reach, edges);
   view.collect_edges(silhouette, index);
   if (!view.join_places() || !view.build_grid()) return std::nullopt;
   return view;
 }
 
-EdgeView::EdgeView(const Camera& camera, const Vec3& reach, const ExactSpots& exact, std::vector<ViewingEdge>& edges)
-    : camera_(camera), exact_(exact), edges_(edges), first_(static_cast<std::uint32_t>(edges.size())) {
+EdgeView::EdgeView(const Camera& camera, std::uint32_t first, const Vec3& reach, std::span<ViewingEdge> edges)
+    : planes_(camera), edges_(edges), first_(first) {
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 4; ++j) matrix_[i][j] = nef::nearest_double(camera.matrix()[i][j]);
     double size = std::abs(matrix_[i][3]);
@@ -46,37 +86,25 @@ EdgeView::EdgeView(const Camera& camera, const Vec3& reach, const ExactSpots& ex
     rounding_[i] = size * kUnit;
     slope_[i] = slope * 1.0001;
   }
-  centre_ = to_doubles(camera.centre());
-  const auto& m = matrix_[2];
-  const double length = std::sqrt(m[0] * m[0] + m[1] * m[1] + m[2] * m[2]);
-  axis_ = {m[0] / length, m[1] / length, m[2] / length};
 }
 
 void EdgeView::collect_edges(const Silhouette& silhouette, std::uint32_t index) {
-  // ray(u, v) is affine in u and v.
-  const auto difference = [](const Rational3& a, const Rational3& b) {
-    return Rational3{a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-  };
-  const Rational3 origin = camera_.ray(Point2(0, 0));
-  const Vector ray0 = to_doubles(origin);
-  const Vector ray_u = to_doubles(difference(camera_.ray(Point2(1, 0)), origin));
-  const Vector ray_v = to_doubles(difference(camera_.ray(Point2(0, 1)), origin));
+  std::uint32_t base = first_;
+  ends_.reserve(silhouette.vertex_count());
   for (const Ring& ring : silhouette.rings) {
-    const auto base = static_cast<std::uint32_t>(edges_.size());
-    const std::size_t n = ring.size();
-    for (std::size_t k = 0; k < n; ++k) {
-      ViewingEdge edge;
+    const auto n = static_cast<std::uint32_t>(ring.size());
+    for (std::uint32_t k = 0; k < n; ++k) {
+      ViewingEdge& edge = edges_[base + k];
       edge.from = &ring[k];
       edge.to = &ring[(k + 1) % n];
       edge.view = index;
-      edge.next = base + static_cast<std::uint32_t>((k + 1) % n);
-      edge.previous = base + static_cast<std::uint32_t>((k + n - 1) % n);
-      prepare_edge(edge, ray0, ray_u, ray_v);
-      edges_.push_back(edge);
+      edge.previous = base + (k + n - 1) % n;
+      prepare_edge(edge);
       ends_.push_back({seen(*edge.from), seen(*edge.to)});
     }
+    base += n;
   }
-  count_ = static_cast<std::uint32_t>(edges_.size()) - first_;
+  count_ = base - first_;
 }
 
 // Links the edges that start at the same point. False where points are equal but for rounding.
@@ -99,7 +127,7 @@ bool EdgeView::join_places() {
   return true;
 }
 
-void EdgeView::prepare_edge(ViewingEdge& edge, const Vector& ray0, const Vector& ray_u, const Vector& ray_v) const {
+void EdgeView::prepare_edge(ViewingEdge& edge) const {
   const auto& a = edge.from->approximate;
   const auto& b = edge.to->approximate;
   const double largest = std::max({std::abs(a[0]), std::abs(a[1]), std::abs(b[0]), std::abs(b[1])});
@@ -117,27 +145,6 @@ void EdgeView::prepare_edge(ViewingEdge& edge, const Vector& ray0, const Vector&
   edge.normal.error = std::max({error[0], error[1], error[2]});
   edge.offset = plane[3];
   edge.offset_error = error[3];
-  for (std::size_t i = 0; i < 3; ++i) {
-    edge.ray.at[i] = ray0.at[i] + a[0] * ray_u.at[i] + a[1] * ray_v.at[i];
-    const double size = std::abs(ray0.at[i]) + std::abs(a[0] * ray_u.at[i]) + std::abs(a[1] * ray_v.at[i]);
-    const double inherited = ray0.error + std::abs(a[0]) * ray_u.error + std::abs(a[1]) * ray_v.error;
-    edge.ray.error = std::max(edge.ray.error, size * kUnit + inherited);
-  }
-  edge.ray_length = std::hypot(edge.ray.at[0], edge.ray.at[1], edge.ray.at[2]);
-}
-
-double EdgeView::depth(const Spot& spot, double& error) const {
-  const auto& m = matrix_[2];
-  double value = m[3];
-  double size = std::abs(m[3]);
-  double slope = 0;
-  for (std::size_t j = 0; j < 3; ++j) {
-    value += m[j] * spot.at[j];
-    size += std::abs(m[j] * spot.at[j]);
-    slope += std::abs(m[j]);
-  }
-  error = size * kUnit + slope * spot.error * 1.0001;
-  return value;
 }
 
 std::optional<Seen> EdgeView::project(const Spot& spot) const {
@@ -153,7 +160,6 @@ std::optional<Seen> EdgeView::project(const Spot& spot) const {
   const double largest = std::max(std::abs(seen.u), std::abs(seen.v));
   const double error = std::max(rounding_[0], rounding_[1]) + std::max(slope_[0], slope_[1]) * spot.error;
   seen.error = (error + depth_error * largest) / (depth - depth_error) * 1.0001 + largest * 0x1p-51;
-  seen.spot = &spot;
   return seen;
 }
 
@@ -168,77 +174,18 @@ std::optional<EdgeView::Window> EdgeView::window(const Vec3& middle, const Vec3&
   const double nearest = x[2] - reach;
   if (!(nearest > 4 * rounding_[2])) return std::nullopt;
   Window result;
+  const double per_depth = 1 / x[2];
+  const double per_nearest = 1 / nearest;
   for (std::size_t i = 0; i < 2; ++i) {
-    result.middle[i] = x[i] / x[2];
+    result.middle[i] = x[i] * per_depth;
     double spread = 0;
     for (std::size_t j = 0; j < 3; ++j) spread += std::abs(matrix_[i][j] - result.middle[i] * matrix_[2][j]) * half[j];
     // Of the middle, of the quotients and of the sums: far below the margin, or the window tells nothing.
-    const double error = 4 * (rounding_[i] + rounding_[2] * std::abs(result.middle[i]) + spread * kUnit) / nearest;
+    const double error = 4 * (rounding_[i] + rounding_[2] * std::abs(result.middle[i]) + spread * kUnit) * per_nearest;
     if (!(error < margin_)) return std::nullopt;
-    result.half[i] = spread / nearest + 2 * margin_;
+    result.half[i] = spread * per_nearest + 2 * margin_;
   }
   return result;
-}
-
-Seen EdgeView::seen(const Point2& point) {
-  const auto& p = point.approximate;
-  const double error = point.lattice ? 0 : std::max(std::abs(p[0]), std::abs(p[1])) * 0x1p-52;
-  return {p[0], p[1], error, nullptr, &point};
-}
-
-std::optional<Point2> EdgeView::exact(const Seen& p) const {
-  if (p.point != nullptr) return *p.point;
-  if (p.spot == nullptr) return Point2::from_doubles(p.u, p.v);
-  const std::optional<Rational3> x = exact_.exact(*p.spot);
-  if (!x) return std::nullopt;
-  const Projection q = camera_.project(*x);
-  return Point2{q.x / q.depth, q.y / q.depth};
-}
-
-std::optional<int> EdgeView::orient(const Seen& a, const Seen& b, const Seen& c) const {
-  const double bu = b.u - a.u;
-  const double bv = b.v - a.v;
-  const double cu = c.u - a.u;
-  const double cv = c.v - a.v;
-  const double left = bu * cv;
-  const double right = bv * cu;
-  // A difference is off by 2e and its rounding, a product of two by at most 2e(|x| + |y|) + 4e^2 and roundings.
-  const double e = std::max({a.error, b.error, c.error});
-  const double sum = std::abs(bu) + std::abs(bv) + std::abs(cu) + std::abs(cv);
-  const double bound = 3 * e * sum + 9 * e * e + (std::abs(left) + std::abs(right)) * kUnit;
-  const double value = left - right;
-  if (value > bound || value < -bound) {
-    ++nef::predicate_counts().filter;
-    return value > 0 ? 1 : -1;
-  }
-  ++nef::predicate_counts().exact;
-  const std::array<std::optional<Point2>, 3> p{exact(a), exact(b), exact(c)};
-  if (!p[0] || !p[1] || !p[2]) return std::nullopt;
-  const int sign = orientation(*p[0], *p[1], *p[2]);
-  if (sign == 0) return std::nullopt;  // degenerate
-  return sign;
-}
-
-std::optional<bool> EdgeView::left_of(const Seen& p, std::uint32_t edge) const {
-  const auto& [c, d] = ends_[edge - first_];
-  const std::optional<int> side = orient(c, d, p);
-  if (!side) return std::nullopt;
-  return *side > 0;
-}
-
-std::optional<bool> EdgeView::crosses(const Seen& a, const Seen& b, std::uint32_t edge) const {
-  const auto& [c, d] = ends_[edge - first_];
-  const double slack = a.error + b.error + margin_;
-  if (std::max(a.u, b.u) + slack < std::min(c.u, d.u) || std::max(c.u, d.u) + slack < std::min(a.u, b.u)) return false;
-  if (std::max(a.v, b.v) + slack < std::min(c.v, d.v) || std::max(c.v, d.v) + slack < std::min(a.v, b.v)) return false;
-  const std::optional<int> side_a = orient(c, d, a);
-  const std::optional<int> side_b = orient(c, d, b);
-  if (!side_a || !side_b) return std::nullopt;
-  if (*side_a == *side_b) return false;
-  const std::optional<int> side_c = orient(a, b, c);
-  const std::optional<int> side_d = orient(a, b, d);
-  if (!side_c || !side_d) return std::nullopt;
-  return *side_c != *side_d;
 }
 
 std::array<std::int64_t, 2> EdgeView::rows(double low, double high) const {
@@ -297,13 +244,13 @@ bool EdgeView::build_grid() {
   if (!(width > 0) || !(height > 0)) return false;
   const double cells = 48.0 * count_ + 16;
   side_ = std::max({std::sqrt(width * height / cells), width / 4000, height / 4000});
+  per_side_ = 1 / side_;
   margin_ = side_ * 1e-3;
   low_u_ -= side_ / 3;
   low_v_ -= side_ / 3;
   width_ = static_cast<std::int64_t>((width + side_) / side_) + 1;
   height_ = static_cast<std::int64_t>((height + side_) / side_) + 1;
   fill_cells();
-  sum_cells();
   return mark_cells();
 }
 
@@ -340,42 +287,6 @@ void EdgeView::fill_cells() {
   cell_begin_[cell_count] = total;
 }
 
-void EdgeView::sum_cells() {
-  const auto width = static_cast<std::size_t>(width_);
-  const auto height = static_cast<std::size_t>(height_);
-  crossed_cells_.assign((width + 1) * (height + 1), 0);
-  for (std::size_t y = 0; y < height; ++y) {
-    std::uint32_t row = 0;
-    for (std::size_t x = 0; x < width; ++x) {
-      const std::size_t cell = y * width + x;
-      if (cell_begin_[cell] != cell_begin_[cell + 1]) ++row;
-      crossed_cells_[(y + 1) * (width + 1) + x + 1] = crossed_cells_[y * (width + 1) + x + 1] + row;
-    }
-  }
-}
-
-std::optional<bool> EdgeView::all_inside(const Seen& a, const Seen& b) const {
-  const double slack = a.error + b.error;
-  if (!(slack < margin_)) return std::nullopt;
-  const double left = std::floor((std::min(a.u, b.u) - low_u_) / side_);
-  const double right = std::floor((std::max(a.u, b.u) - low_u_) / side_);
-  const double top = std::floor((std::min(a.v, b.v) - low_v_) / side_);
-  const double bottom = std::floor((std::max(a.v, b.v) - low_v_) / side_);
-  const auto width = static_cast<double>(width_);
-  const auto height = static_cast<double>(height_);
-  if (right < 0 || bottom < 0 || left >= width || top >= height) return false;
-  if (!(left >= 0 && top >= 0 && right < width && bottom < height)) return std::nullopt;
-  const auto x0 = static_cast<std::size_t>(left);
-  const auto x1 = static_cast<std::size_t>(right) + 1;
-  const auto y0 = static_cast<std::size_t>(top);
-  const auto y1 = static_cast<std::size_t>(bottom) + 1;
-  const auto sum = [this](std::size_t x, std::size_t y) {
-    return crossed_cells_[y * static_cast<std::size_t>(width_ + 1) + x];
-  };
-  if (sum(x1, y1) + sum(x0, y0) != sum(x0, y1) + sum(x1, y0)) return std::nullopt;
-  return cell_inside_[y0 * static_cast<std::size_t>(width_) + x0];
-}
-
 // Whether the reference points are inside: by the crossings of a line through those of a row. False if one is too near
 // to an edge, or the line to a vertex.
 bool EdgeView::mark_cells() {
@@ -410,26 +321,129 @@ bool EdgeView::mark_cells() {
   return true;
 }
 
+std::optional<EdgeView::Cell> EdgeView::cell_at(double u, double v) const {
+  const double column = (u - low_u_) * per_side_;
+  const double row = (v - low_v_) * per_side_;
+  if (!(column >= 0 && row >= 0 && column < static_cast<double>(width_) && row < static_cast<double>(height_))) {
+    return std::nullopt;
+  }
+  Cell cell{static_cast<std::int64_t>(column), static_cast<std::int64_t>(row), 0};
+  cell.index = static_cast<std::size_t>(cell.row * width_ + cell.column);
+  return cell;
+}
+
+std::optional<bool> EdgeView::crosses(const Seen& p, const Seen& reference, std::uint32_t edge) const {
+  const auto& [c, d] = ends_[edge - first_];
+  const std::optional<int> side_p = orient(c, d, p);
+  const std::optional<int> side_r = orient(c, d, reference);
+  if (!side_p || !side_r) return std::nullopt;
+  if (*side_p == *side_r) return false;
+  const std::optional<int> side_c = orient(p, reference, c);
+  const std::optional<int> side_d = orient(p, reference, d);
+  if (!side_c || !side_d) return std::nullopt;
+  return *side_c != *side_d;
+}
+
 std::optional<bool> EdgeView::inside(const Seen& p) const {
   if (!(p.error < margin_)) return std::nullopt;
-  const double column = std::floor((p.u - low_u_) / side_);
-  const double row = std::floor((p.v - low_v_) / side_);
-  if (!(column >= 0 && row >= 0 && column < static_cast<double>(width_) && row < static_cast<double>(height_))) {
-    return false;  // the grid is larger than the silhouette by more than the error
-  }
-  const auto x = static_cast<std::int64_t>(column);
-  const auto y = static_cast<std::int64_t>(row);
-  const auto cell = static_cast<std::size_t>(y * width_ + x);
-  bool result = cell_inside_[cell];
-  if (cell_begin_[cell] == cell_begin_[cell + 1]) return result;
-  const std::array<double, 2> middle = reference(x, y);
-  const Seen reference_point{middle[0], middle[1], 0, nullptr, nullptr};
-  for (std::uint32_t i = cell_begin_[cell]; i < cell_begin_[cell + 1]; ++i) {
-    const std::optional<bool> crossed = crosses(p, reference_point, cell_edges_[i]);
+  const std::optional<Cell> cell = cell_at(p.u, p.v);
+  if (!cell) return false;  // the grid is larger than the silhouette by more than the error
+  bool result = cell_inside_[cell->index];
+  const std::uint32_t begin = cell_begin_[cell->index];
+  const std::uint32_t end = cell_begin_[cell->index + 1];
+  if (begin == end) return result;
+  const auto [u, v] = reference(cell->column, cell->row);
+  for (std::uint32_t i = begin; i < end; ++i) {
+    const std::optional<bool> crossed = crosses(p, {u, v, 0}, cell_edges_[i]);
     if (!crossed) return std::nullopt;
     if (*crossed) result = !result;
   }
+  nef::predicate_counts().filter += end - begin;
   return result;
+}
+
+Side EdgeView::locate(const Point2& point) const {
+  const std::optional<Cell> cell = cell_at(point.approximate[0], point.approximate[1]);
+  return cell ? locate_in_cell(*cell, PointImage(point)) : Side::kOutside;
+}
+
+std::optional<Side> EdgeView::locate(const Seen& p, const ExactPoint& point) const {
+  if (!(p.error < margin_)) return std::nullopt;
+  const std::optional<Cell> cell = cell_at(p.u, p.v);
+  return cell ? locate_in_cell(*cell, SpaceImage(planes_, point)) : Side::kOutside;
+}
+
+// By the crossings of the segment to the cell's reference point r. An end of an edge on the line through both counts as
+// on its left; r lies on no edge, so where the line separates the ends, r does not lie on the line through them.
+template <typename Image>
+Side EdgeView::locate_in_cell(const Cell& cell, const Image& image) const {
+  ++nef::predicate_counts().exact;
+  bool result = cell_inside_[cell.index];
+  const auto [u, v] = reference(cell.column, cell.row);
+  const Point2 r = Point2::from_doubles(u, v);
+  for (std::uint32_t i = cell_begin_[cell.index]; i < cell_begin_[cell.index + 1]; ++i) {
+    const std::uint32_t e = cell_edges_[i];
+    const Point2& c = *edges_[e].from;
+    const Point2& d = *edges_[e].to;
+    const int side = image.side(c, d);
+    if (side == 0) {
+      if (between_ends(image, e) != Side::kOutside) return Side::kBoundary;
+      continue;
+    }
+    if (side == orientation(c, d, r)) continue;
+    if ((image.side(r, c) >= 0) != (image.side(r, d) >= 0)) result = !result;
+  }
+  return result ? Side::kInside : Side::kOutside;
+}
+
+std::optional<bool> EdgeView::between(const Seen& p, std::uint32_t edge) const {
+  const auto& [c, d] = ends_[edge - first_];
+  const bool steep = std::abs(d.v - c.v) > std::abs(d.u - c.u);
+  const double a = steep ? c.v : c.u;
+  const double b = steep ? d.v : d.u;
+  const double x = steep ? p.v : p.u;
+  const double error = 1.0001 * (p.error + std::max(c.error, d.error));
+  const double low = std::min(a, b);
+  const double high = std::max(a, b);
+  if (x - error > low && x + error < high) return true;
+  if (x + error < low || x - error > high) return false;
+  return std::nullopt;
+}
+
+Side EdgeView::between(const ExactPoint& point, std::uint32_t edge) const {
+  ++nef::predicate_counts().exact;
+  return between_ends(SpaceImage(planes_, point), edge);
+}
+
+// By lines through the ends along the other axis.
+template <typename Image>
+Side EdgeView::between_ends(const Image& image, std::uint32_t edge) const {
+  const Point2& c = *edges_[edge].from;
+  const Point2& d = *edges_[edge].to;
+  const auto& a = c.approximate;
+  const auto& b = d.approximate;
+  const bool steep = std::abs(b[1] - a[1]) > std::abs(b[0] - a[0]);
+  const auto along = [&](const Point2& p) { return steep ? Point2(p.x() + 1, p.y()) : Point2(p.x(), p.y() + 1); };
+  const int from = image.side(c, along(c));
+  const int to = image.side(d, along(d));
+  if (from == 0 || to == 0) return Side::kBoundary;
+  return from != to ? Side::kInside : Side::kOutside;
+}
+
+bool EdgeView::edges_at(const Seen& p, const ExactPoint& point, std::vector<std::uint32_t>& edges) const {
+  if (!(p.error < margin_)) return false;
+  const std::optional<Cell> cell = cell_at(p.u, p.v);
+  if (!cell) return true;
+  const SpaceImage image(planes_, point);
+  for (std::uint32_t i = cell_begin_[cell->index]; i < cell_begin_[cell->index + 1]; ++i) {
+    const std::uint32_t e = cell_edges_[i];
+    if (image.side(*edges_[e].from, *edges_[e].to) == 0 && between_ends(image, e) != Side::kOutside) edges.push_back(e);
+  }
+  return true;
+}
+
+std::array<Integer, 4> EdgeView::plane(std::uint32_t edge) const {
+  return planes_.through(*edges_[edge].from, *edges_[edge].to);
 }
 
 }  // namespace visual_hull

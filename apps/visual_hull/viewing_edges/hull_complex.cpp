@@ -9,8 +9,11 @@
 // arcs of p and q; the arc of r takes the long way round, so its sense changes, too.
 #include "apps/visual_hull/viewing_edges/hull_complex.h"
 
+#include <algorithm>
+
 #include "apps/visual_hull/cones/boundary_node.h"
 #include "apps/visual_hull/scene/camera_planes.h"
+#include "apps/visual_hull/viewing_edges/corners.h"
 #include "nef/synthesis/complex_builder.h"
 
 namespace visual_hull {
@@ -44,6 +47,15 @@ class ComplexWriter {
       corners_.push_back({plane(name[0]), plane(name[1]), false, name[0], name[1]});
     }
     return push_vertex(across);
+  }
+
+  void add(const std::vector<CrowdedVertex>& vertices) {
+    CrowdedPyramids pyramids(edges_, table_, [this](std::uint32_t e) { return plane(e); });
+    nef::PointTable points;
+    for (const CrowdedVertex& vertex : vertices) {
+      const nef::PointId point = points.push(vertex.point);
+      builder_.add(points, point, pyramids.at(vertex));
+    }
   }
 
   nef::Polyhedron finish() { return nef::Polyhedron(builder_.finish(0)); }
@@ -88,7 +100,7 @@ class ComplexWriter {
       }
     }
     for (const Corner& c : corners_) {
-      const std::uint32_t end = corners_.size() == 1 ? c.in_node : next_incoming(c.out_edge);
+      const std::uint32_t end = corners_.size() == 1 ? c.in_node : next_in_node(c.out_edge);
       if (turned) {
         add_arc(r, end, c.out_node);
       } else {
@@ -101,24 +113,11 @@ class ComplexWriter {
   }
 
   // Where rings touch: the region left of an edge that leaves the vertex ends at the next edge, which arrives.
-  std::uint32_t next_incoming(std::uint32_t out_edge) const {
-    const Point2& centre = *edges_[out_edge].from;
-    const Point2& start = *edges_[out_edge].to;
-    // Turning left from `start`, a comes before b.
-    const auto before = [&](const Point2& a, const Point2& b) {
-      const int ta = orientation(centre, start, a);
-      const int tb = orientation(centre, start, b);
-      const bool first_a = ta > 0;  // in the first half turn; nothing lies in the direction of `start` itself
-      const bool first_b = tb > 0;
-      if (first_a != first_b) return first_a;
-      if (ta == 0 || tb == 0) return !first_a && ta == 0 && tb != 0;
-      return orientation(centre, a, b) > 0;
-    };
-    const Corner* best = nullptr;
-    for (const Corner& c : corners_) {
-      if (best == nullptr || before(*edges_[c.in_edge].from, *edges_[best->in_edge].from)) best = &c;
-    }
-    return best->in_node;
+  std::uint32_t next_in_node(std::uint32_t out) const {
+    std::vector<std::uint32_t> incoming;
+    for (const Corner& c : corners_) incoming.push_back(c.in_edge);
+    const std::uint32_t in = next_incoming(out, incoming, edges_);
+    return std::find_if(corners_.begin(), corners_.end(), [in](const Corner& c) { return c.in_edge == in; })->in_node;
   }
 
   std::uint32_t add_node(PlaneId p, PlaneId q) { return add_boundary_node(map_, table_, p, q); }
@@ -145,21 +144,13 @@ class ComplexWriter {
 
 }  // namespace
 
-std::optional<std::uint32_t> corner_of(const SpotName& name, const std::vector<ViewingEdge>& edges) {
-  for (const std::uint32_t out : name) {
-    for (const std::uint32_t in : name) {
-      if (edges[out].previous == in) return out;
-    }
-  }
-  return std::nullopt;
-}
-
-std::optional<nef::Polyhedron> complex_of(const std::vector<SpotName>& vertices, const std::vector<ViewingEdge>& edges,
+std::optional<nef::Polyhedron> complex_of(const HullVertices& vertices, const std::vector<ViewingEdge>& edges,
                                           const std::vector<const Camera*>& cameras) {
   ComplexWriter writer(edges, cameras);
-  for (const SpotName& name : vertices) {
+  for (const SpotName& name : vertices.plain) {
     if (!writer.add(name)) return std::nullopt;
   }
+  writer.add(vertices.crowded);
   return writer.finish();
 }
 

@@ -146,24 +146,85 @@ TEST_CASE("The views of a real scene go the direct way, on any number of threads
   CHECK(nef::equal(direct.hull, threads.hull));
 }
 
-TEST_CASE("What the direct way is not made for it leaves to the cones") {
+// Nothing is turned: facets of several views lie in one plane, edges on one line, and vertices on many planes.
+TEST_CASE("Views in degenerate position: the direct way agrees with the cones") {
+  std::size_t asked = 0;
+  std::size_t used = 0;
+  testing::property("random masks from along the axes", [&] {
+    std::vector<Seen> views;
+    const int smoothing = *rc::gen::inRange(0, 2);
+    const bool alike = *rc::gen::arbitrary<bool>();
+    const std::size_t count = *rc::gen::inRange<std::size_t>(3, 7);
+    const auto seed = *rc::gen::arbitrary<std::uint64_t>();
+    for (std::size_t i = 0; i < count; ++i) {
+      const cv::Mat mask = random_mask(6, 6, smoothing, alike ? seed : seed + i);
+      if (cv::countNonZero(mask) == 0) RC_DISCARD();
+      views.push_back(view_of_mask(i % 3, i < 3 ? 1 : -1, mask, 0));
+    }
+    const std::optional<WorldBox> box = enclosing_box(views);
+    if (!box) return;
+    ++asked;
+    const std::optional<nef::Polyhedron> hull = directly(views, *box);
+    if (!hull) return;
+    ++used;
+    RC_ASSERT(nef::validate(hull->complex()) == "");
+    RC_ASSERT(nef::equal(*hull, by_cones(views, *box)));
+  });
+  CHECK(10 * used >= 9 * asked);
+}
+
+TEST_CASE("Views that share a camera, and cameras that share planes: the direct way agrees with the cones") {
   const cv::Mat full(7, 7, CV_8U, cv::Scalar(255));
-  std::vector<Seen> views{view_of_mask(0, 1, full, 3), view_of_mask(1, 1, full, 5), view_of_mask(2, 1, full, 7)};
-  const WorldBox box = enclosing_box(views).value();
-  CHECK(directly(views, box).has_value());
+  const std::vector<Seen> views{view_of_mask(0, 1, full, 3), view_of_mask(1, 1, full, 5), view_of_mask(2, 1, full, 7)};
+  const auto agree = [](const std::vector<Seen>& seen) {
+    const WorldBox box = enclosing_box(seen).value();
+    const std::optional<nef::Polyhedron> hull = directly(seen, box);
+    REQUIRE(hull.has_value());
+    CHECK(nef::equal(*hull, by_cones(seen, box)));
+  };
   std::vector<Seen> twice = views;
-  twice.push_back(views[0]);  // one centre
-  CHECK_FALSE(directly(twice, box).has_value());
-  twice.back() = views[1];
-  CHECK_FALSE(directly(twice, box).has_value());
-  // Cameras whose planes coincide: both see the plane z = 0 as an edge.
+  twice.push_back(views[0]);
+  agree(twice);
+  twice.back().silhouette = make_silhouette({testing::rectangle(-0.1, -0.125, 0.15, 0.125)}, "");
+  agree(twice);
+  // Both see the plane z = 0 as an edge.
   const auto half = [](const Rational3& centre, std::size_t axis) {
     return Seen{axis_camera(centre, axis, 1), make_silhouette({axis == 0 ? testing::rectangle(-0.25, 0, 0.25, 0.25)
                                                                          : testing::rectangle(0, -0.25, 0.25, 0.25)},
                                                               "")};
   };
-  const std::vector<Seen> sharing{half({-40, 0, 0}, 0), half({0, -40, 0}, 1), view_of_mask(2, 1, full, 7)};
-  CHECK_FALSE(directly(sharing, enclosing_box(sharing).value()).has_value());
+  agree({half({-40, 0, 0}, 0), half({0, -40, 0}, 1), view_of_mask(2, 1, full, 7)});
+}
+
+TEST_CASE("A turntable: all cameras see a point of the axis in one place") {
+  // Turns by exact angles about the z axis; the silhouette ends on it above and below, level with a row of pixels.
+  const Matrix3 k{{{400, 0, 0}, {0, 400, 0}, {0, 0, 1}}};
+  const std::vector<std::array<Rational, 2>> turns{
+      {1, 0},  {Rational(3, 5), Rational(4, 5)},   {0, 1}, {Rational(-3, 5), Rational(4, 5)},
+      {-1, 0}, {Rational(-4, 5), Rational(-3, 5)}, {0, -1}};
+  for (const bool tip : {false, true}) {
+    std::vector<Seen> views;
+    for (const auto& [c, s] : turns) {
+      const Matrix3 rotation{{{Rational(-s), c, 0}, {0, 0, -1}, {Rational(-c), Rational(-s), 0}}};
+      const Ring outline = tip ? Ring{Point2(-30, 5), Point2(0, -40), Point2(30, 5), Point2(0, 45)}
+                               : Ring{Point2(-30, -40), Point2(20, -40), Point2(25, 10), Point2(-20, 30)};
+      views.push_back({Camera::from_parts("turned", k, rotation, {0, 0, 10}), make_silhouette({outline}, "")});
+    }
+    const WorldBox box = enclosing_box(views).value();
+    const std::optional<nef::Polyhedron> hull = directly(views, box);
+    REQUIRE(hull.has_value());
+    CHECK(nef::validate(hull->complex()) == "");
+    CHECK(nef::equal(*hull, by_cones(views, box)));
+  }
+}
+
+TEST_CASE("What the direct way is not made for it leaves to the cones") {
+  const cv::Mat full(7, 7, CV_8U, cv::Scalar(255));
+  std::vector<Seen> views{view_of_mask(0, 1, full, 3), view_of_mask(1, 1, full, 5), view_of_mask(2, 1, full, 7)};
+  const WorldBox box = enclosing_box(views).value();
+  CHECK(directly(views, box).has_value());
+  const std::vector<Seen> two(views.begin(), views.begin() + 2);
+  CHECK_FALSE(directly(two, box).has_value());
   // A camera in the box.
   CHECK_FALSE(directly(views, {{-100, -100, -100}, {100, 100, 100}}).has_value());
 }

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Doubles with slack far above their roundings, so that no edge is missed. Where a part shows no edge of a view, the
+// view is asked at the part's middle, exactly if need be.
+#include "apps/visual_hull/viewing_edges/space_halving.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <span>
+
+#include "apps/visual_hull/viewing_edges/part_vertices.h"
+#include "nef/base/parallel.h"
+
+namespace visual_hull {
+namespace {
+
+// Choices between the time of one more halving and that of the triples that it saves.
+constexpr std::size_t kFewFacets = 12;
+constexpr unsigned kDeepest = 45;  // halvings: fifteen along each axis
+constexpr unsigned kTaskDepth = 7;
+constexpr unsigned kLook = 3;  // every third time
+
+// Far above the roundings of the sums below, far below the size of a part.
+constexpr double kSlack = 1e-10;
+
+/// What is asked of an edge, close together.
+struct Facet {
+  std::array<double, 2> low{}, high{};  // of the edge in its image
+  Vec3 normal{};
+  double offset = 0;
+  double error = 0;  // of the height of a point in the box
+};
+
+/// What the views show in a part.
+struct Content {
+  std::vector<Shown> views;  // ranges of the edges
+  std::vector<std::uint32_t> edges;
+  std::size_t count = 0;  // of the edges; behind them is room
+
+  std::span<const std::uint32_t> all_edges() const { return {edges.data(), count}; }
+};
+
+/// A part that is still to be halved.
+struct Task {
+  PartBox box;
+  Content content;
+  unsigned depth = 0;
+};
+
+class Halving {
+ public:
+  Halving(const EdgeScene& scene, const std::vector<Facet>& facets) : s_(scene), facets_(facets), vertices_(scene) {}
+
+  /// Halves until `deepest`; parts that have come so far go to `rest`, or, without it, give their vertices. False if
+  /// something remains undecided.
+  [[nodiscard]] bool run(Task task, unsigned deepest, std::vector<Task>* rest) {
+    deepest_ = deepest;
+    rest_ = rest;
+    halves_.resize(deepest + 1);
+    return descend(task.box, task.content, task.depth);
+  }
+
+  HullVertices& found() { return vertices_.found; }
+
+ private:
+  /// A part's half.
+  struct Half {
+    PartBox box;
+    Content content;
+    bool empty = false;  // a view shows nothing of the hull there
+  };
+
+  [[nodiscard]] bool descend(const PartBox& box, Content& content, unsigned depth) {
+    if (content.views.size() < 2) return true;
+    if (content.count <= kFewFacets || depth == deepest_) {
+      if (rest_ == nullptr || depth < deepest_) return vertices_.find(box, content.views, content.all_edges());
+      rest_->push_back({box, content, depth});
+      return true;
+    }
+    std::array<Half, 2>& halves = halves_[depth];
+    divide(box, content, depth + 1, halves);
+    for (Half& half : halves) {
+      if (!half.empty && !descend(half.box, half.content, depth + 1)) return false;
+    }
+    return true;
+  }
+
+  // Planes are asked first: where some pass, what the window tells from parent to child is little.
+  void divide(const PartBox& box, Content& content, unsigned depth, std::array<Half, 2>& halves) {
+    const std::size_t axis =
+        static_cast<std::size_t>(std::max_element(box.half.begin(), box.half.end()) - box.half.begin());
+    const double quarter = box.half[axis] / 2;
+    for (const std::size_t k : {0U, 1U}) {
+      Half& half = halves[k];
+      half.box = box;
+      half.box.half[axis] = quarter * (1 + kOverlap);
+      half.box.middle[axis] += k == 0 ? -quarter : quarter;
+      half.content.views.clear();
+      half.content.count = 0;
+      if (half.content.edges.size() < content.count) half.content.edges.resize(content.count);
+      half.empty = false;
+    }
+    for (std::size_t v = 0; v < content.views.size() && !(halves[0].empty && halves[1].empty); ++v) {
+      const Shown shown = content.views[v];
+      const std::array<std::size_t, 2> begins{halves[0].content.count, halves[1].content.count};
+      keep_passing(content, shown, axis, quarter, halves);
+      for (const std::size_t k : {0U, 1U}) {
+        if (halves[k].empty || look(shown.view, begins[k], depth % kLook == 0, halves[k])) continue;
+        halves[k].empty = true;
+        std::swap(content.views[v], content.views[0]);  // it may reject the neighbour, too
+      }
+    }
+  }
+
+  // Without branches: whether a plane passes a half is as good as random.
+  void keep_passing(const Content& content, const Shown& shown, std::size_t axis, double quarter,
+                    std::array<Half, 2>& halves) const {
+    const PartBox& low = halves[0].box;
+    std::uint32_t* const first = halves[0].content.edges.data();
+    std::uint32_t* const second = halves[1].content.edges.data();
+    std::size_t first_count = halves[0].content.count;
+    std::size_t second_count = halves[1].content.count;
+    for (std::uint32_t i = shown.begin; i < shown.end; ++i) {
+      const std::uint32_t e = content.edges[i];
+      const Facet& facet = facets_[e];
+      const Vec3& n = facet.normal;
+      const double height = facet.offset + n[0] * low.middle[0] + n[1] * low.middle[1] + n[2] * low.middle[2];
+      const double reach =
+          facet.error + std::abs(n[0]) * low.half[0] + std::abs(n[1]) * low.half[1] + std::abs(n[2]) * low.half[2];
+      first[first_count] = e;
+      first_count += std::abs(height) <= reach ? 1 : 0;
+      second[second_count] = e;
+      second_count += std::abs(height + 2 * quarter * n[axis]) <= reach ? 1 : 0;
+    }
+    halves[0].content.count = first_count;
+    halves[1].content.count = second_count;
+  }
+
+  // Notes what a view shows in a half, whose edges have been added from `begin` on. False if it shows nothing of the
+  // hull there.
+  bool look(std::uint32_t index, std::size_t begin, bool closely, Half& half) const {
+    Content& content = half.content;
+    bool kept = true;  // not all of the half is in the silhouette, or that is not known
+    if (closely || content.count == begin) {
+      const EdgeView& view = s_.views[index];
+      if (const std::optional<EdgeView::Window> window = view.window(half.box.middle, half.box.half)) {
+        std::size_t end = begin;
+        for (std::size_t i = begin; i < content.count; ++i) {
+          const std::uint32_t e = content.edges[i];
+          content.edges[end] = e;
+          end += beside(facets_[e], *window) ? 0 : 1;
+        }
+        content.count = end;
+        if (end == begin) {
+          if (!middle_inside(view, *window)) return false;
+          kept = false;
+        }
+      }
+    }
+    if (kept) {
+      content.views.push_back({index, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(content.count)});
+    }
+    return true;
+  }
+
+  // No edge comes near the window, so its middle tells of all of it.
+  static bool middle_inside(const EdgeView& view, const EdgeView::Window& window) {
+    const auto [u, v] = window.middle;
+    if (const std::optional<bool> inside = view.inside({u, v, 0})) return *inside;
+    return view.locate(Point2::from_doubles(u, v)) != Side::kOutside;
+  }
+
+  static bool beside(const Facet& facet, const EdgeView::Window& window) {
+    for (std::size_t k = 0; k < 2; ++k) {
+      if (facet.low[k] > window.middle[k] + window.half[k]) return true;
+      if (facet.high[k] < window.middle[k] - window.half[k]) return true;
+    }
+    return false;
+  }
+
+  const EdgeScene& s_;
+  const std::vector<Facet>& facets_;
+  PartVertices vertices_;
+  std::vector<std::array<Half, 2>> halves_;  // by depth
+  unsigned deepest_ = 0;
+  std::vector<Task>* rest_ = nullptr;
+};
+
+std::vector<Facet> facets_of(const EdgeScene& scene) {
+  std::vector<Facet> facets;
+  facets.reserve(scene.edges.size());
+  for (const ViewingEdge& edge : scene.edges) {
+    Facet facet;
+    const auto& a = edge.from->approximate;
+    const auto& b = edge.to->approximate;
+    for (std::size_t k = 0; k < 2; ++k) {
+      facet.low[k] = std::min(a[k], b[k]);
+      facet.high[k] = std::max(a[k], b[k]);
+    }
+    facet.normal = edge.normal.at;
+    facet.offset = edge.offset;
+    double size = std::abs(edge.offset);
+    double reach = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      size += std::abs(edge.normal.at[k]) * scene.farthest[k];
+      reach += scene.farthest[k];
+    }
+    facet.error = size * kSlack + edge.offset_error + reach * edge.normal.error;
+    facets.push_back(facet);
+  }
+  return facets;
+}
+
+Task everything(const EdgeScene& scene) {
+  Task all;
+  for (std::size_t k = 0; k < 3; ++k) {
+    all.box.middle[k] = (scene.low[k] + scene.high[k]) / 2;
+    all.box.half[k] = (scene.high[k] - scene.low[k]) / 2 * (1 + kOverlap);
+  }
+  for (std::uint32_t v = 0; v < scene.views.size(); ++v) {
+    const EdgeView& view = scene.views[v];
+    all.content.views.push_back({v, view.first_edge(), view.first_edge() + view.edge_count()});
+  }
+  for (std::uint32_t e = 0; e < scene.edges.size(); ++e) all.content.edges.push_back(e);
+  all.content.count = scene.edges.size();
+  return all;
+}
+
+HullVertices together(HullVertices& first, std::vector<HullVertices>& others) {
+  HullVertices all = std::move(first);
+  for (HullVertices& part : others) {
+    all.plain.insert(all.plain.end(), part.plain.begin(), part.plain.end());
+    std::move(part.crowded.begin(), part.crowded.end(), std::back_inserter(all.crowded));
+  }
+  // Parts overlap, and three of many planes may be asked for twice.
+  std::sort(all.plain.begin(), all.plain.end());
+  all.plain.erase(std::unique(all.plain.begin(), all.plain.end()), all.plain.end());
+  std::sort(all.crowded.begin(), all.crowded.end(),
+            [](const CrowdedVertex& a, const CrowdedVertex& b) { return a.point < b.point; });
+  const auto same = [](const CrowdedVertex& a, const CrowdedVertex& b) { return a.point == b.point; };
+  all.crowded.erase(std::unique(all.crowded.begin(), all.crowded.end(), same), all.crowded.end());
+  return all;
+}
+
+}  // namespace
+
+std::optional<HullVertices> hull_vertices(const EdgeScene& scene, unsigned threads) {
+  const std::vector<Facet> facets = facets_of(scene);
+  std::vector<Task> tasks;
+  Halving above(scene, facets);
+  if (!above.run(everything(scene), kTaskDepth, &tasks)) return std::nullopt;
+  std::vector<HullVertices> found(tasks.size());
+  std::atomic<bool> decided = true;
+  nef::parallel_for(tasks.size(), threads, [&](std::size_t k) {
+    if (!decided.load(std::memory_order_relaxed)) return;
+    Halving halving(scene, facets);
+    if (!halving.run(std::move(tasks[k]), kDeepest, nullptr)) decided.store(false, std::memory_order_relaxed);
+    found[k] = std::move(halving.found());
+  });
+  if (!decided) return std::nullopt;
+  return together(above.found(), found);
+}
+
+}  // namespace visual_hull

@@ -144,6 +144,23 @@ def stress(plot, table: Table):
     return figure
 
 
+def sum_growth(plot, table: Table):
+    """Seconds of sums over the number of pairs of cells, a line for each family."""
+    families: dict[str, list[tuple[float, float]]] = {}
+    for name, pairs, time in zip(table.column("family of sums"), table.column("pairs"), table.column("CPU s")):
+        families.setdefault(name, []).append((float(pairs), float(time)))
+    figure, axes = plot.subplots(figsize=(7, 4))
+    for (name, points), ink in zip(families.items(), ("ours", "CGAL", "other")):
+        axes.plot(*zip(*points), marker="o", markersize=3, label=name, color=INK[ink])
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.set_xlabel("pairs of convex cells")
+    axes.set_ylabel("seconds")
+    axes.legend(fontsize=8, frameon=False)
+    axes.spines[["top", "right"]].set_visible(False)
+    return figure
+
+
 def passages(plot, table: Table):
     """First solution of each planner by the width of the opening; a cross at the limit where none was found."""
     planners = table.header[table.header.index("next query") + 1:]
@@ -183,6 +200,7 @@ FIGURES: list[tuple[str, set[str], Callable]] = [
     ("manifold", {"Manifold", "export"}, manifold),
     ("sums", {"ours, B closed", "CGAL"}, sums),
     ("stress", {"cells: auto", "now: auto"}, stress),
+    ("sum_growth", {"family of sums", "pairs"}, sum_growth),
     ("passages", {"opening", "TightPlanner"}, passages),
 ]
 

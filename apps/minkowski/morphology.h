@@ -45,6 +45,9 @@ struct BallApproximation {
 /// InputError unless radius > 0 and 1 <= splits <= 64.
 BallApproximation ball_approximation(const Rational& radius, int splits, Side side);
 
+/// The inner one as a set: ball(r, n) of expressions. Throws InputError unless `splits` is a whole number from 1 to 64.
+Polyhedron inner_ball(const Rational& radius, const Rational& splits);
+
 /// A set that lies inside (kInner) or around (kOuter) the offset of A by a radius: A + a closed ball for radius > 0, A
 /// eroded by one for radius < 0, A itself for 0. The true offset lies between the two, and both are within `error` (see
 /// ball_approximation) of it in this sense: each is the offset with a ball whose radius is off by at most that.
@@ -55,9 +58,9 @@ Polyhedron offset(const Polyhedron& a, const Rational& radius, int splits, Side 
 Polyhedron sweep(const Polyhedron& a, std::span<const Rational3> path, const MinkowskiOptions& options = {},
                  MinkowskiReport* report = nullptr);
 
-/// The convex hull of a bounded set, with its marks: the hull of an open set is open, that of a box without a corner
-/// lacks it. O(n log n) expected for closed sets, an intersection for each face of the hull otherwise. Throws
-/// UnsupportedError for unbounded sets.
+/// The convex hull of a set, with its marks: the hull of an open set is open, that of a box without a corner lacks it,
+/// that of a line and a point is an open strip and these two. O(n log n) expected for bounded closed sets, an
+/// intersection for each face of the hull otherwise.
 Polyhedron hull(const Polyhedron& a);
 
 /// By how much the hull of a set exceeds it, if that is next to nothing: at most 10^-9 of the hull's volume, but not

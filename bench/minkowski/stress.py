@@ -10,6 +10,7 @@ Extrusions (stars, gears) have caps in common planes; a ball written in doubles 
 ball is all reflex edges. Processor seconds of the whole process on one thread, with reading and writing.
 """
 import argparse
+import json
 import math
 import os
 import resource
@@ -155,16 +156,20 @@ class Bench:
     def command(self, operands, engine):
         """The command line of an engine: a strategy of ours, or a peer."""
         if engine == "cgal":
-            return [os.path.join(self.binaries, "sum_peer"), "exact", *operands, self.path("peer.nef3")]
+            return [os.path.join(self.binaries, "sum_peer"), "exact", *(self.mesh(operand, "off", "--exact") for operand in
+                                                                       operands), self.path("peer.nef3")]
         if engine == "manifold":
-            return [self.manifold, *(self.triangles(operand) for operand in operands)]
-        command = [os.path.join(self.binaries, "minkowski"), *operands, "-o", self.path("sum.nef"), "--threads", "1"]
+            return [self.manifold, *(self.mesh(operand, "stl") for operand in operands)]
+        command = [os.path.join(self.binaries, "minkowski"), *operands, "-o", self.path("sum.nef"), "--threads", "1", "--report",
+                   self.path("report.json")]
         return command + (["--union", engine] if engine != "default" else [])
 
-    def triangles(self, operand):
-        """The operand in the one format that holds triangles only, in text."""
-        name = os.path.splitext(os.path.basename(operand))[0] + ".stl"
-        subprocess.run([os.path.join(self.binaries, "nef"), "convert", operand, "-o", self.path(name), "-q"],
+    def mesh(self, operand, extension, *options):
+        """The operand as a mesh for a peer; .stl holds triangles only."""
+        if operand.endswith("." + extension):
+            return operand
+        name = os.path.splitext(os.path.basename(operand))[0] + "." + extension
+        subprocess.run([os.path.join(self.binaries, "nef"), "convert", operand, "-o", self.path(name), "-q", *options],
                        check=True, capture_output=True)
         return self.path(name)
 
@@ -194,12 +199,12 @@ class Bench:
         """name -> pairs of operands that grow together."""
         return {
             "generic": [[self.make(bumpy_ball, f"bumpy{n}{seed}.off", n, seed) for seed in (0, 1)]
-                        for n in (5, 7, 9, 11, 13)],
+                        for n in (5, 7, 9, 11, 13, 17, 23)],
             "extruded": [[self.make(star_prism, f"grow{k}.off", k, 0), self.make(star_prism, f"grown{k}.off", k, 0.4)]
-                         for k in (6, 9, 13, 18, 24)],
+                         for k in (6, 9, 13, 18, 24, 36, 48)],
             "nearly convex": [[self.make(latitude_ball, f"ball{n}.off", 1.0, n, n // 2, True),
                                self.make(latitude_ball, f"other{n}.off", 0.7, n + 1, n // 2, True)]
-                              for n in (8, 12, 16, 22, 30)],
+                              for n in (8, 12, 16, 22, 30, 40)],
         }
 
 
@@ -213,18 +218,22 @@ def exponent(points):
 
 def growth(bench, limit):
     """Seconds over the number of pairs of cells, by the default strategy."""
-    print(f"{'family':14} {'cells':>12} {'CPU s':>8} {'peak MB':>8}")
+    print(f"{'family of sums':14}  {'cells':>12}  {'pairs':>8}  {'CPU s':>8}  {'peak MB':>8}  {'strategy':>11}", flush=True)
+    exponents = []
     for name, pairs in bench.families().items():
         points = []
         for operands in pairs:
             k, l = (bench.cells(operand) for operand in operands)
             seconds, peak, done, line = bench.run(operands, "default", limit)
-            print(f"{name:14} {f'{k} x {l}':>12} {seconds:8.3f} {peak:8.0f}  {line if done else 'not done: ' + line}",
-                  flush=True)
+            with open(bench.path("report.json"), encoding="utf-8") as report:
+                chosen = json.load(report)["strategies"][0]["chosen"]
+            print(f"{name:14}  {f'{k} x {l}':>12}  {k * l:8}  {seconds:8.3f}  {peak:8.0f}  "
+                  f"{chosen if done else 'not done: ' + line:>11}", flush=True)
             if done:
                 points.append((k * l, seconds))
         if len(points) > 1:
-            print(f"{name:14} seconds grow as the pairs of cells to the power {exponent(points):.2f}", flush=True)
+            exponents.append(f"{name}: seconds grow as the pairs of cells to the power {exponent(points):.2f}")
+    print("\n".join(exponents))
 
 
 def build_manifold_peer(binaries, prefix):

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Free spaces of translating robots: contact is free, so passages of no width remain.
+#include <rapidcheck.h>
+
 #include <catch2/catch.hpp>
 #include <vector>
 
 #include "apps/minkowski/minkowski.h"
 #include "apps/minkowski/sum/fixed_obstacles.h"
 #include "nef/construct/convex_hull.h"
+#include "tests/support/fixed_cases.h"
 #include "tests/support/literals.h"
+#include "tests/support/minkowski_shapes.h"
+#include "tests/support/random_polyhedra.h"
 
 namespace {
 
@@ -151,6 +156,37 @@ TEST_CASE("obstacles cut up once: the same free spaces for any robot of convex p
       }
     }
   }
+}
+
+TEST_CASE("free spaces are the same with cells and without") {
+  nef::test::check("free space", 60, [] {
+    const Polyhedron robot = (*nef::test::recipes(true, 3, 2)).make();
+    const std::vector<Polyhedron> obstacles = {(*nef::test::recipes(true, 4)).make(),
+                                               nef::regularize((*nef::test::recipes(true, 3)).make()),
+                                               set("box(7,0,0,9,1,1)")};
+    RC_PRE(!robot.is_empty());
+    nef::minkowski::MinkowskiOptions options;
+    options.strategy = nef::minkowski::UnionStrategy::kQueue;
+    const Polyhedron by_cells = configuration_space(robot, obstacles, kBox, options);
+    RC_ASSERT(nef::equal(configuration_space(robot, obstacles, kBox), by_cells));
+    options.strategy = nef::minkowski::UnionStrategy::kConvolution;
+    RC_ASSERT(nef::equal(configuration_space(robot, obstacles, kBox, options), by_cells));
+  });
+}
+
+TEST_CASE("which obstacles are summed without cells") {
+  const std::vector<Polyhedron> obstacles = {nef::from_mesh(nef::test::mushroom()), set("box(7,0,0,9,1,1)"),
+                                             set("box(10,0,0,13,1,1) + box(10,0,0,11,3,1)")};
+  const Polyhedron robot = set("box(0,0,0,4,1,1) + box(0,0,0,1,4,1) + box(0,0,0,1,1,4) + box(3,0,0,4,1,4)");
+  nef::minkowski::MinkowskiReport report;
+  const Polyhedron free = configuration_space(robot, obstacles, kBox, {}, &report);
+  REQUIRE(report.choices.size() == 2);
+  CHECK(report.choices[0].chosen == "convolution");
+  CHECK(report.choices[1].why.find("obstacles are convex, have few cells, or are not solid") == 0);
+  CHECK(report.cells_a == 3);
+  nef::minkowski::MinkowskiOptions queue;
+  queue.strategy = nef::minkowski::UnionStrategy::kQueue;
+  CHECK(nef::equal(configuration_space(robot, obstacles, kBox, queue), free));
 }
 
 }  // namespace

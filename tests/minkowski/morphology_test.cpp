@@ -163,7 +163,6 @@ TEST_CASE("hulls with their marks") {
   CHECK(equal(hull_of("interior(box(0,0,0,2,2,2)) + point(0,1,2) + point(2,1,2)"),
               set("interior(box(0,0,0,2,2,2)) + segment(0,1,2, 2,1,2)")));
   CHECK(hull_of("nothing").is_empty());
-  CHECK_THROWS_AS(hull_of("halfspace(1,0,0,0)"), nef::UnsupportedError);
   CHECK(rc::check("hull", [] {
     const Polyhedron a = (*recipes(true, 3)).make();
     const Polyhedron h = valid(nef::minkowski::hull(a), "hull");
@@ -315,6 +314,40 @@ TEST_CASE("reach: a tool gets into a slot as wide as itself, not into a narrower
   CHECK(equal(inside.positions, set("box(6,1,1,7,1,1)")));
   CHECK(contains(inside.touched, {7, 1, Rational(3, 2)}));
   CHECK_THROWS_AS(nef::minkowski::reach(tool, part, Rational3{0, 0, 0}), nef::InputError);
+}
+
+TEST_CASE("hulls of unbounded sets") {
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"halfspace(1,0,0,0)", "halfspace(1,0,0,0)"},
+      {"interior(halfspace(1,0,0,0))", "interior(halfspace(1,0,0,0))"},
+      {"halfspace(1,0,0,0) + point(2,0,0)", "interior(halfspace(1,0,0,-2)) + point(2,0,0)"},
+      {"!box(0,0,0,1,1,1)", "everything"},
+      {"halfspace(1,0,0,0) + halfspace(0,1,0,0)", "everything"},
+      {"(halfspace(1,0,0,0) - halfspace(1,0,0,2)) + (halfspace(1,0,0,-4) - halfspace(1,0,0,-3))",
+       "halfspace(1,0,0,-4) - halfspace(1,0,0,2)"},
+      {"boundary(halfspace(0,1,0,0)) * boundary(halfspace(0,0,1,0)) + point(0,1,0)",
+       "boundary(halfspace(0,0,1,0)) * interior(halfspace(0,1,0,-1)) * interior(halfspace(0,-1,0,0)) +"
+       "boundary(halfspace(0,1,0,0)) * boundary(halfspace(0,0,1,0)) + point(0,1,0)"},
+      {"halfspace(-1,0,0,0) * boundary(halfspace(0,1,0,0)) * boundary(halfspace(0,0,1,0)) + point(5,1,0)",
+       "halfspace(-1,0,0,0) * boundary(halfspace(0,1,0,0)) * boundary(halfspace(0,0,1,0)) + segment(0,0,0, 5,1,0) +"
+       "boundary(halfspace(0,0,1,0)) * halfspace(-1,5,0,0) * interior(halfspace(0,1,0,-1)) *"
+       "interior(halfspace(0,-1,0,0))"},
+      {"(halfspace(1,0,0,0) * halfspace(0,1,0,0) * halfspace(0,0,1,0)) - box(-2,-2,-2,1,1,1)",
+       "(halfspace(1,0,0,0) * halfspace(0,1,0,0) * halfspace(0,0,1,0)) - hull(-2,0,0,0,-2,0,0,0,-2,0,0,0)"}};
+  for (const auto& [of, expected] : cases) {
+    CAPTURE(of);
+    CHECK(nef::equal(valid(nef::minkowski::hull(set(of)), "hull"), set(expected)));
+  }
+  CHECK(rc::check("unbounded hulls", [] {
+    const Polyhedron a = (*recipes(false, 3)).make();
+    const Polyhedron h = valid(nef::minkowski::hull(a), "hull");
+    RC_ASSERT(subtract(a, h).is_empty());
+    RC_ASSERT(subtract(nef::minkowski::hull(intersect(a, set("box(-50,-50,-50,50,50,50)"))), h).is_empty());
+    // Convex, marks included: with any two points it has the point between them.
+    const Polyhedron between =
+        transform(minkowski_sum(h, h), nef::AffineMap::scale({Rational(1, 2), Rational(1, 2), Rational(1, 2)}));
+    RC_ASSERT(equal(between, h));
+  }));
 }
 
 }  // namespace

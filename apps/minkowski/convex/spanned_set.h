@@ -20,6 +20,10 @@ struct SpannedSet {
 /// points p and p + r that no ray leaves. O(n log n) expected for n such points, plus an intersection of half-spaces.
 Polyhedron to_polyhedron(const SpannedSet& set, bool closed);
 
+/// Planes that a set with rays is on one side of, each of which touches it, but does not hold it: all of its relative
+/// boundary lies in them.
+std::vector<Polyhedron> border_planes(const SpannedSet& set);
+
 /// The set of the sums a + b.
 SpannedSet sum_of(const SpannedSet& a, const SpannedSet& b);
 

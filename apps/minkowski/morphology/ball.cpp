@@ -4,6 +4,7 @@
 // rounded the safe way, makes a bound of it.
 #include "apps/minkowski/convex/tools.h"
 #include "apps/minkowski/morphology.h"
+#include "nef/base/error.h"
 
 namespace nef::minkowski {
 namespace {
@@ -60,6 +61,13 @@ BallApproximation ball_approximation(const Rational& radius, int splits, Side si
   // Vertices are factor * radius away.
   result.error = radius * (factor - 1);
   return result;
+}
+
+Polyhedron inner_ball(const Rational& radius, const Rational& splits) {
+  if (splits.get_den() != 1 || splits < 1 || splits > 64) {
+    throw InputError("ball(r, n): n is a whole number from 1 to 64");
+  }
+  return to_polyhedron(ball_approximation(radius, static_cast<int>(splits.get_num().get_si()), Side::kInner).cell);
 }
 
 }  // namespace nef::minkowski

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vector>
 
-#include "apps/minkowski/decomposition/decomposition.h"
 #include "apps/minkowski/morphology.h"
+#include "apps/minkowski/sum/cobounded_sum.h"
+#include "apps/minkowski/sum/unbounded_sum.h"
 #include "nef/construct/construct.h"
 
 namespace nef::minkowski {
@@ -33,13 +34,22 @@ std::vector<std::vector<Rational3>> facets_of(const ConvexCell& cell) {
   return result;
 }
 
+// The hull of a closed set need not be closed: that of a line and a point is an open strip, the line and the point.
+Polyhedron unbounded_hull(const Polyhedron& a) {
+  const SpannedSet span = hull_span(a);
+  std::vector<Polyhedron> parts = {to_polyhedron(span, false)};
+  for (const Polyhedron& plane : border_planes(span)) parts.push_back(hull(intersect(a, plane)));
+  return unite_all(parts);
+}
+
 }  // namespace
 
 // The relative interior of the closure's hull belongs to the hull of the set. What belongs of a face F of the closure's
 // hull is the hull of what the set has in F.
 Polyhedron hull(const Polyhedron& a) {
-  require_bounded(a, "the set whose hull is asked for");
   if (a.is_empty()) return a;
+  if (is_cobounded(a)) return Polyhedron::everything();
+  if (!a.is_bounded()) return unbounded_hull(a);
   const std::vector<Rational3> points = vertices_of(a);
   const ConvexCell cell = hull_cell(points);
   if (cell.dimension == 0 || a.is_closed()) return to_polyhedron(cell);

@@ -2,14 +2,17 @@
 //
 // Free space of a translating robot [Lozano-Pérez 1983]. What is forbidden is a union of sums, and sums distribute over
 // unions, so all pairs of all obstacles go into one union; only what meets the obstacles' union without
-// its border needs that union first (it contains seams between touching obstacles).
+// its border needs that union first (it contains seams between touching obstacles). Solid obstacles that are not convex
+// may be summed without cells.
 #include <algorithm>
 #include <iterator>
 #include <string>
 
 #include "apps/minkowski/decomposition/decomposition.h"
+#include "apps/minkowski/decomposition/wall_axis.h"
 #include "apps/minkowski/minkowski.h"
 #include "apps/minkowski/sum/pair_sums.h"
+#include "apps/minkowski/sum/strategy_choice.h"
 #include "nef/base/error.h"
 #include "nef/base/phase_timer.h"
 #include "nef/construct/construct.h"
@@ -47,15 +50,69 @@ void append(std::vector<ConvexCell>& to, std::vector<ConvexCell> from) {
   std::move(from.begin(), from.end(), std::back_inserter(to));
 }
 
-Forbidden decompose_all(const Polyhedron& robot, std::span<const Polyhedron> obstacles, unsigned threads) {
+// What solid obstacles forbid whose sums with the robot's inside need no cells, and which obstacles these are.
+struct WithoutCells {
+  std::vector<Polyhedron> sums;
+  std::vector<char> is_done;  // per obstacle
+  std::string why_others;
+};
+
+// Options under which one of several equal parts of the work tells its progress as that of all.
+MinkowskiOptions part_of(const MinkowskiOptions& options, std::size_t part, std::size_t parts) {
+  MinkowskiOptions result = options;
+  if (!options.progress) return result;
+  result.progress = [outer = options.progress, part, parts](std::size_t done, std::size_t all) {
+    return outer((1000 * part + 1000 * done / all) / parts, 1000);
+  };
+  return result;
+}
+
+// Measured: cells of small obstacles, all in one union, are faster than as many sums. Sets of few vertices have few
+// cells.
+constexpr std::size_t kFewPairs = 100;
+
+WithoutCells sums_without_cells(const Polyhedron& robot, std::span<const Polyhedron> obstacles,
+                                const MinkowskiOptions& options, MinkowskiReport& report) {
+  WithoutCells result;
+  result.is_done.assign(obstacles.size(), 0);
+  result.why_others = "obstacles are convex, have few cells, or are not solid";
+  const bool insist = options.strategy == UnionStrategy::kConvolution;
+  if (!insist && options.strategy != UnionStrategy::kAuto) return result;
+  const Polyhedron robot_inside = interior(negate(robot));
+  if (robot_inside.is_empty()) return result;
+  const std::size_t robot_cells = insist ? 0 : estimated_cells(robot_inside.complex());
+  for (std::size_t i = 0; i < obstacles.size(); ++i) {
+    const Polyhedron closed = closure(obstacles[i]);
+    if (!is_full_dimensional(closed)) continue;
+    const std::size_t vertices = closed.complex().vertex_count() * robot_inside.complex().vertex_count();
+    if (!insist && vertices < 4 * kFewPairs) continue;
+    const std::size_t cells = insist ? 0 : estimated_cells(closed.complex());
+    if (!insist && (cells < 2 || cells * robot_cells < kFewPairs)) continue;
+    std::string why;
+    std::optional<Polyhedron> sum =
+        sum_by_convolution(closed, robot_inside, part_of(options, i, obstacles.size() + 1), report, why);
+    if (sum) {
+      report.choices.push_back({"convolution", std::move(why)});
+      result.sums.push_back(*std::move(sum));
+      result.is_done[i] = 1;
+    } else {
+      result.why_others = std::move(why);
+    }
+  }
+  return result;
+}
+
+Forbidden decompose_all(const Polyhedron& robot, std::span<const Polyhedron> obstacles,
+                        const std::vector<char>& is_done, unsigned threads) {
   Forbidden result;
   const Polyhedron turned = negate(robot);
   const Polyhedron robot_inside = interior(turned);
   if (!robot_inside.is_empty()) {
     std::vector<ConvexCell> solid;
     std::vector<ConvexCell> flat;
-    for (const Polyhedron& obstacle : obstacles) {
-      const Polyhedron closed = closure(obstacle);
+    for (std::size_t i = 0; i < obstacles.size(); ++i) {
+      if (is_done[i] != 0) continue;
+      const Polyhedron closed = closure(obstacles[i]);
       if (is_full_dimensional(closed)) {
         append(solid, decompose_open(closed));
       } else {
@@ -104,19 +161,25 @@ Polyhedron configuration_space(const Polyhedron& robot, std::span<const Polyhedr
   }
   PredicateCounts all;
   const PhaseTimer total(r.seconds_total, all);
+  WithoutCells without_cells = sums_without_cells(robot, obstacles, options, r);
   Forbidden parts;
   {
     const PhaseTimer timer(r.seconds_decomposition, r.predicates_decomposition);
-    parts = decompose_all(robot, obstacles, options.threads);
+    parts = decompose_all(robot, obstacles, without_cells.is_done, options.threads);
   }
   r.cells_a += parts.obstacles_open.size() + parts.obstacles_flat.size() + parts.obstacles_inner.size();
   r.cells_b += std::max(parts.robot_open.size(), parts.robot_marked.size()) + parts.robot_thin.size();
   const std::array<Product, 3> products = {Product{parts.obstacles_open, parts.robot_open},
                                            Product{parts.obstacles_flat, parts.robot_marked},
                                            Product{parts.obstacles_inner, parts.robot_thin}};
-  const Polyhedron forbidden = union_of_pair_sums(products, options, r);
+  const bool any =
+      std::any_of(products.begin(), products.end(), [](const Product& p) { return p.a.size() * p.b.size() > 0; });
+  if (any) {
+    const MinkowskiOptions last = part_of(options, obstacles.size(), obstacles.size() + 1);
+    without_cells.sums.push_back(union_of_pair_sums_for(std::move(without_cells.why_others), products, last, r));
+  }
   const PhaseTimer timer(r.seconds_union, r.predicates_union);
-  return outside_of(forbidden, box);
+  return outside_of(unite_all(without_cells.sums, options.threads), box);
 }
 
 }  // namespace nef::minkowski

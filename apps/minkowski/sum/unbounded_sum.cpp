@@ -10,7 +10,6 @@
 #include <set>
 #include <string>
 
-#include "apps/minkowski/convex/spanned_set.h"
 #include "apps/minkowski/decomposition/decomposition.h"
 #include "apps/minkowski/decomposition/reflex.h"
 #include "apps/minkowski/decomposition/walls.h"
@@ -200,6 +199,23 @@ std::vector<SpannedSet> cells_of(const Polyhedron& a, Parts parts) {
 }
 
 }  // namespace
+
+// Cut by a box of any large size, the set has the hull of its vertices; those that move with the box do so on edges of
+// the set or of the box, whose other ends or whose lines are spanned, too.
+SpannedSet hull_span(const Polyhedron& a) {
+  SpanReader reader(a.complex());
+  std::set<Rational3> points;
+  std::set<Rational3> rays;
+  const auto add = [&](const std::vector<SpannedSet>& items) {
+    for (const SpannedSet& item : items) {
+      points.insert(item.points.begin(), item.points.end());
+      rays.insert(item.rays.begin(), item.rays.end());
+    }
+  };
+  add(reader.volumes());
+  add(reader.others());
+  return {{points.begin(), points.end()}, {rays.begin(), rays.end()}};
+}
 
 Polyhedron unbounded_sum(const Polyhedron& a, const Polyhedron& b, const MinkowskiOptions& options,
                          MinkowskiReport& report) {

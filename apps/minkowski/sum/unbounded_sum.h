@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 
+#include "apps/minkowski/convex/spanned_set.h"
 #include "apps/minkowski/minkowski.h"
 #include "nef/polyhedron.h"
 
@@ -14,5 +15,8 @@ namespace nef::minkowski {
 /// of cells are summed. Throws UnsupportedError for more than a few dozen planes or some ten thousand pairs.
 Polyhedron unbounded_sum(const Polyhedron& a, const Polyhedron& b, const MinkowskiOptions& options,
                          MinkowskiReport& report);
+
+/// What spans the closed convex hull of an unbounded set whose complement is unbounded, too. O(n).
+SpannedSet hull_span(const Polyhedron& a);
 
 }  // namespace nef::minkowski

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "apps/minkowski/minkowski.h"
+#include "apps/minkowski/morphology.h"
 #include "apps/planner/scene/nearly_closed.h"
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
@@ -92,6 +93,7 @@ Polyhedron shape_of_text(const std::string& text, const std::string& folder, Mes
     return read_shape_file((std::filesystem::path(folder) / file).string(), messages);
   };
   options.minkowski = [](const Polyhedron& a, const Polyhedron& b) { return minkowski::minkowski_sum(a, b); };
+  options.ball = minkowski::inner_ball;
   try {
     return evaluate_expression(text, options);
   } catch (const ExpressionError& error) {

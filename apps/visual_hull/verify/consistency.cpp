@@ -14,8 +14,8 @@
 namespace visual_hull {
 namespace {
 
-constexpr std::size_t kMostRays = 400;     // of a view; more change nothing
-constexpr std::size_t kRaysInAll = 16000;  // where there are many views, each has fewer
+constexpr std::size_t kMostRays = 300;     // of a view; more change nothing
+constexpr std::size_t kRaysInAll = 10000;  // where there are many views, each has fewer
 constexpr std::size_t kFewestRays = 100;
 constexpr double kGuiltyScore = 1.5;
 constexpr double kGuiltyLead = 0.4;
@@ -35,6 +35,15 @@ struct Event {
   double s = 0;
   std::uint32_t view = 0;
   bool enters = false;
+};
+
+// A line of sight.
+struct SightLine {
+  Eigen::Vector3d direction;
+  DepthInterval range;         // in the box
+  std::vector<Event> events;   // of one view after the other
+  std::vector<double> begins;  // of each other view that sees some of it, the first depth
+  std::vector<double> ends;    // and the last one
 };
 
 struct Lines {
@@ -57,30 +66,54 @@ struct Lines {
     return std::clamp(kRaysInAll / std::max<std::size_t>(views.size(), 1), kFewestRays, kMostRays);
   }
 
-  /// Calls visit(range, events) for every line of sight of view i: its part in the box, and what happens on it.
+  /// Calls visit(line) for every line of sight of view i.
   template <typename Visit>
   void each_line(std::size_t i, Visit&& visit) const {
-    std::vector<Event> events;
-    std::vector<DepthInterval> inside;
+    std::vector<SightLine> lines;
     for (const Eigen::Vector2d& p : views[i].sample(rays())) {
       const Eigen::Vector3d direction = views[i].ray(p);
       const DepthInterval range = in_box(views[i].centre(), direction, low, high);
       if (!(range.from < range.to)) continue;
-      events.clear();
-      for (std::size_t j = 0; j < views.size(); ++j) {
-        if (j == i) continue;
-        inside.clear();
-        views[j].cut(views[i].centre(), direction, range, inside);
-        for (const DepthInterval& part : inside) {
-          events.push_back({part.from, static_cast<std::uint32_t>(j), true});
-          events.push_back({part.to, static_cast<std::uint32_t>(j), false});
-        }
-      }
-      std::sort(events.begin(), events.end(), [](const Event& a, const Event& b) { return a.s < b.s; });
-      visit(range, events);
+      SightLine& line = lines.emplace_back(SightLine{direction, range, {}, {}, {}});
+      line.events.reserve(2 * views.size());
+      line.begins.reserve(views.size());
+      line.ends.reserve(views.size());
     }
+    std::vector<DepthInterval> inside;
+    for (std::uint32_t j = 0; j < views.size(); ++j) {
+      if (j == i) continue;
+      const SightPencil pencil(views[j], views[i].centre());
+      for (SightLine& line : lines) {
+        inside.clear();
+        pencil.cut(line.direction, line.range, inside);
+        for (const DepthInterval& part : inside) {
+          line.events.push_back({part.from, j, true});
+          line.events.push_back({part.to, j, false});
+        }
+        if (inside.empty()) continue;
+        line.begins.push_back(inside.front().from);
+        line.ends.push_back(inside.back().to);
+      }
+    }
+    for (SightLine& line : lines) visit(line);
   }
 };
+
+// By depth.
+void sort_events(std::vector<Event>::iterator begin, std::vector<Event>::iterator end) {
+  std::sort(begin, end, [](const Event& a, const Event& b) { return a.s < b.s; });
+}
+
+// The part of a line of a view out of n in which at most two other views may reject: n - 3 see something before and
+// behind.
+DepthInterval where_few_reject(SightLine& line, std::size_t n) {
+  if (n <= 3) return line.range;
+  const auto few = static_cast<std::ptrdiff_t>(n - 3);
+  if (static_cast<std::ptrdiff_t>(line.begins.size()) < few) return {1, 0};
+  std::nth_element(line.begins.begin(), line.begins.begin() + few - 1, line.begins.end());
+  std::nth_element(line.ends.begin(), line.ends.end() - few, line.ends.end());
+  return {line.begins[n - 4], *(line.ends.end() - few)};
+}
 
 Tally tally_of(const Lines& lines, std::size_t i) {
   const std::size_t n = lines.views.size();
@@ -89,20 +122,21 @@ Tally tally_of(const Lines& lines, std::size_t i) {
   tally.alone.assign(n, 0);
   tally.in_pair.assign(n, 0);
   std::size_t count = 0;
-  std::vector<bool> accepts(n);
   std::vector<bool> only(n);  // v is the only one to reject some point of the line
-  lines.each_line(i, [&](const DepthInterval& range, const std::vector<Event>& events) {
+  lines.each_line(i, [&](SightLine& line) {
     ++count;
-    accepts.assign(n, false);
-    accepts[i] = true;
+    const DepthInterval part_of_few = where_few_reject(line, n);
+    if (part_of_few.from > part_of_few.to) {
+      tally.residual += 1;
+      return;
+    }
     only.assign(n, false);
     std::size_t rejecting = n - 1;
     // Sums over the numbers of the views that reject tell which they are as long as they are one or two.
     auto sum = static_cast<double>(n * (n - 1) / 2 - i);
-    double squares = 0;
-    for (std::size_t j = 0; j < n; ++j) squares += j == i ? 0 : static_cast<double>(j * j);
+    auto squares = static_cast<double>((n - 1) * n * (2 * n - 1) / 6 - i * i);
     bool covered = false;
-    double at = range.from;
+    double at = line.range.from;
     const auto pass = [&](double to) {
       if (to <= at) return;
       const double part = (to * to * to - at * at * at) / 3;
@@ -123,14 +157,24 @@ Tally tally_of(const Lines& lines, std::size_t i) {
       }
       at = to;
     };
-    for (const Event& e : events) {
-      pass(e.s);
+    const auto happens = [&](const Event& e) {
       const double number = e.view;
       rejecting += e.enters ? std::size_t(-1) : std::size_t{1};
       sum += e.enters ? -number : number;
       squares += e.enters ? -number * number : number * number;
+    };
+    const auto before = [&](const Event& e) { return e.s < part_of_few.from; };
+    const auto not_behind = [&](const Event& e) { return e.s <= part_of_few.to; };
+    const auto begin = std::partition(line.events.begin(), line.events.end(), before);
+    const auto end = std::partition(begin, line.events.end(), not_behind);
+    std::for_each(line.events.begin(), begin, happens);
+    if (n > 3) at = part_of_few.from;
+    sort_events(begin, end);
+    for (auto e = begin; e != end; ++e) {
+      pass(e->s);
+      happens(*e);
     }
-    pass(range.to);
+    pass(line.range.to);
     if (covered) return;
     tally.residual += 1;
     for (std::size_t v = 0; v < n; ++v) tally.excluded[v] += only[v] ? 1 : 0;
@@ -224,10 +268,11 @@ std::vector<std::vector<std::size_t>> disjoint_views(const std::vector<ComparedV
   // The sets of views that some point of a line is seen by.
   std::vector<std::set<std::string>> seen(n);
   nef::parallel_for(n, threads, [&](std::size_t i) {
-    lines.each_line(i, [&](const DepthInterval& /*range*/, const std::vector<Event>& events) {
+    lines.each_line(i, [&](SightLine& line) {
       Set accepting;
       accepting.set(i);
-      for (const Event& e : events) {
+      sort_events(line.events.begin(), line.events.end());
+      for (const Event& e : line.events) {
         if (!e.enters) seen[i].insert(accepting.to_string());
         accepting.set(e.view, e.enters);
       }

@@ -8,6 +8,21 @@
 #include "apps/visual_hull/scene/pose.h"
 
 namespace visual_hull {
+namespace {
+
+constexpr std::size_t kBins = 1024;  // of half a turn
+constexpr double kTurnSlack = 1e-9;  // far above roundings
+
+// Grows with the angle of (x, y): 1 for a quarter turn, from 0 to 4.
+double turn_of(double x, double y) {
+  const double size = std::abs(x) + std::abs(y);
+  if (!(size > 0)) return 0;
+  const double t = y / size;
+  if (x < 0) return 2 - t;
+  return y < 0 ? 4 + t : t;
+}
+
+}  // namespace
 
 SightView::SightView(const ComparedView& view) : matrix_(to_doubles(*view.camera)) {
   inverse_ = matrix_.leftCols<3>().inverse();
@@ -23,19 +38,7 @@ SightView::SightView(const ComparedView& view) : matrix_(to_doubles(*view.camera
     area_ += twice_area(ring) / 2;
   }
   ring_begin_.push_back(static_cast<std::uint32_t>(u_.size()));
-  for (std::size_t r = 0; r + 1 < ring_begin_.size(); ++r) {
-    const std::uint32_t last = ring_begin_[r + 1] - 1;
-    for (std::uint32_t begin = ring_begin_[r]; begin < last; begin += kRun)
-      add_run(begin, std::min(begin + kRun, last));
-  }
   angle_ = std::abs(inverse_.determinant()) * area_;
-}
-
-void SightView::add_run(std::uint32_t begin, std::uint32_t end) {
-  const auto [left, right] = std::minmax_element(u_.begin() + begin, u_.begin() + end + 1);
-  const auto [top, bottom] = std::minmax_element(v_.begin() + begin, v_.begin() + end + 1);
-  runs_.push_back(
-      {begin, end, (*left + *right) / 2, (*top + *bottom) / 2, std::hypot(*right - *left, *bottom - *top) / 2});
 }
 
 Eigen::Vector3d SightView::ray(const Eigen::Vector2d& image) const { return inverse_ * image.homogeneous(); }
@@ -71,11 +74,77 @@ std::vector<Eigen::Vector2d> SightView::sample(std::size_t count) const {
   return points;
 }
 
-void SightView::cut(const Eigen::Vector3d& centre, const Eigen::Vector3d& direction, const DepthInterval& range,
-                    std::vector<DepthInterval>& inside) const {
+// A vertex w of the outline lies on the side (a x M d) . w = d . M^T (w x a) of the line in which the direction d is
+// seen, a the image of the point. M^T (w x a) is at right angles to the line through point and camera, so two numbers
+// tell its sign for every d, and a side is crossed where they differ at its ends: by the directions between those that
+// see one end and the other.
+SightPencil::SightPencil(const SightView& view, const Eigen::Vector3d& centre)
+    : view_(view), epipole_(view.matrix_ * centre.homogeneous()) {
+  const Eigen::Matrix3d block = view.matrix_.leftCols<3>();
+  Eigen::Vector3d axis = centre - view.centre_;
+  if (axis.squaredNorm() == 0) axis = Eigen::Vector3d::UnitX();  // every line is seen as a point
+  across_.col(0) = axis.unitOrthogonal();
+  across_.col(1) = axis.normalized().cross(across_.col(0));
+  const Eigen::Vector3d form0 = epipole_.cross(block * across_.col(0));
+  const Eigen::Vector3d form1 = epipole_.cross(block * across_.col(1));
+  std::vector<double> turns(view.u_.size());
+  for (std::size_t k = 0; k < turns.size(); ++k) {
+    const double x = form0[0] * view.u_[k] + form0[1] * view.v_[k] + form0[2];
+    const double y = form1[0] * view.u_[k] + form1[1] * view.v_[k] + form1[2];
+    turns[k] = turn_of(-y, x);
+  }
+  // Twice over the sides: count, then fill.
+  bin_begin_.assign(kBins + 1, 0);
+  for (const bool fill : {false, true}) {
+    for (std::size_t r = 0; r + 1 < view.ring_begin_.size(); ++r) {
+      for (std::uint32_t k = view.ring_begin_[r]; k + 1 < view.ring_begin_[r + 1]; ++k) {
+        const double step = std::remainder(turns[k + 1] - turns[k], 4.0);
+        const double low = (step < 0 ? turns[k + 1] : turns[k]) - kTurnSlack;
+        const double high = low + std::abs(step) + 2 * kTurnSlack;
+        const auto last = static_cast<std::int64_t>(std::floor(high * (kBins / 2)));
+        for (auto bin = static_cast<std::int64_t>(std::floor(low * (kBins / 2))); bin <= last; ++bin) {
+          const std::size_t at = static_cast<std::size_t>(bin + kBins) % kBins;
+          if (fill) {
+            bin_sides_[--bin_begin_[at + 1]] = k;
+          } else {
+            ++bin_begin_[at + 1];
+          }
+        }
+      }
+    }
+    if (fill) break;
+    for (std::size_t bin = 0; bin < kBins; ++bin) bin_begin_[bin + 1] += bin_begin_[bin];
+    bin_sides_.resize(bin_begin_[kBins]);
+  }
+  // Filling has moved each end to the beginning: bin b now begins at bin_begin_[b + 1].
+  std::move(bin_begin_.begin() + 1, bin_begin_.end(), bin_begin_.begin());
+  bin_begin_[kBins] = static_cast<std::uint32_t>(bin_sides_.size());
+}
+
+void SightPencil::find_crossings(const Eigen::Vector3d& direction, const Eigen::Vector3d& line,
+                                 const Eigen::Vector2d& along, std::vector<double>& crossings) const {
+  const double turn = turn_of(direction.dot(across_.col(0)), direction.dot(across_.col(1)));
+  const std::size_t bin = static_cast<std::size_t>(turn * (kBins / 2)) % kBins;
+  const std::vector<double>& u = view_.u_;
+  const std::vector<double>& v = view_.v_;
+  const auto side = [&](std::size_t k) { return line[0] * u[k] + line[1] * v[k] + line[2]; };
+  for (std::uint32_t i = bin_begin_[bin]; i < bin_begin_[bin + 1]; ++i) {
+    const std::uint32_t k = bin_sides_[i];
+    const double here = side(k);
+    const double there = side(k + 1);
+    if ((here <= 0) == (there <= 0)) continue;
+    const double share = here / (here - there);
+    const Eigen::Vector2d p(u[k] + share * (u[k + 1] - u[k]), v[k] + share * (v[k + 1] - v[k]));
+    crossings.push_back(along.dot(p));
+  }
+  std::sort(crossings.begin(), crossings.end());
+}
+
+void SightPencil::cut(const Eigen::Vector3d& direction, const DepthInterval& range,
+                      std::vector<DepthInterval>& inside) const {
   // The line is seen at a + s b, homogeneous; only s with a positive depth are in front.
-  const Eigen::Vector3d a = matrix_ * centre.homogeneous();
-  const Eigen::Vector3d b = matrix_.leftCols<3>() * direction;
+  const Eigen::Vector3d& a = epipole_;
+  const Eigen::Vector3d b = view_.matrix_.leftCols<3>() * direction;
   double from = range.from;
   double to = range.to;
   const double least = 1e-9 * (std::abs(a[2]) + std::abs(b[2]) * std::max(std::abs(from), std::abs(to)));
@@ -88,7 +157,7 @@ void SightView::cut(const Eigen::Vector3d& centre, const Eigen::Vector3d& direct
   if (!(length > 1e-12 * a.norm() * b.norm())) {
     // Both cameras stand on the line, which is seen as a point.
     const Eigen::Vector3d x = a + (from + to) / 2 * b;
-    if (this->inside(x.head<2>() / x[2])) inside.push_back({from, to});
+    if (view_.inside(x.head<2>() / x[2])) inside.push_back({from, to});
     return;
   }
   along /= length;
@@ -99,21 +168,7 @@ void SightView::cut(const Eigen::Vector3d& centre, const Eigen::Vector3d& direct
 
   thread_local std::vector<double> crossings;
   crossings.clear();
-  const auto side = [&](std::size_t k) { return line[0] * u_[k] + line[1] * v_[k] + line[2]; };
-  for (const Run& run : runs_) {
-    // Twice the radius, far above roundings: a run that is left out is not crossed.
-    if (std::abs(line[0] * run.u + line[1] * run.v + line[2]) > 2 * run.radius * length) continue;
-    double before = side(run.begin);
-    for (std::size_t k = run.begin; k < run.end; ++k) {
-      const double here = before;
-      before = side(k + 1);
-      if ((here <= 0) == (before <= 0)) continue;
-      const double share = here / (here - before);
-      const Eigen::Vector2d p(u_[k] + share * (u_[k + 1] - u_[k]), v_[k] + share * (v_[k + 1] - v_[k]));
-      crossings.push_back(along.dot(p));
-    }
-  }
-  std::sort(crossings.begin(), crossings.end());
+  find_crossings(direction, line, along, crossings);
   double first = place(from);
   double last = place(to);
   const bool backward = first > last;

@@ -18,7 +18,7 @@ struct DepthInterval {
   double to = 0;
 };
 
-/// A view for lines of sight: its matrix, and its outline as arrays that a compiler can work on in parallel.
+/// A view for lines of sight.
 class SightView {
  public:
   explicit SightView(const ComparedView& view);
@@ -32,13 +32,9 @@ class SightView {
   [[nodiscard]] const Eigen::Vector3d& centre() const { return centre_; }
   [[nodiscard]] double area() const { return area_; }
 
-  /// The parts of `range` of the line centre + s * direction that are seen in the silhouette, in order, appended.
-  void cut(const Eigen::Vector3d& centre, const Eigen::Vector3d& direction, const DepthInterval& range,
-           std::vector<DepthInterval>& inside) const;
-
  private:
+  friend class SightPencil;
   [[nodiscard]] bool inside(const Eigen::Vector2d& p) const;
-  void add_run(std::uint32_t begin, std::uint32_t end);
 
   Eigen::Matrix<double, 3, 4> matrix_;
   Eigen::Matrix3d inverse_;
@@ -48,16 +44,28 @@ class SightView {
   // Vertices ring by ring, each ring closed by its first vertex again.
   std::vector<double> u_, v_;
   std::vector<std::uint32_t> ring_begin_;
-  /// Some sides in a row, between vertices begin and end, in a circle: most lines pass by most of them.
-  struct Run {
-    std::uint32_t begin = 0;
-    std::uint32_t end = 0;
-    double u = 0;
-    double v = 0;
-    double radius = 0;
-  };
-  static constexpr std::uint32_t kRun = 12;
-  std::vector<Run> runs_;
+};
+
+/// The lines through one point as a view sees them: lines through one point of its image, which are told apart by their
+/// angle about the line through that point and the camera [Matusik, Buehler, McMillan 2001].
+class SightPencil {
+ public:
+  /// Keeps a reference to the view. O(n) for n sides of its outline.
+  SightPencil(const SightView& view, const Eigen::Vector3d& centre);
+
+  /// The parts of `range` of the line centre + s * direction that are seen in the silhouette, in order, appended. Asks
+  /// only the sides at the line's angle.
+  void cut(const Eigen::Vector3d& direction, const DepthInterval& range, std::vector<DepthInterval>& inside) const;
+
+ private:
+  void find_crossings(const Eigen::Vector3d& direction, const Eigen::Vector3d& line, const Eigen::Vector2d& along,
+                      std::vector<double>& crossings) const;
+
+  const SightView& view_;
+  Eigen::Vector3d epipole_;               // homogeneous: the image of the point
+  Eigen::Matrix<double, 3, 2> across_;    // two directions across the line through point and camera
+  std::vector<std::uint32_t> bin_begin_;  // equal parts of half a turn
+  std::vector<std::uint32_t> bin_sides_;  // a side by its first vertex
 };
 
 /// The range of depths at which a line is in a box; empty (from > to) if it misses it.

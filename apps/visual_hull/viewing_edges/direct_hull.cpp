@@ -64,7 +64,7 @@ std::optional<nef::Polyhedron> direct_hull(const std::vector<DirectView>& views,
   if (!vertices || !ends_pair_up(*vertices, scene->edges)) return std::nullopt;
   std::vector<const Camera*> cameras;
   for (const DirectView& input : views) cameras.push_back(input.camera);
-  return complex_of(*vertices, scene->edges, cameras);
+  return complex_of(*vertices, scene->edges, cameras, threads);
 }
 
 }  // namespace visual_hull

@@ -10,10 +10,12 @@
 #include "apps/visual_hull/viewing_edges/hull_complex.h"
 
 #include <algorithm>
+#include <atomic>
 
 #include "apps/visual_hull/cones/boundary_node.h"
 #include "apps/visual_hull/scene/camera_planes.h"
 #include "apps/visual_hull/viewing_edges/corners.h"
+#include "nef/base/parallel.h"
 #include "nef/synthesis/complex_builder.h"
 
 namespace visual_hull {
@@ -28,25 +30,30 @@ class ComplexWriter {
     for (const Camera* camera : cameras) cameras_.emplace_back(*camera);
   }
 
-  // False if a corner is straight, or planes share a line.
-  [[nodiscard]] bool add(const SpotName& name) {
-    corners_.clear();
-    PlaneId across = plane(name[2]);
-    if (const auto first = corner_of(name, edges_)) {
-      for (const std::uint32_t e : name) {
-        if (e != *first && e != edges_[*first].previous) across = plane(e);
-      }
-      for (std::uint32_t e = *first; e != UINT32_MAX; e = edges_[e].next_at_place) {
-        const ViewingEdge& out = edges_[e];
-        const ViewingEdge& in = edges_[out.previous];
-        const int turn = orientation(*in.from, *out.from, *out.to);
-        if (turn == 0) return false;
-        corners_.push_back({plane(out.previous), plane(e), turn < 0, out.previous, e});
-      }
-    } else {
-      corners_.push_back({plane(name[0]), plane(name[1]), false, name[0], name[1]});
+  // False if a corner is straight, or planes share a line. Points are the dearest: several threads share them.
+  [[nodiscard]] bool add(const std::vector<SpotName>& names, unsigned threads) {
+    constexpr std::size_t kPoints = 512;  // a task
+    std::vector<std::array<PlaneId, 3>> meeting;
+    meeting.reserve(names.size());
+    for (const SpotName& name : names) {
+      if (!collect(name)) return false;
+      meeting.push_back({corners_[0].in, corners_[0].out, across_});
     }
-    return push_vertex(across);
+    std::vector<std::vector<nef::PointId>> ids((names.size() + kPoints - 1) / kPoints);
+    std::vector<nef::PointTable> points(ids.size());
+    std::atomic<bool> good = true;
+    nef::parallel_for(ids.size(), threads, [&](std::size_t task) {
+      for (std::size_t i = task * kPoints; i < std::min((task + 1) * kPoints, names.size()); ++i) {
+        const auto& [p, q, r] = meeting[i];
+        const std::optional<nef::PointId> id = points[task].push_intersection(table_, p, q, r);
+        if (id) ids[task].push_back(*id);
+        if (!id) good = false;
+      }
+    });
+    for (std::size_t i = 0; i < names.size() && good; ++i) {
+      good = collect(names[i]) && push_vertex(points[i / kPoints], ids[i / kPoints][i % kPoints]);
+    }
+    return good;
   }
 
   void add(const std::vector<CrowdedVertex>& vertices) {
@@ -61,6 +68,28 @@ class ComplexWriter {
   nef::Polyhedron finish() { return nef::Polyhedron(builder_.finish(0)); }
 
  private:
+  // The corners of a vertex, and the plane across their ray.
+  [[nodiscard]] bool collect(const SpotName& name) {
+    corners_.clear();
+    across_ = plane(name[2]);
+    const std::optional<std::uint32_t> first = corner_of(name, edges_);
+    if (!first) {
+      corners_.push_back({plane(name[0]), plane(name[1]), false, name[0], name[1]});
+      return true;
+    }
+    for (const std::uint32_t e : name) {
+      if (e != *first && e != edges_[*first].previous) across_ = plane(e);
+    }
+    for (std::uint32_t e = *first; e != UINT32_MAX; e = edges_[e].next_at_place) {
+      const ViewingEdge& out = edges_[e];
+      const ViewingEdge& in = edges_[out.previous];
+      const int turn = orientation(*in.from, *out.from, *out.to);
+      if (turn == 0) return false;
+      corners_.push_back({plane(out.previous), plane(e), turn < 0, out.previous, e});
+    }
+    return true;
+  }
+
   PlaneId plane(std::uint32_t edge) {
     if (!planes_[edge].valid()) {
       const ViewingEdge& e = edges_[edge];
@@ -80,7 +109,8 @@ class ComplexWriter {
     std::uint32_t out_node = 0;
   };
 
-  [[nodiscard]] bool push_vertex(PlaneId r) {
+  [[nodiscard]] bool push_vertex(const nef::PointTable& points, nef::PointId point) {
+    const PlaneId r = across_;
     map_.clear();
     std::uint32_t ray = nef::kNone;
     bool turned = false;  // the same for all corners on a ray
@@ -108,7 +138,7 @@ class ComplexWriter {
       }
     }
     map_.centre = 1;
-    builder_.add({corners_[0].in, corners_[0].out, r}, map_);
+    builder_.add(points, point, map_);
     return true;
   }
 
@@ -137,6 +167,7 @@ class ComplexWriter {
   std::vector<CameraPlanes> cameras_;
   std::vector<PlaneId> planes_;
   std::vector<Corner> corners_;
+  PlaneId across_;
   nef::PlaneTable table_;
   nef::ComplexBuilder builder_{table_};
   nef::Arrangement map_;
@@ -145,11 +176,9 @@ class ComplexWriter {
 }  // namespace
 
 std::optional<nef::Polyhedron> complex_of(const HullVertices& vertices, const std::vector<ViewingEdge>& edges,
-                                          const std::vector<const Camera*>& cameras) {
+                                          const std::vector<const Camera*>& cameras, unsigned threads) {
   ComplexWriter writer(edges, cameras);
-  for (const SpotName& name : vertices.plain) {
-    if (!writer.add(name)) return std::nullopt;
-  }
+  if (!writer.add(vertices.plain, threads)) return std::nullopt;
   writer.add(vertices.crowded);
   return writer.finish();
 }

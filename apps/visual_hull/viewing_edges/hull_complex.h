@@ -18,8 +18,9 @@ struct HullVertices {
 
 /// The closed solid with the given vertices. In a plain one exactly the planes of three edges meet: of three views,
 /// or two neighbours in one silhouette (with those of rings that touch there) and one of another view. Nothing if a
-/// corner is straight. `cameras` are those of the views. O(n log n).
+/// corner is straight. `cameras` are those of the views. O(n log n); the
+/// points on up to `threads` threads.
 std::optional<nef::Polyhedron> complex_of(const HullVertices& vertices, const std::vector<ViewingEdge>& edges,
-                                          const std::vector<const Camera*>& cameras);
+                                          const std::vector<const Camera*>& cameras, unsigned threads);
 
 }  // namespace visual_hull

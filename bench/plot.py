@@ -161,6 +161,32 @@ def sum_growth(plot, table: Table):
     return figure
 
 
+def hulls(plot, table: Table):
+    """Seconds of visual hulls by the number of views, and by that of the outlines' vertices."""
+    figure, panels = plot.subplots(1, 2, figsize=(9, 3.6), sharey=True)
+    for panel, pattern, label in ((panels[0], r"(\d+) views of 100$", "views of 100 vertices"),
+                                  (panels[1], r"8 views of (\d+)$", "vertices of each of 8 outlines")):
+        rows = [(int(found.group(1)), i) for i, name in enumerate(table.column("case"))
+                if (found := re.match(pattern, name))]
+        for name, column, ink in (("ours", "hull s", "ours"), ("voxels, 256^3", "voxels s", "other"),
+                                  ("CGAL, the same cones", "CGAL s", "CGAL")):
+            points = [(x, number(table.column(column)[i])) for x, i in sorted(set(rows))]
+            points = [(x, y) for x, y in points if y]
+            panel.plot([x for x, _ in points], [y for _, y in points], marker="o", markersize=4, color=INK[ink], label=name)
+            if name == "ours":
+                x0, y0 = points[0]
+                xs = [x for x, _ in points]
+                panel.plot(xs, [y0 * (x / x0) ** 1.2 for x in xs], color=INK["bound"], linewidth=1, linestyle=":",
+                           label="n^1.2")
+        panel.set_xscale("log")
+        panel.set_yscale("log")
+        panel.set_xlabel(label)
+        panel.spines[["top", "right"]].set_visible(False)
+    panels[0].set_ylabel("processor seconds")
+    panels[0].legend(fontsize=7, frameon=False)
+    return figure
+
+
 def passages(plot, table: Table):
     """First solution of each planner by the width of the opening; a cross at the limit where none was found."""
     planners = table.header[table.header.index("next query") + 1:]
@@ -201,6 +227,7 @@ FIGURES: list[tuple[str, set[str], Callable]] = [
     ("sums", {"ours, B closed", "CGAL"}, sums),
     ("stress", {"cells: auto", "now: auto"}, stress),
     ("sum_growth", {"family of sums", "pairs"}, sum_growth),
+    ("hulls", {"hull s", "voxels s", "CGAL s"}, hulls),
     ("passages", {"opening", "TightPlanner"}, passages),
 ]
 

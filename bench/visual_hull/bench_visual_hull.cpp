@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// How long the intersection of cones takes: three letters, synthetic views of growing number and detail, and
-// any scene given on the command line; beside CGAL on the same cones where it is installed.
+// How long the hull takes from its silhouettes: three letters, synthetic views of growing number and detail, and
+// any scene given on the command line; beside voxel carving, and CGAL on the same cones where it is installed.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -13,6 +13,7 @@
 #include "apps/visual_hull/cones/intersection.h"
 #include "apps/visual_hull/viewing_edges/direct_hull.h"
 #include "apps/visual_hull/visual_hull.h"
+#include "bench/visual_hull/voxel_peer.h"
 #include "nef/base/error.h"
 #include "nef/base/stopwatch.h"
 #include "nef/construct/construct.h"
@@ -29,9 +30,14 @@ struct Settings {
   double peer_limit = 20;  ///< seconds: CGAL is left out of a row that it is expected to exceed
   double simplify = 1;
   bool growth = true;
+  int voxels = 256;    ///< along each side; 0: no carving
   bool cones = false;  ///< always by intersecting cones
   std::vector<std::string> scenes;
 };
+
+// Of the images that voxel carving asks.
+constexpr int kWidth = 640;
+constexpr int kHeight = 480;
 
 // Processor time: a busy machine does not count.
 double seconds_of(const std::function<void()>& work) {
@@ -51,8 +57,9 @@ struct Row {
 };
 
 void print_header() {
-  std::cout << fmt::format("{:<26} {:>5} {:>8} {:>9} {:>11} {:>9} {:>9} {:>6} {:>11} {:>7}\n", "case", "views",
-                           "polygon", "cones s", "intersect s", "vertices", "facets", "way", "CGAL s", "ratio");
+  std::cout << fmt::format("{:<26}  {:>5}  {:>8}  {:>9}  {:>11}  {:>9}  {:>9}  {:>6}  {:>8}  {:>11}  {:>7}\n", "case",
+                           "views", "polygon", "cones s", "hull s", "vertices", "facets", "way", "voxels s", "CGAL s",
+                           "ratio");
 }
 
 // A closed curve with bumps, the same for every program and run: the outline of a lumpy ball.
@@ -135,18 +142,23 @@ void measure(const std::string& name, const Scene& scene, const std::filesystem:
   } while (static_cast<int>(times.size()) < settings.repeat && static_cast<double>(times.size()) * times[0] < 10);
   std::sort(times.begin(), times.end());
   row.operation = times[times.size() / 2];
-  std::string peer = fmt::format("{:>11} {:>7}", "-", "-");
+  std::string peer = fmt::format("{:>11}  {:>7}", "-", "-");
 #ifdef NEF_BENCH_CGAL
   if (row.operation * 40 < settings.peer_limit) {
     const PeerResult cgal = intersect_with_cgal(result.views, result.box);
     const bool same = cgal.vertices == row.counts.vertices && cgal.facets == row.counts.facets;
-    peer = fmt::format("{:>11.4f} {:>7.1f}{}", cgal.seconds, cgal.seconds / row.operation,
+    peer = fmt::format("{:>11.4f}  {:>7.1f}{}", cgal.seconds, cgal.seconds / row.operation,
                        same ? "" : fmt::format("  CGAL counts {} vertices, {} facets", cgal.vertices, cgal.facets));
   }
 #endif
-  std::cout << fmt::format("{:<26} {:>5} {:>8} {:>9.4f} {:>11.5f} {:>9} {:>9} {:>6} {}", row.name, row.views,
-                           row.polygon_vertices, row.cones, row.operation, row.counts.vertices, row.counts.facets,
-                           direct ? "direct" : "cones", peer)
+  std::string voxels = "-";
+  if (settings.voxels > 0) {
+    const std::vector<cv::Mat> masks = drawn_masks(result, kWidth, kHeight);
+    voxels = fmt::format("{:.3f}", seconds_of([&] { static_cast<void>(carve(masks, result, settings.voxels)); }));
+  }
+  std::cout << fmt::format("{:<26}  {:>5}  {:>8}  {:>9.4f}  {:>11.5f}  {:>9}  {:>9}  {:>6}  {:>8}  {}", row.name,
+                           row.views, row.polygon_vertices, row.cones, row.operation, row.counts.vertices,
+                           row.counts.facets, direct ? "direct" : "cones", voxels, peer)
             << std::endl;
 }
 
@@ -158,7 +170,7 @@ void run(const Settings& settings) {
   measure("letters M P I", read_scene(mpi), mpi.parent_path(), settings, 0);
   measure("8 views of 200", synthetic(8, 200), {}, settings, 0);
   if (settings.growth) {
-    for (const std::size_t views : {2, 4, 8, 16, 32}) {
+    for (const std::size_t views : {4, 8, 16, 32, 64, 128}) {
       measure(fmt::format("{} views of 100", views), synthetic(views, 100), {}, settings, 0);
     }
     for (const std::size_t vertices : {25, 50, 100, 200, 400, 800}) {
@@ -184,6 +196,7 @@ int main(int argc, char** argv) {
   app.add_option("--simplify", settings.simplify, "Tolerance for these, in pixels");
   app.add_option("--repeat", settings.repeat, "Runs per case (median)");
   app.add_option("--cgal-limit", settings.peer_limit, "Leave CGAL out where it may take longer (seconds)");
+  app.add_option("--voxels", settings.voxels, "Voxels along each side; 0: no carving");
   app.add_flag("--cones", settings.cones, "Always intersect cones, never go vertex by vertex");
   app.add_flag("--no-growth", no_growth, "Leave out the tables of growth");
   CLI11_PARSE(app, argc, argv);

@@ -57,10 +57,13 @@ class ComplexOverlay {
     ComplexBuilder builder(tables_.planes);
     result_.write(tables_.planes, builder);
     if ((a.has_box() || b.has_box()) && builder.has_idle_box()) return builder.finish(outer);
-    KnownLinks known = copied_links(builder.so_far(), result_.origins(), {&a, &b}, found.contacts);
+    std::optional<KnownLinks> known;
+    if (result_.is_mostly_copies()) {
+      known = copied_links(builder.so_far(), result_.origins(), {&a, &b}, found.contacts);
+    }
     found = {};
     tables_.points = PointTable();
-    return builder.finish(outer, std::move(known));
+    return known ? builder.finish(outer, *std::move(known)) : builder.finish(outer);
   }
 
   void push_overlay(PointId point, const std::array<Item, 2>& items) {

@@ -29,6 +29,12 @@ bool ResultAssembly::is_first_operand() const {
          runs_[0].vertices.count == operands_[0].complex().vertex_count();
 }
 
+bool ResultAssembly::is_mostly_copies() const {
+  std::size_t copies = 0;
+  for (const Run& run : runs_) copies += run.vertices.origin == VertexRun::kNew ? 0 : run.vertices.count;
+  return copies > new_.so_far().vertex_count();
+}
+
 std::vector<VertexRun> ResultAssembly::origins() const {
   std::vector<VertexRun> result;
   result.reserve(runs_.size());

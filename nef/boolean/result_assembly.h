@@ -28,6 +28,9 @@ class ResultAssembly {
   /// True if the vertices are those of operand 0, all of them and unchanged.
   [[nodiscard]] bool is_first_operand() const;
 
+  /// True if most vertices are copies: then links that the operands know are worth bringing along.
+  [[nodiscard]] bool is_mostly_copies() const;
+
   /// Writes all vertices. Of the planes of the tables, which `result` must have been made with, those that nothing uses
   /// are dropped.
   void write(PlaneTable& planes, ComplexBuilder& result) const;

@@ -220,7 +220,7 @@ void MeshPoints::extend(Box& box, std::uint32_t p) const {
 // most 6 (ex sy sz + sx ey sz + sx sy ez) up to terms of second order, for which 7 instead of 6 is more than enough;
 // its own evaluation rounds each product at most eight times: 48 u sx sy sz. Underflow adds less than 1e-200
 // while all coordinates are below 1e100.
-int MeshPoints::orientation_filtered(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const {
+int MeshPoints::filtered_orientation(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const {
   if (filter_) {
     const auto& p = approximate_[a];
     const auto& q = approximate_[b];
@@ -248,7 +248,7 @@ int MeshPoints::orientation_filtered(std::uint32_t a, std::uint32_t b, std::uint
 }
 
 int MeshPoints::orientation(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const {
-  const int sign = orientation_filtered(a, b, c, d);
+  const int sign = filtered_orientation(a, b, c, d);
   return sign != 0 ? sign : orientation_exact(a, b, c, d);
 }
 
@@ -272,7 +272,7 @@ bool MeshPoints::coplanar(std::uint32_t a, std::uint32_t b, std::uint32_t c,
                           std::span<const std::uint32_t> others) const {
   bool known = false;
   for (const std::uint32_t p : others) {
-    if (orientation_filtered(a, b, c, p) != 0) return false;
+    if (filtered_orientation(a, b, c, p) != 0) return false;
     if (!integers_.empty()) {
       if (orientation_exact(a, b, c, p) != 0) return false;
       continue;

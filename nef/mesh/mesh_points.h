@@ -30,6 +30,9 @@ class MeshPoints {
   /// The sign of det(b - a, c - a, d - a): +1 if a, b, c turn counterclockwise as seen from d's side.
   [[nodiscard]] int orientation(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const;
 
+  /// The same if doubles can tell, and 0 if they can not: much cheaper where points are in one plane, or all but.
+  [[nodiscard]] int filtered_orientation(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const;
+
   /// The sign of component `axis` of (b - a) x (c - a): orientation of the three points in the projection along
   /// that axis.
   [[nodiscard]] int orientation_along(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::size_t axis) const;
@@ -75,8 +78,6 @@ class MeshPoints {
   bool make_integers(const PointTable& points, std::span<const PointId> chosen);
   void approximate_integers();
   void find_margins(bool exact);
-  // 0 if the filter can not tell.
-  [[nodiscard]] int orientation_filtered(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const;
   [[nodiscard]] int orientation_exact(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const;
   [[nodiscard]] int orientation_along_exact(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::size_t axis) const;
 

@@ -24,47 +24,52 @@ bool one_sided(const Signs& s) {
 }
 int zeros(const Signs& s) { return (s[0] == 0 ? 1 : 0) + (s[1] == 0 ? 1 : 0) + (s[2] == 0 ? 1 : 0); }
 
-// Any vector proves two triangles disjoint if their images on it are disjoint, however the vector was come by. Tried
-// are the first triangle's normal, and in its plane and the other's those across their edges. For each point the
-// product is off by at most |d| times the margin of the points and 4 u |d| |p|.
-bool surely_apart(const MeshPoints& points, const Triangle& a, const Triangle& b) {
-  using Vector = std::array<double, 3>;
-  Vector reach{};
-  for (const Triangle* t : {&a, &b}) {
-    for (const std::uint32_t v : *t) {
-      for (std::size_t i = 0; i < 3; ++i) reach[i] = std::max(reach[i], std::abs(points.approximate(v)[i]));
-    }
-  }
-  for (std::size_t i = 0; i < 3; ++i) reach[i] = points.margin(i) + 0x1p-50 * reach[i];
-  const auto separates = [&](const Vector& d) {
-    const auto image = [&](const Triangle& t, double& low, double& high) {
-      low = HUGE_VAL;
-      high = -HUGE_VAL;
-      for (const std::uint32_t v : t) {
-        const Vector& p = points.approximate(v);
-        const double x = d[0] * p[0] + d[1] * p[1] + d[2] * p[2];
-        low = std::min(low, x);
-        high = std::max(high, x);
+using Vector = std::array<double, 3>;
+
+Vector difference(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Vector cross(const Vector& u, const Vector& v) {
+  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+}
+double dot(const Vector& u, const Vector& v) { return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]; }
+
+// What separating vectors are tried with. For each point the product with a vector d is off by at most |d| times the
+// margin of the points and 4 u |d| |p|, for each coordinate; bound(d) is what the products of two points are off by.
+class Separation {
+ public:
+  Separation(const MeshPoints& points, const Triangle& a, const Triangle& b) : points_(points) {
+    for (const Triangle* t : {&a, &b}) {
+      for (const std::uint32_t v : *t) {
+        for (std::size_t i = 0; i < 3; ++i) reach_[i] = std::max(reach_[i], std::abs(points.approximate(v)[i]));
       }
-    };
-    const double bound = 2 * (std::abs(d[0]) * reach[0] + std::abs(d[1]) * reach[1] + std::abs(d[2]) * reach[2]);
-    double low_a = 0;
-    double high_a = 0;
-    double low_b = 0;
-    double high_b = 0;
-    image(a, low_a, high_a);
-    image(b, low_b, high_b);
-    return low_a - high_b > bound || low_b - high_a > bound;
-  };
-  const auto cross = [](const Vector& u, const Vector& v) {
-    return Vector{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-  };
+    }
+    for (std::size_t i = 0; i < 3; ++i) reach_[i] = points.margin(i) + 0x1p-50 * reach_[i];
+  }
+
+  // True if all of the first are surely below all of the second.
+  [[nodiscard]] bool below(const Vector& d, std::span<const std::uint32_t> first,
+                           std::span<const std::uint32_t> second) const {
+    double high = -HUGE_VAL;
+    double low = HUGE_VAL;
+    for (const std::uint32_t v : first) high = std::max(high, dot(d, points_.approximate(v)));
+    for (const std::uint32_t v : second) low = std::min(low, dot(d, points_.approximate(v)));
+    const double bound = 2 * (std::abs(d[0]) * reach_[0] + std::abs(d[1]) * reach_[1] + std::abs(d[2]) * reach_[2]);
+    return low - high > bound;
+  }
+
+ private:
+  const MeshPoints& points_;
+  Vector reach_{};
+};
+
+// Any vector proves two triangles disjoint if their images on it are disjoint, however the vector was come by. Tried
+// are the first triangle's normal, and in its plane and the other's those across their edges.
+bool surely_apart(const MeshPoints& points, const Triangle& a, const Triangle& b) {
+  const Separation separation(points, a, b);
+  const auto separates = [&](const Vector& d) { return separation.below(d, a, b) || separation.below(d, b, a); };
   for (const Triangle* t : {&a, &b}) {
     std::array<Vector, 3> edge;
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vector& p = points.approximate((*t)[k]);
-      const Vector& q = points.approximate((*t)[(k + 1) % 3]);
-      edge[k] = {q[0] - p[0], q[1] - p[1], q[2] - p[2]};
+      edge[k] = difference(points.approximate((*t)[(k + 1) % 3]), points.approximate((*t)[k]));
     }
     const Vector normal = cross(edge[0], edge[1]);
     if (separates(normal)) return true;
@@ -73,6 +78,55 @@ bool surely_apart(const MeshPoints& points, const Triangle& a, const Triangle& b
     }
   }
   return false;
+}
+
+// The same of triangles with one common corner: if a plane through it has all else of each on its own side, the corner
+// is all that they share. Tried are, for triangles in about one plane, those between two of their sides.
+bool surely_apart_but_for(const MeshPoints& points, std::uint32_t corner, const Triangle& a, const Triangle& b) {
+  const Separation separation(points, a, b);
+  const std::array<std::uint32_t, 1> common{corner};
+  std::array<std::array<std::uint32_t, 2>, 2> others{};  // of a and b
+  std::array<std::array<Vector, 2>, 2> sides{};          // from the corner, of length one
+  for (std::size_t i = 0; i < 2; ++i) {
+    std::size_t count = 0;
+    for (const std::uint32_t v : i == 0 ? a : b) {
+      if (v == corner) continue;
+      const Vector side = difference(points.approximate(v), points.approximate(corner));
+      const double length = std::sqrt(dot(side, side));
+      sides[i][count] = {side[0] / length, side[1] / length, side[2] / length};
+      others[i][count++] = v;
+    }
+  }
+  const Vector normal = cross(sides[0][0], sides[0][1]);
+  for (const Vector& u : sides[0]) {
+    for (const Vector& v : sides[1]) {
+      const Vector d = cross(normal, Vector{u[0] + v[0], u[1] + v[1], u[2] + v[2]});
+      if (separation.below(d, others[0], common) && separation.below(d, common, others[1])) return true;
+      if (separation.below(d, others[1], common) && separation.below(d, common, others[0])) return true;
+    }
+  }
+  return false;
+}
+
+// True if the angle at p q between the triangles with these apexes is surely more than a right one: the parts of the
+// two that are perpendicular to the edge have a negative product, (a x e) (b x e). With all differences below m, each
+// within e of the truth and 2^-53 m <= e, the products of two are off by 9 e m, those of four by 36 e m^3 each, and
+// sums of three of these round by less than 48 e m^3.
+bool surely_obtuse(const MeshPoints& points, std::uint32_t p, std::uint32_t q, std::uint32_t a, std::uint32_t b) {
+  if (!points.moderate()) return false;
+  const Vector& origin = points.approximate(p);
+  const Vector edge = difference(points.approximate(q), origin);
+  const Vector u = difference(points.approximate(a), origin);
+  const Vector v = difference(points.approximate(b), origin);
+  double largest = 0;
+  double margin = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    largest = std::max({largest, std::abs(edge[i]), std::abs(u[i]), std::abs(v[i])});
+    margin = std::max(margin, points.margin(i));
+  }
+  largest = largest * (1 + 0x1p-50) + 2 * margin;
+  const double error = 2 * margin + 0x1p-53 * largest;
+  return dot(cross(u, edge), cross(v, edge)) < -(200 * error * largest * largest * largest + 1e-200);
 }
 
 bool has(const Triangle& t, std::uint32_t v) { return t[0] == v || t[1] == v || t[2] == v; }
@@ -278,10 +332,30 @@ SurfaceContacts::Kind SurfaceContacts::resolve_segment(std::uint32_t t, Edge t_e
   return around.interleaved && !around.separates ? Kind::kCross : Kind::kTouch;
 }
 
+// Of triangles with one common corner: false means that doubles can not tell.
+bool SurfaceContacts::meet_in_corner(std::uint32_t t, std::uint32_t u) const {
+  const Triangle& a = triangles_[t];
+  const Triangle& b = triangles_[u];
+  std::uint32_t corner = 0;
+  int side = 0;
+  bool one_side = true;
+  for (const std::uint32_t v : b) {
+    if (has(a, v)) {
+      corner = v;
+      continue;
+    }
+    const int sign = points_.filtered_orientation(a[0], a[1], a[2], v);
+    one_side = one_side && sign != 0 && sign != -side;
+    side = sign;
+  }
+  return one_side || surely_apart_but_for(points_, corner, a, b);
+}
+
 SurfaceContacts::Kind SurfaceContacts::classify_general(std::uint32_t t, std::uint32_t u, int shared) const {
   const Triangle& a = triangles_[t];
   const Triangle& b = triangles_[u];
   if (shared == 0 && surely_apart(points_, a, b)) return Kind::kNone;
+  if (shared == 1 && meet_in_corner(t, u)) return Kind::kNone;
   Signs sb{};
   for (std::size_t i = 0; i < 3; ++i) {
     sb[i] = shared > 0 && has(a, b[i]) ? 0 : side(t, b[i]);
@@ -383,6 +457,8 @@ SurfaceContacts::Kind SurfaceContacts::classify_neighbours(std::uint32_t t, std:
   const Triangle& b = triangles_[u];
   const std::uint32_t p = a[(t_free + 1) % 3];
   const std::uint32_t q = a[(t_free + 2) % 3];
+  const bool cut = patches_.is_cut(t, p, q) || patches_.is_cut(u, p, q);
+  if (!cut && surely_obtuse(points_, p, q, a[t_free], b[u_free])) return Kind::kNone;
   if (side(t, b[u_free]) == 0) {
     // Coplanar neighbours overlap if they lie on one side of their edge.
     const std::size_t axis = points_.projection_axis(a[0], a[1], a[2]);
@@ -392,7 +468,7 @@ SurfaceContacts::Kind SurfaceContacts::classify_neighbours(std::uint32_t t, std:
     return turned_alike(a, b) ? Kind::kOverlap : Kind::kCover;
   }
   // A cut through a planar face is no edge of the surface, so what else lies on it touches the face from one side.
-  if (!patches_.is_cut(t, p, q) && !patches_.is_cut(u, p, q)) return Kind::kNone;
+  if (!cut) return Kind::kNone;
   std::vector<Wing> wings;
   int balance = 0;
   const std::uint32_t face = face_of_[patches_.is_cut(t, p, q) ? t : u];

@@ -69,6 +69,7 @@ class SurfaceContacts {
   };
 
   [[nodiscard]] Kind classify(std::uint32_t t, std::uint32_t u) const;
+  [[nodiscard]] bool meet_in_corner(std::uint32_t t, std::uint32_t u) const;
   [[nodiscard]] Kind classify_general(std::uint32_t t, std::uint32_t u, int shared) const;
   [[nodiscard]] Kind classify_coplanar(std::uint32_t t, std::uint32_t u, int shared) const;
   [[nodiscard]] Kind classify_neighbours(std::uint32_t t, std::uint32_t u, std::size_t t_free,

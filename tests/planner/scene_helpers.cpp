@@ -2,6 +2,7 @@
 #include "tests/planner/scene_helpers.h"
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "apps/minkowski/minkowski.h"
 
@@ -37,6 +38,11 @@ std::string independent_complaint(const Scene& scene, const Polyhedron& free, co
     }
   }
   return {};
+}
+
+unsigned seeds(unsigned few) {
+  const char* text = std::getenv("PLANNER_SEEDS");
+  return text == nullptr ? few : few * static_cast<unsigned>(std::strtoul(text, nullptr, 10));
 }
 
 }  // namespace nef::planner::test

@@ -47,4 +47,7 @@ std::vector<int> component_dimensions(const FreeSpace& free);
 /// the swept robot (an exact Minkowski sum) meets no obstacle in its interior. Returns what is wrong, or nothing.
 std::string independent_complaint(const Scene& scene, const Polyhedron& free, const ExactPath& path, bool sweep);
 
+/// How many random cases of a kind to try: `few`, times PLANNER_SEEDS in the environment, which .ci/run asks for.
+unsigned seeds(unsigned few);
+
 }  // namespace nef::planner::test

@@ -15,13 +15,13 @@
 #include <unordered_map>
 
 #include "nef/base/error.h"
-#include "nef/base/union_find.h"
 #include "nef/export/nearest_float.h"
 #include "nef/io/number_text.h"
 #include "nef/io/text_cursor.h"
 #include "nef/mesh/edge_order.h"
 #include "nef/mesh/mesh_check.h"
 #include "nef/mesh/mesh_surface.h"
+#include "nef/mesh/nested_components.h"
 
 namespace nef {
 namespace {
@@ -38,16 +38,6 @@ struct Finding {
   std::vector<std::uint32_t> degenerate;  // faces without area
 };
 
-bool one_component(const Mesh& mesh) {
-  UnionFind vertices(mesh.vertices.size());
-  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
-    for (const std::uint32_t v : mesh.face(f)) vertices.unite(v, mesh.face(f)[0]);
-  }
-  const std::uint32_t first = mesh.corners.empty() ? 0 : vertices.find(mesh.corners[0]);
-  return std::all_of(mesh.corners.begin(), mesh.corners.end(),
-                     [&](std::uint32_t v) { return vertices.find(v) == first; });
-}
-
 Finding examine(const Mesh& mesh) {
   Finding found;
   bool contact = false;
@@ -55,7 +45,8 @@ Finding examine(const Mesh& mesh) {
     if (found.legal) found.text = text;
     found.legal = false;
   };
-  for (const MeshProblem& problem : check_mesh(mesh)) {
+  const MeshSurface surface(mesh);
+  for (const MeshProblem& problem : check_mesh(mesh, surface, {})) {
     if (problem.kind == MeshProblemKind::kInsideOut) note(problem.text);
     contact = contact || problem.kind == MeshProblemKind::kTouching || problem.kind == MeshProblemKind::kDuplicateFace;
     if (problem.legal && problem.kind == MeshProblemKind::kDegenerateFace) {
@@ -66,10 +57,13 @@ Finding examine(const Mesh& mesh) {
     found.guilty.insert(problem.faces.begin(), problem.faces.end());
   }
   // How components lie to each other, and what contacts mean, is known when the solid is made.
-  if (!found.legal || (!contact && found.degenerate.empty() && one_component(mesh))) return found;
+  const bool clean = !contact && found.degenerate.empty();
+  if (!found.legal || (clean && surely_one_solid(surface))) return found;
   try {
     Messages messages;
-    from_mesh(mesh, {}, &messages);
+    MeshOptions options;
+    options.check = !clean;
+    from_mesh(mesh, options, &messages);
   } catch (const InputError& error) {
     note(error.what());
   }

@@ -3,6 +3,7 @@
 // One rule for the components of a mesh, with contact and without: they wind around every point once or not at all.
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <random>
@@ -13,6 +14,8 @@
 #include "nef/construct/construct.h"
 #include "nef/io/mesh/mesh_reader.h"
 #include "nef/mesh/mesh_check.h"
+#include "nef/mesh/mesh_surface.h"
+#include "nef/mesh/nested_components.h"
 #include "nef/polyhedron.h"
 #include "nef/validation/validate.h"
 
@@ -135,6 +138,20 @@ bool may_cancel(const std::vector<Brick>& bricks) {
     }
   }
   return false;
+}
+
+bool holds(const Brick& outer, const Brick& inner) {
+  bool inside = true;
+  for (std::size_t i = 0; i < 3; ++i) {
+    inside = inside && outer.low[i] < inner.low[i] && inner.high[i] < outer.high[i];
+  }
+  return inside;
+}
+
+bool cross_nowhere(const Brick& a, const Brick& b) {
+  bool apart = false;
+  for (std::size_t i = 0; i < 3; ++i) apart = apart || a.high[i] < b.low[i] || b.high[i] < a.low[i];
+  return apart || holds(a, b) || holds(b, a);
 }
 
 }  // namespace
@@ -309,6 +326,41 @@ TEST_CASE("A legal finding hides no illegal one of its kind", "[winding]") {
   for (const MeshProblem& p : check_mesh(mesh, {.max_per_kind = 1})) illegal = illegal || !p.legal;
   CHECK(illegal);
   CHECK_FALSE(refusal(mesh).empty());
+}
+
+TEST_CASE("Bricks beside and in each other are told to be one solid iff they are", "[winding]") {
+  std::mt19937 random(5);
+  std::size_t yes = 0;
+  std::size_t no = 0;
+  while (yes < 60 || no < 60) {
+    std::vector<Brick> bricks;
+    const std::size_t most = 2 + random() % 6;
+    for (int tries = 0; tries < 60 && bricks.size() < most; ++tries) {
+      Brick brick;
+      for (std::size_t i = 0; i < 3; ++i) {
+        brick.low[i] = static_cast<int>(random() % 12);
+        brick.high[i] = brick.low[i] + 1 + static_cast<int>(random() % 12);
+      }
+      brick.inward = random() % 3 == 0;
+      const auto fits = [&](const Brick& other) { return cross_nowhere(brick, other); };
+      if (std::all_of(bricks.begin(), bricks.end(), fits)) bricks.push_back(brick);
+    }
+    const bool one_solid = std::all_of(bricks.begin(), bricks.end(), [&](const Brick& brick) {
+      int winding = 0;
+      for (const Brick& other : bricks) winding += holds(other, brick) ? (other.inward ? -1 : 1) : 0;
+      return winding == (brick.inward ? 1 : 0);
+    });
+    ++(one_solid ? yes : no);
+    // Turned a little, so that no ray along an axis meets a side.
+    Mesh mesh = mesh_of(bricks);
+    for (Rational3& p : mesh.vertices) {
+      p = {p[0] + p[1] / 1000 + p[2] / 1700, p[1] - p[0] / 1300 + p[2] / 1100, p[2] + p[0] / 900 - p[1] / 1500};
+    }
+    CHECK(surely_one_solid(MeshSurface(mesh)) == one_solid);
+    if (one_solid) CHECK(refusal(mesh).empty());
+    // As they are, sides may hide one from another.
+    if (!one_solid) CHECK_FALSE(surely_one_solid(MeshSurface(mesh_of(bricks))));
+  }
 }
 
 }  // namespace nef

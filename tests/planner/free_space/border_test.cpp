@@ -195,7 +195,7 @@ void check(const GridSets& sets, std::mt19937& random) {
 TEST_CASE("collision in all pairs of dimensions, against counting cells of a grid") {
   for (int robot = 0; robot <= 3; ++robot) {
     for (int obstacle = 0; obstacle <= 3; ++obstacle) {
-      for (unsigned seed = 0; seed < 12; ++seed) {
+      for (unsigned seed = 0; seed < seeds(4); ++seed) {
         INFO("robot " << robot << ", obstacles " << obstacle << ", seed " << seed);
         std::mt19937 random(seed);
         GridSets sets;
@@ -208,7 +208,7 @@ TEST_CASE("collision in all pairs of dimensions, against counting cells of a gri
 }
 
 TEST_CASE("collision of sets of mixed dimension, against counting cells of a grid") {
-  for (unsigned seed = 0; seed < 60; ++seed) {
+  for (unsigned seed = 0; seed < seeds(20); ++seed) {
     INFO("seed " << seed);
     std::mt19937 random(seed);
     const auto mixed = [&](int span) {

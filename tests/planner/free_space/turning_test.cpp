@@ -255,7 +255,7 @@ TEST_CASE("random boxes in the plane against a fine grid of poses") {
   // be reachable all the same.
   std::size_t paths = 0;
   std::size_t proofs = 0;
-  for (unsigned seed = 0; seed < 10; ++seed) {
+  for (unsigned seed = 0; seed < seeds(5); ++seed) {
     INFO("seed " << seed);
     std::mt19937 random(seed);
     Scene scene;
@@ -327,8 +327,8 @@ TEST_CASE("random boxes in the plane against a fine grid of poses") {
       CHECK((answer.status == TurningAnswer::Status::kPath || !reached));
     }
   }
-  CHECK(paths >= 3);
-  CHECK(proofs >= 3);
+  CHECK(paths >= 2);
+  CHECK(proofs >= 2);
 }
 
 TEST_CASE("proofs hold when they are checked by other means, and spoilt ones do not") {

@@ -40,7 +40,8 @@ std::string mending_text(const MendedMesh& rounded) {
 }
 
 // Replaces a mesh whose rounding is not legal by one that is, or tells that this can't be done.
-void round_and_mend(Mesh& mesh, const std::string& extension, MeshWriteOptions& options, Messages& notes) {
+void round_and_mend(Mesh& mesh, const std::string& extension, unsigned threads, MeshWriteOptions& options,
+                    Messages& notes) {
   const auto survives = [&](const Rational3& p) { return survives_writing(p, extension, options); };
   if (std::all_of(mesh.vertices.begin(), mesh.vertices.end(), survives)) return;
   refuse_infinite(mesh, extension, options);
@@ -48,7 +49,7 @@ void round_and_mend(Mesh& mesh, const std::string& extension, MeshWriteOptions& 
   const Rounding rounding = single           ? rounding_to_binary_floats()
                             : options.binary ? rounding_to_binary_doubles()
                                              : rounding_to_decimals();
-  MendedMesh rounded = round_mesh(mesh, rounding);
+  MendedMesh rounded = round_mesh(mesh, rounding, threads);
   if (!rounded.legal) {
     notes.push_back("rounded to " + std::string(single ? "single" : "double") +
                     " precision the mesh is no border of a solid any more, and could not be mended (" +
@@ -116,7 +117,7 @@ FaceGroups write_boundary(const std::string& path, const std::string& extension,
   } else {
     report_wires(result, notes);
   }
-  if (result.closed && options.check) round_and_mend(result.mesh, extension, write_options, notes);
+  if (result.closed && options.check) round_and_mend(result.mesh, extension, options.threads, write_options, notes);
   if (options.manifold && result.closed && groups == nullptr) separate(result.mesh, extension, notes);
   if (options.vertex_colors) write_options.vertex_colors = options.vertex_colors(result.mesh);
   if (groups != nullptr && !has_groups(extension)) {

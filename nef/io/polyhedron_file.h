@@ -29,6 +29,7 @@ struct PolyhedronWriteOptions {
   bool check = true;      ///< check what was rounded, and mend it
   bool manifold = false;  ///< in mesh files each edge has two faces (separate_sheets; not in STL, and
                           ///< not together with groups)
+  unsigned threads = 1;   ///< that check; 0: as many as the machine has. The file does not depend on it
   /// Red, green and blue for the vertices of the mesh that goes to a file; PLY and GLB only.
   std::function<std::vector<std::array<std::uint8_t, 3>>(const Mesh&)> vertex_colors = {};
   std::string format = {};  ///< instead of the extension of the path, which may be none

@@ -61,6 +61,7 @@ PolyhedronWriteOptions Session::write_options() const {
   options.binary = binary;
   options.text = text;
   options.polygons = polygons;
+  options.threads = threads;
   options.format = output == "-" && format.empty() ? "nef" : format;
   return options;
 }

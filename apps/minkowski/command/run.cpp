@@ -263,7 +263,8 @@ class Run {
     groups.selected = [](LabelId mark) { return mark == kBody || mark == kTouched; };
     groups.name = [](LabelId, LabelId, LabelId facet) { return facet == kTouched ? "touched" : "untouched"; };
     Messages messages;
-    const PolyhedronWriteOptions options{.exact = a_.exact, .binary = a_.binary, .text = a_.text};
+    const PolyhedronWriteOptions options{
+        .exact = a_.exact, .binary = a_.binary, .text = a_.text, .threads = a_.threads};
     details_["faces"] = write_groups(a_.labels, labeled, groups, options, &messages);
     write_s_ += watch.seconds();
     show(messages);

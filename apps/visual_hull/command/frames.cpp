@@ -216,6 +216,8 @@ int make_frames(const Arguments& a) {
   if (!a.quiet) std::cout << understood(scene) << "\n";
   Options options = to_options(a);
   options.threads = 1;
+  Arguments each = a;
+  each.threads = 1;
   const HullStream stream(std::move(scene), options);
   Manifest manifest(fs::path(outputs.with("manifest")).replace_extension(".jsonl"), settings_of(a));
 
@@ -238,7 +240,7 @@ int make_frames(const Arguments& a) {
       json made;
       const nef::ThreadStopwatch watch;
       try {
-        made = entry_of(stream.frame(folder, std::nullopt), outputs.of(frames[i]), a);
+        made = entry_of(stream.frame(folder, std::nullopt), outputs.of(frames[i]), each);
       } catch (const nef::Error& error) {
         made = {{"state", "failed"}, {"message", nef::utf8(error.what())}};
       }

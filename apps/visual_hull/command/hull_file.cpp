@@ -49,6 +49,7 @@ std::optional<nef::DecimatedMesh> write_hull(const std::string& path, const Resu
     format.binary = a.binary;
     format.text = a.text;
     format.manifold = a.manifold;
+    format.threads = a.threads;
     if (a.color) {
       format.vertex_colors = [&](const nef::Mesh& mesh) { return colors_of(mesh, result, a, messages); };
     }

@@ -15,6 +15,7 @@
 #include <unordered_map>
 
 #include "nef/base/error.h"
+#include "nef/base/parallel.h"
 #include "nef/export/nearest_float.h"
 #include "nef/io/number_text.h"
 #include "nef/io/text_cursor.h"
@@ -72,7 +73,8 @@ Finding examine(const Mesh& mesh) {
 
 class Mender {
  public:
-  Mender(const Mesh& exact, const Rounding& rounding) : exact_(exact), rounding_(rounding), random_(1) {}
+  Mender(const Mesh& exact, const Rounding& rounding, unsigned threads)
+      : exact_(exact), rounding_(rounding), threads_(threads), random_(1) {}
 
   MendedMesh run() {
     for (const Rational3& p : exact_.vertices) {
@@ -111,16 +113,21 @@ class Mender {
     return result;
   }
 
-  // All readings must be legal; the guilty faces are those of the first that is not.
+  // All readings must be legal; the guilty faces are those of the first that is not. One thread looks no further.
   template <typename Make>
   Finding examine_readings(Make make) const {
-    Finding result;
-    for (const auto& reading : rounding_.readings) {
-      Finding found = examine(make(reading));
-      if (!found.legal) return found;
-      if (result.degenerate.empty()) result = std::move(found);
+    std::vector<Finding> found(rounding_.readings.size());
+    bool go_on = true;
+    parallel_for(found.size(), threads_, [&](std::size_t i) {
+      if (threads_ == 1 && !go_on) return;
+      found[i] = examine(make(rounding_.readings[i]));
+      if (threads_ == 1) go_on = found[i].legal;
+    });
+    for (Finding& one : found) {
+      if (!one.legal) return std::move(one);
+      if (found[0].degenerate.empty()) found[0].degenerate = std::move(one.degenerate);
     }
-    return result;
+    return std::move(found[0]);
   }
 
   template <typename Reading>
@@ -305,6 +312,7 @@ class Mender {
 
   const Mesh& exact_;
   const Rounding& rounding_;
+  unsigned threads_;
   std::mt19937 random_;  // the same for the same mesh
   std::vector<Point> points_;
   std::vector<Point> nearest_;
@@ -339,6 +347,8 @@ Rounding rounding_to_binary_floats() {
   return {[](const Rational& x) { return static_cast<double>(nearest_float(x)); }, next_float, {exact_rational}};
 }
 
-MendedMesh round_mesh(const Mesh& exact, const Rounding& rounding) { return Mender(exact, rounding).run(); }
+MendedMesh round_mesh(const Mesh& exact, const Rounding& rounding, unsigned threads) {
+  return Mender(exact, rounding, threads).run();
+}
 
 }  // namespace nef

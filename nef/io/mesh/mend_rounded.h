@@ -40,7 +40,9 @@ struct MendedMesh {
 
 /// Rounds the vertices of a legal closed mesh of convex faces. Where the result is not legal any more, vertices go to
 /// other numbers nearby and slivers are flipped or contracted, as long as that takes few rounds; then all faces are
-/// triangles. What it returns as legal was checked exactly. The cost is that of check_mesh for each reading and round.
-MendedMesh round_mesh(const Mesh& exact, const Rounding& rounding);
+/// triangles. What it returns as legal was checked exactly. The cost is that of check_mesh for each reading and round;
+/// the readings are checked side by side on up to `threads` threads (0: as many as the machine has), of which the
+/// result is independent.
+MendedMesh round_mesh(const Mesh& exact, const Rounding& rounding, unsigned threads = 1);
 
 }  // namespace nef

@@ -222,7 +222,8 @@ PartVertices::Answer PartVertices::on_hull(std::span<const Shown> views, const S
     if (shown.view == own[0] || shown.view == own[1] || shown.view == own[2]) continue;
     const EdgeView& view = s_.views[shown.view];
     const std::optional<Seen> seen = view.project(spot);
-    std::optional<bool> inside = seen ? view.inside(*seen) : std::nullopt;
+    std::optional<bool> inside;
+    if (seen) inside = view.inside(*seen);
     if (!inside && exact != nullptr && seen) {
       const std::optional<Side> side = view.locate(*seen, *exact);
       if (side && *side != Side::kBoundary) inside = *side == Side::kInside;

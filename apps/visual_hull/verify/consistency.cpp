@@ -133,8 +133,10 @@ Tally tally_of(const Lines& lines, std::size_t i) {
     only.assign(n, false);
     std::size_t rejecting = n - 1;
     // Sums over the numbers of the views that reject tell which they are as long as they are one or two.
-    auto sum = static_cast<double>(n * (n - 1) / 2 - i);
-    auto squares = static_cast<double>((n - 1) * n * (2 * n - 1) / 6 - i * i);
+    const std::size_t all = n * (n - 1) / 2;
+    const std::size_t all_squares = (n - 1) * n * (2 * n - 1) / 6;
+    auto sum = static_cast<double>(all - i);
+    auto squares = static_cast<double>(all_squares - i * i);
     bool covered = false;
     double at = line.range.from;
     const auto pass = [&](double to) {

@@ -10,8 +10,9 @@
 namespace visual_hull {
 namespace {
 
-constexpr std::size_t kBins = 1024;  // of half a turn
-constexpr double kTurnSlack = 1e-9;  // far above roundings
+constexpr std::size_t kBins = 1024;             // of half a turn
+constexpr double kBinsOfQuarter = kBins / 2.0;  // which turn_of has as 1
+constexpr double kTurnSlack = 1e-9;             // far above roundings
 
 // Grows with the angle of (x, y): 1 for a quarter turn, from 0 to 4.
 double turn_of(double x, double y) {
@@ -101,8 +102,8 @@ SightPencil::SightPencil(const SightView& view, const Eigen::Vector3d& centre)
         const double step = std::remainder(turns[k + 1] - turns[k], 4.0);
         const double low = (step < 0 ? turns[k + 1] : turns[k]) - kTurnSlack;
         const double high = low + std::abs(step) + 2 * kTurnSlack;
-        const auto last = static_cast<std::int64_t>(std::floor(high * (kBins / 2)));
-        for (auto bin = static_cast<std::int64_t>(std::floor(low * (kBins / 2))); bin <= last; ++bin) {
+        const auto last = static_cast<std::int64_t>(std::floor(high * kBinsOfQuarter));
+        for (auto bin = static_cast<std::int64_t>(std::floor(low * kBinsOfQuarter)); bin <= last; ++bin) {
           const std::size_t at = static_cast<std::size_t>(bin + kBins) % kBins;
           if (fill) {
             bin_sides_[--bin_begin_[at + 1]] = k;
@@ -124,7 +125,7 @@ SightPencil::SightPencil(const SightView& view, const Eigen::Vector3d& centre)
 void SightPencil::find_crossings(const Eigen::Vector3d& direction, const Eigen::Vector3d& line,
                                  const Eigen::Vector2d& along, std::vector<double>& crossings) const {
   const double turn = turn_of(direction.dot(across_.col(0)), direction.dot(across_.col(1)));
-  const std::size_t bin = static_cast<std::size_t>(turn * (kBins / 2)) % kBins;
+  const std::size_t bin = static_cast<std::size_t>(turn * kBinsOfQuarter) % kBins;
   const std::vector<double>& u = view_.u_;
   const std::vector<double>& v = view_.v_;
   const auto side = [&](std::size_t k) { return line[0] * u[k] + line[1] * v[k] + line[2]; };

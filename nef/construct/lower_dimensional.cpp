@@ -6,6 +6,7 @@
 
 #include "nef/base/error.h"
 #include "nef/construct/construct.h"
+#include "nef/geometry/integer_vector.h"
 #include "nef/geometry/vectors.h"
 #include "nef/mesh/simple_ring.h"
 #include "nef/synthesis/complex_builder.h"
@@ -18,10 +19,8 @@ PlaneId plane_through(PlaneTable& planes, const Rational3& normal, const Rationa
 }
 
 Direction integer_direction(const Rational3& v) {
-  Integer scale = v[0].get_den();
-  for (std::size_t i = 1; i < 3; ++i) mpz_lcm(scale.get_mpz_t(), scale.get_mpz_t(), v[i].get_den_mpz_t());
-  const auto whole = [&scale](const Rational& x) { return Integer(x.get_num() * (scale / x.get_den())); };
-  return Direction::exact(whole(v[0]), whole(v[1]), whole(v[2]));
+  const std::array<Integer, 3> d = primitive(v);
+  return Direction::exact(d[0], d[1], d[2]);
 }
 
 // The direction `v` as the meeting of two planes through it.

@@ -4,28 +4,13 @@
 // c + s a with integers s and c: exactly orthogonal for any of them, whether or not the length of
 // a is rational, and only the angle has to be approximated.
 #include "nef/base/error.h"
+#include "nef/geometry/integer_vector.h"
+#include "nef/geometry/vectors.h"
 #include "nef/operation/rational_angle.h"
 #include "nef/polyhedron.h"
 
 namespace nef {
-namespace {
-
-// The primitive integer vector in the direction of a rational one.
-std::array<Integer, 3> primitive(const Rational3& v) {
-  Integer scale = 1;
-  for (const Rational& x : v) scale = lcm(scale, x.get_den());
-  std::array<Integer, 3> result;
-  Integer common = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    result[i] = v[i].get_num() * (scale / v[i].get_den());
-    common = gcd(common, result[i]);
-  }
-  if (common == 0) throw InputError("the axis of a rotation must not be 0,0,0");
-  for (Integer& x : result) x /= common;
-  return result;
-}
-
-}  // namespace
+namespace {}  // namespace
 
 AffineMap AffineMap::identity() { return scale({1, 1, 1}); }
 
@@ -42,6 +27,7 @@ AffineMap AffineMap::scale(const Rational3& factors) {
 }
 
 AffineMap AffineMap::rotate(const Rational3& axis, double degrees, double tolerance) {
+  if (is_zero(axis)) throw InputError("the axis of a rotation must not be 0,0,0");
   const std::array<Integer, 3> a = primitive(axis);
   const Integer length_square = a[0] * a[0] + a[1] * a[1] + a[2] * a[2];
   const HalfAngle half = rational_half_angle(exact_rational(degrees), exact_rational(tolerance), length_square);

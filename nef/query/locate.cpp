@@ -3,6 +3,7 @@
 // The queries of nef/polyhedron.h: point location, local pyramids and rays.
 #include "nef/base/error.h"
 #include "nef/complex/local_pyramid.h"
+#include "nef/geometry/integer_vector.h"
 #include "nef/location/query_structure.h"
 #include "nef/polyhedron.h"
 
@@ -70,11 +71,7 @@ std::optional<RayHit> shoot_ray(const Polyhedron& a, const Rational3& origin, co
   }
   const Complex& complex = a.complex();
   if (complex.vertex_count() == 0) return std::nullopt;
-  // Scaled to integers by the common denominator.
-  Integer scale = 1;
-  for (const Rational& x : direction) scale = lcm(scale, x.get_den());
-  std::array<Integer, 3> d;
-  for (std::size_t i = 0; i < 3; ++i) d[i] = direction[i].get_num() * (scale / direction[i].get_den());
+  const std::array<Integer, 3> d = primitive(direction);
   PointTable table;
   const Direction towards = Direction::exact(d[0], d[1], d[2]);
   const QueryRay ray{{&table, table.push(origin)}, towards};

@@ -4,6 +4,7 @@
 #include <unordered_map>
 
 #include "nef/base/error.h"
+#include "nef/geometry/integer_vector.h"
 #include "nef/geometry/vectors.h"
 
 namespace nef::minkowski {
@@ -20,17 +21,7 @@ void reduce(IntegerVector& v) {
 }
 
 // A positive multiple of b - a in integers.
-IntegerVector integer_difference(const Rational3& a, const Rational3& b) {
-  const Rational3 d = {Rational(b[0] - a[0]), Rational(b[1] - a[1]), Rational(b[2] - a[2])};
-  const Integer w = lcm(lcm(d[0].get_den(), d[1].get_den()), d[2].get_den());
-  IntegerVector v;
-  for (std::size_t i = 0; i < 3; ++i) {
-    v[i] = w / d[i].get_den();
-    v[i] *= d[i].get_num();
-  }
-  reduce(v);
-  return v;
-}
+IntegerVector integer_difference(const Rational3& a, const Rational3& b) { return primitive(minus(b, a)); }
 
 }  // namespace
 

@@ -5,26 +5,13 @@
 #include <set>
 
 #include "apps/minkowski/minkowski.h"
+#include "nef/geometry/integer_vector.h"
 #include "nef/geometry/vectors.h"
 
 namespace nef::planner {
 namespace {
 
 using minkowski::ConvexCell;
-
-// The shortest integer vector of the same direction.
-std::array<Integer, 3> primitive(const Rational3& v) {
-  Integer scale = 1;
-  for (const Rational& x : v) scale = lcm(scale, x.get_den());
-  std::array<Integer, 3> result;
-  Integer common;
-  for (std::size_t i = 0; i < 3; ++i) {
-    result[i] = v[i].get_num() * (scale / v[i].get_den());
-    common = gcd(common, result[i]);
-  }
-  for (Integer& x : result) x /= common;
-  return result;
-}
 
 Rational3 to_rational(const std::array<Integer, 3>& v) { return {Rational(v[0]), Rational(v[1]), Rational(v[2])}; }
 

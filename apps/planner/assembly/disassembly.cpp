@@ -10,6 +10,7 @@
 #include "apps/planner/path/path.h"
 #include "apps/planner/path/simple_points.h"
 #include "nef/base/error.h"
+#include "nef/geometry/integer_vector.h"
 
 namespace nef::planner {
 namespace {
@@ -151,8 +152,7 @@ class TakingApart {
     }
     if (!digits_) return {*least * d[0], *least * d[1], *least * d[2]};
     // A decimal multiple of a whole vector is as rounded; a little farther does no harm.
-    Integer denominator = 1;
-    for (const Rational& x : d) mpz_lcm(denominator.get_mpz_t(), denominator.get_mpz_t(), x.get_den_mpz_t());
+    const Integer denominator = common_denominator(d);
     const Rational t = rounded_up(*least / denominator, *digits_) * denominator;
     return {t * d[0], t * d[1], t * d[2]};
   }

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/planner/partition/exact_point.h"
 
+#include "nef/geometry/integer_vector.h"
+
 namespace nef::planner {
 ExactPoint::ExactPoint(const Rational3& point) : known_(true) {
   Integer& w = homogeneous_[3];
-  w = point[0].get_den();
-  for (std::size_t i = 1; i < 3; ++i) mpz_lcm(w.get_mpz_t(), w.get_mpz_t(), point[i].get_den().get_mpz_t());
+  w = common_denominator(point);
   for (std::size_t i = 0; i < 3; ++i) {
     homogeneous_[i] = point[i].get_num() * (w / point[i].get_den());
     approximate_[i] = nearest_double(point[i]);

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Integer vectors in the direction of rational ones.
+#pragma once
+
+#include <array>
+
+#include "nef/number/number.h"
+
+namespace nef {
+
+/// The least common denominator of the coordinates.
+Integer common_denominator(const Rational3& v);
+
+/// The vector times a positive multiple of its common denominator: integers.
+std::array<Integer, 3> times(const Rational3& v, const Integer& multiple);
+
+/// The shortest integer vector in the same direction; zero for zero.
+std::array<Integer, 3> primitive(const Rational3& v);
+
+}  // namespace nef

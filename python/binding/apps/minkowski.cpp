@@ -180,9 +180,7 @@ Without a point: what reaches infinity. Connected means by paths within the set,
   m.def(
       "hull", [](const nef::Polyhedron& a) { return call(items(a), [a] { return nef::minkowski::hull(a); }); },
       py::arg("a"),
-      R"(The convex hull of a bounded set, open where the set is: the hull of an open set is open.
-
-Raises UnsupportedError for an unbounded set. nef.hull takes points.)");
+      R"(The convex hull of a set, open where the set is: the hull of an open set is open. nef.hull takes points.)");
   m.def("configuration_space", &configuration_space, py::arg("robot"), py::arg("obstacles"),
         py::arg("box") = py::none(), py::arg("threads") = 1, py::arg("progress") = py::none(),
         R"(Where a translating robot may be: the closed set of positions of its reference point, the origin.

@@ -10,5 +10,5 @@ install_missing "${nef_packages[@]}" "${nef_test_packages[@]}"
 export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1
 cmake --preset "$preset" -DNEF_COMPILE_TOGETHER=ON >/dev/null
 cmake --build --preset "$preset"
-# One more than there are cores, since browsers and package tools wait now and then.
-ctest --preset "$preset" --parallel "$(($(nproc) + 1))"
+# Two more than there are cores, since browsers and package tools wait now and then.
+ctest --preset "$preset" --parallel "$(($(nproc) + 2))"

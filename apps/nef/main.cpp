@@ -11,5 +11,6 @@ int main(int argc, char** argv) {
     return nef::minkowski::minkowski_sum(a, b);
   };
   extensions.ball = nef::minkowski::inner_ball;
+  extensions.hull = nef::minkowski::hull;
   return nef::run_command(argc, argv, extensions);
 }

@@ -13,6 +13,8 @@ struct CommandExtensions {
   std::function<Polyhedron(const Polyhedron& a, const Polyhedron& b)> minkowski;
   /// ball(r, n) in expressions; refused where there is none.
   std::function<Polyhedron(const Rational& radius, const Rational& splits)> ball;
+  /// hull(A) of unbounded sets in expressions; refused where there is none.
+  std::function<Polyhedron(const Polyhedron& unbounded)> hull;
 };
 
 /// The program `nef`: its arguments in, files, standard output and the exit code out. All work is in the subcommands

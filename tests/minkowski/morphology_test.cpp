@@ -9,6 +9,7 @@
 #include "apps/minkowski/convex/tools.h"
 #include "apps/minkowski/morphology.h"
 #include "nef/geometry/vectors.h"
+#include "nef/program/expression/expression.h"
 #include "tests/support/hard_points.h"
 #include "tests/support/literals.h"
 #include "tests/support/random_polyhedra.h"
@@ -348,6 +349,17 @@ TEST_CASE("hulls of unbounded sets") {
         transform(minkowski_sum(h, h), nef::AffineMap::scale({Rational(1, 2), Rational(1, 2), Rational(1, 2)}));
     RC_ASSERT(equal(between, h));
   }));
+}
+
+TEST_CASE("hulls of unbounded sets in expressions") {
+  nef::ExpressionOptions options;
+  const std::string text = "hull(halfspace(0,0,1,0), point(1,2,5))";
+  CHECK_THROWS_AS(nef::evaluate_expression(text, options), nef::ExpressionError);
+  options.hull = nef::minkowski::hull;
+  const Polyhedron below_five = nef::interior(nef::make_halfspace(0, 0, 1, -5));
+  CHECK(equal(nef::evaluate_expression(text, options), unite(below_five, nef::make_point({1, 2, 5}))));
+  const Polyhedron unit_box = nef::make_box({0, 0, 0}, {1, 1, 1});
+  CHECK(equal(nef::evaluate_expression("hull(interior(box(0,0,0,1,1,1)))", options), unit_box));
 }
 
 }  // namespace

@@ -94,6 +94,7 @@ Polyhedron shape_of_text(const std::string& text, const std::string& folder, Mes
   };
   options.minkowski = [](const Polyhedron& a, const Polyhedron& b) { return minkowski::minkowski_sum(a, b); };
   options.ball = minkowski::inner_ball;
+  options.hull = minkowski::hull;
   try {
     return evaluate_expression(text, options);
   } catch (const ExpressionError& error) {

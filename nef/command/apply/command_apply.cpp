@@ -95,6 +95,7 @@ void add_apply_command(CLI::App& app, Session& session, const CommandExtensions&
     options.load = [&session, folder](const std::string& file) { return session.load((folder / file).string()); };
     options.minkowski = extensions.minkowski;
     options.ball = extensions.ball;
+    options.hull = extensions.hull;
     Json report;
     const Measured measured =
         measure(1, [&] { return apply_steps(steps, flags->steps, tiles, session, options, report); });

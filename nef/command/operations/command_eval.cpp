@@ -63,6 +63,7 @@ void add_eval_command(CLI::App& app, Session& session, const CommandExtensions& 
     options.load = [&session](const std::string& path) { return session.load(path); };
     options.minkowski = extensions.minkowski;
     options.ball = extensions.ball;
+    options.hull = extensions.hull;
     std::string path = flags->script;
     if (path.empty() && lower_extension(flags->text) == "csg") path = flags->text;
     if (flags->text.empty() == flags->script.empty()) {

@@ -3,6 +3,8 @@
 // Evaluates syntax trees.
 #include "nef/program/expression/expression.h"
 
+#include <algorithm>
+
 #include "nef/construct/round_shapes.h"
 #include "nef/program/expression/scanner.h"
 #include "nef/program/expression/syntax_tree.h"
@@ -33,6 +35,7 @@ class ExpressionEvaluator {
       if (node.term == Term::kMinkowski) return options_.minkowski(sets[0], sets[1]);
       if (node.term == Term::kErode) return erode(sets[0], sets[1]);
       if (node.term == Term::kBall) return options_.ball(node.numbers[0], node.numbers[1]);
+      if (node.term == Term::kHullOfSets && options_.hull && !all_bounded(sets)) return options_.hull(unite_all(sets));
       return make(node, sets);
     } catch (const InputError& error) {
       throw ExpressionError(place_in_text(text_, node.offset) + ": " + error.what(), node.offset);
@@ -43,6 +46,10 @@ class ExpressionEvaluator {
   // What of A stays when -B moves over what is not in A.
   [[nodiscard]] Polyhedron erode(const Polyhedron& a, const Polyhedron& b) const {
     return complement(options_.minkowski(complement(a), transform(b, AffineMap::scale({-1, -1, -1}))));
+  }
+
+  static bool all_bounded(std::span<const Polyhedron> sets) {
+    return std::all_of(sets.begin(), sets.end(), [](const Polyhedron& set) { return set.is_bounded(); });
   }
 
   static Polyhedron polyline(std::span<const Rational3> points) {

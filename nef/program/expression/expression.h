@@ -22,7 +22,8 @@
 //   number   := product (('+' | '-') product)*           with '*', '/', parentheses, '-' in front, and variables
 //
 // Numbers are exact: 3, -0.1 (a tenth), 1e-3, 22/7. Wherever numbers are listed, some may stand in brackets: [x,y,z].
-// Round shapes have 32 corners around if nothing is said. The hull of sets is closed, and they must be bounded.
+// Round shapes have 32 corners around if nothing is said. The hull of bounded sets is closed; that of others
+// has their marks.
 // Operators of one line associate to the left.
 // Rings after ';' in a polygon are holes (or further pieces) by parity. '#' begins a comment that
 // ends with its line.
@@ -56,6 +57,8 @@ struct ExpressionOptions {
   std::function<Polyhedron(const Polyhedron& a, const Polyhedron& b)> minkowski = {};
   /// Makes ball(r, n). Without it, balls are refused.
   std::function<Polyhedron(const Rational& radius, const Rational& splits)> ball = {};
+  /// Makes the hull of a set that is not bounded. Without it, such hulls are refused.
+  std::function<Polyhedron(const Polyhedron& unbounded)> hull = {};
 };
 
 /// The set that `text` describes. The whole text is parsed before anything is computed. Throws

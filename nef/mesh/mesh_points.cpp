@@ -220,31 +220,34 @@ void MeshPoints::extend(Box& box, std::uint32_t p) const {
 // most 6 (ex sy sz + sx ey sz + sx sy ez) up to terms of second order, for which 7 instead of 6 is more than enough;
 // its own evaluation rounds each product at most eight times: 48 u sx sy sz. Underflow adds less than 1e-200
 // while all coordinates are below 1e100.
-int MeshPoints::filtered_orientation(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const {
-  if (filter_) {
-    const auto& p = approximate_[a];
-    const auto& q = approximate_[b];
-    const auto& r = approximate_[c];
-    const auto& t = approximate_[d];
-    std::array<double, 3> s;
-    std::array<double, 3> e;
-    std::array<std::array<double, 3>, 3> m;
-    for (std::size_t i = 0; i < 3; ++i) {
-      m[0][i] = q[i] - p[i];
-      m[1][i] = r[i] - p[i];
-      m[2][i] = t[i] - p[i];
-      s[i] = std::max({std::abs(m[0][i]), std::abs(m[1][i]), std::abs(m[2][i])}) * (1 + 0x1p-50) + 2 * margin_[i];
-      e[i] = 2 * margin_[i] + 0x1p-53 * s[i];
-    }
-    const double value = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) +
-                         m[0][1] * (m[1][2] * m[2][0] - m[1][0] * m[2][2]) +
-                         m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
-    const double bound =
-        7 * (e[0] * s[1] * s[2] + s[0] * e[1] * s[2] + s[0] * s[1] * e[2]) + 0x1p-47 * s[0] * s[1] * s[2] + 1e-200;
-    if (value > bound) return 1;
-    if (value < -bound) return -1;
+MeshPoints::Determinant MeshPoints::determinant(std::uint32_t a, std::uint32_t b, std::uint32_t c,
+                                                std::uint32_t d) const {
+  const auto& p = approximate_[a];
+  const auto& q = approximate_[b];
+  const auto& r = approximate_[c];
+  const auto& t = approximate_[d];
+  std::array<double, 3> s;
+  std::array<double, 3> e;
+  std::array<std::array<double, 3>, 3> m;
+  for (std::size_t i = 0; i < 3; ++i) {
+    m[0][i] = q[i] - p[i];
+    m[1][i] = r[i] - p[i];
+    m[2][i] = t[i] - p[i];
+    s[i] = std::max({std::abs(m[0][i]), std::abs(m[1][i]), std::abs(m[2][i])}) * (1 + 0x1p-50) + 2 * margin_[i];
+    e[i] = 2 * margin_[i] + 0x1p-53 * s[i];
   }
-  return 0;
+  const double value = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) +
+                       m[0][1] * (m[1][2] * m[2][0] - m[1][0] * m[2][2]) +
+                       m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+  const double error =
+      7 * (e[0] * s[1] * s[2] + s[0] * e[1] * s[2] + s[0] * s[1] * e[2]) + 0x1p-47 * s[0] * s[1] * s[2] + 1e-200;
+  return {value, error};
+}
+
+int MeshPoints::filtered_orientation(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const {
+  if (!filter_) return 0;
+  const auto [value, error] = determinant(a, b, c, d);
+  return value > error ? 1 : value < -error ? -1 : 0;
 }
 
 int MeshPoints::orientation(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const {

@@ -33,6 +33,14 @@ class MeshPoints {
   /// The same if doubles can tell, and 0 if they can not: much cheaper where points are in one plane, or all but.
   [[nodiscard]] int filtered_orientation(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const;
 
+  /// det(b - a, c - a, d - a) in the scaled space of approximate(), and what it is off by at most. The points must be
+  /// moderate.
+  struct Determinant {
+    double value = 0;
+    double error = 0;
+  };
+  [[nodiscard]] Determinant determinant(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const;
+
   /// The sign of component `axis` of (b - a) x (c - a): orientation of the three points in the projection along
   /// that axis.
   [[nodiscard]] int orientation_along(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::size_t axis) const;

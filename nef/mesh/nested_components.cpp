@@ -46,26 +46,6 @@ struct Component {
   double error = 0;
 };
 
-// Six times the volume of the tetrahedron of a triangle and a point, and what that is off by; MeshPoints has the proof.
-void add_volume(const MeshPoints& points, const std::array<std::uint32_t, 3>& triangle, Component& to) {
-  const std::array<double, 3>& o = points.approximate(to.origin);
-  std::array<std::array<double, 3>, 3> m{};
-  std::array<double, 3> size{};
-  std::array<double, 3> error{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      m[k][i] = points.approximate(triangle[k])[i] - o[i];
-      size[i] = std::max(size[i], std::abs(m[k][i]));
-    }
-    size[i] = size[i] * (1 + 0x1p-50) + 2 * points.margin(i);
-    error[i] = 2 * points.margin(i) + 0x1p-53 * size[i];
-  }
-  to.volume += m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) + m[0][1] * (m[1][2] * m[2][0] - m[1][0] * m[2][2]) +
-               m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
-  to.error += 7 * (error[0] * size[1] * size[2] + size[0] * error[1] * size[2] + size[0] * size[1] * error[2]) +
-              0x1p-47 * size[0] * size[1] * size[2] + 1e-200;
-}
-
 std::vector<Component> measured_components(const MeshSurface& surface, std::vector<std::uint32_t>& component_of) {
   const MeshPoints& points = surface.points;
   UnionFind sets = edge_components(surface);
@@ -83,7 +63,9 @@ std::vector<Component> measured_components(const MeshSurface& surface, std::vect
       component_of[t] = component_of[first];
     }
     Component& component = components[component_of[t]];
-    add_volume(points, corners, component);
+    const MeshPoints::Determinant volume = points.determinant(component.origin, corners[0], corners[1], corners[2]);
+    component.volume += volume.value;
+    component.error += volume.error;
     for (const std::uint32_t v : corners) {
       for (std::size_t axis = 0; axis < 3; ++axis) {
         auto& [low, high] = component.ends[axis];

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nef/geometry/vectors.h"
 #include "nef/mesh/edge_order.h"
 
 namespace nef {
@@ -25,12 +26,6 @@ bool one_sided(const Signs& s) {
 int zeros(const Signs& s) { return (s[0] == 0 ? 1 : 0) + (s[1] == 0 ? 1 : 0) + (s[2] == 0 ? 1 : 0); }
 
 using Vector = std::array<double, 3>;
-
-Vector difference(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Vector cross(const Vector& u, const Vector& v) {
-  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-}
-double dot(const Vector& u, const Vector& v) { return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]; }
 
 // What separating vectors are tried with. For each point the product with a vector d is off by at most |d| times the
 // margin of the points and 4 u |d| |p|, for each coordinate; bound(d) is what the products of two points are off by.
@@ -69,7 +64,7 @@ bool surely_apart(const MeshPoints& points, const Triangle& a, const Triangle& b
   for (const Triangle* t : {&a, &b}) {
     std::array<Vector, 3> edge;
     for (std::size_t k = 0; k < 3; ++k) {
-      edge[k] = difference(points.approximate((*t)[(k + 1) % 3]), points.approximate((*t)[k]));
+      edge[k] = minus(points.approximate((*t)[(k + 1) % 3]), points.approximate((*t)[k]));
     }
     const Vector normal = cross(edge[0], edge[1]);
     if (separates(normal)) return true;
@@ -91,7 +86,7 @@ bool surely_apart_but_for(const MeshPoints& points, std::uint32_t corner, const 
     std::size_t count = 0;
     for (const std::uint32_t v : i == 0 ? a : b) {
       if (v == corner) continue;
-      const Vector side = difference(points.approximate(v), points.approximate(corner));
+      const Vector side = minus(points.approximate(v), points.approximate(corner));
       const double length = std::sqrt(dot(side, side));
       sides[i][count] = {side[0] / length, side[1] / length, side[2] / length};
       others[i][count++] = v;
@@ -115,9 +110,9 @@ bool surely_apart_but_for(const MeshPoints& points, std::uint32_t corner, const 
 bool surely_obtuse(const MeshPoints& points, std::uint32_t p, std::uint32_t q, std::uint32_t a, std::uint32_t b) {
   if (!points.moderate()) return false;
   const Vector& origin = points.approximate(p);
-  const Vector edge = difference(points.approximate(q), origin);
-  const Vector u = difference(points.approximate(a), origin);
-  const Vector v = difference(points.approximate(b), origin);
+  const Vector edge = minus(points.approximate(q), origin);
+  const Vector u = minus(points.approximate(a), origin);
+  const Vector v = minus(points.approximate(b), origin);
   double largest = 0;
   double margin = 0;
   for (std::size_t i = 0; i < 3; ++i) {

@@ -13,6 +13,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "apps/minkowski/convex/convex_cell.h"
@@ -33,8 +34,14 @@ enum class UnionStrategy : std::uint8_t {
                 ///< of their interiors, others (and some rare ones of these) are united as for kAuto
 };
 
-/// "auto", "trivial", ...: how the program spells it.
-std::string_view strategy_name(UnionStrategy strategy);
+/// All strategies, as the program spells them.
+inline constexpr std::array<std::pair<std::string_view, UnionStrategy>, 6> kUnionStrategies{
+    {{"auto", UnionStrategy::kAuto},
+     {"trivial", UnionStrategy::kTrivial},
+     {"queue", UnionStrategy::kQueue},
+     {"priority", UnionStrategy::kPriority},
+     {"nary", UnionStrategy::kNary},
+     {"convolution", UnionStrategy::kConvolution}}};
 
 struct MinkowskiOptions {
   UnionStrategy strategy = UnionStrategy::kAuto;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/minkowski/command/arguments.h"
 
-#include <map>
+#include <algorithm>
 
 #include "nef/base/error.h"
 #include "nef/program/common_options.h"
@@ -9,12 +9,10 @@
 namespace nef::minkowski {
 namespace {
 
-const std::map<std::string, UnionStrategy>& strategies() {
-  static const std::map<std::string, UnionStrategy> kNames = {
-      {"auto", UnionStrategy::kAuto},   {"trivial", UnionStrategy::kTrivial},
-      {"queue", UnionStrategy::kQueue}, {"priority", UnionStrategy::kPriority},
-      {"nary", UnionStrategy::kNary},   {"convolution", UnionStrategy::kConvolution}};
-  return kNames;
+std::vector<std::string> strategy_names() {
+  std::vector<std::string> names;
+  for (const auto& [name, strategy] : kUnionStrategies) names.emplace_back(name);
+  return names;
 }
 
 // The options that name a task, and whether they are given.
@@ -167,7 +165,7 @@ void declare(CLI::App& app, Arguments& a) {
       ->type_name("X,Y,Z");
   app.add_option("--union", a.union_name,
                  "How sums of cells are united: auto (default), trivial, queue, priority, nary, convolution")
-      ->check(CLI::IsMember({"auto", "trivial", "queue", "priority", "nary", "convolution"}));
+      ->check(CLI::IsMember(strategy_names()));
   declare_tasks(app, a);
   add_mesh_input_options(app, a.strict, a.as_surface);
   add_file_output_options(app, a.exact, a.binary, a.text);
@@ -194,6 +192,9 @@ Task check(const Arguments& a) {
   return task;
 }
 
-UnionStrategy strategy(const Arguments& arguments) { return strategies().at(arguments.union_name); }
+UnionStrategy strategy(const Arguments& arguments) {
+  const auto is_named = [&](const auto& entry) { return entry.first == arguments.union_name; };
+  return std::find_if(kUnionStrategies.begin(), kUnionStrategies.end(), is_named)->second;
+}
 
 }  // namespace nef::minkowski

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/minkowski/sum/strategy_choice.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "apps/minkowski/convolution/convolution_sum.h"
@@ -10,10 +11,16 @@
 namespace nef::minkowski {
 namespace {
 
+std::string_view name_of(UnionStrategy strategy) {
+  const auto* const found = std::find_if(kUnionStrategies.begin(), kUnionStrategies.end(),
+                                         [strategy](const auto& entry) { return entry.second == strategy; });
+  return found->first;
+}
+
 // The strategy that united cells, after the reason why there are any.
 StrategyChoice choice_of_cells(UnionStrategy strategy, std::size_t at_once, std::size_t two_by_two, std::string why) {
   if (strategy != UnionStrategy::kAuto && strategy != UnionStrategy::kConvolution) {
-    return {std::string(strategy_name(strategy)), std::move(why)};
+    return {std::string(name_of(strategy)), std::move(why)};
   }
   if (two_by_two == 0) return {"nary", std::move(why)};
   why += "; " + std::to_string(two_by_two) + (two_by_two == 1 ? " sum of cells is" : " sums of cells are") +
@@ -22,24 +29,6 @@ StrategyChoice choice_of_cells(UnionStrategy strategy, std::size_t at_once, std:
 }
 
 }  // namespace
-
-std::string_view strategy_name(UnionStrategy strategy) {
-  switch (strategy) {
-    case UnionStrategy::kAuto:
-      return "auto";
-    case UnionStrategy::kTrivial:
-      return "trivial";
-    case UnionStrategy::kQueue:
-      return "queue";
-    case UnionStrategy::kPriority:
-      return "priority";
-    case UnionStrategy::kNary:
-      return "nary";
-    case UnionStrategy::kConvolution:
-      return "convolution";
-  }
-  return "auto";
-}
 
 std::optional<Polyhedron> sum_by_convolution(const Polyhedron& a, const Polyhedron& b, const MinkowskiOptions& options,
                                              MinkowskiReport& report, std::string& why) {

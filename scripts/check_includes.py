@@ -13,12 +13,13 @@ import sys
 # The order of docs/architecture.md. A folder may include those before it, and itself.
 CORE = [
     "base", "number", "geometry", "sphere_map", "complex", "location", "synthesis", "boolean", "query", "mesh",
-    "construct", "operation", "tiles", "import", "export", "validation", "distance", "parts", "remeshing", "io",
+    "construct", "operation", "import", "export", "validation", "distance", "parts", "remeshing", "io", "tiles",
     "program", "view", "command",
 ]
 # The public face stands between the folders that make it and those that use it.
 FACE = "polyhedron.h", "labeled_polyhedron.h"
-APPS = {"minkowski": set(), "nef": {"minkowski"}, "visual_hull": set(), "planner": {"minkowski"}}
+APPS = {"minkowski": set(), "nef": {"minkowski"}, "visual_hull": set(), "planner": {"minkowski"},
+        "nef_mpi": {"minkowski", "visual_hull"}}
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 INCLUDE = re.compile(r'^#include "((?:nef|apps|tests|fuzz|bench|python)/[^"]+)"', re.MULTILINE)

@@ -10,7 +10,7 @@ nef_packages=(
   libzip-dev libexpat1-dev
   pybind11-dev python3-dev python3-numpy
 )
-nef_test_packages=(catch2 librapidcheck-dev chromium npm
+nef_test_packages=(catch2 librapidcheck-dev chromium npm libopenmpi-dev openmpi-bin
   python3-pytest python3-meshio python3-matplotlib python3-pip python3-wheel)
 # The peer that results are compared with where it is there, which takes minutes to compile: CI wants it.
 nef_oracle_packages=(libcgal-dev)

@@ -9,7 +9,7 @@
 #include <iostream>
 #include <random>
 
-#include "apps/planner/path/a_star.h"
+#include "apps/planner/first_way/a_star.h"
 #include "bench/planner/timed_checks.h"
 
 namespace {

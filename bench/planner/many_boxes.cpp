@@ -3,9 +3,10 @@
 // A large scene: random boxes (200 unless told otherwise) and an L-shaped robot. Time per phase, and the
 // cost of state and motion checks in a free space of that size.
 //
-//   bench_planner_many_boxes [boxes] [seed] [changes]
+//   bench_planner_many_boxes [boxes] [seed] [changes] [tight]
 //
-// With the number of changes given, only these are timed.
+// With the number of changes given, only these are timed. With a fourth argument the start is in a room whose door is
+// exactly as wide as the robot.
 #include <ompl/util/Console.h>
 
 #include <algorithm>
@@ -13,6 +14,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <random>
+#include <utility>
 
 #include "apps/planner/command/report.h"
 #include "apps/planner/ompl/ompl_planners.h"
@@ -45,6 +47,14 @@ Scene scene_of(int boxes, unsigned seed) {
   scene.start = Rational3{-3, -3, -3};
   scene.goal = Rational3{37, 36, 35};
   return scene;
+}
+
+// Four walls, floor and ceiling around the start.
+Polyhedron tight_room() {
+  const Rational half(1, 2);
+  const Polyhedron walls =
+      subtract(make_box({-8, -8, -8}, {half, half, half}), make_box({-7, -7, -7}, {-half, -half, -half}));
+  return closure(subtract(walls, make_box({-half, -4, -4}, {half, -3, -2})));
 }
 
 void time_checks(const FreeSpace& free) {
@@ -122,37 +132,97 @@ void time_changes(const Problem& problem, int changes) {
               sums[0], sums[1], sums[2], sums[0] + sums[1] + sums[2], longest);
 }
 
-// The same as users of OMPL do it: a box comes, a question, it goes, a question.
-void time_planning(const Problem& problem, int changes) {
-  TranslationPlanning setup(problem);
-  std::mt19937 random(5);
-  std::array<double, 2> sums{};
-  std::array<double, 2> longest{};
-  const auto ask = [&](std::size_t which, double begin) {
+// A box of side 1 to 4 around the middle of one of the way's longer segments.
+Polyhedron box_on(const std::vector<Rational3>& way, std::mt19937& random) {
+  std::vector<std::size_t> longer;
+  for (std::size_t i = 0; i + 1 < way.size(); ++i) {
+    if (distance(way[i], way[i + 1]) > 8) longer.push_back(i);
+  }
+  const std::size_t i = longer[random() % longer.size()];
+  Rational3 low;
+  Rational3 high;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Rational middle(static_cast<long>(std::floor(8 * nearest_double(way[i][k] + way[i + 1][k]))), 16);
+    const Rational half(1 + static_cast<long>(random() % 4), 2);
+    low[k] = middle - half;
+    high[k] = middle + half;
+    low[k].canonicalize();
+    high[k].canonicalize();
+  }
+  return make_box(low, high);
+}
+
+// What a kind of change and the question after it take.
+struct ChangeTime {
+  double sum = 0;
+  double longest = 0;
+  int count = 0;
+  int roadmaps = 0;
+  int paths = 0;
+
+  // Asks the question; the change was made at `begin`.
+  void ask(TranslationPlanning& setup, double begin) {
     setup.clear();
     setup.solve(60.0);
     const double passed = 1e3 * (processor() - begin);
-    sums[which] += passed / changes;
-    longest[which] = std::max(longest[which], passed);
-    if (getenv("DBG"))
-      std::printf("%zu %.1f roadmap %.1f status %s len %g\n", which, passed,
-                  1e3 * setup.getFreeSpace()->roadmap_seconds(), setup.getLastPlannerStatus().asString().c_str(),
-                  setup.haveSolutionPath() ? setup.getSolutionPath().length() : 0.0);
-  };
+    sum += passed;
+    longest = std::max(longest, passed);
+    ++count;
+    if (setup.getFreeSpace()->has_roadmap()) ++roadmaps;
+    if (setup.haveExactSolutionPath()) ++paths;
+  }
+  void print(const char* what) const {
+    std::printf("%-34s %.1f ms, at most %.1f; %d paths, %d roadmaps of %d\n", what, sum / count, longest, paths,
+                roadmaps, count);
+  }
+};
+
+// The same as users of OMPL do it: each change, then a question with default options.
+void time_planning(const Problem& problem, int changes) {
+  TranslationPlanning setup(problem);
+  std::mt19937 random(5);
+  ChangeTime beside;
+  ChangeTime gone;
+  ChangeTime on_way;
+  ChangeTime moved;
+  ChangeTime old_gone;
   setup.solve(60.0);
+  const std::vector<Rational3> way = setup.getTightPlanner()->getExactPath()->points;
+  const auto last = [&] { return setup.getScene().obstacles.size() - 1; };
   for (int i = 0; i < changes; ++i) {
     const Polyhedron box = further_box(random);
     double begin = processor();
     setup.addObstacle(box);
-    ask(0, begin);
+    beside.ask(setup, begin);
     begin = processor();
-    setup.removeObstacle(setup.getScene().obstacles.size() - 1);
-    ask(1, begin);
+    setup.removeObstacle(last());
+    gone.ask(setup, begin);
+    const Polyhedron blocking = box_on(way, random);
+    begin = processor();
+    setup.addObstacle(blocking);
+    on_way.ask(setup, begin);
+    begin = processor();
+    setup.removeObstacle(last());
+    gone.ask(setup, begin);
+    const std::size_t old = random() % last();
+    const Polyhedron taken = setup.getScene().obstacles[old];
+    begin = processor();
+    setup.removeObstacle(old);
+    old_gone.ask(setup, begin);
+    setup.addObstacle(taken);
+    setup.clear();
+    setup.solve(60.0);
+    const Rational3 by{Rational(static_cast<int>(random() % 33) - 16, 8), 1, -1};
+    begin = processor();
+    setup.moveObstacle(random() % last(), by);
+    moved.ask(setup, begin);
   }
-  std::printf(
-      "TranslationPlanning: a box comes, and a question %.1f ms, at most %.1f; it goes, and a question %.1f ms, "
-      "at most %.1f\n",
-      sums[0], longest[0], sums[1], longest[1]);
+  std::printf("TranslationPlanning, a change and a question:\n");
+  beside.print("a box comes near the diagonal");
+  on_way.print("a box comes on the way");
+  gone.print("it goes again");
+  old_gone.print("another one goes");
+  moved.print("one moves");
 }
 
 // How much of a stock planner's time its checks take in this scene.
@@ -178,7 +248,12 @@ int main(int argc, char** argv) {
   const unsigned seed = argc > 2 ? static_cast<unsigned>(std::atoi(argv[2])) : 1;
   ompl::msg::setLogLevel(ompl::msg::LOG_NONE);
   const double begin = processor();
-  const Problem problem(scene_of(boxes, seed));
+  Scene scene = scene_of(boxes, seed);
+  if (argc > 4) {
+    scene.obstacles.push_back(tight_room());
+    scene.obstacle_names.emplace_back("room");
+  }
+  const Problem problem(std::move(scene));
   const FreeSpace& free = problem.free_space();
   PathOptions options;
   options.thorough = false;

@@ -4,7 +4,9 @@
 // nef_bench_tiles chain [LEVEL [STEPS]] [--limit N] [--size D]: many boxes one after the other, plain, in tiles, and in
 // tiles where that pays.
 // nef_bench_tiles fold [LEVEL [COUNT]] [--limit N] [--size D]: such boxes off a sphere, all at once and in tiles.
-// CPU seconds of one thread. What is compared runs in turn, in one process.
+// nef_bench_tiles union [COUNT] [--limit N] [--threads N] [--memory MB]: random tetrahedra, each of which meets a few
+// others; pairs smallest first, and region by region. With --stream the latter alone, each piece made when it is
+// needed. CPU seconds of one thread. What is compared runs in turn, in one process.
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -14,8 +16,12 @@
 
 #include "bench/generators.h"
 #include "bench/report.h"
+#include "nef/base/stopwatch.h"
 #include "nef/io/native/native_binary.h"
+#include "nef/operation/canonical_order.h"
+#include "nef/tiles/import/union_in_tiles.h"
 #include "nef/tiles/step_sequence.h"
+#include "nef/tiles/storage/tile_store.h"
 #include "nef/tiles/tiled_polyhedron.h"
 
 namespace nef::bench {
@@ -144,6 +150,59 @@ void fold(int level, int count, double size, const Tiling& tiling) {
       plain / (cutting + steps + gluing), equal(glued, at_once) ? "the same" : "DIFFERENT");
 }
 
+// The same tetrahedron for the same number on every machine, with corners on a grid of 2^-10 in a cube of volume COUNT.
+Polyhedron random_tetrahedron(std::uint32_t number, std::uint32_t count) {
+  std::mt19937_64 random(number + 1U);
+  const double side = std::cbrt(static_cast<double>(count));
+  const auto uniform = [&random] { return static_cast<double>(random() >> 40U) * 0x1p-24; };
+  const std::array<double, 3> middle{side * uniform(), side * uniform(), side * uniform()};
+  std::array<Rational3, 4> corners;
+  for (Rational3& corner : corners) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      corner[i] = exact_rational(std::floor((middle[i] + 1.2 * (uniform() - 0.5)) * 0x1p10) * 0x1p-10);
+    }
+  }
+  return convex_hull(corners);
+}
+
+void unite_tetrahedra(std::uint32_t count, bool stream, const Tiling& tiling) {
+  const PieceSource made_when_needed{.count = count,
+                                     .set = [count](std::uint32_t i) { return random_tetrahedron(i, count); }};
+  std::printf("%u tetrahedra, %u threads\n", count, tiling.threads);
+  std::size_t vertices = 0;
+  std::size_t tiles = 0;
+  if (stream) {
+    const nef::Stopwatch wall;
+    const Stopwatch watch;
+    const TiledPolyhedron united = union_in_tiles(made_when_needed, tiling);
+    std::printf("in tiles, pieces made when needed: %.2f s CPU, %.2f s\n", watch.seconds(), wall.seconds());
+    vertices = united.vertex_count();
+    tiles = united.tile_count();
+  } else {
+    std::vector<Polyhedron> pieces;
+    for (std::uint32_t i = 0; i < count; ++i) pieces.push_back(random_tetrahedron(i, count));
+    for (int turn = 0; turn < 2; ++turn) {
+      const nef::Stopwatch wall;
+      const Stopwatch watch;
+      const Polyhedron plain = unite_all(pieces, tiling.threads);
+      std::printf("pairs smallest first: %.2f s CPU, %.2f s; %zu vertices\n", watch.seconds(), wall.seconds(),
+                  plain.complex().vertex_count());
+      const nef::Stopwatch wall_in_tiles;
+      const Stopwatch watch_in_tiles;
+      const TiledPolyhedron united(pieces, tiling);
+      std::printf("region by region: %.2f s CPU, %.2f s\n", watch_in_tiles.seconds(), wall_in_tiles.seconds());
+      const Stopwatch watch_gluing;
+      const Polyhedron glued = united.polyhedron();
+      std::printf(
+          "glued: %.2f s CPU%s\n", watch_gluing.seconds(),
+          native_binary(glued) == native_binary(in_canonical_order(plain)) ? ", the same bytes" : ", OTHER BYTES");
+      vertices = united.vertex_count();
+      tiles = united.tile_count();
+    }
+  }
+  std::printf("%zu vertices in %zu tiles, peak %zu MB\n", vertices, tiles, static_cast<std::size_t>(peak_kb()) / 1024);
+}
+
 }  // namespace
 }  // namespace nef::bench
 
@@ -151,17 +210,25 @@ int main(int argc, char** argv) {
   const std::vector<std::string> words(argv + 1, argv + argc);
   if (words.empty()) {
     std::fprintf(stderr,
-                 "usage: nef_bench_tiles cubes [LEVEL...] | chain [LEVEL [STEPS]] | fold [LEVEL [COUNT]], [--size D] "
-                 "[--limit N]\n");
+                 "usage: nef_bench_tiles cubes [LEVEL...] | chain [LEVEL [STEPS]] | fold [LEVEL [COUNT]] | union "
+                 "[COUNT], [--size D] "
+                 "[--limit N] [--threads N] [--memory MB] [--stream]\n");
     return 2;
   }
   try {
     nef::Tiling tiling;
     double size = 0.01;
+    bool stream = false;
     std::vector<int> numbers;
     for (std::size_t i = 1; i < words.size(); ++i) {
       if (words[i] == "--limit" && i + 1 < words.size()) {
         tiling.limit = std::stoul(words[++i]);
+      } else if (words[i] == "--threads" && i + 1 < words.size()) {
+        tiling.threads = static_cast<unsigned>(std::stoul(words[++i]));
+      } else if (words[i] == "--memory" && i + 1 < words.size()) {
+        tiling.store = std::make_shared<nef::TileStore>(".", std::stoull(words[++i]) << 20U);
+      } else if (words[i] == "--stream") {
+        stream = true;
       } else if (words[i] == "--size" && i + 1 < words.size()) {
         size = std::stod(words[++i]);
       } else {
@@ -170,6 +237,8 @@ int main(int argc, char** argv) {
     }
     if (words[0] == "chain") {
       nef::bench::chain(numbers.empty() ? 5 : numbers[0], numbers.size() < 2 ? 1000 : numbers[1], size, tiling);
+    } else if (words[0] == "union") {
+      nef::bench::unite_tetrahedra(numbers.empty() ? 10000U : static_cast<std::uint32_t>(numbers[0]), stream, tiling);
     } else if (words[0] == "fold") {
       nef::bench::fold(numbers.empty() ? 6 : numbers[0], numbers.size() < 2 ? 1000 : numbers[1], size, tiling);
     } else {

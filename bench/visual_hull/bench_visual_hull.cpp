@@ -144,7 +144,7 @@ void measure(const std::string& name, const Scene& scene, const std::filesystem:
   row.operation = times[times.size() / 2];
   std::string peer = fmt::format("{:>11}  {:>7}", "-", "-");
 #ifdef NEF_BENCH_CGAL
-  if (row.operation * 40 < settings.peer_limit) {
+  if (row.operation * 1000 < settings.peer_limit) {
     const PeerResult cgal = intersect_with_cgal(result.views, result.box);
     const bool same = cgal.vertices == row.counts.vertices && cgal.facets == row.counts.facets;
     peer = fmt::format("{:>11.4f}  {:>7.1f}{}", cgal.seconds, cgal.seconds / row.operation,

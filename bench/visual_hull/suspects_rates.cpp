@@ -234,7 +234,10 @@ void run(const std::vector<std::string>& scenes, std::size_t views_a_kind, std::
     }
     const WorldBox box = box_of(views, {});
     ++clean.sets;
-    if (compared(views, box).guilty) ++clean.alarms;
+    if (const Consistency found = compared(views, box); found.guilty) {
+      ++clean.alarms;
+      std::cerr << set.name << ", clean: " << views[*found.guilty].camera.name() << " is accused\n";
+    }
     for (std::size_t k = 0; k < subsets; ++k) {
       std::vector<Seen> some = views;
       std::shuffle(some.begin(), some.end(), random);

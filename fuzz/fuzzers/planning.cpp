@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 
+#include "apps/planner/first_way/first_way.h"
 #include "apps/planner/path/question.h"
 #include "fuzz/grid.h"
 
@@ -255,13 +256,22 @@ class PlanningCase {
                   "reachable: from " + tuple_text(point_of(start)) + " to " + tuple_text(point_of(goal)) + ", want " +
                       (reachable ? "a path" : "none"));
     case_.count(reachable ? "paths" : "proofs");
-    if (!answer.path) return;
-    const std::vector<Rational3>& points = answer.path->points;
-    Case::require(points.front() == point_of(start) && points.back() == point_of(goal), "path: wrong ends");
+    if (answer.path) check(answer.path->points, start, goal, truth, "path");
+    const planner::FreeSpace fresh(problem.free_space().set());
+    const planner::CellFilter filter(fresh);
+    if (const auto way = planner::narrow_way(fresh, filter, 0, point_of(start), point_of(goal))) {
+      check(*way, start, goal, truth, "narrow way");
+      case_.count("narrow ways");
+    }
+  }
+
+  static void check(const std::vector<Rational3>& points, const GridCell& start, const GridCell& goal,
+                    const Positions& truth, const std::string& what) {
+    Case::require(points.front() == point_of(start) && points.back() == point_of(goal), what + ": wrong ends");
     for (std::size_t i = 0; i + 1 < points.size(); ++i) {
       const std::optional<GridCell> met = truth.first_met(points[i], points[i + 1]);
       Case::require(!met,
-                    "path: from " + tuple_text(points[i]) + " to " + tuple_text(points[i + 1]) + " meets something");
+                    what + ": from " + tuple_text(points[i]) + " to " + tuple_text(points[i + 1]) + " meets something");
     }
   }
 

@@ -3,14 +3,20 @@
 // Sets in tiles under steps, with cuts through whatever lies there: boxes, flat and empty ones, and half-spaces, open
 // and closed, on a grid. A point is in the set iff the steps say so, by arithmetic on the primitives; and the file of
 // the glued set is that of the plain operations, byte for byte.
+#include <algorithm>
 #include <array>
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "fuzz/fuzzer.h"
 #include "nef/construct/construct.h"
+#include "nef/export/to_mesh.h"
 #include "nef/io/native/native_binary.h"
 #include "nef/operation/canonical_order.h"
+#include "nef/tiles/import/mesh_tiles.h"
+#include "nef/tiles/import/union_in_tiles.h"
+#include "nef/tiles/storage/tile_store.h"
 #include "nef/tiles/tiled_polyhedron.h"
 #include "nef/tiles/tree_overlay.h"
 
@@ -86,7 +92,7 @@ class Fold {
     others_.emplace_back('!', std::string(), std::vector<Fold>());
   }
   void cut(const AxisPlane& plane) {
-    const auto halves = cut_tree(tiled_.tree(), plane);
+    const auto halves = cut_tree(tiled_.tree(), plane, nef::Tiling{});
     tiled_ = TiledPolyhedron(cut_node(plane, halves[0], halves[1]), tiled_.tiling());
   }
   static Fold of(const Primitive& primitive, const nef::Tiling& tiling) {
@@ -182,16 +188,51 @@ void check(const Case& the_case, const Fold& fold) {
   the_case.count("tiles", fold.tiled().tile_count());
 }
 
+// What is made region by region: the union of primitives, and the solid of a mesh.
+void check_pieces(const Case& the_case, const nef::Tiling& tiling) {
+  Choices& choices = the_case.choices();
+  std::vector<Primitive> primitives;
+  std::vector<Polyhedron> sets;
+  for (std::uint32_t i = 1 + choices.below(12); i > 0; --i) {
+    primitives.push_back(random_primitive(choices));
+    sets.push_back(primitives.back().make());
+    the_case.tell("piece " + primitives.back().text());
+  }
+  const PieceSource source{.count = static_cast<std::uint32_t>(sets.size()),
+                           .set = [&sets](std::uint32_t i) { return sets[i]; }};
+  const TiledPolyhedron united = union_in_tiles(source, tiling, 1 + choices.below(5));
+  for (int i = 0; i < 30; ++i) {
+    Rational3 p;
+    for (Rational& x : p) {
+      x = Rational(choices.between(-1, 2 * kGrid + 1), 2);
+      x.canonicalize();
+    }
+    const bool wanted =
+        std::any_of(primitives.begin(), primitives.end(), [&p](const Primitive& s) { return s.holds(p); });
+    Case::require(contains(united, p) == wanted, "membership in a union by regions: at " + to_string(p[0]) + "," +
+                                                     to_string(p[1]) + "," + to_string(p[2]));
+  }
+  const Polyhedron solid = regularize(unite_all(sets));
+  if (!solid.is_bounded() || solid.is_empty()) return;
+  const TiledPolyhedron pieces = tiles_from_mesh(to_mesh(solid).mesh, {}, tiling, nullptr, 1 + choices.below(12));
+  Case::require(native_binary(pieces.polyhedron()) == native_binary(in_canonical_order(solid)),
+                "bytes: of a mesh that came in by pieces");
+  the_case.count("meshes by pieces");
+}
+
 }  // namespace
 
 void fuzz_tiles(const Case& the_case) {
   Choices& choices = the_case.choices();
   const std::size_t limit = choices.below(2) == 0 ? 1024 : 16 + choices.below(40);
-  const nef::Tiling tiling{limit, 1 + choices.below(2)};
+  nef::Tiling tiling{limit, 1 + choices.below(2)};
+  // Next to no memory: every tile goes to a file and comes back.
+  if (choices.one_in(4)) tiling.store = std::make_shared<TileStore>(std::filesystem::temp_directory_path(), 1);
   the_case.tell("at most " + std::to_string(tiling.limit) + " vertices in a tile");
   const Fold fold = random_fold(the_case, tiling, 0);
   the_case.tell(fold.steps_text());
   check(the_case, fold);
+  check_pieces(the_case, tiling);
 }
 
 }  // namespace nef::fuzz

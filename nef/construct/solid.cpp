@@ -64,6 +64,7 @@ class SolidBuilder {
     PlaneId first;     // planes of faces around the edge; second differs from first
     PlaneId second;
     std::uint32_t arcs = 0;
+    LabelId mark = kOutside;  // none yet
   };
 
   // As for faces that are all facets, which is as much as there can be of each.
@@ -147,26 +148,36 @@ class SolidBuilder {
     return sign > 0 ? std::move(d) : Direction::cross(f_.planes, spoke.second, spoke.first);
   }
 
+  // Where faces of different marks meet, the mark of the boundary.
+  void join_marks(LabelId& so_far, LabelId mark) const {
+    if (so_far == kOutside) so_far = mark;
+    if (so_far != mark) so_far = marks_.boundary;
+  }
+
   void draw(std::uint32_t v) {
     drawing_.clear();
     spokes_.clear();
     ends_.clear();
     ring_.clear();
-    drawing_.centre = marks_.boundary;
     for (std::uint32_t i = first_[v]; i < first_[v + 1]; ++i) {
       const Corner& corner = corners_[i];
       ring_.push_back(corner.at);
       const std::uint32_t source = node_toward(corner.next, f_.plane[corner.face]);
       const std::uint32_t target = node_toward(corner.previous, f_.plane[corner.face]);
-      drawing_.arcs.push_back({f_.plane[corner.face], source, target, marks_.boundary, marks_.outside, marks_.inside});
+      const LabelId mark = f_.plane[corner.face].flipped() ? marks_.flipped_boundary : marks_.boundary;
+      join_marks(spokes_[source].mark, mark);
+      join_marks(spokes_[target].mark, mark);
+      drawing_.arcs.push_back({f_.plane[corner.face], source, target, mark, marks_.outside, marks_.inside});
     }
     drawing_.nodes.resize(spokes_.size());
     for (std::size_t n = 0; n < spokes_.size(); ++n) {
       ends_.push_back(spokes_[n].to);
       if (spokes_[n].arcs == 1) spokes_[n].second = plane_across(v, spokes_[n]);
       drawing_.nodes[n].direction = direction_along(v, spokes_[n]);
-      drawing_.nodes[n].mark = marks_.boundary;
+      drawing_.nodes[n].mark = spokes_[n].mark;
     }
+    drawing_.centre = spokes_[0].mark;
+    for (const Spoke& spoke : spokes_) join_marks(drawing_.centre, spoke.mark);
   }
 
   [[nodiscard]] std::string name(std::uint32_t point) const {
@@ -239,6 +250,10 @@ std::variant<Complex, Defect> try_make_solid(SolidFaces&& faces, const SolidMark
 
 Complex make_surface(SolidFaces&& faces, LabelId mark) {
   return complex_of(SolidBuilder(std::move(faces), {mark, 0, 0}).run());
+}
+
+Complex make_oriented_surface(SolidFaces&& faces) {
+  return complex_of(SolidBuilder(std::move(faces), {1, 0, 0, 2}).run());
 }
 
 Complex make_infimaximal_box() { return make_solid(infimaximal_box_faces(false), {1, 1, 0}); }

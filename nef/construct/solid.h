@@ -23,9 +23,10 @@ struct SolidFaces {
 };
 
 struct SolidMarks {
-  LabelId boundary = 1;
+  LabelId boundary = 1;  ///< of faces whose plane is not flipped, and where faces of both kinds meet
   LabelId inside = 1;
   LabelId outside = 0;
+  LabelId flipped_boundary = boundary;  ///< of faces whose plane is flipped
 };
 
 /// The complex of the solid. Coplanar neighbouring faces become one facet. The faces must not
@@ -40,6 +41,10 @@ std::variant<Complex, Defect> try_make_solid(SolidFaces&& faces, const SolidMark
 /// The union of the faces as a two-dimensional set of the given mark, 0 around it. The faces may have borders and may
 /// meet in any number around an edge, but nowhere else than in common vertices and edges. O(n log n).
 Complex make_surface(SolidFaces&& faces, LabelId mark);
+
+/// The same, marked 1 where faces are seen from the positive side of their plane and 2 where from the other one; 1
+/// where such faces meet.
+Complex make_oriented_surface(SolidFaces&& faces);
 
 /// The solid [-R, R]^3 in coordinates with parts in the infimaximal number R (thesis 3.3): an
 /// ordinary solid, whose outside is marked 0.

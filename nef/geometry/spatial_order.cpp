@@ -23,9 +23,8 @@ bool finite(const std::array<double, 3>& p) {
   return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
 }
 
-}  // namespace
-
-std::vector<std::uint32_t> spatial_order(std::span<const std::array<double, 3>> points) {
+// Cells along the curve with the points in them, in this order.
+std::vector<std::pair<std::uint64_t, std::uint32_t>> sorted_keys(std::span<const std::array<double, 3>> points) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   std::array<double, 3> low{kInfinity, kInfinity, kInfinity};
   double size = 0;  // of the longest side: cells are cubes
@@ -52,10 +51,34 @@ std::vector<std::uint32_t> spatial_order(std::span<const std::array<double, 3>> 
     keys[v] = {key, v};
   }
   std::sort(keys.begin(), keys.end());
+  return keys;
+}
+
+std::vector<std::uint32_t> indices_of(const std::vector<std::pair<std::uint64_t, std::uint32_t>>& keys) {
   std::vector<std::uint32_t> order;
   order.reserve(keys.size());
   for (const auto& key : keys) order.push_back(key.second);
   return order;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> spatial_order(std::span<const std::array<double, 3>> points) {
+  return indices_of(sorted_keys(points));
+}
+
+std::vector<std::uint32_t> spatial_order(std::span<const std::array<double, 3>> points,
+                                         const std::function<bool(std::uint32_t, std::uint32_t)>& less) {
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> keys = sorted_keys(points);
+  for (auto begin = keys.begin(); begin != keys.end();) {
+    auto end = begin + 1;
+    while (end != keys.end() && end->first == begin->first) ++end;
+    if (end - begin > 1) {
+      std::sort(begin, end, [&less](const auto& a, const auto& b) { return less(a.second, b.second); });
+    }
+    begin = end;
+  }
+  return indices_of(keys);
 }
 
 }  // namespace nef

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -12,5 +13,9 @@ namespace nef {
 /// are neighbours in space as a rule, so that arrays in this order are read along memory. Equal cells keep their order;
 /// what is not finite comes last. O(n log n).
 std::vector<std::uint32_t> spatial_order(std::span<const std::array<double, 3>> points);
+
+/// The same with points of one cell sorted by `less`, which takes two indices.
+std::vector<std::uint32_t> spatial_order(std::span<const std::array<double, 3>> points,
+                                         const std::function<bool(std::uint32_t, std::uint32_t)>& less);
 
 }  // namespace nef

@@ -10,22 +10,12 @@
 
 #include "nef/base/error.h"
 #include "nef/geometry/box_tree.h"
+#include "nef/import/mesh_faces.h"
+#include "nef/mesh/perturbed_turn.h"
 #include "nef/mesh/triangulate.h"
 
 namespace nef {
 namespace {
-
-// The sign of (b - a) x (p - a) along `axis` for p moved by (e, e^2) along the two other axes, with e > 0 as small as
-// need be. It is never 0 for different a and b in a plane that projects one to one.
-int turn(const Rational3& a, const Rational3& b, const Rational3& p, std::size_t axis) {
-  const std::size_t u = (axis + 1) % 3;
-  const std::size_t v = (axis + 2) % 3;
-  const Rational du = b[u] - a[u];
-  const Rational dv = b[v] - a[v];
-  const int sign = sgn(Rational(du * (p[v] - a[v]) - dv * (p[u] - a[u])));
-  if (sign != 0) return sign;
-  return sgn(dv) != 0 ? -sgn(dv) : sgn(du);
-}
 
 class WindingFiller {
  public:
@@ -42,7 +32,7 @@ class WindingFiller {
     if (*low < -1) refuse([](int w) { return w < -1; });
     if (*low == 0 && *high == 0) throw InputError("the faces of the mesh enclose nothing");
     if (*low < 0 && messages != nullptr) {
-      messages->push_back("the faces were oriented inward and have been turned over");
+      messages->push_back(kTurnedOver);
     }
     return fill();
   }
@@ -98,8 +88,8 @@ class WindingFiller {
       const Rational3& b = mesh_.vertices[surface_.triangles[t][1]];
       const Rational3& c = mesh_.vertices[surface_.triangles[t][2]];
       if (!on_plane(plane, a) || !on_plane(plane, b) || !on_plane(plane, c)) return;
-      const int first = turn(a, b, point, axis);
-      if (turn(b, c, point, axis) != first || turn(c, a, point, axis) != first) return;
+      const int first = perturbed_turn(a, b, point, axis);
+      if (perturbed_turn(b, c, point, axis) != first || perturbed_turn(c, a, point, axis) != first) return;
       coverings_[f].net += first * up;
       coverings_[f].face = surface_.face_of[t];
     });

@@ -42,7 +42,7 @@ std::variant<Complex, Defect> try_solid(const Mesh& mesh, const MeshSurface& sur
   std::variant<Complex, Defect> made = faces.solid(false);
   const Complex* complex = std::get_if<Complex>(&made);
   if (complex == nullptr || complex->vertex_count() == 0 || complex->volumes[kOuterVolume].mark != 1) return made;
-  if (messages != nullptr) messages->push_back("the faces were oriented inward and have been turned over");
+  if (messages != nullptr) messages->push_back(kTurnedOver);
   return faces.solid(true);
 }
 

@@ -18,6 +18,8 @@ std::variant<Complex, Defect> MeshFaces::solid(bool reverse) { return try_make_s
 
 Complex MeshFaces::surface(std::span<const std::uint32_t> faces) { return make_surface(collect(faces, false), 1); }
 
+Complex MeshFaces::oriented_surface() { return make_oriented_surface(collect({}, false)); }
+
 SolidFaces MeshFaces::collect(std::span<const std::uint32_t> faces, bool reverse) {
   f_ = {};
   reverse_ = reverse;
@@ -253,8 +255,7 @@ MeshFaces::Integers MeshFaces::vector_area() const {
 
 // A face that is not planar, as the check has cut it.
 void MeshFaces::add_triangles(std::uint32_t face) {
-  const std::string name =
-      "face " + std::to_string(face) + " is not planar (off by " + face_deviation_text(mesh_, face) + ")";
+  const std::string name = not_planar_text(mesh_, face);
   if (options_.strict) throw InputError(name + "; triangulate it, or read the mesh without --strict");
   if (surface_.defects[face] != FaceDefect::kNone) {
     throw InputError(name + " and crosses itself when projected, so it cannot be triangulated; split it");

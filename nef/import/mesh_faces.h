@@ -15,6 +15,9 @@
 
 namespace nef {
 
+/// The note about a mesh whose faces enclosed a negative volume.
+inline constexpr const char* kTurnedOver = "the faces were oriented inward and have been turned over";
+
 /// Finds the plane of every face (faces that are not planar are triangulated, which is noted, or refused if the options
 /// are strict) and builds complexes from any selection of faces. Faces without area are left out.
 class MeshFaces {
@@ -28,6 +31,9 @@ class MeshFaces {
 
   /// The union of the faces as a two-dimensional set. They must meet in common vertices and edges only. O(n log n).
   Complex surface(std::span<const std::uint32_t> faces);
+
+  /// The same of all faces, with marks that tell how they are turned (make_oriented_surface).
+  Complex oriented_surface();
 
  private:
   using Integers = std::array<Integer, 3>;

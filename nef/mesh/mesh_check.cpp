@@ -430,4 +430,8 @@ std::string face_deviation_text(const Mesh& mesh, std::size_t face) {
   return digits.data();
 }
 
+std::string not_planar_text(const Mesh& mesh, std::size_t face) {
+  return "face " + std::to_string(face) + " is not planar (off by " + face_deviation_text(mesh, face) + ")";
+}
+
 }  // namespace nef

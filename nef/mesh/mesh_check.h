@@ -64,4 +64,7 @@ double face_deviation(const Mesh& mesh, std::size_t face);
 /// The same with three digits, however small, as messages tell it.
 std::string face_deviation_text(const Mesh& mesh, std::size_t face);
 
+/// "face F is not planar (off by D)", as messages say it.
+std::string not_planar_text(const Mesh& mesh, std::size_t face);
+
 }  // namespace nef

@@ -19,8 +19,8 @@ PointTable reduced(const PointTable& points) {
   std::array<Integer, 7> h;
   Integer divisor;
   for (std::uint32_t v = 0; v < points.size(); ++v) {
-    divisor = 0;
-    for (std::size_t i = 0; i < 7; ++i) {
+    divisor = Integer(points.coordinate(PointId{v}, 3));
+    for (std::size_t i = 0; i < 7 && divisor != 1; ++i) {
       mpz_gcd(divisor.get_mpz_t(), divisor.get_mpz_t(), points.coordinate(PointId{v}, i));
     }
     if (divisor == 1) {
@@ -37,17 +37,12 @@ PointTable reduced(const PointTable& points) {
 
 // Along a curve through space; lexicographic within its cells.
 std::vector<std::uint32_t> order_of(const PointTable& points) {
-  std::vector<std::uint32_t> sorted(points.size());
-  std::iota(sorted.begin(), sorted.end(), 0U);
-  std::sort(sorted.begin(), sorted.end(), [&points](std::uint32_t a, std::uint32_t b) {
+  std::vector<std::array<double, 3>> places;
+  places.reserve(points.size());
+  for (std::uint32_t v = 0; v < points.size(); ++v) places.push_back(points.approximate(PointId{v}));
+  return spatial_order(places, [&points](std::uint32_t a, std::uint32_t b) {
     return compare_lexicographic(points, PointId{a}, PointId{b}) < 0;
   });
-  std::vector<std::array<double, 3>> places;
-  places.reserve(sorted.size());
-  for (const std::uint32_t v : sorted) places.push_back(points.approximate(PointId{v}));
-  std::vector<std::uint32_t> order = spatial_order(places);
-  for (std::uint32_t& v : order) v = sorted[v];
-  return order;
 }
 
 // A total order of the planes of one table.
@@ -252,29 +247,26 @@ class Canonical {
   }
 
   void write_sfaces(const SphereMapView& map) {
-    struct Face {
-      std::vector<std::pair<SFaceEntry::Kind, std::uint32_t>> entries;
-      std::uint32_t old = 0;
-    };
-    std::vector<Face> faces(map.sfaces.size());
+    faces_.resize(map.sfaces.size());
     const std::uint32_t swap_loops = !map.sloops.empty() && map.sloops[0].plane.flipped() ? 1 : 0;
-    for (std::uint32_t f = 0; f < faces.size(); ++f) {
-      faces[f].old = f;
+    for (std::uint32_t f = 0; f < faces_.size(); ++f) {
+      faces_[f].old = f;
+      faces_[f].entries.clear();
       for (const SFaceEntry& entry : map.entries.subspan(map.sfaces[f].entries, map.sfaces[f].entry_count)) {
         std::uint32_t index = entry.index ^ swap_loops;
         if (entry.kind == SFaceEntry::Kind::kCycle) index = smallest_of_cycle(shalfedge_[entry.index]);
         if (entry.kind == SFaceEntry::Kind::kIsolatedVertex) index = svertex_[entry.index];
-        faces[f].entries.emplace_back(entry.kind, index);
+        faces_[f].entries.emplace_back(entry.kind, index);
       }
-      std::sort(faces[f].entries.begin(), faces[f].entries.end());
+      std::sort(faces_[f].entries.begin(), faces_[f].entries.end());
     }
-    std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) { return a.entries < b.entries; });
-    sface_.resize(faces.size());
-    for (std::uint32_t f = 0; f < faces.size(); ++f) {
-      sface_[faces[f].old] = f;
+    std::sort(faces_.begin(), faces_.end(), [](const Face& a, const Face& b) { return a.entries < b.entries; });
+    sface_.resize(faces_.size());
+    for (std::uint32_t f = 0; f < faces_.size(); ++f) {
+      sface_[faces_[f].old] = f;
       out_.sfaces.push_back({static_cast<std::uint32_t>(out_.entries.size()),
-                             static_cast<std::uint32_t>(faces[f].entries.size()), map.sfaces[faces[f].old].mark});
-      for (const auto& [kind, index] : faces[f].entries) out_.entries.push_back({kind, index});
+                             static_cast<std::uint32_t>(faces_[f].entries.size()), map.sfaces[faces_[f].old].mark});
+      for (const auto& [kind, index] : faces_[f].entries) out_.entries.push_back({kind, index});
     }
     const auto rename = [this](std::uint32_t& sface) {
       if (sface != kNone) sface = sface_[sface];
@@ -297,7 +289,12 @@ class Canonical {
   std::vector<std::uint32_t> order_;
   std::vector<std::array<std::uint32_t, 2>> line_;  // of svertices with less than two facets' planes; rows
   std::vector<std::uint32_t> row_;                  // of each plane in the result
+  struct Face {
+    std::vector<std::pair<SFaceEntry::Kind, std::uint32_t>> entries;
+    std::uint32_t old = 0;
+  };
   // Of one vertex, from old items to new ones.
+  std::vector<Face> faces_;
   SphereMapBuffer out_;
   std::vector<SVertex> named_;
   std::vector<std::uint32_t> sorted_, svertex_, evens_, shalfedge_, sface_;

@@ -10,6 +10,7 @@
 #include "nef/io/polyhedron_file.h"
 #include "nef/program/common_options.h"
 #include "nef/program/run_program.h"
+#include "nef/tiles/storage/tile_folder.h"
 
 namespace nef {
 Polyhedron Session::load(const std::string& path) { return load_all({path}).front(); }
@@ -23,7 +24,7 @@ std::vector<Polyhedron> Session::load_all(const std::vector<std::string>& paths)
   std::atomic<std::size_t> done = 0;
   show_phase("reading", 0, paths.size());
   parallel_for(paths.size(), threads, [&](std::size_t i) {
-    sets[i] = read_polyhedron(paths[i], options, &notes[i]);
+    sets[i] = read_file_or_tiles(paths[i], options, &notes[i]);
     show_phase("reading", ++done, paths.size());
   });
   for (const Messages& some : notes) messages.insert(messages.end(), some.begin(), some.end());
@@ -39,7 +40,12 @@ void Session::store(const Polyhedron& set) {
   show_phase("writing " + output);
   const Stopwatch watch;
   const std::size_t first = messages.size();
-  write_polyhedron(output, set, write_options(), &messages);
+  if (names_tile_folder(output)) {
+    if (set.complex().label_count > 2) messages.emplace_back("tiles hold a set: all marks but 0 have become 1");
+    write_tiles(output, TiledPolyhedron(set, {.threads = threads}));
+  } else {
+    write_polyhedron(output, set, write_options(), &messages);
+  }
   write_s_ += watch.seconds();
   show_messages(first);
 }
@@ -71,9 +77,12 @@ void Session::show_phase(const std::string& phase, std::size_t done, std::size_t
   bar_->show(phase, done, total);
 }
 
-void Session::note(const std::string& text) {
-  messages.push_back(text);
-  show_messages(messages.size() - 1);
+void Session::note(const std::string& text) { note_all({text}); }
+
+void Session::note_all(const Messages& notes) {
+  const std::size_t first = messages.size();
+  messages.insert(messages.end(), notes.begin(), notes.end());
+  show_messages(first);
 }
 
 void Session::say(const std::string& line) {

@@ -60,6 +60,8 @@ class Session {
 
   /// Keeps a note and shows it.
   void note(const std::string& text);
+  /// The same for many, of which some are shown.
+  void note_all(const Messages& notes);
   /// Prints a line for people; nothing if quiet or --json.
   void say(const std::string& line);
   /// Tells the report what a phase between reading and writing took.

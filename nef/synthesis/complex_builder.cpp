@@ -202,12 +202,14 @@ void ComplexBuilder::drop_idle_box(LabelId& outer) {
   if (!has_idle_box()) return;
   const Complex& c = complex_;
   ComplexBuilder kept(planes_);
-  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
-    if (c.points.finite(PointId{v})) {
-      kept.copy(c, v, 1);
-    } else {
-      outer = c.vertices[v].mark;
-    }
+  kept.reserve(c.vertex_count(), c.vertices.back());
+  const auto count = static_cast<std::uint32_t>(c.vertex_count());
+  std::uint32_t first = 0;  // of the run of finite vertices
+  for (std::uint32_t v = 0; v <= count; ++v) {
+    if (v < count && c.points.finite(PointId{v})) continue;
+    if (first < v) kept.copy(c, first, v - first);
+    first = v + 1;
+    if (v < count) outer = c.vertices[v].mark;
   }
   complex_ = std::move(kept.complex_);
 }

@@ -149,7 +149,7 @@ class Cutter::Halves {
   PlaneTable& planes_;
   PlaneId plane_;
   SphereOverlay& overlay_;
-  LabelFunction keep_{2, 1, [](LabelId mark, LabelId) { return mark; }};
+  LabelFunction keep_{kMarks, 1, [](LabelId mark, LabelId) { return mark; }};
   Sides<SphereMapBuffer> beyond_;     // kOutside there
   std::vector<std::int8_t> side_;     // of each vertex
   std::vector<std::uint32_t> shift_;  // from its svertices to those of its copy, modulo 2^32
@@ -185,6 +185,14 @@ std::array<Complex, 2> Cutter::cut(const Complex& piece, const AxisPlane& plane)
   return Halves(piece, planes_, plane.intern(planes_), overlay_).run();
 }
 
+Complex Cutter::restricted(Complex&& piece, const Region& region) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (region.low[axis] != nullptr) piece = std::move(cut(piece, *region.low[axis])[1]);
+    if (region.high[axis] != nullptr) piece = std::move(cut(piece, *region.high[axis])[0]);
+  }
+  return std::move(piece);
+}
+
 Complex Cutter::linked(Complex&& piece) {
   PlaneTable planes = own_planes(planes_, piece, row_);
   KnownLinks known;
@@ -203,11 +211,11 @@ Complex Cutter::linked(Complex&& piece) {
 TileRef Cutter::leaf(Complex&& piece) {
   const TileMeasure measure = measure_tile(piece);
   if (measure.uniform) return uniform_leaf(measure.mark);
-  return tile_leaf(Polyhedron(linked(std::move(piece))));
+  return tile_leaf(Polyhedron(linked(std::move(piece))), tiling_.store);
 }
 
 std::optional<Cutter::Halved> Cutter::halve(const Complex& piece) {
-  for (std::size_t attempt = 0; attempt < 3 && piece.vertex_count() > limit_; ++attempt) {
+  for (std::size_t attempt = 0; attempt < 3 && piece.vertex_count() > tiling_.limit; ++attempt) {
     std::optional<AxisPlane> plane = halving_plane(piece, attempt);
     if (!plane) continue;
     Halved result{std::move(*plane), {}};
@@ -259,14 +267,14 @@ std::vector<Part> first_parts(Cutter& cutter, Complex&& piece, std::size_t enoug
   return parts;
 }
 
-TileRef subdivided_in_parallel(Cutter& cutter, Complex&& piece, std::size_t limit, unsigned threads) {
+TileRef subdivided_in_parallel(Cutter& cutter, Complex&& piece, const Tiling& tiling, unsigned threads) {
   constexpr std::size_t kPartsPerThread = 4;
   const std::size_t workers = threads == 0 ? std::max(1U, std::thread::hardware_concurrency()) : threads;
   std::vector<Part> parts = first_parts(cutter, std::move(piece), kPartsPerThread * workers);
   parallel_for(parts.size(), threads, [&](std::size_t i) {
     if (parts[i].halved) return;
     std::vector<std::uint32_t> row;
-    Cutter own(own_planes(cutter.planes(), parts[i].piece, row), limit);
+    Cutter own(own_planes(cutter.planes(), parts[i].piece, row), tiling);
     parts[i].tree = own.subdivide(std::move(parts[i].piece));
   });
   for (std::size_t i = parts.size(); i-- > 0;) {
@@ -278,19 +286,20 @@ TileRef subdivided_in_parallel(Cutter& cutter, Complex&& piece, std::size_t limi
 
 }  // namespace
 
-TileRef subdivided(const Polyhedron& set, std::size_t limit, unsigned threads) {
+TileRef subdivided(const Polyhedron& set, const Tiling& tiling, unsigned threads) {
   const Complex& complex = set.complex();
-  if (complex.vertex_count() <= limit) return tile_leaf(set);
-  Cutter cutter(complex.planes, limit);
+  if (complex.vertex_count() <= tiling.limit) return tile_leaf(set, tiling.store);
+  Cutter cutter(complex.planes, tiling);
   Complex piece = cutter.loose(complex);
   TileRef tree = threads == 1 ? cutter.subdivide(std::move(piece))
-                              : subdivided_in_parallel(cutter, std::move(piece), limit, threads);
-  return tree.node->kind == TileNode::Kind::kTile ? tile_leaf(set) : tree;
+                              : subdivided_in_parallel(cutter, std::move(piece), tiling, threads);
+  return tree.node->kind == TileNode::Kind::kTile ? tile_leaf(set, tiling.store) : tree;
 }
 
-std::array<TileRef, 2> cut_leaf(const TileRef& leaf, const AxisPlane& plane) {
-  const Complex& complex = leaf.node->set.complex();
-  Cutter cutter(complex.planes, 0);
+std::array<TileRef, 2> cut_leaf(const TileRef& leaf, const AxisPlane& plane, const Tiling& tiling) {
+  const Polyhedron set = leaf.node->set();
+  const Complex& complex = set.complex();
+  Cutter cutter(complex.planes, tiling);
   std::array<Complex, 2> halves = cutter.cut(cutter.loose(complex), plane);
   std::array<TileRef, 2> result;
   for (std::size_t x = 0; x < 2; ++x) {

@@ -9,15 +9,18 @@
 
 #include "nef/sphere_map/overlay.h"
 #include "nef/tiles/tile_tree.h"
+#include "nef/tiles/tiling.h"
 
 namespace nef {
 
 /// Cuts complexes until they are small. In between they are loose: without facets and volumes, which no cut needs,
-/// their planes in one table, that of the cutter. A set has the marks 0 and 1.
+/// their planes in one table, that of the cutter. Marks are below kMarks; only sets, of marks 0 and 1, become leaves.
 class Cutter {
  public:
-  /// A tile of more vertices than `limit` is cut further.
-  Cutter(PlaneTable planes, std::size_t limit) : planes_(std::move(planes)), limit_(limit) {}
+  static constexpr LabelId kMarks = 3;  ///< those of oriented surfaces
+
+  /// A tile of more vertices than the limit is cut further.
+  Cutter(PlaneTable planes, const Tiling& tiling) : planes_(std::move(planes)), tiling_(tiling) {}
 
   [[nodiscard]] const PlaneTable& planes() const { return planes_; }
 
@@ -27,6 +30,9 @@ class Cutter {
   /// The parts of a loose complex below and above a plane through its region. O(n), but for the local pyramids on the
   /// plane.
   std::array<Complex, 2> cut(const Complex& piece, const AxisPlane& plane);
+
+  /// The part of a loose complex in a region.
+  Complex restricted(Complex&& piece, const Region& region);
 
   /// A loose complex cut in the middle, if it is larger than the limit and planes can separate its vertices.
   struct Halved {
@@ -38,25 +44,26 @@ class Cutter {
   /// A loose complex as a tree of tiles.
   TileRef subdivide(Complex&& piece);
 
+  /// A loose complex with the planes that it uses, facets and volumes.
+  Complex linked(Complex&& piece);
+
   /// A loose complex as one leaf.
   TileRef leaf(Complex&& piece);
 
  private:
   class Halves;
 
-  Complex linked(Complex&& piece);
-
   PlaneTable planes_;
-  std::size_t limit_;
+  const Tiling& tiling_;
   SphereOverlay overlay_;
   std::vector<std::uint32_t> row_;  // scratch of linked()
 };
 
-/// A set in its region as a tree of tiles of at most `limit` vertices, where planes can separate them, on up to
+/// A set in its region as a tree of tiles of at most tiling.limit vertices, where planes can separate them, on up to
 /// `threads` threads. O(n log n).
-TileRef subdivided(const Polyhedron& set, std::size_t limit, unsigned threads = 1);
+TileRef subdivided(const Polyhedron& set, const Tiling& tiling, unsigned threads = 1);
 
 /// The parts of a leaf that is no uniform one on both sides of a plane through its region.
-std::array<TileRef, 2> cut_leaf(const TileRef& leaf, const AxisPlane& plane);
+std::array<TileRef, 2> cut_leaf(const TileRef& leaf, const AxisPlane& plane, const Tiling& tiling);
 
 }  // namespace nef

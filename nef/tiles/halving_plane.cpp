@@ -30,19 +30,24 @@ double shortest_between(double low, double high) {
 }  // namespace
 
 std::optional<AxisPlane> halving_plane(const Complex& complex, std::size_t attempt) {
-  std::vector<std::uint32_t> inner;
-  Box box;
+  std::vector<std::array<double, 3>> inner;
   for (std::uint32_t v = 0; v < complex.vertex_count(); ++v) {
     if (!complex.points.finite(PointId{v}) || !has_boundary(complex.sphere_map(v))) continue;
     const std::array<double, 3>& p = complex.points.approximate(PointId{v});
-    if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2])) continue;
-    inner.push_back(v);
+    if (std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2])) inner.push_back(p);
+  }
+  return halving_plane(inner, attempt);
+}
+
+std::optional<AxisPlane> halving_plane(std::span<const std::array<double, 3>> places, std::size_t attempt) {
+  if (places.empty()) return std::nullopt;
+  Box box;
+  for (const std::array<double, 3>& p : places) {
     for (std::size_t i = 0; i < 3; ++i) {
       box.low[i] = std::min(box.low[i], p[i]);
       box.high[i] = std::max(box.high[i], p[i]);
     }
   }
-  if (inner.empty()) return std::nullopt;
   std::array<std::size_t, 3> axes{0, 1, 2};
   std::stable_sort(axes.begin(), axes.end(), [&box](std::size_t a, std::size_t b) {
     return box.high[a] - box.low[a] > box.high[b] - box.low[b];
@@ -50,8 +55,8 @@ std::optional<AxisPlane> halving_plane(const Complex& complex, std::size_t attem
   const std::size_t axis = axes[attempt];
   if (!(box.low[axis] < box.high[axis])) return std::nullopt;
   std::vector<double> x;
-  x.reserve(inner.size());
-  for (const std::uint32_t v : inner) x.push_back(complex.points.approximate(PointId{v})[axis]);
+  x.reserve(places.size());
+  for (const std::array<double, 3>& p : places) x.push_back(p[axis]);
   const auto quantile = [&x](std::size_t k) {
     std::nth_element(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(k), x.end());
     return x[k];

@@ -40,8 +40,10 @@ class SeamGlue {
   // Into the builder, whose planes are `planes`.
   void run(ComplexBuilder& builder) {
     std::size_t vertices = 0;
+    std::size_t planes = planes_.size();
     VertexRecord items;
     for (const Leaf& leaf : leaves_) {
+      planes += leaf.set.complex().planes.size();
       const VertexRecord& own = leaf.set.complex().vertices.back();
       vertices += leaf.set.complex().vertex_count();
       items.svertices += own.svertices;
@@ -51,6 +53,7 @@ class SeamGlue {
       items.entries += own.entries;
     }
     builder.reserve(vertices, items);
+    planes_.reserve(planes);
     for (std::uint32_t i = 0; i < leaves_.size(); ++i) take_leaf(i, builder);
     find_crossings();
     std::sort(members_.begin(), members_.end());

@@ -81,6 +81,9 @@ StepSequence::StepSequence(Polyhedron start, std::size_t steps, TileUse use, con
   if (use_ == TileUse::kAlways) tiled_.emplace(std::exchange(plain_, Polyhedron()), tiling_);
 }
 
+StepSequence::StepSequence(TiledPolyhedron start, std::size_t steps)
+    : tiled_(std::move(start)), left_(steps), use_(TileUse::kAlways), tiling_(tiled_->tiling()) {}
+
 // Vertices that an operation on tiles need not write.
 double StepSequence::saving(const Polyhedron& b) const {
   const Box box = measure_tile(b.complex()).box;
@@ -122,6 +125,10 @@ void StepSequence::apply(BooleanOperator op, const Polyhedron& b) {
 
 std::size_t StepSequence::vertex_count() const {
   return tiled_ ? tiled_->vertex_count() : plain_.complex().vertex_count();
+}
+
+TiledPolyhedron StepSequence::tiled(const Tiling& tiling) const {
+  return tiled_ ? *tiled_ : TiledPolyhedron(plain_, tiling);
 }
 
 Polyhedron StepSequence::result() const { return tiled_ ? tiled_->polyhedron() : in_canonical_order(plain_); }

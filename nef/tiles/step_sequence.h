@@ -26,6 +26,9 @@ class StepSequence {
   /// `steps`: how many will follow.
   StepSequence(Polyhedron start, std::size_t steps, TileUse use = TileUse::kWherePays, const Tiling& tiling = {});
 
+  /// The same for a set that is in tiles, and stays so.
+  StepSequence(TiledPolyhedron start, std::size_t steps);
+
   /// The set becomes (the set) op b. Costs what the operation of Polyhedron or TiledPolyhedron does, and the cutting
   /// where it begins to work in tiles.
   void apply(BooleanOperator op, const Polyhedron& b);
@@ -35,6 +38,8 @@ class StepSequence {
   /// Vertices of the set, or of all its tiles.
   [[nodiscard]] std::size_t vertex_count() const;
 
+  /// The set in tiles, cut so if it is not.
+  [[nodiscard]] TiledPolyhedron tiled(const Tiling& tiling) const;
   /// The set in canonical order.
   [[nodiscard]] Polyhedron result() const;
 

@@ -44,15 +44,6 @@ void intern_planes(const PlaneTable& from, PlaneTable& to, SphereMapBuffer& map)
   for_each_plane(map, [&](PlaneId& plane) { plane = to.intern_from(from, plane); });
 }
 
-// The item of the whole set with this local pyramid.
-Location item_of(const PlaneTable& planes, const SphereMapView& map) {
-  const auto kind = is_vertex(planes, map)   ? Location::Kind::kVertex
-                    : !map.svertices.empty() ? Location::Kind::kEdge
-                    : !map.sloops.empty()    ? Location::Kind::kFacet
-                                             : Location::Kind::kVolume;
-  return {kind, 0, map.mark};
-}
-
 Rational extent(const Region& region, std::size_t axis) { return region.high[axis]->at - region.low[axis]->at; }
 
 bool bounded(const Region& region) {
@@ -63,29 +54,39 @@ bool bounded(const Region& region) {
 
 }  // namespace
 
-Location locate_in_tiles(const TileRef& tree, const Rational3& point) {
-  std::vector<std::pair<TileRef, Region>> leaves;
-  for_each_leaf_at(tree, Region{}, point, [&](const TileRef& leaf, const Region& r) { leaves.emplace_back(leaf, r); });
-  const TileRef& first = leaves.front().first;
-  if (leaves.size() == 1) {
-    if (first.node->kind == Kind::kUniform) return {Location::Kind::kVolume, 0, first.node->mark};
-    const Location there = locate(first.node->set, point);
-    return {there.kind, 0, static_cast<LabelId>((there.mark != 0) != first.complemented ? 1 : 0)};
-  }
-  PlaneTable planes;
+Location PyramidInTiles::location() const {
+  const SphereMapView view = map.view();
+  const auto kind = is_vertex(planes, view)   ? Location::Kind::kVertex
+                    : !view.svertices.empty() ? Location::Kind::kEdge
+                    : !view.sloops.empty()    ? Location::Kind::kFacet
+                                              : Location::Kind::kVolume;
+  return {kind, 0, map.mark};
+}
+
+PyramidInTiles pyramid_in_tiles(const TileRef& tree, const Rational3& point) {
+  PyramidInTiles result;
   SphereOverlay overlay;
   const LabelFunction whichever{LabelFunction::WhicheverIsInside{}};
-  SphereMapBuffer joined;
-  joined.assign_trivial(kOutside);
-  for (const auto& [leaf, region] : leaves) {
+  result.map.assign_trivial(kOutside);
+  for_each_leaf_at(tree, Region{}, point, [&](const TileRef& leaf, const Region& region) {
     const Polyhedron set = leaf_set(leaf, region);
     SphereMapBuffer map = local_pyramid(set, point);
-    intern_planes(set.complex().planes, planes, map);
-    SphereMapBuffer result;
-    overlay.overlay(planes, joined.view(), map.view(), whichever, result);
-    joined = std::move(result);
-  }
-  return item_of(planes, joined.view());
+    intern_planes(set.complex().planes, result.planes, map);
+    SphereMapBuffer joined;
+    overlay.overlay(result.planes, result.map.view(), map.view(), whichever, joined);
+    result.map = std::move(joined);
+  });
+  return result;
+}
+
+Location locate_in_tiles(const TileRef& tree, const Rational3& point) {
+  std::vector<TileRef> leaves;
+  for_each_leaf_at(tree, Region{}, point, [&](const TileRef& leaf, const Region&) { leaves.push_back(leaf); });
+  if (leaves.size() > 1) return pyramid_in_tiles(tree, point).location();
+  const TileRef& only = leaves.front();
+  if (only.node->kind == Kind::kUniform) return {Location::Kind::kVolume, 0, only.node->mark};
+  const Location there = locate(only.node->set(), point);
+  return {there.kind, 0, static_cast<LabelId>((there.mark != 0) != only.complemented ? 1 : 0)};
 }
 
 std::optional<Rational> volume_of_tiles(const TileRef& tree) {
@@ -108,7 +109,8 @@ std::optional<std::array<Rational3, 2>> bounds_of_tiles(const TileRef& tree, boo
   is_bounded = true;
   for_each_leaf(tree, Region{}, [&](const TileRef& leaf, const Region&) {
     if (leaf.node->kind == Kind::kUniform || !is_bounded) return;
-    const Complex& c = leaf.node->set.complex();
+    const Polyhedron set = leaf.node->set();
+    const Complex& c = set.complex();
     ExtremePoints extreme(c.points);
     for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
       if (!has_boundary(c.sphere_map(v))) continue;

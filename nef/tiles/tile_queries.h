@@ -7,6 +7,16 @@
 
 namespace nef {
 
+/// The local pyramid of the whole set at a point, with planes of its own.
+struct PyramidInTiles {
+  PlaneTable planes;
+  SphereMapBuffer map;
+
+  /// The item of the whole set there; its index is 0.
+  [[nodiscard]] Location location() const;
+};
+PyramidInTiles pyramid_in_tiles(const TileRef& tree, const Rational3& point);
+
 /// What nef/tiles/tiled_polyhedron.h says of the functions of these names.
 Location locate_in_tiles(const TileRef& tree, const Rational3& point);
 std::optional<Rational> volume_of_tiles(const TileRef& tree);

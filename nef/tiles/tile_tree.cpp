@@ -22,6 +22,11 @@ TileRef TileRef::complement() const {
   return {node, !complemented};
 }
 
+Polyhedron in_two_marks(const Polyhedron& set) {
+  if (set.complex().label_count <= 2) return set;
+  return overlay(set, Polyhedron(), [](LabelId x, LabelId) { return static_cast<LabelId>(x != 0 ? 1 : 0); });
+}
+
 bool has_boundary(const SphereMapView& map) {
   // The centre of a point on the border of a region has the mark of the set there.
   const auto differs = [&map](const auto& items) {
@@ -48,7 +53,7 @@ TileRef uniform_leaf(LabelId mark) {
   return {kLeaves[mark == 0 ? 0 : 1], false};
 }
 
-TileRef tile_leaf(Polyhedron set) {
+TileRef tile_leaf(Polyhedron set, const std::shared_ptr<TileStore>& store) {
   const TileMeasure measure = measure_tile(set.complex());
   if (measure.uniform) return uniform_leaf(measure.mark);
   TileNode node;
@@ -56,7 +61,11 @@ TileRef tile_leaf(Polyhedron set) {
   node.box = measure.box;
   node.vertices = set.complex().vertex_count();
   node.tiles = 1;
-  node.set = std::move(set);
+  if (store) {
+    node.stored = store->keep(std::move(set));
+  } else {
+    node.in_memory = std::move(set);
+  }
   return {std::make_shared<const TileNode>(std::move(node)), false};
 }
 
@@ -79,11 +88,12 @@ std::array<TileRef, 2> children(const TileRef& cut) {
 
 Polyhedron leaf_set(const TileRef& leaf, const Region& region) {
   if (leaf.node->kind == TileNode::Kind::kUniform) return Polyhedron(uniform_tile(region, leaf.node->mark));
-  return leaf.complemented ? complement(leaf.node->set) : leaf.node->set;
+  return leaf.complemented ? complement(leaf.node->set()) : leaf.node->set();
 }
 
 LabelId mark_beyond(const TileNode& tile, const AxisPlane& plane, int side) {
-  const Complex& c = tile.set.complex();
+  const Polyhedron set = tile.set();
+  const Complex& c = set.complex();
   if (!c.has_box()) return c.volumes[kOuterVolume].mark;
   // The region has corners beyond the plane, and there are no other vertices.
   std::uint32_t extreme = 0;

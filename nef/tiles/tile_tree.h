@@ -9,6 +9,7 @@
 
 #include "nef/polyhedron.h"
 #include "nef/tiles/region.h"
+#include "nef/tiles/storage/tile_store.h"
 
 namespace nef {
 
@@ -29,8 +30,10 @@ struct TileNode {
   Kind kind = Kind::kUniform;
   LabelId mark = 0;  ///< uniform leaf: 0 or 1
 
-  /// Tile: the set in the closed region, kOutside beyond it. The one tile of all space is an ordinary complex.
-  Polyhedron set;
+  /// Tile: the set in the closed region, kOutside beyond it; in memory, or kept by a store. The one tile of all space
+  /// is an ordinary complex.
+  Polyhedron in_memory;
+  std::shared_ptr<const StoredTile> stored;
   Box box;  ///< Tile: of the set's boundary in the region.
 
   AxisPlane plane;  ///< Cut: inside the region.
@@ -39,7 +42,13 @@ struct TileNode {
 
   std::size_t vertices = 0;  ///< of all tiles of the subtree
   std::size_t tiles = 0;     ///< leaves that are no uniform ones
+
+  /// The set of a tile. Throws FileError if it has to be read from a file and cannot.
+  [[nodiscard]] Polyhedron set() const { return stored ? stored->load() : in_memory; }
 };
+
+/// The set with the marks 0 and 1 only: all others become 1.
+Polyhedron in_two_marks(const Polyhedron& set);
 
 /// What of a complex tells whether and where it is cut. Needs its sphere maps only.
 struct TileMeasure {
@@ -52,9 +61,9 @@ TileMeasure measure_tile(const Complex& complex);
 /// True if the set has boundary at a point with this map: not all marks other than kOutside are the same.
 bool has_boundary(const SphereMapView& map);
 
-/// Leaves with these contents; `set` must be in its region.
+/// Leaves with these contents; `set` must be in its region. It is kept by the store, if there is one.
 TileRef uniform_leaf(LabelId mark);
-TileRef tile_leaf(Polyhedron set);
+TileRef tile_leaf(Polyhedron set, const std::shared_ptr<TileStore>& store);
 
 /// The node of a cut, or what is there instead: one leaf if both sides are the same mark.
 TileRef cut_node(const AxisPlane& plane, TileRef low, TileRef high);

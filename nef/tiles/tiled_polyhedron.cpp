@@ -3,9 +3,13 @@
 
 #include <utility>
 
+#include "nef/base/error.h"
+#include "nef/geometry/vectors.h"
 #include "nef/tiles/cutter.h"
+#include "nef/tiles/import/union_in_tiles.h"
 #include "nef/tiles/seam_glue.h"
 #include "nef/tiles/tile_queries.h"
+#include "nef/tiles/tile_rays.h"
 #include "nef/tiles/tree_overlay.h"
 
 namespace nef {
@@ -18,19 +22,13 @@ constexpr TruthTable kIntersection{false, false, false, true};
 constexpr TruthTable kDifference{false, false, true, false};
 constexpr TruthTable kSymmetricDifference{false, true, true, false};
 
-// With the marks 0 and 1 only.
-Polyhedron as_set(const Polyhedron& set) {
-  if (set.complex().label_count <= 2) return set;
-  return overlay(set, Polyhedron(), [](LabelId x, LabelId) { return static_cast<LabelId>(x != 0 ? 1 : 0); });
-}
-
 TiledPolyhedron combine(const TiledPolyhedron& a, const TiledPolyhedron& b, const TruthTable& f) {
   return {overlay_trees(a.tree(), b.tree(), f, a.tiling()), a.tiling()};
 }
 
 // A plain operand comes as one leaf, and is cut only where that pays.
 TiledPolyhedron combine(const TiledPolyhedron& a, const Polyhedron& b, const TruthTable& f) {
-  return {overlay_trees(a.tree(), tile_leaf(as_set(b)), f, a.tiling()), a.tiling()};
+  return {overlay_trees(a.tree(), tile_leaf(in_two_marks(b), nullptr), f, a.tiling()), a.tiling()};
 }
 
 TiledPolyhedron by_gluing(const TiledPolyhedron& a, Polyhedron (*change)(const Polyhedron&)) {
@@ -52,14 +50,17 @@ std::optional<std::array<std::size_t, 3>> axes_of(const AffineMap& map) {
   return to;
 }
 
-TileRef transformed(const TileRef& tree, const AffineMap& map, const std::array<std::size_t, 3>& to) {
+TileRef transformed(const TileRef& tree, const AffineMap& map, const std::array<std::size_t, 3>& to,
+                    const Tiling& tiling) {
   if (tree.node->kind == Kind::kUniform) return tree;
-  if (tree.node->kind == Kind::kTile) return {tile_leaf(transform(tree.node->set, map)).node, tree.complemented};
+  if (tree.node->kind == Kind::kTile) {
+    return {tile_leaf(transform(tree.node->set(), map), tiling.store).node, tree.complemented};
+  }
   const AxisPlane& plane = tree.node->plane;
   const std::size_t axis = to[plane.axis];
   const Rational& factor = map.linear[axis][plane.axis];
-  TileRef low = transformed(tree.node->low, map, to);
-  TileRef high = transformed(tree.node->high, map, to);
+  TileRef low = transformed(tree.node->low, map, to, tiling);
+  TileRef high = transformed(tree.node->high, map, to, tiling);
   if (factor < 0) std::swap(low, high);
   const TileRef result =
       cut_node(AxisPlane(axis, factor * plane.at + map.translation[axis]), std::move(low), std::move(high));
@@ -71,10 +72,12 @@ TileRef transformed(const TileRef& tree, const AffineMap& map, const std::array<
 TiledPolyhedron::TiledPolyhedron() : TiledPolyhedron(uniform_leaf(0), Tiling{}) {}
 
 TiledPolyhedron::TiledPolyhedron(const Polyhedron& set, const Tiling& tiling)
-    : TiledPolyhedron(subdivided(as_set(set), tiling.limit, tiling.threads), tiling) {}
+    : TiledPolyhedron(subdivided(in_two_marks(set), tiling, tiling.threads), tiling) {}
 
 TiledPolyhedron::TiledPolyhedron(std::span<const Polyhedron> pieces, const Tiling& tiling)
-    : TiledPolyhedron(unite_all(pieces, tiling.threads), tiling) {}
+    : TiledPolyhedron(union_in_tiles(
+          {.count = static_cast<std::uint32_t>(pieces.size()), .set = [pieces](std::uint32_t i) { return pieces[i]; }},
+          tiling)) {}
 
 TiledPolyhedron::TiledPolyhedron(TileRef root, const Tiling& tiling)
     : root_(std::make_shared<const TileRef>(std::move(root))), tiling_(tiling) {}
@@ -102,6 +105,11 @@ TiledPolyhedron symmetric_difference(const TiledPolyhedron& a, const Polyhedron&
   return combine(a, b, kSymmetricDifference);
 }
 
+TiledPolyhedron overlay(const TiledPolyhedron& a, const TiledPolyhedron& b, const TruthTable& f) {
+  return combine(a, b, f);
+}
+TiledPolyhedron overlay(const TiledPolyhedron& a, const Polyhedron& b, const TruthTable& f) { return combine(a, b, f); }
+
 TiledPolyhedron complement(const TiledPolyhedron& a) { return {a.tree().complement(), a.tiling()}; }
 
 TiledPolyhedron interior(const TiledPolyhedron& a) { return by_gluing(a, interior); }
@@ -113,7 +121,7 @@ TiledPolyhedron regularize(const TiledPolyhedron& a) { return by_gluing(a, regul
 TiledPolyhedron transform(const TiledPolyhedron& a, const AffineMap& map) {
   const std::optional<std::array<std::size_t, 3>> to = axes_of(map);
   if (!to || a.tree().node->kind != Kind::kCut) return TiledPolyhedron(transform(a.polyhedron(), map), a.tiling());
-  return {transformed(a.tree(), map, *to), a.tiling()};
+  return {transformed(a.tree(), map, *to, a.tiling()), a.tiling()};
 }
 
 bool equal(const TiledPolyhedron& a, const TiledPolyhedron& b) { return symmetric_difference(a, b).is_empty(); }
@@ -121,6 +129,12 @@ bool equal(const TiledPolyhedron& a, const TiledPolyhedron& b) { return symmetri
 Location locate(const TiledPolyhedron& a, const Rational3& point) { return locate_in_tiles(a.tree(), point); }
 
 bool contains(const TiledPolyhedron& a, const Rational3& point) { return locate(a, point).mark != 0; }
+
+std::optional<RayHit> shoot_ray(const TiledPolyhedron& a, const Rational3& origin, const Rational3& direction,
+                                const std::function<bool(const Location&)>& accept) {
+  if (is_zero(direction)) throw InputError("a ray needs a direction other than 0,0,0");
+  return first_hit_in_tiles(a.tree(), origin, direction, accept);
+}
 
 std::optional<Rational> volume(const TiledPolyhedron& a) { return volume_of_tiles(a.tree()); }
 

@@ -24,7 +24,7 @@ class TiledPolyhedron {
   TiledPolyhedron();
   /// Cuts a set into tiles. O(n log n).
   explicit TiledPolyhedron(const Polyhedron& set, const Tiling& tiling = {});
-  /// The union of any number of sets.
+  /// The union of any number of sets, region by region (import/union_in_tiles.h).
   explicit TiledPolyhedron(std::span<const Polyhedron> pieces, const Tiling& tiling = {});
 
   [[nodiscard]] const Tiling& tiling() const { return tiling_; }
@@ -58,6 +58,9 @@ TiledPolyhedron subtract(const TiledPolyhedron& a, const TiledPolyhedron& b);
 TiledPolyhedron subtract(const TiledPolyhedron& a, const Polyhedron& b);
 TiledPolyhedron symmetric_difference(const TiledPolyhedron& a, const TiledPolyhedron& b);
 TiledPolyhedron symmetric_difference(const TiledPolyhedron& a, const Polyhedron& b);
+/// Any other of them: a point is in the result if f[2 * (in a) + (in b)] holds.
+TiledPolyhedron overlay(const TiledPolyhedron& a, const TiledPolyhedron& b, const std::array<bool, 4>& f);
+TiledPolyhedron overlay(const TiledPolyhedron& a, const Polyhedron& b, const std::array<bool, 4>& f);
 
 /// O(1).
 TiledPolyhedron complement(const TiledPolyhedron& a);
@@ -80,6 +83,12 @@ bool equal(const TiledPolyhedron& a, const TiledPolyhedron& b);
 /// of item is that of the whole set, whatever the tiles; its index means nothing and is 0.
 Location locate(const TiledPolyhedron& a, const Rational3& point);
 bool contains(const TiledPolyhedron& a, const Rational3& point);
+
+/// The first vertex, edge or facet of the whole set on the ray from `origin` (excluded) in `direction` (not zero) that
+/// `accept` takes, as of a Polyhedron; indices are 0. Only tiles along the ray are looked at. Throws InputError for no
+/// direction.
+std::optional<RayHit> shoot_ray(const TiledPolyhedron& a, const Rational3& origin, const Rational3& direction,
+                                const std::function<bool(const Location&)>& accept = {});
 
 /// Volume of the set, if finite: the sum over the tiles.
 std::optional<Rational> volume(const TiledPolyhedron& a);

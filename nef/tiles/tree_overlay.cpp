@@ -71,11 +71,11 @@ class TreeOverlay {
     Split result;
     result.plane = cut_a ? &task.a.node->plane : &task.b.node->plane;
     const AxisPlane& plane = *result.plane;
-    const std::array<TileRef, 2> of_a = cut_a ? children(task.a) : cut_leaf(task.a, plane);
+    const std::array<TileRef, 2> of_a = cut_a ? children(task.a) : cut_leaf(task.a, plane, tiling_);
     std::array<TileRef, 2> of_b{task.b, task.b};
     bool whole = task.whole;
     if (task.b.node->kind == Kind::kCut) {
-      of_b = cut_tree(task.b, plane);
+      of_b = cut_tree(task.b, plane, tiling_);
     } else if (const int side = plane.side(task.b.node->box); side != 0) {
       const LabelId mark = mark_beyond(*task.b.node, plane, -side);
       of_b[side < 0 ? 1 : 0] = uniform_leaf((mark != 0) != task.b.complemented ? 1 : 0);
@@ -83,7 +83,7 @@ class TreeOverlay {
     } else if (task.b.node->vertices <= kSmall && !reaches_infinity(task.b.node->box)) {
       whole = false;
     } else {
-      of_b = cut_leaf(task.b, plane);
+      of_b = cut_leaf(task.b, plane, tiling_);
     }
     for (std::size_t x = 0; x < 2; ++x) {
       result.tasks[x] = {of_a[x], of_b[x], whole, x == 0 ? task.region.below(plane) : task.region.above(plane)};
@@ -95,7 +95,7 @@ class TreeOverlay {
   [[nodiscard]] TileRef joined(const Task& task, const AxisPlane& plane, const std::array<TileRef, 2>& result) const {
     if (task.a.node->kind == Kind::kCut && result == children(task.a)) return task.a;
     TileRef node = cut_node(plane, result[0], result[1]);
-    return shrunk(node) ? tile_leaf(glue_tiles(node, task.region)) : node;
+    return shrunk(node) ? tile_leaf(glue_tiles(node, task.region), tiling_.store) : node;
   }
 
   [[nodiscard]] TileRef run(const Task& task) const {
@@ -157,14 +157,14 @@ class TreeOverlay {
   [[nodiscard]] TileRef leaves(const Task& task) const {
     const TileRef& a = task.a;
     const TileRef& b = task.b;
-    const Polyhedron first = a.node->kind == Kind::kUniform ? leaf_set(a, task.region) : a.node->set;
+    const Polyhedron first = a.node->kind == Kind::kUniform ? leaf_set(a, task.region) : a.node->set();
     const auto marks = [&](LabelId x, LabelId y) {
       return static_cast<LabelId>(value((x != 0) != a.complemented, (y != 0) != b.complemented) ? 1 : 0);
     };
-    Polyhedron result = overlay(first, b.node->set, marks);
+    Polyhedron result = overlay(first, b.node->set(), marks);
     if (&result.complex() == &first.complex()) return {a.node, false};
-    return result.complex().vertex_count() > tiling_.limit ? subdivided(result, tiling_.limit)
-                                                           : tile_leaf(std::move(result));
+    return result.complex().vertex_count() > tiling_.limit ? subdivided(result, tiling_)
+                                                           : tile_leaf(std::move(result), tiling_.store);
   }
 
   TruthTable f_;
@@ -179,22 +179,22 @@ TileRef overlay_trees(const TileRef& a, const TileRef& b, const TruthTable& f, c
   return tiling.threads == 1 ? overlay.run(task) : overlay.run_in_parallel(task);
 }
 
-std::array<TileRef, 2> cut_tree(const TileRef& tree, const AxisPlane& plane) {
+std::array<TileRef, 2> cut_tree(const TileRef& tree, const AxisPlane& plane, const Tiling& tiling) {
   if (tree.node->kind == Kind::kUniform) return {tree, tree};
-  if (tree.node->kind == Kind::kTile) return cut_leaf(tree, plane);
+  if (tree.node->kind == Kind::kTile) return cut_leaf(tree, plane, tiling);
   const AxisPlane& own = tree.node->plane;
   const auto [low, high] = children(tree);
   if (own == plane) return {low, high};
   if (own.axis != plane.axis) {
-    const std::array<TileRef, 2> of_low = cut_tree(low, plane);
-    const std::array<TileRef, 2> of_high = cut_tree(high, plane);
+    const std::array<TileRef, 2> of_low = cut_tree(low, plane, tiling);
+    const std::array<TileRef, 2> of_high = cut_tree(high, plane, tiling);
     return {cut_node(own, of_low[0], of_high[0]), cut_node(own, of_low[1], of_high[1])};
   }
   if (own.at < plane.at) {
-    const std::array<TileRef, 2> of_high = cut_tree(high, plane);
+    const std::array<TileRef, 2> of_high = cut_tree(high, plane, tiling);
     return {cut_node(own, low, of_high[0]), of_high[1]};
   }
-  const std::array<TileRef, 2> of_low = cut_tree(low, plane);
+  const std::array<TileRef, 2> of_low = cut_tree(low, plane, tiling);
   return {of_low[0], cut_node(own, of_low[1], high)};
 }
 

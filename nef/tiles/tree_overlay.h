@@ -19,6 +19,6 @@ using TruthTable = std::array<bool, 4>;
 TileRef overlay_trees(const TileRef& a, const TileRef& b, const TruthTable& f, const Tiling& tiling);
 
 /// The parts of a tree on both sides of a plane through its region.
-std::array<TileRef, 2> cut_tree(const TileRef& tree, const AxisPlane& plane);
+std::array<TileRef, 2> cut_tree(const TileRef& tree, const AxisPlane& plane, const Tiling& tiling);
 
 }  // namespace nef

@@ -100,4 +100,44 @@ TEST_CASE("the difference from several sets") {
   CHECK(run.json()["result"]["volume"] == "25");
 }
 
+TEST_CASE("sets stay in tiles, in a folder, within a bound on memory") {
+  const Workplace here;
+  here.write("a.off", cube_off(0, 8));
+  here.write("steps.txt", lattice(7));
+  REQUIRE(here.nef("apply a.off --steps steps.txt -o plain.nef").code == 0);
+  const Outcome first = here.nef("apply a.off --steps steps.txt --tiles 100 --memory 100K -o b.tiles --json");
+  REQUIRE(first.code == 0);
+  CHECK(first.json()["result"]["tiles"].get<int>() > 4);
+  CHECK(first.json()["result"]["tiles_put_in_files"].get<int>() > 0);
+  CHECK(here.file_count() == 6);  // with stdout and stderr: nothing else is left
+  // Read back by every subcommand.
+  REQUIRE(here.nef("convert b.tiles -o c.nef").code == 0);
+  CHECK(here.nef("equal c.nef plain.nef").code == 0);
+  // Steps on what is in tiles already, to the same folder and to a file.
+  here.write("more.txt", "- box(0,0,0, 1/4,1/4,1/4)\n+ box(20,0,0, 21,1,1)\n");
+  REQUIRE(here.nef("apply plain.nef --steps more.txt -o plain2.nef").code == 0);
+  REQUIRE(here.nef("apply b.tiles --steps more.txt -o glued.nef").code == 0);
+  CHECK(here.read("glued.nef") == here.read("plain2.nef"));
+  REQUIRE(here.nef("apply b.tiles --steps more.txt -o b.tiles").code == 0);
+  REQUIRE(here.nef("convert b.tiles -o d.nef").code == 0);
+  CHECK(here.read("d.nef") == here.read("plain2.nef"));
+  // Booleans on them.
+  REQUIRE(here.nef("difference b.tiles plain.nef a.off -o e.tiles").code == 0);
+  CHECK(here.nef("info e.tiles --json").json()["result"]["volume"] == "1");
+  REQUIRE(here.nef("union b.tiles a.off --memory 50K -o f.off").code == 0);
+  CHECK(here.nef("info f.off --json").json()["result"]["volume"] == "513");
+}
+
+TEST_CASE("flags about tiles that say nothing useful are refused") {
+  const Workplace here;
+  here.write("a.off", cube_off(0, 2));
+  for (const std::string memory : {"0", "-1G", "2X", "G", "", "nan", "1e99"}) {
+    const Outcome run = here.nef("union a.off a.off --memory '" + memory + "' -o b.nef");
+    CAPTURE(memory, run.err);
+    CHECK(run.code == (memory.empty() ? 0 : 2));
+  }
+  CHECK(here.nef("union a.off a.off --tiles off --memory 1G -o b.nef").code == 2);
+  CHECK(here.nef("info none.tiles").code == 2);
+}
+
 }  // namespace nef::test

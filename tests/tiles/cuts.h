@@ -46,7 +46,7 @@ inline rc::Gen<Cuts> some_cuts(std::size_t most, int grid = 3) {
 /// The tree cut along the plane in one of its leaves, where the plane goes through that leaf's region.
 inline TileRef cut_once(const TileRef& tree, const AxisPlane& plane, unsigned way) {
   if (tree.node->kind != TileNode::Kind::kCut) {
-    const auto halves = cut_tree(tree, plane);
+    const auto halves = cut_tree(tree, plane, Tiling{});
     // Kept apart, even where both sides are the same.
     TileNode node;
     node.kind = TileNode::Kind::kCut;
@@ -75,7 +75,7 @@ inline Rational half(int twice) {
 
 /// The set cut so.
 inline TiledPolyhedron tiled(const Polyhedron& set, const Cuts& cuts, const Tiling& tiling = {}) {
-  TileRef tree = tile_leaf(set);
+  TileRef tree = tile_leaf(set, nullptr);
   for (const auto& [cut, way] : cuts.steps) tree = cut_once(tree, AxisPlane(cut.axis, half(cut.twice)), way);
   return {tree, tiling};
 }
@@ -93,11 +93,18 @@ inline void leaves_are_valid(const TileRef& tree, const std::string& what) {
     leaves_are_valid(tree.node->low, what);
     leaves_are_valid(tree.node->high, what);
   } else if (tree.node->kind == TileNode::Kind::kTile) {
-    const std::string broken = validate(tree.node->set.complex());
+    const std::string broken = validate(tree.node->set().complex());
     // The last of all checks, which says that a tile ends at its walls.
     const bool at_walls = broken.find("what is outside lies beyond an infimaximal box") != std::string::npos;
     if (!broken.empty() && !at_walls) RC_FAIL(what + ", a tile: " + broken);
   }
+}
+
+/// A small box at one of many places on a sphere of radius 10.
+inline Polyhedron notch(int i) {
+  const int x = 3 * i % 7 - 3;
+  const int y = 5 * i % 11 - 5;
+  return make_box({Rational(2 * x + 1, 2), Rational(y), Rational(7)}, {Rational(2 * x + 3, 2), Rational(y + 1), 11});
 }
 
 }  // namespace nef::test

@@ -3,6 +3,7 @@
 // What is done in tiles is what is done without them, whatever the cuts.
 #include <catch2/catch.hpp>
 
+#include "nef/base/error.h"
 #include "tests/tiles/cuts.h"
 
 namespace nef::test {
@@ -85,6 +86,43 @@ TEST_CASE("queries in tiles are those of the whole set") {
       RC_ASSERT(there.kind == whole.kind);
       RC_ASSERT(contains(complement(in_tiles), p) == !contains(a, p));
     }
+  });
+}
+
+TEST_CASE("rays through tiles meet what they meet in the whole") {
+  for_all_cut_pairs("rays", 4, [](const Polyhedron& a, const Polyhedron&, const Cuts& cuts, const Cuts&) {
+    const TiledPolyhedron in_tiles = tiled(a, cuts);
+    for (int i = 0; i < 8; ++i) {
+      const Rational3 p = *adversarial_points().as("origin");
+      const auto coordinate = rc::gen::inRange(-2, 3);
+      const Rational3 d{*coordinate, *coordinate, *coordinate};
+      if (d[0] == 0 && d[1] == 0 && d[2] == 0) continue;
+      // All items, then those of the set, or those that are no edges.
+      const int chosen = *rc::gen::inRange(0, 3);
+      const auto accept = [chosen](const Location& at) {
+        return chosen == 0 || (chosen == 1 ? at.mark != 0 : at.kind != Location::Kind::kEdge);
+      };
+      const std::optional<RayHit> there = shoot_ray(in_tiles, p, d, accept);
+      const std::optional<RayHit> whole = shoot_ray(a, p, d, accept);
+      RC_ASSERT(there.has_value() == whole.has_value());
+      if (!whole) continue;
+      RC_ASSERT(there->point == whole->point);
+      RC_ASSERT(there->location.kind == whole->location.kind);
+      RC_ASSERT((there->location.mark != 0) == (whole->location.mark != 0));
+    }
+  });
+  CHECK_THROWS_AS(shoot_ray(TiledPolyhedron(), {0, 0, 0}, {0, 0, 0}), InputError);
+}
+
+TEST_CASE("any Boolean function of sets in tiles") {
+  for_all_cut_pairs("functions", 3, [](const Polyhedron& a, const Polyhedron& b, const Cuts& of_a, const Cuts& of_b) {
+    const unsigned table = *rc::gen::inRange(0U, 16U);
+    const std::array<bool, 4> f{(table & 1U) != 0, (table & 2U) != 0, (table & 4U) != 0, (table & 8U) != 0};
+    const Polyhedron plain = overlay(a, b, [&f](LabelId x, LabelId y) {
+      return static_cast<LabelId>(f[2U * (x != 0 ? 1U : 0U) + (y != 0 ? 1U : 0U)] ? 1 : 0);
+    });
+    glued_is(overlay(tiled(a, of_a), tiled(b, of_b), f), plain, "both in tiles");
+    glued_is(overlay(tiled(a, of_a), b, f), plain, "one in tiles");
   });
 }
 

@@ -7,19 +7,9 @@
 
 #include "nef/construct/round_shapes.h"
 #include "nef/io/native/native_binary.h"
-#include "tests/laws/laws.h"
+#include "tests/tiles/cuts.h"
 
 namespace nef::test {
-namespace {
-
-// A small box at one of many places on a sphere of radius 10.
-Polyhedron notch(int i) {
-  const int x = 3 * i % 7 - 3;
-  const int y = 5 * i % 11 - 5;
-  return make_box({Rational(2 * x + 1, 2), Rational(y), Rational(7)}, {Rational(2 * x + 3, 2), Rational(y + 1), 11});
-}
-
-}  // namespace
 
 TEST_CASE("many small steps are done in tiles, few are not") {
   const Polyhedron sphere = make_sphere(10, 60);

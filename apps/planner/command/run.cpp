@@ -13,6 +13,7 @@
 #include "apps/planner/command/scene_view.h"
 #include "apps/planner/command/turning_run.h"
 #include "apps/planner/ompl/ompl_planners.h"
+#include "apps/planner/path/near_answer.h"
 #include "apps/planner/path/path_file.h"
 #include "apps/planner/path/queries.h"
 #include "apps/planner/path/question.h"
@@ -243,10 +244,15 @@ bool asks_for_a_path_only(const Arguments& a) {
 // Looks for a path without cells and tight passages; nothing if there is none like that.
 std::optional<int> answer_without_tight_passages(const Arguments& a, const Scene& scene, const BuildOptions& build,
                                                  const nlohmann::json& widest, ProgressBar& bar) {
-  if (!asks_for_a_path_only(a) || !may_have_wide_answer(scene)) return std::nullopt;
+  if (!asks_for_a_path_only(a)) return std::nullopt;
   PathOptions options = a.path;
   options.roomy = a.prefer == "roomy";
-  const std::optional<WideAnswer> found = wide_answer(scene, options, build);
+  std::optional<WideAnswer> found;
+  if (may_have_wide_answer(scene)) {
+    found = wide_answer(scene, options, build);
+  } else if (may_have_near_answer(scene)) {
+    found = near_answer(scene, options, build);
+  }
   if (!found) return std::nullopt;
   bar.clear();
   Scene told = scene;

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/planner/free_space/free_positions.h"
 
+#include <cmath>
+
 #include "apps/minkowski/minkowski.h"
 #include "nef/base/error.h"
 #include "nef/base/interruption.h"
+#include "nef/complex/item_boxes.h"
 
 namespace nef::planner {
 namespace {
@@ -56,19 +59,46 @@ Scene with_only(const Scene& scene, const std::vector<std::size_t>& kept) {
   return result;
 }
 
-// True if robots that meet one obstacle can meet the other one at the same position: the boxes of the two are less than
-// the robot's extent apart.
-bool may_forbid_the_same(const Scene& scene, const Polyhedron& a, const Polyhedron& b) {
-  if (!a.is_bounded() || !b.is_bounded()) return true;
-  const auto box_a = bounding_box(a);
-  const auto box_b = bounding_box(b);
-  if (!box_a || !box_b) return false;
-  const std::array<Rational3, 2> robot = *bounding_box(scene.robot);
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Rational extent = robot[1][i] - robot[0][i];
-    if ((*box_a)[0][i] - extent > (*box_b)[1][i] || (*box_b)[0][i] - extent > (*box_a)[1][i]) return false;
+// A box around a bounded set.
+Box box_around(const Polyhedron& set) {
+  Box box;
+  const Complex& c = set.complex();
+  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) box.add(vertex_box(c, v));
+  return box;
+}
+
+// The obstacles but one that may be met at positions at which that one is met: their boxes are less than the robot's
+// extent apart.
+std::vector<std::size_t> obstacles_near(const Scene& scene, std::size_t index) {
+  std::vector<std::size_t> near;
+  const bool all = !scene.obstacles[index].is_bounded();
+  Box reach = all ? Box{} : box_around(scene.obstacles[index]);
+  const Box robot = box_around(scene.robot);
+  for (std::size_t k = 0; k < 3; ++k) {
+    // A hair more than doubles round.
+    const double extent = (robot.high[k] - robot.low[k]) * (1 + 0x1p-50);
+    const double slack = 0x1p-50 * (std::fabs(reach.low[k]) + std::fabs(reach.high[k]) + extent);
+    reach.low[k] -= extent + slack;
+    reach.high[k] += extent + slack;
   }
-  return true;
+  for (std::size_t i = 0; i < scene.obstacles.size(); ++i) {
+    if (i == index) continue;
+    if (all || !scene.obstacles[i].is_bounded() || box_around(scene.obstacles[i]).overlaps(reach)) near.push_back(i);
+  }
+  return near;
+}
+
+// What only one obstacle forbids: free for those near it, not free for it; others do not matter there.
+Polyhedron forbidden_by_one(const Scene& scene, std::size_t index, const BuildOptions& options) {
+  return subtract(free_positions(with_only(scene, obstacles_near(scene, index)), options),
+                  free_positions(with_only(scene, {index}), options));
+}
+
+Polyhedron free_of_one(const Scene& scene, const Polyhedron& obstacle, const BuildOptions& options) {
+  Scene alone = with_only(scene, {});
+  alone.obstacles.push_back(obstacle);
+  alone.obstacle_names.emplace_back("new");
+  return free_positions(alone, options);
 }
 
 }  // namespace
@@ -81,24 +111,25 @@ Polyhedron with_obstacle(const Scene& scene, const Polyhedron& free, const Polyh
                          const BuildOptions& options) {
   NEF_ASSERT(obstacles_are_independent(scene));
   const Interruptible interruptible(options.stop);
-  Scene alone = with_only(scene, {});
-  alone.obstacles.push_back(obstacle);
-  alone.obstacle_names.emplace_back("new");
-  return intersect(free, free_positions(alone, options));
+  return intersect(free, free_of_one(scene, obstacle, options));
 }
 
 Polyhedron without_obstacle(const Scene& scene, const Polyhedron& free, std::size_t index,
                             const BuildOptions& options) {
   NEF_ASSERT(obstacles_are_independent(scene));
   const Interruptible interruptible(options.stop);
-  std::vector<std::size_t> near;
-  for (std::size_t i = 0; i < scene.obstacles.size(); ++i) {
-    if (i != index && may_forbid_the_same(scene, scene.obstacles[index], scene.obstacles[i])) near.push_back(i);
-  }
-  // What only this one forbids: free for those near, not free for it; others do not matter there.
-  const Polyhedron freed =
-      subtract(free_positions(with_only(scene, near), options), free_positions(with_only(scene, {index}), options));
-  return unite(free, freed);
+  return unite(free, forbidden_by_one(scene, index, options));
+}
+
+// One operation with all of free space: what comes free is apart from it, what no longer is free a part of it.
+Polyhedron with_obstacle_moved(const Scene& scene, const Polyhedron& free, std::size_t index, const Polyhedron& moved,
+                               const BuildOptions& options) {
+  NEF_ASSERT(obstacles_are_independent(scene));
+  const Interruptible interruptible(options.stop);
+  const Polyhedron free_of_moved = free_of_one(scene, moved, options);
+  const Polyhedron gained = intersect(forbidden_by_one(scene, index, options), free_of_moved);
+  const Polyhedron lost = subtract(free, free_of_moved);
+  return symmetric_difference(free, unite(gained, lost));
 }
 
 Polyhedron free_positions(const Scene& scene, const BuildOptions& build) {

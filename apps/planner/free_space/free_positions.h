@@ -27,7 +27,7 @@ struct BuildOptions {
 /// one with its border only, and there the set is neither. Robot and obstacles are taken closed.
 Polyhedron free_positions(const Scene& scene, const BuildOptions& options = {});
 
-/// True if an obstacle may come or go by the two functions below: each obstacle forbids what it forbids alone. (A thin
+/// True if an obstacle may come or go by the functions below: each obstacle forbids what it forbids alone. (A thin
 /// robot among obstacles that it may touch is also kept out of the seams between them.)
 bool obstacles_are_independent(const Scene& scene);
 
@@ -40,5 +40,10 @@ Polyhedron with_obstacle(const Scene& scene, const Polyhedron& free, const Polyh
 /// that may forbid the same positions, and one operation. `scene` is the one before; its obstacles must be independent.
 Polyhedron without_obstacle(const Scene& scene, const Polyhedron& free, std::size_t index,
                             const BuildOptions& options = {});
+
+/// The free positions after obstacle `index` has become another set, `moved`: as if it went and that came, in one
+/// operation with all of free space rather than two.
+Polyhedron with_obstacle_moved(const Scene& scene, const Polyhedron& free, std::size_t index, const Polyhedron& moved,
+                               const BuildOptions& options = {});
 
 }  // namespace nef::planner

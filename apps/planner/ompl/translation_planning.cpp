@@ -99,27 +99,49 @@ void TranslationPlanning::setRobot(const Polyhedron& robot) {
 }
 
 void TranslationPlanning::addObstacle(const Polyhedron& obstacle) {
-  scene_.obstacles.push_back(closure(obstacle));
-  scene_.obstacle_names.push_back("obstacle");
-  obstacleChanged(std::nullopt);
+  obstacleChanged({std::nullopt, closure(obstacle)});
+}
+
+void TranslationPlanning::requireObstacle(std::size_t index) const {
+  if (index >= scene_.obstacles.size()) throw std::out_of_range("there is no obstacle " + std::to_string(index));
 }
 
 void TranslationPlanning::removeObstacle(std::size_t index) {
-  if (index >= scene_.obstacles.size()) throw std::out_of_range("there is no obstacle " + std::to_string(index));
-  scene_.obstacles.erase(scene_.obstacles.begin() + static_cast<std::ptrdiff_t>(index));
-  scene_.obstacle_names.erase(scene_.obstacle_names.begin() + static_cast<std::ptrdiff_t>(index));
-  obstacleChanged(index);
+  requireObstacle(index);
+  obstacleChanged({index, std::nullopt});
 }
 
-void TranslationPlanning::obstacleChanged(std::optional<std::size_t> gone) {
+void TranslationPlanning::moveObstacle(std::size_t index, const Rational3& by) {
+  moveObstacle(index, AffineMap::translate(by));
+}
+
+void TranslationPlanning::moveObstacle(std::size_t index, const AffineMap& map) {
+  requireObstacle(index);
+  obstacleChanged({index, transform(scene_.obstacles[index], map)});
+}
+
+void TranslationPlanning::apply(const Change& change, Scene& scene) {
+  if (!change.index) {
+    scene.obstacles.push_back(*change.obstacle);
+    scene.obstacle_names.emplace_back("obstacle");
+  } else if (change.obstacle) {
+    scene.obstacles[*change.index] = *change.obstacle;
+  } else {
+    scene.obstacles.erase(scene.obstacles.begin() + static_cast<std::ptrdiff_t>(*change.index));
+    scene.obstacle_names.erase(scene.obstacle_names.begin() + static_cast<std::ptrdiff_t>(*change.index));
+  }
+}
+
+void TranslationPlanning::obstacleChanged(Change change) {
+  apply(change, scene_);
   std::optional<Before> before = std::move(before_);
   std::vector<Change> changes = std::move(changes_);
   changed();
   if (!before) return;
-  changes.push_back({gone ? Polyhedron() : scene_.obstacles.back(), gone});
+  changes.push_back(std::move(change));
   before_ = std::move(before);
   changes_ = std::move(changes);
-  const bool only_came = std::none_of(changes_.begin(), changes_.end(), [](const Change& c) { return c.gone; });
+  const bool only_came = std::none_of(changes_.begin(), changes_.end(), [](const Change& c) { return c.index; });
   if (TightPlanner* planner = getTightPlanner(); planner != nullptr) planner->keepWay(only_came);
 }
 
@@ -132,15 +154,14 @@ Polyhedron TranslationPlanning::presentFreePositions(const BuildOptions& options
   Scene scene = before_->scene;
   Polyhedron free = before_->free;
   for (const Change& change : changes_) {
-    if (change.gone) {
-      free = without_obstacle(scene, free, *change.gone, options);
-      scene.obstacles.erase(scene.obstacles.begin() + static_cast<std::ptrdiff_t>(*change.gone));
-      scene.obstacle_names.erase(scene.obstacle_names.begin() + static_cast<std::ptrdiff_t>(*change.gone));
+    if (!change.index) {
+      free = with_obstacle(scene, free, *change.obstacle, options);
+    } else if (change.obstacle) {
+      free = with_obstacle_moved(scene, free, *change.index, *change.obstacle, options);
     } else {
-      free = with_obstacle(scene, free, change.obstacle, options);
-      scene.obstacles.push_back(change.obstacle);
-      scene.obstacle_names.emplace_back("obstacle");
+      free = without_obstacle(scene, free, *change.index, options);
     }
+    apply(change, scene);
   }
   return free;
 }

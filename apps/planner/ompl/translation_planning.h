@@ -46,6 +46,11 @@ class TranslationPlanning : public ompl::geometric::SimpleSetup {
       After a solution, obstacles that come or go change the free space by one operation each, if the robot is solid or
       contact is forbidden; otherwise, and after many changes at once, it is built anew. */
   void removeObstacle(std::size_t index);
+  /** \brief Moves an obstacle; it keeps its index. As removeObstacle and addObstacle, in one operation. Throws
+      std::out_of_range. */
+  void moveObstacle(std::size_t index, const Rational3& by);
+  /** \brief As moveObstacle, by any invertible map: a turn, say. Throws InputError for other maps. */
+  void moveObstacle(std::size_t index, const AffineMap& map);
   /** \brief May the robot touch obstacles (the default)? */
   void setContact(ContactRule contact);
   /** \brief Bounds of the reference point. Without them it may be anywhere (see inferEnvironmentBounds). */
@@ -88,15 +93,18 @@ class TranslationPlanning : public ompl::geometric::SimpleSetup {
   bool prepare(const std::function<bool()>& stop);
   bool buildRoadmap(const std::function<bool()>& stop) const;
   void changed();
-  // One obstacle came (at the end) or went since the free space was built.
-  void obstacleChanged(std::optional<std::size_t> gone);
+  // Throws std::out_of_range.
+  void requireObstacle(std::size_t index) const;
   // The free positions of the present scene, from those before the changes if these are few.
   Polyhedron presentFreePositions(const BuildOptions& options) const;
 
+  // An obstacle came (at the end), went, or has become another set.
   struct Change {
-    Polyhedron obstacle;              ///< that came
-    std::optional<std::size_t> gone;  ///< or the index of the one that went
+    std::optional<std::size_t> index;    ///< of the one that went or has changed
+    std::optional<Polyhedron> obstacle;  ///< what came, or what it has become
   };
+  static void apply(const Change& change, Scene& scene);
+  void obstacleChanged(Change change);
   struct Before {
     Scene scene;
     Polyhedron free;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "apps/planner/first_way/first_way.h"
 #include "apps/planner/path/shorten.h"
 #include "apps/planner/path/simple_points.h"
 #include "nef/base/error.h"
@@ -29,10 +30,11 @@ constexpr std::size_t kPlacesForWayRound = 400;
 // way without it.
 constexpr std::size_t kManyCells = 2000;
 
-std::optional<Waypoints> first_way(const FreeSpace& free, const CellFilter& filter, const Rational3& start,
-                                   const Rational3& goal, const PathOptions& options) {
+std::optional<Waypoints> first_way(const FreeSpace& free, const CellFilter& filter, int min_dimension,
+                                   const Rational3& start, const Rational3& goal, const PathOptions& options) {
   if (free.cells().size() >= kManyCells && !options.raw && !options.clearance) {
     if (std::optional<Waypoints> way = wide_way(free, filter, start, goal)) return way;
+    if (std::optional<Waypoints> way = narrow_way(free, filter, min_dimension, start, goal)) return way;
   }
   free.build_roadmap();
   return roadmap_path(free, filter, start, goal, options.clearance);
@@ -56,10 +58,12 @@ std::optional<ExactPath> find_path(const FreeSpace& free, const Rational3& start
   if (!free.is_free(start_cell) || !free.is_free(goal_cell)) return std::nullopt;
   if (free.component(start_cell) != free.component(goal_cell)) return std::nullopt;
   CellFilter filter(free);
-  require_dimension(free, filter, options.min_dimension);
+  int min_dimension = options.min_dimension;
+  require_dimension(free, filter, min_dimension);
   if (options.roomy) {
     const std::optional<Thinness> best = free.thinness(start_cell, goal_cell);
-    require_dimension(free, filter, std::max(options.min_dimension, best->piece));
+    min_dimension = std::max(min_dimension, best->piece);
+    require_dimension(free, filter, min_dimension);
     require_junctions(free, filter, best->junction, start_cell, goal_cell);
   }
   if (!filter(start_cell) || !filter(goal_cell)) return std::nullopt;
@@ -72,7 +76,7 @@ std::optional<ExactPath> find_path(const FreeSpace& free, const Rational3& start
     if (options.digits) path->unrounded = unrounded_points(path->points, *options.digits);
     return path;
   }
-  std::optional<Waypoints> points = first_way(free, filter, start, goal, options);
+  std::optional<Waypoints> points = first_way(free, filter, min_dimension, start, goal, options);
   // T and J need not be had by one and the same path; T counts first.
   if (!points && options.roomy) {
     PathOptions looser = options;

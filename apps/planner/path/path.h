@@ -49,15 +49,4 @@ std::optional<ExactPath> find_path(const FreeSpace& free, const Rational3& start
 /// Describes given way-points; nothing if a segment leaves free space.
 std::optional<ExactPath> describe_path(const FreeSpace& free, std::vector<Rational3> points);
 
-/// The roadmap's way-points from start to goal within the filter (A* over stations); each segment
-/// is checked. Nothing if there is no path.
-std::optional<std::vector<Rational3>> roadmap_path(const FreeSpace& free, const CellFilter& filter,
-                                                   const Rational3& start, const Rational3& goal, bool clearance);
-
-/// Way-points from start to goal within the filter through cubes of space that no boundary enters (A*), or the straight
-/// segment; each segment is free. Nothing where free space is too narrow for that, which proves nothing. Needs no
-/// roadmap.
-std::optional<std::vector<Rational3>> wide_way(const FreeSpace& free, const CellFilter& filter, const Rational3& start,
-                                               const Rational3& goal);
-
 }  // namespace nef::planner

@@ -119,19 +119,32 @@ void polish(const FreeSpace& free, const CellFilter& filter, Waypoints& path, st
   }
 }
 
-// What was tried in vain is not tried again: most of a path stays as it is from round to round.
+// What was tried in vain is not tried again: most of a path stays as it is from round to round. Points that doubles
+// cannot tell apart count as the same, so maybe something is not tried at all.
 struct TriedInVain {
-  std::set<std::pair<Rational3, Rational3>> shortcuts;
-  std::set<std::array<Rational3, 3>> pulls;   // of a way-point with its neighbours
-  std::set<std::array<Rational3, 3>> slides;  // ...
+  std::set<std::array<double, 6>> shortcuts;
+  std::set<std::array<double, 9>> pulls;   // of a way-point with its neighbours
+  std::set<std::array<double, 9>> slides;  // ...
 };
+
+template <typename... Points>
+auto key_of(const Points&... points) {
+  std::array<double, 3 * sizeof...(points)> key{};
+  std::size_t i = 0;
+  const auto append = [&](const Rational3& point) {
+    for (const Rational& x : point) key[i++] = nearest_double(x);
+  };
+  (append(points), ...);
+  return key;
+}
 
 bool may_use(const FreeSpace& free, const CellFilter& filter, const Rational3& a, const Rational3& b,
              TriedInVain* tried) {
   if (tried == nullptr) return segment_allowed(free, filter, a, b);
-  if (tried->shortcuts.contains({a, b})) return false;
+  const std::array<double, 6> key = key_of(a, b);
+  if (tried->shortcuts.contains(key)) return false;
   if (segment_allowed(free, filter, a, b)) return true;
-  tried->shortcuts.emplace(a, b);
+  tried->shortcuts.insert(key);
   return false;
 }
 
@@ -148,15 +161,15 @@ void leave_out(const FreeSpace& free, const CellFilter& filter, Waypoints& path,
 
 // Does something with each way-point between the ends that did not fail with the same neighbours before.
 template <typename Change>
-bool change_each(Waypoints& path, std::set<std::array<Rational3, 3>>& tried, const Change& change) {
+bool change_each(Waypoints& path, std::set<std::array<double, 9>>& tried, const Change& change) {
   bool changed = false;
   for (std::size_t i = 1; i + 1 < path.size(); ++i) {
-    std::array<Rational3, 3> corner{path[i - 1], path[i], path[i + 1]};
+    const std::array<double, 9> corner = key_of(path[i - 1], path[i], path[i + 1]);
     if (tried.contains(corner)) continue;
     if (change(i)) {
       changed = true;
     } else {
-      tried.insert(std::move(corner));
+      tried.insert(corner);
     }
   }
   return changed;

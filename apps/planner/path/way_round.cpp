@@ -6,8 +6,8 @@
 // the optimum as wanted; here a few must do, since tightening follows).
 #include <algorithm>
 
+#include "apps/planner/first_way/a_star.h"
 #include "apps/planner/free_space/vectors.h"
-#include "apps/planner/path/a_star.h"
 #include "apps/planner/path/shorten.h"
 
 namespace nef::planner {

@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <mutex>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "apps/visual_hull/color/depth_map.h"

@@ -79,60 +79,8 @@ json settings_of(const Arguments& a) {
           {"text", a.text}};
 }
 
-/// What was made, by frame.
-class Manifest {
- public:
-  Manifest(fs::path file, json settings) : file_(std::move(file)) {
-    std::ifstream old(file_);
-    std::string line;
-    const bool same = std::getline(old, line) && parse(line) == json{{"settings", settings}};
-    while (same && std::getline(old, line)) {
-      const json entry = parse(line);  // the last line of a run that was killed may be cut
-      if (entry.is_object() && entry.contains("frame") && entry["frame"].is_number_unsigned()) {
-        lines_[entry["frame"].get<std::size_t>()] = entry;
-      }
-    }
-    old.close();
-    first_line_ = json{{"settings", std::move(settings)}}.dump();
-    rewrite();
-    stream_.open(file_, std::ios::app);
-  }
-
-  [[nodiscard]] bool has(std::size_t frame, const std::string& images) const {
-    const auto found = lines_.find(frame);
-    if (found == lines_.end()) return false;
-    const json& entry = found->second;
-    if (entry.value("images_state", "") != images || entry.value("state", "") == "failed") return false;
-    std::error_code error;
-    return entry.value("state", "") != "done" || fs::is_regular_file(entry.value("output", ""), error);
-  }
-
-  [[nodiscard]] const json& line(std::size_t frame) const { return lines_.at(frame); }
-
-  void add(json entry) {
-    stream_ << entry.dump() << "\n" << std::flush;
-    if (!stream_) throw nef::InputError(file_.string() + ": cannot be written");
-    const auto frame = entry["frame"].get<std::size_t>();  // before the entry is moved from
-    lines_[frame] = std::move(entry);
-  }
-
-  /// In the order of the frames, each once.
-  void rewrite() const {
-    std::string text = first_line_ + "\n";
-    for (const auto& [frame, entry] : lines_) text += entry.dump() + "\n";
-    nef::write_file(file_.string(), text);
-  }
-
- private:
-  static json parse(const std::string& line) { return json::parse(line, nullptr, false); }
-
-  fs::path file_;
-  std::string first_line_;
-  std::map<std::size_t, json> lines_;
-  std::ofstream stream_;
-};
-
-void refuse_others(const Arguments& a) {
+// What does not go with frames is refused.
+const Arguments& checked(const Arguments& a) {
   const std::pair<const char*, bool> others[] = {{"--report", !a.report.empty()},    {"--json", a.json},
                                                  {"--overlay", !a.overlay.empty()},  {"--preview", !a.preview.empty()},
                                                  {"--page", !a.page.empty()},        {"--images", !a.images.empty()},
@@ -141,6 +89,26 @@ void refuse_others(const Arguments& a) {
     if (given) throw nef::InputError(std::string(name) + " is for one hull, not for --frames");
   }
   if (a.output.empty()) throw nef::InputError("--frames needs -o, with a place for the number, as in hull_%04d.ply");
+  return a;
+}
+
+// What a line of the manifest says.
+json parse(const std::string& line) { return json::parse(line, nullptr, false); }
+
+// What the exit code is for a frame, which is complained of unless it is good.
+int code_of(const json& entry) {
+  const bool failed = entry["state"] == "failed";
+  const bool empty = entry["state"] == "vanished" || !entry.value("inside", true);
+  if (!failed && !empty) return 0;
+  std::cerr << "visual_hull: "
+            << nef::one_line(fmt::format("frame {}: {}", entry["frame"].get<std::size_t>(),
+                                         entry.value("message", "not inside its views")))
+            << "\n";
+  return failed ? 2 : 1;
+}
+
+fs::path manifest_of(const NumberedPath& outputs) {
+  return fs::path(outputs.with("manifest")).replace_extension(".jsonl");
 }
 
 json entry_of(const Result& result, const fs::path& output, const Arguments& a) {
@@ -205,70 +173,138 @@ std::vector<std::size_t> NumberedPath::existing() const {
   return numbers;
 }
 
-int make_frames(const Arguments& a) {
-  refuse_others(a);
-  const NumberedPath folders(a.frames, "--frames");
-  const NumberedPath outputs(a.output, "-o");
-  const std::vector<std::size_t> frames = folders.existing();
-  if (frames.empty()) throw nef::InputError("--frames " + a.frames + ": there is no such folder");
+FrameTasks::FrameTasks(const Arguments& a)
+    : arguments_(checked(a)), folders_(a.frames, "--frames"), outputs_(a.output, "-o") {
+  frames_ = folders_.existing();
+  if (frames_.empty()) throw nef::InputError("--frames " + a.frames + ": there is no such folder");
   Scene scene = scene_of(a);
   scene.image_folders.clear();  // an image that a frame lacks is not to be taken from another place
-  if (!a.quiet) std::cout << understood(scene) << "\n";
+  understanding_ = understood(scene);
   Options options = to_options(a);
   options.threads = 1;
-  Arguments each = a;
-  each.threads = 1;
-  const HullStream stream(std::move(scene), options);
-  Manifest manifest(fs::path(outputs.with("manifest")).replace_extension(".jsonl"), settings_of(a));
+  arguments_.threads = 1;
+  stream_ = std::make_unique<const HullStream>(std::move(scene), options);
+}
 
-  nef::ProgressBar bar(!a.quiet);
-  std::mutex telling;
-  std::size_t done = 0;
-  std::size_t kept = 0;
-  int code = 0;
-  nef::parallel_for(frames.size(), a.threads, [&](std::size_t i) {
-    const fs::path folder = folders.of(frames[i]);
-    const std::string images = state_of(folder);
-    json entry;
-    bool known = false;
-    {
-      const std::lock_guard<std::mutex> lock(telling);
-      known = manifest.has(frames[i], images);
-      if (known) entry = manifest.line(frames[i]);
-    }
-    if (!known) {
-      json made;
-      const nef::ThreadStopwatch watch;
-      try {
-        made = entry_of(stream.frame(folder, std::nullopt), outputs.of(frames[i]), each);
-      } catch (const nef::Error& error) {
-        made = {{"state", "failed"}, {"message", nef::utf8(error.what())}};
-      }
-      entry = {{"frame", frames[i]}, {"images", nef::utf8(folder.string())}, {"images_state", images}};
-      entry.update(made);
-      entry["total_s"] = watch.seconds();
-    }
-    const std::lock_guard<std::mutex> lock(telling);
-    if (known) ++kept;
-    if (!known) manifest.add(entry);
-    bar.show("frame", ++done, frames.size());
-    const bool failed = entry["state"] == "failed";
-    const bool empty = entry["state"] == "vanished" || !entry.value("inside", true);
-    code = std::max(code, failed ? 2 : empty ? 1 : 0);
-    if (failed || empty) {
-      bar.clear();
-      std::cerr << "visual_hull: "
-                << nef::one_line(fmt::format("frame {}: {}", frames[i], entry.value("message", "not inside its views")))
-                << "\n";
-    }
-  });
-  manifest.rewrite();
-  bar.clear();
-  if (!a.quiet) {
-    std::cout << fmt::format("{} frames, {} of them made before; manifest: {}\n", frames.size(), kept,
-                             fs::path(outputs.with("manifest")).replace_extension(".jsonl").string());
+std::string FrameTasks::make(std::size_t task) const {
+  const fs::path folder = this->folder(task);
+  json entry{{"frame", frames_[task]}, {"images", nef::utf8(folder.string())}, {"images_state", state_of(folder)}};
+  const nef::ThreadStopwatch watch;
+  try {
+    entry.update(entry_of(stream_->frame(folder, std::nullopt), outputs_.of(frames_[task]), arguments_));
+  } catch (const nef::Error& error) {
+    entry.update(json{{"state", "failed"}, {"message", nef::utf8(error.what())}});
   }
-  return code;
+  entry["total_s"] = watch.seconds();
+  return entry.dump();
+}
+
+// What was made, by frame.
+class FrameRecord::Manifest {
+ public:
+  Manifest(fs::path file, json settings) : file_(std::move(file)) {
+    std::ifstream old(file_);
+    std::string line;
+    const bool same = std::getline(old, line) && parse(line) == json{{"settings", settings}};
+    while (same && std::getline(old, line)) {
+      const json entry = parse(line);  // the last line of a run that was killed may be cut
+      if (entry.is_object() && entry.contains("frame") && entry["frame"].is_number_unsigned()) {
+        lines_[entry["frame"].get<std::size_t>()] = entry;
+      }
+    }
+    old.close();
+    first_line_ = json{{"settings", std::move(settings)}}.dump();
+    rewrite();
+    stream_.open(file_, std::ios::app);
+  }
+
+  [[nodiscard]] bool has(std::size_t frame, const std::string& images) const {
+    const auto found = lines_.find(frame);
+    if (found == lines_.end()) return false;
+    const json& entry = found->second;
+    if (entry.value("images_state", "") != images || entry.value("state", "") == "failed") return false;
+    std::error_code error;
+    return entry.value("state", "") != "done" || fs::is_regular_file(entry.value("output", ""), error);
+  }
+
+  [[nodiscard]] const json& line(std::size_t frame) const { return lines_.at(frame); }
+
+  void add(json entry) {
+    stream_ << entry.dump() << "\n" << std::flush;
+    if (!stream_) throw nef::InputError(file_.string() + ": cannot be written");
+    const auto frame = entry["frame"].get<std::size_t>();  // before the entry is moved from
+    lines_[frame] = std::move(entry);
+  }
+
+  // In the order of the frames, each once.
+  void rewrite() const {
+    std::string text = first_line_ + "\n";
+    for (const auto& [frame, entry] : lines_) text += entry.dump() + "\n";
+    nef::write_file(file_.string(), text);
+  }
+
+ private:
+  fs::path file_;
+  std::string first_line_;
+  std::map<std::size_t, json> lines_;
+  std::ofstream stream_;
+};
+
+FrameRecord::FrameRecord(const Arguments& a, const FrameTasks& tasks)
+    : tasks_(tasks),
+      quiet_(a.quiet),
+      file_(manifest_of(NumberedPath(a.output, "-o"))),
+      manifest_(std::make_unique<Manifest>(file_, settings_of(a))) {}
+
+FrameRecord::~FrameRecord() = default;
+
+bool FrameRecord::keep(std::size_t task) {
+  const std::size_t frame = tasks_.number(task);
+  if (!manifest_->has(frame, state_of(tasks_.folder(task)))) return false;
+  ++kept_;
+  ++done_;
+  code_ = std::max(code_, code_of(manifest_->line(frame)));
+  return true;
+}
+
+void FrameRecord::add(const std::string& line) {
+  json entry = parse(line);
+  ++done_;
+  code_ = std::max(code_, code_of(entry));
+  manifest_->add(std::move(entry));
+}
+
+int FrameRecord::finish() {
+  manifest_->rewrite();
+  if (!quiet_) {
+    std::cout << fmt::format("{} frames, {} of them made before; manifest: {}\n", tasks_.size(), kept_, file_.string());
+  }
+  return code_;
+}
+
+int make_frames(const Arguments& a) {
+  const FrameTasks tasks(a);
+  if (!a.quiet) std::cout << tasks.understanding() << "\n";
+  FrameRecord record(a, tasks);
+  nef::ProgressBar bar(!a.quiet);
+  std::mutex recording;
+  const auto recorded = [&](const auto& change) {
+    const std::lock_guard<std::mutex> lock(recording);
+    bar.clear();  // for what is said
+    const bool done = change();
+    if (done) bar.show("frame", record.done(), tasks.size());
+    return done;
+  };
+  nef::parallel_for(tasks.size(), a.threads, [&](std::size_t i) {
+    if (recorded([&] { return record.keep(i); })) return;
+    const std::string line = tasks.make(i);
+    recorded([&] {
+      record.add(line);
+      return true;
+    });
+  });
+  bar.clear();
+  return record.finish();
 }
 
 }  // namespace visual_hull

@@ -2,12 +2,12 @@
 #include "apps/visual_hull/command/overlay.h"
 
 #include <algorithm>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "apps/visual_hull/polygon/edge_grid.h"
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
+#include "nef/view/image.h"
 
 namespace visual_hull {
 namespace {
@@ -105,6 +105,13 @@ cv::Mat draw_overlay(const ViewResult& view, const nef::Polyhedron& hull, PixelO
   return canvas;
 }
 
+std::string png_of(const cv::Mat& picture) {
+  nef::view::Image image{static_cast<std::uint32_t>(picture.cols), static_cast<std::uint32_t>(picture.rows), {}};
+  image.rgb.resize(3 * picture.total());
+  cv::cvtColor(picture, cv::Mat(picture.size(), CV_8UC3, image.rgb.data()), cv::COLOR_BGR2RGB);
+  return nef::view::png_bytes(image);
+}
+
 void write_overlays(const Result& result, PixelOrigin origin, const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
@@ -113,11 +120,7 @@ void write_overlays(const Result& result, PixelOrigin origin, const std::filesys
   }
   for (std::size_t i = 0; i < result.views.size(); ++i) {
     const std::filesystem::path file = folder / file_name(result.views[i], i);
-    const cv::Mat picture = draw_overlay(result.views[i], result.hull, origin);
-    std::vector<unsigned char> bytes;
-    if (!cv::imencode(file.extension().string(), picture, bytes))
-      throw nef::InputError("cannot write " + file.string());
-    nef::write_file(file.string(), {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    nef::write_file(file.string(), png_of(draw_overlay(result.views[i], result.hull, origin)));
   }
 }
 

@@ -12,6 +12,9 @@ namespace visual_hull {
 /// around their polygons.
 cv::Mat draw_overlay(const ViewResult& view, const nef::Polyhedron& hull, PixelOrigin origin);
 
+/// The bytes of a PNG file of a picture of three channels (blue, green, red).
+std::string png_of(const cv::Mat& picture);
+
 /// Writes one PNG per view into `folder` (which is made if need be), named after the views.
 /// Throws InputError if that is not possible.
 void write_overlays(const Result& result, PixelOrigin origin, const std::filesystem::path& folder);

@@ -2,7 +2,6 @@
 #include "apps/visual_hull/command/pictures.h"
 
 #include <algorithm>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "apps/visual_hull/command/overlay.h"
@@ -85,19 +84,15 @@ bool embed_image(const ViewResult& view, PixelOrigin origin, nef::view::Photo& p
     const double scale = static_cast<double>(kLongestSide) / longest;
     cv::resize(image, image, cv::Size(), scale, scale, cv::INTER_AREA);
   }
-  std::vector<unsigned char> bytes;
-  if (!cv::imencode(".png", image, bytes)) return false;
   photo.media_type = "image/png";
-  photo.bytes.assign(bytes.begin(), bytes.end());
+  photo.bytes = png_of(image);
   return true;
 }
 
 // The overlay, which marks the residual.
 void embed_overlay(const ViewResult& view, const Result& result, PixelOrigin origin, nef::view::Photo& photo) {
-  std::vector<unsigned char> bytes;
-  if (!cv::imencode(".png", draw_overlay(view, result.hull, origin), bytes)) return;
   photo.media_type = "image/png";
-  photo.bytes.assign(bytes.begin(), bytes.end());
+  photo.bytes = png_of(draw_overlay(view, result.hull, origin));
 }
 
 void add_image(Layer& layer, const ViewResult& view, const Result& result, PixelOrigin origin,

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <array>
-#include <opencv2/imgcodecs.hpp>
 
+#include "apps/visual_hull/scene/image_file.h"
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
 
@@ -124,7 +124,7 @@ std::optional<ImageSize> size_of_image(const fs::path& folder, const std::string
   const auto file = look_up_image({folder}, name);
   if (!file) return std::nullopt;
   try {
-    const cv::Mat image = cv::imread(file->string(), cv::IMREAD_UNCHANGED);
+    const cv::Mat image = read_pixels(*file);
     if (!image.empty()) return ImageSize{image.cols, image.rows};
   } catch (const cv::Exception&) {
     // Whoever reads the pixels says what is wrong with them.

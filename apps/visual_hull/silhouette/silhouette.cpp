@@ -2,9 +2,9 @@
 #include "apps/visual_hull/silhouette/silhouette.h"
 
 #include <opencv2/calib3d.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "apps/visual_hull/scene/image_file.h"
 #include "nef/base/error.h"
 
 namespace visual_hull {
@@ -148,7 +148,7 @@ cv::Mat opencv_intrinsics(const Distortion& distortion, PixelOrigin origin) {
 }
 
 cv::Mat read_photograph(const std::filesystem::path& image, const Distortion& distortion, PixelOrigin origin) {
-  cv::Mat photograph = cv::imread(image.string(), cv::IMREAD_COLOR);
+  cv::Mat photograph = read_colors(image);
   if (photograph.empty() || distortion.coefficients.empty()) return photograph;
   cv::Mat straight;
   cv::undistort(photograph, straight, opencv_intrinsics(distortion, origin), distortion.coefficients);
@@ -176,7 +176,7 @@ cv::Mat read_mask(const std::filesystem::path& image, const View& view, const Si
                   cv::Mat* unseen) {
   cv::Mat pixels;
   try {
-    pixels = cv::imread(image.string(), cv::IMREAD_UNCHANGED);
+    pixels = read_pixels(image);
   } catch (const cv::Exception& error) {
     throw nef::InputError("view " + view.name + ": cannot read the image " + image.string() + " (" + error.err + ")");
   }

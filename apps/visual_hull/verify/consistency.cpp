@@ -2,6 +2,7 @@
 #include "apps/visual_hull/verify/consistency.h"
 
 #include <algorithm>
+#include <array>
 #include <bitset>
 #include <cmath>
 #include <numeric>
@@ -19,6 +20,8 @@ constexpr std::size_t kRaysInAll = 10000;  // where there are many views, each h
 constexpr std::size_t kFewestRays = 100;
 constexpr double kGuiltyScore = 1.5;
 constexpr double kGuiltyLead = 0.4;
+constexpr double kFewestLines =
+    4;  // of sight, that a guilty view blinds: up to three are what pixels do to clean views
 constexpr std::size_t kFewViews = 5;
 
 // What the lines of sight of one view tell about all views.
@@ -34,16 +37,49 @@ struct Tally {
 struct Event {
   double s = 0;
   std::uint32_t view = 0;
-  bool enters = false;
+  std::int32_t rejecting = 0;  // views more than before: -1 or 1
 };
 
 // A line of sight.
 struct SightLine {
-  Eigen::Vector3d direction;
-  DepthInterval range;         // in the box
-  std::vector<Event> events;   // of one view after the other
-  std::vector<double> begins;  // of each other view that sees some of it, the first depth
-  std::vector<double> ends;    // and the last one
+  DepthInterval range;        // in the box
+  std::vector<Event> events;  // of one view after the other
+  std::size_t seen = 0;       // by how many other views, anywhere
+  // Where the last three of these begin to see it, the last one first, and where the first three see it no more.
+  std::array<double, 3> begins{};
+  std::array<double, 3> ends{};
+
+  void start(const DepthInterval& in_box) {
+    range = in_box;
+    events.clear();
+    seen = 0;
+    begins.fill(-INFINITY);
+    ends.fill(INFINITY);
+  }
+
+  /// `parts` are the ends of what the view sees.
+  void add(std::uint32_t view, const std::vector<double>& parts) {
+    if (parts.empty()) return;
+    for (std::size_t k = 0; k < parts.size(); ++k) events.push_back({parts[k], view, k % 2 == 0 ? -1 : 1});
+    ++seen;
+    double begin = parts.front();
+    double end = parts.back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double later = std::max(begins[k], begin);
+      begin = std::min(begins[k], begin);
+      begins[k] = later;
+      const double sooner = std::min(ends[k], end);
+      end = std::max(ends[k], end);
+      ends[k] = sooner;
+    }
+  }
+
+  /// The part in which at most two of n - 1 other views may reject: n - 3 see something before and behind.
+  [[nodiscard]] DepthInterval where_few_reject(std::size_t n) const {
+    if (n <= 3) return range;
+    if (seen + 3 < n) return {1, 0};
+    return {begins[seen + 3 - n], ends[seen + 3 - n]};
+  }
 };
 
 struct Lines {
@@ -69,51 +105,60 @@ struct Lines {
   /// Calls visit(line) for every line of sight of view i.
   template <typename Visit>
   void each_line(std::size_t i, Visit&& visit) const {
-    std::vector<SightLine> lines;
+    std::vector<SightPencil> pencils;
+    pencils.reserve(views.size());
+    for (const SightView& view : views) pencils.emplace_back(view, views[i].centre());
+    SightLine line;
+    std::vector<double> ends;
     for (const Eigen::Vector2d& p : views[i].sample(rays())) {
       const Eigen::Vector3d direction = views[i].ray(p);
       const DepthInterval range = in_box(views[i].centre(), direction, low, high);
       if (!(range.from < range.to)) continue;
-      SightLine& line = lines.emplace_back(SightLine{direction, range, {}, {}, {}});
-      line.events.reserve(2 * views.size());
-      line.begins.reserve(views.size());
-      line.ends.reserve(views.size());
-    }
-    std::vector<DepthInterval> inside;
-    for (std::uint32_t j = 0; j < views.size(); ++j) {
-      if (j == i) continue;
-      const SightPencil pencil(views[j], views[i].centre());
-      for (SightLine& line : lines) {
-        inside.clear();
-        pencil.cut(line.direction, line.range, inside);
-        for (const DepthInterval& part : inside) {
-          line.events.push_back({part.from, j, true});
-          line.events.push_back({part.to, j, false});
-        }
-        if (inside.empty()) continue;
-        line.begins.push_back(inside.front().from);
-        line.ends.push_back(inside.back().to);
+      line.start(range);
+      for (std::uint32_t j = 0; j < views.size(); ++j) {
+        if (j == i) continue;
+        pencils[j].cut(direction, range, ends);
+        line.add(j, ends);
       }
+      visit(line);
     }
-    for (SightLine& line : lines) visit(line);
   }
 };
 
 // By depth.
-void sort_events(std::vector<Event>::iterator begin, std::vector<Event>::iterator end) {
-  std::sort(begin, end, [](const Event& a, const Event& b) { return a.s < b.s; });
+void sort_events(std::vector<Event>& events) {
+  std::sort(events.begin(), events.end(), [](const Event& a, const Event& b) { return a.s < b.s; });
 }
 
-// The part of a line of a view out of n in which at most two other views may reject: n - 3 see something before and
-// behind.
-DepthInterval where_few_reject(SightLine& line, std::size_t n) {
-  if (n <= 3) return line.range;
-  const auto few = static_cast<std::ptrdiff_t>(n - 3);
-  if (static_cast<std::ptrdiff_t>(line.begins.size()) < few) return {1, 0};
-  std::nth_element(line.begins.begin(), line.begins.begin() + few - 1, line.begins.end());
-  std::nth_element(line.ends.begin(), line.ends.end() - few, line.ends.end());
-  return {line.begins[n - 4], *(line.ends.end() - few)};
-}
+// The views that reject a point: as long as they are one or two, sums over their numbers tell which.
+struct Rejecting {
+  std::int64_t count = 0;
+  std::int64_t sum = 0;
+  std::int64_t squares = 0;
+
+  /// All of n views but one.
+  static Rejecting all_but(std::size_t view, std::size_t n) {
+    const auto v = static_cast<std::int64_t>(view);
+    const auto m = static_cast<std::int64_t>(n);
+    return {m - 1, m * (m - 1) / 2 - v, (m - 1) * m * (2 * m - 1) / 6 - v * v};
+  }
+
+  void happens(const Event& e, std::int64_t weight) {
+    const std::int64_t view = e.view;
+    count += weight;
+    sum += weight * view;
+    squares += weight * view * view;
+  }
+
+  [[nodiscard]] std::size_t one() const { return static_cast<std::size_t>(sum); }
+
+  /// v + w and v^2 + w^2 are known.
+  [[nodiscard]] std::array<std::size_t, 2> two() const {
+    const double difference = std::sqrt(static_cast<double>(2 * squares - sum * sum));
+    const std::int64_t apart = std::lround(difference);
+    return {static_cast<std::size_t>((sum - apart) / 2), static_cast<std::size_t>((sum + apart) / 2)};
+  }
+};
 
 Tally tally_of(const Lines& lines, std::size_t i) {
   const std::size_t n = lines.views.size();
@@ -125,56 +170,42 @@ Tally tally_of(const Lines& lines, std::size_t i) {
   std::vector<bool> only(n);  // v is the only one to reject some point of the line
   lines.each_line(i, [&](SightLine& line) {
     ++count;
-    const DepthInterval part_of_few = where_few_reject(line, n);
+    const DepthInterval part_of_few = line.where_few_reject(n);
     if (part_of_few.from > part_of_few.to) {
       tally.residual += 1;
       return;
     }
     only.assign(n, false);
-    std::size_t rejecting = n - 1;
-    // Sums over the numbers of the views that reject tell which they are as long as they are one or two.
-    const std::size_t all = n * (n - 1) / 2;
-    const std::size_t all_squares = (n - 1) * n * (2 * n - 1) / 6;
-    auto sum = static_cast<double>(all - i);
-    auto squares = static_cast<double>(all_squares - i * i);
+    Rejecting rejecting = Rejecting::all_but(i, n);
     bool covered = false;
-    double at = line.range.from;
+    double at = n > 3 ? part_of_few.from : line.range.from;
     const auto pass = [&](double to) {
       if (to <= at) return;
       const double part = (to * to * to - at * at * at) / 3;
-      if (rejecting == 0) {
+      if (rejecting.count == 0) {
         covered = true;
         tally.common += part;
-      } else if (rejecting == 1) {
-        const auto v = static_cast<std::size_t>(sum);
-        only[v] = true;
-        tally.alone[v] += part;
-      } else if (rejecting == 2) {
-        // v + w and v^2 + w^2 are known.
-        const double difference = std::sqrt(std::max(0.0, 2 * squares - sum * sum));
-        const auto v = static_cast<std::size_t>(std::lround((sum - difference) / 2));
-        const auto w = static_cast<std::size_t>(std::lround((sum + difference) / 2));
-        tally.in_pair[v] += part;
-        tally.in_pair[w] += part;
+      } else if (rejecting.count == 1) {
+        only[rejecting.one()] = true;
+        tally.alone[rejecting.one()] += part;
+      } else if (rejecting.count == 2) {
+        for (const std::size_t v : rejecting.two()) tally.in_pair[v] += part;
       }
       at = to;
     };
-    const auto happens = [&](const Event& e) {
-      const double number = e.view;
-      rejecting += e.enters ? std::size_t(-1) : std::size_t{1};
-      sum += e.enters ? -number : number;
-      squares += e.enters ? -number * number : number * number;
-    };
-    const auto before = [&](const Event& e) { return e.s < part_of_few.from; };
-    const auto not_behind = [&](const Event& e) { return e.s <= part_of_few.to; };
-    const auto begin = std::partition(line.events.begin(), line.events.end(), before);
-    const auto end = std::partition(begin, line.events.end(), not_behind);
-    std::for_each(line.events.begin(), begin, happens);
-    if (n > 3) at = part_of_few.from;
-    sort_events(begin, end);
-    for (auto e = begin; e != end; ++e) {
-      pass(e->s);
-      happens(*e);
+    // What comes before that part only counts, what comes behind it does not; without branches, as either is as likely.
+    std::size_t kept = 0;
+    for (const Event e : line.events) {
+      const bool before = e.s < part_of_few.from;
+      rejecting.happens(e, before ? e.rejecting : 0);
+      line.events[kept] = e;
+      kept += !before && e.s <= part_of_few.to ? 1 : 0;
+    }
+    line.events.resize(kept);
+    sort_events(line.events);
+    for (const Event& e : line.events) {
+      pass(e.s);
+      rejecting.happens(e, e.rejecting);
     }
     pass(line.range.to);
     if (covered) return;
@@ -256,7 +287,9 @@ Consistency compare_views(const std::vector<ComparedView>& compared, const World
   score(result.views);
   const std::vector<std::size_t> order = result.ranked();
   const double lead = result.views[order[0]].score - result.views[order[1]].score;
-  if (result.views[order[0]].score > kGuiltyScore && lead >= kGuiltyLead) result.guilty = order[0];
+  const ViewConsistency& first = result.views[order[0]];
+  const bool seen = first.fall * static_cast<double>(lines.rays()) >= kFewestLines;
+  if (seen && first.score > kGuiltyScore && lead >= kGuiltyLead) result.guilty = order[0];
   return result;
 }
 
@@ -273,10 +306,10 @@ std::vector<std::vector<std::size_t>> disjoint_views(const std::vector<ComparedV
     lines.each_line(i, [&](SightLine& line) {
       Set accepting;
       accepting.set(i);
-      sort_events(line.events.begin(), line.events.end());
+      sort_events(line.events);
       for (const Event& e : line.events) {
-        if (!e.enters) seen[i].insert(accepting.to_string());
-        accepting.set(e.view, e.enters);
+        if (e.rejecting > 0) seen[i].insert(accepting.to_string());
+        accepting.set(e.view, e.rejecting < 0);
       }
     });
   });

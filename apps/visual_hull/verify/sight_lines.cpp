@@ -39,6 +39,12 @@ SightView::SightView(const ComparedView& view) : matrix_(to_doubles(*view.camera
     area_ += twice_area(ring) / 2;
   }
   ring_begin_.push_back(static_cast<std::uint32_t>(u_.size()));
+  normals_.reserve(u_.size());
+  for (std::size_t k = 0; k < u_.size(); ++k) {  // those between rings are not asked for
+    const std::size_t next = k + 1 < u_.size() ? k + 1 : 0;
+    const Eigen::Vector3d side = Eigen::Vector3d(u_[k], v_[k], 1).cross(Eigen::Vector3d(u_[next], v_[next], 1));
+    normals_.push_back(matrix_.leftCols<3>().transpose() * side);
+  }
   angle_ = std::abs(inverse_.determinant()) * area_;
 }
 
@@ -79,27 +85,40 @@ std::vector<Eigen::Vector2d> SightView::sample(std::size_t count) const {
 // seen, a the image of the point. M^T (w x a) is at right angles to the line through point and camera, so two numbers
 // tell its sign for every d, and a side is crossed where they differ at its ends: by the directions between those that
 // see one end and the other.
-SightPencil::SightPencil(const SightView& view, const Eigen::Vector3d& centre)
-    : view_(view), epipole_(view.matrix_ * centre.homogeneous()) {
+SightPencil::SightPencil(const SightView& view, const Eigen::Vector3d& centre) : view_(view) {
   const Eigen::Matrix3d block = view.matrix_.leftCols<3>();
-  Eigen::Vector3d axis = centre - view.centre_;
-  if (axis.squaredNorm() == 0) axis = Eigen::Vector3d::UnitX();  // every line is seen as a point
-  across_.col(0) = axis.unitOrthogonal();
-  across_.col(1) = axis.normalized().cross(across_.col(0));
-  const Eigen::Vector3d form0 = epipole_.cross(block * across_.col(0));
-  const Eigen::Vector3d form1 = epipole_.cross(block * across_.col(1));
-  std::vector<double> turns(view.u_.size());
-  for (std::size_t k = 0; k < turns.size(); ++k) {
-    const double x = form0[0] * view.u_[k] + form0[1] * view.v_[k] + form0[2];
-    const double y = form1[0] * view.u_[k] + form1[1] * view.v_[k] + form1[2];
-    turns[k] = turn_of(-y, x);
+  const Eigen::Vector3d image = view.matrix_ * centre.homogeneous();
+  depth_ = image[2];
+  const Eigen::Vector3d axis = centre - view.centre_;
+  if (axis.squaredNorm() > 0) {
+    across0_ = axis.unitOrthogonal();
+    across1_ = axis.normalized().cross(across0_);
+  } else {
+    across0_ = across1_ = Eigen::Vector3d::Zero();
   }
+  const Eigen::Vector3d form0 = image.cross(block * across0_);
+  const Eigen::Vector3d form1 = image.cross(block * across1_);
+  forms_.reserve(view.u_.size());
+  heights_.reserve(view.u_.size());
+  for (std::size_t k = 0; k < view.u_.size(); ++k) {
+    forms_.push_back({form0[0] * view.u_[k] + form0[1] * view.v_[k] + form0[2],
+                      form1[0] * view.u_[k] + form1[1] * view.v_[k] + form1[2]});
+    heights_.push_back(view.normals_[k].dot(axis));
+  }
+  sort_sides_by_angle();
+}
+
+void SightPencil::sort_sides_by_angle() {
+  std::vector<double> turns;
+  turns.reserve(forms_.size());
+  for (const Form& form : forms_) turns.push_back(turn_of(-form.y, form.x));
   // Twice over the sides: count, then fill.
   bin_begin_.assign(kBins + 1, 0);
   for (const bool fill : {false, true}) {
-    for (std::size_t r = 0; r + 1 < view.ring_begin_.size(); ++r) {
-      for (std::uint32_t k = view.ring_begin_[r]; k + 1 < view.ring_begin_[r + 1]; ++k) {
-        const double step = std::remainder(turns[k + 1] - turns[k], 4.0);
+    for (std::size_t r = 0; r + 1 < view_.ring_begin_.size(); ++r) {
+      for (std::uint32_t k = view_.ring_begin_[r]; k + 1 < view_.ring_begin_[r + 1]; ++k) {
+        double step = turns[k + 1] - turns[k];
+        if (std::abs(step) > 2) step -= std::copysign(4.0, step);  // the shorter way
         const double low = (step < 0 ? turns[k + 1] : turns[k]) - kTurnSlack;
         const double high = low + std::abs(step) + 2 * kTurnSlack;
         const auto last = static_cast<std::int64_t>(std::floor(high * kBinsOfQuarter));
@@ -122,68 +141,48 @@ SightPencil::SightPencil(const SightView& view, const Eigen::Vector3d& centre)
   bin_begin_[kBins] = static_cast<std::uint32_t>(bin_sides_.size());
 }
 
-void SightPencil::find_crossings(const Eigen::Vector3d& direction, const Eigen::Vector3d& line,
-                                 const Eigen::Vector2d& along, std::vector<double>& crossings) const {
-  const double turn = turn_of(direction.dot(across_.col(0)), direction.dot(across_.col(1)));
-  const std::size_t bin = static_cast<std::size_t>(turn * kBinsOfQuarter) % kBins;
-  const std::vector<double>& u = view_.u_;
-  const std::vector<double>& v = view_.v_;
-  const auto side = [&](std::size_t k) { return line[0] * u[k] + line[1] * v[k] + line[2]; };
-  for (std::uint32_t i = bin_begin_[bin]; i < bin_begin_[bin + 1]; ++i) {
-    const std::uint32_t k = bin_sides_[i];
-    const double here = side(k);
-    const double there = side(k + 1);
-    if ((here <= 0) == (there <= 0)) continue;
-    const double share = here / (here - there);
-    const Eigen::Vector2d p(u[k] + share * (u[k + 1] - u[k]), v[k] + share * (v[k + 1] - v[k]));
-    crossings.push_back(along.dot(p));
-  }
-  std::sort(crossings.begin(), crossings.end());
-}
-
-void SightPencil::cut(const Eigen::Vector3d& direction, const DepthInterval& range,
-                      std::vector<DepthInterval>& inside) const {
-  // The line is seen at a + s b, homogeneous; only s with a positive depth are in front.
-  const Eigen::Vector3d& a = epipole_;
-  const Eigen::Vector3d b = view_.matrix_.leftCols<3>() * direction;
+// Where the line is in front of the camera it begins, or ends, at depth zero, which is seen infinitely far away and so
+// outside of the silhouette; the other end, at infinity, is seen in a point that may lie inside.
+void SightPencil::cut(const Eigen::Vector3d& direction, const DepthInterval& range, std::vector<double>& ends) const {
+  ends.clear();
   double from = range.from;
   double to = range.to;
-  const double least = 1e-9 * (std::abs(a[2]) + std::abs(b[2]) * std::max(std::abs(from), std::abs(to)));
-  if (b[2] > 0) from = std::max(from, (least - a[2]) / b[2]);
-  if (b[2] < 0) to = std::min(to, (least - a[2]) / b[2]);
-  if (!(from < to) || !(a[2] + from * b[2] > 0) || !(a[2] + to * b[2] > 0)) return;
-  const Eigen::Vector3d line = a.cross(b);
-  Eigen::Vector2d along(line[1], -line[0]);
-  const double length = along.norm();
-  if (!(length > 1e-12 * a.norm() * b.norm())) {
+  const double slope = view_.matrix_.row(2).head<3>().dot(direction);
+  if (slope > 0) from = std::max(from, -depth_ / slope);
+  if (slope < 0) to = std::min(to, -depth_ / slope);
+  if (!(from < to) || (slope == 0 && depth_ <= 0)) return;
+  const double x = direction.dot(across0_);
+  const double y = direction.dot(across1_);
+  if (!(x * x + y * y > 1e-24 * direction.squaredNorm())) {
     // Both cameras stand on the line, which is seen as a point.
-    const Eigen::Vector3d x = a + (from + to) / 2 * b;
-    if (view_.inside(x.head<2>() / x[2])) inside.push_back({from, to});
+    const Eigen::Vector3d image = view_.matrix_.leftCols<3>() * direction * (slope < 0 ? -1 : 1);
+    if (view_.inside(image.head<2>() / image[2])) ends = {from, to};
     return;
   }
-  along /= length;
-  const double a_along = along.dot(a.head<2>());
-  const double b_along = along.dot(b.head<2>());
-  const auto place = [&](double s) { return (a_along + s * b_along) / (a[2] + s * b[2]); };
-  const auto depth = [&](double t) { return (t * a[2] - a_along) / (b_along - t * b[2]); };
-
-  thread_local std::vector<double> crossings;
-  crossings.clear();
-  find_crossings(direction, line, along, crossings);
-  double first = place(from);
-  double last = place(to);
-  const bool backward = first > last;
-  if (backward) std::swap(first, last);
-  const std::size_t begun = inside.size();
-  for (std::size_t k = 0; k + 1 < crossings.size(); k += 2) {
-    const double enter = std::max(crossings[k], first);
-    const double leave = std::min(crossings[k + 1], last);
-    if (!(enter < leave)) continue;
-    const double s0 = std::clamp(depth(enter), from, to);
-    const double s1 = std::clamp(depth(leave), from, to);
-    inside.push_back({std::min(s0, s1), std::max(s0, s1)});
+  const std::size_t bin = static_cast<std::size_t>(turn_of(x, y) * kBinsOfQuarter) % kBins;
+  for (std::uint32_t i = bin_begin_[bin]; i < bin_begin_[bin + 1]; ++i) {
+    const std::uint32_t k = bin_sides_[i];
+    if ((forms_[k].at(x, y) <= 0) == (forms_[k + 1].at(x, y) <= 0)) continue;
+    const double s = -heights_[k] / view_.normals_[k].dot(direction);
+    if (depth_ + s * slope > 0) ends.push_back(s);
   }
-  if (backward) std::reverse(inside.begin() + static_cast<std::ptrdiff_t>(begun), inside.end());
+  std::sort(ends.begin(), ends.end());
+  if (ends.size() % 2 != 0) {
+    if (slope > 0) {
+      ends.push_back(INFINITY);
+    } else {
+      ends.insert(ends.begin(), -INFINITY);
+    }
+  }
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k + 1 < ends.size(); k += 2) {
+    const double enter = std::max(ends[k], from);
+    const double leave = std::min(ends[k + 1], to);
+    if (!(enter < leave)) continue;
+    ends[kept++] = enter;
+    ends[kept++] = leave;
+  }
+  ends.resize(kept);
 }
 
 DepthInterval in_box(const Eigen::Vector3d& centre, const Eigen::Vector3d& direction, const Eigen::Vector3d& low,

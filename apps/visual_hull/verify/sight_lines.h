@@ -43,6 +43,7 @@ class SightView {
   double area_ = 0;
   // Vertices ring by ring, each ring closed by its first vertex again.
   std::vector<double> u_, v_;
+  std::vector<Eigen::Vector3d> normals_;  // of the planes through the camera and the side from each vertex to the next
   std::vector<std::uint32_t> ring_begin_;
 };
 
@@ -53,17 +54,25 @@ class SightPencil {
   /// Keeps a reference to the view. O(n) for n sides of its outline.
   SightPencil(const SightView& view, const Eigen::Vector3d& centre);
 
-  /// The parts of `range` of the line centre + s * direction that are seen in the silhouette, in order, appended. Asks
-  /// only the sides at the line's angle.
-  void cut(const Eigen::Vector3d& direction, const DepthInterval& range, std::vector<DepthInterval>& inside) const;
+  /// Replaces `ends` by those of the parts of `range` of the line centre + s * direction that are seen in the
+  /// silhouette, in order, two for each part. Asks only the sides at the line's angle.
+  void cut(const Eigen::Vector3d& direction, const DepthInterval& range, std::vector<double>& ends) const;
 
  private:
-  void find_crossings(const Eigen::Vector3d& direction, const Eigen::Vector3d& line, const Eigen::Vector2d& along,
-                      std::vector<double>& crossings) const;
+  void sort_sides_by_angle();
+
+  /// A line's direction, by its components across, times this: on which side of the line a vertex is seen.
+  struct Form {
+    double x = 0;
+    double y = 0;
+    [[nodiscard]] double at(double dx, double dy) const { return x * dx + y * dy; }
+  };
 
   const SightView& view_;
-  Eigen::Vector3d epipole_;               // homogeneous: the image of the point
-  Eigen::Matrix<double, 3, 2> across_;    // two directions across the line through point and camera
+  double depth_ = 0;                      // of the point
+  Eigen::Vector3d across0_, across1_;     // directions across the line through point and camera; zero if that is none
+  std::vector<Form> forms_;               // of the vertices
+  std::vector<double> heights_;           // of the point over the sides' planes
   std::vector<std::uint32_t> bin_begin_;  // equal parts of half a turn
   std::vector<std::uint32_t> bin_sides_;  // a side by its first vertex
 };

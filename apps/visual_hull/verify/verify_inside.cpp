@@ -8,8 +8,10 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <unordered_map>
 
 #include "apps/visual_hull/polygon/silhouette_index.h"
+#include "apps/visual_hull/scene/camera_planes.h"
 
 namespace visual_hull {
 namespace {
@@ -25,7 +27,12 @@ struct Projected {
 class InsideCheck {
  public:
   InsideCheck(const nef::Polyhedron& hull, const Camera& camera, const Silhouette& silhouette)
-      : hull_(hull), complex_(hull.complex()), camera_(camera), silhouette_(silhouette), index_(silhouette) {
+      : hull_(hull),
+        complex_(hull.complex()),
+        camera_(camera),
+        planes_(camera),
+        silhouette_(silhouette),
+        index_(silhouette) {
     for (std::size_t i = 0; i < 3; ++i) {
       for (std::size_t j = 0; j < 4; ++j) matrix_[i][j] = nef::nearest_double(camera.matrix()[i][j]);
     }
@@ -141,11 +148,55 @@ class InsideCheck {
     index_.visit_edges(box, [&](const Point2& c, const Point2& d) {
       if (!surely_apart(a, b, c, d)) near_.push_back({&c, &d});
     });
+    // Since they come from facets that sides of the silhouette make, most edges near one run along it, or end there.
+    for (const auto& [c, d] : near_) {
+      const int on_a = place_on_side(va, *c, *d);
+      const int on_b = place_on_side(vb, *c, *d);
+      if (on_a >= 0 && on_b >= 0) return true;
+      const bool alone = near_.size() == 1;
+      if (alone && on_a > 0 && side(vb, plane_of(*c, *d)) > 0) return true;
+      if (alone && on_b > 0 && side(va, plane_of(*c, *d)) > 0) return true;
+    }
     if (!near_.empty()) return edge_inside_exactly(exact(va), exact(vb));
     // Nothing of the boundary is near: all of the edge is where one end is.
     if (!a.known_inside && !b.known_inside && index_.locate(exact(va)) == Side::kOutside) return false;
     a.known_inside = b.known_inside = true;
     return true;
+  }
+
+  // On which side of the line through two points of the image a vertex in front of the camera is seen. Exact.
+  int side(std::uint32_t v, const std::array<Integer, 4>& plane) const {
+    Integer sum;
+    for (std::size_t i = 0; i < 4; ++i) {
+      mpz_addmul(sum.get_mpz_t(), plane[i].get_mpz_t(), complex_.points.coordinate(nef::PointId(v), i));
+    }
+    return sgn(sum);
+  }
+
+  // Of the side c-d of the silhouette; positive where the region is.
+  const std::array<Integer, 4>& plane_of(const Point2& c, const Point2& d) {
+    auto [plane, fresh] = side_planes_.try_emplace(&c);
+    if (fresh) plane->second = planes_.through(c, d);
+    return plane->second;
+  }
+
+  // 1 if a vertex is seen on the side c-d of the silhouette between its ends, 0 at one of them, -1 elsewhere. Exact,
+  // without a projection.
+  int place_on_side(std::uint32_t v, const Point2& c, const Point2& d) {
+    if (side(v, plane_of(c, d)) != 0) return -1;
+    const bool steep = std::abs(d.approximate[1] - c.approximate[1]) > std::abs(d.approximate[0] - c.approximate[0]);
+    return std::min(beyond_end(v, c, d, steep ? 1 : 0), beyond_end(v, d, c, steep ? 1 : 0));
+  }
+
+  // Of a vertex that is seen on the line through two points: 1 on the way from `end` to `other`, or behind that, 0 at
+  // `end`, -1 before it. They differ along the axis.
+  int beyond_end(std::uint32_t v, const Point2& end, const Point2& other, std::size_t axis) const {
+    const Projected& p = vertices_[v];
+    const double way = p.at[axis] - end.approximate[axis];
+    const double error = p.error + (std::abs(p.at[axis]) + std::abs(end.approximate[axis])) * 0x1p-51;
+    if (std::abs(way) > 2 * error) return (way > 0) == (other.approximate[axis] > end.approximate[axis]) ? 1 : -1;
+    const Point2 across = axis == 0 ? Point2(end.x(), end.y() + 1) : Point2(end.x() + 1, end.y());
+    return side(v, planes_.through(end, across)) * orientation(end, across, other);
   }
 
   bool edge_inside_exactly(const Point2& a, const Point2& b) {
@@ -210,12 +261,14 @@ class InsideCheck {
   const nef::Polyhedron& hull_;
   const nef::Complex& complex_;
   const Camera& camera_;
+  const CameraPlanes planes_;
   const Silhouette& silhouette_;
   SilhouetteIndex index_;
   std::array<std::array<double, 4>, 3> matrix_{};
   std::vector<Projected> vertices_;
   std::vector<std::optional<Point2>> exact_;
   std::vector<std::array<const Point2*, 2>> near_;
+  std::unordered_map<const Point2*, std::array<Integer, 4>> side_planes_;  // by the points in which sides begin
 };
 
 }  // namespace

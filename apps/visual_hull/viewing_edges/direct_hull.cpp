@@ -2,15 +2,20 @@
 #include "apps/visual_hull/viewing_edges/direct_hull.h"
 
 #include <algorithm>
+#include <atomic>
+#include <iterator>
 
 #include "apps/visual_hull/viewing_edges/corners.h"
 #include "apps/visual_hull/viewing_edges/hull_complex.h"
 #include "apps/visual_hull/viewing_edges/space_halving.h"
+#include "nef/base/parallel.h"
 
 namespace visual_hull {
 namespace {
 
 using FacetLine = std::uint64_t;  // of the planes of two edges
+
+constexpr std::size_t kLineShares = 16;  // by the edge that comes first; several threads share them
 
 FacetLine facet_line(std::uint32_t a, std::uint32_t b) { return std::uint64_t{std::min(a, b)} << 32U | std::max(a, b); }
 
@@ -30,12 +35,7 @@ void add_lines(const SpotName& name, const std::vector<ViewingEdge>& edges, std:
   }
 }
 
-// Every edge of the hull has two ends, so a line with an odd number of plain vertices passes a crowded one, too:
-// otherwise a vertex was lost.
-bool ends_pair_up(const HullVertices& vertices, const std::vector<ViewingEdge>& edges) {
-  std::vector<FacetLine> lines;
-  lines.reserve(vertices.plain.size() * 3);
-  for (const SpotName& name : vertices.plain) add_lines(name, edges, lines);
+bool lines_pair_up(std::vector<FacetLine>& lines, const std::vector<CrowdedVertex>& crowded) {
   std::sort(lines.begin(), lines.end());
   const auto passes = [](const CrowdedVertex& vertex, FacetLine line) {
     const auto there = [&](FacetLine e) { return std::binary_search(vertex.edges.begin(), vertex.edges.end(), e); };
@@ -44,13 +44,30 @@ bool ends_pair_up(const HullVertices& vertices, const std::vector<ViewingEdge>& 
   for (auto line = lines.begin(); line != lines.end();) {
     const auto end = std::find_if(line, lines.end(), [&](FacetLine other) { return other != *line; });
     const bool odd = (end - line) % 2 != 0;
-    if (odd && std::none_of(vertices.crowded.begin(), vertices.crowded.end(),
+    if (odd && std::none_of(crowded.begin(), crowded.end(),
                             [&](const CrowdedVertex& vertex) { return passes(vertex, *line); })) {
       return false;
     }
     line = end;
   }
   return true;
+}
+
+// Every edge of the hull has two ends, so a line with an odd number of plain vertices passes a crowded one, too:
+// otherwise a vertex was lost.
+bool ends_pair_up(const HullVertices& vertices, const std::vector<ViewingEdge>& edges, unsigned threads) {
+  std::vector<FacetLine> all;
+  all.reserve(vertices.plain.size() * 3);
+  for (const SpotName& name : vertices.plain) add_lines(name, edges, all);
+  std::atomic<bool> paired = true;
+  nef::parallel_for(kLineShares, threads, [&](std::size_t share) {
+    std::vector<FacetLine> lines;
+    lines.reserve(all.size() / kLineShares * 2);
+    std::copy_if(all.begin(), all.end(), std::back_inserter(lines),
+                 [share](FacetLine line) { return (line >> 32U) % kLineShares == share; });
+    if (!lines_pair_up(lines, vertices.crowded)) paired = false;
+  });
+  return paired;
 }
 
 }  // namespace
@@ -61,7 +78,7 @@ std::optional<nef::Polyhedron> direct_hull(const std::vector<DirectView>& views,
   const std::unique_ptr<const EdgeScene> scene = EdgeScene::make(views, box, threads);
   if (!scene) return std::nullopt;
   const std::optional<HullVertices> vertices = hull_vertices(*scene, threads);
-  if (!vertices || !ends_pair_up(*vertices, scene->edges)) return std::nullopt;
+  if (!vertices || !ends_pair_up(*vertices, scene->edges, threads)) return std::nullopt;
   std::vector<const Camera*> cameras;
   for (const DirectView& input : views) cameras.push_back(input.camera);
   return complex_of(*vertices, scene->edges, cameras, threads);

@@ -23,80 +23,94 @@ namespace {
 
 using nef::PlaneId;
 
-class ComplexWriter {
+// A task: few enough for several threads to share them, many enough for what a task costs.
+constexpr std::size_t kVertices = 512;
+constexpr std::size_t kPlanes = 512;
+
+/// Rows of the edges' planes in a table.
+class EdgePlanes {
  public:
-  ComplexWriter(const std::vector<ViewingEdge>& edges, const std::vector<const Camera*>& cameras)
-      : edges_(edges), planes_(edges.size()) {
-    for (const Camera* camera : cameras) cameras_.emplace_back(*camera);
-  }
-
-  // False if a corner is straight, or planes share a line. Points are the dearest: several threads share them.
-  [[nodiscard]] bool add(const std::vector<SpotName>& names, unsigned threads) {
-    constexpr std::size_t kPoints = 512;  // a task
-    std::vector<std::array<PlaneId, 3>> meeting;
-    meeting.reserve(names.size());
-    for (const SpotName& name : names) {
-      if (!collect(name)) return false;
-      meeting.push_back({corners_[0].in, corners_[0].out, across_});
-    }
-    std::vector<std::vector<nef::PointId>> ids((names.size() + kPoints - 1) / kPoints);
-    std::vector<nef::PointTable> points(ids.size());
-    std::atomic<bool> good = true;
-    nef::parallel_for(ids.size(), threads, [&](std::size_t task) {
-      for (std::size_t i = task * kPoints; i < std::min((task + 1) * kPoints, names.size()); ++i) {
-        const auto& [p, q, r] = meeting[i];
-        const std::optional<nef::PointId> id = points[task].push_intersection(table_, p, q, r);
-        if (id) ids[task].push_back(*id);
-        if (!id) good = false;
-      }
+  /// Of the edges that meet in the vertices, and of all that start where one of them does.
+  EdgePlanes(const HullVertices& vertices, const std::vector<ViewingEdge>& edges,
+             const std::vector<const Camera*>& cameras, unsigned threads)
+      : ids_(edges.size()) {
+    const std::vector<std::uint32_t> wanted = edges_at(vertices, edges);
+    std::vector<CameraPlanes> views;
+    for (const Camera* camera : cameras) views.emplace_back(*camera);
+    std::vector<nef::PlaneTable> tables((wanted.size() + kPlanes - 1) / kPlanes);
+    const auto each = [&](std::size_t task, const auto& visit) {
+      for (std::size_t i = task * kPlanes; i < std::min((task + 1) * kPlanes, wanted.size()); ++i) visit(wanted[i]);
+    };
+    nef::parallel_for(tables.size(), threads, [&](std::size_t task) {
+      each(task, [&](std::uint32_t e) {
+        const auto [a, b, c, d] = views[edges[e].view].through(*edges[e].from, *edges[e].to);
+        ids_[e] = tables[task].intern(a, b, c, d);
+      });
     });
-    for (std::size_t i = 0; i < names.size() && good; ++i) {
-      good = collect(names[i]) && push_vertex(points[i / kPoints], ids[i / kPoints][i % kPoints]);
-    }
-    return good;
-  }
-
-  void add(const std::vector<CrowdedVertex>& vertices) {
-    CrowdedPyramids pyramids(edges_, table_, [this](std::uint32_t e) { return plane(e); });
-    nef::PointTable points;
-    for (const CrowdedVertex& vertex : vertices) {
-      const nef::PointId point = points.push(vertex.point);
-      builder_.add(points, point, pyramids.at(vertex));
+    table.reserve(wanted.size());
+    for (std::size_t task = 0; task < tables.size(); ++task) {
+      each(task, [&](std::uint32_t e) { ids_[e] = table.intern_from(tables[task], ids_[e]); });
     }
   }
 
-  nef::Polyhedron finish() { return nef::Polyhedron(builder_.finish(0)); }
+  /// Positive towards the region.
+  [[nodiscard]] PlaneId of(std::uint32_t edge) const { return ids_[edge]; }
+
+  nef::PlaneTable table;
+
+ private:
+  static std::vector<std::uint32_t> edges_at(const HullVertices& vertices, const std::vector<ViewingEdge>& edges) {
+    std::vector<bool> wanted(edges.size(), false);
+    const auto want = [&](std::uint32_t edge) {
+      for (std::uint32_t e = edges[edge].place; e != UINT32_MAX; e = edges[e].next_at_place) {
+        wanted[e] = wanted[edges[e].previous] = true;
+      }
+      wanted[edge] = true;
+    };
+    for (const SpotName& name : vertices.plain) std::for_each(name.begin(), name.end(), want);
+    for (const CrowdedVertex& vertex : vertices.crowded) std::for_each(vertex.edges.begin(), vertex.edges.end(), want);
+    std::vector<std::uint32_t> list;
+    for (std::uint32_t e = 0; e < edges.size(); ++e) {
+      if (wanted[e]) list.push_back(e);
+    }
+    return list;
+  }
+
+  std::vector<PlaneId> ids_;
+};
+
+/// Draws plain vertices, one after the other.
+class VertexWriter {
+ public:
+  VertexWriter(const std::vector<ViewingEdge>& edges, EdgePlanes& planes)
+      : edges_(edges), planes_(planes), builder_(planes.table) {}
+
+  /// False if a corner is straight, or planes share a line.
+  [[nodiscard]] bool add(const SpotName& name) { return collect(name) && push_vertex(); }
+
+  [[nodiscard]] nef::Complex take() { return builder_.take_so_far(); }
 
  private:
   // The corners of a vertex, and the plane across their ray.
   [[nodiscard]] bool collect(const SpotName& name) {
     corners_.clear();
-    across_ = plane(name[2]);
+    across_ = planes_.of(name[2]);
     const std::optional<std::uint32_t> first = corner_of(name, edges_);
     if (!first) {
-      corners_.push_back({plane(name[0]), plane(name[1]), false, name[0], name[1]});
+      corners_.push_back({planes_.of(name[0]), planes_.of(name[1]), false, name[0], name[1]});
       return true;
     }
     for (const std::uint32_t e : name) {
-      if (e != *first && e != edges_[*first].previous) across_ = plane(e);
+      if (e != *first && e != edges_[*first].previous) across_ = planes_.of(e);
     }
     for (std::uint32_t e = *first; e != UINT32_MAX; e = edges_[e].next_at_place) {
       const ViewingEdge& out = edges_[e];
       const ViewingEdge& in = edges_[out.previous];
       const int turn = orientation(*in.from, *out.from, *out.to);
       if (turn == 0) return false;
-      corners_.push_back({plane(out.previous), plane(e), turn < 0, out.previous, e});
+      corners_.push_back({planes_.of(out.previous), planes_.of(e), turn < 0, out.previous, e});
     }
     return true;
-  }
-
-  PlaneId plane(std::uint32_t edge) {
-    if (!planes_[edge].valid()) {
-      const ViewingEdge& e = edges_[edge];
-      const auto [a, b, c, d] = cameras_[e.view].through(*e.from, *e.to);
-      planes_[edge] = table_.intern(a, b, c, d);
-    }
-    return planes_[edge];
   }
 
   /// Two planes of one view (or of two, in a corner of three views), and the nodes on their lines with the third.
@@ -109,13 +123,13 @@ class ComplexWriter {
     std::uint32_t out_node = 0;
   };
 
-  [[nodiscard]] bool push_vertex(const nef::PointTable& points, nef::PointId point) {
+  [[nodiscard]] bool push_vertex() {
     const PlaneId r = across_;
     map_.clear();
     std::uint32_t ray = nef::kNone;
     bool turned = false;  // the same for all corners on a ray
     for (Corner& c : corners_) {
-      const int s = nef::side_of_circle(table_, r, nef::Direction::cross(table_, c.in, c.out));
+      const int s = nef::side_of_circle(planes_.table, r, nef::Direction::cross(planes_.table, c.in, c.out));
       if (s == 0) return false;
       turned = (s > 0) == c.reflex;
       if (ray == nef::kNone) ray = s > 0 ? add_node(c.in, c.out) : add_node(c.out, c.in);
@@ -138,7 +152,7 @@ class ComplexWriter {
       }
     }
     map_.centre = 1;
-    builder_.add(points, point, map_);
+    builder_.add({corners_[0].in, corners_[0].out, r}, map_);
     return true;
   }
 
@@ -150,7 +164,7 @@ class ComplexWriter {
     return std::find_if(corners_.begin(), corners_.end(), [in](const Corner& c) { return c.in_edge == in; })->in_node;
   }
 
-  std::uint32_t add_node(PlaneId p, PlaneId q) { return add_boundary_node(map_, table_, p, q); }
+  std::uint32_t add_node(PlaneId p, PlaneId q) { return add_boundary_node(map_, planes_.table, p, q); }
 
   void add_arc(PlaneId plane, std::uint32_t source, std::uint32_t target) {
     nef::Arrangement::Arc arc;
@@ -164,23 +178,46 @@ class ComplexWriter {
   }
 
   const std::vector<ViewingEdge>& edges_;
-  std::vector<CameraPlanes> cameras_;
-  std::vector<PlaneId> planes_;
+  const EdgePlanes& planes_;
+  nef::ComplexBuilder builder_;
   std::vector<Corner> corners_;
   PlaneId across_;
-  nef::PlaneTable table_;
-  nef::ComplexBuilder builder_{table_};
   nef::Arrangement map_;
 };
+
+void add_crowded(const std::vector<CrowdedVertex>& vertices, const std::vector<ViewingEdge>& edges,
+                 const EdgePlanes& planes, nef::ComplexBuilder& builder) {
+  CrowdedPyramids pyramids(edges, planes.table, [&planes](std::uint32_t e) { return planes.of(e); });
+  nef::PointTable points;
+  for (const CrowdedVertex& vertex : vertices) {
+    const nef::PointId point = points.push(vertex.point);
+    builder.add(points, point, pyramids.at(vertex));
+  }
+}
 
 }  // namespace
 
 std::optional<nef::Polyhedron> complex_of(const HullVertices& vertices, const std::vector<ViewingEdge>& edges,
                                           const std::vector<const Camera*>& cameras, unsigned threads) {
-  ComplexWriter writer(edges, cameras);
-  if (!writer.add(vertices.plain, threads)) return std::nullopt;
-  writer.add(vertices.crowded);
-  return writer.finish();
+  EdgePlanes planes(vertices, edges, cameras, threads);
+  const std::vector<SpotName>& names = vertices.plain;
+  std::vector<nef::Complex> parts((names.size() + kVertices - 1) / kVertices);
+  std::atomic<bool> good = true;
+  nef::parallel_for(parts.size(), threads, [&](std::size_t task) {
+    VertexWriter writer(edges, planes);
+    for (std::size_t i = task * kVertices; i < std::min((task + 1) * kVertices, names.size()); ++i) {
+      if (!writer.add(names[i])) good = false;
+    }
+    parts[task] = writer.take();
+  });
+  if (!good) return std::nullopt;
+  nef::ComplexBuilder builder(planes.table);
+  for (nef::Complex& part : parts) {
+    builder.copy(part, 0, static_cast<std::uint32_t>(part.vertex_count()));
+    part = {};
+  }
+  add_crowded(vertices.crowded, edges, planes, builder);
+  return nef::Polyhedron(builder.finish(0));
 }
 
 }  // namespace visual_hull

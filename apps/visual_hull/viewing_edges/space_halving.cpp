@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Doubles with slack far above their roundings, so that no edge is missed. Where a part shows no edge of a view, the
-// view is asked at the part's middle, exactly if need be.
+// view is asked at the part's middle, exactly if need be. Near the surface many views are tangent to the hull, one
+// hardly in front of the other: where one of them leaves a half-space of the part (PartCut), others of which nothing
+// passes that need not be told apart there.
 #include "apps/visual_hull/viewing_edges/space_halving.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
+#include <map>
 #include <span>
+#include <utility>
 
+#include "apps/visual_hull/viewing_edges/part_cut.h"
 #include "apps/visual_hull/viewing_edges/part_vertices.h"
 #include "nef/base/parallel.h"
 
@@ -17,20 +23,8 @@ namespace {
 
 // Choices between the time of one more halving and that of the triples that it saves.
 constexpr std::size_t kFewFacets = 12;
-constexpr unsigned kDeepest = 45;  // halvings: fifteen along each axis
-constexpr unsigned kTaskDepth = 7;
-constexpr unsigned kLook = 3;  // every third time
-
-// Far above the roundings of the sums below, far below the size of a part.
-constexpr double kSlack = 1e-10;
-
-/// What is asked of an edge, close together.
-struct Facet {
-  std::array<double, 2> low{}, high{};  // of the edge in its image
-  Vec3 normal{};
-  double offset = 0;
-  double error = 0;  // of the height of a point in the box
-};
+constexpr unsigned kDeepest = 45;                           // halvings: fifteen along each axis
+constexpr std::array<unsigned, 3> kStages{3, 7, kDeepest};  // halvings after which parts go to other threads
 
 /// What the views show in a part.
 struct Content {
@@ -50,7 +44,8 @@ struct Task {
 
 class Halving {
  public:
-  Halving(const EdgeScene& scene, const std::vector<Facet>& facets) : s_(scene), facets_(facets), vertices_(scene) {}
+  Halving(const EdgeScene& scene, const std::vector<PartFacet>& facets)
+      : s_(scene), facets_(facets), vertices_(scene) {}
 
   /// Halves until `deepest`; parts that have come so far go to `rest`, or, without it, give their vertices. False if
   /// something remains undecided.
@@ -68,7 +63,8 @@ class Halving {
   struct Half {
     PartBox box;
     Content content;
-    bool empty = false;  // a view shows nothing of the hull there
+    bool empty = false;          // a view shows nothing of the hull there
+    std::optional<PartCut> cut;  // the one that leaves least
   };
 
   [[nodiscard]] bool descend(const PartBox& box, Content& content, unsigned depth) {
@@ -79,7 +75,7 @@ class Halving {
       return true;
     }
     std::array<Half, 2>& halves = halves_[depth];
-    divide(box, content, depth + 1, halves);
+    divide(box, content, halves);
     for (Half& half : halves) {
       if (!half.empty && !descend(half.box, half.content, depth + 1)) return false;
     }
@@ -87,7 +83,7 @@ class Halving {
   }
 
   // Planes are asked first: where some pass, what the window tells from parent to child is little.
-  void divide(const PartBox& box, Content& content, unsigned depth, std::array<Half, 2>& halves) {
+  void divide(const PartBox& box, Content& content, std::array<Half, 2>& halves) {
     const std::size_t axis =
         static_cast<std::size_t>(std::max_element(box.half.begin(), box.half.end()) - box.half.begin());
     const double quarter = box.half[axis] / 2;
@@ -100,17 +96,49 @@ class Halving {
       half.content.count = 0;
       if (half.content.edges.size() < content.count) half.content.edges.resize(content.count);
       half.empty = false;
+      half.cut.reset();
     }
     for (std::size_t v = 0; v < content.views.size() && !(halves[0].empty && halves[1].empty); ++v) {
       const Shown shown = content.views[v];
       const std::array<std::size_t, 2> begins{halves[0].content.count, halves[1].content.count};
       keep_passing(content, shown, axis, quarter, halves);
       for (const std::size_t k : {0U, 1U}) {
-        if (halves[k].empty || look(shown.view, begins[k], depth % kLook == 0, halves[k])) continue;
+        if (halves[k].empty || look(shown.view, begins[k], halves[k])) continue;
         halves[k].empty = true;
         std::swap(content.views[v], content.views[0]);  // it may reject the neighbour, too
       }
     }
+    for (Half& half : halves) half.empty = half.empty || (half.cut && !drop_what_it_misses(*half.cut, half.content));
+  }
+
+  // Drops views of which nothing passes what the cut leaves, if they show that as object; the view of the cut stays.
+  // False if one shows it as background: then nothing is left. The views that stay keep all of their edges.
+  bool drop_what_it_misses(const PartCut& cut, Content& content) const {
+    std::size_t views = 0;
+    std::uint32_t count = 0;
+    for (const Shown& shown : content.views) {
+      if (shown.view != cut.view() && misses(cut, content, shown)) {
+        const EdgeView& view = s_.views[shown.view];
+        const std::optional<Seen> seen = view.project({cut.point(), 0});
+        const std::optional<bool> inside = seen ? view.inside(*seen) : std::nullopt;
+        if (inside == false) return false;
+        if (inside == true) continue;
+      }
+      const std::uint32_t begin = count;
+      for (std::uint32_t i = shown.begin; i < shown.end; ++i) content.edges[count++] = content.edges[i];
+      content.views[views++] = {shown.view, begin, count};
+    }
+    content.views.resize(views);
+    content.count = count;
+    return true;
+  }
+
+  bool misses(const PartCut& cut, const Content& content, const Shown& shown) const {
+    if (shown.begin == shown.end) return false;  // it may not see all of the part
+    for (std::uint32_t i = shown.begin; i < shown.end; ++i) {
+      if (!cut.misses(facets_[content.edges[i]])) return false;
+    }
+    return true;
   }
 
   // Without branches: whether a plane passes a half is as good as random.
@@ -123,7 +151,7 @@ class Halving {
     std::size_t second_count = halves[1].content.count;
     for (std::uint32_t i = shown.begin; i < shown.end; ++i) {
       const std::uint32_t e = content.edges[i];
-      const Facet& facet = facets_[e];
+      const PartFacet& facet = facets_[e];
       const Vec3& n = facet.normal;
       const double height = facet.offset + n[0] * low.middle[0] + n[1] * low.middle[1] + n[2] * low.middle[2];
       const double reach =
@@ -139,29 +167,27 @@ class Halving {
 
   // Notes what a view shows in a half, whose edges have been added from `begin` on. False if it shows nothing of the
   // hull there.
-  bool look(std::uint32_t index, std::size_t begin, bool closely, Half& half) const {
+  bool look(std::uint32_t index, std::size_t begin, Half& half) const {
     Content& content = half.content;
-    bool kept = true;  // not all of the half is in the silhouette, or that is not known
-    if (closely || content.count == begin) {
-      const EdgeView& view = s_.views[index];
-      if (const std::optional<EdgeView::Window> window = view.window(half.box.middle, half.box.half)) {
-        std::size_t end = begin;
-        for (std::size_t i = begin; i < content.count; ++i) {
-          const std::uint32_t e = content.edges[i];
-          content.edges[end] = e;
-          end += beside(facets_[e], *window) ? 0 : 1;
-        }
-        content.count = end;
-        if (end == begin) {
-          if (!middle_inside(view, *window)) return false;
-          kept = false;
-        }
+    const EdgeView& view = s_.views[index];
+    if (const std::optional<EdgeView::Window> window = view.window(half.box.middle, half.box.half)) {
+      std::size_t end = begin;
+      for (std::size_t i = begin; i < content.count; ++i) {
+        const std::uint32_t e = content.edges[i];
+        content.edges[end] = e;
+        end += beside(facets_[e], *window) ? 0 : 1;
       }
+      content.count = end;
+      if (end == begin) return middle_inside(view, *window);  // if so, all of the half is in the silhouette
+      if (end == begin + 1) consider_cut(index, content.edges[begin], *window, half);
     }
-    if (kept) {
-      content.views.push_back({index, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(content.count)});
-    }
+    content.views.push_back({index, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(content.count)});
     return true;
+  }
+
+  void consider_cut(std::uint32_t view, std::uint32_t e, const EdgeView::Window& window, Half& half) const {
+    const std::optional<PartCut> cut = PartCut::make(view, facets_[e], s_.edges[e], half.box, window);
+    if (cut && (!half.cut || cut->share() < half.cut->share())) half.cut = cut;
   }
 
   // No edge comes near the window, so its middle tells of all of it.
@@ -171,7 +197,7 @@ class Halving {
     return view.locate(Point2::from_doubles(u, v)) != Side::kOutside;
   }
 
-  static bool beside(const Facet& facet, const EdgeView::Window& window) {
+  static bool beside(const PartFacet& facet, const EdgeView::Window& window) {
     for (std::size_t k = 0; k < 2; ++k) {
       if (facet.low[k] > window.middle[k] + window.half[k]) return true;
       if (facet.high[k] < window.middle[k] - window.half[k]) return true;
@@ -180,37 +206,12 @@ class Halving {
   }
 
   const EdgeScene& s_;
-  const std::vector<Facet>& facets_;
+  const std::vector<PartFacet>& facets_;
   PartVertices vertices_;
   std::vector<std::array<Half, 2>> halves_;  // by depth
   unsigned deepest_ = 0;
   std::vector<Task>* rest_ = nullptr;
 };
-
-std::vector<Facet> facets_of(const EdgeScene& scene) {
-  std::vector<Facet> facets;
-  facets.reserve(scene.edges.size());
-  for (const ViewingEdge& edge : scene.edges) {
-    Facet facet;
-    const auto& a = edge.from->approximate;
-    const auto& b = edge.to->approximate;
-    for (std::size_t k = 0; k < 2; ++k) {
-      facet.low[k] = std::min(a[k], b[k]);
-      facet.high[k] = std::max(a[k], b[k]);
-    }
-    facet.normal = edge.normal.at;
-    facet.offset = edge.offset;
-    double size = std::abs(edge.offset);
-    double reach = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      size += std::abs(edge.normal.at[k]) * scene.farthest[k];
-      reach += scene.farthest[k];
-    }
-    facet.error = size * kSlack + edge.offset_error + reach * edge.normal.error;
-    facets.push_back(facet);
-  }
-  return facets;
-}
 
 Task everything(const EdgeScene& scene) {
   Task all;
@@ -227,15 +228,27 @@ Task everything(const EdgeScene& scene) {
   return all;
 }
 
-HullVertices together(HullVertices& first, std::vector<HullVertices>& others) {
-  HullVertices all = std::move(first);
-  for (HullVertices& part : others) {
+// Leaves the first one of equal names, and all names in their order.
+void drop_repeated(std::vector<SpotName>& names) {
+  std::vector<SpotName> sorted = names;
+  std::sort(sorted.begin(), sorted.end());
+  std::map<SpotName, bool> met;  // of the repeated ones, which are few
+  for (auto at = sorted.begin(); (at = std::adjacent_find(at, sorted.end())) != sorted.end(); ++at) met[*at] = false;
+  if (met.empty()) return;
+  std::erase_if(names, [&met](const SpotName& name) {
+    const auto at = met.find(name);
+    return at != met.end() && std::exchange(at->second, true);
+  });
+}
+
+// Parts overlap, and three of many planes may be asked for twice.
+HullVertices together(std::vector<HullVertices>& parts) {
+  HullVertices all;
+  for (HullVertices& part : parts) {
     all.plain.insert(all.plain.end(), part.plain.begin(), part.plain.end());
     std::move(part.crowded.begin(), part.crowded.end(), std::back_inserter(all.crowded));
   }
-  // Parts overlap, and three of many planes may be asked for twice.
-  std::sort(all.plain.begin(), all.plain.end());
-  all.plain.erase(std::unique(all.plain.begin(), all.plain.end()), all.plain.end());
+  drop_repeated(all.plain);
   std::sort(all.crowded.begin(), all.crowded.end(),
             [](const CrowdedVertex& a, const CrowdedVertex& b) { return a.point < b.point; });
   const auto same = [](const CrowdedVertex& a, const CrowdedVertex& b) { return a.point == b.point; };
@@ -246,20 +259,26 @@ HullVertices together(HullVertices& first, std::vector<HullVertices>& others) {
 }  // namespace
 
 std::optional<HullVertices> hull_vertices(const EdgeScene& scene, unsigned threads) {
-  const std::vector<Facet> facets = facets_of(scene);
-  std::vector<Task> tasks;
-  Halving above(scene, facets);
-  if (!above.run(everything(scene), kTaskDepth, &tasks)) return std::nullopt;
-  std::vector<HullVertices> found(tasks.size());
+  const std::vector<PartFacet> facets = facets_of(scene);
+  std::vector<HullVertices> found;
+  std::vector<Task> tasks{everything(scene)};
   std::atomic<bool> decided = true;
-  nef::parallel_for(tasks.size(), threads, [&](std::size_t k) {
-    if (!decided.load(std::memory_order_relaxed)) return;
-    Halving halving(scene, facets);
-    if (!halving.run(std::move(tasks[k]), kDeepest, nullptr)) decided.store(false, std::memory_order_relaxed);
-    found[k] = std::move(halving.found());
-  });
-  if (!decided) return std::nullopt;
-  return together(above.found(), found);
+  for (const unsigned depth : kStages) {
+    const std::size_t first = found.size();
+    found.resize(first + tasks.size());
+    std::vector<std::vector<Task>> rest(tasks.size());
+    nef::parallel_for(tasks.size(), threads, [&](std::size_t k) {
+      if (!decided.load(std::memory_order_relaxed)) return;
+      Halving halving(scene, facets);
+      std::vector<Task>* const left = depth == kDeepest ? nullptr : &rest[k];
+      if (!halving.run(std::move(tasks[k]), depth, left)) decided.store(false, std::memory_order_relaxed);
+      found[first + k] = std::move(halving.found());
+    });
+    if (!decided) return std::nullopt;
+    tasks.clear();
+    for (std::vector<Task>& some : rest) std::move(some.begin(), some.end(), std::back_inserter(tasks));
+  }
+  return together(found);
 }
 
 }  // namespace visual_hull

@@ -7,46 +7,28 @@
 #include "nef/base/stopwatch.h"
 #include "nef/command/apply/steps_file.h"
 #include "nef/command/commands.h"
+#include "nef/command/tiles/tile_flags.h"
 #include "nef/io/file_bytes.h"
+#include "nef/tiles/storage/tile_folder.h"
 
 namespace nef {
 namespace {
 
 struct ApplyFlags {
   std::string steps;
-  std::string tiles = "auto";
+  TileFlags tiles;
 };
 
-struct TileChoice {
-  TileUse use = TileUse::kWherePays;
-  Tiling tiling;
-};
-
-TileChoice tile_choice(const std::string& word, unsigned threads) {
-  TileChoice result;
-  result.tiling.threads = threads;
-  if (word == "auto") return result;
-  result.use = TileUse::kNever;
-  if (word == "off") return result;
-  constexpr std::size_t kFewest = 32;  // a box with a corner cut off in each corner
-  std::size_t end = 0;
-  try {
-    result.tiling.limit = std::stoul(word, &end);
-  } catch (const std::exception&) {
-    end = 0;
-  }
-  if (end == 0 || end != word.size() || word[0] == '-' || result.tiling.limit < kFewest) {
-    throw InputError("--tiles takes auto, off or the number of vertices that a tile may have, at least " +
-                     std::to_string(kFewest) + "; not '" + word + "'");
-  }
-  result.use = TileUse::kAlways;
-  return result;
+StepSequence begin(const TileChoice& tiles, std::size_t steps, Session& session) {
+  if (tiles.use != TileUse::kAlways) return {session.load(session.input), steps, tiles.use, tiles.tiling};
+  return StepSequence(load_tiled(session, session.input, tiles.tiling), steps);
 }
 
-Polyhedron apply_steps(const std::vector<BooleanStep>& steps, const std::string& path, const TileChoice& tiles,
-                       Session& session, const ExpressionOptions& options, Json& report) {
-  StepSequence sequence(session.load(session.input), steps.size(), tiles.use, tiles.tiling);
+// The seconds of each step, and of all.
+double apply_steps(StepSequence& sequence, const std::vector<BooleanStep>& steps, const std::string& path,
+                   Session& session, const ExpressionOptions& options, Json& report) {
   report = Json::array();
+  double all = 0;
   for (const BooleanStep& step : steps) {
     session.show_phase("steps", report.size(), steps.size());
     const Polyhedron operand = operand_of(step, path, options);
@@ -55,12 +37,13 @@ Polyhedron apply_steps(const std::vector<BooleanStep>& steps, const std::string&
     Json entry;
     entry["line"] = step.line;
     entry["operator"] = std::string(1, step.symbol);
-    entry["op_s"] = watch.seconds();
+    const double seconds = watch.seconds();
+    entry["op_s"] = seconds;
+    all += seconds;
     entry["tiles"] = sequence.tile_count() == 0 ? Json() : Json(sequence.tile_count());
     report.push_back(std::move(entry));
   }
-  session.show_phase("gluing");
-  return sequence.result();
+  return all;
 }
 
 }  // namespace
@@ -72,11 +55,7 @@ void add_apply_command(CLI::App& app, Session& session, const CommandExtensions&
   command->add_option("--steps", flags->steps, "A file with one operator and expression a line; - for standard input")
       ->required()
       ->type_name("FILE");
-  command
-      ->add_option("--tiles", flags->tiles,
-                   "Vertices that a tile may have; off: none; auto: tiles where the steps are small and many")
-      ->type_name("N|off|auto")
-      ->capture_default_str();
+  add_tile_flags(command, flags->tiles);
   add_input_flags(command, session);
   add_output_flags(command, session);
   command->footer(
@@ -88,7 +67,7 @@ void add_apply_command(CLI::App& app, Session& session, const CommandExtensions&
       "Output is in canonical order: the same bytes whatever --tiles and --threads. --json tells the seconds of each\n"
       "step and the number of tiles after it.");
   command->callback([&session, flags, extensions] {
-    const TileChoice tiles = tile_choice(flags->tiles, session.threads);
+    const TileChoice tiles = choose_tiles(flags->tiles, session, session.input);
     const std::vector<BooleanStep> steps = parse_steps(read_file(flags->steps), flags->steps);
     const std::filesystem::path folder = std::filesystem::path(flags->steps).parent_path();
     ExpressionOptions options;
@@ -97,8 +76,17 @@ void add_apply_command(CLI::App& app, Session& session, const CommandExtensions&
     options.ball = extensions.ball;
     options.hull = extensions.hull;
     Json report;
-    const Measured measured =
-        measure(1, [&] { return apply_steps(steps, flags->steps, tiles, session, options, report); });
+    StepSequence sequence = begin(tiles, steps.size(), session);
+    const bool to_tiles = names_tile_folder(session.output);
+    if (to_tiles || tiles.tiling.store) {
+      const double seconds = apply_steps(sequence, steps, flags->steps, session, options, report);
+      return finish_tiled(session, "apply", sequence.tiled(tiles.tiling), seconds, {{"steps", std::move(report)}});
+    }
+    const Measured measured = measure(1, [&] {
+      apply_steps(sequence, steps, flags->steps, session, options, report);
+      session.show_phase("gluing");
+      return sequence.result();
+    });
     finish(session, "apply", measured, {{"steps", std::move(report)}});
   });
 }

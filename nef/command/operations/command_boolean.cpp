@@ -8,6 +8,7 @@
 #include "nef/base/error.h"
 #include "nef/base/stopwatch.h"
 #include "nef/command/commands.h"
+#include "nef/command/tiles/tile_flags.h"
 #include "nef/operation/label_inputs.h"
 
 namespace nef {
@@ -19,6 +20,7 @@ struct Operation {
   int most;  // operands
   Polyhedron (*compute)(std::span<const Polyhedron>, unsigned threads);
   bool (*holds)(const InputSet& inputs, std::size_t count);  // whether a point in these inputs is in the result
+  BooleanOperator step;                                      // that takes one operand after the other
 };
 
 // What the groups of faces are called: the names of files, with their folders only where these tell them apart.
@@ -62,6 +64,21 @@ void finish_with_origins(Session& session, const Operation& operation, const std
   }
 }
 
+// One operand after the other, so that no two of them are in memory.
+void run_in_tiles(Session& session, const Operation& operation, const TileChoice& tiles) {
+  TiledPolyhedron first = load_tiled(session, session.inputs[0], tiles.tiling);
+  StepSequence sequence(std::move(first), session.inputs.size() - 1);
+  double seconds = 0;
+  for (std::size_t i = 1; i < session.inputs.size(); ++i) {
+    const Polyhedron operand = session.load(session.inputs[i]);
+    const Stopwatch watch;
+    session.show_phase("operands", i - 1, session.inputs.size() - 1);
+    sequence.apply(operation.step, operand);
+    seconds += watch.seconds();
+  }
+  finish_tiled(session, operation.name, sequence.tiled(tiles.tiling), seconds);
+}
+
 void add(CLI::App& app, Session& session, const Operation& operation) {
   CLI::App* command = add_subcommand(app, session, operation.name, operation.description);
   command->add_option("inputs", session.inputs, "The operands, as files")->required()->expected(2, operation.most);
@@ -73,7 +90,11 @@ void add(CLI::App& app, Session& session, const Operation& operation) {
       ->add_flag("--origins", session.origins,
                  "Write from which operand each face comes: groups in OBJ, colours in OFF, PLY and GLB")
       ->excludes(repeat);
-  command->callback([&session, operation] {
+  const auto flags = std::make_shared<TileFlags>();
+  add_tile_flags(command, *flags);
+  command->callback([&session, operation, flags] {
+    const TileChoice tiles = choose_tiles(*flags, session, session.inputs[0]);
+    if (!session.origins && tiles.use == TileUse::kAlways) return run_in_tiles(session, operation, tiles);
     const std::vector<Polyhedron> sets = session.load_all(session.inputs);
     if (session.origins) return finish_with_origins(session, operation, sets);
     finish(session, operation.name, measure(session.repeat, [&] { return operation.compute(sets, session.threads); }));
@@ -88,19 +109,20 @@ void add_boolean_commands(CLI::App& app, Session& session) {
   add(app, session,
       {"union", "The points of any of the sets", kMany,
        [](Sets s, unsigned n) { return s.size() == 2 ? unite(s[0], s[1]) : unite_all(s, n); },
-       [](const InputSet& inputs, std::size_t) { return !inputs.empty(); }});
+       [](const InputSet& inputs, std::size_t) { return !inputs.empty(); }, BooleanOperator::kUnion});
   add(app, session,
       {"intersection", "The points of all of the sets", kMany,
        [](Sets s, unsigned n) { return s.size() == 2 ? intersect(s[0], s[1]) : intersect_all(s, n); },
-       [](const InputSet& inputs, std::size_t count) { return inputs.size() == count; }});
+       [](const InputSet& inputs, std::size_t count) { return inputs.size() == count; },
+       BooleanOperator::kIntersection});
   add(app, session,
       {"difference", "The points of the first set that are in none of the others", kMany,
        [](Sets s, unsigned n) { return subtract(s[0], unite_all(s.subspan(1), n)); },
-       [](const InputSet& inputs, std::size_t) { return inputs == InputSet{0}; }});
+       [](const InputSet& inputs, std::size_t) { return inputs == InputSet{0}; }, BooleanOperator::kDifference});
   add(app, session,
       {"symdiff", "The points of exactly one of two sets", 2,
        [](Sets s, unsigned) { return symmetric_difference(s[0], s[1]); },
-       [](const InputSet& inputs, std::size_t) { return inputs.size() == 1; }});
+       [](const InputSet& inputs, std::size_t) { return inputs.size() == 1; }, BooleanOperator::kSymmetricDifference});
 }
 
 }  // namespace nef

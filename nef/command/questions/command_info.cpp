@@ -2,7 +2,9 @@
 //
 // nef info | convert | equal
 #include "nef/command/commands.h"
+#include "nef/command/tiles/tile_flags.h"
 #include "nef/program/set_info.h"
+#include "nef/tiles/storage/tile_folder.h"
 
 namespace nef {
 namespace {
@@ -48,7 +50,13 @@ void add_convert(CLI::App& app, Session& session) {
   command->add_option("input", session.input, "The set, as a file")->required();
   add_input_flags(command, session);
   add_output_flags(command, session)->required();
-  command->callback([&session] {
+  const auto flags = std::make_shared<TileFlags>();
+  add_tile_flags(command, *flags);
+  command->callback([&session, flags] {
+    if (names_tile_folder(session.output)) {
+      const TileChoice tiles = choose_tiles(*flags, session, session.input);
+      return finish_tiled(session, "convert", load_tiled(session, session.input, tiles.tiling), 0);
+    }
     const Polyhedron set = session.load(session.input);
     session.store(set);
     if (!session.json) return session.say(summary(set));

@@ -39,6 +39,12 @@ namespace nef {
 inline constexpr std::string_view kNativeMagic = "\x89nef\r\n\x1a\n";
 inline constexpr std::uint32_t kNativeBinaryVersion = 1;
 
+/// What a file holds.
+enum class NativeContents : std::uint8_t {
+  kSet,  ///< a set: what is marked kOutside lies beyond an infimaximal box
+  kTile  ///< the part of a set in a box (docs/tiles.md): what is marked kOutside lies beyond that
+};
+
 /// The polyhedron in this form. O(n).
 std::string native_binary(const Polyhedron& polyhedron);
 
@@ -48,6 +54,7 @@ bool is_native_binary(std::string_view bytes);
 /// Reads it back; `path` is for error messages only. A file of which any byte was damaged is refused by its checksum.
 /// One that somebody has made up is refused if an index or a link is wrong, so that no operation on the result leaves
 /// its arrays; that its planes and points fit together is asked by nef::validate only. Throws FileError. O(n).
-Polyhedron read_native_binary(std::string_view bytes, const std::string& path);
+Polyhedron read_native_binary(std::string_view bytes, const std::string& path,
+                              NativeContents contents = NativeContents::kSet);
 
 }  // namespace nef

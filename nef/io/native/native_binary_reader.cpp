@@ -34,7 +34,7 @@ class BinaryReader {
  public:
   BinaryReader(std::string_view bytes, const std::string& path) : bytes_(bytes), path_(path) {}
 
-  Polyhedron run() {
+  Polyhedron run(NativeContents contents) {
     const std::uint32_t width = header();
     planes();
     points();
@@ -47,7 +47,9 @@ class BinaryReader {
     isolated_vertices();
     volumes();
     demand(at_ == bytes_.size(), "there is more after its end");
-    if (const auto defect = detail::defect_in([this] { detail::check_box(c_); })) corrupt(defect->text());
+    if (contents == NativeContents::kSet) {
+      if (const auto defect = detail::defect_in([this] { detail::check_box(c_); })) corrupt(defect->text());
+    }
     return Polyhedron(std::move(c_));
   }
 
@@ -483,8 +485,8 @@ class BinaryReader {
 
 bool is_native_binary(std::string_view bytes) { return bytes.starts_with(kNativeMagic); }
 
-Polyhedron read_native_binary(std::string_view bytes, const std::string& path) {
-  return BinaryReader(bytes, path).run();
+Polyhedron read_native_binary(std::string_view bytes, const std::string& path, NativeContents contents) {
+  return BinaryReader(bytes, path).run(contents);
 }
 
 }  // namespace nef

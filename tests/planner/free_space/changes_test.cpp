@@ -25,7 +25,7 @@ Polyhedron random_obstacle(std::mt19937& random) {
   return make_box(low, high);
 }
 
-TEST_CASE("free positions after obstacles came and went are those of a new start") {
+TEST_CASE("free positions after obstacles came, went and moved are those of a new start") {
   for (unsigned seed = 0; seed < 24; ++seed) {
     INFO("seed " << seed);
     std::mt19937 random(seed);
@@ -43,6 +43,11 @@ TEST_CASE("free positions after obstacles came and went are those of a new start
         free = without_obstacle(scene, free, gone);
         scene.obstacles.erase(scene.obstacles.begin() + static_cast<std::ptrdiff_t>(gone));
         scene.obstacle_names.pop_back();
+      } else if (scene.obstacles.size() > 1 && random() % 3 == 0) {
+        const std::size_t index = random() % scene.obstacles.size();
+        const Polyhedron moved = random_obstacle(random);
+        free = with_obstacle_moved(scene, free, index, moved);
+        scene.obstacles[index] = moved;
       } else {
         const Polyhedron obstacle = random_obstacle(random);
         free = with_obstacle(scene, free, obstacle);
@@ -54,13 +59,18 @@ TEST_CASE("free positions after obstacles came and went are those of a new start
   }
 }
 
-TEST_CASE("TranslationPlanning: obstacles come and go between queries") {
-  namespace ob = ompl::base;
-  TranslationPlanning setup;
+// A cube is to go along a room, over a step of its height.
+void put_step_between(TranslationPlanning& setup) {
   setup.setRobot(make_box({0, 0, 0}, {1, 1, 1}));
   setup.setEnvironmentBounds({0, 0, 0}, {8, 2, 2});
   setup.addObstacle(make_box({4, 0, 0}, {5, 3, 1}));
   setup.setExactStartAndGoal({0, 0, 0}, {8, 0, 0});
+}
+
+TEST_CASE("TranslationPlanning: obstacles come and go between queries") {
+  namespace ob = ompl::base;
+  TranslationPlanning setup;
+  put_step_between(setup);
   CHECK(setup.solve(60.0) == ob::PlannerStatus::EXACT_SOLUTION);
   const auto ask = [&] {
     setup.clear();
@@ -81,6 +91,35 @@ TEST_CASE("TranslationPlanning: obstacles come and go between queries") {
   CHECK_FALSE(ask());
   CHECK(same());
   CHECK_THROWS_AS(setup.removeObstacle(99), std::out_of_range);
+  CHECK_THROWS_AS(setup.moveObstacle(99, Rational3{1, 0, 0}), std::out_of_range);
+}
+
+TEST_CASE("TranslationPlanning: an obstacle moves") {
+  namespace ob = ompl::base;
+  TranslationPlanning setup;
+  put_step_between(setup);
+  setup.addObstacle(make_box({4, 0, 2}, {5, 3, 3}));  // a slit as high as the robot
+  const auto ask = [&] {
+    setup.clear();
+    const bool found = setup.solve(60.0) == ob::PlannerStatus::EXACT_SOLUTION;
+    CHECK(equal(setup.getFreeSpace()->set(), free_positions(setup.getScene())));
+    return found;
+  };
+  CHECK(ask());
+  setup.moveObstacle(1, Rational3{0, 0, Rational(-1, 1000)});  // a hair too low
+  CHECK_FALSE(ask());
+  setup.moveObstacle(1, Rational3{0, 0, Rational(1, 1000)});
+  setup.addObstacle(make_box({2, 0, 0}, {Rational(5, 2), 3, 1}));
+  CHECK(ask());
+  CHECK(setup.getTightPlanner()->getExactPath()->thinness.piece == 2);
+  // A quarter turn about the vertical takes the lower bar out of the way.
+  AffineMap turn = AffineMap::identity();
+  turn.linear = {{{0, -1, 0}, {1, 0, 0}, {0, 0, 1}}};
+  setup.moveObstacle(0, turn);
+  CHECK(ask());
+  CHECK(setup.getTightPlanner()->getExactPath()->thinness.piece == 3);
+  REQUIRE(setup.getScene().obstacles.size() == 3);
+  CHECK(equal(setup.getScene().obstacles[0], make_box({-3, 4, 0}, {0, 5, 1})));
 }
 
 TEST_CASE("TranslationPlanning: an obstacle that leaves the way free leaves the way") {

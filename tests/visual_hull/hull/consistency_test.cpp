@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Which view is wrong, on rendered sets of which one mask is damaged; and which views have no point in common.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "apps/visual_hull/silhouette/contour.h"
 #include "apps/visual_hull/verify/empty_hull.h"
+#include "apps/visual_hull/verify/sight_lines.h"
 #include "nef/base/error.h"
 #include "tests/support/paths.h"
 #include "tests/visual_hull/helpers.h"
@@ -67,6 +70,50 @@ cv::Mat cut(cv::Mat mask, double share) {
     seen += cv::countNonZero(mask.row(y));
   }
   return mask;
+}
+
+TEST_CASE("A line of sight is cut where its points are seen in the silhouette") {
+  cv::RNG rng(11);
+  const auto random = [&rng](double size) { return rng.uniform(-size, size); };
+  std::size_t seen = 0;
+  std::size_t compared = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    Matrix34 matrix;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double size = i < 2 ? 20 : 1;
+      for (std::size_t j = 0; j < 4; ++j) matrix[i][j] = nef::exact_rational(random(size));
+    }
+    const Camera camera("c", matrix);
+    const Silhouette silhouette =
+        trace_contours(testing::random_mask(40, 30, 2, seed), PixelOrigin::kCenter, DiagonalPixels::kTouch);
+    const SightView view(ComparedView{&camera, &silhouette});
+    const Eigen::Vector3d centre(random(3), random(3), random(3));
+    const SightPencil pencil(view, centre);
+    for (int line = 0; line < 30; ++line) {
+      const Eigen::Vector3d direction(random(1), random(1), random(1));
+      const DepthInterval range{rng.uniform(0.0, 1.0), rng.uniform(1.0, 9.0)};
+      std::vector<double> ends;
+      pencil.cut(direction, range, ends);
+      REQUIRE(ends.size() % 2 == 0);
+      CHECK(std::is_sorted(ends.begin(), ends.end()));
+      for (int k = 0; k < 30; ++k) {
+        const double s = rng.uniform(range.from, range.to);
+        const auto near = [s](double end) { return std::abs(end - s) < 1e-6; };
+        if (std::any_of(ends.begin(), ends.end(), near)) continue;
+        const Eigen::Vector3d x = centre + s * direction;
+        const Projection p =
+            camera.project({nef::exact_rational(x[0]), nef::exact_rational(x[1]), nef::exact_rational(x[2])});
+        const bool inside =
+            sgn(p.depth) > 0 && locate(silhouette, Point2(p.x / p.depth, p.y / p.depth)) == Side::kInside;
+        const auto before = std::lower_bound(ends.begin(), ends.end(), s) - ends.begin();
+        CHECK((before % 2 == 1) == inside);
+        seen += inside ? 1 : 0;
+        ++compared;
+      }
+    }
+  }
+  CHECK(seen > 1000);
+  CHECK(compared > 30000);
 }
 
 TEST_CASE("No view of a clean set is accused") {

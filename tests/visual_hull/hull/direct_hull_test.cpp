@@ -14,14 +14,14 @@ namespace {
 using testing::axis_camera;
 using testing::random_mask;
 
-struct Seen {
+struct TestView {
   Camera camera;
   Silhouette silhouette;
 };
 
-std::optional<WorldBox> enclosing_box(const std::vector<Seen>& views) {
+std::optional<WorldBox> enclosing_box(const std::vector<TestView>& views) {
   std::vector<HalfSpace> half_spaces;
-  for (const Seen& view : views) {
+  for (const TestView& view : views) {
     const std::vector<HalfSpace> cone = convex_cone(view.camera, view.silhouette);
     half_spaces.insert(half_spaces.end(), cone.begin(), cone.end());
   }
@@ -30,25 +30,25 @@ std::optional<WorldBox> enclosing_box(const std::vector<Seen>& views) {
   return loosen(bounds.box);
 }
 
-std::optional<nef::Polyhedron> directly(const std::vector<Seen>& views, const WorldBox& box) {
+std::optional<nef::Polyhedron> directly(const std::vector<TestView>& views, const WorldBox& box) {
   std::vector<DirectView> inputs;
-  for (const Seen& view : views) inputs.push_back({&view.camera, &view.silhouette});
+  for (const TestView& view : views) inputs.push_back({&view.camera, &view.silhouette});
   return direct_hull(inputs, box, 1);
 }
 
-nef::Polyhedron by_cones(const std::vector<Seen>& views, const WorldBox& box) {
+nef::Polyhedron by_cones(const std::vector<TestView>& views, const WorldBox& box) {
   std::vector<Part> parts;
-  for (const Seen& view : views) parts.push_back({make_cone(view.camera, view.silhouette, box), {}});
+  for (const TestView& view : views) parts.push_back({make_cone(view.camera, view.silhouette, box), {}});
   parts.push_back({nef::make_box(box.low, box.high), {}});
   return intersect_parts(parts);
 }
 
 // A mask of s x s pixels as seen from a camera on an axis, turned a little so that nothing is in special position.
-Seen view_of_mask(std::size_t axis, int direction, const cv::Mat& mask, int skew) {
+TestView view_of_mask(std::size_t axis, int direction, const cv::Mat& mask, int skew) {
   Rational3 centre;
   for (std::size_t i = 0; i < 3; ++i) centre[i] = Rational(skew * static_cast<int>(i + 2), 97);
   centre[axis] = -40 * direction + Rational(skew, 89);
-  Seen seen{axis_camera(centre, axis, direction, "view"), trace_contours(mask, PixelOrigin::kCorner)};
+  TestView seen{axis_camera(centre, axis, direction, "view"), trace_contours(mask, PixelOrigin::kCorner)};
   for (Ring& ring : seen.silhouette.rings) {
     for (Point2& p : ring) {
       const Rational u = (p.x() - Rational(mask.cols, 2)) / 20;
@@ -63,7 +63,7 @@ TEST_CASE("Random masks, holes and touching rings included: the direct way agree
   std::size_t asked = 0;
   std::size_t used = 0;
   testing::property("equal where it answers", [&] {
-    std::vector<Seen> views;
+    std::vector<TestView> views;
     const int smoothing = *rc::gen::inRange(0, 2);
     const std::size_t count = *rc::gen::inRange<std::size_t>(3, 6);
     for (std::size_t i = 0; i < count; ++i) {
@@ -117,7 +117,7 @@ Camera spiral_camera(std::size_t index, std::size_t count) {
 TEST_CASE("Many views, of many vertices or few, with holes or without: the direct way agrees with the cones") {
   for (const auto& [count, vertices] : {std::array<std::size_t, 2>{17, 40}, {24, 24}, {40, 9}}) {
     for (const bool hole : {false, true}) {
-      std::vector<Seen> views;
+      std::vector<TestView> views;
       for (std::size_t i = 0; i < count; ++i) views.push_back({spiral_camera(i, count), bumpy(i, vertices, hole)});
       const WorldBox box = enclosing_box(views).value();
       const std::optional<nef::Polyhedron> hull = directly(views, box);
@@ -151,7 +151,7 @@ TEST_CASE("Views in degenerate position: the direct way agrees with the cones") 
   std::size_t asked = 0;
   std::size_t used = 0;
   testing::property("random masks from along the axes", [&] {
-    std::vector<Seen> views;
+    std::vector<TestView> views;
     const int smoothing = *rc::gen::inRange(0, 2);
     const bool alike = *rc::gen::arbitrary<bool>();
     const std::size_t count = *rc::gen::inRange<std::size_t>(3, 7);
@@ -175,23 +175,25 @@ TEST_CASE("Views in degenerate position: the direct way agrees with the cones") 
 
 TEST_CASE("Views that share a camera, and cameras that share planes: the direct way agrees with the cones") {
   const cv::Mat full(7, 7, CV_8U, cv::Scalar(255));
-  const std::vector<Seen> views{view_of_mask(0, 1, full, 3), view_of_mask(1, 1, full, 5), view_of_mask(2, 1, full, 7)};
-  const auto agree = [](const std::vector<Seen>& seen) {
+  const std::vector<TestView> views{view_of_mask(0, 1, full, 3), view_of_mask(1, 1, full, 5),
+                                    view_of_mask(2, 1, full, 7)};
+  const auto agree = [](const std::vector<TestView>& seen) {
     const WorldBox box = enclosing_box(seen).value();
     const std::optional<nef::Polyhedron> hull = directly(seen, box);
     REQUIRE(hull.has_value());
     CHECK(nef::equal(*hull, by_cones(seen, box)));
   };
-  std::vector<Seen> twice = views;
+  std::vector<TestView> twice = views;
   twice.push_back(views[0]);
   agree(twice);
   twice.back().silhouette = make_silhouette({testing::rectangle(-0.1, -0.125, 0.15, 0.125)}, "");
   agree(twice);
   // Both see the plane z = 0 as an edge.
   const auto half = [](const Rational3& centre, std::size_t axis) {
-    return Seen{axis_camera(centre, axis, 1), make_silhouette({axis == 0 ? testing::rectangle(-0.25, 0, 0.25, 0.25)
-                                                                         : testing::rectangle(0, -0.25, 0.25, 0.25)},
-                                                              "")};
+    return TestView{
+        axis_camera(centre, axis, 1),
+        make_silhouette(
+            {axis == 0 ? testing::rectangle(-0.25, 0, 0.25, 0.25) : testing::rectangle(0, -0.25, 0.25, 0.25)}, "")};
   };
   agree({half({-40, 0, 0}, 0), half({0, -40, 0}, 1), view_of_mask(2, 1, full, 7)});
 }
@@ -203,7 +205,7 @@ TEST_CASE("A turntable: all cameras see a point of the axis in one place") {
       {1, 0},  {Rational(3, 5), Rational(4, 5)},   {0, 1}, {Rational(-3, 5), Rational(4, 5)},
       {-1, 0}, {Rational(-4, 5), Rational(-3, 5)}, {0, -1}};
   for (const bool tip : {false, true}) {
-    std::vector<Seen> views;
+    std::vector<TestView> views;
     for (const auto& [c, s] : turns) {
       const Matrix3 rotation{{{Rational(-s), c, 0}, {0, 0, -1}, {Rational(-c), Rational(-s), 0}}};
       const Ring outline = tip ? Ring{Point2(-30, 5), Point2(0, -40), Point2(30, 5), Point2(0, 45)}
@@ -220,10 +222,10 @@ TEST_CASE("A turntable: all cameras see a point of the axis in one place") {
 
 TEST_CASE("What the direct way is not made for it leaves to the cones") {
   const cv::Mat full(7, 7, CV_8U, cv::Scalar(255));
-  std::vector<Seen> views{view_of_mask(0, 1, full, 3), view_of_mask(1, 1, full, 5), view_of_mask(2, 1, full, 7)};
+  std::vector<TestView> views{view_of_mask(0, 1, full, 3), view_of_mask(1, 1, full, 5), view_of_mask(2, 1, full, 7)};
   const WorldBox box = enclosing_box(views).value();
   CHECK(directly(views, box).has_value());
-  const std::vector<Seen> two(views.begin(), views.begin() + 2);
+  const std::vector<TestView> two(views.begin(), views.begin() + 2);
   CHECK_FALSE(directly(two, box).has_value());
   // A camera in the box.
   CHECK_FALSE(directly(views, {{-100, -100, -100}, {100, 100, 100}}).has_value());

@@ -274,6 +274,29 @@ TEST_CASE("Verification is exact about inside and measures the rest") {
   CHECK_FALSE(behind.inside);
 }
 
+TEST_CASE("Verification tells what runs along a side of the silhouette from what goes on behind its end") {
+  // An L, seen from the origin at depth 1, where boxes have their front; behind it they are seen smaller.
+  const Camera camera = axis_camera({0, 0, 0}, 2, 1);
+  const Silhouette silhouette = make_silhouette({testing::ring({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}})}, "L");
+  const auto inside = [&](const Rational& x0, const Rational& y0, const Rational& x1, const Rational& y1) {
+    return verify_view(nef::make_box({x0, y0, 1}, {x1, y1, Rational(11, 10)}), camera, silhouette).inside;
+  };
+  const Rational hair(1, Integer("1000000000000000000000000000000"));
+  CHECK(inside(0, 0, 2, 1));
+  CHECK(inside(0, 0, 1, 2));
+  CHECK(inside(0, 0, 1, 1));
+  CHECK(inside(Rational(1, 3), 0, Rational(5, 3), Rational(1, 3)));
+  CHECK(inside(Rational(1, 3), 0, Rational(5, 3), 1 - hair));
+  CHECK_FALSE(inside(0, 0, 2, 1 + hair));
+  CHECK_FALSE(inside(0, 0, 2 + hair, 1));
+  CHECK_FALSE(inside(0, 0, 1 + hair, 2));
+  CHECK_FALSE(inside(-hair, 0, 1, 2));
+  CHECK_FALSE(inside(0, 0, 2, 2));
+  CHECK_FALSE(inside(1, 1, 2, 2));
+  CHECK_FALSE(inside(1, 1, Rational(3, 2), Rational(3, 2)));
+  CHECK_FALSE(inside(Rational(1, 2), 0, Rational(3, 2), Rational(3, 2)));
+}
+
 TEST_CASE("Random masks from three sides: the hull verifies in every view") {
   testing::property("inside everywhere, and nothing but what all views see is missing", [] {
     Views views;

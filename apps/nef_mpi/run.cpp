@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/nef_mpi/run.h"
+
+#include <algorithm>
+#include <functional>
+#include <iostream>
+#include <optional>
+#include <streambuf>
+#include <utility>
+#include <vector>
+
+#include "apps/nef_mpi/distributed_sum.h"
+#include "apps/nef_mpi/distributed_union.h"
+#include "apps/nef_mpi/piece_list.h"
+#include "apps/visual_hull/command/arguments.h"
+#include "apps/visual_hull/command/frames.h"
+#include "nef/base/error.h"
+#include "nef/base/stopwatch.h"
+#include "nef/command/tiles/tile_flags.h"
+#include "nef/io/file_bytes.h"
+#include "nef/program/run_program.h"
+#include "nef/tiles/storage/tile_folder.h"
+
+namespace nef::mpi {
+namespace {
+
+// Swallows what ranks other than 0 would print.
+class Silence : public std::streambuf {
+ protected:
+  int_type overflow(int_type c) override { return traits_type::not_eof(c); }
+};
+
+// One run on one rank.
+class Run {
+ public:
+  explicit Run(const Environment& mpi) : mpi_(mpi), session_("nef_mpi", std::cout, std::cerr) {}
+
+  void add_commands(CLI::App& app) {
+    app.set_version_flag("--version", std::string("nef_mpi ") + NEF_VERSION);
+    app.require_subcommand(1);
+    app.footer(
+        "Start it with mpirun: mpirun -n 8 nef_mpi union --list pieces.txt -o all.nef. All ranks must see the same\n"
+        "files. What tasks have finished stands in OUT.work until the output is written; a run that was stopped goes "
+        "on\n"
+        "from there if it is started again. Outputs are the same bytes for any number of ranks.");
+    add_union(app);
+    add_sum(app);
+    add_frames(app);
+  }
+
+  // What the subcommand does.
+  int run() {
+    try {
+      return job_();
+    } catch (const TasksFailed&) {
+      throw;  // all ranks know
+    } catch (const std::exception& error) {
+      // The others would wait for this rank forever.
+      session_.complain("rank " + std::to_string(mpi_.rank()) + ": " + error.what());
+      mpi_.abort(kBad);
+    }
+  }
+
+  void complain(const std::string& line) {
+    if (mpi_.first()) session_.complain(line);
+  }
+
+ private:
+  void add_output(CLI::App* command) {
+    add_run_flags(command, session_);
+    add_input_flags(command, session_);
+    add_output_flags(command, session_)->required();
+    add_tile_flags(command, flags_);
+    command->add_option("--times", times_, "Write the seconds of every task to a CSV file")->type_name("FILE");
+  }
+
+  void add_union(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("union", "The union of many sets, region by region");
+    command->add_option("pieces", session_.inputs, "Files");
+    command->add_option("--list", list_, "A file with an expression (as of nef eval) a line, more pieces")
+        ->type_name("FILE");
+    add_output(command);
+    command->callback([this] { job_ = [this] { return unite(); }; });
+  }
+
+  void add_sum(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("minkowski", "The Minkowski sum of two sets, the first one part by part");
+    command->add_option("inputs", session_.inputs, "The two sets, as files")->required()->expected(2);
+    command->add_option("--part", part_, "Vertices of the first set in a part")
+        ->check(CLI::Range(std::size_t{8}, std::size_t{1} << 30U))
+        ->capture_default_str();
+    add_output(command);
+    command->callback([this] { job_ = [this] { return sum(); }; });
+  }
+
+  void add_frames(CLI::App& app) {
+    CLI::App* command =
+        app.add_subcommand("visual_hull", "Visual hulls of all frames of a scene, as visual_hull --frames makes them");
+    visual_hull::add_options(*command, hull_);
+    command->callback([this] { job_ = [this] { return frames(); }; });
+  }
+
+  // What rank 0 does alone before the others go on; if it fails, all of them hear why.
+  void on_first(const std::function<void()>& work) {
+    std::string error;
+    if (mpi_.first()) {
+      try {
+        work();
+      } catch (const Error& failure) {
+        error = failure.what();
+      }
+    }
+    mpi_.share(error);
+    if (!error.empty()) throw TasksFailed(error);
+  }
+
+  [[nodiscard]] Watcher watcher() {
+    return {.progress = [this](const std::string& phase, std::size_t done,
+                               std::size_t total) { session_.show_phase(phase, done, total); },
+            .time =
+                [this](const std::string& phase, std::size_t task, double seconds) {
+                  times_text_ += phase + "," + std::to_string(task) + "," + std::to_string(seconds) + "\n";
+                }};
+  }
+
+  // The beginning of a job's text: all that decides which tasks there are, and what they give, but its inputs.
+  [[nodiscard]] std::string job(const std::string& name, std::size_t size_of_a_task) const {
+    return "nef_mpi " NEF_VERSION " " + name + " " + std::to_string(size_of_a_task) + " " +
+           std::to_string(session_.mesh.strict ? 1 : 0) + std::to_string(session_.mesh.as_surface ? 1 : 0) + " " +
+           flags_.tiles + "\n";
+  }
+
+  int unite() {
+    const WorkFolder work(session_.output);
+    std::optional<PieceList> pieces;
+    on_first([&] {
+      pieces.emplace(session_.inputs, list_, session_.mesh);
+      if (pieces->size() == 0) throw InputError("there are no pieces: name files, or give a --list");
+      work.prepare(job("union", pieces_of_a_region(pieces->size())) + pieces->text());
+    });
+    if (!pieces) pieces.emplace(session_.inputs, list_, session_.mesh);
+    const PieceSource source{.count = pieces->size(), .set = [&](std::uint32_t i) { return pieces->set(i); }};
+    const Tiling tiling = choose_tiles(flags_, session_, "").tiling;
+    const Stopwatch watch;
+    const TiledPolyhedron set = distributed_union(mpi_, work, source, tiling, watcher());
+    return finish("union", work, set, watch.seconds());
+  }
+
+  int sum() {
+    const WorkFolder work(session_.output);
+    std::vector<Polyhedron> sets;
+    on_first([&] {
+      sets = session_.load_all(session_.inputs);
+      if (!sets[0].is_bounded()) {
+        throw InputError(session_.inputs[0] + ": unbounded; only bounded sets are cut into parts");
+      }
+      work.prepare(job("minkowski", part_) + file_state(session_.inputs[0]) + file_state(session_.inputs[1]));
+    });
+    if (sets.empty()) {
+      for (const std::string& path : session_.inputs) sets.push_back(read_file_or_tiles(path, session_.mesh));
+    }
+    const Tiling tiling = choose_tiles(flags_, session_, "").tiling;
+    const Stopwatch watch;
+    const TiledPolyhedron set = distributed_sum(mpi_, work, sets[0], sets[1], part_, tiling, watcher());
+    return finish("minkowski", work, set, watch.seconds());
+  }
+
+  int finish(const std::string& command, const WorkFolder& work, const TiledPolyhedron& set, double seconds) {
+    if (!mpi_.first()) return kYes;
+    if (!times_.empty()) write_file(times_, "phase,task,seconds\n" + times_text_);
+    finish_tiled(session_, command, set, seconds, {{"ranks", mpi_.ranks()}});
+    work.remove();
+    return session_.exit_code;
+  }
+
+  int frames() {
+    if (hull_.frames.empty()) throw TasksFailed("visual_hull: one hull is one task: give --frames");
+    hull_.quiet = hull_.quiet || !mpi_.first();
+    std::unique_ptr<visual_hull::FrameTasks> tasks;
+    std::unique_ptr<visual_hull::FrameRecord> record;
+    on_first([&] {
+      tasks = std::make_unique<visual_hull::FrameTasks>(hull_);
+      record = std::make_unique<visual_hull::FrameRecord>(hull_, *tasks);
+      if (!hull_.quiet) std::cout << tasks->understanding() << "\n";
+    });
+    if (!tasks) tasks = std::make_unique<visual_hull::FrameTasks>(hull_);
+    do_tasks(
+        mpi_, "frames", tasks->size(), [&](std::size_t i) { return record->keep(i); },
+        [&](std::size_t i) { return "frame " + std::to_string(tasks->number(i)); },
+        [&](std::size_t i) { return tasks->make(i); },
+        [&](std::size_t, const std::string& line, double) { record->add(line); }, watcher());
+    std::string code = record ? std::to_string(record->finish()) : "";
+    mpi_.share(code);
+    return std::stoi(code);
+  }
+
+  const Environment& mpi_;
+  Session session_;
+  TileFlags flags_;
+  std::string list_;
+  std::size_t part_ = 500;
+  std::string times_;
+  std::string times_text_;
+  visual_hull::Arguments hull_;
+  std::function<int()> job_;
+};
+
+}  // namespace
+
+int run_command(int argc, char** argv) {
+  const bool for_help = std::any_of(argv, argv + argc, [](const std::string& word) {
+    return word == "-h" || word == "--help" || word == "--version";
+  });
+  const Environment mpi(argc, argv, for_help);
+  Silence silence;
+  std::streambuf* const out = std::cout.rdbuf();
+  if (!mpi.first()) std::cout.rdbuf(&silence);
+  Run run(mpi);
+  CLI::App app("Exact geometry on many ranks: unions, Minkowski sums, visual hulls of video.", "nef_mpi");
+  run.add_commands(app);
+  const int code = run_program(
+      app, argc, argv, [&run] { return run.run(); }, [&run](const std::string& line) { run.complain(line); });
+  std::cout.rdbuf(out);
+  return code;
+}
+
+}  // namespace nef::mpi

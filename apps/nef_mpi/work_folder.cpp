@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/nef_mpi/work_folder.h"
+
+#include "nef/io/file_bytes.h"
+
+namespace nef::mpi {
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kJob = "job";
+
+std::string without_slash(std::string path) {
+  while (path.size() > 1 && path.ends_with('/')) path.pop_back();
+  return path;
+}
+
+}  // namespace
+
+WorkFolder::WorkFolder(const std::string& output) : path_(without_slash(output) + ".work") {}
+
+void WorkFolder::prepare(const std::string& job) const {
+  std::error_code error;
+  if (fs::exists(path_ / kJob, error) && read_file((path_ / kJob).string()) == job) return;
+  // Only what is known to be such a folder is removed.
+  const bool foreign = fs::exists(path_, error) && !fs::exists(path_ / kJob, error) && !fs::is_empty(path_, error);
+  if (!foreign) fs::remove_all(path_, error);
+  fs::create_directories(path_, error);
+  if (foreign || error) {
+    throw FileError(FileProblem::kUnreadable, path_.string() +
+                                                  ": no folder for the work can be made here; remove what is there, or "
+                                                  "give another output");
+  }
+  write_file((path_ / kJob).string(), job);
+}
+
+void WorkFolder::remove() const {
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+}
+
+std::string file_state(const std::string& path) {
+  std::error_code error;
+  const auto written = fs::last_write_time(path, error);
+  if (error) throw FileError(FileProblem::kUnreadable, path + ": no such file; check the path");
+  const auto size = fs::is_regular_file(path) ? fs::file_size(path, error) : 0;
+  return path + " " + std::to_string(size) + " " + std::to_string(written.time_since_epoch().count()) + "\n";
+}
+
+}  // namespace nef::mpi

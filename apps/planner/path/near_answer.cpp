@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the robot forbids itself by one piece of an obstacle, another piece cannot allow: all of free space is a part of
+// what is free of some pieces. So a shortest way there that keeps away from all other pieces is a shortest way, too.
+// Whether it does is told by projections of the swept robot's and of a piece's corners in doubles, which may err
+// to "near", since another piece does no harm.
+#include "apps/planner/path/near_answer.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "apps/minkowski/minkowski.h"
+#include "apps/minkowski/union/union_builder.h"
+#include "apps/planner/free_space/vectors.h"
+#include "nef/base/error.h"
+#include "nef/base/interruption.h"
+#include "nef/base/stopwatch.h"
+#include "nef/construct/construct.h"
+
+namespace nef::planner {
+namespace {
+
+using Corners = std::vector<Vector3d>;
+
+// Where cutting into pieces is fast: surfaces have no walls to be cut along, small solids few.
+constexpr std::size_t kSurfaceFacets = 200;
+constexpr int kMostSteps = 60;
+// Pieces come together with those around them: so far away at first, as a share of the robot's size, and by so much
+// farther with each step.
+constexpr double kAround = 0.25;
+constexpr double kFarther = 1.15;
+
+// The extent of some points along a direction.
+struct Extent {
+  double low = HUGE_VAL;
+  double high = -HUGE_VAL;
+};
+
+Extent extent_along(const Vector3d& direction, const Corners& points) {
+  Extent result;
+  for (const Vector3d& p : points) {
+    const double at = direction.dot(p);
+    result.low = std::min(result.low, at);
+    result.high = std::max(result.high, at);
+  }
+  return result;
+}
+
+double largest_coordinate(const Corners& points) {
+  double result = 0;
+  for (const Vector3d& p : points) result = std::max(result, p.cwiseAbs().maxCoeff());
+  return result;
+}
+
+// A convex part of an obstacle.
+struct Piece {
+  minkowski::ConvexCell cell;
+  Corners corners;
+  Vector3d normal = Vector3d::Zero();  // of one that is flat
+  std::vector<Extent> extents;         // along the fixed directions
+  bool is_used = false;
+};
+
+// Directions across which a swept robot may be seen to be apart from a piece: towards faces, edges and corners of a
+// cube.
+std::vector<Vector3d> fixed_directions() {
+  std::vector<Vector3d> result;
+  for (int code = 14; code < 27; ++code) {  // one of each two opposite ones
+    result.emplace_back(code / 9 - 1, code / 3 % 3 - 1, code % 3 - 1);
+  }
+  return result;
+}
+
+class NearSearch {
+ public:
+  NearSearch(const Scene& scene, const PathOptions& options, const BuildOptions& build)
+      : scene_(scene),
+        options_(options),
+        build_(build),
+        directions_(fixed_directions()),
+        robot_inside_(minkowski::decompose(interior(minkowski::negate(scene.robot)))) {
+    const Complex& robot = scene.robot.complex();
+    for (std::uint32_t v = 0; v < robot.vertex_count(); ++v) {
+      robot_.push_back(to_vector(robot.points.approximate(PointId{v})));
+    }
+    for (const Vector3d& direction : directions_) robot_extents_.push_back(extent_along(direction, robot_));
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Extent extent = extent_along(Vector3d::Unit(static_cast<Eigen::Index>(k)), robot_);
+      around_ = std::max(around_, kAround * (extent.high - extent.low));
+    }
+    for (const Polyhedron& obstacle : scene.obstacles) {
+      for (minkowski::ConvexCell& cell : minkowski::decompose(closure(obstacle))) add_piece(std::move(cell));
+    }
+    scale_ = largest_coordinate(robot_) + largest_coordinate({to_vector(*scene.start), to_vector(*scene.goal)});
+    for (const Piece& piece : pieces_) scale_ = std::max(scale_, largest_coordinate(piece.corners));
+  }
+
+  std::optional<WideAnswer> run() {
+    Stopwatch watch;
+    Polyhedron positions = scene_.box ? make_box((*scene_.box)[0], (*scene_.box)[1]) : Polyhedron::everything();
+    for (int step = 0; step < kMostSteps; ++step) {
+      check_interruption();
+      auto free = std::make_shared<const FreeSpace>(positions);
+      std::optional<ExactPath> path;
+      const std::optional<std::vector<std::size_t>> near = near_ways(*free, path);
+      if (!near) return std::nullopt;
+      if (near->empty()) {
+        WideAnswer result{answer_of(*free, *std::move(path)), free};
+        result.answer.phases["query"] = watch.lap();
+        return result;
+      }
+      positions = subtract(positions, forbidden_by(*near));
+    }
+    return std::nullopt;
+  }
+
+ private:
+  void add_piece(minkowski::ConvexCell cell) {
+    Piece& piece = pieces_.emplace_back();
+    for (const Rational3& v : cell.mesh.vertices) piece.corners.push_back(to_vector(v));
+    if (cell.dimension == 2) {
+      const Corners& p = piece.corners;
+      const Vector3d normal = (p[1] - p[0]).cross(p[2] - p[0]);
+      if (normal.norm() > 0) piece.normal = normal.normalized();
+    }
+    for (const Vector3d& direction : directions_) piece.extents.push_back(extent_along(direction, piece.corners));
+    piece.cell = std::move(cell);
+  }
+
+  // The positions that some pieces forbid: those at which the inside of the robot meets one.
+  [[nodiscard]] Polyhedron forbidden_by(const std::vector<std::size_t>& pieces) const {
+    // Measured: pieces of a surface nearly coincide too often for one union of all.
+    minkowski::UnionBuilder forbidden(minkowski::UnionStrategy::kQueue, build_.threads, pieces.size(),
+                                      [](double) { check_interruption(); });
+    for (const std::size_t i : pieces) {
+      for (const minkowski::ConvexCell& part : robot_inside_) forbidden.add(convex_sum(pieces_[i].cell, part));
+    }
+    return forbidden.finish();
+  }
+
+  // Pieces that the robot may touch on its way, and those around; none if it touches none. Nothing if there is no way.
+  // First on a way that is found fast; if that is free of the others, on the one that is asked for and on one through
+  // the inside of free space, which shows that T = J = 3.
+  std::optional<std::vector<std::size_t>> near_ways(const FreeSpace& free, std::optional<ExactPath>& path) {
+    PathOptions fast = options_;
+    fast.thorough = false;
+    fast.digits.reset();
+    PathOptions inside = fast;
+    inside.roomy = true;
+    for (const PathOptions* options : std::array<const PathOptions*, 3>{&fast, &inside, &options_}) {
+      path = find_path(free, *scene_.start, *scene_.goal, *options);
+      if (!path || path->thinness.piece < 3) return std::nullopt;
+      if (options == &inside && path->thinness.junction < 3) return std::nullopt;
+      std::vector<std::size_t> near = pieces_near(path->points);
+      if (!near.empty()) return near;
+    }
+    return std::vector<std::size_t>{};
+  }
+
+  [[nodiscard]] std::vector<std::size_t> pieces_near(const std::vector<Rational3>& way) {
+    Corners points;
+    for (const Rational3& p : way) points.push_back(to_vector(p));
+    if (points.size() == 1) points.push_back(points.front());
+    bool any = false;
+    std::vector<std::size_t> around;
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+      if (pieces_[i].is_used) continue;
+      bool is_around = false;
+      for (std::size_t k = 0; k + 1 < points.size() && !any; ++k) {
+        any = !is_apart(pieces_[i], points[k], points[k + 1], 0);
+      }
+      for (std::size_t k = 0; k + 1 < points.size() && !is_around; ++k) {
+        is_around = !is_apart(pieces_[i], points[k], points[k + 1], around_);
+      }
+      if (is_around) around.push_back(i);
+    }
+    if (!any) return {};
+    around_ *= kFarther;
+    for (const std::size_t i : around) pieces_[i].is_used = true;
+    return around;
+  }
+
+  // True if the closed robot, on its way from a to b, surely keeps this distance from a piece (in each direction that
+  // is tried). Corners and products are off by less than some 2^-50 of the largest coordinate each; 2^-40 leave room.
+  [[nodiscard]] bool is_apart(const Piece& piece, const Vector3d& a, const Vector3d& b, double distance) const {
+    const auto apart = [&](const Vector3d& direction, const Extent& robot, const Extent& other) {
+      const double from = direction.dot(a);
+      const double to = direction.dot(b);
+      const double needed = distance * direction.norm() + 0x1p-40 * scale_;
+      return std::min(from, to) + robot.low > other.high + needed ||
+             std::max(from, to) + robot.high < other.low - needed;
+    };
+    for (std::size_t i = 0; i < directions_.size(); ++i) {
+      if (apart(directions_[i], robot_extents_[i], piece.extents[i])) return true;
+    }
+    if (piece.normal.isZero()) return false;
+    return apart(piece.normal, extent_along(piece.normal, robot_), extent_along(piece.normal, piece.corners));
+  }
+
+  [[nodiscard]] Answer answer_of(const FreeSpace& free, ExactPath path) const {
+    Answer answer;
+    answer.status = Answer::Status::kPath;
+    answer.thinness = Thinness{3, 3};
+    answer.start_component = free.component(free.locate(ExactPoint(*scene_.start)));
+    answer.goal_component = free.component(free.locate(ExactPoint(*scene_.goal)));
+    answer.path = std::move(path);
+    return answer;
+  }
+
+  const Scene& scene_;
+  const PathOptions& options_;
+  const BuildOptions& build_;
+  std::vector<Vector3d> directions_;
+  std::vector<minkowski::ConvexCell> robot_inside_;  // of the reflected one
+  Corners robot_;
+  std::vector<Extent> robot_extents_;
+  double around_ = 0;
+  std::vector<Piece> pieces_;
+  double scale_ = 0;
+};
+
+}  // namespace
+
+bool may_have_near_answer(const Scene& scene) {
+  if (scene.contact != ContactRule::kAllow || !scene.start || !scene.goal) return false;
+  if (!scene.robot.is_bounded() || !scene.robot.is_regular()) return false;
+  bool any = false;
+  for (const Polyhedron& obstacle : scene.obstacles) {
+    if (!obstacle.is_bounded()) return false;
+    const bool is_mesh = obstacle.complex().facets.size() >= kSurfaceFacets;
+    if (is_mesh && !interior(obstacle).is_empty()) return false;
+    any = any || is_mesh;
+  }
+  return any;
+}
+
+std::optional<WideAnswer> near_answer(const Scene& scene, const PathOptions& options, const BuildOptions& build) {
+  NEF_ASSERT(may_have_near_answer(scene));
+  const Interruptible interruptible(build.stop);
+  return NearSearch(scene, options, build).run();
+}
+
+}  // namespace nef::planner

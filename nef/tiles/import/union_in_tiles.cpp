@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/tiles/import/union_in_tiles.h"
+
+#include <algorithm>
+#include <atomic>
+#include <limits>
+#include <utility>
+
+#include "nef/base/parallel.h"
+#include "nef/base/progress.h"
+#include "nef/tiles/cutter.h"
+
+namespace nef {
+namespace {
+
+// What reaches farther lies on the side of every cut that it may lie on.
+constexpr double kFarthest = std::numeric_limits<double>::max();
+
+// Of an empty box nothing.
+std::array<double, 2> extent(const Box& box, std::size_t axis) {
+  if (box.low[axis] > box.high[axis]) return {0, 0};
+  return {std::max(box.low[axis], -kFarthest), std::min(box.high[axis], kFarthest)};
+}
+
+}  // namespace
+
+Box piece_box(const Polyhedron& set) {
+  if (set.is_empty()) return {};
+  Box box;
+  if (!set.is_bounded()) {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    box.low.fill(-kInfinity);
+    box.high.fill(kInfinity);
+    return box;
+  }
+  const Complex& c = set.complex();
+  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) box.add_rounded(c.points.approximate(PointId{v}));
+  return box;
+}
+
+RegionalUnion::RegionalUnion(std::vector<Box> boxes, std::size_t most)
+    : boxes_(std::move(boxes)),
+      division_(
+          static_cast<std::uint32_t>(boxes_.size()),
+          [this](std::uint32_t piece, std::size_t axis) { return extent(boxes_[piece], axis); }, most) {}
+
+TileRef RegionalUnion::unite_in(std::size_t region, std::vector<Polyhedron>&& sets, const Tiling& tiling) const {
+  const Polyhedron all = in_two_marks(unite_all(std::exchange(sets, {})));
+  const Region& where = division_.parts()[region].region;
+  if (where.unbounded()) return subdivided(all, tiling);
+  if (all.is_empty() || all.is_everything()) return uniform_leaf(all.is_empty() ? 0 : 1);
+  Cutter cutter(all.complex().planes, tiling);
+  return cutter.subdivide(cutter.restricted(cutter.loose(all.complex()), where));
+}
+
+TiledPolyhedron union_in_tiles(const PieceSource& pieces, const Tiling& tiling, std::size_t most) {
+  std::vector<Box> boxes(pieces.count);
+  std::atomic<std::uint32_t> measured = 0;
+  parallel_for(pieces.count, tiling.threads, [&](std::size_t i) {
+    boxes[i] = piece_box(pieces.set(static_cast<std::uint32_t>(i)));
+    tell_progress_of_item("boxes of the pieces", measured++, pieces.count);
+  });
+  const RegionalUnion regions(std::move(boxes), most);
+  std::vector<TileRef> trees(regions.region_count());
+  std::atomic<std::size_t> done = 0;
+  parallel_for(trees.size(), tiling.threads, [&](std::size_t r) {
+    std::vector<Polyhedron> sets;
+    for (const std::uint32_t piece : regions.pieces_of(r)) sets.push_back(pieces.set(piece));
+    trees[r] = regions.unite_in(r, std::move(sets), tiling);
+    tell_progress("regions", ++done, trees.size());
+  });
+  return {regions.tree(trees), tiling};
+}
+
+}  // namespace nef

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Unions of very many sets, region by region.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "nef/tiles/region_division.h"
+#include "nef/tiles/tiled_polyhedron.h"
+
+namespace nef {
+
+/// Sets that are made when they are needed, each maybe several times. `set` may be called by several threads at once.
+struct PieceSource {
+  std::uint32_t count = 0;
+  std::function<Polyhedron(std::uint32_t piece)> set;
+};
+
+/// The union of many sets, as work on regions that do not depend on each other.
+class RegionalUnion {
+ public:
+  /// `boxes`: of the boundary of each set, rounded outward (piece_box). A region has at most `most` sets, where planes
+  /// can separate these.
+  RegionalUnion(std::vector<Box> boxes, std::size_t most);
+
+  [[nodiscard]] std::size_t region_count() const { return division_.parts().size(); }
+  /// The numbers of the sets that a region needs, ascending.
+  [[nodiscard]] const std::vector<std::uint32_t>& pieces_of(std::size_t region) const {
+    return division_.parts()[region].items;
+  }
+
+  /// The union of some sets, among them all of a region, in this region.
+  [[nodiscard]] TileRef unite_in(std::size_t region, std::vector<Polyhedron>&& sets, const Tiling& tiling) const;
+
+  /// The whole from its parts, in the order of the regions.
+  [[nodiscard]] TileRef tree(std::span<const TileRef> of_regions) const { return division_.tree(of_regions); }
+
+ private:
+  std::vector<Box> boxes_;
+  RegionDivision division_;
+};
+
+/// The box of a set for RegionalUnion: empty for the empty set, all of space where the boundary is unbounded.
+Box piece_box(const Polyhedron& set);
+
+/// The union of all pieces. Regions of at most `most` pieces are made on up to tiling.threads threads; what is in
+/// memory are the pieces of as many regions, and the tiles (see Tiling::store). O(n log n) for pieces that meet few
+/// others.
+TiledPolyhedron union_in_tiles(const PieceSource& pieces, const Tiling& tiling = {}, std::size_t most = 400);
+
+}  // namespace nef

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The program nef_mpi as mpirun starts it: the same bytes on any number of ranks, and what happens when one is lost.
+#include <signal.h>
+#include <sys/wait.h>
+
+#include <catch2/catch.hpp>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <future>
+#include <random>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "tests/support/paths.h"
+#include "tests/support/temporary_folder.h"
+
+namespace nef::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Catch::Contains;
+
+struct Outcome {
+  int code = -1;
+  std::string out;
+  std::string err;
+};
+
+class Place : public TemporaryFolder {
+ public:
+  // Runs a program of ours in this folder.
+  [[nodiscard]] Outcome run(const std::string& program, const std::string& arguments) const {
+    return shell("'" + program_folder() + "/" + program + "' " + arguments);
+  }
+  // Runs nef_mpi on so many ranks, which may be more than there are cores.
+  [[nodiscard]] Outcome ranks(int count, const std::string& arguments) const {
+    return shell("env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 '" NEF_MPIEXEC "' --oversubscribe -n " +
+                 std::to_string(count) + " '" + program_folder() + "/nef_mpi' " + arguments);
+  }
+  [[nodiscard]] std::string read(const std::string& name) const { return slurp(file(name)); }
+
+ private:
+  [[nodiscard]] Outcome shell(const std::string& command) const {
+    const int status =
+        std::system(("cd '" + path().string() + "' && " + command + " > stdout.txt 2> stderr.txt < /dev/null").c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read("stdout.txt"), read("stderr.txt")};
+  }
+};
+
+// Lines of tetrahedra that meet a few others each.
+std::string tetrahedra(int count, unsigned seed) {
+  std::mt19937 random(seed);
+  const int side = static_cast<int>(100 * std::cbrt(count));
+  const auto below = [&random](int most) { return static_cast<int>(random() % static_cast<unsigned>(most)); };
+  std::ostringstream text;
+  text << "# pieces\n";
+  for (int i = 0; i < count; ++i) {
+    const int x = below(side);
+    const int y = below(side);
+    const int z = below(side);
+    text << "hull(";
+    for (int corner = 0; corner < 4; ++corner) {
+      text << (corner == 0 ? "" : ", ") << x + below(120) << "/100," << y + below(120) << "/100," << z + below(120)
+           << "/100";
+    }
+    text << ")\n";
+  }
+  return text.str();
+}
+
+// Processes whose command line names both words.
+std::vector<pid_t> processes_with(const std::string& program, const std::string& word) {
+  std::vector<pid_t> found;
+  for (const auto& entry : fs::directory_iterator("/proc")) {
+    const std::string name = entry.path().filename().string();
+    if (name.find_first_not_of("0123456789") != std::string::npos) continue;
+    const std::string line = slurp((entry.path() / "cmdline").string());
+    const std::string self = line.substr(0, line.find('\0'));
+    if (self.ends_with(program) && line.find(word) != std::string::npos) found.push_back(std::stoi(name));
+  }
+  return found;
+}
+
+}  // namespace
+
+TEST_CASE("a union is the same bytes on any number of ranks, and without MPI") {
+  const Place here;
+  static_cast<void>(here.write("pieces.txt", tetrahedra(700, 1)));
+  static_cast<void>(
+      here.run("nef", "eval 'box(0,0,0, 3,3,3) - interior(box(1,1,1, 2,2,2)) + halfspace(0,0,1,1)' -o extra.nef"));
+  std::string all = "union(file(\"extra.nef\")";
+  std::istringstream lines(here.read("pieces.txt"));
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("hull")) all += ", " + line;
+  }
+  static_cast<void>(here.write("all.txt", all + ")"));
+  REQUIRE(here.run("nef", "eval \"$(cat all.txt)\" -o plain.nef").code == 0);
+  // In canonical order, as gluing leaves it.
+  REQUIRE(here.run("nef", "convert plain.nef -o plain.tiles").code == 0);
+  REQUIRE(here.run("nef", "convert plain.tiles -o canonical.nef").code == 0);
+  for (const int ranks : {1, 2, 4, 7}) {
+    const std::string name = "r" + std::to_string(ranks) + ".nef";
+    const Outcome run = here.ranks(ranks, "union extra.nef --list pieces.txt -o " + name);
+    CAPTURE(ranks, run.err);
+    REQUIRE(run.code == 0);
+    CHECK(here.read(name) == here.read("canonical.nef"));
+    CHECK_FALSE(fs::exists(here.path() / (name + ".work")));
+  }
+  // In tiles, within a bound on memory.
+  REQUIRE(here.ranks(3, "union extra.nef --list pieces.txt -o r.tiles --memory 200K").code == 0);
+  REQUIRE(here.run("nef", "convert r.tiles -o glued.nef").code == 0);
+  CHECK(here.read("glued.nef") == here.read("canonical.nef"));
+}
+
+TEST_CASE("a rank that is lost ends the run, and the next one goes on from what is finished") {
+  const Place here;
+  static_cast<void>(here.write("pieces.txt", tetrahedra(6000, 2)));
+  const fs::path work = here.path() / "u.nef.work";
+  const auto finished = [&work] {
+    std::size_t count = 0;
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(work, error)) {
+      if (fs::exists(entry.path() / "index", error)) ++count;
+    }
+    return count;
+  };
+  const std::string list = here.file("pieces.txt");
+  std::future<Outcome> run =
+      std::async(std::launch::async, [&] { return here.ranks(3, "union --list " + list + " -o u.nef"); });
+  for (int i = 0; i < 60000 && finished() < 3; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  const std::vector<pid_t> ranks = processes_with("nef_mpi", list);
+  REQUIRE(ranks.size() == 3);
+  REQUIRE(kill(ranks.back(), SIGKILL) == 0);
+  CHECK(run.get().code != 0);
+  CHECK_FALSE(fs::exists(here.path() / "u.nef"));
+  const std::size_t before = finished();
+  CHECK(before >= 3);
+  const Outcome second = here.ranks(2, "union --list " + list + " -o u.nef --json");
+  REQUIRE(second.code == 0);
+  CHECK_FALSE(fs::exists(work));
+  REQUIRE(here.ranks(1, "union --list " + list + " -o whole.nef").code == 0);
+  CHECK(here.read("u.nef") == here.read("whole.nef"));
+}
+
+TEST_CASE("a task that fails is tried again and named; the others are kept") {
+  const Place here;
+  std::string pieces = tetrahedra(600, 3);
+  static_cast<void>(here.write("pieces.txt", pieces + "file(\"later.off\")\n"));
+  const Outcome run = here.ranks(2, "union --list pieces.txt -o u.nef");
+  CHECK(run.code == 2);
+  CHECK_THAT(run.err, Contains("1 of 2 tasks failed") && Contains("pieces 513 to 601") && Contains("pieces.txt:602") &&
+                          Contains("later.off"));
+  CHECK_FALSE(fs::exists(here.path() / "u.nef"));
+  CHECK(fs::exists(here.path() / "u.nef.work/boxes-0"));
+  static_cast<void>(here.run("nef", "eval 'box(-1,-1,-1, 0,0,0)' -o later.off"));
+  CHECK(here.ranks(2, "union --list pieces.txt -o u.nef").code == 0);
+  // Bad usage is one line, whatever the number of ranks.
+  const Outcome bad = here.ranks(2, "union --nonsense -o u.nef");
+  CHECK(bad.code == 2);
+  CHECK(bad.err.find("nef_mpi: ") == bad.err.rfind("nef_mpi: "));
+  CHECK_THAT(here.ranks(2, "union none.off -o u.nef").err, Contains("none.off: no such file"));
+  CHECK_THAT(here.ranks(2, "union -o u.nef").err, Contains("there are no pieces"));
+}
+
+TEST_CASE("sums part by part are sums") {
+  const Place here;
+  static_cast<void>(here.run("nef", "eval 'sphere(3, 16) - box(0,0,0, 9,9,9) + segment(3,0,0, 5,0,0)' -o a.nef"));
+  static_cast<void>(here.run("nef", "eval 'interior(box(0,0,0, 1,1,1)) + box(1,0,0, 3/2,1/2,1/2)' -o b.nef"));
+  REQUIRE(here.run("minkowski", "a.nef b.nef -o plain.nef").code == 0);
+  const Outcome run = here.ranks(2, "minkowski a.nef b.nef --part 20 -o sum.nef");
+  CAPTURE(run.err);
+  REQUIRE(run.code == 0);
+  CHECK(here.run("nef", "equal plain.nef sum.nef").code == 0);
+}
+
+TEST_CASE("frames on ranks are those of visual_hull, and its manifest") {
+  const Place here;
+  const std::string elk = source_folder() + "/data/visual_hull/elk";
+  for (const int k : {1, 2, 3}) {
+    const fs::path folder = here.path() / ("frame_" + std::to_string(k));
+    fs::create_directory(folder);
+    for (const auto& entry : fs::directory_iterator(elk)) {
+      if (entry.path().extension() == ".png") fs::copy_file(entry.path(), folder / entry.path().filename());
+    }
+  }
+  const std::string options = elk + "/elk.json --simplify 2 --frames frame_%d/ -o ";
+  REQUIRE(here.run("visual_hull", options + "plain_%d.off").code == 0);
+  const Outcome run = here.ranks(2, "visual_hull " + options + "r_%d.off");
+  CAPTURE(run.err, run.out);
+  REQUIRE(run.code == 0);
+  for (const std::string k : {"1", "2", "3"}) CHECK(here.read("plain_" + k + ".off") == here.read("r_" + k + ".off"));
+  // Either program goes on where the other one stopped.
+  fs::remove(here.path() / "r_2.off");
+  CHECK_THAT(here.run("visual_hull", options + "r_%d.off").out, Contains("3 frames, 2 of them made before"));
+  fs::remove(here.path() / "r_1.off");
+  CHECK_THAT(here.ranks(2, "visual_hull " + options + "r_%d.off").out, Contains("3 frames, 2 of them made before"));
+  CHECK(here.read("plain_1.off") == here.read("r_1.off"));
+}
+
+}  // namespace nef::test

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "nef/base/error.h"
 
@@ -185,7 +186,7 @@ bool Direction::is_zero() const {
   return v[0] == 0 && v[1] == 0 && v[2] == 0;
 }
 
-const std::array<Integer, 3>& Direction::integers() const {
+const std::array<Integer, 3>& Direction::integers() const& {
   if (known_) return integers_;
   NEF_ASSERT(planes_ != nullptr);
   for (std::size_t i = 0; i < 3; ++i) {
@@ -203,6 +204,8 @@ const std::array<Integer, 3>& Direction::integers() const {
   known_ = true;
   return integers_;
 }
+
+std::array<Integer, 3> Direction::integers() && { return std::as_const(*this).integers(); }
 
 void Direction::set_approximation_from_integers() {
   std::array<long, 3> exponent{};

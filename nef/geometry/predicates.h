@@ -48,7 +48,9 @@ class Direction {
   [[nodiscard]] bool is_zero() const;
 
   /// Integer components; computed at the first call.
-  [[nodiscard]] const std::array<Integer, 3>& integers() const;
+  [[nodiscard]] const std::array<Integer, 3>& integers() const&;
+  /// Of a direction that ends with the expression: a copy, which may be bound to a reference.
+  [[nodiscard]] std::array<Integer, 3> integers() &&;
 
   /// The planes that make a direction of an svertex; invalid for others.
   PlaneId p, q;

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "nef/base/error.h"
+#include "nef/construct/construct.h"
 #include "tests/tiles/cuts.h"
 
 namespace nef::test {
@@ -112,6 +113,18 @@ TEST_CASE("rays through tiles meet what they meet in the whole") {
     }
   });
   CHECK_THROWS_AS(shoot_ray(TiledPolyhedron(), {0, 0, 0}, {0, 0, 0}), InputError);
+}
+
+TEST_CASE("a ray in one plane of an edge crosses the edge") {
+  const Polyhedron set =
+      unite(boundary(make_halfspace(1, 0, 1, 0)), complement(boundary(make_halfspace(1, 1, -1, -3))));
+  const TiledPolyhedron in_tiles = tiled(set, Cuts{{{Cut{0, 0}, 0}}});
+  const std::optional<RayHit> there =
+      shoot_ray(in_tiles, {Rational(1, 2), Rational(-1, 2), Rational(-1, 2)}, {2, -2, -2});
+  REQUIRE(there);
+  CHECK(there->point == Rational3{3, -3, -3});
+  CHECK(there->location.kind == Location::Kind::kEdge);
+  CHECK(there->location.mark == 1);
 }
 
 TEST_CASE("any Boolean function of sets in tiles") {

@@ -1,25 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// nef_bench_nef CASE_DIRECTORY [REPEAT]: this library on one case.
+// nef_bench_nef CASE_DIRECTORY [REPEAT [THREADS]]: this library on one case; its operation on so many threads.
 #include <cstdlib>
 #include <exception>
 #include <string>
 
 #include "bench/generators.h"
 #include "bench/report.h"
+#include "nef/base/stopwatch.h"
 #include "nef/export/to_mesh.h"
 #include "nef/polyhedron.h"
 
 namespace nef::bench {
 namespace {
 
-Polyhedron united(const std::vector<Polyhedron>& operands, std::size_t count) {
+Polyhedron united(const std::vector<Polyhedron>& operands, std::size_t count, unsigned threads) {
   Polyhedron result = operands[0];
-  for (std::size_t i = 1; i < count; ++i) result = unite(result, operands[i]);
+  for (std::size_t i = 1; i < count; ++i) result = unite(result, operands[i], threads);
   return result;
 }
 
-Report run(const std::string& directory, int repeat) {
+Report run(const std::string& directory, int repeat, unsigned threads) {
   const Case bench_case = read_case(directory);
   Report report;
   std::vector<Polyhedron> operands;
@@ -37,18 +38,22 @@ Report run(const std::string& directory, int repeat) {
   if (bench_case.operation == Operation::kUnion) {
     for (int i = 0; i < repeat; ++i) {
       const Stopwatch watch;
-      result = united(operands, operands.size());
+      const nef::Stopwatch clock;
+      result = united(operands, operands.size(), threads);
       report.op_s.push_back(watch.seconds());
+      report.op_wall_s.push_back(clock.seconds());
     }
   } else if (bench_case.operation == Operation::kDifference) {
-    const Polyhedron base = united(operands, operands.size() - 1);
+    const Polyhedron base = united(operands, operands.size() - 1, threads);
     for (int i = 0; i < repeat; ++i) {
       const Stopwatch watch;
-      result = subtract(base, operands.back());
+      const nef::Stopwatch clock;
+      result = subtract(base, operands.back(), threads);
       report.op_s.push_back(watch.seconds());
+      report.op_wall_s.push_back(clock.seconds());
     }
   } else {
-    result = united(operands, operands.size());
+    result = united(operands, operands.size(), threads);
     const std::vector<Rational3> points =
         query_points(std::stoi(bench_case.name.substr(bench_case.name.find('-') + 1)));
     static_cast<void>(contains(result, points[0]));  // CGAL's structure is there after the union; build ours, too
@@ -78,11 +83,13 @@ Report run(const std::string& directory, int repeat) {
 
 int main(int argc, char** argv) {
   if (argc < 2) {
-    std::fprintf(stderr, "usage: nef_bench_nef CASE_DIRECTORY [REPEAT]\n");
+    std::fprintf(stderr, "usage: nef_bench_nef CASE_DIRECTORY [REPEAT [THREADS]]\n");
     return 2;
   }
   try {
-    nef::bench::run(argv[1], argc > 2 ? std::max(1, std::atoi(argv[2])) : 1).print();
+    const int repeat = argc > 2 ? std::max(1, std::atoi(argv[2])) : 1;
+    const int threads = argc > 3 ? std::max(1, std::atoi(argv[3])) : 1;
+    nef::bench::run(argv[1], repeat, static_cast<unsigned>(threads)).print();
   } catch (const std::exception& error) {
     std::fprintf(stderr, "nef_bench_nef: %s\n", error.what());
     return 2;

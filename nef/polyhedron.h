@@ -53,11 +53,12 @@ class Polyhedron {
 };
 
 // Boolean operations (thesis chapter 5): exact, total, O((n + k) log n) for n items and k
-// crossings on well-shaped input.
-Polyhedron unite(const Polyhedron& a, const Polyhedron& b);
-Polyhedron intersect(const Polyhedron& a, const Polyhedron& b);
-Polyhedron subtract(const Polyhedron& a, const Polyhedron& b);
-Polyhedron symmetric_difference(const Polyhedron& a, const Polyhedron& b);
+// crossings on well-shaped input. On up to `threads` threads (0: as many as the machine has) where the sets are large
+// enough to gain by it; the result is the same, item for item, for any number of them.
+Polyhedron unite(const Polyhedron& a, const Polyhedron& b, unsigned threads = 1);
+Polyhedron intersect(const Polyhedron& a, const Polyhedron& b, unsigned threads = 1);
+Polyhedron subtract(const Polyhedron& a, const Polyhedron& b, unsigned threads = 1);
+Polyhedron symmetric_difference(const Polyhedron& a, const Polyhedron& b, unsigned threads = 1);
 
 /// The union (intersection) of any number of sets: nothing (everything) for none. Pairs of sets are
 /// combined smallest first on up to `threads` threads (0: as many as the machine has).
@@ -66,7 +67,9 @@ Polyhedron intersect_all(std::span<const Polyhedron> sets, unsigned threads = 1)
 
 /// A \ B etc. for marks of any kind: the result is marked f(mark in a, mark in b) everywhere.
 /// f is asked once for each pair of labels that occur, maybe for others; InputError if it gives kOutside.
-Polyhedron overlay(const Polyhedron& a, const Polyhedron& b, const std::function<LabelId(LabelId, LabelId)>& f);
+/// With several threads f is called by any of them, one at a time.
+Polyhedron overlay(const Polyhedron& a, const Polyhedron& b, const std::function<LabelId(LabelId, LabelId)>& f,
+                   unsigned threads = 1);
 
 // Unary operations: O(n).
 Polyhedron complement(const Polyhedron& a);

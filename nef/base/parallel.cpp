@@ -20,6 +20,7 @@
 #include <tbb/task_arena.h>
 #endif
 
+#include <algorithm>
 #include <exception>
 #include <limits>
 #include <mutex>
@@ -148,6 +149,16 @@ void parallel_for(std::size_t count, unsigned threads, const std::function<void(
   });
   predicate_counts() += sum;
   failure.rethrow();
+}
+
+void parallel_for_ranges(std::size_t count, std::size_t size, unsigned threads,
+                         const std::function<void(std::size_t, std::size_t)>& body) {
+  parallel_for((count + size - 1) / size, threads,
+               [&](std::size_t i) { body(i * size, std::min(count, (i + 1) * size)); });
+}
+
+void parallel_calls(unsigned threads, std::initializer_list<std::function<void()>> calls) {
+  parallel_for(calls.size(), threads, [&](std::size_t i) { calls.begin()[i](); });
 }
 
 }  // namespace nef

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <initializer_list>
 
 namespace nef {
 
@@ -14,5 +15,12 @@ namespace nef {
 /// them in the order of the indices arrives in the caller, whatever the number of threads, and calls behind it may be
 /// left out. If the caller is interrupted (see interruption.h), calls that have not begun are left out.
 void parallel_for(std::size_t count, unsigned threads, const std::function<void(std::size_t)>& body);
+
+/// The same for ranges of at most `size` indices that cover 0 .. count - 1: calls body(first, last) for each.
+void parallel_for_ranges(std::size_t count, std::size_t size, unsigned threads,
+                         const std::function<void(std::size_t, std::size_t)>& body);
+
+/// Calls all of these, as parallel_for does.
+void parallel_calls(unsigned threads, std::initializer_list<std::function<void()>> calls);
 
 }  // namespace nef

@@ -37,6 +37,15 @@ class UnionFind {
     return true;
   }
 
+  /// Makes root() right, until sets are united. O(n).
+  void flatten() {
+    // The parent of a number is smaller, and has been looked at.
+    for (std::uint32_t& parent : parent_) parent = parent_[parent];
+  }
+
+  /// What find returns, after flatten(); several threads may ask at once.
+  [[nodiscard]] std::uint32_t root(std::uint32_t x) const { return parent_[x]; }
+
   [[nodiscard]] std::size_t size() const { return parent_.size(); }
 
  private:

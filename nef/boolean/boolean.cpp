@@ -25,7 +25,7 @@ bool apart(const Polyhedron& a, const Polyhedron& b) {
   return !bounds(a.complex()).overlaps(bounds(b.complex()));
 }
 
-using Combine = Polyhedron (*)(const Polyhedron&, const Polyhedron&);
+using Combine = Polyhedron (*)(const Polyhedron&, const Polyhedron&, unsigned threads);
 
 // How many of some sets, sorted by size, are to be combined before the others: a set that is larger than all before it
 // together waits, so that no large result is copied many times.
@@ -55,7 +55,7 @@ Polyhedron combine_all(std::span<const Polyhedron> sets, Combine combine, unsign
       {
         std::optional<ProgressListener> quiet;
         if (sets.size() > 2) quiet.emplace(nobody);
-        next[i] = combine(left[2 * i], left[2 * i + 1]);
+        next[i] = combine(left[2 * i], left[2 * i + 1], pairs == 1 ? threads : 1);
       }
       if (sets.size() > 2) tell_progress("sets", ++done, sets.size() - 1);
     });
@@ -67,7 +67,7 @@ Polyhedron combine_all(std::span<const Polyhedron> sets, Combine combine, unsign
 
 }  // namespace
 
-Polyhedron overlay(const Polyhedron& a, const Polyhedron& b, const Function& f) {
+Polyhedron overlay(const Polyhedron& a, const Polyhedron& b, const Function& f, unsigned threads) {
   const Complex& ca = a.complex();
   const Complex& cb = b.complex();
   const LabelFunction table(ca.label_count, cb.label_count, [&f](LabelId x, LabelId y) {
@@ -79,35 +79,42 @@ Polyhedron overlay(const Polyhedron& a, const Polyhedron& b, const Function& f) 
     }
     return mark;
   });
+  // With fewer vertices, starting threads costs more than they save.
+  constexpr std::size_t kWorthThreads = 4000;
+  if (ca.vertex_count() + cb.vertex_count() < kWorthThreads) threads = 1;
   std::optional<Complex> result = overlay_complexes(
       ca, cb, table, [&a]() -> const QueryStructure& { return a.queries(); },
-      [&b]() -> const QueryStructure& { return b.queries(); });
+      [&b]() -> const QueryStructure& { return b.queries(); }, threads);
   return result ? Polyhedron(std::move(*result)) : a;
 }
 
-Polyhedron unite(const Polyhedron& a, const Polyhedron& b) {
+Polyhedron unite(const Polyhedron& a, const Polyhedron& b, unsigned threads) {
   if (a.is_empty() || b.is_everything()) return b;
   if (b.is_empty() || a.is_everything()) return a;
-  return overlay(a, b, [](LabelId x, LabelId y) { return static_cast<LabelId>(x != 0 || y != 0); });
+  return overlay(
+      a, b, [](LabelId x, LabelId y) { return static_cast<LabelId>(x != 0 || y != 0); }, threads);
 }
 
-Polyhedron intersect(const Polyhedron& a, const Polyhedron& b) {
+Polyhedron intersect(const Polyhedron& a, const Polyhedron& b, unsigned threads) {
   if (a.is_empty() || b.is_everything()) return a;
   if (b.is_empty() || a.is_everything()) return b;
   if (a.is_bounded() && b.is_bounded() && apart(a, b)) return {};
-  return overlay(a, b, [](LabelId x, LabelId y) { return static_cast<LabelId>(x != 0 && y != 0); });
+  return overlay(
+      a, b, [](LabelId x, LabelId y) { return static_cast<LabelId>(x != 0 && y != 0); }, threads);
 }
 
-Polyhedron subtract(const Polyhedron& a, const Polyhedron& b) {
+Polyhedron subtract(const Polyhedron& a, const Polyhedron& b, unsigned threads) {
   if (a.is_empty() || b.is_empty()) return a;
   if (a.is_bounded() && b.is_bounded() && apart(a, b)) return a;
-  return overlay(a, b, [](LabelId x, LabelId y) { return static_cast<LabelId>(x != 0 && y == 0); });
+  return overlay(
+      a, b, [](LabelId x, LabelId y) { return static_cast<LabelId>(x != 0 && y == 0); }, threads);
 }
 
-Polyhedron symmetric_difference(const Polyhedron& a, const Polyhedron& b) {
+Polyhedron symmetric_difference(const Polyhedron& a, const Polyhedron& b, unsigned threads) {
   if (a.is_empty()) return b;
   if (b.is_empty()) return a;
-  return overlay(a, b, [](LabelId x, LabelId y) { return static_cast<LabelId>((x != 0) != (y != 0)); });
+  return overlay(
+      a, b, [](LabelId x, LabelId y) { return static_cast<LabelId>((x != 0) != (y != 0)); }, threads);
 }
 
 Polyhedron unite_all(std::span<const Polyhedron> sets, unsigned threads) {

@@ -2,6 +2,9 @@
 #include "nef/boolean/copied_links.h"
 
 #include <algorithm>
+#include <functional>
+
+#include "nef/base/parallel.h"
 
 namespace nef {
 namespace {
@@ -22,11 +25,18 @@ class LinkCopier {
   LinkCopier(const Complex& result, std::span<const VertexRun> runs, const std::array<const Complex*, 2>& operands)
       : c_(result), runs_(runs), operands_(operands) {}
 
-  KnownLinks run(const std::array<std::vector<EdgeContact>, 2>& contacts) {
+  KnownLinks run(const std::array<std::vector<EdgeContact>, 2>& contacts, unsigned threads) {
     note_copies();
     for (std::size_t x = 0; x < 2; ++x) note_crossed_edges(x, contacts[x]);
-    copy_twins();
-    copy_facets();
+    known_.twin.assign(c_.svertices.size(), kNone);
+    const auto half = static_cast<std::uint32_t>(c_.vertex_count() / 2);
+    const auto end = static_cast<std::uint32_t>(c_.vertex_count());
+    std::array<KnownLinks, 2> loose;
+    KnownLinks second;
+    parallel_calls(threads, {[&] { copy_twins(0, half, loose[0]); }, [&] { copy_twins(half, end, loose[1]); },
+                             [&] { copy_facets(0, known_); }, [&] { copy_facets(1, second); }});
+    join_facets(second);
+    for (const KnownLinks& more : {std::cref(second), std::cref(loose[0]), std::cref(loose[1])}) add_loose(more);
     std::sort(known_.loose_corners.begin(), known_.loose_corners.end());
     return std::move(known_);
   }
@@ -58,115 +68,139 @@ class LinkCopier {
     }
   }
 
-  void copy_twins() {
-    known_.twin.reserve(c_.svertices.size());
-    std::uint32_t vertex = 0;
+  void add_loose(const KnownLinks& more) {
+    const auto append = [](std::vector<std::uint32_t>& all, const std::vector<std::uint32_t>& some) {
+      all.insert(all.end(), some.begin(), some.end());
+    };
+    append(known_.loose_vertices, more.loose_vertices);
+    append(known_.loose_corners, more.loose_corners);
+    append(known_.loose_isolated, more.loose_isolated);
+  }
+
+  // Of vertices first .. last - 1 of the result: twins into known_, what is to be found into `loose`.
+  void copy_twins(std::uint32_t first, std::uint32_t last, KnownLinks& loose) {
+    std::uint32_t vertex = 0;  // the first one of a run
     for (const VertexRun& run : runs_) {
-      for (std::uint32_t v = run.first; v < run.first + run.count; ++v, ++vertex) {
+      const std::uint32_t end = std::min(last, vertex + run.count);
+      for (std::uint32_t w = std::max(first, vertex); w < end; ++w) {
         if (run.origin == VertexRun::kNew) {
-          add_new(vertex);
+          add_new(w, loose);
         } else {
-          copy_twins_of(run.origin, v, vertex);
+          copy_twins_of(run.origin, run.first + (w - vertex), w, loose);
         }
       }
+      vertex += run.count;
     }
   }
 
-  void add_new(std::uint32_t vertex) {
+  void add_new(std::uint32_t vertex, KnownLinks& loose) const {
     const VertexRecord& first = c_.vertices[vertex];
     const VertexRecord& last = c_.vertices[vertex + 1];
-    known_.twin.resize(last.svertices, kNone);
-    if (first.svertices < last.svertices) known_.loose_vertices.push_back(vertex);
+    if (first.svertices < last.svertices) loose.loose_vertices.push_back(vertex);
     for (std::uint32_t e = first.shalfedges; e < last.shalfedges; ++e) {
-      if (!c_.shalfedges[e].plane.flipped()) known_.loose_corners.push_back(e);
+      if (!c_.shalfedges[e].plane.flipped()) loose.loose_corners.push_back(e);
     }
-    if (first.sloops < last.sloops) known_.loose_isolated.push_back(vertex);
+    if (first.sloops < last.sloops) loose.loose_isolated.push_back(vertex);
   }
 
-  void copy_twins_of(std::size_t x, std::uint32_t v, std::uint32_t vertex) {
+  void copy_twins_of(std::size_t x, std::uint32_t v, std::uint32_t vertex, KnownLinks& loose) {
     const Complex& own = *operands_[x];
     const bool may_be_crossed = copies_[x][v].state == Copy::State::kCrossed;
-    bool loose = false;
-    for (std::uint32_t h = own.vertices[v].svertices; h < own.vertices[v + 1].svertices; ++h) {
+    bool all = true;
+    std::uint32_t to = c_.vertices[vertex].svertices;
+    for (std::uint32_t h = own.vertices[v].svertices; h < own.vertices[v + 1].svertices; ++h, ++to) {
       const std::uint32_t other = own.twin[h];
       const Copy& end = copies_[x][own.svertex_owner[other]];
       const bool kept = end.state != Copy::State::kGone && !(may_be_crossed && crossed_[x][h]);
-      known_.twin.push_back(kept ? other + end.svertex_shift : kNone);
-      loose = loose || !kept;
+      if (kept) known_.twin[to] = other + end.svertex_shift;
+      all = all && kept;
     }
-    if (loose) known_.loose_vertices.push_back(vertex);
+    if (!all) loose.loose_vertices.push_back(vertex);
   }
 
-  void copy_facets() {
-    std::size_t facets = 0;
-    std::size_t cycles = 0;
-    std::size_t corners = 0;
-    for (std::size_t x = 0; x < 2; ++x) {
-      if (!copied(x)) continue;
-      facets += operands_[x]->facets.size();
-      cycles += operands_[x]->cycle_begin.size();
-      corners += operands_[x]->corners.size();
+  // In the order of their planes.
+  void copy_facets(std::size_t x, KnownLinks& to) const {
+    if (!copied(x)) return;
+    // Those of the second operand will follow the others.
+    for (std::size_t y = x; y < 2; ++y) {
+      if (!copied(y)) continue;
+      to.facets.reserve(to.facets.capacity() + operands_[y]->facets.size());
+      to.cycle_begin.reserve(to.cycle_begin.capacity() + operands_[y]->cycle_begin.size());
+      to.corners.reserve(to.corners.capacity() + operands_[y]->corners.size());
     }
-    known_.facets.reserve(facets);
-    known_.cycle_begin.reserve(cycles);
-    known_.corners.reserve(corners);
-    for (std::size_t x = 0; x < 2; ++x) {
-      const auto begin = static_cast<std::ptrdiff_t>(known_.facets.size());
-      if (copied(x)) {
-        for (const Facet& facet : operands_[x]->facets) copy_facet(x, facet);
-      }
-      // Planes of the second operand may have got names out of order.
-      const auto first = known_.facets.begin() + begin;
-      if (!std::is_sorted(first, known_.facets.end(), row_less)) std::stable_sort(first, known_.facets.end(), row_less);
-      if (x == 1) merge(begin);
+    for (const Facet& facet : operands_[x]->facets) copy_facet(x, facet, to);
+    // Planes of the second operand may have got names out of order.
+    if (!std::is_sorted(to.facets.begin(), to.facets.end(), row_less)) {
+      std::stable_sort(to.facets.begin(), to.facets.end(), row_less);
     }
+  }
+
+  // Appends those of the second operand to known_.
+  void join_facets(const KnownLinks& second) {
+    if (second.facets.empty()) return;
+    const auto middle = static_cast<std::ptrdiff_t>(known_.facets.size());
+    const auto cycles = static_cast<std::uint32_t>(known_.cycle_begin.size() - 1);
+    const auto inside = static_cast<std::uint32_t>(known_.isolated_vertices.size());
+    const auto corners = static_cast<std::uint32_t>(known_.corners.size());
+    for (Facet facet : second.facets) {
+      facet.first_cycle = CycleId{facet.first_cycle.index() + cycles};
+      facet.first_isolated += inside;
+      known_.facets.push_back(facet);
+    }
+    for (std::size_t i = 1; i < second.cycle_begin.size(); ++i) {
+      known_.cycle_begin.push_back(second.cycle_begin[CycleId{i}] + corners);
+    }
+    known_.corners.insert(known_.corners.end(), second.corners.begin(), second.corners.end());
+    known_.isolated_vertices.insert(known_.isolated_vertices.end(), second.isolated_vertices.begin(),
+                                    second.isolated_vertices.end());
+    merge(middle);
   }
 
   bool copied(std::size_t x) const {
     return std::any_of(runs_.begin(), runs_.end(), [x](const VertexRun& run) { return run.origin == x; });
   }
 
-  void copy_facet(std::size_t x, const Facet& facet) {
+  void copy_facet(std::size_t x, const Facet& facet, KnownLinks& to) const {
     const Complex& own = *operands_[x];
     const std::vector<Copy>& copies = copies_[x];
     const std::span<const std::uint32_t> corners = own.corners_of(facet);
     const std::span<const std::uint32_t> inside = own.isolated_vertices_of(facet);
-    const std::size_t base = known_.corners.size();
+    const std::size_t base = to.corners.size();
     bool whole = true;
     for (const std::uint32_t corner : corners) {
       const Copy& copy = copies[own.shalfedge_owner[corner]];
       whole = copy.state == Copy::State::kWhole;
       if (!whole) break;
-      known_.corners.push_back(corner + copy.shalfedge_shift);
+      to.corners.push_back(corner + copy.shalfedge_shift);
     }
     for (const std::uint32_t v : inside) whole = whole && copies[v].state == Copy::State::kWhole;
     if (!whole) {
-      known_.corners.resize(base);
-      loosen(own, copies, corners, inside);
+      to.corners.resize(base);
+      loosen(own, copies, corners, inside, to);
       return;
     }
     Facet copy;
-    copy.plane = c_.shalfedges[known_.corners[base]].plane;
-    copy.first_cycle = CycleId{known_.cycle_begin.size() - 1};
+    copy.plane = c_.shalfedges[to.corners[base]].plane;
+    copy.first_cycle = CycleId{to.cycle_begin.size() - 1};
     copy.cycle_count = facet.cycle_count;
-    copy.first_isolated = static_cast<std::uint32_t>(known_.isolated_vertices.size());
+    copy.first_isolated = static_cast<std::uint32_t>(to.isolated_vertices.size());
     copy.isolated_count = facet.isolated_count;
     for (const CycleId i : facet.cycles()) {
       const auto size = static_cast<std::uint32_t>(own.corners_of(i).size());
-      known_.cycle_begin.push_back(known_.cycle_begin.back() + size);
+      to.cycle_begin.push_back(to.cycle_begin.back() + size);
     }
-    for (const std::uint32_t v : inside) known_.isolated_vertices.push_back(copies[v].vertex);
-    known_.facets.push_back(copy);
+    for (const std::uint32_t v : inside) to.isolated_vertices.push_back(copies[v].vertex);
+    to.facets.push_back(copy);
   }
 
-  void loosen(const Complex& own, const std::vector<Copy>& copies, std::span<const std::uint32_t> corners,
-              std::span<const std::uint32_t> inside) {
+  static void loosen(const Complex& own, const std::vector<Copy>& copies, std::span<const std::uint32_t> corners,
+                     std::span<const std::uint32_t> inside, KnownLinks& to) {
     for (const std::uint32_t corner : corners) {
       const Copy& copy = copies[own.shalfedge_owner[corner]];
-      if (copy.state != Copy::State::kGone) known_.loose_corners.push_back(corner + copy.shalfedge_shift);
+      if (copy.state != Copy::State::kGone) to.loose_corners.push_back(corner + copy.shalfedge_shift);
     }
     for (const std::uint32_t v : inside) {
-      if (copies[v].state != Copy::State::kGone) known_.loose_isolated.push_back(copies[v].vertex);
+      if (copies[v].state != Copy::State::kGone) to.loose_isolated.push_back(copies[v].vertex);
     }
   }
 
@@ -201,8 +235,8 @@ class LinkCopier {
 
 KnownLinks copied_links(const Complex& result, std::span<const VertexRun> runs,
                         const std::array<const Complex*, 2>& operands,
-                        const std::array<std::vector<EdgeContact>, 2>& contacts) {
-  return LinkCopier(result, runs, operands).run(contacts);
+                        const std::array<std::vector<EdgeContact>, 2>& contacts, unsigned threads) {
+  return LinkCopier(result, runs, operands).run(contacts, threads);
 }
 
 }  // namespace nef

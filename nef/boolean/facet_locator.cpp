@@ -7,19 +7,25 @@
 
 namespace nef {
 
-const BoxTree& FacetLocator::tree(FacetId facet) {
-  const auto [entry, is_new] = trees_.try_emplace(facet);
-  if (is_new) {
+void FacetLocator::expect(std::span<const FacetId> facets) {
+  for (const FacetId facet : facets) {
+    if (corners_of(facet).size() > kSmall) trees_.try_emplace(facet);
+  }
+}
+
+const BoxTree& FacetLocator::tree(FacetId facet) const {
+  LazyTree& entry = trees_.at(facet);
+  std::call_once(entry.once, [&] {
     std::vector<Box> boxes;
     for (const std::uint32_t corner : corners_of(facet)) {
       boxes.push_back(operand_.edge_box(operand_.complex().corner_halfedge(corner)));
     }
-    entry->second = BoxTree(boxes);
-  }
-  return entry->second;
+    entry.tree = BoxTree(boxes);
+  });
+  return entry.tree;
 }
 
-bool FacetLocator::surely_misses(FacetId facet, const Box& box) {
+bool FacetLocator::surely_misses(FacetId facet, const Box& box) const {
   const PlaneAxes axes(tables_.planes, operand_.facet_plane(facet));
   Box ray = box;
   ray.low[static_cast<std::size_t>(axes.first)] = -HUGE_VAL;
@@ -35,7 +41,7 @@ bool FacetLocator::surely_misses(FacetId facet, const Box& box) {
   return parity.surely_outside();
 }
 
-Item FacetLocator::locate(FacetId facet, PointId point) {
+Item FacetLocator::locate(FacetId facet, PointId point) const {
   const PlaneTable& planes = tables_.planes;
   const PointTable& points = tables_.points;
   const PlaneId plane = operand_.facet_plane(facet);

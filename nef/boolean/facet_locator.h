@@ -1,30 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <mutex>
 #include <unordered_map>
 
 #include "nef/boolean/operand.h"
 
 namespace nef {
 
-/// Locates points of common tables in the facets of one operand. Small facets are scanned; large
+/// Locates points of common tables in some facets of one operand. Small facets are scanned; large
 /// ones get a tree over their edges when they are first asked, so that a query costs O(log n +
-/// edges met by a ray).
+/// edges met by a ray). Several threads may ask at once.
 class FacetLocator {
  public:
   FacetLocator(const Operand& operand, const CommonTables& tables) : operand_(operand), tables_(tables) {}
 
+  /// Says which facets will be asked. To be called once, before.
+  void expect(std::span<const FacetId> facets);
+
   /// The item of the (closed) facet that holds a point of its plane: the facet itself, an edge or
   /// a vertex of its boundary or an isolated vertex inside; kNone if the point lies outside.
-  [[nodiscard]] Item locate(FacetId facet, PointId point);
+  [[nodiscard]] Item locate(FacetId facet, PointId point) const;
 
   /// True only if a point of the facet's plane that lies in `box` is not in the closed facet. In double
   /// precision, with proven bounds.
-  [[nodiscard]] bool surely_misses(FacetId facet, const Box& box);
+  [[nodiscard]] bool surely_misses(FacetId facet, const Box& box) const;
 
   /// The boundary edges of the facet (as halfedges of its corners) whose boxes meet `box`.
   template <typename Visit>
-  void for_each_edge(FacetId facet, const Box& box, Visit&& visit) {
+  void for_each_edge(FacetId facet, const Box& box, Visit&& visit) const {
     const std::span<const std::uint32_t> corners = corners_of(facet);
     if (corners.size() <= kSmall) {
       for (const std::uint32_t corner : corners) visit(operand_.complex().corner_halfedge(corner));
@@ -39,11 +43,15 @@ class FacetLocator {
   [[nodiscard]] std::span<const std::uint32_t> corners_of(FacetId facet) const {
     return operand_.complex().corners_of(facet);
   }
-  const BoxTree& tree(FacetId facet);
+  struct LazyTree {
+    std::once_flag once;
+    BoxTree tree;
+  };
+  const BoxTree& tree(FacetId facet) const;
 
   const Operand& operand_;
   const CommonTables& tables_;
-  std::unordered_map<FacetId, BoxTree> trees_;
+  mutable std::unordered_map<FacetId, LazyTree> trees_;  // of all large facets that are expected
 };
 
 }  // namespace nef

@@ -9,6 +9,7 @@
 
 #include "nef/base/error.h"
 #include "nef/base/interruption.h"
+#include "nef/base/parallel.h"
 #include "nef/base/progress.h"
 #include "nef/boolean/facet_locator.h"
 #include "nef/boolean/piercing_filter.h"
@@ -19,9 +20,10 @@ namespace {
 
 class IntersectionFinder {
  public:
-  IntersectionFinder(const std::array<Operand, 2>& operands, CommonTables& tables)
+  IntersectionFinder(const std::array<Operand, 2>& operands, CommonTables& tables, unsigned threads)
       : operands_(operands),
         tables_(tables),
+        threads_(threads),
         locators_{FacetLocator{operands[0], tables}, FacetLocator{operands[1], tables}} {
     for (std::size_t x = 0; x < 2; ++x) result_.vertex_item[x].resize(operands[x].complex().vertex_count());
   }
@@ -114,13 +116,14 @@ class IntersectionFinder {
     }
     const std::size_t count = operands_[0].complex().facets.size() + operands_[1].complex().facets.size();
     std::array<OccupancyGrid, 2> grids{OccupancyGrid(region, count), OccupancyGrid(region, count)};
-    const std::array<Candidates, 2> found{candidates(0, grids[0]), candidates(1, grids[1])};
-    for (std::size_t x = 0; x < 2; ++x) {
+    std::array<Candidates, 2> found;
+    parallel_for(2, threads_, [&](std::size_t x) {
+      found[x] = candidates(x, grids[x]);
       for (const auto* cells : {&found[x].facets.cells, &found[x].bare_edges.cells, &found[x].bare_vertices.cells}) {
         for (const CellRange& range : *cells) grids[x].mark(range);
       }
-    }
-    for (std::size_t x = 0; x < 2; ++x) collect(x, found[x], grids[1 - x]);
+    });
+    parallel_for(2, threads_, [&](std::size_t x) { collect(x, found[x], grids[1 - x]); });
   }
 
   // The items that come near the other operand, with a tree of their boxes.
@@ -145,6 +148,7 @@ class IntersectionFinder {
     const auto edge_box = [&](std::uint32_t e) { return operand.edge_box(e); };
     const auto vertex_box = [&](std::uint32_t v) { return operand.vertex_box(v); };
     near.facets = keep(found.facets, other, facet_box, near.facet_tree);
+    locators_[x].expect(near.facets);
     near.bare_edges = keep(found.bare_edges, other, edge_box, near.bare_edge_tree);
     near.bare_vertices = keep(found.bare_vertices, other, vertex_box, near.bare_vertex_tree);
     // The ends of an edge that is near need not be.
@@ -167,21 +171,51 @@ class IntersectionFinder {
     if (item.kind == Item::Kind::kVertex) result_.vertex_item[1 - x][item.index] = {Item::Kind::kVertex, vertex};
   }
 
+  // A vertex or an edge of one operand and a facet of the other that may meet it.
+  struct Pair {
+    std::uint32_t own;
+    FacetId facet;
+  };
+
+  // Finds pairs for `count` items of one operand on several threads, many items at a time, and uses them on this one,
+  // in the order of the items: finding only looks, and rules out nearly all pairs; using may add points and results.
+  template <typename Find, typename Use>
+  void find_and_use(std::size_t count, const char* phase, const Find& find, const Use& use) {
+    constexpr std::size_t kTogether = 1024;
+    constexpr std::size_t kAtOnce = 16;
+    std::array<std::vector<Pair>, kAtOnce> found;
+    for (std::size_t begin = 0; begin < count; begin += kAtOnce * kTogether) {
+      check_interruption();
+      tell_progress(phase, begin, count);
+      const std::size_t end = std::min(count, begin + kAtOnce * kTogether);
+      parallel_for_ranges(end - begin, kTogether, threads_, [&](std::size_t first, std::size_t last) {
+        std::vector<Pair>& pairs = found[first / kTogether];
+        pairs.clear();
+        for (std::size_t k = begin + first; k < begin + last; ++k) find(k, pairs);
+      });
+      for (std::size_t part = 0; part * kTogether < end - begin; ++part) {
+        for (const Pair& pair : found[part]) use(pair);
+      }
+    }
+  }
+
   void vertices_against_facets(std::size_t x) {
     const Operand& other = operands_[1 - x];
     const std::vector<std::uint32_t>& vertices = near_[x].vertices;
-    for (std::size_t k = 0; k < vertices.size(); ++k) {
+    const auto placed = [&](std::uint32_t v) { return result_.vertex_item[x][v].kind != Item::Kind::kNone; };
+    const auto find = [&](std::size_t k, std::vector<Pair>& pairs) {
       const std::uint32_t v = vertices[k];
-      check_interruption();
-      tell_progress_of_item("vertices in facets", k, vertices.size());
+      if (placed(v)) return;
       near_[1 - x].facet_tree.for_each_overlap(operands_[x].vertex_box(v), [&](std::uint32_t i) {
-        if (result_.vertex_item[x][v].kind != Item::Kind::kNone) return;
         const FacetId facet = near_[1 - x].facets[i];
-        if (side(other.facet_plane(facet), operands_[x].point(v)) != 0) return;
-        const Item item = locators_[1 - x].locate(facet, operands_[x].point(v));
-        if (item.kind != Item::Kind::kNone) place_vertex(x, v, item);
+        if (side(other.facet_plane(facet), operands_[x].point(v)) == 0) pairs.push_back({v, facet});
       });
-    }
+    };
+    find_and_use(vertices.size(), "vertices in facets", find, [&](const Pair& pair) {
+      if (placed(pair.own)) return;
+      const Item item = locators_[1 - x].locate(pair.facet, operands_[x].point(pair.own));
+      if (item.kind != Item::Kind::kNone) place_vertex(x, pair.own, item);
+    });
   }
 
   void vertices_against_bare(std::size_t x) {
@@ -213,38 +247,41 @@ class IntersectionFinder {
     const Operand& own = operands_[x];
     const Operand& other = operands_[1 - x];
     const std::vector<std::uint32_t>& edges = near_[x].edges;
-    for (std::size_t k = 0; k < edges.size(); ++k) {
+    const auto find = [&](std::size_t k, std::vector<Pair>& pairs) {
       const std::uint32_t e = edges[k];
-      check_interruption();
-      tell_progress_of_item("edges through facets", k, edges.size());
       const PointId a = own.point(own.source(e));
       const PointId b = own.point(own.target(e));
-      const Box box = own.edge_box(e);
-      near_[1 - x].facet_tree.for_each_overlap(box, [&](std::uint32_t i) {
+      near_[1 - x].facet_tree.for_each_overlap(own.edge_box(e), [&](std::uint32_t i) {
         const FacetId facet = near_[1 - x].facets[i];
         const PlaneId plane = other.facet_plane(facet);
         const int side_a = side(plane, a);
         const int side_b = side(plane, b);
-        if (side_a * side_b < 0) {
-          pierce(x, e, facet);
-        } else if (side_a == 0 && side_b == 0) {
-          locators_[1 - x].for_each_edge(facet, box,
-                                         [&](std::uint32_t f) { cross_in_plane(x, e, other.edge(f), plane); });
-        }
+        if (side_a * side_b < 0 ? may_pierce(x, a, b, facet) : side_a == 0 && side_b == 0) pairs.push_back({e, facet});
       });
-    }
+    };
+    find_and_use(edges.size(), "edges through facets", find, [&](const Pair& pair) {
+      const std::uint32_t e = pair.own;
+      const PlaneId plane = other.facet_plane(pair.facet);
+      if (side(plane, own.point(own.source(e))) != 0) {
+        pierce(x, e, pair.facet);
+        return;
+      }
+      locators_[1 - x].for_each_edge(pair.facet, own.edge_box(e),
+                                     [&](std::uint32_t f) { cross_in_plane(x, e, other.edge(f), plane); });
+    });
+  }
+
+  // False only if the segment from a to b, which passes through the plane of a facet, misses the facet.
+  [[nodiscard]] bool may_pierce(std::size_t x, PointId a, PointId b, FacetId facet) const {
+    const Box rough = piercing_box(tables_.planes, operands_[1 - x].facet_plane(facet), tables_.points, a, b);
+    const bool misses = locators_[1 - x].surely_misses(facet, rough);
+    if (misses) ++predicate_counts().filter;
+    return !misses;
   }
 
   // Edge e of operand x passes through the plane of a facet of the other.
   void pierce(std::size_t x, std::uint32_t e, FacetId facet) {
-    const Operand& own = operands_[x];
-    const Box rough = piercing_box(tables_.planes, operands_[1 - x].facet_plane(facet), tables_.points,
-                                   own.point(own.source(e)), own.point(own.target(e)));
-    if (locators_[1 - x].surely_misses(facet, rough)) {
-      ++predicate_counts().filter;
-      return;
-    }
-    const SVertex line = own.svertex(e);
+    const SVertex line = operands_[x].svertex(e);
     const std::optional<PointId> point =
         tables_.points.push_intersection(tables_.planes, line.p, line.q, operands_[1 - x].facet_plane(facet));
     NEF_ASSERT(point.has_value());
@@ -322,6 +359,7 @@ class IntersectionFinder {
 
   const std::array<Operand, 2>& operands_;
   CommonTables& tables_;
+  unsigned threads_;
   std::array<FacetLocator, 2> locators_;
   std::array<Near, 2> near_;
   std::unordered_set<std::uint64_t> edge_pairs_;
@@ -330,8 +368,8 @@ class IntersectionFinder {
 
 }  // namespace
 
-Intersections intersect_boundaries(const std::array<Operand, 2>& operands, CommonTables& tables) {
-  return IntersectionFinder(operands, tables).run();
+Intersections intersect_boundaries(const std::array<Operand, 2>& operands, CommonTables& tables, unsigned threads) {
+  return IntersectionFinder(operands, tables, threads).run();
 }
 
 }  // namespace nef

@@ -34,7 +34,7 @@ struct Intersections {
   std::array<std::vector<EdgeContact>, 2> contacts;
 };
 
-/// Finds all of them. New points are added to the tables.
-Intersections intersect_boundaries(const std::array<Operand, 2>& operands, CommonTables& tables);
+/// Finds all of them, on up to `threads` threads. New points are added to the tables.
+Intersections intersect_boundaries(const std::array<Operand, 2>& operands, CommonTables& tables, unsigned threads);
 
 }  // namespace nef

@@ -2,29 +2,39 @@
 #include "nef/boolean/operand.h"
 
 #include "nef/base/error.h"
+#include "nef/base/parallel.h"
 #include "nef/complex/item_boxes.h"
 #include "nef/complex/local_pyramid.h"
 #include "nef/sphere_map/sphere_geometry.h"
 
 namespace nef {
 
-Operand::Operand(const Complex& complex, CommonTables& tables)
-    : complex_(&complex), first_point_(static_cast<std::uint32_t>(tables.points.size())) {
-  if (tables.planes.size() == 0 && tables.points.size() == 0) {
-    tables.planes = complex.planes;
-    tables.points = complex.points;
-  } else {
-    tables.points.append(complex.points, 0, complex.points.size());
-    rows_.resize(complex.planes.size());
-    tables.planes.reserve(tables.planes.size() + complex.planes.size());
-    for (std::uint32_t row = 0; row < rows_.size(); ++row) {
-      rows_[row] = tables.planes.intern_from(complex.planes, PlaneId{row << 1U}).row();
+CommonTables::CommonTables(const Complex& first, const Complex& second, unsigned threads) {
+  const auto find_planes = [&] { rows_of_second = first.planes.rows_of(second.planes, threads); };
+  const auto copy = [&] {
+    planes.reserve(first.planes.size() + second.planes.size());
+    planes.append_new(first.planes, 0, first.planes.size());
+    points.reserve(first.points.size() + second.points.size());
+    points.append(first.points, 0, first.points.size());
+    points.append(second.points, 0, second.points.size());
+  };
+  const auto find_bounds = [&] {
+    for (std::size_t x = 0; x < 2; ++x) {
+      const Complex& complex = x == 0 ? first : second;
+      for (std::uint32_t v = 0; v < complex.vertex_count(); ++v) {
+        bounds[x].add_rounded(complex.points.approximate(PointId{v}));
+      }
     }
-  }
-  for (std::uint32_t v = 0; v < complex.vertex_count(); ++v) {
-    bounds_.add_rounded(complex.points.approximate(PointId{v}));
-  }
+  };
+  parallel_calls(threads, {find_planes, copy, find_bounds});
+  planes.append_missing(second.planes, rows_of_second);
 }
+
+Operand::Operand(const Complex& complex, const CommonTables& tables, std::size_t x)
+    : complex_(&complex),
+      rows_(x == 0 ? std::span<const std::uint32_t>() : tables.rows_of_second),
+      first_point_(x == 0 ? 0 : static_cast<std::uint32_t>(tables.points.size() - complex.points.size())),
+      bounds_(&tables.bounds[x]) {}
 
 void Operand::rename(SphereMapBuffer& map) const {
   if (rows_.empty()) return;

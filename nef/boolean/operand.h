@@ -4,6 +4,7 @@
 // points renamed to common tables.
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -13,10 +14,16 @@
 
 namespace nef {
 
-/// Planes and points of both operands and of what the operation adds.
+/// Planes and points of both operands and of what the operation adds. Those of the first operand keep their names; the
+/// points of the second one follow them.
 struct CommonTables {
   PlaneTable planes;
   PointTable points;
+  std::vector<std::uint32_t> rows_of_second;  ///< the row of each plane of the second operand
+  std::array<Box, 2> bounds;                  ///< of the vertices of each operand
+
+  /// O(planes and points), on up to `threads` threads.
+  CommonTables(const Complex& first, const Complex& second, unsigned threads);
 };
 
 /// What item of a complex a point lies on. A halfedge stands for its edge: the smaller of the two.
@@ -30,9 +37,8 @@ struct Item {
 
 class Operand {
  public:
-  /// Adds the complex to the tables. The first operand keeps its names, so pass it into empty
-  /// tables; the complex must outlive the operand.
-  Operand(const Complex& complex, CommonTables& tables);
+  /// Operand `x` (0 or 1) of those whose tables these are; both must outlive the operand.
+  Operand(const Complex& complex, const CommonTables& tables, std::size_t x);
   Operand(const Operand&) = delete;
   Operand& operator=(const Operand&) = delete;
 
@@ -47,8 +53,6 @@ class Operand {
     result.q = plane(result.q);
     return result;
   }
-  /// The common row of each own one; empty if they are the same.
-  [[nodiscard]] std::span<const std::uint32_t> common_rows() const { return rows_; }
   [[nodiscard]] PlaneId facet_plane(FacetId facet) const { return plane(complex_->facets[facet].plane); }
 
   /// The smaller halfedge of an edge.
@@ -58,7 +62,7 @@ class Operand {
   [[nodiscard]] std::uint32_t source(std::uint32_t halfedge) const { return complex_->svertex_owner[halfedge]; }
   [[nodiscard]] std::uint32_t target(std::uint32_t halfedge) const { return complex_->target(halfedge); }
 
-  [[nodiscard]] const Box& bounds() const { return bounds_; }
+  [[nodiscard]] const Box& bounds() const { return *bounds_; }
   [[nodiscard]] Box vertex_box(std::uint32_t vertex) const;
   [[nodiscard]] Box edge_box(std::uint32_t halfedge) const;
   [[nodiscard]] Box facet_box(FacetId facet) const;
@@ -80,9 +84,9 @@ class Operand {
   void rename(SphereMapBuffer& map) const;
 
   const Complex* complex_;
-  std::vector<std::uint32_t> rows_;  // own plane row -> common row; empty for the first operand
+  std::span<const std::uint32_t> rows_;  // own plane row -> common row; empty for the first operand
   std::uint32_t first_point_ = 0;
-  Box bounds_;
+  const Box* bounds_;
 };
 
 }  // namespace nef

@@ -8,73 +8,82 @@
 #include <algorithm>
 #include <deque>
 
-#include "nef/base/progress.h"
+#include "nef/base/parallel.h"
+#include "nef/boolean/pyramid_overlay.h"
 #include "nef/boolean/result_assembly.h"
 #include "nef/complex/local_pyramid.h"
-#include "nef/sphere_map/overlay.h"
 
 namespace nef {
 namespace {
 
 class ComplexOverlay {
  public:
-  ComplexOverlay(const Complex& a, const Complex& b, const LabelFunction& f)
-      : f_(f), operands_{Operand(a, tables_), Operand(b, tables_)}, result_(operands_, tables_) {}
+  ComplexOverlay(const Complex& a, const Complex& b, const LabelFunction& f, unsigned threads)
+      : f_(f),
+        threads_(threads),
+        tables_(a, b, threads_),
+        operands_{Operand(a, tables_, 0), Operand(b, tables_, 1)},
+        result_(operands_, tables_) {}
 
   // Nothing if the result is operand 0.
   std::optional<Complex> run(const std::function<const QueryStructure&()>& queries_a,
                              const std::function<const QueryStructure&()>& queries_b) {
-    Intersections found = intersect_boundaries(operands_, tables_);
-    for (std::size_t x = 0; x < 2; ++x) {
-      const std::vector<LabelId> marks =
-          marks_of_untouched(operands_, x, tables_, found, x == 0 ? queries_b : queries_a);
-      const std::vector<Item>& items = found.vertex_item[x];
-      for (std::uint32_t v = 0; v < items.size(); ++v) {
-        tell_progress_of_item("sphere maps", v, items.size());
-        if (items[v].kind == Item::Kind::kNone) {
-          push_untouched(x, v, marks[v]);
-        } else if (x == 0 || items[v].kind != Item::Kind::kVertex) {
-          std::array<Item, 2> pair;
-          pair[x] = {Item::Kind::kVertex, v};
-          pair[1 - x] = items[v];
-          push_overlay(operands_[x].point(v), pair);
-        }
-      }
-    }
-    for (std::size_t k = 0; k < found.crossings.size(); ++k) {
-      tell_progress_of_item("sphere maps of crossings", k, found.crossings.size());
-      push_overlay(found.crossings[k].point, found.crossings[k].item);
-    }
+    Intersections found = intersect_boundaries(operands_, tables_, threads_);
+    std::array<std::vector<LabelId>, 2> marks;
+    const auto find_marks = [&](std::size_t x) {
+      marks[x] = marks_of_untouched(operands_, x, tables_, found, x == 0 ? queries_b : queries_a);
+    };
+    parallel_calls(threads_, {[&] { find_marks(0); }, [&] { find_marks(1); }});
+    std::vector<Meeting> meetings;
+    const auto note_meeting = [&](const Meeting& meeting) { meetings.push_back(meeting); };
+    for_each_vertex(
+        found, [](std::size_t, std::uint32_t) {}, note_meeting);
+    for (const Crossing& crossing : found.crossings) note_meeting({crossing.point, crossing.item});
+    const OverlaidMeetings overlaid(operands_, tables_, f_, meetings, threads_);
+    std::size_t next = 0;
+    const auto push_next = [&](const Meeting&) { result_.add(overlaid[next++]); };
+    for_each_vertex(
+        found, [&](std::size_t x, std::uint32_t v) { push_untouched(x, v, marks[x][v]); }, push_next);
+    while (next < meetings.size()) result_.add(overlaid[next++]);
     return finished(std::move(found));
   }
 
  private:
+  // The vertices of both operands in the order of the result: those that touch nothing, and those at which pyramids
+  // meet. Where two vertices meet, that of operand 0. Gone through twice: what meets is overlaid on several threads,
+  // and then put in its place.
+  template <typename Untouched, typename Met>
+  void for_each_vertex(const Intersections& found, const Untouched& untouched, const Met& met) const {
+    for (std::size_t x = 0; x < 2; ++x) {
+      const std::vector<Item>& items = found.vertex_item[x];
+      for (std::uint32_t v = 0; v < items.size(); ++v) {
+        if (items[v].kind == Item::Kind::kNone) {
+          untouched(x, v);
+        } else if (x == 0 || items[v].kind != Item::Kind::kVertex) {
+          std::array<Item, 2> pair;
+          pair[x] = {Item::Kind::kVertex, v};
+          pair[1 - x] = items[v];
+          met({operands_[x].point(v), pair});
+        }
+      }
+    }
+  }
+
   std::optional<Complex> finished(Intersections&& found) {
     const Complex& a = operands_[0].complex();
     const Complex& b = operands_[1].complex();
     const LabelId outer = f_(a.volumes[kOuterVolume].mark, b.volumes[kOuterVolume].mark);
     if (result_.is_first_operand() && outer == a.volumes[kOuterVolume].mark) return std::nullopt;
     ComplexBuilder builder(tables_.planes);
-    result_.write(tables_.planes, builder);
-    if ((a.has_box() || b.has_box()) && builder.has_idle_box()) return builder.finish(outer);
+    result_.write(tables_.planes, builder, threads_);
+    if ((a.has_box() || b.has_box()) && builder.has_idle_box()) return builder.finish(outer, threads_);
     std::optional<KnownLinks> known;
     if (result_.is_mostly_copies()) {
-      known = copied_links(builder.so_far(), result_.origins(), {&a, &b}, found.contacts);
+      known = copied_links(builder.so_far(), result_.origins(), {&a, &b}, found.contacts, threads_);
     }
     found = {};
     tables_.points = PointTable();
-    return known ? builder.finish(outer, *std::move(known)) : builder.finish(outer);
-  }
-
-  void push_overlay(PointId point, const std::array<Item, 2>& items) {
-    const SphereMapView a = operands_[0].pyramid(items[0], 0, scratch_[0]);
-    const SphereMapView b = operands_[1].pyramid(items[1], 0, scratch_[1]);
-    overlay_.overlay(tables_.planes, a, b, f_, out_);
-    push_result(point);
-  }
-
-  void push_result(PointId point) {
-    if (is_vertex(tables_.planes, out_.view())) result_.add(point, out_.view());
+    return known ? builder.finish(outer, *std::move(known), threads_) : builder.finish(outer, threads_);
   }
 
   // What f does to the marks of operand x beside one mark of the other.
@@ -134,10 +143,8 @@ class ComplexOverlay {
         if (push_if_injective(x, v, other)) return;
         std::array<Item, 2> items;
         items[x] = {Item::Kind::kVertex, v};
-        const SphereMapView a = operands_[0].pyramid(items[0], other, scratch_[0]);
-        const SphereMapView b = operands_[1].pyramid(items[1], other, scratch_[1]);
-        overlay_.overlay(tables_.planes, a, b, f_, out_);
-        push_result(operands_[x].point(v));
+        const SphereMapBuffer& map = overlay_.at(items, other);
+        if (is_vertex(tables_.planes, map.view())) result_.add(operands_[x].point(v), map.view());
         return;
       }
     }
@@ -146,7 +153,7 @@ class ComplexOverlay {
   // Copies a vertex if f keeps apart all the marks around it: then nothing simplifies.
   bool push_if_injective(std::size_t x, std::uint32_t v, LabelId other) {
     const auto image = [&](LabelId mark) { return x == 0 ? f_(mark, other) : f_(other, mark); };
-    const SphereMapView map = operands_[x].pyramid({Item::Kind::kVertex, v}, other, scratch_[x]);
+    const SphereMapView map = operands_[x].pyramid({Item::Kind::kVertex, v}, other, scratch_);
     marks_.assign(1, map.mark);
     for (const SVertex& item : map.svertices) marks_.push_back(item.mark);
     for (const SHalfedge& item : map.shalfedges) marks_.push_back(item.mark);
@@ -176,10 +183,11 @@ class ComplexOverlay {
   }
 
   const LabelFunction& f_;
+  unsigned threads_;
   CommonTables tables_;
   std::array<Operand, 2> operands_;
-  SphereOverlay overlay_;
-  std::array<SphereMapBuffer, 2> scratch_;
+  PyramidOverlay overlay_{operands_, tables_, f_};
+  SphereMapBuffer scratch_;
   SphereMapBuffer out_;
   std::vector<LabelId> marks_;
   std::array<Restrictions, 2> restrictions_;
@@ -190,8 +198,8 @@ class ComplexOverlay {
 
 std::optional<Complex> overlay_complexes(const Complex& a, const Complex& b, const LabelFunction& f,
                                          const std::function<const QueryStructure&()>& queries_a,
-                                         const std::function<const QueryStructure&()>& queries_b) {
-  return ComplexOverlay(a, b, f).run(queries_a, queries_b);
+                                         const std::function<const QueryStructure&()>& queries_b, unsigned threads) {
+  return ComplexOverlay(a, b, f, threads).run(queries_a, queries_b);
 }
 
 }  // namespace nef

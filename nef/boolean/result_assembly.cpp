@@ -3,24 +3,33 @@
 
 #include <algorithm>
 
+#include "nef/base/parallel.h"
+
 namespace nef {
 
-void ResultAssembly::copy(std::size_t x, std::uint32_t v, const std::vector<LabelId>* marks) {
+// One vertex, behind the others.
+void ResultAssembly::append(const Run& run) {
   if (!runs_.empty()) {
     Run& last = runs_.back();
-    if (last.vertices.origin == x && last.marks == marks && last.vertices.first + last.vertices.count == v) {
+    if (last.from == run.from && last.marks == run.marks && last.vertices.origin == run.vertices.origin &&
+        last.vertices.first + last.vertices.count == run.vertices.first) {
       ++last.vertices.count;
       return;
     }
   }
-  runs_.push_back({{x, v, 1}, marks});
+  runs_.push_back(run);
+}
+
+void ResultAssembly::copy(std::size_t x, std::uint32_t v, const std::vector<LabelId>* marks) {
+  append({{x, v, 1}, &operands_[x].complex(), marks});
+}
+
+void ResultAssembly::add(const VertexOf& made) {
+  if (made.complex != nullptr) append({{VertexRun::kNew, made.vertex, 1}, made.complex, nullptr});
 }
 
 void ResultAssembly::add(PointId point, const SphereMapView& map) {
-  if (runs_.empty() || runs_.back().vertices.origin != VertexRun::kNew) {
-    runs_.push_back({{VertexRun::kNew, static_cast<std::uint32_t>(new_.so_far().vertex_count()), 0}, nullptr});
-  }
-  ++runs_.back().vertices.count;
+  add({&new_.so_far(), static_cast<std::uint32_t>(new_.so_far().vertex_count())});
   new_.append(tables_.points, point, map);
 }
 
@@ -31,8 +40,9 @@ bool ResultAssembly::is_first_operand() const {
 
 bool ResultAssembly::is_mostly_copies() const {
   std::size_t copies = 0;
-  for (const Run& run : runs_) copies += run.vertices.origin == VertexRun::kNew ? 0 : run.vertices.count;
-  return copies > new_.so_far().vertex_count();
+  std::size_t others = 0;
+  for (const Run& run : runs_) (run.vertices.origin == VertexRun::kNew ? others : copies) += run.vertices.count;
+  return copies > others;
 }
 
 std::vector<VertexRun> ResultAssembly::origins() const {
@@ -42,16 +52,12 @@ std::vector<VertexRun> ResultAssembly::origins() const {
   return result;
 }
 
-const Complex& ResultAssembly::origin(const Run& run) const {
-  return run.vertices.origin == VertexRun::kNew ? new_.so_far() : operands_[run.vertices.origin].complex();
-}
-
 void ResultAssembly::reserve(ComplexBuilder& result) const {
   std::size_t vertices = 0;
   VertexRecord size;
   for (const Run& run : runs_) {
-    const VertexRecord& first = origin(run).vertices[run.vertices.first];
-    const VertexRecord& last = origin(run).vertices[run.vertices.first + run.vertices.count];
+    const VertexRecord& first = run.from->vertices[run.vertices.first];
+    const VertexRecord& last = run.from->vertices[run.vertices.first + run.vertices.count];
     vertices += run.vertices.count;
     size.svertices += last.svertices - first.svertices;
     size.shalfedges += last.shalfedges - first.shalfedges;
@@ -62,60 +68,87 @@ void ResultAssembly::reserve(ComplexBuilder& result) const {
   result.reserve(vertices, size);
 }
 
-// By common name.
-std::vector<bool> ResultAssembly::used_planes(std::size_t planes) const {
-  std::vector<bool> used(planes, false);
-  for (const Run& run : runs_) {
-    const Complex& from = origin(run);
-    const VertexRecord& begin = from.vertices[run.vertices.first];
-    const VertexRecord& end = from.vertices[run.vertices.first + run.vertices.count];
-    const auto note = [&](const auto& row) {
-      for (std::uint32_t s = begin.svertices; s < end.svertices; ++s) {
-        used[row(from.svertices[s].p)] = used[row(from.svertices[s].q)] = true;
+// By common name; not zero for those that are used.
+std::vector<std::uint8_t> ResultAssembly::used_planes(std::size_t planes, unsigned threads) const {
+  const auto of_runs = [&](std::vector<std::uint8_t>& used, const auto& note) {
+    used.resize(planes, 0);
+    for (const Run& run : runs_) {
+      const Complex& from = *run.from;
+      const VertexRecord& begin = from.vertices[run.vertices.first];
+      const VertexRecord& end = from.vertices[run.vertices.first + run.vertices.count];
+      if (run.vertices.origin == 1) {
+        note(from, begin, end, [&](PlaneId plane) { used[operands_[1].plane(plane).row()] = 1; });
+      } else {
+        note(from, begin, end, [&](PlaneId plane) { used[plane.row()] = 1; });
       }
-      for (std::uint32_t e = begin.shalfedges; e < end.shalfedges; ++e) used[row(from.shalfedges[e].plane)] = true;
-      for (std::uint32_t l = begin.sloops; l < end.sloops; ++l) used[row(from.sloops[l].plane)] = true;
-    };
-    if (run.vertices.origin == 1) {
-      note([&](PlaneId plane) { return operands_[1].plane(plane).row(); });
-    } else {
-      note([](PlaneId plane) { return plane.row(); });
     }
+  };
+  const auto of_svertices = [](const Complex& from, const VertexRecord& begin, const VertexRecord& end,
+                               const auto& use) {
+    for (std::uint32_t s = begin.svertices; s < end.svertices; ++s) {
+      use(from.svertices[s].p);
+      use(from.svertices[s].q);
+    }
+  };
+  // Twins lie in one plane.
+  const auto of_others = [](const Complex& from, const VertexRecord& begin, const VertexRecord& end, const auto& use) {
+    for (std::uint32_t e = begin.shalfedges; e < end.shalfedges; e += 2) use(from.shalfedges[e].plane);
+    for (std::uint32_t l = begin.sloops; l < end.sloops; ++l) use(from.sloops[l].plane);
+  };
+  std::array<std::vector<std::uint8_t>, 2> used;
+  parallel_calls(threads, {[&] { of_runs(used[0], of_svertices); }, [&] { of_runs(used[1], of_others); }});
+  for (std::size_t i = 0; i < planes; ++i) used[0][i] |= used[1][i];
+  return std::move(used[0]);
+}
+
+ResultAssembly::FinalRows ResultAssembly::final_rows(std::size_t planes, unsigned threads) const {
+  const std::vector<std::uint8_t> used = used_planes(planes, threads);
+  const std::vector<std::uint32_t>& common = tables_.rows_of_second;
+  FinalRows result;
+  result.count = static_cast<std::size_t>(std::count(used.begin(), used.end(), std::uint8_t{1}));
+  if (result.count == planes) {
+    result.of_origin[1] = common;
+    return result;
   }
-  return used;
+  std::vector<std::uint32_t> row(planes, kNone);
+  std::uint32_t next = 0;
+  for (std::size_t i = 0; i < planes; ++i) {
+    if (used[i] != 0) row[i] = next++;
+  }
+  result.of_origin[1].reserve(common.size());
+  for (const std::uint32_t r : common) result.of_origin[1].push_back(row[r]);
+  result.of_origin[0] = row;
+  result.of_origin[VertexRun::kNew] = std::move(row);
+  return result;
 }
 
 // Cascades would otherwise carry the planes of everything that ever was.
-std::array<std::vector<std::uint32_t>, 3> ResultAssembly::final_rows(PlaneTable& planes) const {
-  const std::vector<bool> used = used_planes(planes.size());
-  const auto count = static_cast<std::size_t>(std::count(used.begin(), used.end(), true));
-  const std::span<const std::uint32_t> common = operands_[1].common_rows();
-  std::array<std::vector<std::uint32_t>, 3> rows;
-  if (count == used.size()) {
-    rows[1].assign(common.begin(), common.end());
-    return rows;
-  }
+void ResultAssembly::drop_planes(PlaneTable& planes, const FinalRows& rows) {
+  if (rows.count == planes.size()) return;
+  const std::vector<std::uint32_t>& row = rows.of_origin[0];
   PlaneTable kept;
-  kept.reserve(count);
-  std::vector<std::uint32_t> row(used.size(), kNone);
-  for (std::uint32_t i = 0; i < used.size(); ++i) {
-    if (used[i]) row[i] = kept.append_new(planes, i);
+  kept.reserve(rows.count);
+  for (std::uint32_t first = 0; first < row.size(); ++first) {
+    std::uint32_t last = first;
+    while (last < row.size() && row[last] != kNone) ++last;
+    if (last == first) continue;
+    kept.append_new(planes, first, last - first);
+    first = last;
   }
   planes = std::move(kept);
-  for (const std::uint32_t r : common) rows[1].push_back(row[r]);
-  rows[0] = row;
-  rows[VertexRun::kNew] = std::move(row);
-  return rows;
 }
 
-void ResultAssembly::write(PlaneTable& planes, ComplexBuilder& result) const {
-  const auto rows = final_rows(planes);
+void ResultAssembly::write(PlaneTable& planes, ComplexBuilder& result, unsigned threads) const {
+  const FinalRows rows = final_rows(planes.size(), threads);
   reserve(result);
+  std::vector<ComplexBuilder::CopiedRun> copies;
+  copies.reserve(runs_.size());
   for (const Run& run : runs_) {
     const VertexRun& r = run.vertices;
     const std::span<const LabelId> marks = run.marks == nullptr ? std::span<const LabelId>() : *run.marks;
-    result.copy(origin(run), r.first, r.count, rows[r.origin], marks);
+    copies.push_back({run.from, r.first, r.count, rows.of_origin[r.origin], marks});
   }
+  parallel_calls(threads, {[&] { result.copy(copies, threads); }, [&] { drop_planes(planes, rows); }});
 }
 
 }  // namespace nef

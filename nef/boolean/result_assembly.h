@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "nef/boolean/copied_links.h"
+#include "nef/boolean/pyramid_overlay.h"
 #include "nef/synthesis/complex_builder.h"
 
 namespace nef {
@@ -22,6 +23,9 @@ class ResultAssembly {
   /// must outlive the assembly. Copies of one operand must come in its order.
   void copy(std::size_t x, std::uint32_t v, const std::vector<LabelId>* marks);
 
+  /// Appends a vertex with planes by common names, if there is one; its complex must outlive the assembly.
+  void add(const VertexOf& made);
+
   /// Appends a new vertex at a point of the tables.
   void add(PointId point, const SphereMapView& map);
 
@@ -32,8 +36,8 @@ class ResultAssembly {
   [[nodiscard]] bool is_mostly_copies() const;
 
   /// Writes all vertices. Of the planes of the tables, which `result` must have been made with, those that nothing uses
-  /// are dropped.
-  void write(PlaneTable& planes, ComplexBuilder& result) const;
+  /// are dropped. On up to `threads` threads.
+  void write(PlaneTable& planes, ComplexBuilder& result, unsigned threads) const;
 
   /// Where its vertices come from.
   [[nodiscard]] std::vector<VertexRun> origins() const;
@@ -41,20 +45,27 @@ class ResultAssembly {
  private:
   struct Run {
     VertexRun vertices;
+    const Complex* from;
     const std::vector<LabelId>* marks = nullptr;
   };
 
-  [[nodiscard]] std::vector<bool> used_planes(std::size_t planes) const;
-  // Of each common plane of an origin, in the names of that origin: its row in the result. Empty: the same.
-  [[nodiscard]] std::array<std::vector<std::uint32_t>, 3> final_rows(PlaneTable& planes) const;
+  [[nodiscard]] std::vector<std::uint8_t> used_planes(std::size_t planes, unsigned threads) const;
+  struct FinalRows {
+    // Of each plane of an origin, in the names of that origin: its row in the result, kNone for one that is not used.
+    // Empty: the same.
+    std::array<std::vector<std::uint32_t>, 3> of_origin;
+    std::size_t count = 0;  // of planes that are used
+  };
+  [[nodiscard]] FinalRows final_rows(std::size_t planes, unsigned threads) const;
+  static void drop_planes(PlaneTable& planes, const FinalRows& rows);
   void reserve(ComplexBuilder& result) const;
-  [[nodiscard]] const Complex& origin(const Run& run) const;
+  void append(const Run& run);
 
   const std::array<Operand, 2>& operands_;
   const CommonTables& tables_;
   std::vector<Run> runs_;
   PlaneTable none_;
-  ComplexBuilder new_{none_};  // the new vertices, their planes by common names
+  ComplexBuilder new_{none_};  // the new vertices that this made itself
 };
 
 }  // namespace nef

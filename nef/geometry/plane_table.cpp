@@ -2,16 +2,14 @@
 #include "nef/geometry/plane_table.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <utility>
 
 #include "nef/base/error.h"
+#include "nef/base/parallel.h"
 
 namespace nef {
 namespace {
-
-constexpr std::uint32_t kEmpty = 0xffffffffU;
 
 // mantissa * 2^(exponent - top), for a coefficient of the row; truncation by GMP is within 2^-52.
 double scaled(mpz_srcptr value, long top) {
@@ -23,22 +21,7 @@ double scaled(mpz_srcptr value, long top) {
   return std::ldexp(mantissa, static_cast<int>(shift));
 }
 
-std::uint32_t hash_of(const IntegerRows& rows, std::uint32_t row) {
-  const std::uint64_t hash = rows.hash(row);
-  return static_cast<std::uint32_t>(hash ^ hash >> 32U);
-}
-
 }  // namespace
-
-// The slot of a row of `other`: it names an equal row, or is empty.
-PlaneTable::Slot& PlaneTable::slot_of(std::uint32_t hash, const IntegerRows& other, std::uint32_t row) {
-  const std::size_t mask = slots_.size() - 1;
-  std::size_t at = hash & mask;
-  while (slots_[at].row != kEmpty && (slots_[at].hash != hash || !rows_.equal(slots_[at].row, other, row))) {
-    at = (at + 1) & mask;
-  }
-  return slots_[at];
-}
 
 void PlaneTable::reserve(std::size_t planes) {
   rows_.reserve(planes, 5);
@@ -48,7 +31,7 @@ void PlaneTable::reserve(std::size_t planes) {
 void PlaneTable::trim() {
   rows_.trim();
   if (approximate_.capacity() - approximate_.size() > approximate_.capacity() / 8) approximate_.shrink_to_fit();
-  slots_ = std::vector<Slot>();  // an empty list would keep the memory
+  slots_.clear();
 }
 
 PlaneId PlaneTable::intern(const Integer& a, const Integer& b, const Integer& c, const Integer& d, const Integer& e) {
@@ -101,9 +84,9 @@ PlaneId PlaneTable::intern_from(const PlaneTable& other, PlaneId plane) {
   if (&other == this) return plane;
   // The other row is normalized already; only its place in this table is in question.
   make_room_for_one();
-  const std::uint32_t hash = hash_of(other.rows_, plane.row());
-  Slot& slot = slot_of(hash, other.rows_, plane.row());
-  if (slot.row != kEmpty) return PlaneId{slot.row << 1U | (plane.value & 1U)};
+  const std::uint32_t hash = RowSlots::hash_of(other.rows_, plane.row());
+  RowSlots::Slot& slot = slots_.find(rows_, hash, other.rows_, plane.row());
+  if (!slot.empty()) return PlaneId{slot.row << 1U | (plane.value & 1U)};
   const std::uint32_t row = rows_.push_from(other.rows_, plane.row());
   slot = {row, hash};
   approximate_.push_back(other.approximate_[plane.row()]);
@@ -114,6 +97,50 @@ std::uint32_t PlaneTable::append_new(const PlaneTable& other, std::uint32_t row)
   slots_.clear();
   approximate_.push_back(other.approximate_[row]);
   return rows_.push_from(other.rows_, row);
+}
+
+void PlaneTable::append_new(const PlaneTable& other, std::size_t first, std::size_t count) {
+  slots_.clear();
+  const auto from = other.approximate_.begin() + static_cast<std::ptrdiff_t>(first);
+  approximate_.insert(approximate_.end(), from, from + static_cast<std::ptrdiff_t>(count));
+  rows_.append(other.rows_, first, count);
+}
+
+// Rows of one table are different, so that each equals at most one of the other. The smaller table is put into slots,
+// and the rows of the larger one are looked up.
+std::vector<std::uint32_t> PlaneTable::rows_of(const PlaneTable& other, unsigned threads) const {
+  constexpr std::size_t kTogether = 4096;
+  std::vector<std::uint32_t> result(other.size(), kNotHere);
+  const bool other_is_smaller = other.size() < size();
+  const IntegerRows& few = other_is_smaller ? other.rows_ : rows_;
+  const IntegerRows& many = other_is_smaller ? rows_ : other.rows_;
+  std::vector<std::uint32_t> hashes(few.size());
+  parallel_for_ranges(few.size(), kTogether, threads, [&](std::size_t first, std::size_t last) {
+    for (auto row = static_cast<std::uint32_t>(first); row < last; ++row) hashes[row] = RowSlots::hash_of(few, row);
+  });
+  RowSlots slots;
+  slots.reserve(few.size());
+  for (std::uint32_t row = 0; row < few.size(); ++row) slots.add_new(row, hashes[row]);
+  parallel_for_ranges(many.size(), kTogether, threads, [&](std::size_t first, std::size_t last) {
+    for (auto row = static_cast<std::uint32_t>(first); row < last; ++row) {
+      const RowSlots::Slot& equal = std::as_const(slots).find(few, RowSlots::hash_of(many, row), many, row);
+      if (equal.empty()) continue;
+      (other_is_smaller ? result[equal.row] : result[row]) = other_is_smaller ? row : equal.row;
+    }
+  });
+  return result;
+}
+
+void PlaneTable::append_missing(const PlaneTable& other, std::vector<std::uint32_t>& rows) {
+  for (std::uint32_t first = 0; first < rows.size(); ++first) {
+    std::uint32_t last = first;
+    for (auto row = static_cast<std::uint32_t>(size()); last < rows.size() && rows[last] == kNotHere; ++last) {
+      rows[last] = row++;
+    }
+    if (last == first) continue;
+    append_new(other, first, last - first);
+    first = last;
+  }
 }
 
 PlaneId PlaneTable::intern(const Rational3& normal, const Rational& offset) {
@@ -135,9 +162,9 @@ Integer PlaneTable::oriented_coefficient(PlaneId plane, std::size_t column) cons
 PlaneId PlaneTable::find_or_add_last() {
   const auto candidate = static_cast<std::uint32_t>(rows_.size() - 1);
   make_room_for_one();
-  const std::uint32_t hash = hash_of(rows_, candidate);
-  Slot& slot = slot_of(hash, rows_, candidate);
-  if (slot.row != kEmpty) {
+  const std::uint32_t hash = RowSlots::hash_of(rows_, candidate);
+  RowSlots::Slot& slot = slots_.find(rows_, hash, rows_, candidate);
+  if (!slot.empty()) {
     rows_.pop();
     return PlaneId{slot.row << 1U};
   }
@@ -156,29 +183,15 @@ PlaneId PlaneTable::find_or_add_last() {
 
 void PlaneTable::make_room_for_one() {
   const std::size_t planes = approximate_.size();  // a candidate is not among them
-  if (2 * (planes + 1) > slots_.size()) make_slots(std::max(2 * planes + 4, approximate_.capacity()));
-}
-
-void PlaneTable::make_slots(std::size_t planes) {
-  const std::size_t capacity = std::bit_ceil(std::max<std::size_t>(16, 2 * planes));
-  if (capacity <= slots_.size()) return;
-  const std::vector<Slot> old = std::exchange(slots_, std::vector<Slot>(capacity, {kEmpty, 0}));
-  const auto insert = [&](Slot entry) {
-    std::size_t at = entry.hash & (capacity - 1);
-    while (slots_[at].row != kEmpty) at = (at + 1) & (capacity - 1);
-    slots_[at] = entry;
-  };
-  if (!old.empty()) {
-    for (const Slot& entry : old) {
-      if (entry.row != kEmpty) insert(entry);
-    }
-  } else {
-    for (std::uint32_t row = 0; row < approximate_.size(); ++row) insert({row, hash_of(rows_, row)});
-  }
+  if (2 * (planes + 1) <= slots_.size()) return;
+  const bool anew = slots_.size() == 0;
+  slots_.reserve(std::max(2 * planes + 4, approximate_.capacity()));
+  if (!anew) return;
+  for (std::uint32_t row = 0; row < planes; ++row) slots_.add_new(row, RowSlots::hash_of(rows_, row));
 }
 
 std::size_t PlaneTable::bytes() const {
-  return rows_.bytes() + approximate_.capacity() * sizeof(approximate_[0]) + slots_.capacity() * sizeof(slots_[0]);
+  return rows_.bytes() + approximate_.capacity() * sizeof(approximate_[0]) + slots_.bytes();
 }
 
 }  // namespace nef

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "nef/geometry/ids.h"
-#include "nef/number/integer_rows.h"
+#include "nef/number/row_slots.h"
 
 namespace nef {
 
@@ -36,6 +36,16 @@ class PlaneTable {
   /// Appends a plane of another table that this one does not hold yet, and returns its row. Cheaper than intern_from:
   /// nothing is looked up.
   std::uint32_t append_new(const PlaneTable& other, std::uint32_t row);
+  /// The same for `count` consecutive planes, from row `first` on.
+  void append_new(const PlaneTable& other, std::size_t first, std::size_t count);
+
+  /// For each plane of another table its row in this one, or kNotHere. On up to `threads` threads. O(planes of both).
+  [[nodiscard]] std::vector<std::uint32_t> rows_of(const PlaneTable& other, unsigned threads) const;
+  static constexpr std::uint32_t kNotHere = 0xffffffffU;
+
+  /// Appends those planes of the other table that rows_of() has not found here, in their order, and fills their rows
+  /// in.
+  void append_missing(const PlaneTable& other, std::vector<std::uint32_t>& rows);
 
   /// The plane n.x + d = 0 for a rational normal and offset; scaled to integers.
   PlaneId intern(const Rational3& normal, const Rational& offset);
@@ -66,19 +76,12 @@ class PlaneTable {
   void trim();
 
  private:
-  struct Slot {
-    std::uint32_t row;
-    std::uint32_t hash;
-  };
   PlaneId find_or_add_last();
-  Slot& slot_of(std::uint32_t hash, const IntegerRows& other, std::uint32_t row);
-  void make_slots(std::size_t planes);
   void make_room_for_one();
 
   IntegerRows rows_;
   std::vector<std::array<double, 4>> approximate_;
-  // Open addressing, a power of two, at most half full; none until a plane is looked for.
-  std::vector<Slot> slots_;
+  RowSlots slots_;  // none until a plane is looked for
 };
 
 }  // namespace nef

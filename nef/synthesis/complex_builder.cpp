@@ -4,16 +4,12 @@
 #include <algorithm>
 
 #include "nef/base/error.h"
+#include "nef/base/parallel.h"
 #include "nef/complex/local_pyramid.h"
 #include "nef/synthesis/synthesis.h"
 
 namespace nef {
 namespace {
-
-template <typename Items>
-void copy_range(const Items& from, std::uint32_t begin, std::uint32_t end, Items& to) {
-  to.insert(to.end(), from.begin() + begin, from.begin() + end);
-}
 
 void rename(PlaneId& plane, std::span<const std::uint32_t> rows) {
   plane = PlaneId{rows[plane.row()] << 1U | (plane.value & 1U)};
@@ -111,64 +107,105 @@ void ComplexBuilder::push(const SphereMapView& map) {
   c.vertices.push_back(end);
 }
 
-// Indices inside sphere maps are local, so only where they begin changes, and the names of planes and marks.
 void ComplexBuilder::copy(const Complex& from, std::uint32_t first, std::uint32_t count,
                           std::span<const std::uint32_t> rows, std::span<const LabelId> marks) {
-  constexpr std::uint32_t kBlock = 256;  // vertices whose copies stay in a fast cache while they are renamed
-  complex_.points.append(from.points, first, count);
-  for (const std::uint32_t end = first + count; first < end; first += std::min(kBlock, end - first)) {
-    copy_block(from, first, std::min(kBlock, end - first), rows, marks);
-  }
+  const CopiedRun run{&from, first, count, rows, marks};
+  copy(std::span(&run, 1), 1);
 }
 
-void ComplexBuilder::copy_block(const Complex& from, std::uint32_t first, std::uint32_t count,
-                                std::span<const std::uint32_t> rows, std::span<const LabelId> marks) {
-  Complex& c = complex_;
-  const VertexRecord begin = from.vertices[first];
-  const VertexRecord end = from.vertices[first + count];
-  const VertexRecord base = c.vertices.back();
-  copy_records(from, first, count, marks);
-  copy_range(from.svertices, begin.svertices, end.svertices, c.svertices);
-  copy_range(from.shalfedges, begin.shalfedges, end.shalfedges, c.shalfedges);
-  copy_range(from.sloops, begin.sloops, end.sloops, c.sloops);
-  copy_range(from.sfaces, begin.sfaces, end.sfaces, c.sfaces);
-  copy_range(from.entries, begin.entries, end.entries, c.entries);
-  const auto fresh = [](auto& items, std::uint32_t at) { return std::span(items).subspan(at); };
-  if (!rows.empty()) {
-    for (SVertex& v : fresh(c.svertices, base.svertices)) {
-      rename(v.p, rows);
-      rename(v.q, rows);
-    }
-    for (SHalfedge& e : fresh(c.shalfedges, base.shalfedges)) rename(e.plane, rows);
-    for (SLoop& l : fresh(c.sloops, base.sloops)) rename(l.plane, rows);
-  }
-  if (!marks.empty()) {
-    const auto remark = [marks](auto items) {
-      for (auto& item : items) {
+// Indices inside sphere maps are local, so only where they begin changes, and the names of planes and marks. Each array
+// depends on nothing but the same array of the other complexes.
+void ComplexBuilder::copy(std::span<const CopiedRun> runs, unsigned threads) {
+  const auto all = [runs](const auto& copy_run) {
+    for (const CopiedRun& run : runs) copy_run(run);
+  };
+  // The longest array first.
+  parallel_calls(
+      threads,
+      {[&] { all([this](const CopiedRun& run) { copy_shalfedges(run); }); },
+       [&] { all([this](const CopiedRun& run) { copy_svertices(run); }); },
+       [&] { all([this](const CopiedRun& run) { complex_.points.append(run.from->points, run.first, run.count); }); },
+       [&] {
+         all([this](const CopiedRun& run) {
+           copy_records(run);
+           copy_other_items(run);
+         });
+       }});
+}
+
+namespace {
+
+// Appends a range of items, changed by `rename` and with other marks, in blocks that stay in a fast cache meanwhile.
+template <typename Item, typename Rename>
+void copy_changed(const std::vector<Item>& from, std::uint32_t begin, std::uint32_t end, std::span<const LabelId> marks,
+                  const Rename& rename, std::vector<Item>& to) {
+  constexpr std::uint32_t kBlock = 2048;
+  while (begin < end) {
+    const std::uint32_t count = std::min(kBlock, end - begin);
+    const std::size_t base = to.size();
+    to.insert(to.end(), from.begin() + begin, from.begin() + begin + count);
+    const std::span<Item> fresh = std::span(to).subspan(base);
+    for (Item& item : fresh) rename(item);
+    if (!marks.empty()) {
+      for (Item& item : fresh) {
         if (item.mark != kOutside) item.mark = marks[item.mark];
       }
-    };
-    remark(fresh(c.svertices, base.svertices));
-    remark(fresh(c.shalfedges, base.shalfedges));
-    remark(fresh(c.sloops, base.sloops));
-    remark(fresh(c.sfaces, base.sfaces));
+    }
+    begin += count;
   }
 }
 
-void ComplexBuilder::copy_records(const Complex& from, std::uint32_t first, std::uint32_t count,
-                                  std::span<const LabelId> marks) {
-  const VertexRecord begin = from.vertices[first];
+}  // namespace
+
+void ComplexBuilder::copy_svertices(const CopiedRun& run) {
+  const auto with_rows = [rows = run.rows](SVertex& item) {
+    if (rows.empty()) return;
+    rename(item.p, rows);
+    rename(item.q, rows);
+  };
+  const std::vector<VertexRecord>& records = run.from->vertices;
+  copy_changed(run.from->svertices, records[run.first].svertices, records[run.first + run.count].svertices, run.marks,
+               with_rows, complex_.svertices);
+}
+
+void ComplexBuilder::copy_shalfedges(const CopiedRun& run) {
+  const auto with_rows = [rows = run.rows](SHalfedge& item) {
+    if (!rows.empty()) rename(item.plane, rows);
+  };
+  const std::vector<VertexRecord>& records = run.from->vertices;
+  copy_changed(run.from->shalfedges, records[run.first].shalfedges, records[run.first + run.count].shalfedges,
+               run.marks, with_rows, complex_.shalfedges);
+}
+
+void ComplexBuilder::copy_other_items(const CopiedRun& run) {
+  const auto with_rows = [rows = run.rows](SLoop& item) {
+    if (!rows.empty()) rename(item.plane, rows);
+  };
+  const VertexRecord& begin = run.from->vertices[run.first];
+  const VertexRecord& end = run.from->vertices[run.first + run.count];
+  copy_changed(run.from->sloops, begin.sloops, end.sloops, run.marks, with_rows, complex_.sloops);
+  copy_changed(
+      run.from->sfaces, begin.sfaces, end.sfaces, run.marks, [](SFace&) {}, complex_.sfaces);
+  complex_.entries.insert(complex_.entries.end(), run.from->entries.begin() + begin.entries,
+                          run.from->entries.begin() + end.entries);
+}
+
+void ComplexBuilder::copy_records(const CopiedRun& run) {
+  const VertexRecord begin = run.from->vertices[run.first];
   const VertexRecord base = complex_.vertices.back();
-  const auto mark = [marks](LabelId label) { return marks.empty() || label == kOutside ? label : marks[label]; };
+  const auto mark = [marks = run.marks](LabelId label) {
+    return marks.empty() || label == kOutside ? label : marks[label];
+  };
   complex_.vertices.back().mark = mark(begin.mark);
-  for (std::uint32_t v = first + 1; v <= first + count; ++v) {
-    VertexRecord record = from.vertices[v];
+  const std::uint32_t last = run.first + run.count;
+  for (std::uint32_t v = run.first + 1; v <= last; ++v) {
+    VertexRecord record = run.from->vertices[v];
     record.svertices += base.svertices - begin.svertices;
     record.shalfedges += base.shalfedges - begin.shalfedges;
     record.sloops += base.sloops - begin.sloops;
     record.sfaces += base.sfaces - begin.sfaces;
     record.entries += base.entries - begin.entries;
-    record.mark = v == first + count ? LabelId{0} : mark(record.mark);
+    record.mark = v == last ? LabelId{0} : mark(record.mark);
     complex_.vertices.push_back(record);
   }
 }
@@ -245,22 +282,22 @@ Complex ComplexBuilder::take() {
   return std::move(complex_);
 }
 
-Complex ComplexBuilder::finish(LabelId outer) {
+Complex ComplexBuilder::finish(LabelId outer, unsigned threads) {
   drop_idle_box(outer);
   drop_idle_planes();
-  return finish_unreduced(outer);
+  return finish_unreduced(outer, threads);
 }
 
-Complex ComplexBuilder::finish_unreduced(LabelId outer) {
+Complex ComplexBuilder::finish_unreduced(LabelId outer, unsigned threads) {
   Complex complex = take();
-  synthesize(complex, outer);
+  synthesize(complex, outer, threads);
   complex.trim();
   return complex;
 }
 
-Complex ComplexBuilder::finish(LabelId outer, KnownLinks&& known) {
+Complex ComplexBuilder::finish(LabelId outer, KnownLinks&& known, unsigned threads) {
   Complex complex = take();
-  synthesize(complex, outer, std::move(known));
+  synthesize(complex, outer, std::move(known), threads);
   complex.trim();
   return complex;
 }
@@ -286,7 +323,7 @@ std::variant<Complex, Defect> ComplexBuilder::try_finish(LabelId outer, KnownLin
 }
 
 std::variant<Complex, Defect> ComplexBuilder::try_finish_unreduced(LabelId outer) {
-  return complex_or_defect([&] { return finish_unreduced(outer); });
+  return complex_or_defect([&] { return finish_unreduced(outer, 1); });
 }
 
 }  // namespace nef

@@ -53,6 +53,16 @@ class ComplexBuilder {
   void copy(const Complex& from, std::uint32_t first, std::uint32_t count, std::span<const std::uint32_t> rows = {},
             std::span<const LabelId> marks = {});
 
+  /// What copy() is asked to do; what it refers to must outlive the call.
+  struct CopiedRun {
+    const Complex* from;
+    std::uint32_t first, count;
+    std::span<const std::uint32_t> rows;
+    std::span<const LabelId> marks;
+  };
+  /// The same for all of these, one after the other, on up to `threads` threads.
+  void copy(std::span<const CopiedRun> runs, unsigned threads);
+
   /// Takes the vertices of a complex as they are, in place of those added so far.
   void take_vertices(Complex&& from);
 
@@ -67,11 +77,11 @@ class ComplexBuilder {
 
   /// Removes an infimaximal box that nothing reaches, drops planes that nothing uses, and synthesizes. `outer` is the
   /// mark of all of space if there are no vertices. To be called once. For sphere maps that must fit together: a
-  /// defect is a bug, and thrown as such. O(n log n).
-  [[nodiscard]] Complex finish(LabelId outer);
+  /// defect is a bug, and thrown as such. O(n log n), partly on up to `threads` threads.
+  [[nodiscard]] Complex finish(LabelId outer, unsigned threads = 1);
 
   /// The same complex, where some links are known: then there must be no idle box, and no plane that nothing uses.
-  [[nodiscard]] Complex finish(LabelId outer, KnownLinks&& known);
+  [[nodiscard]] Complex finish(LabelId outer, KnownLinks&& known, unsigned threads = 1);
 
   /// What finish() returns, or what is wrong with the sphere maps.
   [[nodiscard]] std::variant<Complex, Defect> try_finish(LabelId outer);
@@ -83,13 +93,14 @@ class ComplexBuilder {
  private:
   bool simplify(Arrangement& drawing, bool sorted);
   void push(const SphereMapView& map);
-  void copy_block(const Complex& from, std::uint32_t first, std::uint32_t count, std::span<const std::uint32_t> rows,
-                  std::span<const LabelId> marks);
-  void copy_records(const Complex& from, std::uint32_t first, std::uint32_t count, std::span<const LabelId> marks);
+  void copy_records(const CopiedRun& run);
+  void copy_svertices(const CopiedRun& run);
+  void copy_shalfedges(const CopiedRun& run);
+  void copy_other_items(const CopiedRun& run);
   void drop_idle_box(LabelId& outer);
   void drop_idle_planes();
   Complex take();
-  Complex finish_unreduced(LabelId outer);
+  Complex finish_unreduced(LabelId outer, unsigned threads);
 
   PlaneTable& planes_;
   Complex complex_;

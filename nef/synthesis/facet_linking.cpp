@@ -10,6 +10,7 @@
 #include <algorithm>
 
 #include "nef/base/defect.h"
+#include "nef/base/parallel.h"
 #include "nef/complex/facet_plane.h"
 #include "nef/complex/plane_sweep.h"
 #include "nef/sphere_map/sphere_geometry.h"
@@ -28,12 +29,14 @@ struct CycleRecord {
 class FacetLinker {
  public:
   /// `known` may be null.
-  FacetLinker(Complex& complex, const KnownLinks* known) : c_(complex), known_(known) {}
+  FacetLinker(Complex& complex, const KnownLinks* known, unsigned threads)
+      : c_(complex), known_(known), threads_(threads) {}
 
   void run() {
     trace_cycles();
     collect_isolated();
     group_by_plane();
+    name_facets_of_corners();
   }
 
  private:
@@ -88,7 +91,8 @@ class FacetLinker {
     }
   }
 
-  // Counting sort by plane row, so that the order of facets depends on nothing but the input.
+  // Counting sort by plane row, so that the order of facets depends on nothing but the input. Known facets between two
+  // planes that hold anything else are taken over together.
   void group_by_plane() {
     std::vector<std::uint32_t> start(c_.planes.size() + 1, 0);
     for (const CycleRecord& cycle : cycles_) ++start[cycle.row + 1];
@@ -97,23 +101,25 @@ class FacetLinker {
     std::vector<std::uint32_t> at(start.begin(), start.end() - 1);
     for (std::uint32_t i = 0; i < cycles_.size(); ++i) order[at[cycles_[i].row]++] = i;
     std::sort(isolated_.begin(), isolated_.end());
-    auto isolated = isolated_.begin();
-    c_.facets.clear();
+    make_room();
     const std::span<const Facet> known = known_ == nullptr ? std::span<const Facet>() : known_->facets;
-    c_.facets.reserve(cycles_.size() + known.size());
-    c_.cycle_begin.assign(1, 0);
-    c_.cycle_begin.reserve(cycles_.size() + 1 + (known_ == nullptr ? 0 : known_->cycle_begin.size()));
-    c_.corners.clear();
-    c_.corners.reserve(traced_.size() + (known_ == nullptr ? 0 : known_->corners.size()));
-    c_.isolated_vertices.clear();
-    c_.shalfedge_facet.assign(c_.shalfedges.size(), HalffacetId());
-    c_.sloop_facet.assign(c_.sloops.size(), HalffacetId());
+    const std::span<const std::uint32_t> mixed =
+        known_ == nullptr ? std::span<const std::uint32_t>() : known_->mixed_rows;
+    auto isolated = isolated_.begin();
+    auto next_mixed = mixed.begin();
     auto kept = known.begin();
     for (std::uint32_t row = 0; row + 1 < start.size(); ++row) {
+      const bool is_mixed = next_mixed != mixed.end() && *next_mixed == row;
+      const bool has_points = isolated != isolated_.end() && isolated->first == row;
+      if (start[row] == start[row + 1] && !is_mixed && !has_points) continue;
+      if (is_mixed) ++next_mixed;
       const auto first = isolated;
       while (isolated != isolated_.end() && isolated->first == row) ++isolated;
       const std::span<const std::uint32_t> cycles(order.data() + start[row], start[row + 1] - start[row]);
       const std::span<const std::pair<std::uint32_t, std::uint32_t>> points(first, isolated);
+      const auto before = kept;
+      while (kept != known.end() && kept->plane.row() < row) ++kept;
+      emit_known({before, kept});
       const auto first_kept = kept;
       while (kept != known.end() && kept->plane.row() == row) ++kept;
       if (first_kept != kept) {
@@ -124,18 +130,25 @@ class FacetLinker {
       detail::require(!cycles.empty() || points.empty(), "a vertex inside a facet has a facet around it",
                       {{"vertex", points.empty() ? 0 : points[0].second}});
     }
+    emit_known({kept, known.end()});
   }
 
-  // Known facets stay as they are where nothing else lies in their plane; otherwise their cycles are linked anew, with
-  // the others, since these may be holes of theirs.
+  void make_room() {
+    c_.facets.clear();
+    c_.cycle_begin.assign(1, 0);
+    c_.corners.clear();
+    c_.isolated_vertices.clear();
+    const bool knows = known_ != nullptr;
+    c_.facets.reserve(cycles_.size() + (knows ? known_->facets.size() : 0));
+    c_.cycle_begin.reserve(cycles_.size() + 1 + (knows ? known_->cycle_begin.size() : 0));
+    c_.corners.reserve(traced_.size() + (knows ? known_->corners.size() : 0));
+    c_.sloop_facet.assign(c_.sloops.size(), HalffacetId());
+  }
+
+  // Known facets in a plane with others are linked anew, with these, which may be holes of theirs.
   void link_plane_with_known(std::uint32_t row, std::span<const std::uint32_t> cycles,
                              std::span<const std::pair<std::uint32_t, std::uint32_t>> points,
                              std::span<const Facet> facets) {
-    const bool mixed = std::binary_search(known_->mixed_rows.begin(), known_->mixed_rows.end(), row);
-    if (cycles.empty() && points.empty() && !mixed) {
-      for (const Facet& facet : facets) emit_known(facet);
-      return;
-    }
     std::vector<std::uint32_t> all(cycles.begin(), cycles.end());
     std::vector<std::pair<std::uint32_t, std::uint32_t>> inside(points.begin(), points.end());
     for (const Facet& facet : facets) {
@@ -160,13 +173,38 @@ class FacetLinker {
     link_plane(row, all, inside);
   }
 
-  void emit_known(const Facet& known) {
-    Facet facet = begin_facet(known.plane.row(), known.cycle_count, known.isolated_count);
-    for (const CycleId i : known.cycles()) {
-      const std::uint32_t first = known_->cycle_begin[i];
-      add_cycle(std::span(known_->corners).subspan(first, known_->cycle_begin[i.next()] - first));
+  // Facets in planes of their own, as they are known. Those that follow each other with their cycles are one block.
+  void emit_known(std::span<const Facet> facets) {
+    while (!facets.empty()) {
+      std::size_t count = 1;
+      while (count < facets.size() && facets[count].first_cycle == facets[count - 1].cycles().end_id() &&
+             facets[count].first_isolated == facets[count - 1].first_isolated + facets[count - 1].isolated_count) {
+        ++count;
+      }
+      emit_known_block(facets.first(count));
+      facets = facets.subspan(count);
     }
-    end_facet(facet, std::span(known_->isolated_vertices).subspan(known.first_isolated, known.isolated_count));
+  }
+
+  void emit_known_block(std::span<const Facet> facets) {
+    const CycleId first = facets.front().first_cycle;
+    const CycleId end = facets.back().cycles().end_id();
+    const std::uint32_t first_inside = facets.front().first_isolated;
+    const std::uint32_t end_inside = facets.back().first_isolated + facets.back().isolated_count;
+    const auto base = static_cast<std::uint32_t>(c_.corners.size()) - known_->cycle_begin[first];  // modulo 2^32
+    const auto cycles = static_cast<std::uint32_t>(c_.cycle_begin.size() - 1) - first.index();
+    const auto inside = static_cast<std::uint32_t>(c_.isolated_vertices.size()) - first_inside;
+    c_.corners.insert(c_.corners.end(), known_->corners.begin() + known_->cycle_begin[first],
+                      known_->corners.begin() + known_->cycle_begin[end]);
+    for (CycleId i = first; i != end; ++i) c_.cycle_begin.push_back(known_->cycle_begin[i.next()] + base);
+    c_.isolated_vertices.insert(c_.isolated_vertices.end(), known_->isolated_vertices.begin() + first_inside,
+                                known_->isolated_vertices.begin() + end_inside);
+    for (Facet facet : facets) {
+      facet.plane = PlaneId{facet.plane.row() << 1U};
+      facet.first_cycle = CycleId{facet.first_cycle.index() + cycles};
+      facet.first_isolated += inside;
+      c_.facets.push_back(facet);
+    }
   }
 
   void link_plane(std::uint32_t row, std::span<const std::uint32_t> cycles,
@@ -267,29 +305,39 @@ class FacetLinker {
   }
 
   void add_cycle(std::span<const std::uint32_t> corners) {
-    const FacetId facet = c_.facets.end_id();
-    for (const std::uint32_t corner : corners) {
-      c_.corners.push_back(corner);
-      c_.shalfedge_facet.set(corner, halffacet_of(facet, false));
-    }
+    c_.corners.insert(c_.corners.end(), corners.begin(), corners.end());
     c_.cycle_begin.push_back(static_cast<std::uint32_t>(c_.corners.size()));
   }
 
   void end_facet(Facet& facet, std::span<const std::uint32_t> inside) {
-    const FacetId id = c_.facets.end_id();
-    facet.mark = c_.shalfedges[c_.corners[c_.cycle_begin[facet.first_cycle]]].mark;
-    for (const std::uint32_t v : inside) {
-      c_.isolated_vertices.push_back(v);
-      const std::uint32_t first = c_.vertices[v].sloops;
-      for (std::uint32_t l = first; l < first + 2; ++l) {
-        c_.sloop_facet[l] = halffacet_of(id, c_.sloops[l].plane.flipped());
-      }
-    }
+    c_.isolated_vertices.insert(c_.isolated_vertices.end(), inside.begin(), inside.end());
     c_.facets.push_back(facet);
+  }
+
+  // What follows from the corners of each facet and the vertices inside.
+  void name_facets_of_corners() {
+    constexpr std::size_t kTogether = 8192;
+    c_.shalfedge_facet.assign(c_.shalfedges.size(), HalffacetId());
+    parallel_for_ranges(c_.facets.size(), kTogether, threads_, [this](std::size_t first, std::size_t last) {
+      for (auto f = static_cast<std::uint32_t>(first); f < last; ++f) {
+        Facet& facet = c_.facets[FacetId{f}];
+        const std::span<const std::uint32_t> corners = c_.corners_of(facet);
+        facet.mark = c_.shalfedges[corners[0]].mark;
+        for (const std::uint32_t corner : corners) {
+          c_.shalfedge_facet.set(corner, halffacet_of(FacetId{f}, false));
+        }
+        for (const std::uint32_t v : c_.isolated_vertices_of(facet)) {
+          for (const std::uint32_t l : {c_.vertices[v].sloops, c_.vertices[v].sloops + 1}) {
+            c_.sloop_facet[l] = halffacet_of(FacetId{f}, c_.sloops[l].plane.flipped());
+          }
+        }
+      }
+    });
   }
 
   Complex& c_;
   const KnownLinks* known_;
+  unsigned threads_;
   std::vector<std::uint32_t> traced_;
   std::vector<CycleRecord> cycles_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> isolated_;  // (plane row, vertex)
@@ -297,8 +345,10 @@ class FacetLinker {
 
 }  // namespace
 
-void link_facets(Complex& complex) { FacetLinker(complex, nullptr).run(); }
+void link_facets(Complex& complex, unsigned threads) { FacetLinker(complex, nullptr, threads).run(); }
 
-void link_facets(Complex& complex, const KnownLinks& known) { FacetLinker(complex, &known).run(); }
+void link_facets(Complex& complex, const KnownLinks& known, unsigned threads) {
+  FacetLinker(complex, &known, threads).run();
+}
 
 }  // namespace nef

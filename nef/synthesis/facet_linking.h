@@ -7,10 +7,10 @@ namespace nef {
 
 /// Second step of synthesis: links the shalfedges into facet cycles, groups cycles by plane and
 /// nests them into facets (thesis 4.6.2, 4.6.3). Edges must be linked. Expected O(n), plus
-/// O(m log m) in planes that hold several facets with m edges.
-void link_facets(Complex& complex);
+/// O(m log m) in planes that hold several facets with m edges. Partly on up to `threads` threads.
+void link_facets(Complex& complex, unsigned threads = 1);
 
 /// The same, item for item, where some facets are known.
-void link_facets(Complex& complex, const KnownLinks& known);
+void link_facets(Complex& complex, const KnownLinks& known, unsigned threads = 1);
 
 }  // namespace nef

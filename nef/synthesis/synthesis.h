@@ -8,10 +8,10 @@ namespace nef {
 /// Synthesizes edges, facets, shells and volumes from points, sphere maps and planes (thesis
 /// 4.6). The sphere maps must be simplified and complete: every vertex of the complex is there.
 /// `outer` is the mark of the outer volume, needed where there are no vertices at all (otherwise
-/// the sphere maps tell). O(n log n).
-void synthesize(Complex& complex, LabelId outer);
+/// the sphere maps tell). O(n log n). Owners and volumes are found on up to `threads` threads.
+void synthesize(Complex& complex, LabelId outer, unsigned threads = 1);
 
 /// The same, item for item, where some links are known.
-void synthesize(Complex& complex, LabelId outer, KnownLinks&& known);
+void synthesize(Complex& complex, LabelId outer, KnownLinks&& known, unsigned threads = 1);
 
 }  // namespace nef

@@ -12,6 +12,7 @@
 #include <algorithm>
 
 #include "nef/base/defect.h"
+#include "nef/base/parallel.h"
 #include "nef/base/union_find.h"
 #include "nef/geometry/box_tree.h"
 #include "nef/location/query_structure.h"
@@ -22,7 +23,7 @@ namespace {
 
 class VolumeLinker {
  public:
-  explicit VolumeLinker(Complex& complex) : c_(complex) {}
+  VolumeLinker(Complex& complex, unsigned threads) : c_(complex), threads_(threads) {}
 
   void run() {
     join_sfaces();
@@ -32,21 +33,24 @@ class VolumeLinker {
   }
 
  private:
+  // Half of the facets each on its own; what they have found is joined. The representatives are the same.
   void join_sfaces() {
     sfaces_.reset(c_.sfaces.size());
-    for (const Facet& facet : c_.facets) {
-      const std::span<const std::uint32_t> corners = c_.corners_of(facet);
-      std::uint32_t above = sfaces_.find(c_.shalfedge_sface(corners[0]));
-      std::uint32_t below = sfaces_.find(c_.shalfedge_sface(corners[0] ^ 1U));
-      for (const std::uint32_t corner : corners.subspan(1)) {
-        above = join(above, c_.shalfedge_sface(corner));
-        below = join(below, c_.shalfedge_sface(corner ^ 1U));
-      }
-      for (const std::uint32_t v : c_.isolated_vertices_of(facet)) {
-        const VertexRecord& record = c_.vertices[v];
-        const std::uint32_t up = record.sloops + (c_.sloops[record.sloops].plane.flipped() ? 1U : 0U);
-        sfaces_.unite(above, record.sfaces + c_.sloops[up].sface);
-        sfaces_.unite(below, record.sfaces + c_.sloops[up == record.sloops ? up + 1 : up - 1].sface);
+    const std::size_t count = c_.facets.size();
+    if (threads_ == 1) {
+      join_sfaces_of({FacetId{0}, static_cast<std::uint32_t>(count)}, sfaces_);
+    } else {
+      UnionFind others(c_.sfaces.size());
+      const auto half = static_cast<std::uint32_t>(count / 2);
+      parallel_calls(threads_, {[&] {
+                                  join_sfaces_of({FacetId{0}, half}, sfaces_);
+                                },
+                                [&] {
+                                  join_sfaces_of({FacetId{half}, static_cast<std::uint32_t>(count) - half}, others);
+                                }});
+      for (std::uint32_t f = 0; f < others.size(); ++f) {
+        const std::uint32_t root = others.find(f);
+        if (root != f) sfaces_.unite(root, f);
       }
     }
     for (std::uint32_t s = 0; s < c_.svertices.size(); ++s) {
@@ -58,38 +62,84 @@ class VolumeLinker {
     }
   }
 
+  void join_sfaces_of(IdRange<FacetId> facets, UnionFind& sets) const {
+    for (const FacetId id : facets) {
+      const Facet& facet = c_.facets[id];
+      const std::span<const std::uint32_t> corners = c_.corners_of(facet);
+      std::uint32_t above = sets.find(c_.shalfedge_sface(corners[0]));
+      std::uint32_t below = sets.find(c_.shalfedge_sface(corners[0] ^ 1U));
+      for (const std::uint32_t corner : corners.subspan(1)) {
+        above = join(sets, above, c_.shalfedge_sface(corner));
+        below = join(sets, below, c_.shalfedge_sface(corner ^ 1U));
+      }
+      for (const std::uint32_t v : c_.isolated_vertices_of(facet)) {
+        const VertexRecord& record = c_.vertices[v];
+        const std::uint32_t up = record.sloops + (c_.sloops[record.sloops].plane.flipped() ? 1U : 0U);
+        sets.unite(above, record.sfaces + c_.sloops[up].sface);
+        sets.unite(below, record.sfaces + c_.sloops[up == record.sloops ? up + 1 : up - 1].sface);
+      }
+    }
+  }
+
   // Unites a set, given by its representative, with that of an sface; the new representative.
-  std::uint32_t join(std::uint32_t root, std::uint32_t sface) {
-    const std::uint32_t other = sfaces_.find(sface);
+  static std::uint32_t join(UnionFind& sets, std::uint32_t root, std::uint32_t sface) {
+    const std::uint32_t other = sets.find(sface);
     if (other == root) return root;
-    sfaces_.unite(root, other);
+    sets.unite(root, other);
     return std::min(root, other);
   }
 
   // Vertices that a facet or an edge joins see a common shell; so components are shells joined by vertices.
   void join_components() {
+    sfaces_.flatten();
     parts_.reset(c_.sfaces.size());
     for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) {
-      const std::uint32_t first = sfaces_.find(c_.vertices[v].sfaces);
+      const std::uint32_t first = sfaces_.root(c_.vertices[v].sfaces);
       for (std::uint32_t f = c_.vertices[v].sfaces + 1; f < c_.vertices[v + 1].sfaces; ++f) {
-        parts_.unite(first, sfaces_.find(f));
+        parts_.unite(first, sfaces_.root(f));
       }
     }
+    parts_.flatten();
   }
 
   // An sface that stands for the component of a vertex.
-  std::uint32_t component(std::uint32_t vertex) { return parts_.find(sfaces_.find(c_.vertices[vertex].sfaces)); }
+  [[nodiscard]] std::uint32_t component(std::uint32_t vertex) const {
+    return parts_.root(sfaces_.root(c_.vertices[vertex].sfaces));
+  }
+
+  // Components in the order of their first vertices.
+  struct Components {
+    std::vector<std::uint32_t> ids;
+    std::vector<std::uint32_t> lowest;  // vertex, of each id; others: kNone
+
+    // A vertex of a component, in the order of vertices.
+    void add(const PointTable& points, std::uint32_t id, std::uint32_t vertex) {
+      std::uint32_t& low = lowest[id];
+      if (low == kNone) ids.push_back(id);
+      if (low == kNone || compare_lexicographic(points, PointId{vertex}, PointId{low}) < 0) low = vertex;
+    }
+  };
+
+  // Half of the vertices each on its own.
+  [[nodiscard]] Components find_components() const {
+    const auto count = static_cast<std::uint32_t>(c_.vertex_count());
+    const auto of_range = [this](std::uint32_t first, std::uint32_t last, Components& found) {
+      found.lowest.assign(c_.sfaces.size(), kNone);
+      for (std::uint32_t v = first; v < last; ++v) found.add(c_.points, component(v), v);
+    };
+    Components all;
+    if (threads_ == 1) {
+      of_range(0, count, all);
+      return all;
+    }
+    Components others;
+    parallel_calls(threads_, {[&] { of_range(0, count / 2, all); }, [&] { of_range(count / 2, count, others); }});
+    for (const std::uint32_t id : others.ids) all.add(c_.points, id, others.lowest[id]);
+    return all;
+  }
 
   void find_inner_shells() {
-    const auto count = static_cast<std::uint32_t>(c_.vertex_count());
-    std::vector<std::uint32_t> lowest(c_.sfaces.size(), kNone);  // vertex, per component
-    std::vector<std::uint32_t> components;
-    for (std::uint32_t v = 0; v < count; ++v) {
-      const std::uint32_t part = component(v);
-      std::uint32_t& low = lowest[part];
-      if (low == kNone) components.push_back(part);
-      if (low == kNone || compare_lexicographic(c_.points, PointId{v}, PointId{low}) < 0) low = v;
-    }
+    const auto [components, lowest] = find_components();
     const std::vector<bool> enclosed = may_be_enclosed(components, lowest);
     volumes_.reset(c_.sfaces.size());
     std::uint32_t unbounded = kNone;  // an sface of the outer volume
@@ -99,14 +149,14 @@ class VolumeLinker {
       const SphereMapView map = c_.sphere_map(v);
       const std::uint32_t toward = sface_toward(minus_x, map);
       detail::require(toward != kNone, "nothing of a component lies before its lowest vertex", {{"vertex", v}});
-      const std::uint32_t inner = sfaces_.find(c_.vertices[v].sfaces + toward);
+      const std::uint32_t inner = sfaces_.root(c_.vertices[v].sfaces + toward);
       inner_.push_back(inner);
       std::uint32_t seen = enclosed[i] ? sface_seen_from(v) : kNone;
       if (seen == kNone) {
         if (unbounded == kNone) unbounded = inner;
         seen = unbounded;
       }
-      volumes_.unite(inner, sfaces_.find(seen));
+      volumes_.unite(inner, sfaces_.root(seen));
     }
     detail::require(unbounded != kNone, "some shell bounds the outer volume", {});
     outer_ = volumes_.find(unbounded);
@@ -168,7 +218,7 @@ class VolumeLinker {
     std::vector<ShellId> shell_of(count);
     std::vector<std::uint32_t> roots;
     for (std::uint32_t f = 0; f < count; ++f) {
-      if (sfaces_.find(f) == f) roots.push_back(f);
+      if (sfaces_.root(f) == f) roots.push_back(f);
     }
     std::vector<VolumeId> volume_number(count);
     VolumeId next = kOuterVolume;
@@ -203,18 +253,27 @@ class VolumeLinker {
   }
 
   void fill_shells(const std::vector<ShellId>& shell_of) {
-    const auto count = static_cast<std::uint32_t>(c_.sfaces.size());
-    c_.sface_shell.resize(count);
-    for (std::uint32_t f = 0; f < count; ++f) c_.sface_shell[f] = shell_of[sfaces_.find(f)];
-    list_sfaces_of_shells(c_);
-    for (Facet& facet : c_.facets) {
-      const std::uint32_t corner = c_.corners_of(facet)[0];
-      facet.volume_above = c_.sface_volume(c_.shalfedge_sface(corner));
-      facet.volume_below = c_.sface_volume(c_.shalfedge_sface(corner ^ 1U));
-    }
+    constexpr std::size_t kTogether = 16384;
+    c_.sface_shell.resize(c_.sfaces.size());
+    parallel_for_ranges(c_.sfaces.size(), kTogether, threads_, [&](std::size_t first, std::size_t last) {
+      for (auto f = static_cast<std::uint32_t>(first); f < last; ++f) c_.sface_shell[f] = shell_of[sfaces_.root(f)];
+    });
+    const auto name_volumes = [this](std::size_t first, std::size_t last) {
+      for (std::size_t f = first; f < last; ++f) {
+        Facet& facet = c_.facets[FacetId{f}];
+        const std::uint32_t corner = c_.corners_of(facet)[0];
+        facet.volume_above = c_.sface_volume(c_.shalfedge_sface(corner));
+        facet.volume_below = c_.sface_volume(c_.shalfedge_sface(corner ^ 1U));
+      }
+    };
+    // Only which volume a shell bounds is asked, which is known already.
+    const std::size_t count = c_.facets.size();
+    parallel_calls(threads_, {[&] { list_sfaces_of_shells(c_); }, [&] { name_volumes(0, count / 2); },
+                              [&] { name_volumes(count / 2, count); }});
   }
 
   Complex& c_;
+  unsigned threads_;
   UnionFind sfaces_;
   UnionFind parts_;    // over representatives of sfaces_: components of the boundary
   UnionFind volumes_;  // over representatives of sfaces_
@@ -225,13 +284,13 @@ class VolumeLinker {
 
 }  // namespace
 
-void link_volumes(Complex& complex, LabelId outer) {
+void link_volumes(Complex& complex, LabelId outer, unsigned threads) {
   if (complex.vertex_count() == 0) {
     complex.volumes.assign(1, Volume{outer, ShellId{0}, 0});
     complex.shells.clear();
     return;
   }
-  VolumeLinker(complex).run();
+  VolumeLinker(complex, threads).run();
 }
 
 void list_sfaces_of_shells(Complex& complex) {

@@ -12,7 +12,7 @@ namespace nef::python {
 namespace {
 
 using Unary = Polyhedron (*)(const Polyhedron&);
-using Binary = Polyhedron (*)(const Polyhedron&, const Polyhedron&);
+using Binary = Polyhedron (*)(const Polyhedron&, const Polyhedron&, unsigned threads);
 
 auto unary(Unary operation) {
   return [operation](const Polyhedron& a) { return call(items(a), [=] { return operation(a); }); };
@@ -20,7 +20,7 @@ auto unary(Unary operation) {
 
 auto binary(Binary operation) {
   return [operation](const Polyhedron& a, const Polyhedron& b) {
-    return call(items(a) + items(b), [=] { return operation(a, b); });
+    return call(items(a) + items(b), [=] { return operation(a, b, 1); });
   };
 }
 

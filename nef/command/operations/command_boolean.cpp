@@ -108,20 +108,20 @@ void add_boolean_commands(CLI::App& app, Session& session) {
   using Sets = std::span<const Polyhedron>;
   add(app, session,
       {"union", "The points of any of the sets", kMany,
-       [](Sets s, unsigned n) { return s.size() == 2 ? unite(s[0], s[1]) : unite_all(s, n); },
+       [](Sets s, unsigned n) { return s.size() == 2 ? unite(s[0], s[1], n) : unite_all(s, n); },
        [](const InputSet& inputs, std::size_t) { return !inputs.empty(); }, BooleanOperator::kUnion});
   add(app, session,
       {"intersection", "The points of all of the sets", kMany,
-       [](Sets s, unsigned n) { return s.size() == 2 ? intersect(s[0], s[1]) : intersect_all(s, n); },
+       [](Sets s, unsigned n) { return s.size() == 2 ? intersect(s[0], s[1], n) : intersect_all(s, n); },
        [](const InputSet& inputs, std::size_t count) { return inputs.size() == count; },
        BooleanOperator::kIntersection});
   add(app, session,
       {"difference", "The points of the first set that are in none of the others", kMany,
-       [](Sets s, unsigned n) { return subtract(s[0], unite_all(s.subspan(1), n)); },
+       [](Sets s, unsigned n) { return subtract(s[0], unite_all(s.subspan(1), n), n); },
        [](const InputSet& inputs, std::size_t) { return inputs == InputSet{0}; }, BooleanOperator::kDifference});
   add(app, session,
       {"symdiff", "The points of exactly one of two sets", 2,
-       [](Sets s, unsigned) { return symmetric_difference(s[0], s[1]); },
+       [](Sets s, unsigned n) { return symmetric_difference(s[0], s[1], n); },
        [](const InputSet& inputs, std::size_t) { return inputs.size() == 1; }, BooleanOperator::kSymmetricDifference});
 }
 

@@ -48,7 +48,7 @@ TEST_CASE("a Boolean tells its phases, and only while somebody listens") {
     const ProgressListener listener(function);
     CHECK(volume(unite(a, b)) == Rational(15));
     CHECK(told.calls.at("edges through facets") == 2);
-    CHECK(told.calls.at("sphere maps") == 2);
+    CHECK(told.calls.at("sphere maps") == 1);
     CHECK(told.calls.at("synthesis") == 4);
     CHECK(told.last == 3);
     const ProgressFunction nobody;

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/boolean/pyramid_overlay.h"
+
+#include "nef/base/parallel.h"
+#include "nef/base/progress.h"
+#include "nef/complex/local_pyramid.h"
+#include "nef/synthesis/complex_builder.h"
+
+namespace nef {
+
+const SphereMapBuffer& PyramidOverlay::at(const std::array<Item, 2>& items, LabelId label) {
+  const SphereMapView a = operands_[0].pyramid(items[0], label, scratch_[0]);
+  const SphereMapView b = operands_[1].pyramid(items[1], label, scratch_[1]);
+  overlay_.overlay(tables_.planes, a, b, f_, out_);
+  return out_;
+}
+
+OverlaidMeetings::OverlaidMeetings(const std::array<Operand, 2>& operands, const CommonTables& tables,
+                                   const LabelFunction& f, std::span<const Meeting> meetings, unsigned threads)
+    : made_((meetings.size() + kTogether - 1) / kTogether), vertex_(meetings.size(), kNone) {
+  const auto make = [&](std::size_t part) {
+    PyramidOverlay overlay(operands, tables, f);
+    PlaneTable none;
+    ComplexBuilder vertices(none);
+    const std::size_t first = part * kTogether;
+    for (std::size_t k = first; k < std::min(meetings.size(), first + kTogether); ++k) {
+      const SphereMapBuffer& map = overlay.at(meetings[k].items, 0);
+      if (!is_vertex(tables.planes, map.view())) continue;
+      vertex_[k] = static_cast<std::uint32_t>(vertices.so_far().vertex_count());
+      vertices.append(tables.points, meetings[k].point, map.view());
+    }
+    made_[part] = vertices.take_so_far();
+  };
+  // Only the calling thread tells of its progress, between parts.
+  constexpr std::size_t kAtOnce = 16;
+  for (std::size_t begin = 0; begin < made_.size(); begin += kAtOnce) {
+    tell_progress("sphere maps", begin * kTogether, meetings.size());
+    parallel_for(std::min(kAtOnce, made_.size() - begin), threads, [&](std::size_t i) { make(begin + i); });
+  }
+}
+
+VertexOf OverlaidMeetings::operator[](std::size_t k) const {
+  if (vertex_[k] == kNone) return {};
+  return {&made_[k / kTogether], vertex_[k]};
+}
+
+}  // namespace nef

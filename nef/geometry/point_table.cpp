@@ -141,6 +141,25 @@ PointId PointTable::push_from(const PointTable& other, PointId point) {
   return id;
 }
 
+PointId PointTable::push_reduced(const PointTable& other, PointId point) {
+  // Kept between calls: most of the time would go into making numbers.
+  thread_local Integer divisor;
+  thread_local std::array<Integer, 7> h;
+  if (other.is_reduced(point, divisor)) return push_from(other, point);
+  for (std::size_t i = 0; i < 7; ++i) {
+    mpz_divexact(h[i].get_mpz_t(), other.coordinate(point, i), divisor.get_mpz_t());
+  }
+  return push_homogeneous(h);
+}
+
+bool PointTable::is_reduced(PointId point, Integer& divisor) const {
+  mpz_set(divisor.get_mpz_t(), coordinate(point, 3));
+  for (std::size_t i = 0; i < 7 && divisor != 1; ++i) {
+    mpz_gcd(divisor.get_mpz_t(), divisor.get_mpz_t(), coordinate(point, i));
+  }
+  return divisor == 1;
+}
+
 void PointTable::append(const PointTable& other, std::size_t first, std::size_t count) {
   rows_.append(other.rows_, first, count);
   const auto from = other.approximate_.begin() + static_cast<std::ptrdiff_t>(first);

@@ -31,6 +31,12 @@ class PointTable {
   /// Appends a copy of a point of another table.
   PointId push_from(const PointTable& other, PointId point);
 
+  /// The same with coordinates without common factor: equal points become identical ones.
+  PointId push_reduced(const PointTable& other, PointId point);
+
+  /// True if the coordinates of a point have no common factor. `divisor` becomes theirs.
+  [[nodiscard]] bool is_reduced(PointId point, Integer& divisor) const;
+
   /// Appends `count` consecutive points of another table, from point `first` on.
   void append(const PointTable& other, std::size_t first, std::size_t count);
 
@@ -54,7 +60,10 @@ class PointTable {
 
   /// Equal for points with the same homogeneous coordinates (as push makes them of equal points).
   [[nodiscard]] std::uint64_t hash(PointId point) const { return rows_.hash(point.index()); }
-  [[nodiscard]] bool identical(PointId a, PointId b) const { return rows_.equal(a.index(), rows_, b.index()); }
+  [[nodiscard]] bool identical(PointId a, PointId b) const { return identical(a, *this, b); }
+  [[nodiscard]] bool identical(PointId a, const PointTable& other, PointId b) const {
+    return rows_.equal(a.index(), other.rows_, b.index());
+  }
 
   /// True if no coordinate has a part in R.
   [[nodiscard]] bool finite(PointId point) const {

@@ -2,48 +2,18 @@
 #include "nef/operation/canonical_order.h"
 
 #include <algorithm>
-#include <numeric>
+#include <atomic>
 
 #include "nef/base/error.h"
+#include "nef/base/interruption.h"
+#include "nef/base/parallel.h"
 #include "nef/geometry/spatial_order.h"
+#include "nef/operation/canonical_map.h"
 #include "nef/sphere_map/sphere_geometry.h"
 #include "nef/synthesis/complex_builder.h"
 
 namespace nef {
 namespace {
-
-// Without common factors.
-PointTable reduced(const PointTable& points) {
-  PointTable result;
-  result.reserve(points.size());
-  std::array<Integer, 7> h;
-  Integer divisor;
-  for (std::uint32_t v = 0; v < points.size(); ++v) {
-    divisor = Integer(points.coordinate(PointId{v}, 3));
-    for (std::size_t i = 0; i < 7 && divisor != 1; ++i) {
-      mpz_gcd(divisor.get_mpz_t(), divisor.get_mpz_t(), points.coordinate(PointId{v}, i));
-    }
-    if (divisor == 1) {
-      result.push_from(points, PointId{v});
-      continue;
-    }
-    for (std::size_t i = 0; i < 7; ++i) {
-      mpz_divexact(h[i].get_mpz_t(), points.coordinate(PointId{v}, i), divisor.get_mpz_t());
-    }
-    result.push_homogeneous(h);
-  }
-  return result;
-}
-
-// Along a curve through space; lexicographic within its cells.
-std::vector<std::uint32_t> order_of(const PointTable& points) {
-  std::vector<std::array<double, 3>> places;
-  places.reserve(points.size());
-  for (std::uint32_t v = 0; v < points.size(); ++v) places.push_back(points.approximate(PointId{v}));
-  return spatial_order(places, [&points](std::uint32_t a, std::uint32_t b) {
-    return compare_lexicographic(points, PointId{a}, PointId{b}) < 0;
-  });
-}
 
 // A total order of the planes of one table.
 bool coefficients_less(const PlaneTable& planes, std::uint32_t a, std::uint32_t b) {
@@ -54,261 +24,337 @@ bool coefficients_less(const PlaneTable& planes, std::uint32_t a, std::uint32_t 
   return false;
 }
 
+// Becomes the smaller one, whatever other threads do to it.
+void take_smaller(std::uint32_t& smallest, std::uint32_t value) {
+  const std::atomic_ref<std::uint32_t> shared(smallest);
+  std::uint32_t now = shared.load(std::memory_order_relaxed);
+  while (value < now && !shared.compare_exchange_weak(now, value, std::memory_order_relaxed)) {
+  }
+}
+
 class Canonical {
  public:
-  Canonical(PlaneTable&& planes, const Complex& vertices) : c_(vertices), planes_(std::move(planes)) {}
+  Canonical(PlaneTable&& planes, std::span<const CanonicalPart> parts, std::vector<CanonicalVertex>&& vertices,
+            unsigned threads)
+      : planes_(std::move(planes)), parts_(parts), vertices_(std::move(vertices)), threads_(threads) {}
 
   Complex run(LabelId outer) {
-    const PointTable points = reduced(c_.points);
-    order_ = order_of(points);
+    drop_idle_box(outer);
+    reduce_points();
+    put_in_order();
     choose_lines();
     PlaneTable planes = ordered_planes();
     ComplexBuilder builder(planes);
-    VertexRecord size = c_.vertices.back();
-    builder.reserve(c_.vertex_count(), size);
-    for (const std::uint32_t v : order_) {
-      write(planes, v);
-      builder.append(points, PointId{v}, out_.view());
-    }
-    return builder.finish(outer);
+    write(planes, builder);
+    KnownLinks known = known_twins(builder.so_far());
+    svertices_ = {};
+    return builder.finish(outer, std::move(known));
   }
 
  private:
+  struct Point {
+    const PointTable& table;
+    PointId id;
+  };
+
+  [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(vertices_.size()); }
+  [[nodiscard]] const Complex& complex(std::uint32_t i) const { return *parts_[vertices_[i].part].complex; }
+  [[nodiscard]] SphereMapView map(std::uint32_t i) const { return complex(i).sphere_map(vertices_[i].vertex); }
+  [[nodiscard]] PlaneId common(std::uint32_t i, PlaneId plane) const {
+    const std::span<const std::uint32_t> rows = parts_[vertices_[i].part].rows;
+    return rows.empty() ? plane : PlaneId{rows[plane.row()] << 1U | (plane.value & 1U)};
+  }
+  [[nodiscard]] Point point(std::uint32_t i) const {
+    if (!reduced_at_.empty() && reduced_at_[i] != kNone) return {reduced_, PointId{reduced_at_[i]}};
+    return {complex(i).points, PointId{vertices_[i].vertex}};
+  }
+
+  // Calls body(first, last, chunk) for parts of all vertices, several at once; one thread has one part.
+  [[nodiscard]] std::size_t chunk_count() const { return threads_ == 1 ? 1 : (count() + kChunk - 1) / kChunk; }
+  template <typename Body>
+  void for_each_chunk(Body&& body) const {
+    const std::size_t chunks = chunk_count();
+    check_interruption();
+    parallel_for(chunks, threads_, [&](std::size_t k) {
+      const auto first = static_cast<std::uint32_t>(k * kChunk);
+      body(first, chunks == 1 ? count() : std::min(count(), first + kChunk), k);
+    });
+  }
+
+  void drop_idle_box(LabelId& outer) {
+    std::vector<CanonicalVertex> infinite;
+    const auto is_infinite = [this](const CanonicalVertex& v) {
+      return !parts_[v.part].complex->points.finite(PointId{v.vertex});
+    };
+    std::copy_if(vertices_.begin(), vertices_.end(), std::back_inserter(infinite), is_infinite);
+    ComplexBuilder box(planes_);
+    for (const CanonicalVertex& v : infinite) box.copy(*parts_[v.part].complex, v.vertex, 1);
+    if (!box.has_idle_box()) return;
+    outer = box.so_far().vertices[0].mark;
+    std::erase_if(vertices_, is_infinite);
+  }
+
+  // Those whose coordinates have common factors.
+  void reduce_points() {
+    std::vector<std::uint8_t> reducible(count(), 0);
+    for_each_chunk([&](std::uint32_t first, std::uint32_t last, std::size_t) {
+      Integer divisor;
+      for (std::uint32_t i = first; i < last; ++i) {
+        reducible[i] = complex(i).points.is_reduced(PointId{vertices_[i].vertex}, divisor) ? 0 : 1;
+      }
+    });
+    for (std::uint32_t i = 0; i < count(); ++i) {
+      if (reducible[i] == 0) continue;
+      if (reduced_at_.empty()) reduced_at_.assign(count(), kNone);
+      reduced_.push_reduced(complex(i).points, PointId{vertices_[i].vertex});
+      reduced_at_[i] = static_cast<std::uint32_t>(reduced_.size() - 1);
+    }
+  }
+
+  // Along a curve through space; lexicographic within its cells.
+  void put_in_order() {
+    std::vector<std::array<double, 3>> places(count());
+    for_each_chunk([&](std::uint32_t first, std::uint32_t last, std::size_t) {
+      for (std::uint32_t i = first; i < last; ++i) {
+        const Point p = point(i);
+        places[i] = p.table.approximate(p.id);
+      }
+    });
+    PointTable two;
+    const std::vector<std::uint32_t> order = spatial_order(places, [&](std::uint32_t a, std::uint32_t b) {
+      const Point p = point(a);
+      const Point q = point(b);
+      two.push_from(p.table, p.id);
+      two.push_from(q.table, q.id);
+      const bool less = compare_lexicographic(two, PointId{0}, PointId{1}) < 0;
+      two.pop();
+      two.pop();
+      return less;
+    });
+    std::vector<CanonicalVertex> vertices(count());
+    std::vector<std::uint32_t> reduced_at(reduced_at_.size());
+    for (std::uint32_t i = 0; i < count(); ++i) {
+      vertices[i] = vertices_[order[i]];
+      if (!reduced_at.empty()) reduced_at[i] = reduced_at_[order[i]];
+    }
+    vertices_ = std::move(vertices);
+    reduced_at_ = std::move(reduced_at);
+  }
+
   // The two planes that name the line of each svertex: of facets where two arrive, others parallel to an axis.
   void choose_lines() {
-    line_.assign(c_.svertices.size(), {kNone, kNone});
-    std::vector<std::uint32_t> one;  // of each svertex of a vertex: the row of an arc that arrives
-    std::vector<bool> several;
-    for (const std::uint32_t v : order_) {
-      const SphereMapView map = c_.sphere_map(v);
-      one.assign(map.svertices.size(), kNone);
-      several.assign(map.svertices.size(), false);
-      for (const SHalfedge& half : map.shalfedges) {
-        std::uint32_t& row = one[half.source];
-        if (row == kNone) row = half.plane.row();
-        if (row != half.plane.row()) several[half.source] = true;
+    std::vector<std::vector<BareLine>> of_chunk(chunk_count());
+    for_each_chunk([&](std::uint32_t first, std::uint32_t last, std::size_t chunk) {
+      std::vector<std::array<std::uint32_t, 2>> rows;  // that arrive at each svertex
+      for (std::uint32_t i = first; i < last; ++i) {
+        const SphereMapView map = this->map(i);
+        rows.assign(map.svertices.size(), {kNone, kNone});
+        for (const SHalfedge& half : map.shalfedges) {
+          auto& [one, other] = rows[half.source];
+          if (one == kNone) one = half.plane.row();
+          if (one != half.plane.row()) other = half.plane.row();
+        }
+        for (std::uint32_t s = 0; s < rows.size(); ++s) {
+          if (rows[s][1] == kNone) of_chunk[chunk].push_back({i, s, rows[s]});
+        }
       }
-      for (std::uint32_t s = 0; s < map.svertices.size(); ++s) {
-        if (several[s]) continue;
-        line_[c_.vertices[v].svertices + s] = bare_line(v, map.svertices[s], one[s]);
+    });
+    for (const std::vector<BareLine>& lines : of_chunk) {
+      for (BareLine line : lines) {
+        if (line.rows[0] != kNone) line.rows[0] = common(line.place, PlaneId{line.rows[0] << 1U}).row();
+        complete(line);
+        lines_.push_back(line);
       }
     }
   }
 
-  // The two planes in the order of the axes that they are parallel to; `facet` is the row of a plane that must be one
-  // of them, or kNone.
-  std::array<std::uint32_t, 2> bare_line(std::uint32_t v, const SVertex& svertex, std::uint32_t facet) {
-    const std::array<Integer, 3> d = direction_of(planes_, svertex).integers();
-    std::array<std::uint32_t, 2> rows{facet, kNone};
-    std::size_t found = facet == kNone ? 0 : 1;
+  // Adds planes through the line in the order of the axes that they are parallel to; the one of a facet stays.
+  void complete(BareLine& line) {
+    SVertex svertex = map(line.place).svertices[line.svertex];
+    svertex.p = common(line.place, svertex.p);
+    svertex.q = common(line.place, svertex.q);
+    const Direction direction = direction_of(planes_, svertex);
+    const std::array<Integer, 3> d = direction.integers();
+    std::size_t found = line.rows[0] == kNone ? 0 : 1;
     for (std::size_t axis = 0; axis < 3 && found < 2; ++axis) {
       std::array<Integer, 3> n;
       n[(axis + 1) % 3] = d[(axis + 2) % 3];
       n[(axis + 2) % 3] = -d[(axis + 1) % 3];
       if (n[(axis + 1) % 3] == 0 && n[(axis + 2) % 3] == 0) continue;
-      const std::uint32_t row = plane_through(v, n);
-      if (row != rows[0]) rows[found++] = row;
+      const std::uint32_t row = plane_through(point(line.place), n);
+      if (row != line.rows[0]) line.rows[found++] = row;
     }
     NEF_ASSERT(found == 2);
-    return rows;
   }
 
-  std::uint32_t plane_through(std::uint32_t v, std::array<Integer, 3>& n) {
+  std::uint32_t plane_through(const Point& point, std::array<Integer, 3>& n) {
     Integer offset;
     Integer at_infinity;
     for (std::size_t i = 0; i < 3; ++i) {
-      mpz_submul(offset.get_mpz_t(), n[i].get_mpz_t(), c_.points.coordinate(PointId{v}, i));
-      mpz_submul(at_infinity.get_mpz_t(), n[i].get_mpz_t(), c_.points.coordinate(PointId{v}, 4 + i));
-      mpz_mul(n[i].get_mpz_t(), n[i].get_mpz_t(), c_.points.coordinate(PointId{v}, 3));
+      mpz_submul(offset.get_mpz_t(), n[i].get_mpz_t(), point.table.coordinate(point.id, i));
+      mpz_submul(at_infinity.get_mpz_t(), n[i].get_mpz_t(), point.table.coordinate(point.id, 4 + i));
+      mpz_mul(n[i].get_mpz_t(), n[i].get_mpz_t(), point.table.coordinate(point.id, 3));
     }
     return planes_.intern(n[0], n[1], n[2], offset, at_infinity).row();
   }
 
   // Those in use, by the first vertex that uses them; fills row_.
   PlaneTable ordered_planes() {
-    std::vector<std::uint32_t> first(planes_.size(), kNone);
-    std::vector<std::uint32_t> used;
-    for (std::uint32_t i = 0; i < order_.size(); ++i) {
-      const auto note = [&](std::uint32_t row) {
-        if (row == kNone || first[row] != kNone) return;
-        first[row] = i;
-        used.push_back(row);
-      };
-      const SphereMapView map = c_.sphere_map(order_[i]);
-      const auto begin = static_cast<std::ptrdiff_t>(used.size());
-      for (const SHalfedge& half : map.shalfedges) note(half.plane.row());
-      for (const SLoop& loop : map.sloops) note(loop.plane.row());
-      for (std::uint32_t s = 0; s < map.svertices.size(); ++s) {
-        for (const std::uint32_t row : line_[c_.vertices[order_[i]].svertices + s]) note(row);
+    row_.assign(planes_.size(), kNone);  // until the end: the first vertex
+    for_each_chunk([&](std::uint32_t first, std::uint32_t last, std::size_t) {
+      for (std::uint32_t i = first; i < last; ++i) {
+        const SphereMapView map = this->map(i);
+        for (const SHalfedge& half : map.shalfedges) {
+          if (!half.plane.flipped()) take_smaller(row_[common(i, half.plane).row()], i);
+        }
+        for (const SLoop& loop : map.sloops) take_smaller(row_[common(i, loop.plane).row()], i);
       }
-      std::sort(used.begin() + begin, used.end(),
-                [this](std::uint32_t a, std::uint32_t b) { return coefficients_less(planes_, a, b); });
+    });
+    for (const BareLine& line : lines_) {
+      for (const std::uint32_t row : line.rows) take_smaller(row_[row], line.place);
     }
+    std::vector<std::uint32_t> begin(count() + 1U, 0);  // of the planes of each vertex
+    for (const std::uint32_t first : row_) {
+      if (first != kNone) ++begin[first + 1U];
+    }
+    for (std::uint32_t i = 0; i < count(); ++i) begin[i + 1U] += begin[i];
+    std::vector<std::uint32_t> used(begin.back());
+    std::vector<std::uint32_t> end(begin.begin(), begin.end() - 1);
+    for (std::uint32_t row = 0; row < row_.size(); ++row) {
+      if (row_[row] != kNone) used[end[row_[row]]++] = row;
+    }
+    for_each_chunk([&](std::uint32_t first, std::uint32_t last, std::size_t) {
+      for (std::uint32_t i = first; i < last; ++i) {
+        std::sort(used.begin() + begin[i], used.begin() + begin[i + 1U],
+                  [this](std::uint32_t a, std::uint32_t b) { return coefficients_less(planes_, a, b); });
+      }
+    });
     PlaneTable result;
     result.reserve(used.size());
-    row_.assign(planes_.size(), kNone);
     for (const std::uint32_t row : used) row_[row] = result.append_new(planes_, row);
     return result;
   }
 
-  [[nodiscard]] PlaneId renamed(PlaneId plane) const { return PlaneId{row_[plane.row()] << 1U | (plane.value & 1U)}; }
-
-  // The canonical sphere map of a vertex, into out_.
-  void write(const PlaneTable& planes, std::uint32_t v) {
-    const SphereMapView map = c_.sphere_map(v);
-    out_.clear();
-    out_.mark = map.mark;
-    write_svertices(planes, v, map);
-    write_shalfedges(map);
-    for (std::size_t l = 0; l < map.sloops.size(); ++l) {
-      SLoop loop = map.sloops[l ^ (map.sloops[0].plane.flipped() ? 1U : 0U)];
-      loop.plane = renamed(loop.plane);
-      out_.sloops.push_back(loop);
+  [[nodiscard]] VertexRecord size_of(std::uint32_t first, std::uint32_t last) const {
+    VertexRecord size;
+    for (std::uint32_t i = first; i < last; ++i) {
+      const VertexRecord& begin = complex(i).vertices[vertices_[i].vertex];
+      const VertexRecord& end = complex(i).vertices[vertices_[i].vertex + 1U];
+      size.svertices += end.svertices - begin.svertices;
+      size.shalfedges += end.shalfedges - begin.shalfedges;
+      size.sloops += end.sloops - begin.sloops;
+      size.sfaces += end.sfaces - begin.sfaces;
+      size.entries += end.entries - begin.entries;
     }
-    write_sfaces(map);
+    return size;
   }
 
-  void write_svertices(const PlaneTable& planes, std::uint32_t v, const SphereMapView& map) {
-    const auto count = static_cast<std::uint32_t>(map.svertices.size());
-    named_.assign(map.svertices.begin(), map.svertices.end());
-    for (std::uint32_t s = 0; s < count; ++s) named_[s].p = named_[s].q = PlaneId();
-    for (const SHalfedge& half : map.shalfedges) take_row(named_[half.source], row_[half.plane.row()]);
-    for (std::uint32_t s = 0; s < count; ++s) {
-      for (const std::uint32_t row : line_[c_.vertices[v].svertices + s]) {
-        if (row != kNone) take_row(named_[s], row_[row]);
-      }
-      turn_along(planes, map.svertices[s], named_[s]);
-    }
-    sorted_.resize(count);
-    std::iota(sorted_.begin(), sorted_.end(), 0U);
-    std::sort(sorted_.begin(), sorted_.end(), [this](std::uint32_t a, std::uint32_t b) {
-      return std::pair(named_[a].p, named_[a].q) < std::pair(named_[b].p, named_[b].q);
+  // All vertices into the builder; fills svertices_.
+  void write(PlaneTable& planes, ComplexBuilder& builder) {
+    std::vector<std::vector<std::uint32_t>> ordered(parts_.size());  // of the planes of parts
+    svertices_.resize(parts_.size());
+    parallel_for(parts_.size(), threads_, [&](std::size_t k) {
+      ordered[k].reserve(parts_[k].rows.size());
+      for (const std::uint32_t row : parts_[k].rows) ordered[k].push_back(row_[row]);
+      if (!parts_[k].complex->twin.empty()) svertices_[k].assign(parts_[k].complex->svertices.size(), kNone);
     });
-    svertex_.resize(count);
-    for (std::uint32_t s = 0; s < count; ++s) {
-      svertex_[sorted_[s]] = s;
-      out_.svertices.push_back(named_[sorted_[s]]);
-    }
-  }
-
-  // Keeps the two smallest rows, as unflipped planes.
-  static void take_row(SVertex& svertex, std::uint32_t row) {
-    const PlaneId plane{row << 1U};
-    if (plane == svertex.p || plane == svertex.q) return;
-    if (plane < svertex.p) {
-      svertex.q = svertex.p;
-      svertex.p = plane;
-    } else if (plane < svertex.q) {
-      svertex.q = plane;
-    }
-  }
-
-  // Flips the second plane where the planes would name the opposite direction.
-  void turn_along(const PlaneTable& planes, const SVertex& old, SVertex& svertex) const {
-    const PlaneId p = renamed(old.p);
-    const PlaneId q = renamed(old.q);
-    bool positive = false;
-    const bool kept = row_[old.p.row()] != kNone && row_[old.q.row()] != kNone;
-    if (kept && std::min(p.row(), q.row()) == svertex.p.row() && std::max(p.row(), q.row()) == svertex.q.row()) {
-      positive = (p.flipped() != q.flipped()) == (p.row() != svertex.p.row());
-    } else {
-      positive = sign_of_dot(direction_of(planes_, old), Direction::cross(planes, svertex.p, svertex.q)) > 0;
-    }
-    if (!positive) svertex.q = svertex.q.opposite();
-  }
-
-  void write_shalfedges(const SphereMapView& map) {
-    const auto count = static_cast<std::uint32_t>(map.shalfedges.size());
-    evens_.clear();
-    for (std::uint32_t e = 0; e < count; e += 2) evens_.push_back(e + (map.shalfedges[e].plane.flipped() ? 1 : 0));
-    const auto key = [&](std::uint32_t e) {
-      return std::array<std::uint32_t, 3>{row_[map.shalfedges[e].plane.row()], svertex_[map.shalfedges[e].source],
-                                          svertex_[map.target(e)]};
-    };
-    std::sort(evens_.begin(), evens_.end(), [&key](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
-    shalfedge_.resize(count);
-    for (std::uint32_t k = 0; k < evens_.size(); ++k) {
-      shalfedge_[evens_[k]] = 2 * k;
-      shalfedge_[evens_[k] ^ 1U] = 2 * k + 1;
-    }
-    for (SVertex& s : out_.svertices) s.out = kNone;
-    for (std::uint32_t k = 0; k < evens_.size(); ++k) {
-      for (const std::uint32_t old : {evens_[k], evens_[k] ^ 1U}) {
-        SHalfedge half = map.shalfedges[old];
-        half.plane = renamed(half.plane);
-        half.source = svertex_[half.source];
-        half.next = shalfedge_[half.next];
-        half.prev = shalfedge_[half.prev];
-        SVertex& source = out_.svertices[half.source];
-        if (source.out == kNone) source.out = shalfedge_[old];
-        out_.shalfedges.push_back(half);
+    const std::size_t chunks = chunk_count();
+    std::vector<std::uint32_t> first_svertex(chunks + 1, 0);
+    std::vector<Complex> written(chunks);
+    for_each_chunk([&](std::uint32_t first, std::uint32_t last, std::size_t chunk) {
+      const VertexRecord size = size_of(first, last);
+      first_svertex[chunk + 1] = size.svertices;
+      ComplexBuilder part(planes);
+      part.reserve(last - first, size);
+      CanonicalMapWriter writer(planes_, planes, row_);
+      auto line = std::lower_bound(lines_.begin(), lines_.end(), first,
+                                   [](const BareLine& l, std::uint32_t place) { return l.place < place; });
+      for (std::uint32_t i = first; i < last; ++i) {
+        const CanonicalVertex& v = vertices_[i];
+        const auto line_end = std::find_if(line, lines_.end(), [i](const BareLine& l) { return l.place != i; });
+        writer.set_rows(parts_[v.part].rows, ordered[v.part]);
+        const std::uint32_t at = part.so_far().vertices.back().svertices;
+        const Point p = point(i);
+        part.append(p.table, p.id, writer.write(map(i), {line, line_end}));
+        line = line_end;
+        if (svertices_[v.part].empty()) continue;
+        std::uint32_t old = complex(i).vertices[v.vertex].svertices;
+        for (const std::uint32_t s : writer.svertex_numbers()) svertices_[v.part][old++] = at + s;
       }
-    }
-  }
-
-  void write_sfaces(const SphereMapView& map) {
-    faces_.resize(map.sfaces.size());
-    const std::uint32_t swap_loops = !map.sloops.empty() && map.sloops[0].plane.flipped() ? 1 : 0;
-    for (std::uint32_t f = 0; f < faces_.size(); ++f) {
-      faces_[f].old = f;
-      faces_[f].entries.clear();
-      for (const SFaceEntry& entry : map.entries.subspan(map.sfaces[f].entries, map.sfaces[f].entry_count)) {
-        std::uint32_t index = entry.index ^ swap_loops;
-        if (entry.kind == SFaceEntry::Kind::kCycle) index = smallest_of_cycle(shalfedge_[entry.index]);
-        if (entry.kind == SFaceEntry::Kind::kIsolatedVertex) index = svertex_[entry.index];
-        faces_[f].entries.emplace_back(entry.kind, index);
+      written[chunk] = part.take_so_far();
+    });
+    if (chunks == 1) return builder.take_vertices(std::move(written[0]));
+    join(written, builder);
+    for (std::size_t k = 0; k < chunks; ++k) first_svertex[k + 1] += first_svertex[k];
+    for_each_chunk([&](std::uint32_t first, std::uint32_t last, std::size_t chunk) {
+      for (std::uint32_t i = first; i < last; ++i) {
+        const CanonicalVertex& v = vertices_[i];
+        if (svertices_[v.part].empty()) continue;
+        const std::uint32_t begin = complex(i).vertices[v.vertex].svertices;
+        const std::uint32_t end = complex(i).vertices[v.vertex + 1U].svertices;
+        for (std::uint32_t h = begin; h < end; ++h) svertices_[v.part][h] += first_svertex[chunk];
       }
-      std::sort(faces_[f].entries.begin(), faces_[f].entries.end());
-    }
-    std::sort(faces_.begin(), faces_.end(), [](const Face& a, const Face& b) { return a.entries < b.entries; });
-    sface_.resize(faces_.size());
-    for (std::uint32_t f = 0; f < faces_.size(); ++f) {
-      sface_[faces_[f].old] = f;
-      out_.sfaces.push_back({static_cast<std::uint32_t>(out_.entries.size()),
-                             static_cast<std::uint32_t>(faces_[f].entries.size()), map.sfaces[faces_[f].old].mark});
-      for (const auto& [kind, index] : faces_[f].entries) out_.entries.push_back({kind, index});
-    }
-    const auto rename = [this](std::uint32_t& sface) {
-      if (sface != kNone) sface = sface_[sface];
-    };
-    for (SVertex& s : out_.svertices) rename(s.sface);
-    for (SHalfedge& e : out_.shalfedges) rename(e.sface);
-    for (SLoop& l : out_.sloops) rename(l.sface);
+    });
   }
 
-  [[nodiscard]] std::uint32_t smallest_of_cycle(std::uint32_t first) const {
-    std::uint32_t smallest = first;
-    for (std::uint32_t e = out_.shalfedges[first].next; e != first; e = out_.shalfedges[e].next) {
-      smallest = std::min(smallest, e);
+  void join(std::vector<Complex>& written, ComplexBuilder& builder) const {
+    builder.reserve(count(), size_of(0, count()));
+    for (Complex& part : written) {
+      builder.copy(part, 0, static_cast<std::uint32_t>(part.vertex_count()));
+      part = Complex();
     }
-    return smallest;
   }
 
-  const Complex& c_;
+  [[nodiscard]] KnownLinks known_twins(const Complex& written) const {
+    KnownLinks known;
+    known.twin.assign(written.svertices.size(), kNone);
+    std::vector<std::vector<std::uint32_t>> loose(chunk_count());
+    for_each_chunk([&](std::uint32_t first, std::uint32_t last, std::size_t chunk) {
+      for (std::uint32_t i = first; i < last; ++i) {
+        const std::vector<std::uint32_t>& numbers = svertices_[vertices_[i].part];
+        const Complex& c = complex(i);
+        const std::uint32_t begin = c.vertices[vertices_[i].vertex].svertices;
+        const std::uint32_t end = c.vertices[vertices_[i].vertex + 1U].svertices;
+        bool all = true;
+        for (std::uint32_t h = begin; h < end; ++h) {
+          const std::uint32_t twin = numbers.empty() ? kNone : numbers[c.twin[h]];
+          if (twin != kNone) known.twin[numbers[h]] = twin;
+          all = all && twin != kNone;
+        }
+        if (!all) loose[chunk].push_back(i);
+      }
+    });
+    for (const auto& some : loose) known.loose_vertices.insert(known.loose_vertices.end(), some.begin(), some.end());
+    return known;
+  }
+
+  static constexpr std::uint32_t kChunk = 8192;  // vertices
+
   PlaneTable planes_;
-  std::vector<std::uint32_t> order_;
-  std::vector<std::array<std::uint32_t, 2>> line_;  // of svertices with less than two facets' planes; rows
-  std::vector<std::uint32_t> row_;                  // of each plane in the result
-  struct Face {
-    std::vector<std::pair<SFaceEntry::Kind, std::uint32_t>> entries;
-    std::uint32_t old = 0;
-  };
-  // Of one vertex, from old items to new ones.
-  std::vector<Face> faces_;
-  SphereMapBuffer out_;
-  std::vector<SVertex> named_;
-  std::vector<std::uint32_t> sorted_, svertex_, evens_, shalfedge_, sface_;
+  std::span<const CanonicalPart> parts_;
+  std::vector<CanonicalVertex> vertices_;
+  unsigned threads_;
+  PointTable reduced_;
+  std::vector<std::uint32_t> reduced_at_;              // of each vertex, or kNone; empty if all are reduced as they are
+  std::vector<BareLine> lines_;                        // in the order of the vertices
+  std::vector<std::uint32_t> row_;                     // of each plane in the result
+  std::vector<std::vector<std::uint32_t>> svertices_;  // numbers in the result; of each part that has twins
 };
 
 }  // namespace
 
-Complex canonical_complex(PlaneTable&& planes, const Complex& vertices, LabelId outer) {
-  return Canonical(std::move(planes), vertices).run(outer);
+Complex canonical_complex(PlaneTable&& planes, std::span<const CanonicalPart> parts,
+                          std::vector<CanonicalVertex>&& vertices, LabelId outer, unsigned threads) {
+  return Canonical(std::move(planes), parts, std::move(vertices), threads).run(outer);
 }
 
 Polyhedron in_canonical_order(const Polyhedron& set) {
   const Complex& c = set.complex();
-  return Polyhedron(canonical_complex(PlaneTable(c.planes), c, c.volumes[kOuterVolume].mark));
+  std::vector<CanonicalVertex> vertices(c.vertex_count());
+  for (std::uint32_t v = 0; v < vertices.size(); ++v) vertices[v].vertex = v;
+  const CanonicalPart part{&c, {}};
+  return Polyhedron(
+      canonical_complex(PlaneTable(c.planes), {&part, 1}, std::move(vertices), c.volumes[kOuterVolume].mark));
 }
 
 }  // namespace nef

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "nef/polyhedron.h"
 
 namespace nef {
@@ -10,7 +13,21 @@ namespace nef {
 /// Vertices come along a curve through space, planes as vertices use them. O(n log n), about half a Boolean operation.
 Polyhedron in_canonical_order(const Polyhedron& set);
 
-/// The same for the vertices of a complex that are not linked yet, by the planes of a table.
-Complex canonical_complex(PlaneTable&& planes, const Complex& vertices, LabelId outer);
+/// Where vertices of a complex that is to be written come from.
+struct CanonicalPart {
+  const Complex* complex = nullptr;     ///< their sphere maps and, unless there are none, twins
+  std::span<const std::uint32_t> rows;  ///< of its planes in the common table; empty: they are the same
+};
+/// One of them.
+struct CanonicalVertex {
+  std::uint32_t part = 0;
+  std::uint32_t vertex = 0;
+};
+
+/// The complex of some vertices of several complexes in that order, by the planes of a common table, on up to `threads`
+/// threads. Twins of a part are those of the result where both ends are among the vertices. `outer` is the mark of all
+/// of space if there are no vertices.
+Complex canonical_complex(PlaneTable&& planes, std::span<const CanonicalPart> parts,
+                          std::vector<CanonicalVertex>&& vertices, LabelId outer, unsigned threads = 1);
 
 }  // namespace nef

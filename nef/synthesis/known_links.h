@@ -11,7 +11,8 @@
 namespace nef {
 
 /// Twins and facets of a complex, as far as they are known. What is said here must be what synthesis would find: then
-/// the complex is the same, item for item, with or without it.
+/// the complex is the same, item for item, with or without it. Where nothing is said of facets, neither known nor
+/// loose, all are to be found.
 struct KnownLinks {
   std::vector<std::uint32_t> twin;            ///< of each svertex; kNone where it is to be found
   std::vector<std::uint32_t> loose_vertices;  ///< the vertices of such svertices, ascending

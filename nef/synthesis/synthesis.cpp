@@ -63,7 +63,11 @@ void synthesize(Complex& complex, LabelId outer, KnownLinks&& known, unsigned th
   begin(1);
   link_edges(complex, known);
   begin(2);
-  link_facets(complex, known, threads);
+  if (known.facets.empty() && known.loose_corners.empty() && known.loose_isolated.empty()) {
+    link_facets(complex, threads);
+  } else {
+    link_facets(complex, known, threads);
+  }
   begin(3);
   known = {};
   link_volumes(complex, outer, threads);

@@ -197,12 +197,6 @@ Complex Cutter::linked(Complex&& piece) {
   PlaneTable planes = own_planes(planes_, piece, row_);
   KnownLinks known;
   known.twin = std::move(piece.twin);
-  for (std::uint32_t e = 0; e < piece.shalfedges.size(); ++e) {
-    if (!piece.shalfedges[e].plane.flipped()) known.loose_corners.push_back(e);
-  }
-  for (std::uint32_t v = 0; v < piece.vertex_count(); ++v) {
-    if (piece.vertices[v].sloops < piece.vertices[v + 1].sloops) known.loose_isolated.push_back(v);
-  }
   ComplexBuilder builder(planes);
   builder.take_vertices(std::move(piece));
   return builder.finish(kOutside, std::move(known));

@@ -90,7 +90,7 @@ bool TiledPolyhedron::is_empty() const { return root_->node->kind == Kind::kUnif
 
 bool TiledPolyhedron::is_everything() const { return root_->node->kind == Kind::kUniform && root_->node->mark != 0; }
 
-Polyhedron TiledPolyhedron::polyhedron() const { return glue_all_tiles(*root_); }
+Polyhedron TiledPolyhedron::polyhedron() const { return glue_all_tiles(*root_, tiling_.threads); }
 
 TiledPolyhedron unite(const TiledPolyhedron& a, const TiledPolyhedron& b) { return combine(a, b, kUnion); }
 TiledPolyhedron unite(const TiledPolyhedron& a, const Polyhedron& b) { return combine(a, b, kUnion); }

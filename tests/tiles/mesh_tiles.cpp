@@ -104,4 +104,23 @@ TEST_CASE("unions of many sets, region by region", "[threads]") {
   }
 }
 
+TEST_CASE("many vertices are glued on several threads", "[threads]") {
+  // More than a thread takes at once; boxes that touch in vertices and edges, and some that are cut.
+  std::vector<Polyhedron> pieces;
+  for (int x = 0; x < 11; ++x) {
+    for (int y = 0; y < 11; ++y) {
+      for (int z = 0; z < 11; ++z) {
+        const int side = (x + y + z) % 7 == 0 ? 3 : 2;
+        pieces.push_back(make_box({3 * x, 3 * y, 3 * z}, {3 * x + side, 3 * y + 2, 3 * z + 2}));
+      }
+    }
+  }
+  const TiledPolyhedron on_one(pieces, {.limit = 100, .threads = 1});
+  const TiledPolyhedron on_three(pieces, {.limit = 100, .threads = 3});
+  const Polyhedron one = on_one.polyhedron();
+  REQUIRE(one.complex().vertex_count() > 9000);
+  CHECK(native_binary(one) == native_binary(on_three.polyhedron()));
+  CHECK(native_binary(one) == native_binary(in_canonical_order(unite_all(pieces))));
+}
+
 }  // namespace nef::test

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/operation/canonical_map.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace nef {
+namespace {
+
+// Keeps the two smallest rows, as unflipped planes.
+void take_row(SVertex& svertex, std::uint32_t row) {
+  const PlaneId plane{row << 1U};
+  if (plane == svertex.p || plane == svertex.q) return;
+  if (plane < svertex.p) {
+    svertex.q = svertex.p;
+    svertex.p = plane;
+  } else if (plane < svertex.q) {
+    svertex.q = plane;
+  }
+}
+
+}  // namespace
+
+SphereMapView CanonicalMapWriter::write(const SphereMapView& map, std::span<const BareLine> lines) {
+  out_.clear();
+  out_.mark = map.mark;
+  write_svertices(map, lines);
+  write_shalfedges(map);
+  for (std::size_t l = 0; l < map.sloops.size(); ++l) {
+    SLoop loop = map.sloops[l ^ (map.sloops[0].plane.flipped() ? 1U : 0U)];
+    loop.plane = renamed(loop.plane);
+    out_.sloops.push_back(loop);
+  }
+  write_sfaces(map);
+  return out_.view();
+}
+
+void CanonicalMapWriter::write_svertices(const SphereMapView& map, std::span<const BareLine> lines) {
+  const auto count = static_cast<std::uint32_t>(map.svertices.size());
+  named_.assign(map.svertices.begin(), map.svertices.end());
+  for (std::uint32_t s = 0; s < count; ++s) named_[s].p = named_[s].q = PlaneId();
+  for (const SHalfedge& half : map.shalfedges) take_row(named_[half.source], renamed_[half.plane.row()]);
+  for (const BareLine& line : lines) {
+    for (const std::uint32_t row : line.rows) take_row(named_[line.svertex], row_[row]);
+  }
+  for (std::uint32_t s = 0; s < count; ++s) turn_along(map.svertices[s], named_[s]);
+  sorted_.resize(count);
+  std::iota(sorted_.begin(), sorted_.end(), 0U);
+  std::sort(sorted_.begin(), sorted_.end(), [this](std::uint32_t a, std::uint32_t b) {
+    return std::pair(named_[a].p, named_[a].q) < std::pair(named_[b].p, named_[b].q);
+  });
+  svertex_.resize(count);
+  for (std::uint32_t s = 0; s < count; ++s) {
+    svertex_[sorted_[s]] = s;
+    out_.svertices.push_back(named_[sorted_[s]]);
+  }
+}
+
+// Flips the second plane where the planes would name the opposite direction.
+void CanonicalMapWriter::turn_along(const SVertex& old, SVertex& svertex) const {
+  const PlaneId p = renamed(old.p);
+  const PlaneId q = renamed(old.q);
+  bool positive = false;
+  const bool kept = renamed_[old.p.row()] != kNone && renamed_[old.q.row()] != kNone;
+  if (kept && std::min(p.row(), q.row()) == svertex.p.row() && std::max(p.row(), q.row()) == svertex.q.row()) {
+    positive = (p.flipped() != q.flipped()) == (p.row() != svertex.p.row());
+  } else {
+    positive = sign_of_dot(Direction::cross(planes_, common(old.p), common(old.q)),
+                           Direction::cross(ordered_, svertex.p, svertex.q)) > 0;
+  }
+  if (!positive) svertex.q = svertex.q.opposite();
+}
+
+void CanonicalMapWriter::write_shalfedges(const SphereMapView& map) {
+  const auto count = static_cast<std::uint32_t>(map.shalfedges.size());
+  evens_.clear();
+  for (std::uint32_t e = 0; e < count; e += 2) evens_.push_back(e + (map.shalfedges[e].plane.flipped() ? 1 : 0));
+  const auto key = [&](std::uint32_t e) {
+    return std::array<std::uint32_t, 3>{renamed_[map.shalfedges[e].plane.row()], svertex_[map.shalfedges[e].source],
+                                        svertex_[map.target(e)]};
+  };
+  std::sort(evens_.begin(), evens_.end(), [&key](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+  shalfedge_.resize(count);
+  for (std::uint32_t k = 0; k < evens_.size(); ++k) {
+    shalfedge_[evens_[k]] = 2 * k;
+    shalfedge_[evens_[k] ^ 1U] = 2 * k + 1;
+  }
+  for (SVertex& s : out_.svertices) s.out = kNone;
+  for (std::uint32_t k = 0; k < evens_.size(); ++k) {
+    for (const std::uint32_t old : {evens_[k], evens_[k] ^ 1U}) {
+      SHalfedge half = map.shalfedges[old];
+      half.plane = renamed(half.plane);
+      half.source = svertex_[half.source];
+      half.next = shalfedge_[half.next];
+      half.prev = shalfedge_[half.prev];
+      SVertex& source = out_.svertices[half.source];
+      if (source.out == kNone) source.out = shalfedge_[old];
+      out_.shalfedges.push_back(half);
+    }
+  }
+}
+
+void CanonicalMapWriter::write_sfaces(const SphereMapView& map) {
+  faces_.resize(map.sfaces.size());
+  const std::uint32_t swap_loops = !map.sloops.empty() && map.sloops[0].plane.flipped() ? 1 : 0;
+  for (std::uint32_t f = 0; f < faces_.size(); ++f) {
+    faces_[f].old = f;
+    faces_[f].entries.clear();
+    for (const SFaceEntry& entry : map.entries.subspan(map.sfaces[f].entries, map.sfaces[f].entry_count)) {
+      std::uint32_t index = entry.index ^ swap_loops;
+      if (entry.kind == SFaceEntry::Kind::kCycle) index = smallest_of_cycle(shalfedge_[entry.index]);
+      if (entry.kind == SFaceEntry::Kind::kIsolatedVertex) index = svertex_[entry.index];
+      faces_[f].entries.emplace_back(entry.kind, index);
+    }
+    std::sort(faces_[f].entries.begin(), faces_[f].entries.end());
+  }
+  std::sort(faces_.begin(), faces_.end(), [](const Face& a, const Face& b) { return a.entries < b.entries; });
+  sface_.resize(faces_.size());
+  for (std::uint32_t f = 0; f < faces_.size(); ++f) {
+    sface_[faces_[f].old] = f;
+    out_.sfaces.push_back({static_cast<std::uint32_t>(out_.entries.size()),
+                           static_cast<std::uint32_t>(faces_[f].entries.size()), map.sfaces[faces_[f].old].mark});
+    for (const auto& [kind, index] : faces_[f].entries) out_.entries.push_back({kind, index});
+  }
+  const auto rename = [this](std::uint32_t& sface) {
+    if (sface != kNone) sface = sface_[sface];
+  };
+  for (SVertex& s : out_.svertices) rename(s.sface);
+  for (SHalfedge& e : out_.shalfedges) rename(e.sface);
+  for (SLoop& l : out_.sloops) rename(l.sface);
+}
+
+std::uint32_t CanonicalMapWriter::smallest_of_cycle(std::uint32_t first) const {
+  std::uint32_t smallest = first;
+  for (std::uint32_t e = out_.shalfedges[first].next; e != first; e = out_.shalfedges[e].next) {
+    smallest = std::min(smallest, e);
+  }
+  return smallest;
+}
+
+}  // namespace nef

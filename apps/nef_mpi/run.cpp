@@ -130,6 +130,13 @@ class Run {
            flags_.tiles + "\n";
   }
 
+  // What tasks make goes to files.
+  [[nodiscard]] Tiling tiling() const {
+    Tiling result = choose_tiles(flags_, session_, "").tiling;
+    if (flags_.tiles == "auto") result.limit = kVerticesOfTileInFile;
+    return result;
+  }
+
   int unite() {
     const WorkFolder work(session_.output);
     std::optional<PieceList> pieces;
@@ -140,7 +147,7 @@ class Run {
     });
     if (!pieces) pieces.emplace(session_.inputs, list_, session_.mesh);
     const PieceSource source{.count = pieces->size(), .set = [&](std::uint32_t i) { return pieces->set(i); }};
-    const Tiling tiling = choose_tiles(flags_, session_, "").tiling;
+    const Tiling tiling = this->tiling();
     const Stopwatch watch;
     const TiledPolyhedron set = distributed_union(mpi_, work, source, tiling, watcher());
     return finish("union", work, set, watch.seconds());
@@ -159,7 +166,7 @@ class Run {
     if (sets.empty()) {
       for (const std::string& path : session_.inputs) sets.push_back(read_file_or_tiles(path, session_.mesh));
     }
-    const Tiling tiling = choose_tiles(flags_, session_, "").tiling;
+    const Tiling tiling = this->tiling();
     const Stopwatch watch;
     const TiledPolyhedron set = distributed_sum(mpi_, work, sets[0], sets[1], part_, tiling, watcher());
     return finish("minkowski", work, set, watch.seconds());

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // nef_bench_tiles cubes [LEVEL...] [--limit N]: tiny cubes off spheres of 8 * 4^LEVEL triangles, in tiles and without.
-// nef_bench_tiles chain [LEVEL [STEPS]] [--limit N] [--size D]: many boxes one after the other, plain, in tiles, and in
-// tiles where that pays.
+// nef_bench_tiles chain [LEVEL [STEPS]] [--limit N] [--size D] [--every]: many boxes one after the other, plain, in
+// tiles, and in tiles where that pays; with --every the ratio at each step.
 // nef_bench_tiles fold [LEVEL [COUNT]] [--limit N] [--size D]: such boxes off a sphere, all at once and in tiles.
 // nef_bench_tiles union [COUNT] [--limit N] [--threads N] [--memory MB]: random tetrahedra, each of which meets a few
 // others; pairs smallest first, and region by region. With --stream the latter alone, each piece made when it is
@@ -92,7 +92,7 @@ void cubes(int level, const Tiling& tiling) {
 }
 
 // Boxes taken off and put back (every fifth one a symmetric difference), plain, in tiles, and in tiles where that pays.
-void chain(int level, int steps, double size, const Tiling& tiling) {
+void chain(int level, int steps, double size, bool every, const Tiling& tiling) {
   CubesOffSphere source(level);
   const Polyhedron sphere = from_mesh(source.sphere());
   const auto count = static_cast<std::size_t>(steps);
@@ -103,11 +103,18 @@ void chain(int level, int steps, double size, const Tiling& tiling) {
   std::array<double, 3> total{};
   double first_hundred = 0;
   double worst = 0;
+  int worst_at = 0;
   for (int i = 1; i <= steps; ++i) {
     const Polyhedron box = source.next(size);
     const BooleanOperator op = i % 5 == 0 ? BooleanOperator::kSymmetricDifference : BooleanOperator::kDifference;
     for (std::size_t k = 0; k < 3; ++k) hundred[k] += seconds_of([&] { runs[k].apply(op, box); });
-    worst = std::max(worst, (total[2] + hundred[2]) / (total[0] + hundred[0]));
+    // The first steps are the same in both, and too short to tell more than noise.
+    const double ratio = (total[2] + hundred[2]) / (total[0] + hundred[0]);
+    if (i >= 10 && ratio > worst) {
+      worst = ratio;
+      worst_at = i;
+    }
+    if (every) std::printf("step %d: auto / plain so far %.3f\n", i, ratio);
     if (i % 100 != 0 && i != steps) continue;
     if (i == 100) first_hundred = hundred[1];
     std::printf(
@@ -123,8 +130,8 @@ void chain(int level, int steps, double size, const Tiling& tiling) {
       native_binary(results[0]) == native_binary(results[1]) && native_binary(results[0]) == native_binary(results[2]);
   std::printf(
       "result: plain %.2f s; tiled %.2f of it, auto %.2f (without cutting for tiled); auto / plain at the worst "
-      "step so far %.2f; files %s\n",
-      total[0], total[1] / total[0], total[2] / total[0], worst, same ? "the same" : "DIFFERENT");
+      "step so far, from the tenth on, %.3f (step %d); files %s\n",
+      total[0], total[1] / total[0], total[2] / total[0], worst, worst_at, same ? "the same" : "DIFFERENT");
 }
 
 // All at once: the sphere minus the union of the boxes, with tiles and without.
@@ -211,7 +218,7 @@ int main(int argc, char** argv) {
   if (words.empty()) {
     std::fprintf(stderr,
                  "usage: nef_bench_tiles cubes [LEVEL...] | chain [LEVEL [STEPS]] | fold [LEVEL [COUNT]] | union "
-                 "[COUNT], [--size D] "
+                 "[COUNT], [--size D] [--every] "
                  "[--limit N] [--threads N] [--memory MB] [--stream]\n");
     return 2;
   }
@@ -219,6 +226,7 @@ int main(int argc, char** argv) {
     nef::Tiling tiling;
     double size = 0.01;
     bool stream = false;
+    bool every = false;
     std::vector<int> numbers;
     for (std::size_t i = 1; i < words.size(); ++i) {
       if (words[i] == "--limit" && i + 1 < words.size()) {
@@ -229,6 +237,8 @@ int main(int argc, char** argv) {
         tiling.store = std::make_shared<nef::TileStore>(".", std::stoull(words[++i]) << 20U);
       } else if (words[i] == "--stream") {
         stream = true;
+      } else if (words[i] == "--every") {
+        every = true;
       } else if (words[i] == "--size" && i + 1 < words.size()) {
         size = std::stod(words[++i]);
       } else {
@@ -236,7 +246,7 @@ int main(int argc, char** argv) {
       }
     }
     if (words[0] == "chain") {
-      nef::bench::chain(numbers.empty() ? 5 : numbers[0], numbers.size() < 2 ? 1000 : numbers[1], size, tiling);
+      nef::bench::chain(numbers.empty() ? 5 : numbers[0], numbers.size() < 2 ? 1000 : numbers[1], size, every, tiling);
     } else if (words[0] == "union") {
       nef::bench::unite_tetrahedra(numbers.empty() ? 10000U : static_cast<std::uint32_t>(numbers[0]), stream, tiling);
     } else if (words[0] == "fold") {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -70,6 +71,21 @@ Primitive random_primitive(Choices& choices) {
   return result;
 }
 
+// Beyond all points that are asked for.
+const Polyhedron& far_boxes() {
+  static const Polyhedron kBoxes = [] {
+    std::vector<Polyhedron> boxes;
+    for (int i = 0; i < 40; ++i) {
+      const int x = 20 + 3 * (i % 4);
+      const int y = -10 + 3 * (i / 4 % 5);
+      const int z = 3 * (i / 20) - 2;
+      boxes.push_back(make_box({x, y, z}, {x + 2, y + 2 + i % 2, z + 2}));
+    }
+    return unite_all(boxes);
+  }();
+  return kBoxes;
+}
+
 // The left fold of steps, plain, in tiles and point by point.
 class Fold {
  public:
@@ -100,6 +116,13 @@ class Fold {
     result.primitive_.push_back(primitive);
     result.plain_ = primitive.make();
     result.tiled_ = TiledPolyhedron(result.plain_, tiling);
+    return result;
+  }
+  // With much that is far away, as one tile, which steps cut around what they touch.
+  static Fold uncut(const Primitive& primitive, const nef::Tiling& tiling) {
+    Fold result = of(primitive, tiling);
+    result.plain_ = unite(result.plain_, far_boxes());
+    result.tiled_ = TiledPolyhedron(tile_leaf(result.plain_, tiling.store, true), tiling);
     return result;
   }
 
@@ -153,8 +176,11 @@ void random_cuts(const Case& the_case, Fold& fold) {
 
 Fold random_fold(const Case& the_case, const nef::Tiling& tiling, int depth) {
   Choices& choices = the_case.choices();
-  Fold result = Fold::of(random_primitive(choices), tiling);
-  random_cuts(the_case, result);
+  const Primitive first = random_primitive(choices);
+  const bool uncut = depth == 0 && choices.one_in(3);
+  if (uncut) the_case.tell("uncut, with boxes far away");
+  Fold result = uncut ? Fold::uncut(first, tiling) : Fold::of(first, tiling);
+  if (!uncut) random_cuts(the_case, result);
   for (std::uint32_t i = 1 + choices.below(depth == 0 ? 4 : 2); i > 0; --i) {
     if (choices.one_in(6)) {
       result.complement_all();
@@ -186,6 +212,37 @@ void check(const Case& the_case, const Fold& fold) {
   Case::require(native_binary(glued) == native_binary(in_canonical_order(fold.plain())), "bytes: of the glued set");
   Case::require(volume(fold.tiled()) == volume(fold.plain()), "volume: in tiles");
   the_case.count("tiles", fold.tiled().tile_count());
+}
+
+// A ray meets in tiles what it meets in the whole.
+void check_rays(const Case& the_case, const Fold& fold) {
+  Choices& choices = the_case.choices();
+  for (int i = 0; i < 12; ++i) {
+    Rational3 origin;
+    Rational3 direction;
+    std::string words;
+    for (std::size_t k = 0; k < 3; ++k) {
+      origin[k] = Rational(choices.between(-1, 2 * kGrid + 1), 2);
+      origin[k].canonicalize();
+      direction[k] = choices.between(-2, 2);
+      words += (k == 0 ? "" : ",") + to_string(origin[k]) + " + t * " + to_string(direction[k]);
+    }
+    if (direction[0] == 0 && direction[1] == 0 && direction[2] == 0) direction[0] = 1;
+    // All items, those of the set, or those that are no edges.
+    const std::uint32_t chosen = choices.below(3);
+    const auto accept = [chosen](const Location& at) {
+      return chosen == 0 || (chosen == 1 ? at.mark != 0 : at.kind != Location::Kind::kEdge);
+    };
+    const std::optional<RayHit> there = shoot_ray(fold.tiled(), origin, direction, accept);
+    const std::optional<RayHit> whole = shoot_ray(fold.plain(), origin, direction, accept);
+    const std::string where = words + ", choice " + std::to_string(chosen);
+    Case::require(there.has_value() == whole.has_value(), "rays: whether one meets anything, " + where);
+    if (!whole) continue;
+    Case::require(there->point == whole->point, "rays: the point, " + where);
+    Case::require(there->location.kind == whole->location.kind, "rays: the kind of item, " + where);
+    Case::require((there->location.mark != 0) == (whole->location.mark != 0), "rays: the mark, " + where);
+    the_case.count("rays that meet something");
+  }
 }
 
 // What is made region by region: the union of primitives, and the solid of a mesh.
@@ -232,6 +289,7 @@ void fuzz_tiles(const Case& the_case) {
   const Fold fold = random_fold(the_case, tiling, 0);
   the_case.tell(fold.steps_text());
   check(the_case, fold);
+  check_rays(the_case, fold);
   check_pieces(the_case, tiling);
 }
 

@@ -202,10 +202,10 @@ Complex Cutter::linked(Complex&& piece) {
   return builder.finish(kOutside, std::move(known));
 }
 
-TileRef Cutter::leaf(Complex&& piece) {
+TileRef Cutter::leaf(Complex&& piece, bool uncut) {
   const TileMeasure measure = measure_tile(piece);
   if (measure.uniform) return uniform_leaf(measure.mark);
-  return tile_leaf(Polyhedron(linked(std::move(piece))), tiling_.store);
+  return tile_leaf(Polyhedron(linked(std::move(piece))), tiling_.store, uncut);
 }
 
 std::optional<Cutter::Halved> Cutter::halve(const Complex& piece) {
@@ -288,6 +288,19 @@ TileRef subdivided(const Polyhedron& set, const Tiling& tiling, unsigned threads
   TileRef tree = threads == 1 ? cutter.subdivide(std::move(piece))
                               : subdivided_in_parallel(cutter, std::move(piece), tiling, threads);
   return tree.node->kind == TileNode::Kind::kTile ? tile_leaf(set, tiling.store) : tree;
+}
+
+TileRef fully_cut(const TileRef& tree, const Tiling& tiling) {
+  TileRef result = tree;
+  if (tree.node->kind == TileNode::Kind::kTile && tree.node->uncut) {
+    result = subdivided(tree.node->set(), tiling, tiling.threads);
+    if (tree.complemented) result = result.complement();
+  } else if (tree.node->kind == TileNode::Kind::kCut) {
+    const std::array<TileRef, 2> old = children(tree);
+    const std::array<TileRef, 2> cut{fully_cut(old[0], tiling), fully_cut(old[1], tiling)};
+    if (cut != old) result = cut_node(tree.node->plane, cut[0], cut[1]);
+  }
+  return result;
 }
 
 std::array<TileRef, 2> cut_leaf(const TileRef& leaf, const AxisPlane& plane, const Tiling& tiling) {

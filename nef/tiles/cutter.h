@@ -47,8 +47,8 @@ class Cutter {
   /// A loose complex with the planes that it uses, facets and volumes.
   Complex linked(Complex&& piece);
 
-  /// A loose complex as one leaf.
-  TileRef leaf(Complex&& piece);
+  /// A loose complex as one leaf, which may be marked as uncut (TileNode).
+  TileRef leaf(Complex&& piece, bool uncut = false);
 
  private:
   class Halves;
@@ -62,6 +62,9 @@ class Cutter {
 /// A set in its region as a tree of tiles of at most tiling.limit vertices, where planes can separate them, on up to
 /// `threads` threads. O(n log n).
 TileRef subdivided(const Polyhedron& set, const Tiling& tiling, unsigned threads = 1);
+
+/// A tree with its uncut leaves cut as subdivided() does.
+TileRef fully_cut(const TileRef& tree, const Tiling& tiling);
 
 /// The parts of a leaf that is no uniform one on both sides of a plane through its region.
 std::array<TileRef, 2> cut_leaf(const TileRef& leaf, const AxisPlane& plane, const Tiling& tiling);

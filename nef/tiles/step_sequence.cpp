@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "nef/operation/canonical_order.h"
+#include "nef/tiles/cutter.h"
 #include "nef/tiles/tile_tree.h"
 
 namespace nef {
@@ -19,8 +20,12 @@ constexpr double kSeams = 1.5;
 constexpr double kOperandCut = 4;     // what is not small is cut on the way to the tiles
 constexpr double kMargin = 1.5;       // what the prediction must exceed the costs by
 constexpr std::size_t kSmallest = 2;  // tiles
-constexpr std::size_t kEvidence = 2;  // steps
-constexpr std::size_t kMemory = 8;    // steps that an average is taken over
+// The first steps in tiles, which cut, cost more than plain ones: three in large sets, some more in small ones. By then
+// so many steps have been made that this is less than a tenth of them.
+constexpr double kEvidence = 24;            // steps
+constexpr double kSmallSetSteps = 120'000;  // more, divided by the vertices
+constexpr std::size_t kLook = 3;            // every how many steps a step is looked at, while the set is whole
+constexpr std::size_t kMemory = 8;          // steps looked at that an average is taken over
 
 // Set: a Polyhedron or a TiledPolyhedron.
 template <typename Set>
@@ -68,10 +73,14 @@ std::size_t vertices_in(const Complex& complex, const Box& box, std::size_t limi
   return vertices_in(places, box, limit);
 }
 
-std::size_t vertices_in(const TileRef& tree, const Box& box) {
-  if (tree.node->kind != TileNode::Kind::kCut) return tree.node->vertices;
+// An uncut tile will be cut.
+std::size_t vertices_in(const TileRef& tree, const Box& box, std::size_t limit) {
+  if (tree.node->kind != TileNode::Kind::kCut) {
+    return tree.node->uncut ? std::min(tree.node->vertices, limit) : tree.node->vertices;
+  }
   const int side = tree.node->plane.side(box);
-  return (side <= 0 ? vertices_in(tree.node->low, box) : 0) + (side >= 0 ? vertices_in(tree.node->high, box) : 0);
+  return (side <= 0 ? vertices_in(tree.node->low, box, limit) : 0) +
+         (side >= 0 ? vertices_in(tree.node->high, box, limit) : 0);
 }
 
 }  // namespace
@@ -89,7 +98,7 @@ double StepSequence::saving(const Polyhedron& b) const {
   const Box box = measure_tile(b.complex()).box;
   const auto own = static_cast<double>(vertex_count()) / (tiled_ ? kSeams : 1);
   // A tile of a whole set gets walls.
-  const double touched = tiled_ ? static_cast<double>(vertices_in(tiled_->tree(), box))
+  const double touched = tiled_ ? static_cast<double>(vertices_in(tiled_->tree(), box, tiling_.limit))
                                 : kSeams * static_cast<double>(vertices_in(plain_.complex(), box, tiling_.limit));
   return own - touched - kOperandCut * static_cast<double>(b.complex().vertex_count());
 }
@@ -103,17 +112,23 @@ void StepSequence::choose() {
     tiled_.reset();
   } else {
     const auto own = static_cast<double>(vertex_count());
-    if (seen_ < kEvidence || vertex_count() < kSmallest * tiling_.limit) return;
+    if (vertex_count() < kSmallest * tiling_.limit) return;
+    if (static_cast<double>(seen_) < kEvidence + kSmallSetSteps / own) return;
     if (average_ * left < kCutAndGlue * kMargin * own) return;
-    tiled_.emplace(std::exchange(plain_, Polyhedron()), tiling_);
+    // One tile, which steps cut where they touch it: so none of them pays for all.
+    tiled_.emplace(tile_leaf(in_two_marks(std::exchange(plain_, Polyhedron())), tiling_.store, true), tiling_);
   }
 }
 
 void StepSequence::apply(BooleanOperator op, const Polyhedron& b) {
   if (use_ == TileUse::kWherePays) {
     choose();
+    // Looking at all vertices of a whole set for every step would cost a twentieth of it.
+    if (tiled_ || seen_ % kLook == 0) {
+      ++looks_;
+      average_ += (saving(b) - average_) / static_cast<double>(std::min(looks_, kMemory));
+    }
     ++seen_;
-    average_ += (saving(b) - average_) / static_cast<double>(std::min(seen_, kMemory));
   }
   if (tiled_) {
     tiled_ = combined(op, *tiled_, b);
@@ -128,7 +143,8 @@ std::size_t StepSequence::vertex_count() const {
 }
 
 TiledPolyhedron StepSequence::tiled(const Tiling& tiling) const {
-  return tiled_ ? *tiled_ : TiledPolyhedron(plain_, tiling);
+  if (!tiled_) return TiledPolyhedron(plain_, tiling);
+  return {fully_cut(tiled_->tree(), tiling_), tiling_};
 }
 
 Polyhedron StepSequence::result() const { return tiled_ ? tiled_->polyhedron() : in_canonical_order(plain_); }

@@ -52,8 +52,9 @@ class StepSequence {
   std::size_t left_;
   TileUse use_;
   Tiling tiling_;
-  double average_ = 0;  // saving of a step by tiles, in vertices that need not be written; of late
-  std::size_t seen_ = 0;
+  double average_ = 0;     // saving of a step by tiles, in vertices that need not be written; of late
+  std::size_t looks_ = 0;  // steps that it is of
+  std::size_t seen_ = 0;   // steps so far
 };
 
 }  // namespace nef

@@ -53,7 +53,7 @@ TileRef uniform_leaf(LabelId mark) {
   return {kLeaves[mark == 0 ? 0 : 1], false};
 }
 
-TileRef tile_leaf(Polyhedron set, const std::shared_ptr<TileStore>& store) {
+TileRef tile_leaf(Polyhedron set, const std::shared_ptr<TileStore>& store, bool uncut) {
   const TileMeasure measure = measure_tile(set.complex());
   if (measure.uniform) return uniform_leaf(measure.mark);
   TileNode node;
@@ -61,6 +61,7 @@ TileRef tile_leaf(Polyhedron set, const std::shared_ptr<TileStore>& store) {
   node.box = measure.box;
   node.vertices = set.complex().vertex_count();
   node.tiles = 1;
+  node.uncut = uncut;
   if (store) {
     node.stored = store->keep(std::move(set));
   } else {

@@ -34,7 +34,8 @@ struct TileNode {
   /// is an ordinary complex.
   Polyhedron in_memory;
   std::shared_ptr<const StoredTile> stored;
-  Box box;  ///< Tile: of the set's boundary in the region.
+  Box box;             ///< Tile: of the set's boundary in the region.
+  bool uncut = false;  ///< Tile: an operation that touches a small part of it cuts it first, around that part
 
   AxisPlane plane;  ///< Cut: inside the region.
   TileRef low;
@@ -63,7 +64,7 @@ bool has_boundary(const SphereMapView& map);
 
 /// Leaves with these contents; `set` must be in its region. It is kept by the store, if there is one.
 TileRef uniform_leaf(LabelId mark);
-TileRef tile_leaf(Polyhedron set, const std::shared_ptr<TileStore>& store);
+TileRef tile_leaf(Polyhedron set, const std::shared_ptr<TileStore>& store, bool uncut = false);
 
 /// The node of a cut, or what is there instead: one leaf if both sides are the same mark.
 TileRef cut_node(const AxisPlane& plane, TileRef low, TileRef high);

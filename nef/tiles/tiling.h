@@ -8,11 +8,14 @@ namespace nef {
 
 class TileStore;
 
+/// A limit for tiles that are kept in files.
+inline constexpr std::size_t kVerticesOfTileInFile = 1024;
+
 /// How a set is kept in tiles.
 struct Tiling {
   /// A tile with more vertices is cut, where a plane can separate them; two neighbours of less than half of it together
-  /// are joined.
-  std::size_t limit = 1024;
+  /// are joined. Small tiles make small versions and fast steps, large ones few files.
+  std::size_t limit = 128;
   /// Threads that work on tiles at once; 0: as many as the machine has. No result depends on it.
   unsigned threads = 1;
   /// Keeps the tiles within its memory, others in files; null: all are in memory. No result depends on it.

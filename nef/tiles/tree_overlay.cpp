@@ -77,8 +77,7 @@ class TreeOverlay {
     if (task.b.node->kind == Kind::kCut) {
       of_b = cut_tree(task.b, plane, tiling_);
     } else if (const int side = plane.side(task.b.node->box); side != 0) {
-      const LabelId mark = mark_beyond(*task.b.node, plane, -side);
-      of_b[side < 0 ? 1 : 0] = uniform_leaf((mark != 0) != task.b.complemented ? 1 : 0);
+      of_b[side < 0 ? 1 : 0] = beyond(*task.b.node, task.b.complemented, plane, side);
       whole = false;
     } else if (task.b.node->vertices <= kSmall && !reaches_infinity(task.b.node->box)) {
       whole = false;
@@ -158,13 +157,76 @@ class TreeOverlay {
     const TileRef& a = task.a;
     const TileRef& b = task.b;
     const Polyhedron first = a.node->kind == Kind::kUniform ? leaf_set(a, task.region) : a.node->set();
+    const bool uncut = a.node->kind == Kind::kTile && a.node->uncut;
+    if (uncut && touches_small_part(first.complex(), *b.node)) return cut_around(task, first.complex());
     const auto marks = [&](LabelId x, LabelId y) {
       return static_cast<LabelId>(value((x != 0) != a.complemented, (y != 0) != b.complemented) ? 1 : 0);
     };
     Polyhedron result = overlay(first, b.node->set(), marks);
     if (&result.complex() == &first.complex()) return {a.node, false};
-    return result.complex().vertex_count() > tiling_.limit ? subdivided(result, tiling_)
-                                                           : tile_leaf(std::move(result), tiling_.store);
+    const bool large = result.complex().vertex_count() > tiling_.limit;
+    if (large && !uncut) return subdivided(result, tiling_);
+    return tile_leaf(std::move(result), tiling_.store, large);
+  }
+
+  // True if cutting around the box of b is worth it.
+  static bool touches_small_part(const Complex& a, const TileNode& b) {
+    constexpr std::size_t kPart = 8;
+    if (b.vertices > kSmall || reaches_infinity(b.box)) return false;
+    std::size_t inside = 0;
+    for (std::uint32_t v = 0; v < a.vertex_count(); ++v) {
+      Box point;
+      point.add_rounded(a.points.approximate(PointId{v}));
+      if (point.overlaps(b.box)) ++inside;
+    }
+    return inside < a.vertex_count() / kPart;
+  }
+
+  // The result in an uncut leaf, cut in halves again and again where b is: what is left over shares with later
+  // versions.
+  [[nodiscard]] TileRef cut_around(const Task& task, const Complex& a) const {
+    Cutter cutter(a.planes, tiling_);
+    std::optional<Complex> loose;
+    if (!a.has_box()) loose = cutter.loose(a);
+    const std::optional<Cutter::Halved> halved = cutter.halve(loose ? *loose : a);
+    if (halved) return cut_around(cutter, *halved, task);
+    // What planes cannot separate is not tried again.
+    return run({with_mark(task.a, tile_leaf(task.a.node->set(), tiling_.store)), task.b, task.whole, task.region});
+  }
+
+  // `task.a` stands for what the halves are of.
+  [[nodiscard]] TileRef cut_around(Cutter& cutter, Cutter::Halved halved, const Task& task) const {
+    check_interruption();
+    const int side = halved.plane.side(task.b.node->box);
+    std::array<TileRef, 2> result;
+    for (std::size_t x = 0; x < 2; ++x) {
+      Complex half = std::move(halved.halves[x]);
+      Task part{task.a, task.b, false, x == 0 ? task.region.below(halved.plane) : task.region.above(halved.plane)};
+      const bool touched = side == 0 || (side > 0) == (x == 1);
+      if (touched) {
+        if (std::optional<Cutter::Halved> quarters = cutter.halve(half)) {
+          half = Complex();
+          result[x] = cut_around(cutter, std::move(*quarters), part);
+          continue;
+        }
+      } else {
+        part.b = beyond(*task.b.node, task.b.complemented, halved.plane, side);
+      }
+      const bool uncut = !touched && half.vertex_count() > tiling_.limit;
+      part.a = with_mark(task.a, cutter.leaf(std::move(half), uncut));
+      result[x] = run(part);
+    }
+    return cut_node(halved.plane, result[0], result[1]);
+  }
+
+  // A part of a tree, complemented where that is.
+  static TileRef with_mark(const TileRef& whole, const TileRef& part) {
+    return whole.complemented ? part.complement() : part;
+  }
+
+  // What of b, whose boundary lies on one side of a plane, is on the other side.
+  static TileRef beyond(const TileNode& b, bool complemented, const AxisPlane& plane, int side) {
+    return uniform_leaf((mark_beyond(b, plane, -side) != 0) != complemented ? 1 : 0);
   }
 
   TruthTable f_;

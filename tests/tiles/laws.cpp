@@ -5,6 +5,7 @@
 
 #include "nef/base/error.h"
 #include "nef/construct/construct.h"
+#include "nef/tiles/cutter.h"
 #include "tests/tiles/cuts.h"
 
 namespace nef::test {
@@ -71,6 +72,32 @@ TEST_CASE("tiles small enough to split and join under way", "[threads]") {
     glued_is(intersect(unite(x, b), b), b, "(A + B) * B");
     if (!equal(symmetric_difference(symmetric_difference(x, b), b), x)) RC_FAIL("A ^ B ^ B");
   });
+}
+
+TEST_CASE("a tile that nobody has cut is cut where a step touches it") {
+  std::vector<Polyhedron> boxes;
+  for (int i = 0; i < 50; ++i) {
+    const Rational x = 20 + 3 * (i % 5);
+    boxes.push_back(
+        make_box({x, 3 * (i / 5 % 5) - 5, 3 * (i / 25) - 1}, {x + 2, 3 * (i / 5 % 5) - 3, 3 * (i / 25) + 1}));
+  }
+  const Polyhedron far = unite_all(boxes);
+  std::size_t cut = 0;
+  for_all_cut_pairs("uncut", 2, [&](const Polyhedron& a, const Polyhedron& b, const Cuts&, const Cuts&) {
+    const Polyhedron whole = unite(a, far);
+    const Tiling tiling{*rc::gen::inRange<std::size_t>(16, 60), 1};
+    const TiledPolyhedron x(tile_leaf(in_two_marks(whole), nullptr, true), tiling);
+    glued_is(unite(x, b), unite(whole, b), "A + B");
+    glued_is(intersect(x, b), intersect(whole, b), "A * B");
+    glued_is(subtract(complement(x), b), subtract(complement(whole), b), "!A - B");
+    const TiledPolyhedron once = symmetric_difference(x, b);
+    leaves_are_valid(once.tree(), "A ^ B");
+    const Polyhedron moved = transform(b, AffineMap::translate({22, -2, 0}));
+    glued_is(subtract(once, moved), subtract(symmetric_difference(whole, b), moved), "A ^ B - C");
+    glued_is({fully_cut(once.tree(), tiling), tiling}, symmetric_difference(whole, b), "A ^ B, cut");
+    if (once.tile_count() > 1) ++cut;
+  });
+  CHECK(cut > 20);
 }
 
 TEST_CASE("queries in tiles are those of the whole set") {

@@ -14,14 +14,15 @@ namespace nef::test {
 TEST_CASE("many small steps are done in tiles, few are not") {
   const Polyhedron sphere = make_sphere(10, 60);
   const Tiling tiling{200, 1};
+  constexpr int kMany = 120;
   StepSequence few(sphere, 6, TileUse::kWherePays, tiling);
-  StepSequence many(sphere, 60, TileUse::kWherePays, tiling);
-  StepSequence never(sphere, 60, TileUse::kNever, tiling);
-  StepSequence always(sphere, 60, TileUse::kAlways, tiling);
+  StepSequence many(sphere, kMany, TileUse::kWherePays, tiling);
+  StepSequence never(sphere, kMany, TileUse::kNever, tiling);
+  StepSequence always(sphere, kMany, TileUse::kAlways, tiling);
   for (int i = 0; i < 6; ++i) few.apply(BooleanOperator::kDifference, notch(i));
   CHECK(few.tile_count() == 0);
   bool begun = false;
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < kMany; ++i) {
     const auto op = i % 7 == 3 ? BooleanOperator::kSymmetricDifference : BooleanOperator::kDifference;
     for (StepSequence* sequence : {&many, &never, &always}) sequence->apply(op, notch(i));
     begun = begun || many.tile_count() > 1;

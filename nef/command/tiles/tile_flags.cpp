@@ -92,6 +92,8 @@ TileChoice choose_tiles(const TileFlags& flags, const Session& session, const st
     result.use = TileUse::kAlways;
   }
   const bool in_tiles = names_tile_folder(first_input);
+  const bool in_files = !flags.memory.empty() || in_tiles || names_tile_folder(session.output);
+  if (flags.tiles == "auto" && in_files) result.tiling.limit = kVerticesOfTileInFile;
   if (!flags.memory.empty() || in_tiles) {
     // Without a bound, tiles are read when they are needed, and stay.
     const std::uint64_t memory =

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <utility>
 
+#include "nef/base/parallel.h"
 #include "nef/io/file_bytes.h"
 #include "nef/tiles/storage/tile_folder.h"
 
@@ -107,10 +108,10 @@ TiledPolyhedron distributed_union(const Environment& mpi, const WorkFolder& work
       },
       [](std::size_t, const std::string&, double) {}, watcher);
   if (!mpi.first()) return {};
-  std::vector<TileRef> trees;
-  for (std::size_t region = 0; region < regions.region_count(); ++region) {
-    trees.push_back(read_tiles(work / region_name(region), tiling.store).tree());
-  }
+  std::vector<TileRef> trees(regions.region_count());
+  parallel_for(trees.size(), tiling.threads, [&](std::size_t region) {
+    trees[region] = read_tiles(work / region_name(region), tiling.store).tree();
+  });
   return {regions.tree(trees), tiling};
 }
 

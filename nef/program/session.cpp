@@ -42,7 +42,7 @@ void Session::store(const Polyhedron& set) {
   const std::size_t first = messages.size();
   if (names_tile_folder(output)) {
     if (set.complex().label_count > 2) messages.emplace_back("tiles hold a set: all marks but 0 have become 1");
-    write_tiles(output, TiledPolyhedron(set, {.threads = threads}));
+    write_tiles(output, TiledPolyhedron(set, {.limit = kVerticesOfTileInFile, .threads = threads}));
   } else {
     write_polyhedron(output, set, write_options(), &messages);
   }

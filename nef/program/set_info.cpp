@@ -38,20 +38,11 @@ Json exact_or_null(const Rational3& point, const SetInfoOptions& options) {
   return result;
 }
 
-void add_volume(Json& info, const Polyhedron& set, const SetInfoOptions& options) {
-  const std::optional<Rational> content = options.volume ? volume(set) : std::nullopt;
-  if (!content) {
-    for (const char* key : {"volume", "volume_double", "volume_digits"}) info[key] = nullptr;
-    if (options.volume || !set.is_bounded()) return;
-    const MeasuredVolume measured = approximate_volume(set);
-    info["volume_double"] = number_or_null(measured.value);
-    info["volume_error"] = number_or_null(measured.error);
-    return;
-  }
-  const std::string text = to_string(*content);
-  info["volume"] = exact_or_null(text, options);
-  info["volume_double"] = number_or_null(nearest_double(*content));
-  info["volume_digits"] = std::count_if(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
+// Of what is bounded, without the exact volume.
+void add_approximate_volume(Json& info, const Polyhedron& set) {
+  const MeasuredVolume measured = approximate_volume(set);
+  info["volume_double"] = number_or_null(measured.value);
+  info["volume_error"] = number_or_null(measured.error);
 }
 
 void add_moments(Json& info, const Polyhedron& set, const SetInfoOptions& options) {
@@ -72,6 +63,25 @@ void add_moments(Json& info, const Polyhedron& set, const SetInfoOptions& option
 
 }  // namespace
 
+void add_volume(Json& info, const std::optional<Rational>& content, const SetInfoOptions& options) {
+  for (const char* key : {"volume", "volume_double", "volume_digits"}) info[key] = nullptr;
+  if (!content) return;
+  const std::string text = to_string(*content);
+  info["volume"] = exact_or_null(text, options);
+  info["volume_double"] = number_or_null(nearest_double(*content));
+  info["volume_digits"] = std::count_if(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
+void add_box(Json& info, const std::optional<std::array<Rational3, 2>>& box, const SetInfoOptions& options) {
+  info["bbox"] = nullptr;
+  info["bbox_exact"] = nullptr;
+  if (!box) return;
+  info["bbox"] = {doubles_json((*box)[0]), doubles_json((*box)[1])};
+  const Json low = exact_or_null((*box)[0], options);
+  const Json high = exact_or_null((*box)[1], options);
+  if (!low.is_null() && !high.is_null()) info["bbox_exact"] = {low, high};
+}
+
 Json set_info(const Polyhedron& set, const SetInfoOptions& options) {
   const Counts count = counts(set);
   Json info;
@@ -84,16 +94,10 @@ Json set_info(const Polyhedron& set, const SetInfoOptions& options) {
   info["open"] = set.is_open();
   info["closed"] = set.is_closed();
   info["regular"] = set.is_regular();
-  add_volume(info, set, options);
+  add_volume(info, options.volume ? volume(set) : std::nullopt, options);
+  if (!options.volume && set.is_bounded()) add_approximate_volume(info, set);
   info["area"] = number_or_null(surface_area(set));
-  info["bbox"] = nullptr;
-  info["bbox_exact"] = nullptr;
-  if (const auto box = bounding_box(set)) {
-    info["bbox"] = {doubles_json((*box)[0]), doubles_json((*box)[1])};
-    const Json low = exact_or_null((*box)[0], options);
-    const Json high = exact_or_null((*box)[1], options);
-    if (!low.is_null() && !high.is_null()) info["bbox_exact"] = {low, high};
-  }
+  add_box(info, bounding_box(set), options);
   info["euler_numbers"] = euler_numbers(set);
   info["genus"] = Json::array();
   for (const std::optional<long>& genus : genera(set.complex())) {

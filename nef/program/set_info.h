@@ -23,4 +23,9 @@ inline constexpr std::size_t kShortNumber = 100;
 /// denominator together).
 nlohmann::ordered_json set_info(const Polyhedron& set, const SetInfoOptions& options = {});
 
+/// The members that tell of a volume, which may be infinite, and of a box, which may not be there.
+void add_volume(nlohmann::ordered_json& info, const std::optional<Rational>& content, const SetInfoOptions& options);
+void add_box(nlohmann::ordered_json& info, const std::optional<std::array<Rational3, 2>>& box,
+             const SetInfoOptions& options);
+
 }  // namespace nef

@@ -42,6 +42,8 @@ class StepSequence {
   [[nodiscard]] TiledPolyhedron tiled(const Tiling& tiling) const;
   /// The set in canonical order.
   [[nodiscard]] Polyhedron result() const;
+  /// The set, with its items as the last operation left them unless it is in tiles.
+  [[nodiscard]] Polyhedron result_in_any_order() const { return tiled_ ? tiled_->polyhedron() : plain_; }
 
  private:
   void choose();

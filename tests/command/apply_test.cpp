@@ -128,6 +128,54 @@ TEST_CASE("sets stay in tiles, in a folder, within a bound on memory") {
   CHECK(here.nef("info f.off --json").json()["result"]["volume"] == "513");
 }
 
+TEST_CASE("sets in tiles are asked without being glued") {
+  const Workplace here;
+  here.write("a.off", cube_off(0, 8));
+  here.write("steps.txt", lattice(7));
+  REQUIRE(here.nef("apply a.off --steps steps.txt -o plain.nef").code == 0);
+  REQUIRE(here.nef("apply a.off --steps steps.txt --tiles 100 -o b.tiles").code == 0);
+  const nlohmann::json whole = here.nef("info plain.nef --json").json()["result"];
+  const nlohmann::json tiled = here.nef("info b.tiles --json").json()["result"];
+  for (const char* key : {"volume", "volume_double", "volume_digits", "bbox", "bbox_exact"}) {
+    CHECK(tiled[key] == whole[key]);
+  }
+  CHECK(tiled["tiles"].get<int>() > 4);
+  CHECK(here.nef("info b.tiles --glued --json").json()["result"] == whole);
+  const std::string points = "0,0,0 4,4,4 1,1,1 3/2,3/2,3/2 8,8,8 1/2,1/2,1/2 -1,0,0 5/4,5/4,1";
+  const nlohmann::json there = here.nef("locate b.tiles --json -- " + points).json()["points"];
+  const nlohmann::json expected = here.nef("locate plain.nef --json -- " + points).json()["points"];
+  REQUIRE(there.size() == expected.size());
+  for (std::size_t i = 0; i < there.size(); ++i) {
+    CHECK(there[i]["index"].is_null());
+    CHECK(there[i]["kind"] == expected[i]["kind"]);
+    CHECK(there[i]["selected"] == expected[i]["selected"]);
+  }
+  const nlohmann::json hit = here.nef("ray b.tiles --json -- -1,1/3,1/3 1,0,0").json()["hit"];
+  CHECK(hit["point"] == here.nef("ray plain.nef --json -- -1,1/3,1/3 1,0,0").json()["hit"]["point"]);
+  CHECK(here.nef("ray b.tiles -- -1,1/3,1/3 -1,0,0").out == here.nef("ray plain.nef -- -1,1/3,1/3 -1,0,0").out);
+}
+
+TEST_CASE("a long expression of several operators is that of its steps") {
+  const Workplace here;
+  std::string steps;
+  std::string expression = "sphere(10, 60)";
+  for (int i = 0; i < 150; ++i) {
+    // The same places again and again, with every operator.
+    const std::string x = std::to_string(3 * i % 7 - 3);
+    const std::string y = std::to_string(5 * i % 11 - 5);
+    const std::string step = std::string("-+^-"[i % 4] + std::string(" box(")) + x + "," + y + ",7, " + x + "+1," + y +
+                             "+" + std::to_string(1 + i % 2) + ",11)";
+    steps += step + "\n";
+    expression += "\n " + step;
+  }
+  here.write("steps.txt", steps);
+  here.write("long.txt", expression);
+  REQUIRE(here.nef("eval 'sphere(10, 60)' -o sphere.nef").code == 0);
+  REQUIRE(here.nef("apply sphere.nef --steps steps.txt --tiles off -o steps.nef").code == 0);
+  REQUIRE(here.nef("eval -f long.txt -o long.nef").code == 0);
+  CHECK(here.nef("equal long.nef steps.nef").code == 0);
+}
+
 TEST_CASE("flags about tiles that say nothing useful are refused") {
   const Workplace here;
   here.write("a.off", cube_off(0, 2));

@@ -29,16 +29,29 @@ std::string volume_text(const Json& info) {
   return exact.find('/') == std::string::npos ? exact : exact + " (" + approximate.dump() + ")";
 }
 
+// What tiles tell without being glued: the same keys, as far as they go.
+Json tiled_info(Session& session) {
+  const TiledPolyhedron set = load_tiled(session, session.input, choose_tiles({}, session, session.input).tiling);
+  Json info = {{"tiles", set.tile_count()}, {"vertices_in_tiles", set.vertex_count()}};
+  add_volume(info, volume(set), {.exact = session.exact});
+  add_box(info, bounding_box(set), {.exact = session.exact});
+  return info;
+}
+
 void add_info(CLI::App& app, Session& session) {
   CLI::App* command = add_subcommand(app, session, "info", "Counts, properties and exact measures of a set");
   command->add_option("input", session.input, "The set, as a file")->required();
   add_input_flags(command, session);
   command->add_flag("--exact", session.exact, "Print exact numbers however long they are");
+  const auto glued = std::make_shared<bool>(false);
+  command->add_flag("--glued", *glued, "Of a set in tiles all that is told of others, for which it is glued");
   command->footer(
       "Centroid, inertia tensor (about the centroid, density 1), principal moments and their axes are those of the\n"
       "solid parts. genus: of each shell that is a closed manifold surface.");
-  command->callback([&session] {
-    Json info = set_info(session.load(session.input), {.exact = session.exact, .moments = true});
+  command->callback([&session, glued] {
+    const bool in_tiles = names_tile_folder(session.input) && !*glued;
+    Json info = in_tiles ? tiled_info(session)
+                         : set_info(session.load(session.input), {.exact = session.exact, .moments = true});
     if (session.json) return session.print("info", {{"result", std::move(info)}});
     info["volume"] = volume_text(info);
     print_info(session, info);

@@ -3,18 +3,32 @@
 // nef locate | ray
 #include "nef/base/stopwatch.h"
 #include "nef/command/commands.h"
+#include "nef/command/tiles/tile_flags.h"
 #include "nef/program/numbers.h"
 #include "nef/query/location_name.h"
+#include "nef/tiles/storage/tile_folder.h"
 
 namespace nef {
 namespace {
 
-Json location_json(const Rational3& point, const Location& location) {
+Json location_json(const Session& session, const Rational3& point, const Location& location) {
   return {{"point", point_json(point)},
           {"kind", location_name(location.kind)},
-          {"index", location.index},
+          {"index", names_tile_folder(session.input) ? Json() : Json(location.index)},
           {"selected", location.mark != 0}};
 }
+
+// What is in tiles is asked there; items have no numbers then.
+template <typename Ask>
+auto ask(Session& session, Ask&& question) {
+  if (names_tile_folder(session.input)) {
+    return question(load_tiled(session, session.input, choose_tiles({}, session, session.input).tiling));
+  }
+  return question(session.load(session.input));
+}
+
+void prepare(const Polyhedron& set) { static_cast<void>(set.queries()); }
+void prepare(const TiledPolyhedron&) {}
 
 std::string location_text(const Location& location) {
   return std::string(location_name(location.kind)) + ", " + (location.mark != 0 ? "selected" : "not selected");
@@ -29,22 +43,23 @@ void add_locate(CLI::App& app, Session& session) {
   command->callback([&session, points] {
     std::vector<Rational3> queries;
     for (const std::string& text : *points) queries.push_back(parse_triple(text, "point"));
-    const Polyhedron set = session.load(session.input);
-    const Stopwatch build;
-    static_cast<void>(set.queries());
-    const double build_s = build.seconds();
-    const Stopwatch watch;
-    Json results = Json::array();
-    for (const Rational3& point : queries) {
-      const Location location = locate(set, point);
-      results.push_back(location_json(point, location));
-      session.say(point_text(point) + ": " + location_text(location));
-    }
-    if (session.json) {
-      session.spent("build", build_s);
-      session.spent("op", watch.seconds());
-      session.print("locate", {{"points", std::move(results)}});
-    }
+    ask(session, [&](const auto& set) {
+      const Stopwatch build;
+      prepare(set);
+      const double build_s = build.seconds();
+      const Stopwatch watch;
+      Json results = Json::array();
+      for (const Rational3& point : queries) {
+        const Location location = locate(set, point);
+        results.push_back(location_json(session, point, location));
+        session.say(point_text(point) + ": " + location_text(location));
+      }
+      if (session.json) {
+        session.spent("build", build_s);
+        session.spent("op", watch.seconds());
+        session.print("locate", {{"points", std::move(results)}});
+      }
+    });
   });
 }
 
@@ -58,15 +73,16 @@ void add_ray(CLI::App& app, Session& session) {
   command->callback([&session, ray] {
     const Rational3 origin = parse_triple((*ray)[0], "origin");
     const Rational3 direction = parse_triple((*ray)[1], "direction");
-    const Polyhedron set = session.load(session.input);
-    const Stopwatch watch;
-    const std::optional<RayHit> hit = shoot_ray(set, origin, direction);
-    if (session.json) {
-      session.spent("op", watch.seconds());
-      session.print("ray", {{"hit", hit ? location_json(hit->point, hit->location) : Json()}});
-    } else {
-      session.say(hit ? point_text(hit->point) + ": " + location_text(hit->location) : "nothing");
-    }
+    ask(session, [&](const auto& set) {
+      const Stopwatch watch;
+      const std::optional<RayHit> hit = shoot_ray(set, origin, direction);
+      if (session.json) {
+        session.spent("op", watch.seconds());
+        session.print("ray", {{"hit", hit ? location_json(session, hit->point, hit->location) : Json()}});
+      } else {
+        session.say(hit ? point_text(hit->point) + ": " + location_text(hit->location) : "nothing");
+      }
+    });
   });
 }
 

@@ -8,6 +8,7 @@
 #include "nef/construct/round_shapes.h"
 #include "nef/program/expression/scanner.h"
 #include "nef/program/expression/syntax_tree.h"
+#include "nef/tiles/step_sequence.h"
 
 namespace nef {
 namespace {
@@ -132,15 +133,32 @@ class ExpressionEvaluator {
     }
   }
 
-  // Runs of one operator at a time.
+  // Runs of one operator at a time; in tiles where these are many and small beside the first set.
   static Polyhedron chain(std::span<const Term> operators, std::span<const Polyhedron> sets) {
-    Polyhedron result = sets[0];
+    struct Step {
+      BooleanOperator op;
+      Polyhedron set;
+    };
+    std::vector<Step> steps;
     for (std::size_t first = 0, last = 0; first < operators.size(); first = last) {
-      std::vector<Polyhedron> run{std::move(result)};
-      for (; last < operators.size() && operators[last] == operators[first]; ++last) run.push_back(sets[last + 1]);
-      result = combine(operators[first], run);
+      if (operators[first] == Term::kSymmetricDifference) {
+        steps.push_back({BooleanOperator::kSymmetricDifference, sets[++last]});
+        continue;
+      }
+      while (last < operators.size() && operators[last] == operators[first]) ++last;
+      const std::span<const Polyhedron> run = sets.subspan(first + 1, last - first);
+      if (operators[first] == Term::kIntersection) {
+        steps.push_back({BooleanOperator::kIntersection, intersect_all(run)});
+      } else {
+        steps.push_back({operators[first] == Term::kUnion ? BooleanOperator::kUnion : BooleanOperator::kDifference,
+                         unite_all(run)});
+      }
     }
-    return result;
+    const bool labeled =
+        std::any_of(sets.begin(), sets.end(), [](const Polyhedron& set) { return set.complex().label_count > 2; });
+    StepSequence sequence(sets[0], steps.size(), labeled ? TileUse::kNever : TileUse::kWherePays);
+    for (const Step& step : steps) sequence.apply(step.op, step.set);
+    return sequence.result_in_any_order();
   }
 
   static Polyhedron combine(Term term, std::span<const Polyhedron> sets) {
@@ -151,11 +169,8 @@ class ExpressionEvaluator {
         return intersect_all(sets);
       case Term::kDifference:
         return subtract(sets[0], sets.size() == 2 ? sets[1] : unite_all(sets.subspan(1)));
-      case Term::kSymmetricDifference: {
-        Polyhedron result = sets[0];
-        for (const Polyhedron& set : sets.subspan(1)) result = symmetric_difference(result, set);
-        return result;
-      }
+      case Term::kSymmetricDifference:
+        return chain(std::vector<Term>(sets.size() - 1, term), sets);
       case Term::kInterior:
         return interior(sets[0]);
       case Term::kClosure:

@@ -48,7 +48,7 @@ class Canonical {
     write(planes, builder);
     KnownLinks known = known_twins(builder.so_far());
     svertices_ = {};
-    return builder.finish(outer, std::move(known));
+    return builder.finish(outer, std::move(known), threads_);
   }
 
  private:

@@ -22,6 +22,8 @@ POOL = {
     "test_visual_hull": ("apps/visual_hull/", "tests/visual_hull/"),
     "test_planner": ("apps/planner/", "tests/planner/"),
     "test_view": ("nef/view/", "tests/view/"),
+    "test_nef_mpi": ("apps/nef_mpi/", "tests/nef_mpi/"),
+    "test_remeshing": ("nef/remeshing/", "tests/remeshing/"),
     "test_command": ("apps/nef/", "nef/command/", "nef/program/", "tests/command/"),
 }
 

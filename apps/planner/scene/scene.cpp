@@ -62,7 +62,7 @@ void read_obstacles(const json& list, ShapeReader& shapes, const std::string& na
 
 Rational3 axis_of(const json& value, const std::string& what) {
   if (value.is_array()) {
-    const Rational3 axis = point_of(value, what + ": axis");
+    Rational3 axis = point_of(value, what + ": axis");
     if (axis == Rational3{}) throw InputError(what + ": axis must not be the zero vector");
     return axis;
   }

@@ -228,8 +228,8 @@ void PointTable::trim() {
   if (approximate_.capacity() - approximate_.size() > approximate_.capacity() / 8) approximate_.shrink_to_fit();
 }
 
-void PointTable::reserve(std::size_t points) {
-  rows_.reserve(points, 4);
+void PointTable::reserve(std::size_t points, std::size_t limbs) {
+  rows_.reserve(points, limbs);
   approximate_.reserve(points);
 }
 

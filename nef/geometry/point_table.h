@@ -74,7 +74,10 @@ class PointTable {
   [[nodiscard]] Rational3 rational(PointId point) const;
 
   [[nodiscard]] std::size_t bytes() const;
-  void reserve(std::size_t points);
+  /// Makes room for this many points of this many limbs each on average.
+  void reserve(std::size_t points, std::size_t limbs = 4);
+  /// Of all coordinates together.
+  [[nodiscard]] std::size_t limbs() const { return rows_.limbs(); }
 
   /// Gives memory back that has been reserved and not used.
   void trim();

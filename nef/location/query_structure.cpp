@@ -42,26 +42,38 @@ struct QueryStructure::LargeFacet {
   BoxTree edges;
 };
 
-QueryStructure::QueryStructure(const Complex& complex) {
+QueryStructure::QueryStructure(const Complex& complex) { collect(complex, nullptr); }
+
+QueryStructure::QueryStructure(const Complex& complex, const BoxTree& places) { collect(complex, &places); }
+
+void QueryStructure::collect(const Complex& complex, const BoxTree* places) {
   std::vector<Box> boxes;
-  boxes.reserve(complex.facet_count());
+  if (places == nullptr) boxes.reserve(complex.facet_count());
+  const auto asked_for = [places](const Box& box) {
+    bool found = places == nullptr;
+    if (!found) places->for_each_overlap(box, [&found](std::uint32_t) { found = true; });
+    return found;
+  };
   for (const FacetId f : complex.facets.ids()) {
     const std::span<const std::uint32_t> corners = complex.corners_of(f);
     Box box;
     for (const std::uint32_t c : corners) box.add(vertex_box(complex, complex.shalfedge_owner[c]));
+    if (!asked_for(box)) continue;
     push_item(f.index(), kFacetItem, box, boxes);
     if (corners.size() > kLargeFacet) large_facets_.push_back(f);
   }
   for (std::uint32_t h = 0; h < complex.svertices.size(); ++h) {
-    if (complex.svertices[h].out == kNone && h < complex.twin[h]) push_item(h, kEdgeItem, edge_box(complex, h), boxes);
+    if (complex.svertices[h].out != kNone || h > complex.twin[h]) continue;
+    const Box box = edge_box(complex, h);
+    if (asked_for(box)) push_item(h, kEdgeItem, box, boxes);
   }
   for (std::uint32_t v = 0; v < complex.vertex_count(); ++v) {
     // Vertices that are no corner of a facet, or lie inside one.
     const VertexRecord& record = complex.vertices[v];
     const VertexRecord& end = complex.vertices[v + 1];
-    if (record.shalfedges == end.shalfedges || record.sloops != end.sloops) {
-      push_item(v, kVertexItem, vertex_box(complex, v), boxes);
-    }
+    if (record.shalfedges != end.shalfedges && record.sloops == end.sloops) continue;
+    const Box box = vertex_box(complex, v);
+    if (asked_for(box)) push_item(v, kVertexItem, box, boxes);
   }
   tree_ = BoxTree(boxes);
   large_ = std::shared_ptr<LargeFacet[]>(new LargeFacet[large_facets_.size()]);

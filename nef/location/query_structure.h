@@ -46,6 +46,10 @@ class QueryStructure {
   /// O(n log n).
   explicit QueryStructure(const Complex& complex);
 
+  /// The same for queries whose points or rays lie in the boxes of `places`: nothing else is found. What lies apart
+  /// from all of them costs a question.
+  QueryStructure(const Complex& complex, const BoxTree& places);
+
   /// The vertex, edge or facet (kFacet: index of the positive halffacet) that holds the point;
   /// nothing if it lies in a volume. O(log n) expected.
   [[nodiscard]] std::optional<ComplexHit> item_at(const Complex& complex, const PointRef& point) const;
@@ -77,6 +81,7 @@ class QueryStructure {
   // What an item of the tree is: 4 * index + kind.
   enum Primitive : std::uint32_t { kFacetItem = 0, kEdgeItem = 1, kVertexItem = 2 };
 
+  void collect(const Complex& complex, const BoxTree* places);
   void push_item(std::uint32_t index, Primitive kind, const Box& box, std::vector<Box>& boxes);
   [[nodiscard]] const BoxTree* edge_tree(const Complex& complex, FacetId facet) const;
   [[nodiscard]] std::optional<std::uint32_t> free_vertex_at(const Complex& complex, const PointRef& point) const;

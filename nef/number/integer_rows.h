@@ -62,6 +62,7 @@ class IntegerRows {
   void pop();
 
   [[nodiscard]] std::size_t bytes() const;
+  [[nodiscard]] std::size_t limbs() const { return limbs_.size(); }
 
   void reserve(std::size_t rows, std::size_t limbs_per_row);
 

@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
+#include <vector>
 
+#include "nef/base/parallel.h"
 #include "nef/geometry/vectors.h"
 
 namespace nef {
@@ -42,9 +45,49 @@ Area twice_area(const Complex& c, const Facet& facet, const Vec& corner0, double
   return area;
 }
 
+// Sums over some facets.
+struct Sums {
+  double value = 0;
+  double sizes = 0;  // of the products that are summed
+  double error = 0;  // of each of them
+  std::size_t terms = 0;
+
+  void add(const Sums& other) {
+    value += other.value;
+    sizes += other.sizes;
+    error += other.error;
+    terms += other.terms;
+  }
+};
+
+// Relative to the origin; coordinates are off by e at most.
+Sums sums_over(const Complex& c, std::span<const Facet> facets, const Vec& origin, double e) {
+  Sums sums;
+  for (const Facet& facet : facets) {
+    const bool above = c.volumes[facet.volume_above].mark != 0;
+    const bool below = c.volumes[facet.volume_below].mark != 0;
+    if (above == below || facet.cycle_count == 0) continue;
+    const Vec corner0 = c.points.approximate(PointId(c.shalfedge_owner[c.corners_of(facet.first_cycle).front()]));
+    const Area area = twice_area(c, facet, corner0, e);
+    const std::array<double, 4>& n = c.planes.approximate(facet.plane);
+    const bool upward = (dot(area.vector, {n[0], n[1], n[2]}) > 0) != facet.plane.flipped();
+    const Vec place = minus(corner0, origin);
+    sums.value += (upward == below ? 1 : -1) * dot(place, area.vector);
+    const double reach = size_of(place);
+    const double size = 3 * reach * size_of(area.vector);
+    // Thrice, for facets so small that the sign of their area may be wrong.
+    sums.error += 3 * (3 * reach * area.error + 3 * e * (size_of(area.vector) + area.error) + size * 0x1p-50);
+    sums.sizes += size;
+    ++sums.terms;
+  }
+  return sums;
+}
+
+constexpr std::size_t kFacets = 4096;  // of a task
+
 }  // namespace
 
-MeasuredVolume approximate_volume(const Polyhedron& bounded) {
+MeasuredVolume approximate_volume(const Polyhedron& bounded, unsigned threads) {
   const Complex& c = bounded.complex();
   if (c.vertex_count() == 0) return {};
   // Relative to a point of the set: little is lost by cancellation.
@@ -55,28 +98,15 @@ MeasuredVolume approximate_volume(const Polyhedron& bounded) {
   }
   // A coordinate is off by 2^-51 of itself (PointTable::approximate), a difference of two by e.
   const double e = largest * 0x1p-49;
-  double sum = 0;
-  double sizes = 0;  // of the products that are summed
-  double error = 0;  // of each of them
-  std::size_t terms = 0;
-  for (const Facet& facet : c.facets) {
-    const bool above = c.volumes[facet.volume_above].mark != 0;
-    const bool below = c.volumes[facet.volume_below].mark != 0;
-    if (above == below || facet.cycle_count == 0) continue;
-    const Vec corner0 = c.points.approximate(PointId(c.shalfedge_owner[c.corners_of(facet.first_cycle).front()]));
-    const Area area = twice_area(c, facet, corner0, e);
-    const std::array<double, 4>& n = c.planes.approximate(facet.plane);
-    const bool upward = (dot(area.vector, {n[0], n[1], n[2]}) > 0) != facet.plane.flipped();
-    const Vec place = minus(corner0, origin);
-    sum += (upward == below ? 1 : -1) * dot(place, area.vector);
-    const double reach = size_of(place);
-    const double size = 3 * reach * size_of(area.vector);
-    // Thrice, for facets so small that the sign of their area may be wrong.
-    error += 3 * (3 * reach * area.error + 3 * e * (size_of(area.vector) + area.error) + size * 0x1p-50);
-    sizes += size;
-    ++terms;
-  }
-  return {sum / 6, (error + sizes * static_cast<double>(terms) * 0x1p-52) / 6};
+  const std::span<const Facet> facets(c.facets.values());
+  std::vector<Sums> sums((facets.size() + kFacets - 1) / kFacets);
+  parallel_for(sums.size(), threads, [&](std::size_t task) {
+    const std::size_t first = task * kFacets;
+    sums[task] = sums_over(c, facets.subspan(first, std::min(kFacets, facets.size() - first)), origin, e);
+  });
+  Sums all;
+  for (const Sums& some : sums) all.add(some);
+  return {all.value / 6, (all.error + all.sizes * static_cast<double>(all.terms) * 0x1p-52) / 6};
 }
 
 }  // namespace nef

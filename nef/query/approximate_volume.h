@@ -12,7 +12,7 @@ struct MeasuredVolume {
 };
 
 /// The volume of a bounded set. The exact one (nef::volume) of a detailed set can take longer than making the set, and
-/// have millions of digits. O(n).
-MeasuredVolume approximate_volume(const Polyhedron& bounded);
+/// have millions of digits. O(n). The number does not depend on that of the threads (0: as many as the machine has).
+MeasuredVolume approximate_volume(const Polyhedron& bounded, unsigned threads = 1);
 
 }  // namespace nef

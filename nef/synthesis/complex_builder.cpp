@@ -31,8 +31,8 @@ bool idle_corner(const SphereMapView& map) {
 
 }  // namespace
 
-void ComplexBuilder::reserve(std::size_t vertices, const VertexRecord& items) {
-  complex_.points.reserve(vertices);
+void ComplexBuilder::reserve(std::size_t vertices, const VertexRecord& items, std::size_t limbs) {
+  complex_.points.reserve(vertices, limbs);
   complex_.vertices.reserve(vertices + 1);
   complex_.svertices.reserve(items.svertices);
   complex_.shalfedges.reserve(items.shalfedges);

@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <span>
 #include <unordered_map>
 
 #include "nef/base/defect.h"
+#include "nef/base/parallel.h"
+#include "nef/base/shared_out.h"
 
 namespace nef {
 namespace {
@@ -18,6 +21,9 @@ struct LineKey {
   bool operator==(const LineKey&) const = default;
 };
 constexpr std::uint32_t kLine = 0xfffffffeU;
+
+constexpr std::size_t kFewKeys = 1U << 15U;     // one share does
+constexpr std::uint32_t kVertices = 1U << 12U;  // of a task
 
 // Interns lines by their Pluecker coordinates: the direction n_p x n_q and the moment
 // d_q n_p - d_p n_q (with its part in R), without common factor and with a positive leading component.
@@ -67,12 +73,18 @@ class LineTable {
 
 class Linker {
  public:
-  explicit Linker(Complex& complex) : c_(complex) {}
+  explicit Linker(Complex& complex, unsigned threads = 1) : c_(complex), threads_(threads) {}
 
   void link_all() {
     keys_.resize(c_.svertices.size());
     c_.twin.assign(c_.svertices.size(), kNone);
-    for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) name_lines(v, keys_.data() + c_.vertices[v].svertices);
+    const auto count = static_cast<std::uint32_t>(c_.vertex_count());
+    parallel_for((count + kVertices - 1) / kVertices, threads_, [&](std::size_t task) {
+      const auto first = static_cast<std::uint32_t>(task * kVertices);
+      for (std::uint32_t v = first; v < std::min(first + kVertices, count); ++v) {
+        name_lines(v, keys_.data() + c_.vertices[v].svertices);
+      }
+    });
     name_bare_lines();
     bucket();
   }
@@ -128,15 +140,30 @@ class Linker {
   }
 
   void bucket() {
+    if (threads_ == 1 || keys_.size() < kFewKeys) {
+      std::vector<std::uint32_t> all(keys_.size());
+      std::iota(all.begin(), all.end(), 0U);
+      bucket(all);
+      return;
+    }
+    const auto shares = shared_out<std::uint32_t>(keys_.size(), threads_, [&](std::size_t i, const auto& put) {
+      put((hash(keys_[i]) >> 40U) % kShares, static_cast<std::uint32_t>(i));
+    });
+    parallel_for(kShares, threads_, [&](std::size_t share) { bucket(shares[share]); });
+  }
+
+  // Pairs up the svertices of some keys: all those of each line among them.
+  void bucket(std::span<const std::uint32_t> mine) {
     std::size_t capacity = 16;
-    while (capacity < keys_.size() + keys_.size() / 2) capacity *= 2;
-    std::vector<std::uint32_t> slots(capacity, kNone);     // first key of the group in this slot
-    std::vector<std::uint32_t> next(keys_.size(), kNone);  // the others, last come first
-    std::vector<std::uint32_t> crowded;                    // heads of groups with more than two
-    std::vector<std::uint32_t> size(keys_.size(), 0);
-    for (std::uint32_t i = 0; i < keys_.size(); ++i) {
-      std::size_t slot = hash(keys_[i]) & (capacity - 1);
-      while (slots[slot] != kNone && !(keys_[slots[slot]] == keys_[i])) slot = (slot + 1) & (capacity - 1);
+    while (capacity < mine.size() + mine.size() / 2) capacity *= 2;
+    std::vector<std::uint32_t> slots(capacity, kNone);    // first key of the group in this slot
+    std::vector<std::uint32_t> next(mine.size(), kNone);  // the others, last come first
+    std::vector<std::uint32_t> crowded;                   // heads of groups with more than two
+    std::vector<std::uint32_t> size(mine.size(), 0);
+    for (std::uint32_t i = 0; i < mine.size(); ++i) {
+      const LineKey& key = keys_[mine[i]];
+      std::size_t slot = hash(key) & (capacity - 1);
+      while (slots[slot] != kNone && !(keys_[mine[slots[slot]]] == key)) slot = (slot + 1) & (capacity - 1);
       if (slots[slot] == kNone) slots[slot] = i;
       const std::uint32_t head = slots[slot];
       if (++size[head] == 3) crowded.push_back(head);
@@ -146,13 +173,13 @@ class Linker {
       }
     }
     std::vector<std::uint32_t> group;
-    for (std::uint32_t i = 0; i < keys_.size(); ++i) {
-      detail::require(size[i] != 1, "an edge has two ends", {{"halfedge", svertex(i)}});
-      if (size[i] == 2) pair(svertex(i), svertex(next[i]));
+    for (std::uint32_t i = 0; i < mine.size(); ++i) {
+      detail::require(size[i] != 1, "an edge has two ends", {{"halfedge", svertex(mine[i])}});
+      if (size[i] == 2) pair(svertex(mine[i]), svertex(mine[next[i]]));
     }
     for (const std::uint32_t head : crowded) {
       group.clear();
-      for (std::uint32_t i = head; i != kNone; i = next[i]) group.push_back(svertex(i));
+      for (std::uint32_t i = head; i != kNone; i = next[i]) group.push_back(svertex(mine[i]));
       pair_along_line(group);
     }
   }
@@ -206,13 +233,14 @@ class Linker {
   }
 
   Complex& c_;
+  unsigned threads_;
   std::vector<LineKey> keys_;
   std::vector<std::uint32_t> loose_;  // svertices of the keys; empty: all
 };
 
 }  // namespace
 
-void link_edges(Complex& complex) { Linker(complex).link_all(); }
+void link_edges(Complex& complex, unsigned threads) { Linker(complex, threads).link_all(); }
 
 void link_edges(Complex& complex, KnownLinks& known) {
   complex.twin = std::move(known.twin);

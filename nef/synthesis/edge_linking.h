@@ -8,8 +8,8 @@ namespace nef {
 /// First step of synthesis: pairs the svertices of all sphere maps into edges (fills
 /// complex.twin). Owners must be known. Both ends of an edge carry the same planes around them, so
 /// svertices are grouped by their two smallest planes (by their line where there are fewer), and
-/// only groups of more than two are sorted along their line. Expected O(n).
-void link_edges(Complex& complex);
+/// only groups of more than two are sorted along their line. Expected O(n). The links do not depend on the threads.
+void link_edges(Complex& complex, unsigned threads = 1);
 
 /// The same where some twins are known, which are taken out of `known`. O(number of the others).
 void link_edges(Complex& complex, KnownLinks& known);

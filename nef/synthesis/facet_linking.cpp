@@ -5,12 +5,19 @@
 // only, which owns all holes of the plane. Otherwise a hole, or a vertex inside a facet, sees its
 // facet straight below its lowest vertex, and the first edge on the way down bounds that facet, too:
 // it belongs where the cycle of that edge belongs, which begins further down in lexicographic order.
+//
+// Planes have nothing to do with each other, so several threads have ranges of them; what these find is put together in
+// the order of the planes.
 #include "nef/synthesis/facet_linking.h"
 
 #include <algorithm>
+#include <array>
+#include <span>
+#include <utility>
 
 #include "nef/base/defect.h"
 #include "nef/base/parallel.h"
+#include "nef/base/shared_out.h"
 #include "nef/complex/facet_plane.h"
 #include "nef/complex/plane_sweep.h"
 #include "nef/sphere_map/sphere_geometry.h"
@@ -26,17 +33,37 @@ struct CycleRecord {
   std::uint32_t lowest = kNone;  // vertex, lexicographically
 };
 
+bool few(const Complex& c) { return c.shalfedges.size() < 1U << 15U; }  // one share does
+
+/// Some facets, numbered from 0 on, as the complex holds all of them.
+struct LinkedFacets {
+  std::vector<Facet> facets;
+  std::vector<std::uint32_t> cycle_begin{0};
+  std::vector<std::uint32_t> corners;
+  std::vector<std::uint32_t> isolated_vertices;
+};
+
+/// Corners of facets and vertices inside facets, those of some planes.
+struct Share {
+  std::vector<std::uint32_t> corners;   // shalfedges whose planes are not flipped, ascending
+  std::vector<std::uint32_t> isolated;  // vertices, ascending
+  std::uint32_t first_row = 0;          // of the planes
+  std::uint32_t end_row = 0;
+};
+
 class FacetLinker {
  public:
-  /// `known` may be null.
-  FacetLinker(Complex& complex, const KnownLinks* known, unsigned threads)
-      : c_(complex), known_(known), threads_(threads) {}
+  /// `known` may be null. `done` has a place for each shalfedge, unset for those of the share.
+  FacetLinker(const Complex& complex, const KnownLinks* known, std::vector<std::uint8_t>& done)
+      : c_(complex), known_(known), done_(done) {}
 
-  void run() {
-    trace_cycles();
-    collect_isolated();
-    group_by_plane();
-    name_facets_of_corners();
+  LinkedFacets run(const Share& share) {
+    trace_cycles(share.corners);
+    for (const std::uint32_t v : share.isolated) {
+      isolated_.emplace_back(c_.sloops[c_.vertices[v].sloops].plane.row(), v);
+    }
+    group_by_plane(share);
+    return std::move(result_);
   }
 
  private:
@@ -54,68 +81,53 @@ class FacetLinker {
     return c_.vertices[vertex].shalfedges + (e ^ 1U);
   }
 
-  void trace_cycles() {
-    std::vector<bool> done(c_.shalfedges.size(), false);
-    const auto trace_from = [&](std::uint32_t e) {
-      if (c_.shalfedges[e].plane.flipped() || done[e]) return;
+  void trace_cycles(std::span<const std::uint32_t> corners) {
+    traced_.reserve(corners.size());
+    for (const std::uint32_t first : corners) {
+      if (done_[first] != 0) continue;
       CycleRecord cycle;
-      cycle.row = c_.shalfedges[e].plane.row();
+      cycle.row = c_.shalfedges[first].plane.row();
       cycle.first = static_cast<std::uint32_t>(traced_.size());
-      std::uint32_t corner = e;
-      for (; !done[corner]; corner = next_corner(corner)) {
-        done[corner] = true;
+      std::uint32_t corner = first;
+      for (; done_[corner] == 0; corner = next_corner(corner)) {
+        done_[corner] = 1;
         traced_.push_back(corner);
       }
-      detail::require(corner == e, "cycles of facets are disjoint", {{"shalfedge", e}, {"shalfedge", corner}});
+      detail::require(corner == first, "cycles of facets are disjoint", {{"shalfedge", first}, {"shalfedge", corner}});
       cycle.count = static_cast<std::uint32_t>(traced_.size()) - cycle.first;
       cycles_.push_back(cycle);
-    };
-    if (known_ == nullptr) {
-      traced_.reserve(c_.shalfedges.size() / 2);
-      for (std::uint32_t e = 0; e < c_.shalfedges.size(); ++e) trace_from(e);
-    } else {
-      traced_.reserve(known_->loose_corners.size());
-      for (const std::uint32_t e : known_->loose_corners) trace_from(e);
-    }
-  }
-
-  void collect_isolated() {
-    const auto collect = [this](std::uint32_t v) {
-      if (c_.vertices[v].sloops == c_.vertices[v + 1].sloops) return;
-      isolated_.emplace_back(c_.sloops[c_.vertices[v].sloops].plane.row(), v);
-    };
-    if (known_ == nullptr) {
-      for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) collect(v);
-    } else {
-      for (const std::uint32_t v : known_->loose_isolated) collect(v);
     }
   }
 
   // Counting sort by plane row, so that the order of facets depends on nothing but the input. Known facets between two
   // planes that hold anything else are taken over together.
-  void group_by_plane() {
-    std::vector<std::uint32_t> start(c_.planes.size() + 1, 0);
-    for (const CycleRecord& cycle : cycles_) ++start[cycle.row + 1];
+  void group_by_plane(const Share& share) {
+    const std::size_t rows = share.end_row - share.first_row;
+    std::vector<std::uint32_t> start(rows + 1, 0);
+    for (const CycleRecord& cycle : cycles_) ++start[cycle.row - share.first_row + 1];
     for (std::size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
     std::vector<std::uint32_t> order(cycles_.size());
     std::vector<std::uint32_t> at(start.begin(), start.end() - 1);
-    for (std::uint32_t i = 0; i < cycles_.size(); ++i) order[at[cycles_[i].row]++] = i;
+    for (std::uint32_t i = 0; i < cycles_.size(); ++i) order[at[cycles_[i].row - share.first_row]++] = i;
     std::sort(isolated_.begin(), isolated_.end());
-    make_room();
     const std::span<const Facet> known = known_ == nullptr ? std::span<const Facet>() : known_->facets;
     const std::span<const std::uint32_t> mixed =
         known_ == nullptr ? std::span<const std::uint32_t>() : known_->mixed_rows;
+    result_.facets.reserve(cycles_.size() + known.size());
+    result_.cycle_begin.reserve(cycles_.size() + 1 + (known_ == nullptr ? 0 : known_->cycle_begin.size()));
+    result_.corners.reserve(traced_.size() + (known_ == nullptr ? 0 : known_->corners.size()));
     auto isolated = isolated_.begin();
     auto next_mixed = mixed.begin();
     auto kept = known.begin();
-    for (std::uint32_t row = 0; row + 1 < start.size(); ++row) {
+    for (std::size_t i = 0; i < rows; ++i) {
+      const std::uint32_t row = share.first_row + static_cast<std::uint32_t>(i);
       const bool is_mixed = next_mixed != mixed.end() && *next_mixed == row;
       const bool has_points = isolated != isolated_.end() && isolated->first == row;
-      if (start[row] == start[row + 1] && !is_mixed && !has_points) continue;
+      if (start[i] == start[i + 1] && !is_mixed && !has_points) continue;
       if (is_mixed) ++next_mixed;
       const auto first = isolated;
       while (isolated != isolated_.end() && isolated->first == row) ++isolated;
-      const std::span<const std::uint32_t> cycles(order.data() + start[row], start[row + 1] - start[row]);
+      const std::span<const std::uint32_t> cycles(order.data() + start[i], start[i + 1] - start[i]);
       const std::span<const std::pair<std::uint32_t, std::uint32_t>> points(first, isolated);
       const auto before = kept;
       while (kept != known.end() && kept->plane.row() < row) ++kept;
@@ -131,18 +143,6 @@ class FacetLinker {
                       {{"vertex", points.empty() ? 0 : points[0].second}});
     }
     emit_known({kept, known.end()});
-  }
-
-  void make_room() {
-    c_.facets.clear();
-    c_.cycle_begin.assign(1, 0);
-    c_.corners.clear();
-    c_.isolated_vertices.clear();
-    const bool knows = known_ != nullptr;
-    c_.facets.reserve(cycles_.size() + (knows ? known_->facets.size() : 0));
-    c_.cycle_begin.reserve(cycles_.size() + 1 + (knows ? known_->cycle_begin.size() : 0));
-    c_.corners.reserve(traced_.size() + (knows ? known_->corners.size() : 0));
-    c_.sloop_facet.assign(c_.sloops.size(), HalffacetId());
   }
 
   // Known facets in a plane with others are linked anew, with these, which may be holes of theirs.
@@ -191,19 +191,19 @@ class FacetLinker {
     const CycleId end = facets.back().cycles().end_id();
     const std::uint32_t first_inside = facets.front().first_isolated;
     const std::uint32_t end_inside = facets.back().first_isolated + facets.back().isolated_count;
-    const auto base = static_cast<std::uint32_t>(c_.corners.size()) - known_->cycle_begin[first];  // modulo 2^32
-    const auto cycles = static_cast<std::uint32_t>(c_.cycle_begin.size() - 1) - first.index();
-    const auto inside = static_cast<std::uint32_t>(c_.isolated_vertices.size()) - first_inside;
-    c_.corners.insert(c_.corners.end(), known_->corners.begin() + known_->cycle_begin[first],
-                      known_->corners.begin() + known_->cycle_begin[end]);
-    for (CycleId i = first; i != end; ++i) c_.cycle_begin.push_back(known_->cycle_begin[i.next()] + base);
-    c_.isolated_vertices.insert(c_.isolated_vertices.end(), known_->isolated_vertices.begin() + first_inside,
-                                known_->isolated_vertices.begin() + end_inside);
+    const auto base = static_cast<std::uint32_t>(result_.corners.size()) - known_->cycle_begin[first];  // modulo 2^32
+    const auto cycles = static_cast<std::uint32_t>(result_.cycle_begin.size() - 1) - first.index();
+    const auto inside = static_cast<std::uint32_t>(result_.isolated_vertices.size()) - first_inside;
+    result_.corners.insert(result_.corners.end(), known_->corners.begin() + known_->cycle_begin[first],
+                           known_->corners.begin() + known_->cycle_begin[end]);
+    for (CycleId i = first; i != end; ++i) result_.cycle_begin.push_back(known_->cycle_begin[i.next()] + base);
+    result_.isolated_vertices.insert(result_.isolated_vertices.end(), known_->isolated_vertices.begin() + first_inside,
+                                     known_->isolated_vertices.begin() + end_inside);
     for (Facet facet : facets) {
       facet.plane = PlaneId{facet.plane.row() << 1U};
       facet.first_cycle = CycleId{facet.first_cycle.index() + cycles};
       facet.first_isolated += inside;
-      c_.facets.push_back(facet);
+      result_.facets.push_back(facet);
     }
   }
 
@@ -297,58 +297,152 @@ class FacetLinker {
   [[nodiscard]] Facet begin_facet(std::uint32_t row, std::size_t cycles, std::size_t inside) const {
     Facet facet;
     facet.plane = PlaneId{row << 1U};
-    facet.first_cycle = CycleId{c_.cycle_begin.size() - 1};
+    facet.first_cycle = CycleId{result_.cycle_begin.size() - 1};
     facet.cycle_count = static_cast<std::uint32_t>(cycles);
-    facet.first_isolated = static_cast<std::uint32_t>(c_.isolated_vertices.size());
+    facet.first_isolated = static_cast<std::uint32_t>(result_.isolated_vertices.size());
     facet.isolated_count = static_cast<std::uint32_t>(inside);
     return facet;
   }
 
   void add_cycle(std::span<const std::uint32_t> corners) {
-    c_.corners.insert(c_.corners.end(), corners.begin(), corners.end());
-    c_.cycle_begin.push_back(static_cast<std::uint32_t>(c_.corners.size()));
+    result_.corners.insert(result_.corners.end(), corners.begin(), corners.end());
+    result_.cycle_begin.push_back(static_cast<std::uint32_t>(result_.corners.size()));
   }
 
   void end_facet(Facet& facet, std::span<const std::uint32_t> inside) {
-    c_.isolated_vertices.insert(c_.isolated_vertices.end(), inside.begin(), inside.end());
-    c_.facets.push_back(facet);
+    result_.isolated_vertices.insert(result_.isolated_vertices.end(), inside.begin(), inside.end());
+    result_.facets.push_back(facet);
   }
 
-  // What follows from the corners of each facet and the vertices inside.
-  void name_facets_of_corners() {
-    constexpr std::size_t kTogether = 8192;
-    c_.shalfedge_facet.assign(c_.shalfedges.size(), HalffacetId());
-    parallel_for_ranges(c_.facets.size(), kTogether, threads_, [this](std::size_t first, std::size_t last) {
-      for (auto f = static_cast<std::uint32_t>(first); f < last; ++f) {
-        Facet& facet = c_.facets[FacetId{f}];
-        const std::span<const std::uint32_t> corners = c_.corners_of(facet);
-        facet.mark = c_.shalfedges[corners[0]].mark;
-        for (const std::uint32_t corner : corners) {
-          c_.shalfedge_facet.set(corner, halffacet_of(FacetId{f}, false));
-        }
-        for (const std::uint32_t v : c_.isolated_vertices_of(facet)) {
-          for (const std::uint32_t l : {c_.vertices[v].sloops, c_.vertices[v].sloops + 1}) {
-            c_.sloop_facet[l] = halffacet_of(FacetId{f}, c_.sloops[l].plane.flipped());
-          }
-        }
-      }
-    });
-  }
-
-  Complex& c_;
+  const Complex& c_;
   const KnownLinks* known_;
-  unsigned threads_;
+  std::vector<std::uint8_t>& done_;
   std::vector<std::uint32_t> traced_;
   std::vector<CycleRecord> cycles_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> isolated_;  // (plane row, vertex)
+  LinkedFacets result_;
 };
+
+// All corners and vertices inside facets, or those that known facets do not have.
+Share everything(const Complex& c, const KnownLinks* known) {
+  Share all;
+  all.end_row = static_cast<std::uint32_t>(c.planes.size());
+  if (known != nullptr) {
+    all.corners = known->loose_corners;
+    std::erase_if(all.corners, [&c](std::uint32_t e) { return c.shalfedges[e].plane.flipped(); });
+    all.isolated = known->loose_isolated;
+    std::erase_if(all.isolated, [&c](std::uint32_t v) { return c.vertices[v].sloops == c.vertices[v + 1].sloops; });
+    return all;
+  }
+  all.corners.reserve(c.shalfedges.size() / 2);
+  for (std::uint32_t e = 0; e < c.shalfedges.size(); ++e) {
+    if (!c.shalfedges[e].plane.flipped()) all.corners.push_back(e);
+  }
+  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
+    if (c.vertices[v].sloops != c.vertices[v + 1].sloops) all.isolated.push_back(v);
+  }
+  return all;
+}
+
+std::vector<Share> shares_of(const Complex& c, unsigned threads) {
+  const std::size_t rows = (c.planes.size() + kShares - 1) / kShares;
+  auto corners = shared_out<std::uint32_t>(c.shalfedges.size(), threads, [&](std::size_t e, const auto& put) {
+    const PlaneId plane = c.shalfedges[e].plane;
+    if (!plane.flipped()) put(plane.row() / rows, static_cast<std::uint32_t>(e));
+  });
+  std::vector<Share> shares(kShares);
+  for (std::size_t s = 0; s < kShares; ++s) {
+    shares[s].corners = std::move(corners[s]);
+    shares[s].first_row = static_cast<std::uint32_t>(std::min(s * rows, c.planes.size()));
+    shares[s].end_row = static_cast<std::uint32_t>(std::min((s + 1) * rows, c.planes.size()));
+  }
+  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
+    if (c.vertices[v].sloops == c.vertices[v + 1].sloops) continue;
+    shares[c.sloops[c.vertices[v].sloops].plane.row() / rows].isolated.push_back(v);
+  }
+  return shares;
+}
+
+// Behind the facets that are there.
+void append(const LinkedFacets& more, Complex& c) {
+  const auto first_cycle = static_cast<std::uint32_t>(c.cycle_begin.size() - 1);
+  const auto first_corner = static_cast<std::uint32_t>(c.corners.size());
+  const auto first_isolated = static_cast<std::uint32_t>(c.isolated_vertices.size());
+  for (Facet facet : more.facets) {
+    facet.first_cycle = CycleId{facet.first_cycle.index() + first_cycle};
+    facet.first_isolated += first_isolated;
+    c.facets.push_back(facet);
+  }
+  for (std::size_t i = 1; i < more.cycle_begin.size(); ++i) c.cycle_begin.push_back(first_corner + more.cycle_begin[i]);
+  c.corners.insert(c.corners.end(), more.corners.begin(), more.corners.end());
+  c.isolated_vertices.insert(c.isolated_vertices.end(), more.isolated_vertices.begin(), more.isolated_vertices.end());
+}
+
+void put_together(std::vector<LinkedFacets>& parts, Complex& c) {
+  if (parts.size() == 1) {
+    c.facets.values() = std::move(parts[0].facets);
+    c.cycle_begin.values() = std::move(parts[0].cycle_begin);
+    c.corners = std::move(parts[0].corners);
+    c.isolated_vertices = std::move(parts[0].isolated_vertices);
+    return;
+  }
+  std::array<std::size_t, 3> sizes{};
+  for (const LinkedFacets& part : parts) {
+    sizes[0] += part.facets.size();
+    sizes[1] += part.cycle_begin.size();
+    sizes[2] += part.corners.size();
+  }
+  c.facets.clear();
+  c.cycle_begin.assign(1, 0);
+  c.corners.clear();
+  c.isolated_vertices.clear();
+  c.facets.reserve(sizes[0]);
+  c.cycle_begin.reserve(sizes[1]);
+  c.corners.reserve(sizes[2]);
+  for (const LinkedFacets& part : parts) append(part, c);
+}
+
+// Tells shalfedges and sloops their facets, and facets their marks.
+void name_facets(Complex& c, unsigned threads) {
+  c.shalfedge_facet.assign(c.shalfedges.size(), HalffacetId());
+  c.sloop_facet.assign(c.sloops.size(), HalffacetId());
+  const std::size_t tasks = few(c) ? 1 : kShares;
+  const std::size_t range = (c.facets.size() + tasks - 1) / tasks;
+  parallel_for(tasks, threads, [&](std::size_t k) {
+    const FacetId end{std::min((k + 1) * range, c.facets.size())};
+    for (FacetId f{k * range}; f < end; ++f) {
+      const std::span<const std::uint32_t> corners = c.corners_of(f);
+      c.facets[f].mark = c.shalfedges[corners[0]].mark;
+      for (const std::uint32_t corner : corners) c.shalfedge_facet.set(corner, halffacet_of(f, false));
+      for (const std::uint32_t v : c.isolated_vertices_of(c.facets[f])) {
+        const std::uint32_t loop = c.vertices[v].sloops;
+        for (std::uint32_t l = loop; l < loop + 2; ++l) {
+          c.sloop_facet[l] = halffacet_of(f, c.sloops[l].plane.flipped());
+        }
+      }
+    }
+  });
+}
+
+void link(Complex& c, const KnownLinks* known, unsigned threads) {
+  std::vector<Share> shares;
+  if (known != nullptr || threads == 1 || few(c)) {
+    shares.push_back(everything(c, known));
+  } else {
+    shares = shares_of(c, threads);
+  }
+  std::vector<std::uint8_t> done(c.shalfedges.size(), 0);
+  std::vector<LinkedFacets> parts(shares.size());
+  parallel_for(shares.size(), threads,
+               [&](std::size_t s) { parts[s] = FacetLinker(c, known, done).run(std::exchange(shares[s], {})); });
+  put_together(parts, c);
+  name_facets(c, threads);
+}
 
 }  // namespace
 
-void link_facets(Complex& complex, unsigned threads) { FacetLinker(complex, nullptr, threads).run(); }
+void link_facets(Complex& complex, unsigned threads) { link(complex, nullptr, threads); }
 
-void link_facets(Complex& complex, const KnownLinks& known, unsigned threads) {
-  FacetLinker(complex, &known, threads).run();
-}
+void link_facets(Complex& complex, const KnownLinks& known, unsigned threads) { link(complex, &known, threads); }
 
 }  // namespace nef

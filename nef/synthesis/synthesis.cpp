@@ -50,7 +50,7 @@ void name_owners_and_labels(Complex& c, LabelId outer, unsigned threads) {
 void synthesize(Complex& complex, LabelId outer, unsigned threads) {
   name_owners_and_labels(complex, outer, threads);
   begin(1);
-  link_edges(complex);
+  link_edges(complex, threads);
   begin(2);
   link_facets(complex, threads);
   begin(3);

@@ -10,6 +10,7 @@
 #include "nef/synthesis/volume_linking.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "nef/base/defect.h"
 #include "nef/base/parallel.h"
@@ -141,6 +142,11 @@ class VolumeLinker {
   void find_inner_shells() {
     const auto [components, lowest] = find_components();
     const std::vector<bool> enclosed = may_be_enclosed(components, lowest);
+    std::vector<Box> rays;
+    for (std::size_t i = 0; i < components.size(); ++i) {
+      if (enclosed[i]) rays.push_back(ray_from(lowest[components[i]]));
+    }
+    const BoxTree places(rays);
     volumes_.reset(c_.sfaces.size());
     std::uint32_t unbounded = kNone;  // an sface of the outer volume
     const Direction minus_x = Direction::exact(-1, 0, 0);
@@ -151,7 +157,7 @@ class VolumeLinker {
       detail::require(toward != kNone, "nothing of a component lies before its lowest vertex", {{"vertex", v}});
       const std::uint32_t inner = sfaces_.root(c_.vertices[v].sfaces + toward);
       inner_.push_back(inner);
-      std::uint32_t seen = enclosed[i] ? sface_seen_from(v) : kNone;
+      std::uint32_t seen = enclosed[i] ? sface_seen_from(v, places) : kNone;
       if (seen == kNone) {
         if (unbounded == kNone) unbounded = inner;
         seen = unbounded;
@@ -200,9 +206,18 @@ class VolumeLinker {
     return result;
   }
 
-  // An sface of the volume that the ray from v in direction -x runs into, seen at its first hit.
-  std::uint32_t sface_seen_from(std::uint32_t v) {
-    if (!queries_) queries_ = std::make_unique<QueryStructure>(c_);
+  // Holds the ray from v in direction -x.
+  [[nodiscard]] Box ray_from(std::uint32_t v) const {
+    Box ray;
+    ray.add_rounded(c_.points.approximate(PointId{v}));
+    ray.low[0] = -std::numeric_limits<double>::infinity();
+    return ray;
+  }
+
+  // An sface of the volume that the ray from v in direction -x runs into, seen at its first hit; `places` are those of
+  // all rays.
+  std::uint32_t sface_seen_from(std::uint32_t v, const BoxTree& places) {
+    if (!queries_) queries_ = std::make_unique<QueryStructure>(c_, places);
     const std::optional<ComplexHit> hit = queries_->first_hit_minus_x(c_, v);
     if (!hit) return kNone;
     if (hit->kind != ComplexHit::Kind::kFacet) {

@@ -155,7 +155,7 @@ std::string cut_note(const std::string& view) {
          ", and what lies beyond it is taken as background; --border unknown leaves that open";
 }
 
-std::string summary(const Result& result) {
+std::string summary(const Result& result, unsigned threads) {
   const nef::Counts counts = nef::counts(result.hull);
   double seconds = 0;
   for (const PhaseReport& phase : result.phases) seconds += phase.seconds;
@@ -164,7 +164,7 @@ std::string summary(const Result& result) {
   return fmt::format(
       "{} views, {} polygon vertices -> hull with {} vertices, {} edges, {} facets, volume {:.6g} ({:.3g} s)",
       result.views.size(), vertices, counts.vertices, counts.edges, counts.facets,
-      nef::approximate_volume(result.hull).value, seconds);
+      nef::approximate_volume(result.hull, threads).value, seconds);
 }
 
 }  // namespace visual_hull

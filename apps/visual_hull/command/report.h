@@ -31,6 +31,6 @@ std::vector<std::string> suspects_table(const Result& result);
 std::string cut_note(const std::string& view);
 
 /// One line about the hull, for people.
-std::string summary(const Result& result);
+std::string summary(const Result& result, unsigned threads = 1);
 
 }  // namespace visual_hull

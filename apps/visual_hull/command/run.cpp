@@ -87,7 +87,7 @@ int conclude(const Arguments& a, const Scene& scene, const Result& result) {
     complain(vanished_text(result));
     return kNo;
   }
-  if (talk) say << summary(result) << "\n";
+  if (talk) say << summary(result, a.threads) << "\n";
   bool inside = true;
   for (const ViewResult& view : result.views) {
     if (!view.verification) continue;

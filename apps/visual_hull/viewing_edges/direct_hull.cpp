@@ -3,35 +3,34 @@
 
 #include <algorithm>
 #include <atomic>
-#include <iterator>
 
 #include "apps/visual_hull/viewing_edges/corners.h"
 #include "apps/visual_hull/viewing_edges/hull_complex.h"
 #include "apps/visual_hull/viewing_edges/space_halving.h"
 #include "nef/base/parallel.h"
+#include "nef/base/shared_out.h"
 
 namespace visual_hull {
 namespace {
 
 using FacetLine = std::uint64_t;  // of the planes of two edges
 
-constexpr std::size_t kLineShares = 16;  // by the edge that comes first; several threads share them
-
 FacetLine facet_line(std::uint32_t a, std::uint32_t b) { return std::uint64_t{std::min(a, b)} << 32U | std::max(a, b); }
 
 // The lines of the hull's edges that end in a plain vertex.
-void add_lines(const SpotName& name, const std::vector<ViewingEdge>& edges, std::vector<FacetLine>& lines) {
+template <typename Take>
+void each_line(const SpotName& name, const std::vector<ViewingEdge>& edges, const Take& take) {
   const std::optional<std::uint32_t> corner = corner_of(name, edges);
   if (!corner) {
-    for (std::size_t i = 0; i < 3; ++i) lines.push_back(facet_line(name[i], name[(i + 1) % 3]));
+    for (std::size_t i = 0; i < 3; ++i) take(facet_line(name[i], name[(i + 1) % 3]));
     return;
   }
   const std::uint32_t in = edges[*corner].previous;
   const std::uint32_t across = name[0] ^ name[1] ^ name[2] ^ *corner ^ in;
-  lines.push_back(facet_line(in, *corner));
+  take(facet_line(in, *corner));
   for (std::uint32_t out = *corner; out != UINT32_MAX; out = edges[out].next_at_place) {
-    lines.push_back(facet_line(out, across));
-    lines.push_back(facet_line(edges[out].previous, across));
+    take(facet_line(out, across));
+    take(facet_line(edges[out].previous, across));
   }
 }
 
@@ -56,16 +55,12 @@ bool lines_pair_up(std::vector<FacetLine>& lines, const std::vector<CrowdedVerte
 // Every edge of the hull has two ends, so a line with an odd number of plain vertices passes a crowded one, too:
 // otherwise a vertex was lost.
 bool ends_pair_up(const HullVertices& vertices, const std::vector<ViewingEdge>& edges, unsigned threads) {
-  std::vector<FacetLine> all;
-  all.reserve(vertices.plain.size() * 3);
-  for (const SpotName& name : vertices.plain) add_lines(name, edges, all);
+  auto lines = nef::shared_out<FacetLine>(vertices.plain.size(), threads, [&](std::size_t i, const auto& put) {
+    each_line(vertices.plain[i], edges, [&put](FacetLine line) { put((line >> 32U) % nef::kShares, line); });
+  });
   std::atomic<bool> paired = true;
-  nef::parallel_for(kLineShares, threads, [&](std::size_t share) {
-    std::vector<FacetLine> lines;
-    lines.reserve(all.size() / kLineShares * 2);
-    std::copy_if(all.begin(), all.end(), std::back_inserter(lines),
-                 [share](FacetLine line) { return (line >> 32U) % kLineShares == share; });
-    if (!lines_pair_up(lines, vertices.crowded)) paired = false;
+  nef::parallel_for(nef::kShares, threads, [&](std::size_t share) {
+    if (!lines_pair_up(lines[share], vertices.crowded)) paired = false;
   });
   return paired;
 }

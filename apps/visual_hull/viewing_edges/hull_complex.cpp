@@ -27,10 +27,12 @@ using nef::PlaneId;
 constexpr std::size_t kVertices = 512;
 constexpr std::size_t kPlanes = 512;
 
+constexpr std::uint32_t kRoom = 16;  // a part more than what is known to come, too little for Complex::trim
+
 /// Rows of the edges' planes in a table.
 class EdgePlanes {
  public:
-  /// Of the edges that meet in the vertices, and of all that start where one of them does.
+  /// Of the edges that meet in the vertices.
   EdgePlanes(const HullVertices& vertices, const std::vector<ViewingEdge>& edges,
              const std::vector<const Camera*>& cameras, unsigned threads)
       : ids_(edges.size()) {
@@ -61,14 +63,16 @@ class EdgePlanes {
  private:
   static std::vector<std::uint32_t> edges_at(const HullVertices& vertices, const std::vector<ViewingEdge>& edges) {
     std::vector<bool> wanted(edges.size(), false);
-    const auto want = [&](std::uint32_t edge) {
-      for (std::uint32_t e = edges[edge].place; e != UINT32_MAX; e = edges[e].next_at_place) {
+    for (const SpotName& name : vertices.plain) {
+      for (const std::uint32_t e : name) wanted[e] = true;
+      // All that start at the same vertex of a silhouette.
+      for (std::uint32_t e = corner_of(name, edges).value_or(UINT32_MAX); e != UINT32_MAX; e = edges[e].next_at_place) {
         wanted[e] = wanted[edges[e].previous] = true;
       }
-      wanted[edge] = true;
-    };
-    for (const SpotName& name : vertices.plain) std::for_each(name.begin(), name.end(), want);
-    for (const CrowdedVertex& vertex : vertices.crowded) std::for_each(vertex.edges.begin(), vertex.edges.end(), want);
+    }
+    for (const CrowdedVertex& vertex : vertices.crowded) {
+      for (const std::uint32_t e : vertex.edges) wanted[e] = true;
+    }
     std::vector<std::uint32_t> list;
     for (std::uint32_t e = 0; e < edges.size(); ++e) {
       if (wanted[e]) list.push_back(e);
@@ -195,6 +199,34 @@ void add_crowded(const std::vector<CrowdedVertex>& vertices, const std::vector<V
   }
 }
 
+// With some room for crowded vertices.
+nef::VertexRecord items_of(const std::vector<nef::Complex>& parts) {
+  nef::VertexRecord sum;
+  for (const nef::Complex& part : parts) {
+    const nef::VertexRecord& end = part.vertices.back();
+    sum.svertices += end.svertices;
+    sum.shalfedges += end.shalfedges;
+    sum.sloops += end.sloops;
+    sum.sfaces += end.sfaces;
+    sum.entries += end.entries;
+  }
+  for (std::uint32_t* count : {&sum.svertices, &sum.shalfedges, &sum.sloops, &sum.sfaces, &sum.entries}) {
+    *count += *count / kRoom;
+  }
+  return sum;
+}
+
+// Of coordinates of a vertex, on average.
+std::size_t limbs_of(const std::vector<nef::Complex>& parts) {
+  std::size_t limbs = 0;
+  std::size_t vertices = 1;
+  for (const nef::Complex& part : parts) {
+    limbs += part.points.limbs();
+    vertices += part.vertex_count();
+  }
+  return limbs / vertices + 1;
+}
+
 }  // namespace
 
 std::optional<nef::Polyhedron> complex_of(const HullVertices& vertices, const std::vector<ViewingEdge>& edges,
@@ -212,12 +244,13 @@ std::optional<nef::Polyhedron> complex_of(const HullVertices& vertices, const st
   });
   if (!good) return std::nullopt;
   nef::ComplexBuilder builder(planes.table);
+  builder.reserve(names.size() + vertices.crowded.size(), items_of(parts), limbs_of(parts));
   for (nef::Complex& part : parts) {
     builder.copy(part, 0, static_cast<std::uint32_t>(part.vertex_count()));
     part = {};
   }
   add_crowded(vertices.crowded, edges, planes, builder);
-  return nef::Polyhedron(builder.finish(0));
+  return nef::Polyhedron(builder.finish(0, threads));
 }
 
 }  // namespace visual_hull

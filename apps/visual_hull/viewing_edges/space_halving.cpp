@@ -17,6 +17,7 @@
 #include "apps/visual_hull/viewing_edges/part_cut.h"
 #include "apps/visual_hull/viewing_edges/part_vertices.h"
 #include "nef/base/parallel.h"
+#include "nef/base/shared_out.h"
 
 namespace visual_hull {
 namespace {
@@ -229,11 +230,14 @@ Task everything(const EdgeScene& scene) {
 }
 
 // Leaves the first one of equal names, and all names in their order.
-void drop_repeated(std::vector<SpotName>& names) {
-  std::vector<SpotName> sorted = names;
-  std::sort(sorted.begin(), sorted.end());
+void drop_repeated(std::vector<SpotName>& names, unsigned threads) {
+  auto shares = nef::shared_out<SpotName>(
+      names.size(), threads, [&](std::size_t i, const auto& put) { put(names[i][0] % nef::kShares, names[i]); });
+  nef::parallel_for(nef::kShares, threads, [&shares](std::size_t s) { std::sort(shares[s].begin(), shares[s].end()); });
   std::map<SpotName, bool> met;  // of the repeated ones, which are few
-  for (auto at = sorted.begin(); (at = std::adjacent_find(at, sorted.end())) != sorted.end(); ++at) met[*at] = false;
+  for (const std::vector<SpotName>& sorted : shares) {
+    for (auto at = sorted.begin(); (at = std::adjacent_find(at, sorted.end())) != sorted.end(); ++at) met[*at] = false;
+  }
   if (met.empty()) return;
   std::erase_if(names, [&met](const SpotName& name) {
     const auto at = met.find(name);
@@ -242,13 +246,13 @@ void drop_repeated(std::vector<SpotName>& names) {
 }
 
 // Parts overlap, and three of many planes may be asked for twice.
-HullVertices together(std::vector<HullVertices>& parts) {
+HullVertices together(std::vector<HullVertices>& parts, unsigned threads) {
   HullVertices all;
   for (HullVertices& part : parts) {
     all.plain.insert(all.plain.end(), part.plain.begin(), part.plain.end());
     std::move(part.crowded.begin(), part.crowded.end(), std::back_inserter(all.crowded));
   }
-  drop_repeated(all.plain);
+  drop_repeated(all.plain, threads);
   std::sort(all.crowded.begin(), all.crowded.end(),
             [](const CrowdedVertex& a, const CrowdedVertex& b) { return a.point < b.point; });
   const auto same = [](const CrowdedVertex& a, const CrowdedVertex& b) { return a.point == b.point; };
@@ -278,7 +282,7 @@ std::optional<HullVertices> hull_vertices(const EdgeScene& scene, unsigned threa
     tasks.clear();
     for (std::vector<Task>& some : rest) std::move(some.begin(), some.end(), std::back_inserter(tasks));
   }
-  return together(found);
+  return together(found, threads);
 }
 
 }  // namespace visual_hull

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A set large enough to be linked in shares, on any number of threads, against the one that Booleans have linked.
+#include <catch2/catch.hpp>
+#include <random>
+
+#include "nef/construct/construct.h"
+#include "nef/location/query_structure.h"
+#include "nef/polyhedron.h"
+#include "nef/query/approximate_volume.h"
+#include "nef/synthesis/complex_builder.h"
+#include "nef/validation/validate.h"
+
+namespace nef::test {
+namespace {
+
+Rational3 lattice_point(std::mt19937& random) {
+  Rational3 point;
+  for (Rational& x : point) x = static_cast<int>(random() % 8);
+  return point;
+}
+
+// Boxes and plates with cavities, handles, holes in facets and vertices inside them, in a cell of 12.
+Polyhedron cluttered_cell(std::mt19937& random) {
+  Polyhedron set;
+  for (int i = 0; i < 8; ++i) {
+    const Rational3 low = lattice_point(random);
+    Rational3 high = low;
+    for (Rational& x : high) x += static_cast<int>(random() % 5);
+    const Polyhedron box = make_box(low, high);
+    set = random() % 3 == 0 ? symmetric_difference(set, box) : unite(set, box);
+  }
+  const Rational3 point = lattice_point(random);
+  return symmetric_difference(set, make_segment(point, {point[0], point[1] + 1, point[2] + 3}));
+}
+
+// Cells side by side: many share planes and lines.
+Polyhedron many_cells(int along) {
+  std::mt19937 random(7);
+  std::vector<Polyhedron> cells;
+  for (int i = 0; i < along * along * along; ++i) {
+    const Rational3 at{12 * (i % along), 12 * (i / along % along), 12 * (i / along / along)};
+    cells.push_back(transform(cluttered_cell(random), AffineMap::translate(at)));
+  }
+  return unite_all(cells);
+}
+
+Complex linked_anew(const Complex& c, unsigned threads) {
+  PlaneTable planes = c.planes;
+  ComplexBuilder builder(planes);
+  builder.copy(c, 0, static_cast<std::uint32_t>(c.vertex_count()));
+  return builder.finish(0, threads);
+}
+
+void check_same_facets(const Complex& a, const Complex& b) {
+  REQUIRE(a.facet_count() == b.facet_count());
+  for (const FacetId f : a.facets.ids()) {
+    const Facet& p = a.facets[f];
+    const Facet& q = b.facets[f];
+    const bool same = p.plane == q.plane && p.mark == q.mark && p.first_cycle == q.first_cycle &&
+                      p.cycle_count == q.cycle_count && p.first_isolated == q.first_isolated &&
+                      p.isolated_count == q.isolated_count && p.volume_above == q.volume_above &&
+                      p.volume_below == q.volume_below;
+    REQUIRE(same);
+  }
+}
+
+TEST_CASE("Links do not depend on the number of threads, item for item", "[threads]") {
+  const Polyhedron set = many_cells(7);
+  const Complex& c = set.complex();
+  REQUIRE(c.shalfedges.size() > 1U << 15U);  // with fewer there are no shares
+  REQUIRE(c.svertices.size() > 1U << 15U);
+  REQUIRE_FALSE(c.isolated_vertices.empty());
+  for (const unsigned threads : {1U, 2U, 5U, 0U}) {
+    INFO("threads " << threads);
+    const Complex again = linked_anew(c, threads);
+    CHECK(validate(again) == "");
+    CHECK(again.twin == c.twin);
+    check_same_facets(again, c);
+    CHECK(again.cycle_begin == c.cycle_begin);
+    CHECK(again.corners == c.corners);
+    CHECK(again.isolated_vertices == c.isolated_vertices);
+    CHECK(again.shalfedge_facet.pairs() == c.shalfedge_facet.pairs());
+    CHECK(again.sloop_facet == c.sloop_facet);
+    CHECK(again.sface_shell == c.sface_shell);
+    CHECK(again.shell_sfaces == c.shell_sfaces);
+  }
+}
+
+TEST_CASE("A volume in doubles does not depend on the number of threads", "[threads]") {
+  const Polyhedron set = many_cells(7);
+  REQUIRE(set.complex().facet_count() > 4096);  // of a task
+  const MeasuredVolume one = approximate_volume(set);
+  const MeasuredVolume three = approximate_volume(set, 3);
+  CHECK(one.value == three.value);
+  CHECK(one.error == three.error);
+  const Rational exact = *volume(set);
+  CHECK(abs(exact - exact_rational(one.value)) <= exact_rational(one.error));
+}
+
+TEST_CASE("A structure for some rays finds on them what the one for all finds") {
+  std::mt19937 random(11);
+  for (int i = 0; i < 40; ++i) {
+    const Polyhedron set = cluttered_cell(random);
+    const Complex& c = set.complex();
+    std::vector<std::uint32_t> asked;
+    std::vector<Box> rays;
+    for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
+      if (random() % 4 != 0) continue;
+      asked.push_back(v);
+      rays.emplace_back();
+      rays.back().add_rounded(c.points.approximate(PointId{v}));
+      rays.back().low[0] = -std::numeric_limits<double>::infinity();
+    }
+    const QueryStructure all(c);
+    const QueryStructure some(c, BoxTree(rays));
+    for (const std::uint32_t v : asked) {
+      const std::optional<ComplexHit> expected = all.first_hit_minus_x(c, v);
+      const std::optional<ComplexHit> found = some.first_hit_minus_x(c, v);
+      REQUIRE(found.has_value() == expected.has_value());
+      if (!found) continue;
+      CHECK(found->kind == expected->kind);
+      // Of an edge either half may be told, and what is seen from there.
+      const bool edge = found->kind == ComplexHit::Kind::kEdge;
+      CHECK((found->index == expected->index || (edge && found->index == c.twin[expected->index])));
+      if (found->sface != kNone) CHECK(c.sface_shell[found->sface] == c.sface_shell[expected->sface]);
+      CHECK((found->sface == kNone) == (expected->sface == kNone));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace nef::test

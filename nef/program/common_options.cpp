@@ -5,6 +5,25 @@
 
 namespace nef {
 
+namespace {
+
+CLI::Validator above(bool zero_too, const std::string& name) {
+  const auto check = [zero_too](const std::string& text) -> std::string {
+    double value = 0;
+    const bool number = CLI::detail::lexical_cast(text, value);
+    if (number && (value > 0 || (zero_too && value == 0))) return {};
+    return std::string(zero_too ? "a number from 0 on is needed, not '" : "a positive number is needed, not '") + text +
+           "'";
+  };
+  return {check, name};
+}
+
+}  // namespace
+
+CLI::Validator positive() { return above(false, "POSITIVE"); }
+
+CLI::Validator not_negative() { return above(true, "NONNEGATIVE"); }
+
 void add_run_options(CLI::App& app, bool& json, bool& quiet, unsigned& threads) {
   app.add_flag("--json", json, "Print the report, and nothing else, on standard output");
   app.add_flag("-q,--quiet", quiet, "Print nothing but errors");

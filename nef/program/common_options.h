@@ -5,9 +5,14 @@
 
 namespace CLI {
 class App;
-}
+class Validator;
+}  // namespace CLI
 
 namespace nef {
+
+/// Checks of numbers, which say what is needed rather than where doubles end.
+CLI::Validator positive();
+CLI::Validator not_negative();
 
 /// --json, -q and --threads.
 void add_run_options(CLI::App& app, bool& json, bool& quiet, unsigned& threads);

@@ -49,9 +49,9 @@ void declare_clearance(CLI::App& app, Arguments& a) {
   app.add_option("--precision", a.precision, "Relative width of the interval that these tell")->default_str("1/1000");
   app.add_option("--keep-clear", a.keep_clear, "Keep at least this distance from all obstacles")->type_name("D");
   app.add_option("--speed", a.limits.speed, "Time stamps for way-points: speed of the reference point")
-      ->check(CLI::PositiveNumber);
+      ->check(nef::positive());
   app.add_option("--acceleration", a.limits.acceleration, "... and its acceleration (without bound if not given)")
-      ->check(CLI::PositiveNumber);
+      ->check(nef::positive());
 }
 
 }  // namespace

@@ -75,10 +75,10 @@ void add_input_options(CLI::App& app, Arguments& a) {
       ->capture_default_str();
   app.add_option("--min-area", a.min_area,
                  "Drop islands and fill holes of fewer square pixels (with --outer holes only)")
-      ->check(CLI::NonNegativeNumber)
+      ->check(nef::not_negative())
       ->type_name("PX2");
   app.add_option("--simplify", a.simplify, "Simplify polygons within this many pixels")
-      ->check(CLI::NonNegativeNumber)
+      ->check(nef::not_negative())
       ->type_name("PX");
   app.add_flag("--outer", a.outer, "Simplified polygons contain the contour: the hull is an outer bound");
   app.add_option("--box", a.box, "x0,y0,z0,x1,y1,z1: the part of space to look at; found from the cones if missing")
@@ -89,7 +89,7 @@ void add_output_options(CLI::App& app, Arguments& a) {
   app.add_option("-o,--output", a.output, "Write the hull (format by extension)")->type_name("FILE");
   nef::add_file_output_options(app, a.exact, a.binary, a.text);
   app.add_option("--decimate", a.decimate, "Write a mesh of about N triangles, and tell how far it is from the hull")
-      ->check(CLI::PositiveNumber)
+      ->check(nef::positive())
       ->type_name("N");
   app.add_flag(
       "--manifold", a.manifold,
@@ -105,7 +105,7 @@ void add_output_options(CLI::App& app, Arguments& a) {
   app.add_flag("--suspects", a.suspects, "Compare the views: which one disagrees with the others");
   app.add_flag("--drop-suspects", a.drop_suspects, "Leave out the view that disagrees, compare again, and so on");
   app.add_option("--at-least", a.at_least, "The points in at least K silhouettes, instead of in all")
-      ->check(CLI::PositiveNumber)
+      ->check(nef::positive())
       ->type_name("K");
   app.add_flag("--exact-volume", a.exact_volume, "Report the exact volume, too: millions of digits for detailed hulls");
   app.add_option("--report", a.report, "Write a report as JSON ('-': standard output)")->type_name("FILE.json");
@@ -156,8 +156,11 @@ Options to_options(const Arguments& a) {
 
 Scene scene_of(const Arguments& a) {
   Scene scene;
-  if (a.turntable != 0) {
-    scene = make_turntable({a.turntable, a.intrinsics, a.radius, a.height});
+  if (a.turntable) {
+    if (a.intrinsics.empty() || !a.radius) {
+      throw nef::InputError("--turntable: the camera is missing: give --K f,cx,cy, --radius R and --height H");
+    }
+    scene = make_turntable({*a.turntable, a.intrinsics, *a.radius, a.height});
   } else {
     scene = read_scene(a.scene, {a.matrices});
   }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,9 +30,9 @@ struct Arguments {
   std::string origin;
   std::string up;
   std::string matrices;
-  int turntable = 0;
+  std::optional<int> turntable;
   std::vector<double> intrinsics;
-  double radius = 0;
+  std::optional<double> radius;
   double height = 0;
   std::string threshold;
   bool invert = false;

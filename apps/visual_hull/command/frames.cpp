@@ -65,7 +65,7 @@ json settings_of(const Arguments& a) {
           {"pixel_origin", a.origin},
           {"up", a.up},
           {"matrices", a.matrices},
-          {"turntable", {a.turntable, a.intrinsics, a.radius, a.height}},
+          {"turntable", {a.turntable.value_or(0), a.intrinsics, a.radius.value_or(0), a.height}},
           {"threshold", a.threshold},
           {"invert", a.invert},
           {"channel", a.channel},

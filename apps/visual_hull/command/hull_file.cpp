@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "apps/visual_hull/color/vertex_colors.h"
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
@@ -25,6 +27,13 @@ std::vector<Color> colors_of(const nef::Mesh& mesh, const Result& result, const 
   if (found.unseen > 0 && messages != nullptr) {
     messages->push_back(fmt::format("{} of {} vertices are seen by no view: they have the colours of their neighbours",
                                     found.unseen, found.colors.size()));
+  }
+  const bool masks = std::all_of(result.views.begin(), result.views.end(), [](const ViewResult& view) {
+    const std::string folder = view.image.parent_path().filename().string();
+    return (folder == "masks" || folder == "silhouettes") && photograph_of(view.image) == view.image;
+  });
+  if (masks && messages != nullptr) {
+    messages->push_back("the colours are those of the masks: no photographs of their names are in images/ beside them");
   }
   return std::move(found.colors);
 }

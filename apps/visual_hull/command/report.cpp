@@ -121,9 +121,6 @@ std::vector<std::string> verdict_lines(const Result& result) {
   }
   if (!result.consistency || result.consistency->residual <= 0) return lines;
   const Consistency& found = *result.consistency;
-  for (const ViewResult& view : result.views) {
-    if (view.silhouette.cut_by_frame) lines.push_back("note: " + cut_note(view.name));
-  }
   if (found.guilty) {
     lines.push_back(
         fmt::format("view {} disagrees with the others: leaving it out removes {:.0f} % of the inconsistency",
@@ -150,9 +147,21 @@ std::vector<std::string> suspects_table(const Result& result) {
   return lines;
 }
 
-std::string cut_note(const std::string& view) {
-  return "the frame cuts the silhouette of view " + view +
-         ", and what lies beyond it is taken as background; --border unknown leaves that open";
+std::optional<std::string> cut_note(const Result& result) {
+  constexpr std::size_t kTold = 3;
+  std::vector<std::string> names;
+  for (const ViewResult& view : result.views) {
+    if (view.silhouette.cut_by_frame && !view.silhouette.background) names.push_back(view.name);
+  }
+  if (names.empty()) return std::nullopt;
+  const std::size_t told = std::min(names.size(), kTold);
+  std::string list =
+      fmt::format("{}", fmt::join(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(told), ", "));
+  if (told < names.size()) list += fmt::format(" and {} more", names.size() - told);
+  return fmt::format(
+      "the frame cuts the silhouette{} of view{} {}, and what lies beyond it is taken as background; --border unknown "
+      "leaves that open",
+      names.size() == 1 ? "" : "s", names.size() == 1 ? "" : "s", list);
 }
 
 std::string summary(const Result& result, unsigned threads) {

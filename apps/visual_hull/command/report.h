@@ -4,6 +4,7 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,8 +28,9 @@ std::vector<std::string> verdict_lines(const Result& result);
 /// A line a view, best suspects first: residual R, fall D, removed U, relative d, score S.
 std::vector<std::string> suspects_table(const Result& result);
 
-/// What a silhouette that its frame cuts means, and what to do about it.
-std::string cut_note(const std::string& view);
+/// What to do about views whose frames cut their silhouettes, where that was taken for background; nothing if there is
+/// none.
+std::optional<std::string> cut_note(const Result& result);
 
 /// One line about the hull, for people.
 std::string summary(const Result& result, unsigned threads = 1);

@@ -108,8 +108,7 @@ struct Written {
 };
 
 // What is asked for, into files. A hull that vanished has pictures of its views only.
-Written write_files(const Arguments& a, const Result& result, nef::ProgressBar& bar) {
-  Written written;
+void write_files(const Arguments& a, const Result& result, nef::ProgressBar& bar, Written& written) {
   const auto step = [&](const std::string& target, bool solid, const std::function<void()>& write) {
     if (target.empty() || (solid && result.vanished)) return;
     bar.show("write " + target);
@@ -119,7 +118,6 @@ Written write_files(const Arguments& a, const Result& result, nef::ProgressBar& 
   step(a.overlay, false, [&] { write_overlays(result, result.origin, a.overlay); });
   step(a.preview, true, [&] { write_preview(result, a.preview); });
   step(a.page, true, [&] { write_page(result, result.origin, a.page); });
-  return written;
 }
 
 void check_page_name(const std::string& page) {
@@ -141,7 +139,8 @@ int run(const Arguments& a) {
                             bar.show(std::string(phase_name(phase)) + " " + view, done, total);
                           });
   Written written;
-  timed(result.phases, Phase::kWrite, [&] { written = write_files(a, result, bar); });
+  if (const auto note = cut_note(result)) written.messages.push_back(*note);
+  timed(result.phases, Phase::kWrite, [&] { write_files(a, result, bar, written); });
   if (!a.report.empty() || a.json) {
     bar.show("write report");
     nlohmann::ordered_json report = make_report(result, written.messages, a.exact_volume);

@@ -11,6 +11,7 @@
 
 #include "apps/visual_hull/scene/pose.h"
 #include "nef/base/error.h"
+#include "nef/base/in_quotes.h"
 #include "nef/io/file_bytes.h"
 
 namespace visual_hull {
@@ -30,12 +31,16 @@ std::string plain(const std::string& name) {
 const std::map<std::string, std::string>& meanings() {
   static const std::map<std::string, std::string> kNames{{"k", "K"},
                                                          {"cameramatrix", "K"},
+                                                         {"mtx", "K"},
                                                          {"intrinsics", "K"},
                                                          {"intrinsicmatrix", "K"},
                                                          {"m", "K"},
                                                          {"d", "D"},
                                                          {"distortioncoefficients", "D"},
+                                                         {"distortioncoeffs", "D"},
+                                                         {"distortionparameters", "D"},
                                                          {"distcoeffs", "D"},
+                                                         {"dist", "D"},
                                                          {"distortion", "D"},
                                                          {"p", "P"},
                                                          {"projectionmatrix", "P"},
@@ -43,6 +48,7 @@ const std::map<std::string, std::string>& meanings() {
                                                          {"r", "R"},
                                                          {"rotation", "R"},
                                                          {"rotationmatrix", "R"},
+                                                         {"rotationvector", "R"},
                                                          {"rvec", "R"},
                                                          {"t", "t"},
                                                          {"translation", "t"},
@@ -131,6 +137,14 @@ class StorageReader {
   }
 
  private:
+  // A lens that is left out unnoticed would make the hull a little wrong.
+  void refuse_other_distortion(const std::string& name) const {
+    if (plain(name).rfind("dist", 0) != 0 || plain(name).rfind("distance", 0) == 0) return;
+    throw nef::InputError(fmt::format(
+        "{}: {} is not understood; lens distortion is called distortion_coefficients, dist_coeffs, dist or D", file_,
+        nef::in_quotes(name)));
+  }
+
   void sort_nodes(const cv::FileNode& root) {
     for (const cv::FileNode& node : root) {
       const std::string name = node.name();
@@ -140,9 +154,13 @@ class StorageReader {
       }
       std::size_t digits = name.size();
       while (digits > 0 && std::isdigit(static_cast<unsigned char>(name[digits - 1])) != 0) --digits;
-      if (digits == name.size() || digits == 0 || name.size() - digits > 7) continue;
       const std::string what = meaning(name.substr(0, digits));
-      if (!what.empty() && what != "list") numbered_[std::stoul(name.substr(digits))][what] = node;
+      const bool numbered = digits != name.size() && digits != 0 && name.size() - digits <= 7;
+      if (numbered && !what.empty() && what != "list") {
+        numbered_[std::stoul(name.substr(digits))][what] = node;
+      } else {
+        refuse_other_distortion(name);
+      }
     }
   }
 
@@ -151,7 +169,9 @@ class StorageReader {
       for (const cv::FileNode& entry : common_["list"]) {
         Parts parts;
         for (const cv::FileNode& node : entry) {
-          if (const std::string what = meaning(node.name()); !what.empty()) parts[what] = node;
+          const std::string what = meaning(node.name());
+          if (what.empty()) refuse_other_distortion(node.name());
+          if (!what.empty()) parts[what] = node;
         }
         add_view(parts, std::to_string(scene_.views.size() + 1));
       }

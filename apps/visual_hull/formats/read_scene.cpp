@@ -8,6 +8,7 @@
 #include "apps/visual_hull/formats/scene_json.h"
 #include "apps/visual_hull/formats/scene_text.h"
 #include "apps/visual_hull/formats/vsh.h"
+#include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
 
 namespace visual_hull {
@@ -30,15 +31,28 @@ bool is_colmap_file(const fs::path& file) {
   return (name == "cameras" || name == "images") && colmap_model(file.parent_path()) == file.parent_path();
 }
 
+// Files of other formats have their matrices where the format says.
+void refuse_matrices(const fs::path& file, const ReadOptions& options) {
+  if (options.matrices.empty()) return;
+  throw nef::InputError("--matrices: " + file.string() + " is no OpenCV FileStorage and no MATLAB file");
+}
+
 }  // namespace
 
 Scene read_scene(const fs::path& file, const ReadOptions& options) {
   std::error_code error;
-  if (fs::is_directory(file, error)) return read_folder(file, options);
-  if (is_colmap_file(file)) return read_colmap(file.parent_path());
+  if (fs::is_directory(file, error)) {
+    refuse_matrices(file, options);
+    return read_folder(file, options);
+  }
+  if (is_colmap_file(file)) {
+    refuse_matrices(file, options);
+    return read_colmap(file.parent_path());
+  }
   const std::string text = nef::read_file(file.string());
   if (is_matlab_file(text)) return read_matlab(file, options.matrices);
   if (is_opencv_storage(text)) return read_opencv_storage(file, options.matrices);
+  refuse_matrices(file, options);
   if (text[text.find_first_not_of(" \t\r\n")] == '{') return read_json_scene(text, file);
   if (nef::lower_extension(file.string()) == "vsh") return read_vsh(text, file);
   if (has_parameter_blocks(text)) return read_parameter_blocks(text, file);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/visual_hull/formats/scene_json.h"
 
+#include <set>
+
 #include "apps/visual_hull/formats/transforms.h"
 #include "apps/visual_hull/scene/scene_number.h"
 #include "nef/base/error.h"
@@ -95,7 +97,21 @@ Distortion read_distortion(const json& entry, const std::string& where) {
   return distortion;
 }
 
-View read_view(const json& entry, std::size_t number, const std::filesystem::path& file) {
+// Keys that mean nothing here. What may be meant for a lens is refused: without it the hull would be a little wrong.
+void note_ignored(const json& entry, const std::set<std::string>& known, const std::string& where,
+                  std::set<std::string>& ignored) {
+  for (const auto& item : entry.items()) {
+    const std::string& key = item.key();
+    if (known.count(key) != 0) continue;
+    if (key.rfind("dist", 0) == 0 || key == "D") {
+      throw nef::InputError(where + ": " + nef::in_quotes(key) + " is not understood; lens distortion is 'distortion'");
+    }
+    ignored.insert(key);
+  }
+}
+
+View read_view(const json& entry, std::size_t number, const std::filesystem::path& file,
+               std::set<std::string>& ignored) {
   std::string where = file.string() + ", camera " + std::to_string(number);
   if (!entry.is_object()) throw nef::InputError(where + ": an object is needed");
   const std::filesystem::path folder = file.parent_path();
@@ -111,6 +127,7 @@ View read_view(const json& entry, std::size_t number, const std::filesystem::pat
   } else if (entry.contains("image")) {
     view.image = text_of(entry["image"], where + ", image");
   }
+  note_ignored(entry, {"image", "name", "polygons", "silhouette", "P", "K", "R", "t", "distortion"}, where, ignored);
   view.camera = read_camera(entry, view.name, where);
   view.distortion = read_distortion(entry, where);
   return view;
@@ -137,7 +154,12 @@ Scene read_json_scene(const std::string& text, const std::filesystem::path& file
   }
   Scene scene;
   scene.format = "a JSON scene";
-  for (const json& entry : document["cameras"]) scene.views.push_back(read_view(entry, scene.views.size() + 1, file));
+  std::set<std::string> ignored;
+  note_ignored(document, {"cameras", "box", "threshold", "channel", "invert"}, file.string(), ignored);
+  for (const json& entry : document["cameras"]) {
+    scene.views.push_back(read_view(entry, scene.views.size() + 1, file, ignored));
+  }
+  scene.ignored.assign(ignored.begin(), ignored.end());
   if (scene.views.empty()) throw nef::InputError(file.string() + ": the list 'cameras' is empty");
   if (document.contains("box")) {
     const std::vector<Rational> v = numbers(document["box"], 6, file.string() + ", box");

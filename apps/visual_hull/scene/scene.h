@@ -61,6 +61,7 @@ struct Scene {
   std::vector<std::filesystem::path> image_folders;  ///< where images are looked up after the scene's own folder
   std::optional<WorldBox> box;
   std::optional<ThresholdOptions> threshold;
+  std::vector<std::string> ignored;  ///< names in the file that mean nothing to it, in their order
 };
 
 }  // namespace visual_hull

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "apps/visual_hull/scene/pose.h"
+#include "nef/base/in_quotes.h"
 
 namespace visual_hull {
 namespace {
@@ -34,6 +35,17 @@ std::string text(const Eigen::Vector3d& p, double scale) {
     result += fmt::format("{}{:.4g}", i == 0 ? "(" : ", ", x);
   }
   return result + ")";
+}
+
+// "; ignored: a, b", a few of them.
+std::string ignored_text(const std::vector<std::string>& names) {
+  constexpr std::size_t kTold = 4;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(names.size(), kTold); ++i) {
+    text += (i == 0 ? "; ignored: " : ", ") + nef::in_quotes(names[i]);
+  }
+  if (names.size() > kTold) text += fmt::format(" and {} more", names.size() - kTold);
+  return text;
 }
 
 }  // namespace
@@ -102,7 +114,14 @@ std::string understood(const Scene& scene) {
   } else if (mirrored > 0) {
     line += "; all images are mirrored, or the axes of space are left-handed";
   }
-  return line;
+  const auto distorted = std::count_if(scene.views.begin(), scene.views.end(),
+                                       [](const View& view) { return !view.distortion.coefficients.empty(); });
+  if (distorted > 0 && static_cast<std::size_t>(distorted) == scene.views.size()) {
+    line += "; lens distortion is undone";
+  } else if (distorted > 0) {
+    line += fmt::format("; lens distortion of {} is undone", distorted);
+  }
+  return line + ignored_text(scene.ignored);
 }
 
 std::vector<std::string> view_lines(const Scene& scene, const std::vector<std::filesystem::path>& images) {

@@ -181,7 +181,8 @@ cv::Mat read_mask(const std::filesystem::path& image, const View& view, const Si
     throw nef::InputError("view " + view.name + ": cannot read the image " + image.string() + " (" + error.err + ")");
   }
   if (pixels.empty()) {
-    throw nef::InputError("view " + view.name + ": cannot read the image " + image.string());
+    throw nef::InputError("view " + view.name + ": cannot read the image " + image.string() +
+                          ": it is damaged, cut off, or of no format that is known");
   }
   cv::Mat mask;
   try {
@@ -203,7 +204,14 @@ cv::Mat read_mask(const std::filesystem::path& image, const View& view, const Si
 }
 
 void straighten(cv::Mat& mask, const View& view, const SilhouetteOptions& options, cv::Mat* unseen) {
-  if (!view.distortion.coefficients.empty()) undistort(mask, view.distortion, options.origin, unseen);
+  if (view.distortion.coefficients.empty()) return;
+  const bool shown = cv::countNonZero(mask) > 0;
+  undistort(mask, view.distortion, options.origin, unseen);
+  if (shown && cv::countNonZero(mask) == 0) {
+    throw nef::InputError("view " + view.name +
+                          ": nothing of the silhouette is left where its lens distortion is undone; check its "
+                          "coefficients and their order (k1, k2, p1, p2, k3, ...)");
+  }
 }
 
 ViewSilhouette silhouette_of_mask(const cv::Mat& mask, const cv::Mat& unseen, const std::string& view,

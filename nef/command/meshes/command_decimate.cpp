@@ -4,6 +4,7 @@
 #include "nef/base/stopwatch.h"
 #include "nef/command/commands.h"
 #include "nef/io/mesh/mesh_writer.h"
+#include "nef/program/common_options.h"
 #include "nef/remeshing/decimate.h"
 
 namespace nef {
@@ -13,7 +14,7 @@ void add_decimate_command(CLI::App& app, Session& session) {
                                      "A mesh of fewer triangles for a solid, legal still, and how far it is from it");
   const auto triangles = std::make_shared<std::size_t>(0);
   command->add_option("input", session.input, "The set, as a file")->required();
-  command->add_option("--triangles", *triangles, "How many to aim at")->required()->check(CLI::PositiveNumber);
+  command->add_option("--triangles", *triangles, "How many to aim at")->required()->check(positive());
   add_input_flags(command, session);
   add_output_flags(command, session)->required();
   command->callback([&session, triangles] {

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "apps/visual_hull/command/report.h"
 #include "nef/base/error.h"
 #include "nef/construct/construct.h"
 #include "nef/io/file_bytes.h"
@@ -21,6 +22,7 @@ namespace visual_hull {
 namespace {
 
 using Catch::Contains;
+using Catch::StartsWith;
 using testing::Outcome;
 using testing::run;
 using testing::Scratch;
@@ -168,7 +170,10 @@ TEST_CASE("Bad use and bad input: one line, exit code 2") {
   fails(run(data("letters/nef.vsh") + " --box 0,0,0,0,1,1"), "flat along x");
   fails(run(data("letters/nef.vsh") + " --frobnicate"), "--frobnicate");
   fails(run(data("letters/nef.vsh") + " --threads -1"), "--threads");
-  fails(run(data("letters/nef.vsh") + " --simplify nan"), "--simplify");
+  fails(run(data("letters/nef.vsh") + " --simplify nan"), "--simplify: a number from 0 on is needed, not 'nan'");
+  fails(run(data("letters/nef.vsh") + " --at-least 0"), "--at-least: a positive number is needed, not '0'");
+  fails(run(data("letters") + " --turntable 12"), "give --K f,cx,cy, --radius R and --height H");
+  fails(run(data("letters") + " --turntable 0 --K 9,5,5 --radius 4"), "--turntable N: from 2 to 100000");
   fails(run(data("letters/nef.vsh") + " --box 0,0,0,nan,1,1"), "'nan' in '0,0,0,nan,1,1' is no number");
   fails(run(data("letters/nef.vsh") + " --threshold bright"), "neither a number nor otsu");
   fails(run(data("letters/nef.vsh") + " --channel infrared"), "--channel");
@@ -298,6 +303,22 @@ TEST_CASE("Suspects are listed in the report, none on a clean set") {
   for (const auto& view : report["views"]) {
     for (const char* key : {"residual", "fall", "removed", "relative", "score"}) CHECK(view.contains(key));
   }
+}
+
+TEST_CASE("A frame that cuts silhouettes is told, with the remedy") {
+  Result result;
+  for (const char* name : {"a", "b", "c", "d", "e"}) {
+    result.views.emplace_back();
+    result.views.back().name = name;
+  }
+  CHECK_FALSE(cut_note(result));
+  result.views[1].silhouette.cut_by_frame = true;
+  CHECK_THAT(cut_note(result).value(), StartsWith("the frame cuts the silhouette of view b,"));
+  for (ViewResult& view : result.views) view.silhouette.cut_by_frame = true;
+  CHECK_THAT(cut_note(result).value(),
+             Contains("silhouettes of views a, b, c and 2 more") && Contains("--border unknown"));
+  for (ViewResult& view : result.views) view.silhouette.background = true;  // as --border unknown has it
+  CHECK_FALSE(cut_note(result));
 }
 
 TEST_CASE("Help names every option") {

@@ -207,6 +207,18 @@ TEST_CASE("OpenCV's FileStorage: the calibration sample, lists, numbered nodes, 
   REQUIRE(numbered.views.size() == 1);
   check_camera(numbered.views[0].camera);
 
+  // Names of OpenCV's tutorials; what may be a lens by another name is refused.
+  const std::string view0 =
+      "mtx0: [100., 0., 100., 0., 100., 50., 0., 0., 1.]\nrvec0: [3.14159265358979, 0., 0.]\n"
+      "tvec0: [0., 0., 5.]\n";
+  const Scene lens = read_scene(s.write("lens.yml", "%YAML:1.0\n---\n" + view0 + "dist0: [1., 2., 3., 4.]\n"));
+  REQUIRE(lens.views.size() == 1);
+  check_camera(lens.views[0].camera);
+  CHECK(lens.views[0].distortion.coefficients == std::vector<double>{1, 2, 3, 4});
+  CHECK_THAT(understood(lens), Contains("lens distortion is undone"));
+  CHECK_THAT(refusal(s.write("lenses.yml", "%YAML:1.0\n---\n" + view0 + "distorsion_0: [1., 2., 3., 4.]\n")),
+             Contains("'distorsion_0' is not understood; lens distortion is called"));
+
   const std::string named = "world_mat_10: " + twelve + "\nworld_mat_9: " + twelve + "\nscale: 3.\n";
   const auto other = s.write("other.yml", "%YAML:1.0\n---\n" + named);
   CHECK_THAT(refusal(other), Contains("--matrices"));

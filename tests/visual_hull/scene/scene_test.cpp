@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "apps/visual_hull/formats/scene_json.h"
+#include "apps/visual_hull/scene/understanding.h"
 #include "nef/base/error.h"
 #include "tests/visual_hull/helpers.h"
 #include "tests/visual_hull/scratch.h"
@@ -13,6 +14,7 @@ namespace visual_hull {
 namespace {
 
 using Catch::Contains;
+using Catch::EndsWith;
 using testing::Scratch;
 
 std::string refusal_of_scene(const Scratch& scratch, const std::string& name, const std::string& text) {
@@ -175,6 +177,14 @@ TEST_CASE("Malformed scenes are refused in one line that says where") {
              Contains("not true"));
   CHECK_THAT(refusal_of_scene(s, "d.json", R"({"cameras": [{"P": [1,0,0,0,0,1,0,0,0,0,1,0], "distortion": [1]}]})"),
              Contains("needs the intrinsics"));
+  const std::string camera = R"({"cameras": [{"K": [1,0,0,0,1,0,0,0,1], "R": [1,0,0,0,1,0,0,0,1], "t": [0,0,1])";
+  CHECK_THAT(refusal_of_scene(s, "e.json", camera + R"(, "dist": [0,0,0,0]}]})"),
+             Contains("'dist' is not understood; lens distortion is 'distortion'"));
+  const Scene noted = read_scene(s.write("n.json", camera + R"(, "fov": 30}], "bocks": [0,0,0,1,1,1]})"));
+  CHECK_THAT(understood(noted), EndsWith("; ignored: 'bocks', 'fov'"));
+  CHECK_THAT(refusal_of_scene(s, "white.txt", " \n\t\n"), Contains("the file is empty"));
+  CHECK_THROWS_WITH(read_scene(s.write("m.json", camera + "}]}"), {"world_mat_*"}),
+                    Contains("--matrices") && Contains("is no OpenCV FileStorage and no MATLAB file"));
   CHECK_THAT(refusal_of_scene(s, "b.json", R"({"cameras": [{"P": [1,0,0,0,0,1,0,0,0,0,1,0]}], "box": [0,0,0,1,1,0]})"),
              Contains("flat along z"));
   CHECK_THAT(refusal_of_scene(s, "a.vsh", "0 0 0 1 1"), Contains("ends before the room's largest corner"));

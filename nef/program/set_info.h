@@ -18,9 +18,9 @@ struct SetInfoOptions {
 inline constexpr std::size_t kShortNumber = 100;
 
 /// Everything that `nef info` tells about a set: counts, properties, measures. Numbers that are infinite, undefined,
-/// too long or not wanted are null. Where the exact volume is not wanted, `volume_double` is off by at most
-/// `volume_error`. `volume_digits` says how many digits the exact volume has (numerator and
-/// denominator together).
+/// too long or not wanted are null. Where the exact volume is not wanted, `volume_double` and `area` are
+/// off by at most `volume_error` and `area_error`. `volume_digits` says how many digits the exact volume has (numerator
+/// and denominator together).
 nlohmann::ordered_json set_info(const Polyhedron& set, const SetInfoOptions& options = {});
 
 /// The members that tell of a volume, which may be infinite, and of a box, which may not be there.

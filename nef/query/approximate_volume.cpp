@@ -83,7 +83,49 @@ Sums sums_over(const Complex& c, std::span<const Facet> facets, const Vec& origi
   return sums;
 }
 
+// Coordinates are off by e at most.
+Sums areas_over(const Complex& c, std::span<const Facet> facets, double e) {
+  Sums sums;
+  for (const Facet& facet : facets) {
+    if (facet.cycle_count == 0) continue;
+    const Vec corner0 = c.points.approximate(PointId(c.shalfedge_owner[c.corners_of(facet.first_cycle).front()]));
+    const Area area = twice_area(c, facet, corner0, e);
+    const double size = std::sqrt(dot(area.vector, area.vector)) / 2;
+    sums.value += size;
+    // Half of the error of a vector, and the roundings of its length.
+    sums.error += 0.87 * area.error + size * 0x1p-50;
+    sums.sizes += size;
+    ++sums.terms;
+  }
+  return sums;
+}
+
+// By how much a difference of two coordinates may be off: each is off by 2^-51 of itself (PointTable::approximate).
+double error_of_differences(const Complex& c) {
+  double largest = 0;
+  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
+    largest = std::max(largest, size_of(c.points.approximate(PointId(v))));
+  }
+  return largest * 0x1p-49;
+}
+
 constexpr std::size_t kFacets = 4096;  // of a task
+
+// over(facets) for all facets, some thousands at a time: the sums do not depend on the threads.
+template <typename Over>
+Sums summed(const Complex& c, unsigned threads, const Over& over) {
+  const std::span<const Facet> facets(c.facets.values());
+  std::vector<Sums> sums((facets.size() + kFacets - 1) / kFacets);
+  parallel_for(sums.size(), threads, [&](std::size_t task) {
+    const std::size_t first = task * kFacets;
+    sums[task] = over(facets.subspan(first, std::min(kFacets, facets.size() - first)));
+  });
+  Sums all;
+  for (const Sums& some : sums) all.add(some);
+  // Of each term, and of adding them.
+  all.error += all.sizes * static_cast<double>(all.terms) * 0x1p-52;
+  return all;
+}
 
 }  // namespace
 
@@ -92,21 +134,16 @@ MeasuredVolume approximate_volume(const Polyhedron& bounded, unsigned threads) {
   if (c.vertex_count() == 0) return {};
   // Relative to a point of the set: little is lost by cancellation.
   const Vec origin = c.points.approximate(PointId(0U));
-  double largest = 0;
-  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
-    largest = std::max(largest, size_of(c.points.approximate(PointId(v))));
-  }
-  // A coordinate is off by 2^-51 of itself (PointTable::approximate), a difference of two by e.
-  const double e = largest * 0x1p-49;
-  const std::span<const Facet> facets(c.facets.values());
-  std::vector<Sums> sums((facets.size() + kFacets - 1) / kFacets);
-  parallel_for(sums.size(), threads, [&](std::size_t task) {
-    const std::size_t first = task * kFacets;
-    sums[task] = sums_over(c, facets.subspan(first, std::min(kFacets, facets.size() - first)), origin, e);
-  });
-  Sums all;
-  for (const Sums& some : sums) all.add(some);
-  return {all.value / 6, (all.error + all.sizes * static_cast<double>(all.terms) * 0x1p-52) / 6};
+  const double e = error_of_differences(c);
+  const Sums sums = summed(c, threads, [&](std::span<const Facet> some) { return sums_over(c, some, origin, e); });
+  return {sums.value / 6, sums.error / 6};
+}
+
+MeasuredArea approximate_area(const Polyhedron& bounded, unsigned threads) {
+  const Complex& c = bounded.complex();
+  const double e = error_of_differences(c);
+  const Sums sums = summed(c, threads, [&](std::span<const Facet> some) { return areas_over(c, some, e); });
+  return {sums.value, sums.error};
 }
 
 }  // namespace nef

@@ -15,4 +15,14 @@ struct MeasuredVolume {
 /// have millions of digits. O(n). The number does not depend on that of the threads (0: as many as the machine has).
 MeasuredVolume approximate_volume(const Polyhedron& bounded, unsigned threads = 1);
 
+/// An area in double precision that is off by at most `error`.
+struct MeasuredArea {
+  double value = 0;
+  double error = 0;
+};
+
+/// The area of all facets of a bounded set, each once; nef::surface_area, which is off by some units in the last place
+/// only, takes longer than making a detailed set. O(n). The number does not depend on that of the threads.
+MeasuredArea approximate_area(const Polyhedron& bounded, unsigned threads = 1);
+
 }  // namespace nef

@@ -2,14 +2,17 @@
 //
 // A set large enough to be linked in shares, on any number of threads, against the one that Booleans have linked.
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <random>
 
 #include "nef/construct/construct.h"
 #include "nef/location/query_structure.h"
 #include "nef/polyhedron.h"
 #include "nef/query/approximate_volume.h"
+#include "nef/query/measure.h"
 #include "nef/synthesis/complex_builder.h"
 #include "nef/validation/validate.h"
+#include "tests/support/oblique_rotation.h"
 
 namespace nef::test {
 namespace {
@@ -96,6 +99,23 @@ TEST_CASE("A volume in doubles does not depend on the number of threads", "[thre
   CHECK(one.error == three.error);
   const Rational exact = *volume(set);
   CHECK(abs(exact - exact_rational(one.value)) <= exact_rational(one.error));
+}
+
+TEST_CASE("An area in doubles is off by no more than it says, and does not depend on the number of threads",
+          "[threads]") {
+  const Polyhedron set = many_cells(6);
+  // Turned, and far from the origin: no coordinate is a double.
+  const AffineMap away = AffineMap::translate({Rational(100001, 3), Rational(200003, 7), Rational(-50, 11)});
+  for (const Polyhedron& some : {set, transform(set, away.after(oblique_rotation()))}) {
+    const MeasuredArea one = approximate_area(some);
+    const MeasuredArea three = approximate_area(some, 3);
+    CHECK(one.value == three.value);
+    CHECK(one.error == three.error);
+    const double area = surface_area(some);  // within some units in the last place
+    CHECK(std::fabs(one.value - area) <= one.error + area * 0x1p-49);
+    CHECK(one.error < area * 1e-6);
+  }
+  CHECK(approximate_area({}).value == 0);
 }
 
 TEST_CASE("A structure for some rays finds on them what the one for all finds") {

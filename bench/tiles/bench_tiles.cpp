@@ -224,6 +224,7 @@ int main(int argc, char** argv) {
   }
   try {
     nef::Tiling tiling;
+    if (words[0] == "union") tiling.limit = nef::kVerticesOfTileInFile;
     double size = 0.01;
     bool stream = false;
     bool every = false;

@@ -25,7 +25,7 @@ class TiledPolyhedron {
   /// Cuts a set into tiles. O(n log n).
   explicit TiledPolyhedron(const Polyhedron& set, const Tiling& tiling = {});
   /// The union of any number of sets, region by region (import/union_in_tiles.h).
-  explicit TiledPolyhedron(std::span<const Polyhedron> pieces, const Tiling& tiling = {});
+  explicit TiledPolyhedron(std::span<const Polyhedron> pieces, const Tiling& tiling = {.limit = kVerticesOfTileInFile});
 
   [[nodiscard]] const Tiling& tiling() const { return tiling_; }
   [[nodiscard]] std::size_t tile_count() const;

@@ -48,6 +48,7 @@ Box piece_box(const Polyhedron& set);
 /// The union of all pieces. Regions of at most `most` pieces are made on up to tiling.threads threads; what is in
 /// memory are the pieces of as many regions, and the tiles (see Tiling::store). O(n log n) for pieces that meet few
 /// others.
-TiledPolyhedron union_in_tiles(const PieceSource& pieces, const Tiling& tiling = {}, std::size_t most = 400);
+TiledPolyhedron union_in_tiles(const PieceSource& pieces, const Tiling& tiling = {.limit = kVerticesOfTileInFile},
+                               std::size_t most = 400);
 
 }  // namespace nef

@@ -102,7 +102,7 @@ std::vector<std::array<Rational, 2>> regular_polygon(int n, double radius, doubl
 }
 
 // Splits every triangle into four and moves the new vertices onto the sphere.
-Mesh sphere(Mesh seed, int level, double radius, const Point& shift) {
+Mesh sphere(const Mesh& seed, int level, double radius, const Point& shift) {
   std::vector<std::array<double, 3>> points;
   for (const Rational3& v : seed.vertices) points.push_back({v[0].get_d(), v[1].get_d(), v[2].get_d()});
   std::vector<std::uint32_t> triangles = seed.corners;

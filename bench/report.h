@@ -3,30 +3,19 @@
 // What one library did with one case, as the line of JSON that bench/run reads.
 #pragma once
 
-#include <time.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
 #include <string>
 #include <vector>
 
+#include "nef/base/stopwatch.h"
+
 namespace nef::bench {
 
 /// CPU seconds of this process since construction. Every engine runs on one thread, so on a quiet
 /// machine this is the time on the clock, and on a busy one it is still comparable.
-class Stopwatch {
- public:
-  [[nodiscard]] double seconds() const { return now() - start_; }
-
- private:
-  static double now() {
-    timespec time{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-  }
-  double start_ = now();
-};
+using Stopwatch = ProcessStopwatch;
 
 /// The peak of resident memory since the program was loaded, in KiB. (The maximum that getrusage
 /// tells includes what the parent had before it became this program.)

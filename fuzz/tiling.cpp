@@ -37,7 +37,7 @@ int place(const std::vector<std::array<int, 2>>& base, const std::array<int, 2>&
 }  // namespace
 
 Tiling::Tiling(int width, int height) : width_(width), height_(height) {
-  const auto side_length = static_cast<std::size_t>(4 * width + 1);
+  const auto side_length = 4 * static_cast<std::size_t>(width) + 1;
   number_.assign(side_length * side_length, 0);
   // Vertices, then edges, then triangles, so that faces have numbers already.
   for (int x = 0; x <= 4 * width; x += 2) {

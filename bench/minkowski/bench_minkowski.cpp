@@ -5,7 +5,6 @@
 // installed. Times are processor seconds, the best of some runs, single-threaded, without reading
 // and conversion of the meshes.
 #include <sys/resource.h>
-#include <time.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -13,6 +12,7 @@
 #include <string>
 
 #include "apps/minkowski/minkowski.h"
+#include "nef/base/stopwatch.h"
 #include "nef/io/mesh/mesh_reader.h"
 #include "tests/support/minkowski_shapes.h"
 #ifdef NEF_BENCH_CGAL
@@ -28,13 +28,6 @@ using nef::minkowski::minkowski_sum;
 using nef::minkowski::MinkowskiOptions;
 using nef::minkowski::MinkowskiReport;
 using nef::minkowski::UnionStrategy;
-
-// Processor time of this thread: both engines use one, and other programs do not count.
-double now() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
 
 Mesh cube(const Rational& half) {
   std::vector<nef::Rational3> corners;
@@ -77,9 +70,10 @@ double time_sum(const std::string& name, const Polyhedron& a, const Polyhedron& 
     MinkowskiReport r;
     MinkowskiOptions options;
     options.strategy = strategy;
-    const double start = now();
+    // Of this thread: both engines use one, and other programs do not count.
+    const nef::ThreadStopwatch watch;
     sum = minkowski_sum(a, b, options, &r);
-    const double seconds = now() - start;
+    const double seconds = watch.seconds();
     if (seconds < best) {
       best = seconds;
       report = r;
@@ -126,9 +120,9 @@ void run_decomposition(const std::string& name, const Mesh& mesh, const Settings
   double best = 1e300;
   std::size_t cells = 0;
   for (int i = 0; i < settings.repeat; ++i) {
-    const double start = now();
+    const nef::ThreadStopwatch watch;
     cells = nef::minkowski::decompose(a).size();
-    best = std::min(best, now() - start);
+    best = std::min(best, watch.seconds());
   }
   std::printf("%-34s %9.4f s  %zu cells\n", ("decompose " + name).c_str(), best, cells);
   std::fflush(stdout);

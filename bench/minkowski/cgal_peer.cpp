@@ -7,9 +7,10 @@
 #include <CGAL/Polyhedron_incremental_builder_3.h>
 #include <CGAL/convex_decomposition_3.h>
 #include <CGAL/minkowski_sum_3.h>
-#include <time.h>
 
 #include <sstream>
+
+#include "nef/base/stopwatch.h"
 
 namespace nef::bench {
 namespace {
@@ -64,14 +65,9 @@ PeerResult cgal_minkowski_sum(const Mesh& a, const Mesh& b) {
   for (auto volume = pieces.volumes_begin(); volume != pieces.volumes_end(); ++volume) {
     if (volume->mark()) ++result.pieces;
   }
-  const auto now = [] {
-    timespec t{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-  };
-  const double start = now();
+  const ThreadStopwatch watch;
   const Nef sum = CGAL::minkowski_sum_3(x, y);
-  result.seconds = now() - start;
+  result.seconds = watch.seconds();
   result.vertices = sum.number_of_vertices();
   result.facets = sum.number_of_facets();
   result.volumes = sum.number_of_volumes();

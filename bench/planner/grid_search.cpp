@@ -10,7 +10,7 @@
 #include <random>
 
 #include "apps/planner/first_way/a_star.h"
-#include "bench/planner/timed_checks.h"
+#include "nef/base/stopwatch.h"
 
 namespace {
 
@@ -33,7 +33,7 @@ double distance_to_end(std::size_t x, std::size_t y, std::size_t z) {
 
 Search ours(const std::vector<char>& blocked) {
   Search result;
-  const double begin = nef::planner::processor();
+  const nef::ProcessStopwatch watch;
   AStar search(blocked.size());
   const auto last = static_cast<AStar::Node>(blocked.size() - 1);
   search.offer(0, AStar::kNone, 0, distance_to_end(0, 0, 0));
@@ -54,7 +54,7 @@ Search ours(const std::vector<char>& blocked) {
     }
   }
   result.length = search.cost(last);
-  result.seconds = nef::planner::processor() - begin;
+  result.seconds = watch.seconds();
   return result;
 }
 
@@ -71,7 +71,7 @@ struct Visitor : boost::default_astar_visitor {
 
 Search boosts(const std::vector<char>& blocked) {
   Search result;
-  const double begin = nef::planner::processor();
+  const nef::ProcessStopwatch watch;
   const Grid grid(boost::array<std::size_t, 3>{{kSide, kSide, kSide}});
   const auto index = get(boost::vertex_index, grid);
   const auto map = [&index](auto& values) { return boost::make_iterator_property_map(values.begin(), index); };
@@ -97,7 +97,7 @@ Search boosts(const std::vector<char>& blocked) {
     // There is no other way out.
   }
   result.length = cost.back();
-  result.seconds = nef::planner::processor() - begin;
+  result.seconds = watch.seconds();
   return result;
 }
 

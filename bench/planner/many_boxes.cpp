@@ -67,19 +67,18 @@ void time_checks(const FreeSpace& free) {
   constexpr int kRounds = 20;
   const double checks = kRounds * static_cast<double>(points.size());
   std::size_t valid = 0;
-  double begin = processor();
+  ProcessStopwatch watch;
   for (int round = 0; round < kRounds; ++round) {
     for (const ExactPoint& point : points) valid += free.is_free(point) ? 1 : 0;
   }
-  const double state = (processor() - begin) / checks;
-  begin = processor();
+  const double state = watch.lap() / checks;
   for (int round = 0; round < kRounds; ++round) {
     for (std::size_t i = 0; i + 1 < points.size(); ++i) {
       walk_segment(free.tree(), points[i], points[i + 1],
                    [&](const SegmentPart& part) { return free.is_free(part.cell); });
     }
   }
-  const double motion = (processor() - begin) / checks;
+  const double motion = watch.lap() / checks;
   std::printf("state check %.3f us, motion check between random states %.3f us; %zu of %zu states free\n", 1e6 * state,
               1e6 * motion, valid / kRounds, points.size());
 }
@@ -110,18 +109,13 @@ void time_changes(const Problem& problem, int changes) {
   double longest = 0;
   for (int i = 0; i < changes; ++i) {
     const Polyhedron box = further_box(random);
-    double begin = processor();
-    const auto lap = [&begin] {
-      const double passed = processor() - begin;
-      begin += passed;
-      return 1e3 * passed;
-    };
+    ProcessStopwatch watch;
     Polyhedron set = with_obstacle(scene, problem.free_space().set(), box);
-    const double positions = lap();
+    const double positions = 1e3 * watch.lap();
     const FreeSpace free(std::move(set));
-    const double cells = lap();
+    const double cells = 1e3 * watch.lap();
     find_path(free, *scene.start, *scene.goal, options);
-    const double path = lap();
+    const double path = 1e3 * watch.lap();
     sums[0] += positions;
     sums[1] += cells;
     sums[2] += path;
@@ -160,11 +154,11 @@ struct ChangeTime {
   int roadmaps = 0;
   int paths = 0;
 
-  // Asks the question; the change was made at `begin`.
-  void ask(TranslationPlanning& setup, double begin) {
+  // Asks the question; the watch has run since the change began.
+  void ask(TranslationPlanning& setup, const ProcessStopwatch& watch) {
     setup.clear();
     setup.solve(60.0);
-    const double passed = 1e3 * (processor() - begin);
+    const double passed = 1e3 * watch.seconds();
     sum += passed;
     longest = std::max(longest, passed);
     ++count;
@@ -191,31 +185,31 @@ void time_planning(const Problem& problem, int changes) {
   const auto last = [&] { return setup.getScene().obstacles.size() - 1; };
   for (int i = 0; i < changes; ++i) {
     const Polyhedron box = further_box(random);
-    double begin = processor();
+    ProcessStopwatch watch;
     setup.addObstacle(box);
-    beside.ask(setup, begin);
-    begin = processor();
+    beside.ask(setup, watch);
+    watch = {};
     setup.removeObstacle(last());
-    gone.ask(setup, begin);
+    gone.ask(setup, watch);
     const Polyhedron blocking = box_on(way, random);
-    begin = processor();
+    watch = {};
     setup.addObstacle(blocking);
-    on_way.ask(setup, begin);
-    begin = processor();
+    on_way.ask(setup, watch);
+    watch = {};
     setup.removeObstacle(last());
-    gone.ask(setup, begin);
+    gone.ask(setup, watch);
     const std::size_t old = random() % last();
     const Polyhedron taken = setup.getScene().obstacles[old];
-    begin = processor();
+    watch = {};
     setup.removeObstacle(old);
-    old_gone.ask(setup, begin);
+    old_gone.ask(setup, watch);
     setup.addObstacle(taken);
     setup.clear();
     setup.solve(60.0);
     const Rational3 by{Rational(static_cast<int>(random() % 33) - 16, 8), 1, -1};
-    begin = processor();
+    watch = {};
     setup.moveObstacle(random() % last(), by);
-    moved.ask(setup, begin);
+    moved.ask(setup, watch);
   }
   std::printf("TranslationPlanning, a change and a question:\n");
   beside.print("a box comes near the diagonal");
@@ -234,9 +228,9 @@ void share_of_checks(const Problem& problem, const char* name) {
   si->setMotionValidator(std::make_shared<TimedMotion>(si, problem.shared_free_space(), checks));
   setup.setPlanner(make_ompl_planner(name, si));
   setup.setup();
-  const double begin = now();
+  const Stopwatch watch;
   setup.solve(2.0);
-  const double wall = now() - begin;
+  const double wall = watch.seconds();
   std::printf("%-12s %s in %.4f s, %.0f %% of it in checks\n", name,
               setup.haveExactSolutionPath() ? "solved" : "no path", wall, 100 * checks.seconds / wall);
 }
@@ -247,7 +241,7 @@ int main(int argc, char** argv) {
   const int boxes = argc > 1 ? std::atoi(argv[1]) : 200;
   const unsigned seed = argc > 2 ? static_cast<unsigned>(std::atoi(argv[2])) : 1;
   ompl::msg::setLogLevel(ompl::msg::LOG_NONE);
-  const double begin = processor();
+  ProcessStopwatch watch;
   Scene scene = scene_of(boxes, seed);
   if (argc > 4) {
     scene.obstacles.push_back(tight_room());
@@ -258,7 +252,7 @@ int main(int argc, char** argv) {
   PathOptions options;
   options.thorough = false;
   const Answer answer = problem.solve(options);
-  const double processor_all = processor() - begin;
+  const double processor_all = watch.seconds();
   std::printf("%d boxes: %s, length %.4f\n", boxes, status_name(answer.status).c_str(),
               answer.path ? answer.path->length : 0.0);
   for (const auto& [phase, seconds] : answer.phases) std::printf("  %-20s %.3f s\n", phase.c_str(), seconds);
@@ -269,10 +263,10 @@ int main(int argc, char** argv) {
   time_changes(problem, changes);
   time_planning(problem, changes);
   if (argc > 3) return 0;
-  const double before_roadmap = processor();
+  watch = {};
   free.build_roadmap();
-  std::printf("a roadmap %.1f ms: %zu leaves, %zu stations\n", 1e3 * (processor() - before_roadmap),
-              free.tree().leaves().size(), free.zones().stations().size());
+  std::printf("a roadmap %.1f ms: %zu leaves, %zu stations\n", 1e3 * watch.seconds(), free.tree().leaves().size(),
+              free.zones().stations().size());
   time_checks(free);
   for (const char* name : {"RRTConnect", "PRM", "EST"}) share_of_checks(problem, name);
   return 0;

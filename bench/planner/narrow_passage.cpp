@@ -69,15 +69,14 @@ void run_ours(bool hole, const char* width, unsigned runs) {
   std::vector<double> again;
   std::string answer;
   for (unsigned i = 0; i < runs; ++i) {
-    const double begin = processor();
+    ProcessStopwatch watch;
     const Problem problem(scene_of(hole, r(width)));
     PathOptions options;
     options.thorough = false;
     answer = status_name(problem.solve(options).status);
-    all.push_back(processor() - begin);
-    const double second = processor();
+    all.push_back(watch.lap());
     static_cast<void>(problem.solve({r("0.31"), r("0.3"), r("0.3")}, {r("1.8"), r("0.7"), r("0.7")}, options));
-    again.push_back(processor() - second);
+    again.push_back(watch.lap());
   }
   std::printf("| %s | %s | TightPlanner | %s, %u/%u | %.4f | %.5f (next query) | |\n", hole ? "hole" : "slot", width,
               answer.c_str(), runs, runs, median(all), median(again));
@@ -113,12 +112,13 @@ void run_stock(bool hole, const char* width, const char* name, double seconds, u
     setup.setOptimizationObjective(objective);
     setup.setPlanner(make_ompl_planner(bridge ? "PRM" : name, si));
     setup.setup();
-    const double begin = now();
+    const Stopwatch watch;
     setup.solve(seconds);
-    wall += now() - begin;
+    const double passed = watch.seconds();
+    wall += passed;
     if (!setup.haveExactSolutionPath()) continue;
     ++solved;
-    times.push_back(now() - begin);
+    times.push_back(passed);
   }
   char time[32] = "-";
   if (solved > 0) std::snprintf(time, sizeof time, "%.4f", median(times));
@@ -142,16 +142,15 @@ void time_checks() {
   for (ob::State* state : states) sampler->sampleUniform(state);
   constexpr int kRounds = 100;
   unsigned valid = 0;
-  double begin = now();
+  Stopwatch watch;
   for (int round = 0; round < kRounds; ++round) {
     for (const ob::State* state : states) valid += si->isValid(state) ? 1 : 0;
   }
-  const double state_check = (now() - begin) / (kRounds * kStates);
-  begin = now();
+  const double state_check = watch.lap() / (kRounds * kStates);
   for (int round = 0; round < kRounds; ++round) {
     for (std::size_t i = 0; i + 1 < kStates; ++i) valid += si->checkMotion(states[i], states[i + 1]) ? 1 : 0;
   }
-  const double motion_check = (now() - begin) / (kRounds * kStates);
+  const double motion_check = watch.lap() / (kRounds * kStates);
   std::printf("\nstate check %.3f us, motion check %.3f us (%u valid)\n", 1e6 * state_check, 1e6 * motion_check, valid);
   si->freeStates(states);
 }

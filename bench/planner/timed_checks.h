@@ -1,22 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Exact checks for OMPL that know how long they took.
+// Exact checks for OMPL that know how long they took: on the wall, since OMPL's limits are of that clock, too.
 #pragma once
 
-#include <chrono>
-#include <ctime>
-
 #include "apps/planner/ompl/nef_validity.h"
+#include "nef/base/stopwatch.h"
 
 namespace nef::planner {
-
-/// Seconds of the wall clock, since OMPL's limits are of the wall clock too.
-inline double now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-/// Processor seconds of this program, for what is ours: a busy machine does not count.
-inline double processor() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 /// Shared by the checkers of one run.
 struct CheckTime {
@@ -29,9 +19,9 @@ class TimedState : public NefStateValidityChecker {
       : NefStateValidityChecker(si, std::move(free)), time_(time) {}
   using NefStateValidityChecker::isValid;
   bool isValid(const ompl::base::State* state) const override {
-    const double begin = now();
+    const Stopwatch watch;
     const bool valid = NefStateValidityChecker::isValid(state);
-    time_.seconds += now() - begin;
+    time_.seconds += watch.seconds();
     return valid;
   }
 
@@ -45,9 +35,9 @@ class TimedMotion : public NefMotionValidator {
       : NefMotionValidator(si, std::move(free)), time_(time) {}
   using NefMotionValidator::checkMotion;
   bool checkMotion(const ompl::base::State* a, const ompl::base::State* b) const override {
-    const double begin = now();
+    const Stopwatch watch;
     const bool valid = NefMotionValidator::checkMotion(a, b);
-    time_.seconds += now() - begin;
+    time_.seconds += watch.seconds();
     return valid;
   }
 

@@ -13,7 +13,7 @@
 
 #include "apps/planner/turning/turning_collision.h"
 #include "apps/planner/turning/turning_search.h"
-#include "bench/planner/timed_checks.h"
+#include "nef/base/stopwatch.h"
 #include "nef/construct/construct.h"
 
 namespace {
@@ -125,9 +125,9 @@ Question dense(unsigned seed) {
 
 // Returns the seconds.
 double tell(const char* name, const Question& q, std::size_t max_cells = 2000) {
-  const double begin = processor();
+  const ProcessStopwatch watch;
   const TurningAnswer answer = find_turning_path(q.scene, q.turning, {.max_cells = max_cells, .stop = {}});
-  const double seconds = processor() - begin;
+  const double seconds = watch.seconds();
   static constexpr const char* kNames[] = {"path", "infeasible", "undecided", "invalid start", "invalid goal"};
   std::printf("%-26s %-11s %4zu cells, %3zu looked at, %6.2f s\n", name,
               kNames[static_cast<std::size_t>(answer.status)], answer.cells, answer.looked_at, seconds);

@@ -99,7 +99,8 @@ void measure(const std::string& file, const Settings& settings) {
 }  // namespace visual_hull::bench
 
 int main(int argc, char** argv) {
-  using namespace visual_hull::bench;
+  using visual_hull::bench::measure;
+  using visual_hull::bench::Settings;
   Settings settings;
   std::string way = "best";
   CLI::App app{"Visual hulls phase by phase, beside voxel carving"};

@@ -220,7 +220,7 @@ class Builder {
     return checked(std::move(value));
   }
 
-  Value unary(Value a) {
+  Value unary(const Value& a) {
     const std::uint32_t kind = case_.choices().below(6);
     static constexpr std::array kNames{"!", "interior", "closure", "boundary", "exterior", "regularize"};
     Value value;
@@ -252,7 +252,7 @@ class Builder {
     return checked(std::move(value));
   }
 
-  Value binary(Value a, Value b) {
+  Value binary(const Value& a, const Value& b) {
     const std::uint32_t kind = case_.choices().below(4);
     Value value;
     value.text = "(" + a.text + " " + "+*-^"[kind] + " " + b.text + ")";

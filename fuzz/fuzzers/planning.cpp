@@ -236,7 +236,7 @@ class PlanningCase {
         }
       }
     }
-    const auto side = static_cast<std::uint64_t>(high_ - low_ + 1);
+    const std::uint64_t side = static_cast<std::uint64_t>(high_ - low_) + 1;
     case_.count("positions", side * side * side);
   }
 

@@ -106,7 +106,7 @@ Planar random_planar(Choices& choices, int low, int high) {
 Polygon random_polygon(Choices& choices, int low, int high) {
   Polygon points;
   for (std::uint32_t i = 3 + choices.below(4); i > 0; --i) points.push_back(random_planar(choices, low, high));
-  const Polygon hull = convex_polygon_of(points);
+  Polygon hull = convex_polygon_of(points);
   if (!hull.empty()) return hull;
   const Planar p = points.front();
   return {p, {p[0] + 1, p[1]}, {p[0], p[1] + 1}};

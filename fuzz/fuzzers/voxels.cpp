@@ -75,7 +75,8 @@ Component random_voxels(Choices& choices) {
     for (const int x : c) {
       if (x < 0 || x >= kVoxelWidth) return false;
     }
-    return static_cast<bool>(result.holds[static_cast<std::size_t>(c[0] + kVoxelWidth * (c[1] + kVoxelWidth * c[2]))]);
+    const int place = c[0] + kVoxelWidth * (c[1] + kVoxelWidth * c[2]);
+    return static_cast<bool>(result.holds[static_cast<std::size_t>(place)]);
   };
   for (int i = 0; i < kCells; ++i) {
     const Cell c = cell_at(i);

@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "nef/base/error.h"
-#include "nef/complex/facet_plane.h"
 #include "nef/mesh/triangulate.h"
 #include "nef/number/nearest_quotient.h"
 
@@ -247,12 +246,12 @@ class Exporter {
       if (!points.empty()) triangulator_.emplace(points_.emplace(exporter.complex_.points, points));
     }
 
-    void triangulate(std::vector<std::vector<std::uint32_t>>& rings, std::pair<std::size_t, int> projection,
+    void triangulate(std::vector<std::vector<std::uint32_t>>& rings, const ProjectionAxis& projection,
                      std::vector<Triangulator::Triangle>& out) {
       for (std::vector<std::uint32_t>& ring : rings) {
         for (std::uint32_t& v : ring) v = number_[v];
       }
-      const bool done = triangulator_->triangulate(rings, projection.first, projection.second, out);
+      const bool done = triangulator_->triangulate(rings, projection.axis, projection.sign, out);
       NEF_ASSERT(done);
       for (Triangulator::Triangle& triangle : out) {
         for (std::uint32_t& v : triangle) v = vertex_[v];
@@ -303,15 +302,16 @@ class Exporter {
       }
       collect_rings(facet, corners, rings);
       corners += complex_.corners_of(facet).size();
-      const bool whole = rings.size() == 1 &&
-                         (!options_.only_convex || polygons.strictly_convex(rings[0], projection(facet.plane).first));
+      const ProjectionAxis projection = projection_axis(complex_.planes, facet.plane);
+      const bool whole =
+          rings.size() == 1 && (!options_.only_convex || polygons.strictly_convex(rings[0], projection.axis));
       if (options_.keep_polygons && whole && may_stay_polygon(rings[0])) {
         if (flip) std::reverse(rings[0].begin(), rings[0].end());
         faces_.push_face(rings[0]);
         continue;
       }
       triangles.clear();
-      polygons.triangulate(rings, projection(facet.plane), triangles);
+      polygons.triangulate(rings, projection, triangles);
       for (auto& triangle : triangles) {
         if (flip) std::swap(triangle[1], triangle[2]);
         faces_.push_face(triangle);
@@ -343,11 +343,6 @@ class Exporter {
       std::swap(face[1], face[2]);
     }
     faces_.push_face(face);
-  }
-
-  [[nodiscard]] std::pair<std::size_t, int> projection(PlaneId plane) const {
-    const PlaneAxes axes(complex_.planes, plane);
-    return {static_cast<std::size_t>(axes.dropped), axes.positive ? 1 : -1};
   }
 
   // Sorts an item by what its mark and the volumes around it say about the mesh.

@@ -14,6 +14,8 @@
 namespace nef {
 namespace {
 
+__extension__ using Unsigned128 = unsigned __int128;
+
 constexpr double kUnit = 0x1p-53;
 
 int sign_of(double value) { return (value > 0) - (value < 0); }
@@ -42,27 +44,31 @@ int side_of_plane_exact(const PlaneTable& planes, PlaneId plane, const PointTabl
   return sign_with_infimaximal(c, r);
 }
 
-int compare_coordinate_exact(const PointTable& points, PointId p, PointId q, int axis) {
+// The sign of x / wp - y / wq for wp, wq > 0.
+int compare_quotients(mpz_srcptr x, mpz_srcptr wp, mpz_srcptr y, mpz_srcptr wq) {
+  const int sign = mpz_sgn(x);
+  if (sign != mpz_sgn(y)) return sign > mpz_sgn(y) ? 1 : -1;
+  if (sign == 0) return 0;
+  const auto limb = [](mpz_srcptr value) { return static_cast<Unsigned128>(mpz_getlimbn(value, 0)); };
+  if (mpz_size(x) == 1 && mpz_size(wp) == 1 && mpz_size(y) == 1 && mpz_size(wq) == 1) {
+    const Unsigned128 left = limb(x) * limb(wq);
+    const Unsigned128 right = limb(y) * limb(wp);
+    return left == right ? 0 : left > right ? sign : -sign;
+  }
   thread_local Integer difference;
   mpz_ptr d = difference.get_mpz_t();
+  mpz_mul(d, x, wq);
+  mpz_submul(d, y, wp);
+  return mpz_sgn(d);
+}
+
+int compare_coordinate_exact(const PointTable& points, PointId p, PointId q, int axis) {
   const IntegerView wp = points.coordinate(p, 3);
   const IntegerView wq = points.coordinate(q, 3);
   const auto k = static_cast<std::size_t>(axis);
-  const bool same = mpz_cmp(wp, wq) == 0;
-  for (const std::size_t column : {4 + k, k}) {  // the part in R decides first
-    const IntegerView x = points.coordinate(p, column);
-    const IntegerView y = points.coordinate(q, column);
-    int sign = 0;
-    if (same || x.sign() != y.sign()) {
-      sign = mpz_cmp(x, y);
-    } else if (x.sign() != 0) {
-      mpz_mul(d, x, wq);
-      mpz_submul(d, y, wp);
-      sign = mpz_sgn(d);
-    }
-    if (sign != 0) return sign > 0 ? 1 : -1;
-  }
-  return 0;
+  // The part in R decides first.
+  const int sign = compare_quotients(points.coordinate(p, 4 + k), wp, points.coordinate(q, 4 + k), wq);
+  return sign != 0 ? sign : compare_quotients(points.coordinate(p, k), wp, points.coordinate(q, k), wq);
 }
 
 }  // namespace

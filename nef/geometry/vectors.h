@@ -5,8 +5,14 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <span>
 
 namespace nef {
+
+/// A point or vector near an exact one, with what is known of its errors beside it: the proofs of filters count the
+/// roundings of every product, so they are written out. What is no filter uses Eigen.
+using Double3 = std::array<double, 3>;
 
 template <class Number>
 std::array<Number, 3> minus(const std::array<Number, 3>& a, const std::array<Number, 3>& b) {
@@ -26,6 +32,17 @@ std::array<Number, 3> cross(const std::array<Number, 3>& a, const std::array<Num
 template <class Number>
 bool is_zero(const std::array<Number, 3>& a) {
   return a[0] == 0 && a[1] == 0 && a[2] == 0;
+}
+
+/// A normal of the plane of points that lie in one, on the side from which the first three that are on no line turn
+/// counterclockwise; zero if all lie on a line. Points may repeat.
+template <class Number>
+std::array<Number, 3> normal_of(std::span<const std::array<Number, 3>> points) {
+  std::array<Number, 3> normal{};
+  for (std::size_t i = 1; i + 1 < points.size() && is_zero(normal); ++i) {
+    normal = cross(minus(points[i], points[0]), minus(points[i + 1], points[0]));
+  }
+  return normal;
 }
 
 }  // namespace nef

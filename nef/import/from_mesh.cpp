@@ -14,6 +14,7 @@
 #include "nef/import/fill.h"
 #include "nef/import/from_surface.h"
 #include "nef/import/mesh_faces.h"
+#include "nef/import/try_from_mesh.h"
 #include "nef/mesh/mesh_check.h"
 
 namespace nef {
@@ -123,6 +124,14 @@ Polyhedron from_mesh(const Mesh& mesh, const MeshOptions& options, Messages* mes
   if (!result) result = checked_solid(mesh, surface, options, &notes);
   if (messages != nullptr) messages->insert(messages->end(), notes.begin(), notes.end());
   return *std::move(result);
+}
+
+std::variant<Polyhedron, MeshRefusal> try_from_mesh(const Mesh& mesh, const MeshOptions& options, Messages* messages) {
+  try {
+    return from_mesh(mesh, options, messages);
+  } catch (const InputError& error) {
+    return MeshRefusal{error.what()};
+  }
 }
 
 }  // namespace nef

@@ -86,11 +86,8 @@ void add_enclosed(const std::vector<Rational3>& ring, const Rational3& normal, s
 }
 
 // The normal of the plane of the points; the zero vector if they lie on a line, nothing if they lie in no plane.
-std::optional<Rational3> common_normal(const std::vector<Rational3>& points) {
-  Rational3 normal;
-  for (std::size_t i = 1; i + 1 < points.size() && is_zero(normal); ++i) {
-    normal = cross(minus(points[i], points[0]), minus(points[i + 1], points[0]));
-  }
+std::optional<Rational3> normal_if_planar(const std::vector<Rational3>& points) {
+  const Rational3 normal = normal_of<Rational>(points);
   for (const Rational3& p : points) {
     if (dot(normal, minus(p, points[0])) != 0) return std::nullopt;
   }
@@ -109,7 +106,7 @@ void add_single(const Mesh& mesh, const MeshSurface& surface, std::uint32_t f, s
   if (!cut(surface.points, ring, triangles)) {
     std::vector<Rational3> points;
     for (const std::uint32_t v : ring) points.push_back(mesh.vertices[v]);
-    if (const std::optional<Rational3> normal = common_normal(points); normal && !is_zero(*normal)) {
+    if (const std::optional<Rational3> normal = normal_if_planar(points); normal && !is_zero(*normal)) {
       add_enclosed(points, *normal, out);
       return;
     }

@@ -8,10 +8,12 @@
 #include <optional>
 #include <set>
 #include <unordered_map>
+#include <variant>
 
 #include "nef/base/error.h"
 #include "nef/base/union_find.h"
 #include "nef/geometry/vectors.h"
+#include "nef/import/try_from_mesh.h"
 #include "nef/mesh/edge_order.h"
 #include "nef/mesh/mesh_surface.h"
 #include "nef/mesh/vertex_merger.h"
@@ -40,12 +42,9 @@ Mesh mesh_of(const std::vector<Rational3>& vertices, const std::vector<Ring>& ri
 }
 
 std::string refusal(const Mesh& mesh) {
-  try {
-    from_mesh(mesh);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  const std::variant<Polyhedron, MeshRefusal> made = try_from_mesh(mesh);
+  const auto* refused = std::get_if<MeshRefusal>(&made);
+  return refused == nullptr ? "" : refused->text;
 }
 
 class Repairer {
@@ -297,12 +296,12 @@ class Repairer {
     for (Component& component : list) {
       std::vector<Ring> rings;
       for (const std::uint32_t f : component.faces) rings.push_back(rings_[f]);
-      try {
-        component.solid = from_mesh(mesh_of(vertices_, rings));
-        component.box = bounding_box(*component.solid).value();
-        component.inward = signed_volume(component) < 0;
-      } catch (const InputError&) {
-      }
+      std::variant<Polyhedron, MeshRefusal> made = try_from_mesh(mesh_of(vertices_, rings));
+      auto* solid = std::get_if<Polyhedron>(&made);
+      if (solid == nullptr) continue;
+      component.solid = std::move(*solid);
+      component.box = bounding_box(*component.solid).value();
+      component.inward = signed_volume(component) < 0;
     }
     std::size_t turned = 0;
     for (const Component& component : list) {

@@ -84,12 +84,9 @@ bool parse_short_decimal(std::string_view text, Rational& value) {
 
 bool parse_number(std::string_view text, Rational& value) {
   if (parse_short_decimal(text, value)) return true;
-  try {
-    value = parse_rational(text);
-    return true;
-  } catch (const InputError&) {
-    return false;
-  }
+  std::optional<Rational> parsed = try_parse_rational(text);
+  if (parsed) value = *std::move(parsed);
+  return parsed.has_value();
 }
 
 std::string_view TextCursor::take() {

@@ -25,8 +25,6 @@ bool one_sided(const Signs& s) {
 }
 int zeros(const Signs& s) { return (s[0] == 0 ? 1 : 0) + (s[1] == 0 ? 1 : 0) + (s[2] == 0 ? 1 : 0); }
 
-using Vector = std::array<double, 3>;
-
 // What separating vectors are tried with. For each point the product with a vector d is off by at most |d| times the
 // margin of the points and 4 u |d| |p|, for each coordinate; bound(d) is what the products of two points are off by.
 class Separation {
@@ -41,7 +39,7 @@ class Separation {
   }
 
   // True if all of the first are surely below all of the second.
-  [[nodiscard]] bool below(const Vector& d, std::span<const std::uint32_t> first,
+  [[nodiscard]] bool below(const Double3& d, std::span<const std::uint32_t> first,
                            std::span<const std::uint32_t> second) const {
     double high = -HUGE_VAL;
     double low = HUGE_VAL;
@@ -53,22 +51,22 @@ class Separation {
 
  private:
   const MeshPoints& points_;
-  Vector reach_{};
+  Double3 reach_{};
 };
 
 // Any vector proves two triangles disjoint if their images on it are disjoint, however the vector was come by. Tried
 // are the first triangle's normal, and in its plane and the other's those across their edges.
 bool surely_apart(const MeshPoints& points, const Triangle& a, const Triangle& b) {
   const Separation separation(points, a, b);
-  const auto separates = [&](const Vector& d) { return separation.below(d, a, b) || separation.below(d, b, a); };
+  const auto separates = [&](const Double3& d) { return separation.below(d, a, b) || separation.below(d, b, a); };
   for (const Triangle* t : {&a, &b}) {
-    std::array<Vector, 3> edge;
+    std::array<Double3, 3> edge;
     for (std::size_t k = 0; k < 3; ++k) {
       edge[k] = minus(points.approximate((*t)[(k + 1) % 3]), points.approximate((*t)[k]));
     }
-    const Vector normal = cross(edge[0], edge[1]);
+    const Double3 normal = cross(edge[0], edge[1]);
     if (separates(normal)) return true;
-    for (const Vector& e : edge) {
+    for (const Double3& e : edge) {
       if (separates(cross(normal, e))) return true;
     }
   }
@@ -81,21 +79,21 @@ bool surely_apart_but_for(const MeshPoints& points, std::uint32_t corner, const 
   const Separation separation(points, a, b);
   const std::array<std::uint32_t, 1> common{corner};
   std::array<std::array<std::uint32_t, 2>, 2> others{};  // of a and b
-  std::array<std::array<Vector, 2>, 2> sides{};          // from the corner, of length one
+  std::array<std::array<Double3, 2>, 2> sides{};         // from the corner, of length one
   for (std::size_t i = 0; i < 2; ++i) {
     std::size_t count = 0;
     for (const std::uint32_t v : i == 0 ? a : b) {
       if (v == corner) continue;
-      const Vector side = minus(points.approximate(v), points.approximate(corner));
+      const Double3 side = minus(points.approximate(v), points.approximate(corner));
       const double length = std::sqrt(dot(side, side));
       sides[i][count] = {side[0] / length, side[1] / length, side[2] / length};
       others[i][count++] = v;
     }
   }
-  const Vector normal = cross(sides[0][0], sides[0][1]);
-  for (const Vector& u : sides[0]) {
-    for (const Vector& v : sides[1]) {
-      const Vector d = cross(normal, Vector{u[0] + v[0], u[1] + v[1], u[2] + v[2]});
+  const Double3 normal = cross(sides[0][0], sides[0][1]);
+  for (const Double3& u : sides[0]) {
+    for (const Double3& v : sides[1]) {
+      const Double3 d = cross(normal, Double3{u[0] + v[0], u[1] + v[1], u[2] + v[2]});
       if (separation.below(d, others[0], common) && separation.below(d, common, others[1])) return true;
       if (separation.below(d, others[1], common) && separation.below(d, common, others[0])) return true;
     }
@@ -109,10 +107,10 @@ bool surely_apart_but_for(const MeshPoints& points, std::uint32_t corner, const 
 // sums of three of these round by less than 48 e m^3.
 bool surely_obtuse(const MeshPoints& points, std::uint32_t p, std::uint32_t q, std::uint32_t a, std::uint32_t b) {
   if (!points.moderate()) return false;
-  const Vector& origin = points.approximate(p);
-  const Vector edge = minus(points.approximate(q), origin);
-  const Vector u = minus(points.approximate(a), origin);
-  const Vector v = minus(points.approximate(b), origin);
+  const Double3& origin = points.approximate(p);
+  const Double3 edge = minus(points.approximate(q), origin);
+  const Double3 u = minus(points.approximate(a), origin);
+  const Double3 v = minus(points.approximate(b), origin);
   double largest = 0;
   double margin = 0;
   for (std::size_t i = 0; i < 3; ++i) {

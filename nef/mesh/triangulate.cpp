@@ -10,9 +10,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nef/complex/facet_plane.h"
 #include "nef/mesh/simple_ring.h"
 
 namespace nef {
+
+ProjectionAxis projection_axis(const PlaneTable& planes, PlaneId plane) {
+  const PlaneAxes axes(planes, plane);
+  return {static_cast<std::size_t>(axes.dropped), axes.positive != plane.flipped() ? 1 : -1};
+}
 
 int Triangulator::turn_at(std::uint32_t node) const {
   const Node& n = nodes_[node];

@@ -12,6 +12,14 @@
 
 namespace nef {
 
+/// The coordinate axis along which the normal of a plane is largest, and the sign of the oriented normal there: a
+/// polygon that turns counterclockwise about the normal is seen along the axis to turn by the sign.
+struct ProjectionAxis {
+  std::size_t axis = 0;
+  int sign = 1;
+};
+ProjectionAxis projection_axis(const PlaneTable& planes, PlaneId plane);
+
 /// Triangulates polygons on the points of one MeshPoints. Keeps its memory from call to call; one per thread.
 class Triangulator {
  public:

@@ -20,27 +20,27 @@ void make_room(std::vector<T>& values, std::size_t more) {
 }  // namespace
 
 void IntegerRows::widen() {
-  if (!wide_.empty()) return;
+  is_wide_ = true;
   wide_.reserve(sizes_.capacity());
-  wide_.assign(sizes_.begin(), sizes_.end());
+  wide_.assign(sizes_.begin() + kPadding, sizes_.end());
   sizes_ = std::vector<std::int8_t>();
 }
 
 void IntegerRows::push_size(std::int32_t size) {
-  if (size < -127 || size > 127) widen();
-  if (wide_.empty()) {
-    sizes_.push_back(static_cast<std::int8_t>(size));
-  } else {
+  if (!is_wide_ && (size < -127 || size > 127)) widen();
+  if (is_wide_) {
     wide_.push_back(size);
+  } else {
+    sizes_.push_back(static_cast<std::int8_t>(size));
   }
 }
 
 void IntegerRows::append_sizes(const IntegerRows& other, std::size_t first, std::size_t last) {
-  if (!other.wide_.empty() || !wide_.empty()) {
+  if (other.is_wide_ || is_wide_) {
     for (std::size_t i = first; i < last; ++i) push_size(other.size(i));
     return;
   }
-  const auto from = other.sizes_.begin();
+  const auto from = other.sizes_.begin() + kPadding;
   sizes_.insert(sizes_.end(), from + static_cast<std::ptrdiff_t>(first), from + static_cast<std::ptrdiff_t>(last));
 }
 
@@ -57,7 +57,7 @@ std::uint32_t IntegerRows::push(std::span<const mpz_srcptr> row) {
   std::size_t total = 0;
   for (const mpz_srcptr value : row) total += mpz_size(value);
   make_room(limbs_, total);
-  if (wide_.empty()) make_room(sizes_, width_);
+  if (!is_wide_) make_room(sizes_, width_);
   for (const mpz_srcptr value : row) {
     const std::size_t limbs = mpz_size(value);
     const mp_limb_t* data = mpz_limbs_read(value);
@@ -125,10 +125,10 @@ std::uint64_t IntegerRows::hash(std::uint32_t row) const {
 void IntegerRows::pop() {
   begin_.pop_back();
   limbs_.resize(begin_.back());
-  if (wide_.empty()) {
-    sizes_.resize(sizes_.size() - width_);
-  } else {
+  if (is_wide_) {
     wide_.resize(wide_.size() - width_);
+  } else {
+    sizes_.resize(sizes_.size() - width_);
   }
 }
 
@@ -140,7 +140,7 @@ std::size_t IntegerRows::bytes() const {
 void IntegerRows::reserve(std::size_t rows, std::size_t limbs_per_row) {
   limbs_.reserve(rows * limbs_per_row);
   begin_.reserve(rows + 1);
-  if (wide_.empty()) sizes_.reserve(rows * width_);
+  if (!is_wide_) sizes_.reserve(kPadding + rows * width_);
 }
 
 void IntegerRows::trim() {

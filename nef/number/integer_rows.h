@@ -6,7 +6,10 @@
 
 #include <gmp.h>
 
+#include <bit>
 #include <cstdint>
+#include <cstdlib>
+#include <cstring>
 #include <span>
 #include <vector>
 
@@ -17,7 +20,9 @@ namespace nef {
 /// A read-only view of one integer of an IntegerRows. Valid until the table changes.
 class IntegerView {
  public:
-  IntegerView(const mp_limb_t* limbs, mp_size_t signed_size) { mpz_roinit_n(value_, limbs, signed_size); }
+  /// The highest limb is not zero.
+  IntegerView(const mp_limb_t* limbs, int signed_size)
+      : value_ MPZ_ROINIT_N(const_cast<mp_limb_t*>(limbs), signed_size) {}
   operator mpz_srcptr() const { return value_; }  // NOLINT(google-explicit-constructor): a view of an mpz is one
   [[nodiscard]] int sign() const { return mpz_sgn(value_); }
 
@@ -28,7 +33,7 @@ class IntegerView {
 /// Rows of `width` integers each. Rows are appended and never change.
 class IntegerRows {
  public:
-  explicit IntegerRows(std::size_t width) : width_(width), begin_{0} {}
+  explicit IntegerRows(std::size_t width) : width_(width), begin_{0}, sizes_(kPadding, 0) {}
 
   [[nodiscard]] std::size_t size() const { return begin_.size() - 1; }
 
@@ -43,8 +48,8 @@ class IntegerRows {
 
   /// Entry `column` of row `row`.
   [[nodiscard]] IntegerView at(std::uint32_t row, std::size_t column) const {
-    return wide_.empty() ? view(&sizes_[row * width_], begin_[row], column)
-                         : view(&wide_[row * width_], begin_[row], column);
+    const std::size_t i = row * width_ + column;
+    return {limbs_.data() + begin_[row] + limbs_before(i, column), size(i)};
   }
 
   [[nodiscard]] int sign(std::uint32_t row, std::size_t column) const {
@@ -70,12 +75,32 @@ class IntegerRows {
   void trim();
 
  private:
-  template <typename Size>
-  [[nodiscard]] IntegerView view(const Size* sizes, std::size_t offset, std::size_t column) const {
-    for (std::size_t i = 0; i < column; ++i) offset += static_cast<std::size_t>(sizes[i] < 0 ? -sizes[i] : sizes[i]);
-    return {limbs_.data() + offset, sizes[column]};
+  static constexpr std::size_t kPadding = 8;  // bytes before the first size
+
+  // The limbs of the `column` entries before entry `i`.
+  [[nodiscard]] std::size_t limbs_before(std::size_t i, std::size_t column) const {
+    if (std::endian::native == std::endian::little && !is_wide_ && column <= kPadding) {
+      return bytes_before(i, column);
+    }
+    std::size_t sum = 0;
+    for (std::size_t k = i - column; k < i; ++k) sum += static_cast<std::size_t>(std::abs(size(k)));
+    return sum;
   }
-  [[nodiscard]] std::int32_t size(std::size_t i) const { return wide_.empty() ? sizes_[i] : wide_[i]; }
+
+  // The same without a loop, which would cost more than what is done with the entry: eight sizes are read at once, of
+  // which the last ones count. Each byte is made positive; as 127 is the largest, none carries into its neighbour.
+  [[nodiscard]] std::size_t bytes_before(std::size_t i, std::size_t column) const {
+    if (column == 0) return 0;
+    std::uint64_t sizes = 0;
+    std::memcpy(&sizes, &sizes_[i], kPadding);  // ends before entry i, thanks to the padding
+    sizes >>= 8 * (kPadding - column);
+    const std::uint64_t negative = sizes >> 7U & 0x0101010101010101U;
+    sizes = (sizes ^ negative * 0xFF) + negative;
+    constexpr std::uint64_t kEven = 0x00FF00FF00FF00FFU;
+    return ((sizes & kEven) + (sizes >> 8U & kEven)) * 0x0001000100010001U >> 48U;
+  }
+
+  [[nodiscard]] std::int32_t size(std::size_t i) const { return is_wide_ ? wide_[i] : sizes_[kPadding + i]; }
   [[nodiscard]] bool same_sizes(std::uint32_t row, const IntegerRows& other, std::uint32_t other_row) const;
   void push_size(std::int32_t size);
   void append_sizes(const IntegerRows& other, std::size_t first, std::size_t last);
@@ -85,9 +110,11 @@ class IntegerRows {
   std::size_t width_;
   std::vector<mp_limb_t> limbs_;
   std::vector<std::uint32_t> begin_;  // size()+1 offsets into limbs_
-  // width_ signed limb counts a row, as GMP keeps them: in `wide_` once one of them needs more than a byte.
+  // width_ signed limb counts a row, as GMP keeps them, behind kPadding zeros; in `wide_`, without these, once one of
+  // them needs more than a byte.
   std::vector<std::int8_t> sizes_;
   std::vector<std::int32_t> wide_;
+  bool is_wide_ = false;
 };
 
 }  // namespace nef

@@ -12,10 +12,6 @@
 namespace nef {
 namespace {
 
-[[noreturn]] void refuse(std::string_view text) {
-  throw InputError(in_quotes(text) + " is not a number (write it like -3, 0.25, 1e-3 or 1/3)");
-}
-
 Integer power_of_ten(unsigned long exponent) {
   Integer result;
   mpz_ui_pow_ui(result.get_mpz_t(), 10, exponent);
@@ -23,7 +19,7 @@ Integer power_of_ten(unsigned long exponent) {
 }
 
 // A decimal without '/': sign, digits with at most one point, optional exponent.
-Rational parse_decimal(std::string_view text, std::string_view whole) {
+std::optional<Rational> parse_decimal(std::string_view text) {
   std::size_t i = 0;
   bool negative = false;
   if (i < text.size() && (text[i] == '+' || text[i] == '-')) negative = text[i++] == '-';
@@ -41,7 +37,7 @@ Rational parse_decimal(std::string_view text, std::string_view whole) {
       break;
     }
   }
-  if (digits.empty()) refuse(whole);
+  if (digits.empty()) return std::nullopt;
   if (i < text.size() && (text[i] == 'e' || text[i] == 'E')) {
     ++i;
     bool negative_exponent = false;
@@ -50,13 +46,13 @@ Rational parse_decimal(std::string_view text, std::string_view whole) {
     long exponent = 0;
     for (; i < text.size() && std::isdigit(static_cast<unsigned char>(text[i])) != 0; ++i) {
       // Five digits keep a hostile "1e999999999" from filling the memory with one number.
-      if (i - first >= 5) refuse(whole);
+      if (i - first >= 5) return std::nullopt;
       exponent = exponent * 10 + (text[i] - '0');
     }
-    if (i == first) refuse(whole);
+    if (i == first) return std::nullopt;
     scale += negative_exponent ? -exponent : exponent;
   }
-  if (i != text.size()) refuse(whole);
+  if (i != text.size()) return std::nullopt;
   Rational value{Integer(digits, 10)};
   if (scale > 0) {
     value *= power_of_ten(static_cast<unsigned long>(scale));
@@ -68,13 +64,19 @@ Rational parse_decimal(std::string_view text, std::string_view whole) {
 
 }  // namespace
 
-Rational parse_rational(std::string_view text) {
+std::optional<Rational> try_parse_rational(std::string_view text) {
   const std::size_t slash = text.find('/');
-  if (slash == std::string_view::npos) return parse_decimal(text, text);
-  const Rational numerator = parse_decimal(text.substr(0, slash), text);
-  const Rational denominator = parse_decimal(text.substr(slash + 1), text);
-  if (denominator == 0) refuse(text);
-  return numerator / denominator;
+  if (slash == std::string_view::npos) return parse_decimal(text);
+  const std::optional<Rational> numerator = parse_decimal(text.substr(0, slash));
+  const std::optional<Rational> denominator = parse_decimal(text.substr(slash + 1));
+  if (!numerator || !denominator || *denominator == 0) return std::nullopt;
+  return Rational(*numerator / *denominator);
+}
+
+Rational parse_rational(std::string_view text) {
+  std::optional<Rational> value = try_parse_rational(text);
+  if (!value) throw InputError(in_quotes(text) + " is not a number (write it like -3, 0.25, 1e-3 or 1/3)");
+  return *std::move(value);
 }
 
 Rational exact_rational(double value) {

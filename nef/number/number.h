@@ -6,6 +6,7 @@
 #include <gmpxx.h>
 
 #include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -17,9 +18,11 @@ using Rational = mpq_class;
 /// Three exact coordinates, or the three components of an exact vector.
 using Rational3 = std::array<Rational, 3>;
 
-/// The rational that `text` spells: "-3", "0.1" (one tenth), "1e-3", "1/3", "0.5/2.5".
-/// Throws InputError for anything else ("nan", "inf", "", "1/0", trailing characters, an exponent
-/// of more than five digits).
+/// The rational that `text` spells: "-3", "0.1" (one tenth), "1e-3", "1/3", "0.5/2.5". Nothing for anything else
+/// ("nan", "inf", "", "1/0", trailing characters, an exponent of more than five digits).
+std::optional<Rational> try_parse_rational(std::string_view text);
+
+/// The same for callers with nothing to add to what is said of text that spells none: throws InputError.
 Rational parse_rational(std::string_view text);
 
 /// The rational that a finite double is. Throws InputError for a NaN or an infinity.

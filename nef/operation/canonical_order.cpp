@@ -174,7 +174,7 @@ class Canonical {
     svertex.p = common(line.place, svertex.p);
     svertex.q = common(line.place, svertex.q);
     const Direction direction = direction_of(planes_, svertex);
-    const std::array<Integer, 3> d = direction.integers();
+    const std::array<Integer, 3>& d = direction.integers();
     std::size_t found = line.rows[0] == kNone ? 0 : 1;
     for (std::size_t axis = 0; axis < 3 && found < 2; ++axis) {
       std::array<Integer, 3> n;

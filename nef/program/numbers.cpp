@@ -20,11 +20,9 @@ std::vector<Rational> parse_numbers(std::string_view text, const std::string& wh
     std::size_t end = at;
     while (end < text.size() && text[end] != ',' && !is_space(text[end])) ++end;
     const std::string_view word = text.substr(at, end - at);
-    try {
-      result.push_back(parse_rational(word));
-    } catch (const InputError&) {
-      throw InputError(what + ": '" + std::string(word) + "' in '" + std::string(text) + "' is no number");
-    }
+    std::optional<Rational> number = try_parse_rational(word);
+    if (!number) throw InputError(what + ": '" + std::string(word) + "' in '" + std::string(text) + "' is no number");
+    result.push_back(*std::move(number));
     while (end < text.size() && is_space(text[end])) ++end;
     // A comma promises another number.
     if (end < text.size() && text[end] == ',') {

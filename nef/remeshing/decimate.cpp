@@ -9,10 +9,12 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "nef/export/convert_openmesh.h"
 #include "nef/export/to_mesh.h"
+#include "nef/import/try_from_mesh.h"
 #include "nef/remeshing/sheets.h"
 #include "nef/remeshing/triangle_mesh.h"
 
@@ -60,14 +62,7 @@ Mesh collapsed(TriangleMesh work, const Mesh& exact, const std::vector<std::uint
   return result;
 }
 
-bool is_legal(const Mesh& mesh) {
-  try {
-    from_mesh(mesh);
-    return mesh.face_count() > 0;
-  } catch (const InputError&) {
-    return false;
-  }
-}
+bool is_legal(const Mesh& mesh) { return std::holds_alternative<Polyhedron>(try_from_mesh(mesh)); }
 
 // Adds the vertices of faces that mesh_to_openmesh could not fit in even so: a sheet that comes back to an edge.
 void add_separate_vertices(const TriangleMesh& work, Sheets& sheets) {

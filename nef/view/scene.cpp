@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "nef/base/error.h"
-#include "nef/complex/facet_plane.h"
 #include "nef/construct/construct.h"
 #include "nef/mesh/triangulate.h"
 #include "nef/query/predicates_of_sets.h"
@@ -84,7 +83,7 @@ class SceneBuilder {
       if (rings.size() == 1 && rings[0].size() == 3) {
         scene_.triangles.push_back({rings[0][0], rings[0][1], rings[0][2]});
       } else {
-        const auto [axis, sign] = projection(facet.plane);
+        const auto [axis, sign] = projection_axis(complex_.planes, facet.plane);
         const bool done = triangulator.triangulate(rings, axis, sign, scene_.triangles);
         NEF_ASSERT(done);
       }
@@ -99,11 +98,6 @@ class SceneBuilder {
       }
       scene_.facet_vertex_begin.push_back(static_cast<std::uint32_t>(scene_.facet_vertices.size()));
     }
-  }
-
-  [[nodiscard]] std::pair<std::size_t, int> projection(PlaneId plane) const {
-    const PlaneAxes axes(complex_.planes, plane);
-    return {static_cast<std::size_t>(axes.dropped), axes.positive ? 1 : -1};
   }
 
   const Complex& complex_;

@@ -103,7 +103,7 @@ int ExactCells::side(std::uint32_t face, std::uint32_t cell, std::uint32_t verte
 void ExactCells::locate(std::uint32_t cell, PointId point, CellLocation& result) {
   result.kind = CellLocation::Kind::kOutside;
   result.faces.clear();
-  const Vector x = points.approximate(point);
+  const Double3 x = points.approximate(point);
   const std::uint32_t first = rounded_.first_face(cell);
   const std::uint32_t last = rounded_.end_face(cell);
   for (std::uint32_t f = first; f < last; ++f) {

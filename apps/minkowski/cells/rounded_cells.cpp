@@ -11,9 +11,9 @@ namespace nef::minkowski {
 // extent L have components within e = 8u*size of the truth, so a component of a x b is within
 // 2 (2 L e + e^2) + 6u L^2; a third vector of extent M, within e likewise, gives a form within
 // 3 (M (4.1 L e + 6u L^2) + 2 L^2 e) + 12u * 6 L^2 M. M is at most 2 size. Any e > L/8 is refused.
-RoundedFace rounded_plane(const Vector& o, const Vector& p, const Vector& q, double size) {
-  Vector a{};
-  Vector b{};
+RoundedFace rounded_plane(const Double3& o, const Double3& p, const Double3& q, double size) {
+  Double3 a{};
+  Double3 b{};
   double extent = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     a[i] = p[i] - o[i];
@@ -40,7 +40,7 @@ RoundedCells::RoundedCells(std::span<const ConvexCell> cells) {
   for (const ConvexCell& cell : cells) {
     Box& box = boxes_.emplace_back();
     for (const Rational3& p : cell.mesh.vertices) {
-      const Vector x = {nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2])};
+      const Double3 x = {nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2])};
       for (const double value : x) extent_ = std::max(extent_, std::fabs(value));
       vertices_.push_back(x);
       box.add_rounded(x);
@@ -49,7 +49,7 @@ RoundedCells::RoundedCells(std::span<const ConvexCell> cells) {
   }
   for (std::uint32_t i = 0; i < cells.size(); ++i) {
     const Mesh& mesh = cells[i].mesh;
-    const std::span<const Vector> v = vertices(i);
+    const std::span<const Double3> v = vertices(i);
     for (std::size_t f = 0; cells[i].dimension == 3 && f < mesh.face_count(); ++f) {
       // Far corners: the error is relative to the extent of the triangle.
       const auto face = mesh.face(f);
@@ -60,7 +60,7 @@ RoundedCells::RoundedCells(std::span<const ConvexCell> cells) {
   }
 }
 
-bool RoundedCells::surely_inside(std::uint32_t cell, const Vector& x) const {
+bool RoundedCells::surely_inside(std::uint32_t cell, const Double3& x) const {
   for (std::uint32_t f = first_face_[cell]; f < first_face_[cell + 1]; ++f) {
     if (!(faces_[f].value(x) < -faces_[f].slack)) return false;
   }

@@ -10,10 +10,9 @@
 
 #include "apps/minkowski/convex/convex_cell.h"
 #include "nef/geometry/box_tree.h"
+#include "nef/geometry/vectors.h"
 
 namespace nef::minkowski {
-
-using Vector = std::array<double, 3>;
 
 /// The unit of roundoff of doubles.
 inline constexpr double kUnit = 0x1p-53;
@@ -28,19 +27,19 @@ inline bool box_holds(const Box& outer, const Box& inner) {
 
 /// The plane of a face: value(x) is positive outside.
 struct RoundedFace {
-  Vector normal{};
-  Vector origin{};
+  Double3 normal{};
+  Double3 origin{};
   double slack = 0;   ///< bound of the error of value(x) for x that is rounded from a point in the cells' size
   double weight = 0;  ///< sum of the absolute values of the normal: how an error of x enters value(x)
 
-  [[nodiscard]] double value(const Vector& x) const {
+  [[nodiscard]] double value(const Double3& x) const {
     return normal[0] * (x[0] - origin[0]) + normal[1] * (x[1] - origin[1]) + normal[2] * (x[2] - origin[2]);
   }
 };
 
 /// The plane of three points that turn counterclockwise from outside, each within 2u `size` of the truth in every
 /// coordinate, and none larger than `size`. Its slack is infinite if they are too close to tell.
-RoundedFace rounded_plane(const Vector& o, const Vector& p, const Vector& q, double size);
+RoundedFace rounded_plane(const Double3& o, const Double3& p, const Double3& q, double size);
 
 /// Vertices, faces and boxes of a set of cells, flat. O(n) to build.
 class RoundedCells {
@@ -58,20 +57,20 @@ class RoundedCells {
   [[nodiscard]] std::uint32_t cell_of_face(std::uint32_t face) const { return cell_of_face_[face]; }
   [[nodiscard]] std::size_t face_count() const { return faces_.size(); }
   [[nodiscard]] const RoundedFace& face(std::uint32_t face) const { return faces_[face]; }
-  [[nodiscard]] std::span<const Vector> vertices(std::uint32_t cell) const {
+  [[nodiscard]] std::span<const Double3> vertices(std::uint32_t cell) const {
     return {vertices_.data() + first_vertex_[cell], first_vertex_[cell + 1] - first_vertex_[cell]};
   }
-  [[nodiscard]] const Vector& vertex(std::uint32_t number) const { return vertices_[number]; }
+  [[nodiscard]] const Double3& vertex(std::uint32_t number) const { return vertices_[number]; }
   /// The largest absolute coordinate of all.
   [[nodiscard]] double extent() const { return extent_; }
   /// A bound of how far a rounded vertex is from the true one in each coordinate (u of its size, with room).
   [[nodiscard]] double vertex_error() const { return 4 * kUnit * extent_; }
 
   /// True only if a point that rounds to x is in the interior of the (solid) cell.
-  [[nodiscard]] bool surely_inside(std::uint32_t cell, const Vector& x) const;
+  [[nodiscard]] bool surely_inside(std::uint32_t cell, const Double3& x) const;
 
  private:
-  std::vector<Vector> vertices_;
+  std::vector<Double3> vertices_;
   std::vector<RoundedFace> faces_;
   std::vector<std::uint32_t> first_vertex_{0}, first_face_{0}, cell_of_face_;
   std::vector<Box> boxes_;

@@ -18,7 +18,7 @@ struct Interval {
 
 /// A segment on the planes of two faces: an edge of a cell, or where faces of two cells cross.
 struct Segment {
-  Vector from{}, to{};                                 ///< the true ends are within `error` in each coordinate
+  Double3 from{}, to{};                                ///< the true ends are within `error` in each coordinate
   double error = 0;                                    ///< a length
   std::uint32_t f = 0, g = 0;                          ///< the faces
   std::uint32_t from_point = kNone, to_point = kNone;  ///< where it ends, if that is a candidate already

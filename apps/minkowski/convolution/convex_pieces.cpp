@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "nef/base/error.h"
-#include "nef/complex/facet_plane.h"
 #include "nef/mesh/edge_order.h"
 
 namespace nef::minkowski {
@@ -58,9 +57,9 @@ bool ConvexPieces::merge(Ring& ring, const Ring& other) const {
 
 std::vector<std::vector<std::uint32_t>> ConvexPieces::cut(FacetId id) {
   const Facet& facet = c_.facets[id];
-  const PlaneAxes axes(c_.planes, facet.plane);
-  axis_ = static_cast<std::size_t>(axes.dropped);
-  sign_ = axes.positive ? 1 : -1;
+  const ProjectionAxis projection = projection_axis(c_.planes, facet.plane);
+  axis_ = projection.axis;
+  sign_ = projection.sign;
   std::vector<Ring> rings;
   for (const CycleId cycle : facet.cycles()) {
     Ring& ring = rings.emplace_back();

@@ -18,9 +18,9 @@ namespace nef::minkowski {
 /// points may have several.
 struct ConvolutionFacets {
   PlaneTable planes;
-  PointTable points;            ///< of the corners
-  std::vector<Vector> rounded;  ///< the same; each coordinate is the nearest double
-  std::vector<PlaneId> plane;   ///< per facet, positive outside
+  PointTable points;             ///< of the corners
+  std::vector<Double3> rounded;  ///< the same; each coordinate is the nearest double
+  std::vector<PlaneId> plane;    ///< per facet, positive outside
   std::vector<std::uint32_t> begin{0};
   std::vector<std::uint32_t> corners;  ///< counterclockwise from outside; some may be straight
 

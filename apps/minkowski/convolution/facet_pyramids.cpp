@@ -30,7 +30,7 @@ PlaneId FacetPyramids::side_plane(std::uint32_t facet, std::uint32_t side) {
 }
 
 bool FacetPyramids::locate(std::uint32_t facet, PointId point, FacetAtPoint& result) {
-  const Vector& x = facets_.points.approximate(point);
+  const Double3& x = facets_.points.approximate(point);
   const RoundedFace& plane = rounded_.plane(facet);
   const double value = plane.value(x);
   if (value > plane.slack || value < -plane.slack) return false;

@@ -22,8 +22,8 @@ bool SegmentFinder::surely_apart(std::uint32_t facet, std::uint32_t other) const
 SegmentFinder::ChordEnd SegmentFinder::crossing(std::uint32_t facet, std::uint32_t other, std::uint32_t side) const {
   const auto ring = facets_.ring(facet);
   const std::uint32_t next = side + 1 < ring.size() ? side + 1 : 0;
-  const Vector& p = facets_.rounded[ring[side]];
-  const Vector& q = facets_.rounded[ring[next]];
+  const Double3& p = facets_.rounded[ring[side]];
+  const Double3& q = facets_.rounded[ring[next]];
   const double slack = rounded_.plane(other).slack;
   const double span = std::fabs(values_[side] - values_[next]);
   // The quotient a / (a - b), at most 1, has an error of up to (slack + 2 slack) / (span - 2 slack), which is below

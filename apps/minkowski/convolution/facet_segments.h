@@ -47,7 +47,7 @@ class SegmentFinder {
 
  private:
   struct ChordEnd {
-    Vector point{};
+    Double3 point{};
     double error = 0;
     SegmentEnd why;
   };

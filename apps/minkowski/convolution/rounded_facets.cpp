@@ -4,17 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "nef/complex/facet_plane.h"
+#include "nef/mesh/triangulate.h"
 
 namespace nef::minkowski {
 
-ProjectionAxis projection_axis(const PlaneTable& planes, PlaneId plane) {
-  const PlaneAxes axes(planes, plane);
-  return {static_cast<std::size_t>(axes.dropped), axes.positive != plane.flipped() ? 1 : -1};
-}
-
 RoundedFacets::RoundedFacets(const ConvolutionFacets& facets) : facets_(facets) {
-  for (const Vector& p : facets.rounded) {
+  for (const Double3& p : facets.rounded) {
     for (const double x : p) extent_ = std::max(extent_, std::fabs(x));
   }
   for (std::uint32_t f = 0; f < facets.size(); ++f) {
@@ -31,13 +26,13 @@ RoundedFacets::RoundedFacets(const ConvolutionFacets& facets) : facets_(facets) 
 // Two corners that span about the largest triangle with the first one: it may be next to straight corners.
 std::array<std::size_t, 2> RoundedFacets::far_corners(std::uint32_t f) const {
   const auto ring = facets_.ring(f);
-  const Vector& o = facets_.rounded[ring[0]];
+  const Double3& o = facets_.rounded[ring[0]];
   std::array<std::size_t, 2> best{1, 2};
   double largest = 0;
   for (std::size_t j = 2; j < ring.size(); ++j) {
     for (const std::size_t i : {std::size_t{1}, j / 2, j - 1}) {
-      const Vector& p = facets_.rounded[ring[i]];
-      const Vector& q = facets_.rounded[ring[j]];
+      const Double3& p = facets_.rounded[ring[i]];
+      const Double3& q = facets_.rounded[ring[j]];
       double area = 0;
       for (std::size_t u = 0; u < 3; ++u) {
         const std::size_t v = (u + 1) % 3;
@@ -59,8 +54,8 @@ void RoundedFacets::add_sides(std::uint32_t f) {
   const auto ring = facets_.ring(f);
   const double e = corner_error();
   for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Vector& from = facets_.rounded[ring[i]];
-    const Vector& to = facets_.rounded[ring[i + 1 < ring.size() ? i + 1 : 0]];
+    const Double3& from = facets_.rounded[ring[i]];
+    const Double3& to = facets_.rounded[ring[i + 1 < ring.size() ? i + 1 : 0]];
     RoundedSide& side = sides_.emplace_back();
     side.u = (axis + 1) % 3;
     side.v = (axis + 2) % 3;

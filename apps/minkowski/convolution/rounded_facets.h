@@ -22,17 +22,10 @@ struct RoundedSide {
   double weight = 0;  ///< how an error of x enters
 
   /// Positive where the facet is.
-  [[nodiscard]] double value(const Vector& x) const {
+  [[nodiscard]] double value(const Double3& x) const {
     return normal_u * (x[u] - origin_u) + normal_v * (x[v] - origin_v);
   }
 };
-
-/// The coordinate axis along which the normal of a plane is largest, and the sign of the oriented normal there.
-struct ProjectionAxis {
-  std::size_t axis = 0;
-  int sign = 1;
-};
-ProjectionAxis projection_axis(const PlaneTable& planes, PlaneId plane);
 
 /// Planes, sides and boxes of facets. The facets must outlive the object.
 class RoundedFacets {

@@ -92,7 +92,7 @@ class SegmentCutter {
   }
 
   // Whether a point of the plane of a facet, within an error, is surely inside (1), surely outside (-1) of it.
-  [[nodiscard]] int place_in(std::uint32_t h, const Vector& x, double error) const {
+  [[nodiscard]] int place_in(std::uint32_t h, const Double3& x, double error) const {
     int place = 1;
     for (const RoundedSide& side : rounded_.sides(h)) {
       const double value = side.value(x);
@@ -119,7 +119,7 @@ class SegmentCutter {
     }
     const double t = form.at / (form.at - last);
     const double doubt = form.error / std::fabs(form.slope) * 2 + 1e-13;
-    Vector x{};
+    Double3 x{};
     double reach = 0;
     for (std::size_t i = 0; i < 3; ++i) {
       x[i] = s.from[i] + t * (s.to[i] - s.from[i]);

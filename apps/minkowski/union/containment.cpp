@@ -17,8 +17,8 @@ std::vector<std::uint8_t> held_by_others(std::span<const ConvexCell> cells) {
     const auto around = [&](const Box& box) { return box_holds(box, rounded.box(i)); };
     tree.for_each_if(around, [&](std::uint32_t j) {
       if (held[i] != 0 || j == i || rounded.first_face(j) == rounded.end_face(j)) return;
-      const std::span<const Vector> v = rounded.vertices(i);
-      if (std::all_of(v.begin(), v.end(), [&](const Vector& x) { return rounded.surely_inside(j, x); })) held[i] = 1;
+      const std::span<const Double3> v = rounded.vertices(i);
+      if (std::all_of(v.begin(), v.end(), [&](const Double3& x) { return rounded.surely_inside(j, x); })) held[i] = 1;
     });
   }
   return held;

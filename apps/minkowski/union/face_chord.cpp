@@ -40,7 +40,7 @@ FaceCutter::Side FaceCutter::find_sides(std::uint32_t face, std::uint32_t other)
 std::optional<Chord> FaceCutter::chord(std::uint32_t face, std::uint32_t other) {
   if (find_sides(face, other) == Side::kOff) return std::nullopt;
   const auto ring = exact_.corners(face);
-  const std::span<const Vector> v = rounded_.vertices(rounded_.cell_of_face(face));
+  const std::span<const Double3> v = rounded_.vertices(rounded_.cell_of_face(face));
   Chord result;
   std::size_t count = 0;
   for (std::size_t k = 0; k < ring.size() && count < 2; ++k) {
@@ -58,7 +58,7 @@ std::optional<Chord> FaceCutter::chord(std::uint32_t face, std::uint32_t other) 
 }
 
 // A point of the edge pq where a form is zero that has values a, b of opposite signs at its ends, each within `slack`.
-void FaceCutter::add_crossing(const Vector& p, const Vector& q, double a, double b, double slack, Vector& point,
+void FaceCutter::add_crossing(const Double3& p, const Double3& q, double a, double b, double slack, Double3& point,
                               double& error) const {
   const double span = std::fabs(a - b);
   // The quotient a / (a - b), at most 1, has an error of up to (slack + 2 slack) / (span - 2 slack), which is below
@@ -79,7 +79,7 @@ void FaceCutter::add_crossing(const Vector& p, const Vector& q, double a, double
 }
 
 Interval overlap(const Chord& a, const Chord& b) {
-  Vector d{};
+  Double3 d{};
   double square = 0;
   double largest = 0;
   for (std::size_t i = 0; i < 3; ++i) {

@@ -15,7 +15,7 @@ namespace nef::minkowski {
 
 /// A segment through the inside of a face; its true ends are within `error` in each coordinate.
 struct Chord {
-  std::array<Vector, 2> point{};
+  std::array<Double3, 2> point{};
   double error = 0;
 };
 
@@ -32,7 +32,7 @@ class FaceCutter {
  private:
   enum class Side : std::uint8_t { kOff, kThrough };
   Side find_sides(std::uint32_t face, std::uint32_t other);
-  void add_crossing(const Vector& p, const Vector& q, double a, double b, double slack, Vector& point,
+  void add_crossing(const Double3& p, const Double3& q, double a, double b, double slack, Double3& point,
                     double& error) const;
 
   const RoundedCells& rounded_;

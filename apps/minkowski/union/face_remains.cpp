@@ -23,8 +23,8 @@ FaceRemains::FaceRemains(const RoundedCells& cells, const FlushFaces& flush, con
   for (std::uint32_t c = 0; c < cells.size(); ++c) beyond_.push_back(cells.first_face(c));
 }
 
-Vector FaceRemains::Polygon::centre() const {
-  Vector sum{};
+Double3 FaceRemains::Polygon::centre() const {
+  Double3 sum{};
   for (std::size_t k = 0; k < size; ++k) {
     for (std::size_t i = 0; i < 3; ++i) sum[i] += v[k][i];
   }
@@ -33,7 +33,7 @@ Vector FaceRemains::Polygon::centre() const {
 }
 
 // Points next to each other are mostly beyond the same face.
-bool FaceRemains::has_inside(std::uint32_t cell, const Vector& x) {
+bool FaceRemains::has_inside(std::uint32_t cell, const Double3& x) {
   const Box& box = cells_.box(cell);
   if (x[0] < box.low[0] || x[0] > box.high[0] || x[1] < box.low[1] || x[1] > box.high[1] || x[2] < box.low[2] ||
       x[2] > box.high[2]) {
@@ -53,7 +53,7 @@ bool FaceRemains::has_inside(std::uint32_t cell, const Vector& x) {
 }
 
 // A cell that has x inside; kNone if none has. Those that took something away are likely to do so for the next face.
-std::uint32_t FaceRemains::cell_around(const Vector& x) {
+std::uint32_t FaceRemains::cell_around(const Double3& x) {
   const std::uint32_t own = cells_.cell_of_face(face_);
   for (std::size_t k = 0; k < helpful_.size(); ++k) {
     if (helpful_[k] == own || !has_inside(helpful_[k], x)) continue;
@@ -102,7 +102,7 @@ bool FaceRemains::subtract(const Polygon& polygon, std::uint32_t cell) {
       here.v[here.size++] = rest.v[k];
       if ((values_[k] < 0) == (values_[next] < 0)) continue;
       const double t = values_[k] / (values_[k] - values_[next]);
-      Vector x{};
+      Double3 x{};
       for (std::size_t i = 0; i < 3; ++i) x[i] = rest.v[k][i] + t * (rest.v[next][i] - rest.v[k][i]);
       inside.v[inside.size++] = x;
       beyond.v[beyond.size++] = x;
@@ -113,12 +113,12 @@ bool FaceRemains::subtract(const Polygon& polygon, std::uint32_t cell) {
   return true;
 }
 
-Box FaceRemains::box_of_rest(std::uint32_t face, std::span<const Vector> ring) {
+Box FaceRemains::box_of_rest(std::uint32_t face, std::span<const Double3> ring) {
   face_ = face;
   Box box;
   const double drift = cells_.extent() * 0x1p-30;
-  const auto keep = [&](std::span<const Vector> polygon) {
-    for (const Vector& x : polygon) {
+  const auto keep = [&](std::span<const Double3> polygon) {
+    for (const Double3& x : polygon) {
       for (std::size_t i = 0; i < 3; ++i) {
         box.low[i] = std::min(box.low[i], x[i] - drift);
         box.high[i] = std::max(box.high[i], x[i] + drift);

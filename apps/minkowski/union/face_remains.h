@@ -23,17 +23,17 @@ class FaceRemains {
   /// The box around what may be left of a face, whose rounded corners are `ring`, without the insides of other cells;
   /// an empty box (low > high) if surely nothing is left. Which cells took something away from the faces before has to
   /// do with how small the box is, but not with whether it is empty.
-  Box box_of_rest(std::uint32_t face, std::span<const Vector> ring);
+  Box box_of_rest(std::uint32_t face, std::span<const Double3> ring);
 
  private:
   static constexpr std::size_t kCorners = 24;
   struct Polygon {
-    std::array<Vector, kCorners> v;
+    std::array<Double3, kCorners> v;
     std::size_t size = 0;
-    [[nodiscard]] Vector centre() const;
+    [[nodiscard]] Double3 centre() const;
   };
-  [[nodiscard]] bool has_inside(std::uint32_t cell, const Vector& x);
-  std::uint32_t cell_around(const Vector& x);
+  [[nodiscard]] bool has_inside(std::uint32_t cell, const Double3& x);
+  std::uint32_t cell_around(const Double3& x);
   bool subtract(const Polygon& polygon, std::uint32_t cell);
 
   const RoundedCells& cells_;

@@ -9,9 +9,9 @@ namespace nef::minkowski {
 namespace {
 
 // A key that equal cells share, whatever the order of their vertices.
-std::uint64_t vertex_hash(std::span<const Vector> vertices) {
+std::uint64_t vertex_hash(std::span<const Double3> vertices) {
   std::uint64_t sum = vertices.size();
-  for (const Vector& v : vertices) {
+  for (const Double3& v : vertices) {
     std::uint64_t h = 0;
     // Adding 0 makes one of the two zeros.
     for (const double x : v) h = (h ^ (h >> 31U) ^ std::bit_cast<std::uint64_t>(x + 0.0)) * 0x9e3779b97f4a7c15ULL;

@@ -59,7 +59,7 @@ class SolidUnion {
  private:
   [[nodiscard]] bool exhausted() const { return work_ + vertices_.work() > budget_; }
 
-  [[nodiscard]] const Vector& corner(std::uint32_t face, std::uint32_t vertex) const {
+  [[nodiscard]] const Double3& corner(std::uint32_t face, std::uint32_t vertex) const {
     return rounded_.vertices(rounded_.cell_of_face(face))[vertex];
   }
 
@@ -86,7 +86,7 @@ class SolidUnion {
     const auto is_beyond = [&](std::uint32_t h) {
       ++work_;
       const RoundedFace& plane = rounded_.face(h);
-      return std::all_of(ring_.begin(), ring_.end(), [&](const Vector& x) { return plane.value(x) > plane.slack; });
+      return std::all_of(ring_.begin(), ring_.end(), [&](const Double3& x) { return plane.value(x) > plane.slack; });
     };
     boxes_.for_each_overlap(box, [&](std::uint32_t cell) {
       if (cell == own || is_beyond(apart_[cell])) return;
@@ -246,7 +246,7 @@ class SolidUnion {
         (at.low <= 0 && vertices_.is_on(s.from_point, h)) || (at.high >= 1 && vertices_.is_on(s.to_point, h));
     if (!is_left || is_end) return;
     const double t = (at.low + at.high) / 2;
-    Vector guess{};
+    Double3 guess{};
     for (std::size_t i = 0; i < 3; ++i) guess[i] = s.from[i] + t * (s.to[i] - s.from[i]);
     vertices_.add_meeting(s.f, s.g, h, guess);
   }
@@ -265,7 +265,7 @@ class SolidUnion {
 
   // Scratch.
   std::vector<std::uint32_t> neighbours_;  // of the face at hand
-  std::vector<Vector> ring_;               // its corners
+  std::vector<Double3> ring_;              // its corners
   std::vector<std::uint32_t> apart_;       // per cell, a face of it beyond which the last face was
   Segment segment_;
   std::vector<Interval> pieces_;

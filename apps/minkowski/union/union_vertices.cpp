@@ -24,14 +24,14 @@ bool UnionVertices::is_on(std::uint32_t name, std::uint32_t face) const {
 }
 
 // Points next to each other are mostly in one cell; that they sometimes are not costs time only.
-std::uint64_t UnionVertices::grid_cell(const Vector& x) const {
+std::uint64_t UnionVertices::grid_cell(const Double3& x) const {
   const double scale = 0x1p20 / std::max(rounded_.extent(), 0x1p-900);
   std::uint64_t key = 0;
   for (const double value : x) key = key << 21U | (static_cast<std::uint64_t>((value * scale) + 0x1p20) & 0x1fffffU);
   return key;
 }
 
-void UnionVertices::add_meeting(std::uint32_t f, std::uint32_t g, std::uint32_t h, const Vector& guess) {
+void UnionVertices::add_meeting(std::uint32_t f, std::uint32_t g, std::uint32_t h, const Double3& guess) {
   work_ += 50;
   const auto [first_near, last_near] = near_.equal_range(grid_cell(guess));
   for (auto at = first_near; at != last_near; ++at) {

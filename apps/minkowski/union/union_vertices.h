@@ -33,7 +33,7 @@ class UnionVertices {
   [[nodiscard]] bool is_on(std::uint32_t name, std::uint32_t face) const;
   /// A candidate: where the planes of three faces meet, if they do in one point. Whether the faces
   /// reach that point is found out here. A good guess of the point saves time if it is known already.
-  void add_meeting(std::uint32_t f, std::uint32_t g, std::uint32_t h, const Vector& guess);
+  void add_meeting(std::uint32_t f, std::uint32_t g, std::uint32_t h, const Double3& guess);
 
   /// How much has been done, in evaluations of a plane's form in doubles (some nanoseconds each).
   [[nodiscard]] std::uint64_t work() const { return work_ + 200 * exact_.doubtful(); }
@@ -43,7 +43,7 @@ class UnionVertices {
 
  private:
   void add_point(PointId point);
-  [[nodiscard]] std::uint64_t grid_cell(const Vector& x) const;
+  [[nodiscard]] std::uint64_t grid_cell(const Double3& x) const;
   void drop_covered(std::vector<CellLocation>& touched);
 
   std::span<const ConvexCell> cells_;

@@ -17,8 +17,8 @@ struct Rest {
 
 bool is_empty(const Box& box) { return !(box.low[0] <= box.high[0]); }
 
-std::vector<Vector> ring_of(std::uint32_t face, const RoundedCells& rounded, const ExactCells& exact) {
-  std::vector<Vector> ring;
+std::vector<Double3> ring_of(std::uint32_t face, const RoundedCells& rounded, const ExactCells& exact) {
+  std::vector<Double3> ring;
   for (const std::uint32_t v : exact.corners(face)) ring.push_back(rounded.vertices(rounded.cell_of_face(face))[v]);
   return ring;
 }
@@ -37,7 +37,7 @@ void for_each_cell(const RoundedCells& rounded, const FaceRemains& prototype, un
 // The plane of a face on a coarse grid: faces in one plane mostly share it. That they sometimes do not, and that others
 // do, costs time only.
 std::uint64_t plane_key(const RoundedFace& face, double extent) {
-  const Vector& n = face.normal;
+  const Double3& n = face.normal;
   const double size = std::max({std::fabs(n[0]), std::fabs(n[1]), std::fabs(n[2])});
   if (!(size > 0) || !(extent > 0)) return 0;
   const double offset = (n[0] * face.origin[0] + n[1] * face.origin[1] + n[2] * face.origin[2]) / (size * extent);

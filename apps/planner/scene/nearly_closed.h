@@ -26,9 +26,8 @@ struct MeshMeaning {
 ///    regions cannot be counted that way (a box with an inner partition, which may be two solids or two rooms) stays
 ///    a surface; so do parts that enclose nothing. Open parts are tried once more together.
 ///  - A part in another one's inside is a cavity of it if it is nested an odd number of times: a doubled wall has a
-///  room in
-///    it. Of parts that touch each other there, the largest (by its box) is the room, and the others stand in it; what
-///    reaches in from outside is there, too. All other parts are united.
+///    room in it. Of parts that touch each other there, the largest (by its box) is the room, and the others stand in
+///    it; what reaches in from outside is there, too. All other parts are united.
 /// O(n log n + k) for n faces with k contacts; O(m^2) boxes are compared for m parts.
 MeshMeaning meaning_of(const Mesh& mesh);
 

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <variant>
 
 #include "apps/minkowski/minkowski.h"
 #include "apps/minkowski/morphology.h"
 #include "apps/planner/scene/nearly_closed.h"
 #include "nef/base/error.h"
+#include "nef/import/try_from_mesh.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/mesh/mesh_reader.h"
 #include "nef/io/polyhedron_file.h"
@@ -23,12 +25,9 @@ std::string counted(std::size_t count, const char* one, const char* many) {
 // As the solid that it bounds, else as what it means.
 Polyhedron from_any_mesh(const Mesh& mesh, const std::string& path, Messages* messages) {
   if (mesh.face_count() == 0) throw InputError(path + ": the mesh has no faces");
-  std::string complaint;
-  try {
-    return from_mesh(mesh, {}, messages);
-  } catch (const InputError& error) {
-    complaint = error.what();
-  }
+  std::variant<Polyhedron, MeshRefusal> made = try_from_mesh(mesh, {}, messages);
+  if (auto* solid = std::get_if<Polyhedron>(&made)) return std::move(*solid);
+  const std::string& complaint = std::get<MeshRefusal>(made).text;
   MeshMeaning meaning = meaning_of(mesh);
   if (messages != nullptr) {
     std::string text = path + ": the mesh bounds no solid as it is (" + complaint + "), ";

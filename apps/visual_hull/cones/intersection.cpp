@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/visual_hull/cones/intersection.h"
 
+#include <Eigen/Core>
 #include <cmath>
 #include <mutex>
 
@@ -9,31 +10,18 @@
 namespace visual_hull {
 namespace {
 
-std::array<double, 3> unit(const Rational3& axis) {
-  std::array<double, 3> v{};
-  double length = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    v[i] = nef::nearest_double(axis[i]);
-    length = std::max(length, std::abs(v[i]));
-  }
-  if (!(length > 0)) return {};
-  double square = 0;
-  for (double& c : v) {
-    c /= length;
-    square += c * c;
-  }
-  for (double& c : v) c /= std::sqrt(square);
-  return v;
+// Of length one, or zero.
+Eigen::Vector3d unit(const Rational3& axis) {
+  const Eigen::Vector3d v(nef::nearest_double(axis[0]), nef::nearest_double(axis[1]), nef::nearest_double(axis[2]));
+  return v.stableNormalized();
 }
 
 // How much two axes look along each other: 0 for a right angle.
-double alignment(const std::array<double, 3>& a, const std::array<double, 3>& b) {
-  return std::abs(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]);
-}
+double alignment(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return std::abs(a.dot(b)); }
 
 // Pairs each part with the one left that looks across it most.
 std::vector<Part> pair_across(std::vector<Part> parts) {
-  std::vector<std::array<double, 3>> axes;
+  std::vector<Eigen::Vector3d> axes;
   for (const Part& part : parts) axes.push_back(unit(part.axis));
   std::vector<bool> used(parts.size(), false);
   std::vector<Part> ordered;

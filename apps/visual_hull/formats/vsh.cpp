@@ -10,7 +10,6 @@
 namespace visual_hull {
 namespace {
 
-using nef::cross;
 using nef::dot;
 using nef::minus;
 
@@ -59,15 +58,11 @@ class Reader {
 };
 
 // The normal of the plane through all points, on the side away from the centre.
-Rational3 common_normal(const std::vector<std::vector<Rational3>>& polygons, const Rational3& centre,
-                        const std::string& where) {
+Rational3 normal_away_from(const std::vector<std::vector<Rational3>>& polygons, const Rational3& centre,
+                           const std::string& where) {
   const Rational3& origin = polygons[0][0];
-  Rational3 normal;
-  const auto is_zero = [](const Rational3& v) { return sgn(v[0]) == 0 && sgn(v[1]) == 0 && sgn(v[2]) == 0; };
-  for (std::size_t i = 1; i + 1 < polygons[0].size() && is_zero(normal); ++i) {
-    normal = cross(minus(polygons[0][i], origin), minus(polygons[0][i + 1], origin));
-  }
-  if (is_zero(normal)) throw nef::InputError(where + ": the points of polygon 1 lie on a line");
+  Rational3 normal = nef::normal_of<Rational>(polygons[0]);
+  if (nef::is_zero(normal)) throw nef::InputError(where + ": the points of polygon 1 lie on a line");
   for (std::size_t k = 0; k < polygons.size(); ++k) {
     for (std::size_t i = 0; i < polygons[k].size(); ++i) {
       if (sgn(dot(normal, minus(polygons[k][i], origin))) != 0) {
@@ -86,7 +81,7 @@ Rational3 common_normal(const std::vector<std::vector<Rational3>>& polygons, con
 
 View make_view(const Rational3& centre, const std::vector<std::vector<Rational3>>& polygons, const std::string& name,
                const std::string& where) {
-  const Rational3 normal = common_normal(polygons, centre, where);
+  const Rational3 normal = normal_away_from(polygons, centre, where);
   // Y is seen at C + s (Y - C), s = h / (n . (Y - C)), h = n . (any point - C) > 0. In homogeneous
   // coordinates that is h (Y - C) + C (n . (Y - C)) with weight n . (Y - C), positive in front.
   const Rational height = dot(normal, minus(polygons[0][0], centre));

@@ -15,11 +15,9 @@ ThresholdOptions parse_threshold(const std::string& text) {
     return options;
   }
   options.kind = ThresholdOptions::Kind::kValue;
-  try {
-    options.value = nef::nearest_double(nef::parse_rational(text));
-  } catch (const nef::InputError&) {
-    throw nef::InputError("threshold " + nef::in_quotes(text) + " is neither a number nor otsu");
-  }
+  const std::optional<Rational> value = nef::try_parse_rational(text);
+  if (!value) throw nef::InputError("threshold " + nef::in_quotes(text) + " is neither a number nor otsu");
+  options.value = nef::nearest_double(*value);
   return options;
 }
 

@@ -15,6 +15,14 @@ namespace {
                         "a larger unit of length");
 }
 
+bool is_in_range(const nef::Rational& value) {
+  // More bits than 1e60 has, with one to spare for the quotient; doubles tell the rest.
+  constexpr std::size_t kBits = 201;
+  const std::size_t above = mpz_sizeinbase(value.get_num_mpz_t(), 2);
+  const std::size_t below = mpz_sizeinbase(value.get_den_mpz_t(), 2);
+  return above <= below + kBits && std::abs(nef::nearest_double(value)) <= kLargestNumber;
+}
+
 }  // namespace
 
 void check_size(double value, const std::string& where) {
@@ -23,27 +31,15 @@ void check_size(double value, const std::string& where) {
 }
 
 void check_size(const nef::Rational& value, const std::string& where) {
-  // More bits than 1e60 has, with one to spare for the quotient; doubles tell the rest.
-  constexpr std::size_t kBits = 201;
-  const std::size_t above = mpz_sizeinbase(value.get_num_mpz_t(), 2);
-  const std::size_t below = mpz_sizeinbase(value.get_den_mpz_t(), 2);
-  if (above > below + kBits || !(std::abs(nef::nearest_double(value)) <= kLargestNumber)) too_large(where, "a number");
+  if (!is_in_range(value)) too_large(where, "a number");
 }
 
 nef::Rational scene_number(std::string_view word, const std::string& where, const std::string& what, Quote quote) {
-  nef::Rational value;
   const std::string told = quote == Quote::kWord ? nef::in_quotes(word) : "a word";
-  try {
-    value = nef::parse_rational(word);
-  } catch (const nef::InputError&) {
-    throw nef::InputError(where + ": " + told + " is not a number (" + what + ")");
-  }
-  try {
-    check_size(value, where);
-  } catch (const nef::InputError&) {
-    too_large(where, told + " (" + what + ")");
-  }
-  return value;
+  std::optional<nef::Rational> value = nef::try_parse_rational(word);
+  if (!value) throw nef::InputError(where + ": " + told + " is not a number (" + what + ")");
+  if (!is_in_range(*value)) too_large(where, told + " (" + what + ")");
+  return *std::move(value);
 }
 
 }  // namespace visual_hull

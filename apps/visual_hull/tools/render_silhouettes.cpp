@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -13,14 +15,11 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "nef/base/error.h"
-#include "nef/geometry/vectors.h"
 #include "nef/io/mesh/mesh_reader.h"
 
 namespace {
 
-using nef::cross;
-using nef::dot;
-using Vec3 = std::array<double, 3>;
+using Eigen::Vector3d;
 
 struct Arguments {
   std::string mesh;
@@ -35,49 +34,38 @@ struct Arguments {
 struct View {
   std::array<std::string, 9> r;  // as they will be written
   std::array<std::string, 3> t;
-  std::array<std::array<double, 4>, 3> rt{};
+  Eigen::Matrix3d turn;  // what was written
+  Vector3d shift;
 };
 
-Vec3 unit(const Vec3& a) {
-  const double length = std::sqrt(dot(a, a));
-  return {a[0] / length, a[1] / length, a[2] / length};
-}
-
-View look(const Vec3& from, const Vec3& at, const Vec3& up) {
-  const Vec3 z = unit({at[0] - from[0], at[1] - from[1], at[2] - from[2]});
-  const Vec3 x = unit(cross(z, up));  // to the right: v points down
-  const Vec3 y = cross(z, x);
+View look(const Vector3d& from, const Vector3d& at, const Vector3d& up) {
+  const Vector3d z = (at - from).normalized();
+  const Vector3d x = z.cross(up).normalized();  // to the right: v points down
+  const std::array<Vector3d, 3> rows{x, z.cross(x), z};
   View view;
-  const std::array<Vec3, 3> rows{x, y, z};
   for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) view.r[3 * i + j] = fmt::format("{:.6f}", rows[i][j]);
-    view.t[i] = fmt::format("{:.6f}", -dot(rows[i], from));
-    for (std::size_t j = 0; j < 3; ++j) view.rt[i][j] = std::stod(view.r[3 * i + j]);
-    view.rt[i][3] = std::stod(view.t[i]);
+    for (std::size_t j = 0; j < 3; ++j) view.r[3 * i + j] = fmt::format("{:.6f}", rows[i](j));
+    view.t[i] = fmt::format("{:.6f}", -rows[i].dot(from));
+    for (std::size_t j = 0; j < 3; ++j) view.turn(i, j) = std::stod(view.r[3 * i + j]);
+    view.shift(i) = std::stod(view.t[i]);
   }
   return view;
 }
 
 struct Sphere {
-  Vec3 centre{};
+  Vector3d centre;
   double radius = 0;
 };
 
-Sphere bound(const std::vector<Vec3>& points) {
-  Vec3 low = points[0];
-  Vec3 high = points[0];
-  for (const Vec3& p : points) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      low[i] = std::min(low[i], p[i]);
-      high[i] = std::max(high[i], p[i]);
-    }
+Sphere bound(const std::vector<Vector3d>& points) {
+  Vector3d low = points[0];
+  Vector3d high = points[0];
+  for (const Vector3d& p : points) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
   }
-  Sphere sphere;
-  for (std::size_t i = 0; i < 3; ++i) sphere.centre[i] = (low[i] + high[i]) / 2;
-  for (const Vec3& p : points) {
-    const Vec3 d{p[0] - sphere.centre[0], p[1] - sphere.centre[1], p[2] - sphere.centre[2]};
-    sphere.radius = std::max(sphere.radius, std::sqrt(dot(d, d)));
-  }
+  Sphere sphere{(low + high) / 2};
+  for (const Vector3d& p : points) sphere.radius = std::max(sphere.radius, (p - sphere.centre).norm());
   return sphere;
 }
 
@@ -102,13 +90,12 @@ void fill(cv::Mat& mask, const std::array<std::array<double, 2>, 3>& p) {
   }
 }
 
-cv::Mat render(const std::vector<Vec3>& points, const nef::Mesh& mesh, const View& view, double focal, double cx,
+cv::Mat render(const std::vector<Vector3d>& points, const nef::Mesh& mesh, const View& view, double focal, double cx,
                double cy, const Arguments& a) {
   cv::Mat mask(a.height, a.width, CV_8U, cv::Scalar(0));
   std::vector<std::array<double, 2>> seen;
-  for (const Vec3& p : points) {
-    Vec3 c{};
-    for (std::size_t i = 0; i < 3; ++i) c[i] = dot({view.rt[i][0], view.rt[i][1], view.rt[i][2]}, p) + view.rt[i][3];
+  for (const Vector3d& p : points) {
+    const Vector3d c = view.turn * p + view.shift;
     seen.push_back({focal * c[0] / c[2] + cx, focal * c[1] / c[2] + cy});
   }
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {
@@ -131,9 +118,9 @@ std::string camera_json(const View& view, const std::string& image, double focal
 
 void run(const Arguments& a) {
   const nef::Mesh mesh = nef::read_mesh(a.mesh);
-  std::vector<Vec3> points;
+  std::vector<Vector3d> points;
   for (const nef::Rational3& p : mesh.vertices) {
-    points.push_back({nef::nearest_double(p[0]), nef::nearest_double(p[1]), nef::nearest_double(p[2])});
+    points.emplace_back(nef::nearest_double(p[0]), nef::nearest_double(p[1]), nef::nearest_double(p[2]));
   }
   if (points.empty()) throw nef::InputError(a.mesh + ": the mesh has no vertices");
   const Sphere sphere = bound(points);
@@ -141,16 +128,15 @@ void run(const Arguments& a) {
   const double cx = (a.width - 1) / 2.0;  // whole coordinates are centres of pixels
   const double cy = (a.height - 1) / 2.0;
   const double distance = sphere.radius * std::hypot(1.0, focal / (0.46 * std::min(a.width, a.height)));
-  const std::size_t up = a.up == "x" ? 0 : a.up == "y" ? 1 : 2;
-  Vec3 up_vector{};
-  up_vector[up] = 1;
+  const int up = a.up == "x" ? 0 : a.up == "y" ? 1 : 2;
+  const Vector3d up_vector = Vector3d::Unit(up);
   const std::string stem = std::filesystem::path(a.mesh).stem().string();
   std::filesystem::create_directories(a.directory);
   std::string cameras;
   for (int i = 0; i < a.views; ++i) {
     const double azimuth = 2 * M_PI * i / a.views;
     const double elevation = a.elevations[static_cast<std::size_t>(i) % a.elevations.size()] * M_PI / 180;
-    Vec3 from = sphere.centre;
+    Vector3d from = sphere.centre;
     from[(up + 1) % 3] += distance * std::cos(elevation) * std::cos(azimuth);
     from[(up + 2) % 3] += distance * std::cos(elevation) * std::sin(azimuth);
     from[up] += distance * std::sin(elevation);

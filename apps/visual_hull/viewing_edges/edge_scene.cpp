@@ -18,7 +18,7 @@ constexpr std::size_t kExactPointsOfEdge = 50;
 std::unique_ptr<const EdgeScene> EdgeScene::make(const std::vector<DirectView>& inputs, const WorldBox& box,
                                                  unsigned threads) {
   std::unique_ptr<EdgeScene> scene(new EdgeScene);
-  Vec3 reach{};
+  Double3 reach{};
   double size = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     scene->low[i] = nef::nearest_double(box.low[i]);

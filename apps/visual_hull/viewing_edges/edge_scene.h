@@ -43,8 +43,8 @@ class EdgeScene {
 
   std::vector<EdgeView> views;
   std::vector<ViewingEdge> edges;
-  Vec3 low{}, high{};  ///< of the box
-  Vec3 farthest{};     ///< the largest coordinates of its points
+  Double3 low{}, high{};  ///< of the box
+  Double3 farthest{};     ///< the largest coordinates of its points
 
  private:
   EdgeScene() = default;

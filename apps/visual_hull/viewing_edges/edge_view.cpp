@@ -66,14 +66,14 @@ int side_of(const std::array<Integer, 4>& plane, const ExactPoint& point) {
 }
 
 std::optional<EdgeView> EdgeView::make(const Camera& camera, const Silhouette& silhouette, std::uint32_t index,
-                                       std::uint32_t first, const Vec3& reach, std::span<ViewingEdge> edges) {
+                                       std::uint32_t first, const Double3& reach, std::span<ViewingEdge> edges) {
   EdgeView view(camera, first, reach, edges);
   view.collect_edges(silhouette, index);
   if (!view.join_places() || !view.build_grid()) return std::nullopt;
   return view;
 }
 
-EdgeView::EdgeView(const Camera& camera, std::uint32_t first, const Vec3& reach, std::span<ViewingEdge> edges)
+EdgeView::EdgeView(const Camera& camera, std::uint32_t first, const Double3& reach, std::span<ViewingEdge> edges)
     : planes_(camera), edges_(edges), first_(first) {
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 4; ++j) matrix_[i][j] = nef::nearest_double(camera.matrix()[i][j]);
@@ -164,7 +164,7 @@ std::optional<Seen> EdgeView::project(const Spot& spot) const {
 }
 
 // (x + a) / (z + c) - x / z = (a - (x / z) c) / (z + c).
-std::optional<EdgeView::Window> EdgeView::window(const Vec3& middle, const Vec3& half) const {
+std::optional<EdgeView::Window> EdgeView::window(const Double3& middle, const Double3& half) const {
   std::array<double, 3> x{};
   for (std::size_t i = 0; i < 3; ++i) {
     x[i] = matrix_[i][0] * middle[0] + matrix_[i][1] * middle[1] + matrix_[i][2] * middle[2] + matrix_[i][3];

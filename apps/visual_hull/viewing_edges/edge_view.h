@@ -12,17 +12,18 @@
 
 #include "apps/visual_hull/scene/camera.h"
 #include "apps/visual_hull/scene/camera_planes.h"
+#include "nef/geometry/vectors.h"
 
 namespace visual_hull {
 
-using Vec3 = std::array<double, 3>;
+using nef::Double3;
 
 /// Three edges of silhouettes (numbers in the list of all views' edges, ascending) whose planes meet in a point.
 using SpotName = std::array<std::uint32_t, 3>;
 
 /// A point of space, each coordinate within `error` of the truth.
 struct Spot {
-  Vec3 at{};
+  Double3 at{};
   double error = 0;
 };
 
@@ -36,9 +37,9 @@ struct Seen {
   double error = 0;
 };
 
-/// A vector whose components are within `error` of the truth.
-struct Vector {
-  Vec3 at{};
+/// The normal of a plane; components are within `error` of the truth.
+struct RoundedNormal {
+  Double3 at{};
   double error = 0;
 };
 
@@ -50,7 +51,7 @@ struct ViewingEdge {
   std::uint32_t previous = 0;  ///< the edge that ends where this one starts
   std::uint32_t place = 0;     ///< the first edge that starts at the same vertex: another one where rings touch
   std::uint32_t next_at_place = UINT32_MAX;
-  Vector normal;
+  RoundedNormal normal;
   double offset = 0;
   double offset_error = 0;
 };
@@ -64,7 +65,7 @@ class EdgeView {
   /// references to camera and edges. Coordinates of spots to be projected are at most `reach`. Nothing if vertices are
   /// equal but for rounding, the silhouette is flat, or lies on points of its grid.
   static std::optional<EdgeView> make(const Camera& camera, const Silhouette& silhouette, std::uint32_t index,
-                                      std::uint32_t first, const Vec3& reach, std::span<ViewingEdge> edges);
+                                      std::uint32_t first, const Double3& reach, std::span<ViewingEdge> edges);
 
   [[nodiscard]] std::uint32_t first_edge() const { return first_; }
   [[nodiscard]] std::uint32_t edge_count() const { return count_; }
@@ -77,7 +78,7 @@ class EdgeView {
     std::array<double, 2> middle{}, half{};
   };
   /// Holds the images of all points of a box, with some room for roundings; nothing if some may not be in front.
-  [[nodiscard]] std::optional<Window> window(const Vec3& middle, const Vec3& half) const;
+  [[nodiscard]] std::optional<Window> window(const Double3& middle, const Double3& half) const;
 
   /// True if the point lies in the interior of the silhouette, false if outside; nothing if doubles do not decide.
   [[nodiscard]] std::optional<bool> inside(const Seen& p) const;
@@ -100,7 +101,7 @@ class EdgeView {
   [[nodiscard]] std::array<Integer, 4> plane(std::uint32_t edge) const;
 
  private:
-  EdgeView(const Camera& camera, std::uint32_t first, const Vec3& reach, std::span<ViewingEdge> edges);
+  EdgeView(const Camera& camera, std::uint32_t first, const Double3& reach, std::span<ViewingEdge> edges);
   void collect_edges(const Silhouette& silhouette, std::uint32_t index);
   [[nodiscard]] bool join_places();
   void prepare_edge(ViewingEdge& edge) const;
@@ -129,8 +130,8 @@ class EdgeView {
   std::uint32_t first_ = 0;
   std::uint32_t count_ = 0;
   std::array<std::array<double, 4>, 3> matrix_{};
-  Vec3 rounding_{};                        // of each row of the matrix times a spot
-  Vec3 slope_{};                           // sums of magnitudes of the rows: by how much errors of spots grow
+  Double3 rounding_{};                     // of each row of the matrix times a spot
+  Double3 slope_{};                        // sums of magnitudes of the rows: by how much errors of spots grow
   std::vector<std::array<Seen, 2>> ends_;  // of edges
   // The grid: `side_` wide cells from (low_u_, low_v_) on; each has a reference point, inside or not.
   double low_u_ = 0;

@@ -81,7 +81,7 @@ std::optional<PartCut> PartCut::make(std::uint32_t view, const PartFacet& facet,
 }
 
 // Linear in pieces, and concave, in the factor: the best one is where a component of the difference vanishes.
-bool PartCut::positive(double height, const Vec3& slope, double error) const {
+bool PartCut::positive(double height, const Double3& slope, double error) const {
   for (std::size_t k = 0; k < 3; ++k) {
     const double factor = slope[k] / slope_[k];
     if (!(factor > 0)) continue;
@@ -93,7 +93,7 @@ bool PartCut::positive(double height, const Vec3& slope, double error) const {
 }
 
 bool PartCut::misses(const PartFacet& facet) const {
-  Vec3 slope{};
+  Double3 slope{};
   for (std::size_t k = 0; k < 3; ++k) slope[k] = facet.normal[k] * box_.half[k];
   const double height = facet.height(box_.middle);
   if (positive(height, slope, facet.error)) return true;

@@ -14,11 +14,11 @@ namespace visual_hull {
 /// What halving asks of an edge, close together.
 struct PartFacet {
   std::array<double, 2> low{}, high{};  ///< of the edge in its image
-  Vec3 normal{};                        ///< of its plane
+  Double3 normal{};                     ///< of its plane
   double offset = 0;
   double error = 0;  ///< of the height of a point in the scene's box over the plane, with room for roundings
 
-  [[nodiscard]] double height(const Vec3& point) const {
+  [[nodiscard]] double height(const Double3& point) const {
     return offset + normal[0] * point[0] + normal[1] * point[1] + normal[2] * point[2];
   }
 };
@@ -43,18 +43,18 @@ class PartCut {
   [[nodiscard]] bool misses(const PartFacet& facet) const;
 
   /// A point of what is left.
-  [[nodiscard]] const Vec3& point() const { return point_; }
+  [[nodiscard]] const Double3& point() const { return point_; }
 
  private:
-  [[nodiscard]] bool positive(double height, const Vec3& slope, double error) const;
+  [[nodiscard]] bool positive(double height, const Double3& slope, double error) const;
 
   std::uint32_t view_ = 0;
   PartBox box_;
   double height_ = 0;  // of the middle over the plane
-  Vec3 slope_{};       // by how much that grows from the middle to the sides
+  Double3 slope_{};    // by how much that grows from the middle to the sides
   double error_ = 0;
   double share_ = 2;
-  Vec3 point_{};
+  Double3 point_{};
 };
 
 }  // namespace visual_hull

@@ -98,7 +98,7 @@ void PartVertices::pair_up() {
       const Facet& q = facets_[b];
       if (p.view == q.view && !neighbours(p.edge, q.edge)) continue;
       // A line misses a cube if one of the directions across the line and a side tells them apart.
-      const Vec3 d = cross(p.normal, q.normal);
+      const Double3 d = cross(p.normal, q.normal);
       const double slack = 2 * (p.size * q.error + q.size * p.error) + kProductRounding * p.size * q.size;
       const auto passes = [&](std::size_t k, std::size_t l, std::size_t m) {
         return std::abs(p.normal[k] * q.offset - q.normal[k] * p.offset) <= std::abs(d[l]) + std::abs(d[m]) + slack;
@@ -117,9 +117,9 @@ PartVertices::Answer PartVertices::place(std::size_t a, std::size_t b, std::size
   const Facet& p = facets_[a];
   const Facet& q = facets_[b];
   const Facet& r = facets_[c];
-  const Vec3& pq = crosses_[a * n + b];
-  const Vec3& pr = crosses_[a * n + c];
-  const Vec3& qr = crosses_[b * n + c];
+  const Double3& pq = crosses_[a * n + b];
+  const Double3& pr = crosses_[a * n + c];
+  const Double3& qr = crosses_[b * n + c];
   const double determinant = dot(pq, r.normal);
   const double rounding = kProductRounding * p.size * q.size * r.size;
   double largest = 0;

@@ -12,8 +12,8 @@ namespace visual_hull {
 
 /// A box of space: its middle and half of its sides.
 struct PartBox {
-  Vec3 middle{};
-  Vec3 half{};
+  Double3 middle{};
+  Double3 half{};
 };
 
 /// The edges that a view shows in a part: a range of a list.
@@ -45,7 +45,7 @@ class PartVertices {
   struct Facet {
     std::uint32_t edge = 0;
     std::uint32_t view = 0;
-    Vec3 normal{};
+    Double3 normal{};
     double offset = 0;
     double error = 0;  // by which values in the cube may be wrong
     double size = 0;   // the sum of the normal's magnitudes
@@ -53,7 +53,7 @@ class PartVertices {
 
   /// A point in these coordinates.
   struct Place {
-    Vec3 at{};
+    Double3 at{};
     double error = 0;
   };
 
@@ -73,7 +73,7 @@ class PartVertices {
   const EdgeScene& s_;
   PartBox box_;
   std::vector<Facet> facets_;
-  std::vector<Vec3> crosses_;  // of the normals of each two facets, row by row
+  std::vector<Double3> crosses_;  // of the normals of each two facets, row by row
   std::size_t words_ = 0;
   std::vector<std::uint64_t> meet_;  // row by row: bits of the later facets whose line with each may pass the cube
   std::size_t first_crowded_ = 0;    // of the part

@@ -153,7 +153,7 @@ class Halving {
     for (std::uint32_t i = shown.begin; i < shown.end; ++i) {
       const std::uint32_t e = content.edges[i];
       const PartFacet& facet = facets_[e];
-      const Vec3& n = facet.normal;
+      const Double3& n = facet.normal;
       const double height = facet.offset + n[0] * low.middle[0] + n[1] * low.middle[1] + n[2] * low.middle[2];
       const double reach =
           facet.error + std::abs(n[0]) * low.half[0] + std::abs(n[1]) * low.half[1] + std::abs(n[2]) * low.half[2];

@@ -2,6 +2,7 @@
 //
 // nef check: what is wrong with a mesh, by name; or whether a native file holds a valid complex.
 #include "nef/command/commands.h"
+#include "nef/import/try_from_mesh.h"
 #include "nef/io/mesh/mesh_reader.h"
 #include "nef/io/polyhedron_file.h"
 #include "nef/mesh/mesh_check.h"
@@ -48,10 +49,9 @@ Json check_mesh_file(const std::string& path, bool self_intersections) {
   }
   if (!good || !self_intersections) return problems;
   // How components lie in each other is known only when the solid is made.
-  try {
-    from_mesh(mesh);
-  } catch (const InputError& error) {
-    problems.push_back(plain_problem("inconsistent orientation", error.what()));
+  const std::variant<Polyhedron, MeshRefusal> made = try_from_mesh(mesh);
+  if (const auto* refused = std::get_if<MeshRefusal>(&made)) {
+    problems.push_back(plain_problem("inconsistent orientation", refused->text));
   }
   return problems;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "nef/command/questions/section_drawing.h"
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,46 +13,38 @@
 namespace nef {
 namespace {
 
-using Vector = std::array<double, 3>;
+using Eigen::Vector3d;
 using Point2 = std::array<double, 2>;
 
-Vector rounded(const Rational3& p) { return {nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2])}; }
+Vector3d rounded(const Rational3& p) { return {nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2])}; }
 
 // Two unit vectors across the normal, such that the three are right-handed.
 class Frame {
  public:
   explicit Frame(const Rational3& normal) {
-    Vector n = rounded(normal);
-    const double length = std::hypot(n[0], n[1], n[2]);
-    for (double& x : n) x /= length;
+    const Vector3d n = rounded(normal).stableNormalized();
     const double flat = std::hypot(n[0], n[1]);
     // Looking along z the drawing has x to the right, if from below to the left.
-    u_ = flat > 0 ? Vector{-n[1] / flat, n[0] / flat, 0} : Vector{n[2], 0, 0};
-    v_ = {n[1] * u_[2] - n[2] * u_[1], n[2] * u_[0] - n[0] * u_[2], n[0] * u_[1] - n[1] * u_[0]};
+    u_ = flat > 0 ? Vector3d(-n[1] / flat, n[0] / flat, 0) : Vector3d(n[2], 0, 0);
+    v_ = n.cross(u_);
   }
   [[nodiscard]] Point2 operator()(const Rational3& p) const {
-    const Vector x = rounded(p);
-    return {x[0] * u_[0] + x[1] * u_[1] + x[2] * u_[2], x[0] * v_[0] + x[1] * v_[1] + x[2] * v_[2]};
+    const Vector3d x = rounded(p);
+    return {x.dot(u_), x.dot(v_)};
   }
 
  private:
-  Vector u_{}, v_{};
+  Vector3d u_, v_;
 };
 
 // The length of the vector area.
 double ring_area(std::span<const Rational3> ring) {
-  Vector sum{};
-  const Vector o = rounded(ring[0]);
+  Vector3d sum = Vector3d::Zero();
+  const Vector3d origin = rounded(ring[0]);
   for (std::size_t i = 1; i + 1 < ring.size(); ++i) {
-    const Vector p = rounded(ring[i]);
-    const Vector q = rounded(ring[i + 1]);
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::size_t a = (k + 1) % 3;
-      const std::size_t b = (k + 2) % 3;
-      sum[k] += (p[a] - o[a]) * (q[b] - o[b]) - (p[b] - o[b]) * (q[a] - o[a]);
-    }
+    sum += (rounded(ring[i]) - origin).cross(rounded(ring[i + 1]) - origin);
   }
-  return std::hypot(sum[0], sum[1], sum[2]) / 2;
+  return sum.stableNorm() / 2;
 }
 
 struct Bounds {

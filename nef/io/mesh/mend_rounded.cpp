@@ -13,10 +13,12 @@
 #include <random>
 #include <set>
 #include <unordered_map>
+#include <variant>
 
 #include "nef/base/error.h"
 #include "nef/base/parallel.h"
 #include "nef/export/nearest_float.h"
+#include "nef/import/try_from_mesh.h"
 #include "nef/io/number_text.h"
 #include "nef/io/text_cursor.h"
 #include "nef/mesh/edge_order.h"
@@ -60,14 +62,10 @@ Finding examine(const Mesh& mesh) {
   // How components lie to each other, and what contacts mean, is known when the solid is made.
   const bool clean = !contact && found.degenerate.empty();
   if (!found.legal || (clean && surely_one_solid(surface))) return found;
-  try {
-    Messages messages;
-    MeshOptions options;
-    options.check = !clean;
-    from_mesh(mesh, options, &messages);
-  } catch (const InputError& error) {
-    note(error.what());
-  }
+  MeshOptions options;
+  options.check = !clean;
+  const std::variant<Polyhedron, MeshRefusal> made = try_from_mesh(mesh, options);
+  if (const auto* refused = std::get_if<MeshRefusal>(&made)) note(refused->text);
   return found;
 }
 

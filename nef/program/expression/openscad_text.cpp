@@ -158,14 +158,14 @@ class ModelParser {
     if (word == "true" || word == "false") {
       result.is = word == "true";
     } else if (word != "undef") {
-      try {
-        result.is = parse_rational(word);
-      } catch (const InputError&) {
+      std::optional<Rational> number = try_parse_rational(word);
+      if (!number) {
         fail(word.empty() ? "expected a value, found " + in_quotes(text_.substr(at_, 1))
                           : in_quotes(word) +
                                 " is no number; .csg files hold no variables (openscad -o model.csg "
                                 "model.scad makes them)");
       }
+      result.is = *std::move(number);
     }
     at_ = end;
     return result;

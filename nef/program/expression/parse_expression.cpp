@@ -316,13 +316,10 @@ class ExpressionParser : private ExpressionScanner {
     }
     const std::string_view digits = rest.substr(0, end);
     if (digits.empty()) fail("expected a number, found " + here() + "; usage: " + std::string(usage));
-    try {
-      Rational value = parse_rational(digits);
-      move_to(offset() + end);
-      return value;
-    } catch (const InputError&) {
-      fail("'" + std::string(digits) + "' is no number; usage: " + std::string(usage));
-    }
+    std::optional<Rational> value = try_parse_rational(digits);
+    if (!value) fail("'" + std::string(digits) + "' is no number; usage: " + std::string(usage));
+    move_to(offset() + end);
+    return *std::move(value);
   }
 
   // Whether a digit comes after the slash: p/q is one number.

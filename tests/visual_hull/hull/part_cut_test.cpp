@@ -11,7 +11,7 @@ namespace {
 
 constexpr EdgeView::Window kWindow{{10, 20}, {1, 1}};
 
-PartFacet facet_of(const Vec3& normal, double offset) {
+PartFacet facet_of(const Double3& normal, double offset) {
   PartFacet facet;
   facet.normal = normal;
   facet.offset = offset;
@@ -25,20 +25,20 @@ bool passes(const PartFacet& plane, const PartBox& box) {
 }
 
 // The corners of the box on the positive side of a plane, and where the plane meets the box's edges.
-std::vector<Vec3> vertices_left(const PartBox& box, const PartFacet& plane) {
-  std::vector<Vec3> left;
+std::vector<Double3> vertices_left(const PartBox& box, const PartFacet& plane) {
+  std::vector<Double3> left;
   const auto corner = [&box](unsigned bits) {
-    Vec3 p = box.middle;
+    Double3 p = box.middle;
     for (std::size_t k = 0; k < 3; ++k) p[k] += (bits >> k & 1U) != 0 ? box.half[k] : -box.half[k];
     return p;
   };
   for (unsigned bits = 0; bits < 8; ++bits) {
-    const Vec3 p = corner(bits);
+    const Double3 p = corner(bits);
     const double here = plane.height(p);
     if (here >= 0) left.push_back(p);
     for (std::size_t k = 0; k < 3; ++k) {
       if ((bits >> k & 1U) != 0) continue;
-      Vec3 q = corner(bits | 1U << k);
+      Double3 q = corner(bits | 1U << k);
       const double there = plane.height(q);
       if ((here > 0) == (there > 0)) continue;
       q[k] = p[k] + here / (here - there) * (q[k] - p[k]);
@@ -62,28 +62,28 @@ TEST_CASE("A facet that misses what a cut leaves of a part") {
   std::size_t met = 0;
   for (int round = 0; round < 20000; ++round) {
     const auto vector = [&](double size) {
-      return Vec3{size * uniform(random), size * uniform(random), size * uniform(random)};
+      return Double3{size * uniform(random), size * uniform(random), size * uniform(random)};
     };
     PartBox box{vector(5), {}};
     for (double& h : box.half) h = 0.5 + 0.4 * uniform(random);
-    const auto through = [&](const Vec3& normal) {  // a plane through a point near the box
-      const Vec3 off = vector(0.5);
+    const auto through = [&](const Double3& normal) {  // a plane through a point near the box
+      const Double3 off = vector(0.5);
       PartFacet plane = facet_of(normal, 0);
       plane.offset = -plane.height({box.middle[0] + off[0], box.middle[1] + off[1], box.middle[2] + off[2]});
       return plane;
     };
-    const Vec3 normal = vector(1);
+    const Double3 normal = vector(1);
     const PartFacet plane = through(normal);
     const std::optional<PartCut> cut = PartCut::make(3, plane, edge, box, kWindow);
     if (!cut) continue;
     CHECK(plane.height(cut->point()) > 0);
     // Nearly parallel, as neighbours on a surface are.
-    const Vec3 turn = vector(0.3);
+    const Double3 turn = vector(0.3);
     const PartFacet other = through({normal[0] + turn[0], normal[1] + turn[1], normal[2] + turn[2]});
     if (!passes(other, box)) continue;  // halving does not ask then
     double lowest = INFINITY;
     double highest = -INFINITY;
-    for (const Vec3& p : vertices_left(box, plane)) {
+    for (const Double3& p : vertices_left(box, plane)) {
       lowest = std::min(lowest, other.height(p));
       highest = std::max(highest, other.height(p));
     }

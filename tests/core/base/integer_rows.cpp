@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/number/integer_rows.h"
+
+#include <catch2/catch.hpp>
+#include <random>
+#include <vector>
+
+namespace nef::test {
+namespace {
+
+using IntegerRow = std::vector<Integer>;
+
+// Now and then a giant, of more limbs than a byte counts.
+Integer short_or_giant(std::mt19937& random, int giants_of_100) {
+  const bool giant = static_cast<int>(random() % 100) < giants_of_100;
+  Integer value = 0;
+  for (unsigned limbs = giant ? 120 + random() % 20 : random() % 4; limbs > 0; --limbs) {
+    value = (value << 64) + Integer(static_cast<unsigned long>(random()) << 32U | random());
+  }
+  return random() % 2 == 0 ? value : Integer(-value);
+}
+
+IntegerRow random_integer_row(std::mt19937& random, std::size_t width, int giants_of_100) {
+  IntegerRow row;
+  for (std::size_t i = 0; i < width; ++i) row.push_back(short_or_giant(random, giants_of_100));
+  return row;
+}
+
+void push_row(IntegerRows& table, const IntegerRow& row) {
+  std::vector<mpz_srcptr> views;
+  for (const Integer& value : row) views.push_back(value.get_mpz_t());
+  table.push(views);
+}
+
+bool holds_rows(const IntegerRows& table, const std::vector<IntegerRow>& rows) {
+  if (table.size() != rows.size()) return false;
+  for (std::uint32_t r = 0; r < rows.size(); ++r) {
+    for (std::size_t i = 0; i < rows[r].size(); ++i) {
+      if (mpz_cmp(table.at(r, i), rows[r][i].get_mpz_t()) != 0 || table.sign(r, i) != sgn(rows[r][i])) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+TEST_CASE("tables of integers give back what was pushed, short or long, and copies of it") {
+  std::mt19937 random(3);
+  for (const std::size_t width : {1U, 4U, 5U, 7U, 8U, 9U, 12U}) {
+    for (const int giants : {0, 1, 50}) {
+      CAPTURE(width, giants);
+      IntegerRows table(width);
+      IntegerRows copy(width);
+      IntegerRows appended(width);
+      std::vector<IntegerRow> rows;
+      for (int r = 0; r < 60; ++r) {
+        rows.push_back(random_integer_row(random, width, giants));
+        push_row(table, rows.back());
+        copy.push_from(table, static_cast<std::uint32_t>(r));
+      }
+      appended.append(table, 0, 20);
+      appended.append(table, 20, 40);
+      CHECK(holds_rows(table, rows));
+      CHECK(holds_rows(copy, rows));
+      CHECK(holds_rows(appended, rows));
+      for (std::uint32_t r = 0; r < rows.size(); ++r) {
+        CHECK(table.equal(r, appended, r));
+        CHECK(table.hash(r) == appended.hash(r));
+      }
+      while (!rows.empty()) {
+        table.pop();
+        rows.pop_back();
+      }
+      rows.push_back(random_integer_row(random, width, 0));
+      push_row(table, rows.back());
+      CHECK(holds_rows(table, rows));
+    }
+  }
+}
+
+TEST_CASE("a table of integers may begin with a giant") {
+  IntegerRows table(2);
+  const IntegerRow row{(Integer(1) << 9000) + 1, Integer(-3)};
+  push_row(table, row);
+  CHECK(holds_rows(table, {row}));
+}
+
+}  // namespace nef::test

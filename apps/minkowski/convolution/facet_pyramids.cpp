@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "apps/minkowski/cells/exact_cells.h"
+#include "nef/mesh/triangulate.h"
 
 namespace nef::minkowski {
 

@@ -30,29 +30,6 @@ Box Segment::box_of(const Interval& part) const {
   return box;
 }
 
-// Both ends' values are within slack + weight * error of the truth, and what is between them is a mean of the two; the
-// factor leaves room for the rounding of the slope and of the sum here.
-FormOnSegment::FormOnSegment(const RoundedFace& face, const Segment& s) {
-  at = face.value(s.from);
-  slope = face.value(s.to) - at;
-  error = 2 * (face.slack + face.weight * s.error);
-}
-
-void keep_below(Interval& t, double at, double slope, double bound, Rounding rounding) {
-  // A difference and a quotient are within 3u of the truth, relatively, and parameters that matter are between -1 and
-  // 2: 7e-16 at most. The rest is room; what it costs is that coverings that meet within 1e-13 of a segment's length
-  // leave a point between them, which is then asked about exactly.
-  constexpr double kRounding = 1e-13;
-  const double margin = rounding == Rounding::kInwards ? kRounding : -kRounding;
-  if (slope > 0) {
-    t.high = std::min(t.high, (bound - at) / slope - margin);
-  } else if (slope < 0) {
-    t.low = std::max(t.low, (bound - at) / slope + margin);
-  } else if (!(at < bound)) {
-    t.high = t.low - 1;
-  }
-}
-
 bool clip_to_box(const Segment& s, const Box& box, Interval& t) {
   for (std::size_t i = 0; i < 3; ++i) {
     const double slope = s.to[i] - s.from[i];

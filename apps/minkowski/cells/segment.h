@@ -3,6 +3,7 @@
 // Segments in doubles with bounds of their errors: where planes, boxes and cells meet them, on the safe side.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -33,14 +34,30 @@ struct Segment {
 /// The form of a face's plane along a segment: at + t * slope, within `error` for t from 0 to 1.
 struct FormOnSegment {
   double at = 0, slope = 0, error = 0;
-  FormOnSegment(const RoundedFace& face, const Segment& s);
+  // Both ends' values are within slack + weight * error of the truth, and what is between them is a mean of the two;
+  // the factor leaves room for the rounding of the slope and of the sum here. Asked for each face of each neighbour.
+  FormOnSegment(const RoundedFace& face, const Segment& s)
+      : at(face.value(s.from)), slope(face.value(s.to) - at), error(2 * (face.slack + face.weight * s.error)) {}
 };
 
 /// Which way an interval is rounded.
 enum class Rounding : std::uint8_t { kInwards, kOutwards };
 
 /// Narrows t to where at + t * slope < bound.
-void keep_below(Interval& t, double at, double slope, double bound, Rounding rounding);
+inline void keep_below(Interval& t, double at, double slope, double bound, Rounding rounding) {
+  // A difference and a quotient are within 3u of the truth, relatively, and parameters that matter are between -1 and
+  // 2: 7e-16 at most. The rest is room; what it costs is that coverings that meet within 1e-13 of a segment's length
+  // leave a point between them, which is then asked about exactly.
+  constexpr double kRounding = 1e-13;
+  const double margin = rounding == Rounding::kInwards ? kRounding : -kRounding;
+  if (slope > 0) {
+    t.high = std::min(t.high, (bound - at) / slope - margin);
+  } else if (slope < 0) {
+    t.low = std::max(t.low, (bound - at) / slope + margin);
+  } else if (!(at < bound)) {
+    t.high = t.low - 1;
+  }
+}
 
 /// Narrows t to where the segment may be in a box; false if that is nowhere.
 bool clip_to_box(const Segment& s, const Box& box, Interval& t);

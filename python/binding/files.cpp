@@ -13,12 +13,12 @@
 #include "nef/io/polyhedron_file.h"
 
 namespace nef::python {
-namespace {
-
 std::string path_text(py::handle path) {
   const py::object text = py::module_::import("os").attr("fspath")(path);
   return py::cast<std::string>(py::module_::import("os").attr("fsdecode")(text));
 }
+
+namespace {
 
 Polyhedron read(py::handle path, bool strict, bool surface) {
   using Made = std::pair<Polyhedron, Messages>;

@@ -16,4 +16,5 @@ by operations. Operators are those of Python's sets: ``|``, ``&``, ``-``, ``^``,
   nef::python::bind_files(module, polyhedron);
   nef::python::bind_construction(module);
   nef::python::bind_view(module);
+  nef::python::bind_tiles(module);
 }

@@ -9,29 +9,6 @@
 #include "nef/parts/split.h"
 
 namespace nef::python {
-namespace {
-
-using Unary = Polyhedron (*)(const Polyhedron&);
-using Binary = Polyhedron (*)(const Polyhedron&, const Polyhedron&, unsigned threads);
-
-auto unary(Unary operation) {
-  return [operation](const Polyhedron& a) { return call(items(a), [=] { return operation(a); }); };
-}
-
-auto binary(Binary operation) {
-  return [operation](const Polyhedron& a, const Polyhedron& b) {
-    return call(items(a) + items(b), [=] { return operation(a, b, 1); });
-  };
-}
-
-bool is_subset(const Polyhedron& a, const Polyhedron& b) {
-  return call(items(a) + items(b), [=] { return subtract(a, b).is_empty(); });
-}
-
-bool is_same(const Polyhedron& a, const Polyhedron& b) {
-  return call(items(a) + items(b), [=] { return equal(a, b); });
-}
-
 AffineMap map_from(py::handle matrix) {
   std::vector<std::vector<Rational>> rows;
   for (const py::handle row : py::reinterpret_borrow<py::object>(matrix)) {
@@ -55,6 +32,29 @@ AffineMap map_from(py::handle matrix) {
     if (rows[i].size() == 4) map.translation[i] = rows[i][3] / weight;
   }
   return map;
+}
+
+namespace {
+
+using Unary = Polyhedron (*)(const Polyhedron&);
+using Binary = Polyhedron (*)(const Polyhedron&, const Polyhedron&, unsigned threads);
+
+auto unary(Unary operation) {
+  return [operation](const Polyhedron& a) { return call(items(a), [=] { return operation(a); }); };
+}
+
+auto binary(Binary operation) {
+  return [operation](const Polyhedron& a, const Polyhedron& b) {
+    return call(items(a) + items(b), [=] { return operation(a, b, 1); });
+  };
+}
+
+bool is_subset(const Polyhedron& a, const Polyhedron& b) {
+  return call(items(a) + items(b), [=] { return subtract(a, b).is_empty(); });
+}
+
+bool is_same(const Polyhedron& a, const Polyhedron& b) {
+  return call(items(a) + items(b), [=] { return equal(a, b); });
 }
 
 Polyhedron transformed(const Polyhedron& a, const AffineMap& map) {

@@ -14,6 +14,16 @@
 #include "nef/query/moments.h"
 
 namespace nef::python {
+bool is_one_point(py::handle points) {
+  if (py::isinstance<py::array>(points)) return py::reinterpret_borrow<py::array>(points).ndim() == 1;
+  if (PySequence_Check(points.ptr()) == 0 || PySequence_Size(points.ptr()) != 3) {
+    PyErr_Clear();
+    return false;
+  }
+  const py::object first = py::reinterpret_steal<py::object>(PySequence_GetItem(points.ptr(), 0));
+  return PySequence_Check(first.ptr()) == 0 || PyUnicode_Check(first.ptr());
+}
+
 namespace {
 
 py::object location_of(const Location& location) {
@@ -24,17 +34,6 @@ py::object optional_fraction(const std::optional<Rational>& value) { return valu
 
 py::tuple from_matrix(const Rational3x3& matrix) {
   return py::make_tuple(from_triple(matrix[0]), from_triple(matrix[1]), from_triple(matrix[2]));
-}
-
-// One point: three numbers that are no rows.
-bool is_one_point(py::handle points) {
-  if (py::isinstance<py::array>(points)) return py::reinterpret_borrow<py::array>(points).ndim() == 1;
-  if (PySequence_Check(points.ptr()) == 0 || PySequence_Size(points.ptr()) != 3) {
-    PyErr_Clear();
-    return false;
-  }
-  const py::object first = py::reinterpret_steal<py::object>(PySequence_GetItem(points.ptr(), 0));
-  return PySequence_Check(first.ptr()) == 0 || PyUnicode_Check(first.ptr());
 }
 
 std::vector<LabelId> marks_at(const Polyhedron& a, py::handle points, unsigned threads) {

@@ -24,8 +24,8 @@ import contextlib
 from typing import Callable, Iterator, Optional
 
 from . import _nef
-from ._nef import (Polyhedron, box, eval, everything, from_bytes, halfspace, hull, intersect_all, overlay, point, polygon,
-                   read, segment, unite_all)
+from ._nef import (Polyhedron, TiledPolyhedron, box, eval, everything, from_bytes, halfspace, hull, intersect_all, overlay,
+                   point, polygon, read, read_tiles, segment, tiles_from_mesh, unite_all, unite_in_tiles)
 from .errors import Error, InputError, UnsupportedError
 from .meshes import from_mesh
 from .notebook import show
@@ -34,8 +34,9 @@ from . import meshes as _meshes, notebook as _notebook
 
 __all__ = [
     "Counts", "Distance", "Error", "InputError", "Location", "Moments", "Penetration", "Polygon", "Polyhedron",
-    "RayHit", "Reach", "Section", "UnsupportedError", "box", "empty", "eval", "everything", "from_bytes", "from_mesh", "halfspace", "hull",
-    "intersect_all", "overlay", "point", "polygon", "progress", "read", "segment", "show", "unite_all",
+    "RayHit", "Reach", "Section", "TiledPolyhedron", "UnsupportedError", "box", "empty", "eval", "everything", "from_bytes", "from_mesh", "halfspace", "hull",
+    "intersect_all", "overlay", "point", "polygon", "progress", "read", "read_tiles", "segment", "show",
+    "tiles_from_mesh", "unite_all", "unite_in_tiles",
 ]
 
 
@@ -73,6 +74,12 @@ def _repr(self):
             f"{n.shells} shells>")
 
 
+def _tiled_repr(self):
+    return f"<nef.TiledPolyhedron: {self.tile_count()} tiles, {self.vertex_count()} vertices in them>"
+
+
+TiledPolyhedron.__module__ = "nef"
+TiledPolyhedron.__repr__ = _tiled_repr
 Polyhedron.__module__ = "nef"
 Polyhedron.__repr__ = _repr
 Polyhedron.to_trimesh = _meshes.to_trimesh

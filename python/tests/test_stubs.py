@@ -42,14 +42,15 @@ def test_stub(name, needs):
     stubs = stubbed(pathlib.Path(nef.__file__).with_name(name + ".pyi"))
     there = {key: value for key, value in vars(module).items() if callable(value) and not isinstance(value, type)}
     if name == "_nef":
-        there.update({"Polyhedron." + key: value for key, value in vars(nef.Polyhedron).items() if callable(value)})
-    skipped = {"Polyhedron.__init__", "Polyhedron.__repr__", "Polyhedron.__new__"}
+        for type_ in (nef.Polyhedron, nef.TiledPolyhedron):
+            there.update({f"{type_.__name__}.{key}": value for key, value in vars(type_).items() if callable(value)})
+    skipped = {f"{name}.{key}" for name in ("Polyhedron", "TiledPolyhedron") for key in ("__init__", "__repr__", "__new__")}
     for key, function in there.items():
-        if key in skipped or key.startswith("Polyhedron._pybind11"):
+        if key in skipped or "._pybind11" in key:
             continue
         assert key in stubs, f"{key} has no stub"
         names = parameters(function)
-        if names is not None and not key.startswith("Polyhedron.__"):
+        if names is not None and ".__" not in key:
             assert stubs[key] == names, key
     assert set(stubs) - set(there) - skipped == set()
 

@@ -128,6 +128,55 @@ TEST_CASE("sets stay in tiles, in a folder, within a bound on memory") {
   CHECK(here.nef("info f.off --json").json()["result"]["volume"] == "513");
 }
 
+TEST_CASE("very many files are united region by region where the result stays in tiles") {
+  const Workplace here;
+  // A thousand boxes, some of which overlap, touch or hold others, and a block to take them from.
+  std::string names;
+  constexpr int kCount = 1000;
+  for (int i = 0; i < kCount; ++i) {
+    const int low = 3 * (i % 10);
+    const int size = 1 + i % 4;
+    std::ostringstream off;
+    off << "OFF\n8 6 0\n";
+    for (int k = 0; k < 8; ++k) {
+      off << low + ((k & 1) != 0 ? size : 0) << ' ' << 3 * (i / 10 % 10) + ((k & 2) != 0 ? size : 0) << ' '
+          << 3 * (i / 100) + ((k & 4) != 0 ? 2 : 0) << '\n';
+    }
+    off << "4 0 2 3 1\n4 4 5 7 6\n4 0 1 5 4\n4 2 6 7 3\n4 0 4 6 2\n4 1 3 7 5\n";
+    const std::string name = std::to_string(i) + ".off";
+    here.write(name, off.str());
+    names += " " + name;
+  }
+  here.write("block.off", cube_off(-1, 20));
+  REQUIRE(here.nef("union" + names + " -o plain.nef --tiles off").code == 0);
+  REQUIRE(here.nef("union" + names + " -o auto.nef").code == 0);
+  CHECK(here.read("auto.nef") == here.read("plain.nef"));  // a file is written without tiles
+  for (const std::string flags : {"-o r.tiles", "-o r.tiles --threads 1", "-o r.tiles --memory 100K",
+                                  "-o r.tiles --tiles 64", "-o r.tiles --tiles off"}) {
+    CAPTURE(flags);
+    const Outcome run = here.nef("union" + names + " --json " + flags);
+    REQUIRE(run.code == 0);
+    const bool regions = run.out.find("read_operands") != std::string::npos;
+    CHECK(regions == (flags.find("off") == std::string::npos));
+    CHECK(here.nef("equal r.tiles plain.nef").code == 0);
+    CHECK(here.nef("equal r.tiles r.tiles").code == 0);
+    CHECK(here.nef("equal block.off r.tiles").code == 1);
+  }
+  REQUIRE(here.nef("difference block.off" + names + " -o d.nef").code == 0);
+  const Outcome difference = here.nef("difference block.off" + names + " -o d.tiles --json");
+  REQUIRE(difference.code == 0);
+  CHECK(difference.out.find("read_operands") != std::string::npos);
+  CHECK(here.nef("equal d.tiles d.nef").code == 0);
+  // All in one place: regions would repeat each other's work.
+  std::string same;
+  for (int i = 0; i < kCount; ++i) same += " 7.off";
+  const Outcome crowd = here.nef("union" + same + " -o s.tiles --json");
+  REQUIRE(crowd.code == 0);
+  CHECK(here.nef("equal s.tiles 7.off").code == 0);
+  // What cannot be read is named.
+  check_refused(here.nef("union" + names + " missing.off -o m.tiles"), "missing.off");
+}
+
 TEST_CASE("sets in tiles are asked without being glued") {
   const Workplace here;
   here.write("a.off", cube_off(0, 8));

@@ -104,6 +104,22 @@ TEST_CASE("unions of many sets, region by region", "[threads]") {
   }
 }
 
+TEST_CASE("regions are for sets that are spread") {
+  const auto row = [](double step, double length) {
+    std::vector<Box> boxes(64);
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        boxes[i].low[axis] = axis == 0 ? step * static_cast<double>(i) : 0;
+        boxes[i].high[axis] = boxes[i].low[axis] + length;
+      }
+    }
+    return boxes;
+  };
+  CHECK(RegionalUnion(row(2, 1), 4).is_spread());
+  CHECK(RegionalUnion(row(0, 1), 4).is_spread());  // one region, since no plane separates them
+  CHECK_FALSE(RegionalUnion(row(1, 20), 4).is_spread());
+}
+
 TEST_CASE("many vertices are glued on several threads", "[threads]") {
   // More than a thread takes at once; boxes that touch in vertices and edges, and some that are cut.
   std::vector<Polyhedron> pieces;

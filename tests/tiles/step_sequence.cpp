@@ -34,6 +34,23 @@ TEST_CASE("many small steps are done in tiles, few are not") {
   CHECK(native_binary(always.result()) == native_binary(never.result()));
 }
 
+TEST_CASE("a chain in tiles is the plain one at every hundredth of its way") {
+  const Polyhedron sphere = make_sphere(10, 40);
+  constexpr int kSteps = 100;
+  for (const std::size_t limit : {40, 128}) {
+    StepSequence plain(sphere, kSteps, TileUse::kNever);
+    StepSequence tiled(sphere, kSteps, TileUse::kAlways, {limit, 1});
+    for (int i = 0; i < kSteps; ++i) {
+      const auto op = i % 5 == 4 ? BooleanOperator::kSymmetricDifference : BooleanOperator::kDifference;
+      plain.apply(op, notch(i));
+      tiled.apply(op, notch(i));
+      CAPTURE(limit, i);
+      REQUIRE(equal(tiled.result(), plain.result()));
+    }
+    CHECK(native_binary(tiled.result()) == native_binary(plain.result()));
+  }
+}
+
 TEST_CASE("large operands are met without tiles") {
   const Polyhedron sphere = make_sphere(10, 60);
   StepSequence sequence(sphere, 30, TileUse::kWherePays, Tiling{200, 1});

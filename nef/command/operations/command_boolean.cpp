@@ -10,6 +10,8 @@
 #include "nef/command/commands.h"
 #include "nef/command/tiles/tile_flags.h"
 #include "nef/operation/label_inputs.h"
+#include "nef/tiles/import/union_in_tiles.h"
+#include "nef/tiles/storage/tile_folder.h"
 
 namespace nef {
 namespace {
@@ -79,6 +81,51 @@ void run_in_tiles(Session& session, const Operation& operation, const TileChoice
   finish_tiled(session, operation.name, sequence.tiled(tiles.tiling), seconds);
 }
 
+// The operands that a run unites.
+std::vector<std::string> to_unite(const Session& session, const Operation& operation) {
+  if (operation.step == BooleanOperator::kUnion) return session.inputs;
+  if (operation.step != BooleanOperator::kDifference) return {};
+  return {session.inputs.begin() + 1, session.inputs.end()};
+}
+
+// Where the result stays in tiles, very many sets are united region by region rather than one after the other.
+bool wants_regions(const Session& session, const Operation& operation, const TileChoice& tiles) {
+  if (session.origins || session.repeat > 1 || tiles.use == TileUse::kNever) return false;
+  if (tiles.use != TileUse::kAlways && !names_tile_folder(session.output)) return false;
+  const std::vector<std::string> paths = to_unite(session, operation);
+  return paths.size() >= kSetsForRegions && std::none_of(paths.begin(), paths.end(), names_tile_folder);
+}
+
+// Sets are read when a region needs them if memory is bounded, else once. False if they are not spread enough for
+// regions; nothing is printed then.
+bool run_by_regions(Session& session, const Operation& operation, const TileChoice& tiles) {
+  const std::vector<std::string> paths = to_unite(session, operation);
+  const bool held = tiles.tiling.store == nullptr;
+  std::vector<Polyhedron> sets(held ? paths.size() : 0);
+  std::vector<Messages> notes(paths.size());
+  const PieceSource first_time{.count = static_cast<std::uint32_t>(paths.size()), .set = [&](std::uint32_t i) {
+                                 Polyhedron set = read_file_or_tiles(paths[i], session.mesh, &notes[i]);
+                                 if (held) sets[i] = set;
+                                 return set;
+                               }};
+  const PieceSource pieces{.count = first_time.count, .set = [&](std::uint32_t i) {
+                             return held ? sets[i] : read_file_or_tiles(paths[i], session.mesh);
+                           }};
+  session.show_phase("reading");
+  const Stopwatch reading;
+  const RegionalUnion regions = divide_pieces(first_time, session.threads);
+  if (!regions.is_spread()) return false;
+  for (const Messages& some : notes) session.note_all(some);
+  session.spent("read_operands", reading.seconds());
+  const Stopwatch watch;
+  TiledPolyhedron result = union_in_tiles(pieces, regions, tiles.tiling);
+  if (operation.step == BooleanOperator::kDifference) {
+    result = subtract(load_tiled(session, session.inputs[0], tiles.tiling), result);
+  }
+  finish_tiled(session, operation.name, result, watch.seconds());
+  return true;
+}
+
 void add(CLI::App& app, Session& session, const Operation& operation) {
   CLI::App* command = add_subcommand(app, session, operation.name, operation.description);
   command->add_option("inputs", session.inputs, "The operands, as files")->required()->expected(2, operation.most);
@@ -94,6 +141,7 @@ void add(CLI::App& app, Session& session, const Operation& operation) {
   add_tile_flags(command, *flags);
   command->callback([&session, operation, flags] {
     const TileChoice tiles = choose_tiles(*flags, session, session.inputs[0]);
+    if (wants_regions(session, operation, tiles) && run_by_regions(session, operation, tiles)) return;
     if (!session.origins && tiles.use == TileUse::kAlways) return run_in_tiles(session, operation, tiles);
     const std::vector<Polyhedron> sets = session.load_all(session.inputs);
     if (session.origins) return finish_with_origins(session, operation, sets);

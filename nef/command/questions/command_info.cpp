@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // nef info | convert | equal
+#include <optional>
+
 #include "nef/command/commands.h"
 #include "nef/command/tiles/tile_flags.h"
 #include "nef/program/set_info.h"
@@ -77,14 +79,27 @@ void add_convert(CLI::App& app, Session& session) {
   });
 }
 
+// Folders of tiles are compared tile by tile. Labels, which tiles do not hold, are compared in whole sets.
+bool equal_files(Session& session, const std::string& first, const std::string& second) {
+  if (!names_tile_folder(first) && !names_tile_folder(second)) return equal(session.load(first), session.load(second));
+  const auto in_tiles = [&session](const std::string& path) -> std::optional<TiledPolyhedron> {
+    const Tiling tiling = choose_tiles({}, session, path).tiling;
+    if (names_tile_folder(path)) return load_tiled(session, path, tiling);
+    const Polyhedron set = session.load(path);
+    if (set.complex().label_count > 2) return std::nullopt;
+    return TiledPolyhedron(set, tiling);
+  };
+  const std::optional<TiledPolyhedron> a = in_tiles(first);
+  const std::optional<TiledPolyhedron> b = in_tiles(second);
+  return a && b ? equal(*a, *b) : equal(session.load(first), session.load(second));
+}
+
 void add_equal(CLI::App& app, Session& session) {
   CLI::App* command = add_subcommand(app, session, "equal", "Are two sets the same? Exit code 0 if they are, 1 if not");
   command->add_option("inputs", session.inputs, "The two sets, as files")->required()->expected(2);
   add_input_flags(command, session);
   command->callback([&session] {
-    const Polyhedron a = session.load(session.inputs[0]);
-    const Polyhedron b = session.load(session.inputs[1]);
-    const bool same = equal(a, b);
+    const bool same = equal_files(session, session.inputs[0], session.inputs[1]);
     session.exit_code = same ? kYes : kNo;
     if (session.json) {
       session.print("equal", {{"equal", same}});

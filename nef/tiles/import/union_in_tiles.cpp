@@ -53,14 +53,27 @@ TileRef RegionalUnion::unite_in(std::size_t region, std::vector<Polyhedron>&& se
   return cutter.subdivide(cutter.restricted(cutter.loose(all.complex()), where));
 }
 
-TiledPolyhedron union_in_tiles(const PieceSource& pieces, const Tiling& tiling, std::size_t most) {
+bool RegionalUnion::is_spread() const {
+  std::size_t met = 0;
+  for (const RegionDivision::Part& part : division_.parts()) met += part.items.size();
+  return met <= 2 * boxes_.size();
+}
+
+RegionalUnion divide_pieces(const PieceSource& pieces, unsigned threads, std::size_t most) {
   std::vector<Box> boxes(pieces.count);
   std::atomic<std::uint32_t> measured = 0;
-  parallel_for(pieces.count, tiling.threads, [&](std::size_t i) {
+  parallel_for(pieces.count, threads, [&](std::size_t i) {
     boxes[i] = piece_box(pieces.set(static_cast<std::uint32_t>(i)));
     tell_progress_of_item("boxes of the pieces", measured++, pieces.count);
   });
-  const RegionalUnion regions(std::move(boxes), most);
+  return {std::move(boxes), most};
+}
+
+TiledPolyhedron union_in_tiles(const PieceSource& pieces, const Tiling& tiling, std::size_t most) {
+  return union_in_tiles(pieces, divide_pieces(pieces, tiling.threads, most), tiling);
+}
+
+TiledPolyhedron union_in_tiles(const PieceSource& pieces, const RegionalUnion& regions, const Tiling& tiling) {
   std::vector<TileRef> trees(regions.region_count());
   std::atomic<std::size_t> done = 0;
   parallel_for(trees.size(), tiling.threads, [&](std::size_t r) {

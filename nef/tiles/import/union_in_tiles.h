@@ -12,6 +12,12 @@
 
 namespace nef {
 
+/// From how many sets on regions pay where the union stays in tiles (docs/scaling.md).
+inline constexpr std::size_t kSetsForRegions = 1000;
+
+/// How many sets a region has, if nothing else is said.
+inline constexpr std::size_t kSetsOfARegion = 400;
+
 /// Sets that are made when they are needed, each maybe several times. `set` may be called by several threads at once.
 struct PieceSource {
   std::uint32_t count = 0;
@@ -31,6 +37,9 @@ class RegionalUnion {
     return division_.parts()[region].items;
   }
 
+  /// True if sets meet at most two regions each, on average: otherwise regions repeat work rather than share it out.
+  [[nodiscard]] bool is_spread() const;
+
   /// The union of some sets, among them all of a region, in this region.
   [[nodiscard]] TileRef unite_in(std::size_t region, std::vector<Polyhedron>&& sets, const Tiling& tiling) const;
 
@@ -45,10 +54,15 @@ class RegionalUnion {
 /// The box of a set for RegionalUnion: empty for the empty set, all of space where the boundary is unbounded.
 Box piece_box(const Polyhedron& set);
 
+/// The regions for some pieces, each of which is made once, on up to `threads` threads.
+RegionalUnion divide_pieces(const PieceSource& pieces, unsigned threads, std::size_t most = kSetsOfARegion);
+
 /// The union of all pieces. Regions of at most `most` pieces are made on up to tiling.threads threads; what is in
 /// memory are the pieces of as many regions, and the tiles (see Tiling::store). O(n log n) for pieces that meet few
 /// others.
 TiledPolyhedron union_in_tiles(const PieceSource& pieces, const Tiling& tiling = {.limit = kVerticesOfTileInFile},
-                               std::size_t most = 400);
+                               std::size_t most = kSetsOfARegion);
+/// The same for pieces that have been divided already.
+TiledPolyhedron union_in_tiles(const PieceSource& pieces, const RegionalUnion& regions, const Tiling& tiling);
 
 }  // namespace nef

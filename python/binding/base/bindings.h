@@ -6,11 +6,13 @@
 #include "binding/base/call.h"
 #include "binding/base/numbers.h"
 #include "nef/polyhedron.h"
+#include "nef/tiles/tiled_polyhedron.h"
 
 namespace nef::python {
 
 /// The size of a set, for call().
 inline std::size_t items(const Polyhedron& set) { return set.complex().vertex_count(); }
+inline std::size_t items(const TiledPolyhedron& set) { return set.vertex_count(); }
 inline std::size_t items(const std::vector<Polyhedron>& sets) {
   std::size_t sum = 0;
   for (const Polyhedron& set : sets) sum += items(set) + 100;
@@ -22,6 +24,13 @@ inline py::object result_of(const char* type, const py::args& values) {
   return py::module_::import("nef.results").attr(type)(*values);
 }
 
+/// The map of a matrix as Polyhedron.transform takes it. Throws what says why it is none.
+AffineMap map_from(py::handle matrix);
+/// True for three numbers that are no rows.
+bool is_one_point(py::handle points);
+/// The text of a str or a path.
+std::string path_text(py::handle path);
+
 using PolyhedronClass = py::class_<Polyhedron>;
 
 void bind_operations(PolyhedronClass& polyhedron);
@@ -29,5 +38,6 @@ void bind_queries(py::module_& module, PolyhedronClass& polyhedron);
 void bind_files(py::module_& module, PolyhedronClass& polyhedron);
 void bind_construction(py::module_& module);
 void bind_view(py::module_& module);
+void bind_tiles(py::module_& module);
 
 }  // namespace nef::python

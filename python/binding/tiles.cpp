@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Sets in tiles (docs/tiles.md).
+#include <pybind11/operators.h>
+#include <pybind11/stl.h>
+
+#include <filesystem>
+
+#include "binding/base/bindings.h"
+#include "binding/base/errors.h"
+#include "binding/meshes.h"
+#include "nef/query/location_name.h"
+#include "nef/tiles/import/mesh_tiles.h"
+#include "nef/tiles/storage/tile_folder.h"
+#include "nef/tiles/storage/tile_store.h"
+#include "nef/tiles/tiled_polyhedron.h"
+
+namespace nef::python {
+namespace {
+
+using TiledUnary = TiledPolyhedron (*)(const TiledPolyhedron&);
+using TiledBinary = TiledPolyhedron (*)(const TiledPolyhedron&, const TiledPolyhedron&);
+using TiledWithPlain = TiledPolyhedron (*)(const TiledPolyhedron&, const Polyhedron&);
+
+auto tiled_unary(TiledUnary operation) {
+  return [operation](const TiledPolyhedron& a) { return call(items(a), [=] { return operation(a); }); };
+}
+
+auto tiled_binary(TiledBinary operation) {
+  return [operation](const TiledPolyhedron& a, const TiledPolyhedron& b) {
+    return call(items(a) + items(b), [=] { return operation(a, b); });
+  };
+}
+
+auto with_plain(TiledWithPlain operation) {
+  return [operation](const TiledPolyhedron& a, const Polyhedron& b) {
+    return call(items(a) + items(b), [=] { return operation(a, b); });
+  };
+}
+
+Tiling tiling_of(std::size_t limit, unsigned threads) {
+  constexpr std::size_t kFewest = 32;
+  if (limit < kFewest) throw py::value_error("limit must be at least 32 vertices");
+  return {.limit = limit, .threads = threads};
+}
+
+TiledPolyhedron cut(const Polyhedron& set, std::size_t limit, unsigned threads) {
+  const Tiling tiling = tiling_of(limit, threads);
+  return call(items(set), [=] { return TiledPolyhedron(set, tiling); });
+}
+
+TiledPolyhedron unite_in_tiles(const std::vector<Polyhedron>& sets, std::size_t limit, unsigned threads) {
+  const Tiling tiling = tiling_of(limit, threads);
+  return call(items(sets), [=] { return TiledPolyhedron(sets, tiling); });
+}
+
+TiledPolyhedron cut_mesh(py::handle vertices, py::handle faces, bool strict, bool surface, std::size_t limit,
+                         unsigned threads) {
+  const Tiling tiling = tiling_of(limit, threads);
+  auto mesh = std::make_shared<const Mesh>(mesh_from_arrays(vertices, faces));
+  MeshOptions options;
+  options.strict = strict;
+  options.as_surface = surface;
+  using Made = std::pair<TiledPolyhedron, Messages>;
+  const Made made = call(mesh->face_count(), [=]() -> Made {
+    if (mesh->vertices.empty() && mesh->face_count() == 0) return {TiledPolyhedron(Polyhedron(), tiling), {}};
+    Messages messages;
+    TiledPolyhedron set = tiles_from_mesh(*mesh, options, tiling, &messages);
+    return {std::move(set), std::move(messages)};
+  });
+  warn(made.second);
+  return made.first;
+}
+
+TiledPolyhedron read_folder(py::handle path, const std::optional<std::uint64_t>& memory, unsigned threads) {
+  const std::string folder = path_text(path);
+  // Reading a folder is never small: its files tell only later how large they are.
+  return call(kSmallCall, [=] {
+    const auto store = memory ? std::make_shared<TileStore>(std::filesystem::temp_directory_path(), *memory) : nullptr;
+    return read_tiles(folder, store, threads);
+  });
+}
+
+void write_folder(const TiledPolyhedron& a, py::handle path) {
+  const std::string folder = path_text(path);
+  call(items(a), [=] {
+    write_tiles(folder, a);
+    return 0;
+  });
+}
+
+// Items of the whole have no numbers while it is in tiles.
+py::object tiled_location(const Location& location) {
+  return result_of("Location", py::make_tuple(location_name(location.kind), py::none(), location.mark != 0 ? 1 : 0));
+}
+
+py::object locate_in_tiles(const TiledPolyhedron& a, py::handle point) {
+  const Rational3 p = to_triple(point, "a point");
+  return tiled_location(call(items(a), [=] { return locate(a, p); }));
+}
+
+py::object contained(const TiledPolyhedron& a, py::handle points) {
+  if (is_one_point(points)) {
+    const Rational3 p = to_triple(points, "a point");
+    return py::bool_(call(items(a), [=] { return contains(a, p); }));
+  }
+  const auto all = std::make_shared<const std::vector<Rational3>>(to_points(points, "points"));
+  const std::vector<bool> in = call(items(a) + all->size(), [=] {
+    std::vector<bool> result;
+    for (const Rational3& p : *all) {
+      check_interruption();
+      result.push_back(contains(a, p));
+    }
+    return result;
+  });
+  py::array_t<bool> result(static_cast<py::ssize_t>(in.size()));
+  std::copy(in.begin(), in.end(), result.mutable_data());
+  return result;
+}
+
+py::object ray_in_tiles(const TiledPolyhedron& a, py::handle origin, py::handle direction) {
+  const Rational3 from = to_triple(origin, "an origin");
+  const Rational3 towards = to_triple(direction, "a direction");
+  const auto hit = call(items(a), [=] { return shoot_ray(a, from, towards); });
+  if (!hit) return py::none();
+  return result_of("RayHit", py::make_tuple(from_triple(hit->point), tiled_location(hit->location)));
+}
+
+py::object volume_of_tiles(const TiledPolyhedron& a) {
+  const std::optional<Rational> value = call(items(a), [=] { return volume(a); });
+  return value ? to_fraction(*value) : py::none();
+}
+
+py::object box_of_tiles(const TiledPolyhedron& a) {
+  const auto box = call(items(a), [=] { return bounding_box(a); });
+  if (!box) return py::none();
+  return py::make_tuple(from_triple((*box)[0]), from_triple((*box)[1]));
+}
+
+void bind_tiled_operators(py::class_<TiledPolyhedron>& c) {
+  const auto both = [&c](const char* name, TiledBinary tiled, TiledWithPlain plain, const char* text) {
+    c.def(name, tiled_binary(tiled), py::is_operator(), text);
+    c.def(name, with_plain(plain), py::is_operator(), text);
+  };
+  both("__or__", unite, unite, "Union.");
+  both("__and__", intersect, intersect, "Intersection.");
+  both("__sub__", subtract, subtract, "Difference.");
+  both("__xor__", symmetric_difference, symmetric_difference, "Symmetric difference.");
+  const auto same = [](const TiledPolyhedron& a, const TiledPolyhedron& b) {
+    return call(items(a) + items(b), [=] { return equal(a, b); });
+  };
+  c.def("__invert__", tiled_unary(complement), py::is_operator(), "Complement. O(1).")
+      .def("__eq__", same, py::is_operator(), "True if both are the same set, however they are cut.")
+      .def(
+          "__ne__", [same](const TiledPolyhedron& a, const TiledPolyhedron& b) { return !same(a, b); },
+          py::is_operator())
+      .def("__bool__", [](const TiledPolyhedron& a) { return !a.is_empty(); })
+      .def("__copy__", [](const TiledPolyhedron& a) { return a; })
+      .def("__deepcopy__", [](const TiledPolyhedron& a, const py::dict&) { return a; });
+  c.attr("__hash__") = py::none();
+}
+
+void bind_tiled_methods(py::class_<TiledPolyhedron>& c) {
+  c.def(
+       "polyhedron", [](const TiledPolyhedron& a) { return call(items(a), [=] { return a.polyhedron(); }); },
+       "The set as a Polyhedron: glued, in an order that depends on the set alone.")
+      .def("is_empty", &TiledPolyhedron::is_empty, "True for the set without points. O(1).")
+      .def("is_everything", &TiledPolyhedron::is_everything, "True for all of space. O(1).")
+      .def("tile_count", &TiledPolyhedron::tile_count, "How many tiles hold boundary of the set.")
+      .def("vertex_count", &TiledPolyhedron::vertex_count, "Vertices of all tiles, those in their walls included.")
+      .def("contains", &contained, py::arg("points"),
+           R"(Whether points are in the set, exactly: a bool for three numbers, a bool array of shape (N,) for an array
+of shape (N, 3).)")
+      .def(
+          "__contains__",
+          [](const TiledPolyhedron& a, py::handle p) {
+            const Rational3 point = to_triple(p, "a point");
+            return call(items(a), [=] { return contains(a, point); });
+          },
+          py::arg("point"))
+      .def("locate", &locate_in_tiles, py::arg("point"),
+           "What of the whole set holds a point, as Polyhedron.locate tells; the index is None.")
+      .def("ray", &ray_in_tiles, py::arg("origin"), py::arg("direction"),
+           "The first vertex, edge or facet of the whole set on an open ray, as of a Polyhedron; indices are None.")
+      .def("volume", &volume_of_tiles, "The volume, a Fraction; None if it is infinite.")
+      .def("bounding_box", &box_of_tiles, "Smallest and largest coordinates of the vertices, as of a Polyhedron.")
+      .def("interior", tiled_unary(interior), "The largest open set within. Glues and cuts again.")
+      .def("closure", tiled_unary(closure), "The smallest closed set around. Glues and cuts again.")
+      .def("boundary", tiled_unary(boundary), "The boundary. Glues and cuts again.")
+      .def("exterior", tiled_unary(exterior), "The interior of the complement. Glues and cuts again.")
+      .def("regularize", tiled_unary(regularize), "The closure of the interior. Glues and cuts again.")
+      .def(
+          "transform",
+          [](const TiledPolyhedron& a, py::handle matrix) {
+            const AffineMap map = map_from(matrix);
+            return call(items(a), [=] { return transform(a, map); });
+          },
+          py::arg("matrix"), "The image under an affine map; tile by tile if it takes axes to axes.")
+      .def(
+          "write", &write_folder, py::arg("path"),
+          R"(Writes the set to a folder, NAME.tiles by custom. Tiles that are there already are not written again; whoever
+stops half-way leaves the old set.)");
+}
+
+}  // namespace
+
+void bind_tiles(py::module_& m) {
+  py::class_<TiledPolyhedron> c(m, "TiledPolyhedron", R"(An exact set that is kept in tiles.
+
+An operation costs what of the set it touches, and versions share the rest: for many small steps on a large set whose
+results are wanted one by one, and for sets larger than memory. Immutable. Operators are those of Polyhedron; the second
+operand may be a Polyhedron. Labels other than 0 are taken as 1. Not hashable.)");
+  c.def(py::init(&cut), py::arg("set") = Polyhedron(), py::arg("limit") = Tiling().limit, py::arg("threads") = 1,
+        "Cuts a set into tiles of at most `limit` vertices. threads: of this and of all operations; 0: as many as the "
+        "machine has.");
+  bind_tiled_operators(c);
+  bind_tiled_methods(c);
+  m.def("unite_in_tiles", &unite_in_tiles, py::arg("sets"), py::arg("limit") = kVerticesOfTileInFile,
+        py::arg("threads") = 1, "The union of many sets, region by region: a TiledPolyhedron.");
+  m.def("tiles_from_mesh", &cut_mesh, py::arg("vertices"), py::arg("faces"), py::arg("strict") = false,
+        py::arg("surface") = false, py::arg("limit") = Tiling().limit, py::arg("threads") = 1,
+        R"(The solid that a mesh bounds, cut before it is made a complex: a TiledPolyhedron.
+
+vertices, faces, strict and surface: as of from_mesh.)");
+  m.def("read_tiles", &read_folder, py::arg("path"), py::arg("memory") = py::none(), py::arg("threads") = 1,
+        R"(Reads a folder that TiledPolyhedron.write, or the program `nef`, wrote.
+
+memory: bytes of tiles that stay in memory; tiles are read when they are needed. None: all are read at once.)");
+}
+
+}  // namespace nef::python

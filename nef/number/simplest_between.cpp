@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// By continued fractions: Graham, Knuth, Patashnik, Concrete Mathematics (1994), section 4.5.
+// By continued fractions: [Graham, Knuth, Patashnik 1994].
 #include "nef/number/simplest_between.h"
 
 #include "nef/base/error.h"

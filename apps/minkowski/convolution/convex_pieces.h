@@ -17,7 +17,7 @@ class ConvexPieces {
   explicit ConvexPieces(const Complex& complex) : c_(complex), points_(complex.points), triangulator_(points_) {}
 
   /// Polygons of vertices of the complex, counterclockwise about the facet's (unflipped) plane. Triangles of a
-  /// triangulation are merged as long as what comes of it is convex [Hertel and Mehlhorn 1983], but not across edges:
+  /// triangulation are merged as long as what comes of it is convex [Hertel, Mehlhorn 1983], but not across edges:
   /// at most four times as many as there must be. O(n) for a convex facet.
   std::vector<std::vector<std::uint32_t>> cut(FacetId facet);
 

@@ -177,6 +177,30 @@ TEST_CASE("very many files are united region by region where the result stays in
   check_refused(here.nef("union" + names + " missing.off -o m.tiles"), "missing.off");
 }
 
+TEST_CASE("a run that is killed while it writes a folder leaves the old set or the new one") {
+  const Workplace here;
+  here.write("a.off", cube_off(0, 8));
+  here.write("steps.txt", lattice(7));
+  here.write("more.txt", "- halfspace(1,2,3,-24)\n");
+  REQUIRE(here.nef("apply a.off --steps steps.txt --tiles 40 -o old.tiles").code == 0);
+  REQUIRE(here.nef("apply old.tiles --steps more.txt -o new.nef").code == 0);
+  int killed = 0;
+  for (int delay = 1; delay <= 12; ++delay) {
+    const std::string seconds =
+        "0.0" + std::string(delay < 5 ? "0" : "") + std::to_string(delay < 5 ? 2 * delay : delay - 4);
+    const std::string command = "cd '" + here.path().string() +
+                                "' && rm -rf b.tiles && cp -r old.tiles b.tiles && timeout -s KILL " + seconds + " '" +
+                                program_folder() + "/nef' apply b.tiles --steps more.txt -o b.tiles > out.txt 2>&1";
+    if (std::system(command.c_str()) != 0) ++killed;
+    CAPTURE(seconds);
+    CHECK((here.nef("equal b.tiles old.tiles").code == 0 || here.nef("equal b.tiles new.nef").code == 0));
+  }
+  CHECK(killed > 0);
+  // The next run finishes.
+  REQUIRE(here.nef("apply old.tiles --steps more.txt -o b.tiles").code == 0);
+  CHECK(here.nef("equal b.tiles new.nef").code == 0);
+}
+
 TEST_CASE("sets in tiles are asked without being glued") {
   const Workplace here;
   here.write("a.off", cube_off(0, 8));

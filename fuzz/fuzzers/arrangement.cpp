@@ -186,8 +186,8 @@ class Builder {
     const std::uint32_t kind = depth == 0 ? 0 : case_.choices().below(5);
     if (kind == 0) return leaf();
     if (kind == 4) return unary(build(depth - 1));
-    Value a = build(depth - 1);
-    return binary(std::move(a), build(depth - 1));
+    const Value a = build(depth - 1);
+    return binary(a, build(depth - 1));
   }
 
  private:

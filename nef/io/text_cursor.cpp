@@ -85,8 +85,9 @@ bool parse_short_decimal(std::string_view text, Rational& value) {
 bool parse_number(std::string_view text, Rational& value) {
   if (parse_short_decimal(text, value)) return true;
   std::optional<Rational> parsed = try_parse_rational(text);
-  if (parsed) value = *std::move(parsed);
-  return parsed.has_value();
+  if (!parsed) return false;
+  value = *std::move(parsed);
+  return true;
 }
 
 std::string_view TextCursor::take() {

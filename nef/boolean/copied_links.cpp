@@ -28,7 +28,7 @@ class LinkCopier {
   KnownLinks run(const std::array<std::vector<EdgeContact>, 2>& contacts, unsigned threads) {
     note_copies();
     for (std::size_t x = 0; x < 2; ++x) note_crossed_edges(x, contacts[x]);
-    known_.twin.assign(c_.svertices.size(), kNone);
+    known_.twin.assign(c_.svertex_count(), kNone);
     const auto half = static_cast<std::uint32_t>(c_.vertex_count() / 2);
     const auto end = static_cast<std::uint32_t>(c_.vertex_count());
     std::array<KnownLinks, 2> loose;
@@ -58,7 +58,7 @@ class LinkCopier {
 
   void note_crossed_edges(std::size_t x, const std::vector<EdgeContact>& contacts) {
     const Complex& own = *operands_[x];
-    crossed_[x].resize(own.svertices.size(), false);
+    crossed_[x].resize(own.svertex_count(), false);
     for (const EdgeContact& contact : contacts) {
       for (const std::uint32_t h : {contact.edge, own.twin[contact.edge]}) {
         crossed_[x][h] = true;
@@ -98,7 +98,7 @@ class LinkCopier {
     const VertexRecord& last = c_.vertices[vertex + 1];
     if (first.svertices < last.svertices) loose.loose_vertices.push_back(vertex);
     for (std::uint32_t e = first.shalfedges; e < last.shalfedges; ++e) {
-      if (!c_.shalfedges[e].plane.flipped()) loose.loose_corners.push_back(e);
+      if (!c_.shalfedge_plane[e].flipped()) loose.loose_corners.push_back(e);
     }
     if (first.sloops < last.sloops) loose.loose_isolated.push_back(vertex);
   }
@@ -180,7 +180,7 @@ class LinkCopier {
       return;
     }
     Facet copy;
-    copy.plane = c_.shalfedges[to.corners[base]].plane;
+    copy.plane = c_.shalfedge_plane[to.corners[base]];
     copy.first_cycle = CycleId{to.cycle_begin.size() - 1};
     copy.cycle_count = facet.cycle_count;
     copy.first_isolated = static_cast<std::uint32_t>(to.isolated_vertices.size());

@@ -99,8 +99,8 @@ class IntersectionFinder {
       }
       take(found.facets, f, cells);
     }
-    for (std::uint32_t e = 0; e < c.svertices.size(); ++e) {
-      if (c.svertices[e].out != kNone || e > c.twin[e]) continue;
+    for (std::uint32_t e = 0; e < c.svertex_count(); ++e) {
+      if (c.svertex(e).out != kNone || e > c.twin[e]) continue;
       take(found.bare_edges, e, edge_cells(x, found, e));
     }
     return found;
@@ -156,7 +156,7 @@ class IntersectionFinder {
       const CellRange& cells = found.vertices[v];
       if (other.reaches(cells) && other.touches(cells)) near.vertices.push_back(v);
     }
-    for (std::uint32_t e = 0; e < c.svertices.size(); ++e) {
+    for (std::uint32_t e = 0; e < c.svertex_count(); ++e) {
       if (e > c.twin[e]) continue;
       const CellRange cells = edge_cells(x, found, e);
       if (other.reaches(cells) && other.touches(cells)) near.edges.push_back(e);

@@ -48,7 +48,7 @@ class Operand {
   }
   [[nodiscard]] PointId point(std::uint32_t vertex) const { return PointId{first_point_ + vertex}; }
   [[nodiscard]] SVertex svertex(std::uint32_t halfedge) const {
-    SVertex result = complex_->svertices[halfedge];
+    SVertex result = complex_->svertex(halfedge);
     result.p = plane(result.p);
     result.q = plane(result.q);
     return result;

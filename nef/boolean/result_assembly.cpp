@@ -63,46 +63,34 @@ void ResultAssembly::reserve(ComplexBuilder& result) const {
     size.shalfedges += last.shalfedges - first.shalfedges;
     size.sloops += last.sloops - first.sloops;
     size.sfaces += last.sfaces - first.sfaces;
-    size.entries += last.entries - first.entries;
+    size.other_planes += last.other_planes - first.other_planes;
   }
   result.reserve(vertices, size);
 }
 
 // By common name; not zero for those that are used.
-std::vector<std::uint8_t> ResultAssembly::used_planes(std::size_t planes, unsigned threads) const {
-  const auto of_runs = [&](std::vector<std::uint8_t>& used, const auto& note) {
-    used.resize(planes, 0);
-    for (const Run& run : runs_) {
-      const Complex& from = *run.from;
-      const VertexRecord& begin = from.vertices[run.vertices.first];
-      const VertexRecord& end = from.vertices[run.vertices.first + run.vertices.count];
-      if (run.vertices.origin == 1) {
-        note(from, begin, end, [&](PlaneId plane) { used[operands_[1].plane(plane).row()] = 1; });
-      } else {
-        note(from, begin, end, [&](PlaneId plane) { used[plane.row()] = 1; });
-      }
+std::vector<std::uint8_t> ResultAssembly::used_planes(std::size_t planes) const {
+  std::vector<std::uint8_t> used(planes, 0);
+  for (const Run& run : runs_) {
+    const Complex& from = *run.from;
+    const VertexRecord& begin = from.vertices[run.vertices.first];
+    const VertexRecord& end = from.vertices[run.vertices.first + run.vertices.count];
+    const auto note = [&](const auto& use) {
+      for (std::uint32_t e = begin.shalfedges; e < end.shalfedges; e += 2) use(from.shalfedge_plane[e]);
+      for (std::uint32_t i = begin.other_planes; i < end.other_planes; ++i) use(from.other_planes[i]);
+      for (std::uint32_t l = begin.sloops; l < end.sloops; ++l) use(from.sloops[l].plane);
+    };
+    if (run.vertices.origin == 1) {
+      note([&](PlaneId plane) { used[operands_[1].plane(plane).row()] = 1; });
+    } else {
+      note([&](PlaneId plane) { used[plane.row()] = 1; });
     }
-  };
-  const auto of_svertices = [](const Complex& from, const VertexRecord& begin, const VertexRecord& end,
-                               const auto& use) {
-    for (std::uint32_t s = begin.svertices; s < end.svertices; ++s) {
-      use(from.svertices[s].p);
-      use(from.svertices[s].q);
-    }
-  };
-  // Twins lie in one plane.
-  const auto of_others = [](const Complex& from, const VertexRecord& begin, const VertexRecord& end, const auto& use) {
-    for (std::uint32_t e = begin.shalfedges; e < end.shalfedges; e += 2) use(from.shalfedges[e].plane);
-    for (std::uint32_t l = begin.sloops; l < end.sloops; ++l) use(from.sloops[l].plane);
-  };
-  std::array<std::vector<std::uint8_t>, 2> used;
-  parallel_calls(threads, {[&] { of_runs(used[0], of_svertices); }, [&] { of_runs(used[1], of_others); }});
-  for (std::size_t i = 0; i < planes; ++i) used[0][i] |= used[1][i];
-  return std::move(used[0]);
+  }
+  return used;
 }
 
-ResultAssembly::FinalRows ResultAssembly::final_rows(std::size_t planes, unsigned threads) const {
-  const std::vector<std::uint8_t> used = used_planes(planes, threads);
+ResultAssembly::FinalRows ResultAssembly::final_rows(std::size_t planes) const {
+  const std::vector<std::uint8_t> used = used_planes(planes);
   const std::vector<std::uint32_t>& common = tables_.rows_of_second;
   FinalRows result;
   result.count = static_cast<std::size_t>(std::count(used.begin(), used.end(), std::uint8_t{1}));
@@ -139,7 +127,7 @@ void ResultAssembly::drop_planes(PlaneTable& planes, const FinalRows& rows) {
 }
 
 void ResultAssembly::write(PlaneTable& planes, ComplexBuilder& result, unsigned threads) const {
-  const FinalRows rows = final_rows(planes.size(), threads);
+  const FinalRows rows = final_rows(planes.size());
   reserve(result);
   std::vector<ComplexBuilder::CopiedRun> copies;
   copies.reserve(runs_.size());

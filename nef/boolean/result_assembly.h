@@ -49,14 +49,14 @@ class ResultAssembly {
     const std::vector<LabelId>* marks = nullptr;
   };
 
-  [[nodiscard]] std::vector<std::uint8_t> used_planes(std::size_t planes, unsigned threads) const;
+  [[nodiscard]] std::vector<std::uint8_t> used_planes(std::size_t planes) const;
   struct FinalRows {
     // Of each plane of an origin, in the names of that origin: its row in the result, kNone for one that is not used.
     // Empty: the same.
     std::array<std::vector<std::uint32_t>, 3> of_origin;
     std::size_t count = 0;  // of planes that are used
   };
-  [[nodiscard]] FinalRows final_rows(std::size_t planes, unsigned threads) const;
+  [[nodiscard]] FinalRows final_rows(std::size_t planes) const;
   static void drop_planes(PlaneTable& planes, const FinalRows& rows);
   void reserve(ComplexBuilder& result) const;
   void append(const Run& run);

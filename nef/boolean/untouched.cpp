@@ -22,7 +22,7 @@ class UntouchedMarks {
         contacts_(intersections.contacts[x]),
         marks_(own_.complex().vertex_count(), 0),
         known_(marks_.size(), false),
-        crossed_(own_.complex().svertices.size(), false) {
+        crossed_(own_.complex().svertex_count(), false) {
     for (const EdgeContact& contact : contacts_) {
       crossed_[contact.edge] = true;
       crossed_[own_.complex().twin[contact.edge]] = true;

@@ -5,8 +5,9 @@
 // changes once it is synthesized, so it may be read from any number of threads.
 //
 // Conventions:
-//  - vertex v lies at point v of `points`; its sphere map is a contiguous range of each array of
-//    sphere items, with local indices inside (see nef/sphere_map/sphere_map.h);
+//  - vertex v lies at point v of `points`; its sphere map is a pattern, which many vertices share, and the planes of
+//    its items; svertices, shalfedges, sloops and sfaces are numbered vertex after vertex, and have local indices
+//    inside their sphere map (see nef/sphere_map/sphere_map.h);
 //  - an svertex of the whole complex is a halfedge; `twin` pairs them into edges;
 //  - halffacet 2f is facet f seen from the positive side of its (unflipped) plane, 2f+1 from the
 //    other side; the volume incident to a halffacet lies on the side it is seen from;
@@ -22,19 +23,20 @@
 
 #include "nef/complex/ids.h"
 #include "nef/complex/pair_columns.h"
+#include "nef/complex/pattern_table.h"
 #include "nef/geometry/point_table.h"
 #include "nef/sphere_map/sphere_map.h"
 
 namespace nef {
 
-/// Where the sphere map of a vertex begins in each array; it ends where the next vertex's begins.
+/// Where the items of the sphere map of a vertex begin; they end where the next vertex's begin.
 struct VertexRecord {
   std::uint32_t svertices = 0;
   std::uint32_t shalfedges = 0;
   std::uint32_t sloops = 0;
   std::uint32_t sfaces = 0;
-  std::uint32_t entries = 0;
-  LabelId mark = 0;
+  std::uint32_t other_planes = 0;
+  PatternId pattern;
 };
 
 /// A connected, relatively open piece of a plane with one mark.
@@ -75,11 +77,10 @@ struct Complex {
 
   std::vector<VertexRecord> vertices{VertexRecord{}};  ///< one more than there are vertices
 
-  std::vector<SVertex> svertices;
-  std::vector<SHalfedge> shalfedges;
+  PatternTable patterns;  ///< each is that of a vertex
+  PlaneColumn shalfedge_plane;
+  std::vector<PlaneId> other_planes;  ///< that svertices name and no shalfedge of the vertex has
   std::vector<SLoop> sloops;
-  std::vector<SFace> sfaces;
-  std::vector<SFaceEntry> entries;
 
   // Added by synthesis, parallel to the arrays above.
   std::vector<std::uint32_t> svertex_owner;  ///< vertex
@@ -100,9 +101,12 @@ struct Complex {
   LabelId label_count = 2;  ///< every mark but kOutside is below it; at least 2
 
   [[nodiscard]] std::size_t vertex_count() const { return vertices.size() - 1; }
-  [[nodiscard]] std::size_t edge_count() const { return svertices.size() / 2; }
+  [[nodiscard]] std::size_t edge_count() const { return svertex_count() / 2; }
   [[nodiscard]] std::size_t facet_count() const { return facets.size(); }
   [[nodiscard]] std::size_t volume_count() const { return volumes.size(); }
+  [[nodiscard]] std::uint32_t svertex_count() const { return vertices.back().svertices; }
+  [[nodiscard]] std::uint32_t shalfedge_count() const { return vertices.back().shalfedges; }
+  [[nodiscard]] std::uint32_t sface_count() const { return vertices.back().sfaces; }
 
   [[nodiscard]] IdRange<CycleId> cycle_ids() const {
     return {CycleId{0}, static_cast<std::uint32_t>(cycle_begin.size() - 1)};
@@ -112,22 +116,53 @@ struct Complex {
   [[nodiscard]] bool has_box() const { return !volumes.empty() && volumes[kOuterVolume].mark == kOutside; }
 
   /// The sphere map of a vertex.
-  [[nodiscard]] SphereMapView sphere_map(std::uint32_t vertex) const;
+  [[nodiscard]] SphereMapView sphere_map(std::uint32_t vertex) const {
+    const VertexRecord& record = vertices[vertex];
+    const LocalPlanes named = local_planes(vertex);
+    return {{patterns.svertices(record.pattern), named},
+            {patterns.shalfedges(record.pattern), named},
+            {sloops.data() + record.sloops, vertices[vertex + 1].sloops - record.sloops},
+            patterns.sfaces(record.pattern),
+            patterns.entries(record.pattern),
+            patterns.mark(record.pattern)};
+  }
+
+  [[nodiscard]] LabelId mark(std::uint32_t vertex) const { return patterns.mark(vertices[vertex].pattern); }
+
+  /// An svertex by its number in the complex. Needs svertex_owner.
+  [[nodiscard]] SVertex svertex(std::uint32_t svertex) const {
+    const std::uint32_t vertex = svertex_owner[svertex];
+    const VertexRecord& record = vertices[vertex];
+    return with_planes(patterns.svertex(record.pattern, svertex - record.svertices), local_planes(vertex));
+  }
+
+  /// A shalfedge by its number in the complex. Needs shalfedge_owner.
+  [[nodiscard]] SHalfedge shalfedge(std::uint32_t shalfedge) const {
+    SHalfedge item = in_pattern(shalfedge);
+    item.plane = shalfedge_plane[shalfedge];
+    return item;
+  }
+
+  /// The mark of an sface by its number in the complex. O(log n).
+  [[nodiscard]] LabelId sface_mark(std::uint32_t sface) const {
+    const std::uint32_t vertex = sface_vertex(sface);
+    return patterns.sfaces(vertices[vertex].pattern)[sface - vertices[vertex].sfaces].mark;
+  }
 
   /// The vertex at the other end of a halfedge.
   [[nodiscard]] std::uint32_t target(std::uint32_t halfedge) const { return svertex_owner[twin[halfedge]]; }
 
   /// The halfedge that leaves the vertex of a corner along the facet boundary (facet to its left).
   [[nodiscard]] std::uint32_t corner_halfedge(std::uint32_t corner) const {
-    return vertices[shalfedge_owner[corner]].svertices + shalfedges[corner].source;
+    return vertices[shalfedge_owner[corner]].svertices + in_pattern(corner).source;
   }
   /// The halfedge at the vertex of a corner that leads back along the facet boundary.
   [[nodiscard]] std::uint32_t corner_back_halfedge(std::uint32_t corner) const {
-    return vertices[shalfedge_owner[corner]].svertices + shalfedges[corner ^ 1U].source;
+    return vertices[shalfedge_owner[corner]].svertices + in_pattern(corner ^ 1U).source;
   }
   /// Global index of the sface to the left of a shalfedge.
   [[nodiscard]] std::uint32_t shalfedge_sface(std::uint32_t shalfedge) const {
-    return vertices[shalfedge_owner[shalfedge]].sfaces + shalfedges[shalfedge].sface;
+    return vertices[shalfedge_owner[shalfedge]].sfaces + in_pattern(shalfedge).sface;
   }
   [[nodiscard]] VolumeId sface_volume(std::uint32_t sface) const { return shells[sface_shell[sface]].volume; }
 
@@ -167,6 +202,28 @@ struct Complex {
 
   /// Bytes held, GMP limbs included.
   [[nodiscard]] std::size_t bytes() const;
+
+ private:
+  [[nodiscard]] LocalPlanes local_planes(std::uint32_t vertex) const {
+    const VertexRecord& record = vertices[vertex];
+    return {shalfedge_plane.pairs().data() + record.shalfedges / 2,
+            (vertices[vertex + 1].shalfedges - record.shalfedges) / 2, other_planes.data() + record.other_planes};
+  }
+
+  // Its plane is but a name.
+  [[nodiscard]] const SHalfedge& in_pattern(std::uint32_t shalfedge) const {
+    const VertexRecord& record = vertices[shalfedge_owner[shalfedge]];
+    return patterns.shalfedge(record.pattern, shalfedge - record.shalfedges);
+  }
 };
+
+/// Calls change(plane) for the planes that sphere maps of a complex name, those of twins once. Of a complex that is not
+/// const, planes may be changed; then opposite planes must become opposite planes.
+template <typename AnyComplex, typename Change>
+void for_each_plane_of(AnyComplex& complex, Change&& change) {
+  for (auto& plane : complex.shalfedge_plane.pairs()) change(plane);
+  for (auto& plane : complex.other_planes) change(plane);
+  for (auto& loop : complex.sloops) change(loop.plane);
+}
 
 }  // namespace nef

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "nef/complex/ids.h"
+#include "nef/geometry/ids.h"
 
 namespace nef {
 
@@ -25,6 +26,22 @@ class CommonColumn {
 
  private:
   std::vector<std::uint32_t> values_;
+};
+
+/// The planes of shalfedges: twins lie in one plane, oriented otherwise.
+class PlaneColumn {
+ public:
+  [[nodiscard]] PlaneId operator[](std::size_t half) const {
+    return PlaneId{values_[half >> 1U].value ^ static_cast<std::uint32_t>(half & 1U)};
+  }
+  [[nodiscard]] std::size_t size() const { return 2 * values_.size(); }
+
+  /// The one of the even shalfedge of each pair.
+  [[nodiscard]] std::vector<PlaneId>& pairs() { return values_; }
+  [[nodiscard]] const std::vector<PlaneId>& pairs() const { return values_; }
+
+ private:
+  std::vector<PlaneId> values_;
 };
 
 /// The halffacets that shalfedges lie on: twins lie on the two sides of one facet.

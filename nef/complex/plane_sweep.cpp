@@ -59,7 +59,7 @@ class PlaneSweep {
       const std::uint32_t to = rank_of(c_.target(halfedge));
       if ((from < to) != axes_.positive) continue;
       edges_.push_back({i, axes_.positive ? halfedge : c_.twin[halfedge], std::min(from, to), std::max(from, to),
-                        edge_side(c_.planes, plane_, c_.svertices[halfedge])});
+                        edge_side(c_.planes, plane_, c_.svertex(halfedge))});
     }
   }
 
@@ -72,8 +72,8 @@ class PlaneSweep {
   bool below_edge(const SweepEdge& a, const SweepEdge& b) const {
     if (a.low < b.low) return below_vertex(a, b.low);
     if (a.low > b.low) return !below_vertex(b, a.low);
-    const int turn = orientation_on_circle(c_.planes, plane_, direction_of(c_.planes, c_.svertices[a.outgoing]),
-                                           direction_of(c_.planes, c_.svertices[b.outgoing]));
+    const int turn = orientation_on_circle(c_.planes, plane_, direction_of(c_.planes, c_.svertex(a.outgoing)),
+                                           direction_of(c_.planes, c_.svertex(b.outgoing)));
     return axes_.positive ? turn > 0 : turn < 0;
   }
 

@@ -72,7 +72,11 @@ class SolidBuilder {
     std::uint32_t used = 0;
     for (std::size_t v = 0; v + 1 < first_.size(); ++v) used += first_[v] < first_[v + 1] ? 1 : 0;
     const auto corners = static_cast<std::uint32_t>(corners_.size());
-    result.reserve(used, {.svertices = corners, .shalfedges = 2 * corners, .sfaces = 2 * used, .entries = 2 * used});
+    VertexRecord size;
+    size.svertices = corners;
+    size.shalfedges = 2 * corners;
+    size.sfaces = 2 * used;
+    result.reserve(used, size);
   }
 
   void collect_corners() {

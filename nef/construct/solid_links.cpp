@@ -18,7 +18,7 @@ void SolidLinks::note(const Complex& result, std::uint32_t point, const Arrangem
   } else {
     for (const std::uint32_t corner : corners) shalfedge_of_[corner] = kNone;
     end_.resize(result.vertices[result.vertex_count() - 1].svertices);
-    end_.resize(result.svertices.size(), kNone);
+    end_.resize(result.svertex_count(), kNone);
   }
   point_of_.push_back(point);
 }
@@ -73,7 +73,7 @@ bool SolidLinks::every_plane_is_used(const Complex& result) const {
 }
 
 void SolidLinks::link_twins(const Complex& result, KnownLinks& links) const {
-  links.twin.reserve(result.svertices.size());
+  links.twin.reserve(result.svertex_count());
   for (std::uint32_t v = 0; v < result.vertex_count(); ++v) {
     bool loose = false;
     for (std::uint32_t s = result.vertices[v].svertices; s < result.vertices[v + 1].svertices; ++s) {
@@ -116,7 +116,7 @@ void SolidLinks::link_facets(const Complex& result, KnownLinks& links) const {
   for (std::uint32_t v = 0; v < result.vertex_count(); ++v) {
     if (vertex_of_[point_of_[v]] != kNone) continue;
     for (std::uint32_t e = result.vertices[v].shalfedges; e < result.vertices[v + 1].shalfedges; ++e) {
-      if (!result.shalfedges[e].plane.flipped()) links.loose_corners.push_back(e);
+      if (!result.shalfedge_plane[e].flipped()) links.loose_corners.push_back(e);
     }
     if (result.vertices[v].sloops < result.vertices[v + 1].sloops) links.loose_isolated.push_back(v);
   }

@@ -48,7 +48,7 @@ struct Side {
     }
     facets = BoxTree(boxes);
     boxes.clear();
-    for (std::uint32_t h = 0; h < c.svertices.size(); ++h) {
+    for (std::uint32_t h = 0; h < c.svertex_count(); ++h) {
       if (h > c.twin[h]) continue;
       segments.push_back({c.svertex_owner[h], c.target(h)});
       boxes.push_back(edge_box(c, h));

@@ -138,7 +138,7 @@ class Exporter {
   // Of a set without solid parts: facets, edges outside of these, and vertices outside of all these.
   void collect_lower_dimensional() {
     std::vector<bool> held(complex_.vertex_count(), false);
-    std::vector<bool> in_facet(complex_.svertices.size(), false);
+    std::vector<bool> in_facet(complex_.svertex_count(), false);
     for (const FacetId f : complex_.facets.ids()) {
       const Facet& facet = complex_.facets[f];
       if (!is_selected(facet.mark) || sees_other(facet)) continue;
@@ -152,16 +152,16 @@ class Exporter {
         held[v] = true;
       }
     }
-    for (std::uint32_t h = 0; h < complex_.svertices.size(); ++h) {
+    for (std::uint32_t h = 0; h < complex_.svertex_count(); ++h) {
       const std::uint32_t v = complex_.svertex_owner[h];
       const std::uint32_t w = complex_.target(h);
-      if (in_facet[h] || h > complex_.twin[h] || !is_selected(complex_.svertices[h].mark)) continue;
+      if (in_facet[h] || h > complex_.twin[h] || !is_selected(complex_.svertex(h).mark)) continue;
       if (!finite(v) || !finite(w) || sides_of_edge(v, h).selected) continue;
       lines_.push_back({v, w});
       held[v] = held[w] = true;
     }
     for (std::uint32_t v = 0; v < complex_.vertex_count(); ++v) {
-      if (!held[v] && finite(v) && is_selected(complex_.vertices[v].mark)) points_.push_back(v);
+      if (!held[v] && finite(v) && is_selected(complex_.mark(v))) points_.push_back(v);
     }
     lower_dimensional_ = !boundary_.empty() || !lines_.empty() || !points_.empty();
   }
@@ -368,13 +368,13 @@ class Exporter {
       const VertexRecord& record = complex_.vertices[v];
       const VertexRecord& end = complex_.vertices[v + 1];
       const bool at_facet = all_facets && (record.shalfedges < end.shalfedges || record.sloops < end.sloops);
-      if (!at_facet || !is_selected(record.mark)) {
+      if (!at_facet || !is_selected(complex_.mark(v))) {
         SeenVolumes sides;
         for (std::uint32_t s = record.sfaces; s < end.sfaces; ++s) sides.add(volumes_[complex_.sface_volume(s)]);
-        judge(sides, record.mark, &Items::vertices);
+        judge(sides, complex_.mark(v), &Items::vertices);
       }
       for (std::uint32_t h = record.svertices; h < end.svertices; ++h) {
-        const SVertex& svertex = complex_.svertices[h];
+        const SVertex& svertex = complex_.svertex(h);
         if (all_facets && svertex.out != kNone && is_selected(svertex.mark)) continue;
         const bool far_finite = finite(complex_.target(h));
         if (far_finite && complex_.twin[h] < h) continue;  // each edge once
@@ -386,7 +386,7 @@ class Exporter {
   [[nodiscard]] SeenVolumes sides_of_edge(std::uint32_t vertex, std::uint32_t halfedge) const {
     const SphereMapView map = complex_.sphere_map(vertex);
     const VertexRecord& record = complex_.vertices[vertex];
-    const SVertex& svertex = complex_.svertices[halfedge];
+    const SVertex& svertex = complex_.svertex(halfedge);
     if (svertex.out == kNone) return volumes_[complex_.sface_volume(record.sfaces + svertex.sface)];
     SeenVolumes sides;
     std::uint32_t e = svertex.out;
@@ -399,14 +399,14 @@ class Exporter {
 
   // Edges and vertices of the facets that are written and do not belong to the set.
   void count_open_borders() {
-    std::vector<bool> seen_edge(complex_.svertices.size(), false);
+    std::vector<bool> seen_edge(complex_.svertex_count(), false);
     std::vector<bool> seen_vertex(complex_.vertex_count(), false);
     for (const FacetId f : boundary_) {
       for (const std::uint32_t corner : complex_.corners_of(f)) {
         const std::uint32_t v = complex_.shalfedge_owner[corner];
         const std::uint32_t h = complex_.corner_halfedge(corner);
-        if (!seen_vertex[v] && !is_selected(complex_.vertices[v].mark)) ++open_.vertices;
-        if (!seen_edge[h] && !is_selected(complex_.svertices[h].mark)) ++open_.edges;
+        if (!seen_vertex[v] && !is_selected(complex_.mark(v))) ++open_.vertices;
+        if (!seen_edge[h] && !is_selected(complex_.svertex(h).mark)) ++open_.edges;
         seen_vertex[v] = true;
         seen_edge[h] = seen_edge[complex_.twin[h]] = true;
       }

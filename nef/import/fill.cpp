@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "nef/base/error.h"
+#include "nef/complex/rewrite_sphere_maps.h"
 #include "nef/geometry/box_tree.h"
 #include "nef/import/mesh_faces.h"
 #include "nef/mesh/perturbed_turn.h"
@@ -167,13 +168,15 @@ class WindingFiller {
     Complex filled = c_;
     bool idle = false;  // facets with the same on both sides, or edges without facets
     for (const VolumeId v : filled.volumes.ids()) filled.volumes[v].mark = winding_[v] != 0 ? 1 : 0;
-    for (std::uint32_t s = 0; s < filled.sfaces.size(); ++s) {
-      filled.sfaces[s].mark = filled.volumes[filled.sface_volume(s)].mark;
-    }
+    rewrite_sphere_maps(filled, [&filled, &idle](std::uint32_t v, SphereMapBuffer& map) {
+      for (std::uint32_t f = 0; f < map.sfaces.size(); ++f) {
+        map.sfaces[f].mark = filled.volumes[filled.sface_volume(filled.vertices[v].sfaces + f)].mark;
+      }
+      for (const SVertex& end : map.svertices) idle = idle || end.out == kNone;
+    });
     for (const Facet& facet : filled.facets) {
       idle = idle || filled.volumes[facet.volume_above].mark == filled.volumes[facet.volume_below].mark;
     }
-    for (const SVertex& end : filled.svertices) idle = idle || end.out == kNone;
     // Where every facet has different marks on its sides, everything that was needed still is.
     Polyhedron result(std::move(filled));
     return idle ? regularize(result) : result;

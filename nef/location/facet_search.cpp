@@ -69,7 +69,7 @@ class ParityCount {
       if (meets_at_height(u, u_side, v, v_side, halfedge)) return;
       if ((u_side > 0) == (v_side > 0)) return;
     }
-    const SVertex& edge = complex_.svertices[halfedge];
+    const SVertex& edge = complex_.svertex(halfedge);
     const bool facet_first = edge.p.row() == facet_.plane.row();
     const PlaneId g = facet_first ? edge.q : edge.p;
     const int g_side = side_of_plane(complex_.planes, g, point_);

@@ -21,7 +21,7 @@ const Direction& minus_x() {
 }
 
 bool on_edge(const Complex& complex, std::uint32_t halfedge, const PointRef& point) {
-  const SVertex& edge = complex.svertices[halfedge];
+  const SVertex& edge = complex.svertex(halfedge);
   if (side_of_plane(complex.planes, edge.p, point) != 0) return false;
   if (side_of_plane(complex.planes, edge.q, point) != 0) return false;
   // On the line; between the ends iff so in lexicographic order.
@@ -62,8 +62,8 @@ void QueryStructure::collect(const Complex& complex, const BoxTree* places) {
     push_item(f.index(), kFacetItem, box, boxes);
     if (corners.size() > kLargeFacet) large_facets_.push_back(f);
   }
-  for (std::uint32_t h = 0; h < complex.svertices.size(); ++h) {
-    if (complex.svertices[h].out != kNone || h > complex.twin[h]) continue;
+  for (std::uint32_t h = 0; h < complex.svertex_count(); ++h) {
+    if (complex.svertex(h).out != kNone || h > complex.twin[h]) continue;
     const Box box = edge_box(complex, h);
     if (asked_for(box)) push_item(h, kEdgeItem, box, boxes);
   }

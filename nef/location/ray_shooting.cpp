@@ -82,7 +82,7 @@ class RayShooter {
   }
 
   void visit_edge(std::uint32_t halfedge) {
-    const SVertex& edge = complex_.svertices[halfedge];
+    const SVertex& edge = complex_.svertex(halfedge);
     PlaneId crossed = edge.p;
     PlaneId other = edge.q;
     if (side_of_circle(complex_.planes, crossed, ray_.direction) == 0) std::swap(crossed, other);
@@ -210,7 +210,7 @@ class RayShooter {
     const std::uint32_t vertex = complex_.svertex_owner[hit.index];
     const SphereMapView map = complex_.sphere_map(vertex);
     const VertexRecord& record = complex_.vertices[vertex];
-    const SVertex& edge = complex_.svertices[hit.index];
+    const SVertex& edge = complex_.svertex(hit.index);
     if (edge.out == kNone) return record.sfaces + edge.sface;
     const Direction axis = direction_of(complex_.planes, edge);
     const Wedge wedge = locate_wedge(complex_.planes, map, hit.index - record.svertices, Direction::cross(axis, back));

@@ -90,7 +90,7 @@ class Canonical {
     ComplexBuilder box(planes_);
     for (const CanonicalVertex& v : infinite) box.copy(*parts_[v.part].complex, v.vertex, 1);
     if (!box.has_idle_box()) return;
-    outer = box.so_far().vertices[0].mark;
+    outer = box.so_far().mark(0);
     std::erase_if(vertices_, is_infinite);
   }
 
@@ -244,7 +244,7 @@ class Canonical {
       size.shalfedges += end.shalfedges - begin.shalfedges;
       size.sloops += end.sloops - begin.sloops;
       size.sfaces += end.sfaces - begin.sfaces;
-      size.entries += end.entries - begin.entries;
+      size.other_planes += end.other_planes - begin.other_planes;
     }
     return size;
   }
@@ -256,7 +256,7 @@ class Canonical {
     parallel_for(parts_.size(), threads_, [&](std::size_t k) {
       ordered[k].reserve(parts_[k].rows.size());
       for (const std::uint32_t row : parts_[k].rows) ordered[k].push_back(row_[row]);
-      if (!parts_[k].complex->twin.empty()) svertices_[k].assign(parts_[k].complex->svertices.size(), kNone);
+      if (!parts_[k].complex->twin.empty()) svertices_[k].assign(parts_[k].complex->svertex_count(), kNone);
     });
     const std::size_t chunks = chunk_count();
     std::vector<std::uint32_t> first_svertex(chunks + 1, 0);
@@ -307,7 +307,7 @@ class Canonical {
 
   [[nodiscard]] KnownLinks known_twins(const Complex& written) const {
     KnownLinks known;
-    known.twin.assign(written.svertices.size(), kNone);
+    known.twin.assign(written.svertex_count(), kNone);
     std::vector<std::vector<std::uint32_t>> loose(chunk_count());
     for_each_chunk([&](std::uint32_t first, std::uint32_t last, std::size_t chunk) {
       for (std::uint32_t i = first; i < last; ++i) {

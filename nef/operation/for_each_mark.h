@@ -9,15 +9,12 @@
 
 namespace nef {
 
-/// Calls visit(mark) for the mark of every vertex, svertex, shalfedge, sloop, sface, facet and volume of a complex,
-/// const or not; kOutside among them. O(n).
+/// Calls visit(mark) for every mark of a complex, const or not; kOutside among them. Vertices that share a pattern
+/// share its marks: these are visited once, and what visit makes of a mark depends on the mark alone. O(n).
 template <typename AnyComplex, typename Visit>
 void for_each_mark(AnyComplex& c, Visit&& visit) {
-  for (std::size_t v = 0; v < c.vertex_count(); ++v) visit(c.vertices[v].mark);
-  for (auto& item : c.svertices) visit(item.mark);
-  for (auto& item : c.shalfedges) visit(item.mark);
+  PatternTable::for_each_mark(c.patterns, visit);
   for (auto& item : c.sloops) visit(item.mark);
-  for (auto& item : c.sfaces) visit(item.mark);
   for (auto& item : c.facets) visit(item.mark);
   for (auto& item : c.volumes) visit(item.mark);
 }

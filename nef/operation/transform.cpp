@@ -100,50 +100,47 @@ struct IntegerMap {
   }
 };
 
+// Sphere maps turned inside out. Their items keep their numbers.
+PatternTable reflected(const PatternTable& patterns) {
+  PatternTable result;
+  SphereMapBuffer map;
+  for (std::uint32_t i = 0; i < patterns.size(); ++i) {
+    const SphereMapView old = patterns.view(PatternId{i});
+    map.assign(old);
+    for (SVertex& v : map.svertices) {
+      // m (a x b) is det(m) times the cross product of the images of the normals.
+      std::swap(v.p, v.q);
+      if (v.out != kNone) v.out ^= 1U;
+    }
+    for (std::uint32_t e = 0; e < map.shalfedges.size(); ++e) {
+      // The same arc with the same sface on the positive side of its plane runs the other way.
+      map.shalfedges[e].source = old.target(e);
+      std::swap(map.shalfedges[e].next, map.shalfedges[e].prev);
+    }
+    result.push(map);
+  }
+  return result;
+}
+
 // Planes, points and sphere maps. The orientation of a plane's row may change: a flipped image swaps the parity of
 // every use.
 Complex map_complex(const Complex& c, const IntegerMap& map, const Integer& box_factor) {
   Complex result;
+  const bool reflect = map.determinant < 0;
   result.vertices = c.vertices;
-  result.svertices = c.svertices;
-  result.shalfedges = c.shalfedges;
+  result.patterns = reflect ? reflected(c.patterns) : c.patterns;
+  result.shalfedge_plane = c.shalfedge_plane;
+  result.other_planes = c.other_planes;
   result.sloops = c.sloops;
-  result.sfaces = c.sfaces;
-  result.entries = c.entries;
   std::vector<PlaneId> image(c.planes.size());
   for (std::uint32_t row = 0; row < c.planes.size(); ++row) {
     image[row] = map.map_plane(c.planes, row, box_factor, result.planes);
   }
   for (std::uint32_t v = 0; v < c.vertex_count(); ++v) map.map_point(c.points, PointId{v}, box_factor, result.points);
-  const auto rename = [&image](PlaneId plane) {
+  for_each_plane_of(result, [&image](PlaneId& plane) {
     const PlaneId to = image[plane.row()];
-    return plane.flipped() ? to.opposite() : to;
-  };
-  const bool reflect = map.determinant < 0;
-  for (SVertex& v : result.svertices) {
-    v.p = rename(v.p);
-    v.q = rename(v.q);
-    // m (a x b) is det(m) times the cross product of the images of the normals.
-    if (reflect) std::swap(v.p, v.q);
-  }
-  for (std::uint32_t e = 0; e < result.shalfedges.size(); ++e) {
-    SHalfedge& half = result.shalfedges[e];
-    half.plane = rename(half.plane);
-    if (reflect) {
-      // The same arc with the same sface on the positive side of its plane runs the other way.
-      half.source = c.shalfedges[e ^ 1U].source;
-      std::swap(half.next, half.prev);
-    }
-  }
-  if (reflect) {
-    for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
-      const VertexRecord& record = c.vertices[v];
-      for (std::uint32_t s = record.svertices; s < c.vertices[v + 1].svertices; ++s) {
-        if (result.svertices[s].out != kNone) result.svertices[s].out ^= 1U;
-      }
-    }
-  }
-  for (SLoop& loop : result.sloops) loop.plane = rename(loop.plane);
+    plane = plane.flipped() ? to.opposite() : to;
+  });
   return result;
 }
 

@@ -21,8 +21,8 @@ class SectionReader {
     for (const Facet& facet : c_.facets) {
       if (is_selected(facet.mark)) add_polygon(facet);
     }
-    for (std::uint32_t h = 0; h < c_.svertices.size(); ++h) {
-      if (h < c_.twin[h] && c_.svertices[h].out == kNone && is_selected(c_.svertices[h].mark)) add_segment(h);
+    for (std::uint32_t h = 0; h < c_.svertex_count(); ++h) {
+      if (h < c_.twin[h] && c_.svertex(h).out == kNone && is_selected(c_.svertex(h).mark)) add_segment(h);
     }
     for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) {
       if (c_.sphere_map(v).trivial()) out_.points.push_back(c_.points.rational(PointId{v}));

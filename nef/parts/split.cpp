@@ -123,7 +123,7 @@ class Components {
       : c_(complex),
         facets_(static_cast<std::uint32_t>(c_.volume_count())),
         edges_(facets_ + static_cast<std::uint32_t>(c_.facet_count())),
-        vertices_(edges_ + static_cast<std::uint32_t>(c_.svertices.size())),
+        vertices_(edges_ + static_cast<std::uint32_t>(c_.svertex_count())),
         sets_(vertices_ + c_.vertex_count()) {
     for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) join_around(v);
   }
@@ -139,9 +139,9 @@ class Components {
   std::uint32_t of_circle(std::uint32_t v) { return of_facet(facet_of(c_.sloop_facet[c_.vertices[v].sloops])); }
   std::uint32_t of_svertex(std::uint32_t v, std::uint32_t svertex) {
     const std::uint32_t h = c_.vertices[v].svertices + svertex;
-    return of(edges_ + std::min(h, c_.twin[h]), c_.svertices[h].mark);
+    return of(edges_ + std::min(h, c_.twin[h]), c_.svertex(h).mark);
   }
-  std::uint32_t of_vertex(std::uint32_t v) { return of(vertices_ + v, c_.vertices[v].mark); }
+  std::uint32_t of_vertex(std::uint32_t v) { return of(vertices_ + v, c_.mark(v)); }
 
   void keep(std::uint32_t component, std::uint32_t v, const SphereMapView& map, Kept& out) {
     out.sfaces.resize(map.sfaces.size());

@@ -63,7 +63,7 @@ Counts counts(const Complex& c) {
   if (!c.has_box()) return {c.vertex_count(), c.edge_count(), c.facet_count(), c.volume_count(), c.shells.size()};
   Counts result;
   for (std::uint32_t v = 0; v < c.vertex_count(); ++v) result.vertices += is_box_vertex(c, v) ? 0 : 1;
-  for (std::uint32_t h = 0; h < c.svertices.size(); ++h) {
+  for (std::uint32_t h = 0; h < c.svertex_count(); ++h) {
     if (h < c.twin[h] && !is_box_edge(c, h)) ++result.edges;
   }
   for (const FacetId f : c.facets.ids()) result.facets += is_box_facet(c, f) ? 0 : 1;

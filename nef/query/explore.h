@@ -54,7 +54,7 @@ class IndexRange {
 
 inline IndexRange vertices(const Polyhedron& a) { return {0, a.complex().vertex_count()}; }
 /// Both halfedges of each edge; a.complex().twin has the other one.
-inline IndexRange halfedges(const Polyhedron& a) { return {0, a.complex().svertices.size()}; }
+inline IndexRange halfedges(const Polyhedron& a) { return {0, a.complex().svertex_count()}; }
 inline IdRange<FacetId> facets(const Polyhedron& a) { return a.complex().facets.ids(); }
 /// The outer volume comes first.
 inline IdRange<VolumeId> volumes(const Polyhedron& a) { return a.complex().volumes.ids(); }

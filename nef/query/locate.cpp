@@ -13,9 +13,9 @@ namespace {
 Location location_of(const Complex& complex, const ComplexHit& hit) {
   switch (hit.kind) {
     case ComplexHit::Kind::kVertex:
-      return {Location::Kind::kVertex, hit.index, complex.vertices[hit.index].mark};
+      return {Location::Kind::kVertex, hit.index, complex.mark(hit.index)};
     case ComplexHit::Kind::kEdge:
-      return {Location::Kind::kEdge, hit.index, complex.svertices[hit.index].mark};
+      return {Location::Kind::kEdge, hit.index, complex.svertex(hit.index).mark};
     case ComplexHit::Kind::kFacet:
       break;
   }
@@ -79,8 +79,8 @@ std::optional<RayHit> shoot_ray(const Polyhedron& a, const Rational3& origin, co
   const auto takes = [&](const ComplexHit& hit) {
     const bool at_infinity = hit.kind == ComplexHit::Kind::kVertex ? !complex.points.finite(PointId{hit.index})
                              : hit.kind == ComplexHit::Kind::kEdge
-                                 ? complex.planes.infimaximal(complex.svertices[hit.index].p) ||
-                                       complex.planes.infimaximal(complex.svertices[hit.index].q)
+                                 ? complex.planes.infimaximal(complex.svertex(hit.index).p) ||
+                                       complex.planes.infimaximal(complex.svertex(hit.index).q)
                                  : complex.planes.infimaximal(complex.facets[facet_of(hit.halffacet())].plane);
     return !at_infinity && (!accept || accept(location_of(complex, hit)));
   };

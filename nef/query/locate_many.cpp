@@ -122,8 +122,8 @@ class CellGrid {
       for (const std::uint32_t corner : c_.corners_of(facet)) box.add(vertex_box(c_, c_.shalfedge_owner[corner]));
       enter(box, &c_.planes.approximate(facet.plane));
     }
-    for (std::uint32_t h = 0; h < c_.svertices.size(); ++h) {
-      if (h < c_.twin[h] && c_.svertices[h].out == kNone && !is_box_edge(c_, h)) enter(edge_box(c_, h), nullptr);
+    for (std::uint32_t h = 0; h < c_.svertex_count(); ++h) {
+      if (h < c_.twin[h] && c_.svertex(h).out == kNone && !is_box_edge(c_, h)) enter(edge_box(c_, h), nullptr);
     }
     for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) {
       if (!is_box_vertex(c_, v)) enter(vertex_box(c_, v), nullptr);

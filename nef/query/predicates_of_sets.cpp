@@ -18,7 +18,7 @@ bool all_boundary_items(const Complex& c, const Test& test) {
     const SphereMapView map = c.sphere_map(v);
     bool near_vertex = false;
     for (const SFace& sface : map.sfaces) near_vertex = near_vertex || is_selected(sface.mark);
-    if (!is_box_vertex(c, v) && !test(c.vertices[v].mark, near_vertex)) return false;
+    if (!is_box_vertex(c, v) && !test(c.mark(v), near_vertex)) return false;
     for (std::uint32_t s = 0; s < map.svertices.size(); ++s) {
       const std::uint32_t halfedge = c.vertices[v].svertices + s;
       if (halfedge > c.twin[halfedge] || is_box_edge(c, halfedge)) continue;
@@ -43,7 +43,7 @@ bool is_box_vertex(const Complex& complex, std::uint32_t vertex) { return !compl
 
 bool is_box_edge(const Complex& complex, std::uint32_t halfedge) {
   // At most one finite plane goes through an edge of the box, so one of any two is the box's.
-  const SVertex& edge = complex.svertices[halfedge];
+  const SVertex& edge = complex.svertex(halfedge);
   return complex.planes.infimaximal(edge.p) || complex.planes.infimaximal(edge.q);
 }
 

@@ -16,7 +16,7 @@ namespace nef {
 class ShellWalk {
  public:
   explicit ShellWalk(const Complex& complex)
-      : c_(complex), vertex_(complex.vertex_count()), edge_(complex.svertices.size()), facet_(complex.facet_count()) {}
+      : c_(complex), vertex_(complex.vertex_count()), edge_(complex.svertex_count()), facet_(complex.facet_count()) {}
 
   /// Calls vertex(v), edge(halfedge; the smaller of the two) and facet(f) for all items that the
   /// sfaces of `shell` touch. A shell may be walked once.
@@ -40,7 +40,7 @@ class ShellWalk {
       const VertexRecord& at = c_.vertices[v];
       if (first_time(vertex_[v])) vertex(v);
       const SphereMapView map = c_.sphere_map(v);
-      const SFace& face = c_.sfaces[sface];
+      const SFace& face = map.sfaces[sface - at.sfaces];
       for (std::uint32_t i = face.entries; i < face.entries + face.entry_count; ++i) {
         const SFaceEntry& entry = map.entries[i];
         switch (entry.kind) {

@@ -17,54 +17,15 @@
 #include <vector>
 
 #include "nef/geometry/predicates.h"
+#include "nef/sphere_map/map_items.h"
 
 namespace nef {
 
-inline constexpr std::uint32_t kNone = 0xffffffffU;
-
-/// A point of the sphere: an edge of the complex as it leaves a vertex.
-struct SVertex {
-  PlaneId p, q;                 ///< direction n_p x n_q
-  std::uint32_t out = kNone;    ///< a shalfedge that starts here; kNone if isolated
-  std::uint32_t sface = kNone;  ///< the sface around it, if isolated
-  LabelId mark = 0;
-};
-
-/// One side of an arc of a great circle: the corner of a facet at a vertex.
-struct SHalfedge {
-  PlaneId plane;                 ///< positive side = the side of its sface
-  std::uint32_t source = kNone;  ///< svertex; the target is the source of the twin
-  std::uint32_t next = kNone;    ///< next on the boundary of its sface, which lies to the left
-  std::uint32_t prev = kNone;
-  std::uint32_t sface = kNone;
-  LabelId mark = 0;  ///< the same on both twins
-};
-
-/// One side of a whole great circle without svertices: a vertex inside a facet.
-struct SLoop {
-  PlaneId plane;
-  std::uint32_t sface = kNone;
-  LabelId mark = 0;
-};
-
-/// One entry into the boundary of an sface.
-struct SFaceEntry {
-  enum class Kind : std::uint8_t { kCycle, kIsolatedVertex, kLoop };
-  Kind kind = Kind::kCycle;
-  std::uint32_t index = kNone;  ///< a shalfedge, svertex or sloop
-};
-
-/// A connected open region of the sphere: a volume of the complex as seen from a vertex.
-struct SFace {
-  std::uint32_t entries = 0;      ///< first of its entries
-  std::uint32_t entry_count = 0;  ///< none for the whole sphere
-  LabelId mark = 0;
-};
-
-/// A sphere map in somebody's arrays. Valid as long as those do not change.
+/// A sphere map in somebody's arrays. Valid as long as those do not change. Items with planes are made as they are
+/// asked for, since a complex holds topology and planes apart.
 struct SphereMapView {
-  std::span<const SVertex> svertices;
-  std::span<const SHalfedge> shalfedges;
+  MapItems<SVertex> svertices;
+  MapItems<SHalfedge> shalfedges;
   std::span<const SLoop> sloops;
   std::span<const SFace> sfaces;
   std::span<const SFaceEntry> entries;
@@ -100,16 +61,15 @@ struct SphereMapBuffer {
   void assign_circle(PlaneId plane, LabelId facet, LabelId positive, LabelId negative);
 };
 
-/// Calls change(plane) for the plane of every item of a sphere map that may change, or of many: anything that owns
-/// svertices, shalfedges and sloops.
-template <typename Items, typename Change>
-void for_each_plane(Items& items, Change&& change) {
-  for (SVertex& v : items.svertices) {
+/// Calls change(plane) for the plane of every item of a sphere map, which may change it.
+template <typename Change>
+void for_each_plane(SphereMapBuffer& map, Change&& change) {
+  for (SVertex& v : map.svertices) {
     change(v.p);
     change(v.q);
   }
-  for (SHalfedge& e : items.shalfedges) change(e.plane);
-  for (SLoop& l : items.sloops) change(l.plane);
+  for (SHalfedge& e : map.shalfedges) change(e.plane);
+  for (SLoop& l : map.sloops) change(l.plane);
 }
 
 }  // namespace nef

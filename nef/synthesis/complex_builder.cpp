@@ -34,11 +34,9 @@ bool idle_corner(const SphereMapView& map) {
 void ComplexBuilder::reserve(std::size_t vertices, const VertexRecord& items, std::size_t limbs) {
   complex_.points.reserve(vertices, limbs);
   complex_.vertices.reserve(vertices + 1);
-  complex_.svertices.reserve(items.svertices);
-  complex_.shalfedges.reserve(items.shalfedges);
+  complex_.shalfedge_plane.pairs().reserve(items.shalfedges / 2);
+  complex_.other_planes.reserve(items.other_planes);
   complex_.sloops.reserve(items.sloops);
-  complex_.sfaces.reserve(items.sfaces);
-  complex_.entries.reserve(items.entries);
 }
 
 // Into map_. True if that is the map of a vertex.
@@ -92,18 +90,14 @@ void ComplexBuilder::append(const PointTable& points, PointId point, const Spher
 
 void ComplexBuilder::push(const SphereMapView& map) {
   Complex& c = complex_;
-  c.vertices.back().mark = map.mark;
-  c.svertices.insert(c.svertices.end(), map.svertices.begin(), map.svertices.end());
-  c.shalfedges.insert(c.shalfedges.end(), map.shalfedges.begin(), map.shalfedges.end());
+  VertexRecord end = c.vertices.back();
+  c.vertices.back().pattern = interner_.intern(c.patterns, map, c.shalfedge_plane.pairs(), c.other_planes);
   c.sloops.insert(c.sloops.end(), map.sloops.begin(), map.sloops.end());
-  c.sfaces.insert(c.sfaces.end(), map.sfaces.begin(), map.sfaces.end());
-  c.entries.insert(c.entries.end(), map.entries.begin(), map.entries.end());
-  VertexRecord end;
-  end.svertices = static_cast<std::uint32_t>(c.svertices.size());
-  end.shalfedges = static_cast<std::uint32_t>(c.shalfedges.size());
-  end.sloops = static_cast<std::uint32_t>(c.sloops.size());
-  end.sfaces = static_cast<std::uint32_t>(c.sfaces.size());
-  end.entries = static_cast<std::uint32_t>(c.entries.size());
+  end.svertices += static_cast<std::uint32_t>(map.svertices.size());
+  end.shalfedges += static_cast<std::uint32_t>(map.shalfedges.size());
+  end.sloops += static_cast<std::uint32_t>(map.sloops.size());
+  end.sfaces += static_cast<std::uint32_t>(map.sfaces.size());
+  end.other_planes = static_cast<std::uint32_t>(c.other_planes.size());
   c.vertices.push_back(end);
 }
 
@@ -113,8 +107,8 @@ void ComplexBuilder::copy(const Complex& from, std::uint32_t first, std::uint32_
   copy(std::span(&run, 1), 1);
 }
 
-// Indices inside sphere maps are local, so only where they begin changes, and the names of planes and marks. Each array
-// depends on nothing but the same array of the other complexes.
+// Patterns keep their places for planes, so only where items begin changes, and the names of planes and marks. Each
+// array depends on nothing but the same array of the other complexes.
 void ComplexBuilder::copy(std::span<const CopiedRun> runs, unsigned threads) {
   const auto all = [runs](const auto& copy_run) {
     for (const CopiedRun& run : runs) copy_run(run);
@@ -122,91 +116,105 @@ void ComplexBuilder::copy(std::span<const CopiedRun> runs, unsigned threads) {
   // The longest array first.
   parallel_calls(
       threads,
-      {[&] { all([this](const CopiedRun& run) { copy_shalfedges(run); }); },
-       [&] { all([this](const CopiedRun& run) { copy_svertices(run); }); },
+      {[&] { copy_records(runs); },
        [&] { all([this](const CopiedRun& run) { complex_.points.append(run.from->points, run.first, run.count); }); },
-       [&] {
-         all([this](const CopiedRun& run) {
-           copy_records(run);
-           copy_other_items(run);
-         });
-       }});
+       [&] { all([this](const CopiedRun& run) { copy_planes(run); }); },
+       [&] { all([this](const CopiedRun& run) { copy_sloops(run); }); }});
 }
 
 namespace {
 
-// Appends a range of items, changed by `rename` and with other marks, in blocks that stay in a fast cache meanwhile.
-template <typename Item, typename Rename>
-void copy_changed(const std::vector<Item>& from, std::uint32_t begin, std::uint32_t end, std::span<const LabelId> marks,
-                  const Rename& rename, std::vector<Item>& to) {
-  constexpr std::uint32_t kBlock = 2048;
+// Appends a range of items, changed by `change`, in blocks that stay in a fast cache meanwhile.
+template <typename Item, typename Change>
+void copy_changed(const std::vector<Item>& from, std::uint32_t begin, std::uint32_t end, std::vector<Item>& to,
+                  const Change& change) {
+  constexpr std::uint32_t kBlock = 4096;
   while (begin < end) {
     const std::uint32_t count = std::min(kBlock, end - begin);
     const std::size_t base = to.size();
     to.insert(to.end(), from.begin() + begin, from.begin() + begin + count);
-    const std::span<Item> fresh = std::span(to).subspan(base);
-    for (Item& item : fresh) rename(item);
-    if (!marks.empty()) {
-      for (Item& item : fresh) {
-        if (item.mark != kOutside) item.mark = marks[item.mark];
-      }
-    }
+    for (Item& item : std::span(to).subspan(base)) change(item);
     begin += count;
   }
 }
 
+// What the patterns of some complexes become, found when they are first met. Few vertices do not deserve a list.
+class PatternsOfRuns {
+ public:
+  PatternsOfRuns(PatternInterner& interner, PatternTable& table) : interner_(interner), table_(table) {}
+
+  void set(const ComplexBuilder::CopiedRun& run) {
+    run_ = &run;
+    const auto same = [&run](const List& list) { return list.from == run.from && list.marks == run.marks.data(); };
+    auto at = std::find_if(lists_.begin(), lists_.end(), same);
+    if (at == lists_.end()) at = lists_.insert(lists_.end(), {run.from, run.marks.data(), 0, {}});
+    at->vertices += run.count;
+    if (at->to.empty() && at->vertices >= run.from->patterns.size()) at->to.resize(run.from->patterns.size());
+    list_ = &*at;
+  }
+
+  PatternId operator()(PatternId pattern) {
+    if (list_->to.empty()) return interner_.intern(table_, run_->from->patterns, pattern, run_->marks);
+    PatternId& to = list_->to[pattern.index()];
+    if (!to.valid()) to = interner_.intern(table_, run_->from->patterns, pattern, run_->marks);
+    return to;
+  }
+
+ private:
+  struct List {
+    const Complex* from;
+    const LabelId* marks;
+    std::size_t vertices;  // that have asked so far
+    std::vector<PatternId> to;
+  };
+
+  PatternInterner& interner_;
+  PatternTable& table_;
+  std::vector<List> lists_;
+  const ComplexBuilder::CopiedRun* run_ = nullptr;
+  List* list_ = nullptr;
+};
+
 }  // namespace
 
-void ComplexBuilder::copy_svertices(const CopiedRun& run) {
-  const auto with_rows = [rows = run.rows](SVertex& item) {
-    if (rows.empty()) return;
-    rename(item.p, rows);
-    rename(item.q, rows);
-  };
-  const std::vector<VertexRecord>& records = run.from->vertices;
-  copy_changed(run.from->svertices, records[run.first].svertices, records[run.first + run.count].svertices, run.marks,
-               with_rows, complex_.svertices);
-}
-
-void ComplexBuilder::copy_shalfedges(const CopiedRun& run) {
-  const auto with_rows = [rows = run.rows](SHalfedge& item) {
-    if (!rows.empty()) rename(item.plane, rows);
-  };
-  const std::vector<VertexRecord>& records = run.from->vertices;
-  copy_changed(run.from->shalfedges, records[run.first].shalfedges, records[run.first + run.count].shalfedges,
-               run.marks, with_rows, complex_.shalfedges);
-}
-
-void ComplexBuilder::copy_other_items(const CopiedRun& run) {
-  const auto with_rows = [rows = run.rows](SLoop& item) {
-    if (!rows.empty()) rename(item.plane, rows);
+void ComplexBuilder::copy_planes(const CopiedRun& run) {
+  const auto with_rows = [rows = run.rows](PlaneId& plane) {
+    if (!rows.empty()) rename(plane, rows);
   };
   const VertexRecord& begin = run.from->vertices[run.first];
   const VertexRecord& end = run.from->vertices[run.first + run.count];
-  copy_changed(run.from->sloops, begin.sloops, end.sloops, run.marks, with_rows, complex_.sloops);
-  copy_changed(
-      run.from->sfaces, begin.sfaces, end.sfaces, run.marks, [](SFace&) {}, complex_.sfaces);
-  complex_.entries.insert(complex_.entries.end(), run.from->entries.begin() + begin.entries,
-                          run.from->entries.begin() + end.entries);
+  copy_changed(run.from->shalfedge_plane.pairs(), begin.shalfedges / 2, end.shalfedges / 2,
+               complex_.shalfedge_plane.pairs(), with_rows);
+  copy_changed(run.from->other_planes, begin.other_planes, end.other_planes, complex_.other_planes, with_rows);
 }
 
-void ComplexBuilder::copy_records(const CopiedRun& run) {
-  const VertexRecord begin = run.from->vertices[run.first];
-  const VertexRecord base = complex_.vertices.back();
-  const auto mark = [marks = run.marks](LabelId label) {
-    return marks.empty() || label == kOutside ? label : marks[label];
+void ComplexBuilder::copy_sloops(const CopiedRun& run) {
+  const auto change = [&run](SLoop& loop) {
+    if (!run.rows.empty()) rename(loop.plane, run.rows);
+    if (!run.marks.empty() && loop.mark != kOutside) loop.mark = run.marks[loop.mark];
   };
-  complex_.vertices.back().mark = mark(begin.mark);
-  const std::uint32_t last = run.first + run.count;
-  for (std::uint32_t v = run.first + 1; v <= last; ++v) {
-    VertexRecord record = run.from->vertices[v];
-    record.svertices += base.svertices - begin.svertices;
-    record.shalfedges += base.shalfedges - begin.shalfedges;
-    record.sloops += base.sloops - begin.sloops;
-    record.sfaces += base.sfaces - begin.sfaces;
-    record.entries += base.entries - begin.entries;
-    record.mark = v == last ? LabelId{0} : mark(record.mark);
-    complex_.vertices.push_back(record);
+  copy_changed(run.from->sloops, run.from->vertices[run.first].sloops, run.from->vertices[run.first + run.count].sloops,
+               complex_.sloops, change);
+}
+
+void ComplexBuilder::copy_records(std::span<const CopiedRun> runs) {
+  PatternsOfRuns patterns(interner_, complex_.patterns);
+  for (const CopiedRun& run : runs) {
+    patterns.set(run);
+    const std::span<const VertexRecord> records = std::span(run.from->vertices).subspan(run.first, run.count + 1);
+    const VertexRecord base = complex_.vertices.back();
+    const VertexRecord& begin = records.front();
+    for (std::uint32_t i = 0; i < run.count; ++i) {
+      complex_.vertices.back().pattern = patterns(records[i].pattern);
+      VertexRecord next = records[i + 1];
+      next.svertices += base.svertices - begin.svertices;
+      next.shalfedges += base.shalfedges - begin.shalfedges;
+      next.sloops += base.sloops - begin.sloops;
+      next.sfaces += base.sfaces - begin.sfaces;
+      next.other_planes += base.other_planes - begin.other_planes;
+      next.pattern = PatternId();
+      complex_.vertices.push_back(next);
+    }
   }
 }
 
@@ -214,11 +222,16 @@ void ComplexBuilder::take_vertices(Complex&& from) {
   complex_ = Complex();
   complex_.points = std::move(from.points);
   complex_.vertices = std::move(from.vertices);
-  complex_.svertices = std::move(from.svertices);
-  complex_.shalfedges = std::move(from.shalfedges);
+  complex_.patterns = std::move(from.patterns);
+  complex_.shalfedge_plane = std::move(from.shalfedge_plane);
+  complex_.other_planes = std::move(from.other_planes);
   complex_.sloops = std::move(from.sloops);
-  complex_.sfaces = std::move(from.sfaces);
-  complex_.entries = std::move(from.entries);
+  interner_.reset();
+}
+
+Complex ComplexBuilder::take_so_far() {
+  interner_.reset();
+  return std::exchange(complex_, Complex());
 }
 
 // A box whose walls hold nothing but its eight corners says only what the outer volume is: the
@@ -246,18 +259,17 @@ void ComplexBuilder::drop_idle_box(LabelId& outer) {
     if (v < count && c.points.finite(PointId{v})) continue;
     if (first < v) kept.copy(c, first, v - first);
     first = v + 1;
-    if (v < count) outer = c.vertices[v].mark;
+    if (v < count) outer = c.mark(v);
   }
-  complex_ = std::move(kept.complex_);
+  complex_ = kept.take_so_far();
+  interner_.reset();
 }
 
 // Cascades would otherwise carry the planes of everything that ever was.
 void ComplexBuilder::drop_idle_planes() {
   Complex& c = complex_;
   std::vector<bool> used(planes_.size(), false);
-  for (const SVertex& v : c.svertices) used[v.p.row()] = used[v.q.row()] = true;
-  for (const SHalfedge& e : c.shalfedges) used[e.plane.row()] = true;
-  for (const SLoop& l : c.sloops) used[l.plane.row()] = true;
+  for_each_plane_of(c, [&used](PlaneId plane) { used[plane.row()] = true; });
   const auto count = static_cast<std::size_t>(std::count(used.begin(), used.end(), true));
   if (count == used.size()) return;
   PlaneTable planes;
@@ -266,12 +278,7 @@ void ComplexBuilder::drop_idle_planes() {
   for (std::uint32_t i = 0; i < used.size(); ++i) {
     if (used[i]) row[i] = planes.append_new(planes_, i);
   }
-  for (SVertex& v : c.svertices) {
-    rename(v.p, row);
-    rename(v.q, row);
-  }
-  for (SHalfedge& e : c.shalfedges) rename(e.plane, row);
-  for (SLoop& l : c.sloops) rename(l.plane, row);
+  for_each_plane_of(c, [&row](PlaneId& plane) { rename(plane, row); });
   planes_ = std::move(planes);
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "nef/base/defect.h"
+#include "nef/complex/pattern_interner.h"
 #include "nef/sphere_map/arrangement.h"
 #include "nef/synthesis/known_links.h"
 
@@ -70,7 +71,7 @@ class ComplexBuilder {
   [[nodiscard]] const Complex& so_far() const { return complex_; }
 
   /// The same, taken out of the builder.
-  [[nodiscard]] Complex take_so_far() { return std::exchange(complex_, Complex()); }
+  [[nodiscard]] Complex take_so_far();
 
   /// True if finish() would remove an infimaximal box.
   [[nodiscard]] bool has_idle_box() const;
@@ -93,10 +94,9 @@ class ComplexBuilder {
  private:
   bool simplify(Arrangement& drawing, bool sorted);
   void push(const SphereMapView& map);
-  void copy_records(const CopiedRun& run);
-  void copy_svertices(const CopiedRun& run);
-  void copy_shalfedges(const CopiedRun& run);
-  void copy_other_items(const CopiedRun& run);
+  void copy_records(std::span<const CopiedRun> runs);
+  void copy_planes(const CopiedRun& run);
+  void copy_sloops(const CopiedRun& run);
   void drop_idle_box(LabelId& outer);
   void drop_idle_planes();
   Complex take();
@@ -104,6 +104,7 @@ class ComplexBuilder {
 
   PlaneTable& planes_;
   Complex complex_;
+  PatternInterner interner_;  // of complex_.patterns
   SphereMapBuffer map_;
   std::optional<Defect> defect_;
 };

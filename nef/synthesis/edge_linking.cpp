@@ -76,8 +76,8 @@ class Linker {
   explicit Linker(Complex& complex, unsigned threads = 1) : c_(complex), threads_(threads) {}
 
   void link_all() {
-    keys_.resize(c_.svertices.size());
-    c_.twin.assign(c_.svertices.size(), kNone);
+    keys_.resize(c_.svertex_count());
+    c_.twin.assign(c_.svertex_count(), kNone);
     const auto count = static_cast<std::uint32_t>(c_.vertex_count());
     parallel_for((count + kVertices - 1) / kVertices, threads_, [&](std::size_t task) {
       const auto first = static_cast<std::uint32_t>(task * kVertices);
@@ -113,9 +113,10 @@ class Linker {
   }
 
   void name_lines(std::uint32_t vertex, LineKey* keys) const {
-    for (std::uint32_t e = c_.vertices[vertex].shalfedges; e < c_.vertices[vertex + 1].shalfedges; ++e) {
-      const std::uint32_t row = c_.shalfedges[e].plane.row();
-      LineKey& key = keys[c_.shalfedges[e].source];
+    const SphereMapView map = c_.sphere_map(vertex);
+    for (const SHalfedge& half : map.shalfedges) {
+      const std::uint32_t row = half.plane.row();
+      LineKey& key = keys[half.source];
       if (row < key.first) {
         key.second = key.first;
         key.first = row;
@@ -129,7 +130,7 @@ class Linker {
     LineTable lines;  // few: only dangling and isolated edges
     for (std::size_t i = 0; i < keys_.size(); ++i) {
       if (keys_[i].second != kNone) continue;
-      const SVertex& v = c_.svertices[svertex(i)];
+      const SVertex& v = c_.svertex(svertex(i));
       keys_[i] = {kLine, lines.number(c_.planes, v.p, v.q)};
     }
   }
@@ -187,7 +188,7 @@ class Linker {
   void pair(std::uint32_t a, std::uint32_t b) {
     detail::require(c_.svertex_owner[a] != c_.svertex_owner[b], "an edge joins two vertices",
                     {{"halfedge", a}, {"halfedge", b}});
-    detail::require((c_.svertices[a].out == kNone) == (c_.svertices[b].out == kNone),
+    detail::require((c_.svertex(a).out == kNone) == (c_.svertex(b).out == kNone),
                     "an edge has facets at both ends or at none", {{"halfedge", a}, {"halfedge", b}});
     c_.twin[a] = b;
     c_.twin[b] = a;
@@ -195,8 +196,8 @@ class Linker {
 
   // +1 if the svertex points along the line's reference direction.
   int sense(std::uint32_t s, std::uint32_t reference, const Direction& direction) const {
-    const SVertex& v = c_.svertices[s];
-    const SVertex& r = c_.svertices[reference];
+    const SVertex& v = c_.svertex(s);
+    const SVertex& r = c_.svertex(reference);
     if (v.p.row() == r.p.row() && v.q.row() == r.q.row())
       return ((v.p.value ^ v.q.value ^ r.p.value ^ r.q.value) & 1U) != 0 ? -1 : 1;
     return sign_of_dot(direction, Direction::cross(c_.planes, v.p, v.q));
@@ -204,7 +205,7 @@ class Linker {
 
   void pair_along_line(std::vector<std::uint32_t>& group) {
     const std::uint32_t reference = group.front();
-    const Direction direction = Direction::cross(c_.planes, c_.svertices[reference].p, c_.svertices[reference].q);
+    const Direction direction = Direction::cross(c_.planes, c_.svertex(reference).p, c_.svertex(reference).q);
     int axis = 0;
     for (int i = 1; i < 3; ++i) {
       if (std::fabs(direction.approximate[static_cast<std::size_t>(i)]) >

@@ -33,7 +33,7 @@ struct CycleRecord {
   std::uint32_t lowest = kNone;  // vertex, lexicographically
 };
 
-bool few(const Complex& c) { return c.shalfedges.size() < 1U << 15U; }  // one share does
+bool few(const Complex& c) { return c.shalfedge_count() < 1U << 15U; }  // one share does
 
 /// Some facets, numbered from 0 on, as the complex holds all of them.
 struct LinkedFacets {
@@ -71,7 +71,7 @@ class FacetLinker {
     const std::uint32_t there = c_.twin[c_.corner_halfedge(corner)];
     const std::uint32_t vertex = c_.svertex_owner[there];
     const SphereMapView map = c_.sphere_map(vertex);
-    const PlaneId wanted = c_.shalfedges[corner].plane.opposite();
+    const PlaneId wanted = c_.shalfedge_plane[corner].opposite();
     const std::uint32_t first = map.svertices[there - c_.vertices[vertex].svertices].out;
     std::uint32_t e = first;
     while (map.shalfedges[e].plane != wanted) {
@@ -86,7 +86,7 @@ class FacetLinker {
     for (const std::uint32_t first : corners) {
       if (done_[first] != 0) continue;
       CycleRecord cycle;
-      cycle.row = c_.shalfedges[first].plane.row();
+      cycle.row = c_.shalfedge_plane[first].row();
       cycle.first = static_cast<std::uint32_t>(traced_.size());
       std::uint32_t corner = first;
       for (; done_[corner] == 0; corner = next_corner(corner)) {
@@ -252,8 +252,8 @@ class FacetLinker {
       const std::uint32_t ahead = c_.corner_halfedge(corner);
       const std::uint32_t back = c_.corner_back_halfedge(corner);
       if (ahead == back ||
-          orientation_on_circle(c_.planes, c_.shalfedges[corner].plane, direction_of(c_.planes, c_.svertices[ahead]),
-                                direction_of(c_.planes, c_.svertices[back])) <= 0) {
+          orientation_on_circle(c_.planes, c_.shalfedge_plane[corner], direction_of(c_.planes, c_.svertex(ahead)),
+                                direction_of(c_.planes, c_.svertex(back))) <= 0) {
         cycle.outer = false;
         return;
       }
@@ -329,14 +329,14 @@ Share everything(const Complex& c, const KnownLinks* known) {
   all.end_row = static_cast<std::uint32_t>(c.planes.size());
   if (known != nullptr) {
     all.corners = known->loose_corners;
-    std::erase_if(all.corners, [&c](std::uint32_t e) { return c.shalfedges[e].plane.flipped(); });
+    std::erase_if(all.corners, [&c](std::uint32_t e) { return c.shalfedge_plane[e].flipped(); });
     all.isolated = known->loose_isolated;
     std::erase_if(all.isolated, [&c](std::uint32_t v) { return c.vertices[v].sloops == c.vertices[v + 1].sloops; });
     return all;
   }
-  all.corners.reserve(c.shalfedges.size() / 2);
-  for (std::uint32_t e = 0; e < c.shalfedges.size(); ++e) {
-    if (!c.shalfedges[e].plane.flipped()) all.corners.push_back(e);
+  all.corners.reserve(c.shalfedge_count() / 2);
+  for (std::uint32_t e = 0; e < c.shalfedge_count(); ++e) {
+    if (!c.shalfedge_plane[e].flipped()) all.corners.push_back(e);
   }
   for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
     if (c.vertices[v].sloops != c.vertices[v + 1].sloops) all.isolated.push_back(v);
@@ -346,8 +346,8 @@ Share everything(const Complex& c, const KnownLinks* known) {
 
 std::vector<Share> shares_of(const Complex& c, unsigned threads) {
   const std::size_t rows = (c.planes.size() + kShares - 1) / kShares;
-  auto corners = shared_out<std::uint32_t>(c.shalfedges.size(), threads, [&](std::size_t e, const auto& put) {
-    const PlaneId plane = c.shalfedges[e].plane;
+  auto corners = shared_out<std::uint32_t>(c.shalfedge_count(), threads, [&](std::size_t e, const auto& put) {
+    const PlaneId plane = c.shalfedge_plane[e];
     if (!plane.flipped()) put(plane.row() / rows, static_cast<std::uint32_t>(e));
   });
   std::vector<Share> shares(kShares);
@@ -404,7 +404,7 @@ void put_together(std::vector<LinkedFacets>& parts, Complex& c) {
 
 // Tells shalfedges and sloops their facets, and facets their marks.
 void name_facets(Complex& c, unsigned threads) {
-  c.shalfedge_facet.assign(c.shalfedges.size(), HalffacetId());
+  c.shalfedge_facet.assign(c.shalfedge_count(), HalffacetId());
   c.sloop_facet.assign(c.sloops.size(), HalffacetId());
   const std::size_t tasks = few(c) ? 1 : kShares;
   const std::size_t range = (c.facets.size() + tasks - 1) / tasks;
@@ -412,7 +412,7 @@ void name_facets(Complex& c, unsigned threads) {
     const FacetId end{std::min((k + 1) * range, c.facets.size())};
     for (FacetId f{k * range}; f < end; ++f) {
       const std::span<const std::uint32_t> corners = c.corners_of(f);
-      c.facets[f].mark = c.shalfedges[corners[0]].mark;
+      c.facets[f].mark = c.shalfedge(corners[0]).mark;
       for (const std::uint32_t corner : corners) c.shalfedge_facet.set(corner, halffacet_of(f, false));
       for (const std::uint32_t v : c.isolated_vertices_of(c.facets[f])) {
         const std::uint32_t loop = c.vertices[v].sloops;
@@ -431,7 +431,7 @@ void link(Complex& c, const KnownLinks* known, unsigned threads) {
   } else {
     shares = shares_of(c, threads);
   }
-  std::vector<std::uint8_t> done(c.shalfedges.size(), 0);
+  std::vector<std::uint8_t> done(c.shalfedge_count(), 0);
   std::vector<LinkedFacets> parts(shares.size());
   parallel_for(shares.size(), threads,
                [&](std::size_t s) { parts[s] = FacetLinker(c, known, done).run(std::exchange(shares[s], {})); });

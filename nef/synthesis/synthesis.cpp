@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "nef/synthesis/synthesis.h"
 
-#include <algorithm>
-#include <array>
-
 #include "nef/base/interruption.h"
 #include "nef/base/parallel.h"
 #include "nef/base/progress.h"
@@ -15,16 +12,6 @@
 namespace nef {
 namespace {
 
-// The largest mark of some items, or `largest` if that is larger.
-template <typename Items>
-LabelId largest_mark(const Items& items, LabelId largest, std::size_t step = 1) {
-  for (std::size_t i = 0; i < items.size(); i += step) {
-    const LabelId mark = items[i].mark;
-    if (mark != kOutside && mark > largest) largest = mark;
-  }
-  return largest;
-}
-
 // Edges, facets and volumes; and nothing.
 void begin(std::size_t step) {
   check_interruption();
@@ -32,17 +19,15 @@ void begin(std::size_t step) {
 }
 
 void name_owners_and_labels(Complex& c, LabelId outer, unsigned threads) {
-  std::array<LabelId, 2> largest{outer == kOutside ? LabelId{1} : std::max(LabelId{1}, outer), 1};
-  const auto of_shalfedges = [&] { largest[0] = largest_mark(c.shalfedges, largest[0], 2); };  // twins have one mark
-  const auto of_others = [&] {
-    largest[1] = largest_mark(c.vertices, largest[1]);
-    largest[1] = largest_mark(c.svertices, largest[1]);
-    largest[1] = largest_mark(c.sloops, largest[1]);
-    largest[1] = largest_mark(c.sfaces, largest[1]);
+  parallel_calls(threads, {[&] { name_svertex_owners(c); }, [&] { name_shalfedge_owners(c); }});
+  LabelId largest = 1;
+  const auto take = [&largest](LabelId mark) {
+    if (mark != kOutside && mark > largest) largest = mark;
   };
-  parallel_calls(threads,
-                 {of_others, of_shalfedges, [&] { name_svertex_owners(c); }, [&] { name_shalfedge_owners(c); }});
-  c.label_count = static_cast<LabelId>(std::max(largest[0], largest[1]) + 1);
+  take(outer);
+  PatternTable::for_each_mark(c.patterns, take);
+  for (const SLoop& loop : c.sloops) take(loop.mark);
+  c.label_count = static_cast<LabelId>(largest + 1);
 }
 
 }  // namespace

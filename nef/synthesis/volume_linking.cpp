@@ -36,12 +36,12 @@ class VolumeLinker {
  private:
   // Half of the facets each on its own; what they have found is joined. The representatives are the same.
   void join_sfaces() {
-    sfaces_.reset(c_.sfaces.size());
+    sfaces_.reset(c_.sface_count());
     const std::size_t count = c_.facets.size();
     if (threads_ == 1) {
       join_sfaces_of({FacetId{0}, static_cast<std::uint32_t>(count)}, sfaces_);
     } else {
-      UnionFind others(c_.sfaces.size());
+      UnionFind others(c_.sface_count());
       const auto half = static_cast<std::uint32_t>(count / 2);
       parallel_calls(threads_, {[&] {
                                   join_sfaces_of({FacetId{0}, half}, sfaces_);
@@ -54,12 +54,12 @@ class VolumeLinker {
         if (root != f) sfaces_.unite(root, f);
       }
     }
-    for (std::uint32_t s = 0; s < c_.svertices.size(); ++s) {
-      if (c_.svertices[s].out != kNone || s > c_.twin[s]) continue;
+    for (std::uint32_t s = 0; s < c_.svertex_count(); ++s) {
+      if (c_.svertex(s).out != kNone || s > c_.twin[s]) continue;
       const std::uint32_t t = c_.twin[s];
       const std::uint32_t v = c_.svertex_owner[s];
       const std::uint32_t w = c_.svertex_owner[t];
-      sfaces_.unite(c_.vertices[v].sfaces + c_.svertices[s].sface, c_.vertices[w].sfaces + c_.svertices[t].sface);
+      sfaces_.unite(c_.vertices[v].sfaces + c_.svertex(s).sface, c_.vertices[w].sfaces + c_.svertex(t).sface);
     }
   }
 
@@ -93,7 +93,7 @@ class VolumeLinker {
   // Vertices that a facet or an edge joins see a common shell; so components are shells joined by vertices.
   void join_components() {
     sfaces_.flatten();
-    parts_.reset(c_.sfaces.size());
+    parts_.reset(c_.sface_count());
     for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) {
       const std::uint32_t first = sfaces_.root(c_.vertices[v].sfaces);
       for (std::uint32_t f = c_.vertices[v].sfaces + 1; f < c_.vertices[v + 1].sfaces; ++f) {
@@ -125,7 +125,7 @@ class VolumeLinker {
   [[nodiscard]] Components find_components() const {
     const auto count = static_cast<std::uint32_t>(c_.vertex_count());
     const auto of_range = [this](std::uint32_t first, std::uint32_t last, Components& found) {
-      found.lowest.assign(c_.sfaces.size(), kNone);
+      found.lowest.assign(c_.sface_count(), kNone);
       for (std::uint32_t v = first; v < last; ++v) found.add(c_.points, component(v), v);
     };
     Components all;
@@ -147,7 +147,7 @@ class VolumeLinker {
       if (enclosed[i]) rays.push_back(ray_from(lowest[components[i]]));
     }
     const BoxTree places(rays);
-    volumes_.reset(c_.sfaces.size());
+    volumes_.reset(c_.sface_count());
     std::uint32_t unbounded = kNone;  // an sface of the outer volume
     const Direction minus_x = Direction::exact(-1, 0, 0);
     for (std::size_t i = 0; i < components.size(); ++i) {
@@ -189,7 +189,7 @@ class VolumeLinker {
                                     const std::vector<std::uint32_t>& lowest) {
     std::vector<bool> result(components.size(), false);
     if (components.size() < 2) return result;
-    std::vector<std::uint32_t> number(c_.sfaces.size(), kNone);
+    std::vector<std::uint32_t> number(c_.sface_count(), kNone);
     for (std::uint32_t i = 0; i < components.size(); ++i) number[components[i]] = i;
     std::vector<Box> boxes(components.size());
     for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) {
@@ -229,7 +229,7 @@ class VolumeLinker {
   }
 
   void number_volumes() {
-    const auto count = static_cast<std::uint32_t>(c_.sfaces.size());
+    const auto count = static_cast<std::uint32_t>(c_.sface_count());
     std::vector<ShellId> shell_of(count);
     std::vector<std::uint32_t> roots;
     for (std::uint32_t f = 0; f < count; ++f) {
@@ -259,9 +259,9 @@ class VolumeLinker {
       Volume& volume = c_.volumes[number];
       if (volume.shell_count++ == 0) {
         volume.first_shell = c_.shells.end_id();
-        volume.mark = c_.sfaces[root].mark;
+        volume.mark = c_.sface_mark(root);
       }
-      detail::require_one_mark(volume.mark == c_.sfaces[root].mark, "a volume has one mark", {{"sface", root}});
+      detail::require_one_mark(volume.mark == c_.sface_mark(root), "a volume has one mark", {{"sface", root}});
       shell_of[root] = c_.shells.push_back({number, 0, 0});
     }
     fill_shells(shell_of);
@@ -269,8 +269,8 @@ class VolumeLinker {
 
   void fill_shells(const std::vector<ShellId>& shell_of) {
     constexpr std::size_t kTogether = 16384;
-    c_.sface_shell.resize(c_.sfaces.size());
-    parallel_for_ranges(c_.sfaces.size(), kTogether, threads_, [&](std::size_t first, std::size_t last) {
+    c_.sface_shell.resize(c_.sface_count());
+    parallel_for_ranges(c_.sface_count(), kTogether, threads_, [&](std::size_t first, std::size_t last) {
       for (auto f = static_cast<std::uint32_t>(first); f < last; ++f) c_.sface_shell[f] = shell_of[sfaces_.root(f)];
     });
     const auto name_volumes = [this](std::size_t first, std::size_t last) {

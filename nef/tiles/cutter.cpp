@@ -25,7 +25,7 @@ using Sides = std::array<T, 2>;
 PlaneTable own_planes(const PlaneTable& all, Complex& piece, std::vector<std::uint32_t>& row) {
   std::vector<std::uint32_t> used;
   row.resize(all.size(), kNone);
-  for_each_plane(piece, [&](PlaneId plane) {
+  for_each_plane_of(piece, [&](PlaneId plane) {
     if (row[plane.row()] != kNone) return;
     row[plane.row()] = 0;
     used.push_back(plane.row());
@@ -34,7 +34,7 @@ PlaneTable own_planes(const PlaneTable& all, Complex& piece, std::vector<std::ui
   PlaneTable planes;
   planes.reserve(used.size());
   for (const std::uint32_t r : used) row[r] = planes.append_new(all, r);
-  for_each_plane(piece, [&row](PlaneId& plane) { plane = PlaneId{row[plane.row()] << 1U | (plane.value & 1U)}; });
+  for_each_plane_of(piece, [&row](PlaneId& plane) { plane = PlaneId{row[plane.row()] << 1U | (plane.value & 1U)}; });
   for (const std::uint32_t r : used) row[r] = kNone;
   return planes;
 }
@@ -69,7 +69,7 @@ class Cutter::Halves {
       }
       v = end;
     }
-    for (std::uint32_t h = 0; h < c_.svertices.size(); ++h) {
+    for (std::uint32_t h = 0; h < c_.svertex_count(); ++h) {
       if (side_[c_.svertex_owner[h]] < 0 && side_[c_.target(h)] > 0) add_crossing(h);
     }
     return {finish(0), finish(1)};
@@ -101,7 +101,7 @@ class Cutter::Halves {
     const std::uint32_t v = c_.svertex_owner[h];
     edge_pyramid(c_.sphere_map(v), h - c_.vertices[v].svertices, pyramid_);
     PointTable points;
-    const auto point = points.push_intersection(planes_, c_.svertices[h].p, c_.svertices[h].q, plane_);
+    const auto point = points.push_intersection(planes_, c_.svertex(h).p, c_.svertex(h).q, plane_);
     NEF_ASSERT(point.has_value());
     add_both(points, *point, pyramid_.view());
   }
@@ -112,7 +112,7 @@ class Cutter::Halves {
     name_svertex_owners(half);
     const int side = x == 0 ? -1 : 1;
     KnownLinks known;
-    known.twin.reserve(half.svertices.size());
+    known.twin.reserve(half.svertex_count());
     std::uint32_t vertex = 0;
     for (const Run& run : runs_[x]) {
       for (std::uint32_t i = 0; i < run.count; ++i, ++vertex) {

@@ -109,14 +109,7 @@ Complex uniform_tile(const Region& region, LabelId mark) {
 
 Complex infimaximal_corners(LabelId mark) {
   Complex corners = make_infimaximal_box();
-  const auto change = [mark](auto& items) {
-    for (auto& item : items) item.mark = item.mark == 0 ? kOutside : mark;
-  };
-  change(corners.vertices);
-  change(corners.svertices);
-  change(corners.shalfedges);
-  change(corners.sloops);
-  change(corners.sfaces);
+  PatternTable::for_each_mark(corners.patterns, [mark](LabelId& item) { item = item == 0 ? kOutside : mark; });
   return corners;
 }
 

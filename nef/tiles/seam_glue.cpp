@@ -308,7 +308,7 @@ class SeamGlue {
   // The plane other than that of the wall that holds the edge.
   [[nodiscard]] PlaneId other_plane(PlaneId wall, const WallEdge& edge) const {
     const Leaf& leaf = leaves_[edge.leaf];
-    SVertex svertex = leaf.set.complex().svertices[edge.halfedge];
+    SVertex svertex = leaf.set.complex().svertex(edge.halfedge);
     svertex.p = renamed(leaf, svertex.p);
     svertex.q = renamed(leaf, svertex.q);
     return edge_side(planes_, wall, svertex).other;

@@ -43,8 +43,7 @@ TileMeasure measure_tile(const Complex& complex) {
     result.box.add_rounded(complex.points.approximate(PointId{v}));
     result.uniform = false;
   }
-  if (result.uniform)
-    result.mark = complex.vertex_count() == 0 ? complex.volumes[kOuterVolume].mark : complex.vertices[0].mark;
+  if (result.uniform) result.mark = complex.vertex_count() == 0 ? complex.volumes[kOuterVolume].mark : complex.mark(0);
   return result;
 }
 
@@ -104,7 +103,7 @@ LabelId mark_beyond(const TileNode& tile, const AxisPlane& plane, int side) {
     if (side * more > 0) extreme = v;
   }
   NEF_ASSERT(!has_boundary(c.sphere_map(extreme)));
-  return c.vertices[extreme].mark;
+  return c.mark(extreme);
 }
 
 }  // namespace nef

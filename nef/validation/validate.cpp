@@ -14,27 +14,45 @@ namespace {
 
 using detail::require;
 
+// Everything that reads a sphere map relies on it.
+void check_pattern(const Complex& c, const VertexRecord& a, const VertexRecord& b, std::size_t v) {
+  require(a.pattern.index() < c.patterns.size(), "vertices have a pattern", {{"vertex", v}});
+  const SphereMapView map = c.patterns.view(a.pattern);
+  const std::uint32_t pairs = (b.shalfedges - a.shalfedges) / 2;
+  require(map.svertices.size() == b.svertices - a.svertices && map.shalfedges.size() == 2 * std::size_t{pairs} &&
+              map.sfaces.size() == b.sfaces - a.sfaces && a.shalfedges % 2 == 0,
+          "vertices have as many items as their patterns", {{"vertex", v}});
+  const std::uint32_t planes = pairs + b.other_planes - a.other_planes;
+  for (const SVertex& s : map.svertices) {
+    require(s.p.row() < planes && s.q.row() < planes, "patterns name planes of their vertices", {{"vertex", v}});
+  }
+  for (std::uint32_t e = 0; e < map.shalfedges.size(); ++e) {
+    require(map.shalfedges[e].plane == PlaneId{e}, "patterns name planes of their vertices", {{"vertex", v}});
+  }
+}
+
 void check_array_sizes(const Complex& c) {
   require(!c.vertices.empty(), "vertex records end with a sentinel", {});
   require(c.points.size() == c.vertex_count(), "one point for each vertex",
           {{"points", c.points.size()}, {"vertices", c.vertex_count()}});
   const VertexRecord& last = c.vertices.back();
-  require(last.svertices == c.svertices.size() && last.shalfedges == c.shalfedges.size() &&
-              last.sloops == c.sloops.size() && last.sfaces == c.sfaces.size() && last.entries == c.entries.size(),
+  require(last.shalfedges == c.shalfedge_plane.size() && last.sloops == c.sloops.size() &&
+              last.other_planes == c.other_planes.size(),
           "the sentinel ends all sphere items", {});
-  require(c.svertex_owner.size() == c.svertices.size() && c.twin.size() == c.svertices.size() &&
-              c.shalfedge_owner.size() == c.shalfedges.size() && c.shalfedge_facet.size() == c.shalfedges.size() &&
-              c.sloop_facet.size() == c.sloops.size() && c.sface_shell.size() == c.sfaces.size(),
+  require(c.svertex_owner.size() == c.svertex_count() && c.twin.size() == c.svertex_count() &&
+              c.shalfedge_owner.size() == c.shalfedge_count() && c.shalfedge_facet.size() == c.shalfedge_count() &&
+              c.sloop_facet.size() == c.sloops.size() && c.sface_shell.size() == c.sface_count(),
           "columns of synthesis are parallel to the sphere items", {});
   const VertexRecord& first = c.vertices.front();
-  require(first.svertices + first.shalfedges + first.sloops + first.sfaces + first.entries == 0,
+  require(first.svertices + first.shalfedges + first.sloops + first.sfaces + first.other_planes == 0,
           "the first vertex begins at zero", {});
   for (std::size_t v = 0; v < c.vertex_count(); ++v) {
     const VertexRecord& a = c.vertices[v];
     const VertexRecord& b = c.vertices[v + 1];
     require(a.svertices <= b.svertices && a.shalfedges <= b.shalfedges && a.sloops <= b.sloops &&
-                a.sfaces <= b.sfaces && a.entries <= b.entries,
+                a.sfaces <= b.sfaces && a.other_planes <= b.other_planes,
             "ranges of sphere items are in order", {{"vertex", v}});
+    check_pattern(c, a, b, v);
   }
 }
 
@@ -112,17 +130,17 @@ void check_vertices(const Complex& c) {
 int component_sign(const Direction& direction, std::size_t axis) { return sgn(direction.integers()[axis]); }
 
 void check_edges(const Complex& c) {
-  for (std::uint32_t h = 0; h < c.svertices.size(); ++h) {
+  for (std::uint32_t h = 0; h < c.svertex_count(); ++h) {
     const std::uint32_t t = c.twin[h];
-    require(t < c.svertices.size() && t != h && c.twin[t] == h, "twins of halfedges are mutual", {{"halfedge", h}});
-    require(c.svertices[h].mark == c.svertices[t].mark, "both ends of an edge have one mark", {{"halfedge", h}});
+    require(t < c.svertex_count() && t != h && c.twin[t] == h, "twins of halfedges are mutual", {{"halfedge", h}});
+    require(c.svertex(h).mark == c.svertex(t).mark, "both ends of an edge have one mark", {{"halfedge", h}});
     const PointId from{c.svertex_owner[h]};
     const PointId to{c.svertex_owner[t]};
-    const Direction along = direction_of(c.planes, c.svertices[h]);
-    require(same_direction(along, direction_of(c.planes, c.svertices[t]).negated()),
+    const Direction along = direction_of(c.planes, c.svertex(h));
+    require(same_direction(along, direction_of(c.planes, c.svertex(t)).negated()),
             "twin halfedges have opposite directions", {{"halfedge", h}});
-    require(side_of_plane(c.planes, c.svertices[h].p, c.points, to) == 0 &&
-                side_of_plane(c.planes, c.svertices[h].q, c.points, to) == 0,
+    require(side_of_plane(c.planes, c.svertex(h).p, c.points, to) == 0 &&
+                side_of_plane(c.planes, c.svertex(h).q, c.points, to) == 0,
             "both ends of an edge lie on its line", {{"halfedge", h}});
     for (std::size_t axis = 0; axis < 3; ++axis) {
       require(compare_coordinate(c.points, to, from, static_cast<int>(axis)) == component_sign(along, axis),
@@ -136,11 +154,14 @@ void check_marks(const Complex& c) {
   require(c.label_count >= 2, "there are at least two labels", {});
   const auto known = [&c](LabelId mark) { return mark < c.label_count || mark == kOutside; };
   const char* const name = "marks are below the number of labels";
-  for (std::size_t v = 0; v < c.vertex_count(); ++v) require(known(c.vertices[v].mark), name, {{"vertex", v}});
-  for (std::size_t h = 0; h < c.svertices.size(); ++h) require(known(c.svertices[h].mark), name, {{"halfedge", h}});
-  for (std::size_t e = 0; e < c.shalfedges.size(); ++e) require(known(c.shalfedges[e].mark), name, {{"shalfedge", e}});
+  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
+    require(known(c.mark(v)), name, {{"vertex", v}});
+    std::uint32_t sface = c.vertices[v].sfaces;
+    for (const SFace& f : c.sphere_map(v).sfaces) require(known(f.mark), name, {{"sface", sface++}});
+  }
+  for (std::size_t h = 0; h < c.svertex_count(); ++h) require(known(c.svertex(h).mark), name, {{"halfedge", h}});
+  for (std::size_t e = 0; e < c.shalfedge_count(); ++e) require(known(c.shalfedge(e).mark), name, {{"shalfedge", e}});
   for (std::size_t l = 0; l < c.sloops.size(); ++l) require(known(c.sloops[l].mark), name, {{"sloop", l}});
-  for (std::size_t s = 0; s < c.sfaces.size(); ++s) require(known(c.sfaces[s].mark), name, {{"sface", s}});
   for (const FacetId f : c.facets.ids()) require(known(c.facets[f].mark), name, {{"facet", f}});
   for (const VolumeId v : c.volumes.ids()) require(known(c.volumes[v].mark), name, {{"volume", v}});
 }
@@ -150,10 +171,10 @@ void check_outside(const Complex& c) {
   require(!c.volumes.empty(), "there is an outer volume", {});
   for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
     require(c.has_box() || c.points.finite(PointId{v}), "infimaximal vertices need a box", {{"vertex", v}});
-    require(c.vertices[v].mark != kOutside, "only the outer volume is outside", {{"vertex", v}});
+    require(c.mark(v) != kOutside, "only the outer volume is outside", {{"vertex", v}});
   }
-  for (std::size_t h = 0; h < c.svertices.size(); ++h) {
-    require(c.svertices[h].mark != kOutside, "only the outer volume is outside", {{"halfedge", h}});
+  for (std::size_t h = 0; h < c.svertex_count(); ++h) {
+    require(c.svertex(h).mark != kOutside, "only the outer volume is outside", {{"halfedge", h}});
   }
   for (const VolumeId i : c.volumes.ids()) {
     require(i == kOuterVolume || c.volumes[i].mark != kOutside, "only the outer volume is outside", {{"volume", i}});

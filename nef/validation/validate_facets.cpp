@@ -39,8 +39,8 @@ void check_facet_ranges(const Complex& c) {
 
 void check_corner(const Complex& c, FacetId f, std::uint32_t corner) {
   const Facet& facet = c.facets[f];
-  require(corner < c.shalfedges.size(), "corners are shalfedges", {{"facet", f}, {"corner", corner}});
-  const SHalfedge& e = c.shalfedges[corner];
+  require(corner < c.shalfedge_count(), "corners are shalfedges", {{"facet", f}, {"corner", corner}});
+  const SHalfedge& e = c.shalfedge(corner);
   require(e.plane == facet.plane, "corners lie in the plane of their facet", {{"facet", f}, {"shalfedge", corner}});
   require(e.mark == facet.mark, "corners have the mark of their facet", {{"facet", f}, {"shalfedge", corner}});
   require(
@@ -52,7 +52,7 @@ void check_corner(const Complex& c, FacetId f, std::uint32_t corner) {
 }
 
 void check_cycles(const Complex& c) {
-  std::vector<bool> met(c.shalfedges.size(), false);
+  std::vector<bool> met(c.shalfedge_count(), false);
   for (const FacetId f : c.facets.ids()) {
     for (const CycleId k : c.facets[f].cycles()) {
       const std::span<const std::uint32_t> cycle = c.corners_of(k);
@@ -63,7 +63,7 @@ void check_cycles(const Complex& c) {
         met[corner] = met[corner ^ 1U] = true;
         const std::uint32_t following = cycle[(i + 1) % cycle.size()];
         require(
-            following < c.shalfedges.size() && c.twin[c.corner_halfedge(corner)] == c.corner_back_halfedge(following),
+            following < c.shalfedge_count() && c.twin[c.corner_halfedge(corner)] == c.corner_back_halfedge(following),
             "cycles follow edges", {{"facet", f}, {"shalfedge", corner}, {"shalfedge", following}});
       }
     }
@@ -152,7 +152,7 @@ void check_cycle_nesting(const Complex& c) {
 }  // namespace
 
 void check_facets(const Complex& complex) {
-  for (std::size_t s = 0; s < complex.sfaces.size(); ++s) {
+  for (std::size_t s = 0; s < complex.sface_count(); ++s) {
     require(complex.shells.contains(complex.sface_shell[s]), "sfaces have a shell", {{"sface", s}});
   }
   for (const ShellId s : complex.shells.ids()) {

@@ -17,23 +17,23 @@ namespace nef::detail {
 namespace {
 
 void check_partition(const Complex& c) {
-  require(c.shell_sfaces.size() == c.sfaces.size(), "shells partition the sfaces", {});
-  std::vector<bool> met(c.sfaces.size(), false);
+  require(c.shell_sfaces.size() == c.sface_count(), "shells partition the sfaces", {});
+  std::vector<bool> met(c.sface_count(), false);
   std::size_t used = 0;
   for (const ShellId s : c.shells.ids()) {
     const Shell& shell = c.shells[s];
-    require(shell.first_sface == used && shell.sface_count > 0 && shell.sface_count <= c.sfaces.size() - used,
+    require(shell.first_sface == used && shell.sface_count > 0 && shell.sface_count <= c.sface_count() - used,
             "shells have sfaces, one after the other", {{"shell", s}});
     used += shell.sface_count;
     for (const std::uint32_t sface : c.sfaces_of(shell)) {
-      require(sface < c.sfaces.size() && !met[sface] && c.sface_shell[sface] == s, "sfaces know their shell",
+      require(sface < c.sface_count() && !met[sface] && c.sface_shell[sface] == s, "sfaces know their shell",
               {{"shell", s}, {"sface", sface}});
       met[sface] = true;
-      require(c.sfaces[sface].mark == c.volumes[shell.volume].mark, "sfaces have the mark of their volume",
+      require(c.sface_mark(sface) == c.volumes[shell.volume].mark, "sfaces have the mark of their volume",
               {{"sface", sface}, {"volume", shell.volume}});
     }
   }
-  require(used == c.sfaces.size(), "shells partition the sfaces", {});
+  require(used == c.sface_count(), "shells partition the sfaces", {});
   std::size_t shells = 0;
   for (const VolumeId i : c.volumes.ids()) {
     const Volume& volume = c.volumes[i];
@@ -51,7 +51,7 @@ void check_partition(const Complex& c) {
 
 // Components of sfaces by way of edges without facets and of halffacets.
 void check_connection(const Complex& c) {
-  UnionFind sfaces(c.sfaces.size());
+  UnionFind sfaces(c.sface_count());
   IndexedVector<HalffacetId, std::uint32_t> of_halffacet(2 * c.facets.size(), kNone);
   const auto meet = [&](HalffacetId halffacet, std::uint32_t sface) {
     if (of_halffacet[halffacet] == kNone) {
@@ -60,23 +60,23 @@ void check_connection(const Complex& c) {
       sfaces.unite(of_halffacet[halffacet], sface);
     }
   };
-  for (std::uint32_t e = 0; e < c.shalfedges.size(); ++e) meet(c.shalfedge_facet[e], c.shalfedge_sface(e));
+  for (std::uint32_t e = 0; e < c.shalfedge_count(); ++e) meet(c.shalfedge_facet[e], c.shalfedge_sface(e));
   for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
     for (std::uint32_t i = c.vertices[v].sloops; i < c.vertices[v + 1].sloops; ++i) {
       meet(c.sloop_facet[i], c.vertices[v].sfaces + c.sloops[i].sface);
     }
   }
-  for (std::uint32_t h = 0; h < c.svertices.size(); ++h) {
+  for (std::uint32_t h = 0; h < c.svertex_count(); ++h) {
     const std::uint32_t t = c.twin[h];
-    require((c.svertices[h].out == kNone) == (c.svertices[t].out == kNone),
-            "both ends of an edge have facets, or neither", {{"halfedge", h}});
-    if (c.svertices[h].out != kNone) continue;
-    sfaces.unite(c.vertices[c.svertex_owner[h]].sfaces + c.svertices[h].sface,
-                 c.vertices[c.svertex_owner[t]].sfaces + c.svertices[t].sface);
+    require((c.svertex(h).out == kNone) == (c.svertex(t).out == kNone), "both ends of an edge have facets, or neither",
+            {{"halfedge", h}});
+    if (c.svertex(h).out != kNone) continue;
+    sfaces.unite(c.vertices[c.svertex_owner[h]].sfaces + c.svertex(h).sface,
+                 c.vertices[c.svertex_owner[t]].sfaces + c.svertex(t).sface);
   }
-  std::vector<ShellId> shell_of(c.sfaces.size());
+  std::vector<ShellId> shell_of(c.sface_count());
   IndexedVector<ShellId, std::uint32_t> root_of(c.shells.size(), kNone);
-  for (std::uint32_t s = 0; s < c.sfaces.size(); ++s) {
+  for (std::uint32_t s = 0; s < c.sface_count(); ++s) {
     const std::uint32_t root = sfaces.find(s);
     const ShellId shell = c.sface_shell[s];
     if (!shell_of[root].valid()) shell_of[root] = shell;

@@ -49,12 +49,12 @@ class SceneBuilder {
   }
 
   void add_edges() {
-    for (std::uint32_t h = 0; h < complex_.svertices.size(); ++h) {
+    for (std::uint32_t h = 0; h < complex_.svertex_count(); ++h) {
       if (h > complex_.twin[h]) continue;
       const std::uint32_t from = number_[complex_.svertex_owner[h]];
       const std::uint32_t to = number_[complex_.target(h)];
       if (from == kUnused || to == kUnused) continue;
-      const SVertex& svertex = complex_.svertices[h];
+      const SVertex& svertex = complex_.svertex(h);
       scene_.edges.push_back({from, to, h, svertex.mark, Origin::kOwn, svertex.out == kNone});
     }
   }

@@ -31,7 +31,7 @@ inline std::vector<Rational3> hard_points(const Polyhedron& set, std::size_t mos
     points.push_back(vertex(v));
     points.push_back(middle_of({vertex(v), vertex((v * 7 + 3) % vertices)}));
   }
-  for (std::size_t h = 0; h < c.svertices.size(); h += 1 + c.svertices.size() / most) {
+  for (std::size_t h = 0; h < c.svertex_count(); h += 1 + c.svertex_count() / most) {
     const auto halfedge = static_cast<std::uint32_t>(h);
     points.push_back(middle_of({vertex(c.svertex_owner[halfedge]), vertex(c.target(halfedge))}));
   }

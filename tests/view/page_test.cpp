@@ -116,12 +116,12 @@ TEST_CASE("a page holds exact coordinates and planes of every item") {
   }
   const auto marks = scene.array<std::uint16_t>(layer["vertices"]["mark"]);
   const auto indices = scene.array<std::uint32_t>(layer["vertices"]["index"]);
-  for (std::size_t v = 0; v < marks.size(); ++v) CHECK(marks[v] == complex.vertices[indices[v]].mark);
+  for (std::size_t v = 0; v < marks.size(); ++v) CHECK(marks[v] == complex.mark(indices[v]));
   const auto spheres = scene.array<std::uint32_t>(layer["spheres"]["begin"]);
   REQUIRE(spheres.size() == 4 * (drawn.vertices.size() + 1));
-  CHECK(spheres[spheres.size() - 4] == complex.svertices.size());
-  CHECK(2 * spheres[spheres.size() - 3] == complex.shalfedges.size());
-  CHECK(spheres[spheres.size() - 1] == complex.sfaces.size());
+  CHECK(spheres[spheres.size() - 4] == complex.svertex_count());
+  CHECK(2 * spheres[spheres.size() - 3] == complex.shalfedge_count());
+  CHECK(spheres[spheres.size() - 1] == complex.sface_count());
 }
 
 TEST_CASE("coordinates far from the origin keep their shape, and texts can be left out") {

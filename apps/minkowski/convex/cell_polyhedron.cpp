@@ -10,6 +10,7 @@
 #include "apps/minkowski/cells/exact_cells.h"
 #include "apps/minkowski/convex/convex_cell.h"
 #include "nef/base/error.h"
+#include "nef/complex/rewrite_sphere_maps.h"
 #include "nef/construct/solid.h"
 
 namespace nef::minkowski {
@@ -102,18 +103,21 @@ Polyhedron to_polyhedron(const ConvexCell& cell) {
 
   Complex complex = closed.complex();
   const Correspondence of(cell, complex);
-  for (std::uint32_t v = 0; v < complex.vertex_count(); ++v) complex.vertices[v].mark = of.vertex(v) ? 1 : 0;
-  for (std::uint32_t h = 0; h < complex.svertices.size(); ++h) {
-    complex.svertices[h].mark = of.edge(complex.svertex_owner[h], complex.target(h)) ? 1 : 0;
-  }
   for (Facet& facet : complex.facets) {
     const auto corners = complex.corners_of(facet);
     const auto owner = [&](std::size_t k) { return complex.shalfedge_owner[corners[k]]; };
     facet.mark = of.facet(owner(0), owner(1), owner(2)) ? 1 : 0;
   }
-  for (std::uint32_t e = 0; e < complex.shalfedges.size(); ++e) {
-    complex.shalfedges[e].mark = complex.facets[facet_of(complex.shalfedge_facet[e])].mark;
-  }
+  rewrite_sphere_maps(complex, [&](std::uint32_t v, SphereMapBuffer& map) {
+    const VertexRecord& record = complex.vertices[v];
+    map.mark = of.vertex(v) ? 1 : 0;
+    for (std::uint32_t s = 0; s < map.svertices.size(); ++s) {
+      map.svertices[s].mark = of.edge(v, complex.target(record.svertices + s)) ? 1 : 0;
+    }
+    for (std::uint32_t e = 0; e < map.shalfedges.size(); ++e) {
+      map.shalfedges[e].mark = complex.facets[facet_of(complex.shalfedge_facet[record.shalfedges + e])].mark;
+    }
+  });
   return Polyhedron(std::move(complex));
 }
 

@@ -24,9 +24,13 @@ bool is_bounded_by_facets(const Complex& c) {
     if ((c.volumes[f.volume_above].mark != 0) == (c.volumes[f.volume_below].mark != 0)) return false;
   }
   for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
-    if (c.sphere_map(v).trivial()) return false;
+    const SphereMapView map = c.sphere_map(v);
+    if (map.trivial()) return false;
+    for (const SVertex& s : map.svertices) {
+      if (s.out == kNone) return false;
+    }
   }
-  return std::all_of(c.svertices.begin(), c.svertices.end(), [](const SVertex& s) { return s.out != kNone; });
+  return true;
 }
 
 // With points, segments and facets that are missing inside: they change no sum of sets that lie in the closures of

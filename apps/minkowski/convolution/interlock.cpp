@@ -198,7 +198,7 @@ std::vector<SaddlePoint> saddle_points(const Polyhedron& a, const Polyhedron& b,
       const Rational3 q = of_b.points.rational(PointId{t.vertex});
       const Rational3 x = {p[0] + q[0], p[1] + q[1], p[2] + q[2]};
       if (membership.surely_in_inside(x)) continue;
-      const bool marked = of_a.vertices[s.vertex].mark != 0 && of_b.vertices[t.vertex].mark != 0;
+      const bool marked = of_a.mark(s.vertex) != 0 && of_b.mark(t.vertex) != 0;
       result.push_back({x, static_cast<std::uint8_t>(marked ? 1 : 0)});
     }
   }

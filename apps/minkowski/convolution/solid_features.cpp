@@ -17,8 +17,8 @@ SolidFeatures::SolidFeatures(const Polyhedron& solid) : c_(solid.complex()) {
   points_.reserve(c_.vertex_count());
   for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) points_.push_back(c_.points.rational(PointId{v}));
   find_marks();
-  directions_.reserve(c_.svertices.size());
-  for (const SVertex& s : c_.svertices) directions_.push_back(direction_of(c_.planes, s));
+  directions_.reserve(c_.svertex_count());
+  for (std::uint32_t h = 0; h < c_.svertex_count(); ++h) directions_.push_back(direction_of(c_.planes, c_.svertex(h)));
   add_facets();
   for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) {
     const std::uint32_t first = c_.vertices[v].svertices;
@@ -46,11 +46,11 @@ void SolidFeatures::find_marks() {
     all = all && mark != 0;
   };
   for (const Facet& f : c_.facets) look_at(f.mark);
-  for (const SVertex& s : c_.svertices) look_at(s.mark);
+  for (std::uint32_t h = 0; h < c_.svertex_count(); ++h) look_at(c_.svertex(h).mark);
   for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) {
-    look_at(c_.vertices[v].mark);
+    look_at(c_.mark(v));
     for (const SLoop& loop : c_.sphere_map(v).sloops) {
-      has_plain_facets_ = has_plain_facets_ && loop.mark == c_.vertices[v].mark;
+      has_plain_facets_ = has_plain_facets_ && loop.mark == c_.mark(v);
     }
   }
   marks_ = all ? BoundaryMarks::kAll : any ? BoundaryMarks::kMixed : BoundaryMarks::kNone;
@@ -58,7 +58,7 @@ void SolidFeatures::find_marks() {
   for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) {
     for (std::uint32_t h = c_.vertices[v].svertices; h < c_.vertices[v + 1].svertices; ++h) {
       const std::uint32_t w = c_.target(h);
-      if (v < w) edge_marks_.emplace(pair_key(v, w), c_.svertices[h].mark != 0 ? 1 : 0);
+      if (v < w) edge_marks_.emplace(pair_key(v, w), c_.svertex(h).mark != 0 ? 1 : 0);
     }
   }
 }

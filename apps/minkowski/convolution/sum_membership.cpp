@@ -17,7 +17,7 @@ int reach(const Polyhedron& a, const Polyhedron& b, const Rational3& x) {
     const Location at = locate(a, {x[0] - p[0], x[1] - p[1], x[2] - p[2]});
     if (at.mark == 0) continue;
     if (at.kind == Location::Kind::kVolume) return 2;
-    if (b.complex().vertices[v].mark != 0) best = 1;
+    if (b.complex().mark(v) != 0) best = 1;
   }
   return best;
 }

@@ -33,9 +33,9 @@ CellReader::CellReader(const Complex& complex)
     : complex_(complex),
       facets_of_volume_(complex.volume_count()),
       facet_taken_(complex.facet_count(), 0),
-      halfedge_taken_(complex.svertices.size(), 0),
+      halfedge_taken_(complex.svertex_count(), 0),
       vertex_taken_(complex.vertex_count(), 0),
-      seen_halfedge_(complex.svertices.size(), 0),
+      seen_halfedge_(complex.svertex_count(), 0),
       seen_vertex_(complex.vertex_count(), 0),
       local_(complex.vertex_count(), 0) {
   for (const FacetId f : complex.facets.ids()) {
@@ -122,9 +122,9 @@ void CellReader::set_marks(ConvexCell& cell) {
   };
   for (std::size_t k = 0; k < facets_.size(); ++k) require(on.of_facet[k], complex_.facets[facets_[k]].mark);
   for (std::size_t k = 0; k < halfedges_.size(); ++k) {
-    require(on.of_halfedge[k], complex_.svertices[halfedges_[k]].mark);
+    require(on.of_halfedge[k], complex_.svertex(halfedges_[k]).mark);
   }
-  for (std::size_t k = 0; k < vertices_.size(); ++k) require(on.of_vertex[k], complex_.vertices[vertices_[k]].mark);
+  for (std::size_t k = 0; k < vertices_.size(); ++k) require(on.of_vertex[k], complex_.mark(vertices_[k]));
   for (std::size_t size = 2; size <= 3; ++size) {
     for (auto& [face, marked] : belongs) {
       if (std::min<std::size_t>(face.size(), 3) != size) continue;
@@ -239,8 +239,8 @@ void CellReader::set_boundary(ConvexCell& cell) {
   bool none = true;
   const auto note = [&](LabelId label) { (selected(label) ? none : all) = false; };
   for (const FacetId f : facets_) note(complex_.facets[f].mark);
-  for (const std::uint32_t h : halfedges_) note(complex_.svertices[h].mark);
-  for (const std::uint32_t v : vertices_) note(complex_.vertices[v].mark);
+  for (const std::uint32_t h : halfedges_) note(complex_.svertex(h).mark);
+  for (const std::uint32_t v : vertices_) note(complex_.mark(v));
   if (all) {
     take_all();
   } else if (none) {
@@ -300,8 +300,8 @@ ConvexCell CellReader::polygon(FacetId facet) {
   const std::size_t n = corners.size();
   std::vector<std::size_t> extreme;
   for (std::size_t k = 0; k < n; ++k) {
-    const SVertex& forth = complex_.svertices[complex_.corner_halfedge(corners[k])];
-    const SVertex& back = complex_.svertices[complex_.corner_back_halfedge(corners[k])];
+    const SVertex& forth = complex_.svertex(complex_.corner_halfedge(corners[k]));
+    const SVertex& back = complex_.svertex(complex_.corner_back_halfedge(corners[k]));
     if (orientation_on_circle(complex_.planes, f.plane, Direction::cross(complex_.planes, forth.p, forth.q),
                               Direction::cross(complex_.planes, back.p, back.q)) != 0) {
       extreme.push_back(k);
@@ -321,8 +321,8 @@ ConvexCell CellReader::polygon(FacetId facet) {
     const std::size_t last = i + 1 < extreme.size() ? extreme[i + 1] : extreme[0] + n;
     bool marked = true;
     for (std::size_t k = first; k < last; ++k) {
-      marked = marked && selected(complex_.svertices[halfedge(k)].mark);
-      if (k > first) marked = marked && selected(complex_.vertices[vertex(k)].mark);
+      marked = marked && selected(complex_.svertex(halfedge(k)).mark);
+      if (k > first) marked = marked && selected(complex_.mark(vertex(k)));
     }
     for (std::size_t k = first; marked && k < last; ++k) {
       halfedge_taken_[halfedge(k)] = 1;
@@ -336,7 +336,7 @@ ConvexCell CellReader::polygon(FacetId facet) {
   for (std::size_t i = 0; i < extreme.size(); ++i) {
     const std::uint32_t v = vertex(extreme[i]);
     const std::size_t before = i > 0 ? i - 1 : extreme.size() - 1;
-    const bool marked = selected(complex_.vertices[v].mark) && cell.edge_marks[i] != 0 && cell.edge_marks[before] != 0;
+    const bool marked = selected(complex_.mark(v)) && cell.edge_marks[i] != 0 && cell.edge_marks[before] != 0;
     cell.vertex_marks.push_back(marked ? 1 : 0);
     if (marked) vertex_taken_[v] = 1;
   }
@@ -348,7 +348,7 @@ ConvexCell CellReader::segment(std::uint32_t halfedge) {
   cell.dimension = 1;
   cell.boundary = ConvexCell::Boundary::kMixed;
   for (const std::uint32_t v : {complex_.svertex_owner[halfedge], complex_.target(halfedge)}) {
-    const bool marked = selected(complex_.vertices[v].mark);
+    const bool marked = selected(complex_.mark(v));
     cell.mesh.vertices.push_back(complex_.points.rational(PointId(v)));
     cell.vertex_marks.push_back(marked ? 1 : 0);
     if (marked) vertex_taken_[v] = 1;
@@ -361,13 +361,14 @@ std::vector<ConvexCell> CellReader::flat_cells() {
   for (const FacetId f : complex_.facets.ids()) {
     if (facet_taken_[f] == 0 && selected(complex_.facets[f].mark)) cells.push_back(polygon(f));
   }
-  for (std::uint32_t h = 0; h < complex_.svertices.size(); ++h) {
+  for (std::uint32_t h = 0; h < complex_.svertex_count(); ++h) {
     if (h > complex_.twin[h] || halfedge_taken_[h] != 0) continue;
-    if (selected(complex_.svertices[h].mark)) cells.push_back(segment(h));
+    if (selected(complex_.svertex(h).mark)) cells.push_back(segment(h));
   }
   for (std::uint32_t v = 0; v < complex_.vertex_count(); ++v) {
-    if (vertex_taken_[v] != 0 || !selected(complex_.vertices[v].mark)) continue;
-    if (complex_.sphere_map(v).trivial() && selected(complex_.sfaces[complex_.vertices[v].sfaces].mark)) continue;
+    if (vertex_taken_[v] != 0 || !selected(complex_.mark(v))) continue;
+    const SphereMapView map = complex_.sphere_map(v);
+    if (map.trivial() && selected(map.sfaces[0].mark)) continue;
     ConvexCell& cell = cells.emplace_back();
     cell.mesh.vertices.push_back(complex_.points.rational(PointId(v)));
   }

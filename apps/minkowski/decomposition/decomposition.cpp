@@ -84,7 +84,7 @@ bool is_full_dimensional(const Polyhedron& a) {
 
 bool is_point(const Polyhedron& a) {
   const Complex& c = a.complex();
-  return c.vertex_count() == 1 && c.svertices.empty() && c.sloops.empty() && c.vertices[0].mark == 1 &&
+  return c.vertex_count() == 1 && c.svertex_count() == 0 && c.sloops.empty() && c.mark(0) == 1 &&
          c.volumes[kOuterVolume].mark == 0;
 }
 

@@ -69,8 +69,8 @@ PlaneSlicer::PlaneSlicer(const Complex& complex)
       side_(complex.vertex_count(), 0) {
   for (const Facet& f : complex.facets) facet_boxes_.push_back(nef::facet_box(complex, f));
   facets_ = BoxTree(facet_boxes_);
-  for (std::uint32_t h = 0; h < complex.svertices.size(); ++h) {
-    if (h < complex.twin[h] && complex.svertices[h].out == kNone) isolated_edges_.push_back(h);
+  for (std::uint32_t h = 0; h < complex.svertex_count(); ++h) {
+    if (h < complex.twin[h] && complex.svertex(h).out == kNone) isolated_edges_.push_back(h);
   }
 }
 

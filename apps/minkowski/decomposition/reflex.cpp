@@ -55,24 +55,24 @@ std::size_t cross_axis(const Complex& complex, PlaneId plane, std::size_t axis) 
 
 std::vector<ReflexEdge> reflex_edges(const Complex& complex, std::size_t axis) {
   std::vector<ReflexEdge> result;
-  for (std::uint32_t h = 0; h < complex.svertices.size(); ++h) {
+  for (std::uint32_t h = 0; h < complex.svertex_count(); ++h) {
     if (complex.twin[h] < h) continue;
-    const SVertex& sv = complex.svertices[h];
+    const SVertex& sv = complex.svertex(h);
     const VertexRecord& vertex = complex.vertices[complex.svertex_owner[h]];
+    const SphereMapView map = complex.sphere_map(complex.svertex_owner[h]);
     const Direction d = Direction::cross(complex.planes, sv.p, sv.q);
     ReflexEdge edge;
     edge.halfedge = h;
     edge.vertical = oriented_sign(complex, sv.p, axis) == 0 && oriented_sign(complex, sv.q, axis) == 0;
     if (sv.out == kNone) {
       const std::uint32_t sface = vertex.sfaces + sv.sface;
-      if (!selected(complex.sfaces[sface].mark)) continue;
+      if (!selected(map.sfaces[sv.sface].mark)) continue;
       edge.volume = complex.sface_volume(sface);
       edge.inside = {true, true};
       edge.cross_wall = {CrossWall{PlaneId(), {true, true}}, CrossWall{PlaneId(), {true, true}}};
       result.push_back(edge);
       continue;
     }
-    const SphereMapView map = complex.sphere_map(complex.svertex_owner[h]);
     std::uint32_t e = sv.out;
     do {
       const std::uint32_t next = map.next_around(e);
@@ -98,9 +98,8 @@ std::vector<ReflexEdge> reflex_edges(const Complex& complex, std::size_t axis) {
 std::vector<std::uint32_t> lonely_vertices(const Complex& complex) {
   std::vector<std::uint32_t> result;
   for (std::uint32_t v = 0; v < complex.vertex_count(); ++v) {
-    if (complex.sphere_map(v).trivial() && selected(complex.sfaces[complex.vertices[v].sfaces].mark)) {
-      result.push_back(v);
-    }
+    const SphereMapView map = complex.sphere_map(v);
+    if (map.trivial() && selected(map.sfaces[0].mark)) result.push_back(v);
   }
   return result;
 }
@@ -124,7 +123,7 @@ std::vector<ReflexCorner> reflex_corners(const Complex& complex, FacetId facet) 
     const std::uint32_t forth = complex.corner_halfedge(corner);
     const std::uint32_t back = complex.corner_back_halfedge(corner);
     const auto direction = [&](std::uint32_t h) {
-      return Direction::cross(complex.planes, complex.svertices[h].p, complex.svertices[h].q);
+      return Direction::cross(complex.planes, complex.svertex(h).p, complex.svertex(h).q);
     };
     const Direction from = direction(forth);
     const Direction to = direction(back);

@@ -75,7 +75,7 @@ class CellEstimate {
       ++vertical_;
       return;
     }
-    const SVertex& sv = c_.svertices[edge.halfedge];
+    const SVertex& sv = c_.svertex(edge.halfedge);
     const Direction d = Direction::cross(c_.planes, sv.p, sv.q);
     const std::uint32_t from = c_.svertex_owner[edge.halfedge];
     const std::uint32_t to = c_.target(edge.halfedge);

@@ -7,6 +7,7 @@
 
 #include "apps/minkowski/morphology.h"
 #include "nef/base/union_find.h"
+#include "nef/complex/rewrite_sphere_maps.h"
 
 namespace nef::minkowski {
 namespace {
@@ -20,7 +21,7 @@ class Connection {
   explicit Connection(const Complex& c)
       : c_(c),
         first_edge_(c.vertex_count()),
-        first_facet_(first_edge_ + c.svertices.size()),
+        first_facet_(first_edge_ + c.svertex_count()),
         first_volume_(first_facet_ + c.facet_count()),
         sets_(first_volume_ + c.volume_count()) {
     for (std::uint32_t v = 0; v < c.vertex_count(); ++v) connect_at(v);
@@ -42,8 +43,8 @@ class Connection {
   }
 
   [[nodiscard]] bool is_selected(std::uint32_t item) const {
-    if (item < first_edge_) return c_.vertices[item].mark == kIn;
-    if (item < first_facet_) return c_.svertices[item - first_edge_].mark == kIn;
+    if (item < first_edge_) return c_.mark(item) == kIn;
+    if (item < first_facet_) return c_.svertex(item - first_edge_).mark == kIn;
     if (item < first_volume_) return c_.facets[FacetId{item - first_facet_}].mark == kIn;
     return c_.volumes[VolumeId{item - first_volume_}].mark == kIn;
   }
@@ -78,7 +79,7 @@ class Connection {
       join(edge, of_volume(c_.sface_volume(c_.shalfedge_sface(e))));
     }
     for (std::uint32_t h = c_.vertices[v].svertices; h < c_.vertices[v + 1].svertices; ++h) {
-      const SVertex& sv = c_.svertices[h];
+      const SVertex& sv = c_.svertex(h);
       if (sv.out == kNone) join(of_edge(h), of_volume(c_.sface_volume(c_.vertices[v].sfaces + sv.sface)));
     }
   }
@@ -108,19 +109,22 @@ Complex labelled(const Complex& original, const Connection& connection, const st
   const auto mark = [&](LabelId& label, std::uint32_t item) {
     if (label == kIn && kept[item] == 0) label = kElsewhere;
   };
-  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
-    mark(c.vertices[v].mark, connection.of_vertex(v));
-    for (std::uint32_t f = c.vertices[v].sfaces; f < c.vertices[v + 1].sfaces; ++f) {
-      mark(c.sfaces[f].mark, connection.of_volume(original.sface_volume(f)));
+  rewrite_sphere_maps(c, [&](std::uint32_t v, SphereMapBuffer& map) {
+    const VertexRecord& record = original.vertices[v];
+    mark(map.mark, connection.of_vertex(v));
+    for (std::uint32_t f = 0; f < map.sfaces.size(); ++f) {
+      mark(map.sfaces[f].mark, connection.of_volume(original.sface_volume(record.sfaces + f)));
     }
-  }
-  for (std::uint32_t h = 0; h < c.svertices.size(); ++h) mark(c.svertices[h].mark, connection.of_edge(h));
-  for (std::uint32_t e = 0; e < c.shalfedges.size(); ++e) {
-    mark(c.shalfedges[e].mark, connection.of_facet(facet_of(c.shalfedge_facet[e])));
-  }
-  for (std::uint32_t l = 0; l < c.sloops.size(); ++l) {
-    mark(c.sloops[l].mark, connection.of_facet(facet_of(c.sloop_facet[l])));
-  }
+    for (std::uint32_t s = 0; s < map.svertices.size(); ++s) {
+      mark(map.svertices[s].mark, connection.of_edge(record.svertices + s));
+    }
+    for (std::uint32_t e = 0; e < map.shalfedges.size(); ++e) {
+      mark(map.shalfedges[e].mark, connection.of_facet(facet_of(original.shalfedge_facet[record.shalfedges + e])));
+    }
+    for (std::uint32_t l = 0; l < map.sloops.size(); ++l) {
+      mark(map.sloops[l].mark, connection.of_facet(facet_of(original.sloop_facet[record.sloops + l])));
+    }
+  });
   for (const FacetId f : c.facets.ids()) mark(c.facets[f].mark, connection.of_facet(f));
   for (const VolumeId v : c.volumes.ids()) mark(c.volumes[v].mark, connection.of_volume(v));
   c.label_count = 3;
@@ -132,7 +136,7 @@ Complex labelled(const Complex& original, const Connection& connection, const st
 Polyhedron component_of(const Polyhedron& a, const std::optional<Rational3>& point) {
   const Complex& c = a.complex();
   Connection connection(c);
-  const std::size_t items = c.vertex_count() + c.svertices.size() + c.facet_count() + c.volume_count();
+  const std::size_t items = c.vertex_count() + c.svertex_count() + c.facet_count() + c.volume_count();
   std::vector<std::uint8_t> wanted(items, 0);  // per representative
   bool any = false;
   const auto want = [&](std::uint32_t item) {

@@ -37,7 +37,7 @@ std::vector<Candidate> candidates(const Complex& c) {
     add(times(-Rational(c.planes.oriented_coefficient(plane, 3)) / dot(n, n), n));
   }
   for (std::uint32_t v = 0; v < c.vertex_count(); ++v) add(c.points.rational(PointId(v)));
-  for (std::uint32_t h = 0; h < c.svertices.size(); ++h) {
+  for (std::uint32_t h = 0; h < c.svertex_count(); ++h) {
     if (h > c.twin[h]) continue;
     const Rational3& p = result[planes.size() + c.svertex_owner[h]].point;
     const Rational3& q = result[planes.size() + c.target(h)].point;

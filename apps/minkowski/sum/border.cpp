@@ -7,6 +7,7 @@
 
 #include "apps/minkowski/minkowski.h"
 #include "nef/base/union_find.h"
+#include "nef/complex/rewrite_sphere_maps.h"
 
 namespace nef::minkowski {
 namespace {
@@ -108,19 +109,14 @@ class BorderRemover {
     for (Facet& facet : result_.facets) {
       if (!at_infinity(facet.plane)) facet.mark = thin(facet) ? 1 : 0;
     }
-    for (std::uint32_t e = 0; e < c_.shalfedges.size(); ++e) {
-      result_.shalfedges[e].mark = result_.facets[facet_of(c_.shalfedge_facet[e])].mark;
-    }
-    for (std::uint32_t l = 0; l < c_.sloops.size(); ++l) {
-      result_.sloops[l].mark = result_.facets[facet_of(c_.sloop_facet[l])].mark;
-    }
-    for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) {
-      const SphereMapView map = c_.sphere_map(v);
-      for (std::uint32_t s = 0; s < map.svertices.size(); ++s) {
-        result_.svertices[c_.vertices[v].svertices + s].mark = edge_mark(v, s);
+    rewrite_sphere_maps(result_, [this](std::uint32_t v, SphereMapBuffer& map) {
+      for (std::uint32_t e = 0; e < map.shalfedges.size(); ++e) map.shalfedges[e].mark = arc_mark(v, e);
+      for (std::uint32_t l = 0; l < map.sloops.size(); ++l) {
+        map.sloops[l].mark = result_.facets[facet_of(c_.sloop_facet[c_.vertices[v].sloops + l])].mark;
       }
-      result_.vertices[v].mark = vertex_mark(v);
-    }
+      for (std::uint32_t s = 0; s < map.svertices.size(); ++s) map.svertices[s].mark = edge_mark(v, s);
+      map.mark = vertex_mark(v);
+    });
     return std::move(result_);
   }
 
@@ -128,6 +124,11 @@ class BorderRemover {
   [[nodiscard]] bool at_infinity(PlaneId plane) const { return c_.planes.infimaximal(plane); }
   [[nodiscard]] bool thin(const Facet& facet) const {
     return c_.volumes[facet.volume_above].mark == 0 && c_.volumes[facet.volume_below].mark == 0;
+  }
+
+  // New mark of the facet of a shalfedge at vertex v.
+  [[nodiscard]] LabelId arc_mark(std::uint32_t v, std::uint32_t e) const {
+    return result_.facets[facet_of(c_.shalfedge_facet[c_.vertices[v].shalfedges + e])].mark;
   }
 
   [[nodiscard]] LabelId vertex_mark(std::uint32_t v) const {
@@ -157,7 +158,7 @@ class BorderRemover {
     const SphereMapView map = c_.sphere_map(v);
     std::uint32_t e = map.svertices[s].out;
     do {
-      if (!at_infinity(map.shalfedges[e].plane)) return result_.shalfedges[c_.vertices[v].shalfedges + e].mark;
+      if (!at_infinity(map.shalfedges[e].plane)) return arc_mark(v, e);
       e = map.next_around(e);
     } while (e != map.svertices[s].out);
     return map.svertices[s].mark;
@@ -167,10 +168,10 @@ class BorderRemover {
   [[nodiscard]] LabelId trace_of_vertex(std::uint32_t v) const {
     const SphereMapView map = c_.sphere_map(v);
     for (std::uint32_t s = 0; s < map.svertices.size(); ++s) {
-      if (!on_wall(map, s)) return result_.svertices[c_.vertices[v].svertices + s].mark;
+      if (!on_wall(map, s)) return edge_mark(v, s);
     }
     for (std::uint32_t e = 0; e < map.shalfedges.size(); ++e) {
-      if (!at_infinity(map.shalfedges[e].plane)) return result_.shalfedges[c_.vertices[v].shalfedges + e].mark;
+      if (!at_infinity(map.shalfedges[e].plane)) return arc_mark(v, e);
     }
     return map.mark;
   }

@@ -32,7 +32,7 @@ std::set<std::array<Rational, 4>> dividing_planes(const Complex& c) {
     for (std::size_t i = 0; i < 4; ++i) n[i] = Rational(c.planes.oriented_coefficient(PlaneId(plane.row() * 2U), i));
     return n;
   };
-  for (const ReflexEdge& edge : reflex_edges(c, 2)) result.insert(coefficients(c.svertices[edge.halfedge].p));
+  for (const ReflexEdge& edge : reflex_edges(c, 2)) result.insert(coefficients(c.svertex(edge.halfedge).p));
   for (const std::uint32_t v : lonely_vertices(c))
     result.insert({1, 0, 0, Rational(-c.points.rational(PointId(v))[0])});
   for (const FacetId f : c.facets.ids()) {
@@ -76,7 +76,7 @@ Polyhedron cut_into_convex_items(const Polyhedron& a) {
 class SpanReader {
  public:
   explicit SpanReader(const Complex& complex)
-      : c_(complex), on_box_(complex.svertices.size(), false), facets_of_volume_(complex.volume_count()) {
+      : c_(complex), on_box_(complex.svertex_count(), false), facets_of_volume_(complex.volume_count()) {
     for (const FacetId f : c_.facets.ids()) {
       const Facet& facet = c_.facets[f];
       facets_of_volume_[facet.volume_above].push_back(f);
@@ -111,14 +111,14 @@ class SpanReader {
       add_facet(f);
       result.push_back(end());
     }
-    for (std::uint32_t h = 0; h < c_.svertices.size(); ++h) {
-      if (edge(h) != h || on_box_[h] || !is_selected(c_.svertices[h].mark)) continue;
+    for (std::uint32_t h = 0; h < c_.svertex_count(); ++h) {
+      if (edge(h) != h || on_box_[h] || !is_selected(c_.svertex(h).mark)) continue;
       begin();
       add_edge(h);
       result.push_back(end());
     }
     for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) {
-      if (!is_selected(c_.vertices[v].mark) || !c_.points.finite(PointId(v))) continue;
+      if (!is_selected(c_.mark(v)) || !c_.points.finite(PointId(v))) continue;
       begin();
       add_vertex(v);
       result.push_back(end());

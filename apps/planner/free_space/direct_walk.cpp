@@ -118,7 +118,7 @@ class Crossings {
   }
 
   void edge(std::uint32_t halfedge) {
-    const SVertex& s = complex_.svertices[halfedge];
+    const SVertex& s = complex_.svertex(halfedge);
     const bool crosses_p = plane(s.p);
     const bool crosses_q = plane(s.q);
     if (crosses_p || crosses_q) return;

@@ -79,8 +79,8 @@ EmptyGrid::EmptyGrid(const Complex& complex) {
     check_interruption();
     enter(complex, facet);
   }
-  for (std::uint32_t h = 0; h < complex.svertices.size(); ++h) {
-    if (complex.twin[h] < h || complex.svertices[h].out != kNone) continue;
+  for (std::uint32_t h = 0; h < complex.svertex_count(); ++h) {
+    if (complex.twin[h] < h || complex.svertex(h).out != kNone) continue;
     enter_edge(complex.points.approximate(PointId{complex.svertex_owner[h]}),
                complex.points.approximate(PointId{complex.target(h)}));
   }

@@ -18,8 +18,8 @@ ItemTree::ItemTree(const Complex& complex) {
   for (const FacetId f : complex.facets.ids()) {
     push({Kind::kFacet, f.index()}, facet_box(complex, complex.facets[f]));
   }
-  for (std::uint32_t h = 0; h < complex.svertices.size(); ++h) {
-    if (complex.twin[h] < h || complex.svertices[h].out != kNone) continue;
+  for (std::uint32_t h = 0; h < complex.svertex_count(); ++h) {
+    if (complex.twin[h] < h || complex.svertex(h).out != kNone) continue;
     push({Kind::kEdge, h}, edge_box(complex, h));
   }
   for (std::uint32_t v = 0; v < complex.vertex_count(); ++v) {

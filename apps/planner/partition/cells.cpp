@@ -4,8 +4,8 @@
 namespace nef::planner {
 
 CellNumbering::CellNumbering(const Complex& complex) : complex_(&complex) {
-  edge_of_halfedge_.resize(complex.svertices.size());
-  for (std::uint32_t h = 0; h < complex.svertices.size(); ++h) {
+  edge_of_halfedge_.resize(complex.svertex_count());
+  for (std::uint32_t h = 0; h < complex.svertex_count(); ++h) {
     if (complex.twin[h] < h) continue;
     const auto edge = static_cast<std::uint32_t>(halfedge_of_edge_.size());
     edge_of_halfedge_[h] = edge;
@@ -21,9 +21,9 @@ LabelId CellNumbering::mark(CellId cell) const {
   const std::uint32_t i = index(cell);
   switch (dimension(cell)) {
     case 0:
-      return complex_->vertices[i].mark;
+      return complex_->mark(i);
     case 1:
-      return complex_->svertices[halfedge_of_edge_[i]].mark;
+      return complex_->svertex(halfedge_of_edge_[i]).mark;
     case 2:
       return complex_->facets[FacetId{i}].mark;
     default:

@@ -8,7 +8,7 @@ namespace nef::planner {
 namespace {
 
 PlaneId side_plane(const Complex& complex, const Facet& facet, std::uint32_t halfedge) {
-  const SVertex& s = complex.svertices[halfedge];
+  const SVertex& s = complex.svertex(halfedge);
   return PlaneId{(s.p.row() == facet.plane.row() ? s.q : s.p).row() << 1U};
 }
 
@@ -17,9 +17,9 @@ bool convex_at(const Complex& complex, std::uint32_t corner) {
   const std::uint32_t out = complex.corner_halfedge(corner);
   const std::uint32_t back = complex.corner_back_halfedge(corner);
   if (out == back) return false;
-  const Direction u = direction_of(complex.planes, complex.svertices[out]);
-  const Direction v = direction_of(complex.planes, complex.svertices[back]);
-  const int turn = orientation_on_circle(complex.planes, complex.shalfedges[corner].plane, u, v);
+  const Direction u = direction_of(complex.planes, complex.svertex(out));
+  const Direction v = direction_of(complex.planes, complex.svertex(back));
+  const int turn = orientation_on_circle(complex.planes, complex.shalfedge_plane[corner], u, v);
   return turn > 0 || (turn == 0 && !same_direction(u, v));
 }
 

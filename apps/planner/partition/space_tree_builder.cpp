@@ -44,7 +44,7 @@ class SpaceTreeBuilder {
       piece.points = {PointId{v}};
       pieces.push_back(std::move(piece));
     }
-    for (std::uint32_t h = 0; h < complex_.svertices.size(); ++h) {
+    for (std::uint32_t h = 0; h < complex_.svertex_count(); ++h) {
       if (complex_.twin[h] < h) continue;
       pieces.push_back(edge_piece(h));
     }
@@ -70,8 +70,8 @@ class SpaceTreeBuilder {
     ConvexPiece piece;
     piece.cell = cells_.edge(halfedge);
     piece.dimension = 1;
-    piece.p = complex_.svertices[halfedge].p;
-    piece.q = complex_.svertices[halfedge].q;
+    piece.p = complex_.svertex(halfedge).p;
+    piece.q = complex_.svertex(halfedge).q;
     piece.points = {PointId{complex_.svertex_owner[halfedge]}, PointId{complex_.target(halfedge)}};
     return piece;
   }

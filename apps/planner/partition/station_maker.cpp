@@ -14,7 +14,7 @@ Zones::Stations StationMaker::make() {
   for (std::uint32_t v = 0; v < complex_.vertex_count(); ++v) {
     if (selected_(cells_.vertex(v))) vertex(v);
   }
-  for (std::uint32_t h = 0; h < complex_.svertices.size(); ++h) {
+  for (std::uint32_t h = 0; h < complex_.svertex_count(); ++h) {
     if (complex_.twin[h] > h && selected_(cells_.edge(h))) edge(h);
   }
   return std::move(out_);

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "nef/base/union_find.h"
+#include "nef/complex/rewrite_sphere_maps.h"
 
 namespace nef::planner {
 namespace {
@@ -100,7 +101,12 @@ std::optional<Polyhedron> filled(const Polyhedron& surface) {
   const std::optional<IndexedVector<VolumeId, bool>> odd = odd_volumes(surface.complex());
   if (!odd || std::find(odd->begin(), odd->end(), true) == odd->end()) return std::nullopt;
   Complex c = surface.complex();
-  for (std::uint32_t s = 0; s < c.sfaces.size(); ++s) c.sfaces[s].mark = (*odd)[c.sface_volume(s)] ? 1 : 0;
+  rewrite_sphere_maps(c, [&c, &odd](std::uint32_t v, SphereMapBuffer& map) {
+    const std::uint32_t first = c.vertices[v].sfaces;
+    for (std::uint32_t f = 0; f < map.sfaces.size(); ++f) {
+      map.sfaces[f].mark = (*odd)[c.sface_volume(first + f)] ? 1 : 0;
+    }
+  });
   for (const VolumeId v : c.volumes.ids()) c.volumes[v].mark = (*odd)[v] ? 1 : 0;
   return closure(Polyhedron(std::move(c)));  // drops what is inside now
 }

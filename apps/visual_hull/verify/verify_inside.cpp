@@ -53,7 +53,7 @@ class InsideCheck {
         return "vertex " + std::to_string(v) + " projects out of the silhouette";
       }
     }
-    for (std::uint32_t h = 0; h < complex_.svertices.size(); ++h) {
+    for (std::uint32_t h = 0; h < complex_.svertex_count(); ++h) {
       const std::uint32_t a = complex_.svertex_owner[h];
       const std::uint32_t b = complex_.target(h);
       if (h > complex_.twin[h] || edge_inside(a, b)) continue;

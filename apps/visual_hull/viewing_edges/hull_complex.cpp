@@ -208,9 +208,9 @@ nef::VertexRecord items_of(const std::vector<nef::Complex>& parts) {
     sum.shalfedges += end.shalfedges;
     sum.sloops += end.sloops;
     sum.sfaces += end.sfaces;
-    sum.entries += end.entries;
+    sum.other_planes += end.other_planes;
   }
-  for (std::uint32_t* count : {&sum.svertices, &sum.shalfedges, &sum.sloops, &sum.sfaces, &sum.entries}) {
+  for (std::uint32_t* count : {&sum.svertices, &sum.shalfedges, &sum.sloops, &sum.sfaces, &sum.other_planes}) {
     *count += *count / kRoom;
   }
   return sum;

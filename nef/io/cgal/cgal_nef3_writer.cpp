@@ -14,13 +14,13 @@ class Nef3Writer {
     link_facet_cycles();
     head();
     for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) vertex(v);
-    for (std::uint32_t h = 0; h < c_.svertices.size(); ++h) halfedge(h);
+    for (std::uint32_t h = 0; h < c_.svertex_count(); ++h) halfedge(h);
     for (const FacetId f : c_.facets.ids()) {
       halffacet(halffacet_of(f, false));
       halffacet(halffacet_of(f, true));
     }
     for (const VolumeId v : c_.volumes.ids()) volume(v);
-    for (std::uint32_t e = 0; e < c_.shalfedges.size(); ++e) shalfedge(e);
+    for (std::uint32_t e = 0; e < c_.shalfedge_count(); ++e) shalfedge(e);
     for (std::uint32_t l = 0; l < c_.sloops.size(); ++l) sloop(l);
     for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) sfaces(v);
     return std::move(text_ += "/* end Selective Nef complex */\n");
@@ -31,8 +31,8 @@ class Nef3Writer {
  private:
   // Halffacet 2f has the twins of our corners, which go on to the twin of the next; 2f + 1 has the corners, backwards.
   void link_facet_cycles() {
-    next_.assign(c_.shalfedges.size(), 0);
-    prev_.assign(c_.shalfedges.size(), 0);
+    next_.assign(c_.shalfedge_count(), 0);
+    prev_.assign(c_.shalfedge_count(), 0);
     for (const CycleId i : c_.cycle_ids()) {
       const auto corners = c_.corners_of(i);
       for (std::size_t k = 0; k < corners.size(); ++k) {
@@ -54,12 +54,12 @@ class Nef3Writer {
       text_ += '\n';
     };
     line("vertices   ", c_.vertex_count());
-    line("halfedges  ", c_.svertices.size());
+    line("halfedges  ", c_.svertex_count());
     line("facets     ", 2 * c_.facet_count());
     line("volumes    ", c_.volume_count());
-    line("shalfedges ", c_.shalfedges.size());
+    line("shalfedges ", c_.shalfedge_count());
     line("shalfloops ", c_.sloops.size());
-    line("sfaces     ", c_.sfaces.size());
+    line("sfaces     ", c_.sface_count());
   }
 
   void begin(std::size_t index) {
@@ -94,12 +94,12 @@ class Nef3Writer {
     number(record.sloops == after.sloops ? -2 : static_cast<std::int64_t>(record.sloops));
     text_ += " |";
     for (std::size_t i = 0; i < 4; ++i) integer(c_.points.coordinate(PointId{v}, i));
-    end(record.mark);
+    end(c_.mark(v));
   }
 
   void halfedge(std::uint32_t h) {
     const std::uint32_t v = c_.svertex_owner[h];
-    const SVertex& s = c_.svertices[h];
+    const SVertex& s = c_.svertex(h);
     begin(h);
     number(c_.twin[h]);
     text_ += ',';
@@ -158,7 +158,7 @@ class Nef3Writer {
 
   void shalfedge(std::uint32_t e) {
     const VertexRecord& record = c_.vertices[c_.shalfedge_owner[e]];
-    const SHalfedge& s = c_.shalfedges[e];
+    const SHalfedge& s = c_.shalfedge(e);
     begin(e);
     const auto item = [this](std::uint32_t value) {
       number(value);

@@ -7,6 +7,7 @@
 
 #include <cstring>
 
+#include "nef/complex/pattern_interner.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/native/native_binary.h"
 #include "nef/synthesis/volume_linking.h"
@@ -41,7 +42,6 @@ class BinaryReader {
     if (width == 1) sphere_maps<std::uint8_t>();
     if (width == 2) sphere_maps<std::uint16_t>();
     if (width == 4) sphere_maps<std::uint32_t>();
-    check_sphere_maps();
     edges();
     facets();
     isolated_vertices();
@@ -173,15 +173,6 @@ class BinaryReader {
   }
 
   template <typename W>
-  void sphere_maps() {
-    vertex_records<W>();
-    svertex_items<W>();
-    shalfedge_items<W>();
-    sloop_items<W>();
-    sface_items<W>();
-  }
-
-  template <typename W>
   void vertex_records() {
     const auto svertices = column<W>(vertices_);
     const auto pairs = column<W>(vertices_);
@@ -192,7 +183,7 @@ class BinaryReader {
     std::uint64_t total = 0;
     for (std::uint32_t v = 0; v < vertices_; ++v) {
       VertexRecord& record = c_.vertices[v];
-      record.mark = mark(marks[v]);
+      mark_.push_back(mark(marks[v]));
       VertexRecord& end = c_.vertices[v + 1];
       end.svertices = record.svertices + svertices[v];
       end.shalfedges = record.shalfedges + 2 * pairs[v];
@@ -216,96 +207,121 @@ class BinaryReader {
     }
   }
 
+  // The columns of the items of sphere maps.
   template <typename W>
-  void svertex_items() {
-    const auto p = column<std::uint32_t>(svertices_);
-    const auto q = column<std::uint32_t>(svertices_);
-    const auto out = column<W>(svertices_);
-    const auto sface = column<W>(svertices_);
-    const auto marks = column<LabelId>(svertices_);
-    c_.svertices.resize(svertices_);
-    for (std::uint32_t i = 0; i < svertices_; ++i) {
-      c_.svertices[i] = {plane(p[i]), plane(q[i]), local(out[i]), local(sface[i]), mark(marks[i])};
-      demand(p[i] / 2 != q[i] / 2, "an svertex has one plane twice");
-    }
-  }
+  struct ItemColumns {
+    Column<std::uint32_t> p, q;
+    Column<W> out, sface_around;
+    Column<LabelId> svertex_mark;
+    Column<std::uint32_t> plane;
+    Column<LabelId> shalfedge_mark;
+    Column<W> source, next, sface;
+    Column<std::uint32_t> sloop_plane;
+    Column<LabelId> sloop_mark;
+    Column<W> sloop_sface;
+    Column<W> entry_count;
+    Column<LabelId> sface_mark;
+    Column<std::uint8_t> kind;
+    Column<W> index;
+  };
 
   template <typename W>
-  void shalfedge_items() {
-    const auto planes = column<std::uint32_t>(shalfedges_ / 2);
-    const auto marks = column<LabelId>(shalfedges_ / 2);
-    const auto source = column<W>(shalfedges_);
-    const auto next = column<W>(shalfedges_);
-    const auto sface = column<W>(shalfedges_);
-    c_.shalfedges.resize(shalfedges_);
-    for (std::uint32_t i = 0; i < shalfedges_; ++i) {
-      const PlaneId even = plane(planes[i / 2]);
-      c_.shalfedges[i] = {i % 2 == 0 ? even : even.opposite(), source[i], next[i], kNone, sface[i], mark(marks[i / 2])};
-    }
-  }
-
-  template <typename W>
-  void sloop_items() {
-    const auto planes = column<std::uint32_t>(sloops_ / 2);
-    const auto marks = column<LabelId>(sloops_ / 2);
-    const auto sface = column<W>(sloops_);
-    c_.sloops.resize(sloops_);
-    for (std::uint32_t i = 0; i < sloops_; ++i) {
-      const PlaneId even = plane(planes[i / 2]);
-      c_.sloops[i] = {i % 2 == 0 ? even : even.opposite(), sface[i], mark(marks[i / 2])};
-    }
-  }
-
-  template <typename W>
-  void sface_items() {
-    const auto counts = column<W>(sfaces_);
-    const auto marks = column<LabelId>(sfaces_);
-    const auto kinds = column<std::uint8_t>(entries_);
-    const auto index = column<W>(entries_);
-    c_.sfaces.resize(sfaces_);
-    c_.entries.resize(entries_);
-    std::uint64_t total = 0;
+  void sphere_maps() {
+    vertex_records<W>();
+    // In this order, in which they lie in the file.
+    const ItemColumns<W> columns{column<std::uint32_t>(svertices_),
+                                 column<std::uint32_t>(svertices_),
+                                 column<W>(svertices_),
+                                 column<W>(svertices_),
+                                 column<LabelId>(svertices_),
+                                 column<std::uint32_t>(shalfedges_ / 2),
+                                 column<LabelId>(shalfedges_ / 2),
+                                 column<W>(shalfedges_),
+                                 column<W>(shalfedges_),
+                                 column<W>(shalfedges_),
+                                 column<std::uint32_t>(sloops_ / 2),
+                                 column<LabelId>(sloops_ / 2),
+                                 column<W>(sloops_),
+                                 column<W>(sfaces_),
+                                 column<LabelId>(sfaces_),
+                                 column<std::uint8_t>(entries_),
+                                 column<W>(entries_)};
+    c_.shalfedge_plane.pairs().reserve(shalfedges_ / 2);
+    c_.sloops.reserve(sloops_);
+    PatternInterner interner;
+    std::uint64_t entries = 0;  // of the vertices so far
     for (std::uint32_t v = 0; v < vertices_; ++v) {
-      c_.vertices[v].entries = static_cast<std::uint32_t>(total);
-      for (std::uint32_t f = c_.vertices[v].sfaces; f < c_.vertices[v + 1].sfaces; ++f) {
-        c_.sfaces[f] = {static_cast<std::uint32_t>(total - c_.vertices[v].entries), counts[f], mark(marks[f])};
-        total += counts[f];
-        demand(total <= entries_, "its sfaces have more entries than there are");
-      }
+      VertexRecord& record = c_.vertices[v];
+      const VertexRecord& end = c_.vertices[v + 1];
+      map_.clear();
+      map_.mark = mark_[v];
+      for (std::uint32_t i = record.svertices; i < end.svertices; ++i) take_svertex(columns, i);
+      for (std::uint32_t i = record.shalfedges; i < end.shalfedges; ++i) take_shalfedge(columns, i);
+      for (std::uint32_t i = record.sloops; i < end.sloops; ++i) take_sloop(columns, i);
+      for (std::uint32_t f = record.sfaces; f < end.sfaces; ++f) take_sface(columns, f, entries);
+      check_sphere_map();
+      record.pattern = interner.intern(c_.patterns, map_.view(), c_.shalfedge_plane.pairs(), c_.other_planes);
+      c_.vertices[v + 1].other_planes = static_cast<std::uint32_t>(c_.other_planes.size());
+      c_.sloops.insert(c_.sloops.end(), map_.sloops.begin(), map_.sloops.end());
     }
-    demand(total == entries_, "its sfaces have fewer entries than there are");
-    c_.vertices.back().entries = entries_;
-    for (std::uint32_t i = 0; i < entries_; ++i) {
-      demand(kinds[i] <= 2, "an entry is of no kind");
-      c_.entries[i] = {static_cast<SFaceEntry::Kind>(kinds[i]), index[i]};
+    demand(entries == entries_, "its sfaces have fewer entries than there are");
+  }
+
+  template <typename W>
+  void take_svertex(const ItemColumns<W>& columns, std::uint32_t i) {
+    const PlaneId p = plane(columns.p[i]);
+    const PlaneId q = plane(columns.q[i]);
+    demand(p.row() != q.row(), "an svertex has one plane twice");
+    map_.svertices.push_back(
+        {p, q, local(columns.out[i]), local(columns.sface_around[i]), mark(columns.svertex_mark[i])});
+  }
+
+  template <typename W>
+  void take_shalfedge(const ItemColumns<W>& columns, std::uint32_t i) {
+    const PlaneId even = plane(columns.plane[i / 2]);
+    map_.shalfedges.push_back({i % 2 == 0 ? even : even.opposite(), columns.source[i], columns.next[i], kNone,
+                               columns.sface[i], mark(columns.shalfedge_mark[i / 2])});
+  }
+
+  template <typename W>
+  void take_sloop(const ItemColumns<W>& columns, std::uint32_t i) {
+    const PlaneId even = plane(columns.sloop_plane[i / 2]);
+    map_.sloops.push_back(
+        {i % 2 == 0 ? even : even.opposite(), columns.sloop_sface[i], mark(columns.sloop_mark[i / 2])});
+  }
+
+  // With its entries, which follow the first `entries` ones.
+  template <typename W>
+  void take_sface(const ItemColumns<W>& columns, std::uint32_t f, std::uint64_t& entries) {
+    const std::uint32_t count = columns.entry_count[f];
+    map_.sfaces.push_back({static_cast<std::uint32_t>(map_.entries.size()), count, mark(columns.sface_mark[f])});
+    demand(count <= entries_ - entries, "its sfaces have more entries than there are");
+    for (const std::uint64_t last = entries + count; entries < last; ++entries) {
+      demand(columns.kind[entries] <= 2, "an entry is of no kind");
+      map_.entries.push_back({static_cast<SFaceEntry::Kind>(columns.kind[entries]), columns.index[entries]});
     }
   }
 
-  void check_sphere_maps() {
-    for (std::uint32_t v = 0; v < vertices_; ++v) {
-      check_shalfedges(v);
-      const SphereMapView map = c_.sphere_map(v);
-      for (std::uint32_t i = 0; i < map.svertices.size(); ++i) {
-        const SVertex& s = map.svertices[i];
-        demand(s.out == kNone ? s.sface < map.sfaces.size()
-                              : s.out < map.shalfedges.size() && map.shalfedges[s.out].source == i,
-               "an svertex does not know its place");
-      }
-      for (const SLoop& l : map.sloops) demand(l.sface < map.sfaces.size(), "an sface does not exist");
-      demand(map.sloops.size() <= 2, "a vertex has more than one sloop");
-      for (std::uint32_t f = 0; f < map.sfaces.size(); ++f) check_entries(map, f);
+  void check_sphere_map() {
+    complete_shalfedges();
+    const SphereMapBuffer& map = map_;
+    for (std::uint32_t i = 0; i < map.svertices.size(); ++i) {
+      const SVertex& s = map.svertices[i];
+      demand(s.out == kNone ? s.sface < map.sfaces.size()
+                            : s.out < map.shalfedges.size() && map.shalfedges[s.out].source == i,
+             "an svertex does not know its place");
     }
+    for (const SLoop& l : map.sloops) demand(l.sface < map.sfaces.size(), "an sface does not exist");
+    demand(map.sloops.size() <= 2, "a vertex has more than one sloop");
+    for (std::uint32_t f = 0; f < map.sfaces.size(); ++f) check_entries(f);
   }
 
-  // Completes prev. Then next and prev are inverse to each other, and turns around svertices come back.
-  void check_shalfedges(std::uint32_t v) {
-    const VertexRecord& a = c_.vertices[v];
-    const std::uint32_t count = c_.vertices[v + 1].shalfedges - a.shalfedges;
-    const std::uint32_t svertices = c_.vertices[v + 1].svertices - a.svertices;
-    const std::uint32_t sfaces = c_.vertices[v + 1].sfaces - a.sfaces;
-    const auto items = std::span(c_.shalfedges).subspan(a.shalfedges, count);
-    for (std::uint32_t e = 0; e < count; ++e) {
-      demand(items[e].source < svertices && items[e].next < count && items[e].sface < sfaces,
+  // Finds prev. Then next and prev are inverse to each other, and turns around svertices come back.
+  void complete_shalfedges() {
+    std::vector<SHalfedge>& items = map_.shalfedges;
+    for (std::uint32_t e = 0; e < items.size(); ++e) {
+      demand(items[e].source < map_.svertices.size() && items[e].next < items.size() &&
+                 items[e].sface < map_.sfaces.size(),
              "an item of a shalfedge does not exist");
       SHalfedge& next = items[items[e].next];
       demand(next.prev == kNone && next.sface == items[e].sface && next.source == items[e ^ 1U].source,
@@ -314,8 +330,9 @@ class BinaryReader {
     }
   }
 
-  void check_entries(const SphereMapView& map, std::uint32_t f) const {
-    for (const SFaceEntry& entry : map.entries.subspan(map.sfaces[f].entries, map.sfaces[f].entry_count)) {
+  void check_entries(std::uint32_t f) const {
+    const SphereMapBuffer& map = map_;
+    for (const SFaceEntry& entry : std::span(map.entries).subspan(map.sfaces[f].entries, map.sfaces[f].entry_count)) {
       bool right = false;
       switch (entry.kind) {
         case SFaceEntry::Kind::kCycle:
@@ -339,7 +356,7 @@ class BinaryReader {
     for (std::uint32_t h = 0; h < svertices_; ++h) {
       const std::uint32_t t = twins[h];
       demand(t < svertices_ && t != h && twins[t] == h, "the two ends of an edge are not mutual");
-      demand((c_.svertices[h].out == kNone) == (c_.svertices[t].out == kNone), "an edge has facets at one end only");
+      demand((c_.svertex(h).out == kNone) == (c_.svertex(t).out == kNone), "an edge has facets at one end only");
       c_.twin[h] = t;
     }
   }
@@ -373,7 +390,7 @@ class BinaryReader {
       facet.cycle_count = cycle_counts[f];
       facet.first_isolated = isolated;
       facet.isolated_count = isolated_counts_[f];
-      const SHalfedge& corner = c_.shalfedges[c_.corners_of(facet.first_cycle).front()];
+      const SHalfedge corner = c_.shalfedge(c_.corners_of(facet.first_cycle).front());
       facet.plane = corner.plane;
       facet.mark = corner.mark;
       demand(!facet.plane.flipped(), "a facet is seen from the wrong side");
@@ -387,7 +404,7 @@ class BinaryReader {
   void check_cycle(FacetId f, std::span<const std::uint32_t> cycle) {
     std::uint32_t arriving = c_.twin[c_.corner_halfedge(cycle.back())];
     for (const std::uint32_t corner : cycle) {
-      const SHalfedge& e = c_.shalfedges[corner];
+      const SHalfedge e = c_.shalfedge(corner);
       demand(!c_.shalfedge_facet.pairs()[corner / 2].valid(), "a corner belongs to two facets");
       demand(e.plane == c_.facets[f].plane && e.mark == c_.facets[f].mark, "a corner belongs to another facet");
       demand(c_.corner_back_halfedge(corner) == arriving, "a cycle leaves its edges");
@@ -445,18 +462,24 @@ class BinaryReader {
       facet.volume_above = c_.sface_volume(c_.shalfedge_sface(corner));
       facet.volume_below = c_.sface_volume(c_.shalfedge_sface(corner ^ 1U));
     }
-    for (const VertexRecord& v : c_.vertices) demand(v.mark != kOutside, "only the outer volume is outside");
-    for (const SVertex& s : c_.svertices) demand(s.mark != kOutside, "only the outer volume is outside");
+    for (std::uint32_t i = 0; i < c_.patterns.size(); ++i) {
+      const SphereMapView map = c_.patterns.view(PatternId{i});
+      demand(map.mark != kOutside, "only the outer volume is outside");
+      for (const SVertex& s : map.svertices) demand(s.mark != kOutside, "only the outer volume is outside");
+    }
     for (const Facet& f : c_.facets) demand(f.mark != kOutside, "only the outer volume is outside");
   }
 
   void fill_shells(const Column<std::uint32_t>& shell_of) {
     c_.sface_shell.resize(sfaces_);
-    for (std::uint32_t f = 0; f < sfaces_; ++f) {
-      const ShellId s{shell_of[f]};
-      demand(c_.shells.contains(s), "a shell does not exist");
-      demand(c_.volumes[c_.shells[s].volume].mark == c_.sfaces[f].mark, "a volume has two marks");
-      c_.sface_shell[f] = s;
+    std::uint32_t f = 0;
+    for (std::uint32_t v = 0; v < vertices_; ++v) {
+      for (const SFace& face : c_.sphere_map(v).sfaces) {
+        const ShellId s{shell_of[f]};
+        demand(c_.shells.contains(s), "a shell does not exist");
+        demand(c_.volumes[c_.shells[s].volume].mark == face.mark, "a volume has two marks");
+        c_.sface_shell[f++] = s;
+      }
     }
     list_sfaces_of_shells(c_);
     for (const Shell& shell : c_.shells) demand(shell.sface_count > 0, "a shell is empty");
@@ -477,6 +500,8 @@ class BinaryReader {
   std::uint32_t isolated_ = 0;
   std::uint32_t shells_ = 0;
   std::uint32_t volumes_ = 0;
+  std::vector<LabelId> mark_;  // of vertices
+  SphereMapBuffer map_;        // of the vertex at hand
   Column<std::uint32_t> isolated_counts_{nullptr};
   Complex c_;
 };

@@ -26,9 +26,9 @@ class BinaryWriter {
     put<std::uint32_t>(kNativeBinaryVersion);
     put(width);
     for (const std::size_t count :
-         {c_.planes.size(), c_.vertex_count(), c_.svertices.size(), c_.shalfedges.size(), c_.sloops.size(),
-          c_.sfaces.size(), c_.entries.size(), c_.facets.size(), c_.cycle_begin.size() - 1, c_.isolated_vertices.size(),
-          c_.shells.size(), c_.volumes.size()}) {
+         {c_.planes.size(), c_.vertex_count(), std::size_t{c_.svertex_count()}, std::size_t{c_.shalfedge_count()},
+          c_.sloops.size(), std::size_t{c_.sface_count()}, entry_count(), c_.facets.size(), c_.cycle_begin.size() - 1,
+          c_.isolated_vertices.size(), c_.shells.size(), c_.volumes.size()}) {
       put(static_cast<std::uint32_t>(count));
     }
     numbers(5, c_.planes.size(),
@@ -90,6 +90,12 @@ class BinaryWriter {
     return largest;
   }
 
+  [[nodiscard]] std::size_t entry_count() const {
+    std::size_t count = 0;
+    each_map([&count](const SphereMapView& map) { count += map.entries.size(); });
+    return count;
+  }
+
   template <typename W>
   void sphere_maps() {
     const auto counts = [this](std::uint32_t VertexRecord::*first, std::uint32_t per) {
@@ -101,39 +107,50 @@ class BinaryWriter {
     counts(&VertexRecord::shalfedges, 2);
     counts(&VertexRecord::sloops, 2);
     counts(&VertexRecord::sfaces, 1);
-    for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) put(c_.vertices[v].mark);
-    column<std::uint32_t>(c_.svertices, [](const SVertex& s) { return s.p.value; });
-    column<std::uint32_t>(c_.svertices, [](const SVertex& s) { return s.q.value; });
-    column<W>(c_.svertices, [](const SVertex& s) { return s.out; });
-    column<W>(c_.svertices, [](const SVertex& s) { return s.out == kNone ? s.sface : kNone; });
-    column<LabelId>(c_.svertices, [](const SVertex& s) { return s.mark; });
-    column<std::uint32_t>(
-        c_.shalfedges, [](const SHalfedge& e) { return e.plane.value; }, 2);
-    column<LabelId>(
-        c_.shalfedges, [](const SHalfedge& e) { return e.mark; }, 2);
-    column<W>(c_.shalfedges, [](const SHalfedge& e) { return e.source; });
-    column<W>(c_.shalfedges, [](const SHalfedge& e) { return e.next; });
-    column<W>(c_.shalfedges, [](const SHalfedge& e) { return e.sface; });
+    for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) put(c_.mark(v));
+    svertices<std::uint32_t>([](const SVertex& s) { return s.p.value; });
+    svertices<std::uint32_t>([](const SVertex& s) { return s.q.value; });
+    svertices<W>([](const SVertex& s) { return s.out; });
+    svertices<W>([](const SVertex& s) { return s.out == kNone ? s.sface : kNone; });
+    svertices<LabelId>([](const SVertex& s) { return s.mark; });
+    column<std::uint32_t>(c_.shalfedge_plane.pairs(), [](PlaneId plane) { return plane.value; });
+    shalfedges<LabelId>([](const SHalfedge& e) { return e.mark; }, 2);
+    shalfedges<W>([](const SHalfedge& e) { return e.source; });
+    shalfedges<W>([](const SHalfedge& e) { return e.next; });
+    shalfedges<W>([](const SHalfedge& e) { return e.sface; });
     column<std::uint32_t>(
         c_.sloops, [](const SLoop& l) { return l.plane.value; }, 2);
     column<LabelId>(
         c_.sloops, [](const SLoop& l) { return l.mark; }, 2);
     column<W>(c_.sloops, [](const SLoop& l) { return l.sface; });
-    column<W>(c_.sfaces, [](const SFace& f) { return f.entry_count; });
-    column<LabelId>(c_.sfaces, [](const SFace& f) { return f.mark; });
+    each_map([this](const SphereMapView& map) { column<W>(map.sfaces, [](const SFace& f) { return f.entry_count; }); });
+    each_map([this](const SphereMapView& map) { column<LabelId>(map.sfaces, [](const SFace& f) { return f.mark; }); });
     each_entry([this](const SFaceEntry& entry) { put(static_cast<std::uint8_t>(entry.kind)); });
     each_entry([this](const SFaceEntry& entry) { put(static_cast<W>(entry.index)); });
+  }
+
+  template <typename Visit>
+  void each_map(Visit&& visit) const {
+    for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) visit(c_.sphere_map(v));
+  }
+
+  template <typename T, typename Field>
+  void svertices(Field&& field) {
+    each_map([&](const SphereMapView& map) { column<T>(map.svertices, field); });
+  }
+  template <typename T, typename Field>
+  void shalfedges(Field&& field, std::size_t step = 1) {
+    each_map([&](const SphereMapView& map) { column<T>(map.shalfedges, field, step); });
   }
 
   // In the order of the sfaces.
   template <typename Visit>
   void each_entry(Visit&& visit) const {
-    for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) {
-      const SphereMapView map = c_.sphere_map(v);
+    each_map([&](const SphereMapView& map) {
       for (const SFace& f : map.sfaces) {
         for (const SFaceEntry& entry : map.entries.subspan(f.entries, f.entry_count)) visit(entry);
       }
-    }
+    });
   }
 
   void links() {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "nef/complex/local_pyramid.h"
+#include "nef/complex/rewrite_sphere_maps.h"
 #include "nef/import/mesh_faces.h"
 #include "nef/sphere_map/overlay.h"
 #include "nef/synthesis/complex_builder.h"
@@ -44,8 +45,7 @@ class RegionFiller {
   // The closed solid.
   Complex fill() {
     for (const VolumeId v : c_.volumes.ids()) c_.volumes[v].mark = inside_[v];
-    for (std::uint32_t s = 0; s < c_.sfaces.size(); ++s) c_.sfaces[s].mark = inside_[c_.sface_volume(s)];
-    for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) fill(v);
+    rewrite_sphere_maps(c_, [this](std::uint32_t v, SphereMapBuffer& map) { fill(v, map); });
     for (Facet& facet : c_.facets) facet.mark = mark_between(facet);
     c_.label_count = 2;
     return has_idle_items() ? simplified() : std::move(c_);
@@ -68,42 +68,39 @@ class RegionFiller {
   }
 
   // What is in a wall and not on the surface has the mark of the region beside it.
-  void fill(std::uint32_t v) {
-    VertexRecord& record = c_.vertices[v];
-    const std::uint32_t end = c_.vertices[v + 1].sfaces;
-    const auto beside = [&](std::uint32_t sface) { return c_.sfaces[record.sfaces + sface].mark; };
-    for (std::uint32_t i = record.svertices; i < c_.vertices[v + 1].svertices; ++i) {
-      SVertex& s = c_.svertices[i];
+  void fill(std::uint32_t v, SphereMapBuffer& map) const {
+    for (std::uint32_t f = 0; f < map.sfaces.size(); ++f) {
+      map.sfaces[f].mark = inside_[c_.sface_volume(c_.vertices[v].sfaces + f)];
+    }
+    for (SVertex& s : map.svertices) {
       if (s.mark != 0) {
         s.mark = 1;
       } else if (s.out == kNone) {
-        s.mark = beside(s.sface);
+        s.mark = map.sfaces[s.sface].mark;
       } else {
-        s.mark = beside_arc(record, s.out);
+        s.mark = beside_arc(map, s.out);
       }
     }
-    for (std::uint32_t e = record.shalfedges; e < c_.vertices[v + 1].shalfedges; ++e) {
-      SHalfedge& arc = c_.shalfedges[e];
-      arc.mark = arc.mark != 0 ? LabelId{1} : beside_arc(record, e - record.shalfedges);
+    for (std::uint32_t e = 0; e < map.shalfedges.size(); ++e) {
+      SHalfedge& arc = map.shalfedges[e];
+      arc.mark = arc.mark != 0 ? LabelId{1} : beside_arc(map, e);
     }
-    for (std::uint32_t l = record.sloops; l < c_.vertices[v + 1].sloops; ++l) {
-      SLoop& loop = c_.sloops[l];
-      const LabelId near = beside(loop.sface);
-      loop.mark = loop.mark != 0 ? LabelId{1} : near != kOutside ? near : beside(c_.sloops[l ^ 1U].sface);
+    for (std::uint32_t l = 0; l < map.sloops.size(); ++l) {
+      SLoop& loop = map.sloops[l];
+      const LabelId near = map.sfaces[loop.sface].mark;
+      loop.mark = loop.mark != 0 ? LabelId{1} : near != kOutside ? near : map.sfaces[map.sloops[l ^ 1U].sface].mark;
     }
-    if (record.mark != 0) {
-      record.mark = 1;
+    if (map.mark != 0) {
+      map.mark = 1;
       return;
     }
-    for (std::uint32_t f = record.sfaces; f < end; ++f) {
-      if (c_.sfaces[f].mark != kOutside) record.mark = c_.sfaces[f].mark;
+    for (const SFace& face : map.sfaces) {
+      if (face.mark != kOutside) map.mark = face.mark;
     }
   }
 
-  [[nodiscard]] LabelId beside_arc(const VertexRecord& record, std::uint32_t arc) const {
-    const auto left = [&](std::uint32_t e) {
-      return c_.sfaces[record.sfaces + c_.shalfedges[record.shalfedges + e].sface].mark;
-    };
+  static LabelId beside_arc(const SphereMapBuffer& map, std::uint32_t arc) {
+    const auto left = [&map](std::uint32_t e) { return map.sfaces[map.shalfedges[e].sface].mark; };
     return left(arc) != kOutside ? left(arc) : left(arc ^ 1U);
   }
 

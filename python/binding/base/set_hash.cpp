@@ -28,7 +28,7 @@ std::int64_t set_hash(const Polyhedron& set) {
     if (is_box_vertex(c, v)) continue;
     ++finite;
     Rational3 point = c.points.rational(PointId{v});
-    std::uint64_t h = c.vertices[v].mark;
+    std::uint64_t h = c.mark(v);
     for (Rational& x : point) {
       x.canonicalize();
       h = mixed(h * 31 + of_integer(x.get_num()) + 17 * of_integer(x.get_den()));

@@ -31,11 +31,10 @@ std::string difference_to_synthesis(const Complex& c) {
   again.planes = c.planes;
   again.points = c.points;
   again.vertices = c.vertices;
-  again.svertices = c.svertices;
-  again.shalfedges = c.shalfedges;
+  again.patterns = c.patterns;
+  again.shalfedge_plane = c.shalfedge_plane;
+  again.other_planes = c.other_planes;
   again.sloops = c.sloops;
-  again.sfaces = c.sfaces;
-  again.entries = c.entries;
   synthesize(again, c.volumes[kOuterVolume].mark);
   if (!same_bytes(c.twin, again.twin)) return "twin";
   if (!same_bytes(c.svertex_owner, again.svertex_owner)) return "svertex_owner";

@@ -71,8 +71,8 @@ void check_same_facets(const Complex& a, const Complex& b) {
 TEST_CASE("Links do not depend on the number of threads, item for item", "[threads]") {
   const Polyhedron set = many_cells(7);
   const Complex& c = set.complex();
-  REQUIRE(c.shalfedges.size() > 1U << 15U);  // with fewer there are no shares
-  REQUIRE(c.svertices.size() > 1U << 15U);
+  REQUIRE(c.shalfedge_count() > 1U << 15U);  // with fewer there are no shares
+  REQUIRE(c.svertex_count() > 1U << 15U);
   REQUIRE_FALSE(c.isolated_vertices.empty());
   for (const unsigned threads : {1U, 2U, 5U, 0U}) {
     INFO("threads " << threads);

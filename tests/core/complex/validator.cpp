@@ -33,18 +33,29 @@ constexpr std::size_t kEvery = 5;
 #endif
 
 struct Breaker {
+  explicit Breaker(Complex complex) : c(std::move(complex)) {}
+
   Complex c;
   std::map<std::string, std::size_t> missed;  // changes that were not reported, by field
   std::size_t reported = 0;
   std::size_t changes = 0;
+  bool changes_pattern = false;  // that of one vertex, to `map`, whose planes are names
+  std::uint32_t changed_vertex = 0;
+  SphereMapBuffer map{};
 
   void look(const std::string& field) {
     if (changes++ % kEvery != 0) return;
+    const PatternTable patterns = c.patterns;
+    const PatternId old = c.vertices[changed_vertex].pattern;
+    if (changes_pattern) c.vertices[changed_vertex].pattern = c.patterns.push(map);
     if (validate(c).empty()) {
       ++missed[field];
     } else {
       ++reported;
     }
+    if (!changes_pattern) return;
+    c.vertices[changed_vertex].pattern = old;
+    c.patterns = patterns;
   }
   void index(const std::string& field, std::uint32_t& x, std::size_t end) {
     const std::uint32_t old = x;
@@ -82,6 +93,23 @@ struct Breaker {
     }
     x = old;
   }
+  // One plane may have two names.
+  void name(const std::string& field, PlaneId& x) {
+    const VertexRecord& a = c.vertices[changed_vertex];
+    const VertexRecord& b = c.vertices[changed_vertex + 1];
+    std::vector<PlaneId> planes(c.shalfedge_plane.pairs().begin() + a.shalfedges / 2,
+                                c.shalfedge_plane.pairs().begin() + b.shalfedges / 2);
+    planes.insert(planes.end(), c.other_planes.begin() + a.other_planes, c.other_planes.begin() + b.other_planes);
+    const auto meant = [&planes](PlaneId id) {
+      return id.row() < planes.size() ? PlaneId{planes[id.row()].value ^ (id.value & 1U)} : PlaneId();
+    };
+    const PlaneId old = x;
+    for (const PlaneId value : {old.opposite(), PlaneId{old.value ^ 2U}, PlaneId{std::uint32_t(2 * planes.size())}}) {
+      x = value;
+      if (meant(x) != meant(old)) look(field);
+    }
+    x = old;
+  }
   template <typename Index>
   void column(const std::string& field, std::vector<Index>& column, std::size_t end) {
     for (Index& x : column) index(field, x, end);
@@ -92,39 +120,57 @@ struct Breaker {
 
   void sphere_items() {
     for (VertexRecord& v : c.vertices) {
-      index("begin of svertices", v.svertices, c.svertices.size());
-      index("begin of shalfedges", v.shalfedges, c.shalfedges.size());
+      index("begin of svertices", v.svertices, c.svertex_count());
+      index("begin of shalfedges", v.shalfedges, c.shalfedge_count());
       index("begin of sloops", v.sloops, c.sloops.size());
-      index("begin of sfaces", v.sfaces, c.sfaces.size());
-      index("begin of entries", v.entries, c.entries.size());
-      if (&v != &c.vertices.back()) mark("mark of a vertex", v.mark);
+      index("begin of sfaces", v.sfaces, c.sface_count());
+      index("begin of other planes", v.other_planes, c.other_planes.size());
     }
-    for (SVertex& v : c.svertices) {
-      plane("plane of an svertex", v.p);
-      plane("plane of an svertex", v.q);
-      index("out of an svertex", v.out, c.shalfedges.size());
-      if (v.out == kNone) index("sface of an svertex", v.sface, c.sfaces.size());
-      mark("mark of an svertex", v.mark);
+    for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
+      const PatternId old = c.vertices[v].pattern;
+      for (const PatternId none : {PatternId(), PatternId{c.patterns.size()}}) {
+        c.vertices[v].pattern = none;
+        look("pattern");
+      }
+      c.vertices[v].pattern = old;
+      change_pattern(v);
     }
-    for (SHalfedge& e : c.shalfedges) {
-      plane("plane of a shalfedge", e.plane);
-      index("source", e.source, c.svertices.size());
-      index("next", e.next, c.shalfedges.size());
-      index("prev", e.prev, c.shalfedges.size());
-      index("sface of a shalfedge", e.sface, c.sfaces.size());
-      mark("mark of a shalfedge", e.mark);
-    }
+    for (PlaneId& p : c.shalfedge_plane.pairs()) plane("plane of a shalfedge", p);
+    for (PlaneId& p : c.other_planes) plane("plane of an svertex", p);
     for (SLoop& l : c.sloops) {
       plane("plane of a sloop", l.plane);
-      index("sface of a sloop", l.sface, c.sfaces.size());
+      index("sface of a sloop", l.sface, c.sface_count());
       mark("mark of a sloop", l.mark);
     }
-    for (SFace& f : c.sfaces) {
-      index("entries of an sface", f.entries, c.entries.size());
-      index("number of entries", f.entry_count, c.entries.size());
+  }
+
+  void change_pattern(std::uint32_t v) {
+    map.assign(c.patterns.view(c.vertices[v].pattern));
+    changed_vertex = v;
+    changes_pattern = true;
+    mark("mark of a vertex", map.mark);
+    for (SVertex& s : map.svertices) {
+      name("name of a plane of an svertex", s.p);
+      name("name of a plane of an svertex", s.q);
+      index("out of an svertex", s.out, map.shalfedges.size());
+      if (s.out == kNone) index("sface of an svertex", s.sface, map.sfaces.size());
+      mark("mark of an svertex", s.mark);
+    }
+    for (SHalfedge& e : map.shalfedges) {
+      plane("name of the plane of a shalfedge", e.plane);
+      index("source", e.source, map.svertices.size());
+      index("next", e.next, map.shalfedges.size());
+      index("prev", e.prev, map.shalfedges.size());
+      index("sface of a shalfedge", e.sface, map.sfaces.size());
+      mark("mark of a shalfedge", e.mark);
+    }
+    for (SFace& f : map.sfaces) {
+      index("entries of an sface", f.entries, map.entries.size());
+      index("number of entries", f.entry_count, map.entries.size());
       mark("mark of an sface", f.mark);
     }
-    for (SFaceEntry& e : c.entries) index("entry", e.index, c.shalfedges.size());
+    for (SFaceEntry& e : map.entries) index("entry", e.index, map.shalfedges.size());
+    changes_pattern = false;
   }
 
   void synthesized_items() {
@@ -145,14 +191,14 @@ struct Breaker {
       index("volume below", f.volume_below, c.volumes.size());
     }
     column("begin of a cycle", c.cycle_begin.values(), c.corners.size());
-    column("corner", c.corners, c.shalfedges.size());
+    column("corner", c.corners, c.shalfedge_count());
     column("isolated vertex", c.isolated_vertices, c.vertex_count());
     for (Shell& s : c.shells) {
       index("volume of a shell", s.volume, c.volumes.size());
       index("first sface of a shell", s.first_sface, c.shell_sfaces.size());
       index("number of sfaces of a shell", s.sface_count, c.shell_sfaces.size());
     }
-    column("sface of a shell", c.shell_sfaces, c.sfaces.size());
+    column("sface of a shell", c.shell_sfaces, c.sface_count());
     for (Volume& v : c.volumes) {
       mark("mark of a volume", v.mark);
       index("first shell", v.first_shell, c.shells.size());
@@ -166,7 +212,7 @@ struct Breaker {
 TEST_CASE("the validator reports every change of an item") {
   for (const bool unbounded : {false, true}) {
     CAPTURE(unbounded);
-    Breaker breaker{specimen(unbounded), {}, 0, 0};
+    Breaker breaker{specimen(unbounded)};
     breaker.sphere_items();
     breaker.synthesized_items();
     CHECK(breaker.reported > 10000 / kEvery);
@@ -202,7 +248,12 @@ TEST_CASE("the validator names the broken invariant and the guilty items") {
     change(c);
     return validate(c);
   };
-  CHECK(broken([](Complex& c) { c.vertices[3].mark = 2; }) == "marks are below the number of labels, vertex 3");
+  CHECK(broken([](Complex& c) {
+          SphereMapBuffer map;
+          map.assign(c.patterns.view(c.vertices[3].pattern));
+          map.mark = 2;
+          c.vertices[3].pattern = c.patterns.push(map);
+        }) == "marks are below the number of labels, vertex 3");
   CHECK(broken([](Complex& c) { c.svertex_owner[0] = 1; }) == "svertices know their vertex, vertex 0");
   CHECK(broken([](Complex& c) { c.twin[0] = 0; }) == "twins of halfedges are mutual, halfedge 0");
   CHECK(broken([](Complex& c) { c.points.pop(); }).find("one point for each vertex") == 0);

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Changes the sphere maps of a finished complex in place.
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "nef/complex/complex.h"
+#include "nef/complex/pattern_interner.h"
+
+namespace nef {
+
+/// Calls change(vertex, map) for each vertex, which may give the items of the sphere map other marks and other planes,
+/// but no other numbers. Until it is done, the complex is as it was. O(n).
+template <typename Change>
+void rewrite_sphere_maps(Complex& c, Change&& change) {
+  PatternTable patterns;
+  PatternInterner interner;
+  std::vector<PlaneId> planes;
+  std::vector<PlaneId> others;
+  std::vector<SLoop> sloops;
+  std::vector<std::pair<PatternId, std::uint32_t>> records;
+  planes.reserve(c.shalfedge_plane.pairs().size());
+  records.reserve(c.vertex_count());
+  SphereMapBuffer map;
+  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
+    map.assign(c.sphere_map(v));
+    change(v, map);
+    const auto first_other = static_cast<std::uint32_t>(others.size());
+    records.emplace_back(interner.intern(patterns, map.view(), planes, others), first_other);
+    sloops.insert(sloops.end(), map.sloops.begin(), map.sloops.end());
+  }
+  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
+    c.vertices[v].pattern = records[v].first;
+    c.vertices[v].other_planes = records[v].second;
+  }
+  c.vertices.back().other_planes = static_cast<std::uint32_t>(others.size());
+  c.patterns = std::move(patterns);
+  c.shalfedge_plane.pairs() = std::move(planes);
+  c.other_planes = std::move(others);
+  c.sloops = std::move(sloops);
+}
+
+}  // namespace nef

@@ -168,7 +168,7 @@ class LinkCopier {
     const std::size_t base = to.corners.size();
     bool whole = true;
     for (const std::uint32_t corner : corners) {
-      const Copy& copy = copies[own.shalfedge_owner[corner]];
+      const Copy& copy = copies[own.shalfedge_vertex(corner)];
       whole = copy.state == Copy::State::kWhole;
       if (!whole) break;
       to.corners.push_back(corner + copy.shalfedge_shift);
@@ -196,7 +196,7 @@ class LinkCopier {
   static void loosen(const Complex& own, const std::vector<Copy>& copies, std::span<const std::uint32_t> corners,
                      std::span<const std::uint32_t> inside, KnownLinks& to) {
     for (const std::uint32_t corner : corners) {
-      const Copy& copy = copies[own.shalfedge_owner[corner]];
+      const Copy& copy = copies[own.shalfedge_vertex(corner)];
       if (copy.state != Copy::State::kGone) to.loose_corners.push_back(corner + copy.shalfedge_shift);
     }
     for (const std::uint32_t v : inside) {

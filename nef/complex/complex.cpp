@@ -33,9 +33,9 @@ void Complex::trim() {
 std::size_t Complex::bytes() const {
   const auto size = [](const auto& column) { return column.capacity() * sizeof(*column.begin()); };
   return planes.bytes() + points.bytes() + size(vertices) + patterns.bytes() + size(shalfedge_plane.pairs()) +
-         size(other_planes) + size(sloops) + size(svertex_owner) + size(twin) + size(shalfedge_owner.pairs()) +
+         size(other_planes) + size(sloops) + size(svertex_owner) + size(twin) + size(pair_owner) +
          size(shalfedge_facet.pairs()) + size(sloop_facet) + size(sface_shell) + size(facets) + size(cycle_begin) +
-         size(corners) + size(isolated_vertices) + size(shells) + size(shell_sfaces) + size(volumes);
+         size(corners) + size(isolated_vertices) + size(shells) + size(volumes);
 }
 
 }  // namespace nef

@@ -54,11 +54,9 @@ struct Facet {
   [[nodiscard]] IdRange<CycleId> cycles() const { return {first_cycle, cycle_count}; }
 };
 
-/// A connected component of the boundary of a volume, as the sfaces that touch it.
+/// A connected component of the boundary of a volume; the sfaces that touch it know it (see shell_sfaces.h).
 struct Shell {
   VolumeId volume{0};
-  std::uint32_t first_sface = 0;  ///< range in shell_sfaces
-  std::uint32_t sface_count = 0;
 };
 
 /// A connected open region of space with one mark.
@@ -85,7 +83,7 @@ struct Complex {
   // Added by synthesis, parallel to the arrays above.
   std::vector<std::uint32_t> svertex_owner;  ///< vertex
   std::vector<std::uint32_t> twin;           ///< halfedge at the other end of the edge
-  CommonColumn shalfedge_owner;              ///< vertex
+  std::vector<std::uint32_t> pair_owner;     ///< vertex of each pair of shalfedges; empty: svertex_owner says it
   HalffacetColumn shalfedge_facet;
   std::vector<HalffacetId> sloop_facet;
   std::vector<ShellId> sface_shell;
@@ -96,7 +94,6 @@ struct Complex {
   std::vector<std::uint32_t> isolated_vertices;
 
   IndexedVector<ShellId, Shell> shells;
-  std::vector<std::uint32_t> shell_sfaces;
   IndexedVector<VolumeId, Volume> volumes;
   LabelId label_count = 2;  ///< every mark but kOutside is below it; at least 2
 
@@ -136,11 +133,17 @@ struct Complex {
     return with_planes(patterns.svertex(record.pattern, svertex - record.svertices), local_planes(vertex));
   }
 
-  /// A shalfedge by its number in the complex. Needs shalfedge_owner.
+  /// A shalfedge by its number in the complex. Needs the owners.
   [[nodiscard]] SHalfedge shalfedge(std::uint32_t shalfedge) const {
     SHalfedge item = in_pattern(shalfedge);
     item.plane = shalfedge_plane[shalfedge];
     return item;
+  }
+
+  /// The vertex of a shalfedge. Where every svertex has two arcs, as in all sets whose boundary is a manifold, a vertex
+  /// has as many svertices as pairs of shalfedges, and one list of owners serves both.
+  [[nodiscard]] std::uint32_t shalfedge_vertex(std::uint32_t shalfedge) const {
+    return pair_owner.empty() ? svertex_owner[shalfedge >> 1U] : pair_owner[shalfedge >> 1U];
   }
 
   /// The mark of an sface by its number in the complex. O(log n).
@@ -154,15 +157,15 @@ struct Complex {
 
   /// The halfedge that leaves the vertex of a corner along the facet boundary (facet to its left).
   [[nodiscard]] std::uint32_t corner_halfedge(std::uint32_t corner) const {
-    return vertices[shalfedge_owner[corner]].svertices + in_pattern(corner).source;
+    return vertices[shalfedge_vertex(corner)].svertices + in_pattern(corner).source;
   }
   /// The halfedge at the vertex of a corner that leads back along the facet boundary.
   [[nodiscard]] std::uint32_t corner_back_halfedge(std::uint32_t corner) const {
-    return vertices[shalfedge_owner[corner]].svertices + in_pattern(corner ^ 1U).source;
+    return vertices[shalfedge_vertex(corner)].svertices + in_pattern(corner ^ 1U).source;
   }
   /// Global index of the sface to the left of a shalfedge.
   [[nodiscard]] std::uint32_t shalfedge_sface(std::uint32_t shalfedge) const {
-    return vertices[shalfedge_owner[shalfedge]].sfaces + in_pattern(shalfedge).sface;
+    return vertices[shalfedge_vertex(shalfedge)].sfaces + in_pattern(shalfedge).sface;
   }
   [[nodiscard]] VolumeId sface_volume(std::uint32_t sface) const { return shells[sface_shell[sface]].volume; }
 
@@ -188,12 +191,6 @@ struct Complex {
     return {isolated_vertices.data() + facet.first_isolated, facet.isolated_count};
   }
 
-  /// The sfaces of a shell.
-  [[nodiscard]] std::span<const std::uint32_t> sfaces_of(const Shell& shell) const {
-    return {shell_sfaces.data() + shell.first_sface, shell.sface_count};
-  }
-  [[nodiscard]] std::span<const std::uint32_t> sfaces_of(ShellId shell) const { return sfaces_of(shells[shell]); }
-
   /// The vertex that an sface belongs to. O(log n).
   [[nodiscard]] std::uint32_t sface_vertex(std::uint32_t sface) const;
 
@@ -212,7 +209,7 @@ struct Complex {
 
   // Its plane is but a name.
   [[nodiscard]] const SHalfedge& in_pattern(std::uint32_t shalfedge) const {
-    const VertexRecord& record = vertices[shalfedge_owner[shalfedge]];
+    const VertexRecord& record = vertices[shalfedge_vertex(shalfedge)];
     return patterns.shalfedge(record.pattern, shalfedge - record.shalfedges);
   }
 };

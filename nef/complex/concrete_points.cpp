@@ -62,7 +62,7 @@ std::vector<const Rational3*> cycle_points(const Complex& complex, const std::ve
                                            CycleId cycle) {
   std::vector<const Rational3*> result;
   for (const std::uint32_t corner : complex.corners_of(cycle)) {
-    result.push_back(&points[complex.shalfedge_owner[corner]]);
+    result.push_back(&points[complex.shalfedge_vertex(corner)]);
   }
   return result;
 }

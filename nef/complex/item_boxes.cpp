@@ -19,7 +19,7 @@ Box facet_box(const Complex& complex, const Facet& facet) {
   Box box;
   // The first cycle is the outer one.
   for (const std::uint32_t corner : complex.corners_of(facet.first_cycle)) {
-    box.add_rounded(complex.points.approximate(PointId{complex.shalfedge_owner[corner]}));
+    box.add_rounded(complex.points.approximate(PointId{complex.shalfedge_vertex(corner)}));
   }
   return box;
 }

@@ -13,11 +13,14 @@ void name_svertex_owners(Complex& complex) {
   }
 }
 
-void name_shalfedge_owners(Complex& complex) {
-  complex.shalfedge_owner.assign(complex.shalfedge_count(), 0);
+void name_pair_owners(Complex& complex) {
+  complex.pair_owner.clear();
+  const auto as_many = [](const VertexRecord& v) { return v.svertices == v.shalfedges / 2; };
+  if (std::all_of(complex.vertices.begin(), complex.vertices.end(), as_many)) return;
+  complex.pair_owner.resize(complex.shalfedge_count() / 2);
+  const auto owner = complex.pair_owner.begin();
   for (std::uint32_t v = 0; v < complex.vertex_count(); ++v) {
-    const std::uint32_t end = complex.vertices[v + 1].shalfedges;
-    for (std::uint32_t i = complex.vertices[v].shalfedges; i < end; i += 2) complex.shalfedge_owner.set(i, v);
+    std::fill(owner + complex.vertices[v].shalfedges / 2, owner + complex.vertices[v + 1].shalfedges / 2, v);
   }
 }
 

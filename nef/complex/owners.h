@@ -10,7 +10,7 @@ namespace nef {
 /// Fills svertex_owner from the vertices. O(n).
 void name_svertex_owners(Complex& complex);
 
-/// Fills shalfedge_owner from the vertices. O(n).
-void name_shalfedge_owners(Complex& complex);
+/// Fills pair_owner from the vertices, unless svertex_owner is the same. O(n).
+void name_pair_owners(Complex& complex);
 
 }  // namespace nef

@@ -12,22 +12,6 @@
 
 namespace nef {
 
-/// A number that both twins of a pair have in common.
-class CommonColumn {
- public:
-  [[nodiscard]] std::uint32_t operator[](std::size_t half) const { return values_[half >> 1U]; }
-  void set(std::size_t half, std::uint32_t value) { values_[half >> 1U] = value; }
-  void assign(std::size_t halves, std::uint32_t value) { values_.assign(halves / 2, value); }
-  [[nodiscard]] std::size_t size() const { return 2 * values_.size(); }
-
-  /// One for each pair.
-  [[nodiscard]] std::vector<std::uint32_t>& pairs() { return values_; }
-  [[nodiscard]] const std::vector<std::uint32_t>& pairs() const { return values_; }
-
- private:
-  std::vector<std::uint32_t> values_;
-};
-
 /// The planes of shalfedges: twins lie in one plane, oriented otherwise.
 class PlaneColumn {
  public:

@@ -33,7 +33,7 @@ class PlaneSweep {
  private:
   void rank_vertices(std::span<const std::uint32_t> corners, std::span<const std::uint32_t> vertices) {
     // The other end of an edge is the vertex of another corner.
-    for (const std::uint32_t corner : corners) ids_.push_back(c_.shalfedge_owner[corner]);
+    for (const std::uint32_t corner : corners) ids_.push_back(c_.shalfedge_vertex(corner));
     ids_.insert(ids_.end(), vertices.begin(), vertices.end());
     std::sort(ids_.begin(), ids_.end());
     ids_.erase(std::unique(ids_.begin(), ids_.end()), ids_.end());
@@ -55,7 +55,7 @@ class PlaneSweep {
   void collect_edges(std::span<const std::uint32_t> corners) {
     for (std::uint32_t i = 0; i < corners.size(); ++i) {
       const std::uint32_t halfedge = c_.corner_halfedge(corners[i]);
-      const std::uint32_t from = rank_of(c_.shalfedge_owner[corners[i]]);
+      const std::uint32_t from = rank_of(c_.shalfedge_vertex(corners[i]));
       const std::uint32_t to = rank_of(c_.target(halfedge));
       if ((from < to) != axes_.positive) continue;
       edges_.push_back({i, axes_.positive ? halfedge : c_.twin[halfedge], std::min(from, to), std::max(from, to),

@@ -146,7 +146,7 @@ class Exporter {
       for (const std::uint32_t corner : complex_.corners_of(facet)) {
         const std::uint32_t h = complex_.corner_halfedge(corner);
         in_facet[h] = in_facet[complex_.twin[h]] = true;
-        held[complex_.shalfedge_owner[corner]] = true;
+        held[complex_.shalfedge_vertex(corner)] = true;
       }
       for (const std::uint32_t v : complex_.isolated_vertices_of(facet)) {
         held[v] = true;
@@ -170,7 +170,7 @@ class Exporter {
   [[nodiscard]] bool sees_other(const Facet& facet) const {
     if (volumes_[facet.volume_above].other || volumes_[facet.volume_below].other) return true;
     for (const std::uint32_t corner : complex_.corners_of(facet)) {
-      if (!finite(complex_.shalfedge_owner[corner])) return true;
+      if (!finite(complex_.shalfedge_vertex(corner))) return true;
     }
     return false;
   }
@@ -183,7 +183,7 @@ class Exporter {
     corner_vertices_.reserve(complex_.corners.size());
     for (const FacetId f : boundary_) {
       for (const std::uint32_t corner : complex_.corners_of(f)) {
-        const std::uint32_t v = complex_.shalfedge_owner[corner];
+        const std::uint32_t v = complex_.shalfedge_vertex(corner);
         number_[v] = 0;
         corner_vertices_.push_back(v);
       }
@@ -403,7 +403,7 @@ class Exporter {
     std::vector<bool> seen_vertex(complex_.vertex_count(), false);
     for (const FacetId f : boundary_) {
       for (const std::uint32_t corner : complex_.corners_of(f)) {
-        const std::uint32_t v = complex_.shalfedge_owner[corner];
+        const std::uint32_t v = complex_.shalfedge_vertex(corner);
         const std::uint32_t h = complex_.corner_halfedge(corner);
         if (!seen_vertex[v] && !is_selected(complex_.mark(v))) ++open_.vertices;
         if (!seen_edge[h] && !is_selected(complex_.svertex(h).mark)) ++open_.edges;

@@ -63,7 +63,7 @@ class WindingFiller {
     std::vector<std::vector<std::uint32_t>> rings;
     for (const CycleId i : facet.cycles()) {
       std::vector<std::uint32_t>& ring = rings.emplace_back();
-      for (const std::uint32_t corner : c_.corners_of(i)) ring.push_back(c_.shalfedge_owner[corner]);
+      for (const std::uint32_t corner : c_.corners_of(i)) ring.push_back(c_.shalfedge_vertex(corner));
     }
     std::vector<Triangulator::Triangle> triangles;
     const std::size_t axis = largest_component(facet.plane);

@@ -59,7 +59,7 @@ class ParityCount {
   }
 
   void add(std::uint32_t corner) {
-    const std::uint32_t u = complex_.shalfedge_owner[corner];
+    const std::uint32_t u = complex_.shalfedge_vertex(corner);
     const std::uint32_t halfedge = complex_.corner_halfedge(corner);
     const std::uint32_t v = complex_.target(halfedge);
     const int u_side = compare(u, k_);
@@ -137,10 +137,10 @@ FacetPlace locate_in_facet(const Complex& complex, const Facet& facet, const Poi
     for (const CycleId c : facet.cycles()) {
       if (count.on_boundary()) break;
       const std::span<const std::uint32_t> cycle = complex.corners_of(c);
-      std::uint32_t v = complex.shalfedge_owner[cycle.front()];
+      std::uint32_t v = complex.shalfedge_vertex(cycle.front());
       for (std::size_t i = 0; i < cycle.size() && !count.on_boundary(); ++i) {
         const std::uint32_t u = v;
-        v = complex.shalfedge_owner[i + 1 < cycle.size() ? cycle[i + 1] : cycle.front()];
+        v = complex.shalfedge_vertex(i + 1 < cycle.size() ? cycle[i + 1] : cycle.front());
         if (!count.clear(u, v)) count.add(cycle[i]);
       }
     }

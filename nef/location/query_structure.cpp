@@ -57,7 +57,7 @@ void QueryStructure::collect(const Complex& complex, const BoxTree* places) {
   for (const FacetId f : complex.facets.ids()) {
     const std::span<const std::uint32_t> corners = complex.corners_of(f);
     Box box;
-    for (const std::uint32_t c : corners) box.add(vertex_box(complex, complex.shalfedge_owner[c]));
+    for (const std::uint32_t c : corners) box.add(vertex_box(complex, complex.shalfedge_vertex(c)));
     if (!asked_for(box)) continue;
     push_item(f.index(), kFacetItem, box, boxes);
     if (corners.size() > kLargeFacet) large_facets_.push_back(f);

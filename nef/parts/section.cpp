@@ -32,7 +32,7 @@ class SectionReader {
  private:
   void add_polygon(const Facet& facet) {
     for (const std::uint32_t corner : c_.corners_of(facet)) {
-      if (is_box_vertex(c_, c_.shalfedge_owner[corner])) {
+      if (is_box_vertex(c_, c_.shalfedge_vertex(corner))) {
         ++out_.unbounded;
         return;
       }
@@ -44,7 +44,7 @@ class SectionReader {
     for (const CycleId i : facet.cycles()) {
       std::vector<Rational3> ring;
       for (const std::uint32_t corner : c_.corners_of(i)) {
-        ring.push_back(c_.points.rational(PointId{c_.shalfedge_owner[corner]}));
+        ring.push_back(c_.points.rational(PointId{c_.shalfedge_vertex(corner)}));
       }
       if (along < 0) std::reverse(ring.begin(), ring.end());
       if (i == facet.first_cycle) {

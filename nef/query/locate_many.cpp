@@ -119,7 +119,7 @@ class CellGrid {
       if (is_box_facet(c_, f)) continue;
       const Facet& facet = c_.facets[f];
       Box box;
-      for (const std::uint32_t corner : c_.corners_of(facet)) box.add(vertex_box(c_, c_.shalfedge_owner[corner]));
+      for (const std::uint32_t corner : c_.corners_of(facet)) box.add(vertex_box(c_, c_.shalfedge_vertex(corner)));
       enter(box, &c_.planes.approximate(facet.plane));
     }
     for (std::uint32_t h = 0; h < c_.svertex_count(); ++h) {

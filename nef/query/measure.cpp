@@ -56,13 +56,13 @@ class FacetRatio {
     mpz_ptr common = scratch_.get_mpz_t();
     mpz_set_ui(common, 1);
     for (const std::uint32_t corner : corners) {
-      const IntegerView w = c_.points.coordinate(PointId{c_.shalfedge_owner[corner]}, 3);
+      const IntegerView w = c_.points.coordinate(PointId{c_.shalfedge_vertex(corner)}, 3);
       if (mpz_divisible_p(common, w) == 0) mpz_lcm(common, common, w);
     }
     mpz_ptr sum = numerator.get_mpz_t();
     mpz_set_ui(sum, 0);
     for (const std::uint32_t corner : corners) {
-      const PointId u{c_.shalfedge_owner[corner]};
+      const PointId u{c_.shalfedge_vertex(corner)};
       const PointId v{c_.target(c_.corner_halfedge(corner))};
       mpz_divexact(factor_.get_mpz_t(), common, c_.points.coordinate(u, 3));
       mpz_divexact(other_.get_mpz_t(), common, c_.points.coordinate(v, 3));
@@ -77,7 +77,7 @@ class FacetRatio {
   void sum_large(std::span<const std::uint32_t> corners) {
     RationalSum sum;
     for (const std::uint32_t corner : corners) {
-      const PointId u{c_.shalfedge_owner[corner]};
+      const PointId u{c_.shalfedge_vertex(corner)};
       const PointId v{c_.target(c_.corner_halfedge(corner))};
       cross(u, v);
       mpz_mul(factor_.get_mpz_t(), c_.points.coordinate(u, 3), c_.points.coordinate(v, 3));
@@ -120,7 +120,7 @@ double times_root(const FacetRatio& ratio, const Integer& square) {
 
 bool has_finite_vertices(const Complex& c, const Facet& facet) {
   for (const std::uint32_t corner : c.corners_of(facet)) {
-    if (is_box_vertex(c, c.shalfedge_owner[corner])) return false;
+    if (is_box_vertex(c, c.shalfedge_vertex(corner))) return false;
   }
   return true;
 }

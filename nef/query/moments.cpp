@@ -57,11 +57,11 @@ std::optional<Moments> moments(const Polyhedron& a) {
     if (above == below) continue;
     // Cycles run counterclockwise as seen from above, so the sum is positive for a set that lies below.
     const std::span<const std::uint32_t> corners = c.corners_of(facet);
-    const Rational3 apex = c.points.rational(PointId{c.shalfedge_owner[corners.front()]});
+    const Rational3 apex = c.points.rational(PointId{c.shalfedge_vertex(corners.front())});
     for (const std::uint32_t corner : corners) {
-      const std::uint32_t u = c.shalfedge_owner[corner];
+      const std::uint32_t u = c.shalfedge_vertex(corner);
       const std::uint32_t v = c.target(c.corner_halfedge(corner));
-      if (u == c.shalfedge_owner[corners.front()] || v == c.shalfedge_owner[corners.front()]) continue;
+      if (u == c.shalfedge_vertex(corners.front()) || v == c.shalfedge_vertex(corners.front())) continue;
       const Rational3 p = c.points.rational(PointId{u});
       const Rational3 q = c.points.rational(PointId{v});
       if (below) {

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "nef/complex/complex.h"
+#include "nef/complex/shell_sfaces.h"
 
 namespace nef {
 
@@ -16,7 +16,11 @@ namespace nef {
 class ShellWalk {
  public:
   explicit ShellWalk(const Complex& complex)
-      : c_(complex), vertex_(complex.vertex_count()), edge_(complex.svertex_count()), facet_(complex.facet_count()) {}
+      : c_(complex),
+        vertex_(complex.vertex_count()),
+        edge_(complex.svertex_count()),
+        facet_(complex.facet_count()),
+        sfaces_(complex) {}
 
   /// Calls vertex(v), edge(halfedge; the smaller of the two) and facet(f) for all items that the
   /// sfaces of `shell` touch. A shell may be walked once.
@@ -34,8 +38,7 @@ class ShellWalk {
     const auto meet_facet = [&](FacetId f) {
       if (first_time(facet_[f])) facet(f);
     };
-    const Shell& range = c_.shells[shell];
-    for (const std::uint32_t sface : c_.sfaces_of(range)) {
+    for (const std::uint32_t sface : sfaces_.of(shell)) {
       const std::uint32_t v = c_.sface_vertex(sface);
       const VertexRecord& at = c_.vertices[v];
       if (first_time(vertex_[v])) vertex(v);
@@ -68,6 +71,7 @@ class ShellWalk {
   std::vector<ShellId> vertex_;
   std::vector<ShellId> edge_;
   IndexedVector<FacetId, ShellId> facet_;
+  ShellSfaces sfaces_;
 };
 
 }  // namespace nef

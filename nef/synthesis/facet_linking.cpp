@@ -242,13 +242,13 @@ class FacetLinker {
   void classify(CycleRecord& cycle, const PlaneAxes& axes) const {
     const std::span<const std::uint32_t> corners(traced_.data() + cycle.first, cycle.count);
     for (const std::uint32_t corner : corners) {
-      const std::uint32_t v = c_.shalfedge_owner[corner];
+      const std::uint32_t v = c_.shalfedge_vertex(corner);
       if (v == cycle.lowest) continue;
       if (cycle.lowest == kNone || axes.compare(c_.points, PointId{v}, PointId{cycle.lowest}) < 0) cycle.lowest = v;
     }
     cycle.outer = true;
     for (const std::uint32_t corner : corners) {
-      if (c_.shalfedge_owner[corner] != cycle.lowest) continue;
+      if (c_.shalfedge_vertex(corner) != cycle.lowest) continue;
       const std::uint32_t ahead = c_.corner_halfedge(corner);
       const std::uint32_t back = c_.corner_back_halfedge(corner);
       if (ahead == back ||

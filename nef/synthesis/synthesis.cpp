@@ -19,7 +19,7 @@ void begin(std::size_t step) {
 }
 
 void name_owners_and_labels(Complex& c, LabelId outer, unsigned threads) {
-  parallel_calls(threads, {[&] { name_svertex_owners(c); }, [&] { name_shalfedge_owners(c); }});
+  parallel_calls(threads, {[&] { name_svertex_owners(c); }, [&] { name_pair_owners(c); }});
   LabelId largest = 1;
   const auto take = [&largest](LabelId mark) {
     if (mark != kOutside && mark > largest) largest = mark;

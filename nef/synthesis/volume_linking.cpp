@@ -262,7 +262,7 @@ class VolumeLinker {
         volume.mark = c_.sface_mark(root);
       }
       detail::require_one_mark(volume.mark == c_.sface_mark(root), "a volume has one mark", {{"sface", root}});
-      shell_of[root] = c_.shells.push_back({number, 0, 0});
+      shell_of[root] = c_.shells.push_back({number});
     }
     fill_shells(shell_of);
   }
@@ -283,8 +283,7 @@ class VolumeLinker {
     };
     // Only which volume a shell bounds is asked, which is known already.
     const std::size_t count = c_.facets.size();
-    parallel_calls(threads_, {[&] { list_sfaces_of_shells(c_); }, [&] { name_volumes(0, count / 2); },
-                              [&] { name_volumes(count / 2, count); }});
+    parallel_calls(threads_, {[&] { name_volumes(0, count / 2); }, [&] { name_volumes(count / 2, count); }});
   }
 
   Complex& c_;
@@ -306,23 +305,6 @@ void link_volumes(Complex& complex, LabelId outer, unsigned threads) {
     return;
   }
   VolumeLinker(complex, threads).run();
-}
-
-void list_sfaces_of_shells(Complex& complex) {
-  for (Shell& shell : complex.shells) shell.sface_count = 0;
-  for (const ShellId s : complex.sface_shell) ++complex.shells[s].sface_count;
-  std::uint32_t first = 0;
-  for (Shell& shell : complex.shells) {
-    shell.first_sface = first;
-    first += shell.sface_count;
-    shell.sface_count = 0;
-  }
-  const auto count = static_cast<std::uint32_t>(complex.sface_shell.size());
-  complex.shell_sfaces.resize(count);
-  for (std::uint32_t f = 0; f < count; ++f) {
-    Shell& shell = complex.shells[complex.sface_shell[f]];
-    complex.shell_sfaces[shell.first_sface + shell.sface_count++] = f;
-  }
 }
 
 }  // namespace nef

@@ -10,7 +10,4 @@ namespace nef {
 /// Near-linear, plus one ray for each connected component of the boundary after the first. On up to `threads` threads.
 void link_volumes(Complex& complex, LabelId outer, unsigned threads = 1);
 
-/// Fills shell_sfaces, and the ranges of the shells in it, from sface_shell. The shells must be there. O(n).
-void list_sfaces_of_shells(Complex& complex);
-
 }  // namespace nef

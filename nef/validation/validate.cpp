@@ -40,8 +40,9 @@ void check_array_sizes(const Complex& c) {
               last.other_planes == c.other_planes.size(),
           "the sentinel ends all sphere items", {});
   require(c.svertex_owner.size() == c.svertex_count() && c.twin.size() == c.svertex_count() &&
-              c.shalfedge_owner.size() == c.shalfedge_count() && c.shalfedge_facet.size() == c.shalfedge_count() &&
-              c.sloop_facet.size() == c.sloops.size() && c.sface_shell.size() == c.sface_count(),
+              (c.pair_owner.empty() || c.pair_owner.size() == c.shalfedge_count() / 2) &&
+              c.shalfedge_facet.size() == c.shalfedge_count() && c.sloop_facet.size() == c.sloops.size() &&
+              c.sface_shell.size() == c.sface_count(),
           "columns of synthesis are parallel to the sphere items", {});
   const VertexRecord& first = c.vertices.front();
   require(first.svertices + first.shalfedges + first.sloops + first.sfaces + first.other_planes == 0,
@@ -64,7 +65,8 @@ void check_owners(const Complex& c) {
       return std::all_of(owner.begin() + first, owner.begin() + last, [v](std::uint32_t o) { return o == v; });
     };
     require(owned(c.svertex_owner, a.svertices, b.svertices), "svertices know their vertex", {{"vertex", v}});
-    require(a.shalfedges % 2 == 0 && owned(c.shalfedge_owner.pairs(), a.shalfedges / 2, b.shalfedges / 2),
+    require(c.pair_owner.empty() ? c.shalfedge_count() == 0 || a.svertices == a.shalfedges / 2
+                                 : owned(c.pair_owner, a.shalfedges / 2, b.shalfedges / 2),
             "shalfedges know their vertex", {{"vertex", v}});
   }
 }

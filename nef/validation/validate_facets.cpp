@@ -122,7 +122,7 @@ void check_cycle_nesting(const Complex& c) {
       const CycleId cycle = facet.cycles()[k];
       cycles.push_back(cycle_points(c, points, cycle));
       for (const std::uint32_t corner : c.corners_of(cycle)) {
-        boxes[k].add_rounded(c.points.approximate(PointId{c.shalfedge_owner[corner]}));
+        boxes[k].add_rounded(c.points.approximate(PointId{c.shalfedge_vertex(corner)}));
       }
       const int area = projection.sign * sgn(doubled_area(cycles[k], projection.axis));
       require(k == 0 ? area > 0 : area <= 0, k == 0 ? "the outer cycle comes first" : "holes run clockwise",
@@ -141,7 +141,7 @@ void check_cycle_nesting(const Complex& c) {
     };
     for (std::uint32_t k = 1; k < facet.cycle_count; ++k) {
       const CycleId cycle = facet.cycles()[k];
-      check_inside(c.shalfedge_owner[c.corners_of(cycle)[0]], k, {"cycle", cycle});
+      check_inside(c.shalfedge_vertex(c.corners_of(cycle)[0]), k, {"cycle", cycle});
     }
     for (const std::uint32_t v : c.isolated_vertices_of(facet)) {
       check_inside(v, cycles.size(), {"vertex", v});

@@ -8,6 +8,7 @@
 
 #include "nef/base/union_find.h"
 #include "nef/complex/concrete_points.h"
+#include "nef/complex/shell_sfaces.h"
 #include "nef/geometry/box_tree.h"
 #include "nef/geometry/ray_filter.h"
 #include "nef/sphere_map/sphere_geometry.h"
@@ -17,23 +18,20 @@ namespace nef::detail {
 namespace {
 
 void check_partition(const Complex& c) {
-  require(c.shell_sfaces.size() == c.sface_count(), "shells partition the sfaces", {});
-  std::vector<bool> met(c.sface_count(), false);
-  std::size_t used = 0;
-  for (const ShellId s : c.shells.ids()) {
-    const Shell& shell = c.shells[s];
-    require(shell.first_sface == used && shell.sface_count > 0 && shell.sface_count <= c.sface_count() - used,
-            "shells have sfaces, one after the other", {{"shell", s}});
-    used += shell.sface_count;
-    for (const std::uint32_t sface : c.sfaces_of(shell)) {
-      require(sface < c.sface_count() && !met[sface] && c.sface_shell[sface] == s, "sfaces know their shell",
-              {{"shell", s}, {"sface", sface}});
-      met[sface] = true;
-      require(c.sface_mark(sface) == c.volumes[shell.volume].mark, "sfaces have the mark of their volume",
-              {{"sface", sface}, {"volume", shell.volume}});
+  std::vector<bool> used(c.shells.size(), false);
+  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
+    std::uint32_t sface = c.vertices[v].sfaces;
+    for (const SFace& face : c.sphere_map(v).sfaces) {
+      const ShellId s = c.sface_shell[sface];
+      used[s.index()] = true;
+      const VolumeId volume = c.shells[s].volume;
+      require(c.volumes.contains(volume) && face.mark == c.volumes[volume].mark, "sfaces have the mark of their volume",
+              {{"sface", sface}, {"shell", s}});
+      ++sface;
     }
   }
-  require(used == c.sface_count(), "shells partition the sfaces", {});
+  const auto unused = std::find(used.begin(), used.end(), false);
+  require(unused == used.end(), "shells have sfaces", {{"shell", static_cast<std::size_t>(unused - used.begin())}});
   std::size_t shells = 0;
   for (const VolumeId i : c.volumes.ids()) {
     const Volume& volume = c.volumes[i];
@@ -86,9 +84,9 @@ void check_connection(const Complex& c) {
   }
 }
 
-std::uint32_t lowest_vertex(const Complex& c, const Shell& shell) {
+std::uint32_t lowest_vertex(const Complex& c, std::span<const std::uint32_t> sfaces) {
   std::uint32_t lowest = kNone;
-  for (const std::uint32_t sface : c.sfaces_of(shell)) {
+  for (const std::uint32_t sface : sfaces) {
     const std::uint32_t v = c.sface_vertex(sface);
     if (lowest == kNone || compare_lexicographic(c.points, PointId{v}, PointId{lowest}) < 0) lowest = v;
   }
@@ -96,16 +94,16 @@ std::uint32_t lowest_vertex(const Complex& c, const Shell& shell) {
 }
 
 // Seen from its lowest vertex, an inner shell has the volume on the low side, an outer one not.
-bool is_outer(const Complex& c, ShellId s) {
-  const std::uint32_t v = lowest_vertex(c, c.shells[s]);
+bool is_outer(const Complex& c, const ShellSfaces& sfaces, ShellId s) {
+  const std::uint32_t v = lowest_vertex(c, sfaces.of(s));
   const SphereLocation low = locate(c.planes, c.sphere_map(v), Direction::exact(-1, 0, 0));
   return low.kind != SphereLocation::Kind::kSFace || c.sface_shell[c.vertices[v].sfaces + low.index] != s;
 }
 
-void check_outer_shells(const Complex& c) {
+void check_outer_shells(const Complex& c, const ShellSfaces& sfaces) {
   for (const VolumeId i : c.volumes.ids()) {
     for (const ShellId s : c.volumes[i].shells()) {
-      require(is_outer(c, s) == (i != kOuterVolume && s == c.volumes[i].first_shell),
+      require(is_outer(c, sfaces, s) == (i != kOuterVolume && s == c.volumes[i].first_shell),
               "the outer shell of a volume comes first, and volume 0 has none", {{"volume", i}, {"shell", s}});
     }
   }
@@ -152,7 +150,7 @@ Targets targets_of(const Complex& c) {
   std::vector<Box> boxes(c.facets.size());
   for (const FacetId f : c.facets.ids()) {
     for (const std::uint32_t corner : c.corners_of(f)) {
-      boxes[f.index()].add_rounded(c.points.approximate(PointId{c.shalfedge_owner[corner]}));
+      boxes[f.index()].add_rounded(c.points.approximate(PointId{c.shalfedge_vertex(corner)}));
     }
   }
   return {concrete_points(c), BoxTree(boxes)};
@@ -173,7 +171,7 @@ FirstFacet shoot(const Complex& c, const Targets& targets, std::uint32_t origin,
   std::optional<Rational> nearest;
   const auto visit = [&](std::uint32_t f) {
     const Facet& facet = c.facets[FacetId{f}];
-    const Rational3& anchor = points[c.shalfedge_owner[c.corners_of(facet)[0]]];
+    const Rational3& anchor = points[c.shalfedge_vertex(c.corners_of(facet)[0])];
     Rational numerator = 0;
     Rational denominator = 0;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -201,8 +199,7 @@ FirstFacet shoot(const Complex& c, const Targets& targets, std::uint32_t origin,
 }
 
 // The volume that holds the surroundings of a shell.
-VolumeId volume_around(const Complex& c, const Targets& targets, ShellId s) {
-  const std::uint32_t sface = c.sfaces_of(s).front();
+VolumeId volume_around(const Complex& c, const Targets& targets, std::uint32_t sface) {
   const std::uint32_t v = c.sface_vertex(sface);
   const std::uint32_t local = sface - c.vertices[v].sfaces;
   const SphereMapView map = c.sphere_map(v);
@@ -219,12 +216,13 @@ VolumeId volume_around(const Complex& c, const Targets& targets, ShellId s) {
   break_invariant(Defect::Kind::kStructure, "some direction leads into an sface", {{"sface", sface}});
 }
 
-void check_shell_nesting(const Complex& c) {
+void check_shell_nesting(const Complex& c, const ShellSfaces& sfaces) {
   const Targets targets = targets_of(c);
   for (const VolumeId i : c.volumes.ids()) {
     for (const ShellId s : c.volumes[i].shells()) {
       if (i != kOuterVolume && s == c.volumes[i].first_shell) continue;
-      require(volume_around(c, targets, s) == i, "inner shells lie in their volume", {{"volume", i}, {"shell", s}});
+      require(volume_around(c, targets, sfaces.of(s).front()) == i, "inner shells lie in their volume",
+              {{"volume", i}, {"shell", s}});
     }
   }
 }
@@ -234,8 +232,9 @@ void check_shell_nesting(const Complex& c) {
 void check_volumes(const Complex& complex) {
   check_partition(complex);
   check_connection(complex);
-  check_outer_shells(complex);
-  check_shell_nesting(complex);
+  const ShellSfaces sfaces(complex);
+  check_outer_shells(complex, sfaces);
+  check_shell_nesting(complex, sfaces);
 }
 
 }  // namespace nef::detail

@@ -38,7 +38,7 @@ inline std::vector<Rational3> hard_points(const Polyhedron& set, std::size_t mos
   for (std::size_t f = 0; f < c.facet_count(); f += 1 + c.facet_count() / most) {
     const auto corners = c.corners_of(c.facets[FacetId{static_cast<std::uint32_t>(f)}].first_cycle);
     if (corners.size() < 3) continue;
-    const auto corner = [&](std::size_t k) { return vertex(c.shalfedge_owner[corners[k]]); };
+    const auto corner = [&](std::size_t k) { return vertex(c.shalfedge_vertex(corners[k])); };
     points.push_back(middle_of({corner(0), corner(1), corner(corners.size() / 2 + 1 - corners.size() % 2)}));
   }
   return points;

@@ -105,7 +105,7 @@ Polyhedron to_polyhedron(const ConvexCell& cell) {
   const Correspondence of(cell, complex);
   for (Facet& facet : complex.facets) {
     const auto corners = complex.corners_of(facet);
-    const auto owner = [&](std::size_t k) { return complex.shalfedge_owner[corners[k]]; };
+    const auto owner = [&](std::size_t k) { return complex.shalfedge_vertex(corners[k]); };
     facet.mark = of.facet(owner(0), owner(1), owner(2)) ? 1 : 0;
   }
   rewrite_sphere_maps(complex, [&](std::uint32_t v, SphereMapBuffer& map) {

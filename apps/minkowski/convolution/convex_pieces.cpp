@@ -63,7 +63,7 @@ std::vector<std::vector<std::uint32_t>> ConvexPieces::cut(FacetId id) {
   std::vector<Ring> rings;
   for (const CycleId cycle : facet.cycles()) {
     Ring& ring = rings.emplace_back();
-    for (const std::uint32_t corner : c_.corners_of(cycle)) ring.push_back(c_.shalfedge_owner[corner]);
+    for (const std::uint32_t corner : c_.corners_of(cycle)) ring.push_back(c_.shalfedge_vertex(corner));
   }
   if (rings.size() == 1 && is_convex(rings[0])) return rings;
   find_slits(rings);

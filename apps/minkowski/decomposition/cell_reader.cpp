@@ -63,7 +63,7 @@ void CellReader::collect_items(VolumeId volume) {
   for (const FacetId f : facets_) {
     const Facet& facet = complex_.facets[f];
     for (const std::uint32_t c : complex_.corners_of(facet)) {
-      add_vertex(complex_.shalfedge_owner[c]);
+      add_vertex(complex_.shalfedge_vertex(c));
       const std::uint32_t forth = complex_.corner_halfedge(c);
       const std::uint32_t h = std::min(forth, complex_.twin[forth]);
       if (seen_halfedge_[h] == turn_) continue;
@@ -103,8 +103,8 @@ CellReader::Carriers CellReader::carriers(const ConvexCell& cell) const {
   }
   for (const FacetId f : facets_) {
     const auto corners = complex_.corners_of(f);
-    Faces faces = result.of_vertex[local_[complex_.shalfedge_owner[corners[0]]]];
-    for (const std::uint32_t c : corners) faces = common(faces, result.of_vertex[local_[complex_.shalfedge_owner[c]]]);
+    Faces faces = result.of_vertex[local_[complex_.shalfedge_vertex(corners[0])]];
+    for (const std::uint32_t c : corners) faces = common(faces, result.of_vertex[local_[complex_.shalfedge_vertex(c)]]);
     NEF_ASSERT(faces.size() == 1);
     result.of_facet.push_back(std::move(faces));
   }
@@ -200,7 +200,7 @@ void CellReader::count_planes(std::span<const FacetId> by_plane) {
       last_plane[local_[v]] = facet.plane.row();
       ++planes_at_[local_[v]];
     };
-    for (const std::uint32_t c : complex_.corners_of(facet)) meet(complex_.shalfedge_owner[c]);
+    for (const std::uint32_t c : complex_.corners_of(facet)) meet(complex_.shalfedge_vertex(c));
     for (const std::uint32_t v : complex_.isolated_vertices_of(facet)) meet(v);
   }
 }
@@ -210,7 +210,7 @@ std::vector<std::uint32_t> CellReader::outline(std::span<const FacetId> facets) 
   std::vector<std::uint32_t> ring;
   if (facets.size() == 1 && complex_.facets[facets[0]].cycle_count == 1) {
     for (const std::uint32_t c : complex_.corners_of(facets[0])) {
-      ring.push_back(complex_.shalfedge_owner[c]);
+      ring.push_back(complex_.shalfedge_vertex(c));
     }
     return ring;
   }
@@ -218,7 +218,7 @@ std::vector<std::uint32_t> CellReader::outline(std::span<const FacetId> facets) 
   for (const FacetId f : facets) {
     for (const std::uint32_t c : complex_.corners_of(f)) {
       const std::uint32_t h = complex_.corner_halfedge(c);
-      if (open.erase(complex_.twin[h]) == 0) open.emplace(h, complex_.shalfedge_owner[c]);
+      if (open.erase(complex_.twin[h]) == 0) open.emplace(h, complex_.shalfedge_vertex(c));
     }
   }
   NEF_ASSERT(!open.empty());
@@ -307,7 +307,7 @@ ConvexCell CellReader::polygon(FacetId facet) {
       extreme.push_back(k);
     }
   }
-  const auto vertex = [&](std::size_t k) { return complex_.shalfedge_owner[corners[k % n]]; };
+  const auto vertex = [&](std::size_t k) { return complex_.shalfedge_vertex(corners[k % n]); };
   const auto halfedge = [&](std::size_t k) {
     const std::uint32_t h = complex_.corner_halfedge(corners[k % n]);
     return std::min(h, complex_.twin[h]);

@@ -144,7 +144,7 @@ bool PlaneSlicer::holds(FacetId facet, const std::array<Rational, 2>& p) {
   const std::size_t j = (drop + 2) % 3;
   bool inside = false;
   for (const std::uint32_t c : complex_.corners_of(f)) {
-    const Rational3& a = point(complex_.shalfedge_owner[c]);
+    const Rational3& a = point(complex_.shalfedge_vertex(c));
     const Rational3& b = point(complex_.target(complex_.corner_halfedge(c)));
     if ((a[i] > x[i]) == (b[i] > x[i])) continue;
     if (a[j] + (b[j] - a[j]) * (x[i] - a[i]) / (b[i] - a[i]) > x[j]) inside = !inside;
@@ -159,7 +159,7 @@ void PlaneSlicer::add_facet(FacetId facet) {
   bool positive = false;
   bool negative = false;
   for (const std::uint32_t c : corners) {
-    const int s = side(complex_.shalfedge_owner[c]);
+    const int s = side(complex_.shalfedge_vertex(c));
     off = off || s != 0;
     positive = positive || s >= 0;
     negative = negative || s <= 0;
@@ -168,7 +168,7 @@ void PlaneSlicer::add_facet(FacetId facet) {
 
   std::vector<std::array<Rational, 2>> hits;
   for (const std::uint32_t c : corners) {
-    const std::uint32_t a = complex_.shalfedge_owner[c];
+    const std::uint32_t a = complex_.shalfedge_vertex(c);
     const std::uint32_t b = complex_.target(complex_.corner_halfedge(c));
     const int sa = side(a);
     const int sb = side(b);

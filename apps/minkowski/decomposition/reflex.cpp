@@ -127,7 +127,7 @@ std::vector<ReflexCorner> reflex_corners(const Complex& complex, FacetId facet) 
     };
     const Direction from = direction(forth);
     const Direction to = direction(back);
-    ReflexCorner reflex{complex.shalfedge_owner[corner], {true, true}};
+    ReflexCorner reflex{complex.shalfedge_vertex(corner), {true, true}};
     if (forth == back) {
       for (std::size_t k = 0; k < 2; ++k) reflex.inside[k] = !same_direction(from, way[k]);
     } else if (orientation_on_circle(complex.planes, f.plane, from, to) < 0) {

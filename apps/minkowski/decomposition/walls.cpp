@@ -92,7 +92,7 @@ class FacetRays {
   FacetRays(const Complex& complex, FacetId facet) : facet_(complex.facets[facet]) {
     while (complex.planes.coefficient(facet_.plane, drop_).sign() == 0) ++drop_;
     for (const std::uint32_t c : complex.corners_of(facet_)) {
-      edges_.push_back({complex.points.rational(PointId(complex.shalfedge_owner[c])),
+      edges_.push_back({complex.points.rational(PointId(complex.shalfedge_vertex(c))),
                         complex.points.rational(PointId(complex.target(complex.corner_halfedge(c))))});
     }
   }

@@ -168,7 +168,7 @@ class SpanReader {
     bool bounded_by_edges = false;
     for (const std::uint32_t corner : c_.corners_of(facet)) {
       const std::uint32_t h = edge(c_.corner_halfedge(corner));
-      add_vertex(c_.shalfedge_owner[corner]);
+      add_vertex(c_.shalfedge_vertex(corner));
       if (on_box_[h]) continue;
       bounded_by_edges = true;
       add_edge(h);
@@ -176,7 +176,7 @@ class SpanReader {
     for (const std::uint32_t v : c_.isolated_vertices_of(facet)) add_vertex(v);
     if (c_.planes.infimaximal(facet.plane) || bounded_by_edges) return;
     // A whole plane: the constant part of any corner lies on it.
-    points_.insert(part(c_.shalfedge_owner[c_.corners_of(facet)[0]], 0));
+    points_.insert(part(c_.shalfedge_vertex(c_.corners_of(facet)[0]), 0));
   }
 
   const Complex& c_;

@@ -149,7 +149,7 @@ std::vector<Rational3> FreeSpace::vertices(CellId cell) const {
     }
     case 2:
       for (const std::uint32_t corner : c.corners_of(c.facets[FacetId{i}].first_cycle)) {
-        result.push_back(c.points.rational(PointId{c.shalfedge_owner[corner]}));
+        result.push_back(c.points.rational(PointId{c.shalfedge_vertex(corner)}));
       }
       break;
     default:

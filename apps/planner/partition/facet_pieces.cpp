@@ -85,7 +85,7 @@ void append_facet_pieces(const Complex& complex, FacetId f, CellId cell, const P
     piece.dimension = 2;
     piece.p = facet.plane;
     for (const std::uint32_t corner : complex.corners_of(facet)) {
-      piece.points.push_back(PointId{complex.shalfedge_owner[corner]});
+      piece.points.push_back(PointId{complex.shalfedge_vertex(corner)});
       piece.sides.push_back(side_plane(complex, facet, complex.corner_halfedge(corner)));
       piece.seams.push_back(false);
     }

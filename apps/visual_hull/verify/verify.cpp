@@ -130,7 +130,7 @@ std::vector<std::vector<std::vector<Vec>>> project_facets(const nef::Polyhedron&
     for (const nef::CycleId c : facet.cycles()) {
       cycles.emplace_back();
       for (const std::uint32_t corner : complex.corners_of(c)) {
-        const std::uint32_t v = complex.shalfedge_owner[corner];
+        const std::uint32_t v = complex.shalfedge_vertex(corner);
         visible = visible && front[v];
         cycles.back().push_back(seen[v]);
       }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "nef/base/error.h"
+#include "nef/complex/shell_sfaces.h"
 #include "nef/io/cgal/cgal_nef3.h"
 #include "nef/io/number_text.h"
 
@@ -12,6 +13,8 @@ class Nef3Writer {
 
   std::string run() {
     link_facet_cycles();
+    const ShellSfaces of_shells(c_);
+    for (const ShellId s : c_.shells.ids()) first_sface_.push_back(of_shells.of(s).front());
     head();
     for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) vertex(v);
     for (std::uint32_t h = 0; h < c_.svertex_count(); ++h) halfedge(h);
@@ -152,12 +155,12 @@ class Nef3Writer {
   void volume(VolumeId v) {
     const Volume& volume = c_.volumes[v];
     begin(v.index());
-    for (const ShellId s : volume.shells()) number(c_.sfaces_of(s).front());
+    for (const ShellId s : volume.shells()) number(first_sface_[s.index()]);
     end(volume.mark);
   }
 
   void shalfedge(std::uint32_t e) {
-    const VertexRecord& record = c_.vertices[c_.shalfedge_owner[e]];
+    const VertexRecord& record = c_.vertices[c_.shalfedge_vertex(e)];
     const SHalfedge& s = c_.shalfedge(e);
     begin(e);
     const auto item = [this](std::uint32_t value) {
@@ -222,6 +225,7 @@ class Nef3Writer {
   std::string text_;
   std::vector<std::uint32_t> next_;  // along a facet's boundary, as CGAL has it
   std::vector<std::uint32_t> prev_;
+  std::vector<std::uint32_t> first_sface_;  // of each shell
   std::uint32_t loop_vertex_ = 0;
   bool other_marks_ = false;
 };

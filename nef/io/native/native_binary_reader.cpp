@@ -7,6 +7,7 @@
 
 #include <cstring>
 
+#include "nef/complex/owners.h"
 #include "nef/complex/pattern_interner.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/native/native_binary.h"
@@ -197,14 +198,8 @@ class BinaryReader {
     demand(last.svertices == svertices_ && last.shalfedges == shalfedges_ && last.sloops == sloops_ &&
                last.sfaces == sfaces_ && total == std::uint64_t{svertices_} + shalfedges_ + sloops_ + sfaces_,
            "its vertices have not the items that it holds");
-    c_.svertex_owner.resize(svertices_);
-    c_.shalfedge_owner.assign(shalfedges_, 0);
-    for (std::uint32_t v = 0; v < vertices_; ++v) {
-      const VertexRecord& a = c_.vertices[v];
-      const VertexRecord& b = c_.vertices[v + 1];
-      for (std::uint32_t i = a.svertices; i < b.svertices; ++i) c_.svertex_owner[i] = v;
-      for (std::uint32_t i = a.shalfedges; i < b.shalfedges; i += 2) c_.shalfedge_owner.set(i, v);
-    }
+    name_svertex_owners(c_);
+    name_pair_owners(c_);
   }
 
   // The columns of the items of sphere maps.
@@ -472,17 +467,18 @@ class BinaryReader {
 
   void fill_shells(const Column<std::uint32_t>& shell_of) {
     c_.sface_shell.resize(sfaces_);
+    std::vector<bool> used(shells_, false);
     std::uint32_t f = 0;
     for (std::uint32_t v = 0; v < vertices_; ++v) {
       for (const SFace& face : c_.sphere_map(v).sfaces) {
         const ShellId s{shell_of[f]};
         demand(c_.shells.contains(s), "a shell does not exist");
         demand(c_.volumes[c_.shells[s].volume].mark == face.mark, "a volume has two marks");
+        used[s.index()] = true;
         c_.sface_shell[f++] = s;
       }
     }
-    list_sfaces_of_shells(c_);
-    for (const Shell& shell : c_.shells) demand(shell.sface_count > 0, "a shell is empty");
+    demand(std::find(used.begin(), used.end(), false) == used.end(), "a shell is empty");
   }
 
   std::string_view bytes_;

@@ -38,7 +38,7 @@ std::string difference_to_synthesis(const Complex& c) {
   synthesize(again, c.volumes[kOuterVolume].mark);
   if (!same_bytes(c.twin, again.twin)) return "twin";
   if (!same_bytes(c.svertex_owner, again.svertex_owner)) return "svertex_owner";
-  if (!same_bytes(c.shalfedge_owner.pairs(), again.shalfedge_owner.pairs())) return "shalfedge_owner";
+  if (!same_bytes(c.pair_owner, again.pair_owner)) return "pair_owner";
   if (!same_facets(c.facets, again.facets)) return "facets";
   if (!same_bytes(c.cycle_begin.values(), again.cycle_begin.values())) return "cycle_begin";
   if (!same_bytes(c.corners, again.corners)) return "corners";
@@ -46,7 +46,6 @@ std::string difference_to_synthesis(const Complex& c) {
   if (!same_bytes(c.shalfedge_facet.pairs(), again.shalfedge_facet.pairs())) return "shalfedge_facet";
   if (!same_bytes(c.sloop_facet, again.sloop_facet)) return "sloop_facet";
   if (!same_bytes(c.sface_shell, again.sface_shell)) return "sface_shell";
-  if (!same_bytes(c.shell_sfaces, again.shell_sfaces)) return "shell_sfaces";
   if (c.shells.size() != again.shells.size() || c.volumes.size() != again.volumes.size()) return "volumes";
   for (const VolumeId i : c.volumes.ids()) {
     if (c.volumes[i].mark != again.volumes[i].mark || c.volumes[i].shell_count != again.volumes[i].shell_count) {

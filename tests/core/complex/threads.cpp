@@ -27,7 +27,7 @@ void same_on_any_number(const Polyhedron& a, const Polyhedron& b, unsigned table
     if (native_binary(on_many) != native_binary(on_one)) RC_FAIL("other bytes");
     RC_ASSERT(on_many.complex().twin == on_one.complex().twin);
     RC_ASSERT(on_many.complex().corners == on_one.complex().corners);
-    RC_ASSERT(on_many.complex().shell_sfaces == on_one.complex().shell_sfaces);
+    RC_ASSERT(on_many.complex().sface_shell == on_one.complex().sface_shell);
   }
 }
 

@@ -176,7 +176,7 @@ struct Breaker {
   void synthesized_items() {
     column("owner of an svertex", c.svertex_owner, c.vertex_count());
     column("twin", c.twin, c.twin.size());
-    column("owner of a shalfedge", c.shalfedge_owner.pairs(), c.vertex_count());
+    column("owner of a pair of shalfedges", c.pair_owner, c.vertex_count());
     column("facet of a shalfedge", c.shalfedge_facet.pairs(), 2 * c.facets.size());
     column("facet of a sloop", c.sloop_facet, 2 * c.facets.size());
     column("shell of an sface", c.sface_shell, c.shells.size());
@@ -195,10 +195,7 @@ struct Breaker {
     column("isolated vertex", c.isolated_vertices, c.vertex_count());
     for (Shell& s : c.shells) {
       index("volume of a shell", s.volume, c.volumes.size());
-      index("first sface of a shell", s.first_sface, c.shell_sfaces.size());
-      index("number of sfaces of a shell", s.sface_count, c.shell_sfaces.size());
     }
-    column("sface of a shell", c.shell_sfaces, c.sface_count());
     for (Volume& v : c.volumes) {
       mark("mark of a volume", v.mark);
       index("first shell", v.first_shell, c.shells.size());

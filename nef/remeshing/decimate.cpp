@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "nef/remeshing/decimate.h"
 
-#include <OpenMesh/Tools/Decimater/DecimaterT.hh>
-#include <OpenMesh/Tools/Decimater/ModNormalFlippingT.hh>
-#include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
 #include <algorithm>
 #include <array>
 #include <span>
@@ -15,36 +12,17 @@
 #include "nef/export/convert_openmesh.h"
 #include "nef/export/to_mesh.h"
 #include "nef/import/try_from_mesh.h"
+#include "nef/remeshing/collapse_edges.h"
 #include "nef/remeshing/sheets.h"
 #include "nef/remeshing/triangle_mesh.h"
 
 namespace nef {
 namespace {
 
-// What is left of a mesh of triangles after collapses down to a number of them. `original` tells which vertex of the
-// exact mesh each vertex of OpenMesh's is.
+// What is left of a mesh of triangles. `original` tells which vertex of the exact mesh each vertex of OpenMesh's is.
 Mesh collapsed(TriangleMesh work, const Mesh& exact, const std::vector<std::uint32_t>& original,
                std::size_t triangles) {
-  work.request_vertex_status();
-  work.request_edge_status();
-  work.request_halfedge_status();
-  work.request_face_status();
-  work.request_face_normals();
-  work.update_face_normals();
-  // A border is where sheets were taken apart; it has to stay as it is, or a crack opens between them.
-  for (const auto v : work.vertices()) {
-    if (work.is_boundary(v)) work.status(v).set_locked(true);
-  }
-  OpenMesh::Decimater::DecimaterT<TriangleMesh> decimater(work);
-  OpenMesh::Decimater::ModQuadricT<TriangleMesh>::Handle quadric;
-  OpenMesh::Decimater::ModNormalFlippingT<TriangleMesh>::Handle no_flips;
-  decimater.add(quadric);
-  decimater.add(no_flips);
-  decimater.module(quadric).unset_max_err();
-  const bool ready = decimater.initialize();
-  NEF_ASSERT(ready);
-  decimater.decimate_to_faces(0, triangles);
-
+  collapse_edges(work, triangles);
   Mesh result;
   std::vector<std::uint32_t> number(exact.vertices.size(), static_cast<std::uint32_t>(-1));
   for (const auto f : work.faces()) {
@@ -62,7 +40,9 @@ Mesh collapsed(TriangleMesh work, const Mesh& exact, const std::vector<std::uint
   return result;
 }
 
-bool is_legal(const Mesh& mesh) { return std::holds_alternative<Polyhedron>(try_from_mesh(mesh)); }
+bool is_legal(const Mesh& mesh) {
+  return mesh.face_count() > 0 && std::holds_alternative<Polyhedron>(try_from_mesh(mesh));
+}
 
 // Adds the vertices of faces that mesh_to_openmesh could not fit in even so: a sheet that comes back to an edge.
 void add_separate_vertices(const TriangleMesh& work, Sheets& sheets) {

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "nef/base/capacity.h"
+
 namespace nef {
 
 std::uint32_t Complex::sface_vertex(std::uint32_t sface) const {
@@ -12,22 +14,19 @@ std::uint32_t Complex::sface_vertex(std::uint32_t sface) const {
 }
 
 void Complex::trim() {
-  const auto fit = [](auto& column) {
-    if (column.capacity() - column.size() > column.capacity() / 8) column.shrink_to_fit();
-  };
   planes.trim();
   points.trim();
-  fit(vertices);
+  trim_capacity(vertices);
   patterns.trim();
-  fit(shalfedge_plane.pairs());
-  fit(other_planes);
-  fit(sloops);
-  fit(facets);
-  fit(cycle_begin);
-  fit(corners);
-  fit(isolated_vertices);
-  fit(shells);
-  fit(volumes);
+  trim_capacity(shalfedge_plane.pairs());
+  trim_capacity(other_planes);
+  trim_capacity(sloops);
+  trim_capacity(facets);
+  trim_capacity(cycle_begin);
+  trim_capacity(corners);
+  trim_capacity(isolated_vertices);
+  trim_capacity(shells);
+  trim_capacity(volumes);
 }
 
 std::size_t Complex::bytes() const {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "nef/complex/pattern_table.h"
 
+#include "nef/base/capacity.h"
+
 namespace nef {
 
 PatternId PatternTable::push(const SphereMapBuffer& map) {
@@ -20,14 +22,11 @@ PatternId PatternTable::push(const SphereMapBuffer& map) {
 }
 
 void PatternTable::trim() {
-  const auto fit = [](auto& column) {
-    if (column.capacity() - column.size() > column.capacity() / 8) column.shrink_to_fit();
-  };
-  fit(records_);
-  fit(svertices_);
-  fit(shalfedges_);
-  fit(sfaces_);
-  fit(entries_);
+  trim_capacity(records_);
+  trim_capacity(svertices_);
+  trim_capacity(shalfedges_);
+  trim_capacity(sfaces_);
+  trim_capacity(entries_);
 }
 
 std::size_t PatternTable::bytes() const {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "nef/base/capacity.h"
 #include "nef/base/error.h"
 #include "nef/base/parallel.h"
 
@@ -30,7 +31,7 @@ void PlaneTable::reserve(std::size_t planes) {
 
 void PlaneTable::trim() {
   rows_.trim();
-  if (approximate_.capacity() - approximate_.size() > approximate_.capacity() / 8) approximate_.shrink_to_fit();
+  trim_capacity(approximate_);
   slots_.clear();
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "nef/base/capacity.h"
 #include "nef/base/error.h"
 
 namespace nef {
@@ -225,7 +226,7 @@ std::size_t PointTable::bytes() const { return rows_.bytes() + approximate_.capa
 
 void PointTable::trim() {
   rows_.trim();
-  if (approximate_.capacity() - approximate_.size() > approximate_.capacity() / 8) approximate_.shrink_to_fit();
+  trim_capacity(approximate_);
 }
 
 void PointTable::reserve(std::size_t points, std::size_t limbs) {

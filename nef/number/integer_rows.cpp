@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "nef/base/capacity.h"
 #include "nef/base/error.h"
 
 namespace nef {
@@ -144,13 +145,10 @@ void IntegerRows::reserve(std::size_t rows, std::size_t limbs_per_row) {
 }
 
 void IntegerRows::trim() {
-  const auto fit = [](auto& values) {
-    if (values.capacity() - values.size() > values.capacity() / 8) values.shrink_to_fit();
-  };
-  fit(limbs_);
-  fit(begin_);
-  fit(sizes_);
-  fit(wide_);
+  trim_capacity(limbs_);
+  trim_capacity(begin_);
+  trim_capacity(sizes_);
+  trim_capacity(wide_);
 }
 
 }  // namespace nef

@@ -7,7 +7,7 @@
 
 #include "bench/generators.h"
 #include "bench/report.h"
-#include "nef/base/stopwatch.h"
+#include "nef/base/timing/stopwatch.h"
 #include "nef/export/to_mesh.h"
 #include "nef/polyhedron.h"
 

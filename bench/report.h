@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "nef/base/stopwatch.h"
+#include "nef/base/timing/stopwatch.h"
 
 namespace nef::bench {
 

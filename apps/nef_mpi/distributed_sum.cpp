@@ -7,7 +7,7 @@
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/native/native_binary.h"
-#include "nef/tiles/region_division.h"
+#include "nef/tiles/cuts/region_division.h"
 
 namespace nef::mpi {
 namespace {

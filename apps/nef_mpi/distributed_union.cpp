@@ -5,7 +5,7 @@
 #include <cstring>
 #include <utility>
 
-#include "nef/base/parallel.h"
+#include "nef/base/threads/parallel.h"
 #include "nef/io/file_bytes.h"
 #include "nef/tiles/storage/tile_folder.h"
 

@@ -15,7 +15,7 @@
 #include "apps/visual_hull/command/arguments.h"
 #include "apps/visual_hull/command/frames.h"
 #include "nef/base/error.h"
-#include "nef/base/stopwatch.h"
+#include "nef/base/timing/stopwatch.h"
 #include "nef/command/tiles/tile_flags.h"
 #include "nef/io/file_bytes.h"
 #include "nef/program/run_program.h"

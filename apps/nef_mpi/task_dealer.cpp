@@ -14,7 +14,7 @@
 #include <optional>
 #include <thread>
 
-#include "nef/base/stopwatch.h"
+#include "nef/base/timing/stopwatch.h"
 
 namespace nef::mpi {
 namespace {

@@ -16,8 +16,8 @@
 #include "apps/visual_hull/viewing_edges/direct_hull.h"
 #include "apps/visual_hull/visual_hull.h"
 #include "nef/base/error.h"
-#include "nef/base/parallel.h"
-#include "nef/base/phase_timer.h"
+#include "nef/base/threads/parallel.h"
+#include "nef/base/timing/phase_timer.h"
 #include "nef/construct/construct.h"
 
 namespace visual_hull {

@@ -12,7 +12,7 @@
 #include <string>
 
 #include "apps/minkowski/minkowski.h"
-#include "nef/base/stopwatch.h"
+#include "nef/base/timing/stopwatch.h"
 #include "nef/io/mesh/mesh_reader.h"
 #include "tests/support/minkowski_shapes.h"
 #ifdef NEF_BENCH_CGAL

@@ -10,7 +10,7 @@
 
 #include <sstream>
 
-#include "nef/base/stopwatch.h"
+#include "nef/base/timing/stopwatch.h"
 
 namespace nef::bench {
 namespace {

@@ -10,7 +10,7 @@
 #include <random>
 
 #include "apps/planner/first_way/a_star.h"
-#include "nef/base/stopwatch.h"
+#include "nef/base/timing/stopwatch.h"
 
 namespace {
 

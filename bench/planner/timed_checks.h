@@ -4,7 +4,7 @@
 #pragma once
 
 #include "apps/planner/ompl/nef_validity.h"
-#include "nef/base/stopwatch.h"
+#include "nef/base/timing/stopwatch.h"
 
 namespace nef::planner {
 

@@ -13,7 +13,7 @@
 
 #include "apps/planner/turning/turning_collision.h"
 #include "apps/planner/turning/turning_search.h"
-#include "nef/base/stopwatch.h"
+#include "nef/base/timing/stopwatch.h"
 #include "nef/construct/construct.h"
 
 namespace {

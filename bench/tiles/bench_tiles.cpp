@@ -16,7 +16,7 @@
 
 #include "bench/generators.h"
 #include "bench/report.h"
-#include "nef/base/stopwatch.h"
+#include "nef/base/timing/stopwatch.h"
 #include "nef/io/native/native_binary.h"
 #include "nef/operation/canonical_order.h"
 #include "nef/tiles/import/union_in_tiles.h"

@@ -15,7 +15,7 @@
 #include "apps/visual_hull/visual_hull.h"
 #include "bench/visual_hull/voxel_peer.h"
 #include "nef/base/error.h"
-#include "nef/base/stopwatch.h"
+#include "nef/base/timing/stopwatch.h"
 #include "nef/construct/construct.h"
 #include "nef/program/report.h"
 #ifdef NEF_BENCH_CGAL

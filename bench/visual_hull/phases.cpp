@@ -13,12 +13,12 @@
 #include "apps/visual_hull/stream.h"
 #include "bench/visual_hull/voxel_peer.h"
 #include "nef/base/error.h"
-#include "nef/base/stopwatch.h"
+#include "nef/base/timing/stopwatch.h"
 #include "nef/export/to_mesh.h"
 #include "nef/io/mesh/mesh_writer.h"
 #include "nef/program/report.h"
-#include "nef/query/approximate_volume.h"
 #include "nef/query/measure.h"
+#include "nef/query/measures/approximate_volume.h"
 
 namespace visual_hull::bench {
 namespace {

@@ -16,7 +16,7 @@
 #include "apps/visual_hull/cones/bounds.h"
 #include "apps/visual_hull/visual_hull.h"
 #include "nef/base/error.h"
-#include "nef/base/stopwatch.h"
+#include "nef/base/timing/stopwatch.h"
 
 namespace visual_hull::bench {
 namespace {

@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "nef/base/error.h"
-#include "nef/base/parallel.h"
 #include "nef/base/progress.h"
+#include "nef/base/threads/parallel.h"
 #include "nef/boolean/overlay_complexes.h"
 #include "nef/polyhedron.h"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "nef/base/parallel.h"
+#include "nef/base/threads/parallel.h"
 
 namespace nef {
 namespace {

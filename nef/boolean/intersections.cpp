@@ -9,8 +9,8 @@
 
 #include "nef/base/error.h"
 #include "nef/base/interruption.h"
-#include "nef/base/parallel.h"
 #include "nef/base/progress.h"
+#include "nef/base/threads/parallel.h"
 #include "nef/boolean/facet_locator.h"
 #include "nef/boolean/piercing_filter.h"
 #include "nef/geometry/occupancy_grid.h"

@@ -2,7 +2,7 @@
 #include "nef/boolean/operand.h"
 
 #include "nef/base/error.h"
-#include "nef/base/parallel.h"
+#include "nef/base/threads/parallel.h"
 #include "nef/complex/item_boxes.h"
 #include "nef/complex/local_pyramid.h"
 #include "nef/sphere_map/sphere_geometry.h"

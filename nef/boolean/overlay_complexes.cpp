@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <deque>
 
-#include "nef/base/parallel.h"
+#include "nef/base/threads/parallel.h"
 #include "nef/boolean/pyramid_overlay.h"
 #include "nef/boolean/result_assembly.h"
 #include "nef/complex/local_pyramid.h"

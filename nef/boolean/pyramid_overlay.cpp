@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "nef/boolean/pyramid_overlay.h"
 
-#include "nef/base/parallel.h"
 #include "nef/base/progress.h"
+#include "nef/base/threads/parallel.h"
 #include "nef/complex/local_pyramid.h"
 #include "nef/synthesis/complex_builder.h"
 

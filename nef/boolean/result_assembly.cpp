@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "nef/base/parallel.h"
+#include "nef/base/threads/parallel.h"
 
 namespace nef {
 

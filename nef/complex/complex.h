@@ -22,8 +22,8 @@
 #include <vector>
 
 #include "nef/complex/ids.h"
-#include "nef/complex/pair_columns.h"
-#include "nef/complex/pattern_table.h"
+#include "nef/complex/patterns/pair_columns.h"
+#include "nef/complex/patterns/pattern_table.h"
 #include "nef/geometry/point_table.h"
 #include "nef/sphere_map/sphere_map.h"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "nef/complex/complex.h"
-#include "nef/complex/pattern_interner.h"
+#include "nef/complex/patterns/pattern_interner.h"
 
 namespace nef {
 

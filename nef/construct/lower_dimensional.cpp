@@ -8,7 +8,7 @@
 #include "nef/construct/construct.h"
 #include "nef/geometry/integer_vector.h"
 #include "nef/geometry/vectors.h"
-#include "nef/mesh/simple_ring.h"
+#include "nef/mesh/polygon/simple_ring.h"
 #include "nef/synthesis/complex_builder.h"
 
 namespace nef {

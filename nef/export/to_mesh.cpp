@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "nef/base/error.h"
-#include "nef/mesh/triangulate.h"
+#include "nef/mesh/polygon/triangulate.h"
 #include "nef/number/nearest_quotient.h"
 
 namespace nef {

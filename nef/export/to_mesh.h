@@ -44,7 +44,7 @@ struct MeshExport {
 /// parts, cracks, unbounded volumes) is told in `lost`. Facets with holes are triangulated exactly, without new
 /// vertices. A set without such volumes has an empty mesh, or if the options ask for it, its facets as faces and what
 /// lies outside of these as lines and points. O(n) plus the triangulation of facets that are not convex (see
-/// nef/mesh/triangulate.h).
+/// nef/mesh/polygon/triangulate.h).
 MeshExport to_mesh(const Polyhedron& polyhedron, const MeshExportOptions& options = {});
 
 /// A mesh whose coordinates are doubles; otherwise as Mesh.

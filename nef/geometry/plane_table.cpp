@@ -7,7 +7,7 @@
 
 #include "nef/base/capacity.h"
 #include "nef/base/error.h"
-#include "nef/base/parallel.h"
+#include "nef/base/threads/parallel.h"
 
 namespace nef {
 namespace {

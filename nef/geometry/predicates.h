@@ -8,7 +8,7 @@
 #include <array>
 #include <cstdint>
 
-#include "nef/base/predicate_counts.h"
+#include "nef/base/timing/predicate_counts.h"
 #include "nef/geometry/plane_table.h"
 #include "nef/geometry/point_table.h"
 

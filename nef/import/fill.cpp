@@ -12,8 +12,8 @@
 #include "nef/complex/rewrite_sphere_maps.h"
 #include "nef/geometry/box_tree.h"
 #include "nef/import/mesh_faces.h"
-#include "nef/mesh/perturbed_turn.h"
-#include "nef/mesh/triangulate.h"
+#include "nef/mesh/polygon/perturbed_turn.h"
+#include "nef/mesh/polygon/triangulate.h"
 
 namespace nef {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "nef/construct/construct.h"
-#include "nef/mesh/mesh_surface.h"
+#include "nef/mesh/surface/mesh_surface.h"
 
 namespace nef {
 

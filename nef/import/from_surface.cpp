@@ -7,8 +7,8 @@
 #include "nef/base/error.h"
 #include "nef/geometry/vectors.h"
 #include "nef/import/mesh_faces.h"
-#include "nef/mesh/surface_contacts.h"
-#include "nef/mesh/triangulate.h"
+#include "nef/mesh/polygon/triangulate.h"
+#include "nef/mesh/surface/surface_contacts.h"
 
 namespace nef {
 namespace {

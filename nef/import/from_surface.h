@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "nef/construct/construct.h"
-#include "nef/mesh/mesh_surface.h"
+#include "nef/mesh/surface/mesh_surface.h"
 
 namespace nef {
 

@@ -11,7 +11,7 @@
 
 #include "nef/construct/construct.h"
 #include "nef/construct/solid.h"
-#include "nef/mesh/mesh_surface.h"
+#include "nef/mesh/surface/mesh_surface.h"
 
 namespace nef {
 

@@ -15,7 +15,7 @@
 #include "nef/geometry/vectors.h"
 #include "nef/import/try_from_mesh.h"
 #include "nef/mesh/edge_order.h"
-#include "nef/mesh/mesh_surface.h"
+#include "nef/mesh/surface/mesh_surface.h"
 #include "nef/mesh/vertex_merger.h"
 
 namespace nef {

@@ -10,8 +10,8 @@
 
 #include "nef/mesh/area_vector.h"
 #include "nef/mesh/edge_order.h"
-#include "nef/mesh/mesh_surface.h"
-#include "nef/mesh/surface_contacts.h"
+#include "nef/mesh/surface/mesh_surface.h"
+#include "nef/mesh/surface/surface_contacts.h"
 
 namespace nef {
 namespace {

@@ -31,7 +31,7 @@ enum class MeshProblemKind : std::uint8_t {
 /// The name as a program prints it: "open border", "self-intersection", ...
 const char* name(MeshProblemKind kind);
 
-struct MeshSurface;  // nef/mesh/mesh_surface.h
+struct MeshSurface;  // nef/mesh/surface/mesh_surface.h
 
 struct MeshProblem {
   MeshProblemKind kind = MeshProblemKind::kBadIndex;

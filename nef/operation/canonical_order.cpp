@@ -6,7 +6,7 @@
 
 #include "nef/base/error.h"
 #include "nef/base/interruption.h"
-#include "nef/base/parallel.h"
+#include "nef/base/threads/parallel.h"
 #include "nef/geometry/spatial_order.h"
 #include "nef/operation/canonical_map.h"
 #include "nef/sphere_map/sphere_geometry.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "nef/base/phase_timer.h"
+#include "nef/base/timing/phase_timer.h"
 #include "nef/program/set_info.h"
 
 namespace nef {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "nef/base/predicate_counts.h"
+#include "nef/base/timing/predicate_counts.h"
 
 namespace nef {
 

@@ -5,8 +5,8 @@
 #include <ostream>
 
 #include "nef/base/error.h"
-#include "nef/base/parallel.h"
-#include "nef/base/stopwatch.h"
+#include "nef/base/threads/parallel.h"
+#include "nef/base/timing/stopwatch.h"
 #include "nef/io/polyhedron_file.h"
 #include "nef/program/common_options.h"
 #include "nef/program/run_program.h"

@@ -5,8 +5,8 @@
 #include <cctype>
 #include <cmath>
 
-#include "nef/query/approximate_volume.h"
 #include "nef/query/measure.h"
+#include "nef/query/measures/approximate_volume.h"
 #include "nef/query/moments.h"
 
 namespace nef {

@@ -15,7 +15,7 @@
 #include <string>
 
 #include "nef/base/error.h"
-#include "nef/base/parallel.h"
+#include "nef/base/threads/parallel.h"
 #include "nef/complex/item_boxes.h"
 #include "nef/geometry/box_tree.h"
 #include "nef/location/facet_search.h"

@@ -13,9 +13,9 @@
 
 #include "nef/complex/facet_plane.h"
 #include "nef/polyhedron.h"
-#include "nef/query/extreme_points.h"
+#include "nef/query/measures/extreme_points.h"
+#include "nef/query/measures/rational_sum.h"
 #include "nef/query/predicates_of_sets.h"
-#include "nef/query/rational_sum.h"
 
 namespace nef {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "nef/geometry/vectors.h"
 #include "nef/query/measure.h"
+#include "nef/query/measures/rational_sum.h"
 #include "nef/query/predicates_of_sets.h"
-#include "nef/query/rational_sum.h"
 
 namespace nef {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "nef/base/error.h"
-#include "nef/base/parallel.h"
+#include "nef/base/threads/parallel.h"
 #include "nef/complex/local_pyramid.h"
 #include "nef/synthesis/synthesis.h"
 

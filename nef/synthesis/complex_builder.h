@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "nef/base/defect.h"
-#include "nef/complex/pattern_interner.h"
+#include "nef/complex/patterns/pattern_interner.h"
 #include "nef/sphere_map/arrangement.h"
 #include "nef/synthesis/known_links.h"
 

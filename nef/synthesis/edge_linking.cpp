@@ -8,8 +8,8 @@
 #include <unordered_map>
 
 #include "nef/base/defect.h"
-#include "nef/base/parallel.h"
-#include "nef/base/shared_out.h"
+#include "nef/base/threads/parallel.h"
+#include "nef/base/threads/shared_out.h"
 
 namespace nef {
 namespace {

@@ -16,8 +16,8 @@
 #include <utility>
 
 #include "nef/base/defect.h"
-#include "nef/base/parallel.h"
-#include "nef/base/shared_out.h"
+#include "nef/base/threads/parallel.h"
+#include "nef/base/threads/shared_out.h"
 #include "nef/complex/facet_plane.h"
 #include "nef/complex/plane_sweep.h"
 #include "nef/sphere_map/sphere_geometry.h"

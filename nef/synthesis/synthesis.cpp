@@ -2,8 +2,8 @@
 #include "nef/synthesis/synthesis.h"
 
 #include "nef/base/interruption.h"
-#include "nef/base/parallel.h"
 #include "nef/base/progress.h"
+#include "nef/base/threads/parallel.h"
 #include "nef/complex/owners.h"
 #include "nef/synthesis/edge_linking.h"
 #include "nef/synthesis/facet_linking.h"

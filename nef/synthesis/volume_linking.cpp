@@ -13,7 +13,7 @@
 #include <limits>
 
 #include "nef/base/defect.h"
-#include "nef/base/parallel.h"
+#include "nef/base/threads/parallel.h"
 #include "nef/base/union_find.h"
 #include "nef/geometry/box_tree.h"
 #include "nef/location/query_structure.h"

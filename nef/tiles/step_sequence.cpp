@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "nef/operation/canonical_order.h"
-#include "nef/tiles/cutter.h"
+#include "nef/tiles/cuts/cutter.h"
 #include "nef/tiles/tile_tree.h"
 
 namespace nef {

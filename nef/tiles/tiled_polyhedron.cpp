@@ -5,11 +5,11 @@
 
 #include "nef/base/error.h"
 #include "nef/geometry/vectors.h"
-#include "nef/tiles/cutter.h"
+#include "nef/tiles/cuts/cutter.h"
 #include "nef/tiles/import/union_in_tiles.h"
-#include "nef/tiles/seam_glue.h"
-#include "nef/tiles/tile_queries.h"
-#include "nef/tiles/tile_rays.h"
+#include "nef/tiles/questions/tile_queries.h"
+#include "nef/tiles/questions/tile_rays.h"
+#include "nef/tiles/seams/seam_glue.h"
 #include "nef/tiles/tree_overlay.h"
 
 namespace nef {

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "nef/base/interruption.h"
-#include "nef/base/parallel.h"
-#include "nef/tiles/cutter.h"
-#include "nef/tiles/seam_glue.h"
+#include "nef/base/threads/parallel.h"
+#include "nef/tiles/cuts/cutter.h"
+#include "nef/tiles/seams/seam_glue.h"
 
 namespace nef {
 namespace {

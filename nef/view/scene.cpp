@@ -5,7 +5,7 @@
 
 #include "nef/base/error.h"
 #include "nef/construct/construct.h"
-#include "nef/mesh/triangulate.h"
+#include "nef/mesh/polygon/triangulate.h"
 #include "nef/query/predicates_of_sets.h"
 #include "nef/view/scene/item_finder.h"
 

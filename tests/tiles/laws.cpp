@@ -5,7 +5,7 @@
 
 #include "nef/base/error.h"
 #include "nef/construct/construct.h"
-#include "nef/tiles/cutter.h"
+#include "nef/tiles/cuts/cutter.h"
 #include "tests/tiles/cuts.h"
 
 namespace nef::test {

@@ -12,7 +12,7 @@
 #include "apps/minkowski/command/write_cells.h"
 #include "apps/minkowski/convex/tools.h"
 #include "apps/minkowski/morphology.h"
-#include "nef/base/stopwatch.h"
+#include "nef/base/timing/stopwatch.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/polyhedron_file.h"
 #include "nef/program/numbers.h"

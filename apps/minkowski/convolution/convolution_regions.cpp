@@ -5,9 +5,9 @@
 #include <cmath>
 #include <optional>
 
-#include "apps/minkowski/convolution/direction_into.h"
+#include "apps/minkowski/convolution/marks/direction_into.h"
 #include "nef/base/error.h"
-#include "nef/base/parallel.h"
+#include "nef/base/threads/parallel.h"
 #include "nef/sphere_map/sphere_geometry.h"
 #include "nef/synthesis/complex_builder.h"
 

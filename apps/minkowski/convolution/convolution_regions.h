@@ -11,11 +11,11 @@
 #include <vector>
 
 #include "apps/minkowski/cells/meeting_points.h"
-#include "apps/minkowski/convolution/boundary_marker.h"
-#include "apps/minkowski/convolution/interlock.h"
-#include "apps/minkowski/convolution/pyramid_drawer.h"
-#include "apps/minkowski/convolution/sum_membership.h"
-#include "apps/minkowski/convolution/surviving_intervals.h"
+#include "apps/minkowski/convolution/arrangement/pyramid_drawer.h"
+#include "apps/minkowski/convolution/arrangement/surviving_intervals.h"
+#include "apps/minkowski/convolution/marks/boundary_marker.h"
+#include "apps/minkowski/convolution/marks/interlock.h"
+#include "apps/minkowski/convolution/marks/sum_membership.h"
 #include "nef/base/defect.h"
 #include "nef/base/union_find.h"
 #include "nef/polyhedron.h"

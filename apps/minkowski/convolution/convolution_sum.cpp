@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "apps/minkowski/convolution/convolution_regions.h"
-#include "apps/minkowski/convolution/interlock.h"
+#include "apps/minkowski/convolution/marks/interlock.h"
 #include "apps/minkowski/decomposition/decomposition.h"
 #include "apps/minkowski/decomposition/wall_axis.h"
 #include "apps/minkowski/minkowski.h"

@@ -14,7 +14,7 @@
 #include "apps/minkowski/sum/pair_sums.h"
 #include "apps/minkowski/sum/strategy_choice.h"
 #include "nef/base/error.h"
-#include "nef/base/phase_timer.h"
+#include "nef/base/timing/phase_timer.h"
 #include "nef/construct/construct.h"
 
 namespace nef::minkowski {

@@ -17,8 +17,8 @@
 #include "apps/minkowski/sum/strategy_choice.h"
 #include "apps/minkowski/sum/unbounded_sum.h"
 #include "nef/base/error.h"
-#include "nef/base/parallel.h"
-#include "nef/base/phase_timer.h"
+#include "nef/base/threads/parallel.h"
+#include "nef/base/timing/phase_timer.h"
 
 namespace nef::minkowski {
 namespace {

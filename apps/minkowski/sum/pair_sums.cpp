@@ -6,8 +6,8 @@
 #include "apps/minkowski/sum/work_progress.h"
 #include "apps/minkowski/union/union_builder.h"
 #include "nef/base/error.h"
-#include "nef/base/parallel.h"
-#include "nef/base/phase_timer.h"
+#include "nef/base/threads/parallel.h"
+#include "nef/base/timing/phase_timer.h"
 
 namespace nef::minkowski {
 namespace {

@@ -15,8 +15,8 @@
 #include "apps/minkowski/decomposition/walls.h"
 #include "apps/minkowski/sum/work_progress.h"
 #include "nef/base/error.h"
-#include "nef/base/parallel.h"
-#include "nef/base/phase_timer.h"
+#include "nef/base/threads/parallel.h"
+#include "nef/base/timing/phase_timer.h"
 #include "nef/construct/construct.h"
 
 namespace nef::minkowski {

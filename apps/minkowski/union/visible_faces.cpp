@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "apps/minkowski/union/face_remains.h"
-#include "nef/base/parallel.h"
+#include "nef/base/threads/parallel.h"
 
 namespace nef::minkowski {
 namespace {

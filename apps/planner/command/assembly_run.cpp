@@ -9,7 +9,7 @@
 #include "apps/planner/command/report.h"
 #include "apps/planner/command/scene_view.h"
 #include "nef/base/error.h"
-#include "nef/base/stopwatch.h"
+#include "nef/base/timing/stopwatch.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/polyhedron_file.h"
 #include "nef/program/exact_json.h"

@@ -10,7 +10,7 @@
 #include "apps/planner/free_space/free_positions.h"
 #include "apps/planner/free_space/free_space.h"
 #include "nef/base/error.h"
-#include "nef/base/stopwatch.h"
+#include "nef/base/timing/stopwatch.h"
 
 namespace nef::planner {
 namespace {

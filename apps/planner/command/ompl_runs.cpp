@@ -12,7 +12,7 @@
 #include "apps/planner/path/simple_points.h"
 #include "apps/planner/turning_ompl/turning_planning.h"
 #include "nef/base/error.h"
-#include "nef/base/stopwatch.h"
+#include "nef/base/timing/stopwatch.h"
 #include "nef/io/file_bytes.h"
 
 namespace nef::planner {

@@ -11,7 +11,7 @@
 #include "apps/planner/command/turning_report.h"
 #include "apps/planner/command/turning_view.h"
 #include "nef/base/error.h"
-#include "nef/base/stopwatch.h"
+#include "nef/base/timing/stopwatch.h"
 #include "nef/io/file_bytes.h"
 #include "nef/program/run_report.h"
 

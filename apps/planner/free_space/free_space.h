@@ -19,7 +19,7 @@
 #include "apps/planner/partition/cells.h"
 #include "apps/planner/partition/space_tree.h"
 #include "apps/planner/partition/zones.h"
-#include "nef/base/stopwatch.h"
+#include "nef/base/timing/stopwatch.h"
 #include "nef/polyhedron.h"
 
 namespace nef::planner {

@@ -17,7 +17,7 @@
 #include "apps/planner/free_space/free_positions.h"
 #include "apps/planner/ompl/nef_validity.h"
 #include "nef/base/interruption.h"
-#include "nef/base/stopwatch.h"
+#include "nef/base/timing/stopwatch.h"
 
 namespace nef::planner {
 

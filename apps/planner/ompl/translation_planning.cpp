@@ -17,7 +17,7 @@
 #include "apps/planner/scene/shapes.h"
 #include "nef/base/error.h"
 #include "nef/base/interruption.h"
-#include "nef/base/stopwatch.h"
+#include "nef/base/timing/stopwatch.h"
 
 namespace nef::planner {
 

@@ -16,7 +16,7 @@
 #include "apps/planner/free_space/vectors.h"
 #include "nef/base/error.h"
 #include "nef/base/interruption.h"
-#include "nef/base/stopwatch.h"
+#include "nef/base/timing/stopwatch.h"
 #include "nef/construct/construct.h"
 
 namespace nef::planner {

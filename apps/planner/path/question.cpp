@@ -2,7 +2,7 @@
 #include "apps/planner/path/question.h"
 
 #include "nef/base/error.h"
-#include "nef/base/stopwatch.h"
+#include "nef/base/timing/stopwatch.h"
 
 namespace nef::planner {
 Problem::Problem(Scene scene, const BuildOptions& options) : scene_(std::move(scene)) {

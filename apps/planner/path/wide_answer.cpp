@@ -6,7 +6,7 @@
 #include "apps/minkowski/minkowski.h"
 #include "nef/base/error.h"
 #include "nef/base/interruption.h"
-#include "nef/base/stopwatch.h"
+#include "nef/base/timing/stopwatch.h"
 #include "nef/construct/construct.h"
 
 namespace nef::planner {

@@ -7,7 +7,7 @@
 
 #include "apps/visual_hull/color/depth_map.h"
 #include "nef/base/error.h"
-#include "nef/base/parallel.h"
+#include "nef/base/threads/parallel.h"
 
 namespace visual_hull {
 namespace {

@@ -17,12 +17,12 @@
 #include "apps/visual_hull/stream.h"
 #include "nef/base/error.h"
 #include "nef/base/in_quotes.h"
-#include "nef/base/parallel.h"
-#include "nef/base/stopwatch.h"
+#include "nef/base/threads/parallel.h"
+#include "nef/base/timing/stopwatch.h"
 #include "nef/io/file_bytes.h"
 #include "nef/program/progress_bar.h"
 #include "nef/program/run_program.h"
-#include "nef/query/approximate_volume.h"
+#include "nef/query/measures/approximate_volume.h"
 
 namespace visual_hull {
 namespace fs = std::filesystem;

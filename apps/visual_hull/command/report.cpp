@@ -8,7 +8,7 @@
 
 #include "nef/program/run_report.h"
 #include "nef/program/set_info.h"
-#include "nef/query/approximate_volume.h"
+#include "nef/query/measures/approximate_volume.h"
 
 namespace visual_hull {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <mutex>
 
-#include "nef/base/parallel.h"
+#include "nef/base/threads/parallel.h"
 
 namespace visual_hull {
 namespace {

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "apps/visual_hull/verify/sight_lines.h"
-#include "nef/base/parallel.h"
+#include "nef/base/threads/parallel.h"
 
 namespace visual_hull {
 namespace {

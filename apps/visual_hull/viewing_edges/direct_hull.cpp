@@ -7,8 +7,8 @@
 #include "apps/visual_hull/viewing_edges/corners.h"
 #include "apps/visual_hull/viewing_edges/hull_complex.h"
 #include "apps/visual_hull/viewing_edges/space_halving.h"
-#include "nef/base/parallel.h"
-#include "nef/base/shared_out.h"
+#include "nef/base/threads/parallel.h"
+#include "nef/base/threads/shared_out.h"
 
 namespace visual_hull {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <atomic>
 
-#include "nef/base/parallel.h"
+#include "nef/base/threads/parallel.h"
 
 namespace visual_hull {
 

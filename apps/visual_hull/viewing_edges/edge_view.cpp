@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "nef/base/predicate_counts.h"
+#include "nef/base/timing/predicate_counts.h"
 
 namespace visual_hull {
 namespace {

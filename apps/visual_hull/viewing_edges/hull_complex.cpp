@@ -15,7 +15,7 @@
 #include "apps/visual_hull/cones/boundary_node.h"
 #include "apps/visual_hull/scene/camera_planes.h"
 #include "apps/visual_hull/viewing_edges/corners.h"
-#include "nef/base/parallel.h"
+#include "nef/base/threads/parallel.h"
 #include "nef/synthesis/complex_builder.h"
 
 namespace visual_hull {

@@ -16,8 +16,8 @@
 
 #include "apps/visual_hull/viewing_edges/part_cut.h"
 #include "apps/visual_hull/viewing_edges/part_vertices.h"
-#include "nef/base/parallel.h"
-#include "nef/base/shared_out.h"
+#include "nef/base/threads/parallel.h"
+#include "nef/base/threads/shared_out.h"
 
 namespace visual_hull {
 namespace {

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "nef/base/error.h"
-#include "nef/base/stopwatch.h"
+#include "nef/base/timing/stopwatch.h"
 #include "nef/command/apply/steps_file.h"
 #include "nef/command/commands.h"
 #include "nef/command/tiles/tile_flags.h"

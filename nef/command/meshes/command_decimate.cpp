@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // nef decimate
-#include "nef/base/stopwatch.h"
+#include "nef/base/timing/stopwatch.h"
 #include "nef/command/commands.h"
 #include "nef/io/mesh/mesh_writer.h"
 #include "nef/program/common_options.h"

@@ -2,7 +2,7 @@
 //
 // nef subdivide
 #include "nef/base/error.h"
-#include "nef/base/stopwatch.h"
+#include "nef/base/timing/stopwatch.h"
 #include "nef/command/commands.h"
 #include "nef/export/to_mesh.h"
 #include "nef/io/mesh/mesh_writer.h"

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "nef/base/error.h"
-#include "nef/base/stopwatch.h"
+#include "nef/base/timing/stopwatch.h"
 #include "nef/command/commands.h"
 #include "nef/command/tiles/tile_flags.h"
 #include "nef/operation/label_inputs.h"

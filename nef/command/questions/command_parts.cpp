@@ -3,7 +3,7 @@
 // nef section | split | distance
 #include <filesystem>
 
-#include "nef/base/stopwatch.h"
+#include "nef/base/timing/stopwatch.h"
 #include "nef/command/commands.h"
 #include "nef/command/questions/section_drawing.h"
 #include "nef/distance/distance.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // nef locate | ray
-#include "nef/base/stopwatch.h"
+#include "nef/base/timing/stopwatch.h"
 #include "nef/command/commands.h"
 #include "nef/command/tiles/tile_flags.h"
 #include "nef/program/numbers.h"

@@ -7,7 +7,7 @@
 
 #include "nef/base/error.h"
 #include "nef/base/in_quotes.h"
-#include "nef/base/stopwatch.h"
+#include "nef/base/timing/stopwatch.h"
 #include "nef/io/mesh/mesh_reader.h"
 #include "nef/tiles/import/mesh_tiles.h"
 #include "nef/tiles/storage/tile_folder.h"

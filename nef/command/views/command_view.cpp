@@ -4,7 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "nef/base/stopwatch.h"
+#include "nef/base/timing/stopwatch.h"
 #include "nef/command/commands.h"
 #include "nef/io/file_bytes.h"
 #include "nef/program/numbers.h"

@@ -12,7 +12,7 @@
 #include "nef/io/file_bytes.h"
 #include "nef/io/native/binary_cursor.h"
 #include "nef/io/number_text.h"
-#include "nef/mesh/mesh_surface.h"
+#include "nef/mesh/surface/mesh_surface.h"
 #include "nef/mesh/vertex_merger.h"
 
 namespace nef {

@@ -16,15 +16,15 @@
 #include <variant>
 
 #include "nef/base/error.h"
-#include "nef/base/parallel.h"
+#include "nef/base/threads/parallel.h"
 #include "nef/export/nearest_float.h"
 #include "nef/import/try_from_mesh.h"
 #include "nef/io/number_text.h"
 #include "nef/io/text_cursor.h"
 #include "nef/mesh/edge_order.h"
 #include "nef/mesh/mesh_check.h"
-#include "nef/mesh/mesh_surface.h"
-#include "nef/mesh/nested_components.h"
+#include "nef/mesh/surface/mesh_surface.h"
+#include "nef/mesh/surface/nested_components.h"
 
 namespace nef {
 namespace {

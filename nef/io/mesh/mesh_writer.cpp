@@ -9,7 +9,7 @@
 #include "nef/io/mesh/threemf_mesh.h"
 #include "nef/io/number_text.h"
 #include "nef/io/text_cursor.h"
-#include "nef/mesh/mesh_surface.h"
+#include "nef/mesh/surface/mesh_surface.h"
 #include "nef/mesh/vertex_merger.h"
 
 namespace nef {

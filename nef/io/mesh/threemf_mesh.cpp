@@ -13,7 +13,7 @@
 #include "nef/io/number_text.h"
 #include "nef/io/text_cursor.h"
 #include "nef/io/zip_archive.h"
-#include "nef/mesh/mesh_surface.h"
+#include "nef/mesh/surface/mesh_surface.h"
 #include "nef/mesh/vertex_merger.h"
 
 namespace nef {

@@ -8,7 +8,7 @@
 #include <cstring>
 
 #include "nef/complex/owners.h"
-#include "nef/complex/pattern_interner.h"
+#include "nef/complex/patterns/pattern_interner.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/native/native_binary.h"
 #include "nef/synthesis/volume_linking.h"

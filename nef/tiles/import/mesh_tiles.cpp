@@ -9,13 +9,13 @@
 #include <vector>
 
 #include "nef/base/error.h"
-#include "nef/base/parallel.h"
 #include "nef/base/progress.h"
+#include "nef/base/threads/parallel.h"
 #include "nef/import/mesh_faces.h"
 #include "nef/mesh/mesh_check.h"
-#include "nef/mesh/perturbed_turn.h"
+#include "nef/mesh/polygon/perturbed_turn.h"
+#include "nef/tiles/cuts/region_division.h"
 #include "nef/tiles/import/surface_in_region.h"
-#include "nef/tiles/region_division.h"
 
 namespace nef {
 namespace {

@@ -14,7 +14,7 @@
 #include "nef/import/mesh_faces.h"
 #include "nef/sphere_map/overlay.h"
 #include "nef/synthesis/complex_builder.h"
-#include "nef/tiles/cutter.h"
+#include "nef/tiles/cuts/cutter.h"
 
 namespace nef {
 namespace {

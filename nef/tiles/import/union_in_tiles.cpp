@@ -6,9 +6,9 @@
 #include <limits>
 #include <utility>
 
-#include "nef/base/parallel.h"
 #include "nef/base/progress.h"
-#include "nef/tiles/cutter.h"
+#include "nef/base/threads/parallel.h"
+#include "nef/tiles/cuts/cutter.h"
 
 namespace nef {
 namespace {

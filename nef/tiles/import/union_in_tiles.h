@@ -7,7 +7,7 @@
 #include <functional>
 #include <vector>
 
-#include "nef/tiles/region_division.h"
+#include "nef/tiles/cuts/region_division.h"
 #include "nef/tiles/tiled_polyhedron.h"
 
 namespace nef {

@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-#include "nef/base/parallel.h"
+#include "nef/base/threads/parallel.h"
 #include "tests/support/literals.h"
 
 namespace nef {

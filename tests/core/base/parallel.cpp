@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Several threads give what one gives.
-#include "nef/base/parallel.h"
+#include "nef/base/threads/parallel.h"
 
 #include <atomic>
 #include <catch2/catch.hpp>
@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-#include "nef/base/predicate_counts.h"
+#include "nef/base/timing/predicate_counts.h"
 #include "nef/construct/construct.h"
 #include "nef/polyhedron.h"
 

@@ -7,7 +7,7 @@
 
 #include "nef/export/to_mesh.h"
 #include "nef/mesh/mesh_check.h"
-#include "nef/mesh/triangulate.h"
+#include "nef/mesh/polygon/triangulate.h"
 #include "tests/support/random_polyhedra.h"
 
 namespace nef {

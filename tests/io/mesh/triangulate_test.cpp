@@ -2,7 +2,7 @@
 //
 // Triangulations against what one is: triangles between the polygon's corners, turned like it, whose sides cancel but
 // for those of the polygon, and whose areas add up to its own.
-#include "nef/mesh/triangulate.h"
+#include "nef/mesh/polygon/triangulate.h"
 
 #include <rapidcheck.h>
 #include <catch2/catch.hpp>

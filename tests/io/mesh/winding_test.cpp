@@ -14,8 +14,8 @@
 #include "nef/construct/construct.h"
 #include "nef/io/mesh/mesh_reader.h"
 #include "nef/mesh/mesh_check.h"
-#include "nef/mesh/mesh_surface.h"
-#include "nef/mesh/nested_components.h"
+#include "nef/mesh/surface/mesh_surface.h"
+#include "nef/mesh/surface/nested_components.h"
 #include "nef/polyhedron.h"
 #include "nef/validation/validate.h"
 

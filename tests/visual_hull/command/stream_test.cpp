@@ -10,7 +10,7 @@
 #include "apps/visual_hull/command/frames.h"
 #include "apps/visual_hull/stream.h"
 #include "nef/base/error.h"
-#include "nef/base/parallel.h"
+#include "nef/base/threads/parallel.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/polyhedron_file.h"
 #include "tests/support/paths.h"

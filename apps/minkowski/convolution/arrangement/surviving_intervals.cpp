@@ -1,0 +1,482 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/minkowski/convolution/arrangement/surviving_intervals.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "nef/base/threads/parallel.h"
+#include "nef/geometry/box_tree.h"
+#include "nef/mesh/edge_order.h"
+
+namespace nef::minkowski {
+namespace {
+
+using Triple = std::array<std::uint32_t, 3>;
+
+// Where a facet meets a segment.
+struct Event {
+  Interval at;
+  std::uint32_t facet = kNone;
+  int front = 0;  // the facet surely crosses, its front towards the end (1) or the start (-1) of the segment; else 0
+};
+
+// An interval at a point where three facets cross.
+struct Link {
+  Triple at;
+  std::uint32_t interval = kNone;  // kNone: it is gone
+  bool smooth = false;             // two of the facets are in one plane and continue each other
+  bool operator<(const Link& other) const { return at < other.at; }
+};
+
+// Which facets a facet has a segment with.
+class MeetingFacets {
+ public:
+  void collect(std::uint32_t facets, std::span<const FacetSegment> segments) {
+    first_.assign(facets + std::size_t{1}, 0);
+    for (const FacetSegment& s : segments) {
+      ++first_[s.f + 1];
+      ++first_[s.g + 1];
+    }
+    for (std::size_t f = 1; f < first_.size(); ++f) first_[f] += first_[f - 1];
+    meeting_.resize(first_.back());
+    std::vector<std::uint32_t> at(first_.begin(), first_.end() - 1);
+    for (const FacetSegment& s : segments) {
+      meeting_[at[s.f]++] = s.g;
+      meeting_[at[s.g]++] = s.f;
+    }
+  }
+  [[nodiscard]] std::span<const std::uint32_t> operator()(std::uint32_t f) const {
+    return std::span(meeting_).subspan(first_[f], first_[f + 1] - first_[f]);
+  }
+
+ private:
+  std::vector<std::uint32_t> first_, meeting_;
+};
+
+// What comes of cutting a run of segments; numbers of cuts and intervals, and places in `cutting`, count from its
+// start.
+struct CutSegments {
+  std::vector<SegmentCut> cuts;
+  std::vector<std::uint32_t> cutting;
+  std::vector<SurvivingInterval> intervals;
+  std::vector<std::array<std::uint32_t, 2>> doubtful;
+  std::vector<Link> links;
+};
+
+// Cuts segments. Not to be shared between threads.
+class SegmentCutter {
+ public:
+  // All must outlive the object; of `found` the segments and what is at sides.
+  SegmentCutter(const ConvolutionFacets& facets, const RoundedFacets& rounded, const SurvivingIntervals& found,
+                const MeetingFacets& meeting, bool passages)
+      : facets_(facets), rounded_(rounded), found_(found), meeting_(meeting), passages_(passages) {}
+
+  CutSegments run(std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) cut(static_cast<std::uint32_t>(i));
+    return std::move(result_);
+  }
+
+ private:
+  [[nodiscard]] bool has_corner(std::uint32_t facet, std::uint32_t corner) const {
+    const auto ring = facets_.ring(facet);
+    return std::find(ring.begin(), ring.end(), corner) != ring.end();
+  }
+
+  // True if the end of a segment is known to lie on a facet: at a corner or on a side of it.
+  [[nodiscard]] bool ends_on(const SegmentEnd& end, std::uint32_t h) const {
+    if (end.kind == SegmentEnd::Kind::kCorner) return has_corner(h, end.index);
+    if (end.kind == SegmentEnd::Kind::kUnsure) return false;
+    const std::vector<std::uint32_t>& same = found_.at_side.at(side_key(facets_, end.facet, end.index));
+    return std::find(same.begin(), same.end(), h) != same.end();
+  }
+
+  // Whether a point of the plane of a facet, within an error, is surely inside (1), surely outside (-1) of it.
+  [[nodiscard]] int place_in(std::uint32_t h, const Double3& x, double error) const {
+    int place = 1;
+    for (const RoundedSide& side : rounded_.sides(h)) {
+      const double value = side.value(x);
+      const double doubt = side.slack + side.weight * error;
+      if (value < -doubt) return -1;
+      if (!(value > doubt)) place = 0;
+    }
+    return place;
+  }
+
+  // Where facet h meets a segment, if it may beyond the segment's ends.
+  [[nodiscard]] std::optional<Event> event(const FacetSegment& s, std::uint32_t h) const {
+    const FormOnSegment form(rounded_.plane(h), s);
+    const double last = form.at + form.slope;
+    const bool start_off = std::fabs(form.at) > form.error;
+    const bool end_off = std::fabs(last) > form.error;
+    if (start_off && end_off && (form.at > 0) == (last > 0)) return std::nullopt;
+    if (!(start_off && end_off)) {
+      // Known ends are exactly on the plane, so there is nothing between them and the other end.
+      const bool on_start = ends_on(s.ends[0], h);
+      const bool on_end = ends_on(s.ends[1], h);
+      if ((on_start && on_end) || (on_start && end_off) || (on_end && start_off)) return std::nullopt;
+      return touching(s, h, form);
+    }
+    const double t = form.at / (form.at - last);
+    const double doubt = form.error / std::fabs(form.slope) * 2 + 1e-13;
+    Double3 x{};
+    double reach = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      x[i] = s.from[i] + t * (s.to[i] - s.from[i]);
+      reach = std::max(reach, std::fabs(s.to[i] - s.from[i]));
+    }
+    const int place = place_in(h, x, s.error + doubt * reach + rounded_.corner_error());
+    if (place < 0) return std::nullopt;
+    return Event{{t - doubt, t + doubt}, h, place == 0 ? 0 : form.slope > 0 ? 1 : -1};
+  }
+
+  // The same where the segment may be in the plane of h or end there.
+  [[nodiscard]] std::optional<Event> touching(const FacetSegment& s, std::uint32_t h, const FormOnSegment& form) const {
+    Event event;
+    event.facet = h;
+    keep_below(event.at, form.at, form.slope, form.error, Rounding::kOutwards);
+    keep_below(event.at, -form.at, -form.slope, form.error, Rounding::kOutwards);
+    for (const RoundedSide& side : rounded_.sides(h)) {
+      const double from = side.value(s.from);
+      const double slope = side.value(s.to) - from;
+      const double doubt = 2 * (side.slack + side.weight * s.error);
+      keep_below(event.at, -from, -slope, doubt, Rounding::kOutwards);
+    }
+    if (!(event.at.low <= event.at.high)) return std::nullopt;
+    return event;
+  }
+
+  void find_events(const FacetSegment& s) {
+    events_.clear();
+    const Box box = s.box();
+    const auto look_at = [&](std::uint32_t h) {
+      if (!box.overlaps(rounded_.box(h))) return;
+      if (const std::optional<Event> e = event(s, h)) events_.push_back(*e);
+    };
+    // What meets the segment meets both facets; but facets in the plane of one have segments with the other one only.
+    const bool few_on_f = meeting_(s.f).size() < meeting_(s.g).size();
+    const std::uint32_t few = few_on_f ? s.f : s.g;
+    const std::uint32_t many = few_on_f ? s.g : s.f;
+    for (const std::uint32_t h : meeting_(few)) {
+      if (h != many) look_at(h);
+    }
+    for (const std::uint32_t h : meeting_(many)) {
+      if (h != few && facets_.plane[h].row() == facets_.plane[few].row()) look_at(h);
+    }
+    std::sort(events_.begin(), events_.end(), [](const Event& a, const Event& b) { return a.at.low < b.at.low; });
+  }
+
+  // What is known about the part of a segment before or after a cut.
+  struct Side {
+    bool gone = false;
+    bool linked = false;
+    Link link;
+  };
+  struct Cut {
+    Interval at;
+    std::uint32_t first = 0, last = 0;  // events
+    std::array<bool, 2> is_end{};
+    std::array<Side, 2> side;  // before, after
+  };
+
+  void cut(std::uint32_t segment) {
+    const FacetSegment& s = found_.segments[segment];
+    if (!s.faces_a_region && !s.is_side_of_both && !passages_) return;
+    find_events(s);
+    find_cuts(s);
+    for (Cut& cut : cuts_) judge(s, cut);
+    std::vector<std::uint32_t> number(cuts_.size(), kNone);
+    const auto number_of = [&](std::size_t i) {
+      if (number[i] == kNone) {
+        number[i] = static_cast<std::uint32_t>(result_.cuts.size());
+        const auto first = static_cast<std::uint32_t>(result_.cutting.size());
+        for (std::uint32_t e = cuts_[i].first; e < cuts_[i].last; ++e) result_.cutting.push_back(events_[e].facet);
+        result_.cuts.push_back(
+            {first, static_cast<std::uint32_t>(result_.cutting.size()), cuts_[i].is_end, cuts_[i].at});
+      }
+      return number[i];
+    };
+    for (std::size_t i = 0; passages_ && i < cuts_.size(); ++i) {
+      if (!is_plain(s, cuts_[i])) result_.doubtful.push_back({segment, number_of(i)});
+    }
+    for (std::size_t i = 0; s.faces_a_region && i < cuts_.size(); ++i) {
+      if (!may_hold_intervals(cuts_[i])) continue;
+      const std::uint32_t here = number_of(i);
+      result_.intervals.push_back({segment, here, here});
+    }
+    for (std::size_t i = 0; i + 1 < cuts_.size(); ++i) {
+      Side& after = cuts_[i].side[1];
+      Side& before = cuts_[i + 1].side[0];
+      std::uint32_t interval = kNone;
+      if (s.faces_a_region && !after.gone && !before.gone) {
+        interval = static_cast<std::uint32_t>(result_.intervals.size());
+        const std::uint32_t from = number_of(i);
+        result_.intervals.push_back({segment, from, number_of(i + 1)});
+      }
+      for (Side* side : {&after, &before}) {
+        if (!side->linked) continue;
+        side->link.interval = interval;
+        result_.links.push_back(side->link);
+      }
+    }
+  }
+
+  // True if what lies between the points of a cut need not be behind a facet. It is, in whatever order they come, if
+  // all facets cross the segment the same way.
+  [[nodiscard]] bool may_hold_intervals(const Cut& cut) const {
+    if (cut.is_end[0] && cut.is_end[1]) return true;
+    if (cut.first == cut.last) return false;
+    const int front = events_[cut.first].front;
+    if (cut.is_end[0] || cut.is_end[1] || front == 0) return true;
+    for (std::uint32_t i = cut.first; i < cut.last; ++i) {
+      if (events_[i].front != front) return true;
+    }
+    return false;
+  }
+
+  // True if the facets at a cut are surely in general position: one facet crosses the segment inside of all three; or
+  // the segment ends where a side of one facet crosses the inside of the other one, or at a corner that they share.
+  [[nodiscard]] bool is_plain(const FacetSegment& s, const Cut& cut) const {
+    const std::uint32_t count = cut.last - cut.first;
+    if (!cut.is_end[0] && !cut.is_end[1]) return count == 1 && events_[cut.first].front != 0;
+    if (count > 0 || cut.is_end[0] == cut.is_end[1]) return false;
+    const SegmentEnd& end = s.ends[cut.is_end[0] ? 0 : 1];
+    if (end.kind == SegmentEnd::Kind::kSide) return true;
+    return end.kind == SegmentEnd::Kind::kCorner && has_corner(s.f, end.index) && has_corner(s.g, end.index);
+  }
+
+  // Groups events that are not surely apart.
+  void find_cuts(const FacetSegment& s) {
+    double reach = 0;
+    for (std::size_t i = 0; i < 3; ++i) reach = std::max(reach, std::fabs(s.to[i] - s.from[i]));
+    const double doubt = reach > 2 * s.error ? 2 * s.error / reach : 1;
+    cuts_.clear();
+    cuts_.push_back({{-1, doubt}, 0, 0, {true, false}, {}});
+    for (std::uint32_t i = 0; i < events_.size(); ++i) {
+      if (events_[i].at.low > cuts_.back().at.high) cuts_.push_back({events_[i].at, i, i, {}, {}});
+      cuts_.back().at.high = std::max(cuts_.back().at.high, events_[i].at.high);
+      cuts_.back().last = i + 1;
+    }
+    if (1 - doubt > cuts_.back().at.high) {
+      const auto end = static_cast<std::uint32_t>(events_.size());
+      cuts_.push_back({{1 - doubt, 2}, end, end, {}, {}});
+    }
+    cuts_.back().is_end[1] = true;
+  }
+
+  void judge(const FacetSegment& s, Cut& cut) const {
+    const bool is_end = cut.is_end[0] || cut.is_end[1];
+    const std::uint32_t count = cut.last - cut.first;
+    if (count == 0 && cut.is_end[0] != cut.is_end[1]) {
+      judge_end(s, cut, cut.is_end[1] ? 0 : 1);
+      return;
+    }
+    for (const std::size_t k : {0U, 1U}) {
+      // The part behind is gone if, whatever the order, the last facet on the way there has it behind it.
+      const int front = k == 0 ? 1 : -1;
+      for (std::uint32_t i = cut.first; i < cut.last && !cut.side[k].gone; ++i) {
+        if (events_[i].front != front) continue;
+        cut.side[k].gone = true;
+        for (std::uint32_t j = cut.first; j < cut.last; ++j) {
+          const bool may_follow =
+              k == 0 ? events_[j].at.low <= events_[i].at.high : events_[j].at.high >= events_[i].at.low;
+          if (may_follow && events_[j].front != front) cut.side[k].gone = false;
+        }
+        if (is_end) cut.side[k].gone = false;
+      }
+    }
+    if (count != 1 || is_end || events_[cut.first].front == 0) return;
+    const std::size_t ahead = events_[cut.first].front > 0 ? 1 : 0;
+    cut.side[ahead].linked = true;
+    cut.side[ahead].link.at = sorted(s.f, s.g, events_[cut.first].facet);
+  }
+
+  // A segment that ends inside of one facet, at a side of the other one, goes on on the facet beyond that side.
+  void judge_end(const FacetSegment& s, Cut& cut, std::size_t side) const {
+    const SegmentEnd& end = s.ends[cut.is_end[0] ? 0 : 1];
+    if (end.kind != SegmentEnd::Kind::kSide) return;
+    const std::vector<std::uint32_t>& same = found_.at_side.at(side_key(facets_, end.facet, end.index));
+    if (same.size() == 1) cut.side[side].gone = true;  // beyond the side one comes from the front to the back
+    if (same.size() != 2) return;
+    const std::uint32_t beyond = same[0] == end.facet ? same[1] : same[0];
+    cut.side[side].linked = true;
+    cut.side[side].link.at = sorted(s.f, s.g, beyond);
+    cut.side[side].link.smooth = facets_.plane[beyond] == facets_.plane[end.facet];
+  }
+
+  static Triple sorted(std::uint32_t f, std::uint32_t g, std::uint32_t h) {
+    Triple t = {f, g, h};
+    std::sort(t.begin(), t.end());
+    return t;
+  }
+
+  const ConvolutionFacets& facets_;
+  const RoundedFacets& rounded_;
+  const SurvivingIntervals& found_;
+  const MeetingFacets& meeting_;
+  bool passages_;
+  CutSegments result_;
+  // Of the segment at hand.
+  std::vector<Event> events_;
+  std::vector<Cut> cuts_;
+};
+
+class IntervalSearch {
+ public:
+  IntervalSearch(const ConvolutionFacets& facets, const RoundedFacets& rounded, const IntervalOptions& options)
+      : facets_(facets), rounded_(rounded), options_(options) {}
+
+  SurvivingIntervals run() {
+    find_sides();
+    find_segments();
+    meeting_.collect(facets_.size(), result_.segments);
+    cut_segments();
+    peel();
+    return std::move(result_);
+  }
+
+ private:
+  void find_sides() {
+    for (std::uint32_t f = 0; f < facets_.size(); ++f) {
+      for (std::uint32_t i = 0; i < facets_.ring(f).size(); ++i) {
+        result_.at_side[side_key(facets_, f, i)].push_back(f);
+      }
+    }
+  }
+
+  // Blocks of pairs keep memory low and give several threads something to do.
+  void find_segments() {
+    constexpr std::size_t kBlock = std::size_t{1} << 17U;
+    std::vector<std::array<std::uint32_t, 2>> pairs;
+    BoxTree(rounded_.boxes()).for_each_pair([&](std::uint32_t f, std::uint32_t g) {
+      pairs.push_back({f, g});
+      if (pairs.size() < kBlock) return;
+      find_segments_of(pairs);
+      pairs.clear();
+    });
+    find_segments_of(pairs);
+  }
+
+  void find_segments_of(std::span<const std::array<std::uint32_t, 2>> pairs) {
+    constexpr std::size_t kChunk = 2048;
+    struct Found {
+      std::vector<FacetSegment> segments;
+      std::vector<std::uint32_t> touching;
+    };
+    std::vector<Found> found((pairs.size() + kChunk - 1) / kChunk);
+    parallel_for(found.size(), options_.threads, [&](std::size_t chunk) {
+      SegmentFinder finder(facets_, rounded_);
+      for (const auto& [f, g] : pairs.subspan(chunk * kChunk, std::min(kChunk, pairs.size() - chunk * kChunk))) {
+        if (std::optional<FacetSegment> s = finder.find(f, g)) found[chunk].segments.push_back(*s);
+      }
+      if (options_.passages) found[chunk].touching = finder.touching_corners();
+    });
+    for (const Found& part : found) {
+      result_.segments.insert(result_.segments.end(), part.segments.begin(), part.segments.end());
+      result_.touching.insert(result_.touching.end(), part.touching.begin(), part.touching.end());
+    }
+  }
+
+  void cut_segments() {
+    constexpr std::size_t kChunk = 256;
+    constexpr std::size_t kBlock = 16 * kChunk;
+    const std::size_t all = result_.segments.size();
+    for (std::size_t block = 0; block < all; block += kBlock) {
+      options_.poll(static_cast<double>(block) / static_cast<double>(all));
+      const std::size_t end = std::min(all, block + kBlock);
+      std::vector<CutSegments> parts((end - block + kChunk - 1) / kChunk);
+      parallel_for(parts.size(), options_.threads, [&](std::size_t chunk) {
+        const std::size_t first = block + chunk * kChunk;
+        parts[chunk] = SegmentCutter(facets_, rounded_, result_, meeting_, options_.passages)
+                           .run(first, std::min(end, first + kChunk));
+      });
+      for (const CutSegments& part : parts) append(part);
+    }
+  }
+
+  void append(const CutSegments& part) {
+    const auto cuts = static_cast<std::uint32_t>(result_.cuts.size());
+    const auto cutting = static_cast<std::uint32_t>(result_.cutting.size());
+    const auto intervals = static_cast<std::uint32_t>(result_.intervals.size());
+    for (const SegmentCut& c : part.cuts) {
+      result_.cuts.push_back({c.first + cutting, c.last + cutting, c.is_end, c.at});
+    }
+    result_.cutting.insert(result_.cutting.end(), part.cutting.begin(), part.cutting.end());
+    for (const SurvivingInterval& i : part.intervals) {
+      result_.intervals.push_back({i.segment, i.from + cuts, i.to + cuts});
+    }
+    for (const auto& [segment, cut] : part.doubtful) result_.doubtful.push_back({segment, cut + cuts});
+    for (Link link : part.links) {
+      if (link.interval != kNone) link.interval += intervals;
+      links_.push_back(link);
+    }
+  }
+
+  // What is linked to an interval that is gone, goes.
+  void peel() {
+    std::sort(links_.begin(), links_.end());
+    std::vector<std::array<std::uint32_t, 2>> at(result_.intervals.size(), {kNone, kNone});  // first link of a triple
+    std::vector<std::uint32_t> gone;
+    std::vector<bool> is_gone(result_.intervals.size(), false);
+    const auto go = [&](std::uint32_t first) {
+      for (std::size_t i = first; i < links_.size() && links_[i].at == links_[first].at; ++i) {
+        const std::uint32_t interval = links_[i].interval;
+        if (interval == kNone || is_gone[interval]) continue;
+        is_gone[interval] = true;
+        gone.push_back(interval);
+      }
+    };
+    for (std::uint32_t first = 0; first < links_.size();) {
+      std::uint32_t end = first;
+      bool broken = false;
+      for (; end < links_.size() && links_[end].at == links_[first].at; ++end) {
+        broken = broken || links_[end].interval == kNone;
+      }
+      if (end - first == (links_[first].smooth ? 2U : 3U)) {
+        for (std::uint32_t i = first; i < end; ++i) {
+          if (links_[i].interval == kNone) continue;
+          std::array<std::uint32_t, 2>& two = at[links_[i].interval];
+          (two[0] == kNone ? two[0] : two[1]) = first;
+        }
+        if (broken) go(first);
+      }
+      first = end;
+    }
+    while (!gone.empty()) {
+      const std::uint32_t interval = gone.back();
+      gone.pop_back();
+      for (const std::uint32_t first : at[interval]) {
+        if (first != kNone) go(first);
+      }
+    }
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < result_.intervals.size(); ++i) {
+      if (!is_gone[i]) result_.intervals[kept++] = result_.intervals[i];
+    }
+    result_.intervals.resize(kept);
+    links_ = {};
+  }
+
+  const ConvolutionFacets& facets_;
+  const RoundedFacets& rounded_;
+  const IntervalOptions& options_;
+  SurvivingIntervals result_;
+  MeetingFacets meeting_;
+  std::vector<Link> links_;
+};
+
+}  // namespace
+
+std::uint64_t side_key(const ConvolutionFacets& facets, std::uint32_t facet, std::uint32_t side) {
+  const auto ring = facets.ring(facet);
+  const std::uint32_t u = ring[side];
+  const std::uint32_t v = ring[side + 1 < ring.size() ? side + 1 : 0];
+  return pair_key(std::min(u, v), std::max(u, v));
+}
+
+SurvivingIntervals surviving_intervals(const ConvolutionFacets& facets, const RoundedFacets& rounded,
+                                       const IntervalOptions& options) {
+  return IntervalSearch(facets, rounded, options).run();
+}
+
+}  // namespace nef::minkowski

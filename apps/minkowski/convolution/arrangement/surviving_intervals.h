@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The parts of the segments at which regions may be seen that no facet has behind it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "apps/minkowski/convolution/arrangement/facet_segments.h"
+
+namespace nef::minkowski {
+
+/// Points of a segment that are next to each other, and in which order is not sure: its ends, and where other facets
+/// meet it.
+struct SegmentCut {
+  std::uint32_t first = 0, last = 0;  ///< range in SurvivingIntervals::cutting
+  std::array<bool, 2> is_end{};       ///< the segment may begin, end here
+  Interval at;                        ///< they are all here
+};
+
+/// An open part of a segment that no other facet meets.
+struct SurvivingInterval {
+  std::uint32_t segment = 0;
+  std::uint32_t from = 0, to = 0;  ///< cuts; the same one for all that is between its points, if there is anything
+};
+
+struct SurvivingIntervals {
+  std::vector<FacetSegment> segments;
+  std::vector<SegmentCut> cuts;
+  std::vector<std::uint32_t> cutting;  ///< facets
+  std::vector<SurvivingInterval> intervals;
+  /// What else a sum that lacks parts of its boundary has to look at: cuts where it is not sure that facets are in
+  /// general position, as segments and cuts, and corners that may touch other facets.
+  std::vector<std::array<std::uint32_t, 2>> doubtful;
+  std::vector<std::uint32_t> touching;
+  /// Facets that share a side, by the key of its two corners.
+  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> at_side;
+};
+
+/// The key of a side in SurvivingIntervals::at_side.
+std::uint64_t side_key(const ConvolutionFacets& facets, std::uint32_t facet, std::uint32_t side);
+
+struct IntervalOptions {
+  bool passages = false;             ///< find doubtful cuts and touching corners, too
+  unsigned threads = 1;              ///< 0: as many as the machine has; the result does not depend on it
+  std::function<void(double)> poll;  ///< called with the share that is done; may throw; not empty
+};
+
+/// All segments, cut where they meet other facets, without intervals at which surely nothing is to be seen but the
+/// inside of the sum. What is just behind a facet is inside, and it stays so up to the next facet; so an interval goes
+/// if a facet crosses the segment at one of its ends and has the interval behind it. Where three facets cross, and no
+/// other is there, one octant is in front of all three; if one of its three edges goes, so do the others.
+/// In doubles: what is not sure, stays. O(n log n + k) for k pairs of segments on one facet whose boxes overlap.
+SurvivingIntervals surviving_intervals(const ConvolutionFacets& facets, const RoundedFacets& rounded,
+                                       const IntervalOptions& options);
+
+}  // namespace nef::minkowski

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The reduced convolution of two solids: the facets that the boundary of their sum is made of, and more.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "apps/minkowski/cells/rounded_cells.h"
+#include "apps/minkowski/convolution/facets/solid_features.h"
+#include "nef/geometry/point_table.h"
+
+namespace nef::minkowski {
+
+/// Convex polygons with exact planes. Corners are numbered; the same sum of two vertices has one number, but equal
+/// points may have several.
+struct ConvolutionFacets {
+  PlaneTable planes;
+  PointTable points;             ///< of the corners
+  std::vector<Double3> rounded;  ///< the same; each coordinate is the nearest double
+  std::vector<PlaneId> plane;    ///< per facet, positive outside
+  std::vector<std::uint32_t> begin{0};
+  std::vector<std::uint32_t> corners;  ///< counterclockwise from outside; some may be straight
+
+  /// Where something of a facet that lies on the boundary of the sum belongs to it: everywhere, nowhere, or where these
+  /// marks say so, of insides per facet, of corners, and of the sides that begin at them.
+  BoundaryMarks marks = BoundaryMarks::kAll;
+  std::vector<std::uint8_t> inside_marks;
+  std::vector<std::uint8_t> corner_marks;
+  std::vector<std::uint8_t> side_marks;
+  /// False if marks could not be told by these facets.
+  bool marks_are_told = true;
+
+  [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(plane.size()); }
+  [[nodiscard]] std::span<const std::uint32_t> ring(std::uint32_t facet) const {
+    return {corners.data() + begin[facet], begin[facet + 1] - begin[facet]};
+  }
+};
+
+/// The sums of features of A and B at which A and a translate of -B can touch without one entering the other
+/// nearby: facet and peak, two convex edges whose arcs of normals cross, facet and parallel edge, parallel facets.
+///
+/// A and B are bounded, and their boundaries bound them (SolidFeatures). Just behind each facet is the inside of A + B:
+/// there a boundary point of one solid meets the inside of the other. And the facets cover the boundary of A + B: a
+/// point x inside of a facet of the sum, but for a set without area, is a + b for items a of A and b of B whose sum has
+/// area and whose local cones K_a and -K_b have no inside in common. So either one of them is a facet and the other
+/// cone is on one side of its plane (it touches that plane in a point, an edge or a facet), or both are edges, and K_a
+/// + K_b, which does not change along either, is a half-space. O(n m) signs for n and m features, most of which are
+/// doubles, on up to `threads` threads (0: as many as the machine has).
+ConvolutionFacets reduced_convolution(const SolidFeatures& a, const SolidFeatures& b, unsigned threads);
+
+}  // namespace nef::minkowski

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/minkowski/convolution/facets/solid_features.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "apps/minkowski/convolution/facets/convex_pieces.h"
+#include "nef/mesh/edge_order.h"
+
+namespace nef::minkowski {
+
+bool ConvexEdge::touches(const Direction& normal) const {
+  return sign_of_determinant(line, first, normal) > 0 && sign_of_determinant(line, normal, last) > 0;
+}
+
+SolidFeatures::SolidFeatures(const Polyhedron& solid) : c_(solid.complex()) {
+  points_.reserve(c_.vertex_count());
+  for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) points_.push_back(c_.points.rational(PointId{v}));
+  find_marks();
+  directions_.reserve(c_.svertex_count());
+  for (std::uint32_t h = 0; h < c_.svertex_count(); ++h) directions_.push_back(direction_of(c_.planes, c_.svertex(h)));
+  add_facets();
+  for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) {
+    const std::uint32_t first = c_.vertices[v].svertices;
+    for (std::uint32_t h = first; h < c_.vertices[v + 1].svertices; ++h) {
+      if (h < c_.twin[h]) add_edge(v, h - first);
+    }
+  }
+  know_integers();
+}
+
+// Directions find their integers when they are first asked, which several threads must not do at once.
+void SolidFeatures::know_integers() const {
+  for (const Direction& d : directions_) std::ignore = d.integers();
+  for (const SolidFacet& f : facets_) std::ignore = f.normal.integers();
+  for (const ConvexEdge& e : edges_) {
+    for (const Direction* d : {&e.line, &e.first, &e.last}) std::ignore = d->integers();
+  }
+}
+
+void SolidFeatures::find_marks() {
+  bool any = false;
+  bool all = true;
+  const auto look_at = [&](LabelId mark) {
+    any = any || mark != 0;
+    all = all && mark != 0;
+  };
+  for (const Facet& f : c_.facets) look_at(f.mark);
+  for (std::uint32_t h = 0; h < c_.svertex_count(); ++h) look_at(c_.svertex(h).mark);
+  for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) {
+    look_at(c_.mark(v));
+    for (const SLoop& loop : c_.sphere_map(v).sloops) {
+      has_plain_facets_ = has_plain_facets_ && loop.mark == c_.mark(v);
+    }
+  }
+  marks_ = all ? BoundaryMarks::kAll : any ? BoundaryMarks::kMixed : BoundaryMarks::kNone;
+  if (marks_ != BoundaryMarks::kMixed) return;
+  for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) {
+    for (std::uint32_t h = c_.vertices[v].svertices; h < c_.vertices[v + 1].svertices; ++h) {
+      const std::uint32_t w = c_.target(h);
+      if (v < w) edge_marks_.emplace(pair_key(v, w), c_.svertex(h).mark != 0 ? 1 : 0);
+    }
+  }
+}
+
+// What is no edge is a cut through the facet.
+void SolidFeatures::mark_sides(FacetPiece& piece) const {
+  piece.sides.assign(piece.ring.size(), piece.mark);
+  if (marks_ != BoundaryMarks::kMixed) return;
+  for (std::size_t i = 0; i < piece.ring.size(); ++i) {
+    const std::uint32_t u = piece.ring[i];
+    const std::uint32_t w = piece.ring[i + 1 < piece.ring.size() ? i + 1 : 0];
+    const auto edge = edge_marks_.find(pair_key(std::min(u, w), std::max(u, w)));
+    if (edge != edge_marks_.end()) piece.sides[i] = edge->second;
+  }
+}
+
+void SolidFeatures::add_facets() {
+  ConvexPieces pieces(c_);
+  for (const FacetId f : c_.facets.ids()) {
+    const Facet& facet = c_.facets[f];
+    const bool solid_above = c_.volumes[facet.volume_above].mark != 0;
+    SolidFacet& added = facets_.emplace_back();
+    added.normal = Direction::normal(c_.planes, solid_above ? facet.plane.opposite() : facet.plane);
+    for (std::vector<std::uint32_t>& ring : pieces.cut(f)) {
+      if (solid_above) std::reverse(ring.begin(), ring.end());
+      FacetPiece& piece = added.pieces.emplace_back();
+      piece.ring = std::move(ring);
+      piece.mark = facet.mark != 0 ? 1 : 0;
+      mark_sides(piece);
+    }
+  }
+}
+
+// At most one wedge around an edge is free and larger than a half-turn.
+void SolidFeatures::add_edge(std::uint32_t vertex, std::uint32_t svertex) {
+  const SphereMapView map = c_.sphere_map(vertex);
+  const std::uint32_t halfedge = c_.vertices[vertex].svertices + svertex;
+  const Direction& line = directions_[halfedge];
+  const std::uint32_t out = map.svertices[svertex].out;
+  std::uint32_t e = out;
+  std::size_t solid = 0;
+  do {
+    solid += map.sfaces[map.shalfedges[e].sface].mark != 0 ? 1 : 0;
+    e = map.next_around(e);
+  } while (e != out);
+  has_simple_edges_ = has_simple_edges_ && solid == 1;
+  do {
+    const std::uint32_t next = map.next_around(e);
+    const PlaneId first = map.shalfedges[e].plane;
+    const PlaneId last = map.shalfedges[next].plane;
+    if (map.sfaces[map.shalfedges[e].sface].mark == 0 && orientation_around(c_.planes, line, first, last) < 0) {
+      edges_.push_back({vertex, c_.target(halfedge), line, Direction::normal(c_.planes, first),
+                        Direction::normal(c_.planes, last.opposite()),
+                        static_cast<std::uint8_t>(map.svertices[svertex].mark != 0 ? 1 : 0)});
+      return;
+    }
+    e = next;
+  } while (e != out);
+}
+
+bool SolidFeatures::is_peak(std::uint32_t vertex, const Direction& up) const {
+  if (c_.vertices[vertex].svertices == c_.vertices[vertex + 1].svertices) return false;  // inside a facet
+  for (std::uint32_t h = c_.vertices[vertex].svertices; h < c_.vertices[vertex + 1].svertices; ++h) {
+    if (sign_of_dot(directions_[h], up) >= 0) return false;
+  }
+  // All edges go down, so the open upper half-sphere is in one sface.
+  const SphereMapView map = c_.sphere_map(vertex);
+  return mark_at(map, locate(c_.planes, map, up)) == 0;
+}
+
+}  // namespace nef::minkowski

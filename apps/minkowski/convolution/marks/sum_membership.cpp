@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/minkowski/convolution/marks/sum_membership.h"
+
+#include "apps/minkowski/minkowski.h"
+
+namespace nef::minkowski {
+namespace {
+
+// What holds x - v for one of some vertices v of B: 2 if a volume of A, 1 if a point of its boundary that belongs to A,
+// as v does to B, 0 if nothing.
+int reach(const Polyhedron& a, const Polyhedron& b, const Rational3& x) {
+  constexpr std::size_t kAsked = 32;
+  const std::size_t count = b.complex().vertex_count();
+  int best = 0;
+  for (std::size_t v = 0; v < count; v += 1 + count / kAsked) {
+    const Rational3 p = b.complex().points.rational(PointId{static_cast<std::uint32_t>(v)});
+    const Location at = locate(a, {x[0] - p[0], x[1] - p[1], x[2] - p[2]});
+    if (at.mark == 0) continue;
+    if (at.kind == Location::Kind::kVolume) return 2;
+    if (b.complex().mark(v) != 0) best = 1;
+  }
+  return best;
+}
+
+}  // namespace
+
+SumMembership::SumMembership(const Polyhedron& a, const Polyhedron& b) : a_(a), b_(b), sets_{a, negate(b)} {}
+
+bool SumMembership::meet(const Operands& operands, const Rational3& x) {
+  return !intersect(operands.a, transform(operands.turned_b, AffineMap::translate(x))).is_empty();
+}
+
+// A vertex of B is in its closure, so near it there is the inside of B; and so with A and B exchanged.
+bool SumMembership::surely_in_inside(const Rational3& x) const {
+  return reach(a_, b_, x) == 2 || reach(b_, a_, x) == 2;
+}
+
+bool SumMembership::in_sum(const Rational3& x) const {
+  return reach(a_, b_, x) > 0 || reach(b_, a_, x) > 0 || meet(sets_, x);
+}
+
+bool SumMembership::in_closure(const Rational3& x) const {
+  if (reach(a_, b_, x) > 0 || reach(b_, a_, x) > 0) return true;
+  std::call_once(closures_once_, [this] { closures_ = Operands{closure(a_), closure(sets_.turned_b)}; });
+  return meet(*closures_, x);
+}
+
+bool SumMembership::in_inside(const Rational3& x) const {
+  if (surely_in_inside(x)) return true;
+  std::call_once(insides_once_, [this] {
+    insides_ = Operands{interior(regularize(a_)), interior(regularize(sets_.turned_b))};
+  });
+  return meet(*insides_, x);
+}
+
+}  // namespace nef::minkowski

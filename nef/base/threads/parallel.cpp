@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/base/threads/parallel.h"
+
+#if defined(__SANITIZE_THREAD__)
+#define NEF_THREAD_SANITIZER
+#elif defined(__has_feature)
+#if __has_feature(thread_sanitizer)
+#define NEF_THREAD_SANITIZER
+#endif
+#endif
+
+#include <atomic>
+
+#ifdef NEF_THREAD_SANITIZER
+#include <thread>
+#include <vector>
+#else
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+#endif
+
+#include <algorithm>
+#include <exception>
+#include <limits>
+#include <mutex>
+#include <utility>
+
+#include "nef/base/interruption.h"
+#include "nef/base/timing/predicate_counts.h"
+
+namespace nef {
+
+PredicateCounts& predicate_counts() {
+  thread_local PredicateCounts counts;
+  return counts;
+}
+
+namespace {
+
+/// Books what is counted on this thread, until its end, on a sum; also if an exception ends it.
+class Booking {
+ public:
+  Booking(PredicateCounts& sum, std::mutex& mutex) : sum_(sum), mutex_(mutex), saved_(predicate_counts()) {
+    predicate_counts() = {};
+  }
+  ~Booking() {
+    const std::scoped_lock lock(mutex_);
+    sum_ += predicate_counts();
+    predicate_counts() = saved_;
+  }
+  Booking(const Booking&) = delete;
+  Booking& operator=(const Booking&) = delete;
+
+ private:
+  PredicateCounts& sum_;
+  std::mutex& mutex_;
+  PredicateCounts saved_;
+};
+
+/// What the first of the failed calls threw. Calls before it still run, so that the error a user reads does not depend
+/// on which thread was faster.
+class FirstFailure {
+ public:
+  void record(std::size_t index, std::exception_ptr thrown) {
+    const std::scoped_lock lock(mutex_);
+    if (index >= index_) return;
+    index_ = index;
+    thrown_ = std::move(thrown);
+  }
+
+  bool precedes(std::size_t index) {
+    const std::scoped_lock lock(mutex_);
+    return index_ < index;
+  }
+
+  void rethrow() const {
+    if (thrown_) std::rethrow_exception(thrown_);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::size_t index_ = std::numeric_limits<std::size_t>::max();
+  std::exception_ptr thrown_;
+};
+
+// run_on_threads: body(0) .. body(count - 1) on several threads; body does not throw.
+
+#ifdef NEF_THREAD_SANITIZER
+
+/// oneTBB comes without instrumentation, so ThreadSanitizer does not see how it hands work from thread to thread, and
+/// what it reports inside its tasks cannot be told from our own races. Under the sanitizer plain threads take its
+/// place.
+void run_on_threads(std::size_t count, unsigned threads, const std::function<void(std::size_t)>& body) {
+  std::atomic<std::size_t> next = 0;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < count; i = next++) body(i);
+  };
+  std::vector<std::thread> workers;
+  for (unsigned i = 1; i < (threads == 0 ? 4 : threads); ++i) workers.emplace_back(work);
+  work();
+  for (std::thread& worker : workers) worker.join();
+}
+
+#else
+
+void run_on_threads(std::size_t count, unsigned threads, const std::function<void(std::size_t)>& body) {
+  // More threads than cores gain nothing, and make oneTBB print a warning.
+  const int cores = tbb::info::default_concurrency();
+  const bool all = threads == 0 || threads > static_cast<unsigned>(cores);
+  tbb::task_arena arena(all ? cores : static_cast<int>(threads));
+  arena.execute([&] {
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+      // A thread that waits inside the body could take up another call of this loop, whose counts
+      // would then be added twice; isolation keeps it from that.
+      tbb::this_task_arena::isolate([&] { body(i); });
+    });
+  });
+}
+
+#endif
+
+}  // namespace
+
+void parallel_for(std::size_t count, unsigned threads, const std::function<void(std::size_t)>& body) {
+  if (threads == 1 || count < 2) {
+    for (std::size_t i = 0; i < count; ++i) {
+      check_interruption();
+      body(i);
+    }
+    return;
+  }
+  // Every call is booked on the sum, wherever it runs, the caller's thread included; the sum goes to the caller, also
+  // if a call throws.
+  PredicateCounts sum;
+  std::mutex mutex;
+  FirstFailure failure;
+  const std::atomic<bool>* const stop = Interruptible::current();
+  run_on_threads(count, threads, [&](std::size_t i) {
+    if (failure.precedes(i)) return;
+    try {
+      const Interruptible interruptible(stop);
+      check_interruption();
+      const Booking booking(sum, mutex);
+      body(i);
+    } catch (...) {
+      failure.record(i, std::current_exception());
+    }
+  });
+  predicate_counts() += sum;
+  failure.rethrow();
+}
+
+void parallel_for_ranges(std::size_t count, std::size_t size, unsigned threads,
+                         const std::function<void(std::size_t, std::size_t)>& body) {
+  parallel_for((count + size - 1) / size, threads,
+               [&](std::size_t i) { body(i * size, std::min(count, (i + 1) * size)); });
+}
+
+void parallel_calls(unsigned threads, std::initializer_list<std::function<void()>> calls) {
+  parallel_for(calls.size(), threads, [&](std::size_t i) { calls.begin()[i](); });
+}
+
+}  // namespace nef

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/complex/patterns/pattern_table.h"
+
+#include "nef/base/capacity.h"
+
+namespace nef {
+
+PatternId PatternTable::push(const SphereMapBuffer& map) {
+  const PatternId id{size()};
+  svertices_.insert(svertices_.end(), map.svertices.begin(), map.svertices.end());
+  shalfedges_.insert(shalfedges_.end(), map.shalfedges.begin(), map.shalfedges.end());
+  sfaces_.insert(sfaces_.end(), map.sfaces.begin(), map.sfaces.end());
+  entries_.insert(entries_.end(), map.entries.begin(), map.entries.end());
+  records_.back().mark = map.mark;
+  Record end;
+  end.svertices = static_cast<std::uint32_t>(svertices_.size());
+  end.shalfedges = static_cast<std::uint32_t>(shalfedges_.size());
+  end.sfaces = static_cast<std::uint32_t>(sfaces_.size());
+  end.entries = static_cast<std::uint32_t>(entries_.size());
+  records_.push_back(end);
+  return id;
+}
+
+void PatternTable::trim() {
+  trim_capacity(records_);
+  trim_capacity(svertices_);
+  trim_capacity(shalfedges_);
+  trim_capacity(sfaces_);
+  trim_capacity(entries_);
+}
+
+std::size_t PatternTable::bytes() const {
+  const auto size = [](const auto& column) { return column.capacity() * sizeof(*column.begin()); };
+  return size(records_) + size(svertices_) + size(shalfedges_) + size(sfaces_) + size(entries_);
+}
+
+}  // namespace nef

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/mesh/surface/mesh_surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "nef/mesh/polygon/triangulate.h"
+#include "nef/mesh/vertex_merger.h"
+
+namespace nef {
+namespace {
+
+bool names_one_twice(const std::vector<std::uint32_t>& ring) {
+  constexpr std::size_t kFew = 8;  // corners that are compared faster than a copy is sorted
+  if (ring.size() <= kFew) {
+    for (auto v = ring.begin(); v != ring.end(); ++v) {
+      if (std::find(v + 1, ring.end(), *v) != ring.end()) return true;
+    }
+    return false;
+  }
+  std::vector<std::uint32_t> sorted = ring;
+  std::sort(sorted.begin(), sorted.end());
+  return std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end();
+}
+
+// Takes out corners that repeat the one before and sides that are walked out and back at once.
+void drop_spikes(std::vector<std::uint32_t>& ring) {
+  std::vector<std::uint32_t> kept;
+  for (const std::uint32_t v : ring) {
+    if (!kept.empty() && kept.back() == v) continue;
+    if (kept.size() > 1 && kept[kept.size() - 2] == v) {
+      kept.pop_back();
+    } else {
+      kept.push_back(v);
+    }
+  }
+  // The end meets the beginning.
+  std::size_t first = 0;
+  std::size_t last = kept.size();
+  while (last - first > 1) {
+    const bool longer = last - first > 2;
+    if (kept[first] == kept[last - 1] || (longer && kept[first] == kept[last - 2])) {
+      --last;
+    } else if (longer && kept[first + 1] == kept[last - 1]) {
+      ++first;
+    } else {
+      break;
+    }
+  }
+  ring.assign(kept.begin() + static_cast<std::ptrdiff_t>(first), kept.begin() + static_cast<std::ptrdiff_t>(last));
+}
+
+bool on_one_line(const MeshPoints& points, const std::vector<std::uint32_t>& ring) {
+  for (std::size_t i = 2; i < ring.size(); ++i) {
+    if (!points.collinear(ring[0], ring[1], ring[i])) return false;
+  }
+  return true;
+}
+
+// The turn that all corners of the ring make along the axis; 0 if they do not make the same.
+int common_turn(const MeshPoints& points, const std::vector<std::uint32_t>& ring, std::size_t axis) {
+  const std::size_t n = ring.size();
+  const int turn = points.orientation_along(ring[n - 1], ring[0], ring[1], axis);
+  for (std::size_t i = 1; i < n && turn != 0; ++i) {
+    if (points.orientation_along(ring[i - 1], ring[i], ring[i + 1 == n ? 0 : i + 1], axis) != turn) return 0;
+  }
+  return turn;
+}
+
+// True if a ring whose corners all make the same turn goes around only once (along one axis, it rises once and falls
+// once). Each corner turns by less than half a turn, so four can not go around twice.
+bool goes_around_once(const MeshPoints& points, const std::vector<std::uint32_t>& ring, std::size_t axis) {
+  if (ring.size() <= 4) return true;
+  const std::size_t u = (axis + 1) % 3;
+  std::size_t peaks = 0;
+  bool rose = points.compare(ring.back(), ring[0], u) <= 0;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const bool rises = points.compare(ring[i], ring[i + 1 == ring.size() ? 0 : i + 1], u) <= 0;
+    peaks += rose && !rises ? 1 : 0;
+    rose = rises;
+  }
+  return peaks == 1;
+}
+
+// Planar, or without area. The ring has no corner twice in a row, and if it is convex, none on a line with the next
+// two.
+bool is_planar(const MeshPoints& points, const std::vector<std::uint32_t>& ring, bool is_convex) {
+  std::size_t k = 2;
+  while (!is_convex && k < ring.size() && points.collinear(ring[0], ring[1], ring[k])) ++k;
+  return k + 1 >= ring.size() || points.coplanar(ring[0], ring[1], ring[k], std::span(ring).subspan(k + 1));
+}
+
+// Polygons are cut along the best axis that shows them as simple polygons.
+enum class Cut : std::uint8_t { kFailed, kDone, kConvex };
+Cut cut(const MeshPoints& points, Triangulator& triangulator, const std::vector<std::uint32_t>& ring,
+        std::vector<std::array<std::uint32_t, 3>>& out) {
+  for (const std::size_t axis : projection_axes(points, ring)) {
+    // A ring that is convex there has its triangles over disjoint triangles there, planar or not.
+    if (common_turn(points, ring, axis) != 0 && goes_around_once(points, ring, axis)) {
+      triangulator.cut_convex(ring, out);
+      return Cut::kConvex;
+    }
+    const int sign = ring_orientation(points, ring, axis);
+    if (sign != 0 && triangulator.triangulate(ring, axis, sign, out)) return Cut::kDone;
+  }
+  return Cut::kFailed;
+}
+
+}  // namespace
+
+std::array<std::size_t, 3> projection_axes(const MeshPoints& points, const std::vector<std::uint32_t>& ring) {
+  std::array<double, 3> area{};
+  const auto& origin = points.approximate(ring[0]);
+  for (std::size_t i = 0; i + 1 < ring.size(); ++i) {
+    const auto& p = points.approximate(ring[i]);
+    const auto& q = points.approximate(ring[i + 1]);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::size_t j = (axis + 1) % 3;
+      const std::size_t k = (axis + 2) % 3;
+      area[axis] += (p[j] - origin[j]) * (q[k] - origin[k]) - (p[k] - origin[k]) * (q[j] - origin[j]);
+    }
+  }
+  std::array<std::size_t, 3> order{0, 1, 2};
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t i, std::size_t j) { return std::abs(area[i]) > std::abs(area[j]); });
+  return order;
+}
+
+int ring_orientation(const MeshPoints& points, const std::vector<std::uint32_t>& ring, std::size_t axis) {
+  const std::size_t u = (axis + 1) % 3;
+  const std::size_t v = (axis + 2) % 3;
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < ring.size(); ++i) {
+    const int order = points.compare(ring[i], ring[best], u);
+    if (order < 0 || (order == 0 && points.compare(ring[i], ring[best], v) < 0)) best = i;
+  }
+  const std::size_t n = ring.size();
+  return points.orientation_along(ring[(best + n - 1) % n], ring[best], ring[(best + 1) % n], axis);
+}
+
+MeshSurface::MeshSurface(const Mesh& mesh)
+    : points(mesh.vertices), place(merge_equal(mesh.vertices)), defects(mesh.face_count(), FaceDefect::kNone) {
+  Triangulator triangulator(points);
+  std::vector<std::uint32_t> ring;
+  triangles.reserve(mesh.corners.size());
+  face_of.reserve(mesh.corners.size());
+  pieces.reserve(mesh.corners.size());
+  for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+    ring.clear();
+    bool bad = false;
+    bool in_one_piece = false;
+    for (const std::uint32_t v : mesh.face(f)) {
+      bad = bad || v >= mesh.vertices.size();
+      if (!bad) ring.push_back(place[v]);
+    }
+    const std::size_t named = ring.size();
+    irregular.push_back(
+        !bad && (named == 3 ? ring[0] == ring[1] || ring[1] == ring[2] || ring[2] == ring[0] : names_one_twice(ring)));
+    if (irregular[f]) drop_spikes(ring);
+    if (bad) {
+      defects[f] = FaceDefect::kBadIndex;
+    } else if (named < 3) {
+      defects[f] = FaceDefect::kTooFewCorners;
+    } else if (ring.size() < 3) {
+      defects[f] = FaceDefect::kNoArea;
+    } else if (ring.size() == 3) {
+      if (points.collinear(ring[0], ring[1], ring[2])) {
+        defects[f] = FaceDefect::kNoArea;
+      } else {
+        triangles.push_back({ring[0], ring[1], ring[2]});
+      }
+    } else {
+      const Cut done = cut(points, triangulator, ring, triangles);
+      if (done == Cut::kFailed) {
+        defects[f] = on_one_line(points, ring) ? FaceDefect::kNoArea : FaceDefect::kCrossesItself;
+      }
+      in_one_piece = done == Cut::kConvex;
+    }
+    planar.push_back(bad || ring.size() < 4 || is_planar(points, ring, in_one_piece));
+    if (defects[f] == FaceDefect::kNone && planar[f] && !irregular[f] && ring.size() > 3) {
+      rings.insert(rings.end(), ring.begin(), ring.end());
+    }
+    ring_begin.push_back(static_cast<std::uint32_t>(rings.size()));
+    face_of.resize(triangles.size(), f);
+    triangle_begin.push_back(static_cast<std::uint32_t>(triangles.size()));
+    const auto first = static_cast<std::uint32_t>(pieces.size());
+    while (pieces.size() < triangles.size()) {
+      pieces.push_back(in_one_piece ? first : static_cast<std::uint32_t>(pieces.size()));
+    }
+  }
+}
+
+}  // namespace nef

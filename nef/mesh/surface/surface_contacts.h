@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// How the triangles of a surface meet beyond the vertices and edges that they share.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <span>
+#include <vector>
+
+#include "nef/mesh/surface/mesh_surface.h"
+#include "nef/mesh/surface/surface_patches.h"
+
+namespace nef {
+
+/// Finds where a triangulated surface crosses, overlaps or touches itself.
+///
+/// Two triangles cross if their relative interiors meet in a segment. If these meet in an area, they overlap (turned
+/// the same way) or cover each other (back to back). What they have in common otherwise lies on the border of one of
+/// them. If that is a segment, the surface may still cross itself there: if the triangles of one that go on from the
+/// segment lie on both sides of the other, and going around it means more than going in and out of a solid. If it
+/// is a point, it is harmless: wherever the surface crosses itself through a point, other triangles meet in
+/// segments that end there.
+class SurfaceContacts {
+ public:
+  using Triangle = std::array<std::uint32_t, 3>;
+
+  enum class Kind : std::uint8_t { kNone, kTouch, kCover, kCross, kOverlap };
+
+  /// The surface must outlive this object.
+  explicit SurfaceContacts(const MeshSurface& surface);
+
+  /// Calls visit(kind, t, u) for every pair t < u with a contact, in lexicographic order; kind is not kNone.
+  /// Stops when visit returns false.
+  void for_each(const std::function<bool(Kind, std::uint32_t, std::uint32_t)>& visit) const;
+
+  /// Calls visit(u, v, triangles) for every edge of more than two triangles which use it equally often in both
+  /// directions but do not separate inside from outside around it.
+  void for_each_bad_edge(
+      const std::function<bool(std::uint32_t, std::uint32_t, std::span<const std::uint32_t>)>& visit) const;
+
+  /// A triangle around the segment from u to v: its corner beside the segment, +1 if it runs from u to v or -1 if
+  /// from v to u, and whether it belongs to the first or second of two surfaces.
+  struct Wing {
+    std::uint32_t apex = 0;
+    int direction = 0;
+    bool second = false;
+  };
+  struct Around {
+    bool separates = false;    ///< going around the segment goes in and out of a solid, which it winds around once
+    bool interleaved = false;  ///< the second surface goes on in different sectors of the first
+  };
+  /// How triangles lie around a segment. O(n log n) for n of them.
+  [[nodiscard]] Around around_segment(std::uint32_t u, std::uint32_t v, std::span<const Wing> wings) const;
+
+ private:
+  struct HalfEdge {
+    std::uint64_t key = 0;  // smaller vertex, larger vertex
+    std::uint32_t triangle = 0;
+    std::uint32_t apex = 0;
+    int direction = 0;  // +1 if the triangle runs from the smaller to the larger vertex
+  };
+  struct Interval;
+  struct Edge {
+    std::uint32_t u = 0, v = 0;
+    bool valid = false;
+  };
+
+  [[nodiscard]] Kind classify(std::uint32_t t, std::uint32_t u) const;
+  [[nodiscard]] bool meet_in_corner(std::uint32_t t, std::uint32_t u) const;
+  [[nodiscard]] Kind classify_general(std::uint32_t t, std::uint32_t u, int shared) const;
+  [[nodiscard]] Kind classify_coplanar(std::uint32_t t, std::uint32_t u, int shared) const;
+  [[nodiscard]] Kind classify_neighbours(std::uint32_t t, std::uint32_t u, std::size_t t_free,
+                                         std::size_t u_free) const;
+  [[nodiscard]] Kind resolve_segment(std::uint32_t t, Edge t_edge, std::uint32_t u, Edge u_edge) const;
+  [[nodiscard]] const std::vector<HalfEdge>& half_edges() const;
+  [[nodiscard]] std::span<const HalfEdge> around(std::uint32_t u, std::uint32_t v) const;
+  bool add_wings(std::uint32_t triangle, Edge own, Edge along, bool second, std::vector<Wing>& wings) const;
+  [[nodiscard]] bool same_direction(Edge a, Edge b) const;
+  [[nodiscard]] bool turned_alike(const Triangle& a, const Triangle& b) const;
+
+  [[nodiscard]] int side(std::uint32_t triangle, std::uint32_t place) const;
+
+  const MeshPoints& points_;
+  std::span<const Triangle> triangles_;
+  std::span<const std::uint32_t> face_of_;
+  SurfacePatches patches_;
+  mutable std::once_flag half_edges_once_;
+  mutable std::vector<HalfEdge> half_edges_;  // sorted by key; made when first asked for
+};
+
+}  // namespace nef

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Let q lie on one side of the plane of p but for corners that are corners of p, too. Then q meets that plane in these
+// corners and in edges between them. One corner is nothing beyond what they share, and neither are two, unless an edge
+// of q joins them and none of p does: such an edge may run through p.
+#include "nef/mesh/surface/surface_patches.h"
+
+#include <algorithm>
+#include <array>
+
+#include "nef/mesh/surface/coplanar_groups.h"
+
+namespace nef {
+namespace {
+
+// In ordinary meshes the boxes of some ten others overlap that of a triangle.
+constexpr std::size_t kManyPairs = 32;
+
+bool adjacent(std::span<const std::uint32_t> next, std::uint32_t i, std::uint32_t j) {
+  return next.empty() || next[i] == j || next[j] == i;  // in a triangle all are
+}
+
+}  // namespace
+
+SurfacePatches::SurfacePatches(const MeshSurface& surface)
+    : surface_(surface), patch_of_face_(surface.defects.size(), 0), faces_(planar_faces()) {
+  for (std::uint32_t p = 0; p < faces_.patches.size(); ++p) {
+    patch_of_face_[surface.face_of[faces_.patches[p].first]] = p;
+  }
+}
+
+SurfacePatches::Layout SurfacePatches::planar_faces() const {
+  Layout layout;
+  const auto count = static_cast<std::uint32_t>(surface_.triangles.size());
+  layout.patches.reserve(surface_.defects.size());
+  for (std::uint32_t t = 0; t < count;) {
+    const std::uint32_t f = surface_.face_of[t];
+    Patch patch{t, t + 1, 0, 0, true};
+    if (!surface_.ring(f).empty()) {
+      while (patch.last < count && surface_.face_of[patch.last] == f) ++patch.last;
+      patch.proper = surface_.pieces[patch.first] == surface_.pieces[patch.last - 1];
+    }
+    if (patch.size() > 1) {
+      const std::span<const std::uint32_t> ring = surface_.ring(f);
+      patch.corner_begin = static_cast<std::uint32_t>(layout.corners.size());
+      add_cycles(layout, ring, std::array{static_cast<std::uint32_t>(ring.size())});
+      patch.corner_end = static_cast<std::uint32_t>(layout.corners.size());
+    }
+    layout.patches.push_back(patch);
+    t = patch.last;
+  }
+  index_corners(layout);
+  return layout;
+}
+
+// The same with coplanar neighbours as one patch.
+SurfacePatches::Layout SurfacePatches::united() const {
+  std::vector<std::span<const std::uint32_t>> polygons;
+  for (const Patch& patch : faces_.patches) {
+    polygons.push_back(patch.proper ? corners(faces_, patch) : std::span<const std::uint32_t>());
+  }
+  const std::vector<CoplanarGroup> groups = coplanar_groups(surface_.points, polygons);
+  std::vector<bool> grouped(faces_.patches.size(), false);
+  Layout layout;
+  const auto push = [&](std::span<const std::uint32_t> members, std::span<const std::uint32_t> cycles,
+                        std::span<const std::uint32_t> ends) {
+    Patch patch = faces_.patches[members[0]];
+    patch.first = static_cast<std::uint32_t>(layout.order.size());
+    for (const std::uint32_t p : members) {
+      for (std::uint32_t t = faces_.patches[p].first; t < faces_.patches[p].last; ++t) layout.order.push_back(t);
+    }
+    patch.last = static_cast<std::uint32_t>(layout.order.size());
+    patch.corner_begin = static_cast<std::uint32_t>(layout.corners.size());
+    if (patch.size() > 1) add_cycles(layout, cycles, ends);
+    patch.corner_end = static_cast<std::uint32_t>(layout.corners.size());
+    layout.patches.push_back(patch);
+  };
+  for (const CoplanarGroup& group : groups) {
+    for (const std::uint32_t p : group.members) grouped[p] = true;
+    push(group.members, group.cycles, group.cycle_end);
+  }
+  for (std::uint32_t p = 0; p < faces_.patches.size(); ++p) {
+    if (grouped[p]) continue;
+    const std::span<const std::uint32_t> ring = corners(faces_, faces_.patches[p]);
+    push(std::array{p}, ring, std::array{static_cast<std::uint32_t>(ring.size())});
+  }
+  index_corners(layout);
+  return layout;
+}
+
+void SurfacePatches::add_cycles(Layout& layout, std::span<const std::uint32_t> cycles,
+                                std::span<const std::uint32_t> ends) const {
+  layout.corners.insert(layout.corners.end(), cycles.begin(), cycles.end());
+  for (std::uint32_t begin = 0; const std::uint32_t end : ends) {
+    for (std::uint32_t i = begin; i < end; ++i) layout.next.push_back(i + 1 == end ? begin : i + 1);
+    begin = end;
+  }
+}
+
+void SurfacePatches::index_corners(Layout& layout) const {
+  layout.corner_begin.assign(surface_.points.size() + 1, 0);
+  for (const std::uint32_t place : layout.corners) ++layout.corner_begin[place + 1];
+  for (std::size_t v = 1; v < layout.corner_begin.size(); ++v) layout.corner_begin[v] += layout.corner_begin[v - 1];
+  layout.at.resize(layout.corners.size());
+  std::vector<std::uint32_t> at(layout.corner_begin.begin(), layout.corner_begin.end() - 1);
+  for (std::uint32_t p = 0; p < layout.patches.size(); ++p) {
+    const Patch& patch = layout.patches[p];
+    for (std::uint32_t i = patch.corner_begin; i < patch.corner_end; ++i) {
+      layout.at[at[layout.corners[i]]++] = {p, i - patch.corner_begin};
+    }
+  }
+}
+
+std::span<const std::uint32_t> SurfacePatches::corners(const Layout& layout, const Patch& patch) const {
+  if (patch.size() == 1) return surface_.triangles[layout.triangle(patch.first)];
+  return std::span(layout.corners).subspan(patch.corner_begin, patch.corner_end - patch.corner_begin);
+}
+
+// Of a place among the corners of a patch.
+std::optional<std::uint32_t> SurfacePatches::position(const Layout& layout, std::uint32_t patch,
+                                                      std::uint32_t place) const {
+  if (layout.patches[patch].size() == 1) {
+    const std::array<std::uint32_t, 3>& t = surface_.triangles[layout.triangle(layout.patches[patch].first)];
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      if (t[i] == place) return i;
+    }
+    return std::nullopt;
+  }
+  for (std::uint32_t i = layout.corner_begin[place]; i < layout.corner_begin[place + 1]; ++i) {
+    if (layout.at[i].patch == patch) return layout.at[i].position;
+  }
+  return std::nullopt;
+}
+
+bool SurfacePatches::is_cut(std::uint32_t triangle, std::uint32_t u, std::uint32_t v) const {
+  const std::uint32_t p = patch_of_face_[surface_.face_of[triangle]];
+  const Patch& patch = faces_.patches[p];
+  if (patch.size() == 1) return false;
+  const std::optional<std::uint32_t> i = position(faces_, p, u);
+  const std::optional<std::uint32_t> j = position(faces_, p, v);
+  return i && j && !adjacent(std::span(faces_.next).subspan(patch.corner_begin), *i, *j);
+}
+
+bool SurfacePatches::on_plane(std::uint32_t triangle, std::uint32_t place) const {
+  const std::uint32_t patch = patch_of_face_[surface_.face_of[triangle]];
+  return faces_.patches[patch].size() > 1 && position(faces_, patch, place).has_value();
+}
+
+// True if the plane of p shows that the two have nothing in common beyond shared corners and a shared edge.
+bool SurfacePatches::apart(const Layout& layout, std::uint32_t p, std::uint32_t q) const {
+  const Patch& patch = layout.patches[p];
+  const Patch& other = layout.patches[q];
+  const std::array<std::uint32_t, 3>& plane = surface_.triangles[layout.triangle(patch.first)];
+  const std::span<const std::uint32_t> ring = corners(layout, other);
+  std::array<std::uint32_t, 2> in_p{};
+  std::array<std::uint32_t, 2> in_q{};
+  std::size_t shared = 0;
+  int side = 0;
+  for (std::uint32_t i = 0; i < ring.size(); ++i) {
+    if (const std::optional<std::uint32_t> at = position(layout, p, ring[i])) {
+      if (shared == 2) return false;
+      in_p[shared] = *at;
+      in_q[shared++] = i;
+      continue;
+    }
+    const int sign = surface_.points.orientation(plane[0], plane[1], plane[2], ring[i]);
+    if (sign == 0 || sign * side < 0) return false;
+    side = sign;
+  }
+  const auto joined = [&layout](const Patch& of, const std::array<std::uint32_t, 2>& at) {
+    return adjacent(std::span(layout.next).subspan(of.corner_begin, of.corner_end - of.corner_begin), at[0], at[1]);
+  };
+  return shared < 2 || !joined(other, in_q) || joined(patch, in_p);
+}
+
+Box SurfacePatches::box(std::span<const std::uint32_t> places) const {
+  Box result;
+  for (const std::uint32_t v : places) surface_.points.extend(result, v);
+  return result;
+}
+
+std::vector<Box> SurfacePatches::triangle_boxes(const Layout& layout, const Patch& patch) const {
+  std::vector<Box> boxes;
+  boxes.reserve(patch.size());
+  for (std::uint32_t t = patch.first; t < patch.last; ++t) boxes.push_back(box(surface_.triangles[layout.triangle(t)]));
+  return boxes;
+}
+
+BoxTree SurfacePatches::tree(const Layout& layout) const {
+  std::vector<Box> boxes;
+  boxes.reserve(layout.patches.size());
+  for (const Patch& patch : layout.patches) boxes.push_back(box(corners(layout, patch)));
+  return BoxTree(boxes);
+}
+
+void SurfacePatches::within(const Layout& layout, const Patch& patch, const Visit& visit) const {
+  BoxTree(triangle_boxes(layout, patch)).for_each_pair([&](std::uint32_t t, std::uint32_t u) {
+    visit(layout.triangle(patch.first + t), layout.triangle(patch.first + u));
+  });
+}
+
+void SurfacePatches::between(const Layout& layout, std::uint32_t p, std::uint32_t q, const Visit& visit) const {
+  const Patch& small = layout.patches[layout.patches[p].size() > layout.patches[q].size() ? q : p];
+  const Patch& large = layout.patches[layout.patches[p].size() > layout.patches[q].size() ? p : q];
+  const std::vector<Box> boxes = triangle_boxes(layout, large);
+  constexpr std::uint32_t kFew = 64;  // pairs that are looked at faster than a tree is built
+  const auto each_of_small = [&](const auto& look) {
+    for (std::uint32_t t = small.first; t < small.last; ++t) {
+      const std::uint32_t own = layout.triangle(t);
+      look(box(surface_.triangles[own]), [&](std::uint32_t u) { visit(own, layout.triangle(large.first + u)); });
+    }
+  };
+  if (small.size() * static_cast<std::uint64_t>(large.size()) <= kFew) {
+    each_of_small([&](const Box& own, const auto& meet) {
+      for (std::uint32_t u = 0; u < boxes.size(); ++u) {
+        if (own.overlaps(boxes[u])) meet(u);
+      }
+    });
+    return;
+  }
+  const BoxTree tree(boxes);
+  each_of_small([&](const Box& own, const auto& meet) { tree.for_each_overlap(own, meet); });
+}
+
+// Patches with overlapping boxes.
+void SurfacePatches::visit_pair(const Layout& layout, std::uint32_t i, std::uint32_t j, const Visit& visit) const {
+  const Patch& p = layout.patches[i];
+  const Patch& q = layout.patches[j];
+  if (p.size() == 1 && q.size() == 1) {
+    const std::uint32_t t = layout.triangle(p.first);
+    const std::uint32_t u = layout.triangle(q.first);
+    if (surface_.pieces[t] != surface_.pieces[u]) visit(t, u);
+    return;
+  }
+  // The plane of the larger one first: that asks for the corners of the smaller.
+  const bool ordered = p.size() >= q.size();
+  if (!apart(layout, ordered ? i : j, ordered ? j : i) && !apart(layout, ordered ? j : i, ordered ? i : j)) {
+    between(layout, i, j, visit);
+  }
+}
+
+// True if so many patches meet in single corners that their pairs are too many to look at.
+bool SurfacePatches::has_wide_fans() const {
+  std::vector<std::uint32_t> degree(surface_.points.size(), 0);
+  for (const Patch& patch : faces_.patches) {
+    for (const std::uint32_t place : corners(faces_, patch)) ++degree[place];
+  }
+  std::size_t pairs = 0;
+  for (const std::size_t d : degree) pairs += d * d / 2;
+  return pairs > kManyPairs * faces_.patches.size() + 1000;
+}
+
+void SurfacePatches::for_each_candidate(const Visit& visit) const {
+  const Visit ordered = [&visit](std::uint32_t t, std::uint32_t u) { visit(std::min(t, u), std::max(t, u)); };
+  for (const Patch& patch : faces_.patches) {
+    if (!patch.proper) within(faces_, patch, ordered);
+  }
+  if (!has_wide_fans()) {
+    std::vector<std::array<std::uint32_t, 2>> pairs;
+    const std::size_t limit = kManyPairs * faces_.patches.size() + 1000;
+    tree(faces_).for_each_pair([&](std::uint32_t i, std::uint32_t j) {
+      if (pairs.size() < limit) pairs.push_back({i, j});
+    });
+    if (pairs.size() < limit) {
+      for (const auto& [i, j] : pairs) visit_pair(faces_, i, j, ordered);
+      return;
+    }
+  }
+  const Layout layout = united();
+  tree(layout).for_each_pair([&](std::uint32_t i, std::uint32_t j) { visit_pair(layout, i, j, ordered); });
+}
+
+}  // namespace nef

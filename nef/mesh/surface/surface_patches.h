@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Which triangles of a surface can meet beyond the vertices and edges that they share, told face by face.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "nef/geometry/box_tree.h"
+#include "nef/mesh/surface/mesh_surface.h"
+
+namespace nef {
+
+/// The planar pieces of a triangulated surface: whole planar faces, and single triangles of all others. Two patches
+/// are told apart by the plane of one of them at the cost of one sign for each corner of the other, however many
+/// triangles they have. Where very many boxes overlap, as in a fan, coplanar neighbours are united to larger patches.
+class SurfacePatches {
+ public:
+  /// The surface must outlive this object. O(n).
+  explicit SurfacePatches(const MeshSurface& surface);
+
+  /// Calls visit(t, u) in no particular order for pairs of triangles, among them all that have in common more than
+  /// shared vertices and edges. O(n log n + k) for k pairs of patches with overlapping boxes (of united patches, if k
+  /// is large); patches that can not be told apart add the pairs of their triangles with overlapping boxes.
+  void for_each_candidate(const std::function<void(std::uint32_t, std::uint32_t)>& visit) const;
+
+  /// True if the place is known to lie in the plane of the triangle: as a corner of the same planar face.
+  [[nodiscard]] bool on_plane(std::uint32_t triangle, std::uint32_t place) const;
+
+  /// True if the edge of the triangle between two of its corners is a cut through its planar face, not a side of it.
+  [[nodiscard]] bool is_cut(std::uint32_t triangle, std::uint32_t u, std::uint32_t v) const;
+
+ private:
+  using Visit = std::function<void(std::uint32_t, std::uint32_t)>;
+
+  struct Patch {
+    std::uint32_t first = 0, last = 0;               // triangles, in the order of the layout
+    std::uint32_t corner_begin = 0, corner_end = 0;  // none for single triangles
+    bool proper = true;  // its triangles have nothing in common beyond shared vertices and edges
+    [[nodiscard]] std::uint32_t size() const { return last - first; }
+  };
+  struct Corner {
+    std::uint32_t patch = 0;
+    std::uint32_t position = 0;  // among its corners
+  };
+  // One way to make patches of all triangles.
+  struct Layout {
+    std::vector<Patch> patches;
+    std::vector<std::uint32_t> order;         // triangles, patch by patch; empty: as they are numbered
+    std::vector<std::uint32_t> corners;       // of all patches of more than one triangle
+    std::vector<std::uint32_t> next;          // of each, the position of the next on its cycle
+    std::vector<std::uint32_t> corner_begin;  // by place, into `at`
+    std::vector<Corner> at;
+    [[nodiscard]] std::uint32_t triangle(std::uint32_t i) const { return order.empty() ? i : order[i]; }
+  };
+
+  [[nodiscard]] Layout planar_faces() const;
+  [[nodiscard]] Layout united() const;
+  void add_cycles(Layout& layout, std::span<const std::uint32_t> cycles, std::span<const std::uint32_t> ends) const;
+  void index_corners(Layout& layout) const;
+
+  [[nodiscard]] std::span<const std::uint32_t> corners(const Layout& layout, const Patch& patch) const;
+  [[nodiscard]] std::optional<std::uint32_t> position(const Layout& layout, std::uint32_t patch,
+                                                      std::uint32_t place) const;
+  [[nodiscard]] bool apart(const Layout& layout, std::uint32_t p, std::uint32_t q) const;
+  [[nodiscard]] Box box(std::span<const std::uint32_t> places) const;
+  [[nodiscard]] std::vector<Box> triangle_boxes(const Layout& layout, const Patch& patch) const;
+  [[nodiscard]] BoxTree tree(const Layout& layout) const;
+  [[nodiscard]] bool has_wide_fans() const;
+  void within(const Layout& layout, const Patch& patch, const Visit& visit) const;
+  void between(const Layout& layout, std::uint32_t p, std::uint32_t q, const Visit& visit) const;
+  void visit_pair(const Layout& layout, std::uint32_t p, std::uint32_t q, const Visit& visit) const;
+
+  const MeshSurface& surface_;
+  std::vector<std::uint32_t> patch_of_face_;  // the last one of each face
+  Layout faces_;
+};
+
+}  // namespace nef

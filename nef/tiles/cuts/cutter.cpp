@@ -1,0 +1,319 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/tiles/cuts/cutter.h"
+
+#include <algorithm>
+#include <thread>
+
+#include "nef/base/error.h"
+#include "nef/base/interruption.h"
+#include "nef/base/threads/parallel.h"
+#include "nef/complex/local_pyramid.h"
+#include "nef/complex/owners.h"
+#include "nef/synthesis/complex_builder.h"
+#include "nef/synthesis/edge_linking.h"
+#include "nef/tiles/cuts/halving_plane.h"
+
+namespace nef {
+namespace {
+
+// Of the two sides of a plane.
+template <typename T>
+using Sides = std::array<T, 2>;
+
+// The planes that a loose complex uses, in the order of the table, and renames them in it. `row`: scratch, kept between
+// calls for one table.
+PlaneTable own_planes(const PlaneTable& all, Complex& piece, std::vector<std::uint32_t>& row) {
+  std::vector<std::uint32_t> used;
+  row.resize(all.size(), kNone);
+  for_each_plane_of(piece, [&](PlaneId plane) {
+    if (row[plane.row()] != kNone) return;
+    row[plane.row()] = 0;
+    used.push_back(plane.row());
+  });
+  std::sort(used.begin(), used.end());
+  PlaneTable planes;
+  planes.reserve(used.size());
+  for (const std::uint32_t r : used) row[r] = planes.append_new(all, r);
+  for_each_plane_of(piece, [&row](PlaneId& plane) { plane = PlaneId{row[plane.row()] << 1U | (plane.value & 1U)}; });
+  for (const std::uint32_t r : used) row[r] = kNone;
+  return planes;
+}
+
+}  // namespace
+
+// The vertices of both halves: those of the piece in its order, then where edges cross the plane.
+class Cutter::Halves {
+ public:
+  Halves(const Complex& piece, PlaneTable& planes, PlaneId plane, SphereOverlay& overlay)
+      : c_(piece),
+        planes_(planes),
+        plane_(plane),
+        overlay_(overlay),
+        side_(piece.vertex_count()),
+        shift_(piece.vertex_count(), 0) {
+    beyond_[0].assign_circle(plane, 0, kOutside, 0);
+    beyond_[1].assign_circle(plane, 0, 0, kOutside);
+  }
+
+  Sides<Complex> run() {
+    const auto count = static_cast<std::uint32_t>(c_.vertex_count());
+    for (std::uint32_t v = 0; v < count; ++v)
+      side_[v] = static_cast<std::int8_t>(side_of_plane(planes_, plane_, c_.points, PointId{v}));
+    for (std::uint32_t v = 0; v < count;) {
+      std::uint32_t end = v + 1;
+      if (side_[v] == 0) {
+        add_both(c_.points, PointId{v}, c_.sphere_map(v));
+      } else {
+        while (end < count && side_[end] == side_[v]) ++end;
+        copy(v, end);
+      }
+      v = end;
+    }
+    for (std::uint32_t h = 0; h < c_.svertex_count(); ++h) {
+      if (side_[c_.svertex_owner[h]] < 0 && side_[c_.target(h)] > 0) add_crossing(h);
+    }
+    return {finish(0), finish(1)};
+  }
+
+ private:
+  struct Run {
+    bool copied = false;
+    std::uint32_t first = 0;  // in the piece
+    std::uint32_t count = 0;
+  };
+
+  void copy(std::uint32_t first, std::uint32_t end) {
+    const std::size_t x = side_[first] < 0 ? 0 : 1;
+    const std::uint32_t shift = builder_[x].so_far().vertices.back().svertices - c_.vertices[first].svertices;
+    std::fill(shift_.begin() + first, shift_.begin() + end, shift);
+    builder_[x].copy(c_, first, end - first);
+    runs_[x].push_back({true, first, end - first});
+  }
+
+  void add_both(const PointTable& points, PointId point, const SphereMapView& map) {
+    for (std::size_t x = 0; x < 2; ++x) {
+      overlay_.overlay(planes_, map, beyond_[x].view(), keep_, half_);
+      if (builder_[x].add(points, point, half_.view())) runs_[x].push_back({false, 0, 1});
+    }
+  }
+
+  void add_crossing(std::uint32_t h) {
+    const std::uint32_t v = c_.svertex_owner[h];
+    edge_pyramid(c_.sphere_map(v), h - c_.vertices[v].svertices, pyramid_);
+    PointTable points;
+    const auto point = points.push_intersection(planes_, c_.svertex(h).p, c_.svertex(h).q, plane_);
+    NEF_ASSERT(point.has_value());
+    add_both(points, *point, pyramid_.view());
+  }
+
+  // The ends of edges between copies are known.
+  Complex finish(std::size_t x) {
+    Complex half = builder_[x].take_so_far();
+    name_svertex_owners(half);
+    const int side = x == 0 ? -1 : 1;
+    KnownLinks known;
+    known.twin.reserve(half.svertex_count());
+    std::uint32_t vertex = 0;
+    for (const Run& run : runs_[x]) {
+      for (std::uint32_t i = 0; i < run.count; ++i, ++vertex) {
+        if (run.copied ? !copy_twins(run.first + i, side, known.twin) : add_loose(half, vertex, known.twin)) {
+          known.loose_vertices.push_back(vertex);
+        }
+      }
+    }
+    std::swap(half.planes, planes_);
+    link_edges(half, known);
+    std::swap(half.planes, planes_);
+    return half;
+  }
+
+  // True if all are known.
+  bool copy_twins(std::uint32_t v, int side, std::vector<std::uint32_t>& twin) const {
+    bool all = true;
+    for (std::uint32_t h = c_.vertices[v].svertices; h < c_.vertices[v + 1].svertices; ++h) {
+      const std::uint32_t other = c_.twin[h];
+      const std::uint32_t end = c_.svertex_owner[other];
+      const bool kept = side_[end] == side;
+      twin.push_back(kept ? other + shift_[end] : kNone);
+      all = all && kept;
+    }
+    return all;
+  }
+
+  static bool add_loose(const Complex& half, std::uint32_t vertex, std::vector<std::uint32_t>& twin) {
+    twin.resize(half.vertices[vertex + 1].svertices, kNone);
+    return half.vertices[vertex].svertices < half.vertices[vertex + 1].svertices;
+  }
+
+  const Complex& c_;
+  PlaneTable& planes_;
+  PlaneId plane_;
+  SphereOverlay& overlay_;
+  LabelFunction keep_{kMarks, 1, [](LabelId mark, LabelId) { return mark; }};
+  Sides<SphereMapBuffer> beyond_;     // kOutside there
+  std::vector<std::int8_t> side_;     // of each vertex
+  std::vector<std::uint32_t> shift_;  // from its svertices to those of its copy, modulo 2^32
+  Sides<std::vector<Run>> runs_;
+  Sides<ComplexBuilder> builder_{ComplexBuilder{planes_}, ComplexBuilder{planes_}};
+  SphereMapBuffer half_;
+  SphereMapBuffer pyramid_;
+};
+
+Complex Cutter::loose(const Complex& complex) {
+  ComplexBuilder builder(planes_);
+  const auto count = static_cast<std::uint32_t>(complex.vertex_count());
+  builder.copy(complex, 0, count);
+  std::vector<std::uint32_t> twin = complex.twin;
+  if (!complex.has_box()) {
+    const Complex corners = infimaximal_corners(complex.volumes[kOuterVolume].mark);
+    std::vector<std::uint32_t> rows;
+    for (std::uint32_t row = 0; row < corners.planes.size(); ++row) {
+      rows.push_back(planes_.intern_from(corners.planes, PlaneId{row << 1U}).row());
+    }
+    builder.copy(corners, 0, static_cast<std::uint32_t>(corners.vertex_count()), rows);
+    const auto shift = static_cast<std::uint32_t>(twin.size());
+    for (const std::uint32_t h : corners.twin) twin.push_back(h + shift);
+  }
+  Complex result = builder.take_so_far();
+  name_svertex_owners(result);
+  result.twin = std::move(twin);
+  return result;
+}
+
+std::array<Complex, 2> Cutter::cut(const Complex& piece, const AxisPlane& plane) {
+  check_interruption();
+  return Halves(piece, planes_, plane.intern(planes_), overlay_).run();
+}
+
+Complex Cutter::restricted(Complex&& piece, const Region& region) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (region.low[axis] != nullptr) piece = std::move(cut(piece, *region.low[axis])[1]);
+    if (region.high[axis] != nullptr) piece = std::move(cut(piece, *region.high[axis])[0]);
+  }
+  return std::move(piece);
+}
+
+Complex Cutter::linked(Complex&& piece) {
+  PlaneTable planes = own_planes(planes_, piece, row_);
+  KnownLinks known;
+  known.twin = std::move(piece.twin);
+  ComplexBuilder builder(planes);
+  builder.take_vertices(std::move(piece));
+  return builder.finish(kOutside, std::move(known));
+}
+
+TileRef Cutter::leaf(Complex&& piece, bool uncut) {
+  const TileMeasure measure = measure_tile(piece);
+  if (measure.uniform) return uniform_leaf(measure.mark);
+  return tile_leaf(Polyhedron(linked(std::move(piece))), tiling_.store, uncut);
+}
+
+std::optional<Cutter::Halved> Cutter::halve(const Complex& piece) {
+  for (std::size_t attempt = 0; attempt < 3 && piece.vertex_count() > tiling_.limit; ++attempt) {
+    std::optional<AxisPlane> plane = halving_plane(piece, attempt);
+    if (!plane) continue;
+    Halved result{std::move(*plane), {}};
+    result.halves = cut(piece, result.plane);
+    // Where all surfaces run across the plane, nothing is gained.
+    const std::size_t most = std::max(result.halves[0].vertex_count(), result.halves[1].vertex_count());
+    if (most <= piece.vertex_count() - piece.vertex_count() / 8) return result;
+  }
+  return std::nullopt;
+}
+
+TileRef Cutter::subdivide(Complex&& piece) {
+  std::optional<Halved> halved = halve(piece);
+  if (!halved) return leaf(std::move(piece));
+  piece = Complex();
+  TileRef low = subdivide(std::move(halved->halves[0]));
+  return cut_node(halved->plane, std::move(low), subdivide(std::move(halved->halves[1])));
+}
+
+namespace {
+
+// A part of a tree that is being made: a piece, or two parts.
+struct Part {
+  Complex piece;
+  AxisPlane plane;
+  std::array<std::size_t, 2> parts{};
+  bool halved = false;
+  TileRef tree;
+};
+
+// Halves the first piece, then its parts, until there are so many.
+std::vector<Part> first_parts(Cutter& cutter, Complex&& piece, std::size_t enough) {
+  std::vector<Part> parts(1);
+  parts[0].piece = std::move(piece);
+  std::size_t pieces = 1;
+  for (std::size_t i = 0; i < parts.size() && pieces < enough; ++i) {
+    std::optional<Cutter::Halved> halved = cutter.halve(parts[i].piece);
+    if (!halved) continue;
+    ++pieces;
+    parts[i].piece = Complex();
+    parts[i].plane = std::move(halved->plane);
+    parts[i].halved = true;
+    for (std::size_t x = 0; x < 2; ++x) {
+      parts[i].parts[x] = parts.size();
+      parts.emplace_back();
+      parts.back().piece = std::move(halved->halves[x]);
+    }
+  }
+  return parts;
+}
+
+TileRef subdivided_in_parallel(Cutter& cutter, Complex&& piece, const Tiling& tiling, unsigned threads) {
+  constexpr std::size_t kPartsPerThread = 4;
+  const std::size_t workers = threads == 0 ? std::max(1U, std::thread::hardware_concurrency()) : threads;
+  std::vector<Part> parts = first_parts(cutter, std::move(piece), kPartsPerThread * workers);
+  parallel_for(parts.size(), threads, [&](std::size_t i) {
+    if (parts[i].halved) return;
+    std::vector<std::uint32_t> row;
+    Cutter own(own_planes(cutter.planes(), parts[i].piece, row), tiling);
+    parts[i].tree = own.subdivide(std::move(parts[i].piece));
+  });
+  for (std::size_t i = parts.size(); i-- > 0;) {
+    Part& part = parts[i];
+    if (part.halved) part.tree = cut_node(part.plane, parts[part.parts[0]].tree, parts[part.parts[1]].tree);
+  }
+  return parts[0].tree;
+}
+
+}  // namespace
+
+TileRef subdivided(const Polyhedron& set, const Tiling& tiling, unsigned threads) {
+  const Complex& complex = set.complex();
+  if (complex.vertex_count() <= tiling.limit) return tile_leaf(set, tiling.store);
+  Cutter cutter(complex.planes, tiling);
+  Complex piece = cutter.loose(complex);
+  TileRef tree = threads == 1 ? cutter.subdivide(std::move(piece))
+                              : subdivided_in_parallel(cutter, std::move(piece), tiling, threads);
+  return tree.node->kind == TileNode::Kind::kTile ? tile_leaf(set, tiling.store) : tree;
+}
+
+TileRef fully_cut(const TileRef& tree, const Tiling& tiling) {
+  TileRef result = tree;
+  if (tree.node->kind == TileNode::Kind::kTile && tree.node->uncut) {
+    result = subdivided(tree.node->set(), tiling, tiling.threads);
+    if (tree.complemented) result = result.complement();
+  } else if (tree.node->kind == TileNode::Kind::kCut) {
+    const std::array<TileRef, 2> old = children(tree);
+    const std::array<TileRef, 2> cut{fully_cut(old[0], tiling), fully_cut(old[1], tiling)};
+    if (cut != old) result = cut_node(tree.node->plane, cut[0], cut[1]);
+  }
+  return result;
+}
+
+std::array<TileRef, 2> cut_leaf(const TileRef& leaf, const AxisPlane& plane, const Tiling& tiling) {
+  const Polyhedron set = leaf.node->set();
+  const Complex& complex = set.complex();
+  Cutter cutter(complex.planes, tiling);
+  std::array<Complex, 2> halves = cutter.cut(cutter.loose(complex), plane);
+  std::array<TileRef, 2> result;
+  for (std::size_t x = 0; x < 2; ++x) {
+    result[x] = cutter.leaf(std::move(halves[x]));
+    if (leaf.complemented) result[x] = result[x].complement();
+  }
+  return result;
+}
+
+}  // namespace nef

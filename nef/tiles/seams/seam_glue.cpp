@@ -1,0 +1,504 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A vertex of the whole that lies in a seam is a vertex of a tile there, or the point where edges of tiles on both
+// sides of a cut cross: at any other point of a seam all pyramids have a common line, or all are half-spaces. A vertex
+// of a tile in a seam need not be one of the tiles beside it, nor of the whole. So all these points are gathered by
+// their coordinates, each is looked up in all tiles that hold it, and the overlay on the sphere decides; but for most
+// of them, where an edge or a facet was cut, which the maps tell without it. Where tiles have no boundary but their
+// walls, neither vertices nor edges of theirs matter: next to what has some, they change along no line that it does
+// not change along.
+#include "nef/tiles/seams/seam_glue.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "nef/base/error.h"
+#include "nef/base/interruption.h"
+#include "nef/base/threads/parallel.h"
+#include "nef/complex/facet_plane.h"
+#include "nef/complex/local_pyramid.h"
+#include "nef/geometry/box_tree.h"
+#include "nef/location/query_structure.h"
+#include "nef/operation/canonical_order.h"
+#include "nef/sphere_map/overlay.h"
+#include "nef/synthesis/complex_builder.h"
+#include "nef/tiles/seams/cut_items.h"
+#include "nef/tiles/seams/point_numbers.h"
+
+namespace nef {
+namespace {
+
+// False only if a coordinate surely is not that of the plane.
+bool may_touch(double coordinate, const AxisPlane& plane) {
+  const double slack = 0x1p-50 * std::fabs(coordinate) + 1e-300;
+  return !(coordinate + slack < plane.bounds[0] || coordinate - slack > plane.bounds[1]);
+}
+
+// True if not all marks around the edge of an svertex are the same, kOutside left out.
+bool edge_has_boundary(const SphereMapView& map, std::uint32_t svertex) {
+  const SVertex& edge = map.svertices[svertex];
+  if (edge.out == kNone) return true;
+  std::uint32_t e = edge.out;
+  do {
+    const LabelId side = map.sfaces[map.shalfedges[e].sface].mark;
+    if (map.shalfedges[e].mark != edge.mark || (side != edge.mark && side != kOutside)) return true;
+    e = map.next_around(e);
+  } while (e != edge.out);
+  return false;
+}
+
+class SeamGlue {
+ public:
+  SeamGlue(const TileRef& tree, const Region& region, unsigned threads) : threads_(threads) {
+    root_ = add(tree, region, Walls{});
+  }
+
+  // Fills what the functions below return.
+  void run() {
+    check_interruption();
+    parallel_for(leaves_.size(), threads_, [this](std::size_t i) { read_leaf(leaves_[i]); });
+    name_planes();
+    number_points();
+    find_crossings();
+    join_points();
+  }
+
+  PlaneTable& planes() { return planes_; }
+
+  // The vertices of the whole that lie in seams, by planes().
+  [[nodiscard]] const Complex& of_seams() const { return of_seams_; }
+
+  // Calls body(complex, first, count, rows) for runs of vertices that lie in no seam.
+  template <typename Body>
+  void for_each_run(std::uint32_t leaf, Body&& body) const {
+    const Leaf& l = leaves_[leaf];
+    std::uint32_t first = 0;
+    for (std::size_t k = 0; k <= l.seam.size(); ++k) {
+      const std::uint32_t end = k < l.seam.size() ? l.seam[k].vertex : static_cast<std::uint32_t>(count(l));
+      if (first < end) body(l.set.complex(), first, end - first, l.rows);
+      first = end + 1;
+    }
+  }
+
+  // The whole as input of canonical_complex.
+  [[nodiscard]] std::vector<CanonicalPart> parts() const {
+    std::vector<CanonicalPart> result;
+    for (const Leaf& leaf : leaves_) result.push_back({&leaf.set.complex(), leaf.rows});
+    result.push_back({&of_seams_, {}});
+    return result;
+  }
+  [[nodiscard]] std::vector<CanonicalVertex> vertices() const {
+    std::size_t all = of_seams_.vertex_count();
+    for (const Leaf& leaf : leaves_) all += count(leaf) - leaf.seam.size();
+    std::vector<CanonicalVertex> result;
+    result.reserve(all);
+    for (std::uint32_t i = 0; i < leaves_.size(); ++i) {
+      for_each_run(i, [&](const Complex&, std::uint32_t first, std::uint32_t number, const auto&) {
+        for (std::uint32_t v = first; v < first + number; ++v) result.push_back({i, v});
+      });
+    }
+    const auto seams = static_cast<std::uint32_t>(leaves_.size());
+    for (std::uint32_t v = 0; v < of_seams_.vertex_count(); ++v) result.push_back({seams, v});
+    return result;
+  }
+  [[nodiscard]] std::uint32_t leaf_count() const { return static_cast<std::uint32_t>(leaves_.size()); }
+
+ private:
+  // A cut or a leaf of the tree.
+  struct Spot {
+    PlaneId plane;  // invalid for a leaf
+    const AxisPlane* axis_plane = nullptr;
+    std::uint32_t low = 0;
+    std::uint32_t high = 0;
+    std::uint32_t leaf = 0;
+  };
+  // The cuts that bound a region, as spots; kNone where none of the tree does.
+  struct Walls {
+    std::array<std::uint32_t, 6> spot{kNone, kNone, kNone, kNone, kNone, kNone};  // 2 * axis + (1 for the upper one)
+  };
+  // A vertex of a leaf in a seam.
+  struct SeamVertex {
+    std::uint32_t vertex = 0;
+    std::uint32_t point = kNone;  // among those of all seams; none if the set has no boundary there
+    std::uint8_t walls = 0;       // a bit for each
+  };
+  // An edge of a leaf in a wall, between two of its seam vertices.
+  struct LeafEdge {
+    std::uint32_t wall = 0;
+    std::array<std::uint32_t, 2> seam{};
+    std::uint32_t halfedge = 0;
+  };
+  struct Leaf {
+    TileRef tree;
+    Region region;
+    Walls walls;
+    Polyhedron set;
+    std::vector<SeamVertex> seam;
+    PointTable points;  // of these, without common factors
+    std::vector<LeafEdge> edges;
+    std::vector<std::uint32_t> rows;  // of its planes in the common table
+  };
+  // A seam vertex of a leaf.
+  struct Member {
+    std::uint32_t leaf = 0;
+    std::uint32_t seam = 0;
+  };
+  // An edge of a leaf in the wall of a spot.
+  struct WallEdge {
+    std::array<std::uint32_t, 2> points;  // ascending
+    bool above = false;                   // its leaf lies above the wall
+    std::uint32_t leaf = 0;
+    std::uint32_t halfedge = 0;
+    [[nodiscard]] auto key() const { return std::pair(points, above); }
+  };
+  // Where three planes meet.
+  using Meeting = std::array<PlaneId, 3>;
+
+  static std::size_t count(const Leaf& leaf) { return leaf.set.complex().vertex_count(); }
+
+  std::uint32_t add(const TileRef& tree, const Region& region, const Walls& walls) {
+    const auto index = static_cast<std::uint32_t>(spots_.size());
+    spots_.emplace_back();
+    if (tree.node->kind != TileNode::Kind::kCut) {
+      spots_[index].leaf = static_cast<std::uint32_t>(leaves_.size());
+      Leaf leaf;
+      leaf.tree = tree;
+      leaf.region = region;
+      leaf.walls = walls;
+      leaves_.push_back(std::move(leaf));
+      return index;
+    }
+    const AxisPlane& plane = tree.node->plane;
+    spots_[index].plane = plane.intern(planes_);
+    spots_[index].axis_plane = &plane;
+    const std::array<TileRef, 2> parts = children(tree);
+    Walls below = walls;
+    below.spot[2 * plane.axis + 1] = index;
+    Walls above = walls;
+    above.spot[2 * plane.axis] = index;
+    const std::uint32_t low = add(parts[0], region.below(plane), below);
+    const std::uint32_t high = add(parts[1], region.above(plane), above);
+    spots_[index].low = low;
+    spots_[index].high = high;
+    return index;
+  }
+
+  // Finds the vertices and edges of a leaf in its walls. Touches nothing but the leaf.
+  void read_leaf(Leaf& leaf) const {
+    leaf.set = leaf_set(leaf.tree, leaf.region);
+    const Complex& c = leaf.set.complex();
+    const auto count = static_cast<std::uint32_t>(c.vertex_count());
+    std::vector<std::uint8_t> on(count, 0);  // a bit for each wall
+    for (unsigned wall = 0; wall < 6; ++wall) {
+      if (leaf.walls.spot[wall] == kNone) continue;
+      const Spot& spot = spots_[leaf.walls.spot[wall]];
+      for (std::uint32_t v = 0; v < count; ++v) {
+        if (!may_touch(c.points.approximate(PointId{v})[wall / 2], *spot.axis_plane)) continue;
+        if (side_of_plane(planes_, spot.plane, c.points, PointId{v}) == 0)
+          on[v] |= static_cast<std::uint8_t>(1U << wall);
+      }
+    }
+    std::vector<std::uint32_t> seam(count, kNone);
+    for (std::uint32_t v = 0; v < count; ++v) {
+      if (on[v] == 0) continue;
+      seam[v] = static_cast<std::uint32_t>(leaf.seam.size());
+      leaf.seam.push_back({v, kNone, on[v]});
+      if (!has_boundary(c.sphere_map(v))) continue;
+      leaf.seam.back().point = static_cast<std::uint32_t>(leaf.points.size());  // until they get common numbers
+      leaf.points.push_reduced(c.points, PointId{v});
+    }
+    for (const SeamVertex& s : leaf.seam) {
+      if (s.point == kNone) continue;
+      for (std::uint32_t h = c.vertices[s.vertex].svertices; h < c.vertices[s.vertex + 1].svertices; ++h) {
+        const std::uint32_t target = c.target(h);
+        const unsigned common = on[s.vertex] & on[target];
+        if (common == 0 || c.twin[h] < h) continue;
+        if (!edge_has_boundary(c.sphere_map(s.vertex), h - c.vertices[s.vertex].svertices)) continue;
+        for (std::uint32_t wall = 0; wall < 6; ++wall) {
+          if ((common >> wall & 1U) != 0) leaf.edges.push_back({wall, {seam[s.vertex], seam[target]}, h});
+        }
+      }
+    }
+  }
+
+  void name_planes() {
+    std::size_t planes = planes_.size();
+    for (const Leaf& leaf : leaves_) planes += leaf.set.complex().planes.size();
+    planes_.reserve(planes);
+    for (Leaf& leaf : leaves_) {
+      const PlaneTable& own = leaf.set.complex().planes;
+      leaf.rows.reserve(own.size());
+      for (std::uint32_t row = 0; row < own.size(); ++row) {
+        leaf.rows.push_back(planes_.intern_from(own, PlaneId{row << 1U}).row());
+      }
+    }
+  }
+
+  void number_points() {
+    check_interruption();
+    for (Leaf& leaf : leaves_) {
+      for (SeamVertex& s : leaf.seam) {
+        if (s.point != kNone) s.point = points_.number(leaf.points, PointId{s.point});
+      }
+      leaf.points = PointTable();
+    }
+  }
+
+  void find_crossings() {
+    std::vector<std::vector<WallEdge>> edges(spots_.size());
+    for (std::uint32_t i = 0; i < leaves_.size(); ++i) {
+      Leaf& leaf = leaves_[i];
+      for (const LeafEdge& edge : leaf.edges) {
+        const std::uint32_t a = leaf.seam[edge.seam[0]].point;
+        const std::uint32_t b = leaf.seam[edge.seam[1]].point;
+        edges[leaf.walls.spot[edge.wall]].push_back(
+            {{std::min(a, b), std::max(a, b)}, edge.wall % 2 == 0, i, edge.halfedge});
+      }
+      leaf.edges = {};
+    }
+    std::vector<std::vector<Meeting>> crossings(spots_.size());
+    parallel_for(spots_.size(), threads_, [&](std::size_t spot) {
+      if (spots_[spot].plane.valid()) cross_edges(spots_[spot].plane, edges[spot], crossings[spot]);
+    });
+    crossing_.assign(points_.table().size(), false);
+    for (const std::vector<Meeting>& some : crossings) {
+      for (const Meeting& planes : some) {
+        PointTable crossing;
+        const auto point = crossing.push_intersection(planes_, planes[0], planes[1], planes[2]);
+        NEF_ASSERT(point.has_value());
+        PointTable reduced;
+        reduced.push_reduced(crossing, *point);
+        const std::uint32_t number = points_.number(reduced, PointId{0});
+        crossing_.resize(points_.table().size(), false);
+        crossing_[number] = true;
+      }
+    }
+  }
+
+  // An edge that both sides have is crossed by none of either side.
+  void cross_edges(PlaneId plane, std::vector<WallEdge>& edges, std::vector<Meeting>& crossings) const {
+    std::sort(edges.begin(), edges.end(), [](const WallEdge& a, const WallEdge& b) { return a.key() < b.key(); });
+    std::array<std::vector<WallEdge>, 2> alone;
+    for (std::size_t i = 0; i < edges.size();) {
+      std::size_t end = i;
+      bool matched = false;
+      while (end < edges.size() && edges[end].points == edges[i].points) {
+        matched = matched || edges[end].above != edges[i].above;
+        ++end;
+      }
+      if (!matched) alone[edges[i].above ? 1 : 0].push_back(edges[i]);
+      i = end;
+    }
+    if (alone[0].empty() || alone[1].empty()) return;
+    std::vector<Box> boxes;
+    for (const WallEdge& edge : alone[1]) boxes.push_back(box_of(edge));
+    const BoxTree tree(boxes);
+    for (const WallEdge& edge : alone[0]) {
+      tree.for_each_overlap(box_of(edge), [&](std::uint32_t i) { cross(plane, edge, alone[1][i], crossings); });
+    }
+  }
+
+  [[nodiscard]] Box box_of(const WallEdge& edge) const {
+    Box box;
+    for (const std::uint32_t point : edge.points) box.add_rounded(points_.table().approximate(PointId{point}));
+    return box;
+  }
+
+  // The plane other than that of the wall that holds the edge.
+  [[nodiscard]] PlaneId other_plane(PlaneId wall, const WallEdge& edge) const {
+    const Leaf& leaf = leaves_[edge.leaf];
+    SVertex svertex = leaf.set.complex().svertex(edge.halfedge);
+    svertex.p = renamed(leaf, svertex.p);
+    svertex.q = renamed(leaf, svertex.q);
+    return edge_side(planes_, wall, svertex).other;
+  }
+
+  void cross(PlaneId wall, const WallEdge& a, const WallEdge& b, std::vector<Meeting>& crossings) const {
+    const auto apart = [this](PlaneId plane, const WallEdge& edge) {
+      return side_of_plane(planes_, plane, points_.table(), PointId{edge.points[0]}) *
+                 side_of_plane(planes_, plane, points_.table(), PointId{edge.points[1]}) <
+             0;
+    };
+    const PlaneId of_a = other_plane(wall, a);
+    if (!apart(of_a, b)) return;
+    const PlaneId of_b = other_plane(wall, b);
+    if (apart(of_b, a)) crossings.push_back({wall, of_a, of_b});
+  }
+
+  static PlaneId renamed(const Leaf& leaf, PlaneId plane) {
+    return PlaneId{leaf.rows[plane.row()] << 1U | (plane.value & 1U)};
+  }
+
+  // Puts the pyramids together at every point of a seam.
+  void join_points() {
+    const auto count = static_cast<std::uint32_t>(points_.table().size());
+    std::vector<std::uint32_t> begin(count + 1U, 0);  // of the members of each point
+    for (const Leaf& leaf : leaves_) {
+      for (const SeamVertex& s : leaf.seam) {
+        if (s.point != kNone) ++begin[s.point + 1U];
+      }
+    }
+    for (std::uint32_t i = 0; i < count; ++i) begin[i + 1U] += begin[i];
+    std::vector<Member> members(begin.back());
+    std::vector<std::uint32_t> end(begin.begin(), begin.end() - 1);
+    for (std::uint32_t i = 0; i < leaves_.size(); ++i) {
+      for (std::uint32_t k = 0; k < leaves_[i].seam.size(); ++k) {
+        if (const std::uint32_t point = leaves_[i].seam[k].point; point != kNone) members[end[point]++] = {i, k};
+      }
+    }
+    constexpr std::uint32_t kChunk = 1024;
+    std::vector<Complex> joined((count + kChunk - 1) / kChunk);
+    check_interruption();
+    parallel_for(joined.size(), threads_, [&](std::size_t chunk) {
+      Joiner joiner(*this);
+      const auto first = static_cast<std::uint32_t>(chunk * kChunk);
+      for (std::uint32_t point = first; point < std::min(count, first + kChunk); ++point) {
+        joiner.join(PointId{point}, std::span(members).subspan(begin[point], begin[point + 1U] - begin[point]));
+      }
+      joined[chunk] = joiner.take();
+    });
+    ComplexBuilder builder(planes_);
+    for (const Complex& some : joined) builder.copy(some, 0, static_cast<std::uint32_t>(some.vertex_count()));
+    of_seams_ = builder.take_so_far();
+  }
+
+  // Writes the vertices of the whole at points of seams. One for each thread.
+  class Joiner {
+   public:
+    explicit Joiner(SeamGlue& glue) : glue_(glue), builder_(glue.planes_) {}
+
+    void join(PointId point, std::span<const Member> members) {
+      if (inside_straight_edge(members) || (!glue_.crossing_[point.index()] && inside_facet(members))) return;
+      holding_.clear();
+      find_leaves(point, glue_.root_);
+      NEF_ASSERT(holding_.size() > 1);
+      bool first = true;
+      for (const std::uint32_t leaf : holding_) {
+        const auto member =
+            std::find_if(members.begin(), members.end(), [leaf](const Member& m) { return m.leaf == leaf; });
+        load(leaf, point, member == members.end() ? kNone : glue_.leaves_[leaf].seam[member->seam].vertex,
+             first ? joined_ : next_);
+        if (!first) {
+          overlay_.overlay(glue_.planes_, joined_.view(), next_.view(), whichever_, result_);
+          std::swap(joined_, result_);
+        }
+        first = false;
+      }
+      builder_.add(glue_.points_.table(), point, joined_.view());
+    }
+
+    Complex take() { return builder_.take_so_far(); }
+
+   private:
+    // An edge that was cut there and goes on in the leaf on the other side.
+    [[nodiscard]] bool inside_straight_edge(std::span<const Member> members) const {
+      if (members.size() != 2) return false;
+      const auto planes = planes_at(members[0]);
+      return planes && planes == planes_at(members[1]);
+    }
+
+    [[nodiscard]] std::optional<std::array<std::uint32_t, 2>> planes_at(const Member& member) const {
+      const Leaf& leaf = glue_.leaves_[member.leaf];
+      const SeamVertex& s = leaf.seam[member.seam];
+      if (!std::has_single_bit(s.walls)) return std::nullopt;
+      const std::uint32_t wall = leaf.walls.spot[static_cast<std::size_t>(std::countr_zero(s.walls))];
+      return planes_of_cut_edge(leaf.set.complex().sphere_map(s.vertex), glue_.spots_[wall].plane.row(), leaf.rows);
+    }
+
+    // A facet that was cut along several walls.
+    [[nodiscard]] bool inside_facet(std::span<const Member> members) const {
+      if (members.empty()) return false;
+      const std::optional<FacetInside> facet = facet_at(members[0]);
+      return facet && std::all_of(members.begin() + 1, members.end(),
+                                  [&](const Member& member) { return facet_at(member) == facet; });
+    }
+
+    [[nodiscard]] std::optional<FacetInside> facet_at(const Member& member) const {
+      const Leaf& leaf = glue_.leaves_[member.leaf];
+      const SeamVertex& s = leaf.seam[member.seam];
+      std::array<std::uint32_t, 6> walls{};
+      std::size_t count = 0;
+      for (std::size_t wall = 0; wall < walls.size(); ++wall) {
+        if ((s.walls >> wall & 1U) != 0) walls[count++] = glue_.spots_[leaf.walls.spot[wall]].plane.row();
+      }
+      return cut_facet(leaf.set.complex().sphere_map(s.vertex), std::span(walls).first(count), leaf.rows);
+    }
+
+    // The leaves that hold a point.
+    void find_leaves(PointId point, std::uint32_t spot) {
+      const Spot& at = glue_.spots_[spot];
+      if (!at.plane.valid()) {
+        holding_.push_back(at.leaf);
+        return;
+      }
+      const int side = side_of_plane(glue_.planes_, at.plane, glue_.points_.table(), point);
+      if (side <= 0) find_leaves(point, at.low);
+      if (side >= 0) find_leaves(point, at.high);
+    }
+
+    // The local pyramid in a leaf, by common planes.
+    void load(std::uint32_t index, PointId point, std::uint32_t vertex, SphereMapBuffer& out) const {
+      const Leaf& leaf = glue_.leaves_[index];
+      const Complex& c = leaf.set.complex();
+      if (vertex == kNone) {
+        const auto hit = leaf.set.queries().item_at(c, {&glue_.points_.table(), point});
+        NEF_ASSERT(hit.has_value());  // a wall if nothing else
+        if (hit->kind == ComplexHit::Kind::kVertex) {
+          out.assign(c.sphere_map(hit->index));
+        } else if (hit->kind == ComplexHit::Kind::kEdge) {
+          const std::uint32_t owner = c.svertex_owner[hit->index];
+          edge_pyramid(c.sphere_map(owner), hit->index - c.vertices[owner].svertices, out);
+        } else {
+          const Facet& facet = c.facets[facet_of(hit->halffacet())];
+          out.assign_circle(facet.plane, facet.mark, c.volumes[facet.volume_above].mark,
+                            c.volumes[facet.volume_below].mark);
+        }
+      } else {
+        out.assign(c.sphere_map(vertex));
+      }
+      for_each_plane(out, [&leaf](PlaneId& plane) { plane = renamed(leaf, plane); });
+    }
+
+    const SeamGlue& glue_;
+    ComplexBuilder builder_;
+    std::vector<std::uint32_t> holding_;
+    SphereOverlay overlay_;
+    LabelFunction whichever_{LabelFunction::WhicheverIsInside{}};
+    SphereMapBuffer joined_, next_, result_;
+  };
+
+  unsigned threads_;
+  std::vector<Spot> spots_;
+  std::vector<Leaf> leaves_;
+  std::uint32_t root_ = 0;
+  PlaneTable planes_;
+  PointNumbers points_;         // of seams
+  std::vector<bool> crossing_;  // of these: edges of tiles on both sides of a cut cross there
+  Complex of_seams_;
+};
+
+}  // namespace
+
+Polyhedron glue_tiles(const TileRef& tree, const Region& region) {
+  if (tree.node->kind != TileNode::Kind::kCut) return leaf_set(tree, region);
+  SeamGlue glue(tree, region, 1);
+  glue.run();
+  ComplexBuilder builder(glue.planes());
+  for (std::uint32_t i = 0; i < glue.leaf_count(); ++i) {
+    glue.for_each_run(i, [&](const Complex& c, std::uint32_t first, std::uint32_t count, const auto& rows) {
+      builder.copy(c, first, count, rows);
+    });
+  }
+  builder.copy(glue.of_seams(), 0, static_cast<std::uint32_t>(glue.of_seams().vertex_count()));
+  return Polyhedron(builder.finish(kOutside));
+}
+
+Polyhedron glue_all_tiles(const TileRef& tree, unsigned threads) {
+  if (tree.node->kind != TileNode::Kind::kCut) return in_canonical_order(leaf_set(tree, Region{}));
+  SeamGlue glue(tree, Region{}, threads);
+  glue.run();
+  return Polyhedron(canonical_complex(std::move(glue.planes()), glue.parts(), glue.vertices(), kOutside, threads));
+}
+
+}  // namespace nef

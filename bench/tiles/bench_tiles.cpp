@@ -4,9 +4,10 @@
 // nef_bench_tiles chain [LEVEL [STEPS]] [--limit N] [--size D] [--every]: many boxes one after the other, plain, in
 // tiles, and in tiles where that pays; with --every the ratio at each step.
 // nef_bench_tiles fold [LEVEL [COUNT]] [--limit N] [--size D]: such boxes off a sphere, all at once and in tiles.
-// nef_bench_tiles union [COUNT] [--limit N] [--threads N] [--memory MB]: random tetrahedra, each of which meets a few
-// others; pairs smallest first, and region by region. With --stream the latter alone, each piece made when it is
-// needed. CPU seconds of one thread. What is compared runs in turn, in one process.
+// nef_bench_tiles union [COUNT] [--size D] [--limit N] [--threads N] [--memory MB]: random tetrahedra, each of which
+// meets a few others; pairs smallest first, unite_all, and region by region. With --stream the latter alone, each piece
+// made when it is needed; with --no-tiles all but that, and with --only unite_all alone, both once. CPU seconds of one
+// thread. What is compared runs in turn, in one process.
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -16,6 +17,7 @@
 
 #include "bench/generators.h"
 #include "bench/report.h"
+#include "nef/base/threads/parallel.h"
 #include "nef/base/timing/stopwatch.h"
 #include "nef/io/native/native_binary.h"
 #include "nef/operation/canonical_order.h"
@@ -165,7 +167,7 @@ void fold(int level, int count, double size, const Tiling& tiling) {
 }
 
 // The same tetrahedron for the same number on every machine, with corners on a grid of 2^-10 in a cube of volume COUNT.
-Polyhedron random_tetrahedron(std::uint32_t number, std::uint32_t count) {
+Polyhedron random_tetrahedron(std::uint32_t number, std::uint32_t count, double size) {
   std::mt19937_64 random(number + 1U);
   const double side = std::cbrt(static_cast<double>(count));
   const auto uniform = [&random] { return static_cast<double>(random() >> 40U) * 0x1p-24; };
@@ -173,19 +175,54 @@ Polyhedron random_tetrahedron(std::uint32_t number, std::uint32_t count) {
   std::array<Rational3, 4> corners;
   for (Rational3& corner : corners) {
     for (std::size_t i = 0; i < 3; ++i) {
-      corner[i] = exact_rational(std::floor((middle[i] + 1.2 * (uniform() - 0.5)) * 0x1p10) * 0x1p-10);
+      corner[i] = exact_rational(std::floor((middle[i] + size * (uniform() - 0.5)) * 0x1p10) * 0x1p-10);
     }
   }
   return convex_hull(corners);
 }
 
-void unite_tetrahedra(std::uint32_t count, bool stream, const Tiling& tiling) {
-  const PieceSource made_when_needed{.count = count,
-                                     .set = [count](std::uint32_t i) { return random_tetrahedron(i, count); }};
+// Pairs of sets of about the same size, wherever they lie: the order before that of neighbours, to compare with.
+Polyhedron unite_smallest_first(std::vector<Polyhedron> left, unsigned threads) {
+  while (left.size() > 1) {
+    std::stable_sort(left.begin(), left.end(), [](const Polyhedron& x, const Polyhedron& y) {
+      return x.complex().vertex_count() < y.complex().vertex_count();
+    });
+    const std::size_t pairs = left.size() / 2;
+    std::vector<Polyhedron> next(pairs);
+    parallel_for(pairs, threads,
+                 [&](std::size_t i) { next[i] = unite(left[2 * i], left[2 * i + 1], pairs == 1 ? threads : 1); });
+    next.insert(next.end(), left.begin() + static_cast<std::ptrdiff_t>(2 * pairs), left.end());
+    left = std::move(next);
+  }
+  return left.front();
+}
+
+// What a step gives, after a line that tells how long it took.
+template <typename Make>
+auto timed(const char* what, const Make& make) {
+  const nef::Stopwatch wall;
+  const Stopwatch watch;
+  auto result = make();
+  std::printf("%s: %.2f s CPU, %.2f s\n", what, watch.seconds(), wall.seconds());
+  std::fflush(stdout);
+  return result;
+}
+
+struct UnionBench {
+  bool stream = false;  // pieces made when they are needed, and only tiles
+  bool with_old_order = true;
+  bool with_tiles = true;
+  int turns = 2;
+  double size = 1.2;  // of the box of a piece; there is one for each cube of side 1
+};
+
+void unite_tetrahedra(std::uint32_t count, const UnionBench& bench, const Tiling& tiling) {
+  const PieceSource made_when_needed{
+      .count = count, .set = [count, &bench](std::uint32_t i) { return random_tetrahedron(i, count, bench.size); }};
   std::printf("%u tetrahedra, %u threads\n", count, tiling.threads);
   std::size_t vertices = 0;
   std::size_t tiles = 0;
-  if (stream) {
+  if (bench.stream) {
     const nef::Stopwatch wall;
     const Stopwatch watch;
     const TiledPolyhedron united = union_in_tiles(made_when_needed, tiling);
@@ -194,22 +231,24 @@ void unite_tetrahedra(std::uint32_t count, bool stream, const Tiling& tiling) {
     tiles = united.tile_count();
   } else {
     std::vector<Polyhedron> pieces;
-    for (std::uint32_t i = 0; i < count; ++i) pieces.push_back(random_tetrahedron(i, count));
-    for (int turn = 0; turn < 2; ++turn) {
-      const nef::Stopwatch wall;
-      const Stopwatch watch;
-      const Polyhedron plain = unite_all(pieces, tiling.threads);
-      std::printf("pairs smallest first: %.2f s CPU, %.2f s; %zu vertices\n", watch.seconds(), wall.seconds(),
-                  plain.complex().vertex_count());
-      const nef::Stopwatch wall_in_tiles;
-      const Stopwatch watch_in_tiles;
-      const TiledPolyhedron united(pieces, tiling);
-      std::printf("region by region: %.2f s CPU, %.2f s\n", watch_in_tiles.seconds(), wall_in_tiles.seconds());
-      const Stopwatch watch_gluing;
-      const Polyhedron glued = united.polyhedron();
-      std::printf(
-          "glued: %.2f s CPU%s\n", watch_gluing.seconds(),
-          native_binary(glued) == native_binary(in_canonical_order(plain)) ? ", the same bytes" : ", OTHER BYTES");
+    for (std::uint32_t i = 0; i < count; ++i) pieces.push_back(random_tetrahedron(i, count, bench.size));
+    for (int turn = 0; turn < bench.turns; ++turn) {
+      Polyhedron by_size;
+      if (bench.with_old_order) {
+        by_size = timed("pairs smallest first", [&] { return unite_smallest_first(pieces, tiling.threads); });
+      }
+      const Polyhedron plain = timed("unite_all", [&] { return unite_all(pieces, tiling.threads); });
+      if (bench.with_old_order) {
+        std::printf("files in canonical order: %s\n",
+                    native_binary(in_canonical_order(plain)) == native_binary(in_canonical_order(by_size))
+                        ? "the same"
+                        : "DIFFERENT");
+      }
+      if (!bench.with_tiles) continue;
+      const TiledPolyhedron united = timed("region by region", [&] { return TiledPolyhedron(pieces, tiling); });
+      const Polyhedron glued = timed("glued", [&] { return united.polyhedron(); });
+      std::printf("file: %s\n",
+                  native_binary(glued) == native_binary(in_canonical_order(plain)) ? "the same" : "DIFFERENT");
       vertices = united.vertex_count();
       tiles = united.tile_count();
     }
@@ -226,14 +265,14 @@ int main(int argc, char** argv) {
     std::fprintf(stderr,
                  "usage: nef_bench_tiles cubes [LEVEL...] | chain [LEVEL [STEPS]] | fold [LEVEL [COUNT]] | union "
                  "[COUNT], [--size D] [--every] "
-                 "[--limit N] [--threads N] [--memory MB] [--stream]\n");
+                 "[--limit N] [--threads N] [--memory MB] [--stream | --no-tiles | --only]\n");
     return 2;
   }
   try {
     nef::Tiling tiling;
     if (words[0] == "union") tiling.limit = nef::kVerticesOfTileInFile;
     double size = 0.01;
-    bool stream = false;
+    nef::bench::UnionBench union_bench;
     bool every = false;
     std::vector<int> numbers;
     for (std::size_t i = 1; i < words.size(); ++i) {
@@ -244,11 +283,17 @@ int main(int argc, char** argv) {
       } else if (words[i] == "--memory" && i + 1 < words.size()) {
         tiling.store = std::make_shared<nef::TileStore>(".", std::stoull(words[++i]) << 20U);
       } else if (words[i] == "--stream") {
-        stream = true;
+        union_bench.stream = true;
+      } else if (words[i] == "--no-tiles") {
+        union_bench.with_tiles = false;
+        union_bench.turns = 1;
+      } else if (words[i] == "--only") {
+        union_bench.with_old_order = union_bench.with_tiles = false;
+        union_bench.turns = 1;
       } else if (words[i] == "--every") {
         every = true;
       } else if (words[i] == "--size" && i + 1 < words.size()) {
-        size = std::stod(words[++i]);
+        size = union_bench.size = std::stod(words[++i]);
       } else {
         numbers.push_back(std::stoi(words[i]));
       }
@@ -256,7 +301,8 @@ int main(int argc, char** argv) {
     if (words[0] == "chain") {
       nef::bench::chain(numbers.empty() ? 5 : numbers[0], numbers.size() < 2 ? 1000 : numbers[1], size, every, tiling);
     } else if (words[0] == "union") {
-      nef::bench::unite_tetrahedra(numbers.empty() ? 10000U : static_cast<std::uint32_t>(numbers[0]), stream, tiling);
+      nef::bench::unite_tetrahedra(numbers.empty() ? 10000U : static_cast<std::uint32_t>(numbers[0]), union_bench,
+                                   tiling);
     } else if (words[0] == "fold") {
       nef::bench::fold(numbers.empty() ? 6 : numbers[0], numbers.size() < 2 ? 1000 : numbers[1], size, tiling);
     } else {

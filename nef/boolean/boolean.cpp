@@ -9,6 +9,7 @@
 #include "nef/base/progress.h"
 #include "nef/base/threads/parallel.h"
 #include "nef/boolean/overlay_complexes.h"
+#include "nef/complex/item_boxes.h"
 #include "nef/polyhedron.h"
 
 namespace nef {
@@ -17,52 +18,18 @@ namespace {
 using Function = std::function<LabelId(LabelId, LabelId)>;
 
 bool apart(const Polyhedron& a, const Polyhedron& b) {
-  const auto bounds = [](const Complex& c) {
-    Box box;
-    for (std::uint32_t v = 0; v < c.vertex_count(); ++v) box.add_rounded(c.points.approximate(PointId{v}));
-    return box;
-  };
-  return !bounds(a.complex()).overlaps(bounds(b.complex()));
+  return !vertices_box(a.complex()).overlaps(vertices_box(b.complex()));
 }
 
-using Combine = Polyhedron (*)(const Polyhedron&, const Polyhedron&, unsigned threads);
-
-// How many of some sets, sorted by size, are to be combined before the others: a set that is larger than all before it
-// together waits, so that no large result is copied many times.
-std::size_t first_to_combine(std::span<const Polyhedron> sets) {
+// How many of some sets, sorted by size, are to be intersected before the others: a set that is larger than all before
+// it together waits, so that no large result is copied many times.
+std::size_t first_to_intersect(std::span<const Polyhedron> sets) {
   std::size_t count = 0;
   std::size_t vertices = 0;
   while (count < sets.size() && (count < 2 || sets[count].complex().vertex_count() <= vertices)) {
     vertices += sets[count++].complex().vertex_count();
   }
   return count;
-}
-
-// Combines in rounds: sets of similar size form pairs, and all pairs of a round are combined at once. The order does
-// not depend on the number of threads, so neither does the order of items in the result.
-Polyhedron combine_all(std::span<const Polyhedron> sets, Combine combine, unsigned threads) {
-  std::vector<Polyhedron> left(sets.begin(), sets.end());
-  std::atomic<std::size_t> done{0};
-  // Many small operations tell of themselves as one; a single one, of what it does.
-  const ProgressFunction nobody;
-  while (left.size() > 1) {
-    std::stable_sort(left.begin(), left.end(), [](const Polyhedron& x, const Polyhedron& y) {
-      return x.complex().vertex_count() < y.complex().vertex_count();
-    });
-    const std::size_t pairs = first_to_combine(left) / 2;
-    std::vector<Polyhedron> next(pairs);
-    parallel_for(pairs, threads, [&](std::size_t i) {
-      {
-        std::optional<ProgressListener> quiet;
-        if (sets.size() > 2) quiet.emplace(nobody);
-        next[i] = combine(left[2 * i], left[2 * i + 1], pairs == 1 ? threads : 1);
-      }
-      if (sets.size() > 2) tell_progress("sets", ++done, sets.size() - 1);
-    });
-    next.insert(next.end(), left.begin() + static_cast<std::ptrdiff_t>(2 * pairs), left.end());
-    left = std::move(next);
-  }
-  return left.front();
 }
 
 }  // namespace
@@ -117,12 +84,32 @@ Polyhedron symmetric_difference(const Polyhedron& a, const Polyhedron& b, unsign
       a, b, [](LabelId x, LabelId y) { return static_cast<LabelId>((x != 0) != (y != 0)); }, threads);
 }
 
-Polyhedron unite_all(std::span<const Polyhedron> sets, unsigned threads) {
-  return sets.empty() ? Polyhedron() : combine_all(sets, unite, threads);
-}
-
+// In rounds: sets of similar size form pairs, and all pairs of a round are intersected at once. The order does not
+// depend on the number of threads, so neither does the order of items in the result.
 Polyhedron intersect_all(std::span<const Polyhedron> sets, unsigned threads) {
-  return sets.empty() ? Polyhedron::everything() : combine_all(sets, intersect, threads);
+  if (sets.empty()) return Polyhedron::everything();
+  std::vector<Polyhedron> left(sets.begin(), sets.end());
+  std::atomic<std::size_t> done{0};
+  // Many small operations tell of themselves as one; a single one, of what it does.
+  const ProgressFunction nobody;
+  while (left.size() > 1) {
+    std::stable_sort(left.begin(), left.end(), [](const Polyhedron& x, const Polyhedron& y) {
+      return x.complex().vertex_count() < y.complex().vertex_count();
+    });
+    const std::size_t pairs = first_to_intersect(left) / 2;
+    std::vector<Polyhedron> next(pairs);
+    parallel_for(pairs, threads, [&](std::size_t i) {
+      {
+        std::optional<ProgressListener> quiet;
+        if (sets.size() > 2) quiet.emplace(nobody);
+        next[i] = intersect(left[2 * i], left[2 * i + 1], pairs == 1 ? threads : 1);
+      }
+      if (sets.size() > 2) tell_progress("sets", ++done, sets.size() - 1);
+    });
+    next.insert(next.end(), left.begin() + static_cast<std::ptrdiff_t>(2 * pairs), left.end());
+    left = std::move(next);
+  }
+  return left.front();
 }
 
 bool equal(const Polyhedron& a, const Polyhedron& b) {

@@ -24,4 +24,10 @@ Box facet_box(const Complex& complex, const Facet& facet) {
   return box;
 }
 
+Box vertices_box(const Complex& complex) {
+  Box box;
+  for (std::uint32_t v = 0; v < complex.vertex_count(); ++v) box.add_rounded(complex.points.approximate(PointId{v}));
+  return box;
+}
+
 }  // namespace nef

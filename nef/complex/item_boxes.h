@@ -10,5 +10,7 @@ namespace nef {
 Box vertex_box(const Complex& complex, std::uint32_t vertex);
 Box edge_box(const Complex& complex, std::uint32_t halfedge);
 Box facet_box(const Complex& complex, const Facet& facet);
+// Around all vertices; empty if there are none.
+Box vertices_box(const Complex& complex);
 
 }  // namespace nef

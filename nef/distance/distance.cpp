@@ -14,9 +14,9 @@
 #include <cmath>
 
 #include "nef/base/error.h"
+#include "nef/complex/item_boxes.h"
 #include "nef/construct/construct.h"
 #include "nef/distance/nearest_features.h"
-#include "nef/geometry/box_tree.h"
 #include "nef/query/predicates_of_sets.h"
 
 namespace nef {
@@ -41,12 +41,6 @@ Polyhedron wide_enough(const Complex& a, const Complex& b) {
   far <<= 12 * std::max(coefficient_bits(a), coefficient_bits(b)) + 14;
   const Rational r(far);
   return make_box({-r, -r, -r}, {r, r, r});
-}
-
-Box bounds(const Complex& c) {
-  Box box;
-  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) box.add_rounded(c.points.approximate(PointId{v}));
-  return box;
 }
 
 // A point of a closed set that is not empty.
@@ -98,7 +92,7 @@ std::optional<Distance> distance(const Polyhedron& a, const Polyhedron& b) {
   Polyhedron closed_b = b.is_closed() ? b : closure(b);
   Distance result;
   const bool bounded = closed_a.is_bounded() && closed_b.is_bounded();
-  if (!bounded || bounds(closed_a.complex()).overlaps(bounds(closed_b.complex()))) {
+  if (!bounded || vertices_box(closed_a.complex()).overlaps(vertices_box(closed_b.complex()))) {
     const Polyhedron common = intersect(closed_a, closed_b);
     if (!common.is_empty()) {
       result.contact = intersect(interior(a), interior(b)).is_empty() ? Contact::kTouching : Contact::kOverlapping;

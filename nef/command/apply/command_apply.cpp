@@ -75,6 +75,7 @@ void add_apply_command(CLI::App& app, Session& session, const CommandExtensions&
     options.minkowski = extensions.minkowski;
     options.ball = extensions.ball;
     options.hull = extensions.hull;
+    options.threads = session.threads;
     Json report;
     StepSequence sequence = begin(tiles, steps.size(), session);
     const bool to_tiles = names_tile_folder(session.output);

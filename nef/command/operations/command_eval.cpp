@@ -64,6 +64,7 @@ void add_eval_command(CLI::App& app, Session& session, const CommandExtensions& 
     options.minkowski = extensions.minkowski;
     options.ball = extensions.ball;
     options.hull = extensions.hull;
+    options.threads = session.threads;
     std::string path = flags->script;
     if (path.empty() && lower_extension(flags->text) == "csg") path = flags->text;
     if (flags->text.empty() == flags->script.empty()) {

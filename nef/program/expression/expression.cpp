@@ -36,7 +36,7 @@ class ExpressionEvaluator {
       if (node.term == Term::kMinkowski) return options_.minkowski(sets[0], sets[1]);
       if (node.term == Term::kErode) return erode(sets[0], sets[1]);
       if (node.term == Term::kBall) return options_.ball(node.numbers[0], node.numbers[1]);
-      if (node.term == Term::kHullOfSets && options_.hull && !all_bounded(sets)) return options_.hull(unite_all(sets));
+      if (node.term == Term::kHullOfSets && options_.hull && !all_bounded(sets)) return options_.hull(united(sets));
       return make(node, sets);
     } catch (const InputError& error) {
       throw ExpressionError(place_in_text(text_, node.offset) + ": " + error.what(), node.offset);
@@ -53,6 +53,8 @@ class ExpressionEvaluator {
     return std::all_of(sets.begin(), sets.end(), [](const Polyhedron& set) { return set.is_bounded(); });
   }
 
+  [[nodiscard]] Polyhedron united(std::span<const Polyhedron> sets) const { return unite_all(sets, options_.threads); }
+
   static Polyhedron polyline(std::span<const Rational3> points) {
     std::vector<Polyhedron> segments;
     for (std::size_t i = 0; i + 1 < points.size(); ++i) segments.push_back(make_segment(points[i], points[i + 1]));
@@ -66,7 +68,7 @@ class ExpressionEvaluator {
     return options_.load(node.path);
   }
 
-  static Polyhedron make(const SyntaxNode& node, std::span<const Polyhedron> sets) {
+  [[nodiscard]] Polyhedron make(const SyntaxNode& node, std::span<const Polyhedron> sets) const {
     const std::vector<Rational>& n = node.numbers;
     switch (node.term) {
       case Term::kNothing:
@@ -134,7 +136,7 @@ class ExpressionEvaluator {
   }
 
   // Runs of one operator at a time; in tiles where these are many and small beside the first set.
-  static Polyhedron chain(std::span<const Term> operators, std::span<const Polyhedron> sets) {
+  [[nodiscard]] Polyhedron chain(std::span<const Term> operators, std::span<const Polyhedron> sets) const {
     struct Step {
       BooleanOperator op;
       Polyhedron set;
@@ -148,27 +150,29 @@ class ExpressionEvaluator {
       while (last < operators.size() && operators[last] == operators[first]) ++last;
       const std::span<const Polyhedron> run = sets.subspan(first + 1, last - first);
       if (operators[first] == Term::kIntersection) {
-        steps.push_back({BooleanOperator::kIntersection, intersect_all(run)});
+        steps.push_back({BooleanOperator::kIntersection, intersect_all(run, options_.threads)});
       } else {
-        steps.push_back({operators[first] == Term::kUnion ? BooleanOperator::kUnion : BooleanOperator::kDifference,
-                         unite_all(run)});
+        steps.push_back(
+            {operators[first] == Term::kUnion ? BooleanOperator::kUnion : BooleanOperator::kDifference, united(run)});
       }
     }
     const bool labeled =
         std::any_of(sets.begin(), sets.end(), [](const Polyhedron& set) { return set.complex().label_count > 2; });
-    StepSequence sequence(sets[0], steps.size(), labeled ? TileUse::kNever : TileUse::kWherePays);
+    Tiling tiling;
+    tiling.threads = options_.threads;
+    StepSequence sequence(sets[0], steps.size(), labeled ? TileUse::kNever : TileUse::kWherePays, tiling);
     for (const Step& step : steps) sequence.apply(step.op, step.set);
     return sequence.result_in_any_order();
   }
 
-  static Polyhedron combine(Term term, std::span<const Polyhedron> sets) {
+  [[nodiscard]] Polyhedron combine(Term term, std::span<const Polyhedron> sets) const {
     switch (term) {
       case Term::kUnion:
-        return unite_all(sets);
+        return united(sets);
       case Term::kIntersection:
-        return intersect_all(sets);
+        return intersect_all(sets, options_.threads);
       case Term::kDifference:
-        return subtract(sets[0], sets.size() == 2 ? sets[1] : unite_all(sets.subspan(1)));
+        return subtract(sets[0], united(sets.subspan(1)), options_.threads);
       case Term::kSymmetricDifference:
         return chain(std::vector<Term>(sets.size() - 1, term), sets);
       case Term::kInterior:

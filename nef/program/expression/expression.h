@@ -59,6 +59,8 @@ struct ExpressionOptions {
   std::function<Polyhedron(const Rational& radius, const Rational& splits)> ball = {};
   /// Makes the hull of a set that is not bounded. Without it, such hulls are refused.
   std::function<Polyhedron(const Polyhedron& unbounded)> hull = {};
+  /// For Booleans (0: as many as the machine has); the set is the same for any number.
+  unsigned threads = 1;
 };
 
 /// The set that `text` describes. The whole text is parsed before anything is computed. Throws

@@ -167,20 +167,21 @@ class ModelEvaluator {
   [[nodiscard]] Shape united(const OpenScadNode& node) const {
     const std::vector<Shape> shapes = children(node);
     if (shapes.size() == 1) return shapes[0];
-    return {dimension_of(shapes), unite_all(sets_of(shapes))};
+    return {dimension_of(shapes), unite_all(sets_of(shapes), options_.threads)};
   }
 
   [[nodiscard]] Shape difference(const OpenScadNode& node) const {
     const std::vector<Shape> shapes = children(node);
     if (shapes.empty() || shapes[0].dimension == 0) return {};
     const std::vector<Polyhedron> sets = sets_of(shapes);
-    return {shapes[0].dimension, regularize(subtract(sets[0], unite_all(std::span(sets).subspan(1))))};
+    return {shapes[0].dimension,
+            regularize(subtract(sets[0], unite_all(std::span(sets).subspan(1), options_.threads)))};
   }
 
   [[nodiscard]] Shape intersection(const OpenScadNode& node) const {
     const std::vector<Shape> shapes = children(node);
     if (shapes.empty()) return {};
-    return {dimension_of(shapes), regularize(intersect_all(sets_of(shapes)))};
+    return {dimension_of(shapes), regularize(intersect_all(sets_of(shapes), options_.threads))};
   }
 
   [[nodiscard]] Shape hull(const OpenScadNode& node) const {
@@ -356,7 +357,7 @@ class ModelEvaluator {
         }
         pieces.push_back(convex_hull(points));
       }
-      set = unite_all(pieces);
+      set = unite_all(pieces, options_.threads);
     }
     if (!flag(node, "center", static_cast<std::size_t>(-1))) return {3, set};
     return {3, transform(set, AffineMap::translate({0, 0, -height / 2}))};
@@ -389,7 +390,7 @@ class ModelEvaluator {
         wedges.push_back(convex_hull(points));
       }
     }
-    return {3, unite_all(wedges)};
+    return {3, unite_all(wedges, options_.threads)};
   }
 
   static std::vector<std::array<Rational, 2>> directions_around(const Rational& angle, unsigned fragments) {

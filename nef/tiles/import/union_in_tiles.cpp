@@ -8,6 +8,7 @@
 
 #include "nef/base/progress.h"
 #include "nef/base/threads/parallel.h"
+#include "nef/complex/item_boxes.h"
 #include "nef/tiles/cuts/cutter.h"
 
 namespace nef {
@@ -33,9 +34,7 @@ Box piece_box(const Polyhedron& set) {
     box.high.fill(kInfinity);
     return box;
   }
-  const Complex& c = set.complex();
-  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) box.add_rounded(c.points.approximate(PointId{v}));
-  return box;
+  return vertices_box(set.complex());
 }
 
 RegionalUnion::RegionalUnion(std::vector<Box> boxes, std::size_t most)

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <atomic>
+#include <optional>
+#include <vector>
+
+#include "nef/base/progress.h"
+#include "nef/base/threads/parallel.h"
+#include "nef/boolean/union_order.h"
+#include "nef/complex/item_boxes.h"
+#include "nef/polyhedron.h"
+
+namespace nef {
+namespace {
+
+// The unions of an order, each by whichever thread.
+class UnionRun {
+ public:
+  explicit UnionRun(std::vector<Polyhedron>&& sets)
+      : sets_(std::move(sets)), operands_(measured(sets_)), order_(operands_), alone_(order_.steps().size() == 1) {}
+
+  Polyhedron result(unsigned threads) {
+    const auto steps = static_cast<std::uint32_t>(order_.steps().size());
+    sets_.resize(operands_.size() + steps);
+    if (threads == 1) {
+      run({0, steps}, 1);
+      return sets_.back();
+    }
+    parallel_for(order_.tasks().size(), threads, [this](std::size_t i) { run(order_.tasks()[i], 1); });
+    // The last unions are large and few: threads that find none of their own help with those of others.
+    constexpr std::size_t kFew = 8;
+    for (const std::vector<std::uint32_t>& round : order_.rounds()) {
+      parallel_for(round.size(), threads, [&](std::size_t i) {
+        run({round[i], round[i] + 1}, round.size() < kFew ? threads : 1);
+      });
+    }
+    return sets_.back();
+  }
+
+ private:
+  static std::vector<UnionOperand> measured(const std::vector<Polyhedron>& sets) {
+    // What a union costs beside its vertices, in vertices.
+    constexpr std::size_t kAnyway = 8;
+    std::vector<UnionOperand> result;
+    result.reserve(sets.size());
+    for (const Polyhedron& set : sets) {
+      const Complex& c = set.complex();
+      result.push_back({vertices_box(c), c.vertex_count() + kAnyway, set.is_bounded()});
+    }
+    return result;
+  }
+
+  void run(const UnionOrder::Task& task, unsigned threads) {
+    for (std::uint32_t k = task.first; k < task.last; ++k) {
+      Polyhedron& a = sets_[order_.steps()[k].first];
+      Polyhedron& b = sets_[order_.steps()[k].second];
+      {
+        // Many small operations tell of themselves as one; a single one, of what it does.
+        const ProgressFunction nobody;
+        std::optional<ProgressListener> quiet;
+        if (!alone_) quiet.emplace(nobody);
+        sets_[operands_.size() + k] = unite(a, b, threads);
+      }
+      a = b = Polyhedron();
+      if (!alone_) tell_progress("sets", ++done_, order_.steps().size());
+    }
+  }
+
+  std::vector<Polyhedron> sets_;  // operands and, behind them, results; those that were used are gone
+  std::vector<UnionOperand> operands_;
+  UnionOrder order_;
+  bool alone_;
+  std::atomic<std::size_t> done_ = 0;
+};
+
+}  // namespace
+
+Polyhedron unite_all(std::span<const Polyhedron> sets, unsigned threads) {
+  std::vector<Polyhedron> left;
+  left.reserve(sets.size());
+  for (const Polyhedron& set : sets) {
+    if (set.is_everything()) return set;
+    if (!set.is_empty()) left.push_back(set);
+  }
+  if (left.empty()) return sets.empty() ? Polyhedron() : sets.front();
+  if (left.size() == 1) return left.front();
+  return UnionRun(std::move(left)).result(threads);
+}
+
+}  // namespace nef

@@ -113,6 +113,7 @@ struct Location {
   std::uint32_t index = 0;  ///< vertex, halfedge, facet or volume
   LabelId mark = 0;
 
+  [[nodiscard]] VertexId vertex() const { return VertexId{index}; }
   [[nodiscard]] FacetId facet() const { return FacetId{index}; }
   [[nodiscard]] VolumeId volume() const { return VolumeId{index}; }
 };

@@ -5,6 +5,7 @@
 
 #include "apps/minkowski/minkowski.h"
 #include "nef/base/error.h"
+#include "nef/complex/item_boxes.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/native/native_binary.h"
 #include "nef/tiles/cuts/region_division.h"
@@ -16,8 +17,8 @@ std::string piece_name(std::size_t piece) { return "piece-" + std::to_string(pie
 
 // Coordinates of the vertices, with room for what rounding has moved.
 RegionDivision divided_at_vertices(const Complex& c, std::size_t most) {
-  std::vector<Box> places(c.vertex_count());
-  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) places[v].add_rounded(c.points.approximate(PointId{v}));
+  std::vector<Box> places;
+  for (const VertexId v : c.vertex_ids()) places.push_back(vertex_box(c, v));
   return {static_cast<std::uint32_t>(places.size()),
           [&places](std::uint32_t v, std::size_t axis) {
             return std::array<double, 2>{places[v].low[axis], places[v].high[axis]};

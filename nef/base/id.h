@@ -39,6 +39,14 @@ class Id {
     return *this;
   }
 
+  /// The index n after a; how far b is before a. Modulo 2^32, so that shifts may go down.
+  friend constexpr Id operator+(Id a, std::uint32_t n) { return Id{a.index_ + n}; }
+  friend constexpr std::uint32_t operator-(Id a, Id b) { return a.index_ - b.index_; }
+  constexpr Id& operator+=(std::uint32_t n) {
+    index_ += n;
+    return *this;
+  }
+
   // One by one: g++ 12 makes more than one instruction of a < b where only <=> is there.
   friend constexpr bool operator==(Id a, Id b) { return a.index_ == b.index_; }
   friend constexpr bool operator<(Id a, Id b) { return a.index_ < b.index_; }

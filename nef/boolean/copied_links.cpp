@@ -13,7 +13,7 @@ namespace {
 struct Copy {
   enum class State : std::uint8_t { kGone, kCrossed, kWhole };  // kCrossed: some of its edges are
   State state = State::kGone;
-  std::uint32_t vertex = kNone;       // of the result
+  VertexId vertex;                    // of the result
   std::uint32_t svertex_shift = 0;    // from its svertices to those of the copy, modulo 2^32
   std::uint32_t shalfedge_shift = 0;  // likewise
 };
@@ -29,11 +29,11 @@ class LinkCopier {
     note_copies();
     for (std::size_t x = 0; x < 2; ++x) note_crossed_edges(x, contacts[x]);
     known_.twin.assign(c_.svertex_count(), kNone);
-    const auto half = static_cast<std::uint32_t>(c_.vertex_count() / 2);
-    const auto end = static_cast<std::uint32_t>(c_.vertex_count());
+    const VertexId half{c_.vertex_count() / 2};
+    const VertexId end{c_.vertex_count()};
     std::array<KnownLinks, 2> loose;
     KnownLinks second;
-    parallel_calls(threads, {[&] { copy_twins(0, half, loose[0]); }, [&] { copy_twins(half, end, loose[1]); },
+    parallel_calls(threads, {[&] { copy_twins(VertexId{0}, half, loose[0]); }, [&] { copy_twins(half, end, loose[1]); },
                              [&] { copy_facets(0, known_); }, [&] { copy_facets(1, second); }});
     join_facets(second);
     for (const KnownLinks& more : {std::cref(second), std::cref(loose[0]), std::cref(loose[1])}) add_loose(more);
@@ -44,9 +44,9 @@ class LinkCopier {
  private:
   void note_copies() {
     for (std::size_t x = 0; x < 2; ++x) copies_[x].resize(operands_[x]->vertex_count());
-    std::uint32_t vertex = 0;
+    VertexId vertex{0};
     for (const VertexRun& run : runs_) {
-      for (std::uint32_t v = run.first; v < run.first + run.count; ++v, ++vertex) {
+      for (VertexId v = run.first; v < run.first + run.count; ++v, ++vertex) {
         if (run.origin == VertexRun::kNew) continue;
         const VertexRecord& from = operands_[run.origin]->vertices[v];
         const VertexRecord& to = c_.vertices[vertex];
@@ -69,20 +69,18 @@ class LinkCopier {
   }
 
   void add_loose(const KnownLinks& more) {
-    const auto append = [](std::vector<std::uint32_t>& all, const std::vector<std::uint32_t>& some) {
-      all.insert(all.end(), some.begin(), some.end());
-    };
+    const auto append = [](auto& all, const auto& some) { all.insert(all.end(), some.begin(), some.end()); };
     append(known_.loose_vertices, more.loose_vertices);
     append(known_.loose_corners, more.loose_corners);
     append(known_.loose_isolated, more.loose_isolated);
   }
 
   // Of vertices first .. last - 1 of the result: twins into known_, what is to be found into `loose`.
-  void copy_twins(std::uint32_t first, std::uint32_t last, KnownLinks& loose) {
-    std::uint32_t vertex = 0;  // the first one of a run
+  void copy_twins(VertexId first, VertexId last, KnownLinks& loose) {
+    VertexId vertex{0};  // the first one of a run
     for (const VertexRun& run : runs_) {
-      const std::uint32_t end = std::min(last, vertex + run.count);
-      for (std::uint32_t w = std::max(first, vertex); w < end; ++w) {
+      const VertexId end = std::min(last, vertex + run.count);
+      for (VertexId w = std::max(first, vertex); w < end; ++w) {
         if (run.origin == VertexRun::kNew) {
           add_new(w, loose);
         } else {
@@ -93,9 +91,9 @@ class LinkCopier {
     }
   }
 
-  void add_new(std::uint32_t vertex, KnownLinks& loose) const {
+  void add_new(VertexId vertex, KnownLinks& loose) const {
     const VertexRecord& first = c_.vertices[vertex];
-    const VertexRecord& last = c_.vertices[vertex + 1];
+    const VertexRecord& last = c_.vertices[vertex.next()];
     if (first.svertices < last.svertices) loose.loose_vertices.push_back(vertex);
     for (std::uint32_t e = first.shalfedges; e < last.shalfedges; ++e) {
       if (!c_.shalfedge_plane[e].flipped()) loose.loose_corners.push_back(e);
@@ -103,12 +101,12 @@ class LinkCopier {
     if (first.sloops < last.sloops) loose.loose_isolated.push_back(vertex);
   }
 
-  void copy_twins_of(std::size_t x, std::uint32_t v, std::uint32_t vertex, KnownLinks& loose) {
+  void copy_twins_of(std::size_t x, VertexId v, VertexId vertex, KnownLinks& loose) {
     const Complex& own = *operands_[x];
     const bool may_be_crossed = copies_[x][v].state == Copy::State::kCrossed;
     bool all = true;
     std::uint32_t to = c_.vertices[vertex].svertices;
-    for (std::uint32_t h = own.vertices[v].svertices; h < own.vertices[v + 1].svertices; ++h, ++to) {
+    for (std::uint32_t h = own.vertices[v].svertices; h < own.vertices[v.next()].svertices; ++h, ++to) {
       const std::uint32_t other = own.twin[h];
       const Copy& end = copies_[x][own.svertex_owner[other]];
       const bool kept = end.state != Copy::State::kGone && !(may_be_crossed && crossed_[x][h]);
@@ -162,9 +160,9 @@ class LinkCopier {
 
   void copy_facet(std::size_t x, const Facet& facet, KnownLinks& to) const {
     const Complex& own = *operands_[x];
-    const std::vector<Copy>& copies = copies_[x];
+    const IndexedVector<VertexId, Copy>& copies = copies_[x];
     const std::span<const std::uint32_t> corners = own.corners_of(facet);
-    const std::span<const std::uint32_t> inside = own.isolated_vertices_of(facet);
+    const std::span<const VertexId> inside = own.isolated_vertices_of(facet);
     const std::size_t base = to.corners.size();
     bool whole = true;
     for (const std::uint32_t corner : corners) {
@@ -173,7 +171,7 @@ class LinkCopier {
       if (!whole) break;
       to.corners.push_back(corner + copy.shalfedge_shift);
     }
-    for (const std::uint32_t v : inside) whole = whole && copies[v].state == Copy::State::kWhole;
+    for (const VertexId v : inside) whole = whole && copies[v].state == Copy::State::kWhole;
     if (!whole) {
       to.corners.resize(base);
       loosen(own, copies, corners, inside, to);
@@ -189,17 +187,17 @@ class LinkCopier {
       const auto size = static_cast<std::uint32_t>(own.corners_of(i).size());
       to.cycle_begin.push_back(to.cycle_begin.back() + size);
     }
-    for (const std::uint32_t v : inside) to.isolated_vertices.push_back(copies[v].vertex);
+    for (const VertexId v : inside) to.isolated_vertices.push_back(copies[v].vertex);
     to.facets.push_back(copy);
   }
 
-  static void loosen(const Complex& own, const std::vector<Copy>& copies, std::span<const std::uint32_t> corners,
-                     std::span<const std::uint32_t> inside, KnownLinks& to) {
+  static void loosen(const Complex& own, const IndexedVector<VertexId, Copy>& copies,
+                     std::span<const std::uint32_t> corners, std::span<const VertexId> inside, KnownLinks& to) {
     for (const std::uint32_t corner : corners) {
       const Copy& copy = copies[own.shalfedge_vertex(corner)];
       if (copy.state != Copy::State::kGone) to.loose_corners.push_back(corner + copy.shalfedge_shift);
     }
-    for (const std::uint32_t v : inside) {
+    for (const VertexId v : inside) {
       if (copies[v].state != Copy::State::kGone) to.loose_isolated.push_back(copies[v].vertex);
     }
   }
@@ -226,7 +224,7 @@ class LinkCopier {
   const Complex& c_;
   std::span<const VertexRun> runs_;
   std::array<const Complex*, 2> operands_;
-  std::array<std::vector<Copy>, 2> copies_;
+  std::array<IndexedVector<VertexId, Copy>, 2> copies_;
   std::array<std::vector<bool>, 2> crossed_;  // halfedges
   KnownLinks known_;
 };

@@ -14,7 +14,7 @@ namespace nef {
 struct VertexRun {
   static constexpr std::size_t kNew = 2;
   std::size_t origin = kNew;  ///< 0 or 1 for the operands
-  std::uint32_t first = 0;    ///< vertex of the operand, or number among the new vertices
+  VertexId first{0};          ///< vertex of the operand, or number among the new vertices
   std::uint32_t count = 0;
 };
 

@@ -57,17 +57,17 @@ Item FacetLocator::locate(FacetId facet, PointId point) const {
   bool inside = false;
   for_each_edge(facet, ray, [&](std::uint32_t halfedge) {
     if (found.kind != Item::Kind::kNone) return;
-    const std::uint32_t a = operand_.source(halfedge);
-    const std::uint32_t b = operand_.target(halfedge);
+    const VertexId a = operand_.source(halfedge);
+    const VertexId b = operand_.target(halfedge);
     const int a_height = compare_coordinate(points, operand_.point(a), point, axes.second);
     const int b_height = compare_coordinate(points, operand_.point(b), point, axes.second);
     if (a_height * b_height > 0) return;
     if (a_height == 0 && compare_coordinate(points, operand_.point(a), point, axes.first) == 0) {
-      found = {Item::Kind::kVertex, a};
+      found = Item(a);
       return;
     }
     if (b_height == 0 && compare_coordinate(points, operand_.point(b), point, axes.first) == 0) {
-      found = {Item::Kind::kVertex, b};
+      found = Item(b);
       return;
     }
     if (a_height == 0 && b_height == 0) {
@@ -93,13 +93,13 @@ Item FacetLocator::locate(FacetId facet, PointId point) const {
   });
   if (found.kind != Item::Kind::kNone || !inside) return found;
   const Facet& f = operand_.complex().facets[facet];
-  for (const std::uint32_t v : operand_.complex().isolated_vertices_of(f)) {
+  for (const VertexId v : operand_.complex().isolated_vertices_of(f)) {
     if (compare_coordinate(points, operand_.point(v), point, axes.first) == 0 &&
         compare_coordinate(points, operand_.point(v), point, axes.second) == 0) {
-      return {Item::Kind::kVertex, v};
+      return Item(v);
     }
   }
-  return {Item::Kind::kFacet, facet.index()};
+  return Item(facet);
 }
 
 }  // namespace nef

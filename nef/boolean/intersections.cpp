@@ -48,11 +48,11 @@ class IntersectionFinder {
   struct Near {
     std::vector<FacetId> facets;
     BoxTree facet_tree;
-    std::vector<std::uint32_t> vertices;
+    std::vector<VertexId> vertices;
     std::vector<std::uint32_t> edges;
     std::vector<std::uint32_t> bare_edges;
     BoxTree bare_edge_tree;
-    std::vector<std::uint32_t> bare_vertices;
+    std::vector<VertexId> bare_vertices;
     BoxTree bare_vertex_tree;
   };
 
@@ -63,9 +63,10 @@ class IntersectionFinder {
     std::vector<CellRange> cells;
   };
   struct Candidates {
-    std::vector<CellRange> vertices;  // all, whether they reach or not
+    IndexedVector<VertexId, CellRange> vertices;  // all, whether they reach or not
     Items<FacetId> facets;
-    Items<std::uint32_t> bare_edges, bare_vertices;
+    Items<std::uint32_t> bare_edges;
+    Items<VertexId> bare_vertices;
   };
 
   [[nodiscard]] CellRange edge_cells(std::size_t x, const Candidates& found, std::uint32_t halfedge) const {
@@ -83,12 +84,11 @@ class IntersectionFinder {
       items.ids.push_back(id);
       items.cells.push_back(cells);
     };
-    const auto count = static_cast<std::uint32_t>(c.vertex_count());
-    found.vertices.reserve(count);
-    for (std::uint32_t v = 0; v < count; ++v) {
+    found.vertices.reserve(c.vertex_count());
+    for (const VertexId v : c.vertex_ids()) {
       found.vertices.push_back(grid.range(operand.vertex_box(v)));
       const VertexRecord& first = c.vertices[v];
-      const VertexRecord& last = c.vertices[v + 1];
+      const VertexRecord& last = c.vertices[v.next()];
       if (first.shalfedges != last.shalfedges || first.sloops != last.sloops) continue;
       take(found.bare_vertices, v, found.vertices[v]);
     }
@@ -146,13 +146,13 @@ class IntersectionFinder {
     Near& near = near_[x];
     const auto facet_box = [&](FacetId f) { return operand.facet_box(f); };
     const auto edge_box = [&](std::uint32_t e) { return operand.edge_box(e); };
-    const auto vertex_box = [&](std::uint32_t v) { return operand.vertex_box(v); };
+    const auto vertex_box = [&](VertexId v) { return operand.vertex_box(v); };
     near.facets = keep(found.facets, other, facet_box, near.facet_tree);
     locators_[x].expect(near.facets);
     near.bare_edges = keep(found.bare_edges, other, edge_box, near.bare_edge_tree);
     near.bare_vertices = keep(found.bare_vertices, other, vertex_box, near.bare_vertex_tree);
     // The ends of an edge that is near need not be.
-    for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
+    for (const VertexId v : c.vertex_ids()) {
       const CellRange& cells = found.vertices[v];
       if (other.reaches(cells) && other.touches(cells)) near.vertices.push_back(v);
     }
@@ -166,52 +166,53 @@ class IntersectionFinder {
   int side(PlaneId plane, PointId point) const { return side_of_plane(tables_.planes, plane, tables_.points, point); }
 
   // A vertex of operand x has been found on an item of the other one.
-  void place_vertex(std::size_t x, std::uint32_t vertex, const Item& item) {
+  void place_vertex(std::size_t x, VertexId vertex, const Item& item) {
     result_.vertex_item[x][vertex] = item;
-    if (item.kind == Item::Kind::kVertex) result_.vertex_item[1 - x][item.index] = {Item::Kind::kVertex, vertex};
+    if (item.kind == Item::Kind::kVertex) result_.vertex_item[1 - x][item.vertex()] = Item(vertex);
   }
 
   // A vertex or an edge of one operand and a facet of the other that may meet it.
+  template <typename I>
   struct Pair {
-    std::uint32_t own;
+    I own;
     FacetId facet;
   };
 
   // Finds pairs for `count` items of one operand on several threads, many items at a time, and uses them on this one,
   // in the order of the items: finding only looks, and rules out nearly all pairs; using may add points and results.
-  template <typename Find, typename Use>
+  template <typename I, typename Find, typename Use>
   void find_and_use(std::size_t count, const char* phase, const Find& find, const Use& use) {
     constexpr std::size_t kTogether = 1024;
     constexpr std::size_t kAtOnce = 16;
-    std::array<std::vector<Pair>, kAtOnce> found;
+    std::array<std::vector<Pair<I>>, kAtOnce> found;
     for (std::size_t begin = 0; begin < count; begin += kAtOnce * kTogether) {
       check_interruption();
       tell_progress(phase, begin, count);
       const std::size_t end = std::min(count, begin + kAtOnce * kTogether);
       parallel_for_ranges(end - begin, kTogether, threads_, [&](std::size_t first, std::size_t last) {
-        std::vector<Pair>& pairs = found[first / kTogether];
+        std::vector<Pair<I>>& pairs = found[first / kTogether];
         pairs.clear();
         for (std::size_t k = begin + first; k < begin + last; ++k) find(k, pairs);
       });
       for (std::size_t part = 0; part * kTogether < end - begin; ++part) {
-        for (const Pair& pair : found[part]) use(pair);
+        for (const Pair<I>& pair : found[part]) use(pair);
       }
     }
   }
 
   void vertices_against_facets(std::size_t x) {
     const Operand& other = operands_[1 - x];
-    const std::vector<std::uint32_t>& vertices = near_[x].vertices;
-    const auto placed = [&](std::uint32_t v) { return result_.vertex_item[x][v].kind != Item::Kind::kNone; };
-    const auto find = [&](std::size_t k, std::vector<Pair>& pairs) {
-      const std::uint32_t v = vertices[k];
+    const std::vector<VertexId>& vertices = near_[x].vertices;
+    const auto placed = [&](VertexId v) { return result_.vertex_item[x][v].kind != Item::Kind::kNone; };
+    const auto find = [&](std::size_t k, std::vector<Pair<VertexId>>& pairs) {
+      const VertexId v = vertices[k];
       if (placed(v)) return;
       near_[1 - x].facet_tree.for_each_overlap(operands_[x].vertex_box(v), [&](std::uint32_t i) {
         const FacetId facet = near_[1 - x].facets[i];
         if (side(other.facet_plane(facet), operands_[x].point(v)) == 0) pairs.push_back({v, facet});
       });
     };
-    find_and_use(vertices.size(), "vertices in facets", find, [&](const Pair& pair) {
+    find_and_use<VertexId>(vertices.size(), "vertices in facets", find, [&](const Pair<VertexId>& pair) {
       if (placed(pair.own)) return;
       const Item item = locators_[1 - x].locate(pair.facet, operands_[x].point(pair.own));
       if (item.kind != Item::Kind::kNone) place_vertex(x, pair.own, item);
@@ -222,13 +223,13 @@ class IntersectionFinder {
     const Operand& other = operands_[1 - x];
     const Near& targets = near_[1 - x];
     if (targets.bare_vertices.empty() && targets.bare_edges.empty()) return;
-    for (const std::uint32_t v : near_[x].vertices) {
+    for (const VertexId v : near_[x].vertices) {
       const PointId p = operands_[x].point(v);
       const Box box = operands_[x].vertex_box(v);
       targets.bare_vertex_tree.for_each_overlap(box, [&](std::uint32_t i) {
         if (result_.vertex_item[x][v].kind != Item::Kind::kNone) return;
-        const std::uint32_t w = targets.bare_vertices[i];
-        if (compare_lexicographic(tables_.points, p, other.point(w)) == 0) place_vertex(x, v, {Item::Kind::kVertex, w});
+        const VertexId w = targets.bare_vertices[i];
+        if (compare_lexicographic(tables_.points, p, other.point(w)) == 0) place_vertex(x, v, Item(w));
       });
       targets.bare_edge_tree.for_each_overlap(box, [&](std::uint32_t i) {
         if (result_.vertex_item[x][v].kind != Item::Kind::kNone) return;
@@ -237,8 +238,8 @@ class IntersectionFinder {
         const int from = compare_lexicographic(tables_.points, p, other.point(other.source(e)));
         const int to = compare_lexicographic(tables_.points, p, other.point(other.target(e)));
         if (from * to < 0) place_vertex(x, v, {Item::Kind::kEdge, e});
-        if (from == 0) place_vertex(x, v, {Item::Kind::kVertex, other.source(e)});
-        if (to == 0) place_vertex(x, v, {Item::Kind::kVertex, other.target(e)});
+        if (from == 0) place_vertex(x, v, Item(other.source(e)));
+        if (to == 0) place_vertex(x, v, Item(other.target(e)));
       });
     }
   }
@@ -247,7 +248,7 @@ class IntersectionFinder {
     const Operand& own = operands_[x];
     const Operand& other = operands_[1 - x];
     const std::vector<std::uint32_t>& edges = near_[x].edges;
-    const auto find = [&](std::size_t k, std::vector<Pair>& pairs) {
+    const auto find = [&](std::size_t k, std::vector<Pair<std::uint32_t>>& pairs) {
       const std::uint32_t e = edges[k];
       const PointId a = own.point(own.source(e));
       const PointId b = own.point(own.target(e));
@@ -259,7 +260,7 @@ class IntersectionFinder {
         if (side_a * side_b < 0 ? may_pierce(x, a, b, facet) : side_a == 0 && side_b == 0) pairs.push_back({e, facet});
       });
     };
-    find_and_use(edges.size(), "edges through facets", find, [&](const Pair& pair) {
+    find_and_use<std::uint32_t>(edges.size(), "edges through facets", find, [&](const Pair<std::uint32_t>& pair) {
       const std::uint32_t e = pair.own;
       const PlaneId plane = other.facet_plane(pair.facet);
       if (side(plane, own.point(own.source(e))) != 0) {
@@ -288,7 +289,7 @@ class IntersectionFinder {
     const Item item = locators_[1 - x].locate(facet, *point);
     const bool used = item.kind == Item::Kind::kFacet || item.kind == Item::Kind::kEdge;
     if (!used || !add_crossing(x, e, item, *point)) tables_.points.pop();
-    if (item.kind == Item::Kind::kVertex) place_vertex(1 - x, item.index, {Item::Kind::kEdge, e});
+    if (item.kind == Item::Kind::kVertex) place_vertex(1 - x, item.vertex(), {Item::Kind::kEdge, e});
   }
 
   // Both edges lie in `plane`; they cross iff each has the ends of the other strictly on both
@@ -350,10 +351,10 @@ class IntersectionFinder {
   }
 
   void note_vertices_on_edges(std::size_t x) {
-    for (const std::uint32_t v : near_[x].vertices) {
+    for (const VertexId v : near_[x].vertices) {
       const Item& item = result_.vertex_item[x][v];
       if (item.kind != Item::Kind::kEdge) continue;
-      result_.contacts[1 - x].push_back({item.index, operands_[x].point(v), {Item::Kind::kVertex, v}});
+      result_.contacts[1 - x].push_back({item.index, operands_[x].point(v), Item(v)});
     }
   }
 

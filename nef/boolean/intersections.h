@@ -28,7 +28,7 @@ struct EdgeContact {
 
 struct Intersections {
   /// For every vertex of each operand: the item of the other operand that holds it.
-  std::array<std::vector<Item>, 2> vertex_item;
+  std::array<IndexedVector<VertexId, Item>, 2> vertex_item;
   std::vector<Crossing> crossings;
   /// Contacts inside edges of each operand, sorted by edge.
   std::array<std::vector<EdgeContact>, 2> contacts;

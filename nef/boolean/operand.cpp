@@ -21,8 +21,8 @@ CommonTables::CommonTables(const Complex& first, const Complex& second, unsigned
   const auto find_bounds = [&] {
     for (std::size_t x = 0; x < 2; ++x) {
       const Complex& complex = x == 0 ? first : second;
-      for (std::uint32_t v = 0; v < complex.vertex_count(); ++v) {
-        bounds[x].add_rounded(complex.points.approximate(PointId{v}));
+      for (const VertexId v : complex.vertex_ids()) {
+        bounds[x].add_rounded(complex.points.approximate(point_of(v)));
       }
     }
   };
@@ -41,7 +41,7 @@ void Operand::rename(SphereMapBuffer& map) const {
   for_each_plane(map, [this](PlaneId& own) { own = plane(own); });
 }
 
-Box Operand::vertex_box(std::uint32_t vertex) const { return nef::vertex_box(*complex_, vertex); }
+Box Operand::vertex_box(VertexId vertex) const { return nef::vertex_box(*complex_, vertex); }
 
 Box Operand::edge_box(std::uint32_t halfedge) const { return nef::edge_box(*complex_, halfedge); }
 
@@ -50,14 +50,14 @@ Box Operand::facet_box(FacetId facet) const { return nef::facet_box(*complex_, c
 SphereMapView Operand::pyramid(const Item& item, LabelId label, SphereMapBuffer& scratch) const {
   switch (item.kind) {
     case Item::Kind::kVertex: {
-      const SphereMapView map = complex_->sphere_map(item.index);
+      const SphereMapView map = complex_->sphere_map(item.vertex());
       if (rows_.empty()) return map;
       scratch.assign(map);
       rename(scratch);
       break;
     }
     case Item::Kind::kEdge: {
-      const std::uint32_t vertex = source(item.index);
+      const VertexId vertex = source(item.index);
       edge_pyramid(complex_->sphere_map(vertex), item.index - complex_->vertices[vertex].svertices, scratch);
       rename(scratch);
       break;

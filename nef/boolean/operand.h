@@ -31,6 +31,13 @@ struct Item {
   enum class Kind : std::uint8_t { kNone, kVertex, kEdge, kFacet };
   Kind kind = Kind::kNone;
   std::uint32_t index = 0;
+
+  Item() = default;
+  Item(Kind of, std::uint32_t number) : kind(of), index(number) {}
+  explicit Item(VertexId vertex) : kind(Kind::kVertex), index(vertex.index()) {}
+  explicit Item(FacetId facet) : kind(Kind::kFacet), index(facet.index()) {}
+
+  [[nodiscard]] VertexId vertex() const { return VertexId{index}; }
   [[nodiscard]] FacetId facet() const { return FacetId{index}; }
   bool operator==(const Item&) const = default;
 };
@@ -46,7 +53,7 @@ class Operand {
   [[nodiscard]] PlaneId plane(PlaneId own) const {
     return rows_.empty() ? own : PlaneId{rows_[own.row()] << 1U | (own.value & 1U)};
   }
-  [[nodiscard]] PointId point(std::uint32_t vertex) const { return PointId{first_point_ + vertex}; }
+  [[nodiscard]] PointId point(VertexId vertex) const { return point_of(vertex) + first_point_; }
   [[nodiscard]] SVertex svertex(std::uint32_t halfedge) const {
     SVertex result = complex_->svertex(halfedge);
     result.p = plane(result.p);
@@ -59,11 +66,11 @@ class Operand {
   [[nodiscard]] std::uint32_t edge(std::uint32_t halfedge) const {
     return std::min(halfedge, complex_->twin[halfedge]);
   }
-  [[nodiscard]] std::uint32_t source(std::uint32_t halfedge) const { return complex_->svertex_owner[halfedge]; }
-  [[nodiscard]] std::uint32_t target(std::uint32_t halfedge) const { return complex_->target(halfedge); }
+  [[nodiscard]] VertexId source(std::uint32_t halfedge) const { return complex_->svertex_owner[halfedge]; }
+  [[nodiscard]] VertexId target(std::uint32_t halfedge) const { return complex_->target(halfedge); }
 
   [[nodiscard]] const Box& bounds() const { return *bounds_; }
-  [[nodiscard]] Box vertex_box(std::uint32_t vertex) const;
+  [[nodiscard]] Box vertex_box(VertexId vertex) const;
   [[nodiscard]] Box edge_box(std::uint32_t halfedge) const;
   [[nodiscard]] Box facet_box(FacetId facet) const;
 

@@ -29,7 +29,7 @@ class ComplexOverlay {
   std::optional<Complex> run(const std::function<const QueryStructure&()>& queries_a,
                              const std::function<const QueryStructure&()>& queries_b) {
     Intersections found = intersect_boundaries(operands_, tables_, threads_);
-    std::array<std::vector<LabelId>, 2> marks;
+    std::array<IndexedVector<VertexId, LabelId>, 2> marks;
     const auto find_marks = [&](std::size_t x) {
       marks[x] = marks_of_untouched(operands_, x, tables_, found, x == 0 ? queries_b : queries_a);
     };
@@ -37,13 +37,13 @@ class ComplexOverlay {
     std::vector<Meeting> meetings;
     const auto note_meeting = [&](const Meeting& meeting) { meetings.push_back(meeting); };
     for_each_vertex(
-        found, [](std::size_t, std::uint32_t) {}, note_meeting);
+        found, [](std::size_t, VertexId) {}, note_meeting);
     for (const Crossing& crossing : found.crossings) note_meeting({crossing.point, crossing.item});
     const OverlaidMeetings overlaid(operands_, tables_, f_, meetings, threads_);
     std::size_t next = 0;
     const auto push_next = [&](const Meeting&) { result_.add(overlaid[next++]); };
     for_each_vertex(
-        found, [&](std::size_t x, std::uint32_t v) { push_untouched(x, v, marks[x][v]); }, push_next);
+        found, [&](std::size_t x, VertexId v) { push_untouched(x, v, marks[x][v]); }, push_next);
     while (next < meetings.size()) result_.add(overlaid[next++]);
     return finished(std::move(found));
   }
@@ -55,13 +55,13 @@ class ComplexOverlay {
   template <typename Untouched, typename Met>
   void for_each_vertex(const Intersections& found, const Untouched& untouched, const Met& met) const {
     for (std::size_t x = 0; x < 2; ++x) {
-      const std::vector<Item>& items = found.vertex_item[x];
-      for (std::uint32_t v = 0; v < items.size(); ++v) {
+      const IndexedVector<VertexId, Item>& items = found.vertex_item[x];
+      for (const VertexId v : items.ids()) {
         if (items[v].kind == Item::Kind::kNone) {
           untouched(x, v);
         } else if (x == 0 || items[v].kind != Item::Kind::kVertex) {
           std::array<Item, 2> pair;
-          pair[x] = {Item::Kind::kVertex, v};
+          pair[x] = Item(v);
           pair[1 - x] = items[v];
           met({operands_[x].point(v), pair});
         }
@@ -128,7 +128,7 @@ class ComplexOverlay {
     return cache.back().second;
   }
 
-  void push_untouched(std::size_t x, std::uint32_t v, LabelId other) {
+  void push_untouched(std::size_t x, VertexId v, LabelId other) {
     const Restriction& r = restriction(x, other);
     switch (r.effect) {
       case Effect::kConstant:
@@ -142,7 +142,7 @@ class ComplexOverlay {
       case Effect::kGeneral: {
         if (push_if_injective(x, v, other)) return;
         std::array<Item, 2> items;
-        items[x] = {Item::Kind::kVertex, v};
+        items[x] = Item(v);
         const SphereMapBuffer& map = overlay_.at(items, other);
         if (is_vertex(tables_.planes, map.view())) result_.add(operands_[x].point(v), map.view());
         return;
@@ -151,9 +151,9 @@ class ComplexOverlay {
   }
 
   // Copies a vertex if f keeps apart all the marks around it: then nothing simplifies.
-  bool push_if_injective(std::size_t x, std::uint32_t v, LabelId other) {
+  bool push_if_injective(std::size_t x, VertexId v, LabelId other) {
     const auto image = [&](LabelId mark) { return x == 0 ? f_(mark, other) : f_(other, mark); };
-    const SphereMapView map = operands_[x].pyramid({Item::Kind::kVertex, v}, other, scratch_);
+    const SphereMapView map = operands_[x].pyramid(Item(v), other, scratch_);
     marks_.assign(1, map.mark);
     for (const SVertex& item : map.svertices) marks_.push_back(item.mark);
     for (const SHalfedge& item : map.shalfedges) marks_.push_back(item.mark);

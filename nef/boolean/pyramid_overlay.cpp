@@ -17,7 +17,7 @@ const SphereMapBuffer& PyramidOverlay::at(const std::array<Item, 2>& items, Labe
 
 OverlaidMeetings::OverlaidMeetings(const std::array<Operand, 2>& operands, const CommonTables& tables,
                                    const LabelFunction& f, std::span<const Meeting> meetings, unsigned threads)
-    : made_((meetings.size() + kTogether - 1) / kTogether), vertex_(meetings.size(), kNone) {
+    : made_((meetings.size() + kTogether - 1) / kTogether), vertex_(meetings.size()) {
   const auto make = [&](std::size_t part) {
     PyramidOverlay overlay(operands, tables, f);
     PlaneTable none;
@@ -26,7 +26,7 @@ OverlaidMeetings::OverlaidMeetings(const std::array<Operand, 2>& operands, const
     for (std::size_t k = first; k < std::min(meetings.size(), first + kTogether); ++k) {
       const SphereMapBuffer& map = overlay.at(meetings[k].items, 0);
       if (!is_vertex(tables.planes, map.view())) continue;
-      vertex_[k] = static_cast<std::uint32_t>(vertices.so_far().vertex_count());
+      vertex_[k] = VertexId{vertices.so_far().vertex_count()};
       vertices.append(tables.points, meetings[k].point, map.view());
     }
     made_[part] = vertices.take_so_far();
@@ -40,7 +40,7 @@ OverlaidMeetings::OverlaidMeetings(const std::array<Operand, 2>& operands, const
 }
 
 VertexOf OverlaidMeetings::operator[](std::size_t k) const {
-  if (vertex_[k] == kNone) return {};
+  if (!vertex_[k].valid()) return {};
   return {&made_[k / kTogether], vertex_[k]};
 }
 

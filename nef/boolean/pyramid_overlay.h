@@ -39,7 +39,7 @@ struct Meeting {
 /// A vertex among others that have no links yet.
 struct VertexOf {
   const Complex* complex = nullptr;  ///< null: there is none
-  std::uint32_t vertex = 0;
+  VertexId vertex{0};
 };
 
 /// What the overlays at many points have made: the vertices of a result where its operands meet.
@@ -56,7 +56,7 @@ class OverlaidMeetings {
   static constexpr std::size_t kTogether = 256;  // meetings whose vertices stand in one complex
 
   std::vector<Complex> made_;
-  std::vector<std::uint32_t> vertex_;  // of each meeting, in its complex; kNone for none
+  std::vector<VertexId> vertex_;  // of each meeting, in its complex; not valid for none
 };
 
 }  // namespace nef

@@ -20,7 +20,7 @@ void ResultAssembly::append(const Run& run) {
   runs_.push_back(run);
 }
 
-void ResultAssembly::copy(std::size_t x, std::uint32_t v, const std::vector<LabelId>* marks) {
+void ResultAssembly::copy(std::size_t x, VertexId v, const std::vector<LabelId>* marks) {
   append({{x, v, 1}, &operands_[x].complex(), marks});
 }
 
@@ -29,7 +29,7 @@ void ResultAssembly::add(const VertexOf& made) {
 }
 
 void ResultAssembly::add(PointId point, const SphereMapView& map) {
-  add({&new_.so_far(), static_cast<std::uint32_t>(new_.so_far().vertex_count())});
+  add({&new_.so_far(), VertexId{new_.so_far().vertex_count()}});
   new_.append(tables_.points, point, map);
 }
 

@@ -21,7 +21,7 @@ class ResultAssembly {
 
   /// Appends a copy of vertex v of operand x. Its marks are changed to marks[mark] unless `marks` is null; the array
   /// must outlive the assembly. Copies of one operand must come in its order.
-  void copy(std::size_t x, std::uint32_t v, const std::vector<LabelId>* marks);
+  void copy(std::size_t x, VertexId v, const std::vector<LabelId>* marks);
 
   /// Appends a vertex with planes by common names, if there is one; its complex must outlive the assembly.
   void add(const VertexOf& made);

@@ -29,10 +29,9 @@ class UntouchedMarks {
     }
   }
 
-  std::vector<LabelId> run(const std::function<const QueryStructure&()>& queries) {
+  IndexedVector<VertexId, LabelId> run(const std::function<const QueryStructure&()>& queries) {
     const LabelId outer = other_.complex().volumes[kOuterVolume].mark;
-    const auto count = static_cast<std::uint32_t>(marks_.size());
-    for (std::uint32_t v = 0; v < count; ++v) {
+    for (const VertexId v : marks_.ids()) {
       if (!touched(v) && !own_.vertex_box(v).overlaps(other_.bounds())) settle(v, outer);
     }
     seed_from_touched_ends();
@@ -44,9 +43,9 @@ class UntouchedMarks {
       i = j;
     }
     spread();
-    for (std::uint32_t v = 0; v < count; ++v) {
+    for (const VertexId v : marks_.ids()) {
       if (touched(v) || known_[v]) continue;
-      const VolumeId volume = queries().volume_at(other_.complex(), PointRef{&own_.complex().points, PointId{v}});
+      const VolumeId volume = queries().volume_at(other_.complex(), PointRef{&own_.complex().points, point_of(v)});
       settle(v, other_.complex().volumes[volume].mark);
       spread();
     }
@@ -54,9 +53,9 @@ class UntouchedMarks {
   }
 
  private:
-  bool touched(std::uint32_t v) const { return items_[v].kind != Item::Kind::kNone; }
+  bool touched(VertexId v) const { return items_[v].kind != Item::Kind::kNone; }
 
-  void settle(std::uint32_t v, LabelId mark) {
+  void settle(VertexId v, LabelId mark) {
     if (known_[v]) return;
     known_[v] = true;
     marks_[v] = mark;
@@ -65,22 +64,22 @@ class UntouchedMarks {
 
   void spread() {
     while (!queue_.empty()) {
-      const std::uint32_t v = queue_.back();
+      const VertexId v = queue_.back();
       queue_.pop_back();
-      const std::uint32_t last = own_.complex().vertices[v + 1].svertices;
+      const std::uint32_t last = own_.complex().vertices[v.next()].svertices;
       for (std::uint32_t h = own_.complex().vertices[v].svertices; h < last; ++h) {
-        const std::uint32_t w = own_.target(h);
+        const VertexId w = own_.target(h);
         if (!known_[w] && !crossed_[h] && !touched(w)) settle(w, marks_[v]);
       }
     }
   }
 
   void seed_from_touched_ends() {
-    for (std::uint32_t v = 0; v < items_.size(); ++v) {
+    for (const VertexId v : items_.ids()) {
       if (!touched(v)) continue;
-      const std::uint32_t last = own_.complex().vertices[v + 1].svertices;
+      const std::uint32_t last = own_.complex().vertices[v.next()].svertices;
       for (std::uint32_t h = own_.complex().vertices[v].svertices; h < last; ++h) {
-        const std::uint32_t w = own_.target(h);
+        const VertexId w = own_.target(h);
         if (touched(w) || known_[w] || crossed_[h]) continue;
         settle(w, mark_toward(items_[v], h, w));
       }
@@ -88,7 +87,7 @@ class UntouchedMarks {
   }
 
   // The mark of the other operand's volume that halfedge h leads into from `item`, toward w.
-  LabelId mark_toward(const Item& item, std::uint32_t h, std::uint32_t w) const {
+  LabelId mark_toward(const Item& item, std::uint32_t h, VertexId w) const {
     if (item.kind == Item::Kind::kFacet) {
       const Facet& facet = other_.complex().facets[item.facet()];
       const int side = side_of_plane(tables_.planes, other_.plane(facet.plane), tables_.points, own_.point(w));
@@ -101,8 +100,8 @@ class UntouchedMarks {
   // All contacts of one edge: the extreme ones tell about its ends.
   void seed_from_contacts(std::span<const EdgeContact> contacts) {
     const std::uint32_t h = contacts.front().edge;
-    const std::uint32_t source = own_.source(h);
-    const std::uint32_t target = own_.target(h);
+    const VertexId source = own_.source(h);
+    const VertexId target = own_.target(h);
     const bool want_source = !touched(source) && !known_[source];
     const bool want_target = !touched(target) && !known_[target];
     if (!want_source && !want_target) return;
@@ -128,19 +127,19 @@ class UntouchedMarks {
   const Operand& own_;
   const Operand& other_;
   const CommonTables& tables_;
-  const std::vector<Item>& items_;
+  const IndexedVector<VertexId, Item>& items_;
   const std::vector<EdgeContact>& contacts_;
-  std::vector<LabelId> marks_;
-  std::vector<bool> known_;
+  IndexedVector<VertexId, LabelId> marks_;
+  IndexedVector<VertexId, bool> known_;
   std::vector<bool> crossed_;
-  std::vector<std::uint32_t> queue_;
+  std::vector<VertexId> queue_;
 };
 
 }  // namespace
 
-std::vector<LabelId> marks_of_untouched(const std::array<Operand, 2>& operands, std::size_t x,
-                                        const CommonTables& tables, const Intersections& intersections,
-                                        const std::function<const QueryStructure&()>& queries_of_other) {
+IndexedVector<VertexId, LabelId> marks_of_untouched(const std::array<Operand, 2>& operands, std::size_t x,
+                                                    const CommonTables& tables, const Intersections& intersections,
+                                                    const std::function<const QueryStructure&()>& queries_of_other) {
   return UntouchedMarks(operands, x, tables, intersections).run(queries_of_other);
 }
 

@@ -13,8 +13,8 @@ namespace nef {
 /// other's volume that holds it (others: unspecified). Vertices that an uncrossed edge joins share
 /// their answer; touched ends and crossed edges give it away; only a component with neither asks
 /// for a point location.
-std::vector<LabelId> marks_of_untouched(const std::array<Operand, 2>& operands, std::size_t x,
-                                        const CommonTables& tables, const Intersections& intersections,
-                                        const std::function<const QueryStructure&()>& queries_of_other);
+IndexedVector<VertexId, LabelId> marks_of_untouched(const std::array<Operand, 2>& operands, std::size_t x,
+                                                    const CommonTables& tables, const Intersections& intersections,
+                                                    const std::function<const QueryStructure&()>& queries_of_other);
 
 }  // namespace nef

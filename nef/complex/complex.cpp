@@ -7,10 +7,10 @@
 
 namespace nef {
 
-std::uint32_t Complex::sface_vertex(std::uint32_t sface) const {
+VertexId Complex::sface_vertex(std::uint32_t sface) const {
   const auto after = std::upper_bound(vertices.begin(), vertices.end(), sface,
                                       [](std::uint32_t f, const VertexRecord& v) { return f < v.sfaces; });
-  return static_cast<std::uint32_t>(after - vertices.begin() - 1);
+  return VertexId{after - vertices.begin() - 1};
 }
 
 void Complex::trim() {

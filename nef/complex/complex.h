@@ -5,7 +5,8 @@
 // changes once it is synthesized, so it may be read from any number of threads.
 //
 // Conventions:
-//  - vertex v lies at point v of `points`; its sphere map is a pattern, which many vertices share, and the planes of
+//  - vertex v lies at point v of `points` (point_of(v)); its sphere map is a pattern, which many vertices share, and
+//  the planes of
 //    its items; svertices, shalfedges, sloops and sfaces are numbered vertex after vertex, and have local indices
 //    inside their sphere map (see nef/sphere_map/sphere_map.h);
 //  - an svertex of the whole complex is a halfedge; `twin` pairs them into edges;
@@ -73,7 +74,7 @@ struct Complex {
   PlaneTable planes;
   PointTable points;
 
-  std::vector<VertexRecord> vertices{VertexRecord{}};  ///< one more than there are vertices
+  IndexedVector<VertexId, VertexRecord> vertices{VertexRecord{}};  ///< one more than there are vertices
 
   PatternTable patterns;  ///< each is that of a vertex
   PlaneColumn shalfedge_plane;
@@ -81,9 +82,9 @@ struct Complex {
   std::vector<SLoop> sloops;
 
   // Added by synthesis, parallel to the arrays above.
-  std::vector<std::uint32_t> svertex_owner;  ///< vertex
-  std::vector<std::uint32_t> twin;           ///< halfedge at the other end of the edge
-  std::vector<std::uint32_t> pair_owner;     ///< vertex of each pair of shalfedges; empty: svertex_owner says it
+  std::vector<VertexId> svertex_owner;
+  std::vector<std::uint32_t> twin;   ///< halfedge at the other end of the edge
+  std::vector<VertexId> pair_owner;  ///< vertex of each pair of shalfedges; empty: svertex_owner says it
   HalffacetColumn shalfedge_facet;
   std::vector<HalffacetId> sloop_facet;
   std::vector<ShellId> sface_shell;
@@ -91,7 +92,7 @@ struct Complex {
   IndexedVector<FacetId, Facet> facets;
   IndexedVector<CycleId, std::uint32_t> cycle_begin{0};  ///< into corners; one more than there are cycles
   std::vector<std::uint32_t> corners;                    ///< shalfedges
-  std::vector<std::uint32_t> isolated_vertices;
+  std::vector<VertexId> isolated_vertices;
 
   IndexedVector<ShellId, Shell> shells;
   IndexedVector<VolumeId, Volume> volumes;
@@ -105,6 +106,9 @@ struct Complex {
   [[nodiscard]] std::uint32_t shalfedge_count() const { return vertices.back().shalfedges; }
   [[nodiscard]] std::uint32_t sface_count() const { return vertices.back().sfaces; }
 
+  [[nodiscard]] IdRange<VertexId> vertex_ids() const {
+    return {VertexId{0}, static_cast<std::uint32_t>(vertices.size() - 1)};
+  }
   [[nodiscard]] IdRange<CycleId> cycle_ids() const {
     return {CycleId{0}, static_cast<std::uint32_t>(cycle_begin.size() - 1)};
   }
@@ -113,22 +117,22 @@ struct Complex {
   [[nodiscard]] bool has_box() const { return !volumes.empty() && volumes[kOuterVolume].mark == kOutside; }
 
   /// The sphere map of a vertex.
-  [[nodiscard]] SphereMapView sphere_map(std::uint32_t vertex) const {
+  [[nodiscard]] SphereMapView sphere_map(VertexId vertex) const {
     const VertexRecord& record = vertices[vertex];
     const LocalPlanes named = local_planes(vertex);
     return {{patterns.svertices(record.pattern), named},
             {patterns.shalfedges(record.pattern), named},
-            {sloops.data() + record.sloops, vertices[vertex + 1].sloops - record.sloops},
+            {sloops.data() + record.sloops, vertices[vertex.next()].sloops - record.sloops},
             patterns.sfaces(record.pattern),
             patterns.entries(record.pattern),
             patterns.mark(record.pattern)};
   }
 
-  [[nodiscard]] LabelId mark(std::uint32_t vertex) const { return patterns.mark(vertices[vertex].pattern); }
+  [[nodiscard]] LabelId mark(VertexId vertex) const { return patterns.mark(vertices[vertex].pattern); }
 
   /// An svertex by its number in the complex. Needs svertex_owner.
   [[nodiscard]] SVertex svertex(std::uint32_t svertex) const {
-    const std::uint32_t vertex = svertex_owner[svertex];
+    const VertexId vertex = svertex_owner[svertex];
     const VertexRecord& record = vertices[vertex];
     return with_planes(patterns.svertex(record.pattern, svertex - record.svertices), local_planes(vertex));
   }
@@ -142,18 +146,18 @@ struct Complex {
 
   /// The vertex of a shalfedge. Where every svertex has two arcs, as in all sets whose boundary is a manifold, a vertex
   /// has as many svertices as pairs of shalfedges, and one list of owners serves both.
-  [[nodiscard]] std::uint32_t shalfedge_vertex(std::uint32_t shalfedge) const {
+  [[nodiscard]] VertexId shalfedge_vertex(std::uint32_t shalfedge) const {
     return pair_owner.empty() ? svertex_owner[shalfedge >> 1U] : pair_owner[shalfedge >> 1U];
   }
 
   /// The mark of an sface by its number in the complex. O(log n).
   [[nodiscard]] LabelId sface_mark(std::uint32_t sface) const {
-    const std::uint32_t vertex = sface_vertex(sface);
+    const VertexId vertex = sface_vertex(sface);
     return patterns.sfaces(vertices[vertex].pattern)[sface - vertices[vertex].sfaces].mark;
   }
 
   /// The vertex at the other end of a halfedge.
-  [[nodiscard]] std::uint32_t target(std::uint32_t halfedge) const { return svertex_owner[twin[halfedge]]; }
+  [[nodiscard]] VertexId target(std::uint32_t halfedge) const { return svertex_owner[twin[halfedge]]; }
 
   /// The halfedge that leaves the vertex of a corner along the facet boundary (facet to its left).
   [[nodiscard]] std::uint32_t corner_halfedge(std::uint32_t corner) const {
@@ -187,12 +191,12 @@ struct Complex {
   [[nodiscard]] std::span<const std::uint32_t> corners_of(FacetId facet) const { return corners_of(facets[facet]); }
 
   /// The vertices inside a facet.
-  [[nodiscard]] std::span<const std::uint32_t> isolated_vertices_of(const Facet& facet) const {
+  [[nodiscard]] std::span<const VertexId> isolated_vertices_of(const Facet& facet) const {
     return {isolated_vertices.data() + facet.first_isolated, facet.isolated_count};
   }
 
   /// The vertex that an sface belongs to. O(log n).
-  [[nodiscard]] std::uint32_t sface_vertex(std::uint32_t sface) const;
+  [[nodiscard]] VertexId sface_vertex(std::uint32_t sface) const;
 
   /// Gives memory back that has been reserved and not used, where that is an eighth of an array or more.
   void trim();
@@ -201,10 +205,10 @@ struct Complex {
   [[nodiscard]] std::size_t bytes() const;
 
  private:
-  [[nodiscard]] LocalPlanes local_planes(std::uint32_t vertex) const {
+  [[nodiscard]] LocalPlanes local_planes(VertexId vertex) const {
     const VertexRecord& record = vertices[vertex];
     return {shalfedge_plane.pairs().data() + record.shalfedges / 2,
-            (vertices[vertex + 1].shalfedges - record.shalfedges) / 2, other_planes.data() + record.other_planes};
+            (vertices[vertex.next()].shalfedges - record.shalfedges) / 2, other_planes.data() + record.other_planes};
   }
 
   // Its plane is but a name.

@@ -5,13 +5,13 @@
 
 namespace nef {
 
-std::vector<Rational3> concrete_points(const Complex& complex) {
+IndexedVector<VertexId, Rational3> concrete_points(const Complex& complex) {
   const PointTable& points = complex.points;
   // Signs of the checks are of polynomials of small degree in the coordinates; a power of two with
   // many times as many bits as any coordinate or coefficient dominates them all.
   std::size_t bits = 1;
-  for (std::uint32_t v = 0; v < points.size(); ++v) {
-    for (std::size_t i = 0; i < 7; ++i) bits = std::max(bits, mpz_sizeinbase(points.coordinate(PointId{v}, i), 2));
+  for (const VertexId v : complex.vertex_ids()) {
+    for (std::size_t i = 0; i < 7; ++i) bits = std::max(bits, mpz_sizeinbase(points.coordinate(point_of(v), i), 2));
   }
   for (std::uint32_t p = 0; p < complex.planes.size(); ++p) {
     for (std::size_t i = 0; i < 5; ++i) {
@@ -19,14 +19,14 @@ std::vector<Rational3> concrete_points(const Complex& complex) {
     }
   }
   const Integer infimaximal = Integer(1) << static_cast<mp_bitcnt_t>(16 * bits + 64);
-  std::vector<Rational3> result(points.size());
-  for (std::uint32_t v = 0; v < points.size(); ++v) {
+  IndexedVector<VertexId, Rational3> result(complex.vertex_count());
+  for (const VertexId v : complex.vertex_ids()) {
     Integer w;
-    mpz_set(w.get_mpz_t(), points.coordinate(PointId{v}, 3));
+    mpz_set(w.get_mpz_t(), points.coordinate(point_of(v), 3));
     for (std::size_t i = 0; i < 3; ++i) {
       Integer x;
-      mpz_set(x.get_mpz_t(), points.coordinate(PointId{v}, i));
-      mpz_addmul(x.get_mpz_t(), infimaximal.get_mpz_t(), points.coordinate(PointId{v}, 4 + i));
+      mpz_set(x.get_mpz_t(), points.coordinate(point_of(v), i));
+      mpz_addmul(x.get_mpz_t(), infimaximal.get_mpz_t(), points.coordinate(point_of(v), 4 + i));
       result[v][i] = Rational(x, w);
       result[v][i].canonicalize();
     }
@@ -58,7 +58,7 @@ Winding winding_number(const std::vector<const Rational3*>& polygon, const Ratio
   return winding;
 }
 
-std::vector<const Rational3*> cycle_points(const Complex& complex, const std::vector<Rational3>& points,
+std::vector<const Rational3*> cycle_points(const Complex& complex, const IndexedVector<VertexId, Rational3>& points,
                                            CycleId cycle) {
   std::vector<const Rational3*> result;
   for (const std::uint32_t corner : complex.corners_of(cycle)) {

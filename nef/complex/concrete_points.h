@@ -9,7 +9,7 @@ namespace nef {
 
 /// The coordinates of all vertices with a number in place of the infimaximal R that is greater
 /// than anything the coordinates of the complex could be compared with. For checks, not for speed.
-std::vector<Rational3> concrete_points(const Complex& complex);
+IndexedVector<VertexId, Rational3> concrete_points(const Complex& complex);
 
 /// How often a closed polygon winds around a point of its plane, both projected along `axis`
 /// (counterclockwise in the order of the two other axes counts +1).
@@ -20,7 +20,8 @@ struct Winding {
 Winding winding_number(const std::vector<const Rational3*>& polygon, const Rational3& point, std::size_t axis);
 
 /// The corners of cycle `cycle` as points.
-std::vector<const Rational3*> cycle_points(const Complex& complex, const std::vector<Rational3>& points, CycleId cycle);
+std::vector<const Rational3*> cycle_points(const Complex& complex, const IndexedVector<VertexId, Rational3>& points,
+                                           CycleId cycle);
 
 /// An axis along which the plane of a facet can be projected, and +1 or -1 as counterclockwise
 /// about the plane's normal is counterclockwise in the projection or not.

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "nef/base/id.h"
+#include "nef/geometry/ids.h"
 
 namespace nef {
 
@@ -12,10 +13,14 @@ using FacetId = Id<struct FacetTag>;          ///< both sides of a facet
 using HalffacetId = Id<struct HalffacetTag>;  ///< one side of a facet
 using PatternId = Id<struct PatternTag>;      ///< a sphere map without its planes
 using ShellId = Id<struct ShellTag>;
+using VertexId = Id<struct VertexTag>;
 using VolumeId = Id<struct VolumeTag>;
 
 /// Volume 0.
 inline constexpr VolumeId kOuterVolume{0};
+
+/// Where a vertex lies, in the points of its complex.
+constexpr PointId point_of(VertexId vertex) { return PointId{vertex.index()}; }
 
 /// Halffacet 2f is facet f seen from the positive side of its unflipped plane, 2f + 1 from the other side.
 constexpr HalffacetId halffacet_of(FacetId facet, bool below) {

@@ -3,15 +3,15 @@
 
 namespace nef {
 
-Box vertex_box(const Complex& complex, std::uint32_t vertex) {
+Box vertex_box(const Complex& complex, VertexId vertex) {
   Box box;
-  box.add_rounded(complex.points.approximate(PointId{vertex}));
+  box.add_rounded(complex.points.approximate(point_of(vertex)));
   return box;
 }
 
 Box edge_box(const Complex& complex, std::uint32_t halfedge) {
   Box box = vertex_box(complex, complex.svertex_owner[halfedge]);
-  box.add_rounded(complex.points.approximate(PointId{complex.target(halfedge)}));
+  box.add_rounded(complex.points.approximate(point_of(complex.target(halfedge))));
   return box;
 }
 
@@ -19,14 +19,14 @@ Box facet_box(const Complex& complex, const Facet& facet) {
   Box box;
   // The first cycle is the outer one.
   for (const std::uint32_t corner : complex.corners_of(facet.first_cycle)) {
-    box.add_rounded(complex.points.approximate(PointId{complex.shalfedge_vertex(corner)}));
+    box.add_rounded(complex.points.approximate(point_of(complex.shalfedge_vertex(corner))));
   }
   return box;
 }
 
 Box vertices_box(const Complex& complex) {
   Box box;
-  for (std::uint32_t v = 0; v < complex.vertex_count(); ++v) box.add_rounded(complex.points.approximate(PointId{v}));
+  for (const VertexId v : complex.vertex_ids()) box.add_rounded(complex.points.approximate(point_of(v)));
   return box;
 }
 

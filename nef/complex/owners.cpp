@@ -8,8 +8,8 @@ namespace nef {
 void name_svertex_owners(Complex& complex) {
   complex.svertex_owner.resize(complex.svertex_count());
   const auto owner = complex.svertex_owner.begin();
-  for (std::uint32_t v = 0; v < complex.vertex_count(); ++v) {
-    std::fill(owner + complex.vertices[v].svertices, owner + complex.vertices[v + 1].svertices, v);
+  for (const VertexId v : complex.vertex_ids()) {
+    std::fill(owner + complex.vertices[v].svertices, owner + complex.vertices[v.next()].svertices, v);
   }
 }
 
@@ -19,8 +19,8 @@ void name_pair_owners(Complex& complex) {
   if (std::all_of(complex.vertices.begin(), complex.vertices.end(), as_many)) return;
   complex.pair_owner.resize(complex.shalfedge_count() / 2);
   const auto owner = complex.pair_owner.begin();
-  for (std::uint32_t v = 0; v < complex.vertex_count(); ++v) {
-    std::fill(owner + complex.vertices[v].shalfedges / 2, owner + complex.vertices[v + 1].shalfedges / 2, v);
+  for (const VertexId v : complex.vertex_ids()) {
+    std::fill(owner + complex.vertices[v].shalfedges / 2, owner + complex.vertices[v.next()].shalfedges / 2, v);
   }
 }
 

@@ -22,7 +22,7 @@ class PlaneSweep {
  public:
   PlaneSweep(const Complex& complex, PlaneId plane) : c_(complex), plane_(plane), axes_(complex.planes, plane) {}
 
-  std::vector<CornerBelow> run(std::span<const std::uint32_t> corners, std::span<const std::uint32_t> vertices) {
+  std::vector<CornerBelow> run(std::span<const std::uint32_t> corners, std::span<const VertexId> vertices) {
     rank_vertices(corners, vertices);
     collect_edges(corners);
     std::vector<std::uint32_t> query_at(order_.size(), kNone);
@@ -31,24 +31,23 @@ class PlaneSweep {
   }
 
  private:
-  void rank_vertices(std::span<const std::uint32_t> corners, std::span<const std::uint32_t> vertices) {
+  void rank_vertices(std::span<const std::uint32_t> corners, std::span<const VertexId> vertices) {
     // The other end of an edge is the vertex of another corner.
     for (const std::uint32_t corner : corners) ids_.push_back(c_.shalfedge_vertex(corner));
     ids_.insert(ids_.end(), vertices.begin(), vertices.end());
     std::sort(ids_.begin(), ids_.end());
     ids_.erase(std::unique(ids_.begin(), ids_.end()), ids_.end());
     order_ = ids_;
-    std::sort(order_.begin(), order_.end(), [this](std::uint32_t a, std::uint32_t b) {
-      return axes_.compare(c_.points, PointId{a}, PointId{b}) < 0;
-    });
+    std::sort(order_.begin(), order_.end(),
+              [this](VertexId a, VertexId b) { return axes_.compare(c_.points, point_of(a), point_of(b)) < 0; });
     ranks_.resize(ids_.size());
     for (std::uint32_t rank = 0; rank < order_.size(); ++rank) ranks_[position_of(order_[rank])] = rank;
   }
 
-  std::size_t position_of(std::uint32_t vertex) const {
+  std::size_t position_of(VertexId vertex) const {
     return static_cast<std::size_t>(std::lower_bound(ids_.begin(), ids_.end(), vertex) - ids_.begin());
   }
-  std::uint32_t rank_of(std::uint32_t vertex) const { return ranks_[position_of(vertex)]; }
+  std::uint32_t rank_of(VertexId vertex) const { return ranks_[position_of(vertex)]; }
 
   // A facet lies to the left of the halfedge of its corner: above it if the halfedge ascends in axes that turn
   // counterclockwise, or descends in others.
@@ -65,7 +64,7 @@ class PlaneSweep {
 
   // True if the vertex lies above the line of the edge.
   bool below_vertex(const SweepEdge& edge, std::uint32_t rank) const {
-    return edge.side.left * side_of_plane(c_.planes, edge.side.other, c_.points, PointId{order_[rank]}) > 0;
+    return edge.side.left * side_of_plane(c_.planes, edge.side.other, c_.points, point_of(order_[rank])) > 0;
   }
 
   // For two edges that one sweep line meets.
@@ -122,16 +121,16 @@ class PlaneSweep {
   const Complex& c_;
   PlaneId plane_;
   PlaneAxes axes_;
-  std::vector<std::uint32_t> ids_;    // of the vertices, ascending
+  std::vector<VertexId> ids_;         // of the vertices, ascending
   std::vector<std::uint32_t> ranks_;  // of ids_
-  std::vector<std::uint32_t> order_;  // ids by rank
+  std::vector<VertexId> order_;       // ids by rank
   std::vector<SweepEdge> edges_;
 };
 
 }  // namespace
 
 std::vector<CornerBelow> corners_below(const Complex& complex, PlaneId plane, std::span<const std::uint32_t> corners,
-                                       std::span<const std::uint32_t> vertices) {
+                                       std::span<const VertexId> vertices) {
   return PlaneSweep(complex, plane).run(corners, vertices);
 }
 

@@ -26,6 +26,6 @@ struct CornerBelow {
 /// `plane`; edges do not cross. The answers come in lexicographic order of the vertices, first coordinate first. O(n
 /// log n) for n corners and vertices together.
 std::vector<CornerBelow> corners_below(const Complex& complex, PlaneId plane, std::span<const std::uint32_t> corners,
-                                       std::span<const std::uint32_t> vertices);
+                                       std::span<const VertexId> vertices);
 
 }  // namespace nef

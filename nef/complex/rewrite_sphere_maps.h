@@ -21,18 +21,18 @@ void rewrite_sphere_maps(Complex& c, Change&& change) {
   std::vector<PlaneId> planes;
   std::vector<PlaneId> others;
   std::vector<SLoop> sloops;
-  std::vector<std::pair<PatternId, std::uint32_t>> records;
+  IndexedVector<VertexId, std::pair<PatternId, std::uint32_t>> records;
   planes.reserve(c.shalfedge_plane.pairs().size());
   records.reserve(c.vertex_count());
   SphereMapBuffer map;
-  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
+  for (const VertexId v : c.vertex_ids()) {
     map.assign(c.sphere_map(v));
     change(v, map);
     const auto first_other = static_cast<std::uint32_t>(others.size());
-    records.emplace_back(interner.intern(patterns, map.view(), planes, others), first_other);
+    records.push_back({interner.intern(patterns, map.view(), planes, others), first_other});
     sloops.insert(sloops.end(), map.sloops.begin(), map.sloops.end());
   }
-  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
+  for (const VertexId v : c.vertex_ids()) {
     c.vertices[v].pattern = records[v].first;
     c.vertices[v].other_planes = records[v].second;
   }

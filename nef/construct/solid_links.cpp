@@ -6,27 +6,27 @@
 namespace nef {
 
 SolidLinks::SolidLinks(const SolidFaces& faces)
-    : faces_(faces), vertex_of_(faces.points.size(), kNone), shalfedge_of_(faces.corners.size(), kNone) {
-  point_of_.reserve(faces.points.size());
+    : faces_(faces), vertex_of_(faces.points.size()), shalfedge_of_(faces.corners.size(), kNone) {
+  point_.reserve(faces.points.size());
   end_.reserve(faces.corners.size());
 }
 
 void SolidLinks::note(const Complex& result, std::uint32_t point, const Arrangement& drawing,
                       std::span<const std::uint32_t> ends, std::span<const std::uint32_t> corners) {
   if (note_ring(result, drawing, ends, corners)) {
-    vertex_of_[point] = static_cast<std::uint32_t>(point_of_.size());
+    vertex_of_[point] = point_.end_id();
   } else {
     for (const std::uint32_t corner : corners) shalfedge_of_[corner] = kNone;
-    end_.resize(result.vertices[result.vertex_count() - 1].svertices);
+    end_.resize(result.vertices[VertexId{result.vertex_count() - 1}].svertices);
     end_.resize(result.svertex_count(), kNone);
   }
-  point_of_.push_back(point);
+  point_.push_back(point);
 }
 
 // Walks around the drawing as assemble_ring does: svertex i is the i-th node, shalfedge 2 i the half that leaves it.
 bool SolidLinks::note_ring(const Complex& result, const Arrangement& drawing, std::span<const std::uint32_t> ends,
                            std::span<const std::uint32_t> corners) {
-  const auto vertex = static_cast<std::uint32_t>(result.vertex_count() - 1);
+  const VertexId vertex{result.vertex_count() - 1};
   const SphereMapView map = result.sphere_map(vertex);
   const auto n = static_cast<std::uint32_t>(drawing.nodes.size());
   if (drawing.arcs.size() != n || map.svertices.size() != n ||
@@ -62,8 +62,8 @@ bool SolidLinks::every_plane_is_used(const Complex& result) const {
     const auto last = shalfedge_of_.begin() + faces_.begin[f + 1];
     if (std::any_of(first, last, [](std::uint32_t e) { return e != kNone; })) used[faces_.plane[f].row()] = true;
   }
-  for (std::uint32_t v = 0; v < result.vertex_count(); ++v) {
-    if (vertex_of_[point_of_[v]] != kNone) continue;
+  for (const VertexId v : result.vertex_ids()) {
+    if (vertex_of_[point_[v]].valid()) continue;
     const SphereMapView map = result.sphere_map(v);
     for (const SVertex& s : map.svertices) used[s.p.row()] = used[s.q.row()] = true;
     for (const SHalfedge& e : map.shalfedges) used[e.plane.row()] = true;
@@ -74,14 +74,14 @@ bool SolidLinks::every_plane_is_used(const Complex& result) const {
 
 void SolidLinks::link_twins(const Complex& result, KnownLinks& links) const {
   links.twin.reserve(result.svertex_count());
-  for (std::uint32_t v = 0; v < result.vertex_count(); ++v) {
+  for (const VertexId v : result.vertex_ids()) {
     bool loose = false;
-    for (std::uint32_t s = result.vertices[v].svertices; s < result.vertices[v + 1].svertices; ++s) {
-      const std::uint32_t w = end_[s] == kNone ? kNone : vertex_of_[end_[s]];
+    for (std::uint32_t s = result.vertices[v].svertices; s < result.vertices[v.next()].svertices; ++s) {
+      const VertexId w = end_[s] == kNone ? VertexId() : vertex_of_[end_[s]];
       std::uint32_t twin = kNone;
-      if (w != kNone) {
-        const auto last = end_.begin() + result.vertices[w + 1].svertices;
-        const auto at = std::find(end_.begin() + result.vertices[w].svertices, last, point_of_[v]);
+      if (w.valid()) {
+        const auto last = end_.begin() + result.vertices[w.next()].svertices;
+        const auto at = std::find(end_.begin() + result.vertices[w].svertices, last, point_[v]);
         if (at != last) twin = static_cast<std::uint32_t>(at - end_.begin());
       }
       links.twin.push_back(twin);
@@ -113,12 +113,12 @@ void SolidLinks::link_facets(const Complex& result, KnownLinks& links) const {
     links.facets.push_back(facet);
     links.cycle_begin.push_back(static_cast<std::uint32_t>(links.corners.size()));
   }
-  for (std::uint32_t v = 0; v < result.vertex_count(); ++v) {
-    if (vertex_of_[point_of_[v]] != kNone) continue;
-    for (std::uint32_t e = result.vertices[v].shalfedges; e < result.vertices[v + 1].shalfedges; ++e) {
+  for (const VertexId v : result.vertex_ids()) {
+    if (vertex_of_[point_[v]].valid()) continue;
+    for (std::uint32_t e = result.vertices[v].shalfedges; e < result.vertices[v.next()].shalfedges; ++e) {
       if (!result.shalfedge_plane[e].flipped()) links.loose_corners.push_back(e);
     }
-    if (result.vertices[v].sloops < result.vertices[v + 1].sloops) links.loose_isolated.push_back(v);
+    if (result.vertices[v].sloops < result.vertices[v.next()].sloops) links.loose_isolated.push_back(v);
   }
   std::sort(links.loose_corners.begin(), links.loose_corners.end());
 }

@@ -28,9 +28,9 @@ std::size_t coefficient_bits(const Complex& c) {
   for (std::uint32_t row = 0; row < c.planes.size(); ++row) {
     for (std::size_t column = 0; column < 4; ++column) add(c.planes.coefficient(PlaneId{row << 1U}, column));
   }
-  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
+  for (const VertexId v : c.vertex_ids()) {
     if (is_box_vertex(c, v)) continue;
-    for (std::size_t column = 0; column < 4; ++column) add(c.points.coordinate(PointId{v}, column));
+    for (std::size_t column = 0; column < 4; ++column) add(c.points.coordinate(point_of(v), column));
   }
   return bits;
 }
@@ -46,8 +46,8 @@ Polyhedron wide_enough(const Complex& a, const Complex& b) {
 // A point of a closed set that is not empty.
 Rational3 some_point(const Polyhedron& closed) {
   const auto first_vertex = [](const Complex& c) -> std::optional<Rational3> {
-    for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
-      if (!is_box_vertex(c, v)) return c.points.rational(PointId{v});
+    for (const VertexId v : c.vertex_ids()) {
+      if (!is_box_vertex(c, v)) return c.points.rational(point_of(v));
     }
     return std::nullopt;
   };

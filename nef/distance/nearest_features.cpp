@@ -53,7 +53,7 @@ struct Side {
       segments.push_back({c.svertex_owner[h], c.target(h)});
       boxes.push_back(edge_box(c, h));
     }
-    for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
+    for (const VertexId v : c.vertex_ids()) {
       if (!c.sphere_map(v).svertices.empty()) continue;
       segments.push_back({v, v});
       boxes.push_back(vertex_box(c, v));
@@ -62,7 +62,7 @@ struct Side {
     segment_boxes = std::move(boxes);
   }
 
-  [[nodiscard]] Rational3 point(std::uint32_t vertex) const { return c.points.rational(PointId{vertex}); }
+  [[nodiscard]] Rational3 point(VertexId vertex) const { return c.points.rational(point_of(vertex)); }
 
   // A tree for a facet with many corners, made at the first call.
   const BoxTree* edges_of(FacetId facet) {
@@ -75,7 +75,7 @@ struct Side {
 
   const Complex& c;
   BoxTree facets;
-  std::vector<std::array<std::uint32_t, 2>> segments;
+  std::vector<std::array<VertexId, 2>> segments;
   std::vector<Box> segment_boxes;
   BoxTree segment_tree;
   std::unordered_map<FacetId, BoxTree> trees;
@@ -102,11 +102,11 @@ class Search {
   }
 
   // The vertex of a side that seems nearest to a point.
-  static std::uint32_t nearest_vertex(const Side& side, const std::array<double, 3>& x) {
-    std::uint32_t nearest = 0;
+  static VertexId nearest_vertex(const Side& side, const std::array<double, 3>& x) {
+    VertexId nearest{0};
     double least = std::numeric_limits<double>::infinity();
-    for (std::uint32_t v = 0; v < side.c.vertex_count(); ++v) {
-      const std::array<double, 3>& y = side.c.points.approximate(PointId{v});
+    for (const VertexId v : side.c.vertex_ids()) {
+      const std::array<double, 3>& y = side.c.points.approximate(point_of(v));
       double sum = 0;
       for (std::size_t i = 0; i < 3; ++i) sum += (x[i] - y[i]) * (x[i] - y[i]);
       if (sum < least) {
@@ -120,11 +120,11 @@ class Search {
   // A pair that is rather near, so that most of what follows is left out.
   void start() {
     constexpr int kRounds = 4;
-    std::uint32_t v = 0;
-    std::uint32_t w = 0;
+    VertexId v{0};
+    VertexId w{0};
     for (int i = 0; i < kRounds; ++i) {
-      w = nearest_vertex(b_, a_.c.points.approximate(PointId{v}));
-      v = nearest_vertex(a_, b_.c.points.approximate(PointId{w}));
+      w = nearest_vertex(b_, a_.c.points.approximate(point_of(v)));
+      v = nearest_vertex(a_, b_.c.points.approximate(point_of(w)));
     }
     const Rational3 p = a_.point(v);
     const Rational3 q = b_.point(w);
@@ -144,7 +144,7 @@ class Search {
   }
 
   void meet_facets(const Side& vertices, Side& facets, bool swapped) {
-    for (std::uint32_t v = 0; v < vertices.c.vertex_count(); ++v) {
+    for (const VertexId v : vertices.c.vertex_ids()) {
       const Box box = vertex_box(vertices.c, v);
       facets.facets.for_each_if([&](const Box& other) { return least_square(box, other) <= limit_; },
                                 [&](std::uint32_t f) { meet_facet(vertices.point(v), facets, FacetId{f}, swapped); });

@@ -70,12 +70,12 @@ class Exporter {
   MeshExport exact() {
     run();
     faces_.vertices.reserve(vertices_.size());
-    for (const std::uint32_t v : vertices_) faces_.vertices.push_back(complex_.points.rational(PointId{v}));
+    for (const VertexId v : vertices_) faces_.vertices.push_back(complex_.points.rational(point_of(v)));
     MeshExport result;
     result.mesh = std::move(faces_);
     result.closed = !lower_dimensional_;
     for (const auto& [v, w] : lines_) result.lines.push_back({number_[v], number_[w]});
-    for (const std::uint32_t v : points_) result.points.push_back(number_[v]);
+    for (const VertexId v : points_) result.points.push_back(number_[v]);
     result.lost = std::move(lost_);
     result.face_marks = std::move(face_marks_);
     return result;
@@ -85,8 +85,7 @@ class Exporter {
     run();
     RoundedMeshExport result;
     result.mesh.vertices.reserve(vertices_.size());
-    for (const std::uint32_t v : vertices_)
-      result.mesh.vertices.push_back(nearest_doubles(complex_.points, PointId{v}));
+    for (const VertexId v : vertices_) result.mesh.vertices.push_back(nearest_doubles(complex_.points, point_of(v)));
     result.mesh.face_begin = std::move(faces_.face_begin);
     result.mesh.corners = std::move(faces_.corners);
     result.lost = std::move(lost_);
@@ -98,8 +97,8 @@ class Exporter {
     if (mark == kOutside) return false;
     return options_.selected ? options_.selected(mark) : mark != 0;
   }
-  [[nodiscard]] bool finite(std::uint32_t vertex) const {
-    return !complex_.has_box() || complex_.points.finite(PointId{vertex});
+  [[nodiscard]] bool finite(VertexId vertex) const {
+    return !complex_.has_box() || complex_.points.finite(point_of(vertex));
   }
 
   // A selected volume is unbounded if it is the outer one, or has a facet on an infimaximal box.
@@ -137,7 +136,7 @@ class Exporter {
 
   // Of a set without solid parts: facets, edges outside of these, and vertices outside of all these.
   void collect_lower_dimensional() {
-    std::vector<bool> held(complex_.vertex_count(), false);
+    IndexedVector<VertexId, bool> held(complex_.vertex_count(), false);
     std::vector<bool> in_facet(complex_.svertex_count(), false);
     for (const FacetId f : complex_.facets.ids()) {
       const Facet& facet = complex_.facets[f];
@@ -148,19 +147,19 @@ class Exporter {
         in_facet[h] = in_facet[complex_.twin[h]] = true;
         held[complex_.shalfedge_vertex(corner)] = true;
       }
-      for (const std::uint32_t v : complex_.isolated_vertices_of(facet)) {
+      for (const VertexId v : complex_.isolated_vertices_of(facet)) {
         held[v] = true;
       }
     }
     for (std::uint32_t h = 0; h < complex_.svertex_count(); ++h) {
-      const std::uint32_t v = complex_.svertex_owner[h];
-      const std::uint32_t w = complex_.target(h);
+      const VertexId v = complex_.svertex_owner[h];
+      const VertexId w = complex_.target(h);
       if (in_facet[h] || h > complex_.twin[h] || !is_selected(complex_.svertex(h).mark)) continue;
       if (!finite(v) || !finite(w) || sides_of_edge(v, h).selected) continue;
       lines_.push_back({v, w});
       held[v] = held[w] = true;
     }
-    for (std::uint32_t v = 0; v < complex_.vertex_count(); ++v) {
+    for (const VertexId v : complex_.vertex_ids()) {
       if (!held[v] && finite(v) && is_selected(complex_.mark(v))) points_.push_back(v);
     }
     lower_dimensional_ = !boundary_.empty() || !lines_.empty() || !points_.empty();
@@ -179,16 +178,16 @@ class Exporter {
   void number_vertices() {
     number_.assign(complex_.vertex_count(), kUnused);
     for (const auto& [v, w] : lines_) number_[v] = number_[w] = 0;
-    for (const std::uint32_t v : points_) number_[v] = 0;
+    for (const VertexId v : points_) number_[v] = 0;
     corner_vertices_.reserve(complex_.corners.size());
     for (const FacetId f : boundary_) {
       for (const std::uint32_t corner : complex_.corners_of(f)) {
-        const std::uint32_t v = complex_.shalfedge_vertex(corner);
+        const VertexId v = complex_.shalfedge_vertex(corner);
         number_[v] = 0;
         corner_vertices_.push_back(v);
       }
     }
-    for (std::uint32_t v = 0; v < number_.size(); ++v) {
+    for (const VertexId v : number_.ids()) {
       if (number_[v] == kUnused) continue;
       NEF_ASSERT(finite(v));
       number_[v] = static_cast<std::uint32_t>(vertices_.size());
@@ -197,7 +196,7 @@ class Exporter {
   }
 
   // `corners`: the vertices of the facet's corners, cycle after cycle.
-  void collect_rings(const Facet& facet, const std::uint32_t* corners,
+  void collect_rings(const Facet& facet, const VertexId* corners,
                      std::vector<std::vector<std::uint32_t>>& rings) const {
     rings.resize(facet.cycle_count);
     for (std::uint32_t i = 0; i < facet.cycle_count; ++i) {
@@ -212,7 +211,7 @@ class Exporter {
       passes_.resize(vertices_.size(), Answer::kUnknown);
       for (const std::uint32_t v : ring) {
         if (passes_[v] == Answer::kUnknown) {
-          const Rational3 corner = complex_.points.rational(PointId{vertices_[v]});
+          const Rational3 corner = complex_.points.rational(point_of(vertices_[v]));
           passes_[v] = options_.polygon_corner(corner) ? Answer::kYes : Answer::kNo;
         }
         if (passes_[v] == Answer::kNo) return false;
@@ -228,7 +227,7 @@ class Exporter {
   class Polygons {
    public:
     explicit Polygons(const Exporter& exporter) : number_(exporter.vertices_.size(), kUnused) {
-      const std::uint32_t* corners = exporter.corner_vertices_.data();
+      const VertexId* corners = exporter.corner_vertices_.data();
       for (const FacetId f : exporter.boundary_) {
         const std::size_t size = exporter.complex_.corners_of(f).size();
         if (!exporter.is_triangle(exporter.complex_.facets[f])) {
@@ -241,7 +240,7 @@ class Exporter {
         if (number_[v] == kUnused) continue;
         number_[v] = static_cast<std::uint32_t>(vertex_.size());
         vertex_.push_back(v);
-        points.push_back(PointId{exporter.vertices_[v]});
+        points.push_back(point_of(exporter.vertices_[v]));
       }
       if (!points.empty()) triangulator_.emplace(points_.emplace(exporter.complex_.points, points));
     }
@@ -288,7 +287,7 @@ class Exporter {
     std::vector<Triangulator::Triangle> triangles;
     faces_.face_begin.reserve(boundary_.size() + 1);
     faces_.corners.reserve(corner_vertices_.size());
-    const std::uint32_t* corners = corner_vertices_.data();
+    const VertexId* corners = corner_vertices_.data();
     for (const FacetId f : boundary_) {
       const Facet& facet = complex_.facets[f];
       // Cycles turn counterclockwise as seen from above, which is outside if the solid lies below.
@@ -363,10 +362,10 @@ class Exporter {
     }
     // Then whatever lies in the closure of a facet sees a volume of the mesh, and is lost only if it is not selected.
     const bool all_facets = boundary_.size() == complex_.facet_count() && !lower_dimensional_;
-    for (std::uint32_t v = 0; v < complex_.vertex_count(); ++v) {
+    for (const VertexId v : complex_.vertex_ids()) {
       if (!finite(v)) continue;
       const VertexRecord& record = complex_.vertices[v];
-      const VertexRecord& end = complex_.vertices[v + 1];
+      const VertexRecord& end = complex_.vertices[v.next()];
       const bool at_facet = all_facets && (record.shalfedges < end.shalfedges || record.sloops < end.sloops);
       if (!at_facet || !is_selected(complex_.mark(v))) {
         SeenVolumes sides;
@@ -383,7 +382,7 @@ class Exporter {
     }
   }
 
-  [[nodiscard]] SeenVolumes sides_of_edge(std::uint32_t vertex, std::uint32_t halfedge) const {
+  [[nodiscard]] SeenVolumes sides_of_edge(VertexId vertex, std::uint32_t halfedge) const {
     const SphereMapView map = complex_.sphere_map(vertex);
     const VertexRecord& record = complex_.vertices[vertex];
     const SVertex& svertex = complex_.svertex(halfedge);
@@ -400,10 +399,10 @@ class Exporter {
   // Edges and vertices of the facets that are written and do not belong to the set.
   void count_open_borders() {
     std::vector<bool> seen_edge(complex_.svertex_count(), false);
-    std::vector<bool> seen_vertex(complex_.vertex_count(), false);
+    IndexedVector<VertexId, bool> seen_vertex(complex_.vertex_count(), false);
     for (const FacetId f : boundary_) {
       for (const std::uint32_t corner : complex_.corners_of(f)) {
-        const std::uint32_t v = complex_.shalfedge_vertex(corner);
+        const VertexId v = complex_.shalfedge_vertex(corner);
         const std::uint32_t h = complex_.corner_halfedge(corner);
         if (!seen_vertex[v] && !is_selected(complex_.mark(v))) ++open_.vertices;
         if (!seen_edge[h] && !is_selected(complex_.svertex(h).mark)) ++open_.edges;
@@ -432,18 +431,18 @@ class Exporter {
   const MeshExportOptions& options_;
   IndexedVector<VolumeId, SeenVolumes> volumes_;
   std::vector<FacetId> boundary_;
-  std::vector<std::uint32_t> corner_vertices_;       // of the complex, of all corners of these
-  std::vector<std::uint32_t> number_;                // in the mesh, of each vertex
-  std::vector<Answer> passes_;                       // of each vertex of the mesh: may it be a corner of a polygon?
-  std::vector<std::array<std::uint32_t, 2>> lines_;  // vertices of the complex
-  std::vector<std::uint32_t> points_;
+  std::vector<VertexId> corner_vertices_;          // of the complex, of all corners of these
+  IndexedVector<VertexId, std::uint32_t> number_;  // in the mesh, of each vertex
+  std::vector<Answer> passes_;                     // of each vertex of the mesh: may it be a corner of a polygon?
+  std::vector<std::array<VertexId, 2>> lines_;     // of the complex
+  std::vector<VertexId> points_;
   bool lower_dimensional_ = false;
   std::size_t lost_volumes_ = 0;
   Items flat_;
   Items open_;
   Items cracks_;
-  std::vector<std::uint32_t> vertices_;  // of the complex, of each vertex of the mesh
-  Mesh faces_;                           // its vertices come last
+  std::vector<VertexId> vertices_;  // of the complex, of each vertex of the mesh
+  Mesh faces_;                      // its vertices come last
   std::vector<std::array<LabelId, 3>> face_marks_;
   std::vector<std::string> lost_;
 };

@@ -63,7 +63,7 @@ class WindingFiller {
     std::vector<std::vector<std::uint32_t>> rings;
     for (const CycleId i : facet.cycles()) {
       std::vector<std::uint32_t>& ring = rings.emplace_back();
-      for (const std::uint32_t corner : c_.corners_of(i)) ring.push_back(c_.shalfedge_vertex(corner));
+      for (const std::uint32_t corner : c_.corners_of(i)) ring.push_back(point_of(c_.shalfedge_vertex(corner)).index());
     }
     std::vector<Triangulator::Triangle> triangles;
     const std::size_t axis = largest_component(facet.plane);
@@ -168,7 +168,7 @@ class WindingFiller {
     Complex filled = c_;
     bool idle = false;  // facets with the same on both sides, or edges without facets
     for (const VolumeId v : filled.volumes.ids()) filled.volumes[v].mark = winding_[v] != 0 ? 1 : 0;
-    rewrite_sphere_maps(filled, [&filled, &idle](std::uint32_t v, SphereMapBuffer& map) {
+    rewrite_sphere_maps(filled, [&filled, &idle](VertexId v, SphereMapBuffer& map) {
       for (std::uint32_t f = 0; f < map.sfaces.size(); ++f) {
         map.sfaces[f].mark = filled.volumes[filled.sface_volume(filled.vertices[v].sfaces + f)].mark;
       }

@@ -51,17 +51,17 @@ class ParityCount {
   // True if doubles tell that an edge neither holds the point nor meets the ray: both ends lie on one
   // side in k, or behind the point in m. Doubles are within 2^-51 relative of the truth on both
   // sides, so a gap of 2^-48 of the point's coordinate settles it; a NaN does not.
-  [[nodiscard]] bool clear(std::uint32_t u, std::uint32_t v) const {
-    const std::array<double, 3>& a = complex_.points.approximate(PointId{u});
-    const std::array<double, 3>& b = complex_.points.approximate(PointId{v});
+  [[nodiscard]] bool clear(VertexId u, VertexId v) const {
+    const std::array<double, 3>& a = complex_.points.approximate(point_of(u));
+    const std::array<double, 3>& b = complex_.points.approximate(point_of(v));
     return (a[k_] < low_[k_] && b[k_] < low_[k_]) || (a[k_] > high_[k_] && b[k_] > high_[k_]) ||
            (a[m_] < low_[m_] && b[m_] < low_[m_]);
   }
 
   void add(std::uint32_t corner) {
-    const std::uint32_t u = complex_.shalfedge_vertex(corner);
+    const VertexId u = complex_.shalfedge_vertex(corner);
     const std::uint32_t halfedge = complex_.corner_halfedge(corner);
-    const std::uint32_t v = complex_.target(halfedge);
+    const VertexId v = complex_.target(halfedge);
     const int u_side = compare(u, k_);
     const int v_side = compare(v, k_);
     if (u_side * v_side > 0) return;
@@ -98,19 +98,19 @@ class ParityCount {
   }
 
  private:
-  [[nodiscard]] int compare(std::uint32_t vertex, std::size_t axis) const {
-    return compare_coordinate(PointRef{&complex_.points, PointId{vertex}}, point_, static_cast<int>(axis));
+  [[nodiscard]] int compare(VertexId vertex, std::size_t axis) const {
+    return compare_coordinate(PointRef{&complex_.points, point_of(vertex)}, point_, static_cast<int>(axis));
   }
 
   // An end (or both) at the height of the point: is the point on the edge? On the plane of the
   // facet, coordinates k and m tell points apart.
-  bool meets_at_height(std::uint32_t u, int u_side, std::uint32_t v, int v_side, std::uint32_t halfedge) {
+  bool meets_at_height(VertexId u, int u_side, VertexId v, int v_side, std::uint32_t halfedge) {
     const int u_along = u_side == 0 ? compare(u, m_) : 1;
     const int v_along = v_side == 0 ? compare(v, m_) : 1;
     if (u_along == 0) {
-      place_ = {FacetPlace::Kind::kVertex, u};
+      place_ = {FacetPlace::Kind::kVertex, u.index()};
     } else if (v_along == 0) {
-      place_ = {FacetPlace::Kind::kVertex, v};
+      place_ = {FacetPlace::Kind::kVertex, v.index()};
     } else if (u_side == 0 && v_side == 0 && u_along != v_along) {
       place_ = {FacetPlace::Kind::kEdge, halfedge};
     }
@@ -137,9 +137,9 @@ FacetPlace locate_in_facet(const Complex& complex, const Facet& facet, const Poi
     for (const CycleId c : facet.cycles()) {
       if (count.on_boundary()) break;
       const std::span<const std::uint32_t> cycle = complex.corners_of(c);
-      std::uint32_t v = complex.shalfedge_vertex(cycle.front());
+      VertexId v = complex.shalfedge_vertex(cycle.front());
       for (std::size_t i = 0; i < cycle.size() && !count.on_boundary(); ++i) {
-        const std::uint32_t u = v;
+        const VertexId u = v;
         v = complex.shalfedge_vertex(i + 1 < cycle.size() ? cycle[i + 1] : cycle.front());
         if (!count.clear(u, v)) count.add(cycle[i]);
       }

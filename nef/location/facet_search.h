@@ -16,6 +16,7 @@ struct FacetPlace {
   enum class Kind : std::uint8_t { kOutside, kInside, kEdge, kVertex };
   Kind kind = Kind::kOutside;
   std::uint32_t index = 0;  ///< kEdge: a halfedge; kVertex: a vertex
+  [[nodiscard]] VertexId vertex() const { return VertexId{index}; }
 };
 
 /// The place of `point`, which must lie on the plane of the facet. `edges`, if given, is the tree

@@ -25,8 +25,8 @@ bool on_edge(const Complex& complex, std::uint32_t halfedge, const PointRef& poi
   if (side_of_plane(complex.planes, edge.p, point) != 0) return false;
   if (side_of_plane(complex.planes, edge.q, point) != 0) return false;
   // On the line; between the ends iff so in lexicographic order.
-  const PointRef u{&complex.points, PointId{complex.svertex_owner[halfedge]}};
-  const PointRef v{&complex.points, PointId{complex.target(halfedge)}};
+  const PointRef u{&complex.points, point_of(complex.svertex_owner[halfedge])};
+  const PointRef v{&complex.points, point_of(complex.target(halfedge))};
   for (int axis = 0; axis < 3; ++axis) {
     const int u_side = compare_coordinate(u, point, axis);
     const int v_side = compare_coordinate(v, point, axis);
@@ -67,13 +67,13 @@ void QueryStructure::collect(const Complex& complex, const BoxTree* places) {
     const Box box = edge_box(complex, h);
     if (asked_for(box)) push_item(h, kEdgeItem, box, boxes);
   }
-  for (std::uint32_t v = 0; v < complex.vertex_count(); ++v) {
+  for (const VertexId v : complex.vertex_ids()) {
     // Vertices that are no corner of a facet, or lie inside one.
     const VertexRecord& record = complex.vertices[v];
-    const VertexRecord& end = complex.vertices[v + 1];
+    const VertexRecord& end = complex.vertices[v.next()];
     if (record.shalfedges != end.shalfedges && record.sloops == end.sloops) continue;
     const Box box = vertex_box(complex, v);
-    if (asked_for(box)) push_item(v, kVertexItem, box, boxes);
+    if (asked_for(box)) push_item(v.index(), kVertexItem, box, boxes);
   }
   tree_ = BoxTree(boxes);
   large_ = std::shared_ptr<LargeFacet[]>(new LargeFacet[large_facets_.size()]);
@@ -93,12 +93,12 @@ const BoxTree* QueryStructure::edge_tree(const Complex& complex, FacetId facet) 
   return &large.edges;
 }
 
-std::optional<std::uint32_t> QueryStructure::free_vertex_at(const Complex& complex, const PointRef& point) const {
-  std::optional<std::uint32_t> result;
+std::optional<VertexId> QueryStructure::free_vertex_at(const Complex& complex, const PointRef& point) const {
+  std::optional<VertexId> result;
   tree_.for_each_overlap(mirrored(point_box(point)), [&](std::uint32_t i) {
-    const std::uint32_t index = items_[i] / 4;
+    const VertexId vertex{items_[i] / 4};
     if (items_[i] % 4 != kVertexItem || result) return;
-    if (same_point({&complex.points, PointId{index}}, point)) result = index;
+    if (same_point({&complex.points, point_of(vertex)}, point)) result = vertex;
   });
   return result;
 }
@@ -112,11 +112,11 @@ std::optional<ComplexHit> QueryStructure::item_at(const Complex& complex, const 
     switch (items_[i] % 4) {
       case kVertexItem:
         // A vertex inside a facet takes precedence over that facet.
-        if (same_point({&complex.points, PointId{index}}, point)) result = ComplexHit{Kind::kVertex, index, kNone};
+        if (same_point({&complex.points, point_of(VertexId{index})}, point)) result = ComplexHit::at(VertexId{index});
         return;
       case kEdgeItem: {
-        for (const std::uint32_t end : {complex.svertex_owner[index], complex.target(index)}) {
-          if (same_point({&complex.points, PointId{end}}, point)) result = ComplexHit{Kind::kVertex, end, kNone};
+        for (const VertexId end : {complex.svertex_owner[index], complex.target(index)}) {
+          if (same_point({&complex.points, point_of(end)}, point)) result = ComplexHit::at(end);
         }
         if (on_edge(complex, index, point)) result = ComplexHit{Kind::kEdge, index, kNone};
         return;
@@ -131,17 +131,17 @@ std::optional<ComplexHit> QueryStructure::item_at(const Complex& complex, const 
     if (place.kind == FacetPlace::Kind::kInside)
       result = ComplexHit{Kind::kFacet, halffacet_of(f, false).index(), kNone};
     if (place.kind == FacetPlace::Kind::kEdge) result = ComplexHit{Kind::kEdge, place.index, kNone};
-    if (place.kind == FacetPlace::Kind::kVertex) result = ComplexHit{Kind::kVertex, place.index, kNone};
+    if (place.kind == FacetPlace::Kind::kVertex) result = ComplexHit::at(place.vertex());
   });
   if (result && result->kind == Kind::kEdge) result->index = std::min(result->index, complex.twin[result->index]);
   return result;
 }
 
-std::optional<ComplexHit> QueryStructure::first_hit_minus_x(const Complex& complex, std::uint32_t vertex) const {
-  return first_hit(complex, {{&complex.points, PointId{vertex}}, minus_x()});
+std::optional<ComplexHit> QueryStructure::first_hit_minus_x(const Complex& complex, VertexId vertex) const {
+  return first_hit(complex, {{&complex.points, point_of(vertex)}, minus_x()});
 }
 
-std::uint32_t QueryStructure::first_sface_minus_x(const Complex& complex, std::uint32_t vertex) const {
+std::uint32_t QueryStructure::first_sface_minus_x(const Complex& complex, VertexId vertex) const {
   const std::optional<ComplexHit> hit = first_hit_minus_x(complex, vertex);
   if (!hit) return kNone;
   if (hit->kind == ComplexHit::Kind::kFacet) {

@@ -23,6 +23,8 @@ struct ComplexHit {
   Kind kind = Kind::kVertex;
   /// A vertex; a halfedge; a halffacet (from a ray: the side that the ray comes from).
   std::uint32_t index = 0;
+  static ComplexHit at(VertexId vertex) { return {Kind::kVertex, vertex.index(), kNone}; }
+  [[nodiscard]] VertexId vertex() const { return VertexId{index}; }
   [[nodiscard]] HalffacetId halffacet() const { return HalffacetId{index}; }
   /// Vertex or edge met by a ray: the sface (global index, at that vertex or at the source of that
   /// halfedge) through which the ray comes. kNone if the ray comes along a facet or an edge, and
@@ -62,11 +64,11 @@ class QueryStructure {
 
   /// The first vertex, edge or facet strictly left (smaller x, same y and z) of a vertex, which
   /// may be infimaximal.
-  [[nodiscard]] std::optional<ComplexHit> first_hit_minus_x(const Complex& complex, std::uint32_t vertex) const;
+  [[nodiscard]] std::optional<ComplexHit> first_hit_minus_x(const Complex& complex, VertexId vertex) const;
 
   /// The sface (global index) of that first item which bounds the region between it and the vertex;
   /// kNone if there is no such item. The vertex must have nothing of its own in direction -x.
-  [[nodiscard]] std::uint32_t first_sface_minus_x(const Complex& complex, std::uint32_t vertex) const;
+  [[nodiscard]] std::uint32_t first_sface_minus_x(const Complex& complex, VertexId vertex) const;
 
   /// The volume that holds a point which item_at does not find on anything.
   [[nodiscard]] VolumeId volume_at(const Complex& complex, const PointRef& point) const;
@@ -84,7 +86,7 @@ class QueryStructure {
   void collect(const Complex& complex, const BoxTree* places);
   void push_item(std::uint32_t index, Primitive kind, const Box& box, std::vector<Box>& boxes);
   [[nodiscard]] const BoxTree* edge_tree(const Complex& complex, FacetId facet) const;
-  [[nodiscard]] std::optional<std::uint32_t> free_vertex_at(const Complex& complex, const PointRef& point) const;
+  [[nodiscard]] std::optional<VertexId> free_vertex_at(const Complex& complex, const PointRef& point) const;
 
   // Holds the boxes mirrored at the origin, so that its order of traversal (small coordinates
   // first) goes outward from the origin of a ray towards -x, the direction that location uses.

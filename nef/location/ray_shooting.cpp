@@ -65,7 +65,7 @@ class RayShooter {
     const std::uint32_t index = item / 4;
     switch (item % 4) {
       case QueryStructure::kVertexItem:
-        visit_vertex(index);
+        visit_vertex(VertexId{index});
         break;
       case QueryStructure::kEdgeItem:
         visit_edge(index);
@@ -75,10 +75,10 @@ class RayShooter {
     }
   }
 
-  void visit_vertex(std::uint32_t vertex) {
-    const PointRef point{&complex_.points, PointId{vertex}};
+  void visit_vertex(VertexId vertex) {
+    const PointRef point{&complex_.points, point_of(vertex)};
     const std::optional<int> position = position_on_line(ray_, point);
-    if (position && *position > 0) offer({ComplexHit::Kind::kVertex, vertex, kNone}, point);
+    if (position && *position > 0) offer(ComplexHit::at(vertex), point);
   }
 
   void visit_edge(std::uint32_t halfedge) {
@@ -86,8 +86,8 @@ class RayShooter {
     PlaneId crossed = edge.p;
     PlaneId other = edge.q;
     if (side_of_circle(complex_.planes, crossed, ray_.direction) == 0) std::swap(crossed, other);
-    const std::uint32_t u = complex_.svertex_owner[halfedge];
-    const std::uint32_t v = complex_.target(halfedge);
+    const VertexId u = complex_.svertex_owner[halfedge];
+    const VertexId v = complex_.target(halfedge);
     if (side_of_circle(complex_.planes, crossed, ray_.direction) == 0) {
       // Parallel: met at its ends, if at all.
       visit_vertex(u);
@@ -97,12 +97,12 @@ class RayShooter {
     const std::optional<PointRef> meeting = meet(crossed);
     if (!meeting || side_of_plane(complex_.planes, other, *meeting) != 0) return;
     for (int axis = 0; axis < 3; ++axis) {
-      const int u_side = compare_coordinate(PointRef{&complex_.points, PointId{u}}, *meeting, axis);
-      const int v_side = compare_coordinate(PointRef{&complex_.points, PointId{v}}, *meeting, axis);
+      const int u_side = compare_coordinate(PointRef{&complex_.points, point_of(u)}, *meeting, axis);
+      const int v_side = compare_coordinate(PointRef{&complex_.points, point_of(v)}, *meeting, axis);
       if (u_side == 0 && v_side == 0) continue;
       if (u_side * v_side > 0) return;
       if (u_side * v_side < 0) return offer({ComplexHit::Kind::kEdge, halfedge, kNone}, *meeting);
-      return offer({ComplexHit::Kind::kVertex, u_side == 0 ? u : v, kNone}, *meeting);
+      return offer(ComplexHit::at(u_side == 0 ? u : v), *meeting);
     }
   }
 
@@ -121,14 +121,14 @@ class RayShooter {
       case FacetPlace::Kind::kEdge:
         return offer({ComplexHit::Kind::kEdge, place.index, kNone}, *meeting);
       case FacetPlace::Kind::kVertex:
-        return offer({ComplexHit::Kind::kVertex, place.index, kNone}, *meeting);
+        return offer(ComplexHit::at(place.vertex()), *meeting);
       case FacetPlace::Kind::kInside:
         break;
     }
     if (facet.isolated_count > 0) {
       // What is met may be a vertex inside the facet.
       if (const auto vertex = structure_.free_vertex_at(complex_, *meeting)) {
-        return offer({ComplexHit::Kind::kVertex, *vertex, kNone}, *meeting);
+        return offer(ComplexHit::at(*vertex), *meeting);
       }
     }
     const bool from_above = side_of_plane(complex_.planes, facet.plane, ray_.origin) > 0;
@@ -204,10 +204,10 @@ class RayShooter {
     if (hit.kind == ComplexHit::Kind::kFacet) return kNone;
     const Direction back = ray_.direction.negated();
     if (hit.kind == ComplexHit::Kind::kVertex) {
-      const SphereLocation place = locate(complex_.planes, complex_.sphere_map(hit.index), back);
-      return place.kind == SphereLocation::Kind::kSFace ? complex_.vertices[hit.index].sfaces + place.index : kNone;
+      const SphereLocation place = locate(complex_.planes, complex_.sphere_map(hit.vertex()), back);
+      return place.kind == SphereLocation::Kind::kSFace ? complex_.vertices[hit.vertex()].sfaces + place.index : kNone;
     }
-    const std::uint32_t vertex = complex_.svertex_owner[hit.index];
+    const VertexId vertex = complex_.svertex_owner[hit.index];
     const SphereMapView map = complex_.sphere_map(vertex);
     const VertexRecord& record = complex_.vertices[vertex];
     const SVertex& edge = complex_.svertex(hit.index);

@@ -66,7 +66,7 @@ class Canonical {
   }
   [[nodiscard]] Point point(std::uint32_t i) const {
     if (!reduced_at_.empty() && reduced_at_[i] != kNone) return {reduced_, PointId{reduced_at_[i]}};
-    return {complex(i).points, PointId{vertices_[i].vertex}};
+    return {complex(i).points, point_of(vertices_[i].vertex)};
   }
 
   // Calls body(first, last, chunk) for parts of all vertices, several at once; one thread has one part.
@@ -84,13 +84,13 @@ class Canonical {
   void drop_idle_box(LabelId& outer) {
     std::vector<CanonicalVertex> infinite;
     const auto is_infinite = [this](const CanonicalVertex& v) {
-      return !parts_[v.part].complex->points.finite(PointId{v.vertex});
+      return !parts_[v.part].complex->points.finite(point_of(v.vertex));
     };
     std::copy_if(vertices_.begin(), vertices_.end(), std::back_inserter(infinite), is_infinite);
     ComplexBuilder box(planes_);
     for (const CanonicalVertex& v : infinite) box.copy(*parts_[v.part].complex, v.vertex, 1);
     if (!box.has_idle_box()) return;
-    outer = box.so_far().mark(0);
+    outer = box.so_far().mark(VertexId{0});
     std::erase_if(vertices_, is_infinite);
   }
 
@@ -100,13 +100,13 @@ class Canonical {
     for_each_chunk([&](std::uint32_t first, std::uint32_t last, std::size_t) {
       Integer divisor;
       for (std::uint32_t i = first; i < last; ++i) {
-        reducible[i] = complex(i).points.is_reduced(PointId{vertices_[i].vertex}, divisor) ? 0 : 1;
+        reducible[i] = complex(i).points.is_reduced(point_of(vertices_[i].vertex), divisor) ? 0 : 1;
       }
     });
     for (std::uint32_t i = 0; i < count(); ++i) {
       if (reducible[i] == 0) continue;
       if (reduced_at_.empty()) reduced_at_.assign(count(), kNone);
-      reduced_.push_reduced(complex(i).points, PointId{vertices_[i].vertex});
+      reduced_.push_reduced(complex(i).points, point_of(vertices_[i].vertex));
       reduced_at_[i] = static_cast<std::uint32_t>(reduced_.size() - 1);
     }
   }
@@ -239,7 +239,7 @@ class Canonical {
     VertexRecord size;
     for (std::uint32_t i = first; i < last; ++i) {
       const VertexRecord& begin = complex(i).vertices[vertices_[i].vertex];
-      const VertexRecord& end = complex(i).vertices[vertices_[i].vertex + 1U];
+      const VertexRecord& end = complex(i).vertices[vertices_[i].vertex.next()];
       size.svertices += end.svertices - begin.svertices;
       size.shalfedges += end.shalfedges - begin.shalfedges;
       size.sloops += end.sloops - begin.sloops;
@@ -291,7 +291,7 @@ class Canonical {
         const CanonicalVertex& v = vertices_[i];
         if (svertices_[v.part].empty()) continue;
         const std::uint32_t begin = complex(i).vertices[v.vertex].svertices;
-        const std::uint32_t end = complex(i).vertices[v.vertex + 1U].svertices;
+        const std::uint32_t end = complex(i).vertices[v.vertex.next()].svertices;
         for (std::uint32_t h = begin; h < end; ++h) svertices_[v.part][h] += first_svertex[chunk];
       }
     });
@@ -300,7 +300,7 @@ class Canonical {
   void join(std::vector<Complex>& written, ComplexBuilder& builder) const {
     builder.reserve(count(), size_of(0, count()));
     for (Complex& part : written) {
-      builder.copy(part, 0, static_cast<std::uint32_t>(part.vertex_count()));
+      builder.copy(part);
       part = Complex();
     }
   }
@@ -308,20 +308,20 @@ class Canonical {
   [[nodiscard]] KnownLinks known_twins(const Complex& written) const {
     KnownLinks known;
     known.twin.assign(written.svertex_count(), kNone);
-    std::vector<std::vector<std::uint32_t>> loose(chunk_count());
+    std::vector<std::vector<VertexId>> loose(chunk_count());
     for_each_chunk([&](std::uint32_t first, std::uint32_t last, std::size_t chunk) {
       for (std::uint32_t i = first; i < last; ++i) {
         const std::vector<std::uint32_t>& numbers = svertices_[vertices_[i].part];
         const Complex& c = complex(i);
         const std::uint32_t begin = c.vertices[vertices_[i].vertex].svertices;
-        const std::uint32_t end = c.vertices[vertices_[i].vertex + 1U].svertices;
+        const std::uint32_t end = c.vertices[vertices_[i].vertex.next()].svertices;
         bool all = true;
         for (std::uint32_t h = begin; h < end; ++h) {
           const std::uint32_t twin = numbers.empty() ? kNone : numbers[c.twin[h]];
           if (twin != kNone) known.twin[numbers[h]] = twin;
           all = all && twin != kNone;
         }
-        if (!all) loose[chunk].push_back(i);
+        if (!all) loose[chunk].push_back(VertexId{i});
       }
     });
     for (const auto& some : loose) known.loose_vertices.insert(known.loose_vertices.end(), some.begin(), some.end());
@@ -351,7 +351,7 @@ Complex canonical_complex(PlaneTable&& planes, std::span<const CanonicalPart> pa
 Polyhedron in_canonical_order(const Polyhedron& set) {
   const Complex& c = set.complex();
   std::vector<CanonicalVertex> vertices(c.vertex_count());
-  for (std::uint32_t v = 0; v < vertices.size(); ++v) vertices[v].vertex = v;
+  for (const VertexId v : c.vertex_ids()) vertices[v.index()].vertex = v;
   const CanonicalPart part{&c, {}};
   return Polyhedron(
       canonical_complex(PlaneTable(c.planes), {&part, 1}, std::move(vertices), c.volumes[kOuterVolume].mark));

@@ -21,7 +21,7 @@ struct CanonicalPart {
 /// One of them.
 struct CanonicalVertex {
   std::uint32_t part = 0;
-  std::uint32_t vertex = 0;
+  VertexId vertex{0};
 };
 
 /// The complex of some vertices of several complexes in that order, by the planes of a common table, on up to `threads`

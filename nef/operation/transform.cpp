@@ -136,7 +136,7 @@ Complex map_complex(const Complex& c, const IntegerMap& map, const Integer& box_
   for (std::uint32_t row = 0; row < c.planes.size(); ++row) {
     image[row] = map.map_plane(c.planes, row, box_factor, result.planes);
   }
-  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) map.map_point(c.points, PointId{v}, box_factor, result.points);
+  for (const VertexId v : c.vertex_ids()) map.map_point(c.points, point_of(v), box_factor, result.points);
   for_each_plane_of(result, [&image](PlaneId& plane) {
     const PlaneId to = image[plane.row()];
     plane = plane.flipped() ? to.opposite() : to;
@@ -167,7 +167,7 @@ class Translation {
     result.planes.trim();
     result.points = PointTable();
     result.points.reserve(c.points.size());
-    for (std::uint32_t v = 0; v < c.points.size(); ++v) move_point(c.points, PointId{v}, result.points);
+    for (const VertexId v : c.vertex_ids()) move_point(c.points, point_of(v), result.points);
     return result;
   }
 

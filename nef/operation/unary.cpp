@@ -22,11 +22,11 @@ class MarkChanger {
   Complex run() {
     PlaneTable planes = c_.planes;
     ComplexBuilder result(planes);
-    for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) {
-      tell_progress_of_item("sphere maps", v, c_.vertex_count());
+    for (const VertexId v : c_.vertex_ids()) {
+      tell_progress_of_item("sphere maps", v.index(), c_.vertex_count());
       load(c_.sphere_map(v));
-      if (!c_.points.finite(PointId{v})) mark_trace_on_box();
-      result.add(c_.points, PointId{v}, drawing_);
+      if (!c_.points.finite(point_of(v))) mark_trace_on_box();
+      result.add(c_.points, point_of(v), drawing_);
     }
     return result.finish(volume_mark(c_.volumes[kOuterVolume].mark));
   }

@@ -24,8 +24,8 @@ class SectionReader {
     for (std::uint32_t h = 0; h < c_.svertex_count(); ++h) {
       if (h < c_.twin[h] && c_.svertex(h).out == kNone && is_selected(c_.svertex(h).mark)) add_segment(h);
     }
-    for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) {
-      if (c_.sphere_map(v).trivial()) out_.points.push_back(c_.points.rational(PointId{v}));
+    for (const VertexId v : c_.vertex_ids()) {
+      if (c_.sphere_map(v).trivial()) out_.points.push_back(c_.points.rational(point_of(v)));
     }
   }
 
@@ -44,7 +44,7 @@ class SectionReader {
     for (const CycleId i : facet.cycles()) {
       std::vector<Rational3> ring;
       for (const std::uint32_t corner : c_.corners_of(i)) {
-        ring.push_back(c_.points.rational(PointId{c_.shalfedge_vertex(corner)}));
+        ring.push_back(c_.points.rational(point_of(c_.shalfedge_vertex(corner))));
       }
       if (along < 0) std::reverse(ring.begin(), ring.end());
       if (i == facet.first_cycle) {
@@ -57,13 +57,13 @@ class SectionReader {
   }
 
   void add_segment(std::uint32_t halfedge) {
-    const std::uint32_t u = c_.svertex_owner[halfedge];
-    const std::uint32_t v = c_.target(halfedge);
+    const VertexId u = c_.svertex_owner[halfedge];
+    const VertexId v = c_.target(halfedge);
     if (is_box_vertex(c_, u) || is_box_vertex(c_, v)) {
       ++out_.unbounded;
       return;
     }
-    std::array<Rational3, 2> ends{c_.points.rational(PointId{u}), c_.points.rational(PointId{v})};
+    std::array<Rational3, 2> ends{c_.points.rational(point_of(u)), c_.points.rational(point_of(v))};
     if (ends[1] < ends[0]) std::swap(ends[0], ends[1]);
     out_.segments.push_back(std::move(ends));
   }

@@ -26,14 +26,14 @@ struct Kept {
 
 // A piece in the making: the vertices that it touches, increasing.
 struct Piece {
-  std::vector<std::uint32_t> vertices;
+  std::vector<VertexId> vertices;
   LabelId outer = 0;  // the mark of the outer volume, where that is in the piece
 };
 
 class PieceMaker {
  public:
   explicit PieceMaker(const Complex& complex) : c_(complex) {
-    for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) {
+    for (const VertexId v : c_.vertex_ids()) {
       if (is_box_vertex(c_, v)) box_vertices_.push_back(v);
     }
   }
@@ -41,9 +41,9 @@ class PieceMaker {
   // `kept(vertex, map, out)` says what the piece has around a vertex.
   template <typename KeptAround>
   Polyhedron make(const Piece& piece, const KeptAround& kept) {
-    std::vector<std::uint32_t> vertices = piece.vertices;
+    std::vector<VertexId> vertices = piece.vertices;
     const bool at_infinity =
-        std::any_of(vertices.begin(), vertices.end(), [this](std::uint32_t v) { return is_box_vertex(c_, v); });
+        std::any_of(vertices.begin(), vertices.end(), [this](VertexId v) { return is_box_vertex(c_, v); });
     if (at_infinity) {
       vertices.insert(vertices.end(), box_vertices_.begin(), box_vertices_.end());
       std::sort(vertices.begin(), vertices.end());
@@ -52,14 +52,14 @@ class PieceMaker {
     PlaneTable planes;
     ComplexBuilder result(planes);
     row_.resize(c_.planes.size(), kNone);
-    for (const std::uint32_t v : vertices) {
+    for (const VertexId v : vertices) {
       const SphereMapView map = c_.sphere_map(v);
       kept(v, map, kept_);
       draw(map);
       drawing_.sort_around_nodes(c_.planes);
       drawing_.simplify_and_assemble(c_.planes, out_);
       rename_planes(planes);
-      result.add(c_.points, PointId{v}, out_.view());
+      result.add(c_.points, point_of(v), out_.view());
     }
     for (const std::uint32_t row : rows_in_use_) row_[row] = kNone;
     rows_in_use_.clear();
@@ -108,7 +108,7 @@ class PieceMaker {
   }
 
   const Complex& c_;
-  std::vector<std::uint32_t> box_vertices_;
+  std::vector<VertexId> box_vertices_;
   std::vector<std::uint32_t> row_;  // of a plane in the piece at hand
   std::vector<std::uint32_t> rows_in_use_;
   Kept kept_;
@@ -125,25 +125,25 @@ class Components {
         edges_(facets_ + static_cast<std::uint32_t>(c_.facet_count())),
         vertices_(edges_ + static_cast<std::uint32_t>(c_.svertex_count())),
         sets_(vertices_ + c_.vertex_count()) {
-    for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) join_around(v);
+    for (const VertexId v : c_.vertex_ids()) join_around(v);
   }
 
   // The component of an item, or kNone for an item that is not in the set.
   std::uint32_t of_volume(VolumeId volume) { return of(volume.index(), c_.volumes[volume].mark); }
-  std::uint32_t of_sface(std::uint32_t v, std::uint32_t sface) {
+  std::uint32_t of_sface(VertexId v, std::uint32_t sface) {
     return of_volume(c_.sface_volume(c_.vertices[v].sfaces + sface));
   }
-  std::uint32_t of_arc(std::uint32_t v, std::uint32_t shalfedge) {
+  std::uint32_t of_arc(VertexId v, std::uint32_t shalfedge) {
     return of_facet(facet_of(c_.shalfedge_facet[c_.vertices[v].shalfedges + shalfedge]));
   }
-  std::uint32_t of_circle(std::uint32_t v) { return of_facet(facet_of(c_.sloop_facet[c_.vertices[v].sloops])); }
-  std::uint32_t of_svertex(std::uint32_t v, std::uint32_t svertex) {
+  std::uint32_t of_circle(VertexId v) { return of_facet(facet_of(c_.sloop_facet[c_.vertices[v].sloops])); }
+  std::uint32_t of_svertex(VertexId v, std::uint32_t svertex) {
     const std::uint32_t h = c_.vertices[v].svertices + svertex;
     return of(edges_ + std::min(h, c_.twin[h]), c_.svertex(h).mark);
   }
-  std::uint32_t of_vertex(std::uint32_t v) { return of(vertices_ + v, c_.mark(v)); }
+  std::uint32_t of_vertex(VertexId v) { return of(vertices_ + v.index(), c_.mark(v)); }
 
-  void keep(std::uint32_t component, std::uint32_t v, const SphereMapView& map, Kept& out) {
+  void keep(std::uint32_t component, VertexId v, const SphereMapView& map, Kept& out) {
     out.sfaces.resize(map.sfaces.size());
     out.arcs.resize(map.shalfedges.size() / 2);
     out.svertices.resize(map.svertices.size());
@@ -155,7 +155,7 @@ class Components {
   }
 
   // The components around a vertex, each once.
-  void around(std::uint32_t v, std::vector<std::uint32_t>& out) {
+  void around(VertexId v, std::vector<std::uint32_t>& out) {
     const SphereMapView map = c_.sphere_map(v);
     out.clear();
     const auto add = [&out](std::uint32_t component) {
@@ -177,7 +177,7 @@ class Components {
     if (a != kNone && b != kNone) sets_.unite(a, b);
   }
 
-  void join_around(std::uint32_t v) {
+  void join_around(VertexId v) {
     const SphereMapView map = c_.sphere_map(v);
     for (std::uint32_t e = 0; e < map.shalfedges.size(); ++e) {
       join(of_arc(v, e), of_sface(v, map.shalfedges[e].sface));
@@ -202,7 +202,7 @@ class Components {
 };
 
 // What the set has of a volume and its boundary around a vertex.
-void keep_volume(const Complex& c, VolumeId volume, std::uint32_t v, const SphereMapView& map, Kept& out) {
+void keep_volume(const Complex& c, VolumeId volume, VertexId v, const SphereMapView& map, Kept& out) {
   out.sfaces.assign(map.sfaces.size(), false);
   out.arcs.assign(map.shalfedges.size() / 2, false);
   out.svertices.assign(map.svertices.size(), false);
@@ -243,7 +243,7 @@ std::vector<Polyhedron> split(const Polyhedron& a) {
     piece(outer).outer = c.volumes[kOuterVolume].mark;
   }
   std::vector<std::uint32_t> found;
-  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
+  for (const VertexId v : c.vertex_ids()) {
     components.around(v, found);
     for (const std::uint32_t component : found) piece(component).vertices.push_back(v);
   }
@@ -254,7 +254,7 @@ std::vector<Polyhedron> split(const Polyhedron& a) {
   std::vector<Polyhedron> result;
   PieceMaker maker(c);
   for (const std::uint32_t i : order) {
-    result.push_back(maker.make(pieces[i], [&](std::uint32_t v, const SphereMapView& map, Kept& out) {
+    result.push_back(maker.make(pieces[i], [&](VertexId v, const SphereMapView& map, Kept& out) {
       components.keep(component_of[i], v, map, out);
     }));
   }
@@ -265,10 +265,10 @@ std::vector<Polyhedron> split_volumes(const Polyhedron& a) {
   const Complex& c = a.complex();
   IndexedVector<VolumeId, Piece> pieces(c.volume_count());
   pieces[kOuterVolume].outer = is_selected(c.volumes[kOuterVolume].mark) ? c.volumes[kOuterVolume].mark : LabelId{0};
-  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
-    const std::uint32_t end = c.vertices[v + std::size_t{1}].sfaces;
+  for (const VertexId v : c.vertex_ids()) {
+    const std::uint32_t end = c.vertices[v.next()].sfaces;
     for (std::uint32_t sface = c.vertices[v].sfaces; sface < end; ++sface) {
-      std::vector<std::uint32_t>& vertices = pieces[c.sface_volume(sface)].vertices;
+      std::vector<VertexId>& vertices = pieces[c.sface_volume(sface)].vertices;
       if (vertices.empty() || vertices.back() != v) vertices.push_back(v);
     }
   }
@@ -276,9 +276,8 @@ std::vector<Polyhedron> split_volumes(const Polyhedron& a) {
   PieceMaker maker(c);
   for (const VolumeId volume : c.volumes.ids()) {
     if (!is_selected(c.volumes[volume].mark)) continue;
-    result.push_back(maker.make(pieces[volume], [&](std::uint32_t v, const SphereMapView& map, Kept& out) {
-      keep_volume(c, volume, v, map, out);
-    }));
+    result.push_back(maker.make(
+        pieces[volume], [&](VertexId v, const SphereMapView& map, Kept& out) { keep_volume(c, volume, v, map, out); }));
   }
   return result;
 }

@@ -16,7 +16,7 @@ std::vector<long> euler_numbers(const Complex& c) {
   for (const ShellId s : c.shells.ids()) {
     long& euler = result[s.index()];
     walk.visit(
-        s, [&](std::uint32_t) { ++euler; }, [&](std::uint32_t) { --euler; },
+        s, [&](VertexId) { ++euler; }, [&](std::uint32_t) { --euler; },
         [&](FacetId f) {
           const Facet& facet = c.facets[f];
           euler += 1 - (static_cast<long>(facet.cycle_count) - 1) - static_cast<long>(facet.isolated_count);
@@ -28,7 +28,7 @@ std::vector<long> euler_numbers(const Complex& c) {
 namespace {
 
 // The boundary near the vertex is a disc: one ring of facets, or one facet.
-bool is_manifold_vertex(const Complex& c, std::uint32_t vertex) {
+bool is_manifold_vertex(const Complex& c, VertexId vertex) {
   const SphereMapView map = c.sphere_map(vertex);
   if (map.sfaces.size() != 2) return false;
   if (map.svertices.empty()) return map.sloops.size() == 2;
@@ -50,9 +50,7 @@ std::vector<std::optional<long>> genera(const Complex& c) {
     bool manifold = true;
     walk.visit(
         s,
-        [&](std::uint32_t v) {
-          manifold = manifold && !(c.has_box() && is_box_vertex(c, v)) && is_manifold_vertex(c, v);
-        },
+        [&](VertexId v) { manifold = manifold && !(c.has_box() && is_box_vertex(c, v)) && is_manifold_vertex(c, v); },
         nothing, nothing);
     if (manifold) result[s.index()] = (2 - euler[s.index()]) / 2;
   }
@@ -62,7 +60,7 @@ std::vector<std::optional<long>> genera(const Complex& c) {
 Counts counts(const Complex& c) {
   if (!c.has_box()) return {c.vertex_count(), c.edge_count(), c.facet_count(), c.volume_count(), c.shells.size()};
   Counts result;
-  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) result.vertices += is_box_vertex(c, v) ? 0 : 1;
+  for (const VertexId v : c.vertex_ids()) result.vertices += is_box_vertex(c, v) ? 0 : 1;
   for (std::uint32_t h = 0; h < c.svertex_count(); ++h) {
     if (h < c.twin[h] && !is_box_edge(c, h)) ++result.edges;
   }
@@ -72,7 +70,7 @@ Counts counts(const Complex& c) {
   for (const ShellId s : c.shells.ids()) {
     bool in_space = false;
     walk.visit(
-        s, [&](std::uint32_t v) { in_space = in_space || !is_box_vertex(c, v); },
+        s, [&](VertexId v) { in_space = in_space || !is_box_vertex(c, v); },
         [&](std::uint32_t h) { in_space = in_space || !is_box_edge(c, h); },
         [&](FacetId f) { in_space = in_space || !is_box_facet(c, f); });
     result.shells += in_space && c.shells[s].volume != kOuterVolume ? 1 : 0;

@@ -8,12 +8,12 @@
 
 namespace nef {
 
-Rational3 point(const Polyhedron& a, std::uint32_t vertex) {
+Rational3 point(const Polyhedron& a, VertexId vertex) {
   const Complex& c = a.complex();
   if (c.has_box() && is_box_vertex(c, vertex)) {
-    throw InputError("vertex " + std::to_string(vertex) + " lies on the infimaximal box");
+    throw InputError("vertex " + std::to_string(vertex.index()) + " lies on the infimaximal box");
   }
-  return c.points.rational(PointId{vertex});
+  return c.points.rational(point_of(vertex));
 }
 
 }  // namespace nef

@@ -52,7 +52,7 @@ class IndexRange {
   std::uint32_t end_;
 };
 
-inline IndexRange vertices(const Polyhedron& a) { return {0, a.complex().vertex_count()}; }
+inline IdRange<VertexId> vertices(const Polyhedron& a) { return a.complex().vertex_ids(); }
 /// Both halfedges of each edge; a.complex().twin has the other one.
 inline IndexRange halfedges(const Polyhedron& a) { return {0, a.complex().svertex_count()}; }
 inline IdRange<FacetId> facets(const Polyhedron& a) { return a.complex().facets.ids(); }
@@ -62,18 +62,18 @@ inline IdRange<VolumeId> volumes(const Polyhedron& a) { return a.complex().volum
 inline IdRange<ShellId> shells(const Polyhedron& a, VolumeId volume) { return a.complex().volumes[volume].shells(); }
 
 /// The point of a vertex; InputError for one on an infimaximal box, which is no point of space.
-Rational3 point(const Polyhedron& a, std::uint32_t vertex);
+Rational3 point(const Polyhedron& a, VertexId vertex);
 
 /// The cycles of a facet, the outer one first: calls cycle(std::span of vertices in order, facet to the left as seen
 /// from the positive side of its plane) for each.
 template <typename OnCycle>
 void visit_cycles(const Polyhedron& a, FacetId facet, OnCycle&& cycle) {
   const Complex& c = a.complex();
-  std::vector<std::uint32_t> ring;
+  std::vector<VertexId> ring;
   for (const CycleId k : c.facets[facet].cycles()) {
     ring.clear();
     for (const std::uint32_t corner : c.corners_of(k)) ring.push_back(c.shalfedge_vertex(corner));
-    cycle(std::span<const std::uint32_t>(ring));
+    cycle(std::span<const VertexId>(ring));
   }
 }
 

@@ -13,7 +13,7 @@ namespace {
 Location location_of(const Complex& complex, const ComplexHit& hit) {
   switch (hit.kind) {
     case ComplexHit::Kind::kVertex:
-      return {Location::Kind::kVertex, hit.index, complex.mark(hit.index)};
+      return {Location::Kind::kVertex, hit.index, complex.mark(hit.vertex())};
     case ComplexHit::Kind::kEdge:
       return {Location::Kind::kEdge, hit.index, complex.svertex(hit.index).mark};
     case ComplexHit::Kind::kFacet:
@@ -44,11 +44,11 @@ SphereMapBuffer local_pyramid(const Polyhedron& a, const Rational3& point) {
   SphereMapBuffer result;
   switch (where.kind) {
     case Location::Kind::kVertex: {
-      result.assign(complex.sphere_map(where.index));
+      result.assign(complex.sphere_map(where.vertex()));
       break;
     }
     case Location::Kind::kEdge: {
-      const std::uint32_t vertex = complex.svertex_owner[where.index];
+      const VertexId vertex = complex.svertex_owner[where.index];
       edge_pyramid(complex.sphere_map(vertex), where.index - complex.vertices[vertex].svertices, result);
       break;
     }
@@ -77,7 +77,7 @@ std::optional<RayHit> shoot_ray(const Polyhedron& a, const Rational3& origin, co
   const QueryRay ray{{&table, table.push(origin)}, towards};
   // The box of an unbounded set is at infinity, where no point is: it is not met.
   const auto takes = [&](const ComplexHit& hit) {
-    const bool at_infinity = hit.kind == ComplexHit::Kind::kVertex ? !complex.points.finite(PointId{hit.index})
+    const bool at_infinity = hit.kind == ComplexHit::Kind::kVertex ? !complex.points.finite(point_of(hit.vertex()))
                              : hit.kind == ComplexHit::Kind::kEdge
                                  ? complex.planes.infimaximal(complex.svertex(hit.index).p) ||
                                        complex.planes.infimaximal(complex.svertex(hit.index).q)

@@ -33,8 +33,8 @@ class CellGrid {
     const double wanted = std::cbrt(static_cast<double>(points));
     size_ = static_cast<std::uint32_t>(std::clamp(wanted, 4.0, 96.0));
     Box region;
-    for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) {
-      if (c_.points.finite(PointId{v})) region.add(vertex_box(c_, v));
+    for (const VertexId v : c_.vertex_ids()) {
+      if (c_.points.finite(point_of(v))) region.add(vertex_box(c_, v));
     }
     for (std::size_t i = 0; i < 3; ++i) {
       const bool usable = region.low[i] <= region.high[i] && std::isfinite(region.high[i] - region.low[i]);
@@ -125,7 +125,7 @@ class CellGrid {
     for (std::uint32_t h = 0; h < c_.svertex_count(); ++h) {
       if (h < c_.twin[h] && c_.svertex(h).out == kNone && !is_box_edge(c_, h)) enter(edge_box(c_, h), nullptr);
     }
-    for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) {
+    for (const VertexId v : c_.vertex_ids()) {
       if (!is_box_vertex(c_, v)) enter(vertex_box(c_, v), nullptr);
     }
   }

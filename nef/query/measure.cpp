@@ -56,14 +56,14 @@ class FacetRatio {
     mpz_ptr common = scratch_.get_mpz_t();
     mpz_set_ui(common, 1);
     for (const std::uint32_t corner : corners) {
-      const IntegerView w = c_.points.coordinate(PointId{c_.shalfedge_vertex(corner)}, 3);
+      const IntegerView w = c_.points.coordinate(point_of(c_.shalfedge_vertex(corner)), 3);
       if (mpz_divisible_p(common, w) == 0) mpz_lcm(common, common, w);
     }
     mpz_ptr sum = numerator.get_mpz_t();
     mpz_set_ui(sum, 0);
     for (const std::uint32_t corner : corners) {
-      const PointId u{c_.shalfedge_vertex(corner)};
-      const PointId v{c_.target(c_.corner_halfedge(corner))};
+      const PointId u = point_of(c_.shalfedge_vertex(corner));
+      const PointId v = point_of(c_.target(c_.corner_halfedge(corner)));
       mpz_divexact(factor_.get_mpz_t(), common, c_.points.coordinate(u, 3));
       mpz_divexact(other_.get_mpz_t(), common, c_.points.coordinate(v, 3));
       mpz_mul(factor_.get_mpz_t(), factor_.get_mpz_t(), other_.get_mpz_t());
@@ -77,8 +77,8 @@ class FacetRatio {
   void sum_large(std::span<const std::uint32_t> corners) {
     RationalSum sum;
     for (const std::uint32_t corner : corners) {
-      const PointId u{c_.shalfedge_vertex(corner)};
-      const PointId v{c_.target(c_.corner_halfedge(corner))};
+      const PointId u = point_of(c_.shalfedge_vertex(corner));
+      const PointId v = point_of(c_.target(c_.corner_halfedge(corner)));
       cross(u, v);
       mpz_mul(factor_.get_mpz_t(), c_.points.coordinate(u, 3), c_.points.coordinate(v, 3));
       Rational term(cross_, factor_);
@@ -176,8 +176,8 @@ double surface_area(const Complex& c) {
 
 std::optional<std::array<Rational3, 2>> bounding_box(const Complex& c) {
   ExtremePoints extreme(c.points);
-  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
-    if (!is_box_vertex(c, v)) extreme.add(PointId{v});
+  for (const VertexId v : c.vertex_ids()) {
+    if (!is_box_vertex(c, v)) extreme.add(point_of(v));
   }
   return extreme.box();
 }

@@ -57,13 +57,13 @@ std::optional<Moments> moments(const Polyhedron& a) {
     if (above == below) continue;
     // Cycles run counterclockwise as seen from above, so the sum is positive for a set that lies below.
     const std::span<const std::uint32_t> corners = c.corners_of(facet);
-    const Rational3 apex = c.points.rational(PointId{c.shalfedge_vertex(corners.front())});
+    const Rational3 apex = c.points.rational(point_of(c.shalfedge_vertex(corners.front())));
     for (const std::uint32_t corner : corners) {
-      const std::uint32_t u = c.shalfedge_vertex(corner);
-      const std::uint32_t v = c.target(c.corner_halfedge(corner));
+      const VertexId u = c.shalfedge_vertex(corner);
+      const VertexId v = c.target(c.corner_halfedge(corner));
       if (u == c.shalfedge_vertex(corners.front()) || v == c.shalfedge_vertex(corners.front())) continue;
-      const Rational3 p = c.points.rational(PointId{u});
-      const Rational3 q = c.points.rational(PointId{v});
+      const Rational3 p = c.points.rational(point_of(u));
+      const Rational3 q = c.points.rational(point_of(v));
       if (below) {
         sums.add(apex, p, q);
       } else {

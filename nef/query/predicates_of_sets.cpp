@@ -14,7 +14,7 @@ bool all_boundary_items(const Complex& c, const Test& test) {
     if (is_box_facet(c, f)) continue;
     if (!test(facet.mark, volume_selected(facet.volume_above) || volume_selected(facet.volume_below))) return false;
   }
-  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
+  for (const VertexId v : c.vertex_ids()) {
     const SphereMapView map = c.sphere_map(v);
     bool near_vertex = false;
     for (const SFace& sface : map.sfaces) near_vertex = near_vertex || is_selected(sface.mark);
@@ -39,7 +39,7 @@ bool all_boundary_items(const Complex& c, const Test& test) {
 
 }  // namespace
 
-bool is_box_vertex(const Complex& complex, std::uint32_t vertex) { return !complex.points.finite(PointId{vertex}); }
+bool is_box_vertex(const Complex& complex, VertexId vertex) { return !complex.points.finite(point_of(vertex)); }
 
 bool is_box_edge(const Complex& complex, std::uint32_t halfedge) {
   // At most one finite plane goes through an edge of the box, so one of any two is the box's.
@@ -68,7 +68,7 @@ bool is_bounded_set(const Complex& complex) {
   if (!complex.has_box()) return true;
   // A part of the set goes to infinity iff it reaches the box: on a facet that ends there, along
   // an edge, or through a volume.
-  for (std::uint32_t v = 0; v < complex.vertex_count(); ++v) {
+  for (const VertexId v : complex.vertex_ids()) {
     if (!is_box_vertex(complex, v)) continue;
     const SphereMapView map = complex.sphere_map(v);
     for (const SFace& sface : map.sfaces) {

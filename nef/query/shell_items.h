@@ -39,7 +39,7 @@ class ShellWalk {
       if (first_time(facet_[f])) facet(f);
     };
     for (const std::uint32_t sface : sfaces_.of(shell)) {
-      const std::uint32_t v = c_.sface_vertex(sface);
+      const VertexId v = c_.sface_vertex(sface);
       const VertexRecord& at = c_.vertices[v];
       if (first_time(vertex_[v])) vertex(v);
       const SphereMapView map = c_.sphere_map(v);
@@ -68,7 +68,7 @@ class ShellWalk {
 
  private:
   const Complex& c_;
-  std::vector<ShellId> vertex_;
+  IndexedVector<VertexId, ShellId> vertex_;
   std::vector<ShellId> edge_;
   IndexedVector<FacetId, ShellId> facet_;
   ShellSfaces sfaces_;

@@ -101,8 +101,8 @@ void ComplexBuilder::push(const SphereMapView& map) {
   c.vertices.push_back(end);
 }
 
-void ComplexBuilder::copy(const Complex& from, std::uint32_t first, std::uint32_t count,
-                          std::span<const std::uint32_t> rows, std::span<const LabelId> marks) {
+void ComplexBuilder::copy(const Complex& from, VertexId first, std::uint32_t count, std::span<const std::uint32_t> rows,
+                          std::span<const LabelId> marks) {
   const CopiedRun run{&from, first, count, rows, marks};
   copy(std::span(&run, 1), 1);
 }
@@ -114,12 +114,14 @@ void ComplexBuilder::copy(std::span<const CopiedRun> runs, unsigned threads) {
     for (const CopiedRun& run : runs) copy_run(run);
   };
   // The longest array first.
-  parallel_calls(
-      threads,
-      {[&] { copy_records(runs); },
-       [&] { all([this](const CopiedRun& run) { complex_.points.append(run.from->points, run.first, run.count); }); },
-       [&] { all([this](const CopiedRun& run) { copy_planes(run); }); },
-       [&] { all([this](const CopiedRun& run) { copy_sloops(run); }); }});
+  parallel_calls(threads, {[&] { copy_records(runs); },
+                           [&] {
+                             all([this](const CopiedRun& run) {
+                               complex_.points.append(run.from->points, point_of(run.first).index(), run.count);
+                             });
+                           },
+                           [&] { all([this](const CopiedRun& run) { copy_planes(run); }); },
+                           [&] { all([this](const CopiedRun& run) { copy_sloops(run); }); }});
 }
 
 namespace {
@@ -201,7 +203,7 @@ void ComplexBuilder::copy_records(std::span<const CopiedRun> runs) {
   PatternsOfRuns patterns(interner_, complex_.patterns);
   for (const CopiedRun& run : runs) {
     patterns.set(run);
-    const std::span<const VertexRecord> records = std::span(run.from->vertices).subspan(run.first, run.count + 1);
+    const std::span<const VertexRecord> records = run.from->vertices[IdRange(run.first, run.count + 1)];
     const VertexRecord base = complex_.vertices.back();
     const VertexRecord& begin = records.front();
     for (std::uint32_t i = 0; i < run.count; ++i) {
@@ -239,10 +241,10 @@ Complex ComplexBuilder::take_so_far() {
 bool ComplexBuilder::has_idle_box() const {
   const Complex& c = complex_;
   std::size_t infinite = 0;
-  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
-    if (c.points.finite(PointId{v})) continue;
+  for (const VertexId v : c.vertex_ids()) {
+    if (c.points.finite(point_of(v))) continue;
     // Eight octants are not enough: a plane may cut through all of the box.
-    if (!far_corner(c.points, PointId{v}) || !idle_corner(c.sphere_map(v))) return false;
+    if (!far_corner(c.points, point_of(v)) || !idle_corner(c.sphere_map(v))) return false;
     ++infinite;
   }
   return infinite == 8;
@@ -253,13 +255,13 @@ void ComplexBuilder::drop_idle_box(LabelId& outer) {
   const Complex& c = complex_;
   ComplexBuilder kept(planes_);
   kept.reserve(c.vertex_count(), c.vertices.back());
-  const auto count = static_cast<std::uint32_t>(c.vertex_count());
-  std::uint32_t first = 0;  // of the run of finite vertices
-  for (std::uint32_t v = 0; v <= count; ++v) {
-    if (v < count && c.points.finite(PointId{v})) continue;
+  const VertexId end{c.vertex_count()};
+  VertexId first{0};  // of the run of finite vertices
+  for (VertexId v{0}; v <= end; ++v) {
+    if (v < end && c.points.finite(point_of(v))) continue;
     if (first < v) kept.copy(c, first, v - first);
-    first = v + 1;
-    if (v < count) outer = c.mark(v);
+    first = v.next();
+    if (v < end) outer = c.mark(v);
   }
   complex_ = kept.take_so_far();
   interner_.reset();

@@ -51,13 +51,19 @@ class ComplexBuilder {
   /// Adds copies of consecutive vertices of another complex, from `first` on. Rows of its planes become rows[row]
   /// unless `rows` is empty, its marks other than kOutside become marks[mark] unless `marks` is empty. O(their items),
   /// with a few memcpys.
-  void copy(const Complex& from, std::uint32_t first, std::uint32_t count, std::span<const std::uint32_t> rows = {},
+  void copy(const Complex& from, VertexId first, std::uint32_t count, std::span<const std::uint32_t> rows = {},
             std::span<const LabelId> marks = {});
+
+  /// The same of all vertices.
+  void copy(const Complex& from, std::span<const std::uint32_t> rows = {}, std::span<const LabelId> marks = {}) {
+    copy(from, VertexId{0}, from.vertex_ids().size(), rows, marks);
+  }
 
   /// What copy() is asked to do; what it refers to must outlive the call.
   struct CopiedRun {
     const Complex* from;
-    std::uint32_t first, count;
+    VertexId first;
+    std::uint32_t count;
     std::span<const std::uint32_t> rows;
     std::span<const LabelId> marks;
   };

@@ -78,10 +78,10 @@ class Linker {
   void link_all() {
     keys_.resize(c_.svertex_count());
     c_.twin.assign(c_.svertex_count(), kNone);
-    const auto count = static_cast<std::uint32_t>(c_.vertex_count());
-    parallel_for((count + kVertices - 1) / kVertices, threads_, [&](std::size_t task) {
-      const auto first = static_cast<std::uint32_t>(task * kVertices);
-      for (std::uint32_t v = first; v < std::min(first + kVertices, count); ++v) {
+    const VertexId end{c_.vertex_count()};
+    parallel_for((c_.vertex_count() + kVertices - 1) / kVertices, threads_, [&](std::size_t task) {
+      const VertexId first{task * kVertices};
+      for (VertexId v = first; v < std::min(first + kVertices, end); ++v) {
         name_lines(v, keys_.data() + c_.vertices[v].svertices);
       }
     });
@@ -89,11 +89,11 @@ class Linker {
     bucket();
   }
 
-  void link_loose(std::span<const std::uint32_t> vertices) {
+  void link_loose(std::span<const VertexId> vertices) {
     std::vector<LineKey> keys;
-    for (const std::uint32_t v : vertices) {
+    for (const VertexId v : vertices) {
       const std::uint32_t first = c_.vertices[v].svertices;
-      const std::uint32_t count = c_.vertices[v + 1].svertices - first;
+      const std::uint32_t count = c_.vertices[v.next()].svertices - first;
       keys.assign(count, LineKey{});
       name_lines(v, keys.data());
       for (std::uint32_t i = 0; i < count; ++i) {
@@ -112,7 +112,7 @@ class Linker {
     return loose_.empty() ? static_cast<std::uint32_t>(i) : loose_[i];
   }
 
-  void name_lines(std::uint32_t vertex, LineKey* keys) const {
+  void name_lines(VertexId vertex, LineKey* keys) const {
     const SphereMapView map = c_.sphere_map(vertex);
     for (const SHalfedge& half : map.shalfedges) {
       const std::uint32_t row = half.plane.row();
@@ -216,14 +216,14 @@ class Linker {
     const int rising = direction.approximate[static_cast<std::size_t>(axis)] > 0 ? 1 : -1;
     struct Entry {
       std::uint32_t svertex;
-      std::uint32_t vertex;
+      VertexId vertex;
       int sense;
     };
     std::vector<Entry> entries;
     for (const std::uint32_t s : group) entries.push_back({s, c_.svertex_owner[s], sense(s, reference, direction)});
     std::sort(entries.begin(), entries.end(), [&](const Entry& a, const Entry& b) {
       if (a.vertex == b.vertex) return a.sense < b.sense;  // an edge ends before the next begins
-      return rising * compare_coordinate(c_.points, PointId{a.vertex}, PointId{b.vertex}, axis) < 0;
+      return rising * compare_coordinate(c_.points, point_of(a.vertex), point_of(b.vertex), axis) < 0;
     });
     detail::require(entries.size() % 2 == 0, "an edge has two ends", {{"halfedge", reference}});
     for (std::size_t i = 0; i < entries.size(); i += 2) {

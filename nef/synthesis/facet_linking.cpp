@@ -30,7 +30,7 @@ struct CycleRecord {
   std::uint32_t first = 0;  // range in the traced corners
   std::uint32_t count = 0;
   bool outer = false;
-  std::uint32_t lowest = kNone;  // vertex, lexicographically
+  VertexId lowest;  // lexicographically
 };
 
 bool few(const Complex& c) { return c.shalfedge_count() < 1U << 15U; }  // one share does
@@ -40,14 +40,14 @@ struct LinkedFacets {
   std::vector<Facet> facets;
   std::vector<std::uint32_t> cycle_begin{0};
   std::vector<std::uint32_t> corners;
-  std::vector<std::uint32_t> isolated_vertices;
+  std::vector<VertexId> isolated_vertices;
 };
 
 /// Corners of facets and vertices inside facets, those of some planes.
 struct Share {
-  std::vector<std::uint32_t> corners;   // shalfedges whose planes are not flipped, ascending
-  std::vector<std::uint32_t> isolated;  // vertices, ascending
-  std::uint32_t first_row = 0;          // of the planes
+  std::vector<std::uint32_t> corners;  // shalfedges whose planes are not flipped, ascending
+  std::vector<VertexId> isolated;      // ascending
+  std::uint32_t first_row = 0;         // of the planes
   std::uint32_t end_row = 0;
 };
 
@@ -59,7 +59,7 @@ class FacetLinker {
 
   LinkedFacets run(const Share& share) {
     trace_cycles(share.corners);
-    for (const std::uint32_t v : share.isolated) {
+    for (const VertexId v : share.isolated) {
       isolated_.emplace_back(c_.sloops[c_.vertices[v].sloops].plane.row(), v);
     }
     group_by_plane(share);
@@ -69,7 +69,7 @@ class FacetLinker {
  private:
   std::uint32_t next_corner(std::uint32_t corner) const {
     const std::uint32_t there = c_.twin[c_.corner_halfedge(corner)];
-    const std::uint32_t vertex = c_.svertex_owner[there];
+    const VertexId vertex = c_.svertex_owner[there];
     const SphereMapView map = c_.sphere_map(vertex);
     const PlaneId wanted = c_.shalfedge_plane[corner].opposite();
     const std::uint32_t first = map.svertices[there - c_.vertices[vertex].svertices].out;
@@ -128,7 +128,7 @@ class FacetLinker {
       const auto first = isolated;
       while (isolated != isolated_.end() && isolated->first == row) ++isolated;
       const std::span<const std::uint32_t> cycles(order.data() + start[i], start[i + 1] - start[i]);
-      const std::span<const std::pair<std::uint32_t, std::uint32_t>> points(first, isolated);
+      const std::span<const std::pair<std::uint32_t, VertexId>> points(first, isolated);
       const auto before = kept;
       while (kept != known.end() && kept->plane.row() < row) ++kept;
       emit_known({before, kept});
@@ -140,17 +140,17 @@ class FacetLinker {
       }
       if (!cycles.empty()) link_plane(row, cycles, points);
       detail::require(!cycles.empty() || points.empty(), "a vertex inside a facet has a facet around it",
-                      {{"vertex", points.empty() ? 0 : points[0].second}});
+                      {{"vertex", points.empty() ? VertexId{0} : points[0].second}});
     }
     emit_known({kept, known.end()});
   }
 
   // Known facets in a plane with others are linked anew, with these, which may be holes of theirs.
   void link_plane_with_known(std::uint32_t row, std::span<const std::uint32_t> cycles,
-                             std::span<const std::pair<std::uint32_t, std::uint32_t>> points,
+                             std::span<const std::pair<std::uint32_t, VertexId>> points,
                              std::span<const Facet> facets) {
     std::vector<std::uint32_t> all(cycles.begin(), cycles.end());
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> inside(points.begin(), points.end());
+    std::vector<std::pair<std::uint32_t, VertexId>> inside(points.begin(), points.end());
     for (const Facet& facet : facets) {
       for (const CycleId i : facet.cycles()) {
         CycleRecord cycle;
@@ -208,7 +208,7 @@ class FacetLinker {
   }
 
   void link_plane(std::uint32_t row, std::span<const std::uint32_t> cycles,
-                  std::span<const std::pair<std::uint32_t, std::uint32_t>> points) {
+                  std::span<const std::pair<std::uint32_t, VertexId>> points) {
     if (cycles.size() == 1 && points.empty()) {
       emit(row, cycles, {});
       return;
@@ -223,7 +223,7 @@ class FacetLinker {
       members.push_back({cycles[i]});
     }
     detail::require(!members.empty(), "a facet has an outer cycle", {{"vertex", cycles_[cycles[0]].lowest}});
-    std::vector<std::vector<std::uint32_t>> inside(members.size());
+    std::vector<std::vector<VertexId>> inside(members.size());
     if (members.size() == 1) {
       for (std::uint32_t i = 0; i < cycles.size(); ++i) {
         if (facet_of[i] == kNone) members[0].push_back(cycles[i]);
@@ -242,9 +242,9 @@ class FacetLinker {
   void classify(CycleRecord& cycle, const PlaneAxes& axes) const {
     const std::span<const std::uint32_t> corners(traced_.data() + cycle.first, cycle.count);
     for (const std::uint32_t corner : corners) {
-      const std::uint32_t v = c_.shalfedge_vertex(corner);
+      const VertexId v = c_.shalfedge_vertex(corner);
       if (v == cycle.lowest) continue;
-      if (cycle.lowest == kNone || axes.compare(c_.points, PointId{v}, PointId{cycle.lowest}) < 0) cycle.lowest = v;
+      if (!cycle.lowest.valid() || axes.compare(c_.points, point_of(v), point_of(cycle.lowest)) < 0) cycle.lowest = v;
     }
     cycle.outer = true;
     for (const std::uint32_t corner : corners) {
@@ -262,11 +262,10 @@ class FacetLinker {
 
   // Completes facet_of for the holes, and appends the facets of the points.
   void nest(std::uint32_t row, std::span<const std::uint32_t> cycles,
-            std::span<const std::pair<std::uint32_t, std::uint32_t>> points,
-            std::vector<std::uint32_t>& facet_of) const {
+            std::span<const std::pair<std::uint32_t, VertexId>> points, std::vector<std::uint32_t>& facet_of) const {
     std::vector<std::uint32_t> corners;
     std::vector<std::uint32_t> cycle_of;  // of each corner, as a position in `cycles`
-    std::vector<std::uint32_t> lowest;    // vertices of holes and points
+    std::vector<VertexId> lowest;         // vertices of holes and points
     std::vector<std::uint32_t> asking;    // their positions in facet_of
     for (std::uint32_t i = 0; i < cycles.size(); ++i) {
       const CycleRecord& cycle = cycles_[cycles[i]];
@@ -288,7 +287,7 @@ class FacetLinker {
     }
   }
 
-  void emit(std::uint32_t row, std::span<const std::uint32_t> cycles, std::span<const std::uint32_t> inside) {
+  void emit(std::uint32_t row, std::span<const std::uint32_t> cycles, std::span<const VertexId> inside) {
     Facet facet = begin_facet(row, cycles.size(), inside.size());
     for (const std::uint32_t i : cycles) add_cycle(std::span(traced_).subspan(cycles_[i].first, cycles_[i].count));
     end_facet(facet, inside);
@@ -309,7 +308,7 @@ class FacetLinker {
     result_.cycle_begin.push_back(static_cast<std::uint32_t>(result_.corners.size()));
   }
 
-  void end_facet(Facet& facet, std::span<const std::uint32_t> inside) {
+  void end_facet(Facet& facet, std::span<const VertexId> inside) {
     result_.isolated_vertices.insert(result_.isolated_vertices.end(), inside.begin(), inside.end());
     result_.facets.push_back(facet);
   }
@@ -319,7 +318,7 @@ class FacetLinker {
   std::vector<std::uint8_t>& done_;
   std::vector<std::uint32_t> traced_;
   std::vector<CycleRecord> cycles_;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> isolated_;  // (plane row, vertex)
+  std::vector<std::pair<std::uint32_t, VertexId>> isolated_;  // (plane row, vertex)
   LinkedFacets result_;
 };
 
@@ -331,15 +330,15 @@ Share everything(const Complex& c, const KnownLinks* known) {
     all.corners = known->loose_corners;
     std::erase_if(all.corners, [&c](std::uint32_t e) { return c.shalfedge_plane[e].flipped(); });
     all.isolated = known->loose_isolated;
-    std::erase_if(all.isolated, [&c](std::uint32_t v) { return c.vertices[v].sloops == c.vertices[v + 1].sloops; });
+    std::erase_if(all.isolated, [&c](VertexId v) { return c.vertices[v].sloops == c.vertices[v.next()].sloops; });
     return all;
   }
   all.corners.reserve(c.shalfedge_count() / 2);
   for (std::uint32_t e = 0; e < c.shalfedge_count(); ++e) {
     if (!c.shalfedge_plane[e].flipped()) all.corners.push_back(e);
   }
-  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
-    if (c.vertices[v].sloops != c.vertices[v + 1].sloops) all.isolated.push_back(v);
+  for (const VertexId v : c.vertex_ids()) {
+    if (c.vertices[v].sloops != c.vertices[v.next()].sloops) all.isolated.push_back(v);
   }
   return all;
 }
@@ -356,8 +355,8 @@ std::vector<Share> shares_of(const Complex& c, unsigned threads) {
     shares[s].first_row = static_cast<std::uint32_t>(std::min(s * rows, c.planes.size()));
     shares[s].end_row = static_cast<std::uint32_t>(std::min((s + 1) * rows, c.planes.size()));
   }
-  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
-    if (c.vertices[v].sloops == c.vertices[v + 1].sloops) continue;
+  for (const VertexId v : c.vertex_ids()) {
+    if (c.vertices[v].sloops == c.vertices[v.next()].sloops) continue;
     shares[c.sloops[c.vertices[v].sloops].plane.row() / rows].isolated.push_back(v);
   }
   return shares;
@@ -414,7 +413,7 @@ void name_facets(Complex& c, unsigned threads) {
       const std::span<const std::uint32_t> corners = c.corners_of(f);
       c.facets[f].mark = c.shalfedge(corners[0]).mark;
       for (const std::uint32_t corner : corners) c.shalfedge_facet.set(corner, halffacet_of(f, false));
-      for (const std::uint32_t v : c.isolated_vertices_of(c.facets[f])) {
+      for (const VertexId v : c.isolated_vertices_of(c.facets[f])) {
         const std::uint32_t loop = c.vertices[v].sloops;
         for (std::uint32_t l = loop; l < loop + 2; ++l) {
           c.sloop_facet[l] = halffacet_of(f, c.sloops[l].plane.flipped());

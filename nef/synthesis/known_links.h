@@ -14,18 +14,18 @@ namespace nef {
 /// the complex is the same, item for item, with or without it. Where nothing is said of facets, neither known nor
 /// loose, all are to be found.
 struct KnownLinks {
-  std::vector<std::uint32_t> twin;            ///< of each svertex; kNone where it is to be found
-  std::vector<std::uint32_t> loose_vertices;  ///< the vertices of such svertices, ascending
+  std::vector<std::uint32_t> twin;       ///< of each svertex; kNone where it is to be found
+  std::vector<VertexId> loose_vertices;  ///< the vertices of such svertices, ascending
 
   std::vector<Facet> facets;  ///< in the order of their planes; only planes and ranges are set
   IndexedVector<CycleId, std::uint32_t> cycle_begin{0};  ///< of the cycles of these facets
   std::vector<std::uint32_t> corners;                    ///< of these cycles, each cycle from its smallest corner on
-  std::vector<std::uint32_t> isolated_vertices;          ///< inside these facets
+  std::vector<VertexId> isolated_vertices;               ///< inside these facets
   std::vector<std::uint32_t>
       mixed_rows;  ///< of planes whose facets come from several complexes: their order is not known
 
-  std::vector<std::uint32_t> loose_corners;   ///< the corners of all other facets, ascending
-  std::vector<std::uint32_t> loose_isolated;  ///< the vertices inside other facets
+  std::vector<std::uint32_t> loose_corners;  ///< the corners of all other facets, ascending
+  std::vector<VertexId> loose_isolated;      ///< the vertices inside other facets
 };
 
 }  // namespace nef

@@ -57,8 +57,8 @@ class VolumeLinker {
     for (std::uint32_t s = 0; s < c_.svertex_count(); ++s) {
       if (c_.svertex(s).out != kNone || s > c_.twin[s]) continue;
       const std::uint32_t t = c_.twin[s];
-      const std::uint32_t v = c_.svertex_owner[s];
-      const std::uint32_t w = c_.svertex_owner[t];
+      const VertexId v = c_.svertex_owner[s];
+      const VertexId w = c_.svertex_owner[t];
       sfaces_.unite(c_.vertices[v].sfaces + c_.svertex(s).sface, c_.vertices[w].sfaces + c_.svertex(t).sface);
     }
   }
@@ -73,7 +73,7 @@ class VolumeLinker {
         above = join(sets, above, c_.shalfedge_sface(corner));
         below = join(sets, below, c_.shalfedge_sface(corner ^ 1U));
       }
-      for (const std::uint32_t v : c_.isolated_vertices_of(facet)) {
+      for (const VertexId v : c_.isolated_vertices_of(facet)) {
         const VertexRecord& record = c_.vertices[v];
         const std::uint32_t up = record.sloops + (c_.sloops[record.sloops].plane.flipped() ? 1U : 0U);
         sets.unite(above, record.sfaces + c_.sloops[up].sface);
@@ -94,9 +94,9 @@ class VolumeLinker {
   void join_components() {
     sfaces_.flatten();
     parts_.reset(c_.sface_count());
-    for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) {
+    for (const VertexId v : c_.vertex_ids()) {
       const std::uint32_t first = sfaces_.root(c_.vertices[v].sfaces);
-      for (std::uint32_t f = c_.vertices[v].sfaces + 1; f < c_.vertices[v + 1].sfaces; ++f) {
+      for (std::uint32_t f = c_.vertices[v].sfaces + 1; f < c_.vertices[v.next()].sfaces; ++f) {
         parts_.unite(first, sfaces_.root(f));
       }
     }
@@ -104,37 +104,38 @@ class VolumeLinker {
   }
 
   // An sface that stands for the component of a vertex.
-  [[nodiscard]] std::uint32_t component(std::uint32_t vertex) const {
+  [[nodiscard]] std::uint32_t component(VertexId vertex) const {
     return parts_.root(sfaces_.root(c_.vertices[vertex].sfaces));
   }
 
   // Components in the order of their first vertices.
   struct Components {
     std::vector<std::uint32_t> ids;
-    std::vector<std::uint32_t> lowest;  // vertex, of each id; others: kNone
+    std::vector<VertexId> lowest;  // of each id; others: not valid
 
     // A vertex of a component, in the order of vertices.
-    void add(const PointTable& points, std::uint32_t id, std::uint32_t vertex) {
-      std::uint32_t& low = lowest[id];
-      if (low == kNone) ids.push_back(id);
-      if (low == kNone || compare_lexicographic(points, PointId{vertex}, PointId{low}) < 0) low = vertex;
+    void add(const PointTable& points, std::uint32_t id, VertexId vertex) {
+      VertexId& low = lowest[id];
+      if (!low.valid()) ids.push_back(id);
+      if (!low.valid() || compare_lexicographic(points, point_of(vertex), point_of(low)) < 0) low = vertex;
     }
   };
 
   // Half of the vertices each on its own.
   [[nodiscard]] Components find_components() const {
-    const auto count = static_cast<std::uint32_t>(c_.vertex_count());
-    const auto of_range = [this](std::uint32_t first, std::uint32_t last, Components& found) {
-      found.lowest.assign(c_.sface_count(), kNone);
-      for (std::uint32_t v = first; v < last; ++v) found.add(c_.points, component(v), v);
+    const auto of_range = [this](IdRange<VertexId> range, Components& found) {
+      found.lowest.assign(c_.sface_count(), VertexId());
+      for (const VertexId v : range) found.add(c_.points, component(v), v);
     };
     Components all;
     if (threads_ == 1) {
-      of_range(0, count, all);
+      of_range(c_.vertex_ids(), all);
       return all;
     }
     Components others;
-    parallel_calls(threads_, {[&] { of_range(0, count / 2, all); }, [&] { of_range(count / 2, count, others); }});
+    const VertexId middle{c_.vertex_count() / 2};
+    const VertexId end = c_.vertex_ids().end_id();
+    parallel_calls(threads_, {[&] { of_range({VertexId{0}, middle}, all); }, [&] { of_range({middle, end}, others); }});
     for (const std::uint32_t id : others.ids) all.add(c_.points, id, others.lowest[id]);
     return all;
   }
@@ -151,7 +152,7 @@ class VolumeLinker {
     std::uint32_t unbounded = kNone;  // an sface of the outer volume
     const Direction minus_x = Direction::exact(-1, 0, 0);
     for (std::size_t i = 0; i < components.size(); ++i) {
-      const std::uint32_t v = lowest[components[i]];
+      const VertexId v = lowest[components[i]];
       const SphereMapView map = c_.sphere_map(v);
       const std::uint32_t toward = sface_toward(minus_x, map);
       detail::require(toward != kNone, "nothing of a component lies before its lowest vertex", {{"vertex", v}});
@@ -185,20 +186,19 @@ class VolumeLinker {
   }
 
   // Which components have their lowest vertex in the box of another one.
-  std::vector<bool> may_be_enclosed(const std::vector<std::uint32_t>& components,
-                                    const std::vector<std::uint32_t>& lowest) {
+  std::vector<bool> may_be_enclosed(const std::vector<std::uint32_t>& components, const std::vector<VertexId>& lowest) {
     std::vector<bool> result(components.size(), false);
     if (components.size() < 2) return result;
     std::vector<std::uint32_t> number(c_.sface_count(), kNone);
     for (std::uint32_t i = 0; i < components.size(); ++i) number[components[i]] = i;
     std::vector<Box> boxes(components.size());
-    for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) {
-      boxes[number[component(v)]].add_rounded(c_.points.approximate(PointId{v}));
+    for (const VertexId v : c_.vertex_ids()) {
+      boxes[number[component(v)]].add_rounded(c_.points.approximate(point_of(v)));
     }
     const BoxTree tree(boxes);
     for (std::uint32_t i = 0; i < components.size(); ++i) {
       Box point;
-      point.add_rounded(c_.points.approximate(PointId{lowest[components[i]]}));
+      point.add_rounded(c_.points.approximate(point_of(lowest[components[i]])));
       tree.for_each_overlap(point, [&](std::uint32_t other) {
         if (other != i) result[i] = true;
       });
@@ -207,16 +207,16 @@ class VolumeLinker {
   }
 
   // Holds the ray from v in direction -x.
-  [[nodiscard]] Box ray_from(std::uint32_t v) const {
+  [[nodiscard]] Box ray_from(VertexId v) const {
     Box ray;
-    ray.add_rounded(c_.points.approximate(PointId{v}));
+    ray.add_rounded(c_.points.approximate(point_of(v)));
     ray.low[0] = -std::numeric_limits<double>::infinity();
     return ray;
   }
 
   // An sface of the volume that the ray from v in direction -x runs into, seen at its first hit; `places` are those of
   // all rays.
-  std::uint32_t sface_seen_from(std::uint32_t v, const BoxTree& places) {
+  std::uint32_t sface_seen_from(VertexId v, const BoxTree& places) {
     if (!queries_) queries_ = std::make_unique<QueryStructure>(c_, places);
     const std::optional<ComplexHit> hit = queries_->first_hit_minus_x(c_, v);
     if (!hit) return kNone;

@@ -66,7 +66,7 @@ Complex remarked(const Complex& box, LabelId mark) {
   PlaneTable planes = box.planes;
   ComplexBuilder builder(planes);
   const std::array<LabelId, 2> marks{kOutside, mark};
-  builder.copy(box, 0, static_cast<std::uint32_t>(box.vertex_count()), {}, marks);
+  builder.copy(box, {}, marks);
   return builder.finish(kOutside);
 }
 

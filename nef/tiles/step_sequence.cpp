@@ -67,8 +67,8 @@ std::size_t vertices_in(Places places, const Box& box, std::size_t limit) {
 std::size_t vertices_in(const Complex& complex, const Box& box, std::size_t limit) {
   std::vector<std::array<double, 3>> places;
   places.reserve(complex.vertex_count());
-  for (std::uint32_t v = 0; v < complex.vertex_count(); ++v) {
-    if (complex.points.finite(PointId{v})) places.push_back(complex.points.approximate(PointId{v}));
+  for (const VertexId v : complex.vertex_ids()) {
+    if (complex.points.finite(point_of(v))) places.push_back(complex.points.approximate(point_of(v)));
   }
   return vertices_in(places, box, limit);
 }

@@ -38,12 +38,13 @@ bool has_boundary(const SphereMapView& map) {
 
 TileMeasure measure_tile(const Complex& complex) {
   TileMeasure result;
-  for (std::uint32_t v = 0; v < complex.vertex_count(); ++v) {
+  for (const VertexId v : complex.vertex_ids()) {
     if (!has_boundary(complex.sphere_map(v))) continue;
-    result.box.add_rounded(complex.points.approximate(PointId{v}));
+    result.box.add_rounded(complex.points.approximate(point_of(v)));
     result.uniform = false;
   }
-  if (result.uniform) result.mark = complex.vertex_count() == 0 ? complex.volumes[kOuterVolume].mark : complex.mark(0);
+  if (result.uniform)
+    result.mark = complex.vertex_count() == 0 ? complex.volumes[kOuterVolume].mark : complex.mark(VertexId{0});
   return result;
 }
 
@@ -96,10 +97,10 @@ LabelId mark_beyond(const TileNode& tile, const AxisPlane& plane, int side) {
   const Complex& c = set.complex();
   if (!c.has_box()) return c.volumes[kOuterVolume].mark;
   // The region has corners beyond the plane, and there are no other vertices.
-  std::uint32_t extreme = 0;
-  for (std::uint32_t v = 1; v < c.vertex_count(); ++v) {
+  VertexId extreme{0};
+  for (const VertexId v : c.vertex_ids()) {
     const double more =
-        c.points.approximate(PointId{v})[plane.axis] - c.points.approximate(PointId{extreme})[plane.axis];
+        c.points.approximate(point_of(v))[plane.axis] - c.points.approximate(point_of(extreme))[plane.axis];
     if (side * more > 0) extreme = v;
   }
   NEF_ASSERT(!has_boundary(c.sphere_map(extreme)));

@@ -174,9 +174,9 @@ class TreeOverlay {
     constexpr std::size_t kPart = 8;
     if (b.vertices > kSmall || reaches_infinity(b.box)) return false;
     std::size_t inside = 0;
-    for (std::uint32_t v = 0; v < a.vertex_count(); ++v) {
+    for (const VertexId v : a.vertex_ids()) {
       Box point;
-      point.add_rounded(a.points.approximate(PointId{v}));
+      point.add_rounded(a.points.approximate(point_of(v)));
       if (point.overlaps(b.box)) ++inside;
     }
     return inside < a.vertex_count() / kPart;

@@ -15,7 +15,7 @@ namespace {
 using detail::require;
 
 // Everything that reads a sphere map relies on it.
-void check_pattern(const Complex& c, const VertexRecord& a, const VertexRecord& b, std::size_t v) {
+void check_pattern(const Complex& c, const VertexRecord& a, const VertexRecord& b, VertexId v) {
   require(a.pattern.index() < c.patterns.size(), "vertices have a pattern", {{"vertex", v}});
   const SphereMapView map = c.patterns.view(a.pattern);
   const std::uint32_t pairs = (b.shalfedges - a.shalfedges) / 2;
@@ -47,9 +47,9 @@ void check_array_sizes(const Complex& c) {
   const VertexRecord& first = c.vertices.front();
   require(first.svertices + first.shalfedges + first.sloops + first.sfaces + first.other_planes == 0,
           "the first vertex begins at zero", {});
-  for (std::size_t v = 0; v < c.vertex_count(); ++v) {
+  for (const VertexId v : c.vertex_ids()) {
     const VertexRecord& a = c.vertices[v];
-    const VertexRecord& b = c.vertices[v + 1];
+    const VertexRecord& b = c.vertices[v.next()];
     require(a.svertices <= b.svertices && a.shalfedges <= b.shalfedges && a.sloops <= b.sloops &&
                 a.sfaces <= b.sfaces && a.other_planes <= b.other_planes,
             "ranges of sphere items are in order", {{"vertex", v}});
@@ -58,11 +58,11 @@ void check_array_sizes(const Complex& c) {
 }
 
 void check_owners(const Complex& c) {
-  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
+  for (const VertexId v : c.vertex_ids()) {
     const VertexRecord& a = c.vertices[v];
-    const VertexRecord& b = c.vertices[v + 1];
-    const auto owned = [&](const std::vector<std::uint32_t>& owner, std::uint32_t first, std::uint32_t last) {
-      return std::all_of(owner.begin() + first, owner.begin() + last, [v](std::uint32_t o) { return o == v; });
+    const VertexRecord& b = c.vertices[v.next()];
+    const auto owned = [&](const std::vector<VertexId>& owner, std::uint32_t first, std::uint32_t last) {
+      return std::all_of(owner.begin() + first, owner.begin() + last, [v](VertexId o) { return o == v; });
     };
     require(owned(c.svertex_owner, a.svertices, b.svertices), "svertices know their vertex", {{"vertex", v}});
     require(c.pair_owner.empty() ? c.shalfedge_count() == 0 || a.svertices == a.shalfedges / 2
@@ -71,8 +71,8 @@ void check_owners(const Complex& c) {
   }
 }
 
-void check_planes_meet_point(const Complex& c, std::uint32_t v, const SphereMapView& map) {
-  const auto on = [&](PlaneId plane) { return side_of_plane(c.planes, plane, c.points, PointId{v}) == 0; };
+void check_planes_meet_point(const Complex& c, VertexId v, const SphereMapView& map) {
+  const auto on = [&](PlaneId plane) { return side_of_plane(c.planes, plane, c.points, point_of(v)) == 0; };
   for (std::size_t i = 0; i < map.svertices.size(); ++i) {
     require(on(map.svertices[i].p) && on(map.svertices[i].q), "planes of an svertex pass through its vertex",
             {{"vertex", v}, {"svertex", i}});
@@ -88,7 +88,7 @@ void check_planes_meet_point(const Complex& c, std::uint32_t v, const SphereMapV
 
 // A vertex is redundant if space looks the same from a point beside it on its lowest item: inside
 // a volume, a facet, or an edge.
-void check_vertex_needed(const Complex& c, std::uint32_t v, const SphereMapView& map) {
+void check_vertex_needed(const Complex& c, VertexId v, const SphereMapView& map) {
   const LabelId mark = map.mark;
   if (map.svertices.empty()) {
     const LabelId around = map.sloops.empty() ? map.sfaces[0].mark : map.sloops[0].mark;
@@ -107,7 +107,7 @@ void check_vertex_needed(const Complex& c, std::uint32_t v, const SphereMapView&
 }
 
 void check_sphere_maps(const Complex& c) {
-  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
+  for (const VertexId v : c.vertex_ids()) {
     const SphereMapView map = c.sphere_map(v);
     const std::string broken = validate(c.planes, map);
     require(broken.empty(), broken.c_str(), {{"vertex", v}});
@@ -116,14 +116,12 @@ void check_sphere_maps(const Complex& c) {
 }
 
 void check_vertices(const Complex& c) {
-  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) check_vertex_needed(c, v, c.sphere_map(v));
-  std::vector<std::uint32_t> order(c.vertex_count());
-  std::iota(order.begin(), order.end(), 0U);
-  std::sort(order.begin(), order.end(), [&c](std::uint32_t a, std::uint32_t b) {
-    return compare_lexicographic(c.points, PointId{a}, PointId{b}) < 0;
-  });
+  for (const VertexId v : c.vertex_ids()) check_vertex_needed(c, v, c.sphere_map(v));
+  std::vector<VertexId> order(c.vertex_ids().begin(), c.vertex_ids().end());
+  std::sort(order.begin(), order.end(),
+            [&c](VertexId a, VertexId b) { return compare_lexicographic(c.points, point_of(a), point_of(b)) < 0; });
   for (std::size_t i = 1; i < order.size(); ++i) {
-    require(compare_lexicographic(c.points, PointId{order[i - 1]}, PointId{order[i]}) < 0, "vertices are distinct",
+    require(compare_lexicographic(c.points, point_of(order[i - 1]), point_of(order[i])) < 0, "vertices are distinct",
             {{"vertex", order[i - 1]}, {"vertex", order[i]}});
   }
 }
@@ -136,8 +134,8 @@ void check_edges(const Complex& c) {
     const std::uint32_t t = c.twin[h];
     require(t < c.svertex_count() && t != h && c.twin[t] == h, "twins of halfedges are mutual", {{"halfedge", h}});
     require(c.svertex(h).mark == c.svertex(t).mark, "both ends of an edge have one mark", {{"halfedge", h}});
-    const PointId from{c.svertex_owner[h]};
-    const PointId to{c.svertex_owner[t]};
+    const PointId from = point_of(c.svertex_owner[h]);
+    const PointId to = point_of(c.svertex_owner[t]);
     const Direction along = direction_of(c.planes, c.svertex(h));
     require(same_direction(along, direction_of(c.planes, c.svertex(t)).negated()),
             "twin halfedges have opposite directions", {{"halfedge", h}});
@@ -156,7 +154,7 @@ void check_marks(const Complex& c) {
   require(c.label_count >= 2, "there are at least two labels", {});
   const auto known = [&c](LabelId mark) { return mark < c.label_count || mark == kOutside; };
   const char* const name = "marks are below the number of labels";
-  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
+  for (const VertexId v : c.vertex_ids()) {
     require(known(c.mark(v)), name, {{"vertex", v}});
     std::uint32_t sface = c.vertices[v].sfaces;
     for (const SFace& f : c.sphere_map(v).sfaces) require(known(f.mark), name, {{"sface", sface++}});
@@ -171,8 +169,8 @@ void check_marks(const Complex& c) {
 // Only a box has points and planes at infinity, and only beyond it is the mark kOutside.
 void check_outside(const Complex& c) {
   require(!c.volumes.empty(), "there is an outer volume", {});
-  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
-    require(c.has_box() || c.points.finite(PointId{v}), "infimaximal vertices need a box", {{"vertex", v}});
+  for (const VertexId v : c.vertex_ids()) {
+    require(c.has_box() || c.points.finite(point_of(v)), "infimaximal vertices need a box", {{"vertex", v}});
     require(c.mark(v) != kOutside, "only the outer volume is outside", {{"vertex", v}});
   }
   for (std::size_t h = 0; h < c.svertex_count(); ++h) {

@@ -72,11 +72,11 @@ void check_cycles(const Complex& c) {
 }
 
 void check_isolated_vertices(const Complex& c) {
-  std::vector<bool> met(c.vertex_count(), false);
+  IndexedVector<VertexId, bool> met(c.vertex_count(), false);
   for (const FacetId f : c.facets.ids()) {
     const Facet& facet = c.facets[f];
-    for (const std::uint32_t v : c.isolated_vertices_of(facet)) {
-      require(v < c.vertex_count() && !met[v], "an isolated vertex lies in one facet", {{"facet", f}, {"vertex", v}});
+    for (const VertexId v : c.isolated_vertices_of(facet)) {
+      require(met.contains(v) && !met[v], "an isolated vertex lies in one facet", {{"facet", f}, {"vertex", v}});
       met[v] = true;
       const SphereMapView map = c.sphere_map(v);
       require(map.sloops.size() == 2, "a vertex inside a facet has a sloop", {{"facet", f}, {"vertex", v}});
@@ -92,8 +92,8 @@ void check_isolated_vertices(const Complex& c) {
       }
     }
   }
-  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
-    require(met[v] || c.vertices[v].sloops == c.vertices[v + 1].sloops, "a vertex with a sloop lies in a facet",
+  for (const VertexId v : c.vertex_ids()) {
+    require(met[v] || c.vertices[v].sloops == c.vertices[v.next()].sloops, "a vertex with a sloop lies in a facet",
             {{"vertex", v}});
   }
 }
@@ -112,7 +112,7 @@ Rational doubled_area(const std::vector<const Rational3*>& polygon, std::size_t 
 }
 
 void check_cycle_nesting(const Complex& c) {
-  const std::vector<Rational3> points = concrete_points(c);
+  const IndexedVector<VertexId, Rational3> points = concrete_points(c);
   for (const FacetId f : c.facets.ids()) {
     const Facet& facet = c.facets[f];
     const Projection projection = projection_of(c.planes, facet.plane);
@@ -122,16 +122,16 @@ void check_cycle_nesting(const Complex& c) {
       const CycleId cycle = facet.cycles()[k];
       cycles.push_back(cycle_points(c, points, cycle));
       for (const std::uint32_t corner : c.corners_of(cycle)) {
-        boxes[k].add_rounded(c.points.approximate(PointId{c.shalfedge_vertex(corner)}));
+        boxes[k].add_rounded(c.points.approximate(point_of(c.shalfedge_vertex(corner))));
       }
       const int area = projection.sign * sgn(doubled_area(cycles[k], projection.axis));
       require(k == 0 ? area > 0 : area <= 0, k == 0 ? "the outer cycle comes first" : "holes run clockwise",
               {{"facet", f}, {"cycle", cycle}});
     }
     // A point of the facet: inside the outer cycle, outside of all holes but its own.
-    const auto check_inside = [&](std::uint32_t vertex, std::size_t own, const GuiltyItem& item) {
+    const auto check_inside = [&](VertexId vertex, std::size_t own, const GuiltyItem& item) {
       Box box;
-      box.add_rounded(c.points.approximate(PointId{vertex}));
+      box.add_rounded(c.points.approximate(point_of(vertex)));
       for (std::size_t k = 0; k < cycles.size(); ++k) {
         if (k == own || (k > 0 && !boxes[k].overlaps(box))) continue;
         const Winding winding = winding_number(cycles[k], points[vertex], projection.axis);
@@ -143,7 +143,7 @@ void check_cycle_nesting(const Complex& c) {
       const CycleId cycle = facet.cycles()[k];
       check_inside(c.shalfedge_vertex(c.corners_of(cycle)[0]), k, {"cycle", cycle});
     }
-    for (const std::uint32_t v : c.isolated_vertices_of(facet)) {
+    for (const VertexId v : c.isolated_vertices_of(facet)) {
       check_inside(v, cycles.size(), {"vertex", v});
     }
   }

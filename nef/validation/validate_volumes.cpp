@@ -19,7 +19,7 @@ namespace {
 
 void check_partition(const Complex& c) {
   std::vector<bool> used(c.shells.size(), false);
-  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
+  for (const VertexId v : c.vertex_ids()) {
     std::uint32_t sface = c.vertices[v].sfaces;
     for (const SFace& face : c.sphere_map(v).sfaces) {
       const ShellId s = c.sface_shell[sface];
@@ -59,8 +59,8 @@ void check_connection(const Complex& c) {
     }
   };
   for (std::uint32_t e = 0; e < c.shalfedge_count(); ++e) meet(c.shalfedge_facet[e], c.shalfedge_sface(e));
-  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
-    for (std::uint32_t i = c.vertices[v].sloops; i < c.vertices[v + 1].sloops; ++i) {
+  for (const VertexId v : c.vertex_ids()) {
+    for (std::uint32_t i = c.vertices[v].sloops; i < c.vertices[v.next()].sloops; ++i) {
       meet(c.sloop_facet[i], c.vertices[v].sfaces + c.sloops[i].sface);
     }
   }
@@ -84,18 +84,18 @@ void check_connection(const Complex& c) {
   }
 }
 
-std::uint32_t lowest_vertex(const Complex& c, std::span<const std::uint32_t> sfaces) {
-  std::uint32_t lowest = kNone;
+VertexId lowest_vertex(const Complex& c, std::span<const std::uint32_t> sfaces) {
+  VertexId lowest;
   for (const std::uint32_t sface : sfaces) {
-    const std::uint32_t v = c.sface_vertex(sface);
-    if (lowest == kNone || compare_lexicographic(c.points, PointId{v}, PointId{lowest}) < 0) lowest = v;
+    const VertexId v = c.sface_vertex(sface);
+    if (!lowest.valid() || compare_lexicographic(c.points, point_of(v), point_of(lowest)) < 0) lowest = v;
   }
   return lowest;
 }
 
 // Seen from its lowest vertex, an inner shell has the volume on the low side, an outer one not.
 bool is_outer(const Complex& c, const ShellSfaces& sfaces, ShellId s) {
-  const std::uint32_t v = lowest_vertex(c, sfaces.of(s));
+  const VertexId v = lowest_vertex(c, sfaces.of(s));
   const SphereLocation low = locate(c.planes, c.sphere_map(v), Direction::exact(-1, 0, 0));
   return low.kind != SphereLocation::Kind::kSFace || c.sface_shell[c.vertices[v].sfaces + low.index] != s;
 }
@@ -143,14 +143,14 @@ Inward inward_of(const PlaneTable& planes, const SphereMapView& map, const SFace
 
 // The boxes of all facets, and the exact points that rays are shot at.
 struct Targets {
-  std::vector<Rational3> points;
+  IndexedVector<VertexId, Rational3> points;
   BoxTree facets;
 };
 Targets targets_of(const Complex& c) {
   std::vector<Box> boxes(c.facets.size());
   for (const FacetId f : c.facets.ids()) {
     for (const std::uint32_t corner : c.corners_of(f)) {
-      boxes[f.index()].add_rounded(c.points.approximate(PointId{c.shalfedge_vertex(corner)}));
+      boxes[f.index()].add_rounded(c.points.approximate(point_of(c.shalfedge_vertex(corner))));
     }
   }
   return {concrete_points(c), BoxTree(boxes)};
@@ -161,11 +161,11 @@ struct FirstFacet {
   bool degenerate = false;
   VolumeId volume = kOuterVolume;  // on the near side; the outer volume if nothing is met
 };
-FirstFacet shoot(const Complex& c, const Targets& targets, std::uint32_t origin, const Vector& along) {
-  const std::vector<Rational3>& points = targets.points;
+FirstFacet shoot(const Complex& c, const Targets& targets, VertexId origin, const Vector& along) {
+  const IndexedVector<VertexId, Rational3>& points = targets.points;
   const Rational3& from = points[origin];
   Box origin_box;
-  origin_box.add_rounded(c.points.approximate(PointId{origin}));
+  origin_box.add_rounded(c.points.approximate(point_of(origin)));
   const RayFilter filter(origin_box, Direction::exact(along[0], along[1], along[2]));
   FirstFacet result;
   std::optional<Rational> nearest;
@@ -200,7 +200,7 @@ FirstFacet shoot(const Complex& c, const Targets& targets, std::uint32_t origin,
 
 // The volume that holds the surroundings of a shell.
 VolumeId volume_around(const Complex& c, const Targets& targets, std::uint32_t sface) {
-  const std::uint32_t v = c.sface_vertex(sface);
+  const VertexId v = c.sface_vertex(sface);
   const std::uint32_t local = sface - c.vertices[v].sfaces;
   const SphereMapView map = c.sphere_map(v);
   const Inward inward = inward_of(c.planes, map, map.sfaces[local]);

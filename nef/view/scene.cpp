@@ -36,15 +36,15 @@ class SceneBuilder {
 
   void add_vertices() {
     number_.assign(complex_.vertex_count(), kUnused);
-    for (std::uint32_t v = 0; v < complex_.vertex_count(); ++v) {
+    for (const VertexId v : complex_.vertex_ids()) {
       if (is_box_vertex(complex_, v)) continue;
       number_[v] = static_cast<std::uint32_t>(scene_.vertices.size());
       const SphereMapView map = complex_.sphere_map(v);
-      exact_.push_back(complex_.points.rational(PointId{v}));
+      exact_.push_back(complex_.points.rational(point_of(v)));
       Point position;
       for (std::size_t i = 0; i < 3; ++i) position[i] = nearest_double(exact_.back()[i]);
-      scene_.vertices.push_back(
-          {position, v, map.mark, Origin::kOwn, map.svertices.empty() && map.shalfedges.empty() && map.sloops.empty()});
+      scene_.vertices.push_back({position, v.index(), map.mark, Origin::kOwn,
+                                 map.svertices.empty() && map.shalfedges.empty() && map.sloops.empty()});
     }
   }
 
@@ -93,7 +93,7 @@ class SceneBuilder {
       for (const auto& ring : rings) {
         scene_.facet_vertices.insert(scene_.facet_vertices.end(), ring.begin(), ring.end());
       }
-      for (const std::uint32_t v : complex_.isolated_vertices_of(facet)) {
+      for (const VertexId v : complex_.isolated_vertices_of(facet)) {
         scene_.facet_vertices.push_back(number_[v]);
       }
       scene_.facet_vertex_begin.push_back(static_cast<std::uint32_t>(scene_.facet_vertices.size()));
@@ -102,8 +102,8 @@ class SceneBuilder {
 
   const Complex& complex_;
   Scene& scene_;
-  std::vector<std::uint32_t> number_;  // scene vertex of each vertex
-  std::vector<Rational3> exact_;       // point of each scene vertex
+  IndexedVector<VertexId, std::uint32_t> number_;  // scene vertex of each vertex
+  std::vector<Rational3> exact_;                   // point of each scene vertex
 };
 
 Point rounded(const Rational3& point) {

@@ -244,8 +244,8 @@ void check_any_threads(const Polyhedron& a, const Polyhedron& b) {
   const nef::Complex& c = one.complex();
   const nef::Complex& d = three.complex();
   REQUIRE(c.vertex_count() == d.vertex_count());
-  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
-    CHECK(c.points.rational(nef::PointId(v)) == d.points.rational(nef::PointId(v)));
+  for (const nef::VertexId v : c.vertex_ids()) {
+    CHECK(c.points.rational(nef::point_of(v)) == d.points.rational(nef::point_of(v)));
   }
   CHECK(nef::equal(one, three));
 }

@@ -172,8 +172,8 @@ TEST_CASE("hulls with their marks") {
     RC_ASSERT(equal(nef::minkowski::hull(closure(a)), closure(h)));
     // Extreme points belong to the hull iff they do to the set.
     const nef::Complex& c = h.complex();
-    for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
-      const Rational3 p = c.points.rational(nef::PointId(v));
+    for (const nef::VertexId v : c.vertex_ids()) {
+      const Rational3 p = c.points.rational(nef::point_of(v));
       RC_ASSERT(contains(h, p) == contains(a, p));
     }
   }));

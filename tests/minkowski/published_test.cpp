@@ -160,8 +160,8 @@ TEST_CASE("two geodesic spheres of 252 vertices: convex, and as many facets as t
   std::vector<Rational3> points;
   for (std::uint32_t i = 0; i < 252; i += 3) {
     for (std::uint32_t j = 0; j < 252; j += 3) {
-      const Rational3 p = a.complex().points.rational(nef::PointId(i));
-      const Rational3 q = b.complex().points.rational(nef::PointId(j));
+      const Rational3 p = a.complex().points.rational(nef::PointId{i});
+      const Rational3 q = b.complex().points.rational(nef::PointId{j});
       points.push_back({Rational(p[0] + q[0]), Rational(p[1] + q[1]), Rational(p[2] + q[2])});
     }
   }
@@ -191,7 +191,7 @@ TEST_CASE("a mushroom plus a box: every sum of vertices is in it, and its shadow
     CHECK(box_sum[1][i] == box_a[1][i] + Rational(1, 10));
   }
   for (std::uint32_t v = 0; v < a.complex().vertex_count(); v += 5) {
-    Rational3 p = a.complex().points.rational(nef::PointId(v));
+    Rational3 p = a.complex().points.rational(nef::PointId{v});
     for (Rational& x : p) x += Rational(1, 10);
     CHECK(nef::contains(sum, p));
   }

@@ -50,11 +50,11 @@ TEST_CASE("a translated set is what any other way to it gives, item for item") {
     CHECK(equal(moved, other));
     const Complex& d = other.complex();
     REQUIRE(c.vertex_count() == d.vertex_count());
-    for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
-      const Rational3 was = set.complex().points.rational(PointId{v});
-      const Rational3 is = c.points.rational(PointId{v});
+    for (const VertexId v : c.vertex_ids()) {
+      const Rational3 was = set.complex().points.rational(point_of(v));
+      const Rational3 is = c.points.rational(point_of(v));
       CHECK(is == Rational3{was[0] + by[0], was[1] + by[1], was[2] + by[2]});
-      CHECK(is == d.points.rational(PointId{v}));
+      CHECK(is == d.points.rational(point_of(v)));
     }
     CHECK(c.twin == d.twin);
     CHECK(c.corners == d.corners);

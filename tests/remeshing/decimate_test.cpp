@@ -19,7 +19,7 @@ bool is_subset(const Polyhedron& a, const Polyhedron& b) { return subtract(a, b)
 std::set<Rational3> vertices_of(const Polyhedron& set) {
   std::set<Rational3> result;
   const Complex& c = set.complex();
-  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) result.insert(c.points.rational(PointId{v}));
+  for (const VertexId v : c.vertex_ids()) result.insert(c.points.rational(point_of(v)));
   return result;
 }
 

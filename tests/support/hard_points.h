@@ -24,12 +24,12 @@ inline Rational3 middle_of(const std::vector<Rational3>& points) {
 /// About `most` of each: vertices, middles between two vertices, middles of edges and of corners of facets.
 inline std::vector<Rational3> hard_points(const Polyhedron& set, std::size_t most) {
   const Complex& c = set.complex();
-  const auto vertex = [&](std::size_t v) { return c.points.rational(PointId(static_cast<std::uint32_t>(v))); };
+  const auto vertex = [&](VertexId v) { return c.points.rational(point_of(v)); };
   std::vector<Rational3> points;
   const std::size_t vertices = c.vertex_count();
   for (std::size_t v = 0; v < vertices; v += 1 + vertices / most) {
-    points.push_back(vertex(v));
-    points.push_back(middle_of({vertex(v), vertex((v * 7 + 3) % vertices)}));
+    points.push_back(vertex(VertexId{v}));
+    points.push_back(middle_of({vertex(VertexId{v}), vertex(VertexId{(v * 7 + 3) % vertices})}));
   }
   for (std::size_t h = 0; h < c.svertex_count(); h += 1 + c.svertex_count() / most) {
     const auto halfedge = static_cast<std::uint32_t>(h);

@@ -116,7 +116,7 @@ TEST_CASE("a page holds exact coordinates and planes of every item") {
   }
   const auto marks = scene.array<std::uint16_t>(layer["vertices"]["mark"]);
   const auto indices = scene.array<std::uint32_t>(layer["vertices"]["index"]);
-  for (std::size_t v = 0; v < marks.size(); ++v) CHECK(marks[v] == complex.mark(indices[v]));
+  for (std::size_t v = 0; v < marks.size(); ++v) CHECK(marks[v] == complex.mark(VertexId{indices[v]}));
   const auto spheres = scene.array<std::uint32_t>(layer["spheres"]["begin"]);
   REQUIRE(spheres.size() == 4 * (drawn.vertices.size() + 1));
   CHECK(spheres[spheres.size() - 4] == complex.svertex_count());

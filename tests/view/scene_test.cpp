@@ -185,13 +185,13 @@ TEST_CASE("triangles enclose the exact volume of random unions of boxes") {
 
 TEST_CASE("the sphere map of a cube's corner is an octant") {
   const Polyhedron set = cube(0, 1);
-  for (std::uint32_t v = 0; v < 8; ++v) {
+  for (const VertexId v : set.complex().vertex_ids()) {
     const SphereDrawing drawing = draw_sphere_map(set.complex(), v);
     REQUIRE(drawing.dots.size() == 3);
     REQUIRE(drawing.arcs.size() == 3);
     REQUIRE(drawing.regions.size() == 2);
     CHECK(drawing.circles.empty());
-    const Rational3 corner = set.complex().points.rational(PointId{v});
+    const Rational3 corner = set.complex().points.rational(point_of(v));
     for (const auto& dot_item : drawing.dots) {
       // From the corner into the cube along an axis.
       double sum = 0;
@@ -213,7 +213,7 @@ TEST_CASE("a vertex inside a facet has a circle and keeps its mark") {
   const Complex& complex = set.complex();
   const Location where = locate(set, {1, 1, 2});
   REQUIRE(where.kind == Location::Kind::kVertex);
-  const SphereDrawing drawing = draw_sphere_map(complex, where.index);
+  const SphereDrawing drawing = draw_sphere_map(complex, where.vertex());
   CHECK(drawing.mark == 0);
   REQUIRE(drawing.circles.size() == 1);
   CHECK(std::abs(drawing.circles[0].normal[2]) == Approx(1));

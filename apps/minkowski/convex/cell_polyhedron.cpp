@@ -54,8 +54,8 @@ class Correspondence {
   Correspondence(const ConvexCell& cell, const Complex& complex) : cell_(cell) {
     std::map<Rational3, std::uint32_t> index;
     for (std::uint32_t v = 0; v < cell.mesh.vertices.size(); ++v) index.emplace(cell.mesh.vertices[v], v);
-    for (std::uint32_t v = 0; v < complex.vertex_count(); ++v) {
-      vertex_.push_back(index.at(complex.points.rational(PointId(v))));
+    for (const VertexId v : complex.vertex_ids()) {
+      vertex_.push_back(index.at(complex.points.rational(point_of(v))));
     }
     for (std::uint32_t f = 0; f < cell.mesh.face_count(); ++f) {
       const std::uint32_t first = cell.mesh.face_begin[f];
@@ -66,9 +66,9 @@ class Correspondence {
     }
   }
 
-  [[nodiscard]] bool vertex(std::uint32_t v) const { return cell_.vertex_marked(vertex_[v]); }
+  [[nodiscard]] bool vertex(VertexId v) const { return cell_.vertex_marked(vertex_[v]); }
 
-  [[nodiscard]] bool edge(std::uint32_t from, std::uint32_t to) const {
+  [[nodiscard]] bool edge(VertexId from, VertexId to) const {
     if (cell_.dimension == 1) return true;
     const auto it = corner_.find({vertex_[from], vertex_[to]});
     // The one face of a polygon has each edge in one direction only.
@@ -76,7 +76,7 @@ class Correspondence {
   }
 
   // The facet whose boundary passes three vertices in one order or the other.
-  [[nodiscard]] bool facet(std::uint32_t u, std::uint32_t v, std::uint32_t w) const {
+  [[nodiscard]] bool facet(VertexId u, VertexId v, VertexId w) const {
     if (cell_.dimension == 2) return true;
     const std::uint32_t forth = corner_.at({vertex_[u], vertex_[v]}).second;
     const auto next = corner_.find({vertex_[v], vertex_[w]});
@@ -86,7 +86,7 @@ class Correspondence {
 
  private:
   const ConvexCell& cell_;
-  std::vector<std::uint32_t> vertex_;  // of the complex -> of the cell
+  IndexedVector<VertexId, std::uint32_t> vertex_;  // of the complex -> of the cell
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<std::uint32_t, std::uint32_t>>
       corner_;  // -> corner, face
 };
@@ -108,7 +108,7 @@ Polyhedron to_polyhedron(const ConvexCell& cell) {
     const auto owner = [&](std::size_t k) { return complex.shalfedge_vertex(corners[k]); };
     facet.mark = of.facet(owner(0), owner(1), owner(2)) ? 1 : 0;
   }
-  rewrite_sphere_maps(complex, [&](std::uint32_t v, SphereMapBuffer& map) {
+  rewrite_sphere_maps(complex, [&](VertexId v, SphereMapBuffer& map) {
     const VertexRecord& record = complex.vertices[v];
     map.mark = of.vertex(v) ? 1 : 0;
     for (std::uint32_t s = 0; s < map.svertices.size(); ++s) {

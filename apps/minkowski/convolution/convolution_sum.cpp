@@ -23,7 +23,7 @@ bool is_bounded_by_facets(const Complex& c) {
   for (const Facet& f : c.facets) {
     if ((c.volumes[f.volume_above].mark != 0) == (c.volumes[f.volume_below].mark != 0)) return false;
   }
-  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
+  for (const VertexId v : c.vertex_ids()) {
     const SphereMapView map = c.sphere_map(v);
     if (map.trivial()) return false;
     for (const SVertex& s : map.svertices) {

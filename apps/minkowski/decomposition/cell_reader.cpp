@@ -54,7 +54,7 @@ void CellReader::collect_items(VolumeId volume) {
   facets_ = facets_of_volume_[volume];
   halfedges_.clear();
   vertices_.clear();
-  const auto add_vertex = [&](std::uint32_t v) {
+  const auto add_vertex = [&](VertexId v) {
     if (seen_vertex_[v] == turn_) return;
     seen_vertex_[v] = turn_;
     local_[v] = static_cast<std::uint32_t>(vertices_.size());
@@ -70,14 +70,14 @@ void CellReader::collect_items(VolumeId volume) {
       seen_halfedge_[h] = turn_;
       halfedges_.push_back(h);
     }
-    for (const std::uint32_t v : complex_.isolated_vertices_of(facet)) add_vertex(v);
+    for (const VertexId v : complex_.isolated_vertices_of(facet)) add_vertex(v);
   }
 }
 
 void CellReader::take_all() {
   for (const FacetId f : facets_) facet_taken_[f] = 1;
   for (const std::uint32_t h : halfedges_) halfedge_taken_[h] = 1;
-  for (const std::uint32_t v : vertices_) vertex_taken_[v] = 1;
+  for (const VertexId v : vertices_) vertex_taken_[v] = 1;
 }
 
 CellReader::Carriers CellReader::carriers(const ConvexCell& cell) const {
@@ -90,8 +90,8 @@ CellReader::Carriers CellReader::carriers(const ConvexCell& cell) const {
     normals.push_back(cross(minus(cell.mesh.vertices[face[1]], o), minus(cell.mesh.vertices[face[2]], o)));
     origins.push_back(o);
   }
-  for (const std::uint32_t v : vertices_) {
-    const Rational3 p = complex_.points.rational(PointId(v));
+  for (const VertexId v : vertices_) {
+    const Rational3 p = complex_.points.rational(point_of(v));
     Faces& faces = result.of_vertex.emplace_back();
     for (std::uint32_t f = 0; f < normals.size(); ++f) {
       if (sgn(dot(normals[f], minus(p, origins[f]))) == 0) faces.push_back(f);
@@ -136,7 +136,7 @@ void CellReader::set_marks(ConvexCell& cell) {
   }
 
   std::map<Rational3, std::uint32_t> at;
-  for (std::uint32_t k = 0; k < vertices_.size(); ++k) at.emplace(complex_.points.rational(PointId(vertices_[k])), k);
+  for (std::uint32_t k = 0; k < vertices_.size(); ++k) at.emplace(complex_.points.rational(point_of(vertices_[k])), k);
   std::vector<const Faces*> faces_of_corner;
   for (const Rational3& p : cell.mesh.vertices) faces_of_corner.push_back(&on.of_vertex[at.at(p)]);
 
@@ -172,9 +172,9 @@ CellBody CellReader::body() {
     while (last < by_plane.size() && row(by_plane[last]) == row(by_plane[first])) ++last;
     CellBody::Face& face = body.faces.emplace_back();
     std::vector<std::uint32_t>& ring = face.ring;
-    for (const std::uint32_t v : outline({by_plane.data() + first, last - first})) {
+    for (const VertexId v : outline({by_plane.data() + first, last - first})) {
       // An edge that dangles into the face leaves its root twice in a row.
-      if (planes_at_[local_[v]] >= 3 && (ring.empty() || ring.back() != v)) ring.push_back(v);
+      if (planes_at_[local_[v]] >= 3 && (ring.empty() || ring.back() != v.index())) ring.push_back(v.index());
     }
     if (ring.size() > 1 && ring.front() == ring.back()) ring.pop_back();
     NEF_ASSERT(ring.size() >= 3);
@@ -195,26 +195,26 @@ void CellReader::count_planes(std::span<const FacetId> by_plane) {
   std::vector<std::uint32_t> last_plane(vertices_.size(), kNone);
   for (const FacetId f : by_plane) {
     const Facet& facet = complex_.facets[f];
-    const auto meet = [&](std::uint32_t v) {
+    const auto meet = [&](VertexId v) {
       if (last_plane[local_[v]] == facet.plane.row()) return;
       last_plane[local_[v]] = facet.plane.row();
       ++planes_at_[local_[v]];
     };
     for (const std::uint32_t c : complex_.corners_of(facet)) meet(complex_.shalfedge_vertex(c));
-    for (const std::uint32_t v : complex_.isolated_vertices_of(facet)) meet(v);
+    for (const VertexId v : complex_.isolated_vertices_of(facet)) meet(v);
   }
 }
 
 // The vertices around the union of some facets, all of one plane.
-std::vector<std::uint32_t> CellReader::outline(std::span<const FacetId> facets) const {
-  std::vector<std::uint32_t> ring;
+std::vector<VertexId> CellReader::outline(std::span<const FacetId> facets) const {
+  std::vector<VertexId> ring;
   if (facets.size() == 1 && complex_.facets[facets[0]].cycle_count == 1) {
     for (const std::uint32_t c : complex_.corners_of(facets[0])) {
       ring.push_back(complex_.shalfedge_vertex(c));
     }
     return ring;
   }
-  std::map<std::uint32_t, std::uint32_t> open;  // halfedge -> its source, if its twin has not come yet
+  std::map<std::uint32_t, VertexId> open;  // halfedge -> its source, if its twin has not come yet
   for (const FacetId f : facets) {
     for (const std::uint32_t c : complex_.corners_of(f)) {
       const std::uint32_t h = complex_.corner_halfedge(c);
@@ -222,10 +222,10 @@ std::vector<std::uint32_t> CellReader::outline(std::span<const FacetId> facets) 
     }
   }
   NEF_ASSERT(!open.empty());
-  std::map<std::uint32_t, std::uint32_t> next;
+  std::map<VertexId, VertexId> next;
   for (const auto& [h, from] : open) next.emplace(from, complex_.target(h));
-  const std::uint32_t start = next.begin()->first;
-  std::uint32_t v = start;
+  const VertexId start = next.begin()->first;
+  VertexId v = start;
   do {
     ring.push_back(v);
     v = next.at(v);
@@ -240,7 +240,7 @@ void CellReader::set_boundary(ConvexCell& cell) {
   const auto note = [&](LabelId label) { (selected(label) ? none : all) = false; };
   for (const FacetId f : facets_) note(complex_.facets[f].mark);
   for (const std::uint32_t h : halfedges_) note(complex_.svertex(h).mark);
-  for (const std::uint32_t v : vertices_) note(complex_.mark(v));
+  for (const VertexId v : vertices_) note(complex_.mark(v));
   if (all) {
     take_all();
   } else if (none) {
@@ -329,12 +329,12 @@ ConvexCell CellReader::polygon(FacetId facet) {
       if (k > first) vertex_taken_[vertex(k)] = 1;
     }
     cell.edge_marks.push_back(marked ? 1 : 0);
-    cell.mesh.vertices.push_back(complex_.points.rational(PointId(vertex(first))));
+    cell.mesh.vertices.push_back(complex_.points.rational(point_of(vertex(first))));
     face.push_back(static_cast<std::uint32_t>(i));
   }
   cell.mesh.push_face(face);
   for (std::size_t i = 0; i < extreme.size(); ++i) {
-    const std::uint32_t v = vertex(extreme[i]);
+    const VertexId v = vertex(extreme[i]);
     const std::size_t before = i > 0 ? i - 1 : extreme.size() - 1;
     const bool marked = selected(complex_.mark(v)) && cell.edge_marks[i] != 0 && cell.edge_marks[before] != 0;
     cell.vertex_marks.push_back(marked ? 1 : 0);
@@ -347,9 +347,9 @@ ConvexCell CellReader::segment(std::uint32_t halfedge) {
   ConvexCell cell;
   cell.dimension = 1;
   cell.boundary = ConvexCell::Boundary::kMixed;
-  for (const std::uint32_t v : {complex_.svertex_owner[halfedge], complex_.target(halfedge)}) {
+  for (const VertexId v : {complex_.svertex_owner[halfedge], complex_.target(halfedge)}) {
     const bool marked = selected(complex_.mark(v));
-    cell.mesh.vertices.push_back(complex_.points.rational(PointId(v)));
+    cell.mesh.vertices.push_back(complex_.points.rational(point_of(v)));
     cell.vertex_marks.push_back(marked ? 1 : 0);
     if (marked) vertex_taken_[v] = 1;
   }
@@ -365,12 +365,12 @@ std::vector<ConvexCell> CellReader::flat_cells() {
     if (h > complex_.twin[h] || halfedge_taken_[h] != 0) continue;
     if (selected(complex_.svertex(h).mark)) cells.push_back(segment(h));
   }
-  for (std::uint32_t v = 0; v < complex_.vertex_count(); ++v) {
+  for (const VertexId v : complex_.vertex_ids()) {
     if (vertex_taken_[v] != 0 || !selected(complex_.mark(v))) continue;
     const SphereMapView map = complex_.sphere_map(v);
     if (map.trivial() && selected(map.sfaces[0].mark)) continue;
     ConvexCell& cell = cells.emplace_back();
-    cell.mesh.vertices.push_back(complex_.points.rational(PointId(v)));
+    cell.mesh.vertices.push_back(complex_.points.rational(point_of(v)));
   }
   for (ConvexCell& cell : cells) {
     const auto all = [](const std::vector<std::uint8_t>& marks) {

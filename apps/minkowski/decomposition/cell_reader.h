@@ -44,7 +44,7 @@ class CellReader {
   void collect_items(VolumeId volume);
   CellBody body();
   void count_planes(std::span<const FacetId> by_plane);
-  [[nodiscard]] std::vector<std::uint32_t> outline(std::span<const FacetId> facets) const;
+  [[nodiscard]] std::vector<VertexId> outline(std::span<const FacetId> facets) const;
   void set_boundary(ConvexCell& cell);
   void set_marks(ConvexCell& cell);
   Carriers carriers(const ConvexCell& cell) const;
@@ -55,13 +55,16 @@ class CellReader {
   const Complex& complex_;
   IndexedVector<VolumeId, std::vector<FacetId>> facets_of_volume_;
   IndexedVector<FacetId, std::uint8_t> facet_taken_;
-  std::vector<std::uint8_t> halfedge_taken_, vertex_taken_;
+  std::vector<std::uint8_t> halfedge_taken_;
+  IndexedVector<VertexId, std::uint8_t> vertex_taken_;
 
   // The volume at hand and the items on its boundary.
   VolumeId volume_ = kOuterVolume;
   std::vector<FacetId> facets_;
-  std::vector<std::uint32_t> halfedges_, vertices_;
-  std::vector<std::uint32_t> seen_halfedge_, seen_vertex_, local_;
+  std::vector<std::uint32_t> halfedges_;
+  std::vector<VertexId> vertices_;
+  std::vector<std::uint32_t> seen_halfedge_;
+  IndexedVector<VertexId, std::uint32_t> seen_vertex_, local_;
   std::vector<std::uint32_t> planes_at_;  // per vertex of the volume
   std::uint32_t turn_ = 0;
 };

@@ -61,7 +61,7 @@ bool is_full_dimensional(const Polyhedron& a) {
       return false;
     }
   }
-  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
+  for (const VertexId v : c.vertex_ids()) {
     const SphereMapView map = c.sphere_map(v);
     const bool near_solid =
         std::any_of(map.sfaces.begin(), map.sfaces.end(), [&](const SFace& f) { return selected(f.mark); });
@@ -84,7 +84,7 @@ bool is_full_dimensional(const Polyhedron& a) {
 
 bool is_point(const Polyhedron& a) {
   const Complex& c = a.complex();
-  return c.vertex_count() == 1 && c.svertex_count() == 0 && c.sloops.empty() && c.mark(0) == 1 &&
+  return c.vertex_count() == 1 && c.svertex_count() == 0 && c.sloops.empty() && c.mark(VertexId{0}) == 1 &&
          c.volumes[kOuterVolume].mark == 0;
 }
 
@@ -100,7 +100,7 @@ namespace {
 bool is_convex_set(const Polyhedron& a) {
   const Complex& c = a.complex();
   std::vector<Rational3> points;
-  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) points.push_back(c.points.rational(PointId(v)));
+  for (const VertexId v : c.vertex_ids()) points.push_back(c.points.rational(point_of(v)));
   if (points.empty()) return true;
   const ConvexCell hull = hull_cell(points);
   if (!subtract(to_polyhedron(opened(hull)), a).is_empty()) return false;

@@ -74,9 +74,9 @@ PlaneSlicer::PlaneSlicer(const Complex& complex)
   }
 }
 
-const Rational3& PlaneSlicer::point(std::uint32_t vertex) {
+const Rational3& PlaneSlicer::point(VertexId vertex) {
   if (known_[vertex] == 0) {
-    points_[vertex] = complex_.points.rational(PointId(vertex));
+    points_[vertex] = complex_.points.rational(point_of(vertex));
     known_[vertex] = 1;
   }
   return points_[vertex];
@@ -102,15 +102,15 @@ void PlaneSlicer::begin(const SliceFrame& frame) {
   plane_ = planes_.intern(normal, Rational(frame.slope * frame.origin[frame.u] - frame.origin[frame.w()]));
 }
 
-int PlaneSlicer::side(std::uint32_t vertex) {
+int PlaneSlicer::side(VertexId vertex) {
   if (side_slice_[vertex] != slice_) {
     side_slice_[vertex] = slice_;
-    side_[vertex] = static_cast<std::int8_t>(side_of_plane(planes_, plane_, complex_.points, PointId(vertex)));
+    side_[vertex] = static_cast<std::int8_t>(side_of_plane(planes_, plane_, complex_.points, point_of(vertex)));
   }
   return side_[vertex];
 }
 
-std::array<Rational, 2> PlaneSlicer::flat(std::uint32_t vertex) {
+std::array<Rational, 2> PlaneSlicer::flat(VertexId vertex) {
   return {point(vertex)[frame_.u], point(vertex)[frame_.h]};
 }
 
@@ -124,7 +124,7 @@ void PlaneSlicer::add_segment(const std::array<Rational, 2>& p, const std::array
 }
 
 // Where the edge ab, whose ends are on different sides, meets the plane.
-std::array<Rational, 2> PlaneSlicer::crossing(std::uint32_t a, std::uint32_t b) {
+std::array<Rational, 2> PlaneSlicer::crossing(VertexId a, VertexId b) {
   const Rational3& p = point(a);
   const Rational3& q = point(b);
   const Rational fp = frame_.form(p);
@@ -168,8 +168,8 @@ void PlaneSlicer::add_facet(FacetId facet) {
 
   std::vector<std::array<Rational, 2>> hits;
   for (const std::uint32_t c : corners) {
-    const std::uint32_t a = complex_.shalfedge_vertex(c);
-    const std::uint32_t b = complex_.target(complex_.corner_halfedge(c));
+    const VertexId a = complex_.shalfedge_vertex(c);
+    const VertexId b = complex_.target(complex_.corner_halfedge(c));
     const int sa = side(a);
     const int sb = side(b);
     if (sa == 0) hits.push_back(flat(a));
@@ -195,8 +195,8 @@ void PlaneSlicer::add_facet(FacetId facet) {
 }
 
 void PlaneSlicer::add_isolated_edge(std::uint32_t halfedge) {
-  const std::uint32_t a = complex_.svertex_owner[halfedge];
-  const std::uint32_t b = complex_.target(halfedge);
+  const VertexId a = complex_.svertex_owner[halfedge];
+  const VertexId b = complex_.target(halfedge);
   if (side(a) == 0 && side(b) == 0) add_segment(flat(a), flat(b));
 }
 

@@ -60,13 +60,13 @@ class PlaneSlicer {
   [[nodiscard]] const std::vector<SliceUpright>& uprights() const { return uprights_; }
 
   /// The exact coordinates of a vertex; computed once.
-  const Rational3& point(std::uint32_t vertex);
+  const Rational3& point(VertexId vertex);
   [[nodiscard]] const Box& facet_box(FacetId facet) const { return facet_boxes_[facet.index()]; }
 
  private:
-  int side(std::uint32_t vertex);
-  std::array<Rational, 2> flat(std::uint32_t vertex);
-  std::array<Rational, 2> crossing(std::uint32_t a, std::uint32_t b);
+  int side(VertexId vertex);
+  std::array<Rational, 2> flat(VertexId vertex);
+  std::array<Rational, 2> crossing(VertexId a, VertexId b);
   void add_segment(const std::array<Rational, 2>& p, const std::array<Rational, 2>& q);
   void add_isolated_edge(std::uint32_t halfedge);
   bool holds(FacetId facet, const std::array<Rational, 2>& p);
@@ -77,15 +77,15 @@ class PlaneSlicer {
   BoxTree facets_;
   IndexedVector<FacetId, std::int8_t> convex_;  // per facet: 1 yes, 0 no, -1 not asked yet
   std::vector<std::uint32_t> isolated_edges_;   // halfedges without facets
-  std::vector<Rational3> points_;
-  std::vector<std::uint8_t> known_;
+  IndexedVector<VertexId, Rational3> points_;
+  IndexedVector<VertexId, std::uint8_t> known_;
 
   SliceFrame frame_;
   PlaneTable planes_;
   PlaneId plane_;
   std::uint32_t slice_ = 0;
-  std::vector<std::uint32_t> side_slice_;  // per vertex: the slice that side_ belongs to
-  std::vector<std::int8_t> side_;
+  IndexedVector<VertexId, std::uint32_t> side_slice_;  // the slice that side_ belongs to
+  IndexedVector<VertexId, std::int8_t> side_;
   std::vector<SliceSegment> segments_;
   std::vector<SliceUpright> uprights_;
 };

@@ -95,9 +95,9 @@ std::vector<ReflexEdge> reflex_edges(const Complex& complex, std::size_t axis) {
   return result;
 }
 
-std::vector<std::uint32_t> lonely_vertices(const Complex& complex) {
-  std::vector<std::uint32_t> result;
-  for (std::uint32_t v = 0; v < complex.vertex_count(); ++v) {
+std::vector<VertexId> lonely_vertices(const Complex& complex) {
+  std::vector<VertexId> result;
+  for (const VertexId v : complex.vertex_ids()) {
     const SphereMapView map = complex.sphere_map(v);
     if (map.trivial() && selected(map.sfaces[0].mark)) result.push_back(v);
   }
@@ -116,7 +116,7 @@ std::vector<ReflexCorner> reflex_corners(const Complex& complex, FacetId facet) 
   const Facet& f = complex.facets[facet];
   const Direction g = cut_direction(complex, f.plane);
   const std::array<Direction, 2> way = {g.negated(), g};
-  for (const std::uint32_t v : complex.isolated_vertices_of(f)) {
+  for (const VertexId v : complex.isolated_vertices_of(f)) {
     result.push_back({v, {true, true}});
   }
   for (const std::uint32_t corner : complex.corners_of(f)) {

@@ -38,11 +38,11 @@ std::size_t cross_axis(const Complex& complex, PlaneId plane, std::size_t axis);
 std::vector<ReflexEdge> reflex_edges(const Complex& complex, std::size_t axis);
 
 /// Vertices that are alone inside such a volume. O(n).
-std::vector<std::uint32_t> lonely_vertices(const Complex& complex);
+std::vector<VertexId> lonely_vertices(const Complex& complex);
 
 /// A corner at which a facet takes more than a half-turn, or a vertex alone inside a facet.
 struct ReflexCorner {
-  std::uint32_t vertex = 0;
+  VertexId vertex{0};
   std::array<bool, 2> inside{};  ///< whether the facet goes on against / along the cut direction
 };
 

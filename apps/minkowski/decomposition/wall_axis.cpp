@@ -68,7 +68,7 @@ class CellEstimate {
   [[nodiscard]] std::size_t vertical_edges() const { return vertical_; }
 
  private:
-  using Corner = std::pair<std::uint32_t, int>;  // vertex, way along the axis
+  using Corner = std::pair<VertexId, int>;  // vertex, way along the axis
 
   void add(const ReflexEdge& edge) {
     if (edge.vertical) {
@@ -77,13 +77,13 @@ class CellEstimate {
     }
     const SVertex& sv = c_.svertex(edge.halfedge);
     const Direction d = Direction::cross(c_.planes, sv.p, sv.q);
-    const std::uint32_t from = c_.svertex_owner[edge.halfedge];
-    const std::uint32_t to = c_.target(edge.halfedge);
+    const VertexId from = c_.svertex_owner[edge.halfedge];
+    const VertexId to = c_.target(edge.halfedge);
     for (const std::size_t k : {0U, 1U}) {
       if (!edge.inside[k]) continue;
       const int way = k == 0 ? -1 : 1;
       ++walls_;
-      feet_[k].push_back({{c_.points.approximate(PointId(from)), c_.points.approximate(PointId(to))}});
+      feet_[k].push_back({{c_.points.approximate(point_of(from)), c_.points.approximate(point_of(to))}});
       add_end({from, way}, d);
       add_end({to, way}, d.negated());
     }

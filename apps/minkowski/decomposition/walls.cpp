@@ -27,8 +27,8 @@ Polyhedron insert(const Polyhedron& a, const Polyhedron& parts, LabelId bit) {
 
 // A missing point inside a volume gets the widest segment across the axis through it; walls over and under
 // that segment then put the point on their boundary.
-void erect_for_point(const Polyhedron& a, std::uint32_t vertex, std::size_t axis, WallBuilder& builder, Mesh& walls) {
-  const Rational3 p = a.complex().points.rational(PointId(vertex));
+void erect_for_point(const Polyhedron& a, VertexId vertex, std::size_t axis, WallBuilder& builder, Mesh& walls) {
+  const Rational3 p = a.complex().points.rational(point_of(vertex));
   Rational3 way;
   way[(axis + 1) % 3] = 1;
   const std::optional<RayHit> right = shoot_ray(a, p, way);
@@ -74,11 +74,11 @@ void erect_cross_walls(const std::vector<ReflexEdge>& edges, WallBuilder& builde
 // The walls of one phase; none if every selected volume is convex.
 Mesh next_walls(const Polyhedron& a, std::size_t axis) {
   const std::vector<ReflexEdge> edges = reflex_edges(a.complex(), axis);
-  const std::vector<std::uint32_t> points = lonely_vertices(a.complex());
+  const std::vector<VertexId> points = lonely_vertices(a.complex());
   Mesh walls;
   if (edges.empty() && points.empty()) return walls;
   WallBuilder builder(a.complex(), axis);
-  for (const std::uint32_t v : points) erect_for_point(a, v, axis, builder, walls);
+  for (const VertexId v : points) erect_for_point(a, v, axis, builder, walls);
   for (const ReflexEdge& e : edges) {
     if (!e.vertical) builder.erect(e, walls);
   }
@@ -92,8 +92,8 @@ class FacetRays {
   FacetRays(const Complex& complex, FacetId facet) : facet_(complex.facets[facet]) {
     while (complex.planes.coefficient(facet_.plane, drop_).sign() == 0) ++drop_;
     for (const std::uint32_t c : complex.corners_of(facet_)) {
-      edges_.push_back({complex.points.rational(PointId(complex.shalfedge_vertex(c))),
-                        complex.points.rational(PointId(complex.target(complex.corner_halfedge(c))))});
+      edges_.push_back({complex.points.rational(point_of(complex.shalfedge_vertex(c))),
+                        complex.points.rational(point_of(complex.target(complex.corner_halfedge(c))))});
     }
   }
 
@@ -158,7 +158,7 @@ Polyhedron cut_facets(const Polyhedron& a, std::span<const FacetId> facets) {
     const FacetRays rays(complex, f);
     const std::array<Integer, 3> d = cut_direction(complex, complex.facets[f].plane).integers();
     for (const ReflexCorner& corner : reflex_corners(complex, f)) {
-      const Rational3 p = complex.points.rational(PointId(corner.vertex));
+      const Rational3 p = complex.points.rational(point_of(corner.vertex));
       for (std::size_t k = 0; k < 2; ++k) {
         if (!corner.inside[k]) continue;
         const int way = k == 0 ? -1 : 1;

@@ -24,7 +24,7 @@ class Connection {
         first_facet_(first_edge_ + c.svertex_count()),
         first_volume_(first_facet_ + c.facet_count()),
         sets_(first_volume_ + c.volume_count()) {
-    for (std::uint32_t v = 0; v < c.vertex_count(); ++v) connect_at(v);
+    for (const VertexId v : c.vertex_ids()) connect_at(v);
     for (const FacetId f : c.facets.ids()) {
       for (const VolumeId volume : {c.facets[f].volume_above, c.facets[f].volume_below}) {
         join(of_facet(f), of_volume(volume));
@@ -33,7 +33,7 @@ class Connection {
   }
 
   // Numbers of items.
-  [[nodiscard]] std::uint32_t of_vertex(std::uint32_t v) const { return v; }
+  [[nodiscard]] std::uint32_t of_vertex(VertexId v) const { return v.index(); }
   [[nodiscard]] std::uint32_t of_edge(std::uint32_t halfedge) const {
     return static_cast<std::uint32_t>(first_edge_ + std::min(halfedge, c_.twin[halfedge]));
   }
@@ -43,7 +43,7 @@ class Connection {
   }
 
   [[nodiscard]] bool is_selected(std::uint32_t item) const {
-    if (item < first_edge_) return c_.mark(item) == kIn;
+    if (item < first_edge_) return c_.mark(VertexId{item}) == kIn;
     if (item < first_facet_) return c_.svertex(item - first_edge_).mark == kIn;
     if (item < first_volume_) return c_.facets[FacetId{item - first_facet_}].mark == kIn;
     return c_.volumes[VolumeId{item - first_volume_}].mark == kIn;
@@ -52,16 +52,16 @@ class Connection {
 
   // Calls visit for all items of the sphere map of a vertex.
   template <typename Visit>
-  void for_each_at(std::uint32_t v, Visit&& visit) const {
+  void for_each_at(VertexId v, Visit&& visit) const {
     visit(of_vertex(v));
-    for (std::uint32_t h = c_.vertices[v].svertices; h < c_.vertices[v + 1].svertices; ++h) visit(of_edge(h));
-    for (std::uint32_t e = c_.vertices[v].shalfedges; e < c_.vertices[v + 1].shalfedges; ++e) {
+    for (std::uint32_t h = c_.vertices[v].svertices; h < c_.vertices[v.next()].svertices; ++h) visit(of_edge(h));
+    for (std::uint32_t e = c_.vertices[v].shalfedges; e < c_.vertices[v.next()].shalfedges; ++e) {
       visit(of_facet(facet_of(c_.shalfedge_facet[e])));
     }
-    for (std::uint32_t l = c_.vertices[v].sloops; l < c_.vertices[v + 1].sloops; ++l) {
+    for (std::uint32_t l = c_.vertices[v].sloops; l < c_.vertices[v.next()].sloops; ++l) {
       visit(of_facet(facet_of(c_.sloop_facet[l])));
     }
-    for (std::uint32_t f = c_.vertices[v].sfaces; f < c_.vertices[v + 1].sfaces; ++f) {
+    for (std::uint32_t f = c_.vertices[v].sfaces; f < c_.vertices[v.next()].sfaces; ++f) {
       visit(of_volume(c_.sface_volume(f)));
     }
   }
@@ -71,14 +71,14 @@ class Connection {
     if (is_selected(x) && is_selected(y)) sets_.unite(x, y);
   }
 
-  void connect_at(std::uint32_t v) {
+  void connect_at(VertexId v) {
     for_each_at(v, [&](std::uint32_t item) { join(of_vertex(v), item); });
-    for (std::uint32_t e = c_.vertices[v].shalfedges; e < c_.vertices[v + 1].shalfedges; ++e) {
+    for (std::uint32_t e = c_.vertices[v].shalfedges; e < c_.vertices[v.next()].shalfedges; ++e) {
       const std::uint32_t edge = of_edge(c_.corner_halfedge(e));
       join(edge, of_facet(facet_of(c_.shalfedge_facet[e])));
       join(edge, of_volume(c_.sface_volume(c_.shalfedge_sface(e))));
     }
-    for (std::uint32_t h = c_.vertices[v].svertices; h < c_.vertices[v + 1].svertices; ++h) {
+    for (std::uint32_t h = c_.vertices[v].svertices; h < c_.vertices[v.next()].svertices; ++h) {
       const SVertex& sv = c_.svertex(h);
       if (sv.out == kNone) join(of_edge(h), of_volume(c_.sface_volume(c_.vertices[v].sfaces + sv.sface)));
     }
@@ -93,7 +93,7 @@ std::uint32_t item_at(const Polyhedron& a, const Connection& connection, const R
   const Location at = locate(a, point);
   switch (at.kind) {
     case Location::Kind::kVertex:
-      return connection.of_vertex(at.index);
+      return connection.of_vertex(at.vertex());
     case Location::Kind::kEdge:
       return connection.of_edge(at.index);
     case Location::Kind::kFacet:
@@ -109,7 +109,7 @@ Complex labelled(const Complex& original, const Connection& connection, const st
   const auto mark = [&](LabelId& label, std::uint32_t item) {
     if (label == kIn && kept[item] == 0) label = kElsewhere;
   };
-  rewrite_sphere_maps(c, [&](std::uint32_t v, SphereMapBuffer& map) {
+  rewrite_sphere_maps(c, [&](VertexId v, SphereMapBuffer& map) {
     const VertexRecord& record = original.vertices[v];
     mark(map.mark, connection.of_vertex(v));
     for (std::uint32_t f = 0; f < map.sfaces.size(); ++f) {
@@ -148,8 +148,8 @@ Polyhedron component_of(const Polyhedron& a, const std::optional<Rational3>& poi
     want(item_at(a, connection, *point));
   } else {
     want(connection.of_volume(kOuterVolume));
-    for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
-      if (!c.points.finite(PointId(v))) connection.for_each_at(v, want);
+    for (const VertexId v : c.vertex_ids()) {
+      if (!c.points.finite(point_of(v))) connection.for_each_at(v, want);
     }
   }
   if (!any) return {};

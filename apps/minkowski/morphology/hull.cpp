@@ -12,7 +12,7 @@ namespace {
 std::vector<Rational3> vertices_of(const Polyhedron& a) {
   const Complex& c = a.complex();
   std::vector<Rational3> points;
-  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) points.push_back(c.points.rational(PointId(v)));
+  for (const VertexId v : c.vertex_ids()) points.push_back(c.points.rational(point_of(v)));
   return points;
 }
 

@@ -36,11 +36,11 @@ std::vector<Candidate> candidates(const Complex& c) {
     for (std::size_t i = 0; i < 3; ++i) n[i] = Rational(c.planes.oriented_coefficient(plane, i));
     add(times(-Rational(c.planes.oriented_coefficient(plane, 3)) / dot(n, n), n));
   }
-  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) add(c.points.rational(PointId(v)));
+  for (const VertexId v : c.vertex_ids()) add(c.points.rational(point_of(v)));
   for (std::uint32_t h = 0; h < c.svertex_count(); ++h) {
     if (h > c.twin[h]) continue;
-    const Rational3& p = result[planes.size() + c.svertex_owner[h]].point;
-    const Rational3& q = result[planes.size() + c.target(h)].point;
+    const Rational3& p = result[planes.size() + c.svertex_owner[h].index()].point;
+    const Rational3& q = result[planes.size() + c.target(h).index()].point;
     const Rational3 d = {Rational(q[0] - p[0]), Rational(q[1] - p[1]), Rational(q[2] - p[2])};
     const Rational3 along = times(-dot(p, d) / dot(d, d), d);
     add({Rational(p[0] + along[0]), Rational(p[1] + along[1]), Rational(p[2] + along[2])});

@@ -109,7 +109,7 @@ class BorderRemover {
     for (Facet& facet : result_.facets) {
       if (!at_infinity(facet.plane)) facet.mark = thin(facet) ? 1 : 0;
     }
-    rewrite_sphere_maps(result_, [this](std::uint32_t v, SphereMapBuffer& map) {
+    rewrite_sphere_maps(result_, [this](VertexId v, SphereMapBuffer& map) {
       for (std::uint32_t e = 0; e < map.shalfedges.size(); ++e) map.shalfedges[e].mark = arc_mark(v, e);
       for (std::uint32_t l = 0; l < map.sloops.size(); ++l) {
         map.sloops[l].mark = result_.facets[facet_of(c_.sloop_facet[c_.vertices[v].sloops + l])].mark;
@@ -127,17 +127,17 @@ class BorderRemover {
   }
 
   // New mark of the facet of a shalfedge at vertex v.
-  [[nodiscard]] LabelId arc_mark(std::uint32_t v, std::uint32_t e) const {
+  [[nodiscard]] LabelId arc_mark(VertexId v, std::uint32_t e) const {
     return result_.facets[facet_of(c_.shalfedge_facet[c_.vertices[v].shalfedges + e])].mark;
   }
 
-  [[nodiscard]] LabelId vertex_mark(std::uint32_t v) const {
-    if (!c_.points.finite(PointId{v})) return trace_of_vertex(v);
+  [[nodiscard]] LabelId vertex_mark(VertexId v) const {
+    if (!c_.points.finite(point_of(v))) return trace_of_vertex(v);
     return vertex_is_border(c_.sphere_map(v)) ? 0 : 1;
   }
 
   // New mark of the edge that begins at vertex v as svertex s.
-  [[nodiscard]] LabelId edge_mark(std::uint32_t v, std::uint32_t s) const {
+  [[nodiscard]] LabelId edge_mark(VertexId v, std::uint32_t s) const {
     const SphereMapView map = c_.sphere_map(v);
     if (!on_wall(map, s)) return edge_is_border(map, s) ? 0 : 1;
     return trace(v, s);
@@ -154,7 +154,7 @@ class BorderRemover {
   }
 
   // An edge in a wall of the infimaximal box is the trace of a facet, or of nothing.
-  [[nodiscard]] LabelId trace(std::uint32_t v, std::uint32_t s) const {
+  [[nodiscard]] LabelId trace(VertexId v, std::uint32_t s) const {
     const SphereMapView map = c_.sphere_map(v);
     std::uint32_t e = map.svertices[s].out;
     do {
@@ -165,7 +165,7 @@ class BorderRemover {
   }
 
   // A vertex in a wall is the trace of an edge, or of a facet, or of nothing.
-  [[nodiscard]] LabelId trace_of_vertex(std::uint32_t v) const {
+  [[nodiscard]] LabelId trace_of_vertex(VertexId v) const {
     const SphereMapView map = c_.sphere_map(v);
     for (std::uint32_t s = 0; s < map.svertices.size(); ++s) {
       if (!on_wall(map, s)) return edge_mark(v, s);

@@ -33,15 +33,14 @@ std::set<std::array<Rational, 4>> dividing_planes(const Complex& c) {
     return n;
   };
   for (const ReflexEdge& edge : reflex_edges(c, 2)) result.insert(coefficients(c.svertex(edge.halfedge).p));
-  for (const std::uint32_t v : lonely_vertices(c))
-    result.insert({1, 0, 0, Rational(-c.points.rational(PointId(v))[0])});
+  for (const VertexId v : lonely_vertices(c)) result.insert({1, 0, 0, Rational(-c.points.rational(point_of(v))[0])});
   for (const FacetId f : c.facets.ids()) {
     if (!is_selected(c.facets[f].mark) || c.planes.infimaximal(c.facets[f].plane)) continue;
     for (const ReflexCorner& corner : reflex_corners(c, f)) {
       const std::array<Rational, 4> own = coefficients(c.facets[f].plane);
       const std::array<Integer, 3> g = cut_direction(c, c.facets[f].plane).integers();
       std::array<Rational, 4> n;
-      const Rational3 p = c.points.rational(PointId(corner.vertex));
+      const Rational3 p = c.points.rational(point_of(corner.vertex));
       for (std::size_t i = 0; i < 3; ++i) {
         n[i] = own[(i + 1) % 3] * g[(i + 2) % 3] - own[(i + 2) % 3] * g[(i + 1) % 3];
         n[3] -= n[i] * p[i];
@@ -117,8 +116,8 @@ class SpanReader {
       add_edge(h);
       result.push_back(end());
     }
-    for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) {
-      if (!is_selected(c_.mark(v)) || !c_.points.finite(PointId(v))) continue;
+    for (const VertexId v : c_.vertex_ids()) {
+      if (!is_selected(c_.mark(v)) || !c_.points.finite(point_of(v))) continue;
       begin();
       add_vertex(v);
       result.push_back(end());
@@ -130,11 +129,11 @@ class SpanReader {
   [[nodiscard]] std::uint32_t edge(std::uint32_t h) const { return std::min(h, c_.twin[h]); }
 
   // Coordinates of a vertex: the constant part (first = 0) or the factor of R (first = 4).
-  [[nodiscard]] Rational3 part(std::uint32_t v, std::size_t first) const {
+  [[nodiscard]] Rational3 part(VertexId v, std::size_t first) const {
     Rational3 result;
     for (std::size_t i = 0; i < 3; ++i) {
-      mpz_set(result[i].get_num_mpz_t(), c_.points.coordinate(PointId(v), first + i));
-      mpz_set(result[i].get_den_mpz_t(), c_.points.coordinate(PointId(v), 3));
+      mpz_set(result[i].get_num_mpz_t(), c_.points.coordinate(point_of(v), first + i));
+      mpz_set(result[i].get_den_mpz_t(), c_.points.coordinate(point_of(v), 3));
       result[i].canonicalize();
     }
     return result;
@@ -146,8 +145,8 @@ class SpanReader {
   }
   SpannedSet end() const { return {{points_.begin(), points_.end()}, {rays_.begin(), rays_.end()}}; }
 
-  void add_vertex(std::uint32_t v) {
-    if (c_.points.finite(PointId(v))) {
+  void add_vertex(VertexId v) {
+    if (c_.points.finite(point_of(v))) {
       points_.insert(part(v, 0));
     } else {
       rays_.insert(part(v, 4));
@@ -155,12 +154,12 @@ class SpanReader {
   }
 
   void add_edge(std::uint32_t h) {
-    const std::uint32_t from = c_.svertex_owner[h];
-    const std::uint32_t to = c_.target(h);
+    const VertexId from = c_.svertex_owner[h];
+    const VertexId to = c_.target(h);
     add_vertex(from);
     add_vertex(to);
     // A line: the constant part of either end lies on it.
-    if (!c_.points.finite(PointId(from)) && !c_.points.finite(PointId(to))) points_.insert(part(from, 0));
+    if (!c_.points.finite(point_of(from)) && !c_.points.finite(point_of(to))) points_.insert(part(from, 0));
   }
 
   void add_facet(FacetId f) {
@@ -173,7 +172,7 @@ class SpanReader {
       bounded_by_edges = true;
       add_edge(h);
     }
-    for (const std::uint32_t v : c_.isolated_vertices_of(facet)) add_vertex(v);
+    for (const VertexId v : c_.isolated_vertices_of(facet)) add_vertex(v);
     if (c_.planes.infimaximal(facet.plane) || bounded_by_edges) return;
     // A whole plane: the constant part of any corner lies on it.
     points_.insert(part(c_.shalfedge_vertex(c_.corners_of(facet)[0]), 0));

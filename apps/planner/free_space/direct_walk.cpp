@@ -50,7 +50,7 @@ class Crossings {
           edge(item.index);
           break;
         default:
-          vertex(item.index);
+          vertex(VertexId{item.index});
       }
       return !blocked_;
     });
@@ -83,7 +83,7 @@ class Crossings {
     if (at_a * at_b > 0) return;
     if (at_a == 0 && at_b == 0) {
       for (const std::uint32_t corner : complex_.corners_of(facet)) edge(complex_.corner_halfedge(corner));
-      for (const std::uint32_t v : complex_.isolated_vertices_of(facet)) vertex(v);
+      for (const VertexId v : complex_.isolated_vertices_of(facet)) vertex(v);
       return;
     }
     Crossing crossing;
@@ -127,8 +127,8 @@ class Crossings {
   }
 
   // The parameter of a point that may lie on the segment.
-  void vertex(std::uint32_t v) {
-    const Rational3 x = complex_.points.rational(PointId{v});
+  void vertex(VertexId v) {
+    const Rational3 x = complex_.points.rational(point_of(v));
     for (std::size_t i = 0; i < 3; ++i) {
       if (a_[i] == b_[i]) continue;
       const Rational t = (x[i] - a_[i]) / (b_[i] - a_[i]);

@@ -40,8 +40,8 @@ class FacetEdges {
     ends_.reserve(corners.size());
     for (const std::uint32_t corner : corners) {
       const std::uint32_t halfedge = complex.corner_halfedge(corner);
-      ends_.push_back({complex.points.approximate(PointId{complex.svertex_owner[halfedge]}),
-                       complex.points.approximate(PointId{complex.target(halfedge)})});
+      ends_.push_back({complex.points.approximate(point_of(complex.svertex_owner[halfedge])),
+                       complex.points.approximate(point_of(complex.target(halfedge)))});
     }
   }
 
@@ -69,7 +69,7 @@ class FacetEdges {
 
 EmptyGrid::EmptyGrid(const Complex& complex) {
   Box all;
-  for (std::uint32_t v = 0; v < complex.vertex_count(); ++v) all.add_rounded(complex.points.approximate(PointId{v}));
+  for (const VertexId v : complex.vertex_ids()) all.add_rounded(complex.points.approximate(point_of(v)));
   if (complex.vertex_count() == 0) return;
   const std::size_t items = complex.vertex_count() + complex.edge_count() + complex.facet_count();
   choose_cubes(all.low, all.high, std::clamp(kCubesPerItem * items, kFewest, kMost));
@@ -81,10 +81,10 @@ EmptyGrid::EmptyGrid(const Complex& complex) {
   }
   for (std::uint32_t h = 0; h < complex.svertex_count(); ++h) {
     if (complex.twin[h] < h || complex.svertex(h).out != kNone) continue;
-    enter_edge(complex.points.approximate(PointId{complex.svertex_owner[h]}),
-               complex.points.approximate(PointId{complex.target(h)}));
+    enter_edge(complex.points.approximate(point_of(complex.svertex_owner[h])),
+               complex.points.approximate(point_of(complex.target(h))));
   }
-  for (std::uint32_t v = 0; v < complex.vertex_count(); ++v) {
+  for (const VertexId v : complex.vertex_ids()) {
     if (!complex.sphere_map(v).svertices.empty()) continue;
     const Box box = vertex_box(complex, v);
     enter_box(box.low, box.high);

@@ -63,7 +63,7 @@ Scene with_only(const Scene& scene, const std::vector<std::size_t>& kept) {
 Box box_around(const Polyhedron& set) {
   Box box;
   const Complex& c = set.complex();
-  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) box.add(vertex_box(c, v));
+  for (const VertexId v : c.vertex_ids()) box.add(vertex_box(c, v));
   return box;
 }
 

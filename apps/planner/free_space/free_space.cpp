@@ -53,7 +53,7 @@ CellId FreeSpace::locate(const ExactPoint& point) const {
   const Location at = nef::locate(free_, point.rational());
   switch (at.kind) {
     case Location::Kind::kVertex:
-      return cells_.vertex(at.index);
+      return cells_.vertex(at.vertex());
     case Location::Kind::kEdge:
       return cells_.edge(at.index);
     case Location::Kind::kFacet:
@@ -139,17 +139,17 @@ std::vector<Rational3> FreeSpace::vertices(CellId cell) const {
   std::vector<Rational3> result;
   switch (cells_.dimension(cell)) {
     case 0:
-      result.push_back(c.points.rational(PointId{i}));
+      result.push_back(c.points.rational(point_of(VertexId{i})));
       break;
     case 1: {
       const std::uint32_t h = cells_.halfedge(cell);
-      result.push_back(c.points.rational(PointId{c.svertex_owner[h]}));
-      result.push_back(c.points.rational(PointId{c.target(h)}));
+      result.push_back(c.points.rational(point_of(c.svertex_owner[h])));
+      result.push_back(c.points.rational(point_of(c.target(h))));
       break;
     }
     case 2:
       for (const std::uint32_t corner : c.corners_of(c.facets[FacetId{i}].first_cycle)) {
-        result.push_back(c.points.rational(PointId{c.shalfedge_vertex(corner)}));
+        result.push_back(c.points.rational(point_of(c.shalfedge_vertex(corner))));
       }
       break;
     default:

@@ -15,7 +15,7 @@ class Surroundings {
  public:
   Surroundings(const Complex& complex, const CellNumbering& cells) : c_(complex), cells_(cells) {}
 
-  void vertex(std::uint32_t v, std::vector<CellId>& out) const {
+  void vertex(VertexId v, std::vector<CellId>& out) const {
     const SphereMapView map = c_.sphere_map(v);
     const VertexRecord& record = c_.vertices[v];
     for (std::uint32_t s = 0; s < map.svertices.size(); ++s) out.push_back(cells_.edge(record.svertices + s));
@@ -27,7 +27,7 @@ class Surroundings {
   }
 
   void edge(std::uint32_t halfedge, std::vector<CellId>& out) const {
-    const std::uint32_t v = c_.svertex_owner[halfedge];
+    const VertexId v = c_.svertex_owner[halfedge];
     const SphereMapView map = c_.sphere_map(v);
     const VertexRecord& record = c_.vertices[v];
     const SVertex& svertex = map.svertices[halfedge - record.svertices];
@@ -70,7 +70,7 @@ Incidences::Incidences(const Complex& complex, const CellNumbering& cells, const
     const std::size_t first = larger.size();
     if (free[cell]) {
       const int dimension = cells.dimension(cell);
-      if (dimension == 0) around.vertex(cells.index(cell), larger);
+      if (dimension == 0) around.vertex(VertexId{cells.index(cell)}, larger);
       if (dimension == 1) around.edge(cells.halfedge(cell), larger);
       if (dimension == 2) around.facet(FacetId{cells.index(cell)}, larger);
       const auto begin = larger.begin() + static_cast<std::ptrdiff_t>(first);

@@ -22,10 +22,10 @@ ItemTree::ItemTree(const Complex& complex) {
     if (complex.twin[h] < h || complex.svertex(h).out != kNone) continue;
     push({Kind::kEdge, h}, edge_box(complex, h));
   }
-  for (std::uint32_t v = 0; v < complex.vertex_count(); ++v) {
+  for (const VertexId v : complex.vertex_ids()) {
     const SphereMapView map = complex.sphere_map(v);
     if (!map.svertices.empty() || !map.sloops.empty()) continue;
-    push({Kind::kVertex, v}, vertex_box(complex, v));
+    push({Kind::kVertex, v.index()}, vertex_box(complex, v));
   }
   tree_ = BoxTree(boxes);
 }

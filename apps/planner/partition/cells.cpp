@@ -21,7 +21,7 @@ LabelId CellNumbering::mark(CellId cell) const {
   const std::uint32_t i = index(cell);
   switch (dimension(cell)) {
     case 0:
-      return complex_->mark(i);
+      return complex_->mark(VertexId{i});
     case 1:
       return complex_->svertex(halfedge_of_edge_[i]).mark;
     case 2:

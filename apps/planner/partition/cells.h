@@ -22,7 +22,7 @@ class CellNumbering {
 
   [[nodiscard]] std::size_t size() const { return volumes_ + complex_->volume_count(); }
 
-  [[nodiscard]] CellId vertex(std::uint32_t v) const { return v; }
+  [[nodiscard]] CellId vertex(VertexId v) const { return v.index(); }
   [[nodiscard]] CellId edge(std::uint32_t halfedge) const { return edges_ + edge_of_halfedge_[halfedge]; }
   [[nodiscard]] CellId facet(FacetId f) const { return facets_ + f.index(); }
   [[nodiscard]] CellId volume(VolumeId v) const { return volumes_ + v.index(); }

@@ -85,7 +85,7 @@ void append_facet_pieces(const Complex& complex, FacetId f, CellId cell, const P
     piece.dimension = 2;
     piece.p = facet.plane;
     for (const std::uint32_t corner : complex.corners_of(facet)) {
-      piece.points.push_back(PointId{complex.shalfedge_vertex(corner)});
+      piece.points.push_back(point_of(complex.shalfedge_vertex(corner)));
       piece.sides.push_back(side_plane(complex, facet, complex.corner_halfedge(corner)));
       piece.seams.push_back(false);
     }
@@ -99,7 +99,7 @@ void append_facet_pieces(const Complex& complex, FacetId f, CellId cell, const P
     edge.dimension = 1;
     edge.p = PlaneId{facet.plane.row() << 1U};
     edge.q = side_plane(complex, facet, halfedge);
-    edge.points = {PointId{complex.svertex_owner[halfedge]}, PointId{complex.target(halfedge)}};
+    edge.points = {point_of(complex.svertex_owner[halfedge]), point_of(complex.target(halfedge))};
     edges.push_back(std::move(edge));
   }
   ConvexPiece whole = plane_in_box(facet.plane, box, planes, points);
@@ -116,8 +116,8 @@ bool facet_contains(const Complex& complex, FacetId f, const Rational3& point) {
   bool inside = false;
   for (const std::uint32_t corner : complex.corners_of(facet)) {
     const std::uint32_t halfedge = complex.corner_halfedge(corner);
-    const Rational3 a = complex.points.rational(PointId{complex.svertex_owner[halfedge]});
-    const Rational3 b = complex.points.rational(PointId{complex.target(halfedge)});
+    const Rational3 a = complex.points.rational(point_of(complex.svertex_owner[halfedge]));
+    const Rational3 b = complex.points.rational(point_of(complex.target(halfedge)));
     if ((a[v] > point[v]) == (b[v] > point[v])) continue;
     const Rational crossing = a[u] + (point[v] - a[v]) / (b[v] - a[v]) * (b[u] - a[u]);
     if (crossing > point[u]) inside = !inside;

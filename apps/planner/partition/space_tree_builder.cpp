@@ -38,10 +38,10 @@ class SpaceTreeBuilder {
     points_ = complex_.points;
     make_box();
     Pieces pieces;
-    for (std::uint32_t v = 0; v < complex_.vertex_count(); ++v) {
+    for (const VertexId v : complex_.vertex_ids()) {
       ConvexPiece piece;
       piece.cell = cells_.vertex(v);
-      piece.points = {PointId{v}};
+      piece.points = {point_of(v)};
       pieces.push_back(std::move(piece));
     }
     for (std::uint32_t h = 0; h < complex_.svertex_count(); ++h) {
@@ -72,7 +72,7 @@ class SpaceTreeBuilder {
     piece.dimension = 1;
     piece.p = complex_.svertex(halfedge).p;
     piece.q = complex_.svertex(halfedge).q;
-    piece.points = {PointId{complex_.svertex_owner[halfedge]}, PointId{complex_.target(halfedge)}};
+    piece.points = {point_of(complex_.svertex_owner[halfedge]), point_of(complex_.target(halfedge))};
     return piece;
   }
 

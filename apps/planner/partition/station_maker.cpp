@@ -11,7 +11,7 @@ namespace nef::planner {
 Zones::Stations StationMaker::make() {
   for (std::uint32_t i = 0; i < walls_.walls().size(); ++i) wall(i);
   for (std::uint32_t i = 0; i < walls_.seams().size(); ++i) seam(i);
-  for (std::uint32_t v = 0; v < complex_.vertex_count(); ++v) {
+  for (const VertexId v : complex_.vertex_ids()) {
     if (selected_(cells_.vertex(v))) vertex(v);
   }
   for (std::uint32_t h = 0; h < complex_.svertex_count(); ++h) {
@@ -79,9 +79,9 @@ void StationMaker::facet_and_volume(const ExactPoint& point, const SHalfedge& e,
   if (selected_(cells_.volume(volume))) add(tree_.leaf_at(point, nudges));
 }
 
-void StationMaker::vertex(std::uint32_t v) {
-  const ExactPoint point(complex_.points.rational(PointId{v}));
-  begin(Kind::kVertex, v, cells_.vertex(v), point.approximate());
+void StationMaker::vertex(VertexId v) {
+  const ExactPoint point(complex_.points.rational(point_of(v)));
+  begin(Kind::kVertex, v.index(), cells_.vertex(v), point.approximate());
   add(zone_of_cell(cells_.vertex(v)));
   const SphereMapView map = complex_.sphere_map(v);
   const VertexRecord& record = complex_.vertices[v];
@@ -113,9 +113,9 @@ void StationMaker::vertex(std::uint32_t v) {
 }
 
 void StationMaker::edge(std::uint32_t h) {
-  const std::uint32_t v = complex_.svertex_owner[h];
-  const Rational3 a = complex_.points.rational(PointId{v});
-  const Rational3 b = complex_.points.rational(PointId{complex_.target(h)});
+  const VertexId v = complex_.svertex_owner[h];
+  const Rational3 a = complex_.points.rational(point_of(v));
+  const Rational3 b = complex_.points.rational(point_of(complex_.target(h)));
   const ExactPoint point(Rational3{(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2});
   begin(Kind::kEdge, h, cells_.edge(h), point.approximate());
   add(zone_of_cell(cells_.edge(h)));

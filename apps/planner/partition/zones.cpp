@@ -59,10 +59,10 @@ Rational3 Zones::point(StationId id) const {
     case Station::Kind::kSeam:
       return walls_.centre(walls_.seams()[station.source]);
     case Station::Kind::kVertex:
-      return complex_->points.rational(PointId{station.source});
+      return complex_->points.rational(point_of(VertexId{station.source}));
     default: {
-      const Rational3 a = complex_->points.rational(PointId{complex_->svertex_owner[station.source]});
-      const Rational3 b = complex_->points.rational(PointId{complex_->target(station.source)});
+      const Rational3 a = complex_->points.rational(point_of(complex_->svertex_owner[station.source]));
+      const Rational3 b = complex_->points.rational(point_of(complex_->target(station.source)));
       return {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2};
     }
   }

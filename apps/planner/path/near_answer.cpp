@@ -82,8 +82,8 @@ class NearSearch {
         directions_(fixed_directions()),
         robot_inside_(minkowski::decompose(interior(minkowski::negate(scene.robot)))) {
     const Complex& robot = scene.robot.complex();
-    for (std::uint32_t v = 0; v < robot.vertex_count(); ++v) {
-      robot_.push_back(to_vector(robot.points.approximate(PointId{v})));
+    for (const VertexId v : robot.vertex_ids()) {
+      robot_.push_back(to_vector(robot.points.approximate(point_of(v))));
     }
     for (const Vector3d& direction : directions_) robot_extents_.push_back(extent_along(direction, robot_));
     for (std::size_t k = 0; k < 3; ++k) {

@@ -146,8 +146,8 @@ std::vector<std::uint32_t> edges_near(const FreeSpace& free, const Triangle& tri
   std::vector<std::uint32_t> edges;
   const auto add = [&](std::uint32_t h) {
     Box box;
-    box.add_rounded(c.points.approximate(PointId{c.svertex_owner[h]}));
-    box.add_rounded(c.points.approximate(PointId{c.target(h)}));
+    box.add_rounded(c.points.approximate(point_of(c.svertex_owner[h])));
+    box.add_rounded(c.points.approximate(point_of(c.target(h))));
     if (triangle.may_meet(box)) edges.push_back(std::min(h, c.twin[h]));
   };
   free.items().for_each_if([&](const Box& box) { return triangle.may_meet(box); },
@@ -168,8 +168,8 @@ void append_meetings(const Complex& c, std::uint32_t halfedge, const Triangle& t
   const auto add = [&](const Rational3& x) {
     if (const std::optional<Point2> uv = triangle.inside(x)) points.push_back(*uv);
   };
-  const Rational3 x = c.points.rational(PointId{c.svertex_owner[halfedge]});
-  const Rational3 y = c.points.rational(PointId{c.target(halfedge)});
+  const Rational3 x = c.points.rational(point_of(c.svertex_owner[halfedge]));
+  const Rational3 y = c.points.rational(point_of(c.target(halfedge)));
   const Rational hx = triangle.height(x);
   const Rational hy = triangle.height(y);
   if (hx == 0) add(x);
@@ -186,8 +186,8 @@ std::vector<Point2> upper_meetings(const FreeSpace& free, const Triangle& triang
   std::vector<std::pair<std::uint32_t, Meeting>> met;
   std::vector<std::array<double, 2>> rough;
   for (const std::uint32_t h : edges_near(free, triangle)) {
-    const Meeting meeting = triangle.meeting(to_vector(c.points.approximate(PointId{c.svertex_owner[h]})),
-                                             to_vector(c.points.approximate(PointId{c.target(h)})));
+    const Meeting meeting = triangle.meeting(to_vector(c.points.approximate(point_of(c.svertex_owner[h]))),
+                                             to_vector(c.points.approximate(point_of(c.target(h)))));
     if (meeting.kind == Meeting::Kind::kNone) continue;
     met.emplace_back(h, meeting);
     if (meeting.kind == Meeting::Kind::kPoint) rough.push_back(meeting.at);

@@ -57,7 +57,7 @@ Rational3 mean_of(const std::vector<Rational3>& vertices) {
 std::vector<Rational3> vertices_of(const Polyhedron& set) {
   std::vector<Rational3> result;
   const Complex& complex = set.complex();
-  for (std::uint32_t v = 0; v < complex.vertex_count(); ++v) result.push_back(complex.points.rational(PointId{v}));
+  for (const VertexId v : complex.vertex_ids()) result.push_back(complex.points.rational(point_of(v)));
   return result;
 }
 

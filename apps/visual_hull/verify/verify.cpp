@@ -112,10 +112,10 @@ std::vector<std::vector<std::vector<Vec>>> project_facets(const nef::Polyhedron&
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 4; ++j) m[i][j] = nef::nearest_double(camera.matrix()[i][j]);
   }
-  std::vector<Vec> seen(complex.vertex_count());
-  std::vector<bool> front(complex.vertex_count());
-  for (std::uint32_t v = 0; v < complex.vertex_count(); ++v) {
-    const auto& p = complex.points.approximate(nef::PointId(v));
+  nef::IndexedVector<nef::VertexId, Vec> seen(complex.vertex_count());
+  nef::IndexedVector<nef::VertexId, bool> front(complex.vertex_count());
+  for (const nef::VertexId v : complex.vertex_ids()) {
+    const auto& p = complex.points.approximate(nef::point_of(v));
     std::array<double, 3> x{};
     for (std::size_t i = 0; i < 3; ++i) x[i] = m[i][0] * p[0] + m[i][1] * p[1] + m[i][2] * p[2] + m[i][3];
     const double scale =
@@ -130,7 +130,7 @@ std::vector<std::vector<std::vector<Vec>>> project_facets(const nef::Polyhedron&
     for (const nef::CycleId c : facet.cycles()) {
       cycles.emplace_back();
       for (const std::uint32_t corner : complex.corners_of(c)) {
-        const std::uint32_t v = complex.shalfedge_vertex(corner);
+        const nef::VertexId v = complex.shalfedge_vertex(corner);
         visible = visible && front[v];
         cycles.back().push_back(seen[v]);
       }

@@ -40,33 +40,32 @@ class InsideCheck {
 
   /// Empty if the hull projects into the silhouette.
   std::string run() {
-    const std::size_t n = complex_.vertex_count();
-    exact_.resize(n);
-    for (std::uint32_t v = 0; v < n; ++v) {
+    exact_.resize(complex_.vertex_count());
+    for (const nef::VertexId v : complex_.vertex_ids()) {
       vertices_.push_back(project(v));
       if (vertices_[v].state == Projected::State::kBehind)
-        return "vertex " + std::to_string(v) + " is behind the camera";
+        return "vertex " + std::to_string(v.index()) + " is behind the camera";
     }
-    for (std::uint32_t v = 0; v < n; ++v) {
-      const bool lonely = complex_.vertices[v].svertices == complex_.vertices[v + 1].svertices;
+    for (const nef::VertexId v : complex_.vertex_ids()) {
+      const bool lonely = complex_.vertices[v].svertices == complex_.vertices[v.next()].svertices;
       if (lonely && vertices_[v].state == Projected::State::kFront && index_.locate(exact(v)) == Side::kOutside) {
-        return "vertex " + std::to_string(v) + " projects out of the silhouette";
+        return "vertex " + std::to_string(v.index()) + " projects out of the silhouette";
       }
     }
     for (std::uint32_t h = 0; h < complex_.svertex_count(); ++h) {
-      const std::uint32_t a = complex_.svertex_owner[h];
-      const std::uint32_t b = complex_.target(h);
+      const nef::VertexId a = complex_.svertex_owner[h];
+      const nef::VertexId b = complex_.target(h);
       if (h > complex_.twin[h] || edge_inside(a, b)) continue;
-      return "the edge between vertices " + std::to_string(a) + " and " + std::to_string(b) +
+      return "the edge between vertices " + std::to_string(a.index()) + " and " + std::to_string(b.index()) +
              " projects out of the silhouette";
     }
     return covered_hole();
   }
 
  private:
-  Projected project(std::uint32_t v) {
+  Projected project(nef::VertexId v) {
     Projected result;
-    const auto& p = complex_.points.approximate(nef::PointId(v));
+    const auto& p = complex_.points.approximate(nef::point_of(v));
     std::array<double, 3> x{};
     std::array<double, 3> magnitude{};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -88,7 +87,7 @@ class InsideCheck {
       result.error = (numerator + magnitude[2] * largest) / least * 1.0001 + largest * 0x1p-51;
       return result;
     }
-    const Rational3 point = complex_.points.rational(nef::PointId(v));
+    const Rational3 point = complex_.points.rational(nef::point_of(v));
     const Projection exact = camera_.project(point);
     if (sgn(exact.depth) > 0) {
       exact_[v] = Point2(exact.x / exact.depth, exact.y / exact.depth);
@@ -101,9 +100,9 @@ class InsideCheck {
     return result;
   }
 
-  const Point2& exact(std::uint32_t v) {
+  const Point2& exact(nef::VertexId v) {
     if (!exact_[v]) {
-      const Projection p = camera_.project(complex_.points.rational(nef::PointId(v)));
+      const Projection p = camera_.project(complex_.points.rational(nef::point_of(v)));
       exact_[v] = Point2(p.x / p.depth, p.y / p.depth);
     }
     return *exact_[v];
@@ -135,7 +134,7 @@ class InsideCheck {
     return (ac > bound && ad > bound) || (ac < -bound && ad < -bound);
   }
 
-  bool edge_inside(std::uint32_t va, std::uint32_t vb) {
+  bool edge_inside(nef::VertexId va, nef::VertexId vb) {
     Projected& a = vertices_[va];
     Projected& b = vertices_[vb];
     if (a.state != Projected::State::kFront || b.state != Projected::State::kFront) return true;  // seen as a point
@@ -165,10 +164,10 @@ class InsideCheck {
   }
 
   // On which side of the line through two points of the image a vertex in front of the camera is seen. Exact.
-  int side(std::uint32_t v, const std::array<Integer, 4>& plane) const {
+  int side(nef::VertexId v, const std::array<Integer, 4>& plane) const {
     Integer sum;
     for (std::size_t i = 0; i < 4; ++i) {
-      mpz_addmul(sum.get_mpz_t(), plane[i].get_mpz_t(), complex_.points.coordinate(nef::PointId(v), i));
+      mpz_addmul(sum.get_mpz_t(), plane[i].get_mpz_t(), complex_.points.coordinate(nef::point_of(v), i));
     }
     return sgn(sum);
   }
@@ -182,7 +181,7 @@ class InsideCheck {
 
   // 1 if a vertex is seen on the side c-d of the silhouette between its ends, 0 at one of them, -1 elsewhere. Exact,
   // without a projection.
-  int place_on_side(std::uint32_t v, const Point2& c, const Point2& d) {
+  int place_on_side(nef::VertexId v, const Point2& c, const Point2& d) {
     if (side(v, plane_of(c, d)) != 0) return -1;
     const bool steep = std::abs(d.approximate[1] - c.approximate[1]) > std::abs(d.approximate[0] - c.approximate[0]);
     return std::min(beyond_end(v, c, d, steep ? 1 : 0), beyond_end(v, d, c, steep ? 1 : 0));
@@ -190,7 +189,7 @@ class InsideCheck {
 
   // Of a vertex that is seen on the line through two points: 1 on the way from `end` to `other`, or behind that, 0 at
   // `end`, -1 before it. They differ along the axis.
-  int beyond_end(std::uint32_t v, const Point2& end, const Point2& other, std::size_t axis) const {
+  int beyond_end(nef::VertexId v, const Point2& end, const Point2& other, std::size_t axis) const {
     const Projected& p = vertices_[v];
     const double way = p.at[axis] - end.approximate[axis];
     const double error = p.error + (std::abs(p.at[axis]) + std::abs(end.approximate[axis])) * 0x1p-51;
@@ -265,8 +264,8 @@ class InsideCheck {
   const Silhouette& silhouette_;
   SilhouetteIndex index_;
   std::array<std::array<double, 4>, 3> matrix_{};
-  std::vector<Projected> vertices_;
-  std::vector<std::optional<Point2>> exact_;
+  nef::IndexedVector<nef::VertexId, Projected> vertices_;
+  nef::IndexedVector<nef::VertexId, std::optional<Point2>> exact_;
   std::vector<std::array<const Point2*, 2>> near_;
   std::unordered_map<const Point2*, std::array<Integer, 4>> side_planes_;  // by the points in which sides begin
 };

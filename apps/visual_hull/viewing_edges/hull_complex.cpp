@@ -246,7 +246,7 @@ std::optional<nef::Polyhedron> complex_of(const HullVertices& vertices, const st
   nef::ComplexBuilder builder(planes.table);
   builder.reserve(names.size() + vertices.crowded.size(), items_of(parts), limbs_of(parts));
   for (nef::Complex& part : parts) {
-    builder.copy(part, 0, static_cast<std::uint32_t>(part.vertex_count()));
+    builder.copy(part);
     part = {};
   }
   add_crowded(vertices.crowded, edges, planes, builder);

@@ -16,7 +16,7 @@ class Nef3Writer {
     const ShellSfaces of_shells(c_);
     for (const ShellId s : c_.shells.ids()) first_sface_.push_back(of_shells.of(s).front());
     head();
-    for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) vertex(v);
+    for (const VertexId v : c_.vertex_ids()) vertex(v);
     for (std::uint32_t h = 0; h < c_.svertex_count(); ++h) halfedge(h);
     for (const FacetId f : c_.facets.ids()) {
       halffacet(halffacet_of(f, false));
@@ -25,7 +25,7 @@ class Nef3Writer {
     for (const VolumeId v : c_.volumes.ids()) volume(v);
     for (std::uint32_t e = 0; e < c_.shalfedge_count(); ++e) shalfedge(e);
     for (std::uint32_t l = 0; l < c_.sloops.size(); ++l) sloop(l);
-    for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) sfaces(v);
+    for (const VertexId v : c_.vertex_ids()) sfaces(v);
     return std::move(text_ += "/* end Selective Nef complex */\n");
   }
 
@@ -87,26 +87,26 @@ class Nef3Writer {
     text_ += mark == 0 ? " } 0\n" : " } 1\n";
   }
 
-  void vertex(std::uint32_t v) {
+  void vertex(VertexId v) {
     const VertexRecord& record = c_.vertices[v];
-    const VertexRecord& after = c_.vertices[v + 1];
-    begin(v);
+    const VertexRecord& after = c_.vertices[v.next()];
+    begin(v.index());
     range(record.svertices, after.svertices);
     range(record.shalfedges, after.shalfedges);
     range(record.sfaces, after.sfaces);
     number(record.sloops == after.sloops ? -2 : static_cast<std::int64_t>(record.sloops));
     text_ += " |";
-    for (std::size_t i = 0; i < 4; ++i) integer(c_.points.coordinate(PointId{v}, i));
+    for (std::size_t i = 0; i < 4; ++i) integer(c_.points.coordinate(point_of(v), i));
     end(c_.mark(v));
   }
 
   void halfedge(std::uint32_t h) {
-    const std::uint32_t v = c_.svertex_owner[h];
+    const VertexId v = c_.svertex_owner[h];
     const SVertex& s = c_.svertex(h);
     begin(h);
     number(c_.twin[h]);
     text_ += ',';
-    number(v);
+    number(v.index());
     text_ += ',';
     if (s.out == kNone) {
       number(1);
@@ -140,7 +140,7 @@ class Nef3Writer {
       number(above ? corner ^ 1U : corner);
     }
     text_ += " ,";
-    for (const std::uint32_t v : c_.isolated_vertices_of(facet)) {
+    for (const VertexId v : c_.isolated_vertices_of(facet)) {
       const VertexRecord& record = c_.vertices[v];
       // As for shalfedges: the sloop on the opposite plane.
       const bool flipped = c_.sloops[record.sloops].plane.flipped();
@@ -193,18 +193,18 @@ class Nef3Writer {
   }
 
   // Vertices are visited in order, and so are their sloops.
-  std::uint32_t loop_owner(std::uint32_t loop) {
-    while (c_.vertices[loop_vertex_ + 1].sloops <= loop) ++loop_vertex_;
+  VertexId loop_owner(std::uint32_t loop) {
+    while (c_.vertices[loop_vertex_.next()].sloops <= loop) ++loop_vertex_;
     return loop_vertex_;
   }
 
-  void sfaces(std::uint32_t v) {
+  void sfaces(VertexId v) {
     const SphereMapView map = c_.sphere_map(v);
     const VertexRecord& record = c_.vertices[v];
     for (std::uint32_t i = 0; i < map.sfaces.size(); ++i) {
       const SFace& face = map.sfaces[i];
       begin(record.sfaces + i);
-      number(v);
+      number(v.index());
       const auto list = [&](SFaceEntry::Kind kind, std::uint32_t first) {
         text_ += ',';
         for (const SFaceEntry& entry : map.entries.subspan(face.entries, face.entry_count)) {
@@ -226,7 +226,7 @@ class Nef3Writer {
   std::vector<std::uint32_t> next_;  // along a facet's boundary, as CGAL has it
   std::vector<std::uint32_t> prev_;
   std::vector<std::uint32_t> first_sface_;  // of each shell
-  std::uint32_t loop_vertex_ = 0;
+  VertexId loop_vertex_{0};
   bool other_marks_ = false;
 };
 

@@ -183,9 +183,9 @@ class BinaryReader {
     c_.vertices.assign(vertices_ + 1, {});
     std::uint64_t total = 0;
     for (std::uint32_t v = 0; v < vertices_; ++v) {
-      VertexRecord& record = c_.vertices[v];
+      const VertexRecord& record = c_.vertices[VertexId{v}];
       mark_.push_back(mark(marks[v]));
-      VertexRecord& end = c_.vertices[v + 1];
+      VertexRecord& end = c_.vertices[VertexId{v + 1}];
       end.svertices = record.svertices + svertices[v];
       end.shalfedges = record.shalfedges + 2 * pairs[v];
       end.sloops = record.sloops + 2 * loop_pairs[v];
@@ -245,18 +245,18 @@ class BinaryReader {
     c_.sloops.reserve(sloops_);
     PatternInterner interner;
     std::uint64_t entries = 0;  // of the vertices so far
-    for (std::uint32_t v = 0; v < vertices_; ++v) {
+    for (const VertexId v : c_.vertex_ids()) {
       VertexRecord& record = c_.vertices[v];
-      const VertexRecord& end = c_.vertices[v + 1];
+      VertexRecord& end = c_.vertices[v.next()];
       map_.clear();
-      map_.mark = mark_[v];
+      map_.mark = mark_[v.index()];
       for (std::uint32_t i = record.svertices; i < end.svertices; ++i) take_svertex(columns, i);
       for (std::uint32_t i = record.shalfedges; i < end.shalfedges; ++i) take_shalfedge(columns, i);
       for (std::uint32_t i = record.sloops; i < end.sloops; ++i) take_sloop(columns, i);
       for (std::uint32_t f = record.sfaces; f < end.sfaces; ++f) take_sface(columns, f, entries);
       check_sphere_map();
       record.pattern = interner.intern(c_.patterns, map_.view(), c_.shalfedge_plane.pairs(), c_.other_planes);
-      c_.vertices[v + 1].other_planes = static_cast<std::uint32_t>(c_.other_planes.size());
+      end.other_planes = static_cast<std::uint32_t>(c_.other_planes.size());
       c_.sloops.insert(c_.sloops.end(), map_.sloops.begin(), map_.sloops.end());
     }
     demand(entries == entries_, "its sfaces have fewer entries than there are");
@@ -416,10 +416,10 @@ class BinaryReader {
     for (const FacetId f : c_.facets.ids()) {
       const Facet& facet = c_.facets[f];
       for (std::uint32_t i = facet.first_isolated; i < facet.first_isolated + facet.isolated_count; ++i) {
-        const std::uint32_t v = vertices[i];
-        demand(v < vertices_ && c_.vertices[v + 1].sloops == c_.vertices[v].sloops + 2,
+        const VertexId v{vertices[i]};
+        demand(v.index() < vertices_ && c_.vertices[v.next()].sloops == c_.vertices[v].sloops + 2,
                "a vertex inside a facet has no sloop");
-        for (std::uint32_t l = c_.vertices[v].sloops; l < c_.vertices[v + 1].sloops; ++l) {
+        for (std::uint32_t l = c_.vertices[v].sloops; l < c_.vertices[v.next()].sloops; ++l) {
           const SLoop& loop = c_.sloops[l];
           demand(!c_.sloop_facet[l].valid() && loop.plane.row() == facet.plane.row() && loop.mark == facet.mark,
                  "a vertex belongs to another facet");
@@ -469,7 +469,7 @@ class BinaryReader {
     c_.sface_shell.resize(sfaces_);
     std::vector<bool> used(shells_, false);
     std::uint32_t f = 0;
-    for (std::uint32_t v = 0; v < vertices_; ++v) {
+    for (const VertexId v : c_.vertex_ids()) {
       for (const SFace& face : c_.sphere_map(v).sfaces) {
         const ShellId s{shell_of[f]};
         demand(c_.shells.contains(s), "a shell does not exist");

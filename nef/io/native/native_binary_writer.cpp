@@ -83,7 +83,7 @@ class BinaryWriter {
 
   [[nodiscard]] std::size_t largest_local_number() const {
     std::size_t largest = 0;
-    for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) {
+    for (const VertexId v : c_.vertex_ids()) {
       const SphereMapView map = c_.sphere_map(v);
       largest = std::max({largest, map.svertices.size(), map.shalfedges.size(), map.sfaces.size(), map.entries.size()});
     }
@@ -99,15 +99,15 @@ class BinaryWriter {
   template <typename W>
   void sphere_maps() {
     const auto counts = [this](std::uint32_t VertexRecord::*first, std::uint32_t per) {
-      for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) {
-        put(static_cast<W>((c_.vertices[v + 1].*first - c_.vertices[v].*first) / per));
+      for (const VertexId v : c_.vertex_ids()) {
+        put(static_cast<W>((c_.vertices[v.next()].*first - c_.vertices[v].*first) / per));
       }
     };
     counts(&VertexRecord::svertices, 1);
     counts(&VertexRecord::shalfedges, 2);
     counts(&VertexRecord::sloops, 2);
     counts(&VertexRecord::sfaces, 1);
-    for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) put(c_.mark(v));
+    for (const VertexId v : c_.vertex_ids()) put(c_.mark(v));
     svertices<std::uint32_t>([](const SVertex& s) { return s.p.value; });
     svertices<std::uint32_t>([](const SVertex& s) { return s.q.value; });
     svertices<W>([](const SVertex& s) { return s.out; });
@@ -131,7 +131,7 @@ class BinaryWriter {
 
   template <typename Visit>
   void each_map(Visit&& visit) const {
-    for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) visit(c_.sphere_map(v));
+    for (const VertexId v : c_.vertex_ids()) visit(c_.sphere_map(v));
   }
 
   template <typename T, typename Field>
@@ -159,7 +159,7 @@ class BinaryWriter {
     column(c_.corners);
     column<std::uint32_t>(c_.facets, [](const Facet& f) { return f.cycle_count; });
     column<std::uint32_t>(c_.facets, [](const Facet& f) { return f.isolated_count; });
-    column(c_.isolated_vertices);
+    column<std::uint32_t>(c_.isolated_vertices, [](VertexId v) { return v.index(); });
     column<std::uint32_t>(c_.sface_shell, [](ShellId s) { return s.index(); });
     column<std::uint32_t>(c_.shells, [](const Shell& s) { return s.volume.index(); });
     column<LabelId>(c_.volumes, [](const Volume& v) { return v.mark; });

@@ -21,17 +21,17 @@ class NativeWriter {
       }
       text_ += '\n';
     }
-    for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) vertex(v);
+    for (const VertexId v : c_.vertex_ids()) vertex(v);
     return std::move(text_ += "end\n");
   }
 
  private:
-  void vertex(std::uint32_t v) {
+  void vertex(VertexId v) {
     const SphereMapView map = c_.sphere_map(v);
     text_ += "vertex";
     for (std::size_t i = 0; i < 7; ++i) {
       text_ += ' ';
-      append_integer(text_, c_.points.coordinate(PointId{v}, i));
+      append_integer(text_, c_.points.coordinate(point_of(v), i));
     }
     mark(map.mark);
     for (const std::size_t count :

@@ -206,7 +206,7 @@ Polyhedron convex_hull_of_sets(std::span<const Polyhedron> sets) {
   for (const Polyhedron& set : sets) {
     if (!set.is_bounded()) throw InputError("the hull of an unbounded set is not computed");
     const Complex& c = set.complex();
-    for (std::uint32_t v = 0; v < c.vertex_count(); ++v) points.push_back(c.points.rational(PointId{v}));
+    for (const VertexId v : c.vertex_ids()) points.push_back(c.points.rational(point_of(v)));
   }
   return convex_hull(points);
 }

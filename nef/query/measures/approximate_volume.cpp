@@ -31,8 +31,8 @@ Area twice_area(const Complex& c, const Facet& facet, const Vec& corner0, double
   std::size_t corners = 0;
   for (const CycleId k : facet.cycles()) {
     for (const std::uint32_t corner : c.corners_of(k)) {
-      const Vec p = minus(c.points.approximate(PointId(c.shalfedge_vertex(corner))), corner0);
-      const Vec q = minus(c.points.approximate(PointId(c.target(c.corner_halfedge(corner)))), corner0);
+      const Vec p = minus(c.points.approximate(point_of(c.shalfedge_vertex(corner))), corner0);
+      const Vec q = minus(c.points.approximate(point_of(c.target(c.corner_halfedge(corner)))), corner0);
       const Vec product = cross(p, q);
       for (std::size_t i = 0; i < 3; ++i) area.vector[i] += product[i];
       products += 2 * size_of(p) * size_of(q);
@@ -67,7 +67,7 @@ Sums sums_over(const Complex& c, std::span<const Facet> facets, const Vec& origi
     const bool above = c.volumes[facet.volume_above].mark != 0;
     const bool below = c.volumes[facet.volume_below].mark != 0;
     if (above == below || facet.cycle_count == 0) continue;
-    const Vec corner0 = c.points.approximate(PointId(c.shalfedge_vertex(c.corners_of(facet.first_cycle).front())));
+    const Vec corner0 = c.points.approximate(point_of(c.shalfedge_vertex(c.corners_of(facet.first_cycle).front())));
     const Area area = twice_area(c, facet, corner0, e);
     const std::array<double, 4>& n = c.planes.approximate(facet.plane);
     const bool upward = (dot(area.vector, {n[0], n[1], n[2]}) > 0) != facet.plane.flipped();
@@ -88,7 +88,7 @@ Sums areas_over(const Complex& c, std::span<const Facet> facets, double e) {
   Sums sums;
   for (const Facet& facet : facets) {
     if (facet.cycle_count == 0) continue;
-    const Vec corner0 = c.points.approximate(PointId(c.shalfedge_vertex(c.corners_of(facet.first_cycle).front())));
+    const Vec corner0 = c.points.approximate(point_of(c.shalfedge_vertex(c.corners_of(facet.first_cycle).front())));
     const Area area = twice_area(c, facet, corner0, e);
     const double size = std::sqrt(dot(area.vector, area.vector)) / 2;
     sums.value += size;
@@ -103,8 +103,8 @@ Sums areas_over(const Complex& c, std::span<const Facet> facets, double e) {
 // By how much a difference of two coordinates may be off: each is off by 2^-51 of itself (PointTable::approximate).
 double error_of_differences(const Complex& c) {
   double largest = 0;
-  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
-    largest = std::max(largest, size_of(c.points.approximate(PointId(v))));
+  for (const VertexId v : c.vertex_ids()) {
+    largest = std::max(largest, size_of(c.points.approximate(point_of(v))));
   }
   return largest * 0x1p-49;
 }

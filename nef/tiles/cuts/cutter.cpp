@@ -56,15 +56,14 @@ class Cutter::Halves {
   }
 
   Sides<Complex> run() {
-    const auto count = static_cast<std::uint32_t>(c_.vertex_count());
-    for (std::uint32_t v = 0; v < count; ++v)
-      side_[v] = static_cast<std::int8_t>(side_of_plane(planes_, plane_, c_.points, PointId{v}));
-    for (std::uint32_t v = 0; v < count;) {
-      std::uint32_t end = v + 1;
+    for (const VertexId v : side_.ids())
+      side_[v] = static_cast<std::int8_t>(side_of_plane(planes_, plane_, c_.points, point_of(v)));
+    for (VertexId v{0}; v < side_.end_id();) {
+      VertexId end = v.next();
       if (side_[v] == 0) {
-        add_both(c_.points, PointId{v}, c_.sphere_map(v));
+        add_both(c_.points, point_of(v), c_.sphere_map(v));
       } else {
-        while (end < count && side_[end] == side_[v]) ++end;
+        while (end < side_.end_id() && side_[end] == side_[v]) ++end;
         copy(v, end);
       }
       v = end;
@@ -78,14 +77,14 @@ class Cutter::Halves {
  private:
   struct Run {
     bool copied = false;
-    std::uint32_t first = 0;  // in the piece
+    VertexId first{0};  // in the piece
     std::uint32_t count = 0;
   };
 
-  void copy(std::uint32_t first, std::uint32_t end) {
+  void copy(VertexId first, VertexId end) {
     const std::size_t x = side_[first] < 0 ? 0 : 1;
     const std::uint32_t shift = builder_[x].so_far().vertices.back().svertices - c_.vertices[first].svertices;
-    std::fill(shift_.begin() + first, shift_.begin() + end, shift);
+    std::ranges::fill(shift_[IdRange(first, end)], shift);
     builder_[x].copy(c_, first, end - first);
     runs_[x].push_back({true, first, end - first});
   }
@@ -93,12 +92,12 @@ class Cutter::Halves {
   void add_both(const PointTable& points, PointId point, const SphereMapView& map) {
     for (std::size_t x = 0; x < 2; ++x) {
       overlay_.overlay(planes_, map, beyond_[x].view(), keep_, half_);
-      if (builder_[x].add(points, point, half_.view())) runs_[x].push_back({false, 0, 1});
+      if (builder_[x].add(points, point, half_.view())) runs_[x].push_back({false, VertexId(), 1});
     }
   }
 
   void add_crossing(std::uint32_t h) {
-    const std::uint32_t v = c_.svertex_owner[h];
+    const VertexId v = c_.svertex_owner[h];
     edge_pyramid(c_.sphere_map(v), h - c_.vertices[v].svertices, pyramid_);
     PointTable points;
     const auto point = points.push_intersection(planes_, c_.svertex(h).p, c_.svertex(h).q, plane_);
@@ -113,7 +112,7 @@ class Cutter::Halves {
     const int side = x == 0 ? -1 : 1;
     KnownLinks known;
     known.twin.reserve(half.svertex_count());
-    std::uint32_t vertex = 0;
+    VertexId vertex{0};
     for (const Run& run : runs_[x]) {
       for (std::uint32_t i = 0; i < run.count; ++i, ++vertex) {
         if (run.copied ? !copy_twins(run.first + i, side, known.twin) : add_loose(half, vertex, known.twin)) {
@@ -128,11 +127,11 @@ class Cutter::Halves {
   }
 
   // True if all are known.
-  bool copy_twins(std::uint32_t v, int side, std::vector<std::uint32_t>& twin) const {
+  bool copy_twins(VertexId v, int side, std::vector<std::uint32_t>& twin) const {
     bool all = true;
-    for (std::uint32_t h = c_.vertices[v].svertices; h < c_.vertices[v + 1].svertices; ++h) {
+    for (std::uint32_t h = c_.vertices[v].svertices; h < c_.vertices[v.next()].svertices; ++h) {
       const std::uint32_t other = c_.twin[h];
-      const std::uint32_t end = c_.svertex_owner[other];
+      const VertexId end = c_.svertex_owner[other];
       const bool kept = side_[end] == side;
       twin.push_back(kept ? other + shift_[end] : kNone);
       all = all && kept;
@@ -140,9 +139,9 @@ class Cutter::Halves {
     return all;
   }
 
-  static bool add_loose(const Complex& half, std::uint32_t vertex, std::vector<std::uint32_t>& twin) {
-    twin.resize(half.vertices[vertex + 1].svertices, kNone);
-    return half.vertices[vertex].svertices < half.vertices[vertex + 1].svertices;
+  static bool add_loose(const Complex& half, VertexId vertex, std::vector<std::uint32_t>& twin) {
+    twin.resize(half.vertices[vertex.next()].svertices, kNone);
+    return half.vertices[vertex].svertices < half.vertices[vertex.next()].svertices;
   }
 
   const Complex& c_;
@@ -150,9 +149,9 @@ class Cutter::Halves {
   PlaneId plane_;
   SphereOverlay& overlay_;
   LabelFunction keep_{kMarks, 1, [](LabelId mark, LabelId) { return mark; }};
-  Sides<SphereMapBuffer> beyond_;     // kOutside there
-  std::vector<std::int8_t> side_;     // of each vertex
-  std::vector<std::uint32_t> shift_;  // from its svertices to those of its copy, modulo 2^32
+  Sides<SphereMapBuffer> beyond_;                 // kOutside there
+  IndexedVector<VertexId, std::int8_t> side_;     // of each vertex
+  IndexedVector<VertexId, std::uint32_t> shift_;  // from its svertices to those of its copy, modulo 2^32
   Sides<std::vector<Run>> runs_;
   Sides<ComplexBuilder> builder_{ComplexBuilder{planes_}, ComplexBuilder{planes_}};
   SphereMapBuffer half_;
@@ -161,8 +160,7 @@ class Cutter::Halves {
 
 Complex Cutter::loose(const Complex& complex) {
   ComplexBuilder builder(planes_);
-  const auto count = static_cast<std::uint32_t>(complex.vertex_count());
-  builder.copy(complex, 0, count);
+  builder.copy(complex);
   std::vector<std::uint32_t> twin = complex.twin;
   if (!complex.has_box()) {
     const Complex corners = infimaximal_corners(complex.volumes[kOuterVolume].mark);
@@ -170,7 +168,7 @@ Complex Cutter::loose(const Complex& complex) {
     for (std::uint32_t row = 0; row < corners.planes.size(); ++row) {
       rows.push_back(planes_.intern_from(corners.planes, PlaneId{row << 1U}).row());
     }
-    builder.copy(corners, 0, static_cast<std::uint32_t>(corners.vertex_count()), rows);
+    builder.copy(corners, rows);
     const auto shift = static_cast<std::uint32_t>(twin.size());
     for (const std::uint32_t h : corners.twin) twin.push_back(h + shift);
   }

@@ -31,9 +31,9 @@ double shortest_between(double low, double high) {
 
 std::optional<AxisPlane> halving_plane(const Complex& complex, std::size_t attempt) {
   std::vector<std::array<double, 3>> inner;
-  for (std::uint32_t v = 0; v < complex.vertex_count(); ++v) {
-    if (!complex.points.finite(PointId{v}) || !has_boundary(complex.sphere_map(v))) continue;
-    const std::array<double, 3>& p = complex.points.approximate(PointId{v});
+  for (const VertexId v : complex.vertex_ids()) {
+    if (!complex.points.finite(point_of(v)) || !has_boundary(complex.sphere_map(v))) continue;
+    const std::array<double, 3>& p = complex.points.approximate(point_of(v));
     if (std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2])) inner.push_back(p);
   }
   return halving_plane(inner, attempt);

@@ -45,7 +45,7 @@ class RegionFiller {
   // The closed solid.
   Complex fill() {
     for (const VolumeId v : c_.volumes.ids()) c_.volumes[v].mark = inside_[v];
-    rewrite_sphere_maps(c_, [this](std::uint32_t v, SphereMapBuffer& map) { fill(v, map); });
+    rewrite_sphere_maps(c_, [this](VertexId v, SphereMapBuffer& map) { fill(v, map); });
     for (Facet& facet : c_.facets) facet.mark = mark_between(facet);
     c_.label_count = 2;
     return has_idle_items() ? simplified() : std::move(c_);
@@ -68,7 +68,7 @@ class RegionFiller {
   }
 
   // What is in a wall and not on the surface has the mark of the region beside it.
-  void fill(std::uint32_t v, SphereMapBuffer& map) const {
+  void fill(VertexId v, SphereMapBuffer& map) const {
     for (std::uint32_t f = 0; f < map.sfaces.size(); ++f) {
       map.sfaces[f].mark = inside_[c_.sface_volume(c_.vertices[v].sfaces + f)];
     }
@@ -107,7 +107,7 @@ class RegionFiller {
   // What divides nothing in the region, though it is needed in the whole solid: the surface may touch a wall, lie in
   // it, or turn off behind it.
   bool has_idle_items() {
-    for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) {
+    for (const VertexId v : c_.vertex_ids()) {
       const SphereMapView map = c_.sphere_map(v);
       const bool in_wall =
           std::any_of(map.sfaces.begin(), map.sfaces.end(), [](const SFace& f) { return f.mark == kOutside; });
@@ -130,8 +130,8 @@ class RegionFiller {
   Complex simplified() {
     PlaneTable planes = c_.planes;
     ComplexBuilder builder(planes);
-    for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) {
-      builder.add(c_.points, PointId{v}, simplified(c_.sphere_map(v)));
+    for (const VertexId v : c_.vertex_ids()) {
+      builder.add(c_.points, point_of(v), simplified(c_.sphere_map(v)));
     }
     return builder.finish(kOutside);
   }

@@ -112,13 +112,13 @@ std::optional<std::array<Rational3, 2>> bounds_of_tiles(const TileRef& tree, boo
     const Polyhedron set = leaf.node->set();
     const Complex& c = set.complex();
     ExtremePoints extreme(c.points);
-    for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
+    for (const VertexId v : c.vertex_ids()) {
       if (!has_boundary(c.sphere_map(v))) continue;
-      if (!c.points.finite(PointId{v})) {
+      if (!c.points.finite(point_of(v))) {
         is_bounded = false;
         return;
       }
-      extreme.add(PointId{v});
+      extreme.add(point_of(v));
     }
     const std::array<Rational3, 2> own = *extreme.box();  // a tile has boundary
     if (!result) {

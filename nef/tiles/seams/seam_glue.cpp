@@ -73,11 +73,11 @@ class SeamGlue {
   template <typename Body>
   void for_each_run(std::uint32_t leaf, Body&& body) const {
     const Leaf& l = leaves_[leaf];
-    std::uint32_t first = 0;
+    VertexId first{0};
     for (std::size_t k = 0; k <= l.seam.size(); ++k) {
-      const std::uint32_t end = k < l.seam.size() ? l.seam[k].vertex : static_cast<std::uint32_t>(count(l));
+      const VertexId end = k < l.seam.size() ? l.seam[k].vertex : VertexId{count(l)};
       if (first < end) body(l.set.complex(), first, end - first, l.rows);
-      first = end + 1;
+      first = end.next();
     }
   }
 
@@ -94,12 +94,12 @@ class SeamGlue {
     std::vector<CanonicalVertex> result;
     result.reserve(all);
     for (std::uint32_t i = 0; i < leaves_.size(); ++i) {
-      for_each_run(i, [&](const Complex&, std::uint32_t first, std::uint32_t number, const auto&) {
-        for (std::uint32_t v = first; v < first + number; ++v) result.push_back({i, v});
+      for_each_run(i, [&](const Complex&, VertexId first, std::uint32_t number, const auto&) {
+        for (const VertexId v : IdRange(first, number)) result.push_back({i, v});
       });
     }
     const auto seams = static_cast<std::uint32_t>(leaves_.size());
-    for (std::uint32_t v = 0; v < of_seams_.vertex_count(); ++v) result.push_back({seams, v});
+    for (const VertexId v : of_seams_.vertex_ids()) result.push_back({seams, v});
     return result;
   }
   [[nodiscard]] std::uint32_t leaf_count() const { return static_cast<std::uint32_t>(leaves_.size()); }
@@ -119,7 +119,7 @@ class SeamGlue {
   };
   // A vertex of a leaf in a seam.
   struct SeamVertex {
-    std::uint32_t vertex = 0;
+    VertexId vertex{0};
     std::uint32_t point = kNone;  // among those of all seams; none if the set has no boundary there
     std::uint8_t walls = 0;       // a bit for each
   };
@@ -188,30 +188,29 @@ class SeamGlue {
   void read_leaf(Leaf& leaf) const {
     leaf.set = leaf_set(leaf.tree, leaf.region);
     const Complex& c = leaf.set.complex();
-    const auto count = static_cast<std::uint32_t>(c.vertex_count());
-    std::vector<std::uint8_t> on(count, 0);  // a bit for each wall
+    IndexedVector<VertexId, std::uint8_t> on(c.vertex_count(), 0);  // a bit for each wall
     for (unsigned wall = 0; wall < 6; ++wall) {
       if (leaf.walls.spot[wall] == kNone) continue;
       const Spot& spot = spots_[leaf.walls.spot[wall]];
-      for (std::uint32_t v = 0; v < count; ++v) {
-        if (!may_touch(c.points.approximate(PointId{v})[wall / 2], *spot.axis_plane)) continue;
-        if (side_of_plane(planes_, spot.plane, c.points, PointId{v}) == 0)
+      for (const VertexId v : c.vertex_ids()) {
+        if (!may_touch(c.points.approximate(point_of(v))[wall / 2], *spot.axis_plane)) continue;
+        if (side_of_plane(planes_, spot.plane, c.points, point_of(v)) == 0)
           on[v] |= static_cast<std::uint8_t>(1U << wall);
       }
     }
-    std::vector<std::uint32_t> seam(count, kNone);
-    for (std::uint32_t v = 0; v < count; ++v) {
+    IndexedVector<VertexId, std::uint32_t> seam(c.vertex_count(), kNone);
+    for (const VertexId v : c.vertex_ids()) {
       if (on[v] == 0) continue;
       seam[v] = static_cast<std::uint32_t>(leaf.seam.size());
       leaf.seam.push_back({v, kNone, on[v]});
       if (!has_boundary(c.sphere_map(v))) continue;
       leaf.seam.back().point = static_cast<std::uint32_t>(leaf.points.size());  // until they get common numbers
-      leaf.points.push_reduced(c.points, PointId{v});
+      leaf.points.push_reduced(c.points, point_of(v));
     }
     for (const SeamVertex& s : leaf.seam) {
       if (s.point == kNone) continue;
-      for (std::uint32_t h = c.vertices[s.vertex].svertices; h < c.vertices[s.vertex + 1].svertices; ++h) {
-        const std::uint32_t target = c.target(h);
+      for (std::uint32_t h = c.vertices[s.vertex].svertices; h < c.vertices[s.vertex.next()].svertices; ++h) {
+        const VertexId target = c.target(h);
         const unsigned common = on[s.vertex] & on[target];
         if (common == 0 || c.twin[h] < h) continue;
         if (!edge_has_boundary(c.sphere_map(s.vertex), h - c.vertices[s.vertex].svertices)) continue;
@@ -359,7 +358,7 @@ class SeamGlue {
       joined[chunk] = joiner.take();
     });
     ComplexBuilder builder(planes_);
-    for (const Complex& some : joined) builder.copy(some, 0, static_cast<std::uint32_t>(some.vertex_count()));
+    for (const Complex& some : joined) builder.copy(some);
     of_seams_ = builder.take_so_far();
   }
 
@@ -377,7 +376,7 @@ class SeamGlue {
       for (const std::uint32_t leaf : holding_) {
         const auto member =
             std::find_if(members.begin(), members.end(), [leaf](const Member& m) { return m.leaf == leaf; });
-        load(leaf, point, member == members.end() ? kNone : glue_.leaves_[leaf].seam[member->seam].vertex,
+        load(leaf, point, member == members.end() ? VertexId() : glue_.leaves_[leaf].seam[member->seam].vertex,
              first ? joined_ : next_);
         if (!first) {
           overlay_.overlay(glue_.planes_, joined_.view(), next_.view(), whichever_, result_);
@@ -438,16 +437,16 @@ class SeamGlue {
     }
 
     // The local pyramid in a leaf, by common planes.
-    void load(std::uint32_t index, PointId point, std::uint32_t vertex, SphereMapBuffer& out) const {
+    void load(std::uint32_t index, PointId point, VertexId vertex, SphereMapBuffer& out) const {
       const Leaf& leaf = glue_.leaves_[index];
       const Complex& c = leaf.set.complex();
-      if (vertex == kNone) {
+      if (!vertex.valid()) {
         const auto hit = leaf.set.queries().item_at(c, {&glue_.points_.table(), point});
         NEF_ASSERT(hit.has_value());  // a wall if nothing else
         if (hit->kind == ComplexHit::Kind::kVertex) {
-          out.assign(c.sphere_map(hit->index));
+          out.assign(c.sphere_map(hit->vertex()));
         } else if (hit->kind == ComplexHit::Kind::kEdge) {
-          const std::uint32_t owner = c.svertex_owner[hit->index];
+          const VertexId owner = c.svertex_owner[hit->index];
           edge_pyramid(c.sphere_map(owner), hit->index - c.vertices[owner].svertices, out);
         } else {
           const Facet& facet = c.facets[facet_of(hit->halffacet())];
@@ -486,11 +485,11 @@ Polyhedron glue_tiles(const TileRef& tree, const Region& region) {
   glue.run();
   ComplexBuilder builder(glue.planes());
   for (std::uint32_t i = 0; i < glue.leaf_count(); ++i) {
-    glue.for_each_run(i, [&](const Complex& c, std::uint32_t first, std::uint32_t count, const auto& rows) {
+    glue.for_each_run(i, [&](const Complex& c, VertexId first, std::uint32_t count, const auto& rows) {
       builder.copy(c, first, count, rows);
     });
   }
-  builder.copy(glue.of_seams(), 0, static_cast<std::uint32_t>(glue.of_seams().vertex_count()));
+  builder.copy(glue.of_seams());
   return Polyhedron(builder.finish(kOutside));
 }
 

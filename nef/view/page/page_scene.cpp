@@ -179,7 +179,7 @@ class SceneWriter {
     std::vector<std::uint32_t> regions;
     for (const SceneVertex& vertex : scene.vertices) {
       if (vertex.index != kArtificial) {
-        const SphereDrawing drawing = draw_sphere_map(scene.source.complex(), vertex.index);
+        const SphereDrawing drawing = draw_sphere_map(scene.source.complex(), VertexId{vertex.index});
         for (const auto& dot : drawing.dots) {
           push_unit(directions, dot.direction);
           dots.insert(dots.end(), {dot.mark, dot.halfedge});

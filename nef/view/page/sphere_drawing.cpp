@@ -31,7 +31,7 @@ std::array<double, 3> normal(const PlaneTable& planes, PlaneId plane) {
 
 }  // namespace
 
-SphereDrawing draw_sphere_map(const Complex& complex, std::uint32_t vertex) {
+SphereDrawing draw_sphere_map(const Complex& complex, VertexId vertex) {
   const SphereMapView map = complex.sphere_map(vertex);
   const VertexRecord& at = complex.vertices[vertex];
   SphereDrawing drawing;

@@ -47,6 +47,6 @@ struct SphereDrawing {
 };
 
 /// O(size of the sphere map).
-SphereDrawing draw_sphere_map(const Complex& complex, std::uint32_t vertex);
+SphereDrawing draw_sphere_map(const Complex& complex, VertexId vertex);
 
 }  // namespace nef::view

@@ -27,7 +27,7 @@ struct Extent {
 };
 
 // A vertex where only the planes of the infimaximal box meet says nothing about where the set is.
-bool is_box_corner(const Complex& complex, std::uint32_t vertex) {
+bool is_box_corner(const Complex& complex, VertexId vertex) {
   for (const SHalfedge& arc : complex.sphere_map(vertex).shalfedges) {
     if (!complex.planes.infimaximal(arc.plane)) return false;
   }
@@ -35,8 +35,8 @@ bool is_box_corner(const Complex& complex, std::uint32_t vertex) {
 }
 
 // The point of a line or plane with R = 0: it lies on all the finite planes of the vertex.
-Rational3 finite_part(const Complex& complex, std::uint32_t vertex) {
-  const PointId id{vertex};
+Rational3 finite_part(const Complex& complex, VertexId vertex) {
+  const PointId id = point_of(vertex);
   const Integer w(complex.points.coordinate(id, 3));
   Rational3 point;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -58,9 +58,9 @@ Rational round_up(const Rational& value) {
 Rational floor_to(const Rational& value, const Rational& unit) { return floor_of(Rational(value / unit)) * unit; }
 
 void extend(Extent& extent, const Complex& complex) {
-  for (std::uint32_t v = 0; v < complex.vertex_count(); ++v) {
+  for (const VertexId v : complex.vertex_ids()) {
     if (!is_box_vertex(complex, v)) {
-      extent.add(complex.points.rational(PointId{v}));
+      extent.add(complex.points.rational(point_of(v)));
     } else if (!is_box_corner(complex, v)) {
       extent.add(finite_part(complex, v));
     }

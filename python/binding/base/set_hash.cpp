@@ -24,10 +24,10 @@ std::int64_t set_hash(const Polyhedron& set) {
   const Complex& c = set.complex();
   std::uint64_t sum = 0;
   std::uint64_t finite = 0;
-  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
+  for (const VertexId v : c.vertex_ids()) {
     if (is_box_vertex(c, v)) continue;
     ++finite;
-    Rational3 point = c.points.rational(PointId{v});
+    Rational3 point = c.points.rational(point_of(v));
     std::uint64_t h = c.mark(v);
     for (Rational& x : point) {
       x.canonicalize();

@@ -51,7 +51,7 @@ Polyhedron many_cells(int along) {
 Complex linked_anew(const Complex& c, unsigned threads) {
   PlaneTable planes = c.planes;
   ComplexBuilder builder(planes);
-  builder.copy(c, 0, static_cast<std::uint32_t>(c.vertex_count()));
+  builder.copy(c);
   return builder.finish(0, threads);
 }
 
@@ -122,18 +122,18 @@ TEST_CASE("A structure for some rays finds on them what the one for all finds") 
   for (int i = 0; i < 40; ++i) {
     const Polyhedron set = cluttered_cell(random);
     const Complex& c = set.complex();
-    std::vector<std::uint32_t> asked;
+    std::vector<VertexId> asked;
     std::vector<Box> rays;
-    for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
+    for (const VertexId v : c.vertex_ids()) {
       if (random() % 4 != 0) continue;
       asked.push_back(v);
       rays.emplace_back();
-      rays.back().add_rounded(c.points.approximate(PointId{v}));
+      rays.back().add_rounded(c.points.approximate(point_of(v)));
       rays.back().low[0] = -std::numeric_limits<double>::infinity();
     }
     const QueryStructure all(c);
     const QueryStructure some(c, BoxTree(rays));
-    for (const std::uint32_t v : asked) {
+    for (const VertexId v : asked) {
       const std::optional<ComplexHit> expected = all.first_hit_minus_x(c, v);
       const std::optional<ComplexHit> found = some.first_hit_minus_x(c, v);
       REQUIRE(found.has_value() == expected.has_value());

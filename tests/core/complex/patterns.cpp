@@ -81,7 +81,7 @@ struct Packed {
 
 std::vector<bool> used_patterns(const Complex& c) {
   std::vector<bool> used(c.patterns.size(), false);
-  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) used[c.vertices[v].pattern.index()] = true;
+  for (const VertexId v : c.vertex_ids()) used[c.vertices[v].pattern.index()] = true;
   return used;
 }
 
@@ -132,7 +132,7 @@ TEST_CASE("Rewriting sphere maps as they are changes nothing") {
   CHECK(rc::check("random sets", [] {
     const Polyhedron set = (*recipes(*rc::gen::arbitrary<bool>(), 4)).make();
     Complex c = set.complex();
-    rewrite_sphere_maps(c, [](std::uint32_t, SphereMapBuffer&) {});
+    rewrite_sphere_maps(c, [](VertexId, SphereMapBuffer&) {});
     RC_ASSERT(native_binary(Polyhedron(std::move(c))) == native_binary(set));
   }));
 }

@@ -40,7 +40,7 @@ struct Breaker {
   std::size_t reported = 0;
   std::size_t changes = 0;
   bool changes_pattern = false;  // that of one vertex, to `map`, whose planes are names
-  std::uint32_t changed_vertex = 0;
+  VertexId changed_vertex{0};
   SphereMapBuffer map{};
 
   void look(const std::string& field) {
@@ -96,7 +96,7 @@ struct Breaker {
   // One plane may have two names.
   void name(const std::string& field, PlaneId& x) {
     const VertexRecord& a = c.vertices[changed_vertex];
-    const VertexRecord& b = c.vertices[changed_vertex + 1];
+    const VertexRecord& b = c.vertices[changed_vertex.next()];
     std::vector<PlaneId> planes(c.shalfedge_plane.pairs().begin() + a.shalfedges / 2,
                                 c.shalfedge_plane.pairs().begin() + b.shalfedges / 2);
     planes.insert(planes.end(), c.other_planes.begin() + a.other_planes, c.other_planes.begin() + b.other_planes);
@@ -126,7 +126,7 @@ struct Breaker {
       index("begin of sfaces", v.sfaces, c.sface_count());
       index("begin of other planes", v.other_planes, c.other_planes.size());
     }
-    for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
+    for (const VertexId v : c.vertex_ids()) {
       const PatternId old = c.vertices[v].pattern;
       for (const PatternId none : {PatternId(), PatternId{c.patterns.size()}}) {
         c.vertices[v].pattern = none;
@@ -144,7 +144,7 @@ struct Breaker {
     }
   }
 
-  void change_pattern(std::uint32_t v) {
+  void change_pattern(VertexId v) {
     map.assign(c.patterns.view(c.vertices[v].pattern));
     changed_vertex = v;
     changes_pattern = true;
@@ -247,11 +247,11 @@ TEST_CASE("the validator names the broken invariant and the guilty items") {
   };
   CHECK(broken([](Complex& c) {
           SphereMapBuffer map;
-          map.assign(c.patterns.view(c.vertices[3].pattern));
+          map.assign(c.patterns.view(c.vertices[VertexId{3}].pattern));
           map.mark = 2;
-          c.vertices[3].pattern = c.patterns.push(map);
+          c.vertices[VertexId{3}].pattern = c.patterns.push(map);
         }) == "marks are below the number of labels, vertex 3");
-  CHECK(broken([](Complex& c) { c.svertex_owner[0] = 1; }) == "svertices know their vertex, vertex 0");
+  CHECK(broken([](Complex& c) { c.svertex_owner[0] = VertexId{1}; }) == "svertices know their vertex, vertex 0");
   CHECK(broken([](Complex& c) { c.twin[0] = 0; }) == "twins of halfedges are mutual, halfedge 0");
   CHECK(broken([](Complex& c) { c.points.pop(); }).find("one point for each vertex") == 0);
   CHECK(broken([](Complex& c) { c.corners.pop_back(); }).find("cycle") != std::string::npos);

@@ -39,7 +39,7 @@ TEST_CASE("items are walked through, and shells visit each of theirs once") {
   CHECK(facets(set).size() == 16);
   REQUIRE(volumes(set).size() == 3);
   std::set<Rational3> points;
-  for (const std::uint32_t v : vertices(set)) points.insert(point(set, v));
+  for (const VertexId v : vertices(set)) points.insert(point(set, v));
   CHECK(points.size() == 24);
   CHECK(points.contains(Rational3{8, 6, 3}));
 
@@ -48,8 +48,8 @@ TEST_CASE("items are walked through, and shells visit each of theirs once") {
   int holes = 0;
   for (const FacetId f : facets(set)) {
     int of_facet = 0;
-    visit_cycles(set, f, [&](std::span<const std::uint32_t> ring) {
-      CHECK(std::set<std::uint32_t>(ring.begin(), ring.end()).size() == 4);
+    visit_cycles(set, f, [&](std::span<const VertexId> ring) {
+      CHECK(std::set<VertexId>(ring.begin(), ring.end()).size() == 4);
       ++of_facet;
     });
     cycles += of_facet;
@@ -66,8 +66,7 @@ TEST_CASE("items are walked through, and shells visit each of theirs once") {
     for (const ShellId shell : shells(set, volume)) {
       std::array<int, 3> items{};
       visit_shell(
-          set, shell, [&](std::uint32_t) { ++items[0]; }, [&](std::uint32_t) { ++items[1]; },
-          [&](FacetId) { ++items[2]; });
+          set, shell, [&](VertexId) { ++items[0]; }, [&](std::uint32_t) { ++items[1]; }, [&](FacetId) { ++items[2]; });
       seen.insert(items);
       ++count;
     }
@@ -79,7 +78,7 @@ TEST_CASE("items are walked through, and shells visit each of theirs once") {
 
 TEST_CASE("vertices of an infimaximal box are no points") {
   const Polyhedron half = make_halfspace(0, 0, 1, 0);
-  for (const std::uint32_t v : vertices(half)) CHECK_THROWS_AS(point(half, v), InputError);
+  for (const VertexId v : vertices(half)) CHECK_THROWS_AS(point(half, v), InputError);
 }
 
 }  // namespace nef

@@ -20,7 +20,7 @@ Polyhedron rotated_about_all_axes(const Polyhedron& a, double degrees) {
 
 bool has_edge(const Complex& c, const Rational3& from, const Rational3& to) {
   for (std::uint32_t h = 0; h < c.svertex_count(); ++h) {
-    if (c.points.rational(PointId{c.svertex_owner[h]}) == from && c.points.rational(PointId{c.target(h)}) == to) {
+    if (c.points.rational(point_of(c.svertex_owner[h])) == from && c.points.rational(point_of(c.target(h))) == to) {
       return true;
     }
   }

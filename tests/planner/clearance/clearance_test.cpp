@@ -55,8 +55,8 @@ TEST_CASE("a polytope around a ball") {
   CHECK(distance(make_point({0, 0, 0}), outside)->squared == ratio(9, 4));
   const Complex& c = around.complex();
   double farthest = 0;
-  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
-    farthest = std::max(farthest, distance(c.points.rational(PointId{v}), Rational3{}));
+  for (const VertexId v : c.vertex_ids()) {
+    farthest = std::max(farthest, distance(c.points.rational(point_of(v)), Rational3{}));
   }
   CHECK(farthest <= 1.2 * 1.5);
 }

@@ -64,10 +64,10 @@ TEST_CASE("Vertices of the letters' hull lie on three cone planes each, as camer
   const Scene scene = letters();
   const Result result = compute(scene, {}, {});
   const nef::Complex& c = result.hull.complex();
-  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
+  for (const nef::VertexId v : c.vertex_ids()) {
     std::size_t planes = 0;
     for (const View& view : scene.views) {
-      const Projection q = view.camera.project(c.points.rational(nef::PointId(v)));
+      const Projection q = view.camera.project(c.points.rational(nef::point_of(v)));
       const Point2 at(q.x / q.depth, q.y / q.depth);
       for (const Ring& ring : view.polygons.value()) {
         for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -91,8 +91,8 @@ TEST_CASE("Any number of threads gives the same complex", "[threads]") {
   const nef::Complex& a = one.hull.complex();
   const nef::Complex& b = three.hull.complex();
   REQUIRE(a.vertex_count() == b.vertex_count());
-  for (std::uint32_t v = 0; v < a.vertex_count(); ++v) {
-    CHECK(a.points.rational(nef::PointId(v)) == b.points.rational(nef::PointId(v)));
+  for (const nef::VertexId v : a.vertex_ids()) {
+    CHECK(a.points.rational(nef::point_of(v)) == b.points.rational(nef::point_of(v)));
   }
   CHECK(nef::equal(one.hull, three.hull));
   CHECK(one.phases[static_cast<std::size_t>(Phase::kIntersection)].predicates.filter ==

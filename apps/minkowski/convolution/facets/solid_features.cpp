@@ -15,14 +15,14 @@ bool ConvexEdge::touches(const Direction& normal) const {
 
 SolidFeatures::SolidFeatures(const Polyhedron& solid) : c_(solid.complex()) {
   points_.reserve(c_.vertex_count());
-  for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) points_.push_back(c_.points.rational(PointId{v}));
+  for (const VertexId v : c_.vertex_ids()) points_.push_back(c_.points.rational(point_of(v)));
   find_marks();
   directions_.reserve(c_.svertex_count());
   for (std::uint32_t h = 0; h < c_.svertex_count(); ++h) directions_.push_back(direction_of(c_.planes, c_.svertex(h)));
   add_facets();
-  for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) {
+  for (const VertexId v : c_.vertex_ids()) {
     const std::uint32_t first = c_.vertices[v].svertices;
-    for (std::uint32_t h = first; h < c_.vertices[v + 1].svertices; ++h) {
+    for (std::uint32_t h = first; h < c_.vertices[v.next()].svertices; ++h) {
       if (h < c_.twin[h]) add_edge(v, h - first);
     }
   }
@@ -47,7 +47,7 @@ void SolidFeatures::find_marks() {
   };
   for (const Facet& f : c_.facets) look_at(f.mark);
   for (std::uint32_t h = 0; h < c_.svertex_count(); ++h) look_at(c_.svertex(h).mark);
-  for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) {
+  for (const VertexId v : c_.vertex_ids()) {
     look_at(c_.mark(v));
     for (const SLoop& loop : c_.sphere_map(v).sloops) {
       has_plain_facets_ = has_plain_facets_ && loop.mark == c_.mark(v);
@@ -55,10 +55,10 @@ void SolidFeatures::find_marks() {
   }
   marks_ = all ? BoundaryMarks::kAll : any ? BoundaryMarks::kMixed : BoundaryMarks::kNone;
   if (marks_ != BoundaryMarks::kMixed) return;
-  for (std::uint32_t v = 0; v < c_.vertex_count(); ++v) {
-    for (std::uint32_t h = c_.vertices[v].svertices; h < c_.vertices[v + 1].svertices; ++h) {
-      const std::uint32_t w = c_.target(h);
-      if (v < w) edge_marks_.emplace(pair_key(v, w), c_.svertex(h).mark != 0 ? 1 : 0);
+  for (const VertexId v : c_.vertex_ids()) {
+    for (std::uint32_t h = c_.vertices[v].svertices; h < c_.vertices[v.next()].svertices; ++h) {
+      const VertexId w = c_.target(h);
+      if (v < w) edge_marks_.emplace(pair_key(v.index(), w.index()), c_.svertex(h).mark != 0 ? 1 : 0);
     }
   }
 }
@@ -93,7 +93,7 @@ void SolidFeatures::add_facets() {
 }
 
 // At most one wedge around an edge is free and larger than a half-turn.
-void SolidFeatures::add_edge(std::uint32_t vertex, std::uint32_t svertex) {
+void SolidFeatures::add_edge(VertexId vertex, std::uint32_t svertex) {
   const SphereMapView map = c_.sphere_map(vertex);
   const std::uint32_t halfedge = c_.vertices[vertex].svertices + svertex;
   const Direction& line = directions_[halfedge];
@@ -110,7 +110,7 @@ void SolidFeatures::add_edge(std::uint32_t vertex, std::uint32_t svertex) {
     const PlaneId first = map.shalfedges[e].plane;
     const PlaneId last = map.shalfedges[next].plane;
     if (map.sfaces[map.shalfedges[e].sface].mark == 0 && orientation_around(c_.planes, line, first, last) < 0) {
-      edges_.push_back({vertex, c_.target(halfedge), line, Direction::normal(c_.planes, first),
+      edges_.push_back({vertex.index(), c_.target(halfedge).index(), line, Direction::normal(c_.planes, first),
                         Direction::normal(c_.planes, last.opposite()),
                         static_cast<std::uint8_t>(map.svertices[svertex].mark != 0 ? 1 : 0)});
       return;
@@ -119,9 +119,10 @@ void SolidFeatures::add_edge(std::uint32_t vertex, std::uint32_t svertex) {
   } while (e != out);
 }
 
-bool SolidFeatures::is_peak(std::uint32_t vertex, const Direction& up) const {
-  if (c_.vertices[vertex].svertices == c_.vertices[vertex + 1].svertices) return false;  // inside a facet
-  for (std::uint32_t h = c_.vertices[vertex].svertices; h < c_.vertices[vertex + 1].svertices; ++h) {
+bool SolidFeatures::is_peak(std::uint32_t number, const Direction& up) const {
+  const VertexId vertex{number};
+  if (c_.vertices[vertex].svertices == c_.vertices[vertex.next()].svertices) return false;  // inside a facet
+  for (std::uint32_t h = c_.vertices[vertex].svertices; h < c_.vertices[vertex.next()].svertices; ++h) {
     if (sign_of_dot(directions_[h], up) >= 0) return false;
   }
   // All edges go down, so the open upper half-sphere is in one sface.

@@ -49,7 +49,7 @@ class SolidFeatures {
   explicit SolidFeatures(const Polyhedron& solid);
 
   [[nodiscard]] BoundaryMarks marks() const { return marks_; }
-  [[nodiscard]] std::uint8_t mark(std::uint32_t vertex) const { return c_.mark(vertex) != 0 ? 1 : 0; }
+  [[nodiscard]] std::uint8_t mark(std::uint32_t vertex) const { return c_.mark(VertexId{vertex}) != 0 ? 1 : 0; }
   /// True if the solid fills one wedge around every edge.
   [[nodiscard]] bool has_simple_edges() const { return has_simple_edges_; }
   /// True if no facet has a single point inside that is marked unlike it.
@@ -66,7 +66,7 @@ class SolidFeatures {
   void find_marks();
   void add_facets();
   void mark_sides(FacetPiece& piece) const;
-  void add_edge(std::uint32_t vertex, std::uint32_t svertex);
+  void add_edge(VertexId vertex, std::uint32_t svertex);
   void know_integers() const;
 
   const Complex& c_;

@@ -30,7 +30,7 @@ struct Arc {
 // A vertex around which neither the solid nor the rest of space is convex, and some directions into the solid or along
 // its edges.
 struct Saddle {
-  std::uint32_t vertex = 0;
+  VertexId vertex{0};
   std::vector<Direction> into, back;  // the second ones are opposite to the first
   std::vector<Arc> arcs;
   /// Of the convex hull of the solid there, unless that is all of space, turned about the vertex: normals, positive
@@ -95,7 +95,7 @@ void find_hull(const Complex& c, const SphereMapView& map, Saddle& saddle) {
 
 std::vector<Saddle> saddles(const Complex& c) {
   std::vector<Saddle> result;
-  for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
+  for (const VertexId v : c.vertex_ids()) {
     const SphereMapView map = c.sphere_map(v);
     if (!is_saddle(c, map)) continue;
     Saddle saddle;
@@ -173,7 +173,7 @@ bool cross(const Saddle& s, const Saddle& t) {
   return false;
 }
 
-bool holds_one(const Complex& c, std::uint32_t vertex, const std::vector<Direction>& directions) {
+bool holds_one(const Complex& c, VertexId vertex, const std::vector<Direction>& directions) {
   const SphereMapView map = c.sphere_map(vertex);
   return std::any_of(directions.begin(), directions.end(), [&](const Direction& d) {
     const SphereLocation at = locate(c.planes, map, d);
@@ -194,8 +194,8 @@ std::vector<SaddlePoint> saddle_points(const Polyhedron& a, const Polyhedron& b,
     for (const Saddle& t : saddles_b) {
       if (holds_one(of_a, s.vertex, t.back) || holds_one(of_b, t.vertex, s.back)) continue;
       if (cross(s, t) || fits(of_a, s, t) || fits(of_b, t, s)) continue;
-      const Rational3 p = of_a.points.rational(PointId{s.vertex});
-      const Rational3 q = of_b.points.rational(PointId{t.vertex});
+      const Rational3 p = of_a.points.rational(point_of(s.vertex));
+      const Rational3 q = of_b.points.rational(point_of(t.vertex));
       const Rational3 x = {p[0] + q[0], p[1] + q[1], p[2] + q[2]};
       if (membership.surely_in_inside(x)) continue;
       const bool marked = of_a.mark(s.vertex) != 0 && of_b.mark(t.vertex) != 0;

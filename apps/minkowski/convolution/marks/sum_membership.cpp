@@ -12,8 +12,9 @@ int reach(const Polyhedron& a, const Polyhedron& b, const Rational3& x) {
   constexpr std::size_t kAsked = 32;
   const std::size_t count = b.complex().vertex_count();
   int best = 0;
-  for (std::size_t v = 0; v < count; v += 1 + count / kAsked) {
-    const Rational3 p = b.complex().points.rational(PointId{static_cast<std::uint32_t>(v)});
+  for (std::size_t i = 0; i < count; i += 1 + count / kAsked) {
+    const VertexId v{i};
+    const Rational3 p = b.complex().points.rational(point_of(v));
     const Location at = locate(a, {x[0] - p[0], x[1] - p[1], x[2] - p[2]});
     if (at.mark == 0) continue;
     if (at.kind == Location::Kind::kVolume) return 2;

@@ -16,16 +16,14 @@
 namespace nef::fuzz {
 namespace {
 
-using Vector = Rational3;
-
-Vector moved(const Vector& p, const Rational& t, const Vector& d) {
+Rational3 moved(const Rational3& p, const Rational& t, const Rational3& d) {
   return {p[0] + t * d[0], p[1] + t * d[1], p[2] + t * d[2]};
 }
 
 struct Plane {
-  Vector normal;
+  Rational3 normal;
   Rational offset;
-  [[nodiscard]] Rational at(const Vector& p) const { return dot(normal, p) + offset; }
+  [[nodiscard]] Rational at(const Rational3& p) const { return dot(normal, p) + offset; }
   [[nodiscard]] std::string text() const {
     return to_string(normal[0]) + "," + to_string(normal[1]) + "," + to_string(normal[2]) + "," + to_string(offset);
   }
@@ -51,7 +49,7 @@ class Cells {
   }
 
   [[nodiscard]] std::size_t size() const { return points_.size(); }
-  [[nodiscard]] const Vector& point(std::size_t cell) const { return points_[cell]; }
+  [[nodiscard]] const Rational3& point(std::size_t cell) const { return points_[cell]; }
   [[nodiscard]] const Plane& plane(std::size_t i) const { return planes_[i]; }
   [[nodiscard]] int sign(std::size_t cell, std::size_t plane) const { return signs_[cell][plane]; }
   /// The cells in the closure of a cell, itself included.
@@ -65,14 +63,14 @@ class Cells {
     return true;
   }
 
-  void add(const Vector& p) {
+  void add(const Rational3& p) {
     Signs signs;
     for (const Plane& plane : planes_) signs.push_back(static_cast<signed char>(sgn(plane.at(p))));
     found_.try_emplace(signs, p);
   }
 
   // Where a line meets the planes that do not hold it, in order.
-  [[nodiscard]] std::vector<Rational> crossings(const Vector& p, const Vector& direction) const {
+  [[nodiscard]] std::vector<Rational> crossings(const Rational3& p, const Rational3& direction) const {
     std::vector<Rational> result;
     for (const Plane& plane : planes_) {
       const Rational speed = dot(plane.normal, direction);
@@ -84,7 +82,7 @@ class Cells {
   }
 
   // A point beyond p in that direction, before anything else is met.
-  [[nodiscard]] Vector just_beside(const Vector& p, const Vector& direction) const {
+  [[nodiscard]] Rational3 just_beside(const Rational3& p, const Rational3& direction) const {
     Rational t = 1;
     for (const Rational& crossing : crossings(p, direction)) {
       if (crossing > 0) {
@@ -100,7 +98,7 @@ class Cells {
     const Plane& plane = planes_[i];
     bool lines = false;
     for (std::size_t j = 0; j < planes_.size(); ++j) {
-      const Vector direction = cross(plane.normal, planes_[j].normal);
+      const Rational3 direction = cross(plane.normal, planes_[j].normal);
       if (is_zero(direction)) continue;
       lines = true;
       add_line(plane, planes_[j], direction);
@@ -108,7 +106,7 @@ class Cells {
     if (!lines) add_both_sides(plane, moved({0, 0, 0}, -plane.offset / dot(plane.normal, plane.normal), plane.normal));
   }
 
-  void add_line(const Plane& a, const Plane& b, const Vector& direction) {
+  void add_line(const Plane& a, const Plane& b, const Rational3& direction) {
     // The point of the line nearest to the origin: a combination of the two normals.
     const Rational aa = dot(a.normal, a.normal);
     const Rational ab = dot(a.normal, b.normal);
@@ -116,32 +114,32 @@ class Cells {
     const Rational det = aa * bb - ab * ab;
     const Rational s = (ab * b.offset - bb * a.offset) / det;
     const Rational t = (ab * a.offset - aa * b.offset) / det;
-    const Vector origin = moved(moved({0, 0, 0}, s, a.normal), t, b.normal);
+    const Rational3 origin = moved(moved({0, 0, 0}, s, a.normal), t, b.normal);
     const std::vector<Rational> stops = crossings(origin, direction);
     for (const Rational& stop : stops) add(moved(origin, stop, direction));
     std::vector<Rational> between;
     for (std::size_t k = 0; k + 1 < stops.size(); ++k) between.push_back((stops[k] + stops[k + 1]) / 2);
     between.push_back(stops.empty() ? Rational(0) : Rational(stops.front() - 1));
     if (!stops.empty()) between.push_back(stops.back() + 1);
-    const Vector aside = cross(a.normal, direction);
+    const Rational3 aside = cross(a.normal, direction);
     for (const Rational& place : between) {
-      const Vector p = moved(origin, place, direction);
+      const Rational3 p = moved(origin, place, direction);
       add(p);
       add_both_sides(a, just_beside(p, aside));
       add_both_sides(a, just_beside(p, {-aside[0], -aside[1], -aside[2]}));
     }
   }
 
-  void add_both_sides(const Plane& plane, const Vector& p) {
+  void add_both_sides(const Plane& plane, const Rational3& p) {
     add(p);
     add(just_beside(p, plane.normal));
     add(just_beside(p, {-plane.normal[0], -plane.normal[1], -plane.normal[2]}));
   }
 
   std::vector<Plane> planes_;
-  std::map<Signs, Vector> found_;
+  std::map<Signs, Rational3> found_;
   std::vector<Signs> signs_;
-  std::vector<Vector> points_;
+  std::vector<Rational3> points_;
   std::vector<std::vector<std::size_t>> faces_;
 };
 
@@ -304,12 +302,12 @@ std::vector<Plane> random_planes(Choices& choices) {
   return planes;
 }
 
-std::string show(const Vector& p) { return to_string(p[0]) + "," + to_string(p[1]) + "," + to_string(p[2]); }
+std::string show(const Rational3& p) { return to_string(p[0]) + "," + to_string(p[1]) + "," + to_string(p[2]); }
 
 void check_points(const Case& the_case, const Cells& cells, const Polyhedron& set, const Bits& bits,
                   const AffineMap& map) {
   for (std::size_t c = 0; c < cells.size(); ++c) {
-    const Vector p = map(cells.point(c));
+    const Rational3 p = map(cells.point(c));
     if (contains(set, p) == bits[c]) continue;
     Case::require(false, "membership: of point(" + show(p) + "), want " + (bits[c] ? "inside" : "outside"));
   }

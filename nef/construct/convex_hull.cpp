@@ -145,34 +145,25 @@ std::vector<std::uint32_t> Quickhull::span() {
     }
     return false;
   };
-  using Vector = std::array<double, 3>;
-  const auto difference = [](const Vector& a, const Vector& b) {
-    return Vector{a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-  };
-  const auto times = [](const Vector& a, const Vector& b) {
-    return Vector{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-  };
-  const auto product = [](const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
-
-  const Vector o = approximate(0);
+  const Double3 o = approximate(0);
   const Rational3& origin = points_[0];
-  if (!extend([&](const Vector& p) { return product(difference(p, o), difference(p, o)); },
+  if (!extend([&](const Double3& p) { return dot(minus(p, o), minus(p, o)); },
               [&](std::uint32_t i) { return points_[i] != origin; })) {
     return simplex;
   }
-  const Vector d = difference(approximate(simplex[1]), o);
+  const Double3 d = minus(approximate(simplex[1]), o);
   const Rational3 direction = minus(points_[simplex[1]], origin);
   if (!extend(
-          [&](const Vector& p) {
-            const Vector n = times(d, difference(p, o));
-            return product(n, n);
+          [&](const Double3& p) {
+            const Double3 n = cross(d, minus(p, o));
+            return dot(n, n);
           },
           [&](std::uint32_t i) { return !is_zero(cross(direction, minus(points_[i], origin))); })) {
     return simplex;
   }
-  const Vector n = times(d, difference(approximate(simplex[2]), o));
+  const Double3 n = cross(d, minus(approximate(simplex[2]), o));
   const Rational3 normal = cross(direction, minus(points_[simplex[2]], origin));
-  extend([&](const Vector& p) { return std::fabs(product(n, difference(p, o))); },
+  extend([&](const Double3& p) { return std::fabs(dot(n, minus(p, o))); },
          [&](std::uint32_t i) { return sgn(dot(normal, minus(points_[i], origin))) != 0; });
   return simplex;
 }

@@ -19,7 +19,7 @@ PlaneId plane_through(PlaneTable& planes, const Rational3& normal, const Rationa
 }
 
 Direction integer_direction(const Rational3& v) {
-  const std::array<Integer, 3> d = primitive(v);
+  const Integer3 d = primitive(v);
   return Direction::exact(d[0], d[1], d[2]);
 }
 
@@ -29,14 +29,12 @@ Direction direction_in(const PlaneTable& planes, PlaneId p, PlaneId q, const Rat
   return sign_of_dot(d, integer_direction(v)) > 0 ? d : d.negated();
 }
 
-// The normal from three corners of any ring, once all points are known to lie in one plane.
-Rational3 common_normal(std::span<const std::vector<Rational3>> rings) {
+// The normal of the plane of all rings. Throws InputError if they do not lie in one.
+Rational3 normal_of_rings(std::span<const std::vector<Rational3>> rings) {
   Rational3 normal;
   for (const std::vector<Rational3>& ring : rings) {
     if (ring.size() < 3) throw InputError("a polygon needs at least three points");
-    for (std::size_t i = 1; i + 1 < ring.size() && is_zero(normal); ++i) {
-      normal = cross(minus(ring[i], ring[0]), minus(ring[i + 1], ring[0]));
-    }
+    if (is_zero(normal)) normal = normal_of(std::span<const Rational3>(ring));
   }
   if (is_zero(normal)) throw InputError("the points of the polygon lie on one line; write it as a segment");
   const Rational offset = dot(normal, rings[0][0]);
@@ -125,7 +123,7 @@ Polyhedron make_segment(const Rational3& a, const Rational3& b) {
 }
 
 Polyhedron make_polygon(std::span<const std::vector<Rational3>> rings) {
-  const Rational3 normal = common_normal(rings);
+  const Rational3 normal = normal_of_rings(rings);
   // Each ring by itself; parity combines them.
   Polyhedron result;
   for (const std::vector<Rational3>& ring : rings) {

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
+
+#include "nef/geometry/monotone_chain.h"
 
 namespace nef::detail {
 
@@ -41,22 +44,12 @@ std::vector<std::uint32_t> planar_hull(std::span<const Rational3> points, const 
                           }),
               order.end());
 
-  // Andrew's monotone chain: the lower side from left to right, then the upper one back.
   const auto left_turn = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     const Rational left = (points[b][u] - points[a][u]) * (points[c][v] - points[a][v]);
     const Rational right = (points[b][v] - points[a][v]) * (points[c][u] - points[a][u]);
     return left > right;
   };
-  std::vector<std::uint32_t> hull;
-  const auto extend = [&](std::uint32_t i, std::size_t keep) {
-    while (hull.size() >= keep + 2 && !left_turn(hull[hull.size() - 2], hull.back(), i)) hull.pop_back();
-    hull.push_back(i);
-  };
-  for (const std::uint32_t i : order) extend(i, 0);
-  const std::size_t lower = hull.size() - 1;
-  for (std::size_t k = order.size() - 1; k-- > 0;) extend(order[k], lower);
-  hull.pop_back();
-  return hull;
+  return convex_hull_of_sorted(std::move(order), left_turn);
 }
 
 }  // namespace nef::detail

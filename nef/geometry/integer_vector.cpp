@@ -9,8 +9,8 @@ Integer common_denominator(const Rational3& v) {
   return common;
 }
 
-std::array<Integer, 3> times(const Rational3& v, const Integer& multiple) {
-  std::array<Integer, 3> result;
+Integer3 times(const Rational3& v, const Integer& multiple) {
+  Integer3 result;
   for (std::size_t i = 0; i < 3; ++i) {
     mpz_divexact(result[i].get_mpz_t(), multiple.get_mpz_t(), v[i].get_den_mpz_t());
     result[i] *= v[i].get_num();
@@ -18,8 +18,8 @@ std::array<Integer, 3> times(const Rational3& v, const Integer& multiple) {
   return result;
 }
 
-std::array<Integer, 3> primitive(const Rational3& v) {
-  std::array<Integer, 3> result = times(v, common_denominator(v));
+Integer3 primitive(const Rational3& v) {
+  Integer3 result = times(v, common_denominator(v));
   const Integer divisor = gcd(gcd(result[0], result[1]), result[2]);
   if (divisor > 1) {
     for (Integer& x : result) mpz_divexact(x.get_mpz_t(), x.get_mpz_t(), divisor.get_mpz_t());

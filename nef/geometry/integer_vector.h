@@ -9,13 +9,15 @@
 
 namespace nef {
 
+using Integer3 = std::array<Integer, 3>;
+
 /// The least common denominator of the coordinates.
 Integer common_denominator(const Rational3& v);
 
 /// The vector times a positive multiple of its common denominator: integers.
-std::array<Integer, 3> times(const Rational3& v, const Integer& multiple);
+Integer3 times(const Rational3& v, const Integer& multiple);
 
 /// The shortest integer vector in the same direction; zero for zero.
-std::array<Integer, 3> primitive(const Rational3& v);
+Integer3 primitive(const Rational3& v);
 
 }  // namespace nef

@@ -8,17 +8,15 @@
 namespace nef {
 namespace {
 
-using Vector = SphericalPolyhedron::Vector;
-
-void require_direction(const Vector& v) {
+void require_direction(const Integer3& v) {
   if (is_zero(v)) throw InputError("(0,0,0) is no direction");
 }
 
-PlaneId intern(PlaneTable& planes, const Vector& normal) { return planes.intern(normal[0], normal[1], normal[2], 0); }
+PlaneId intern(PlaneTable& planes, const Integer3& normal) { return planes.intern(normal[0], normal[1], normal[2], 0); }
 
 // The direction v as the meeting of the plane of `circle`, which holds it, and a second one:
 // n x (v x n) = v (n.n).
-Arrangement::Node node_on(PlaneTable& planes, const Vector& circle, const Vector& v) {
+Arrangement::Node node_on(PlaneTable& planes, const Integer3& circle, const Integer3& v) {
   const PlaneId p = intern(planes, circle);
   const PlaneId q = intern(planes, cross(v, circle));
   Arrangement::Node node;
@@ -27,8 +25,8 @@ Arrangement::Node node_on(PlaneTable& planes, const Vector& circle, const Vector
   return node;
 }
 
-Vector any_orthogonal(const Vector& v) {
-  return v[0] == 0 && v[1] == 0 ? Vector{1, 0, 0} : Vector{Integer(-v[1]), v[0], 0};
+Integer3 any_orthogonal(const Integer3& v) {
+  return v[0] == 0 && v[1] == 0 ? Integer3{1, 0, 0} : Integer3{Integer(-v[1]), v[0], 0};
 }
 
 SphereMapView renamed(const SphereMapView& map, const PlaneTable& from, PlaneTable& to, SphereMapBuffer& copy) {
@@ -68,7 +66,7 @@ SphericalPolyhedron::SphericalPolyhedron(const PlaneTable& planes, const SphereM
 
 SphericalPolyhedron SphericalPolyhedron::whole_sphere() { return complement(SphericalPolyhedron()); }
 
-SphericalPolyhedron SphericalPolyhedron::half_sphere(const Vector& normal, bool closed) {
+SphericalPolyhedron SphericalPolyhedron::half_sphere(const Integer3& normal, bool closed) {
   require_direction(normal);
   Body body;
   body.map.assign_circle(intern(body.planes, normal), closed ? 1 : 0, 0, 1);
@@ -76,12 +74,12 @@ SphericalPolyhedron SphericalPolyhedron::half_sphere(const Vector& normal, bool 
   return SphericalPolyhedron(std::move(body));
 }
 
-SphericalPolyhedron SphericalPolyhedron::great_circle(const Vector& normal) { return boundary(half_sphere(normal)); }
+SphericalPolyhedron SphericalPolyhedron::great_circle(const Integer3& normal) { return boundary(half_sphere(normal)); }
 
-SphericalPolyhedron SphericalPolyhedron::great_arc(const Vector& a, const Vector& b) {
+SphericalPolyhedron SphericalPolyhedron::great_arc(const Integer3& a, const Integer3& b) {
   require_direction(a);
   require_direction(b);
-  const Vector n = cross(a, b);
+  const Integer3 n = cross(a, b);
   if (is_zero(n)) {
     if (a[0] * b[0] + a[1] * b[1] + a[2] * b[2] > 0) return point(a);
     throw InputError("two opposite directions do not determine a great arc; join them by way of a third one");
@@ -96,7 +94,7 @@ SphericalPolyhedron SphericalPolyhedron::great_arc(const Vector& a, const Vector
   return SphericalPolyhedron(std::move(body));
 }
 
-SphericalPolyhedron SphericalPolyhedron::point(const Vector& direction) {
+SphericalPolyhedron SphericalPolyhedron::point(const Integer3& direction) {
   require_direction(direction);
   Body body;
   Arrangement drawing;
@@ -106,12 +104,12 @@ SphericalPolyhedron SphericalPolyhedron::point(const Vector& direction) {
   return SphericalPolyhedron(std::move(body));
 }
 
-SphereLocation SphericalPolyhedron::locate(const Vector& direction) const {
+SphereLocation SphericalPolyhedron::locate(const Integer3& direction) const {
   require_direction(direction);
   return nef::locate(planes(), map(), Direction::exact(direction[0], direction[1], direction[2]));
 }
 
-bool SphericalPolyhedron::contains(const Vector& direction) const { return mark_at(map(), locate(direction)) != 0; }
+bool SphericalPolyhedron::contains(const Integer3& direction) const { return mark_at(map(), locate(direction)) != 0; }
 
 SphericalPolyhedron combine(const SphericalPolyhedron& a, const SphericalPolyhedron& b,
                             LabelId (*f)(LabelId, LabelId)) {

@@ -5,9 +5,9 @@
 // pyramids of a 3D polyhedron.
 #pragma once
 
-#include <array>
 #include <memory>
 
+#include "nef/geometry/integer_vector.h"
 #include "nef/sphere_map/sphere_geometry.h"
 
 namespace nef {
@@ -15,19 +15,17 @@ namespace nef {
 /// A set of directions with exact boundary: a value, immutable, cheap to copy.
 class SphericalPolyhedron {
  public:
-  using Vector = std::array<Integer, 3>;
-
   /// The empty set.
   SphericalPolyhedron();
   static SphericalPolyhedron whole_sphere();
   /// Directions x with normal.x < 0 (or <= 0). Throws InputError for the zero vector, as all below.
-  static SphericalPolyhedron half_sphere(const Vector& normal, bool closed = true);
+  static SphericalPolyhedron half_sphere(const Integer3& normal, bool closed = true);
   /// Directions x with normal.x = 0.
-  static SphericalPolyhedron great_circle(const Vector& normal);
+  static SphericalPolyhedron great_circle(const Integer3& normal);
   /// The closed arc from a to b, shorter than a half circle; a point if they are the same direction.
   /// Throws InputError if they are opposite.
-  static SphericalPolyhedron great_arc(const Vector& a, const Vector& b);
-  static SphericalPolyhedron point(const Vector& direction);
+  static SphericalPolyhedron great_arc(const Integer3& a, const Integer3& b);
+  static SphericalPolyhedron point(const Integer3& direction);
   /// The local pyramid of somebody else's complex or query, without its centre.
   SphericalPolyhedron(const PlaneTable& planes, const SphereMapView& map);
 
@@ -39,8 +37,8 @@ class SphericalPolyhedron {
   [[nodiscard]] bool is_empty() const { return map().trivial() && map().sfaces[0].mark == 0; }
   [[nodiscard]] bool is_whole_sphere() const { return map().trivial() && map().sfaces[0].mark == 1; }
   /// O(size).
-  [[nodiscard]] bool contains(const Vector& direction) const;
-  [[nodiscard]] SphereLocation locate(const Vector& direction) const;
+  [[nodiscard]] bool contains(const Integer3& direction) const;
+  [[nodiscard]] SphereLocation locate(const Integer3& direction) const;
 
  private:
   friend SphericalPolyhedron combine(const SphericalPolyhedron&, const SphericalPolyhedron&,

@@ -10,6 +10,7 @@
 #include "nef/complex/concrete_points.h"
 #include "nef/complex/shell_sfaces.h"
 #include "nef/geometry/box_tree.h"
+#include "nef/geometry/integer_vector.h"
 #include "nef/geometry/ray_filter.h"
 #include "nef/sphere_map/sphere_geometry.h"
 #include "nef/validation/validate.h"
@@ -109,30 +110,28 @@ void check_outer_shells(const Complex& c, const ShellSfaces& sfaces) {
   }
 }
 
-using Vector = std::array<Integer, 3>;
-
-Vector scaled_sum(const Integer& factor, const Vector& a, const Vector& b) {
+Integer3 scaled_sum(const Integer& factor, const Integer3& a, const Integer3& b) {
   return {Integer(factor * a[0] + b[0]), Integer(factor * a[1] + b[1]), Integer(factor * a[2] + b[2])};
 }
 
 // A vector on the boundary of an sface of the map, and one that leads from there into the sface.
 struct Inward {
-  Vector on;
-  Vector inward;
+  Integer3 on;
+  Integer3 inward;
 };
 Inward inward_of(const PlaneTable& planes, const SphereMapView& map, const SFace& sface) {
-  if (sface.entry_count == 0) return {Vector{1, 0, 0}, Vector{0, 1, 0}};
+  if (sface.entry_count == 0) return {Integer3{1, 0, 0}, Integer3{0, 1, 0}};
   const SFaceEntry& entry = map.entries[sface.entries];
   if (entry.kind == SFaceEntry::Kind::kIsolatedVertex) {
-    return {direction_of(planes, map.svertices[entry.index]).integers(), Vector{1, 3, 7}};
+    return {direction_of(planes, map.svertices[entry.index]).integers(), Integer3{1, 3, 7}};
   }
   const bool loop = entry.kind == SFaceEntry::Kind::kLoop;
   const Direction n =
       Direction::normal(planes, loop ? map.sloops[entry.index].plane : map.shalfedges[entry.index].plane);
   if (loop) {
-    const Vector& v = n.integers();
+    const Integer3& v = n.integers();
     const bool polar = v[0] == 0 && v[1] == 0;
-    return {polar ? Vector{1, 0, 0} : Vector{Integer(-v[1]), v[0], 0}, v};
+    return {polar ? Integer3{1, 0, 0} : Integer3{Integer(-v[1]), v[0], 0}, v};
   }
   const Direction s = direction_of(planes, map.svertices[map.shalfedges[entry.index].source]);
   const Direction t = direction_of(planes, map.svertices[map.target(entry.index)]);
@@ -161,7 +160,7 @@ struct FirstFacet {
   bool degenerate = false;
   VolumeId volume = kOuterVolume;  // on the near side; the outer volume if nothing is met
 };
-FirstFacet shoot(const Complex& c, const Targets& targets, VertexId origin, const Vector& along) {
+FirstFacet shoot(const Complex& c, const Targets& targets, VertexId origin, const Integer3& along) {
   const IndexedVector<VertexId, Rational3>& points = targets.points;
   const Rational3& from = points[origin];
   Box origin_box;
@@ -206,8 +205,8 @@ VolumeId volume_around(const Complex& c, const Targets& targets, std::uint32_t s
   const Inward inward = inward_of(c.planes, map, map.sfaces[local]);
   for (unsigned attempt = 1; attempt < 256; ++attempt) {
     // Ever closer to the boundary of the sface, and ever another way; sfaces may be as thin as coordinates are long.
-    const Vector bent = scaled_sum(64 * attempt, inward.inward, Vector{attempt, 3 * attempt * attempt, 7});
-    const Vector along = scaled_sum(Integer(1) << (4 * attempt + attempt * attempt / 4), inward.on, bent);
+    const Integer3 bent = scaled_sum(64 * attempt, inward.inward, Integer3{attempt, 3 * attempt * attempt, 7});
+    const Integer3 along = scaled_sum(Integer(1) << (4 * attempt + attempt * attempt / 4), inward.on, bent);
     const SphereLocation place = locate(c.planes, map, Direction::exact(along[0], along[1], along[2]));
     if (place.kind != SphereLocation::Kind::kSFace || place.index != local) continue;
     const FirstFacet first = shoot(c, targets, v, along);

@@ -10,10 +10,8 @@
 namespace nef::minkowski {
 namespace {
 
-using IntegerVector = std::array<Integer, 3>;
-
 // Removes the common factor, so that numbers stay small.
-void reduce(IntegerVector& v) {
+void reduce(Integer3& v) {
   Integer g = gcd(gcd(v[0], v[1]), v[2]);
   if (g > 1) {
     for (Integer& x : v) mpz_divexact(x.get_mpz_t(), x.get_mpz_t(), g.get_mpz_t());
@@ -21,7 +19,7 @@ void reduce(IntegerVector& v) {
 }
 
 // A positive multiple of b - a in integers.
-IntegerVector integer_difference(const Rational3& a, const Rational3& b) { return primitive(minus(b, a)); }
+Integer3 integer_difference(const Rational3& a, const Rational3& b) { return primitive(minus(b, a)); }
 
 }  // namespace
 
@@ -82,7 +80,7 @@ void NormalDiagram::set_directions() {
       break;
     }
   }
-  std::vector<IntegerVector> scaled;
+  std::vector<Integer3> scaled;
   if (is_short) {
     scaled.resize(mesh.vertices.size());
     Integer factor;
@@ -95,10 +93,10 @@ void NormalDiagram::set_directions() {
   }
   const auto edge = [&](std::uint32_t a, std::uint32_t b) {
     if (!is_short) return integer_difference(mesh.vertices[a], mesh.vertices[b]);
-    return IntegerVector{Integer(scaled[b][0] - scaled[a][0]), Integer(scaled[b][1] - scaled[a][1]),
-                         Integer(scaled[b][2] - scaled[a][2])};
+    return Integer3{Integer(scaled[b][0] - scaled[a][0]), Integer(scaled[b][1] - scaled[a][1]),
+                    Integer(scaled[b][2] - scaled[a][2])};
   };
-  std::vector<IntegerVector> normals(mesh.face_count());
+  std::vector<Integer3> normals(mesh.face_count());
   normals_.reserve(normals.size());
   for (std::uint32_t f = 0; f < normals.size(); ++f) {
     const auto face = mesh.face(f);
@@ -114,7 +112,7 @@ void NormalDiagram::set_directions() {
   for (std::uint32_t c = 0; c < corner_count(); ++c) {
     if (twin_[c] < c) continue;
     // Counterclockwise about the outward normal of its left face, an edge runs along n_left x n_right.
-    const IntegerVector d = is_short ? edge(source(c), target(c)) : cross(normals[face_[c]], normals[face_[twin_[c]]]);
+    const Integer3 d = is_short ? edge(source(c), target(c)) : cross(normals[face_[c]], normals[face_[twin_[c]]]);
     lines_.push_back(Direction::exact(d[0], d[1], d[2]));
   }
 }

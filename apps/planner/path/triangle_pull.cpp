@@ -5,10 +5,12 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "apps/planner/free_space/vectors.h"
 #include "nef/geometry/box_tree.h"
+#include "nef/geometry/monotone_chain.h"
 #include "nef/geometry/vectors.h"
 
 namespace nef::planner {
@@ -113,17 +115,12 @@ std::vector<std::array<Number, 2>> taut_string(std::vector<std::array<Number, 2>
   points.erase(std::unique(points.begin(), points.end()), points.end());
   points.insert(points.begin(), Point{0, 0});
   points.push_back(Point{1, 0});
+  const auto right_turn = [](const Point& a, const Point& b, const Point& c) {
+    const Number turn = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+    return turn < 0;
+  };
   std::vector<Point> hull;
-  for (const Point& p : points) {
-    while (hull.size() >= 2) {
-      const Point& a = hull[hull.size() - 2];
-      const Point& b = hull.back();
-      const Number turn = (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
-      if (turn < 0) break;
-      hull.pop_back();
-    }
-    hull.push_back(p);
-  }
+  append_hull_chain(std::span<const Point>(points), right_turn, hull);
   return hull;
 }
 

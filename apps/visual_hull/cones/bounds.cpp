@@ -7,6 +7,7 @@
 
 #include "apps/visual_hull/scene/camera_planes.h"
 #include "apps/visual_hull/scene/scene_number.h"
+#include "nef/geometry/monotone_chain.h"
 #include "nef/number/floor.h"
 
 namespace visual_hull {
@@ -211,21 +212,12 @@ class ProvenOptimum {
 
 }  // namespace
 
-// The convex hull by two monotone chains [Andrew 1979].
 std::vector<HalfSpace> convex_cone(const Camera& camera, const Silhouette& silhouette) {
   Ring points;
   for (const Ring& ring : silhouette.rings) points.insert(points.end(), ring.begin(), ring.end());
   std::sort(points.begin(), points.end(), lexicographically_less);
-  Ring hull;
-  for (int pass = 0; pass < 2; ++pass) {  // lower chain, then upper
-    const std::size_t base = hull.size();
-    for (const Point2& p : points) {
-      while (hull.size() >= base + 2 && orientation(hull[hull.size() - 2], hull.back(), p) <= 0) hull.pop_back();
-      hull.push_back(p);
-    }
-    hull.pop_back();
-    std::reverse(points.begin(), points.end());
-  }
+  const auto left_turn = [](const Point2& a, const Point2& b, const Point2& c) { return orientation(a, b, c) > 0; };
+  const Ring hull = nef::convex_hull_of_sorted(std::move(points), left_turn);
   std::vector<HalfSpace> result;
   const CameraPlanes planes(camera);
   for (std::size_t i = 0; i < hull.size(); ++i) {

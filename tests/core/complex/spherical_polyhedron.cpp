@@ -15,7 +15,6 @@
 namespace {
 
 using nef::SphericalPolyhedron;
-using Vector = SphericalPolyhedron::Vector;
 
 // A set with its membership known by arithmetic.
 struct Known {
@@ -30,7 +29,7 @@ std::array<int, 3> cross(const std::array<int, 3>& a, const std::array<int, 3>& 
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-Vector big(const std::array<int, 3>& v) { return {v[0], v[1], v[2]}; }
+nef::Integer3 big(const std::array<int, 3>& v) { return {v[0], v[1], v[2]}; }
 
 bool is_zero(const std::array<int, 3>& v) { return v == std::array<int, 3>{0, 0, 0}; }
 
@@ -185,7 +184,7 @@ TEST_CASE("topology on the sphere follows what lies around a direction") {
 TEST_CASE("the octant is bounded by three arcs") {
   SphericalPolyhedron octant = SphericalPolyhedron::whole_sphere();
   for (int axis = 0; axis < 3; ++axis) {
-    Vector n{0, 0, 0};
+    nef::Integer3 n{0, 0, 0};
     n[static_cast<std::size_t>(axis)] = -1;
     octant = intersect(octant, SphericalPolyhedron::half_sphere(n));
   }

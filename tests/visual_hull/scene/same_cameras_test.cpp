@@ -20,11 +20,10 @@ namespace {
 
 using nef::cross;
 using nef::dot;
+using nef::Double3;
 using testing::Scratch;
 
-using Vector = std::array<double, 3>;
-
-Vector unit(const Vector& a) {
+Double3 unit(const Double3& a) {
   const double length = std::sqrt(dot(a, a));
   return {a[0] / length, a[1] / length, a[2] / length};
 }
@@ -40,14 +39,14 @@ constexpr double kStand = 20;
 
 /// A camera by where it stands and its axes.
 struct Stand {
-  Vector centre, right, down, ahead;
+  Double3 centre, right, down, ahead;
 
-  [[nodiscard]] std::array<double, 2> see(const Vector& point) const {
-    const Vector d{point[0] - centre[0], point[1] - centre[1], point[2] - centre[2]};
+  [[nodiscard]] std::array<double, 2> see(const Double3& point) const {
+    const Double3 d{point[0] - centre[0], point[1] - centre[1], point[2] - centre[2]};
     return {kFocalLength * dot(d, right) / dot(d, ahead) + kCentreX,
             kFocalLength * dot(d, down) / dot(d, ahead) + kCentreY};
   }
-  [[nodiscard]] Vector translation() const { return {-dot(right, centre), -dot(down, centre), -dot(ahead, centre)}; }
+  [[nodiscard]] Double3 translation() const { return {-dot(right, centre), -dot(down, centre), -dot(ahead, centre)}; }
 };
 
 // Upright cameras about the z axis that look at the origin, each a seventh further clockwise.
@@ -62,8 +61,8 @@ Stand stand(int i) {
 }
 
 // A solid without any symmetry: three boxes.
-bool in_solid(const Vector& p) {
-  const auto in = [&](const Vector& low, const Vector& high) {
+bool in_solid(const Double3& p) {
+  const auto in = [&](const Double3& low, const Double3& high) {
     for (std::size_t k = 0; k < 3; ++k) {
       if (p[k] < low[k] || p[k] > high[k]) return false;
     }
@@ -100,7 +99,7 @@ std::string text_of(const std::vector<double>& numbers, const char* between = " 
 
 // K [R | t], row by row; pixels begin half a pixel earlier where whole coordinates are corners.
 std::vector<double> matrix_of(const Stand& s) {
-  const Vector t = s.translation();
+  const Double3 t = s.translation();
   std::vector<double> p;
   for (std::size_t k = 0; k < 3; ++k) p.push_back(kFocalLength * s.right[k] + kCentreX * s.ahead[k]);
   p.push_back(kFocalLength * t[0] + kCentreX * t[2]);
@@ -188,7 +187,7 @@ class Formats {
     std::string text;
     for (int i = 0; i < kViews; ++i) {
       const Stand& s = stands[static_cast<std::size_t>(i)];
-      const Vector t = s.translation();
+      const Double3 t = s.translation();
       text += std::string(i == 0 ? "" : ",\n") + R"({"image": ")" + name_of(i) + "\", ";
       if (whole) {
         text += "\"P\": [" + text_of(matrix_of(s), ", ") + "]}";
@@ -222,7 +221,7 @@ class Formats {
     for (int i = 0; i < kViews; ++i) {
       const Stand& s = stands[static_cast<std::size_t>(i)];
       const auto q = quaternion_of(s);
-      const Vector t = s.translation();
+      const Double3 t = s.translation();
       images += std::to_string(i + 1) + " " + text_of({q[0], q[1], q[2], q[3], t[0], t[1], t[2]}) + " 1 " + name_of(i) +
                 "\n\n";
     }
@@ -268,7 +267,7 @@ class Formats {
     matrix("K", 3, 3, {kFocalLength, 0, kCentreX, 0, kFocalLength, kCentreY, 0, 0, 1});
     for (int i = 0; i < kViews; ++i) {
       const Stand& s = stands[static_cast<std::size_t>(i)];
-      const Vector t = s.translation();
+      const Double3 t = s.translation();
       const std::string number = std::to_string(i);
       if (vectors) {
         matrix("rvec" + number, 3, 1, rotation_vector(s));
@@ -316,7 +315,7 @@ class Formats {
     std::string text = std::to_string(kViews) + "\n";
     for (int i = 0; i < kViews; ++i) {
       const Stand& s = stands[static_cast<std::size_t>(i)];
-      const Vector t = s.translation();
+      const Double3 t = s.translation();
       text += name_of(i) + " " + text_of({kFocalLength, 0, kCentreX, 0, kFocalLength, kCentreY, 0, 0, 1}) + " " +
               text_of(rotation_of(s)) + " " + text_of({t[0], t[1], t[2]}) + "\n";
     }
@@ -329,7 +328,7 @@ class Formats {
     for (int i = 0; i < kViews; ++i) {
       const Stand& s = stands[static_cast<std::size_t>(i)];
       const std::vector<double> r = rotation_of(s);
-      const Vector t = s.translation();
+      const Double3 t = s.translation();
       text += "#Extrinsic parameter for " + name_of(i) + "\n";
       for (std::size_t k = 0; k < 3; ++k) text += text_of({r[3 * k], r[3 * k + 1], r[3 * k + 2], t[k]}) + "\n";
     }
@@ -340,12 +339,12 @@ class Formats {
 TEST_CASE("The same cameras in every format give the same hull, the one that the masks say") {
   const Formats formats;
   // Points and what the masks say of them; nothing of those that are seen on the border of a pixel.
-  std::vector<std::pair<Vector, bool>> truth;
+  std::vector<std::pair<Double3, bool>> truth;
   std::mt19937 random(7);
   std::uniform_real_distribution<double> coordinate(-9, 9);
   std::size_t inside_count = 0;
   while (truth.size() < 600 || inside_count < 100) {
-    const Vector p{coordinate(random), coordinate(random), coordinate(random)};
+    const Double3 p{coordinate(random), coordinate(random), coordinate(random)};
     bool inside = true;
     bool clear = true;
     for (int i = 0; i < kViews; ++i) {

@@ -61,6 +61,15 @@ Rational3 ExactTranslationSpace::StateType::exact() const {
   return {exact_rational(values[0]), exact_rational(values[1]), exact_rational(values[2])};
 }
 
+void ExactTranslationSpace::StateType::copyFrom(const StateType& other) {
+  std::copy(other.values, other.values + 3, values);
+  if (other.exact_) {
+    exact_ = std::make_unique<Rational3>(*other.exact_);
+  } else {
+    exact_.reset();
+  }
+}
+
 ExactPoint ExactTranslationSpace::StateType::point() const {
   if (hasExact()) return ExactPoint(*exact_);
   return ExactPoint(std::array<double, 3>{values[0], values[1], values[2]});
@@ -94,12 +103,7 @@ void ExactTranslationSpace::copyState(ob::State* destination, const ob::State* s
   if (destination == source) return;
   auto* to = static_cast<StateType*>(destination);
   const auto* from = static_cast<const StateType*>(source);
-  std::copy(from->values, from->values + 3, to->values);
-  if (from->exact_) {
-    to->exact_ = std::make_unique<Rational3>(*from->exact_);
-  } else {
-    to->exact_.reset();
-  }
+  to->copyFrom(*from);
 }
 
 void ExactTranslationSpace::copyFromReals(ob::State* destination, const std::vector<double>& reals) const {
@@ -114,7 +118,7 @@ bool ExactTranslationSpace::equalStates(const ob::State* state1, const ob::State
   for (std::size_t i = 0; i < 3; ++i) {
     if (a->values[i] != b->values[i]) return false;
   }
-  if (!a->exact_ && !b->exact_) return true;
+  if (!a->hasExact() && !b->hasExact()) return true;
   return a->exact() == b->exact();
 }
 
@@ -143,7 +147,7 @@ void ExactTranslationSpace::printState(const ob::State* state, std::ostream& out
     ob::RealVectorStateSpace::printState(state, out);
     return;
   }
-  const Rational3& position = *exact->exact_;
+  const Rational3 position = exact->exact();
   out << "ExactTranslationState [" << to_string(position[0]) << ' ' << to_string(position[1]) << ' '
       << to_string(position[2]) << "]\n";
 }
@@ -158,10 +162,11 @@ void ExactTranslationSpace::serialize(void* serialization, const ob::State* stat
   std::fill(at, at + kRationalBytes, static_cast<unsigned char>(0));
   const auto* exact = static_cast<const StateType*>(state);
   if (!exact->hasExact()) return;
-  for (const Rational& value : *exact->exact_) {
+  const Rational3 position = exact->exact();
+  for (const Rational& value : position) {
     if (!fits(value.get_num()) || !fits(value.get_den())) return;
   }
-  for (const Rational& value : *exact->exact_) {
+  for (const Rational& value : position) {
     put(value.get_num(), at);
     put(value.get_den(), at + kIntegerBytes);
     at += 2 * kIntegerBytes;

@@ -34,9 +34,10 @@ class ExactTranslationSpace : public ompl::base::RealVectorStateSpace {
     bool hasExact() const;
     /** \brief Forgets the rationals. */
     void dropExact() { exact_.reset(); }
+    /** \brief Becomes the other one, with the rationals that it has. */
+    void copyFrom(const StateType& other);
 
    private:
-    friend class ExactTranslationSpace;
     std::unique_ptr<Rational3> exact_;
   };
 

@@ -43,7 +43,7 @@ void TurnSpace::copyState(ob::State* destination, const ob::State* source) const
   auto* to = static_cast<StateType*>(destination);
   const auto* from = static_cast<const StateType*>(source);
   to->value = from->value;
-  to->exact_ = from->exact_;
+  to->copyTurn(*from);
 }
 
 void TurnSpace::interpolate(const ob::State* from, const ob::State* to, double t, ob::State* state) const {
@@ -52,9 +52,9 @@ void TurnSpace::interpolate(const ob::State* from, const ob::State* to, double t
   const auto* b = static_cast<const StateType*>(to);
   auto* result = static_cast<StateType*>(state);
   if (a->value == b->value) {
-    result->exact_ = a->exact_;  // a translation
+    result->copyTurn(*a);  // a translation
   } else {
-    result->exact_.reset();
+    result->dropExact();
   }
   ob::SO2StateSpace::interpolate(from, to, t, state);
 }

@@ -26,9 +26,12 @@ class TurnSpace : public ompl::base::SO2StateSpace {
     /** \brief The turn, in [-2, 2): the exact one if it counts, else that of the angle. */
     Turn exact(const TurningAxis& axis) const;
     bool hasExact(const TurningAxis& axis) const;
+    /** \brief Takes over the turn of another state, if it has one, but not its angle. */
+    void copyTurn(const StateType& other) { exact_ = other.exact_; }
+    /** \brief Forgets the turn. */
+    void dropExact() { exact_.reset(); }
 
    private:
-    friend class TurnSpace;
     std::optional<Turn> exact_;
   };
 

@@ -74,11 +74,22 @@ Polyhedron read_tile(const fs::path& path) {
   return read_native_binary(bytes, path.string(), NativeContents::kTile);
 }
 
-StoredTile::~StoredTile() { store_->forget(*this); }
+class TileStore::Tile final : public StoredTile, public std::enable_shared_from_this<Tile> {
+ public:
+  explicit Tile(std::shared_ptr<TileStore> keeper) : store(std::move(keeper)) {}
+  ~Tile() override { store->forget(*this); }
 
-Polyhedron StoredTile::load() const { return store_->load(*this); }
+  [[nodiscard]] Polyhedron load() const override { return store->load(*this); }
+  [[nodiscard]] std::shared_ptr<const TileFile> file() const override { return store->file_of(*this); }
 
-std::shared_ptr<const TileFile> StoredTile::file() const { return store_->file_of(*this); }
+  const std::shared_ptr<TileStore> store;
+  // Under the store's lock. At least one of set and file is there.
+  mutable Polyhedron set;
+  mutable std::size_t bytes = 0;  // of the set; 0 if it is not in memory
+  mutable std::shared_ptr<const TileFile> known_file;
+  mutable std::list<const Tile*>::iterator place;  // among those in memory
+  mutable bool listed = false;                     // it has such a place
+};
 
 TileStore::TileStore(fs::path folder, std::uint64_t memory)
     : parent_(folder.empty() ? fs::path(".") : std::move(folder)), memory_(memory) {}
@@ -90,7 +101,7 @@ TileStore::~TileStore() {
 }
 
 std::shared_ptr<const StoredTile> TileStore::keep(Polyhedron set) {
-  std::shared_ptr<const StoredTile> tile(new StoredTile(shared_from_this()));
+  auto tile = std::make_shared<const Tile>(shared_from_this());
   {
     const Lock lock(mutex_);
     settle(*tile, std::move(set));
@@ -100,11 +111,11 @@ std::shared_ptr<const StoredTile> TileStore::keep(Polyhedron set) {
 }
 
 std::shared_ptr<const StoredTile> TileStore::keep_file(const fs::path& path) {
-  std::shared_ptr<const StoredTile> tile(new StoredTile(shared_from_this()));
+  auto tile = std::make_shared<const Tile>(shared_from_this());
   const Lock lock(mutex_);
   std::weak_ptr<const TileFile>& known = files_[path.string()];
-  tile->file_ = known.lock();
-  if (!tile->file_) known = tile->file_ = std::make_shared<const TileFile>(path, false);
+  tile->known_file = known.lock();
+  if (!tile->known_file) known = tile->known_file = std::make_shared<const TileFile>(path, false);
   return tile;
 }
 
@@ -119,71 +130,71 @@ TileStore::Counts TileStore::counts() const {
   return counts_;
 }
 
-Polyhedron TileStore::load(const StoredTile& tile) {
+Polyhedron TileStore::load(const Tile& tile) {
   std::shared_ptr<const TileFile> file;
   {
     const Lock lock(mutex_);
-    if (tile.bytes_ != 0) {
+    if (tile.bytes != 0) {
       touch(tile);
-      return tile.set_;
+      return tile.set;
     }
-    file = tile.file_;
+    file = tile.known_file;
   }
   Polyhedron set = read_tile(file->path());
   {
     const Lock lock(mutex_);
     ++counts_.read;
-    if (tile.bytes_ != 0) return tile.set_;  // another thread was faster
+    if (tile.bytes != 0) return tile.set;  // another thread was faster
     settle(tile, set);
   }
   make_room();
   return set;
 }
 
-std::shared_ptr<const TileFile> TileStore::file_of(const StoredTile& tile) {
+std::shared_ptr<const TileFile> TileStore::file_of(const Tile& tile) {
   Polyhedron set;
   {
     const Lock lock(mutex_);
-    if (tile.file_) return tile.file_;
-    set = tile.set_;
+    if (tile.known_file) return tile.known_file;
+    set = tile.set;
   }
   std::shared_ptr<const TileFile> file = write(set);
   const Lock lock(mutex_);
-  return tile.file_ = std::move(file);
+  return tile.known_file = std::move(file);
 }
 
-void TileStore::forget(const StoredTile& tile) {
+void TileStore::forget(const Tile& tile) {
   const Lock lock(mutex_);
   unlist(tile);
-  counts_.bytes -= tile.bytes_;
+  counts_.bytes -= tile.bytes;
 }
 
-void TileStore::touch(const StoredTile& tile) {
-  if (tile.listed_) in_memory_.splice(in_memory_.begin(), in_memory_, tile.place_);
+void TileStore::touch(const Tile& tile) {
+  if (tile.listed) in_memory_.splice(in_memory_.begin(), in_memory_, tile.place);
 }
 
-void TileStore::unlist(const StoredTile& tile) {
-  if (tile.listed_) in_memory_.erase(tile.place_);
-  tile.listed_ = false;
+void TileStore::unlist(const Tile& tile) {
+  if (tile.listed) in_memory_.erase(tile.place);
+  tile.listed = false;
 }
 
-void TileStore::settle(const StoredTile& tile, Polyhedron set) {
-  tile.bytes_ = set.complex().bytes();
-  tile.set_ = std::move(set);
-  counts_.bytes += tile.bytes_;
-  tile.place_ = in_memory_.insert(in_memory_.begin(), &tile);
-  tile.listed_ = true;
+void TileStore::settle(const Tile& tile, Polyhedron set) {
+  tile.bytes = set.complex().bytes();
+  tile.set = std::move(set);
+  counts_.bytes += tile.bytes;
+  tile.place = in_memory_.insert(in_memory_.begin(), &tile);
+  tile.listed = true;
 }
 
 // The lock is not held while a tile is written: it has no place then, so that no other thread takes it, but its set
 // stays for whoever asks.
 void TileStore::make_room() {
   while (true) {
-    std::shared_ptr<const StoredTile> tile;
+    std::shared_ptr<const Tile> tile;
     {
       const Lock lock(mutex_);
       if (counts_.bytes <= memory_ || in_memory_.size() < 2) return;
-      const StoredTile& last = *in_memory_.back();
+      const Tile& last = *in_memory_.back();
       unlist(last);
       tile = last.weak_from_this().lock();  // nothing if its last owner is about to forget it
     }
@@ -192,14 +203,14 @@ void TileStore::make_room() {
       file_of(*tile);
     } catch (...) {
       const Lock lock(mutex_);
-      tile->place_ = in_memory_.insert(in_memory_.end(), tile.get());
-      tile->listed_ = true;
+      tile->place = in_memory_.insert(in_memory_.end(), tile.get());
+      tile->listed = true;
       throw;
     }
     Polyhedron dropped;  // outlives the lock
     const Lock lock(mutex_);
-    counts_.bytes -= std::exchange(tile->bytes_, 0);
-    std::swap(dropped, tile->set_);
+    counts_.bytes -= std::exchange(tile->bytes, 0);
+    std::swap(dropped, tile->set);
   }
 }
 

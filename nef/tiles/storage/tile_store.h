@@ -15,8 +15,6 @@
 
 namespace nef {
 
-class TileStore;
-
 /// The complex of a tile in binary .nef form, in a file whose name begins with a hash of its bytes. Immutable; a
 /// temporary file is removed with the last tile that refers to it.
 class TileFile {
@@ -41,31 +39,20 @@ std::string tile_file_name(std::string_view bytes);
 /// Reads one. Throws FileError if its bytes are not those of its name.
 Polyhedron read_tile(const std::filesystem::path& path);
 
-/// A set that a store keeps: in memory while it is used, in a file when memory runs short. May be used by several
-/// threads at once.
-class StoredTile : public std::enable_shared_from_this<StoredTile> {
+/// A set that a store keeps: in memory while it is used, in a file when memory runs short. It keeps its store alive.
+/// May be used by several threads at once.
+class StoredTile {
  public:
+  StoredTile() = default;
   StoredTile(const StoredTile&) = delete;
   StoredTile& operator=(const StoredTile&) = delete;
-  ~StoredTile();
+  virtual ~StoredTile() = default;
 
   /// The set; read from its file if it is not in memory. Throws FileError if that is gone or damaged.
-  [[nodiscard]] Polyhedron load() const;
+  [[nodiscard]] virtual Polyhedron load() const = 0;
 
   /// Its file, which is written if there is none yet. Throws FileError.
-  [[nodiscard]] std::shared_ptr<const TileFile> file() const;
-
- private:
-  friend class TileStore;
-  explicit StoredTile(std::shared_ptr<TileStore> store) : store_(std::move(store)) {}
-
-  std::shared_ptr<TileStore> store_;
-  // Under the store's lock. At least one of set and file is there.
-  mutable Polyhedron set_;
-  mutable std::size_t bytes_ = 0;  // of the set; 0 if it is not in memory
-  mutable std::shared_ptr<const TileFile> file_;
-  mutable std::list<const StoredTile*>::iterator place_;  // among those in memory
-  mutable bool listed_ = false;                           // it has such a place
+  [[nodiscard]] virtual std::shared_ptr<const TileFile> file() const = 0;
 };
 
 /// Keeps sets within a number of bytes; what was used longest ago goes to files. Must be held by a shared_ptr; the sets
@@ -96,15 +83,15 @@ class TileStore : public std::enable_shared_from_this<TileStore> {
   [[nodiscard]] Counts counts() const;
 
  private:
-  friend class StoredTile;
+  class Tile;  // what StoredTile is here
   using Lock = std::unique_lock<std::mutex>;
 
-  Polyhedron load(const StoredTile& tile);
-  std::shared_ptr<const TileFile> file_of(const StoredTile& tile);
-  void forget(const StoredTile& tile);
-  void touch(const StoredTile& tile);  // under the lock, as are the three below
-  void unlist(const StoredTile& tile);
-  void settle(const StoredTile& tile, Polyhedron set);
+  Polyhedron load(const Tile& tile);
+  std::shared_ptr<const TileFile> file_of(const Tile& tile);
+  void forget(const Tile& tile);
+  void touch(const Tile& tile);  // under the lock, as are the three below
+  void unlist(const Tile& tile);
+  void settle(const Tile& tile, Polyhedron set);
   [[nodiscard]] const std::filesystem::path& own_folder();
   void make_room();
   std::shared_ptr<const TileFile> write(const Polyhedron& set);
@@ -116,7 +103,7 @@ class TileStore : public std::enable_shared_from_this<TileStore> {
   std::uint64_t memory_;
   Counts counts_;
   std::uint64_t next_number_ = 0;                                         // of the files of this run
-  std::list<const StoredTile*> in_memory_;                                // the last used first
+  std::list<const Tile*> in_memory_;                                      // the last used first
   std::unordered_map<std::string, std::weak_ptr<const TileFile>> files_;  // of others, by path
 };
 

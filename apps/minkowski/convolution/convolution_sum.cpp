@@ -126,18 +126,13 @@ std::optional<Polyhedron> convolution_sum(const Polyhedron& set_a, const Polyhed
   how.threads = options.threads;
   how.poll = [&poll](double share) { poll(kOfIntervals * share); };
   const SurvivingIntervals intervals = surviving_intervals(facets, rounded, how);
-  ConvolutionRegions regions(facets, rounded, intervals, membership, options.threads);
-  std::variant<Complex, Defect> sum =
-      regions.run(saddles, [&poll](double share) { poll(kOfIntervals + (1 - kOfIntervals) * share); });
+  SumOfRegions made = sum_of_regions(facets, rounded, intervals, membership, saddles, options.threads,
+                                     [&poll](double share) { poll(kOfIntervals + (1 - kOfIntervals) * share); });
   // Synthesis checks what it is given; should it refuse, the cells are there, and the tests see that they were needed.
-  if (std::holds_alternative<Defect>(sum)) return decline("the convolution had a defect: please report it");
-  report = {stacked.why,
-            facets.size(),
-            intervals.segments.size(),
-            intervals.intervals.size(),
-            regions.counts().points,
-            regions.counts().tested};
-  return Polyhedron(std::get<Complex>(std::move(sum)));
+  if (std::holds_alternative<Defect>(made.sum)) return decline("the convolution had a defect: please report it");
+  report = {stacked.why, facets.size(), intervals.segments.size(), intervals.intervals.size(),
+            made.points, made.tested};
+  return Polyhedron(std::get<Complex>(std::move(made.sum)));
 }
 
 }  // namespace nef::minkowski

@@ -13,6 +13,7 @@ namespace nef::minkowski {
 namespace {
 
 using Triple = std::array<std::uint32_t, 3>;
+using Sides = std::unordered_map<std::uint64_t, std::vector<std::uint32_t>>;  // the facets at each, by its key
 
 // Where a facet meets a segment.
 struct Event {
@@ -32,8 +33,7 @@ struct Link {
 // Which facets a facet has a segment with.
 class MeetingFacets {
  public:
-  void collect(std::uint32_t facets, std::span<const FacetSegment> segments) {
-    first_.assign(facets + std::size_t{1}, 0);
+  MeetingFacets(std::size_t facets, std::span<const FacetSegment> segments) : first_(facets + 1, 0) {
     for (const FacetSegment& s : segments) {
       ++first_[s.f + 1];
       ++first_[s.g + 1];
@@ -67,10 +67,16 @@ struct CutSegments {
 // Cuts segments. Not to be shared between threads.
 class SegmentCutter {
  public:
-  // All must outlive the object; of `found` the segments and what is at sides.
-  SegmentCutter(const ConvolutionFacets& facets, const RoundedFacets& rounded, const SurvivingIntervals& found,
-                const MeetingFacets& meeting, bool passages)
-      : facets_(facets), rounded_(rounded), found_(found), meeting_(meeting), passages_(passages) {}
+  // All must outlive the object.
+  SegmentCutter(const ConvolutionFacets& facets, const RoundedFacets& rounded,
+                const std::vector<FacetSegment>& segments, const Sides& at_side, const MeetingFacets& meeting,
+                bool passages)
+      : facets_(facets),
+        rounded_(rounded),
+        segments_(segments),
+        at_side_(at_side),
+        meeting_(meeting),
+        passages_(passages) {}
 
   CutSegments run(std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) cut(static_cast<std::uint32_t>(i));
@@ -87,7 +93,7 @@ class SegmentCutter {
   [[nodiscard]] bool ends_on(const SegmentEnd& end, std::uint32_t h) const {
     if (end.kind == SegmentEnd::Kind::kCorner) return has_corner(h, end.index);
     if (end.kind == SegmentEnd::Kind::kUnsure) return false;
-    const std::vector<std::uint32_t>& same = found_.at_side.at(side_key(facets_, end.facet, end.index));
+    const std::vector<std::uint32_t>& same = at_side_.at(side_key(facets_, end.facet, end.index));
     return std::find(same.begin(), same.end(), h) != same.end();
   }
 
@@ -180,7 +186,7 @@ class SegmentCutter {
   };
 
   void cut(std::uint32_t segment) {
-    const FacetSegment& s = found_.segments[segment];
+    const FacetSegment& s = segments_[segment];
     if (!s.faces_a_region && !s.is_side_of_both && !passages_) return;
     find_events(s);
     find_cuts(s);
@@ -295,7 +301,7 @@ class SegmentCutter {
   void judge_end(const FacetSegment& s, Cut& cut, std::size_t side) const {
     const SegmentEnd& end = s.ends[cut.is_end[0] ? 0 : 1];
     if (end.kind != SegmentEnd::Kind::kSide) return;
-    const std::vector<std::uint32_t>& same = found_.at_side.at(side_key(facets_, end.facet, end.index));
+    const std::vector<std::uint32_t>& same = at_side_.at(side_key(facets_, end.facet, end.index));
     if (same.size() == 1) cut.side[side].gone = true;  // beyond the side one comes from the front to the back
     if (same.size() != 2) return;
     const std::uint32_t beyond = same[0] == end.facet ? same[1] : same[0];
@@ -312,7 +318,8 @@ class SegmentCutter {
 
   const ConvolutionFacets& facets_;
   const RoundedFacets& rounded_;
-  const SurvivingIntervals& found_;
+  const std::vector<FacetSegment>& segments_;
+  const Sides& at_side_;
   const MeetingFacets& meeting_;
   bool passages_;
   CutSegments result_;
@@ -321,149 +328,135 @@ class SegmentCutter {
   std::vector<Cut> cuts_;
 };
 
-class IntervalSearch {
- public:
-  IntervalSearch(const ConvolutionFacets& facets, const RoundedFacets& rounded, const IntervalOptions& options)
-      : facets_(facets), rounded_(rounded), options_(options) {}
-
-  SurvivingIntervals run() {
-    find_sides();
-    find_segments();
-    meeting_.collect(facets_.size(), result_.segments);
-    cut_segments();
-    peel();
-    return std::move(result_);
+Sides facets_at_sides(const ConvolutionFacets& facets) {
+  Sides result;
+  for (std::uint32_t f = 0; f < facets.size(); ++f) {
+    for (std::uint32_t i = 0; i < facets.ring(f).size(); ++i) result[side_key(facets, f, i)].push_back(f);
   }
+  return result;
+}
 
- private:
-  void find_sides() {
-    for (std::uint32_t f = 0; f < facets_.size(); ++f) {
-      for (std::uint32_t i = 0; i < facets_.ring(f).size(); ++i) {
-        result_.at_side[side_key(facets_, f, i)].push_back(f);
-      }
-    }
+// Segments of pairs of facets, and corners that may touch facets.
+struct FoundSegments {
+  std::vector<FacetSegment> segments;
+  std::vector<std::uint32_t> touching;
+
+  void append(const FoundSegments& other) {
+    segments.insert(segments.end(), other.segments.begin(), other.segments.end());
+    touching.insert(touching.end(), other.touching.begin(), other.touching.end());
   }
-
-  // Blocks of pairs keep memory low and give several threads something to do.
-  void find_segments() {
-    constexpr std::size_t kBlock = std::size_t{1} << 17U;
-    std::vector<std::array<std::uint32_t, 2>> pairs;
-    BoxTree(rounded_.boxes()).for_each_pair([&](std::uint32_t f, std::uint32_t g) {
-      pairs.push_back({f, g});
-      if (pairs.size() < kBlock) return;
-      find_segments_of(pairs);
-      pairs.clear();
-    });
-    find_segments_of(pairs);
-  }
-
-  void find_segments_of(std::span<const std::array<std::uint32_t, 2>> pairs) {
-    constexpr std::size_t kChunk = 2048;
-    struct Found {
-      std::vector<FacetSegment> segments;
-      std::vector<std::uint32_t> touching;
-    };
-    std::vector<Found> found((pairs.size() + kChunk - 1) / kChunk);
-    parallel_for(found.size(), options_.threads, [&](std::size_t chunk) {
-      SegmentFinder finder(facets_, rounded_);
-      for (const auto& [f, g] : pairs.subspan(chunk * kChunk, std::min(kChunk, pairs.size() - chunk * kChunk))) {
-        if (std::optional<FacetSegment> s = finder.find(f, g)) found[chunk].segments.push_back(*s);
-      }
-      if (options_.passages) found[chunk].touching = finder.touching_corners();
-    });
-    for (const Found& part : found) {
-      result_.segments.insert(result_.segments.end(), part.segments.begin(), part.segments.end());
-      result_.touching.insert(result_.touching.end(), part.touching.begin(), part.touching.end());
-    }
-  }
-
-  void cut_segments() {
-    constexpr std::size_t kChunk = 256;
-    constexpr std::size_t kBlock = 16 * kChunk;
-    const std::size_t all = result_.segments.size();
-    for (std::size_t block = 0; block < all; block += kBlock) {
-      options_.poll(static_cast<double>(block) / static_cast<double>(all));
-      const std::size_t end = std::min(all, block + kBlock);
-      std::vector<CutSegments> parts((end - block + kChunk - 1) / kChunk);
-      parallel_for(parts.size(), options_.threads, [&](std::size_t chunk) {
-        const std::size_t first = block + chunk * kChunk;
-        parts[chunk] = SegmentCutter(facets_, rounded_, result_, meeting_, options_.passages)
-                           .run(first, std::min(end, first + kChunk));
-      });
-      for (const CutSegments& part : parts) append(part);
-    }
-  }
-
-  void append(const CutSegments& part) {
-    const auto cuts = static_cast<std::uint32_t>(result_.cuts.size());
-    const auto cutting = static_cast<std::uint32_t>(result_.cutting.size());
-    const auto intervals = static_cast<std::uint32_t>(result_.intervals.size());
-    for (const SegmentCut& c : part.cuts) {
-      result_.cuts.push_back({c.first + cutting, c.last + cutting, c.is_end, c.at});
-    }
-    result_.cutting.insert(result_.cutting.end(), part.cutting.begin(), part.cutting.end());
-    for (const SurvivingInterval& i : part.intervals) {
-      result_.intervals.push_back({i.segment, i.from + cuts, i.to + cuts});
-    }
-    for (const auto& [segment, cut] : part.doubtful) result_.doubtful.push_back({segment, cut + cuts});
-    for (Link link : part.links) {
-      if (link.interval != kNone) link.interval += intervals;
-      links_.push_back(link);
-    }
-  }
-
-  // What is linked to an interval that is gone, goes.
-  void peel() {
-    std::sort(links_.begin(), links_.end());
-    std::vector<std::array<std::uint32_t, 2>> at(result_.intervals.size(), {kNone, kNone});  // first link of a triple
-    std::vector<std::uint32_t> gone;
-    std::vector<bool> is_gone(result_.intervals.size(), false);
-    const auto go = [&](std::uint32_t first) {
-      for (std::size_t i = first; i < links_.size() && links_[i].at == links_[first].at; ++i) {
-        const std::uint32_t interval = links_[i].interval;
-        if (interval == kNone || is_gone[interval]) continue;
-        is_gone[interval] = true;
-        gone.push_back(interval);
-      }
-    };
-    for (std::uint32_t first = 0; first < links_.size();) {
-      std::uint32_t end = first;
-      bool broken = false;
-      for (; end < links_.size() && links_[end].at == links_[first].at; ++end) {
-        broken = broken || links_[end].interval == kNone;
-      }
-      if (end - first == (links_[first].smooth ? 2U : 3U)) {
-        for (std::uint32_t i = first; i < end; ++i) {
-          if (links_[i].interval == kNone) continue;
-          std::array<std::uint32_t, 2>& two = at[links_[i].interval];
-          (two[0] == kNone ? two[0] : two[1]) = first;
-        }
-        if (broken) go(first);
-      }
-      first = end;
-    }
-    while (!gone.empty()) {
-      const std::uint32_t interval = gone.back();
-      gone.pop_back();
-      for (const std::uint32_t first : at[interval]) {
-        if (first != kNone) go(first);
-      }
-    }
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < result_.intervals.size(); ++i) {
-      if (!is_gone[i]) result_.intervals[kept++] = result_.intervals[i];
-    }
-    result_.intervals.resize(kept);
-    links_ = {};
-  }
-
-  const ConvolutionFacets& facets_;
-  const RoundedFacets& rounded_;
-  const IntervalOptions& options_;
-  SurvivingIntervals result_;
-  MeetingFacets meeting_;
-  std::vector<Link> links_;
 };
+
+using FacetPair = std::array<std::uint32_t, 2>;
+
+void add_segments_of(std::span<const FacetPair> pairs, const ConvolutionFacets& facets, const RoundedFacets& rounded,
+                     const IntervalOptions& options, FoundSegments& result) {
+  constexpr std::size_t kChunk = 2048;
+  std::vector<FoundSegments> found((pairs.size() + kChunk - 1) / kChunk);
+  parallel_for(found.size(), options.threads, [&](std::size_t chunk) {
+    SegmentFinder finder(facets, rounded);
+    for (const auto& [f, g] : pairs.subspan(chunk * kChunk, std::min(kChunk, pairs.size() - chunk * kChunk))) {
+      if (std::optional<FacetSegment> s = finder.find(f, g)) found[chunk].segments.push_back(*s);
+    }
+    if (options.passages) found[chunk].touching = finder.touching_corners();
+  });
+  for (const FoundSegments& part : found) result.append(part);
+}
+
+// Blocks of pairs keep memory low and give several threads something to do.
+FoundSegments all_segments(const ConvolutionFacets& facets, const RoundedFacets& rounded,
+                           const IntervalOptions& options) {
+  constexpr std::size_t kBlock = std::size_t{1} << 17U;
+  FoundSegments result;
+  std::vector<FacetPair> pairs;
+  BoxTree(rounded.boxes()).for_each_pair([&](std::uint32_t f, std::uint32_t g) {
+    pairs.push_back({f, g});
+    if (pairs.size() < kBlock) return;
+    add_segments_of(pairs, facets, rounded, options, result);
+    pairs.clear();
+  });
+  add_segments_of(pairs, facets, rounded, options, result);
+  return result;
+}
+
+void append(const CutSegments& part, CutSegments& all) {
+  const auto cuts = static_cast<std::uint32_t>(all.cuts.size());
+  const auto cutting = static_cast<std::uint32_t>(all.cutting.size());
+  const auto intervals = static_cast<std::uint32_t>(all.intervals.size());
+  for (const SegmentCut& c : part.cuts) all.cuts.push_back({c.first + cutting, c.last + cutting, c.is_end, c.at});
+  all.cutting.insert(all.cutting.end(), part.cutting.begin(), part.cutting.end());
+  for (const SurvivingInterval& i : part.intervals) all.intervals.push_back({i.segment, i.from + cuts, i.to + cuts});
+  for (const auto& [segment, cut] : part.doubtful) all.doubtful.push_back({segment, cut + cuts});
+  for (Link link : part.links) {
+    if (link.interval != kNone) link.interval += intervals;
+    all.links.push_back(link);
+  }
+}
+
+CutSegments cut_segments(const ConvolutionFacets& facets, const RoundedFacets& rounded,
+                         const std::vector<FacetSegment>& segments, const Sides& at_side,
+                         const IntervalOptions& options) {
+  constexpr std::size_t kChunk = 256;
+  constexpr std::size_t kBlock = 16 * kChunk;
+  const MeetingFacets meeting(facets.size(), segments);
+  CutSegments result;
+  for (std::size_t block = 0; block < segments.size(); block += kBlock) {
+    options.poll(static_cast<double>(block) / static_cast<double>(segments.size()));
+    const std::size_t end = std::min(segments.size(), block + kBlock);
+    std::vector<CutSegments> parts((end - block + kChunk - 1) / kChunk);
+    parallel_for(parts.size(), options.threads, [&](std::size_t chunk) {
+      const std::size_t first = block + chunk * kChunk;
+      parts[chunk] = SegmentCutter(facets, rounded, segments, at_side, meeting, options.passages)
+                         .run(first, std::min(end, first + kChunk));
+    });
+    for (const CutSegments& part : parts) append(part, result);
+  }
+  return result;
+}
+
+// What is linked to an interval that is gone, goes.
+void peel(std::vector<Link> links, std::vector<SurvivingInterval>& intervals) {
+  std::sort(links.begin(), links.end());
+  std::vector<std::array<std::uint32_t, 2>> at(intervals.size(), {kNone, kNone});  // first link of a triple
+  std::vector<std::uint32_t> gone;
+  std::vector<bool> is_gone(intervals.size(), false);
+  const auto go = [&](std::uint32_t first) {
+    for (std::size_t i = first; i < links.size() && links[i].at == links[first].at; ++i) {
+      const std::uint32_t interval = links[i].interval;
+      if (interval == kNone || is_gone[interval]) continue;
+      is_gone[interval] = true;
+      gone.push_back(interval);
+    }
+  };
+  for (std::uint32_t first = 0; first < links.size();) {
+    std::uint32_t end = first;
+    bool broken = false;
+    for (; end < links.size() && links[end].at == links[first].at; ++end) {
+      broken = broken || links[end].interval == kNone;
+    }
+    if (end - first == (links[first].smooth ? 2U : 3U)) {
+      for (std::uint32_t i = first; i < end; ++i) {
+        if (links[i].interval == kNone) continue;
+        std::array<std::uint32_t, 2>& two = at[links[i].interval];
+        (two[0] == kNone ? two[0] : two[1]) = first;
+      }
+      if (broken) go(first);
+    }
+    first = end;
+  }
+  while (!gone.empty()) {
+    const std::uint32_t interval = gone.back();
+    gone.pop_back();
+    for (const std::uint32_t first : at[interval]) {
+      if (first != kNone) go(first);
+    }
+  }
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < intervals.size(); ++i) {
+    if (!is_gone[i]) intervals[kept++] = intervals[i];
+  }
+  intervals.resize(kept);
+}
 
 }  // namespace
 
@@ -476,7 +469,12 @@ std::uint64_t side_key(const ConvolutionFacets& facets, std::uint32_t facet, std
 
 SurvivingIntervals surviving_intervals(const ConvolutionFacets& facets, const RoundedFacets& rounded,
                                        const IntervalOptions& options) {
-  return IntervalSearch(facets, rounded, options).run();
+  Sides at_side = facets_at_sides(facets);
+  FoundSegments found = all_segments(facets, rounded, options);
+  CutSegments cut = cut_segments(facets, rounded, found.segments, at_side, options);
+  peel(std::move(cut.links), cut.intervals);
+  return {std::move(found.segments), std::move(cut.cuts),       std::move(cut.cutting), std::move(cut.intervals),
+          std::move(cut.doubtful),   std::move(found.touching), std::move(at_side)};
 }
 
 }  // namespace nef::minkowski

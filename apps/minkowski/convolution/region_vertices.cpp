@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/minkowski/convolution/region_vertices.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <unordered_map>
+
+#include "apps/minkowski/cells/meeting_points.h"
+#include "apps/minkowski/convolution/arrangement/pyramid_drawer.h"
+#include "apps/minkowski/convolution/marks/boundary_marker.h"
+#include "nef/base/threads/parallel.h"
+
+namespace nef::minkowski {
+namespace {
+
+// Marks sfaces that are just behind a facet; true if any is not.
+bool mark_inside(SphereMapBuffer& map) {
+  const auto visit = [&map](const auto& half) {
+    const LabelId behind = half.plane.flipped() ? kOutsideAbove : kOutsideBelow;
+    if ((half.mark & behind) != 0) map.sfaces[half.sface].mark = 1;
+  };
+  for (SFace& f : map.sfaces) f.mark = 0;
+  for (const SHalfedge& e : map.shalfedges) visit(e);
+  for (const SLoop& l : map.sloops) visit(l);
+  return std::any_of(map.sfaces.begin(), map.sfaces.end(), [](const SFace& f) { return f.mark == 0; });
+}
+
+double reach_of(const FacetSegment& s) {
+  double reach = 0;
+  for (std::size_t i = 0; i < 3; ++i) reach = std::max(reach, std::fabs(s.to[i] - s.from[i]));
+  return reach;
+}
+
+std::size_t main_axis(const FacetSegment& s) {
+  std::size_t axis = 0;
+  for (std::size_t i = 1; i < 3; ++i) {
+    if (std::fabs(s.to[i] - s.from[i]) > std::fabs(s.to[axis] - s.from[axis])) axis = i;
+  }
+  return axis;
+}
+
+class VertexFinder {
+ public:
+  VertexFinder(ConvolutionFacets& facets, const BoxTree& tree, FacetPyramids& pyramids,
+               const SurvivingIntervals& intervals, const SumMembership& membership, unsigned threads)
+      : facets_(facets),
+        intervals_(intervals),
+        tree_(tree),
+        pyramids_(pyramids),
+        membership_(membership),
+        threads_(threads),
+        is_closed_(facets.marks == BoundaryMarks::kAll),
+        meetings_(facets.planes, facets.points) {}
+
+  void add_points(std::span<const SaddlePoint> saddles, const std::function<void(double)>& poll);
+  RegionVertices finish();
+
+ private:
+  void add_interval(const SurvivingInterval& interval);
+  void add_points_of(const FacetSegment& s, const SegmentCut& cut);
+  void add_points_beyond(std::uint32_t f, std::uint32_t g, const SegmentEnd& end);
+  void add_points_near(const FacetSegment& s, const SegmentCut& cut, std::uint32_t facet);
+  void add_meeting(std::uint32_t f, std::uint32_t g, std::uint32_t h);
+  void add_corner(std::uint32_t corner);
+  void add_point(PointId point);
+  void draw_points();
+  [[nodiscard]] std::uint32_t nearest(const FacetSegment& s, const SegmentCut& cut, bool last) const;
+  void add_saddle_point(const SaddlePoint& saddle);
+  void add_passages();
+  void add_changes_of_marks();
+  void add_crossings(std::uint32_t f, std::uint32_t g);
+  [[nodiscard]] bool is_of_use(PointId point, SphereMapBuffer& map) const;
+
+  ConvolutionFacets& facets_;
+  const SurvivingIntervals& intervals_;
+  const BoxTree& tree_;
+  FacetPyramids& pyramids_;
+  const SumMembership& membership_;
+  unsigned threads_;
+  bool is_closed_;
+  bool among_passages_ = false;  // the points at hand are not ends of surviving intervals
+  RegionVertices result_;        // its joints come last
+  MeetingPoints meetings_;
+  struct KnownPoint {
+    std::uint32_t vertex = kNone;       // kNone if all is inside there
+    std::vector<std::uint32_t> facets;  // that hold it, in ascending order
+  };
+  std::unordered_map<std::uint32_t, KnownPoint> known_;  // point -> what is there
+  struct Undrawn {
+    PointId point{0};
+    std::vector<FacetAtPoint> facets;
+  };
+  std::vector<Undrawn> undrawn_;     // points, known already, that may be vertices
+  std::vector<std::uint32_t> near_;  // points at the cut at hand
+  std::vector<RegionJoint> joints_;  // of points instead of vertices
+};
+
+void VertexFinder::add_corner(std::uint32_t corner) { add_point(meetings_.first_equal(PointId{corner})); }
+
+void VertexFinder::add_meeting(std::uint32_t f, std::uint32_t g, std::uint32_t h) {
+  const std::optional<Meeting> meeting = meetings_.meet({facets_.plane[f], facets_.plane[g], facets_.plane[h]});
+  if (meeting) add_point(meeting->point);
+}
+
+void VertexFinder::add_point(PointId point) {
+  near_.push_back(point.index());
+  const auto [at, is_new] = known_.emplace(point.index(), KnownPoint());
+  if (!is_new) return;
+  ++result_.points;
+  KnownPoint& known = at->second;
+  const std::vector<FacetAtPoint>& facets = pyramids_.facets_at(point);
+  for (const FacetAtPoint& f : facets) known.facets.push_back(f.facet);
+  std::sort(known.facets.begin(), known.facets.end());
+  // Where marks are mixed, a corner in the middle of another facet may be a vertex.
+  if (facets.size() < (facets_.marks == BoundaryMarks::kMixed ? 1 : 3)) return;
+  undrawn_.push_back({point, facets});
+  constexpr std::size_t kManyPoints = 4096;
+  if (undrawn_.size() >= kManyPoints) draw_points();
+}
+
+// What is put off so that several threads have something to do.
+void VertexFinder::draw_points() {
+  constexpr std::size_t kChunk = 64;
+  std::vector<std::optional<SphereMapBuffer>> maps(undrawn_.size());
+  parallel_for((undrawn_.size() + kChunk - 1) / kChunk, threads_, [&](std::size_t chunk) {
+    PyramidDrawer drawer(facets_, pyramids_);
+    for (std::size_t i = chunk * kChunk; i < std::min(undrawn_.size(), (chunk + 1) * kChunk); ++i) {
+      SphereMapBuffer map = drawer.draw(undrawn_[i].facets, undrawn_[i].point);
+      if (is_of_use(undrawn_[i].point, map)) maps[i] = std::move(map);
+    }
+  });
+  for (std::size_t i = 0; i < undrawn_.size(); ++i) {
+    if (!maps[i]) continue;
+    known_.at(undrawn_[i].point.index()).vertex = static_cast<std::uint32_t>(result_.vertices.size());
+    result_.vertices.push_back({undrawn_[i].point, *std::move(maps[i]), false});
+  }
+  undrawn_.clear();
+}
+
+// True if the sum may have a vertex at a point. Marks regions that are inside.
+bool VertexFinder::is_of_use(PointId point, SphereMapBuffer& map) const {
+  const bool open = mark_inside(map);
+  if (is_closed_ || (open && !among_passages_)) return open;
+  if (!open && !BoundaryMarker::may_have_passages(map.view())) return false;
+  return !membership_.surely_in_inside(facets_.points.rational(point));
+}
+
+// Before all others but ends of intervals. Whether the sum has a vertex there is not to be seen from facets.
+void VertexFinder::add_saddle_point(const SaddlePoint& saddle) {
+  const PointId point = meetings_.first_equal(facets_.points.push(saddle.point));
+  near_.clear();
+  add_point(point);
+  draw_points();
+  KnownPoint& known = known_.at(point.index());
+  if (known.vertex == kNone) {
+    SphereMapBuffer map = PyramidDrawer(facets_, pyramids_).draw(pyramids_.facets_at(point), point);
+    mark_inside(map);
+    known.vertex = static_cast<std::uint32_t>(result_.vertices.size());
+    result_.vertices.push_back({point, std::move(map), true});
+  }
+  RegionVertex& v = result_.vertices[known.vertex];
+  v.is_saddle_point = true;
+  if (saddle.mark != 0) v.map.mark |= kInSum;
+}
+
+// Points around passages: where facets are not in general position.
+void VertexFinder::add_passages() {
+  among_passages_ = true;
+  for (const auto& [segment, cut] : intervals_.doubtful) {
+    add_points_of(intervals_.segments[segment], intervals_.cuts[cut]);
+  }
+  for (const std::uint32_t corner : intervals_.touching) add_corner(corner);
+  if (facets_.marks == BoundaryMarks::kMixed) add_changes_of_marks();
+  tree_.for_each_pair([&](std::uint32_t f, std::uint32_t g) {
+    if (facets_.plane[f].row() != facets_.plane[g].row()) return;
+    if (facets_.marks == BoundaryMarks::kMixed || facets_.plane[f] != facets_.plane[g]) add_crossings(f, g);
+  });
+}
+
+// Corners at which the marks along the border of a facet change: where that is straight, no segment ends there.
+void VertexFinder::add_changes_of_marks() {
+  for (std::uint32_t f = 0; f < facets_.size(); ++f) {
+    const std::uint32_t begin = facets_.begin[f];
+    const std::uint32_t end = facets_.begin[f + 1];
+    for (std::uint32_t i = begin; i < end; ++i) {
+      const std::uint8_t mark = facets_.corner_marks[i];
+      const std::uint8_t before = facets_.side_marks[i > begin ? i - 1 : end - 1];
+      if (mark != before || mark != facets_.side_marks[i]) add_corner(facets_.corners[i]);
+    }
+  }
+}
+
+// The corners of two facets in one plane that the other one holds, and where their sides cross.
+void VertexFinder::add_crossings(std::uint32_t f, std::uint32_t g) {
+  const auto ring = facets_.ring(f);
+  const auto other = facets_.ring(g);
+  const auto box_of = [&](std::span<const std::uint32_t> corners, std::size_t i) {
+    Box box;
+    box.add_rounded(facets_.rounded[corners[i]]);
+    box.add_rounded(facets_.rounded[corners[i + 1 < corners.size() ? i + 1 : 0]]);
+    return box;
+  };
+  for (const std::uint32_t corner : ring) {
+    if (pyramids_.holds(g, PointId{corner})) add_corner(corner);
+  }
+  for (const std::uint32_t corner : other) {
+    if (pyramids_.holds(f, PointId{corner})) add_corner(corner);
+  }
+  for (std::uint32_t i = 0; i < ring.size(); ++i) {
+    const Box side = box_of(ring, i);
+    for (std::uint32_t j = 0; j < other.size(); ++j) {
+      if (!side.overlaps(box_of(other, j))) continue;
+      const std::optional<Meeting> meeting =
+          meetings_.meet({facets_.plane[f], pyramids_.side_plane(f, i), pyramids_.side_plane(g, j)});
+      if (meeting) add_point(meeting->point);
+    }
+  }
+}
+
+// The points where the facet beyond a side may meet the segment's facets.
+void VertexFinder::add_points_beyond(std::uint32_t f, std::uint32_t g, const SegmentEnd& end) {
+  for (const std::uint32_t h : intervals_.at_side.at(side_key(facets_, end.facet, end.index))) add_meeting(f, g, h);
+}
+
+// Corners and sides of a facet near a cut.
+void VertexFinder::add_points_near(const FacetSegment& s, const SegmentCut& cut, std::uint32_t facet) {
+  const Box box = s.box_of({std::max(cut.at.low, 0.0), std::min(cut.at.high, 1.0)});
+  const auto ring = facets_.ring(facet);
+  for (std::uint32_t i = 0; i < ring.size(); ++i) {
+    Box corner;
+    corner.add_rounded(facets_.rounded[ring[i]]);
+    if (corner.overlaps(box)) add_corner(ring[i]);
+    Box side = corner;
+    side.add_rounded(facets_.rounded[ring[i + 1 < ring.size() ? i + 1 : 0]]);
+    if (side.overlaps(box)) add_points_beyond(s.f, s.g, {SegmentEnd::Kind::kSide, facet, i});
+  }
+}
+
+void VertexFinder::add_points_of(const FacetSegment& s, const SegmentCut& cut) {
+  near_.clear();
+  for (std::uint32_t i = cut.first; i < cut.last; ++i) add_meeting(s.f, s.g, intervals_.cutting[i]);
+  const bool is_end = cut.is_end[0] || cut.is_end[1];
+  const bool simple = is_end ? cut.first == cut.last && cut.is_end[0] != cut.is_end[1] : cut.last - cut.first == 1;
+  for (const std::size_t k : {0U, 1U}) {
+    if (!cut.is_end[k]) continue;
+    if (s.ends[k].kind == SegmentEnd::Kind::kCorner) add_corner(s.ends[k].index);
+    if (s.ends[k].kind == SegmentEnd::Kind::kSide) add_points_beyond(s.f, s.g, s.ends[k]);
+  }
+  const bool unsure = (cut.is_end[0] && s.ends[0].kind == SegmentEnd::Kind::kUnsure) ||
+                      (cut.is_end[1] && s.ends[1].kind == SegmentEnd::Kind::kUnsure);
+  if (simple && !unsure) return;
+  add_points_near(s, cut, s.f);
+  add_points_near(s, cut, s.g);
+  for (std::uint32_t i = cut.first; i < cut.last; ++i) add_points_near(s, cut, intervals_.cutting[i]);
+}
+
+// Of the points of the segment at a cut, the first or last one.
+std::uint32_t VertexFinder::nearest(const FacetSegment& s, const SegmentCut& cut, bool last) const {
+  const std::size_t axis = main_axis(s);
+  const double length = s.to[axis] - s.from[axis];
+  const double doubt = 4 * s.error / std::fabs(length) + 1e-12;
+  const bool up = length > 0;
+  std::uint32_t best = kNone;
+  for (const std::uint32_t p : near_) {
+    const PointId point{p};
+    const double t = (facets_.points.approximate(point)[axis] - s.from[axis]) / length;
+    if (!(t >= cut.at.low - doubt && t <= cut.at.high + doubt)) continue;
+    const std::vector<std::uint32_t>& here = known_.at(p).facets;
+    if (!std::binary_search(here.begin(), here.end(), s.f) || !std::binary_search(here.begin(), here.end(), s.g))
+      continue;
+    if (best == kNone ||
+        (compare_coordinate(facets_.points, point, PointId{best}, static_cast<int>(axis)) > 0) == (up == last)) {
+      best = p;
+    }
+  }
+  return best;
+}
+
+void VertexFinder::add_interval(const SurvivingInterval& interval) {
+  const FacetSegment& s = intervals_.segments[interval.segment];
+  add_points_of(s, intervals_.cuts[interval.from]);
+  const std::uint32_t from = nearest(s, intervals_.cuts[interval.from], true);
+  if (interval.from == interval.to) return;
+  add_points_of(s, intervals_.cuts[interval.to]);
+  const std::uint32_t to = nearest(s, intervals_.cuts[interval.to], false);
+  if (from == kNone || to == kNone || from == to || reach_of(s) < 100 * s.error) return;
+  joints_.push_back({interval.segment, from, to});
+}
+
+void VertexFinder::add_points(std::span<const SaddlePoint> saddles, const std::function<void(double)>& poll) {
+  for (std::size_t i = 0; i < intervals_.intervals.size(); ++i) {
+    if (i % 64 == 0) poll(static_cast<double>(i) / static_cast<double>(intervals_.intervals.size()));
+    add_interval(intervals_.intervals[i]);
+  }
+  draw_points();
+  for (const SaddlePoint& saddle : saddles) add_saddle_point(saddle);
+  if (!is_closed_) add_passages();
+  draw_points();
+}
+
+RegionVertices VertexFinder::finish() {
+  for (const RegionJoint& j : joints_) {
+    const std::uint32_t from = known_.at(j.from).vertex;
+    const std::uint32_t to = known_.at(j.to).vertex;
+    if (from != kNone && to != kNone) result_.joints.push_back({j.segment, from, to});
+  }
+  return std::move(result_);
+}
+
+}  // namespace
+
+RegionVertices region_vertices(ConvolutionFacets& facets, const BoxTree& tree, FacetPyramids& pyramids,
+                               const SurvivingIntervals& intervals, const SumMembership& membership,
+                               std::span<const SaddlePoint> saddles, unsigned threads,
+                               const std::function<void(double)>& poll) {
+  VertexFinder finder(facets, tree, pyramids, intervals, membership, threads);
+  finder.add_points(saddles, poll);
+  return finder.finish();
+}
+
+}  // namespace nef::minkowski

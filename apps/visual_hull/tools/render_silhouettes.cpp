@@ -10,11 +10,13 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <opencv2/imgcodecs.hpp>
+#include <string>
+#include <vector>
 
 #include "nef/base/error.h"
+#include "nef/io/file_bytes.h"
 #include "nef/io/mesh/mesh_reader.h"
 
 namespace {
@@ -144,15 +146,15 @@ void run(const Arguments& a) {
     const std::string image = fmt::format("{}_{:02}.png", stem, i);
     const cv::Mat mask = render(points, mesh, view, focal, cx, cy, a);
     const std::string path = (std::filesystem::path(a.directory) / image).string();
-    if (!cv::imwrite(path, mask, {cv::IMWRITE_PNG_BILEVEL, 1, cv::IMWRITE_PNG_COMPRESSION, 9})) {
-      throw nef::InputError("cannot write " + path);
+    std::vector<unsigned char> png;
+    if (!cv::imencode(".png", mask, png, {cv::IMWRITE_PNG_BILEVEL, 1, cv::IMWRITE_PNG_COMPRESSION, 9})) {
+      throw nef::InputError("cannot make an image of " + path);
     }
+    nef::write_file(path, std::string(png.begin(), png.end()));
     cameras += (i == 0 ? "" : ",\n") + camera_json(view, image, focal, cx, cy);
   }
   const std::filesystem::path scene = std::filesystem::path(a.directory) / (stem + ".json");
-  std::ofstream stream(scene);
-  stream << "{\n  \"cameras\": [\n" << cameras << "\n  ]\n}\n";
-  if (!stream) throw nef::InputError("cannot write " + scene.string());
+  nef::write_file(scene.string(), "{\n  \"cameras\": [\n" + cameras + "\n  ]\n}\n");
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Runs clang-tidy over sources of ours in a build tree, one process a core.
+"""Runs clang-tidy over sources of ours in a build tree, one process a core: the libraries, programs, fuzzers and the
+Python binding, and headers that these include. Not tests and benchmarks.
 
 Usage: lint.py BUILD_DIRECTORY [BUDGET]
 
@@ -29,7 +30,7 @@ def all_sources(build: str) -> list[str]:
         commands = json.load(file)
     root = os.getcwd() + "/"
     names = {entry["file"][len(root) :] for entry in commands if entry["file"].startswith(root)}
-    return sorted(name for name in names if name.startswith(("nef/", "apps/", "fuzz/")))
+    return sorted(name for name in names if name.startswith(("nef/", "apps/", "fuzz/", "python/")))
 
 
 def concerned(sources: list[str]) -> list[str]:

@@ -107,11 +107,7 @@ std::vector<Polyhedron> decompose(const Polyhedron& a) {
   });
 }
 
-}  // namespace
-}  // namespace nef::python
-
-PYBIND11_MODULE(_minkowski, m) {
-  using namespace nef::python;
+void define_module(py::module_& m) {
   m.doc() = "The core of the package nef.minkowski; see there.";
   py::module_::import("nef._nef");
   const auto bind = [&m](const char* name, Binary operation, const char* text) {
@@ -199,3 +195,8 @@ Those of dimension 3 come first; their interiors are disjoint. Raises Unsupporte
       "negate", [](const nef::Polyhedron& a) { return call(items(a), [a] { return nef::minkowski::negate(a); }); },
       py::arg("a"), "The set of all -x with x in a.");
 }
+
+}  // namespace
+}  // namespace nef::python
+
+PYBIND11_MODULE(_minkowski, m) { nef::python::define_module(m); }

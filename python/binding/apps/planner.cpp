@@ -145,12 +145,7 @@ plan::PathOptions path_options(bool raw, bool clearance, bool roomy, int min_dim
   return options;
 }
 
-}  // namespace
-}  // namespace nef::python
-
-PYBIND11_MODULE(_planner, m) {
-  using namespace nef::python;
-  namespace plan = nef::planner;
+void define_module(py::module_& m) {
   m.doc() = "The core of the package nef.planner; see there.";
   py::module_::import("nef._nef");
   py::class_<plan::PathOptions>(m, "PathOptions").def(py::init(&path_options));
@@ -171,3 +166,8 @@ PYBIND11_MODULE(_planner, m) {
       .def("passages", &Space::passages)
       .def("components", &Space::components);
 }
+
+}  // namespace
+}  // namespace nef::python
+
+PYBIND11_MODULE(_planner, m) { nef::python::define_module(m); }

@@ -113,11 +113,7 @@ py::dict from_views(const std::vector<std::string>& names, const std::vector<std
   return compute(scene, folder, options, progress);
 }
 
-}  // namespace
-}  // namespace nef::python
-
-PYBIND11_MODULE(_visual_hull, m) {
-  using namespace nef::python;
+void define_module(py::module_& m) {
   m.doc() = "The core of the package nef.visual_hull; see there.";
   py::module_::import("nef._nef");
   py::class_<visual_hull::Options>(m, "Options").def(py::init(&options_of));
@@ -125,3 +121,8 @@ PYBIND11_MODULE(_visual_hull, m) {
   m.def("from_file", &from_file);
   m.def("from_views", &from_views);
 }
+
+}  // namespace
+}  // namespace nef::python
+
+PYBIND11_MODULE(_visual_hull, m) { nef::python::define_module(m); }

@@ -44,6 +44,8 @@ void warn(const Messages& messages) {
 }
 
 void register_errors() {
+  // pybind11 asks for a function of this type.
+  // NOLINTNEXTLINE(performance-unnecessary-value-param)
   py::register_exception_translator([](std::exception_ptr pointer) {
     try {
       if (pointer) std::rethrow_exception(pointer);

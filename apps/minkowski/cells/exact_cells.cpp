@@ -65,10 +65,6 @@ ExactCells::ExactCells(std::span<const ConvexCell> cells, const RoundedCells& ro
   point_of_.assign(vertices, kNone);
 }
 
-std::span<const std::uint32_t> ExactCells::corners(std::uint32_t face) const {
-  return cells_[rounded_.cell_of_face(face)].mesh.face(local(face));
-}
-
 PointId ExactCells::point(std::uint32_t cell, std::uint32_t vertex) {
   std::uint32_t& id = point_of_[rounded_.first_vertex(cell) + vertex];
   if (id == kNone) id = points.push(cells_[cell].mesh.vertices[vertex]).index();

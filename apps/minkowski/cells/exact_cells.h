@@ -36,7 +36,9 @@ class ExactCells {
   /// The same if somebody asked for it before, or an invalid one.
   [[nodiscard]] PlaneId known_plane(std::uint32_t face) const { return plane_[face]; }
   /// The corners of a face, as vertices of its cell.
-  [[nodiscard]] std::span<const std::uint32_t> corners(std::uint32_t face) const;
+  [[nodiscard]] std::span<const std::uint32_t> corners(std::uint32_t face) const {
+    return cells_[rounded_.cell_of_face(face)].mesh.face(local(face));
+  }
   PointId point(std::uint32_t cell, std::uint32_t vertex);
   /// The side of a face on which a vertex of some cell lies: +1 outside.
   int side(std::uint32_t face, std::uint32_t cell, std::uint32_t vertex);

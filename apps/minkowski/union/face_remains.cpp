@@ -32,13 +32,17 @@ Double3 FaceRemains::Polygon::centre() const {
   return sum;
 }
 
+namespace {
+
+bool is_in(const Box& box, const Double3& x) {
+  return x[0] >= box.low[0] && x[0] <= box.high[0] && x[1] >= box.low[1] && x[1] <= box.high[1] && x[2] >= box.low[2] &&
+         x[2] <= box.high[2];
+}
+
+}  // namespace
+
 // Points next to each other are mostly beyond the same face.
 bool FaceRemains::has_inside(std::uint32_t cell, const Double3& x) {
-  const Box& box = cells_.box(cell);
-  if (x[0] < box.low[0] || x[0] > box.high[0] || x[1] < box.low[1] || x[1] > box.high[1] || x[2] < box.low[2] ||
-      x[2] > box.high[2]) {
-    return false;
-  }
   const auto is_beyond = [&](std::uint32_t h) {
     return !(cells_.face(h).value(x) < inside_[h]) && !flush_.may_miss(h, face_);
   };
@@ -56,10 +60,11 @@ bool FaceRemains::has_inside(std::uint32_t cell, const Double3& x) {
 std::uint32_t FaceRemains::cell_around(const Double3& x) {
   const std::uint32_t own = cells_.cell_of_face(face_);
   for (std::size_t k = 0; k < helpful_.size(); ++k) {
-    if (helpful_[k] == own || !has_inside(helpful_[k], x)) continue;
+    const std::uint32_t cell = helpful_[k];
+    if (cell == own || !is_in(cells_.box(cell), x) || !has_inside(cell, x)) continue;
     const auto begin = helpful_.begin();
     std::rotate(begin, begin + static_cast<std::ptrdiff_t>(k), begin + static_cast<std::ptrdiff_t>(k) + 1);
-    return helpful_[0];
+    return cell;
   }
   if (neighbours_of_ != own) {
     neighbours_of_ = own;
@@ -69,7 +74,7 @@ std::uint32_t FaceRemains::cell_around(const Double3& x) {
     });
   }
   for (const std::uint32_t cell : neighbours_) {
-    if (!has_inside(cell, x)) continue;
+    if (!is_in(cells_.box(cell), x) || !has_inside(cell, x)) continue;
     constexpr std::size_t kHelpful = 32;
     if (helpful_.size() == kHelpful) helpful_.pop_back();
     helpful_.insert(helpful_.begin(), cell);

@@ -3,6 +3,7 @@
 // What other cells leave of a face: a filter that says where on a face the boundary of a union may be.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -32,6 +33,7 @@ class FaceRemains {
     std::size_t size = 0;
     [[nodiscard]] Double3 centre() const;
   };
+  // Whether a cell whose box holds a point has it inside.
   [[nodiscard]] bool has_inside(std::uint32_t cell, const Double3& x);
   std::uint32_t cell_around(const Double3& x);
   bool subtract(const Polygon& polygon, std::uint32_t cell);

@@ -40,6 +40,7 @@ class SolidUnion {
         budget_(options.budget),
         poll_(options.poll) {
     for (std::uint32_t c = 0; c < rounded.size(); ++c) apart_.push_back(rounded.first_face(c));
+    segment_apart_ = apart_;
   }
 
   [[nodiscard]] std::size_t hidden_cells() const { return visible_.hidden_cells; }
@@ -102,10 +103,12 @@ class SolidUnion {
   // The face of the same cell on the other side of an edge.
   [[nodiscard]] std::uint32_t face_beyond(std::uint32_t face, std::uint32_t from, std::uint32_t to) const {
     const std::uint32_t cell = rounded_.cell_of_face(face);
-    for (std::uint32_t g = rounded_.first_face(cell); g < rounded_.end_face(cell); ++g) {
-      const auto ring = exact_.corners(g);
-      for (std::size_t k = 0; k < ring.size(); ++k) {
-        if (ring[k] == to && ring[(k + 1) % ring.size()] == from) return g;
+    const Mesh& mesh = cells_[cell].mesh;
+    for (std::uint32_t g = 0; g < mesh.face_count(); ++g) {
+      std::uint32_t last = mesh.face(g).back();
+      for (const std::uint32_t corner : mesh.face(g)) {
+        if (last == to && corner == from) return rounded_.first_face(cell) + g;
+        last = corner;
       }
     }
     NEF_ASSERT(false);  // convex solids are closed
@@ -152,6 +155,41 @@ class SolidUnion {
     add_candidates(s);
   }
 
+  // True if a face is flush with a cell that the segment is an edge or a meeting of.
+  [[nodiscard]] bool is_flush(std::uint32_t h, std::uint32_t own, std::uint32_t other) const {
+    const PlaneId plane = exact_.known_plane(h);
+    return visible_.planes.has(own, plane) || (own != other && visible_.planes.has(other, plane));
+  }
+
+  // The part of a segment that is surely inside of cell d, an open interval; nothing if a face of d that matters is
+  // flush with cell `own` or `other`, so that more may be covered.
+  std::optional<Interval> inside_part(const Segment& s, std::uint32_t d, std::uint32_t own, std::uint32_t other) {
+    constexpr Interval kNothing{1, 0};
+    const auto is_beyond = [&](const FormOnSegment& form, std::uint32_t h) {
+      return std::min(form.at, form.at + form.slope) >= -form.error && !is_flush(h, own, other);
+    };
+    // Segments next to each other are mostly beyond the same face.
+    ++work_;
+    if (is_beyond(FormOnSegment(rounded_.face(segment_apart_[d]), s), segment_apart_[d])) return kNothing;
+    Interval inside{-1, 2};  // so that a cell which surely holds an end covers it
+    limits_.clear();
+    for (std::uint32_t h = rounded_.first_face(d); h < rounded_.end_face(d) && inside.low < inside.high; ++h) {
+      ++work_;
+      const FormOnSegment form(rounded_.face(h), s);
+      if (std::max(form.at, form.at + form.slope) < -form.error) continue;
+      if (is_beyond(form, h)) {
+        segment_apart_[d] = h;
+        return kNothing;
+      }
+      keep_below(inside, form.at, form.slope, -form.error, Rounding::kInwards);
+      limits_.push_back(h);
+    }
+    for (const std::uint32_t h : limits_) {
+      if (is_flush(h, own, other)) return std::nullopt;
+    }
+    return inside;
+  }
+
   // The part of a segment of cell `c` where cell d surely covers c: an open interval. See coplanar.h.
   Interval covered_part(const Segment& s, std::uint32_t d, std::uint32_t c) {
     Interval inside{-1, 2};  // so that a cell which surely holds an end covers it
@@ -180,6 +218,16 @@ class SolidUnion {
     return may_cover(cells_, d, c, equal ? Pyramid::kEqual : Pyramid::kLarger) ? inside : Interval{1, 0};
   }
 
+  // Takes from s.open what one cell surely covers.
+  void take_covered(Segment& s, std::uint32_t cell, std::uint32_t own, std::uint32_t other) {
+    const auto take = [&](const Interval& part) {
+      if (part.low < part.high) subtract(s.open, part, pieces_);
+    };
+    if (const std::optional<Interval> inside = inside_part(s, cell, own, other)) return take(*inside);
+    take(covered_part(s, cell, own));
+    if (own != other) take(covered_part(s, cell, other));
+  }
+
   // Takes from the part `whole` what is surely covered and leaves the rest in s.open; true if that is nothing.
   bool is_covered(Segment& s, const Interval& whole) {
     s.open.assign(1, whole);
@@ -189,11 +237,7 @@ class SolidUnion {
     for (std::size_t k = 0; k < neighbours_.size(); ++k) {
       const std::uint32_t cell = neighbours_[k];
       if (cell == own || cell == other || !box.overlaps(rounded_.box(cell))) continue;
-      for (const std::uint32_t c : {own, other}) {
-        const Interval inside = covered_part(s, cell, c);
-        if (inside.low < inside.high) subtract(s.open, inside, pieces_);
-        if (own == other) break;
-      }
+      take_covered(s, cell, own, other);
       if (s.open.empty()) {
         // Neighbouring segments are likely to be covered by the same cell.
         const auto begin = neighbours_.begin();
@@ -264,9 +308,11 @@ class SolidUnion {
   std::uint64_t work_ = 0;
 
   // Scratch.
-  std::vector<std::uint32_t> neighbours_;  // of the face at hand
-  std::vector<Double3> ring_;              // its corners
-  std::vector<std::uint32_t> apart_;       // per cell, a face of it beyond which the last face was
+  std::vector<std::uint32_t> neighbours_;     // of the face at hand
+  std::vector<Double3> ring_;                 // its corners
+  std::vector<std::uint32_t> apart_;          // per cell, a face of it beyond which the last face was
+  std::vector<std::uint32_t> segment_apart_;  // and one beyond which the last segment was
+  std::vector<std::uint32_t> limits_;         // faces of the cell at hand that the segment is not surely below
   Segment segment_;
   std::vector<Interval> pieces_;
   std::vector<FormOnSegment> forms_;

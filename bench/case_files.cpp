@@ -3,15 +3,17 @@
 // Cases as OFF files: integers and p/q, so that nothing is rounded on the way to either library.
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 
 #include "bench/generators.h"
 #include "nef/base/error.h"
+#include "nef/io/file_bytes.h"
 
 namespace nef::bench {
 namespace {
 
 void write_off(const Mesh& mesh, const std::string& path) {
-  std::ofstream out(path);
+  std::ostringstream out;
   out << "OFF\n" << mesh.vertices.size() << ' ' << mesh.face_count() << " 0\n";
   for (const Rational3& v : mesh.vertices)
     out << to_string(v[0]) << ' ' << to_string(v[1]) << ' ' << to_string(v[2]) << '\n';
@@ -20,7 +22,7 @@ void write_off(const Mesh& mesh, const std::string& path) {
     for (const std::uint32_t corner : mesh.face(f)) out << ' ' << corner;
     out << '\n';
   }
-  if (!out.flush()) throw InputError("cannot write " + path);
+  write_file(path, out.str());
 }
 
 Mesh read_off(const std::string& path) {
@@ -54,13 +56,13 @@ Mesh read_off(const std::string& path) {
 
 void write_case(const Case& bench_case, const std::string& directory) {
   std::filesystem::create_directories(directory);
-  std::ofstream out(directory + "/case.txt");
+  std::ostringstream out;
   out << bench_case.name << '\n' << static_cast<int>(bench_case.operation) << '\n';
   for (std::size_t i = 0; i < bench_case.operands.size(); ++i) {
     out << (bench_case.operands[i].surface ? "surface\n" : "solid\n");
     write_off(bench_case.operands[i].mesh, directory + "/" + std::to_string(i) + ".off");
   }
-  if (!out.flush()) throw InputError("cannot write " + directory + "/case.txt");
+  write_file(directory + "/case.txt", out.str());
 }
 
 Case read_case(const std::string& directory) {

@@ -313,35 +313,44 @@ Vanished explain_flat(const Views& views, const Room& room, const std::vector<Pa
   return {views[view].name, "what it leaves has no volume (only points, edges or facets)", {}};
 }
 
-void find_hull(const Run& run, const Place& place, const Room& room, Result& result) {
+/// A hull, or why there is none with a volume.
+struct FoundHull {
+  nef::Polyhedron hull;
+  bool direct = false;  ///< made vertex by vertex
+  std::optional<Vanished> vanished;
+};
+
+/// Cones -> Hull, where the direct way is not asked for or does not do.
+FoundHull hull_of_cones(const Run& run, const Place& place, const Room& room, Views& views, PhaseReports& phases) {
+  FoundHull found;
   std::vector<Part> parts;
-  const bool try_directly = run.options.way != Way::kCones && !run.options.at_least;
-  if (!room.empty && try_directly) {
-    timed(result.phases, Phase::kIntersection, [&] {
-      if (auto hull = direct(run, result.views, place, room)) {
-        result.hull = std::move(*hull);
-        result.direct = true;
-      }
-    });
+  if (!room.empty) {
+    timed(phases, Phase::kCones, [&] { parts = cones_of(run, views, place, room); });
+    timed(phases, Phase::kIntersection, [&] { found.hull = hull_of_parts(run, views, room, parts); });
   }
-  if (!result.direct && run.options.way == Way::kDirect) {
+  timed(phases, Phase::kIntersection, [&] {
+    if (found.hull.is_empty()) {
+      found.vanished = explain_empty(run, views, place, room);
+    } else if (nef::interior(found.hull).is_empty()) {
+      found.vanished = explain_flat(views, room, parts);
+    }
+  });
+  return found;
+}
+
+/// Silhouettes, Box -> Hull, in the coordinates of the place.
+FoundHull hull_in_room(const Run& run, const Place& place, const Room& room, Views& views, PhaseReports& phases) {
+  std::optional<nef::Polyhedron> made;
+  if (!room.empty && run.options.way != Way::kCones && !run.options.at_least) {
+    timed(phases, Phase::kIntersection, [&] { made = direct(run, views, place, room); });
+  }
+  if (made) return {*std::move(made), true, std::nullopt};
+  if (run.options.way == Way::kDirect) {
     throw nef::InputError(
         "--way direct: not for these views (fewer than three, a camera in the box, background, a box that cuts the "
-        "hull, "
-        "or too many coincidences that doubles do not decide); use --way cones");
+        "hull, or too many coincidences that doubles do not decide); use --way cones");
   }
-  if (!result.direct && !room.empty) {
-    timed(result.phases, Phase::kCones, [&] { parts = cones_of(run, result.views, place, room); });
-    timed(result.phases, Phase::kIntersection, [&] { result.hull = hull_of_parts(run, result.views, room, parts); });
-  }
-  timed(result.phases, Phase::kIntersection, [&] {
-    if (result.hull.is_empty()) {
-      result.vanished = explain_empty(run, result.views, place, room);
-    } else if (!result.direct && nef::interior(result.hull).is_empty()) {
-      result.vanished = explain_flat(result.views, room, parts);
-    }
-    if (place.moved()) result.hull = nef::transform(result.hull, nef::AffineMap::translate(place.shift));
-  });
+  return hull_of_cones(run, place, room, views, phases);
 }
 
 void verify(const Run& run, Result& result) {
@@ -401,7 +410,14 @@ void finish(const Run& run, const Scene& scene, Place place, Result& result) {
   result.box = place.outward(room.box);
   result.box_found = room.found;
   if (room.enclosing) result.enclosing = place.outward(*room.enclosing);
-  find_hull(run, place, room, result);
+  FoundHull found = hull_in_room(run, place, room, result.views, result.phases);
+  result.direct = found.direct;
+  result.vanished = std::move(found.vanished);
+  result.hull = std::move(found.hull);
+  if (place.moved()) {
+    timed(result.phases, Phase::kIntersection,
+          [&] { result.hull = nef::transform(result.hull, nef::AffineMap::translate(place.shift)); });
+  }
   if (run.options.verify && !result.vanished) {
     timed(result.phases, Phase::kVerify, [&] { verify(run, result); });
   }

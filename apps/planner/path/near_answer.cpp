@@ -73,6 +73,55 @@ std::vector<Vector3d> fixed_directions() {
   return result;
 }
 
+// The robot that sweeps: corners of it, and the inside of the reflected one in convex parts.
+struct SweptRobot {
+  Corners corners;
+  std::vector<Extent> extents;  // along the fixed directions
+  std::vector<minkowski::ConvexCell> inside;
+};
+
+SweptRobot swept_robot(const Polyhedron& robot, const std::vector<Vector3d>& directions) {
+  SweptRobot result;
+  const Complex& c = robot.complex();
+  for (const VertexId v : c.vertex_ids()) result.corners.push_back(to_vector(c.points.approximate(point_of(v))));
+  for (const Vector3d& direction : directions) result.extents.push_back(extent_along(direction, result.corners));
+  result.inside = minkowski::decompose(interior(minkowski::negate(robot)));
+  return result;
+}
+
+// The largest extent of the robot along an axis.
+double size_of(const SweptRobot& robot) {
+  double size = 0;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const Extent extent = extent_along(Vector3d::Unit(axis), robot.corners);
+    size = std::max(size, extent.high - extent.low);
+  }
+  return size;
+}
+
+Piece piece_of(minkowski::ConvexCell cell, const std::vector<Vector3d>& directions) {
+  Piece piece;
+  for (const Rational3& v : cell.mesh.vertices) piece.corners.push_back(to_vector(v));
+  if (cell.dimension == 2) {
+    const Corners& p = piece.corners;
+    const Vector3d normal = (p[1] - p[0]).cross(p[2] - p[0]);
+    if (normal.norm() > 0) piece.normal = normal.normalized();
+  }
+  for (const Vector3d& direction : directions) piece.extents.push_back(extent_along(direction, piece.corners));
+  piece.cell = std::move(cell);
+  return piece;
+}
+
+std::vector<Piece> pieces_of(const std::vector<Polyhedron>& obstacles, const std::vector<Vector3d>& directions) {
+  std::vector<Piece> pieces;
+  for (const Polyhedron& obstacle : obstacles) {
+    for (minkowski::ConvexCell& cell : minkowski::decompose(closure(obstacle))) {
+      pieces.push_back(piece_of(std::move(cell), directions));
+    }
+  }
+  return pieces;
+}
+
 class NearSearch {
  public:
   NearSearch(const Scene& scene, const PathOptions& options, const BuildOptions& build)
@@ -80,20 +129,11 @@ class NearSearch {
         options_(options),
         build_(build),
         directions_(fixed_directions()),
-        robot_inside_(minkowski::decompose(interior(minkowski::negate(scene.robot)))) {
-    const Complex& robot = scene.robot.complex();
-    for (const VertexId v : robot.vertex_ids()) {
-      robot_.push_back(to_vector(robot.points.approximate(point_of(v))));
-    }
-    for (const Vector3d& direction : directions_) robot_extents_.push_back(extent_along(direction, robot_));
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Extent extent = extent_along(Vector3d::Unit(static_cast<Eigen::Index>(k)), robot_);
-      around_ = std::max(around_, kAround * (extent.high - extent.low));
-    }
-    for (const Polyhedron& obstacle : scene.obstacles) {
-      for (minkowski::ConvexCell& cell : minkowski::decompose(closure(obstacle))) add_piece(std::move(cell));
-    }
-    scale_ = largest_coordinate(robot_) + largest_coordinate({to_vector(*scene.start), to_vector(*scene.goal)});
+        robot_(swept_robot(scene.robot, directions_)),
+        around_(kAround * size_of(robot_)),
+        pieces_(pieces_of(scene.obstacles, directions_)),
+        scale_(largest_coordinate(robot_.corners) +
+               largest_coordinate({to_vector(*scene.start), to_vector(*scene.goal)})) {
     for (const Piece& piece : pieces_) scale_ = std::max(scale_, largest_coordinate(piece.corners));
   }
 
@@ -117,25 +157,13 @@ class NearSearch {
   }
 
  private:
-  void add_piece(minkowski::ConvexCell cell) {
-    Piece& piece = pieces_.emplace_back();
-    for (const Rational3& v : cell.mesh.vertices) piece.corners.push_back(to_vector(v));
-    if (cell.dimension == 2) {
-      const Corners& p = piece.corners;
-      const Vector3d normal = (p[1] - p[0]).cross(p[2] - p[0]);
-      if (normal.norm() > 0) piece.normal = normal.normalized();
-    }
-    for (const Vector3d& direction : directions_) piece.extents.push_back(extent_along(direction, piece.corners));
-    piece.cell = std::move(cell);
-  }
-
   // The positions that some pieces forbid: those at which the inside of the robot meets one.
   [[nodiscard]] Polyhedron forbidden_by(const std::vector<std::size_t>& pieces) const {
     // Measured: pieces of a surface nearly coincide too often for one union of all.
     minkowski::UnionBuilder forbidden(minkowski::UnionStrategy::kQueue, build_.threads, pieces.size(),
                                       [](double) { check_interruption(); });
     for (const std::size_t i : pieces) {
-      for (const minkowski::ConvexCell& part : robot_inside_) forbidden.add(convex_sum(pieces_[i].cell, part));
+      for (const minkowski::ConvexCell& part : robot_.inside) forbidden.add(convex_sum(pieces_[i].cell, part));
     }
     return forbidden.finish();
   }
@@ -193,10 +221,10 @@ class NearSearch {
              std::max(from, to) + robot.high < other.low - needed;
     };
     for (std::size_t i = 0; i < directions_.size(); ++i) {
-      if (apart(directions_[i], robot_extents_[i], piece.extents[i])) return true;
+      if (apart(directions_[i], robot_.extents[i], piece.extents[i])) return true;
     }
     if (piece.normal.isZero()) return false;
-    return apart(piece.normal, extent_along(piece.normal, robot_), extent_along(piece.normal, piece.corners));
+    return apart(piece.normal, extent_along(piece.normal, robot_.corners), extent_along(piece.normal, piece.corners));
   }
 
   [[nodiscard]] Answer answer_of(const FreeSpace& free, ExactPath path) const {
@@ -213,12 +241,10 @@ class NearSearch {
   const PathOptions& options_;
   const BuildOptions& build_;
   std::vector<Vector3d> directions_;
-  std::vector<minkowski::ConvexCell> robot_inside_;  // of the reflected one
-  Corners robot_;
-  std::vector<Extent> robot_extents_;
-  double around_ = 0;
+  SweptRobot robot_;
+  double around_;  // how far from a way pieces are taken with it
   std::vector<Piece> pieces_;
-  double scale_ = 0;
+  double scale_;  // the largest coordinate
 };
 
 }  // namespace

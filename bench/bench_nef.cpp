@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// nef_bench_nef CASE_DIRECTORY [REPEAT [THREADS]]: this library on one case; its operation on so many threads.
+// nef_bench_nef CASE_DIRECTORY [REPEAT [THREADS]]: this library on one case, on so many threads.
 #include <cstdlib>
 #include <exception>
 #include <string>
@@ -27,12 +27,15 @@ Report run(const std::string& directory, int repeat, unsigned threads) {
   for (int i = 0; i < repeat; ++i) {
     operands.clear();
     const Stopwatch watch;
+    const nef::Stopwatch clock;
     for (const Operand& operand : bench_case.operands) {
       MeshOptions options;
+      options.threads = threads;
       options.as_surface = operand.surface;
       operands.push_back(from_mesh(operand.mesh, options));
     }
     report.build_s.push_back(watch.seconds());
+    report.build_wall_s.push_back(clock.seconds());
   }
   Polyhedron result;
   if (bench_case.operation == Operation::kUnion) {

@@ -34,22 +34,24 @@ inline double median(std::vector<double> values) {
 }
 
 struct Report {
-  std::vector<double> build_s;    ///< mesh to operand, all operands, of each repetition
-  std::vector<double> op_s;       ///< of each repetition
-  std::vector<double> op_wall_s;  ///< the same on the clock, where an engine has used several threads
-  std::vector<double> export_s;   ///< result to a mesh of triangles and doubles in memory, where the engine does it
-  std::size_t triangles = 0;      ///< of that mesh
+  std::vector<double> build_s;       ///< mesh to operand, all operands, of each repetition
+  std::vector<double> build_wall_s;  ///< the same on the clock, where an engine has used several threads
+  std::vector<double> op_s;          ///< of each repetition
+  std::vector<double> op_wall_s;     ///< the same on the clock, where an engine has used several threads
+  std::vector<double> export_s;      ///< result to a mesh of triangles and doubles in memory, where the engine does it
+  std::size_t triangles = 0;         ///< of that mesh
   std::size_t vertices = 0, edges = 0, facets = 0, volumes = 0;
   std::size_t inside = 0;  ///< of the located points
   std::size_t bytes = 0;   ///< that the result holds, if the engine tells
 
   void print() const {
     std::printf(
-        "{\"build_s\": %.6g, \"op_s\": %.6g, \"op_wall_s\": %.6g, \"best_s\": %.6g, \"export_s\": %.6g, \"triangles\": "
+        "{\"build_s\": %.6g, \"build_wall_s\": %.6g, \"op_s\": %.6g, \"op_wall_s\": %.6g, \"best_s\": %.6g, "
+        "\"export_s\": %.6g, \"triangles\": "
         "%zu, \"vertices\": "
         "%zu, \"edges\": %zu, "
         "\"facets\": %zu, \"volumes\": %zu, \"inside\": %zu, \"bytes\": %zu, \"peak_kb\": %ld}\n",
-        median(build_s), median(op_s), median(op_wall_s),
+        median(build_s), median(build_wall_s), median(op_s), median(op_wall_s),
         op_s.empty() ? 0.0 : *std::min_element(op_s.begin(), op_s.end()), median(export_s), triangles, vertices, edges,
         facets, volumes, inside, bytes, peak_kb());
   }

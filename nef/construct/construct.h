@@ -41,6 +41,7 @@ struct MeshOptions {
   bool strict = false;      ///< refuse faces that are not exactly planar instead of triangulating them
   bool as_surface = false;  ///< the union of the faces as a two-dimensional set; any mesh will do
   bool check = true;        ///< look for contacts of faces (a mesh without any may skip it; with some, it may go wrong)
+  unsigned threads = 1;     ///< to use at most; 0: as many as the machine has. The result does not depend on them
 };
 
 /// Notes about what was done to the input (faces that were triangulated).

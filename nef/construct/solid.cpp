@@ -7,6 +7,7 @@
 
 #include "nef/base/error.h"
 #include "nef/boolean/overlay_complexes.h"
+#include "nef/construct/plain_ring.h"
 #include "nef/construct/solid_links.h"
 #include "nef/location/query_structure.h"
 #include "nef/sphere_map/arrangement.h"
@@ -40,25 +41,28 @@ class SolidBuilder {
     ComplexBuilder result(f_.planes);
     reserve(result);
     SolidLinks links(f_);
+    PlainRing ring(f_);
     for (std::uint32_t v = 0; v < f_.points.size(); ++v) {
-      if (first_[v] == first_[v + 1]) continue;
-      draw(v);
+      const std::span<const FaceCorner> corners = std::span(corners_).subspan(first_[v], first_[v + 1] - first_[v]);
+      if (corners.empty()) continue;
+      const bool plain = ring.read(v, corners);
+      if (const VertexId like = plain ? ring.like() : VertexId(); like.valid()) {
+        result.append_like(f_.points, PointId{v}, like, ring.planes());
+        links.note_ring(result.so_far(), v, ring.corners());
+        continue;
+      }
+      draw(v, corners);
       drawing_.sort_around_nodes(f_.planes);
       check_sides(v);
-      if (result.add_sorted(f_.points, PointId{v}, drawing_)) links.note(result.so_far(), v, drawing_, ends_, ring_);
+      if (!result.add_sorted(f_.points, PointId{v}, drawing_)) continue;
+      const bool is_ring = links.note(result.so_far(), v, drawing_, ends_, ring_);
+      if (plain && is_ring) ring.learn(VertexId{result.so_far().vertex_count() - 1});
     }
     std::optional<KnownLinks> known = links.finish(result.so_far());
     return known ? result.try_finish(marks_.outside, std::move(*known)) : result.try_finish(marks_.outside);
   }
 
  private:
-  struct Corner {
-    std::uint32_t face;
-    std::uint32_t next;  // vertex
-    std::uint32_t previous;
-    std::uint32_t at;  // in f_.corners
-  };
-
   struct Spoke {
     std::uint32_t to;  // vertex
     PlaneId first;     // planes of faces around the edge; second differs from first
@@ -158,13 +162,12 @@ class SolidBuilder {
     if (so_far != mark) so_far = marks_.boundary;
   }
 
-  void draw(std::uint32_t v) {
+  void draw(std::uint32_t v, std::span<const FaceCorner> corners) {
     drawing_.clear();
     spokes_.clear();
     ends_.clear();
     ring_.clear();
-    for (std::uint32_t i = first_[v]; i < first_[v + 1]; ++i) {
-      const Corner& corner = corners_[i];
+    for (const FaceCorner& corner : corners) {
       ring_.push_back(corner.at);
       const std::uint32_t source = node_toward(corner.next, f_.plane[corner.face]);
       const std::uint32_t target = node_toward(corner.previous, f_.plane[corner.face]);
@@ -205,7 +208,7 @@ class SolidBuilder {
   SolidFaces f_;
   SolidMarks marks_;
   std::vector<std::uint32_t> first_;
-  std::vector<Corner> corners_;
+  std::vector<FaceCorner> corners_;
   std::vector<Spoke> spokes_;
   std::vector<std::uint32_t> ends_;  // of the spokes
   std::vector<std::uint32_t> ring_;  // the corners around the vertex, in f_.corners

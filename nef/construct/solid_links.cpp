@@ -11,9 +11,10 @@ SolidLinks::SolidLinks(const SolidFaces& faces)
   end_.reserve(faces.corners.size());
 }
 
-void SolidLinks::note(const Complex& result, std::uint32_t point, const Arrangement& drawing,
+bool SolidLinks::note(const Complex& result, std::uint32_t point, const Arrangement& drawing,
                       std::span<const std::uint32_t> ends, std::span<const std::uint32_t> corners) {
-  if (note_ring(result, drawing, ends, corners)) {
+  const bool plain = note_drawn_ring(result, drawing, ends, corners);
+  if (plain) {
     vertex_of_[point] = point_.end_id();
   } else {
     for (const std::uint32_t corner : corners) shalfedge_of_[corner] = kNone;
@@ -21,11 +22,23 @@ void SolidLinks::note(const Complex& result, std::uint32_t point, const Arrangem
     end_.resize(result.svertex_count(), kNone);
   }
   point_.push_back(point);
+  return plain;
+}
+
+void SolidLinks::note_ring(const Complex& result, std::uint32_t point, std::span<const FaceCorner> ring) {
+  std::uint32_t shalfedge = result.vertices[VertexId{result.vertex_count() - 1}].shalfedges;
+  for (const FaceCorner& corner : ring) {
+    end_.push_back(corner.next);
+    shalfedge_of_[corner.at] = shalfedge + (faces_.plane[corner.face].flipped() ? 1U : 0U);
+    shalfedge += 2;
+  }
+  vertex_of_[point] = point_.end_id();
+  point_.push_back(point);
 }
 
 // Walks around the drawing as assemble_ring does: svertex i is the i-th node, shalfedge 2 i the half that leaves it.
-bool SolidLinks::note_ring(const Complex& result, const Arrangement& drawing, std::span<const std::uint32_t> ends,
-                           std::span<const std::uint32_t> corners) {
+bool SolidLinks::note_drawn_ring(const Complex& result, const Arrangement& drawing, std::span<const std::uint32_t> ends,
+                                 std::span<const std::uint32_t> corners) {
   const VertexId vertex{result.vertex_count() - 1};
   const SphereMapView map = result.sphere_map(vertex);
   const auto n = static_cast<std::uint32_t>(drawing.nodes.size());

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "nef/construct/plain_ring.h"
 #include "nef/construct/solid.h"
 #include "nef/sphere_map/arrangement.h"
 #include "nef/synthesis/known_links.h"
@@ -21,17 +22,20 @@ class SolidLinks {
   explicit SolidLinks(const SolidFaces& faces);
 
   /// The last vertex of the result: it lies at `point`; node n of its drawing leads to point `ends[n]`, arc a stands
-  /// for corner `corners[a]` of all faces.
-  void note(const Complex& result, std::uint32_t point, const Arrangement& drawing, std::span<const std::uint32_t> ends,
+  /// for corner `corners[a]` of all faces. True if the vertex is plain.
+  bool note(const Complex& result, std::uint32_t point, const Arrangement& drawing, std::span<const std::uint32_t> ends,
             std::span<const std::uint32_t> corners);
+
+  /// The same for a plain vertex whose corners are given in the order of its ring.
+  void note_ring(const Complex& result, std::uint32_t point, std::span<const FaceCorner> ring);
 
   /// The links of the result, whose planes are those of the faces; nothing if one of these is used nowhere, so that
   /// planes will be renamed.
   [[nodiscard]] std::optional<KnownLinks> finish(const Complex& result);
 
  private:
-  bool note_ring(const Complex& result, const Arrangement& drawing, std::span<const std::uint32_t> ends,
-                 std::span<const std::uint32_t> corners);
+  bool note_drawn_ring(const Complex& result, const Arrangement& drawing, std::span<const std::uint32_t> ends,
+                       std::span<const std::uint32_t> corners);
   [[nodiscard]] bool every_plane_is_used(const Complex& result) const;
   void link_twins(const Complex& result, KnownLinks& links) const;
   void link_facets(const Complex& result, KnownLinks& links) const;

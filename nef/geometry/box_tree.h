@@ -8,8 +8,11 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
+
+#include "nef/geometry/spatial_order.h"
 
 namespace nef {
 
@@ -41,7 +44,7 @@ struct Box {
   }
 };
 
-/// Static tree over n boxes: O(n log n) to build, O(log n + hits) expected for a query.
+/// Static tree over n boxes: O(n) to build as a rule, O(n log n) at most, O(log n + hits) expected for a query.
 class BoxTree {
  public:
   BoxTree() = default;
@@ -59,7 +62,7 @@ class BoxTree {
   template <typename Accept, typename Visit>
   void for_each_if(Accept&& accept, Visit&& visit) const {
     if (nodes_.empty()) return;
-    std::array<std::uint32_t, 64> stack{};
+    std::array<std::uint32_t, kDeepest> stack{};
     std::size_t depth = 0;
     stack[depth++] = 0;
     while (depth > 0) {
@@ -113,14 +116,12 @@ class BoxTree {
   [[nodiscard]] Box bounds() const { return nodes_.empty() ? Box{} : nodes_[0].box; }
 
  private:
+  static constexpr std::size_t kDeepest = 64 + 32 + 2;  // nodes on a way down, at most
+
   struct Node {
     Box box;
     std::uint32_t first = 0;  // of the two children, or of the leaf's boxes
     std::uint32_t count = 0;  // 0 for inner nodes
-  };
-  struct Entry {
-    std::array<double, 3> centre;
-    std::uint32_t index;
   };
   template <typename Visit>
   void visit_pairs(const Node& a, const Node& b, Visit&& visit) const {
@@ -131,7 +132,11 @@ class BoxTree {
       }
     }
   }
-  void build(std::uint32_t node, std::uint32_t first, std::span<Entry> entries);
+  std::optional<std::uint32_t> children(std::uint32_t node, std::uint32_t first, std::size_t count);
+  void split_cells(std::uint32_t node, std::uint32_t first, std::span<SpatialKey> keys,
+                   std::span<const std::array<double, 3>> centres);
+  void split_medians(std::uint32_t node, std::uint32_t first, std::span<SpatialKey> keys,
+                     std::span<const std::array<double, 3>> centres);
 
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> order_;

@@ -2,17 +2,28 @@
 #include "nef/geometry/plane_table.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <utility>
 
 #include "nef/base/capacity.h"
 #include "nef/base/error.h"
 #include "nef/base/threads/parallel.h"
+#include "nef/number/int128.h"
 
 namespace nef {
 namespace {
 
-// mantissa * 2^(exponent - top), for a coefficient of the row; truncation by GMP is within 2^-52.
+// value / 2^top in doubles, cut off after 53 bits, which is within 2^-52: the bits that count, times a power of two.
+double scaled(Int128 value, long top) {
+  const Unsigned128 size = magnitude(value);
+  const int dropped = std::max(0, bit_width(size) - 53);
+  const auto bits = static_cast<double>(static_cast<std::int64_t>(size >> dropped));
+  const auto power = std::bit_cast<double>(static_cast<std::uint64_t>(1023 + dropped - top) << 52U);
+  return value < 0 ? -bits * power : bits * power;
+}
+
+// The same for any integer, as GMP cuts it off.
 double scaled(mpz_srcptr value, long top) {
   long exponent = 0;
   const double mantissa = mpz_get_d_2exp(&exponent, value);
@@ -23,6 +34,22 @@ double scaled(mpz_srcptr value, long top) {
 }
 
 }  // namespace
+
+// The candidate is the last row; keep it, with the doubles that `approximate` gives, only if no equal row exists.
+template <typename Approximate>
+PlaneId PlaneTable::find_or_add_last(Approximate&& approximate) {
+  const auto candidate = static_cast<std::uint32_t>(rows_.size() - 1);
+  make_room_for_one();
+  const std::uint32_t hash = RowSlots::hash_of(rows_, candidate);
+  RowSlots::Slot& slot = slots_.find(rows_, hash, rows_, candidate);
+  if (!slot.empty()) {
+    rows_.pop();
+    return PlaneId{slot.row << 1U};
+  }
+  slot = {candidate, hash};
+  approximate_.push_back(approximate());
+  return PlaneId{candidate << 1U};
+}
 
 void PlaneTable::reserve(std::size_t planes) {
   rows_.reserve(planes, 5);
@@ -79,6 +106,24 @@ PlaneId PlaneTable::intern_primitive(const std::array<mpz_srcptr, 4>& plane) {
   const std::array<mpz_srcptr, 5> row{negated[0], negated[1], negated[2], negated[3], zero};
   rows_.push(row);
   return find_or_add_last().opposite();
+}
+
+PlaneId PlaneTable::intern_primitive(const std::array<Int128, 5>& plane) {
+  std::size_t lead = 0;
+  while (plane[lead] == 0) ++lead;
+  NEF_ASSERT(lead < 3);
+  const bool flip = plane[lead] < 0;
+  std::array<Int128, 5> row = plane;
+  if (flip) {
+    for (Int128& value : row) value = -value;
+  }
+  rows_.push(row);
+  const PlaneId result = find_or_add_last([&row] {
+    const int top = bit_width(magnitude(row[0]) | magnitude(row[1]) | magnitude(row[2]));
+    const double offset = row[4] == 0 ? scaled(row[3], top) : (row[4] > 0 ? HUGE_VAL : -HUGE_VAL);
+    return std::array<double, 4>{scaled(row[0], top), scaled(row[1], top), scaled(row[2], top), offset};
+  });
+  return flip ? result.opposite() : result;
 }
 
 PlaneId PlaneTable::intern_from(const PlaneTable& other, PlaneId plane) {
@@ -159,27 +204,19 @@ Integer PlaneTable::oriented_coefficient(PlaneId plane, std::size_t column) cons
   return plane.flipped() ? Integer(-result) : result;
 }
 
-// The candidate is the last row; keep it only if no equal row exists.
 PlaneId PlaneTable::find_or_add_last() {
-  const auto candidate = static_cast<std::uint32_t>(rows_.size() - 1);
-  make_room_for_one();
-  const std::uint32_t hash = RowSlots::hash_of(rows_, candidate);
-  RowSlots::Slot& slot = slots_.find(rows_, hash, rows_, candidate);
-  if (!slot.empty()) {
-    rows_.pop();
-    return PlaneId{slot.row << 1U};
-  }
-  slot = {candidate, hash};
-  long top = std::numeric_limits<long>::min();
-  for (std::size_t i = 0; i < 3; ++i) {
-    const IntegerView value = rows_.at(candidate, i);
-    if (value.sign() != 0) top = std::max(top, static_cast<long>(mpz_sizeinbase(value, 2)));
-  }
-  std::array<double, 4> approximate{};
-  for (std::size_t i = 0; i < 4; ++i) approximate[i] = scaled(rows_.at(candidate, i), top);
-  if (rows_.sign(candidate, 4) != 0) approximate[3] = rows_.sign(candidate, 4) > 0 ? HUGE_VAL : -HUGE_VAL;
-  approximate_.push_back(approximate);
-  return PlaneId{candidate << 1U};
+  return find_or_add_last([this] {
+    const auto candidate = static_cast<std::uint32_t>(rows_.size() - 1);
+    long top = std::numeric_limits<long>::min();
+    for (std::size_t i = 0; i < 3; ++i) {
+      const IntegerView value = rows_.at(candidate, i);
+      if (value.sign() != 0) top = std::max(top, static_cast<long>(mpz_sizeinbase(value, 2)));
+    }
+    std::array<double, 4> result{};
+    for (std::size_t i = 0; i < 4; ++i) result[i] = scaled(rows_.at(candidate, i), top);
+    if (rows_.sign(candidate, 4) != 0) result[3] = rows_.sign(candidate, 4) > 0 ? HUGE_VAL : -HUGE_VAL;
+    return result;
+  });
 }
 
 void PlaneTable::make_room_for_one() {

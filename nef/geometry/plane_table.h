@@ -30,6 +30,9 @@ class PlaneTable {
   /// The same for coefficients that are known to have no common factor.
   PlaneId intern_primitive(const std::array<mpz_srcptr, 4>& normal_and_offset);
 
+  /// The same in integers of two words; their opposites must be such, too.
+  PlaneId intern_primitive(const std::array<Int128, 5>& coefficients);
+
   /// The same for a plane of another table (or of this one).
   PlaneId intern_from(const PlaneTable& other, PlaneId plane);
 
@@ -77,6 +80,8 @@ class PlaneTable {
 
  private:
   PlaneId find_or_add_last();
+  template <typename Approximate>
+  PlaneId find_or_add_last(Approximate&& approximate);
   void make_room_for_one();
 
   IntegerRows rows_;

@@ -7,13 +7,11 @@
 
 #include "nef/base/capacity.h"
 #include "nef/base/error.h"
+#include "nef/number/int128.h"
 
 namespace nef {
 
 namespace {
-
-__extension__ using Int128 = __int128;
-__extension__ using Unsigned128 = unsigned __int128;
 
 // The homogeneous coordinates x, y, z, w of a point whose fractions and common denominator are small.
 bool small_coordinates(const Rational3& point, std::array<std::int64_t, 4>& h) {
@@ -34,25 +32,6 @@ bool small_coordinates(const Rational3& point, std::array<std::int64_t, 4>& h) {
     h[i] = static_cast<std::int64_t>(x);
   }
   return true;
-}
-
-// Appends x, y, z, w and no part in R; all below 2^127 in magnitude.
-std::uint32_t push_row(IntegerRows& rows, const std::array<Int128, 4>& h) {
-  static_assert(GMP_NUMB_BITS == 64);
-  std::array<std::array<mp_limb_t, 2>, 7> limbs{};
-  std::array<mpz_t, 7> numbers{};
-  std::array<mpz_srcptr, 7> row{};
-  for (std::size_t i = 0; i < 7; ++i) {
-    mp_size_t size = 0;
-    if (i < 4) {
-      const auto magnitude = static_cast<Unsigned128>(h[i] < 0 ? -h[i] : h[i]);
-      limbs[i] = {static_cast<mp_limb_t>(magnitude), static_cast<mp_limb_t>(magnitude >> 64U)};
-      size = limbs[i][1] != 0 ? 2 : limbs[i][0] != 0 ? 1 : 0;
-      if (h[i] < 0) size = -size;
-    }
-    row[i] = mpz_roinit_n(numbers[i], limbs[i].data(), size);
-  }
-  return rows.push(row);
 }
 
 // The coefficients of three finite planes, if all are below 2^40.
@@ -94,7 +73,8 @@ std::array<Int128, 4> small_intersection(const std::array<std::array<std::int64_
 }  // namespace
 
 PointId PointTable::push(const Rational3& point) {
-  if (std::array<std::int64_t, 4> small{}; small_coordinates(point, small)) return push_small(small);
+  if (std::array<std::int64_t, 4> small{}; small_coordinates(point, small))
+    return push_homogeneous(std::array<Int128, 7>{small[0], small[1], small[2], small[3]});  // no part in R
   thread_local std::array<Integer, 7> h;
   mpz_ptr w = h[3].get_mpz_t();
   mpz_lcm(w, point[0].get_den_mpz_t(), point[1].get_den_mpz_t());
@@ -107,8 +87,9 @@ PointId PointTable::push(const Rational3& point) {
   return push_homogeneous(h);
 }
 
-PointId PointTable::push_small(const std::array<std::int64_t, 4>& h) {
-  const PointId id{push_row(rows_, {h[0], h[1], h[2], h[3]})};
+PointId PointTable::push_homogeneous(const std::array<Int128, 7>& h) {
+  NEF_ASSERT(h[3] > 0);
+  const PointId id{rows_.push(h)};
   push_approximation();
   return id;
 }
@@ -178,9 +159,7 @@ std::optional<PointId> PointTable::push_intersection(const PlaneTable& planes, P
   if (std::array<std::array<std::int64_t, 4>, 3> n{}; small_coefficients(planes, plane, n)) {
     const std::array<Int128, 4> h = small_intersection(n);
     if (h[3] == 0) return std::nullopt;
-    const PointId id{push_row(rows_, h)};
-    push_approximation();
-    return id;
+    return push_homogeneous(std::array<Int128, 7>{h[0], h[1], h[2], h[3]});
   }
   thread_local Scratch s;
   for (std::size_t i = 0; i < 3; ++i) {

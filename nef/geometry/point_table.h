@@ -27,6 +27,8 @@ class PointTable {
 
   /// Appends the point of homogeneous coordinates x, y, z, w (not zero), x', y', z'.
   PointId push_homogeneous(std::array<Integer, 7>& coordinates);
+  /// The same in integers of two words; w > 0.
+  PointId push_homogeneous(const std::array<Int128, 7>& coordinates);
 
   /// Appends a copy of a point of another table.
   PointId push_from(const PointTable& other, PointId point);
@@ -83,7 +85,6 @@ class PointTable {
   void trim();
 
  private:
-  PointId push_small(const std::array<std::int64_t, 4>& coordinates);  // x, y, z, w > 0
   void push_approximation();
 
   IntegerRows rows_;

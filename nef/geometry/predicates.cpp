@@ -10,11 +10,10 @@
 #include <utility>
 
 #include "nef/base/error.h"
+#include "nef/number/int128.h"
 
 namespace nef {
 namespace {
-
-__extension__ using Unsigned128 = unsigned __int128;
 
 constexpr double kUnit = 0x1p-53;
 

@@ -9,9 +9,18 @@
 
 namespace nef {
 
-/// The indices of points in the order of a Z-shaped curve through their bounding box (Morton, 1966): neighbours in it
-/// are neighbours in space as a rule, so that arrays in this order are read along memory. Equal cells keep their order;
-/// what is not finite comes last. O(n log n).
+/// A point by its cell on a Z-shaped curve (Morton, 1966) through the bounding box of all points: bits 3 k, 3 k + 1 and
+/// 3 k + 2 tell in which half of a cube of the k-th smallest size it lies, so that points of neighbouring cells are
+/// neighbours in space as a rule. What is not finite comes last.
+struct SpatialKey {
+  std::uint64_t cell;
+  std::uint32_t index;
+};
+
+/// The keys of all points, ascending by cell, then by index. O(n).
+std::vector<SpatialKey> spatial_keys(std::span<const std::array<double, 3>> points);
+
+/// The indices of points in the order of their keys, so that arrays in this order are read along memory. O(n).
 std::vector<std::uint32_t> spatial_order(std::span<const std::array<double, 3>> points);
 
 /// The same with points of one cell sorted by `less`, which takes two indices.

@@ -9,6 +9,7 @@
 
 #include "nef/base/error.h"
 #include "nef/base/progress.h"
+#include "nef/base/threads/parallel.h"
 #include "nef/base/union_find.h"
 #include "nef/construct/construct.h"
 #include "nef/import/fill.h"
@@ -98,9 +99,28 @@ bool check(const Mesh& mesh, const MeshSurface& surface) {
   return touching;
 }
 
+// True if no face is known to be wrong before the surface as a whole is looked at.
+bool has_good_faces(const MeshSurface& surface) {
+  return std::all_of(surface.defects.begin(), surface.defects.end(),
+                     [](FaceDefect defect) { return defect == FaceDefect::kNone; });
+}
+
 Polyhedron checked_solid(const Mesh& mesh, const MeshSurface& surface, const MeshOptions& options, Messages* messages) {
-  // Without a face that has no area, its neighbours meet in parts of edges.
   tell_progress("self-intersections", 0, 0);
+  if (options.threads != 1 && has_good_faces(surface)) {
+    // The solid is made while the faces are looked at: hardly any mesh has contacts, and what is made of one that has
+    // some is thrown away.
+    std::optional<Polyhedron> early;
+    Messages notes;
+    bool contact = false;
+    parallel_calls(options.threads, {[&] { contact = check(mesh, surface); },
+                                     [&] { early = unchecked_solid(mesh, surface, options, &notes); }});
+    if (contact) return solid_in_contact(mesh, surface, options, messages);
+    if (!early) return solid(mesh, surface, options, messages);  // which tells what is wrong
+    if (messages != nullptr) messages->insert(messages->end(), notes.begin(), notes.end());
+    return *std::move(early);
+  }
+  // Without a face that has no area, its neighbours meet in parts of edges.
   const bool contact = check(mesh, surface) || has_faces_without_area(surface);
   return contact ? solid_in_contact(mesh, surface, options, messages) : solid(mesh, surface, options, messages);
 }

@@ -8,6 +8,7 @@
 #include "nef/base/error.h"
 #include "nef/geometry/spatial_order.h"
 #include "nef/mesh/mesh_check.h"
+#include "nef/number/int128.h"
 
 namespace nef {
 
@@ -66,14 +67,22 @@ void MeshFaces::number_points() {
     for (std::uint32_t v = 0; v < mesh_.vertices.size(); ++v) places.push_back(surface_.points.approximate(v));
     for (const std::uint32_t v : spatial_order(places)) {
       if (surface_.place[v] != v) continue;
-      const PointId p = known.size() > 0 ? points_.push_from(known, PointId{v}) : points_.push(mesh_.vertices[v]);
-      point_of_[v] = p.index();
+      point_of_[v] = (known.size() > 0 ? points_.push_from(known, PointId{v}) : push_small_point(v)).index();
       vertex_of_.push_back(v);
     }
     for (std::uint32_t v = 0; v < mesh_.vertices.size(); ++v) point_of_[v] = point_of_[surface_.place[v]];
   }
   f_.points = points_;
   f_.names = vertex_of_;
+}
+
+// A vertex with small integers for coordinates.
+PointId MeshFaces::push_small_point(std::uint32_t vertex) {
+  const std::array<std::int64_t, 3>& x = surface_.points.integers()[vertex];
+  std::int64_t common = surface_.points.denominator();
+  for (const std::int64_t value : x) common = common_divisor(common, value);
+  return points_.push_homogeneous(
+      std::array<Int128, 7>{x[0] / common, x[1] / common, x[2] / common, surface_.points.denominator() / common});
 }
 
 void MeshFaces::add_face(std::uint32_t face) {
@@ -123,9 +132,9 @@ void MeshFaces::push(std::span<const std::uint32_t> ring, PlaneId plane) {
   f_.begin.push_back(static_cast<std::uint32_t>(f_.corners.size()));
 }
 
-// The same in machine integers, for points with a common denominator D whose differences are below 2^31: with
+// The same in machine integers, for points with a common denominator D whose differences are below 2^30: with
 // N = D^2 n, the plane is N.(x D) = N.(a D). The factors of N are divided out first; what then remains between N D and
-// the offset is a divisor of D.
+// the offset is a divisor of D. As D and the integers x D are below 2^40 and N is below 2^61, nothing exceeds 2^103.
 std::optional<PlaneId> MeshFaces::plane_of_small_triangle(std::span<const std::uint32_t> t) {
   const auto integers = surface_.points.integers();
   if (integers.empty()) return std::nullopt;
@@ -144,22 +153,17 @@ std::optional<PlaneId> MeshFaces::plane_of_small_triangle(std::span<const std::u
   for (std::size_t i = 0; i < 3; ++i) n[i] = u[(i + 1) % 3] * v[(i + 2) % 3] - u[(i + 2) % 3] * v[(i + 1) % 3];
   const std::int64_t divisor = std::gcd(std::gcd(n[0], n[1]), n[2]);
   if (divisor == 0) return PlaneId();
-  for (std::int64_t& x : n) x /= divisor;
-  mpz_ptr offset = offset_.get_mpz_t();
-  mpz_set_ui(offset, 0);
+  Int128 offset = 0;
   for (std::size_t i = 0; i < 3; ++i) {
-    mpz_set_si(n_[i].get_mpz_t(), n[i]);
-    mpz_set_si(u_[0].get_mpz_t(), a[i]);
-    mpz_submul(offset, n_[i].get_mpz_t(), u_[0].get_mpz_t());
+    if (divisor != 1) n[i] /= divisor;
+    offset -= static_cast<Int128>(n[i]) * a[i];
   }
-  const std::int64_t d = surface_.points.denominator();
-  const auto left = static_cast<std::int64_t>(
-      mpz_sgn(offset) == 0
-          ? d
-          : std::gcd(d, static_cast<std::int64_t>(mpz_fdiv_ui(offset, static_cast<unsigned long>(d)))));
-  for (std::size_t i = 0; i < 3; ++i) mpz_mul_si(n_[i].get_mpz_t(), n_[i].get_mpz_t(), d / left);
-  mpz_divexact_ui(offset, offset, static_cast<unsigned long>(left));
-  return f_.planes.intern_primitive({n_[0].get_mpz_t(), n_[1].get_mpz_t(), n_[2].get_mpz_t(), offset});
+  const std::int64_t denominator = surface_.points.denominator();
+  const std::int64_t common = common_divisor(denominator, offset);
+  const Int128 factor = denominator / common;
+  if (common != 1) offset /= common;
+  return f_.planes.intern_primitive(
+      std::array<Int128, 5>{factor * n[0], factor * n[1], factor * n[2], offset});  // no part in R
 }
 
 // (b - a) x (c - a) up to a positive factor, and the offset that puts a on it; no plane if the points are on one line.

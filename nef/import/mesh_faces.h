@@ -40,6 +40,7 @@ class MeshFaces {
 
   SolidFaces collect(std::span<const std::uint32_t> faces, bool reverse);  // all if empty
   void number_points();
+  PointId push_small_point(std::uint32_t vertex);
   [[nodiscard]] std::vector<std::uint32_t> in_order_of_points(std::span<const std::uint32_t> faces) const;
   void add_face(std::uint32_t face);
   bool add_defective_ring();

@@ -241,6 +241,14 @@ bool check_edges(const Mesh& mesh, const MeshSurface& surface, const SurfaceCont
   return balanced;
 }
 
+// True if all faces are good triangles, so that the triangles of the surface are they.
+bool all_triangles(const MeshSurface& surface) {
+  return surface.triangles.size() == surface.defects.size() &&
+         std::all_of(surface.defects.begin(), surface.defects.end(),
+                     [](FaceDefect defect) { return defect == FaceDefect::kNone; }) &&
+         std::find(surface.irregular.begin(), surface.irregular.end(), true) == surface.irregular.end();
+}
+
 MeshProblem contact_problem(SurfaceContacts::Kind kind, std::uint32_t f, std::uint32_t g) {
   using Contact = SurfaceContacts::Kind;
   MeshProblem problem;
@@ -388,8 +396,11 @@ std::vector<MeshProblem> check_mesh(const Mesh& mesh, const MeshSurface& surface
   Report report(options.max_per_kind);
   const SurfaceContacts contacts(surface);
   check_faces(mesh, surface, report);
-  check_duplicates(mesh, surface, report);
-  const bool closed = check_edges(mesh, surface, contacts, report);
+  bool closed = all_triangles(surface) && contacts.stars().all_closed();
+  if (!closed) {
+    check_duplicates(mesh, surface, report);
+    closed = check_edges(mesh, surface, contacts, report);
+  }
   if (options.self_intersections) check_contacts(surface, contacts, report);
   check_planarity(mesh, surface, report);
   check_vertices(mesh, surface, report);

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <numeric>
 
+#include "nef/number/int128.h"
+
 namespace nef {
 namespace {
-
-__extension__ using Int128 = __int128;
 
 // Coordinates below 2^40 give differences below 2^41, minors below 2^83 and determinants below 2^126.
 constexpr std::int64_t kIntegerLimit = std::int64_t{1} << 40U;
@@ -288,7 +288,8 @@ bool MeshPoints::coplanar(std::uint32_t a, std::uint32_t b, std::uint32_t c,
 }
 
 // The same filter with two products of two differences.
-int MeshPoints::orientation_along(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::size_t axis) const {
+std::optional<int> MeshPoints::orientation_by_doubles(std::uint32_t a, std::uint32_t b, std::uint32_t c,
+                                                      std::size_t axis) const {
   if (filter_) {
     const std::size_t i = axis == 2 ? 0 : axis + 1;
     const std::size_t j = i == 2 ? 0 : i + 1;
@@ -308,7 +309,20 @@ int MeshPoints::orientation_along(std::uint32_t a, std::uint32_t b, std::uint32_
     if (value > bound) return 1;
     if (value < -bound) return -1;
   }
-  return orientation_along_exact(a, b, c, axis);
+  return std::nullopt;
+}
+
+int MeshPoints::orientation_along(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::size_t axis) const {
+  const std::optional<int> sign = orientation_by_doubles(a, b, c, axis);
+  return sign ? *sign : orientation_along_exact(a, b, c, axis);
+}
+
+std::array<std::int8_t, 3> MeshPoints::filtered_turns(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
+  std::array<std::int8_t, 3> result{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    result[axis] = static_cast<std::int8_t>(orientation_by_doubles(a, b, c, axis).value_or(0));
+  }
+  return result;
 }
 
 int MeshPoints::orientation_along_exact(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::size_t axis) const {

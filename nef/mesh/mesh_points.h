@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -44,6 +45,9 @@ class MeshPoints {
   /// The sign of component `axis` of (b - a) x (c - a): orientation of the three points in the projection along
   /// that axis.
   [[nodiscard]] int orientation_along(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::size_t axis) const;
+
+  /// The same for each axis if doubles can tell, and 0 where they can not.
+  [[nodiscard]] std::array<std::int8_t, 3> filtered_turns(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
 
   /// True if the three points lie on one line.
   [[nodiscard]] bool collinear(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
@@ -87,6 +91,8 @@ class MeshPoints {
   void approximate_integers();
   void find_margins(bool exact);
   [[nodiscard]] int orientation_exact(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const;
+  [[nodiscard]] std::optional<int> orientation_by_doubles(std::uint32_t a, std::uint32_t b, std::uint32_t c,
+                                                          std::size_t axis) const;
   [[nodiscard]] int orientation_along_exact(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::size_t axis) const;
 
   std::vector<std::array<double, 3>> approximate_;

@@ -50,23 +50,51 @@ void VertexMerger::grow() {
   }
 }
 
-std::vector<std::uint32_t> merge_equal(std::span<const Rational3> points) {
+namespace {
+
+constexpr std::uint32_t kFree = 0xffffffffU;
+
+struct Slot {
+  std::uint32_t index = kFree;
+  std::uint32_t hash = 0;  // the half of it that does not choose the slot
+};
+
+// The first of those that equal each of `count` things.
+template <typename HashOf, typename Equal>
+std::vector<std::uint32_t> first_equal(std::size_t count, const HashOf& hash_of, const Equal& equal) {
   std::size_t size = 64;
-  while (size < 2 * points.size()) size *= 2;
-  constexpr std::uint32_t kFree = 0xffffffffU;
-  std::vector<std::uint32_t> slots(size, kFree);
-  std::vector<std::uint32_t> first(points.size());
-  std::vector<std::uint64_t> hashes(points.size());
-  for (std::uint32_t i = 0; i < points.size(); ++i) {
-    hashes[i] = hash_of(points[i]);
-    std::size_t slot = hashes[i] & (size - 1);
-    while (slots[slot] != kFree && (hashes[slots[slot]] != hashes[i] || points[slots[slot]] != points[i])) {
+  while (size < 2 * count) size *= 2;
+  std::vector<Slot> slots(size);
+  std::vector<std::uint32_t> first(count);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const std::uint64_t hash = hash_of(i);
+    const auto upper = static_cast<std::uint32_t>(hash >> 32U);
+    std::size_t slot = hash & (size - 1);
+    while (slots[slot].index != kFree && (slots[slot].hash != upper || !equal(slots[slot].index, i))) {
       slot = (slot + 1) & (size - 1);
     }
-    if (slots[slot] == kFree) slots[slot] = i;
-    first[i] = slots[slot];
+    if (slots[slot].index == kFree) slots[slot] = {i, upper};
+    first[i] = slots[slot].index;
   }
   return first;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> merge_equal(std::span<const Rational3> points) {
+  return first_equal(
+      points.size(), [points](std::uint32_t i) { return hash_of(points[i]); },
+      [points](std::uint32_t i, std::uint32_t j) { return points[i] == points[j]; });
+}
+
+std::vector<std::uint32_t> merge_equal(std::span<const std::array<std::int64_t, 3>> points) {
+  const auto hash = [points](std::uint32_t i) {
+    std::uint64_t result = 0;
+    for (const std::int64_t x : points[i]) result = mix(result, static_cast<std::uint64_t>(x));
+    return result;
+  };
+  return first_equal(points.size(), hash,
+                     [points](std::uint32_t i, std::uint32_t j) { return points[i] == points[j]; });
 }
 
 }  // namespace nef

@@ -31,5 +31,7 @@ class VertexMerger {
 
 /// For each point the smallest index of a point with the same coordinates. Expected O(n).
 std::vector<std::uint32_t> merge_equal(std::span<const Rational3> points);
+/// The same for points with integers for coordinates.
+std::vector<std::uint32_t> merge_equal(std::span<const std::array<std::int64_t, 3>> points);
 
 }  // namespace nef

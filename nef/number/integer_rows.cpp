@@ -70,6 +70,28 @@ std::uint32_t IntegerRows::push(std::span<const mpz_srcptr> row) {
   return index;
 }
 
+std::uint32_t IntegerRows::push(std::span<const Int128> row) {
+  NEF_ASSERT(row.size() == width_);
+  static_assert(GMP_NUMB_BITS == 64);
+  const auto index = static_cast<std::uint32_t>(size());
+  make_room(limbs_, 2 * width_);
+  if (!is_wide_) make_room(sizes_, width_);
+  std::size_t end = limbs_.size();
+  limbs_.resize(end + 2 * width_);  // as many as there may be
+  for (const Int128 value : row) {
+    const Unsigned128 size = magnitude(value);
+    const auto high = static_cast<mp_limb_t>(size >> 64U);
+    limbs_[end] = static_cast<mp_limb_t>(size);
+    const std::int32_t limbs = high != 0 ? 2 : (limbs_[end] != 0 ? 1 : 0);
+    if (high != 0) limbs_[end + 1] = high;
+    end += static_cast<std::size_t>(limbs);
+    push_size(value < 0 ? -limbs : limbs);
+  }
+  limbs_.resize(end);
+  end_row();
+  return index;
+}
+
 std::uint32_t IntegerRows::push_from(const IntegerRows& other, std::uint32_t index) {
   NEF_ASSERT(other.width_ == width_ && &other != this);
   const auto result = static_cast<std::uint32_t>(size());

@@ -13,6 +13,7 @@
 #include <span>
 #include <vector>
 
+#include "nef/number/int128.h"
 #include "nef/number/number.h"
 
 namespace nef {
@@ -39,6 +40,9 @@ class IntegerRows {
 
   /// Appends a row; `row.size()` is the width. Returns its index.
   std::uint32_t push(std::span<const mpz_srcptr> row);
+
+  /// The same for integers of two words.
+  std::uint32_t push(std::span<const Int128> row);
 
   /// Appends a copy of row `index` of `other` (same width). Returns its new index.
   std::uint32_t push_from(const IntegerRows& other, std::uint32_t index);

@@ -6,12 +6,11 @@
 #include <cstdint>
 #include <optional>
 
+#include "nef/number/int128.h"
 #include "nef/number/number.h"
 
 namespace nef {
 namespace {
-
-__extension__ using Unsigned128 = unsigned __int128;
 
 // (bits + e) 2^exponent with 0 <= e < 1 and the highest bit set.
 struct Leading {

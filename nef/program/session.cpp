@@ -18,7 +18,8 @@ Polyhedron Session::load(const std::string& path) { return load_all({path}).fron
 std::vector<Polyhedron> Session::load_all(const std::vector<std::string>& paths) {
   const Stopwatch watch;
   const std::size_t first = messages.size();
-  const MeshOptions options = mesh;
+  MeshOptions options = mesh;
+  options.threads = threads;
   std::vector<Polyhedron> sets(paths.size());
   std::vector<Messages> notes(paths.size());
   std::atomic<std::size_t> done = 0;

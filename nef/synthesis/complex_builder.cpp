@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "nef/base/error.h"
+#include "nef/base/interruption.h"
 #include "nef/base/threads/parallel.h"
 #include "nef/complex/local_pyramid.h"
 #include "nef/synthesis/synthesis.h"
@@ -86,6 +87,25 @@ bool ComplexBuilder::add(const PointTable& points, PointId point, const SphereMa
 void ComplexBuilder::append(const PointTable& points, PointId point, const SphereMapView& map) {
   complex_.points.push_from(points, point);
   push(map);
+}
+
+void ComplexBuilder::append_like(const PointTable& points, PointId point, VertexId like,
+                                 std::span<const PlaneId> planes) {
+  check_interruption();
+  if (defect_) return;
+  Complex& c = complex_;
+  const VertexRecord& begin = c.vertices[like];
+  const VertexRecord& end = c.vertices[like.next()];
+  NEF_ASSERT(2 * planes.size() == end.shalfedges - begin.shalfedges && end.sloops == begin.sloops &&
+             end.other_planes == begin.other_planes);
+  VertexRecord next = c.vertices.back();
+  c.vertices.back().pattern = begin.pattern;
+  next.svertices += end.svertices - begin.svertices;
+  next.shalfedges += end.shalfedges - begin.shalfedges;
+  next.sfaces += end.sfaces - begin.sfaces;
+  c.points.push_from(points, point);
+  c.shalfedge_plane.pairs().insert(c.shalfedge_plane.pairs().end(), planes.begin(), planes.end());
+  c.vertices.push_back(next);
 }
 
 void ComplexBuilder::push(const SphereMapView& map) {

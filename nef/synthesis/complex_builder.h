@@ -48,6 +48,10 @@ class ComplexBuilder {
   /// Adds a simplified sphere map without asking whether it is one of a vertex.
   void append(const PointTable& points, PointId point, const SphereMapView& map);
 
+  /// Adds a vertex whose sphere map is that of one added before, `like`, but for its planes: `planes` are those of its
+  /// even shalfedges. It must have no sloops, and its svertices must name planes of these only.
+  void append_like(const PointTable& points, PointId point, VertexId like, std::span<const PlaneId> planes);
+
   /// Adds copies of consecutive vertices of another complex, from `first` on. Rows of its planes become rows[row]
   /// unless `rows` is empty, its marks other than kOutside become marks[mark] unless `marks` is empty. O(their items),
   /// with a few memcpys.

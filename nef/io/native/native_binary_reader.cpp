@@ -102,24 +102,46 @@ class BinaryReader {
     return width;
   }
 
-  // Views of the numbers of one row after the other.
-  template <typename Take>
-  void numbers(std::size_t width, std::size_t rows, Take&& take) {
+  // One row of numbers after the other: those of up to two words below 2^127 as such, others as views.
+  template <std::size_t kWidth, typename TakeShort, typename TakeLong>
+  void numbers(std::size_t rows, TakeShort&& take_short, TakeLong&& take_long) {
+    constexpr std::size_t width = kWidth;
     const auto sizes = column<std::int32_t>(width * rows);
     const std::uint64_t limbs = column<std::uint64_t>(1)[0];
     const auto limb = column<mp_limb_t>(limbs);
     std::vector<mp_limb_t> row_limbs;
-    std::array<mpz_t, 7> values;
-    std::array<std::int32_t, 7> size{};
+    std::array<mpz_t, kWidth> values;
+    std::array<Int128, kWidth> words{};
+    std::array<std::int32_t, kWidth> size{};
     std::uint64_t next = 0;
     for (std::size_t row = 0; row < rows; ++row) {
       std::uint64_t total = 0;
+      bool is_short = true;
       for (std::size_t i = 0; i < width; ++i) {
         size[i] = sizes[row * width + i];
         demand(size[i] > -0x40000000 && size[i] < 0x40000000, "a number is too long");
         total += static_cast<std::uint64_t>(size[i] < 0 ? -size[i] : size[i]);
+        is_short = is_short && size[i] >= -2 && size[i] <= 2;
       }
       demand(total <= limbs - next, "its numbers are longer than it says");
+      if (is_short) {
+        std::uint64_t at = next;
+        for (std::size_t i = 0; i < width; ++i) {
+          const std::int32_t length = size[i] < 0 ? -size[i] : size[i];
+          const mp_limb_t low = length > 0 ? limb[at] : 0;
+          const mp_limb_t high = length > 1 ? limb[at + 1] : 0;
+          at += static_cast<std::uint64_t>(length);
+          demand(length == 0 || (length == 1 ? low : high) != 0, "a number begins with zeros");
+          is_short = is_short && high >> 63U == 0;
+          const auto absolute = static_cast<Int128>(static_cast<Unsigned128>(high) << 64U | low);
+          words[i] = size[i] < 0 ? -absolute : absolute;
+        }
+        if (is_short) {
+          next = at;
+          take_short(row, words);
+          continue;
+        }
+      }
       row_limbs.resize(total);
       for (std::uint64_t i = 0; i < total; ++i) row_limbs[i] = limb[next + i];
       next += total;
@@ -130,31 +152,51 @@ class BinaryReader {
         mpz_roinit_n(values[i], at, size[i]);
         at += length;
       }
-      take(row, values);
+      take_long(row, values);
     }
     demand(next == limbs, "its numbers are shorter than it says");
   }
 
   void planes() {
     c_.planes.reserve(planes_);
-    numbers(5, planes_, [this](std::size_t row, const std::array<mpz_t, 7>& n) {
-      const int lead = mpz_sgn(n[0]) != 0 ? mpz_sgn(n[0]) : mpz_sgn(n[1]) != 0 ? mpz_sgn(n[1]) : mpz_sgn(n[2]);
+    const auto put = [this](std::size_t row, int lead, PlaneId plane) {
       demand(lead > 0, "a plane has no normal, or one of the wrong sign");
-      const PlaneId plane = mpz_sgn(n[4]) == 0 ? c_.planes.intern_primitive({n[0], n[1], n[2], n[3]})
-                                               : c_.planes.intern(Integer(n[0]), Integer(n[1]), Integer(n[2]),
-                                                                  Integer(n[3]), Integer(n[4]));
       demand(plane == PlaneId{static_cast<std::uint32_t>(2 * row)}, "a plane occurs twice");
-    });
+    };
+    const auto lead = [](int a, int b, int c) { return a != 0 ? a : b != 0 ? b : c; };
+    const auto sign = [](Int128 value) { return (value > 0) - (value < 0); };
+    numbers<5>(
+        planes_,
+        [&](std::size_t row, const std::array<Int128, 5>& n) {
+          const int first = lead(sign(n[0]), sign(n[1]), sign(n[2]));
+          put(row, first, first > 0 ? c_.planes.intern_primitive(n) : PlaneId());
+        },
+        [&](std::size_t row, const std::array<mpz_t, 5>& n) {
+          const int first = lead(mpz_sgn(n[0]), mpz_sgn(n[1]), mpz_sgn(n[2]));
+          const auto intern = [&] {
+            return mpz_sgn(n[4]) == 0
+                       ? c_.planes.intern_primitive({n[0], n[1], n[2], n[3]})
+                       : c_.planes.intern(Integer(n[0]), Integer(n[1]), Integer(n[2]), Integer(n[3]), Integer(n[4]));
+          };
+          put(row, first, first > 0 ? intern() : PlaneId());
+        });
   }
 
   void points() {
     c_.points.reserve(vertices_);
     std::array<Integer, 7> h;
-    numbers(7, vertices_, [&](std::size_t, const std::array<mpz_t, 7>& n) {
-      for (std::size_t i = 0; i < 7; ++i) mpz_set(h[i].get_mpz_t(), n[i]);
-      demand(h[3] > 0, "the denominator of a point is not positive");
-      c_.points.push_homogeneous(h);
-    });
+    constexpr const char* kNotPositive = "the denominator of a point is not positive";
+    numbers<7>(
+        vertices_,
+        [&](std::size_t, const std::array<Int128, 7>& n) {
+          demand(n[3] > 0, kNotPositive);
+          c_.points.push_homogeneous(n);
+        },
+        [&](std::size_t, const std::array<mpz_t, 7>& n) {
+          for (std::size_t i = 0; i < 7; ++i) mpz_set(h[i].get_mpz_t(), n[i]);
+          demand(h[3] > 0, kNotPositive);
+          c_.points.push_homogeneous(h);
+        });
   }
 
   PlaneId plane(std::uint32_t value) const {

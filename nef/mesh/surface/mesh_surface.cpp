@@ -139,7 +139,9 @@ int ring_orientation(const MeshPoints& points, const std::vector<std::uint32_t>&
 }
 
 MeshSurface::MeshSurface(const Mesh& mesh)
-    : points(mesh.vertices), place(merge_equal(mesh.vertices)), defects(mesh.face_count(), FaceDefect::kNone) {
+    : points(mesh.vertices),
+      place(points.integers().empty() ? merge_equal(mesh.vertices) : merge_equal(points.integers())),
+      defects(mesh.face_count(), FaceDefect::kNone) {
   Triangulator triangulator(points);
   std::vector<std::uint32_t> ring;
   triangles.reserve(mesh.corners.size());

@@ -32,6 +32,9 @@ class SurfaceContacts {
   /// The surface must outlive this object.
   explicit SurfaceContacts(const MeshSurface& surface);
 
+  /// Of the triangles of the surface.
+  [[nodiscard]] const VertexStars& stars() const { return patches_.stars(); }
+
   /// Calls visit(kind, t, u) for every pair t < u with a contact, in lexicographic order; kind is not kNone.
   /// Stops when visit returns false.
   void for_each(const std::function<bool(Kind, std::uint32_t, std::uint32_t)>& visit) const;

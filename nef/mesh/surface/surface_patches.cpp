@@ -23,7 +23,10 @@ bool adjacent(std::span<const std::uint32_t> next, std::uint32_t i, std::uint32_
 }  // namespace
 
 SurfacePatches::SurfacePatches(const MeshSurface& surface)
-    : surface_(surface), patch_of_face_(surface.defects.size(), 0), faces_(planar_faces()) {
+    : surface_(surface),
+      stars_(surface.points, surface.triangles),
+      patch_of_face_(surface.defects.size(), 0),
+      faces_(planar_faces()) {
   for (std::uint32_t p = 0; p < faces_.patches.size(); ++p) {
     patch_of_face_[surface.face_of[faces_.patches[p].first]] = p;
   }
@@ -258,8 +261,11 @@ void SurfacePatches::for_each_candidate(const Visit& visit) const {
   if (!has_wide_fans()) {
     std::vector<std::array<std::uint32_t, 2>> pairs;
     const std::size_t limit = kManyPairs * faces_.patches.size() + 1000;
+    const auto settled = [&](const Patch& p, const Patch& q) {
+      return p.size() == 1 && q.size() == 1 && stars_.settle(surface_.triangles[p.first], surface_.triangles[q.first]);
+    };
     tree(faces_).for_each_pair([&](std::uint32_t i, std::uint32_t j) {
-      if (pairs.size() < limit) pairs.push_back({i, j});
+      if (pairs.size() < limit && !settled(faces_.patches[i], faces_.patches[j])) pairs.push_back({i, j});
     });
     if (pairs.size() < limit) {
       for (const auto& [i, j] : pairs) visit_pair(faces_, i, j, ordered);

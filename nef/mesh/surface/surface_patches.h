@@ -11,6 +11,7 @@
 
 #include "nef/geometry/box_tree.h"
 #include "nef/mesh/surface/mesh_surface.h"
+#include "nef/mesh/surface/vertex_stars.h"
 
 namespace nef {
 
@@ -26,6 +27,9 @@ class SurfacePatches {
   /// shared vertices and edges. O(n log n + k) for k pairs of patches with overlapping boxes (of united patches, if k
   /// is large); patches that can not be told apart add the pairs of their triangles with overlapping boxes.
   void for_each_candidate(const std::function<void(std::uint32_t, std::uint32_t)>& visit) const;
+
+  /// Of the triangles.
+  [[nodiscard]] const VertexStars& stars() const { return stars_; }
 
   /// True if the place is known to lie in the plane of the triangle: as a corner of the same planar face.
   [[nodiscard]] bool on_plane(std::uint32_t triangle, std::uint32_t place) const;
@@ -75,6 +79,7 @@ class SurfacePatches {
   void visit_pair(const Layout& layout, std::uint32_t p, std::uint32_t q, const Visit& visit) const;
 
   const MeshSurface& surface_;
+  VertexStars stars_;
   std::vector<std::uint32_t> patch_of_face_;  // the last one of each face
   Layout faces_;
 };

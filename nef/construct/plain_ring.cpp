@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/construct/plain_ring.h"
+
+#include <cmath>
+#include <utility>
+
+namespace nef {
+
+namespace {
+
+constexpr std::size_t kMost = 20;  // edges whose bits fit into a word
+
+}  // namespace
+
+bool PlainRing::read(std::uint32_t point, std::span<const FaceCorner> corners) {
+  if (corners.size() < 3 || corners.size() > kMost || !order(corners)) return false;
+  const std::size_t n = ring_.size();
+  planes_.clear();
+  for (const FaceCorner& corner : ring_) planes_.push_back(faces_.plane[corner.face]);
+  bits_ = 1;  // ends the bits of any number of edges
+  for (std::size_t i = 0; i < n; ++i) {
+    PlaneId first = planes_[i == 0 ? n - 1 : i - 1];
+    PlaneId second = planes_[i];
+    if (first.row() == second.row()) return false;
+    const bool swapped = second.row() < first.row();
+    const bool turned = second.flipped();
+    if (swapped) std::swap(first, second);
+    const int sign = direction(point, ring_[i].next, first, second);
+    if (sign == 0) return false;
+    bits_ = bits_ << 3U | (swapped ? 4U : 0U) | (turned ? 2U : 0U) | (sign > 0 ? 1U : 0U);
+  }
+  return true;
+}
+
+// From each corner on to the one that leaves along the edge where it arrives. False if this is not one way through all.
+bool PlainRing::order(std::span<const FaceCorner> corners) {
+  ring_.assign(corners.begin(), corners.end());
+  for (std::size_t i = 1; i < ring_.size(); ++i) {
+    std::size_t j = i;
+    while (j < ring_.size() && ring_[j].next != ring_[i - 1].previous) ++j;
+    if (j == ring_.size()) return false;
+    std::swap(ring_[i], ring_[j]);
+  }
+  if (ring_.back().previous != ring_.front().next) return false;
+  for (std::size_t i = 0; i < ring_.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (ring_[i].next == ring_[j].next) return false;
+    }
+  }
+  return true;
+}
+
+// The sign of (first normal x second normal).(to - from) for the unflipped planes; 0 if doubles can not tell.
+//
+// Components of normals are at most 1 and within 2^-52, so those of the product are within 2^-49. Coordinates are
+// within 2^-51 of themselves, so differences are within 2^-50 of the sum of their sizes. What the sum of products is
+// off by is doubled, which covers that it is itself rounded. Nothing is so small that it could have vanished.
+int PlainRing::direction(std::uint32_t from, std::uint32_t to, PlaneId first, PlaneId second) const {
+  const std::array<double, 4>& n = faces_.planes.approximate(first);
+  const std::array<double, 4>& m = faces_.planes.approximate(second);
+  const std::array<double, 3>& a = faces_.points.approximate(PointId{from});
+  const std::array<double, 3>& b = faces_.points.approximate(PointId{to});
+  double dot = 0;
+  double error = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3;
+    const std::size_t k = (i + 2) % 3;
+    const double product = n[j] * m[k] - n[k] * m[j];
+    const double difference = b[i] - a[i];
+    const double off = (std::fabs(a[i]) + std::fabs(b[i])) * 0x1p-50;
+    dot += product * difference;
+    error += (std::fabs(difference) + off) * 0x1p-49 + std::fabs(product) * (off + std::fabs(difference) * 0x1p-51);
+  }
+  constexpr double kTiny = 1e-280;
+  if (!(error > kTiny && std::fabs(dot) > 2 * error)) return 0;  // also where something is infinite
+  return dot > 0 ? 1 : -1;
+}
+
+}  // namespace nef

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "nef/mesh/mesh_points.h"
+
+namespace nef {
+
+/// The triangles around each vertex of a triangulated surface, and two things that are so around practically all
+/// vertices of ordinary meshes and answer most questions of a check in a few comparisons a corner:
+///
+/// - A vertex is *closed* if each edge at it is left by one triangle and arrived at by one, and no two triangles have
+///   the same corners. If all are closed, every edge has two faces, which run through it in opposite directions.
+/// - A closed vertex is *flat* if its triangles surely meet in nothing but the vertex and the edges that they share
+///   there. To see this, let all of them turn the same way in the projection along an axis. As each edge is left and
+///   arrived at once they form cycles. Each triangle is a wedge of less than half a turn, so a cycle goes around the
+///   vertex at least once, and as often as its wedges hold any one direction. If this number is 1 for all together,
+///   there is one cycle, whose wedges are disjoint in the projection but for their borders.
+class VertexStars {
+ public:
+  using Triangle = std::array<std::uint32_t, 3>;
+
+  /// Triangles of points, none degenerate. Both must outlive this object. O(n log n), for a bounded number of triangles
+  /// around a vertex O(n).
+  VertexStars(const MeshPoints& points, std::span<const Triangle> triangles);
+
+  /// True if all vertices are closed.
+  [[nodiscard]] bool all_closed() const { return all_closed_; }
+
+  /// True if two triangles have a common corner that is flat.
+  [[nodiscard]] bool settle(const Triangle& a, const Triangle& b) const {
+    bool result = false;  // without branches, which nobody could foresee
+    for (const std::uint32_t corner : a) {
+      result |= ((corner == b[0]) | (corner == b[1]) | (corner == b[2])) & (flat_[corner] != 0);
+    }
+    return result;
+  }
+
+ private:
+  struct Wedge {
+    std::uint32_t triangle;
+    std::uint32_t from;  // the edge that the triangle leaves the vertex by
+    std::uint32_t to;    // and the one that it comes back by
+  };
+  // How a triangle turns along each axis, as far as doubles tell.
+  using Turns = std::array<std::int8_t, 3>;
+
+  static bool is_closed(std::span<const Wedge> star);
+  static bool is_closed_wide(std::span<const Wedge> star);
+  [[nodiscard]] bool is_flat(std::uint32_t vertex, std::span<const Wedge> star, std::span<const Turns> turns) const;
+  [[nodiscard]] std::size_t times_around(std::uint32_t vertex, std::span<const Wedge> star, std::size_t axis,
+                                         int turn) const;
+
+  const MeshPoints& points_;
+  std::vector<std::uint8_t> flat_;  // of each point
+  bool all_closed_ = true;
+};
+
+}  // namespace nef

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Sphere maps of ordinary vertices are read off their faces. Where doubles can not tell the directions of edges, as far
+// from the origin of all doubles, they are drawn instead: both ways give the same solid.
+#include <catch2/catch.hpp>
+#include <map>
+#include <random>
+#include <tuple>
+
+#include "nef/construct/construct.h"
+#include "nef/polyhedron.h"
+
+namespace nef::test {
+namespace {
+
+// A star-shaped solid: an octahedron, subdivided, its vertices moved along their rays, so that edges bend both ways.
+// Some vertices stay where coplanar faces meet.
+Mesh star(std::mt19937& random) {
+  Mesh mesh;
+  mesh.vertices = {{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+  std::vector<std::array<std::uint32_t, 3>> faces;
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    faces.push_back({i, (i + 1) % 4, 4});
+    faces.push_back({(i + 1) % 4, i, 5});
+  }
+  for (int level = 0; level < 2; ++level) {
+    std::vector<std::array<std::uint32_t, 3>> finer;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
+    const auto middle = [&](std::uint32_t a, std::uint32_t b) {
+      const auto [found, added] = middles.emplace(std::minmax(a, b), static_cast<std::uint32_t>(mesh.vertices.size()));
+      if (added) {
+        Rational3 m;
+        for (std::size_t i = 0; i < 3; ++i) m[i] = (mesh.vertices[a][i] + mesh.vertices[b][i]) / 2;
+        mesh.vertices.push_back(m);
+      }
+      return found->second;
+    };
+    for (const auto& [a, b, c] : faces) {
+      const std::uint32_t ab = middle(a, b);
+      const std::uint32_t bc = middle(b, c);
+      const std::uint32_t ca = middle(c, a);
+      finer.insert(finer.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
+    }
+    faces = finer;
+  }
+  for (Rational3& v : mesh.vertices) {
+    const Rational by(4 + static_cast<int>(random() % 3), 4);
+    for (Rational& x : v) x *= by;
+  }
+  for (const auto& face : faces) mesh.push_face(face);
+  return mesh;
+}
+
+TEST_CASE("Rings that are read off the faces are those that would be drawn") {
+  std::mt19937 random(3);
+  for (int round = 0; round < 12; ++round) {
+    const Mesh mesh = star(random);
+    Integer far = 1;
+    mpz_mul_2exp(far.get_mpz_t(), far.get_mpz_t(), 1100);
+    Mesh large = mesh;
+    for (Rational3& v : large.vertices) {
+      for (Rational& x : v) x *= far;
+    }
+    const Polyhedron read = from_mesh(mesh);
+    const Polyhedron drawn = from_mesh(large);
+    CHECK(validate(read.complex()).empty());
+    CHECK(validate(drawn.complex()).empty());
+    const Rational back(1, far);
+    CHECK(equal(transform(drawn, AffineMap::scale({back, back, back})), read));
+    const Counts a = counts(read);
+    const Counts b = counts(drawn);
+    CHECK(std::tuple(a.vertices, a.edges, a.facets, a.volumes) == std::tuple(b.vertices, b.edges, b.facets, b.volumes));
+  }
+}
+
+}  // namespace
+}  // namespace nef::test

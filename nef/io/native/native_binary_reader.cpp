@@ -6,6 +6,8 @@
 #include <xxhash.h>
 
 #include <cstring>
+#include <string>
+#include <unordered_map>
 
 #include "nef/complex/owners.h"
 #include "nef/complex/patterns/pattern_interner.h"
@@ -26,6 +28,10 @@ class Column {
     T value;
     std::memcpy(&value, data_ + i * sizeof(T), sizeof(T));
     return value;
+  }
+  // Some of them as they lie there.
+  [[nodiscard]] std::string_view bytes(std::size_t first, std::size_t count) const {
+    return {data_ + first * sizeof(T), count * sizeof(T)};
   }
 
  private:
@@ -290,6 +296,8 @@ class BinaryReader {
     for (const VertexId v : c_.vertex_ids()) {
       VertexRecord& record = c_.vertices[v];
       VertexRecord& end = c_.vertices[v.next()];
+      const bool has_key = read_key(columns, v, entries);
+      if (has_key && take_known(columns, v, entries)) continue;
       map_.clear();
       map_.mark = mark_[v.index()];
       for (std::uint32_t i = record.svertices; i < end.svertices; ++i) take_svertex(columns, i);
@@ -300,8 +308,77 @@ class BinaryReader {
       record.pattern = interner.intern(c_.patterns, map_.view(), c_.shalfedge_plane.pairs(), c_.other_planes);
       end.other_planes = static_cast<std::uint32_t>(c_.other_planes.size());
       c_.sloops.insert(c_.sloops.end(), map_.sloops.begin(), map_.sloops.end());
+      if (has_key) known_.emplace(key_, record.pattern);
     }
     demand(entries == entries_, "its sfaces have fewer entries than there are");
+  }
+
+  // Into key_: all that the file says of a vertex but for its planes, and which of these its svertices name. Vertices
+  // with the same key have the same pattern, and what was found right of one is right of all. False if the vertex has
+  // sloops, or an svertex that is not where the arc of its number and the one before meet.
+  template <typename W>
+  bool read_key(const ItemColumns<W>& columns, VertexId v, std::uint64_t entries) {
+    const VertexRecord& begin = c_.vertices[v];
+    const VertexRecord& end = c_.vertices[v.next()];
+    const std::uint32_t pair = begin.shalfedges / 2;
+    const std::uint32_t pairs = end.shalfedges / 2 - pair;
+    const std::uint32_t svertices = end.svertices - begin.svertices;
+    const std::uint32_t sfaces = end.sfaces - begin.sfaces;
+    if (begin.sloops != end.sloops || svertices > pairs) return false;
+    key_.clear();
+    for (const std::uint32_t count : {svertices, pairs, sfaces, std::uint32_t{mark_[v.index()]}}) {
+      key_.append(reinterpret_cast<const char*>(&count), sizeof(count));
+    }
+    for (std::uint32_t i = 0; i < svertices; ++i) {
+      const PlaneId here{columns.plane[pair + i]};
+      const PlaneId before{columns.plane[pair + (i == 0 ? pairs : i) - 1]};
+      const PlaneId p{columns.p[begin.svertices + i]};
+      const PlaneId q{columns.q[begin.svertices + i]};
+      const auto names = [](PlaneId a, PlaneId b) { return a.row() == b.row(); };
+      const bool p_here = names(p, here);
+      const bool q_here = names(q, here);
+      if (p_here == q_here || !names(p_here ? q : p, before)) return false;
+      const PlaneId of_p = p_here ? here : before;
+      const PlaneId of_q = p_here ? before : here;
+      key_ += static_cast<char>((p_here ? 4 : 0) | (p == of_p ? 2 : 0) | (q == of_q ? 1 : 0));
+    }
+    key_ += columns.out.bytes(begin.svertices, svertices);
+    key_ += columns.sface_around.bytes(begin.svertices, svertices);
+    key_ += columns.svertex_mark.bytes(begin.svertices, svertices);
+    key_ += columns.shalfedge_mark.bytes(pair, pairs);
+    key_ += columns.source.bytes(begin.shalfedges, 2 * pairs);
+    key_ += columns.next.bytes(begin.shalfedges, 2 * pairs);
+    key_ += columns.sface.bytes(begin.shalfedges, 2 * pairs);
+    key_ += columns.entry_count.bytes(begin.sfaces, sfaces);
+    key_ += columns.sface_mark.bytes(begin.sfaces, sfaces);
+    const std::uint64_t own = entries_of(columns, v);
+    if (own > entries_ - entries) return false;
+    key_ += columns.kind.bytes(entries, own);
+    key_ += columns.index.bytes(entries, own);
+    return true;
+  }
+
+  template <typename W>
+  std::uint64_t entries_of(const ItemColumns<W>& columns, VertexId v) const {
+    std::uint64_t sum = 0;
+    for (std::uint32_t f = c_.vertices[v].sfaces; f < c_.vertices[v.next()].sfaces; ++f) sum += columns.entry_count[f];
+    return sum;
+  }
+
+  // The vertex of key_, if one like it has been read before.
+  template <typename W>
+  bool take_known(const ItemColumns<W>& columns, VertexId v, std::uint64_t& entries) {
+    const auto known = known_.find(key_);
+    if (known == known_.end()) return false;
+    VertexRecord& record = c_.vertices[v];
+    VertexRecord& end = c_.vertices[v.next()];
+    record.pattern = known->second;
+    end.other_planes = record.other_planes;
+    for (std::uint32_t i = record.shalfedges / 2; i < end.shalfedges / 2; ++i) {
+      c_.shalfedge_plane.pairs().push_back(plane(columns.plane[i]));
+    }
+    entries += entries_of(columns, v);
+    return true;
   }
 
   template <typename W>
@@ -387,13 +464,25 @@ class BinaryReader {
     }
   }
 
+  // Edges of no facet are rare.
+  [[nodiscard]] bool any_isolated_svertex() const {
+    for (std::uint32_t i = 0; i < c_.patterns.size(); ++i) {
+      for (const SVertex& s : c_.patterns.svertices(PatternId{i})) {
+        if (s.out == kNone) return true;
+      }
+    }
+    return false;
+  }
+
   void edges() {
     const auto twins = column<std::uint32_t>(svertices_);
+    const bool has_bare_edges = any_isolated_svertex();
     c_.twin.resize(svertices_);
     for (std::uint32_t h = 0; h < svertices_; ++h) {
       const std::uint32_t t = twins[h];
       demand(t < svertices_ && t != h && twins[t] == h, "the two ends of an edge are not mutual");
-      demand((c_.svertex(h).out == kNone) == (c_.svertex(t).out == kNone), "an edge has facets at one end only");
+      demand(!has_bare_edges || (c_.svertex(h).out == kNone) == (c_.svertex(t).out == kNone),
+             "an edge has facets at one end only");
       c_.twin[h] = t;
     }
   }
@@ -539,7 +628,12 @@ class BinaryReader {
   std::uint32_t shells_ = 0;
   std::uint32_t volumes_ = 0;
   std::vector<LabelId> mark_;  // of vertices
-  SphereMapBuffer map_;        // of the vertex at hand
+  std::string key_;
+  struct KeyHash {
+    std::size_t operator()(const std::string& key) const { return XXH3_64bits(key.data(), key.size()); }
+  };
+  std::unordered_map<std::string, PatternId, KeyHash> known_;  // patterns by key
+  SphereMapBuffer map_;                                        // of the vertex at hand
   Column<std::uint32_t> isolated_counts_{nullptr};
   Complex c_;
 };

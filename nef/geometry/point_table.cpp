@@ -75,7 +75,7 @@ std::array<Int128, 4> small_intersection(const std::array<std::array<std::int64_
 PointId PointTable::push(const Rational3& point) {
   if (std::array<std::int64_t, 4> small{}; small_coordinates(point, small))
     return push_homogeneous(std::array<Int128, 7>{small[0], small[1], small[2], small[3]});  // no part in R
-  thread_local std::array<Integer, 7> h;
+  std::array<Integer, 7> h;
   mpz_ptr w = h[3].get_mpz_t();
   mpz_lcm(w, point[0].get_den_mpz_t(), point[1].get_den_mpz_t());
   mpz_lcm(w, w, point[2].get_den_mpz_t());
@@ -124,10 +124,9 @@ PointId PointTable::push_from(const PointTable& other, PointId point) {
 }
 
 PointId PointTable::push_reduced(const PointTable& other, PointId point) {
-  // Kept between calls: most of the time would go into making numbers.
-  thread_local Integer divisor;
-  thread_local std::array<Integer, 7> h;
+  Integer divisor;
   if (other.is_reduced(point, divisor)) return push_from(other, point);
+  std::array<Integer, 7> h;
   for (std::size_t i = 0; i < 7; ++i) {
     mpz_divexact(h[i].get_mpz_t(), other.coordinate(point, i), divisor.get_mpz_t());
   }
@@ -149,45 +148,31 @@ void PointTable::append(const PointTable& other, std::size_t first, std::size_t 
 }
 
 std::optional<PointId> PointTable::push_intersection(const PlaneTable& planes, PlaneId p, PlaneId q, PlaneId r) {
-  // Cramer's rule with the adjugate's rows m_i = n_j x n_k: w = n_p . m_p, x = -(sum of d_i m_i).
-  struct Scratch {
-    Integer m[3][3];
-    Integer product;
-    std::array<Integer, 7> h;
-  };
   const std::array<PlaneId, 3> plane{p, q, r};
   if (std::array<std::array<std::int64_t, 4>, 3> n{}; small_coefficients(planes, plane, n)) {
     const std::array<Int128, 4> h = small_intersection(n);
     if (h[3] == 0) return std::nullopt;
     return push_homogeneous(std::array<Int128, 7>{h[0], h[1], h[2], h[3]});
   }
-  thread_local Scratch s;
+  // Cramer's rule with the adjugate's rows m_i = n_j x n_k: w = n_p . m_p, x = -(sum of d_i m_i).
+  std::array<Integer, 7> h;
+  Integer minor;
+  mpz_ptr m = minor.get_mpz_t();
   for (std::size_t i = 0; i < 3; ++i) {
     const PlaneId u = plane[(i + 1) % 3];
     const PlaneId v = plane[(i + 2) % 3];
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t k1 = (k + 1) % 3;
       const std::size_t k2 = (k + 2) % 3;
-      mpz_ptr m = s.m[i][k].get_mpz_t();
       mpz_mul(m, planes.coefficient(u, k1), planes.coefficient(v, k2));
       mpz_submul(m, planes.coefficient(u, k2), planes.coefficient(v, k1));
+      if (i == 0) mpz_addmul(h[3].get_mpz_t(), planes.coefficient(p, k), m);
+      mpz_submul(h[k].get_mpz_t(), planes.coefficient(plane[i], 3), m);
+      if (planes.infimaximal(plane[i])) mpz_submul(h[4 + k].get_mpz_t(), planes.coefficient(plane[i], 4), m);
     }
+    if (sgn(h[3]) == 0) return std::nullopt;
   }
-  mpz_ptr w = s.h[3].get_mpz_t();
-  mpz_set_ui(w, 0);
-  for (std::size_t k = 0; k < 3; ++k) mpz_addmul(w, planes.coefficient(p, k), s.m[0][k].get_mpz_t());
-  if (mpz_sgn(w) == 0) return std::nullopt;
-  for (std::size_t k = 0; k < 3; ++k) {
-    mpz_ptr x = s.h[k].get_mpz_t();
-    mpz_ptr xr = s.h[4 + k].get_mpz_t();
-    mpz_set_ui(x, 0);
-    mpz_set_ui(xr, 0);
-    for (std::size_t i = 0; i < 3; ++i) {
-      mpz_submul(x, planes.coefficient(plane[i], 3), s.m[i][k].get_mpz_t());
-      if (planes.infimaximal(plane[i])) mpz_submul(xr, planes.coefficient(plane[i], 4), s.m[i][k].get_mpz_t());
-    }
-  }
-  return push_homogeneous(s.h);
+  return push_homogeneous(h);
 }
 
 Rational3 PointTable::rational(PointId point) const {

@@ -26,8 +26,8 @@ int sign_with_infimaximal(mpz_srcptr constant, mpz_srcptr factor) {
 }
 
 int side_of_plane_exact(const PlaneTable& planes, PlaneId plane, const PointTable& points, PointId point) {
-  thread_local Integer constant;
-  thread_local Integer factor;
+  Integer constant;
+  Integer factor;
   mpz_ptr c = constant.get_mpz_t();
   mpz_ptr r = factor.get_mpz_t();
   const IntegerView w = points.coordinate(point, 3);
@@ -54,7 +54,7 @@ int compare_quotients(mpz_srcptr x, mpz_srcptr wp, mpz_srcptr y, mpz_srcptr wq) 
     const Unsigned128 right = limb(y) * limb(wp);
     return left == right ? 0 : left > right ? sign : -sign;
   }
-  thread_local Integer difference;
+  Integer difference;
   mpz_ptr d = difference.get_mpz_t();
   mpz_mul(d, x, wq);
   mpz_submul(d, y, wp);
@@ -252,7 +252,7 @@ int sign_of_dot(const Direction& u, const Direction& v) {
     return sign_of(value);
   }
   ++predicate_counts().exact;
-  thread_local Integer sum;
+  Integer sum;
   mpz_ptr s = sum.get_mpz_t();
   mpz_mul(s, at(u, 0), at(v, 0));
   mpz_addmul(s, at(u, 1), at(v, 1));
@@ -274,11 +274,10 @@ int sign_of_determinant(const Direction& u, const Direction& v, const Direction&
     return sign_of(value);
   }
   ++predicate_counts().exact;
-  thread_local Integer sum;
-  thread_local Integer component;
+  Integer sum;
+  Integer component;
   mpz_ptr s = sum.get_mpz_t();
   mpz_ptr t = component.get_mpz_t();
-  mpz_set_ui(s, 0);
   for (std::size_t i = 0; i < 3; ++i) {
     cross_component(t, v, w, i);
     mpz_addmul(s, at(u, i), t);
@@ -308,7 +307,7 @@ bool same_direction(const Direction& u, const Direction& v) {
     }
   }
   ++predicate_counts().exact;
-  thread_local Integer component;
+  Integer component;
   mpz_ptr t = component.get_mpz_t();
   for (std::size_t i = 0; i < 3; ++i) {
     cross_component(t, u, v, i);

@@ -8,7 +8,7 @@ namespace nef {
 namespace {
 
 int compare_exact(const PointRef& p, const PointRef& q, std::size_t axis) {
-  thread_local Integer difference;
+  Integer difference;
   mpz_ptr d = difference.get_mpz_t();
   const IntegerView wp = p.coordinate(3);
   const IntegerView wq = q.coordinate(3);

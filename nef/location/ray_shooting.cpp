@@ -153,13 +153,8 @@ class RayShooter {
     const int side = side_of_plane(complex_.planes, plane, ray_.origin);
     const Direction normal = Direction::normal(complex_.planes, plane);
     if (side * sign_of_dot(normal, ray_.direction) >= 0) return std::nullopt;
-    struct Scratch {
-      Integer m, s;
-      std::array<Integer, 7> q;
-    };
-    thread_local Scratch scratch;
-    mpz_ptr m = scratch.m.get_mpz_t();
-    mpz_ptr s = scratch.s.get_mpz_t();
+    mpz_ptr m = slope_.get_mpz_t();
+    mpz_ptr s = height_.get_mpz_t();
     const std::array<Integer, 3>& d = ray_.direction.integers();
     const IntegerView w = ray_.origin.coordinate(3);
     mpz_set_ui(m, 0);
@@ -169,7 +164,7 @@ class RayShooter {
     const bool finite = finite_origin_ && !complex_.planes.infimaximal(plane);
     for (std::size_t part = 0; part < 2; ++part) {
       if (part == 1 && finite) {
-        for (std::size_t i = 4; i < 7; ++i) mpz_set_ui(scratch.q[i].get_mpz_t(), 0);
+        for (std::size_t i = 4; i < 7; ++i) mpz_set_ui(meeting_[i].get_mpz_t(), 0);
         break;
       }
       mpz_mul(s, complex_.planes.coefficient(plane, 3 + part), w);
@@ -177,14 +172,14 @@ class RayShooter {
         mpz_addmul(s, complex_.planes.coefficient(plane, i), ray_.origin.coordinate(4 * part + i));
       }
       for (std::size_t i = 0; i < 3; ++i) {
-        mpz_ptr out = scratch.q[4 * part + i].get_mpz_t();
+        mpz_ptr out = meeting_[4 * part + i].get_mpz_t();
         mpz_mul(out, m, ray_.origin.coordinate(4 * part + i));
         if (sgn(d[i]) != 0) mpz_submul(out, s, d[i].get_mpz_t());
       }
     }
-    mpz_mul(scratch.q[3].get_mpz_t(), m, w);
+    mpz_mul(meeting_[3].get_mpz_t(), m, w);
     if (scratch_.size() == 0) scratch_.reserve(4);
-    return PointRef{&scratch_, scratch_.push_homogeneous(scratch.q)};
+    return PointRef{&scratch_, scratch_.push_homogeneous(meeting_)};
   }
 
   [[nodiscard]] bool nearer(const PointRef& point) const {
@@ -224,6 +219,8 @@ class RayShooter {
   RayFilter filter_;  // mirrored at the origin, like the tree of a QueryStructure
   bool finite_origin_;
   PointTable scratch_;
+  Integer slope_, height_;  // of the plane at hand along the ray and at its origin; kept for their memory, as the next
+  std::array<Integer, 7> meeting_;
   std::optional<ComplexHit> hit_;
   PointRef position_;
 };

@@ -34,35 +34,36 @@ void difference(const PointTable& table, std::uint32_t a, std::uint32_t b, std::
   }
 }
 
-// Numbers that keep their memory from call to call.
-struct Scratch {
-  std::array<Integer, 3> u, v, normal;
-  Integer sum;
-
-  void normal_of(const PointTable& table, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    difference(table, a, b, u);
+// The plane through three points, up to a positive factor.
+class PlaneThrough {
+ public:
+  PlaneThrough(const PointTable& table, std::uint32_t a, std::uint32_t b, std::uint32_t c) : table_(table), a_(a) {
+    std::array<Integer, 3> v;
+    difference(table, a, b, u_);
     difference(table, a, c, v);
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t j = (i + 1) % 3;
       const std::size_t k = (i + 2) % 3;
-      mpz_mul(normal[i].get_mpz_t(), u[j].get_mpz_t(), v[k].get_mpz_t());
-      mpz_submul(normal[i].get_mpz_t(), u[k].get_mpz_t(), v[j].get_mpz_t());
+      mpz_mul(normal_[i].get_mpz_t(), u_[j].get_mpz_t(), v[k].get_mpz_t());
+      mpz_submul(normal_[i].get_mpz_t(), u_[k].get_mpz_t(), v[j].get_mpz_t());
     }
   }
-  // The sign of normal . (p - a).
-  int side(const PointTable& table, std::uint32_t a, std::uint32_t p) {
-    difference(table, a, p, u);
-    mpz_mul(sum.get_mpz_t(), normal[0].get_mpz_t(), u[0].get_mpz_t());
-    mpz_addmul(sum.get_mpz_t(), normal[1].get_mpz_t(), u[1].get_mpz_t());
-    mpz_addmul(sum.get_mpz_t(), normal[2].get_mpz_t(), u[2].get_mpz_t());
-    return sgn(sum);
-  }
-};
 
-Scratch& scratch() {
-  thread_local Scratch numbers;
-  return numbers;
-}
+  // The sign of normal . (p - a).
+  int side(std::uint32_t p) {
+    difference(table_, a_, p, u_);
+    mpz_mul(sum_.get_mpz_t(), normal_[0].get_mpz_t(), u_[0].get_mpz_t());
+    mpz_addmul(sum_.get_mpz_t(), normal_[1].get_mpz_t(), u_[1].get_mpz_t());
+    mpz_addmul(sum_.get_mpz_t(), normal_[2].get_mpz_t(), u_[2].get_mpz_t());
+    return sgn(sum_);
+  }
+
+ private:
+  const PointTable& table_;
+  std::uint32_t a_;
+  std::array<Integer, 3> u_, normal_;
+  Integer sum_;
+};
 
 }  // namespace
 
@@ -267,22 +268,20 @@ int MeshPoints::orientation_exact(std::uint32_t a, std::uint32_t b, std::uint32_
                    m[0][1] * (m[1][2] * m[2][0] - m[1][0] * m[2][2]) +
                    m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]));
   }
-  scratch().normal_of(table_, a, b, c);
-  return scratch().side(table_, a, d);
+  return PlaneThrough(table_, a, b, c).side(d);
 }
 
 bool MeshPoints::coplanar(std::uint32_t a, std::uint32_t b, std::uint32_t c,
                           std::span<const std::uint32_t> others) const {
-  bool known = false;
+  std::optional<PlaneThrough> plane;
   for (const std::uint32_t p : others) {
     if (filtered_orientation(a, b, c, p) != 0) return false;
     if (!integers_.empty()) {
       if (orientation_exact(a, b, c, p) != 0) return false;
       continue;
     }
-    if (!known) scratch().normal_of(table_, a, b, c);
-    known = true;
-    if (scratch().side(table_, a, p) != 0) return false;
+    if (!plane) plane.emplace(table_, a, b, c);
+    if (plane->side(p) != 0) return false;
   }
   return true;
 }
@@ -334,12 +333,14 @@ int MeshPoints::orientation_along_exact(std::uint32_t a, std::uint32_t b, std::u
     const auto& r = integers_[c];
     return sign_of(static_cast<Int128>(q[i] - p[i]) * (r[j] - p[j]) - static_cast<Int128>(r[i] - p[i]) * (q[j] - p[j]));
   }
-  Scratch& s = scratch();
-  difference(table_, a, b, std::span(s.u).first(2), i);
-  difference(table_, a, c, std::span(s.v).first(2), i);
-  mpz_mul(s.sum.get_mpz_t(), s.u[0].get_mpz_t(), s.v[1].get_mpz_t());
-  mpz_submul(s.sum.get_mpz_t(), s.v[0].get_mpz_t(), s.u[1].get_mpz_t());
-  return sgn(s.sum);
+  std::array<Integer, 2> u;
+  std::array<Integer, 2> v;
+  Integer sum;
+  difference(table_, a, b, u, i);
+  difference(table_, a, c, v, i);
+  mpz_mul(sum.get_mpz_t(), u[0].get_mpz_t(), v[1].get_mpz_t());
+  mpz_submul(sum.get_mpz_t(), v[0].get_mpz_t(), u[1].get_mpz_t());
+  return sgn(sum);
 }
 
 bool MeshPoints::collinear(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
@@ -375,8 +376,9 @@ int MeshPoints::compare(std::uint32_t a, std::uint32_t b, std::size_t axis) cons
   if (!integers_.empty()) {
     return (integers_[a][axis] > integers_[b][axis]) - (integers_[a][axis] < integers_[b][axis]);
   }
-  difference(table_, b, a, std::span(scratch().u).first(1), axis);
-  return sgn(scratch().u[0]);
+  Integer gap_along;
+  difference(table_, b, a, std::span(&gap_along, 1), axis);
+  return sgn(gap_along);
 }
 
 int MeshPoints::compare(std::uint32_t a, std::uint32_t b) const {

@@ -114,6 +114,7 @@ struct Location {
   LabelId mark = 0;
 
   [[nodiscard]] VertexId vertex() const { return VertexId{index}; }
+  [[nodiscard]] HalfedgeId halfedge() const { return HalfedgeId{index}; }
   [[nodiscard]] FacetId facet() const { return FacetId{index}; }
   [[nodiscard]] VolumeId volume() const { return VolumeId{index}; }
 };

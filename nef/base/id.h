@@ -166,6 +166,9 @@ class IndexedVector {
 
   [[nodiscard]] bool contains(I id) const { return id.index() < values_.size(); }
 
+  [[nodiscard]] T* data() { return values_.data(); }
+  [[nodiscard]] const T* data() const { return values_.data(); }
+
   /// The index of the new value.
   I push_back(const T& value) {
     values_.push_back(value);

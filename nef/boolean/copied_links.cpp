@@ -28,7 +28,7 @@ class LinkCopier {
   KnownLinks run(const std::array<std::vector<EdgeContact>, 2>& contacts, unsigned threads) {
     note_copies();
     for (std::size_t x = 0; x < 2; ++x) note_crossed_edges(x, contacts[x]);
-    known_.twin.assign(c_.svertex_count(), kNone);
+    known_.twin.assign(c_.svertex_count(), HalfedgeId());
     const VertexId half{c_.vertex_count() / 2};
     const VertexId end{c_.vertex_count()};
     std::array<KnownLinks, 2> loose;
@@ -60,9 +60,9 @@ class LinkCopier {
     const Complex& own = *operands_[x];
     crossed_[x].resize(own.svertex_count(), false);
     for (const EdgeContact& contact : contacts) {
-      for (const std::uint32_t h : {contact.edge, own.twin[contact.edge]}) {
+      for (const HalfedgeId h : {contact.edge, own.twin[contact.edge]}) {
         crossed_[x][h] = true;
-        Copy& copy = copies_[x][own.svertex_owner[h]];
+        Copy& copy = copies_[x][own.source(h)];
         if (copy.state == Copy::State::kWhole) copy.state = Copy::State::kCrossed;
       }
     }
@@ -105,12 +105,13 @@ class LinkCopier {
     const Complex& own = *operands_[x];
     const bool may_be_crossed = copies_[x][v].state == Copy::State::kCrossed;
     bool all = true;
-    std::uint32_t to = c_.vertices[vertex].svertices;
-    for (std::uint32_t h = own.vertices[v].svertices; h < own.vertices[v.next()].svertices; ++h, ++to) {
-      const std::uint32_t other = own.twin[h];
-      const Copy& end = copies_[x][own.svertex_owner[other]];
+    HalfedgeId to = c_.vertices[vertex].svertices;
+    for (const HalfedgeId h : own.halfedges(v)) {
+      const HalfedgeId other = own.twin[h];
+      const Copy& end = copies_[x][own.source(other)];
       const bool kept = end.state != Copy::State::kGone && !(may_be_crossed && crossed_[x][h]);
       if (kept) known_.twin[to] = other + end.svertex_shift;
+      ++to;
       all = all && kept;
     }
     if (!all) loose.loose_vertices.push_back(vertex);
@@ -225,7 +226,7 @@ class LinkCopier {
   std::span<const VertexRun> runs_;
   std::array<const Complex*, 2> operands_;
   std::array<IndexedVector<VertexId, Copy>, 2> copies_;
-  std::array<std::vector<bool>, 2> crossed_;  // halfedges
+  std::array<IndexedVector<HalfedgeId, bool>, 2> crossed_;
   KnownLinks known_;
 };
 

@@ -33,7 +33,7 @@ bool FacetLocator::surely_misses(FacetId facet, const Box& box) const {
   ray.low[third] = -HUGE_VAL;
   ray.high[third] = HUGE_VAL;
   RoughParity parity(box, axes.first, axes.second);
-  for_each_edge(facet, ray, [&](std::uint32_t halfedge) {
+  for_each_edge(facet, ray, [&](HalfedgeId halfedge) {
     if (!parity.certain()) return;
     parity.add(tables_.points.approximate(operand_.point(operand_.source(halfedge))),
                tables_.points.approximate(operand_.point(operand_.target(halfedge))));
@@ -55,7 +55,7 @@ Item FacetLocator::locate(FacetId facet, PointId point) const {
   ray.high[third] = HUGE_VAL;
   Item found;
   bool inside = false;
-  for_each_edge(facet, ray, [&](std::uint32_t halfedge) {
+  for_each_edge(facet, ray, [&](HalfedgeId halfedge) {
     if (found.kind != Item::Kind::kNone) return;
     const VertexId a = operand_.source(halfedge);
     const VertexId b = operand_.target(halfedge);
@@ -73,7 +73,7 @@ Item FacetLocator::locate(FacetId facet, PointId point) const {
     if (a_height == 0 && b_height == 0) {
       if (compare_coordinate(points, operand_.point(a), point, axes.first) !=
           compare_coordinate(points, operand_.point(b), point, axes.first)) {
-        found = {Item::Kind::kEdge, operand_.edge(halfedge)};
+        found = Item(operand_.edge(halfedge));
       }
       return;
     }
@@ -81,7 +81,7 @@ Item FacetLocator::locate(FacetId facet, PointId point) const {
     const int side = edge.left * side_of_plane(planes, edge.other, points, point);
     if (side == 0) {
       // On the line, and strictly between the ends in height.
-      if (a_height * b_height < 0) found = {Item::Kind::kEdge, operand_.edge(halfedge)};
+      if (a_height * b_height < 0) found = Item(operand_.edge(halfedge));
       return;
     }
     // The ray runs a hair above the point: ends at its height count as below. An edge that rises

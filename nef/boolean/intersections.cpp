@@ -49,8 +49,8 @@ class IntersectionFinder {
     std::vector<FacetId> facets;
     BoxTree facet_tree;
     std::vector<VertexId> vertices;
-    std::vector<std::uint32_t> edges;
-    std::vector<std::uint32_t> bare_edges;
+    std::vector<HalfedgeId> edges;
+    std::vector<HalfedgeId> bare_edges;
     BoxTree bare_edge_tree;
     std::vector<VertexId> bare_vertices;
     BoxTree bare_vertex_tree;
@@ -65,11 +65,11 @@ class IntersectionFinder {
   struct Candidates {
     IndexedVector<VertexId, CellRange> vertices;  // all, whether they reach or not
     Items<FacetId> facets;
-    Items<std::uint32_t> bare_edges;
+    Items<HalfedgeId> bare_edges;
     Items<VertexId> bare_vertices;
   };
 
-  [[nodiscard]] CellRange edge_cells(std::size_t x, const Candidates& found, std::uint32_t halfedge) const {
+  [[nodiscard]] CellRange edge_cells(std::size_t x, const Candidates& found, HalfedgeId halfedge) const {
     CellRange cells = found.vertices[operands_[x].source(halfedge)];
     cells.add(found.vertices[operands_[x].target(halfedge)]);
     return cells;
@@ -99,7 +99,7 @@ class IntersectionFinder {
       }
       take(found.facets, f, cells);
     }
-    for (std::uint32_t e = 0; e < c.svertex_count(); ++e) {
+    for (const HalfedgeId e : c.halfedge_ids()) {
       if (c.svertex(e).out != kNone || e > c.twin[e]) continue;
       take(found.bare_edges, e, edge_cells(x, found, e));
     }
@@ -145,7 +145,7 @@ class IntersectionFinder {
     const Complex& c = operand.complex();
     Near& near = near_[x];
     const auto facet_box = [&](FacetId f) { return operand.facet_box(f); };
-    const auto edge_box = [&](std::uint32_t e) { return operand.edge_box(e); };
+    const auto edge_box = [&](HalfedgeId e) { return operand.edge_box(e); };
     const auto vertex_box = [&](VertexId v) { return operand.vertex_box(v); };
     near.facets = keep(found.facets, other, facet_box, near.facet_tree);
     locators_[x].expect(near.facets);
@@ -156,7 +156,7 @@ class IntersectionFinder {
       const CellRange& cells = found.vertices[v];
       if (other.reaches(cells) && other.touches(cells)) near.vertices.push_back(v);
     }
-    for (std::uint32_t e = 0; e < c.svertex_count(); ++e) {
+    for (const HalfedgeId e : c.halfedge_ids()) {
       if (e > c.twin[e]) continue;
       const CellRange cells = edge_cells(x, found, e);
       if (other.reaches(cells) && other.touches(cells)) near.edges.push_back(e);
@@ -233,11 +233,11 @@ class IntersectionFinder {
       });
       targets.bare_edge_tree.for_each_overlap(box, [&](std::uint32_t i) {
         if (result_.vertex_item[x][v].kind != Item::Kind::kNone) return;
-        const std::uint32_t e = targets.bare_edges[i];
+        const HalfedgeId e = targets.bare_edges[i];
         if (side(other.svertex(e).p, p) != 0 || side(other.svertex(e).q, p) != 0) return;
         const int from = compare_lexicographic(tables_.points, p, other.point(other.source(e)));
         const int to = compare_lexicographic(tables_.points, p, other.point(other.target(e)));
-        if (from * to < 0) place_vertex(x, v, {Item::Kind::kEdge, e});
+        if (from * to < 0) place_vertex(x, v, Item(e));
         if (from == 0) place_vertex(x, v, Item(other.source(e)));
         if (to == 0) place_vertex(x, v, Item(other.target(e)));
       });
@@ -247,9 +247,9 @@ class IntersectionFinder {
   void edges_against_facets(std::size_t x) {
     const Operand& own = operands_[x];
     const Operand& other = operands_[1 - x];
-    const std::vector<std::uint32_t>& edges = near_[x].edges;
-    const auto find = [&](std::size_t k, std::vector<Pair<std::uint32_t>>& pairs) {
-      const std::uint32_t e = edges[k];
+    const std::vector<HalfedgeId>& edges = near_[x].edges;
+    const auto find = [&](std::size_t k, std::vector<Pair<HalfedgeId>>& pairs) {
+      const HalfedgeId e = edges[k];
       const PointId a = own.point(own.source(e));
       const PointId b = own.point(own.target(e));
       near_[1 - x].facet_tree.for_each_overlap(own.edge_box(e), [&](std::uint32_t i) {
@@ -260,15 +260,15 @@ class IntersectionFinder {
         if (side_a * side_b < 0 ? may_pierce(x, a, b, facet) : side_a == 0 && side_b == 0) pairs.push_back({e, facet});
       });
     };
-    find_and_use<std::uint32_t>(edges.size(), "edges through facets", find, [&](const Pair<std::uint32_t>& pair) {
-      const std::uint32_t e = pair.own;
+    find_and_use<HalfedgeId>(edges.size(), "edges through facets", find, [&](const Pair<HalfedgeId>& pair) {
+      const HalfedgeId e = pair.own;
       const PlaneId plane = other.facet_plane(pair.facet);
       if (side(plane, own.point(own.source(e))) != 0) {
         pierce(x, e, pair.facet);
         return;
       }
       locators_[1 - x].for_each_edge(pair.facet, own.edge_box(e),
-                                     [&](std::uint32_t f) { cross_in_plane(x, e, other.edge(f), plane); });
+                                     [&](HalfedgeId f) { cross_in_plane(x, e, other.edge(f), plane); });
     });
   }
 
@@ -281,7 +281,7 @@ class IntersectionFinder {
   }
 
   // Edge e of operand x passes through the plane of a facet of the other.
-  void pierce(std::size_t x, std::uint32_t e, FacetId facet) {
+  void pierce(std::size_t x, HalfedgeId e, FacetId facet) {
     const SVertex line = operands_[x].svertex(e);
     const std::optional<PointId> point =
         tables_.points.push_intersection(tables_.planes, line.p, line.q, operands_[1 - x].facet_plane(facet));
@@ -289,12 +289,12 @@ class IntersectionFinder {
     const Item item = locators_[1 - x].locate(facet, *point);
     const bool used = item.kind == Item::Kind::kFacet || item.kind == Item::Kind::kEdge;
     if (!used || !add_crossing(x, e, item, *point)) tables_.points.pop();
-    if (item.kind == Item::Kind::kVertex) place_vertex(1 - x, item.vertex(), {Item::Kind::kEdge, e});
+    if (item.kind == Item::Kind::kVertex) place_vertex(1 - x, item.vertex(), Item(e));
   }
 
   // Both edges lie in `plane`; they cross iff each has the ends of the other strictly on both
   // sides.
-  void cross_in_plane(std::size_t x, std::uint32_t e, std::uint32_t f, PlaneId plane) {
+  void cross_in_plane(std::size_t x, HalfedgeId e, HalfedgeId f, PlaneId plane) {
     const Operand& own = operands_[x];
     const Operand& other = operands_[1 - x];
     const PlaneId through_f = other.edge_side(tables_.planes, plane, f).other;
@@ -303,19 +303,19 @@ class IntersectionFinder {
     if (side(through_e, other.point(other.source(f))) * side(through_e, other.point(other.target(f))) >= 0) return;
     const std::optional<PointId> point = tables_.points.push_intersection(tables_.planes, plane, through_e, through_f);
     NEF_ASSERT(point.has_value());
-    if (!add_crossing(x, e, {Item::Kind::kEdge, f}, *point)) tables_.points.pop();
+    if (!add_crossing(x, e, Item(f), *point)) tables_.points.pop();
   }
 
-  bool add_crossing(std::size_t x, std::uint32_t e, const Item& item, PointId point) {
+  bool add_crossing(std::size_t x, HalfedgeId e, const Item& item, PointId point) {
     Crossing crossing;
     crossing.point = point;
-    crossing.item[x] = {Item::Kind::kEdge, e};
+    crossing.item[x] = Item(e);
     crossing.item[1 - x] = item;
     if (item.kind == Item::Kind::kEdge) {
       // Found once for every facet around either edge.
       const std::uint64_t key = static_cast<std::uint64_t>(crossing.item[0].index) << 32U | crossing.item[1].index;
       if (!edge_pairs_.insert(key).second) return false;
-      result_.contacts[1 - x].push_back({item.index, point, crossing.item[x]});
+      result_.contacts[1 - x].push_back({item.edge(), point, crossing.item[x]});
     }
     result_.contacts[x].push_back({e, point, item});
     result_.crossings.push_back(crossing);
@@ -325,10 +325,10 @@ class IntersectionFinder {
   void bare_edges() {
     const Operand& a = operands_[0];
     const Operand& b = operands_[1];
-    for (const std::uint32_t e : near_[0].bare_edges) {
+    for (const HalfedgeId e : near_[0].bare_edges) {
       const SVertex line = a.svertex(e);
       near_[1].bare_edge_tree.for_each_overlap(a.edge_box(e), [&](std::uint32_t i) {
-        const std::uint32_t f = near_[1].bare_edges[i];
+        const HalfedgeId f = near_[1].bare_edges[i];
         const SVertex other = b.svertex(f);
         // The lines meet in a point iff it lies on all four planes; three of them that are
         // independent give it.
@@ -337,14 +337,14 @@ class IntersectionFinder {
           if (!point) continue;
           const bool on_both =
               side(other.p, *point) == 0 && side(other.q, *point) == 0 && inside(a, e, *point) && inside(b, f, *point);
-          if (!on_both || !add_crossing(0, e, {Item::Kind::kEdge, f}, *point)) tables_.points.pop();
+          if (!on_both || !add_crossing(0, e, Item(f), *point)) tables_.points.pop();
           return;
         }
       });
     }
   }
 
-  bool inside(const Operand& operand, std::uint32_t e, PointId point) const {
+  bool inside(const Operand& operand, HalfedgeId e, PointId point) const {
     return compare_lexicographic(tables_.points, point, operand.point(operand.source(e))) *
                compare_lexicographic(tables_.points, point, operand.point(operand.target(e))) <
            0;
@@ -354,7 +354,7 @@ class IntersectionFinder {
     for (const VertexId v : near_[x].vertices) {
       const Item& item = result_.vertex_item[x][v];
       if (item.kind != Item::Kind::kEdge) continue;
-      result_.contacts[1 - x].push_back({item.index, operands_[x].point(v), Item(v)});
+      result_.contacts[1 - x].push_back({item.edge(), operands_[x].point(v), Item(v)});
     }
   }
 

@@ -20,7 +20,7 @@ struct Crossing {
 
 /// A place where an edge is touched by something of the other operand.
 struct EdgeContact {
-  std::uint32_t edge = 0;  ///< smaller halfedge
+  HalfedgeId edge{0};  ///< smaller halfedge
   PointId point;
   Item other;  ///< the item of the other operand
   auto operator<=>(const EdgeContact& o) const { return edge <=> o.edge; }

@@ -43,7 +43,7 @@ void Operand::rename(SphereMapBuffer& map) const {
 
 Box Operand::vertex_box(VertexId vertex) const { return nef::vertex_box(*complex_, vertex); }
 
-Box Operand::edge_box(std::uint32_t halfedge) const { return nef::edge_box(*complex_, halfedge); }
+Box Operand::edge_box(HalfedgeId halfedge) const { return nef::edge_box(*complex_, halfedge); }
 
 Box Operand::facet_box(FacetId facet) const { return nef::facet_box(*complex_, complex_->facets[facet]); }
 
@@ -57,8 +57,8 @@ SphereMapView Operand::pyramid(const Item& item, LabelId label, SphereMapBuffer&
       break;
     }
     case Item::Kind::kEdge: {
-      const VertexId vertex = source(item.index);
-      edge_pyramid(complex_->sphere_map(vertex), item.index - complex_->vertices[vertex].svertices, scratch);
+      const VertexId vertex = source(item.edge());
+      edge_pyramid(complex_->sphere_map(vertex), complex_->halfedges(vertex).position(item.edge()), scratch);
       rename(scratch);
       break;
     }

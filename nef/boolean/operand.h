@@ -35,9 +35,11 @@ struct Item {
   Item() = default;
   Item(Kind of, std::uint32_t number) : kind(of), index(number) {}
   explicit Item(VertexId vertex) : kind(Kind::kVertex), index(vertex.index()) {}
+  explicit Item(HalfedgeId edge) : kind(Kind::kEdge), index(edge.index()) {}
   explicit Item(FacetId facet) : kind(Kind::kFacet), index(facet.index()) {}
 
   [[nodiscard]] VertexId vertex() const { return VertexId{index}; }
+  [[nodiscard]] HalfedgeId edge() const { return HalfedgeId{index}; }
   [[nodiscard]] FacetId facet() const { return FacetId{index}; }
   bool operator==(const Item&) const = default;
 };
@@ -54,7 +56,7 @@ class Operand {
     return rows_.empty() ? own : PlaneId{rows_[own.row()] << 1U | (own.value & 1U)};
   }
   [[nodiscard]] PointId point(VertexId vertex) const { return point_of(vertex) + first_point_; }
-  [[nodiscard]] SVertex svertex(std::uint32_t halfedge) const {
+  [[nodiscard]] SVertex svertex(HalfedgeId halfedge) const {
     SVertex result = complex_->svertex(halfedge);
     result.p = plane(result.p);
     result.q = plane(result.q);
@@ -63,20 +65,18 @@ class Operand {
   [[nodiscard]] PlaneId facet_plane(FacetId facet) const { return plane(complex_->facets[facet].plane); }
 
   /// The smaller halfedge of an edge.
-  [[nodiscard]] std::uint32_t edge(std::uint32_t halfedge) const {
-    return std::min(halfedge, complex_->twin[halfedge]);
-  }
-  [[nodiscard]] VertexId source(std::uint32_t halfedge) const { return complex_->svertex_owner[halfedge]; }
-  [[nodiscard]] VertexId target(std::uint32_t halfedge) const { return complex_->target(halfedge); }
+  [[nodiscard]] HalfedgeId edge(HalfedgeId halfedge) const { return complex_->edge(halfedge); }
+  [[nodiscard]] VertexId source(HalfedgeId halfedge) const { return complex_->source(halfedge); }
+  [[nodiscard]] VertexId target(HalfedgeId halfedge) const { return complex_->target(halfedge); }
 
   [[nodiscard]] const Box& bounds() const { return *bounds_; }
   [[nodiscard]] Box vertex_box(VertexId vertex) const;
-  [[nodiscard]] Box edge_box(std::uint32_t halfedge) const;
+  [[nodiscard]] Box edge_box(HalfedgeId halfedge) const;
   [[nodiscard]] Box facet_box(FacetId facet) const;
 
   /// The plane other than `plane` (a common name) that holds the edge, and the side of it to the
   /// left of the halfedge in `plane`. See edge_side in nef/complex/facet_plane.h.
-  [[nodiscard]] EdgeSide edge_side(const PlaneTable& planes, PlaneId plane, std::uint32_t halfedge) const {
+  [[nodiscard]] EdgeSide edge_side(const PlaneTable& planes, PlaneId plane, HalfedgeId halfedge) const {
     return nef::edge_side(planes, plane, svertex(halfedge));
   }
 

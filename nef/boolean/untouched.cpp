@@ -66,8 +66,7 @@ class UntouchedMarks {
     while (!queue_.empty()) {
       const VertexId v = queue_.back();
       queue_.pop_back();
-      const std::uint32_t last = own_.complex().vertices[v.next()].svertices;
-      for (std::uint32_t h = own_.complex().vertices[v].svertices; h < last; ++h) {
+      for (const HalfedgeId h : own_.complex().halfedges(v)) {
         const VertexId w = own_.target(h);
         if (!known_[w] && !crossed_[h] && !touched(w)) settle(w, marks_[v]);
       }
@@ -77,8 +76,7 @@ class UntouchedMarks {
   void seed_from_touched_ends() {
     for (const VertexId v : items_.ids()) {
       if (!touched(v)) continue;
-      const std::uint32_t last = own_.complex().vertices[v.next()].svertices;
-      for (std::uint32_t h = own_.complex().vertices[v].svertices; h < last; ++h) {
+      for (const HalfedgeId h : own_.complex().halfedges(v)) {
         const VertexId w = own_.target(h);
         if (touched(w) || known_[w] || crossed_[h]) continue;
         settle(w, mark_toward(items_[v], h, w));
@@ -87,7 +85,7 @@ class UntouchedMarks {
   }
 
   // The mark of the other operand's volume that halfedge h leads into from `item`, toward w.
-  LabelId mark_toward(const Item& item, std::uint32_t h, VertexId w) const {
+  LabelId mark_toward(const Item& item, HalfedgeId h, VertexId w) const {
     if (item.kind == Item::Kind::kFacet) {
       const Facet& facet = other_.complex().facets[item.facet()];
       const int side = side_of_plane(tables_.planes, other_.plane(facet.plane), tables_.points, own_.point(w));
@@ -99,7 +97,7 @@ class UntouchedMarks {
 
   // All contacts of one edge: the extreme ones tell about its ends.
   void seed_from_contacts(std::span<const EdgeContact> contacts) {
-    const std::uint32_t h = contacts.front().edge;
+    const HalfedgeId h = contacts.front().edge;
     const VertexId source = own_.source(h);
     const VertexId target = own_.target(h);
     const bool want_source = !touched(source) && !known_[source];
@@ -131,7 +129,7 @@ class UntouchedMarks {
   const std::vector<EdgeContact>& contacts_;
   IndexedVector<VertexId, LabelId> marks_;
   IndexedVector<VertexId, bool> known_;
-  std::vector<bool> crossed_;
+  IndexedVector<HalfedgeId, bool> crossed_;
   std::vector<VertexId> queue_;
 };
 

@@ -18,6 +18,7 @@
 //  - volume 0 is the outer volume. In a complex with an infimaximal box its mark is kOutside.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -32,7 +33,7 @@ namespace nef {
 
 /// Where the items of the sphere map of a vertex begin; they end where the next vertex's begin.
 struct VertexRecord {
-  std::uint32_t svertices = 0;
+  HalfedgeId svertices{0};
   std::uint32_t shalfedges = 0;
   std::uint32_t sloops = 0;
   std::uint32_t sfaces = 0;
@@ -82,9 +83,9 @@ struct Complex {
   std::vector<SLoop> sloops;
 
   // Added by synthesis, parallel to the arrays above.
-  std::vector<VertexId> svertex_owner;
-  std::vector<std::uint32_t> twin;   ///< halfedge at the other end of the edge
-  std::vector<VertexId> pair_owner;  ///< vertex of each pair of shalfedges; empty: svertex_owner says it
+  IndexedVector<HalfedgeId, VertexId> svertex_owner;
+  IndexedVector<HalfedgeId, HalfedgeId> twin;  ///< at the other end of the edge
+  std::vector<VertexId> pair_owner;            ///< vertex of each pair of shalfedges; empty: svertex_owner says it
   HalffacetColumn shalfedge_facet;
   std::vector<HalffacetId> sloop_facet;
   std::vector<ShellId> sface_shell;
@@ -102,19 +103,25 @@ struct Complex {
   [[nodiscard]] std::size_t edge_count() const { return svertex_count() / 2; }
   [[nodiscard]] std::size_t facet_count() const { return facets.size(); }
   [[nodiscard]] std::size_t volume_count() const { return volumes.size(); }
-  [[nodiscard]] std::uint32_t svertex_count() const { return vertices.back().svertices; }
+  [[nodiscard]] std::uint32_t svertex_count() const { return vertices.back().svertices.index(); }
   [[nodiscard]] std::uint32_t shalfedge_count() const { return vertices.back().shalfedges; }
   [[nodiscard]] std::uint32_t sface_count() const { return vertices.back().sfaces; }
 
   [[nodiscard]] IdRange<VertexId> vertex_ids() const {
     return {VertexId{0}, static_cast<std::uint32_t>(vertices.size() - 1)};
   }
+  [[nodiscard]] IdRange<HalfedgeId> halfedge_ids() const { return {HalfedgeId{0}, vertices.back().svertices}; }
   [[nodiscard]] IdRange<CycleId> cycle_ids() const {
     return {CycleId{0}, static_cast<std::uint32_t>(cycle_begin.size() - 1)};
   }
 
   /// True if the set is unbounded in a way that needed an infimaximal box.
   [[nodiscard]] bool has_box() const { return !volumes.empty() && volumes[kOuterVolume].mark == kOutside; }
+
+  /// The halfedges that leave a vertex; the first is svertex 0 of its sphere map.
+  [[nodiscard]] IdRange<HalfedgeId> halfedges(VertexId vertex) const {
+    return {vertices[vertex].svertices, vertices[vertex.next()].svertices};
+  }
 
   /// The sphere map of a vertex.
   [[nodiscard]] SphereMapView sphere_map(VertexId vertex) const {
@@ -130,11 +137,11 @@ struct Complex {
 
   [[nodiscard]] LabelId mark(VertexId vertex) const { return patterns.mark(vertices[vertex].pattern); }
 
-  /// An svertex by its number in the complex. Needs svertex_owner.
-  [[nodiscard]] SVertex svertex(std::uint32_t svertex) const {
-    const VertexId vertex = svertex_owner[svertex];
+  /// A halfedge as the svertex that it is in the sphere map of its source. Needs svertex_owner.
+  [[nodiscard]] SVertex svertex(HalfedgeId halfedge) const {
+    const VertexId vertex = svertex_owner[halfedge];
     const VertexRecord& record = vertices[vertex];
-    return with_planes(patterns.svertex(record.pattern, svertex - record.svertices), local_planes(vertex));
+    return with_planes(patterns.svertex(record.pattern, halfedge - record.svertices), local_planes(vertex));
   }
 
   /// A shalfedge by its number in the complex. Needs the owners.
@@ -147,7 +154,7 @@ struct Complex {
   /// The vertex of a shalfedge. Where every svertex has two arcs, as in all sets whose boundary is a manifold, a vertex
   /// has as many svertices as pairs of shalfedges, and one list of owners serves both.
   [[nodiscard]] VertexId shalfedge_vertex(std::uint32_t shalfedge) const {
-    return pair_owner.empty() ? svertex_owner[shalfedge >> 1U] : pair_owner[shalfedge >> 1U];
+    return pair_owner.empty() ? svertex_owner[HalfedgeId{shalfedge >> 1U}] : pair_owner[shalfedge >> 1U];
   }
 
   /// The mark of an sface by its number in the complex. O(log n).
@@ -156,15 +163,19 @@ struct Complex {
     return patterns.sfaces(vertices[vertex].pattern)[sface - vertices[vertex].sfaces].mark;
   }
 
-  /// The vertex at the other end of a halfedge.
-  [[nodiscard]] VertexId target(std::uint32_t halfedge) const { return svertex_owner[twin[halfedge]]; }
+  /// The vertex that a halfedge leaves, and the one at its other end.
+  [[nodiscard]] VertexId source(HalfedgeId halfedge) const { return svertex_owner[halfedge]; }
+  [[nodiscard]] VertexId target(HalfedgeId halfedge) const { return svertex_owner[twin[halfedge]]; }
+
+  /// The smaller halfedge of an edge, where one is to stand for both.
+  [[nodiscard]] HalfedgeId edge(HalfedgeId halfedge) const { return std::min(halfedge, twin[halfedge]); }
 
   /// The halfedge that leaves the vertex of a corner along the facet boundary (facet to its left).
-  [[nodiscard]] std::uint32_t corner_halfedge(std::uint32_t corner) const {
+  [[nodiscard]] HalfedgeId corner_halfedge(std::uint32_t corner) const {
     return vertices[shalfedge_vertex(corner)].svertices + in_pattern(corner).source;
   }
   /// The halfedge at the vertex of a corner that leads back along the facet boundary.
-  [[nodiscard]] std::uint32_t corner_back_halfedge(std::uint32_t corner) const {
+  [[nodiscard]] HalfedgeId corner_back_halfedge(std::uint32_t corner) const {
     return vertices[shalfedge_vertex(corner)].svertices + in_pattern(corner ^ 1U).source;
   }
   /// Global index of the sface to the left of a shalfedge.

@@ -37,8 +37,7 @@ EdgeSide edge_side(const PlaneTable& planes, PlaneId plane, const SVertex& s) {
   return {other, sign_of_dot(left, Direction::normal(planes, other))};
 }
 
-int side_of_edge(const Complex& complex, PlaneId plane, std::uint32_t halfedge, const PointTable& points,
-                 PointId point) {
+int side_of_edge(const Complex& complex, PlaneId plane, HalfedgeId halfedge, const PointTable& points, PointId point) {
   const EdgeSide side = edge_side(complex.planes, plane, complex.svertex(halfedge));
   return side.left * side_of_plane(complex.planes, side.other, points, point);
 }

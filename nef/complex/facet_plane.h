@@ -31,7 +31,6 @@ EdgeSide edge_side(const PlaneTable& planes, PlaneId plane, const SVertex& halfe
 
 /// Where a point of the plane lies, from an edge of the plane: +1 to the left of the halfedge, 0
 /// on its line, -1 to the right.
-int side_of_edge(const Complex& complex, PlaneId plane, std::uint32_t halfedge, const PointTable& points,
-                 PointId point);
+int side_of_edge(const Complex& complex, PlaneId plane, HalfedgeId halfedge, const PointTable& points, PointId point);
 
 }  // namespace nef

@@ -10,6 +10,7 @@ namespace nef {
 
 using CycleId = Id<struct CycleTag>;          ///< a closed part of the boundary of a facet
 using FacetId = Id<struct FacetTag>;          ///< both sides of a facet
+using HalfedgeId = Id<struct HalfedgeTag>;    ///< an edge as it leaves one of its ends: an svertex of the complex
 using HalffacetId = Id<struct HalffacetTag>;  ///< one side of a facet
 using PatternId = Id<struct PatternTag>;      ///< a sphere map without its planes
 using ShellId = Id<struct ShellTag>;

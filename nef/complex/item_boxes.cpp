@@ -9,8 +9,8 @@ Box vertex_box(const Complex& complex, VertexId vertex) {
   return box;
 }
 
-Box edge_box(const Complex& complex, std::uint32_t halfedge) {
-  Box box = vertex_box(complex, complex.svertex_owner[halfedge]);
+Box edge_box(const Complex& complex, HalfedgeId halfedge) {
+  Box box = vertex_box(complex, complex.source(halfedge));
   box.add_rounded(complex.points.approximate(point_of(complex.target(halfedge))));
   return box;
 }

@@ -8,7 +8,7 @@ namespace nef {
 
 // Boxes of doubles around exact items: rounded outward, so that items whose boxes do not meet do not meet either.
 Box vertex_box(const Complex& complex, VertexId vertex);
-Box edge_box(const Complex& complex, std::uint32_t halfedge);
+Box edge_box(const Complex& complex, HalfedgeId halfedge);
 Box facet_box(const Complex& complex, const Facet& facet);
 // Around all vertices; empty if there are none.
 Box vertices_box(const Complex& complex);

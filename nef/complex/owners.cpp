@@ -7,15 +7,12 @@ namespace nef {
 
 void name_svertex_owners(Complex& complex) {
   complex.svertex_owner.resize(complex.svertex_count());
-  const auto owner = complex.svertex_owner.begin();
-  for (const VertexId v : complex.vertex_ids()) {
-    std::fill(owner + complex.vertices[v].svertices, owner + complex.vertices[v.next()].svertices, v);
-  }
+  for (const VertexId v : complex.vertex_ids()) std::ranges::fill(complex.svertex_owner[complex.halfedges(v)], v);
 }
 
 void name_pair_owners(Complex& complex) {
   complex.pair_owner.clear();
-  const auto as_many = [](const VertexRecord& v) { return v.svertices == v.shalfedges / 2; };
+  const auto as_many = [](const VertexRecord& v) { return v.svertices.index() == v.shalfedges / 2; };
   if (std::all_of(complex.vertices.begin(), complex.vertices.end(), as_many)) return;
   complex.pair_owner.resize(complex.shalfedge_count() / 2);
   const auto owner = complex.pair_owner.begin();

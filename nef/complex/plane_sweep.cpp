@@ -11,8 +11,8 @@ namespace {
 
 // An edge with its facet above. Vertices are known by their rank in the order of the sweep.
 struct SweepEdge {
-  std::uint32_t corner = kNone;    // index into the corners that were given
-  std::uint32_t outgoing = kNone;  // the halfedge at the low end
+  std::uint32_t corner = kNone;  // index into the corners that were given
+  HalfedgeId outgoing;           // the halfedge at the low end
   std::uint32_t low = 0;
   std::uint32_t high = 0;
   EdgeSide side;  // of the halfedge whose left is above
@@ -53,7 +53,7 @@ class PlaneSweep {
   // counterclockwise, or descends in others.
   void collect_edges(std::span<const std::uint32_t> corners) {
     for (std::uint32_t i = 0; i < corners.size(); ++i) {
-      const std::uint32_t halfedge = c_.corner_halfedge(corners[i]);
+      const HalfedgeId halfedge = c_.corner_halfedge(corners[i]);
       const std::uint32_t from = rank_of(c_.shalfedge_vertex(corners[i]));
       const std::uint32_t to = rank_of(c_.target(halfedge));
       if ((from < to) != axes_.positive) continue;

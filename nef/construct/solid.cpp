@@ -77,7 +77,7 @@ class SolidBuilder {
     for (std::size_t v = 0; v + 1 < first_.size(); ++v) used += first_[v] < first_[v + 1] ? 1 : 0;
     const auto corners = static_cast<std::uint32_t>(corners_.size());
     VertexRecord size;
-    size.svertices = corners;
+    size.svertices = HalfedgeId{corners};
     size.shalfedges = 2 * corners;
     size.sfaces = 2 * used;
     result.reserve(used, size);

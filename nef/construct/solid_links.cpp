@@ -18,7 +18,7 @@ bool SolidLinks::note(const Complex& result, std::uint32_t point, const Arrangem
     vertex_of_[point] = point_.end_id();
   } else {
     for (const std::uint32_t corner : corners) shalfedge_of_[corner] = kNone;
-    end_.resize(result.vertices[VertexId{result.vertex_count() - 1}].svertices);
+    end_.resize(result.vertices[VertexId{result.vertex_count() - 1}].svertices.index());
     end_.resize(result.svertex_count(), kNone);
   }
   point_.push_back(point);
@@ -63,7 +63,7 @@ std::optional<KnownLinks> SolidLinks::finish(const Complex& result) {
   if (!every_plane_is_used(result)) return std::nullopt;
   KnownLinks links;
   link_twins(result, links);
-  end_ = std::vector<std::uint32_t>();
+  end_ = {};
   link_facets(result, links);
   return links;
 }
@@ -89,16 +89,17 @@ void SolidLinks::link_twins(const Complex& result, KnownLinks& links) const {
   links.twin.reserve(result.svertex_count());
   for (const VertexId v : result.vertex_ids()) {
     bool loose = false;
-    for (std::uint32_t s = result.vertices[v].svertices; s < result.vertices[v.next()].svertices; ++s) {
+    for (const HalfedgeId s : result.halfedges(v)) {
       const VertexId w = end_[s] == kNone ? VertexId() : vertex_of_[end_[s]];
-      std::uint32_t twin = kNone;
+      HalfedgeId twin;
       if (w.valid()) {
-        const auto last = end_.begin() + result.vertices[w.next()].svertices;
-        const auto at = std::find(end_.begin() + result.vertices[w].svertices, last, point_[v]);
-        if (at != last) twin = static_cast<std::uint32_t>(at - end_.begin());
+        const IdRange<HalfedgeId> candidates = result.halfedges(w);
+        const auto back = [&](HalfedgeId h) { return end_[h] == point_[v]; };
+        const auto at = std::find_if(candidates.begin(), candidates.end(), back);
+        if (at != candidates.end()) twin = *at;
       }
       links.twin.push_back(twin);
-      loose = loose || twin == kNone;
+      loose = loose || !twin.valid();
     }
     if (loose) links.loose_vertices.push_back(v);
   }

@@ -48,9 +48,9 @@ struct Side {
     }
     facets = BoxTree(boxes);
     boxes.clear();
-    for (std::uint32_t h = 0; h < c.svertex_count(); ++h) {
+    for (const HalfedgeId h : c.halfedge_ids()) {
       if (h > c.twin[h]) continue;
-      segments.push_back({c.svertex_owner[h], c.target(h)});
+      segments.push_back({c.source(h), c.target(h)});
       boxes.push_back(edge_box(c, h));
     }
     for (const VertexId v : c.vertex_ids()) {

@@ -137,13 +137,13 @@ class Exporter {
   // Of a set without solid parts: facets, edges outside of these, and vertices outside of all these.
   void collect_lower_dimensional() {
     IndexedVector<VertexId, bool> held(complex_.vertex_count(), false);
-    std::vector<bool> in_facet(complex_.svertex_count(), false);
+    IndexedVector<HalfedgeId, bool> in_facet(complex_.svertex_count(), false);
     for (const FacetId f : complex_.facets.ids()) {
       const Facet& facet = complex_.facets[f];
       if (!is_selected(facet.mark) || sees_other(facet)) continue;
       boundary_.push_back(f);
       for (const std::uint32_t corner : complex_.corners_of(facet)) {
-        const std::uint32_t h = complex_.corner_halfedge(corner);
+        const HalfedgeId h = complex_.corner_halfedge(corner);
         in_facet[h] = in_facet[complex_.twin[h]] = true;
         held[complex_.shalfedge_vertex(corner)] = true;
       }
@@ -151,8 +151,8 @@ class Exporter {
         held[v] = true;
       }
     }
-    for (std::uint32_t h = 0; h < complex_.svertex_count(); ++h) {
-      const VertexId v = complex_.svertex_owner[h];
+    for (const HalfedgeId h : complex_.halfedge_ids()) {
+      const VertexId v = complex_.source(h);
       const VertexId w = complex_.target(h);
       if (in_facet[h] || h > complex_.twin[h] || !is_selected(complex_.svertex(h).mark)) continue;
       if (!finite(v) || !finite(w) || sides_of_edge(v, h).selected) continue;
@@ -372,7 +372,7 @@ class Exporter {
         for (std::uint32_t s = record.sfaces; s < end.sfaces; ++s) sides.add(volumes_[complex_.sface_volume(s)]);
         judge(sides, complex_.mark(v), &Items::vertices);
       }
-      for (std::uint32_t h = record.svertices; h < end.svertices; ++h) {
+      for (const HalfedgeId h : complex_.halfedges(v)) {
         const SVertex& svertex = complex_.svertex(h);
         if (all_facets && svertex.out != kNone && is_selected(svertex.mark)) continue;
         const bool far_finite = finite(complex_.target(h));
@@ -382,7 +382,7 @@ class Exporter {
     }
   }
 
-  [[nodiscard]] SeenVolumes sides_of_edge(VertexId vertex, std::uint32_t halfedge) const {
+  [[nodiscard]] SeenVolumes sides_of_edge(VertexId vertex, HalfedgeId halfedge) const {
     const SphereMapView map = complex_.sphere_map(vertex);
     const VertexRecord& record = complex_.vertices[vertex];
     const SVertex& svertex = complex_.svertex(halfedge);
@@ -398,12 +398,12 @@ class Exporter {
 
   // Edges and vertices of the facets that are written and do not belong to the set.
   void count_open_borders() {
-    std::vector<bool> seen_edge(complex_.svertex_count(), false);
+    IndexedVector<HalfedgeId, bool> seen_edge(complex_.svertex_count(), false);
     IndexedVector<VertexId, bool> seen_vertex(complex_.vertex_count(), false);
     for (const FacetId f : boundary_) {
       for (const std::uint32_t corner : complex_.corners_of(f)) {
         const VertexId v = complex_.shalfedge_vertex(corner);
-        const std::uint32_t h = complex_.corner_halfedge(corner);
+        const HalfedgeId h = complex_.corner_halfedge(corner);
         if (!seen_vertex[v] && !is_selected(complex_.mark(v))) ++open_.vertices;
         if (!seen_edge[h] && !is_selected(complex_.svertex(h).mark)) ++open_.edges;
         seen_vertex[v] = true;

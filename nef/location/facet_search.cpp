@@ -60,7 +60,7 @@ class ParityCount {
 
   void add(std::uint32_t corner) {
     const VertexId u = complex_.shalfedge_vertex(corner);
-    const std::uint32_t halfedge = complex_.corner_halfedge(corner);
+    const HalfedgeId halfedge = complex_.corner_halfedge(corner);
     const VertexId v = complex_.target(halfedge);
     const int u_side = compare(u, k_);
     const int v_side = compare(v, k_);
@@ -74,7 +74,7 @@ class ParityCount {
     const PlaneId g = facet_first ? edge.q : edge.p;
     const int g_side = side_of_plane(complex_.planes, g, point_);
     if (g_side == 0) {
-      place_ = {FacetPlace::Kind::kEdge, halfedge};
+      place_ = {FacetPlace::Kind::kEdge, halfedge.index()};
       return;
     }
     // The edge runs along n_p x n_q. If F is one of these planes, the way that the edge goes in k tells
@@ -104,7 +104,7 @@ class ParityCount {
 
   // An end (or both) at the height of the point: is the point on the edge? On the plane of the
   // facet, coordinates k and m tell points apart.
-  bool meets_at_height(VertexId u, int u_side, VertexId v, int v_side, std::uint32_t halfedge) {
+  bool meets_at_height(VertexId u, int u_side, VertexId v, int v_side, HalfedgeId halfedge) {
     const int u_along = u_side == 0 ? compare(u, m_) : 1;
     const int v_along = v_side == 0 ? compare(v, m_) : 1;
     if (u_along == 0) {
@@ -112,7 +112,7 @@ class ParityCount {
     } else if (v_along == 0) {
       place_ = {FacetPlace::Kind::kVertex, v.index()};
     } else if (u_side == 0 && v_side == 0 && u_along != v_along) {
-      place_ = {FacetPlace::Kind::kEdge, halfedge};
+      place_ = {FacetPlace::Kind::kEdge, halfedge.index()};
     }
     return on_boundary();
   }

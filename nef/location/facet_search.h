@@ -17,6 +17,7 @@ struct FacetPlace {
   Kind kind = Kind::kOutside;
   std::uint32_t index = 0;  ///< kEdge: a halfedge; kVertex: a vertex
   [[nodiscard]] VertexId vertex() const { return VertexId{index}; }
+  [[nodiscard]] HalfedgeId halfedge() const { return HalfedgeId{index}; }
 };
 
 /// The place of `point`, which must lie on the plane of the facet. `edges`, if given, is the tree

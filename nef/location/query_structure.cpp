@@ -20,12 +20,12 @@ const Direction& minus_x() {
   return direction;
 }
 
-bool on_edge(const Complex& complex, std::uint32_t halfedge, const PointRef& point) {
+bool on_edge(const Complex& complex, HalfedgeId halfedge, const PointRef& point) {
   const SVertex& edge = complex.svertex(halfedge);
   if (side_of_plane(complex.planes, edge.p, point) != 0) return false;
   if (side_of_plane(complex.planes, edge.q, point) != 0) return false;
   // On the line; between the ends iff so in lexicographic order.
-  const PointRef u{&complex.points, point_of(complex.svertex_owner[halfedge])};
+  const PointRef u{&complex.points, point_of(complex.source(halfedge))};
   const PointRef v{&complex.points, point_of(complex.target(halfedge))};
   for (int axis = 0; axis < 3; ++axis) {
     const int u_side = compare_coordinate(u, point, axis);
@@ -62,10 +62,10 @@ void QueryStructure::collect(const Complex& complex, const BoxTree* places) {
     push_item(f.index(), kFacetItem, box, boxes);
     if (corners.size() > kLargeFacet) large_facets_.push_back(f);
   }
-  for (std::uint32_t h = 0; h < complex.svertex_count(); ++h) {
+  for (const HalfedgeId h : complex.halfedge_ids()) {
     if (complex.svertex(h).out != kNone || h > complex.twin[h]) continue;
     const Box box = edge_box(complex, h);
-    if (asked_for(box)) push_item(h, kEdgeItem, box, boxes);
+    if (asked_for(box)) push_item(h.index(), kEdgeItem, box, boxes);
   }
   for (const VertexId v : complex.vertex_ids()) {
     // Vertices that are no corner of a facet, or lie inside one.
@@ -115,10 +115,11 @@ std::optional<ComplexHit> QueryStructure::item_at(const Complex& complex, const 
         if (same_point({&complex.points, point_of(VertexId{index})}, point)) result = ComplexHit::at(VertexId{index});
         return;
       case kEdgeItem: {
-        for (const VertexId end : {complex.svertex_owner[index], complex.target(index)}) {
+        const HalfedgeId edge{index};
+        for (const VertexId end : {complex.source(edge), complex.target(edge)}) {
           if (same_point({&complex.points, point_of(end)}, point)) result = ComplexHit::at(end);
         }
-        if (on_edge(complex, index, point)) result = ComplexHit{Kind::kEdge, index, kNone};
+        if (on_edge(complex, edge, point)) result = ComplexHit::at_edge(edge);
         return;
       }
       default:
@@ -130,10 +131,10 @@ std::optional<ComplexHit> QueryStructure::item_at(const Complex& complex, const 
     const FacetPlace place = locate_in_facet(complex, facet, point, edge_tree(complex, f));
     if (place.kind == FacetPlace::Kind::kInside)
       result = ComplexHit{Kind::kFacet, halffacet_of(f, false).index(), kNone};
-    if (place.kind == FacetPlace::Kind::kEdge) result = ComplexHit{Kind::kEdge, place.index, kNone};
+    if (place.kind == FacetPlace::Kind::kEdge) result = ComplexHit::at_edge(place.halfedge());
     if (place.kind == FacetPlace::Kind::kVertex) result = ComplexHit::at(place.vertex());
   });
-  if (result && result->kind == Kind::kEdge) result->index = std::min(result->index, complex.twin[result->index]);
+  if (result && result->kind == Kind::kEdge) result = ComplexHit::at_edge(complex.edge(result->halfedge()));
   return result;
 }
 

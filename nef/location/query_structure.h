@@ -24,7 +24,9 @@ struct ComplexHit {
   /// A vertex; a halfedge; a halffacet (from a ray: the side that the ray comes from).
   std::uint32_t index = 0;
   static ComplexHit at(VertexId vertex) { return {Kind::kVertex, vertex.index(), kNone}; }
+  static ComplexHit at_edge(HalfedgeId halfedge) { return {Kind::kEdge, halfedge.index(), kNone}; }
   [[nodiscard]] VertexId vertex() const { return VertexId{index}; }
+  [[nodiscard]] HalfedgeId halfedge() const { return HalfedgeId{index}; }
   [[nodiscard]] HalffacetId halffacet() const { return HalffacetId{index}; }
   /// Vertex or edge met by a ray: the sface (global index, at that vertex or at the source of that
   /// halfedge) through which the ray comes. kNone if the ray comes along a facet or an edge, and

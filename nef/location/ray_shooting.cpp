@@ -68,7 +68,7 @@ class RayShooter {
         visit_vertex(VertexId{index});
         break;
       case QueryStructure::kEdgeItem:
-        visit_edge(index);
+        visit_edge(HalfedgeId{index});
         break;
       default:
         visit_facet(FacetId{index});
@@ -81,12 +81,12 @@ class RayShooter {
     if (position && *position > 0) offer(ComplexHit::at(vertex), point);
   }
 
-  void visit_edge(std::uint32_t halfedge) {
+  void visit_edge(HalfedgeId halfedge) {
     const SVertex& edge = complex_.svertex(halfedge);
     PlaneId crossed = edge.p;
     PlaneId other = edge.q;
     if (side_of_circle(complex_.planes, crossed, ray_.direction) == 0) std::swap(crossed, other);
-    const VertexId u = complex_.svertex_owner[halfedge];
+    const VertexId u = complex_.source(halfedge);
     const VertexId v = complex_.target(halfedge);
     if (side_of_circle(complex_.planes, crossed, ray_.direction) == 0) {
       // Parallel: met at its ends, if at all.
@@ -101,7 +101,7 @@ class RayShooter {
       const int v_side = compare_coordinate(PointRef{&complex_.points, point_of(v)}, *meeting, axis);
       if (u_side == 0 && v_side == 0) continue;
       if (u_side * v_side > 0) return;
-      if (u_side * v_side < 0) return offer({ComplexHit::Kind::kEdge, halfedge, kNone}, *meeting);
+      if (u_side * v_side < 0) return offer(ComplexHit::at_edge(halfedge), *meeting);
       return offer(ComplexHit::at(u_side == 0 ? u : v), *meeting);
     }
   }
@@ -119,7 +119,7 @@ class RayShooter {
       case FacetPlace::Kind::kOutside:
         return;
       case FacetPlace::Kind::kEdge:
-        return offer({ComplexHit::Kind::kEdge, place.index, kNone}, *meeting);
+        return offer(ComplexHit::at_edge(place.halfedge()), *meeting);
       case FacetPlace::Kind::kVertex:
         return offer(ComplexHit::at(place.vertex()), *meeting);
       case FacetPlace::Kind::kInside:
@@ -202,13 +202,14 @@ class RayShooter {
       const SphereLocation place = locate(complex_.planes, complex_.sphere_map(hit.vertex()), back);
       return place.kind == SphereLocation::Kind::kSFace ? complex_.vertices[hit.vertex()].sfaces + place.index : kNone;
     }
-    const VertexId vertex = complex_.svertex_owner[hit.index];
+    const VertexId vertex = complex_.source(hit.halfedge());
     const SphereMapView map = complex_.sphere_map(vertex);
     const VertexRecord& record = complex_.vertices[vertex];
-    const SVertex& edge = complex_.svertex(hit.index);
+    const SVertex& edge = complex_.svertex(hit.halfedge());
     if (edge.out == kNone) return record.sfaces + edge.sface;
     const Direction axis = direction_of(complex_.planes, edge);
-    const Wedge wedge = locate_wedge(complex_.planes, map, hit.index - record.svertices, Direction::cross(axis, back));
+    const Wedge wedge =
+        locate_wedge(complex_.planes, map, hit.halfedge() - record.svertices, Direction::cross(axis, back));
     return wedge.on ? kNone : record.sfaces + map.shalfedges[wedge.shalfedge].sface;
   }
 

@@ -256,14 +256,14 @@ class Canonical {
     parallel_for(parts_.size(), threads_, [&](std::size_t k) {
       ordered[k].reserve(parts_[k].rows.size());
       for (const std::uint32_t row : parts_[k].rows) ordered[k].push_back(row_[row]);
-      if (!parts_[k].complex->twin.empty()) svertices_[k].assign(parts_[k].complex->svertex_count(), kNone);
+      if (!parts_[k].complex->twin.empty()) svertices_[k].assign(parts_[k].complex->svertex_count(), HalfedgeId());
     });
     const std::size_t chunks = chunk_count();
     std::vector<std::uint32_t> first_svertex(chunks + 1, 0);
     std::vector<Complex> written(chunks);
     for_each_chunk([&](std::uint32_t first, std::uint32_t last, std::size_t chunk) {
       const VertexRecord size = size_of(first, last);
-      first_svertex[chunk + 1] = size.svertices;
+      first_svertex[chunk + 1] = size.svertices.index();
       ComplexBuilder part(planes);
       part.reserve(last - first, size);
       CanonicalMapWriter writer(planes_, planes, row_);
@@ -273,13 +273,16 @@ class Canonical {
         const CanonicalVertex& v = vertices_[i];
         const auto line_end = std::find_if(line, lines_.end(), [i](const BareLine& l) { return l.place != i; });
         writer.set_rows(parts_[v.part].rows, ordered[v.part]);
-        const std::uint32_t at = part.so_far().vertices.back().svertices;
+        const HalfedgeId at = part.so_far().vertices.back().svertices;
         const Point p = point(i);
         part.append(p.table, p.id, writer.write(map(i), {line, line_end}));
         line = line_end;
         if (svertices_[v.part].empty()) continue;
-        std::uint32_t old = complex(i).vertices[v.vertex].svertices;
-        for (const std::uint32_t s : writer.svertex_numbers()) svertices_[v.part][old++] = at + s;
+        HalfedgeId old = complex(i).vertices[v.vertex].svertices;
+        for (const std::uint32_t s : writer.svertex_numbers()) {
+          svertices_[v.part][old] = at + s;
+          ++old;
+        }
       }
       written[chunk] = part.take_so_far();
     });
@@ -290,9 +293,7 @@ class Canonical {
       for (std::uint32_t i = first; i < last; ++i) {
         const CanonicalVertex& v = vertices_[i];
         if (svertices_[v.part].empty()) continue;
-        const std::uint32_t begin = complex(i).vertices[v.vertex].svertices;
-        const std::uint32_t end = complex(i).vertices[v.vertex.next()].svertices;
-        for (std::uint32_t h = begin; h < end; ++h) svertices_[v.part][h] += first_svertex[chunk];
+        for (const HalfedgeId h : complex(i).halfedges(v.vertex)) svertices_[v.part][h] += first_svertex[chunk];
       }
     });
   }
@@ -307,19 +308,17 @@ class Canonical {
 
   [[nodiscard]] KnownLinks known_twins(const Complex& written) const {
     KnownLinks known;
-    known.twin.assign(written.svertex_count(), kNone);
+    known.twin.assign(written.svertex_count(), HalfedgeId());
     std::vector<std::vector<VertexId>> loose(chunk_count());
     for_each_chunk([&](std::uint32_t first, std::uint32_t last, std::size_t chunk) {
       for (std::uint32_t i = first; i < last; ++i) {
-        const std::vector<std::uint32_t>& numbers = svertices_[vertices_[i].part];
+        const IndexedVector<HalfedgeId, HalfedgeId>& numbers = svertices_[vertices_[i].part];
         const Complex& c = complex(i);
-        const std::uint32_t begin = c.vertices[vertices_[i].vertex].svertices;
-        const std::uint32_t end = c.vertices[vertices_[i].vertex.next()].svertices;
         bool all = true;
-        for (std::uint32_t h = begin; h < end; ++h) {
-          const std::uint32_t twin = numbers.empty() ? kNone : numbers[c.twin[h]];
-          if (twin != kNone) known.twin[numbers[h]] = twin;
-          all = all && twin != kNone;
+        for (const HalfedgeId h : c.halfedges(vertices_[i].vertex)) {
+          const HalfedgeId twin = numbers.empty() ? HalfedgeId() : numbers[c.twin[h]];
+          if (twin.valid()) known.twin[numbers[h]] = twin;
+          all = all && twin.valid();
         }
         if (!all) loose[chunk].push_back(VertexId{i});
       }
@@ -335,10 +334,10 @@ class Canonical {
   std::vector<CanonicalVertex> vertices_;
   unsigned threads_;
   PointTable reduced_;
-  std::vector<std::uint32_t> reduced_at_;              // of each vertex, or kNone; empty if all are reduced as they are
-  std::vector<BareLine> lines_;                        // in the order of the vertices
-  std::vector<std::uint32_t> row_;                     // of each plane in the result
-  std::vector<std::vector<std::uint32_t>> svertices_;  // numbers in the result; of each part that has twins
+  std::vector<std::uint32_t> reduced_at_;  // of each vertex, or kNone; empty if all are reduced as they are
+  std::vector<BareLine> lines_;            // in the order of the vertices
+  std::vector<std::uint32_t> row_;         // of each plane in the result
+  std::vector<IndexedVector<HalfedgeId, HalfedgeId>> svertices_;  // numbers in the result; of each part that has twins
 };
 
 }  // namespace

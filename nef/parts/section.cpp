@@ -21,7 +21,7 @@ class SectionReader {
     for (const Facet& facet : c_.facets) {
       if (is_selected(facet.mark)) add_polygon(facet);
     }
-    for (std::uint32_t h = 0; h < c_.svertex_count(); ++h) {
+    for (const HalfedgeId h : c_.halfedge_ids()) {
       if (h < c_.twin[h] && c_.svertex(h).out == kNone && is_selected(c_.svertex(h).mark)) add_segment(h);
     }
     for (const VertexId v : c_.vertex_ids()) {
@@ -56,8 +56,8 @@ class SectionReader {
     out_.polygons.push_back(std::move(polygon));
   }
 
-  void add_segment(std::uint32_t halfedge) {
-    const VertexId u = c_.svertex_owner[halfedge];
+  void add_segment(HalfedgeId halfedge) {
+    const VertexId u = c_.source(halfedge);
     const VertexId v = c_.target(halfedge);
     if (is_box_vertex(c_, u) || is_box_vertex(c_, v)) {
       ++out_.unbounded;

@@ -138,8 +138,8 @@ class Components {
   }
   std::uint32_t of_circle(VertexId v) { return of_facet(facet_of(c_.sloop_facet[c_.vertices[v].sloops])); }
   std::uint32_t of_svertex(VertexId v, std::uint32_t svertex) {
-    const std::uint32_t h = c_.vertices[v].svertices + svertex;
-    return of(edges_ + std::min(h, c_.twin[h]), c_.svertex(h).mark);
+    const HalfedgeId h = c_.halfedges(v)[svertex];
+    return of(edges_ + c_.edge(h).index(), c_.svertex(h).mark);
   }
   std::uint32_t of_vertex(VertexId v) { return of(vertices_ + v.index(), c_.mark(v)); }
 

@@ -16,7 +16,7 @@ std::vector<long> euler_numbers(const Complex& c) {
   for (const ShellId s : c.shells.ids()) {
     long& euler = result[s.index()];
     walk.visit(
-        s, [&](VertexId) { ++euler; }, [&](std::uint32_t) { --euler; },
+        s, [&](VertexId) { ++euler; }, [&](HalfedgeId) { --euler; },
         [&](FacetId f) {
           const Facet& facet = c.facets[f];
           euler += 1 - (static_cast<long>(facet.cycle_count) - 1) - static_cast<long>(facet.isolated_count);
@@ -61,7 +61,7 @@ Counts counts(const Complex& c) {
   if (!c.has_box()) return {c.vertex_count(), c.edge_count(), c.facet_count(), c.volume_count(), c.shells.size()};
   Counts result;
   for (const VertexId v : c.vertex_ids()) result.vertices += is_box_vertex(c, v) ? 0 : 1;
-  for (std::uint32_t h = 0; h < c.svertex_count(); ++h) {
+  for (const HalfedgeId h : c.halfedge_ids()) {
     if (h < c.twin[h] && !is_box_edge(c, h)) ++result.edges;
   }
   for (const FacetId f : c.facets.ids()) result.facets += is_box_facet(c, f) ? 0 : 1;
@@ -71,7 +71,7 @@ Counts counts(const Complex& c) {
     bool in_space = false;
     walk.visit(
         s, [&](VertexId v) { in_space = in_space || !is_box_vertex(c, v); },
-        [&](std::uint32_t h) { in_space = in_space || !is_box_edge(c, h); },
+        [&](HalfedgeId h) { in_space = in_space || !is_box_edge(c, h); },
         [&](FacetId f) { in_space = in_space || !is_box_facet(c, f); });
     result.shells += in_space && c.shells[s].volume != kOuterVolume ? 1 : 0;
   }

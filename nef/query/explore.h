@@ -4,9 +4,6 @@
 // into the set's complex (nef/complex/complex.h says what is stored for each).
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <iterator>
 #include <span>
 #include <utility>
 #include <vector>
@@ -16,45 +13,9 @@
 
 namespace nef {
 
-/// Indices from one to before another, in order. (Clang 14 knows no std::views::iota of libstdc++.)
-class IndexRange {
- public:
-  class Iterator {
-   public:
-    using iterator_category = std::forward_iterator_tag;
-    using value_type = std::uint32_t;
-    using difference_type = std::ptrdiff_t;
-    using pointer = const std::uint32_t*;
-    using reference = std::uint32_t;
-
-    Iterator() = default;
-    explicit Iterator(std::uint32_t at) : at_(at) {}
-    std::uint32_t operator*() const { return at_; }
-    Iterator& operator++() {
-      ++at_;
-      return *this;
-    }
-    Iterator operator++(int) { return Iterator(at_++); }
-    friend bool operator==(Iterator, Iterator) = default;
-
-   private:
-    std::uint32_t at_ = 0;
-  };
-
-  IndexRange(std::size_t begin, std::size_t end)
-      : begin_(static_cast<std::uint32_t>(begin)), end_(static_cast<std::uint32_t>(end)) {}
-  [[nodiscard]] Iterator begin() const { return Iterator(begin_); }
-  [[nodiscard]] Iterator end() const { return Iterator(end_); }
-  [[nodiscard]] std::size_t size() const { return end_ - begin_; }
-
- private:
-  std::uint32_t begin_;
-  std::uint32_t end_;
-};
-
 inline IdRange<VertexId> vertices(const Polyhedron& a) { return a.complex().vertex_ids(); }
 /// Both halfedges of each edge; a.complex().twin has the other one.
-inline IndexRange halfedges(const Polyhedron& a) { return {0, a.complex().svertex_count()}; }
+inline IdRange<HalfedgeId> halfedges(const Polyhedron& a) { return a.complex().halfedge_ids(); }
 inline IdRange<FacetId> facets(const Polyhedron& a) { return a.complex().facets.ids(); }
 /// The outer volume comes first.
 inline IdRange<VolumeId> volumes(const Polyhedron& a) { return a.complex().volumes.ids(); }

@@ -15,7 +15,7 @@ Location location_of(const Complex& complex, const ComplexHit& hit) {
     case ComplexHit::Kind::kVertex:
       return {Location::Kind::kVertex, hit.index, complex.mark(hit.vertex())};
     case ComplexHit::Kind::kEdge:
-      return {Location::Kind::kEdge, hit.index, complex.svertex(hit.index).mark};
+      return {Location::Kind::kEdge, hit.index, complex.svertex(hit.halfedge()).mark};
     case ComplexHit::Kind::kFacet:
       break;
   }
@@ -48,8 +48,8 @@ SphereMapBuffer local_pyramid(const Polyhedron& a, const Rational3& point) {
       break;
     }
     case Location::Kind::kEdge: {
-      const VertexId vertex = complex.svertex_owner[where.index];
-      edge_pyramid(complex.sphere_map(vertex), where.index - complex.vertices[vertex].svertices, result);
+      const VertexId vertex = complex.source(where.halfedge());
+      edge_pyramid(complex.sphere_map(vertex), complex.halfedges(vertex).position(where.halfedge()), result);
       break;
     }
     case Location::Kind::kFacet: {
@@ -79,8 +79,8 @@ std::optional<RayHit> shoot_ray(const Polyhedron& a, const Rational3& origin, co
   const auto takes = [&](const ComplexHit& hit) {
     const bool at_infinity = hit.kind == ComplexHit::Kind::kVertex ? !complex.points.finite(point_of(hit.vertex()))
                              : hit.kind == ComplexHit::Kind::kEdge
-                                 ? complex.planes.infimaximal(complex.svertex(hit.index).p) ||
-                                       complex.planes.infimaximal(complex.svertex(hit.index).q)
+                                 ? complex.planes.infimaximal(complex.svertex(hit.halfedge()).p) ||
+                                       complex.planes.infimaximal(complex.svertex(hit.halfedge()).q)
                                  : complex.planes.infimaximal(complex.facets[facet_of(hit.halffacet())].plane);
     return !at_infinity && (!accept || accept(location_of(complex, hit)));
   };

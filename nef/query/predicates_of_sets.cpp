@@ -20,7 +20,7 @@ bool all_boundary_items(const Complex& c, const Test& test) {
     for (const SFace& sface : map.sfaces) near_vertex = near_vertex || is_selected(sface.mark);
     if (!is_box_vertex(c, v) && !test(c.mark(v), near_vertex)) return false;
     for (std::uint32_t s = 0; s < map.svertices.size(); ++s) {
-      const std::uint32_t halfedge = c.vertices[v].svertices + s;
+      const HalfedgeId halfedge = c.halfedges(v)[s];
       if (halfedge > c.twin[halfedge] || is_box_edge(c, halfedge)) continue;
       const SVertex& edge = map.svertices[s];
       bool near_edge = edge.out == kNone && is_selected(map.sfaces[edge.sface].mark);
@@ -41,7 +41,7 @@ bool all_boundary_items(const Complex& c, const Test& test) {
 
 bool is_box_vertex(const Complex& complex, VertexId vertex) { return !complex.points.finite(point_of(vertex)); }
 
-bool is_box_edge(const Complex& complex, std::uint32_t halfedge) {
+bool is_box_edge(const Complex& complex, HalfedgeId halfedge) {
   // At most one finite plane goes through an edge of the box, so one of any two is the box's.
   const SVertex& edge = complex.svertex(halfedge);
   return complex.planes.infimaximal(edge.p) || complex.planes.infimaximal(edge.q);
@@ -78,7 +78,7 @@ bool is_bounded_set(const Complex& complex) {
       if (is_selected(map.shalfedges[e].mark) && !complex.planes.infimaximal(map.shalfedges[e].plane)) return false;
     }
     for (std::uint32_t s = 0; s < map.svertices.size(); ++s) {
-      const std::uint32_t halfedge = complex.vertices[v].svertices + s;
+      const HalfedgeId halfedge = complex.halfedges(v)[s];
       if (is_selected(map.svertices[s].mark) && !is_box_edge(complex, halfedge)) return false;
     }
   }

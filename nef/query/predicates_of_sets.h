@@ -15,7 +15,7 @@ constexpr bool is_selected(LabelId mark) { return mark != 0 && mark != kOutside;
 
 /// True if the item belongs to the infimaximal box (a vertex: lies on it).
 bool is_box_vertex(const Complex& complex, VertexId vertex);
-bool is_box_edge(const Complex& complex, std::uint32_t halfedge);
+bool is_box_edge(const Complex& complex, HalfedgeId halfedge);
 bool is_box_facet(const Complex& complex, FacetId facet);
 
 /// No boundary point is in the set. O(n).

@@ -31,8 +31,8 @@ class ShellWalk {
       stamp = shell;
       return fresh;
     };
-    const auto meet_edge = [&](std::uint32_t halfedge) {
-      const std::uint32_t e = std::min(halfedge, c_.twin[halfedge]);
+    const auto meet_edge = [&](HalfedgeId halfedge) {
+      const HalfedgeId e = c_.edge(halfedge);
       if (first_time(edge_[e])) edge(e);
     };
     const auto meet_facet = [&](FacetId f) {
@@ -69,7 +69,7 @@ class ShellWalk {
  private:
   const Complex& c_;
   IndexedVector<VertexId, ShellId> vertex_;
-  std::vector<ShellId> edge_;
+  IndexedVector<HalfedgeId, ShellId> edge_;
   IndexedVector<FacetId, ShellId> facet_;
   ShellSfaces sfaces_;
 };

@@ -77,12 +77,12 @@ class Linker {
 
   void link_all() {
     keys_.resize(c_.svertex_count());
-    c_.twin.assign(c_.svertex_count(), kNone);
+    c_.twin.assign(c_.svertex_count(), HalfedgeId());
     const VertexId end{c_.vertex_count()};
     parallel_for((c_.vertex_count() + kVertices - 1) / kVertices, threads_, [&](std::size_t task) {
       const VertexId first{task * kVertices};
       for (VertexId v = first; v < std::min(first + kVertices, end); ++v) {
-        name_lines(v, keys_.data() + c_.vertices[v].svertices);
+        name_lines(v, keys_.data() + c_.vertices[v].svertices.index());
       }
     });
     name_bare_lines();
@@ -92,14 +92,13 @@ class Linker {
   void link_loose(std::span<const VertexId> vertices) {
     std::vector<LineKey> keys;
     for (const VertexId v : vertices) {
-      const std::uint32_t first = c_.vertices[v].svertices;
-      const std::uint32_t count = c_.vertices[v.next()].svertices - first;
-      keys.assign(count, LineKey{});
+      const IdRange<HalfedgeId> halfedges = c_.halfedges(v);
+      keys.assign(halfedges.size(), LineKey{});
       name_lines(v, keys.data());
-      for (std::uint32_t i = 0; i < count; ++i) {
-        if (c_.twin[first + i] != kNone) continue;
-        loose_.push_back(first + i);
-        keys_.push_back(keys[i]);
+      for (const HalfedgeId h : halfedges) {
+        if (c_.twin[h].valid()) continue;
+        loose_.push_back(h);
+        keys_.push_back(keys[halfedges.position(h)]);
       }
     }
     name_bare_lines();
@@ -108,9 +107,7 @@ class Linker {
 
  private:
   // The svertex that key i belongs to.
-  [[nodiscard]] std::uint32_t svertex(std::size_t i) const {
-    return loose_.empty() ? static_cast<std::uint32_t>(i) : loose_[i];
-  }
+  [[nodiscard]] HalfedgeId svertex(std::size_t i) const { return loose_.empty() ? HalfedgeId{i} : loose_[i]; }
 
   void name_lines(VertexId vertex, LineKey* keys) const {
     const SphereMapView map = c_.sphere_map(vertex);
@@ -173,7 +170,7 @@ class Linker {
         next[head] = i;
       }
     }
-    std::vector<std::uint32_t> group;
+    std::vector<HalfedgeId> group;
     for (std::uint32_t i = 0; i < mine.size(); ++i) {
       detail::require(size[i] != 1, "an edge has two ends", {{"halfedge", svertex(mine[i])}});
       if (size[i] == 2) pair(svertex(mine[i]), svertex(mine[next[i]]));
@@ -185,9 +182,8 @@ class Linker {
     }
   }
 
-  void pair(std::uint32_t a, std::uint32_t b) {
-    detail::require(c_.svertex_owner[a] != c_.svertex_owner[b], "an edge joins two vertices",
-                    {{"halfedge", a}, {"halfedge", b}});
+  void pair(HalfedgeId a, HalfedgeId b) {
+    detail::require(c_.source(a) != c_.source(b), "an edge joins two vertices", {{"halfedge", a}, {"halfedge", b}});
     detail::require((c_.svertex(a).out == kNone) == (c_.svertex(b).out == kNone),
                     "an edge has facets at both ends or at none", {{"halfedge", a}, {"halfedge", b}});
     c_.twin[a] = b;
@@ -195,7 +191,7 @@ class Linker {
   }
 
   // +1 if the svertex points along the line's reference direction.
-  int sense(std::uint32_t s, std::uint32_t reference, const Direction& direction) const {
+  int sense(HalfedgeId s, HalfedgeId reference, const Direction& direction) const {
     const SVertex& v = c_.svertex(s);
     const SVertex& r = c_.svertex(reference);
     if (v.p.row() == r.p.row() && v.q.row() == r.q.row())
@@ -203,8 +199,8 @@ class Linker {
     return sign_of_dot(direction, Direction::cross(c_.planes, v.p, v.q));
   }
 
-  void pair_along_line(std::vector<std::uint32_t>& group) {
-    const std::uint32_t reference = group.front();
+  void pair_along_line(std::vector<HalfedgeId>& group) {
+    const HalfedgeId reference = group.front();
     const Direction direction = Direction::cross(c_.planes, c_.svertex(reference).p, c_.svertex(reference).q);
     int axis = 0;
     for (int i = 1; i < 3; ++i) {
@@ -215,12 +211,12 @@ class Linker {
     }
     const int rising = direction.approximate[static_cast<std::size_t>(axis)] > 0 ? 1 : -1;
     struct Entry {
-      std::uint32_t svertex;
+      HalfedgeId svertex;
       VertexId vertex;
       int sense;
     };
     std::vector<Entry> entries;
-    for (const std::uint32_t s : group) entries.push_back({s, c_.svertex_owner[s], sense(s, reference, direction)});
+    for (const HalfedgeId s : group) entries.push_back({s, c_.source(s), sense(s, reference, direction)});
     std::sort(entries.begin(), entries.end(), [&](const Entry& a, const Entry& b) {
       if (a.vertex == b.vertex) return a.sense < b.sense;  // an edge ends before the next begins
       return rising * compare_coordinate(c_.points, point_of(a.vertex), point_of(b.vertex), axis) < 0;
@@ -236,7 +232,7 @@ class Linker {
   Complex& c_;
   unsigned threads_;
   std::vector<LineKey> keys_;
-  std::vector<std::uint32_t> loose_;  // svertices of the keys; empty: all
+  std::vector<HalfedgeId> loose_;  // svertices of the keys; empty: all
 };
 
 }  // namespace

@@ -68,8 +68,8 @@ class FacetLinker {
 
  private:
   std::uint32_t next_corner(std::uint32_t corner) const {
-    const std::uint32_t there = c_.twin[c_.corner_halfedge(corner)];
-    const VertexId vertex = c_.svertex_owner[there];
+    const HalfedgeId there = c_.twin[c_.corner_halfedge(corner)];
+    const VertexId vertex = c_.source(there);
     const SphereMapView map = c_.sphere_map(vertex);
     const PlaneId wanted = c_.shalfedge_plane[corner].opposite();
     const std::uint32_t first = map.svertices[there - c_.vertices[vertex].svertices].out;
@@ -249,8 +249,8 @@ class FacetLinker {
     cycle.outer = true;
     for (const std::uint32_t corner : corners) {
       if (c_.shalfedge_vertex(corner) != cycle.lowest) continue;
-      const std::uint32_t ahead = c_.corner_halfedge(corner);
-      const std::uint32_t back = c_.corner_back_halfedge(corner);
+      const HalfedgeId ahead = c_.corner_halfedge(corner);
+      const HalfedgeId back = c_.corner_back_halfedge(corner);
       if (ahead == back ||
           orientation_on_circle(c_.planes, c_.shalfedge_plane[corner], direction_of(c_.planes, c_.svertex(ahead)),
                                 direction_of(c_.planes, c_.svertex(back))) <= 0) {

@@ -14,8 +14,8 @@ namespace nef {
 /// the complex is the same, item for item, with or without it. Where nothing is said of facets, neither known nor
 /// loose, all are to be found.
 struct KnownLinks {
-  std::vector<std::uint32_t> twin;       ///< of each svertex; kNone where it is to be found
-  std::vector<VertexId> loose_vertices;  ///< the vertices of such svertices, ascending
+  IndexedVector<HalfedgeId, HalfedgeId> twin;  ///< not valid where it is to be found
+  std::vector<VertexId> loose_vertices;        ///< the vertices of such svertices, ascending
 
   std::vector<Facet> facets;  ///< in the order of their planes; only planes and ranges are set
   IndexedVector<CycleId, std::uint32_t> cycle_begin{0};  ///< of the cycles of these facets

@@ -54,11 +54,11 @@ class VolumeLinker {
         if (root != f) sfaces_.unite(root, f);
       }
     }
-    for (std::uint32_t s = 0; s < c_.svertex_count(); ++s) {
+    for (const HalfedgeId s : c_.halfedge_ids()) {
       if (c_.svertex(s).out != kNone || s > c_.twin[s]) continue;
-      const std::uint32_t t = c_.twin[s];
-      const VertexId v = c_.svertex_owner[s];
-      const VertexId w = c_.svertex_owner[t];
+      const HalfedgeId t = c_.twin[s];
+      const VertexId v = c_.source(s);
+      const VertexId w = c_.source(t);
       sfaces_.unite(c_.vertices[v].sfaces + c_.svertex(s).sface, c_.vertices[w].sfaces + c_.svertex(t).sface);
     }
   }

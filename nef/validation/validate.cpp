@@ -45,7 +45,7 @@ void check_array_sizes(const Complex& c) {
               c.sface_shell.size() == c.sface_count(),
           "columns of synthesis are parallel to the sphere items", {});
   const VertexRecord& first = c.vertices.front();
-  require(first.svertices + first.shalfedges + first.sloops + first.sfaces + first.other_planes == 0,
+  require(first.svertices.index() + first.shalfedges + first.sloops + first.sfaces + first.other_planes == 0,
           "the first vertex begins at zero", {});
   for (const VertexId v : c.vertex_ids()) {
     const VertexRecord& a = c.vertices[v];
@@ -64,8 +64,9 @@ void check_owners(const Complex& c) {
     const auto owned = [&](const std::vector<VertexId>& owner, std::uint32_t first, std::uint32_t last) {
       return std::all_of(owner.begin() + first, owner.begin() + last, [v](VertexId o) { return o == v; });
     };
-    require(owned(c.svertex_owner, a.svertices, b.svertices), "svertices know their vertex", {{"vertex", v}});
-    require(c.pair_owner.empty() ? c.shalfedge_count() == 0 || a.svertices == a.shalfedges / 2
+    require(owned(c.svertex_owner.values(), a.svertices.index(), b.svertices.index()), "svertices know their vertex",
+            {{"vertex", v}});
+    require(c.pair_owner.empty() ? c.shalfedge_count() == 0 || a.svertices.index() == a.shalfedges / 2
                                  : owned(c.pair_owner, a.shalfedges / 2, b.shalfedges / 2),
             "shalfedges know their vertex", {{"vertex", v}});
   }
@@ -130,12 +131,12 @@ void check_vertices(const Complex& c) {
 int component_sign(const Direction& direction, std::size_t axis) { return sgn(direction.integers()[axis]); }
 
 void check_edges(const Complex& c) {
-  for (std::uint32_t h = 0; h < c.svertex_count(); ++h) {
-    const std::uint32_t t = c.twin[h];
-    require(t < c.svertex_count() && t != h && c.twin[t] == h, "twins of halfedges are mutual", {{"halfedge", h}});
+  for (const HalfedgeId h : c.halfedge_ids()) {
+    const HalfedgeId t = c.twin[h];
+    require(c.twin.contains(t) && t != h && c.twin[t] == h, "twins of halfedges are mutual", {{"halfedge", h}});
     require(c.svertex(h).mark == c.svertex(t).mark, "both ends of an edge have one mark", {{"halfedge", h}});
-    const PointId from = point_of(c.svertex_owner[h]);
-    const PointId to = point_of(c.svertex_owner[t]);
+    const PointId from = point_of(c.source(h));
+    const PointId to = point_of(c.source(t));
     const Direction along = direction_of(c.planes, c.svertex(h));
     require(same_direction(along, direction_of(c.planes, c.svertex(t)).negated()),
             "twin halfedges have opposite directions", {{"halfedge", h}});
@@ -159,7 +160,7 @@ void check_marks(const Complex& c) {
     std::uint32_t sface = c.vertices[v].sfaces;
     for (const SFace& f : c.sphere_map(v).sfaces) require(known(f.mark), name, {{"sface", sface++}});
   }
-  for (std::size_t h = 0; h < c.svertex_count(); ++h) require(known(c.svertex(h).mark), name, {{"halfedge", h}});
+  for (const HalfedgeId h : c.halfedge_ids()) require(known(c.svertex(h).mark), name, {{"halfedge", h}});
   for (std::size_t e = 0; e < c.shalfedge_count(); ++e) require(known(c.shalfedge(e).mark), name, {{"shalfedge", e}});
   for (std::size_t l = 0; l < c.sloops.size(); ++l) require(known(c.sloops[l].mark), name, {{"sloop", l}});
   for (const FacetId f : c.facets.ids()) require(known(c.facets[f].mark), name, {{"facet", f}});
@@ -173,7 +174,7 @@ void check_outside(const Complex& c) {
     require(c.has_box() || c.points.finite(point_of(v)), "infimaximal vertices need a box", {{"vertex", v}});
     require(c.mark(v) != kOutside, "only the outer volume is outside", {{"vertex", v}});
   }
-  for (std::size_t h = 0; h < c.svertex_count(); ++h) {
+  for (const HalfedgeId h : c.halfedge_ids()) {
     require(c.svertex(h).mark != kOutside, "only the outer volume is outside", {{"halfedge", h}});
   }
   for (const VolumeId i : c.volumes.ids()) {

@@ -33,10 +33,10 @@ void check_box(const Complex& c) {
     }
   }
   require(any, name, {{"volume", kOuterVolume}});
-  for (std::uint32_t h = 0; h < c.svertex_count(); ++h) {
+  for (const HalfedgeId h : c.halfedge_ids()) {
     const SVertex& s = c.svertex(h);
     if (s.out != kNone) continue;
-    const std::uint32_t sface = c.vertices[c.svertex_owner[h]].sfaces + s.sface;
+    const std::uint32_t sface = c.vertices[c.source(h)].sfaces + s.sface;
     require(c.sface_volume(sface) != kOuterVolume, "nothing lies beyond an infimaximal box", {{"halfedge", h}});
   }
 }

@@ -65,13 +65,13 @@ void check_connection(const Complex& c) {
       meet(c.sloop_facet[i], c.vertices[v].sfaces + c.sloops[i].sface);
     }
   }
-  for (std::uint32_t h = 0; h < c.svertex_count(); ++h) {
-    const std::uint32_t t = c.twin[h];
+  for (const HalfedgeId h : c.halfedge_ids()) {
+    const HalfedgeId t = c.twin[h];
     require((c.svertex(h).out == kNone) == (c.svertex(t).out == kNone), "both ends of an edge have facets, or neither",
             {{"halfedge", h}});
     if (c.svertex(h).out != kNone) continue;
-    sfaces.unite(c.vertices[c.svertex_owner[h]].sfaces + c.svertex(h).sface,
-                 c.vertices[c.svertex_owner[t]].sfaces + c.svertex(t).sface);
+    sfaces.unite(c.vertices[c.source(h)].sfaces + c.svertex(h).sface,
+                 c.vertices[c.source(t)].sfaces + c.svertex(t).sface);
   }
   std::vector<ShellId> shell_of(c.sface_count());
   IndexedVector<ShellId, std::uint32_t> root_of(c.shells.size(), kNone);

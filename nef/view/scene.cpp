@@ -49,13 +49,13 @@ class SceneBuilder {
   }
 
   void add_edges() {
-    for (std::uint32_t h = 0; h < complex_.svertex_count(); ++h) {
+    for (const HalfedgeId h : complex_.halfedge_ids()) {
       if (h > complex_.twin[h]) continue;
-      const std::uint32_t from = number_[complex_.svertex_owner[h]];
+      const std::uint32_t from = number_[complex_.source(h)];
       const std::uint32_t to = number_[complex_.target(h)];
       if (from == kUnused || to == kUnused) continue;
       const SVertex& svertex = complex_.svertex(h);
-      scene_.edges.push_back({from, to, h, svertex.mark, Origin::kOwn, svertex.out == kNone});
+      scene_.edges.push_back({from, to, h.index(), svertex.mark, Origin::kOwn, svertex.out == kNone});
     }
   }
 

@@ -158,8 +158,8 @@ void check_rays(bool unbounded) {
       RC_ASSERT(at.kind == hit->location.kind);
       RC_ASSERT(at.mark == hit->location.mark);
       if (at.kind == Location::Kind::kEdge) {
-        const std::uint32_t other = scene.set.complex().twin[at.index];
-        RC_ASSERT((hit->location.index == at.index || hit->location.index == other));
+        const HalfedgeId other = scene.set.complex().twin[at.halfedge()];
+        RC_ASSERT((hit->location.index == at.index || hit->location.halfedge() == other));
       } else {
         RC_ASSERT(hit->location.index == at.index);
       }

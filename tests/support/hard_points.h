@@ -32,8 +32,8 @@ inline std::vector<Rational3> hard_points(const Polyhedron& set, std::size_t mos
     points.push_back(middle_of({vertex(VertexId{v}), vertex(VertexId{(v * 7 + 3) % vertices})}));
   }
   for (std::size_t h = 0; h < c.svertex_count(); h += 1 + c.svertex_count() / most) {
-    const auto halfedge = static_cast<std::uint32_t>(h);
-    points.push_back(middle_of({vertex(c.svertex_owner[halfedge]), vertex(c.target(halfedge))}));
+    const HalfedgeId halfedge{h};
+    points.push_back(middle_of({vertex(c.source(halfedge)), vertex(c.target(halfedge))}));
   }
   for (std::size_t f = 0; f < c.facet_count(); f += 1 + c.facet_count() / most) {
     const auto corners = c.corners_of(c.facets[FacetId{static_cast<std::uint32_t>(f)}].first_cycle);

@@ -64,8 +64,8 @@ void CellReader::collect_items(VolumeId volume) {
     const Facet& facet = complex_.facets[f];
     for (const std::uint32_t c : complex_.corners_of(facet)) {
       add_vertex(complex_.shalfedge_vertex(c));
-      const std::uint32_t forth = complex_.corner_halfedge(c);
-      const std::uint32_t h = std::min(forth, complex_.twin[forth]);
+      const HalfedgeId forth = complex_.corner_halfedge(c);
+      const HalfedgeId h = complex_.edge(forth);
       if (seen_halfedge_[h] == turn_) continue;
       seen_halfedge_[h] = turn_;
       halfedges_.push_back(h);
@@ -76,7 +76,7 @@ void CellReader::collect_items(VolumeId volume) {
 
 void CellReader::take_all() {
   for (const FacetId f : facets_) facet_taken_[f] = 1;
-  for (const std::uint32_t h : halfedges_) halfedge_taken_[h] = 1;
+  for (const HalfedgeId h : halfedges_) halfedge_taken_[h] = 1;
   for (const VertexId v : vertices_) vertex_taken_[v] = 1;
 }
 
@@ -97,9 +97,9 @@ CellReader::Carriers CellReader::carriers(const ConvexCell& cell) const {
       if (sgn(dot(normals[f], minus(p, origins[f]))) == 0) faces.push_back(f);
     }
   }
-  for (const std::uint32_t h : halfedges_) {
+  for (const HalfedgeId h : halfedges_) {
     result.of_halfedge.push_back(
-        common(result.of_vertex[local_[complex_.svertex_owner[h]]], result.of_vertex[local_[complex_.target(h)]]));
+        common(result.of_vertex[local_[complex_.source(h)]], result.of_vertex[local_[complex_.target(h)]]));
   }
   for (const FacetId f : facets_) {
     const auto corners = complex_.corners_of(f);
@@ -214,10 +214,10 @@ std::vector<VertexId> CellReader::outline(std::span<const FacetId> facets) const
     }
     return ring;
   }
-  std::map<std::uint32_t, VertexId> open;  // halfedge -> its source, if its twin has not come yet
+  std::map<HalfedgeId, VertexId> open;  // halfedge -> its source, if its twin has not come yet
   for (const FacetId f : facets) {
     for (const std::uint32_t c : complex_.corners_of(f)) {
-      const std::uint32_t h = complex_.corner_halfedge(c);
+      const HalfedgeId h = complex_.corner_halfedge(c);
       if (open.erase(complex_.twin[h]) == 0) open.emplace(h, complex_.shalfedge_vertex(c));
     }
   }
@@ -239,7 +239,7 @@ void CellReader::set_boundary(ConvexCell& cell) {
   bool none = true;
   const auto note = [&](LabelId label) { (selected(label) ? none : all) = false; };
   for (const FacetId f : facets_) note(complex_.facets[f].mark);
-  for (const std::uint32_t h : halfedges_) note(complex_.svertex(h).mark);
+  for (const HalfedgeId h : halfedges_) note(complex_.svertex(h).mark);
   for (const VertexId v : vertices_) note(complex_.mark(v));
   if (all) {
     take_all();
@@ -309,8 +309,8 @@ ConvexCell CellReader::polygon(FacetId facet) {
   }
   const auto vertex = [&](std::size_t k) { return complex_.shalfedge_vertex(corners[k % n]); };
   const auto halfedge = [&](std::size_t k) {
-    const std::uint32_t h = complex_.corner_halfedge(corners[k % n]);
-    return std::min(h, complex_.twin[h]);
+    const HalfedgeId h = complex_.corner_halfedge(corners[k % n]);
+    return complex_.edge(h);
   };
   ConvexCell cell;
   cell.dimension = 2;
@@ -343,11 +343,11 @@ ConvexCell CellReader::polygon(FacetId facet) {
   return cell;
 }
 
-ConvexCell CellReader::segment(std::uint32_t halfedge) {
+ConvexCell CellReader::segment(HalfedgeId halfedge) {
   ConvexCell cell;
   cell.dimension = 1;
   cell.boundary = ConvexCell::Boundary::kMixed;
-  for (const VertexId v : {complex_.svertex_owner[halfedge], complex_.target(halfedge)}) {
+  for (const VertexId v : {complex_.source(halfedge), complex_.target(halfedge)}) {
     const bool marked = selected(complex_.mark(v));
     cell.mesh.vertices.push_back(complex_.points.rational(point_of(v)));
     cell.vertex_marks.push_back(marked ? 1 : 0);
@@ -361,7 +361,7 @@ std::vector<ConvexCell> CellReader::flat_cells() {
   for (const FacetId f : complex_.facets.ids()) {
     if (facet_taken_[f] == 0 && selected(complex_.facets[f].mark)) cells.push_back(polygon(f));
   }
-  for (std::uint32_t h = 0; h < complex_.svertex_count(); ++h) {
+  for (const HalfedgeId h : complex_.halfedge_ids()) {
     if (h > complex_.twin[h] || halfedge_taken_[h] != 0) continue;
     if (selected(complex_.svertex(h).mark)) cells.push_back(segment(h));
   }

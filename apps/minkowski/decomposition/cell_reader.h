@@ -50,20 +50,20 @@ class CellReader {
   Carriers carriers(const ConvexCell& cell) const;
   void take_all();
   ConvexCell polygon(FacetId facet);
-  ConvexCell segment(std::uint32_t halfedge);
+  ConvexCell segment(HalfedgeId halfedge);
 
   const Complex& complex_;
   IndexedVector<VolumeId, std::vector<FacetId>> facets_of_volume_;
   IndexedVector<FacetId, std::uint8_t> facet_taken_;
-  std::vector<std::uint8_t> halfedge_taken_;
+  IndexedVector<HalfedgeId, std::uint8_t> halfedge_taken_;
   IndexedVector<VertexId, std::uint8_t> vertex_taken_;
 
   // The volume at hand and the items on its boundary.
   VolumeId volume_ = kOuterVolume;
   std::vector<FacetId> facets_;
-  std::vector<std::uint32_t> halfedges_;
+  std::vector<HalfedgeId> halfedges_;
   std::vector<VertexId> vertices_;
-  std::vector<std::uint32_t> seen_halfedge_;
+  IndexedVector<HalfedgeId, std::uint32_t> seen_halfedge_;
   IndexedVector<VertexId, std::uint32_t> seen_vertex_, local_;
   std::vector<std::uint32_t> planes_at_;  // per vertex of the volume
   std::uint32_t turn_ = 0;

@@ -66,7 +66,7 @@ void WallBuilder::erect(const ReflexEdge& edge, const CrossWall& wall, Mesh& wal
 }
 
 void WallBuilder::erect_cross_wall(const ReflexEdge& edge, PlaneId plane, int way, Mesh& walls) {
-  const Rational3& a = slicer_.point(complex_.svertex_owner[edge.halfedge]);
+  const Rational3& a = slicer_.point(complex_.source(edge.halfedge));
   const Rational3& b = slicer_.point(complex_.target(edge.halfedge));
   SliceFrame frame;
   frame.u = cross_axis(complex_, plane, axis_);

@@ -69,7 +69,7 @@ PlaneSlicer::PlaneSlicer(const Complex& complex)
       side_(complex.vertex_count(), 0) {
   for (const Facet& f : complex.facets) facet_boxes_.push_back(nef::facet_box(complex, f));
   facets_ = BoxTree(facet_boxes_);
-  for (std::uint32_t h = 0; h < complex.svertex_count(); ++h) {
+  for (const HalfedgeId h : complex.halfedge_ids()) {
     if (h < complex.twin[h] && complex.svertex(h).out == kNone) isolated_edges_.push_back(h);
   }
 }
@@ -194,15 +194,15 @@ void PlaneSlicer::add_facet(FacetId facet) {
   }
 }
 
-void PlaneSlicer::add_isolated_edge(std::uint32_t halfedge) {
-  const VertexId a = complex_.svertex_owner[halfedge];
+void PlaneSlicer::add_isolated_edge(HalfedgeId halfedge) {
+  const VertexId a = complex_.source(halfedge);
   const VertexId b = complex_.target(halfedge);
   if (side(a) == 0 && side(b) == 0) add_segment(flat(a), flat(b));
 }
 
 void PlaneSlicer::add_overlapping(const Box& query) {
   facets_.for_each_overlap(query, [&](std::uint32_t f) { add_facet(FacetId{f}); });
-  for (const std::uint32_t h : isolated_edges_) add_isolated_edge(h);
+  for (const HalfedgeId h : isolated_edges_) add_isolated_edge(h);
 }
 
 }  // namespace nef::minkowski

@@ -68,7 +68,7 @@ class PlaneSlicer {
   std::array<Rational, 2> flat(VertexId vertex);
   std::array<Rational, 2> crossing(VertexId a, VertexId b);
   void add_segment(const std::array<Rational, 2>& p, const std::array<Rational, 2>& q);
-  void add_isolated_edge(std::uint32_t halfedge);
+  void add_isolated_edge(HalfedgeId halfedge);
   bool holds(FacetId facet, const std::array<Rational, 2>& p);
   bool convex(FacetId facet);
 
@@ -76,7 +76,7 @@ class PlaneSlicer {
   std::vector<Box> facet_boxes_;
   BoxTree facets_;
   IndexedVector<FacetId, std::int8_t> convex_;  // per facet: 1 yes, 0 no, -1 not asked yet
-  std::vector<std::uint32_t> isolated_edges_;   // halfedges without facets
+  std::vector<HalfedgeId> isolated_edges_;      // halfedges without facets
   IndexedVector<VertexId, Rational3> points_;
   IndexedVector<VertexId, std::uint8_t> known_;
 

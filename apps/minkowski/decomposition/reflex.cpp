@@ -55,11 +55,11 @@ std::size_t cross_axis(const Complex& complex, PlaneId plane, std::size_t axis) 
 
 std::vector<ReflexEdge> reflex_edges(const Complex& complex, std::size_t axis) {
   std::vector<ReflexEdge> result;
-  for (std::uint32_t h = 0; h < complex.svertex_count(); ++h) {
+  for (const HalfedgeId h : complex.halfedge_ids()) {
     if (complex.twin[h] < h) continue;
     const SVertex& sv = complex.svertex(h);
-    const VertexRecord& vertex = complex.vertices[complex.svertex_owner[h]];
-    const SphereMapView map = complex.sphere_map(complex.svertex_owner[h]);
+    const VertexRecord& vertex = complex.vertices[complex.source(h)];
+    const SphereMapView map = complex.sphere_map(complex.source(h));
     const Direction d = Direction::cross(complex.planes, sv.p, sv.q);
     ReflexEdge edge;
     edge.halfedge = h;
@@ -120,9 +120,9 @@ std::vector<ReflexCorner> reflex_corners(const Complex& complex, FacetId facet) 
     result.push_back({v, {true, true}});
   }
   for (const std::uint32_t corner : complex.corners_of(f)) {
-    const std::uint32_t forth = complex.corner_halfedge(corner);
-    const std::uint32_t back = complex.corner_back_halfedge(corner);
-    const auto direction = [&](std::uint32_t h) {
+    const HalfedgeId forth = complex.corner_halfedge(corner);
+    const HalfedgeId back = complex.corner_back_halfedge(corner);
+    const auto direction = [&](HalfedgeId h) {
       return Direction::cross(complex.planes, complex.svertex(h).p, complex.svertex(h).q);
     };
     const Direction from = direction(forth);

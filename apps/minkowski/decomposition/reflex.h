@@ -23,7 +23,7 @@ struct CrossWall {
 /// An edge about which a selected volume takes more than a half-turn. By Tietze's theorem a volume
 /// without such edges (and without missing points) is convex.
 struct ReflexEdge {
-  std::uint32_t halfedge = 0;
+  HalfedgeId halfedge{0};
   VolumeId volume = kOuterVolume;
   bool vertical = false;                ///< parallel to the axis; others get walls along the axis
   std::array<bool, 2> inside{};         ///< if not vertical: whether the volume goes on below, above the edge

@@ -132,7 +132,7 @@ void WallBuilder::erect_sight_wall(const Rational3& from, const Rational3& to, b
 }
 
 void WallBuilder::erect(const ReflexEdge& edge, Mesh& walls) {
-  const Rational3& from = slicer_.point(complex_.svertex_owner[edge.halfedge]);
+  const Rational3& from = slicer_.point(complex_.source(edge.halfedge));
   const Rational3& to = slicer_.point(complex_.target(edge.halfedge));
   if (edge.inside[0]) erect_sight_wall(from, to, false, walls);
   if (edge.inside[1]) erect_sight_wall(from, to, true, walls);

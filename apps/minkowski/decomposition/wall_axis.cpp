@@ -77,7 +77,7 @@ class CellEstimate {
     }
     const SVertex& sv = c_.svertex(edge.halfedge);
     const Direction d = Direction::cross(c_.planes, sv.p, sv.q);
-    const VertexId from = c_.svertex_owner[edge.halfedge];
+    const VertexId from = c_.source(edge.halfedge);
     const VertexId to = c_.target(edge.halfedge);
     for (const std::size_t k : {0U, 1U}) {
       if (!edge.inside[k]) continue;

@@ -34,8 +34,8 @@ class Connection {
 
   // Numbers of items.
   [[nodiscard]] std::uint32_t of_vertex(VertexId v) const { return v.index(); }
-  [[nodiscard]] std::uint32_t of_edge(std::uint32_t halfedge) const {
-    return static_cast<std::uint32_t>(first_edge_ + std::min(halfedge, c_.twin[halfedge]));
+  [[nodiscard]] std::uint32_t of_edge(HalfedgeId halfedge) const {
+    return static_cast<std::uint32_t>(first_edge_ + c_.edge(halfedge).index());
   }
   [[nodiscard]] std::uint32_t of_facet(FacetId f) const { return static_cast<std::uint32_t>(first_facet_ + f.index()); }
   [[nodiscard]] std::uint32_t of_volume(VolumeId v) const {
@@ -44,7 +44,7 @@ class Connection {
 
   [[nodiscard]] bool is_selected(std::uint32_t item) const {
     if (item < first_edge_) return c_.mark(VertexId{item}) == kIn;
-    if (item < first_facet_) return c_.svertex(item - first_edge_).mark == kIn;
+    if (item < first_facet_) return c_.svertex(HalfedgeId{item - first_edge_}).mark == kIn;
     if (item < first_volume_) return c_.facets[FacetId{item - first_facet_}].mark == kIn;
     return c_.volumes[VolumeId{item - first_volume_}].mark == kIn;
   }
@@ -54,7 +54,7 @@ class Connection {
   template <typename Visit>
   void for_each_at(VertexId v, Visit&& visit) const {
     visit(of_vertex(v));
-    for (std::uint32_t h = c_.vertices[v].svertices; h < c_.vertices[v.next()].svertices; ++h) visit(of_edge(h));
+    for (const HalfedgeId h : c_.halfedges(v)) visit(of_edge(h));
     for (std::uint32_t e = c_.vertices[v].shalfedges; e < c_.vertices[v.next()].shalfedges; ++e) {
       visit(of_facet(facet_of(c_.shalfedge_facet[e])));
     }
@@ -78,7 +78,7 @@ class Connection {
       join(edge, of_facet(facet_of(c_.shalfedge_facet[e])));
       join(edge, of_volume(c_.sface_volume(c_.shalfedge_sface(e))));
     }
-    for (std::uint32_t h = c_.vertices[v].svertices; h < c_.vertices[v.next()].svertices; ++h) {
+    for (const HalfedgeId h : c_.halfedges(v)) {
       const SVertex& sv = c_.svertex(h);
       if (sv.out == kNone) join(of_edge(h), of_volume(c_.sface_volume(c_.vertices[v].sfaces + sv.sface)));
     }
@@ -95,7 +95,7 @@ std::uint32_t item_at(const Polyhedron& a, const Connection& connection, const R
     case Location::Kind::kVertex:
       return connection.of_vertex(at.vertex());
     case Location::Kind::kEdge:
-      return connection.of_edge(at.index);
+      return connection.of_edge(at.halfedge());
     case Location::Kind::kFacet:
       return connection.of_facet(at.facet());
     default:

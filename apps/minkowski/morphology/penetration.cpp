@@ -37,9 +37,9 @@ std::vector<Candidate> candidates(const Complex& c) {
     add(times(-Rational(c.planes.oriented_coefficient(plane, 3)) / dot(n, n), n));
   }
   for (const VertexId v : c.vertex_ids()) add(c.points.rational(point_of(v)));
-  for (std::uint32_t h = 0; h < c.svertex_count(); ++h) {
+  for (const HalfedgeId h : c.halfedge_ids()) {
     if (h > c.twin[h]) continue;
-    const Rational3& p = result[planes.size() + c.svertex_owner[h].index()].point;
+    const Rational3& p = result[planes.size() + c.source(h).index()].point;
     const Rational3& q = result[planes.size() + c.target(h).index()].point;
     const Rational3 d = {Rational(q[0] - p[0]), Rational(q[1] - p[1]), Rational(q[2] - p[2])};
     const Rational3 along = times(-dot(p, d) / dot(d, d), d);

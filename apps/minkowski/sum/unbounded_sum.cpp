@@ -110,7 +110,7 @@ class SpanReader {
       add_facet(f);
       result.push_back(end());
     }
-    for (std::uint32_t h = 0; h < c_.svertex_count(); ++h) {
+    for (const HalfedgeId h : c_.halfedge_ids()) {
       if (edge(h) != h || on_box_[h] || !is_selected(c_.svertex(h).mark)) continue;
       begin();
       add_edge(h);
@@ -126,7 +126,7 @@ class SpanReader {
   }
 
  private:
-  [[nodiscard]] std::uint32_t edge(std::uint32_t h) const { return std::min(h, c_.twin[h]); }
+  [[nodiscard]] HalfedgeId edge(HalfedgeId h) const { return c_.edge(h); }
 
   // Coordinates of a vertex: the constant part (first = 0) or the factor of R (first = 4).
   [[nodiscard]] Rational3 part(VertexId v, std::size_t first) const {
@@ -153,8 +153,8 @@ class SpanReader {
     }
   }
 
-  void add_edge(std::uint32_t h) {
-    const VertexId from = c_.svertex_owner[h];
+  void add_edge(HalfedgeId h) {
+    const VertexId from = c_.source(h);
     const VertexId to = c_.target(h);
     add_vertex(from);
     add_vertex(to);
@@ -166,7 +166,7 @@ class SpanReader {
     const Facet& facet = c_.facets[f];
     bool bounded_by_edges = false;
     for (const std::uint32_t corner : c_.corners_of(facet)) {
-      const std::uint32_t h = edge(c_.corner_halfedge(corner));
+      const HalfedgeId h = edge(c_.corner_halfedge(corner));
       add_vertex(c_.shalfedge_vertex(corner));
       if (on_box_[h]) continue;
       bounded_by_edges = true;
@@ -179,7 +179,7 @@ class SpanReader {
   }
 
   const Complex& c_;
-  std::vector<bool> on_box_;  // per edge (its smaller halfedge): in a wall of the box
+  IndexedVector<HalfedgeId, bool> on_box_;  // per edge (its smaller halfedge): in a wall of the box
   IndexedVector<VolumeId, std::vector<FacetId>> facets_of_volume_;
   std::set<Rational3> points_, rays_;
 };

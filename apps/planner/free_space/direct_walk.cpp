@@ -47,7 +47,7 @@ class Crossings {
           facet(FacetId{item.index});
           break;
         case ItemTree::Kind::kEdge:
-          edge(item.index);
+          edge(HalfedgeId{item.index});
           break;
         default:
           vertex(VertexId{item.index});
@@ -117,12 +117,12 @@ class Crossings {
     return true;
   }
 
-  void edge(std::uint32_t halfedge) {
+  void edge(HalfedgeId halfedge) {
     const SVertex& s = complex_.svertex(halfedge);
     const bool crosses_p = plane(s.p);
     const bool crosses_q = plane(s.q);
     if (crosses_p || crosses_q) return;
-    vertex(complex_.svertex_owner[halfedge]);
+    vertex(complex_.source(halfedge));
     vertex(complex_.target(halfedge));
   }
 

@@ -39,8 +39,8 @@ class FacetEdges {
     const std::span<const std::uint32_t> corners = complex.corners_of(facet);
     ends_.reserve(corners.size());
     for (const std::uint32_t corner : corners) {
-      const std::uint32_t halfedge = complex.corner_halfedge(corner);
-      ends_.push_back({complex.points.approximate(point_of(complex.svertex_owner[halfedge])),
+      const HalfedgeId halfedge = complex.corner_halfedge(corner);
+      ends_.push_back({complex.points.approximate(point_of(complex.source(halfedge))),
                        complex.points.approximate(point_of(complex.target(halfedge)))});
     }
   }
@@ -79,9 +79,9 @@ EmptyGrid::EmptyGrid(const Complex& complex) {
     check_interruption();
     enter(complex, facet);
   }
-  for (std::uint32_t h = 0; h < complex.svertex_count(); ++h) {
+  for (const HalfedgeId h : complex.halfedge_ids()) {
     if (complex.twin[h] < h || complex.svertex(h).out != kNone) continue;
-    enter_edge(complex.points.approximate(point_of(complex.svertex_owner[h])),
+    enter_edge(complex.points.approximate(point_of(complex.source(h))),
                complex.points.approximate(point_of(complex.target(h))));
   }
   for (const VertexId v : complex.vertex_ids()) {

@@ -54,8 +54,8 @@ InFacet place_in_facet(const Complex& complex, const Facet& facet, const RoughPo
   const auto v = static_cast<std::size_t>(axes.second);
   bool inside = false;
   for (const std::uint32_t corner : complex.corners_of(facet)) {
-    const std::uint32_t halfedge = complex.corner_halfedge(corner);
-    const std::array<double, 3>& p = complex.points.approximate(point_of(complex.svertex_owner[halfedge]));
+    const HalfedgeId halfedge = complex.corner_halfedge(corner);
+    const std::array<double, 3>& p = complex.points.approximate(point_of(complex.source(halfedge)));
     const std::array<double, 3>& q = complex.points.approximate(point_of(complex.target(halfedge)));
     const Approximation pv = difference(p[v], 0, point.at[v], point.error[v]);
     const Approximation qv = difference(q[v], 0, point.at[v], point.error[v]);

@@ -55,7 +55,7 @@ CellId FreeSpace::locate(const ExactPoint& point) const {
     case Location::Kind::kVertex:
       return cells_.vertex(at.vertex());
     case Location::Kind::kEdge:
-      return cells_.edge(at.index);
+      return cells_.edge(at.halfedge());
     case Location::Kind::kFacet:
       return cells_.facet(at.facet());
     default:
@@ -142,8 +142,8 @@ std::vector<Rational3> FreeSpace::vertices(CellId cell) const {
       result.push_back(c.points.rational(point_of(VertexId{i})));
       break;
     case 1: {
-      const std::uint32_t h = cells_.halfedge(cell);
-      result.push_back(c.points.rational(point_of(c.svertex_owner[h])));
+      const HalfedgeId h = cells_.halfedge(cell);
+      result.push_back(c.points.rational(point_of(c.source(h))));
       result.push_back(c.points.rational(point_of(c.target(h))));
       break;
     }

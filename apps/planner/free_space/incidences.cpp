@@ -26,8 +26,8 @@ class Surroundings {
     for (std::uint32_t f = 0; f < map.sfaces.size(); ++f) out.push_back(volume(record.sfaces + f));
   }
 
-  void edge(std::uint32_t halfedge, std::vector<CellId>& out) const {
-    const VertexId v = c_.svertex_owner[halfedge];
+  void edge(HalfedgeId halfedge, std::vector<CellId>& out) const {
+    const VertexId v = c_.source(halfedge);
     const SphereMapView map = c_.sphere_map(v);
     const VertexRecord& record = c_.vertices[v];
     const SVertex& svertex = map.svertices[halfedge - record.svertices];

@@ -18,9 +18,9 @@ ItemTree::ItemTree(const Complex& complex) {
   for (const FacetId f : complex.facets.ids()) {
     push({Kind::kFacet, f.index()}, facet_box(complex, complex.facets[f]));
   }
-  for (std::uint32_t h = 0; h < complex.svertex_count(); ++h) {
+  for (const HalfedgeId h : complex.halfedge_ids()) {
     if (complex.twin[h] < h || complex.svertex(h).out != kNone) continue;
-    push({Kind::kEdge, h}, edge_box(complex, h));
+    push({Kind::kEdge, h.index()}, edge_box(complex, h));
   }
   for (const VertexId v : complex.vertex_ids()) {
     const SphereMapView map = complex.sphere_map(v);

@@ -5,7 +5,7 @@ namespace nef::planner {
 
 CellNumbering::CellNumbering(const Complex& complex) : complex_(&complex) {
   edge_of_halfedge_.resize(complex.svertex_count());
-  for (std::uint32_t h = 0; h < complex.svertex_count(); ++h) {
+  for (const HalfedgeId h : complex.halfedge_ids()) {
     if (complex.twin[h] < h) continue;
     const auto edge = static_cast<std::uint32_t>(halfedge_of_edge_.size());
     edge_of_halfedge_[h] = edge;

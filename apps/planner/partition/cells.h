@@ -23,7 +23,7 @@ class CellNumbering {
   [[nodiscard]] std::size_t size() const { return volumes_ + complex_->volume_count(); }
 
   [[nodiscard]] CellId vertex(VertexId v) const { return v.index(); }
-  [[nodiscard]] CellId edge(std::uint32_t halfedge) const { return edges_ + edge_of_halfedge_[halfedge]; }
+  [[nodiscard]] CellId edge(HalfedgeId halfedge) const { return edges_ + edge_of_halfedge_[halfedge]; }
   [[nodiscard]] CellId facet(FacetId f) const { return facets_ + f.index(); }
   [[nodiscard]] CellId volume(VolumeId v) const { return volumes_ + v.index(); }
 
@@ -36,7 +36,7 @@ class CellNumbering {
     return cell < edges_ ? cell : cell < facets_ ? cell - edges_ : cell < volumes_ ? cell - facets_ : cell - volumes_;
   }
   /// One of the two halfedges of an edge.
-  [[nodiscard]] std::uint32_t halfedge(CellId edge) const { return halfedge_of_edge_[edge - edges_]; }
+  [[nodiscard]] HalfedgeId halfedge(CellId edge) const { return halfedge_of_edge_[edge - edges_]; }
 
   /// The mark of a cell in the complex.
   [[nodiscard]] LabelId mark(CellId cell) const;
@@ -46,8 +46,8 @@ class CellNumbering {
   std::uint32_t edges_ = 0;
   std::uint32_t facets_ = 0;
   std::uint32_t volumes_ = 0;
-  std::vector<std::uint32_t> edge_of_halfedge_;
-  std::vector<std::uint32_t> halfedge_of_edge_;
+  IndexedVector<HalfedgeId, std::uint32_t> edge_of_halfedge_;
+  std::vector<HalfedgeId> halfedge_of_edge_;
 };
 
 }  // namespace nef::planner

@@ -7,15 +7,15 @@
 namespace nef::planner {
 namespace {
 
-PlaneId side_plane(const Complex& complex, const Facet& facet, std::uint32_t halfedge) {
+PlaneId side_plane(const Complex& complex, const Facet& facet, HalfedgeId halfedge) {
   const SVertex& s = complex.svertex(halfedge);
   return PlaneId{(s.p.row() == facet.plane.row() ? s.q : s.p).row() << 1U};
 }
 
 // True if the facet's angle at the corner is at most a half-turn.
 bool convex_at(const Complex& complex, std::uint32_t corner) {
-  const std::uint32_t out = complex.corner_halfedge(corner);
-  const std::uint32_t back = complex.corner_back_halfedge(corner);
+  const HalfedgeId out = complex.corner_halfedge(corner);
+  const HalfedgeId back = complex.corner_back_halfedge(corner);
   if (out == back) return false;
   const Direction u = direction_of(complex.planes, complex.svertex(out));
   const Direction v = direction_of(complex.planes, complex.svertex(back));
@@ -94,12 +94,12 @@ void append_facet_pieces(const Complex& complex, FacetId f, CellId cell, const P
   }
   std::vector<ConvexPiece> edges;
   for (const std::uint32_t corner : complex.corners_of(facet)) {
-    const std::uint32_t halfedge = complex.corner_halfedge(corner);
+    const HalfedgeId halfedge = complex.corner_halfedge(corner);
     ConvexPiece edge;
     edge.dimension = 1;
     edge.p = PlaneId{facet.plane.row() << 1U};
     edge.q = side_plane(complex, facet, halfedge);
-    edge.points = {point_of(complex.svertex_owner[halfedge]), point_of(complex.target(halfedge))};
+    edge.points = {point_of(complex.source(halfedge)), point_of(complex.target(halfedge))};
     edges.push_back(std::move(edge));
   }
   ConvexPiece whole = plane_in_box(facet.plane, box, planes, points);
@@ -115,8 +115,8 @@ bool facet_contains(const Complex& complex, FacetId f, const Rational3& point) {
   const std::size_t v = (axis + 2) % 3;
   bool inside = false;
   for (const std::uint32_t corner : complex.corners_of(facet)) {
-    const std::uint32_t halfedge = complex.corner_halfedge(corner);
-    const Rational3 a = complex.points.rational(point_of(complex.svertex_owner[halfedge]));
+    const HalfedgeId halfedge = complex.corner_halfedge(corner);
+    const Rational3 a = complex.points.rational(point_of(complex.source(halfedge)));
     const Rational3 b = complex.points.rational(point_of(complex.target(halfedge)));
     if ((a[v] > point[v]) == (b[v] > point[v])) continue;
     const Rational crossing = a[u] + (point[v] - a[v]) / (b[v] - a[v]) * (b[u] - a[u]);

@@ -44,7 +44,7 @@ class SpaceTreeBuilder {
       piece.points = {point_of(v)};
       pieces.push_back(std::move(piece));
     }
-    for (std::uint32_t h = 0; h < complex_.svertex_count(); ++h) {
+    for (const HalfedgeId h : complex_.halfedge_ids()) {
       if (complex_.twin[h] < h) continue;
       pieces.push_back(edge_piece(h));
     }
@@ -66,13 +66,13 @@ class SpaceTreeBuilder {
     }
   }
 
-  [[nodiscard]] ConvexPiece edge_piece(std::uint32_t halfedge) const {
+  [[nodiscard]] ConvexPiece edge_piece(HalfedgeId halfedge) const {
     ConvexPiece piece;
     piece.cell = cells_.edge(halfedge);
     piece.dimension = 1;
     piece.p = complex_.svertex(halfedge).p;
     piece.q = complex_.svertex(halfedge).q;
-    piece.points = {point_of(complex_.svertex_owner[halfedge]), point_of(complex_.target(halfedge))};
+    piece.points = {point_of(complex_.source(halfedge)), point_of(complex_.target(halfedge))};
     return piece;
   }
 

@@ -14,7 +14,7 @@ Zones::Stations StationMaker::make() {
   for (const VertexId v : complex_.vertex_ids()) {
     if (selected_(cells_.vertex(v))) vertex(v);
   }
-  for (std::uint32_t h = 0; h < complex_.svertex_count(); ++h) {
+  for (const HalfedgeId h : complex_.halfedge_ids()) {
     if (complex_.twin[h] > h && selected_(cells_.edge(h))) edge(h);
   }
   return std::move(out_);
@@ -112,12 +112,12 @@ void StationMaker::vertex(VertexId v) {
   end();
 }
 
-void StationMaker::edge(std::uint32_t h) {
-  const VertexId v = complex_.svertex_owner[h];
+void StationMaker::edge(HalfedgeId h) {
+  const VertexId v = complex_.source(h);
   const Rational3 a = complex_.points.rational(point_of(v));
   const Rational3 b = complex_.points.rational(point_of(complex_.target(h)));
   const ExactPoint point(Rational3{(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2});
-  begin(Kind::kEdge, h, cells_.edge(h), point.approximate());
+  begin(Kind::kEdge, h.index(), cells_.edge(h), point.approximate());
   add(zone_of_cell(cells_.edge(h)));
   const SphereMapView map = complex_.sphere_map(v);
   const VertexRecord& record = complex_.vertices[v];

@@ -32,7 +32,7 @@ class StationMaker {
   void wall(std::uint32_t i);
   void seam(std::uint32_t i);
   void vertex(VertexId v);
-  void edge(std::uint32_t h);
+  void edge(HalfedgeId h);
   // The zones of the facet and of the volume that begin at a point of their boundary, to the left of direction `along`.
   void facet_and_volume(const ExactPoint& point, const SHalfedge& e, FacetId facet, VolumeId volume, const Nudge& along,
                         bool at_vertex);

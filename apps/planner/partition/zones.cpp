@@ -61,8 +61,8 @@ Rational3 Zones::point(StationId id) const {
     case Station::Kind::kVertex:
       return complex_->points.rational(point_of(VertexId{station.source}));
     default: {
-      const Rational3 a = complex_->points.rational(point_of(complex_->svertex_owner[station.source]));
-      const Rational3 b = complex_->points.rational(point_of(complex_->target(station.source)));
+      const Rational3 a = complex_->points.rational(point_of(complex_->source(HalfedgeId{station.source})));
+      const Rational3 b = complex_->points.rational(point_of(complex_->target(HalfedgeId{station.source})));
       return {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2};
     }
   }

@@ -138,18 +138,18 @@ double height_at(const std::vector<std::array<double, 2>>& hull, double u) {
 }
 
 // The edges near the triangle, by one of their halfedges.
-std::vector<std::uint32_t> edges_near(const FreeSpace& free, const Triangle& triangle) {
+std::vector<HalfedgeId> edges_near(const FreeSpace& free, const Triangle& triangle) {
   const Complex& c = free.complex();
-  std::vector<std::uint32_t> edges;
-  const auto add = [&](std::uint32_t h) {
+  std::vector<HalfedgeId> edges;
+  const auto add = [&](HalfedgeId h) {
     Box box;
-    box.add_rounded(c.points.approximate(point_of(c.svertex_owner[h])));
+    box.add_rounded(c.points.approximate(point_of(c.source(h))));
     box.add_rounded(c.points.approximate(point_of(c.target(h))));
-    if (triangle.may_meet(box)) edges.push_back(std::min(h, c.twin[h]));
+    if (triangle.may_meet(box)) edges.push_back(c.edge(h));
   };
   free.items().for_each_if([&](const Box& box) { return triangle.may_meet(box); },
                            [&](const ItemTree::Item& item) {
-                             if (item.kind == ItemTree::Kind::kEdge) add(item.index);
+                             if (item.kind == ItemTree::Kind::kEdge) add(HalfedgeId{item.index});
                              if (item.kind != ItemTree::Kind::kFacet) return;
                              for (const std::uint32_t corner : c.corners_of(FacetId{item.index})) {
                                add(c.corner_halfedge(corner));
@@ -161,11 +161,11 @@ std::vector<std::uint32_t> edges_near(const FreeSpace& free, const Triangle& tri
 }
 
 // The points in which an edge meets the triangle, exactly.
-void append_meetings(const Complex& c, std::uint32_t halfedge, const Triangle& triangle, std::vector<Point2>& points) {
+void append_meetings(const Complex& c, HalfedgeId halfedge, const Triangle& triangle, std::vector<Point2>& points) {
   const auto add = [&](const Rational3& x) {
     if (const std::optional<Point2> uv = triangle.inside(x)) points.push_back(*uv);
   };
-  const Rational3 x = c.points.rational(point_of(c.svertex_owner[halfedge]));
+  const Rational3 x = c.points.rational(point_of(c.source(halfedge)));
   const Rational3 y = c.points.rational(point_of(c.target(halfedge)));
   const Rational hx = triangle.height(x);
   const Rational hy = triangle.height(y);
@@ -180,10 +180,10 @@ void append_meetings(const Complex& c, std::uint32_t halfedge, const Triangle& t
 std::vector<Point2> upper_meetings(const FreeSpace& free, const Triangle& triangle) {
   using Meeting = Triangle::Meeting;
   const Complex& c = free.complex();
-  std::vector<std::pair<std::uint32_t, Meeting>> met;
+  std::vector<std::pair<HalfedgeId, Meeting>> met;
   std::vector<std::array<double, 2>> rough;
-  for (const std::uint32_t h : edges_near(free, triangle)) {
-    const Meeting meeting = triangle.meeting(to_vector(c.points.approximate(point_of(c.svertex_owner[h]))),
+  for (const HalfedgeId h : edges_near(free, triangle)) {
+    const Meeting meeting = triangle.meeting(to_vector(c.points.approximate(point_of(c.source(h)))),
                                              to_vector(c.points.approximate(point_of(c.target(h)))));
     if (meeting.kind == Meeting::Kind::kNone) continue;
     met.emplace_back(h, meeting);

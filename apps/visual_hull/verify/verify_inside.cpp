@@ -52,8 +52,8 @@ class InsideCheck {
         return "vertex " + std::to_string(v.index()) + " projects out of the silhouette";
       }
     }
-    for (std::uint32_t h = 0; h < complex_.svertex_count(); ++h) {
-      const nef::VertexId a = complex_.svertex_owner[h];
+    for (const nef::HalfedgeId h : complex_.halfedge_ids()) {
+      const nef::VertexId a = complex_.source(h);
       const nef::VertexId b = complex_.target(h);
       if (h > complex_.twin[h] || edge_inside(a, b)) continue;
       return "the edge between vertices " + std::to_string(a.index()) + " and " + std::to_string(b.index()) +

@@ -204,13 +204,11 @@ nef::VertexRecord items_of(const std::vector<nef::Complex>& parts) {
   nef::VertexRecord sum;
   for (const nef::Complex& part : parts) {
     const nef::VertexRecord& end = part.vertices.back();
-    sum.svertices += end.svertices;
     sum.shalfedges += end.shalfedges;
     sum.sloops += end.sloops;
-    sum.sfaces += end.sfaces;
     sum.other_planes += end.other_planes;
   }
-  for (std::uint32_t* count : {&sum.svertices, &sum.shalfedges, &sum.sloops, &sum.sfaces, &sum.other_planes}) {
+  for (std::uint32_t* count : {&sum.shalfedges, &sum.sloops, &sum.other_planes}) {
     *count += *count / kRoom;
   }
   return sum;

@@ -17,7 +17,7 @@ class Nef3Writer {
     for (const ShellId s : c_.shells.ids()) first_sface_.push_back(of_shells.of(s).front());
     head();
     for (const VertexId v : c_.vertex_ids()) vertex(v);
-    for (std::uint32_t h = 0; h < c_.svertex_count(); ++h) halfedge(h);
+    for (const HalfedgeId h : c_.halfedge_ids()) halfedge(h);
     for (const FacetId f : c_.facets.ids()) {
       halffacet(halffacet_of(f, false));
       halffacet(halffacet_of(f, true));
@@ -91,7 +91,7 @@ class Nef3Writer {
     const VertexRecord& record = c_.vertices[v];
     const VertexRecord& after = c_.vertices[v.next()];
     begin(v.index());
-    range(record.svertices, after.svertices);
+    range(record.svertices.index(), after.svertices.index());
     range(record.shalfedges, after.shalfedges);
     range(record.sfaces, after.sfaces);
     number(record.sloops == after.sloops ? -2 : static_cast<std::int64_t>(record.sloops));
@@ -100,11 +100,11 @@ class Nef3Writer {
     end(c_.mark(v));
   }
 
-  void halfedge(std::uint32_t h) {
-    const VertexId v = c_.svertex_owner[h];
+  void halfedge(HalfedgeId h) {
+    const VertexId v = c_.source(h);
     const SVertex& s = c_.svertex(h);
-    begin(h);
-    number(c_.twin[h]);
+    begin(h.index());
+    number(c_.twin[h].index());
     text_ += ',';
     number(v.index());
     text_ += ',';
@@ -170,7 +170,7 @@ class Nef3Writer {
     item(e ^ 1U);
     item(record.shalfedges + s.prev);
     item(record.shalfedges + s.next);
-    item(record.svertices + s.source);
+    item((record.svertices + s.source).index());
     item(record.sfaces + s.sface);
     item(prev_[e]);
     item(next_[e]);
@@ -213,7 +213,7 @@ class Nef3Writer {
         text_ += ' ';
       };
       list(SFaceEntry::Kind::kCycle, record.shalfedges);
-      list(SFaceEntry::Kind::kIsolatedVertex, record.svertices);
+      list(SFaceEntry::Kind::kIsolatedVertex, record.svertices.index());
       list(SFaceEntry::Kind::kLoop, record.sloops);
       text_ += ',';
       number(c_.sface_volume(record.sfaces + i).index());

@@ -243,7 +243,7 @@ class BinaryReader {
       demand(total <= std::uint64_t{4} * bytes_.size() && sfaces[v] > 0, "its vertices have more items than there are");
     }
     const VertexRecord& last = c_.vertices.back();
-    demand(last.svertices == svertices_ && last.shalfedges == shalfedges_ && last.sloops == sloops_ &&
+    demand(last.svertices.index() == svertices_ && last.shalfedges == shalfedges_ && last.sloops == sloops_ &&
                last.sfaces == sfaces_ && total == std::uint64_t{svertices_} + shalfedges_ + sloops_ + sfaces_,
            "its vertices have not the items that it holds");
     name_svertex_owners(c_);
@@ -300,7 +300,7 @@ class BinaryReader {
       if (has_key && take_known(columns, v, entries)) continue;
       map_.clear();
       map_.mark = mark_[v.index()];
-      for (std::uint32_t i = record.svertices; i < end.svertices; ++i) take_svertex(columns, i);
+      for (const HalfedgeId h : c_.halfedges(v)) take_svertex(columns, h.index());
       for (std::uint32_t i = record.shalfedges; i < end.shalfedges; ++i) take_shalfedge(columns, i);
       for (std::uint32_t i = record.sloops; i < end.sloops; ++i) take_sloop(columns, i);
       for (std::uint32_t f = record.sfaces; f < end.sfaces; ++f) take_sface(columns, f, entries);
@@ -322,6 +322,7 @@ class BinaryReader {
     const VertexRecord& end = c_.vertices[v.next()];
     const std::uint32_t pair = begin.shalfedges / 2;
     const std::uint32_t pairs = end.shalfedges / 2 - pair;
+    const std::uint32_t first = begin.svertices.index();  // svertex, in the columns
     const std::uint32_t svertices = end.svertices - begin.svertices;
     const std::uint32_t sfaces = end.sfaces - begin.sfaces;
     if (begin.sloops != end.sloops || svertices > pairs) return false;
@@ -332,8 +333,8 @@ class BinaryReader {
     for (std::uint32_t i = 0; i < svertices; ++i) {
       const PlaneId here{columns.plane[pair + i]};
       const PlaneId before{columns.plane[pair + (i == 0 ? pairs : i) - 1]};
-      const PlaneId p{columns.p[begin.svertices + i]};
-      const PlaneId q{columns.q[begin.svertices + i]};
+      const PlaneId p{columns.p[first + i]};
+      const PlaneId q{columns.q[first + i]};
       const auto names = [](PlaneId a, PlaneId b) { return a.row() == b.row(); };
       const bool p_here = names(p, here);
       const bool q_here = names(q, here);
@@ -342,9 +343,9 @@ class BinaryReader {
       const PlaneId of_q = p_here ? before : here;
       key_ += static_cast<char>((p_here ? 4 : 0) | (p == of_p ? 2 : 0) | (q == of_q ? 1 : 0));
     }
-    key_ += columns.out.bytes(begin.svertices, svertices);
-    key_ += columns.sface_around.bytes(begin.svertices, svertices);
-    key_ += columns.svertex_mark.bytes(begin.svertices, svertices);
+    key_ += columns.out.bytes(first, svertices);
+    key_ += columns.sface_around.bytes(first, svertices);
+    key_ += columns.svertex_mark.bytes(first, svertices);
     key_ += columns.shalfedge_mark.bytes(pair, pairs);
     key_ += columns.source.bytes(begin.shalfedges, 2 * pairs);
     key_ += columns.next.bytes(begin.shalfedges, 2 * pairs);
@@ -478,9 +479,9 @@ class BinaryReader {
     const auto twins = column<std::uint32_t>(svertices_);
     const bool has_bare_edges = any_isolated_svertex();
     c_.twin.resize(svertices_);
-    for (std::uint32_t h = 0; h < svertices_; ++h) {
-      const std::uint32_t t = twins[h];
-      demand(t < svertices_ && t != h && twins[t] == h, "the two ends of an edge are not mutual");
+    for (const HalfedgeId h : c_.halfedge_ids()) {
+      const HalfedgeId t{twins[h.index()]};
+      demand(c_.twin.contains(t) && t != h && twins[t.index()] == h.index(), "the two ends of an edge are not mutual");
       demand(!has_bare_edges || (c_.svertex(h).out == kNone) == (c_.svertex(t).out == kNone),
              "an edge has facets at one end only");
       c_.twin[h] = t;
@@ -528,7 +529,7 @@ class BinaryReader {
   }
 
   void check_cycle(FacetId f, std::span<const std::uint32_t> cycle) {
-    std::uint32_t arriving = c_.twin[c_.corner_halfedge(cycle.back())];
+    HalfedgeId arriving = c_.twin[c_.corner_halfedge(cycle.back())];
     for (const std::uint32_t corner : cycle) {
       const SHalfedge e = c_.shalfedge(corner);
       demand(!c_.shalfedge_facet.pairs()[corner / 2].valid(), "a corner belongs to two facets");

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <type_traits>
 
 #include "nef/io/native/native_binary.h"
 
@@ -57,7 +58,9 @@ class BinaryWriter {
     for (std::size_t i = 0; i < items.size(); i += step)
       put(static_cast<T>(field(first[static_cast<std::ptrdiff_t>(i)])));
   }
-  void column(const std::vector<std::uint32_t>& values) {
+  template <typename Index>
+  void column(const std::vector<Index>& values) {
+    static_assert(sizeof(Index) == sizeof(std::uint32_t) && std::is_trivially_copyable_v<Index>);
     text_.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(std::uint32_t));
   }
 
@@ -98,7 +101,7 @@ class BinaryWriter {
 
   template <typename W>
   void sphere_maps() {
-    const auto counts = [this](std::uint32_t VertexRecord::*first, std::uint32_t per) {
+    const auto counts = [this](auto VertexRecord::*first, std::uint32_t per) {
       for (const VertexId v : c_.vertex_ids()) {
         put(static_cast<W>((c_.vertices[v.next()].*first - c_.vertices[v].*first) / per));
       }
@@ -154,12 +157,12 @@ class BinaryWriter {
   }
 
   void links() {
-    column(c_.twin);
+    column(c_.twin.values());
     for (const CycleId i : c_.cycle_ids()) put(static_cast<std::uint32_t>(c_.corners_of(i).size()));
     column(c_.corners);
     column<std::uint32_t>(c_.facets, [](const Facet& f) { return f.cycle_count; });
     column<std::uint32_t>(c_.facets, [](const Facet& f) { return f.isolated_count; });
-    column<std::uint32_t>(c_.isolated_vertices, [](VertexId v) { return v.index(); });
+    column(c_.isolated_vertices);
     column<std::uint32_t>(c_.sface_shell, [](ShellId s) { return s.index(); });
     column<std::uint32_t>(c_.shells, [](const Shell& s) { return s.volume.index(); });
     column<LabelId>(c_.volumes, [](const Volume& v) { return v.mark; });

@@ -68,8 +68,8 @@ class Cutter::Halves {
       }
       v = end;
     }
-    for (std::uint32_t h = 0; h < c_.svertex_count(); ++h) {
-      if (side_[c_.svertex_owner[h]] < 0 && side_[c_.target(h)] > 0) add_crossing(h);
+    for (const HalfedgeId h : c_.halfedge_ids()) {
+      if (side_[c_.source(h)] < 0 && side_[c_.target(h)] > 0) add_crossing(h);
     }
     return {finish(0), finish(1)};
   }
@@ -96,9 +96,9 @@ class Cutter::Halves {
     }
   }
 
-  void add_crossing(std::uint32_t h) {
-    const VertexId v = c_.svertex_owner[h];
-    edge_pyramid(c_.sphere_map(v), h - c_.vertices[v].svertices, pyramid_);
+  void add_crossing(HalfedgeId h) {
+    const VertexId v = c_.source(h);
+    edge_pyramid(c_.sphere_map(v), c_.halfedges(v).position(h), pyramid_);
     PointTable points;
     const auto point = points.push_intersection(planes_, c_.svertex(h).p, c_.svertex(h).q, plane_);
     NEF_ASSERT(point.has_value());
@@ -127,21 +127,21 @@ class Cutter::Halves {
   }
 
   // True if all are known.
-  bool copy_twins(VertexId v, int side, std::vector<std::uint32_t>& twin) const {
+  bool copy_twins(VertexId v, int side, IndexedVector<HalfedgeId, HalfedgeId>& twin) const {
     bool all = true;
-    for (std::uint32_t h = c_.vertices[v].svertices; h < c_.vertices[v.next()].svertices; ++h) {
-      const std::uint32_t other = c_.twin[h];
-      const VertexId end = c_.svertex_owner[other];
+    for (const HalfedgeId h : c_.halfedges(v)) {
+      const HalfedgeId other = c_.twin[h];
+      const VertexId end = c_.source(other);
       const bool kept = side_[end] == side;
-      twin.push_back(kept ? other + shift_[end] : kNone);
+      twin.push_back(kept ? other + shift_[end] : HalfedgeId());
       all = all && kept;
     }
     return all;
   }
 
-  static bool add_loose(const Complex& half, VertexId vertex, std::vector<std::uint32_t>& twin) {
-    twin.resize(half.vertices[vertex.next()].svertices, kNone);
-    return half.vertices[vertex].svertices < half.vertices[vertex.next()].svertices;
+  static bool add_loose(const Complex& half, VertexId vertex, IndexedVector<HalfedgeId, HalfedgeId>& twin) {
+    twin.resize(half.vertices[vertex.next()].svertices.index(), HalfedgeId());
+    return !half.halfedges(vertex).empty();
   }
 
   const Complex& c_;
@@ -161,7 +161,7 @@ class Cutter::Halves {
 Complex Cutter::loose(const Complex& complex) {
   ComplexBuilder builder(planes_);
   builder.copy(complex);
-  std::vector<std::uint32_t> twin = complex.twin;
+  IndexedVector<HalfedgeId, HalfedgeId> twin = complex.twin;
   if (!complex.has_box()) {
     const Complex corners = infimaximal_corners(complex.volumes[kOuterVolume].mark);
     std::vector<std::uint32_t> rows;
@@ -170,7 +170,7 @@ Complex Cutter::loose(const Complex& complex) {
     }
     builder.copy(corners, rows);
     const auto shift = static_cast<std::uint32_t>(twin.size());
-    for (const std::uint32_t h : corners.twin) twin.push_back(h + shift);
+    for (const HalfedgeId h : corners.twin) twin.push_back(h + shift);
   }
   Complex result = builder.take_so_far();
   name_svertex_owners(result);

@@ -127,7 +127,7 @@ class SeamGlue {
   struct LeafEdge {
     std::uint32_t wall = 0;
     std::array<std::uint32_t, 2> seam{};
-    std::uint32_t halfedge = 0;
+    HalfedgeId halfedge{0};
   };
   struct Leaf {
     TileRef tree;
@@ -149,7 +149,7 @@ class SeamGlue {
     std::array<std::uint32_t, 2> points;  // ascending
     bool above = false;                   // its leaf lies above the wall
     std::uint32_t leaf = 0;
-    std::uint32_t halfedge = 0;
+    HalfedgeId halfedge{0};
     [[nodiscard]] auto key() const { return std::pair(points, above); }
   };
   // Where three planes meet.
@@ -209,11 +209,11 @@ class SeamGlue {
     }
     for (const SeamVertex& s : leaf.seam) {
       if (s.point == kNone) continue;
-      for (std::uint32_t h = c.vertices[s.vertex].svertices; h < c.vertices[s.vertex.next()].svertices; ++h) {
+      for (const HalfedgeId h : c.halfedges(s.vertex)) {
         const VertexId target = c.target(h);
         const unsigned common = on[s.vertex] & on[target];
         if (common == 0 || c.twin[h] < h) continue;
-        if (!edge_has_boundary(c.sphere_map(s.vertex), h - c.vertices[s.vertex].svertices)) continue;
+        if (!edge_has_boundary(c.sphere_map(s.vertex), c.halfedges(s.vertex).position(h))) continue;
         for (std::uint32_t wall = 0; wall < 6; ++wall) {
           if ((common >> wall & 1U) != 0) leaf.edges.push_back({wall, {seam[s.vertex], seam[target]}, h});
         }
@@ -446,8 +446,8 @@ class SeamGlue {
         if (hit->kind == ComplexHit::Kind::kVertex) {
           out.assign(c.sphere_map(hit->vertex()));
         } else if (hit->kind == ComplexHit::Kind::kEdge) {
-          const VertexId owner = c.svertex_owner[hit->index];
-          edge_pyramid(c.sphere_map(owner), hit->index - c.vertices[owner].svertices, out);
+          const VertexId owner = c.source(hit->halfedge());
+          edge_pyramid(c.sphere_map(owner), c.halfedges(owner).position(hit->halfedge()), out);
         } else {
           const Facet& facet = c.facets[facet_of(hit->halffacet())];
           out.assign_circle(facet.plane, facet.mark, c.volumes[facet.volume_above].mark,

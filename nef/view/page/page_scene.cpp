@@ -122,7 +122,7 @@ class SceneWriter {
       ends.insert(ends.end(), {edge.from, edge.to});
       marks.push_back(edge.mark);
       indices.push_back(edge.index);
-      twins.push_back(edge.index == kArtificial ? kArtificial : complex.twin[edge.index]);
+      twins.push_back(edge.index == kArtificial ? kArtificial : complex.twin[HalfedgeId{edge.index}].index());
       flag.push_back(flags(edge.isolated, edge.origin));
     }
     return {{"ends", array("u32", ends)},

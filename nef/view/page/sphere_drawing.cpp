@@ -38,8 +38,8 @@ SphereDrawing draw_sphere_map(const Complex& complex, VertexId vertex) {
   drawing.mark = map.mark;
   for (std::uint32_t i = 0; i < map.svertices.size(); ++i) {
     const SVertex& s = map.svertices[i];
-    drawing.dots.push_back(
-        {unit_vector(Direction::cross(complex.planes, s.p, s.q).integers()), s.mark, at.svertices + i});
+    drawing.dots.push_back({unit_vector(Direction::cross(complex.planes, s.p, s.q).integers()), s.mark,
+                            complex.halfedges(vertex)[i].index()});
   }
   for (std::uint32_t i = 0; i < map.shalfedges.size(); i += 2) {
     const SHalfedge& e = map.shalfedges[i];

@@ -32,7 +32,7 @@ void find_items(const Complex& drawn, Scene& scene) {
   for (SceneEdge& edge : scene.edges) {
     const Location found = locate(scene.source, mean({&points[edge.from], &points[edge.to]}));
     edge.index = index_if(found, Location::Kind::kEdge);
-    if (edge.index != kArtificial) edge.index = std::min(edge.index, source.twin[edge.index]);
+    if (edge.index != kArtificial) edge.index = source.edge(HalfedgeId{edge.index}).index();
   }
   for (SceneVolume& volume : scene.volumes) volume.index = kArtificial;
   for (SceneFacet& facet : scene.facets) {

@@ -36,8 +36,8 @@ std::string difference_to_synthesis(const Complex& c) {
   again.other_planes = c.other_planes;
   again.sloops = c.sloops;
   synthesize(again, c.volumes[kOuterVolume].mark);
-  if (!same_bytes(c.twin, again.twin)) return "twin";
-  if (!same_bytes(c.svertex_owner, again.svertex_owner)) return "svertex_owner";
+  if (!same_bytes(c.twin.values(), again.twin.values())) return "twin";
+  if (!same_bytes(c.svertex_owner.values(), again.svertex_owner.values())) return "svertex_owner";
   if (!same_bytes(c.pair_owner, again.pair_owner)) return "pair_owner";
   if (!same_facets(c.facets, again.facets)) return "facets";
   if (!same_bytes(c.cycle_begin.values(), again.cycle_begin.values())) return "cycle_begin";

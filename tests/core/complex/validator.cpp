@@ -174,8 +174,8 @@ struct Breaker {
   }
 
   void synthesized_items() {
-    column("owner of an svertex", c.svertex_owner, c.vertex_count());
-    column("twin", c.twin, c.twin.size());
+    column("owner of an svertex", c.svertex_owner.values(), c.vertex_count());
+    column("twin", c.twin.values(), c.twin.size());
     column("owner of a pair of shalfedges", c.pair_owner, c.vertex_count());
     column("facet of a shalfedge", c.shalfedge_facet.pairs(), 2 * c.facets.size());
     column("facet of a sloop", c.sloop_facet, 2 * c.facets.size());
@@ -251,8 +251,10 @@ TEST_CASE("the validator names the broken invariant and the guilty items") {
           map.mark = 2;
           c.vertices[VertexId{3}].pattern = c.patterns.push(map);
         }) == "marks are below the number of labels, vertex 3");
-  CHECK(broken([](Complex& c) { c.svertex_owner[0] = VertexId{1}; }) == "svertices know their vertex, vertex 0");
-  CHECK(broken([](Complex& c) { c.twin[0] = 0; }) == "twins of halfedges are mutual, halfedge 0");
+  CHECK(broken([](Complex& c) { c.svertex_owner[HalfedgeId{0}] = VertexId{1}; }) ==
+        "svertices know their vertex, vertex 0");
+  CHECK(broken([](Complex& c) { c.twin[HalfedgeId{0}] = HalfedgeId{0}; }) ==
+        "twins of halfedges are mutual, halfedge 0");
   CHECK(broken([](Complex& c) { c.points.pop(); }).find("one point for each vertex") == 0);
   CHECK(broken([](Complex& c) { c.corners.pop_back(); }).find("cycle") != std::string::npos);
   CHECK(broken([](Complex& c) {

@@ -66,7 +66,7 @@ TEST_CASE("items are walked through, and shells visit each of theirs once") {
     for (const ShellId shell : shells(set, volume)) {
       std::array<int, 3> items{};
       visit_shell(
-          set, shell, [&](VertexId) { ++items[0]; }, [&](std::uint32_t) { ++items[1]; }, [&](FacetId) { ++items[2]; });
+          set, shell, [&](VertexId) { ++items[0]; }, [&](HalfedgeId) { ++items[1]; }, [&](FacetId) { ++items[2]; });
       seen.insert(items);
       ++count;
     }

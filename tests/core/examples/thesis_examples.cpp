@@ -19,8 +19,8 @@ Polyhedron rotated_about_all_axes(const Polyhedron& a, double degrees) {
 }
 
 bool has_edge(const Complex& c, const Rational3& from, const Rational3& to) {
-  for (std::uint32_t h = 0; h < c.svertex_count(); ++h) {
-    if (c.points.rational(point_of(c.svertex_owner[h])) == from && c.points.rational(point_of(c.target(h))) == to) {
+  for (const HalfedgeId h : c.halfedge_ids()) {
+    if (c.points.rational(point_of(c.source(h))) == from && c.points.rational(point_of(c.target(h))) == to) {
       return true;
     }
   }

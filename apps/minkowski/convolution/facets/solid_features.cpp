@@ -18,12 +18,12 @@ SolidFeatures::SolidFeatures(const Polyhedron& solid) : c_(solid.complex()) {
   for (const VertexId v : c_.vertex_ids()) points_.push_back(c_.points.rational(point_of(v)));
   find_marks();
   directions_.reserve(c_.svertex_count());
-  for (std::uint32_t h = 0; h < c_.svertex_count(); ++h) directions_.push_back(direction_of(c_.planes, c_.svertex(h)));
+  for (const HalfedgeId h : c_.halfedge_ids()) directions_.push_back(direction_of(c_.planes, c_.svertex(h)));
   add_facets();
   for (const VertexId v : c_.vertex_ids()) {
-    const std::uint32_t first = c_.vertices[v].svertices;
-    for (std::uint32_t h = first; h < c_.vertices[v.next()].svertices; ++h) {
-      if (h < c_.twin[h]) add_edge(v, h - first);
+    const IdRange<HalfedgeId> halfedges = c_.halfedges(v);
+    for (const HalfedgeId h : halfedges) {
+      if (h < c_.twin[h]) add_edge(v, halfedges.position(h));
     }
   }
   know_integers();
@@ -46,7 +46,7 @@ void SolidFeatures::find_marks() {
     all = all && mark != 0;
   };
   for (const Facet& f : c_.facets) look_at(f.mark);
-  for (std::uint32_t h = 0; h < c_.svertex_count(); ++h) look_at(c_.svertex(h).mark);
+  for (const HalfedgeId h : c_.halfedge_ids()) look_at(c_.svertex(h).mark);
   for (const VertexId v : c_.vertex_ids()) {
     look_at(c_.mark(v));
     for (const SLoop& loop : c_.sphere_map(v).sloops) {
@@ -56,7 +56,7 @@ void SolidFeatures::find_marks() {
   marks_ = all ? BoundaryMarks::kAll : any ? BoundaryMarks::kMixed : BoundaryMarks::kNone;
   if (marks_ != BoundaryMarks::kMixed) return;
   for (const VertexId v : c_.vertex_ids()) {
-    for (std::uint32_t h = c_.vertices[v].svertices; h < c_.vertices[v.next()].svertices; ++h) {
+    for (const HalfedgeId h : c_.halfedges(v)) {
       const VertexId w = c_.target(h);
       if (v < w) edge_marks_.emplace(pair_key(v.index(), w.index()), c_.svertex(h).mark != 0 ? 1 : 0);
     }
@@ -95,7 +95,7 @@ void SolidFeatures::add_facets() {
 // At most one wedge around an edge is free and larger than a half-turn.
 void SolidFeatures::add_edge(VertexId vertex, std::uint32_t svertex) {
   const SphereMapView map = c_.sphere_map(vertex);
-  const std::uint32_t halfedge = c_.vertices[vertex].svertices + svertex;
+  const HalfedgeId halfedge = c_.halfedges(vertex)[svertex];
   const Direction& line = directions_[halfedge];
   const std::uint32_t out = map.svertices[svertex].out;
   std::uint32_t e = out;
@@ -122,7 +122,7 @@ void SolidFeatures::add_edge(VertexId vertex, std::uint32_t svertex) {
 bool SolidFeatures::is_peak(std::uint32_t number, const Direction& up) const {
   const VertexId vertex{number};
   if (c_.vertices[vertex].svertices == c_.vertices[vertex.next()].svertices) return false;  // inside a facet
-  for (std::uint32_t h = c_.vertices[vertex].svertices; h < c_.vertices[vertex.next()].svertices; ++h) {
+  for (const HalfedgeId h : c_.halfedges(vertex)) {
     if (sign_of_dot(directions_[h], up) >= 0) return false;
   }
   // All edges go down, so the open upper half-sphere is in one sface.

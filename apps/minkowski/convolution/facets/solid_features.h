@@ -73,7 +73,7 @@ class SolidFeatures {
   std::vector<Rational3> points_;
   std::vector<SolidFacet> facets_;
   std::vector<ConvexEdge> edges_;
-  std::vector<Direction> directions_;                           // of halfedges, away from their vertices
+  IndexedVector<HalfedgeId, Direction> directions_;             // away from their vertices
   std::unordered_map<std::uint64_t, std::uint8_t> edge_marks_;  // by the key of the ends, if marks are mixed
   BoundaryMarks marks_ = BoundaryMarks::kAll;
   bool has_simple_edges_ = true;

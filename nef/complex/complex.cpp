@@ -7,9 +7,9 @@
 
 namespace nef {
 
-VertexId Complex::sface_vertex(std::uint32_t sface) const {
+VertexId Complex::sface_vertex(SFaceId sface) const {
   const auto after = std::upper_bound(vertices.begin(), vertices.end(), sface,
-                                      [](std::uint32_t f, const VertexRecord& v) { return f < v.sfaces; });
+                                      [](SFaceId f, const VertexRecord& v) { return f < v.sfaces; });
   return VertexId{after - vertices.begin() - 1};
 }
 

@@ -36,7 +36,7 @@ struct VertexRecord {
   HalfedgeId svertices{0};
   std::uint32_t shalfedges = 0;
   std::uint32_t sloops = 0;
-  std::uint32_t sfaces = 0;
+  SFaceId sfaces{0};
   std::uint32_t other_planes = 0;
   PatternId pattern;
 };
@@ -88,7 +88,7 @@ struct Complex {
   std::vector<VertexId> pair_owner;            ///< vertex of each pair of shalfedges; empty: svertex_owner says it
   HalffacetColumn shalfedge_facet;
   std::vector<HalffacetId> sloop_facet;
-  std::vector<ShellId> sface_shell;
+  IndexedVector<SFaceId, ShellId> sface_shell;
 
   IndexedVector<FacetId, Facet> facets;
   IndexedVector<CycleId, std::uint32_t> cycle_begin{0};  ///< into corners; one more than there are cycles
@@ -105,12 +105,13 @@ struct Complex {
   [[nodiscard]] std::size_t volume_count() const { return volumes.size(); }
   [[nodiscard]] std::uint32_t svertex_count() const { return vertices.back().svertices.index(); }
   [[nodiscard]] std::uint32_t shalfedge_count() const { return vertices.back().shalfedges; }
-  [[nodiscard]] std::uint32_t sface_count() const { return vertices.back().sfaces; }
+  [[nodiscard]] std::uint32_t sface_count() const { return vertices.back().sfaces.index(); }
 
   [[nodiscard]] IdRange<VertexId> vertex_ids() const {
     return {VertexId{0}, static_cast<std::uint32_t>(vertices.size() - 1)};
   }
   [[nodiscard]] IdRange<HalfedgeId> halfedge_ids() const { return {HalfedgeId{0}, vertices.back().svertices}; }
+  [[nodiscard]] IdRange<SFaceId> sface_ids() const { return {SFaceId{0}, vertices.back().sfaces}; }
   [[nodiscard]] IdRange<CycleId> cycle_ids() const {
     return {CycleId{0}, static_cast<std::uint32_t>(cycle_begin.size() - 1)};
   }
@@ -121,6 +122,11 @@ struct Complex {
   /// The halfedges that leave a vertex; the first is svertex 0 of its sphere map.
   [[nodiscard]] IdRange<HalfedgeId> halfedges(VertexId vertex) const {
     return {vertices[vertex].svertices, vertices[vertex.next()].svertices};
+  }
+
+  /// The sfaces around a vertex, likewise.
+  [[nodiscard]] IdRange<SFaceId> sfaces(VertexId vertex) const {
+    return {vertices[vertex].sfaces, vertices[vertex.next()].sfaces};
   }
 
   /// The sphere map of a vertex.
@@ -157,8 +163,8 @@ struct Complex {
     return pair_owner.empty() ? svertex_owner[HalfedgeId{shalfedge >> 1U}] : pair_owner[shalfedge >> 1U];
   }
 
-  /// The mark of an sface by its number in the complex. O(log n).
-  [[nodiscard]] LabelId sface_mark(std::uint32_t sface) const {
+  /// The mark of an sface. O(log n).
+  [[nodiscard]] LabelId sface_mark(SFaceId sface) const {
     const VertexId vertex = sface_vertex(sface);
     return patterns.sfaces(vertices[vertex].pattern)[sface - vertices[vertex].sfaces].mark;
   }
@@ -178,11 +184,11 @@ struct Complex {
   [[nodiscard]] HalfedgeId corner_back_halfedge(std::uint32_t corner) const {
     return vertices[shalfedge_vertex(corner)].svertices + in_pattern(corner ^ 1U).source;
   }
-  /// Global index of the sface to the left of a shalfedge.
-  [[nodiscard]] std::uint32_t shalfedge_sface(std::uint32_t shalfedge) const {
+  /// The sface to the left of a shalfedge.
+  [[nodiscard]] SFaceId shalfedge_sface(std::uint32_t shalfedge) const {
     return vertices[shalfedge_vertex(shalfedge)].sfaces + in_pattern(shalfedge).sface;
   }
-  [[nodiscard]] VolumeId sface_volume(std::uint32_t sface) const { return shells[sface_shell[sface]].volume; }
+  [[nodiscard]] VolumeId sface_volume(SFaceId sface) const { return shells[sface_shell[sface]].volume; }
 
   /// The volume on the side from which a halffacet is seen.
   [[nodiscard]] VolumeId halffacet_volume(HalffacetId halffacet) const {
@@ -207,7 +213,7 @@ struct Complex {
   }
 
   /// The vertex that an sface belongs to. O(log n).
-  [[nodiscard]] VertexId sface_vertex(std::uint32_t sface) const;
+  [[nodiscard]] VertexId sface_vertex(SFaceId sface) const;
 
   /// Gives memory back that has been reserved and not used, where that is an eighth of an array or more.
   void trim();

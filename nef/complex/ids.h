@@ -13,6 +13,7 @@ using FacetId = Id<struct FacetTag>;          ///< both sides of a facet
 using HalfedgeId = Id<struct HalfedgeTag>;    ///< an edge as it leaves one of its ends: an svertex of the complex
 using HalffacetId = Id<struct HalffacetTag>;  ///< one side of a facet
 using PatternId = Id<struct PatternTag>;      ///< a sphere map without its planes
+using SFaceId = Id<struct SFaceTag>;          ///< an sface of the complex: a volume as a vertex of its boundary sees it
 using ShellId = Id<struct ShellTag>;
 using VertexId = Id<struct VertexTag>;
 using VolumeId = Id<struct VolumeTag>;

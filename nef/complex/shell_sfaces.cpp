@@ -12,7 +12,7 @@ ShellSfaces::ShellSfaces(const Complex& complex)
     begin = end;
   }
   // From behind, each begin moves down to where it is.
-  for (auto f = static_cast<std::uint32_t>(sfaces_.size()); f-- > 0;) sfaces_[--begin_[complex.sface_shell[f]]] = f;
+  for (auto i = sfaces_.size(); i-- > 0;) sfaces_[--begin_[complex.sface_shell[SFaceId{i}]]] = SFaceId{i};
 }
 
 }  // namespace nef

@@ -17,13 +17,13 @@ class ShellSfaces {
   /// O(sfaces).
   explicit ShellSfaces(const Complex& complex);
 
-  [[nodiscard]] std::span<const std::uint32_t> of(ShellId shell) const {
+  [[nodiscard]] std::span<const SFaceId> of(ShellId shell) const {
     return {sfaces_.data() + begin_[shell], begin_[shell.next()] - begin_[shell]};
   }
 
  private:
   IndexedVector<ShellId, std::uint32_t> begin_;
-  std::vector<std::uint32_t> sfaces_;
+  std::vector<SFaceId> sfaces_;
 };
 
 }  // namespace nef

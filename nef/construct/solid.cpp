@@ -79,7 +79,7 @@ class SolidBuilder {
     VertexRecord size;
     size.svertices = HalfedgeId{corners};
     size.shalfedges = 2 * corners;
-    size.sfaces = 2 * used;
+    size.sfaces = SFaceId{2 * used};
     result.reserve(used, size);
   }
 

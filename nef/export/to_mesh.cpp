@@ -369,7 +369,7 @@ class Exporter {
       const bool at_facet = all_facets && (record.shalfedges < end.shalfedges || record.sloops < end.sloops);
       if (!at_facet || !is_selected(complex_.mark(v))) {
         SeenVolumes sides;
-        for (std::uint32_t s = record.sfaces; s < end.sfaces; ++s) sides.add(volumes_[complex_.sface_volume(s)]);
+        for (const SFaceId s : complex_.sfaces(v)) sides.add(volumes_[complex_.sface_volume(s)]);
         judge(sides, complex_.mark(v), &Items::vertices);
       }
       for (const HalfedgeId h : complex_.halfedges(v)) {

@@ -130,7 +130,7 @@ std::optional<ComplexHit> QueryStructure::item_at(const Complex& complex, const 
     if (result || side_of_plane(complex.planes, facet.plane, point) != 0) return;
     const FacetPlace place = locate_in_facet(complex, facet, point, edge_tree(complex, f));
     if (place.kind == FacetPlace::Kind::kInside)
-      result = ComplexHit{Kind::kFacet, halffacet_of(f, false).index(), kNone};
+      result = ComplexHit{Kind::kFacet, halffacet_of(f, false).index(), SFaceId()};
     if (place.kind == FacetPlace::Kind::kEdge) result = ComplexHit::at_edge(place.halfedge());
     if (place.kind == FacetPlace::Kind::kVertex) result = ComplexHit::at(place.vertex());
   });
@@ -142,15 +142,15 @@ std::optional<ComplexHit> QueryStructure::first_hit_minus_x(const Complex& compl
   return first_hit(complex, {{&complex.points, point_of(vertex)}, minus_x()});
 }
 
-std::uint32_t QueryStructure::first_sface_minus_x(const Complex& complex, VertexId vertex) const {
+SFaceId QueryStructure::first_sface_minus_x(const Complex& complex, VertexId vertex) const {
   const std::optional<ComplexHit> hit = first_hit_minus_x(complex, vertex);
-  if (!hit) return kNone;
+  if (!hit) return {};
   if (hit->kind == ComplexHit::Kind::kFacet) {
     // A corner is oriented like the positive halffacet; its twin looks to the other side.
     const std::uint32_t corner = complex.corners_of(facet_of(hit->halffacet()))[0];
     return complex.shalfedge_sface(corner ^ (is_below(hit->halffacet()) ? 1U : 0U));
   }
-  NEF_ASSERT(hit->sface != kNone);
+  NEF_ASSERT(hit->sface.valid());
   return hit->sface;
 }
 
@@ -161,7 +161,7 @@ VolumeId QueryStructure::volume_at(const Complex& complex, const PointRef& point
 
 VolumeId volume_before(const Complex& complex, const ComplexHit& hit) {
   if (hit.kind == ComplexHit::Kind::kFacet) return complex.halffacet_volume(hit.halffacet());
-  NEF_ASSERT(hit.sface != kNone);
+  NEF_ASSERT(hit.sface.valid());
   return complex.sface_volume(hit.sface);
 }
 

@@ -23,15 +23,15 @@ struct ComplexHit {
   Kind kind = Kind::kVertex;
   /// A vertex; a halfedge; a halffacet (from a ray: the side that the ray comes from).
   std::uint32_t index = 0;
-  static ComplexHit at(VertexId vertex) { return {Kind::kVertex, vertex.index(), kNone}; }
-  static ComplexHit at_edge(HalfedgeId halfedge) { return {Kind::kEdge, halfedge.index(), kNone}; }
+  static ComplexHit at(VertexId vertex) { return {Kind::kVertex, vertex.index(), SFaceId()}; }
+  static ComplexHit at_edge(HalfedgeId halfedge) { return {Kind::kEdge, halfedge.index(), SFaceId()}; }
   [[nodiscard]] VertexId vertex() const { return VertexId{index}; }
   [[nodiscard]] HalfedgeId halfedge() const { return HalfedgeId{index}; }
   [[nodiscard]] HalffacetId halffacet() const { return HalffacetId{index}; }
-  /// Vertex or edge met by a ray: the sface (global index, at that vertex or at the source of that
-  /// halfedge) through which the ray comes. kNone if the ray comes along a facet or an edge, and
+  /// Vertex or edge met by a ray: the sface (at that vertex or at the source of that
+  /// halfedge) through which the ray comes. None if the ray comes along a facet or an edge, and
   /// for facets.
-  std::uint32_t sface = kNone;
+  SFaceId sface;
 };
 
 /// An open ray: from a point (excluded) in an exact direction (not zero).
@@ -68,9 +68,9 @@ class QueryStructure {
   /// may be infimaximal.
   [[nodiscard]] std::optional<ComplexHit> first_hit_minus_x(const Complex& complex, VertexId vertex) const;
 
-  /// The sface (global index) of that first item which bounds the region between it and the vertex;
-  /// kNone if there is no such item. The vertex must have nothing of its own in direction -x.
-  [[nodiscard]] std::uint32_t first_sface_minus_x(const Complex& complex, VertexId vertex) const;
+  /// The sface of that first item which bounds the region between it and the vertex;
+  /// none if there is no such item. The vertex must have nothing of its own in direction -x.
+  [[nodiscard]] SFaceId first_sface_minus_x(const Complex& complex, VertexId vertex) const;
 
   /// The volume that holds a point which item_at does not find on anything.
   [[nodiscard]] VolumeId volume_at(const Complex& complex, const PointRef& point) const;

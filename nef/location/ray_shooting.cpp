@@ -132,7 +132,7 @@ class RayShooter {
       }
     }
     const bool from_above = side_of_plane(complex_.planes, facet.plane, ray_.origin) > 0;
-    offer({ComplexHit::Kind::kFacet, halffacet_of(f, !from_above).index(), kNone}, *meeting);
+    offer({ComplexHit::Kind::kFacet, halffacet_of(f, !from_above).index(), SFaceId()}, *meeting);
   }
 
   // The ray runs in the plane of the facet.
@@ -195,12 +195,13 @@ class RayShooter {
   }
 
   // The sface of the hit's sphere map that holds the direction back to the origin.
-  [[nodiscard]] std::uint32_t entered_through(const ComplexHit& hit) const {
-    if (hit.kind == ComplexHit::Kind::kFacet) return kNone;
+  [[nodiscard]] SFaceId entered_through(const ComplexHit& hit) const {
+    if (hit.kind == ComplexHit::Kind::kFacet) return {};
     const Direction back = ray_.direction.negated();
     if (hit.kind == ComplexHit::Kind::kVertex) {
       const SphereLocation place = locate(complex_.planes, complex_.sphere_map(hit.vertex()), back);
-      return place.kind == SphereLocation::Kind::kSFace ? complex_.vertices[hit.vertex()].sfaces + place.index : kNone;
+      return place.kind == SphereLocation::Kind::kSFace ? complex_.vertices[hit.vertex()].sfaces + place.index
+                                                        : SFaceId();
     }
     const VertexId vertex = complex_.source(hit.halfedge());
     const SphereMapView map = complex_.sphere_map(vertex);
@@ -210,7 +211,7 @@ class RayShooter {
     const Direction axis = direction_of(complex_.planes, edge);
     const Wedge wedge =
         locate_wedge(complex_.planes, map, hit.halfedge() - record.svertices, Direction::cross(axis, back));
-    return wedge.on ? kNone : record.sfaces + map.shalfedges[wedge.shalfedge].sface;
+    return wedge.on ? SFaceId() : record.sfaces + map.shalfedges[wedge.shalfedge].sface;
   }
 
   const Complex& complex_;

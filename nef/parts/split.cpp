@@ -266,8 +266,7 @@ std::vector<Polyhedron> split_volumes(const Polyhedron& a) {
   IndexedVector<VolumeId, Piece> pieces(c.volume_count());
   pieces[kOuterVolume].outer = is_selected(c.volumes[kOuterVolume].mark) ? c.volumes[kOuterVolume].mark : LabelId{0};
   for (const VertexId v : c.vertex_ids()) {
-    const std::uint32_t end = c.vertices[v.next()].sfaces;
-    for (std::uint32_t sface = c.vertices[v].sfaces; sface < end; ++sface) {
+    for (const SFaceId sface : c.sfaces(v)) {
       std::vector<VertexId>& vertices = pieces[c.sface_volume(sface)].vertices;
       if (vertices.empty() || vertices.back() != v) vertices.push_back(v);
     }

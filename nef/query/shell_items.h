@@ -38,7 +38,7 @@ class ShellWalk {
     const auto meet_facet = [&](FacetId f) {
       if (first_time(facet_[f])) facet(f);
     };
-    for (const std::uint32_t sface : sfaces_.of(shell)) {
+    for (const SFaceId sface : sfaces_.of(shell)) {
       const VertexId v = c_.sface_vertex(sface);
       const VertexRecord& at = c_.vertices[v];
       if (first_time(vertex_[v])) vertex(v);

@@ -59,7 +59,8 @@ class VolumeLinker {
       const HalfedgeId t = c_.twin[s];
       const VertexId v = c_.source(s);
       const VertexId w = c_.source(t);
-      sfaces_.unite(c_.vertices[v].sfaces + c_.svertex(s).sface, c_.vertices[w].sfaces + c_.svertex(t).sface);
+      sfaces_.unite((c_.vertices[v].sfaces + c_.svertex(s).sface).index(),
+                    (c_.vertices[w].sfaces + c_.svertex(t).sface).index());
     }
   }
 
@@ -67,8 +68,8 @@ class VolumeLinker {
     for (const FacetId id : facets) {
       const Facet& facet = c_.facets[id];
       const std::span<const std::uint32_t> corners = c_.corners_of(facet);
-      std::uint32_t above = sets.find(c_.shalfedge_sface(corners[0]));
-      std::uint32_t below = sets.find(c_.shalfedge_sface(corners[0] ^ 1U));
+      std::uint32_t above = sets.find(c_.shalfedge_sface(corners[0]).index());
+      std::uint32_t below = sets.find(c_.shalfedge_sface(corners[0] ^ 1U).index());
       for (const std::uint32_t corner : corners.subspan(1)) {
         above = join(sets, above, c_.shalfedge_sface(corner));
         below = join(sets, below, c_.shalfedge_sface(corner ^ 1U));
@@ -76,15 +77,15 @@ class VolumeLinker {
       for (const VertexId v : c_.isolated_vertices_of(facet)) {
         const VertexRecord& record = c_.vertices[v];
         const std::uint32_t up = record.sloops + (c_.sloops[record.sloops].plane.flipped() ? 1U : 0U);
-        sets.unite(above, record.sfaces + c_.sloops[up].sface);
-        sets.unite(below, record.sfaces + c_.sloops[up == record.sloops ? up + 1 : up - 1].sface);
+        sets.unite(above, (record.sfaces + c_.sloops[up].sface).index());
+        sets.unite(below, (record.sfaces + c_.sloops[up == record.sloops ? up + 1 : up - 1].sface).index());
       }
     }
   }
 
   // Unites a set, given by its representative, with that of an sface; the new representative.
-  static std::uint32_t join(UnionFind& sets, std::uint32_t root, std::uint32_t sface) {
-    const std::uint32_t other = sets.find(sface);
+  static std::uint32_t join(UnionFind& sets, std::uint32_t root, SFaceId sface) {
+    const std::uint32_t other = sets.find(sface.index());
     if (other == root) return root;
     sets.unite(root, other);
     return std::min(root, other);
@@ -95,18 +96,20 @@ class VolumeLinker {
     sfaces_.flatten();
     parts_.reset(c_.sface_count());
     for (const VertexId v : c_.vertex_ids()) {
-      const std::uint32_t first = sfaces_.root(c_.vertices[v].sfaces);
-      for (std::uint32_t f = c_.vertices[v].sfaces + 1; f < c_.vertices[v.next()].sfaces; ++f) {
-        parts_.unite(first, sfaces_.root(f));
+      const IdRange<SFaceId> around = c_.sfaces(v);
+      const std::uint32_t first = root(around.front());
+      for (const SFaceId f : around) {
+        if (f != around.front()) parts_.unite(first, root(f));
       }
     }
     parts_.flatten();
   }
 
+  // The sface that stands for all those joined with this one.
+  [[nodiscard]] std::uint32_t root(SFaceId sface) const { return sfaces_.root(sface.index()); }
+
   // An sface that stands for the component of a vertex.
-  [[nodiscard]] std::uint32_t component(VertexId vertex) const {
-    return parts_.root(sfaces_.root(c_.vertices[vertex].sfaces));
-  }
+  [[nodiscard]] std::uint32_t component(VertexId vertex) const { return parts_.root(root(c_.vertices[vertex].sfaces)); }
 
   // Components in the order of their first vertices.
   struct Components {
@@ -156,14 +159,11 @@ class VolumeLinker {
       const SphereMapView map = c_.sphere_map(v);
       const std::uint32_t toward = sface_toward(minus_x, map);
       detail::require(toward != kNone, "nothing of a component lies before its lowest vertex", {{"vertex", v}});
-      const std::uint32_t inner = sfaces_.root(c_.vertices[v].sfaces + toward);
+      const std::uint32_t inner = root(c_.vertices[v].sfaces + toward);
       inner_.push_back(inner);
-      std::uint32_t seen = enclosed[i] ? sface_seen_from(v, places) : kNone;
-      if (seen == kNone) {
-        if (unbounded == kNone) unbounded = inner;
-        seen = unbounded;
-      }
-      volumes_.unite(inner, sfaces_.root(seen));
+      const SFaceId seen = enclosed[i] ? sface_seen_from(v, places) : SFaceId();
+      if (!seen.valid() && unbounded == kNone) unbounded = inner;
+      volumes_.unite(inner, root(seen.valid() ? seen : SFaceId{unbounded}));
     }
     detail::require(unbounded != kNone, "some shell bounds the outer volume", {});
     outer_ = volumes_.find(unbounded);
@@ -216,12 +216,12 @@ class VolumeLinker {
 
   // An sface of the volume that the ray from v in direction -x runs into, seen at its first hit; `places` are those of
   // all rays.
-  std::uint32_t sface_seen_from(VertexId v, const BoxTree& places) {
+  SFaceId sface_seen_from(VertexId v, const BoxTree& places) {
     if (!queries_) queries_ = std::make_unique<QueryStructure>(c_, places);
     const std::optional<ComplexHit> hit = queries_->first_hit_minus_x(c_, v);
-    if (!hit) return kNone;
+    if (!hit) return {};
     if (hit->kind != ComplexHit::Kind::kFacet) {
-      detail::require(hit->sface != kNone, "a ray comes out of a volume", {{"vertex", v}});
+      detail::require(hit->sface.valid(), "a ray comes out of a volume", {{"vertex", v}});
       return hit->sface;
     }
     const std::uint32_t corner = c_.corners_of(facet_of(hit->halffacet()))[0];
@@ -259,9 +259,9 @@ class VolumeLinker {
       Volume& volume = c_.volumes[number];
       if (volume.shell_count++ == 0) {
         volume.first_shell = c_.shells.end_id();
-        volume.mark = c_.sface_mark(root);
+        volume.mark = c_.sface_mark(SFaceId{root});
       }
-      detail::require_one_mark(volume.mark == c_.sface_mark(root), "a volume has one mark", {{"sface", root}});
+      detail::require_one_mark(volume.mark == c_.sface_mark(SFaceId{root}), "a volume has one mark", {{"sface", root}});
       shell_of[root] = c_.shells.push_back({number});
     }
     fill_shells(shell_of);
@@ -271,7 +271,7 @@ class VolumeLinker {
     constexpr std::size_t kTogether = 16384;
     c_.sface_shell.resize(c_.sface_count());
     parallel_for_ranges(c_.sface_count(), kTogether, threads_, [&](std::size_t first, std::size_t last) {
-      for (auto f = static_cast<std::uint32_t>(first); f < last; ++f) c_.sface_shell[f] = shell_of[sfaces_.root(f)];
+      for (const SFaceId f : IdRange(SFaceId{first}, SFaceId{last})) c_.sface_shell[f] = shell_of[root(f)];
     });
     const auto name_volumes = [this](std::size_t first, std::size_t last) {
       for (std::size_t f = first; f < last; ++f) {

@@ -45,7 +45,7 @@ void check_array_sizes(const Complex& c) {
               c.sface_shell.size() == c.sface_count(),
           "columns of synthesis are parallel to the sphere items", {});
   const VertexRecord& first = c.vertices.front();
-  require(first.svertices.index() + first.shalfedges + first.sloops + first.sfaces + first.other_planes == 0,
+  require(first.svertices.index() + first.shalfedges + first.sloops + first.sfaces.index() + first.other_planes == 0,
           "the first vertex begins at zero", {});
   for (const VertexId v : c.vertex_ids()) {
     const VertexRecord& a = c.vertices[v];
@@ -157,8 +157,11 @@ void check_marks(const Complex& c) {
   const char* const name = "marks are below the number of labels";
   for (const VertexId v : c.vertex_ids()) {
     require(known(c.mark(v)), name, {{"vertex", v}});
-    std::uint32_t sface = c.vertices[v].sfaces;
-    for (const SFace& f : c.sphere_map(v).sfaces) require(known(f.mark), name, {{"sface", sface++}});
+    SFaceId sface = c.vertices[v].sfaces;
+    for (const SFace& f : c.sphere_map(v).sfaces) {
+      require(known(f.mark), name, {{"sface", sface}});
+      ++sface;
+    }
   }
   for (const HalfedgeId h : c.halfedge_ids()) require(known(c.svertex(h).mark), name, {{"halfedge", h}});
   for (std::size_t e = 0; e < c.shalfedge_count(); ++e) require(known(c.shalfedge(e).mark), name, {{"shalfedge", e}});

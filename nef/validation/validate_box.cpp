@@ -36,7 +36,7 @@ void check_box(const Complex& c) {
   for (const HalfedgeId h : c.halfedge_ids()) {
     const SVertex& s = c.svertex(h);
     if (s.out != kNone) continue;
-    const std::uint32_t sface = c.vertices[c.source(h)].sfaces + s.sface;
+    const SFaceId sface = c.vertices[c.source(h)].sfaces + s.sface;
     require(c.sface_volume(sface) != kOuterVolume, "nothing lies beyond an infimaximal box", {{"halfedge", h}});
   }
 }

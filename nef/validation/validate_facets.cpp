@@ -152,7 +152,7 @@ void check_cycle_nesting(const Complex& c) {
 }  // namespace
 
 void check_facets(const Complex& complex) {
-  for (std::size_t s = 0; s < complex.sface_count(); ++s) {
+  for (const SFaceId s : complex.sface_ids()) {
     require(complex.shells.contains(complex.sface_shell[s]), "sfaces have a shell", {{"sface", s}});
   }
   for (const ShellId s : complex.shells.ids()) {

@@ -21,7 +21,7 @@ namespace {
 void check_partition(const Complex& c) {
   std::vector<bool> used(c.shells.size(), false);
   for (const VertexId v : c.vertex_ids()) {
-    std::uint32_t sface = c.vertices[v].sfaces;
+    SFaceId sface = c.vertices[v].sfaces;
     for (const SFace& face : c.sphere_map(v).sfaces) {
       const ShellId s = c.sface_shell[sface];
       used[s.index()] = true;
@@ -51,12 +51,12 @@ void check_partition(const Complex& c) {
 // Components of sfaces by way of edges without facets and of halffacets.
 void check_connection(const Complex& c) {
   UnionFind sfaces(c.sface_count());
-  IndexedVector<HalffacetId, std::uint32_t> of_halffacet(2 * c.facets.size(), kNone);
-  const auto meet = [&](HalffacetId halffacet, std::uint32_t sface) {
-    if (of_halffacet[halffacet] == kNone) {
+  IndexedVector<HalffacetId, SFaceId> of_halffacet(2 * c.facets.size());
+  const auto meet = [&](HalffacetId halffacet, SFaceId sface) {
+    if (!of_halffacet[halffacet].valid()) {
       of_halffacet[halffacet] = sface;
     } else {
-      sfaces.unite(of_halffacet[halffacet], sface);
+      sfaces.unite(of_halffacet[halffacet].index(), sface.index());
     }
   };
   for (std::uint32_t e = 0; e < c.shalfedge_count(); ++e) meet(c.shalfedge_facet[e], c.shalfedge_sface(e));
@@ -70,24 +70,23 @@ void check_connection(const Complex& c) {
     require((c.svertex(h).out == kNone) == (c.svertex(t).out == kNone), "both ends of an edge have facets, or neither",
             {{"halfedge", h}});
     if (c.svertex(h).out != kNone) continue;
-    sfaces.unite(c.vertices[c.source(h)].sfaces + c.svertex(h).sface,
-                 c.vertices[c.source(t)].sfaces + c.svertex(t).sface);
+    sfaces.unite(c.sfaces(c.source(h))[c.svertex(h).sface].index(), c.sfaces(c.source(t))[c.svertex(t).sface].index());
   }
-  std::vector<ShellId> shell_of(c.sface_count());
-  IndexedVector<ShellId, std::uint32_t> root_of(c.shells.size(), kNone);
-  for (std::uint32_t s = 0; s < c.sface_count(); ++s) {
-    const std::uint32_t root = sfaces.find(s);
+  IndexedVector<SFaceId, ShellId> shell_of(c.sface_count());
+  IndexedVector<ShellId, SFaceId> root_of(c.shells.size());
+  for (const SFaceId s : c.sface_ids()) {
+    const SFaceId root{sfaces.find(s.index())};
     const ShellId shell = c.sface_shell[s];
     if (!shell_of[root].valid()) shell_of[root] = shell;
-    if (root_of[shell] == kNone) root_of[shell] = root;
+    if (!root_of[shell].valid()) root_of[shell] = root;
     require(shell_of[root] == shell, "sfaces that are connected are in one shell", {{"sface", root}, {"sface", s}});
     require(root_of[shell] == root, "a shell is connected", {{"shell", shell}, {"sface", s}});
   }
 }
 
-VertexId lowest_vertex(const Complex& c, std::span<const std::uint32_t> sfaces) {
+VertexId lowest_vertex(const Complex& c, std::span<const SFaceId> sfaces) {
   VertexId lowest;
-  for (const std::uint32_t sface : sfaces) {
+  for (const SFaceId sface : sfaces) {
     const VertexId v = c.sface_vertex(sface);
     if (!lowest.valid() || compare_lexicographic(c.points, point_of(v), point_of(lowest)) < 0) lowest = v;
   }
@@ -198,9 +197,9 @@ FirstFacet shoot(const Complex& c, const Targets& targets, VertexId origin, cons
 }
 
 // The volume that holds the surroundings of a shell.
-VolumeId volume_around(const Complex& c, const Targets& targets, std::uint32_t sface) {
+VolumeId volume_around(const Complex& c, const Targets& targets, SFaceId sface) {
   const VertexId v = c.sface_vertex(sface);
-  const std::uint32_t local = sface - c.vertices[v].sfaces;
+  const std::uint32_t local = c.sfaces(v).position(sface);
   const SphereMapView map = c.sphere_map(v);
   const Inward inward = inward_of(c.planes, map, map.sfaces[local]);
   for (unsigned attempt = 1; attempt < 256; ++attempt) {

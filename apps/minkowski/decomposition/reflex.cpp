@@ -65,7 +65,7 @@ std::vector<ReflexEdge> reflex_edges(const Complex& complex, std::size_t axis) {
     edge.halfedge = h;
     edge.vertical = oriented_sign(complex, sv.p, axis) == 0 && oriented_sign(complex, sv.q, axis) == 0;
     if (sv.out == kNone) {
-      const std::uint32_t sface = vertex.sfaces + sv.sface;
+      const SFaceId sface = vertex.sfaces + sv.sface;
       if (!selected(map.sfaces[sv.sface].mark)) continue;
       edge.volume = complex.sface_volume(sface);
       edge.inside = {true, true};

@@ -61,7 +61,7 @@ class Connection {
     for (std::uint32_t l = c_.vertices[v].sloops; l < c_.vertices[v.next()].sloops; ++l) {
       visit(of_facet(facet_of(c_.sloop_facet[l])));
     }
-    for (std::uint32_t f = c_.vertices[v].sfaces; f < c_.vertices[v.next()].sfaces; ++f) {
+    for (const SFaceId f : c_.sfaces(v)) {
       visit(of_volume(c_.sface_volume(f)));
     }
   }

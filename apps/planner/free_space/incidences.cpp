@@ -52,7 +52,7 @@ class Surroundings {
   [[nodiscard]] CellId facet(std::uint32_t shalfedge) const {
     return cells_.facet(facet_of(c_.shalfedge_facet[shalfedge]));
   }
-  [[nodiscard]] CellId volume(std::uint32_t sface) const { return cells_.volume(c_.sface_volume(sface)); }
+  [[nodiscard]] CellId volume(SFaceId sface) const { return cells_.volume(c_.sface_volume(sface)); }
 
   const Complex& c_;
   const CellNumbering& cells_;

@@ -102,7 +102,7 @@ std::optional<Polyhedron> filled(const Polyhedron& surface) {
   if (!odd || std::find(odd->begin(), odd->end(), true) == odd->end()) return std::nullopt;
   Complex c = surface.complex();
   rewrite_sphere_maps(c, [&c, &odd](VertexId v, SphereMapBuffer& map) {
-    const std::uint32_t first = c.vertices[v].sfaces;
+    const SFaceId first = c.vertices[v].sfaces;
     for (std::uint32_t f = 0; f < map.sfaces.size(); ++f) {
       map.sfaces[f].mark = (*odd)[c.sface_volume(first + f)] ? 1 : 0;
     }

@@ -93,7 +93,7 @@ class Nef3Writer {
     begin(v.index());
     range(record.svertices.index(), after.svertices.index());
     range(record.shalfedges, after.shalfedges);
-    range(record.sfaces, after.sfaces);
+    range(record.sfaces.index(), after.sfaces.index());
     number(record.sloops == after.sloops ? -2 : static_cast<std::int64_t>(record.sloops));
     text_ += " |";
     for (std::size_t i = 0; i < 4; ++i) integer(c_.points.coordinate(point_of(v), i));
@@ -110,7 +110,7 @@ class Nef3Writer {
     text_ += ',';
     if (s.out == kNone) {
       number(1);
-      number(c_.vertices[v].sfaces + s.sface);
+      number((c_.vertices[v].sfaces + s.sface).index());
     } else {
       number(0);
       number(c_.vertices[v].shalfedges + s.out);
@@ -155,7 +155,7 @@ class Nef3Writer {
   void volume(VolumeId v) {
     const Volume& volume = c_.volumes[v];
     begin(v.index());
-    for (const ShellId s : volume.shells()) number(first_sface_[s.index()]);
+    for (const ShellId s : volume.shells()) number(first_sface_[s].index());
     end(volume.mark);
   }
 
@@ -171,7 +171,7 @@ class Nef3Writer {
     item(record.shalfedges + s.prev);
     item(record.shalfedges + s.next);
     item((record.svertices + s.source).index());
-    item(record.sfaces + s.sface);
+    item((record.sfaces + s.sface).index());
     item(prev_[e]);
     item(next_[e]);
     number(opposite(c_.shalfedge_facet[e]).index());
@@ -185,7 +185,7 @@ class Nef3Writer {
     begin(l);
     number(l ^ 1U);
     text_ += ',';
-    number(c_.vertices[loop_owner(l)].sfaces + loop.sface);
+    number((c_.vertices[loop_owner(l)].sfaces + loop.sface).index());
     text_ += ',';
     number(opposite(c_.sloop_facet[l]).index());
     plane(loop.plane, true);
@@ -203,7 +203,7 @@ class Nef3Writer {
     const VertexRecord& record = c_.vertices[v];
     for (std::uint32_t i = 0; i < map.sfaces.size(); ++i) {
       const SFace& face = map.sfaces[i];
-      begin(record.sfaces + i);
+      begin((record.sfaces + i).index());
       number(v.index());
       const auto list = [&](SFaceEntry::Kind kind, std::uint32_t first) {
         text_ += ',';
@@ -225,7 +225,7 @@ class Nef3Writer {
   std::string text_;
   std::vector<std::uint32_t> next_;  // along a facet's boundary, as CGAL has it
   std::vector<std::uint32_t> prev_;
-  std::vector<std::uint32_t> first_sface_;  // of each shell
+  IndexedVector<ShellId, SFaceId> first_sface_;
   VertexId loop_vertex_{0};
   bool other_marks_ = false;
 };

@@ -244,7 +244,7 @@ class BinaryReader {
     }
     const VertexRecord& last = c_.vertices.back();
     demand(last.svertices.index() == svertices_ && last.shalfedges == shalfedges_ && last.sloops == sloops_ &&
-               last.sfaces == sfaces_ && total == std::uint64_t{svertices_} + shalfedges_ + sloops_ + sfaces_,
+               last.sfaces.index() == sfaces_ && total == std::uint64_t{svertices_} + shalfedges_ + sloops_ + sfaces_,
            "its vertices have not the items that it holds");
     name_svertex_owners(c_);
     name_pair_owners(c_);
@@ -303,7 +303,7 @@ class BinaryReader {
       for (const HalfedgeId h : c_.halfedges(v)) take_svertex(columns, h.index());
       for (std::uint32_t i = record.shalfedges; i < end.shalfedges; ++i) take_shalfedge(columns, i);
       for (std::uint32_t i = record.sloops; i < end.sloops; ++i) take_sloop(columns, i);
-      for (std::uint32_t f = record.sfaces; f < end.sfaces; ++f) take_sface(columns, f, entries);
+      for (const SFaceId f : c_.sfaces(v)) take_sface(columns, f.index(), entries);
       check_sphere_map();
       record.pattern = interner.intern(c_.patterns, map_.view(), c_.shalfedge_plane.pairs(), c_.other_planes);
       end.other_planes = static_cast<std::uint32_t>(c_.other_planes.size());
@@ -350,8 +350,8 @@ class BinaryReader {
     key_ += columns.source.bytes(begin.shalfedges, 2 * pairs);
     key_ += columns.next.bytes(begin.shalfedges, 2 * pairs);
     key_ += columns.sface.bytes(begin.shalfedges, 2 * pairs);
-    key_ += columns.entry_count.bytes(begin.sfaces, sfaces);
-    key_ += columns.sface_mark.bytes(begin.sfaces, sfaces);
+    key_ += columns.entry_count.bytes(begin.sfaces.index(), sfaces);
+    key_ += columns.sface_mark.bytes(begin.sfaces.index(), sfaces);
     const std::uint64_t own = entries_of(columns, v);
     if (own > entries_ - entries) return false;
     key_ += columns.kind.bytes(entries, own);
@@ -362,7 +362,7 @@ class BinaryReader {
   template <typename W>
   std::uint64_t entries_of(const ItemColumns<W>& columns, VertexId v) const {
     std::uint64_t sum = 0;
-    for (std::uint32_t f = c_.vertices[v].sfaces; f < c_.vertices[v.next()].sfaces; ++f) sum += columns.entry_count[f];
+    for (const SFaceId f : c_.sfaces(v)) sum += columns.entry_count[f.index()];
     return sum;
   }
 
@@ -600,14 +600,15 @@ class BinaryReader {
   void fill_shells(const Column<std::uint32_t>& shell_of) {
     c_.sface_shell.resize(sfaces_);
     std::vector<bool> used(shells_, false);
-    std::uint32_t f = 0;
+    SFaceId f{0};
     for (const VertexId v : c_.vertex_ids()) {
       for (const SFace& face : c_.sphere_map(v).sfaces) {
-        const ShellId s{shell_of[f]};
+        const ShellId s{shell_of[f.index()]};
         demand(c_.shells.contains(s), "a shell does not exist");
         demand(c_.volumes[c_.shells[s].volume].mark == face.mark, "a volume has two marks");
         used[s.index()] = true;
-        c_.sface_shell[f++] = s;
+        c_.sface_shell[f] = s;
+        ++f;
       }
     }
     demand(std::find(used.begin(), used.end(), false) == used.end(), "a shell is empty");

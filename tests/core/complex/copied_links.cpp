@@ -45,7 +45,7 @@ std::string difference_to_synthesis(const Complex& c) {
   if (!same_bytes(c.isolated_vertices, again.isolated_vertices)) return "isolated_vertices";
   if (!same_bytes(c.shalfedge_facet.pairs(), again.shalfedge_facet.pairs())) return "shalfedge_facet";
   if (!same_bytes(c.sloop_facet, again.sloop_facet)) return "sloop_facet";
-  if (!same_bytes(c.sface_shell, again.sface_shell)) return "sface_shell";
+  if (!same_bytes(c.sface_shell.values(), again.sface_shell.values())) return "sface_shell";
   if (c.shells.size() != again.shells.size() || c.volumes.size() != again.volumes.size()) return "volumes";
   for (const VolumeId i : c.volumes.ids()) {
     if (c.volumes[i].mark != again.volumes[i].mark || c.volumes[i].shell_count != again.volumes[i].shell_count) {

@@ -142,8 +142,8 @@ TEST_CASE("A structure for some rays finds on them what the one for all finds") 
       // Of an edge either half may be told, and what is seen from there.
       const bool edge = found->kind == ComplexHit::Kind::kEdge;
       CHECK((found->index == expected->index || (edge && found->halfedge() == c.twin[expected->halfedge()])));
-      if (found->sface != kNone) CHECK(c.sface_shell[found->sface] == c.sface_shell[expected->sface]);
-      CHECK((found->sface == kNone) == (expected->sface == kNone));
+      if (found->sface.valid()) CHECK(c.sface_shell[found->sface] == c.sface_shell[expected->sface]);
+      CHECK(found->sface.valid() == expected->sface.valid());
     }
   }
 }

@@ -179,7 +179,7 @@ struct Breaker {
     column("owner of a pair of shalfedges", c.pair_owner, c.vertex_count());
     column("facet of a shalfedge", c.shalfedge_facet.pairs(), 2 * c.facets.size());
     column("facet of a sloop", c.sloop_facet, 2 * c.facets.size());
-    column("shell of an sface", c.sface_shell, c.shells.size());
+    column("shell of an sface", c.sface_shell.values(), c.shells.size());
     for (Facet& f : c.facets) {
       plane("plane of a facet", f.plane);
       mark("mark of a facet", f.mark);
@@ -264,7 +264,7 @@ TEST_CASE("the validator names the broken invariant and the guilty items") {
           Facet& facet = c.facets[FacetId{2}];
           facet.plane = facet.plane.opposite();
         }).find("a facet has an unflipped plane, facet 2") == 0);
-  CHECK(broken([](Complex& c) { c.sface_shell[0] = ShellId(); }).find("sfaces have a shell") == 0);
+  CHECK(broken([](Complex& c) { c.sface_shell[SFaceId{0}] = ShellId(); }).find("sfaces have a shell") == 0);
   CHECK_FALSE(broken([](Complex& c) { ++c.shells[ShellId{1}].volume; }).empty());
 }
 

@@ -136,8 +136,8 @@ class MapItems {
   };
 
   MapItems() = default;
-  MapItems(std::span<const Item> items, const LocalPlanes& planes = {}) : items_(items), planes_(planes) {}
-  MapItems(const std::vector<Item>& items) : items_(items) {}
+  MapItems(std::span<const Item> items, const LocalPlanes& planes = {}) : items_(items), planes_(planes) {}  // NOLINT
+  MapItems(const std::vector<Item>& items) : items_(items) {}  // NOLINT: implicit, as std::span is
 
   [[nodiscard]] std::size_t size() const { return items_.size(); }
   [[nodiscard]] bool empty() const { return items_.empty(); }

@@ -12,6 +12,7 @@
 #include "nef/complex/owners.h"
 #include "nef/complex/patterns/pattern_interner.h"
 #include "nef/io/file_bytes.h"
+#include "nef/io/native/complete_sphere_map.h"
 #include "nef/io/native/native_binary.h"
 #include "nef/synthesis/volume_linking.h"
 #include "nef/validation/validate.h"
@@ -304,7 +305,7 @@ class BinaryReader {
       for (std::uint32_t i = record.shalfedges; i < end.shalfedges; ++i) take_shalfedge(columns, i);
       for (std::uint32_t i = record.sloops; i < end.sloops; ++i) take_sloop(columns, i);
       for (const SFaceId f : c_.sfaces(v)) take_sface(columns, f.index(), entries);
-      check_sphere_map();
+      if (const char* fault = complete_sphere_map(map_)) corrupt(fault);
       record.pattern = interner.intern(c_.patterns, map_.view(), c_.shalfedge_plane.pairs(), c_.other_planes);
       end.other_planes = static_cast<std::uint32_t>(c_.other_planes.size());
       c_.sloops.insert(c_.sloops.end(), map_.sloops.begin(), map_.sloops.end());
@@ -414,54 +415,6 @@ class BinaryReader {
     for (const std::uint64_t last = entries + count; entries < last; ++entries) {
       demand(columns.kind[entries] <= 2, "an entry is of no kind");
       map_.entries.push_back({static_cast<SFaceEntry::Kind>(columns.kind[entries]), columns.index[entries]});
-    }
-  }
-
-  void check_sphere_map() {
-    complete_shalfedges();
-    const SphereMapBuffer& map = map_;
-    for (std::uint32_t i = 0; i < map.svertices.size(); ++i) {
-      const SVertex& s = map.svertices[i];
-      demand(s.out == kNone ? s.sface < map.sfaces.size()
-                            : s.out < map.shalfedges.size() && map.shalfedges[s.out].source == i,
-             "an svertex does not know its place");
-    }
-    for (const SLoop& l : map.sloops) demand(l.sface < map.sfaces.size(), "an sface does not exist");
-    demand(map.sloops.size() <= 2, "a vertex has more than one sloop");
-    for (std::uint32_t f = 0; f < map.sfaces.size(); ++f) check_entries(f);
-  }
-
-  // Finds prev. Then next and prev are inverse to each other, and turns around svertices come back.
-  void complete_shalfedges() {
-    std::vector<SHalfedge>& items = map_.shalfedges;
-    for (std::uint32_t e = 0; e < items.size(); ++e) {
-      demand(items[e].source < map_.svertices.size() && items[e].next < items.size() &&
-                 items[e].sface < map_.sfaces.size(),
-             "an item of a shalfedge does not exist");
-      SHalfedge& next = items[items[e].next];
-      demand(next.prev == kNone && next.sface == items[e].sface && next.source == items[e ^ 1U].source,
-             "the boundary of an sface is broken");
-      next.prev = e;
-    }
-  }
-
-  void check_entries(std::uint32_t f) const {
-    const SphereMapBuffer& map = map_;
-    for (const SFaceEntry& entry : std::span(map.entries).subspan(map.sfaces[f].entries, map.sfaces[f].entry_count)) {
-      bool right = false;
-      switch (entry.kind) {
-        case SFaceEntry::Kind::kCycle:
-          right = entry.index < map.shalfedges.size() && map.shalfedges[entry.index].sface == f;
-          break;
-        case SFaceEntry::Kind::kIsolatedVertex:
-          right = entry.index < map.svertices.size() && map.svertices[entry.index].out == kNone &&
-                  map.svertices[entry.index].sface == f;
-          break;
-        case SFaceEntry::Kind::kLoop:
-          right = entry.index < map.sloops.size() && map.sloops[entry.index].sface == f;
-          break;
-      }
-      demand(right, "an entry belongs to another sface");
     }
   }
 

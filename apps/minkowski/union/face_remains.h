@@ -3,6 +3,7 @@
 // What other cells leave of a face: a filter that says where on a face the boundary of a union may be.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -28,9 +29,18 @@ class FaceRemains {
 
  private:
   static constexpr std::size_t kCorners = 24;
+  // Copies are made of the corners that there are, which mostly are a few of the room.
   struct Polygon {
     std::array<Double3, kCorners> v;
     std::size_t size = 0;
+    Polygon() = default;
+    Polygon(const Polygon& other) : size(other.size) { std::copy_n(other.v.begin(), size, v.begin()); }
+    Polygon& operator=(const Polygon& other) {
+      size = other.size;
+      std::copy_n(other.v.begin(), size, v.begin());
+      return *this;
+    }
+    ~Polygon() = default;
     [[nodiscard]] Double3 centre() const;
   };
   // Whether a cell whose box holds a point has it inside.

@@ -18,13 +18,13 @@
 #include "nef/base/threads/parallel.h"
 #include "nef/complex/facet_plane.h"
 #include "nef/complex/local_pyramid.h"
-#include "nef/geometry/box_tree.h"
 #include "nef/location/query_structure.h"
 #include "nef/operation/canonical_order.h"
 #include "nef/sphere_map/overlay.h"
 #include "nef/synthesis/complex_builder.h"
 #include "nef/tiles/seams/cut_items.h"
 #include "nef/tiles/seams/point_numbers.h"
+#include "nef/tiles/seams/wall_crossings.h"
 
 namespace nef {
 namespace {
@@ -144,16 +144,6 @@ class SeamGlue {
     std::uint32_t leaf = 0;
     std::uint32_t seam = 0;
   };
-  // An edge of a leaf in the wall of a spot.
-  struct WallEdge {
-    std::array<std::uint32_t, 2> points;  // ascending
-    bool above = false;                   // its leaf lies above the wall
-    std::uint32_t leaf = 0;
-    HalfedgeId halfedge{0};
-    [[nodiscard]] auto key() const { return std::pair(points, above); }
-  };
-  // Where three planes meet.
-  using Meeting = std::array<PlaneId, 3>;
 
   static std::size_t count(const Leaf& leaf) { return leaf.set.complex().vertex_count(); }
 
@@ -256,13 +246,16 @@ class SeamGlue {
       }
       leaf.edges = {};
     }
-    std::vector<std::vector<Meeting>> crossings(spots_.size());
+    std::vector<std::vector<PlaneTriple>> crossings(spots_.size());
     parallel_for(spots_.size(), threads_, [&](std::size_t spot) {
-      if (spots_[spot].plane.valid()) cross_edges(spots_[spot].plane, edges[spot], crossings[spot]);
+      const PlaneId cut = spots_[spot].plane;
+      if (!cut.valid()) return;
+      crossings[spot] = wall_crossings(planes_, cut, points_.table(), std::move(edges[spot]),
+                                       [&](const WallEdge& edge) { return other_plane(cut, edge); });
     });
     crossing_.assign(points_.table().size(), false);
-    for (const std::vector<Meeting>& some : crossings) {
-      for (const Meeting& planes : some) {
+    for (const std::vector<PlaneTriple>& some : crossings) {
+      for (const PlaneTriple& planes : some) {
         PointTable crossing;
         const auto point = crossing.push_intersection(planes_, planes[0], planes[1], planes[2]);
         NEF_ASSERT(point.has_value());
@@ -275,35 +268,6 @@ class SeamGlue {
     }
   }
 
-  // An edge that both sides have is crossed by none of either side.
-  void cross_edges(PlaneId plane, std::vector<WallEdge>& edges, std::vector<Meeting>& crossings) const {
-    std::sort(edges.begin(), edges.end(), [](const WallEdge& a, const WallEdge& b) { return a.key() < b.key(); });
-    std::array<std::vector<WallEdge>, 2> alone;
-    for (std::size_t i = 0; i < edges.size();) {
-      std::size_t end = i;
-      bool matched = false;
-      while (end < edges.size() && edges[end].points == edges[i].points) {
-        matched = matched || edges[end].above != edges[i].above;
-        ++end;
-      }
-      if (!matched) alone[edges[i].above ? 1 : 0].push_back(edges[i]);
-      i = end;
-    }
-    if (alone[0].empty() || alone[1].empty()) return;
-    std::vector<Box> boxes;
-    for (const WallEdge& edge : alone[1]) boxes.push_back(box_of(edge));
-    const BoxTree tree(boxes);
-    for (const WallEdge& edge : alone[0]) {
-      tree.for_each_overlap(box_of(edge), [&](std::uint32_t i) { cross(plane, edge, alone[1][i], crossings); });
-    }
-  }
-
-  [[nodiscard]] Box box_of(const WallEdge& edge) const {
-    Box box;
-    for (const std::uint32_t point : edge.points) box.add_rounded(points_.table().approximate(PointId{point}));
-    return box;
-  }
-
   // The plane other than that of the wall that holds the edge.
   [[nodiscard]] PlaneId other_plane(PlaneId wall, const WallEdge& edge) const {
     const Leaf& leaf = leaves_[edge.leaf];
@@ -311,18 +275,6 @@ class SeamGlue {
     svertex.p = renamed(leaf, svertex.p);
     svertex.q = renamed(leaf, svertex.q);
     return edge_side(planes_, wall, svertex).other;
-  }
-
-  void cross(PlaneId wall, const WallEdge& a, const WallEdge& b, std::vector<Meeting>& crossings) const {
-    const auto apart = [this](PlaneId plane, const WallEdge& edge) {
-      return side_of_plane(planes_, plane, points_.table(), PointId{edge.points[0]}) *
-                 side_of_plane(planes_, plane, points_.table(), PointId{edge.points[1]}) <
-             0;
-    };
-    const PlaneId of_a = other_plane(wall, a);
-    if (!apart(of_a, b)) return;
-    const PlaneId of_b = other_plane(wall, b);
-    if (apart(of_b, a)) crossings.push_back({wall, of_a, of_b});
   }
 
   static PlaneId renamed(const Leaf& leaf, PlaneId plane) {

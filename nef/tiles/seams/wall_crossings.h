@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "nef/complex/ids.h"
+#include "nef/geometry/plane_table.h"
+#include "nef/geometry/point_table.h"
+
+namespace nef {
+
+/// An edge of a tile in the plane of a cut.
+struct WallEdge {
+  std::array<std::uint32_t, 2> points;  ///< its ends, ascending numbers
+  bool above = false;                   ///< its tile lies above the cut
+  std::uint32_t leaf = 0;
+  HalfedgeId halfedge{0};
+
+  [[nodiscard]] auto key() const { return std::pair(points, above); }
+};
+
+/// The planes that meet in a point.
+using PlaneTriple = std::array<PlaneId, 3>;
+
+/// Where edges of tiles above a cut cross edges of tiles below it, in the interior of both. Edges that both sides have
+/// are left out: nothing of either side crosses them. `other_plane` gives a plane that holds an edge, other than that
+/// of the cut. O(n log n) expected for n edges that cross few others.
+std::vector<PlaneTriple> wall_crossings(const PlaneTable& planes, PlaneId cut, const PointTable& points,
+                                        std::vector<WallEdge>&& edges,
+                                        const std::function<PlaneId(const WallEdge&)>& other_plane);
+
+}  // namespace nef

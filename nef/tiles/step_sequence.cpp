@@ -22,7 +22,7 @@ constexpr double kMargin = 1.5;       // what the prediction must exceed the cos
 constexpr std::size_t kSmallest = 2;  // tiles
 // The first steps in tiles, which cut, cost more than plain ones: three in large sets, some more in small ones. By then
 // so many steps have been made that this is less than a tenth of them.
-constexpr double kEvidence = 24;            // steps
+constexpr double kEvidence = 30;            // steps
 constexpr double kSmallSetSteps = 120'000;  // more, divided by the vertices
 constexpr std::size_t kLook = 3;            // every how many steps a step is looked at, while the set is whole
 constexpr std::size_t kMemory = 8;          // steps looked at that an average is taken over

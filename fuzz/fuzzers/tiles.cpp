@@ -245,12 +245,14 @@ void check_rays(const Case& the_case, const Fold& fold) {
   }
 }
 
-// What is made region by region: the union of primitives, and the solid of a mesh.
+// What is made of many pieces: the union of primitives, at once and region by region, and the solid of a mesh.
 void check_pieces(const Case& the_case, const nef::Tiling& tiling) {
   Choices& choices = the_case.choices();
   std::vector<Primitive> primitives;
   std::vector<Polyhedron> sets;
-  for (std::uint32_t i = 1 + choices.below(12); i > 0; --i) {
+  // Sometimes so many that unite_all has tasks and rounds (nef/boolean/union_order.h).
+  const std::uint32_t count = choices.one_in(10) ? 130 + choices.below(60) : 1 + choices.below(12);
+  for (std::uint32_t i = 0; i < count; ++i) {
     primitives.push_back(random_primitive(choices));
     sets.push_back(primitives.back().make());
     the_case.tell("piece " + primitives.back().text());
@@ -269,7 +271,14 @@ void check_pieces(const Case& the_case, const nef::Tiling& tiling) {
     Case::require(contains(united, p) == wanted, "membership in a union by regions: at " + to_string(p[0]) + "," +
                                                      to_string(p[1]) + "," + to_string(p[2]));
   }
-  const Polyhedron solid = regularize(unite_all(sets));
+  const Polyhedron whole = the_case.valid(unite_all(sets), "the union of all");
+  const std::string bytes = native_binary(in_canonical_order(whole));
+  Case::require(native_binary(united.polyhedron()) == bytes, "bytes: of a union by regions");
+  Case::require(native_binary(unite_all(sets, 2)) == native_binary(whole), "bytes: of a union on two threads");
+  for (std::size_t i = sets.size(); i > 1; --i)
+    std::swap(sets[i - 1], sets[choices.below(static_cast<std::uint32_t>(i))]);
+  Case::require(native_binary(in_canonical_order(unite_all(sets))) == bytes, "bytes: of a union in another order");
+  const Polyhedron solid = regularize(whole);
   if (!solid.is_bounded() || solid.is_empty()) return;
   const TiledPolyhedron pieces = tiles_from_mesh(to_mesh(solid).mesh, {}, tiling, nullptr, 1 + choices.below(12));
   Case::require(native_binary(pieces.polyhedron()) == native_binary(in_canonical_order(solid)),

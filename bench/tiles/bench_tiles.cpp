@@ -8,6 +8,8 @@
 // meets a few others; pairs smallest first, unite_all, and region by region. With --stream the latter alone, each piece
 // made when it is needed; with --no-tiles all but that, and with --only unite_all alone, both once. CPU seconds of one
 // thread. What is compared runs in turn, in one process.
+#include <malloc.h>
+
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -33,6 +35,12 @@ double seconds_of(const std::function<void()>& body) {
   const Stopwatch watch;
   body();
   return watch.seconds();
+}
+
+// Bytes that malloc has given and not got back.
+std::size_t allocated() {
+  const struct mallinfo2 info = mallinfo2();
+  return info.uordblks + info.hblkhd;
 }
 
 // Sphere and centres of cubes on it: integers, the same on every machine.
@@ -70,27 +78,34 @@ void cubes(int level, const Tiling& tiling) {
   CubesOffSphere source(level);
   Polyhedron plain;
   const double build = seconds_of([&] { plain = from_mesh(source.sphere()); });
-  TiledPolyhedron in_tiles;
-  const double cutting = seconds_of([&] { in_tiles = TiledPolyhedron(plain, tiling); });
-  std::vector<double> steps;
   std::vector<double> plain_steps;
-  TiledPolyhedron cut = in_tiles;
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < 2; ++i) {
     const Polyhedron cube = source.next(0.0005);
-    steps.push_back(seconds_of([&] { cut = subtract(cut, cube); }));
-    if (i % 150 == 0) plain_steps.push_back(seconds_of([&] { static_cast<void>(subtract(plain, cube)); }));
+    plain_steps.push_back(seconds_of([&] { static_cast<void>(subtract(plain, cube)); }));
   }
+  TiledPolyhedron in_tiles;
+  const std::size_t before_cutting = allocated();
+  const double cutting = seconds_of([&] { in_tiles = TiledPolyhedron(plain, tiling); });
+  const double one_version = static_cast<double>(allocated() - before_cutting);
+  std::vector<double> steps;
+  std::vector<TiledPolyhedron> versions{in_tiles};
+  const std::size_t before_steps = allocated();
+  for (int i = 0; i < 1000; ++i) {
+    const Polyhedron cube = source.next(0.0005);
+    steps.push_back(seconds_of([&] { versions.push_back(subtract(versions.back(), cube)); }));
+  }
+  const double all_versions = one_version + static_cast<double>(allocated() - before_steps);
   std::sort(steps.begin(), steps.end());
   Polyhedron whole;
   const double glue = seconds_of([&] { whole = in_tiles.polyhedron(); });
   const bool same = equal(whole, plain);
   std::printf(
       "%9zu triangles: from_mesh %.3f s, cutting %.2f of it, gluing %.2f; %zu tiles, %.2f times the vertices; cube: "
-      "median %.3f ms, 95%% %.3f ms, plain %.2f ms; glued %s\n",
+      "median %.3f ms, 95%% %.3f ms, plain %.2f ms; %.0f MB, with 1000 versions %.2f times that; glued %s\n",
       source.sphere().face_count(), build, cutting / build, glue / build, in_tiles.tile_count(),
       static_cast<double>(in_tiles.vertex_count()) / static_cast<double>(plain.complex().vertex_count()),
       1e3 * steps[steps.size() / 2], 1e3 * steps[steps.size() * 95 / 100], 1e3 * median(plain_steps),
-      same ? "the same" : "DIFFERENT");
+      one_version / 1048576, all_versions / one_version, same ? "the same" : "DIFFERENT");
 }
 
 // Boxes taken off and put back (every fifth one a symmetric difference), plain, in tiles, and in tiles where that pays.

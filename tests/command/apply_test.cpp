@@ -136,15 +136,9 @@ TEST_CASE("very many files are united region by region where the result stays in
   for (int i = 0; i < kCount; ++i) {
     const int low = 3 * (i % 10);
     const int size = 1 + i % 4;
-    std::ostringstream off;
-    off << "OFF\n8 6 0\n";
-    for (int k = 0; k < 8; ++k) {
-      off << low + ((k & 1) != 0 ? size : 0) << ' ' << 3 * (i / 10 % 10) + ((k & 2) != 0 ? size : 0) << ' '
-          << 3 * (i / 100) + ((k & 4) != 0 ? 2 : 0) << '\n';
-    }
-    off << "4 0 2 3 1\n4 4 5 7 6\n4 0 1 5 4\n4 2 6 7 3\n4 0 4 6 2\n4 1 3 7 5\n";
+    const std::array<int, 3> corner{low, 3 * (i / 10 % 10), 3 * (i / 100)};
     const std::string name = std::to_string(i) + ".off";
-    here.write(name, off.str());
+    here.write(name, box_off(corner, {corner[0] + size, corner[1] + size, corner[2] + 2}));
     names += " " + name;
   }
   here.write("block.off", cube_off(-1, 20));
@@ -167,7 +161,7 @@ TEST_CASE("very many files are united region by region where the result stays in
   REQUIRE(difference.code == 0);
   CHECK(difference.out.find("read_operands") != std::string::npos);
   CHECK(here.nef("equal d.tiles d.nef").code == 0);
-  // All in one place: regions would repeat each other's work.
+  // All in one place, where nothing divides them.
   std::string same;
   for (int i = 0; i < kCount; ++i) same += " 7.off";
   const Outcome crowd = here.nef("union" + same + " -o s.tiles --json");
@@ -175,6 +169,30 @@ TEST_CASE("very many files are united region by region where the result stays in
   CHECK(here.nef("equal s.tiles 7.off").code == 0);
   // What cannot be read is named.
   check_refused(here.nef("union" + names + " missing.off -o m.tiles"), "missing.off");
+}
+
+TEST_CASE("sets that lie everywhere are not united region by region") {
+  const Workplace here;
+  // Bars from one end to the other, in three directions, past each other: a region would meet many of them.
+  std::string names;
+  int count = 0;
+  for (int i = 0; i < 27; ++i) {
+    for (int k = 0; k < 27; ++k) {
+      for (const std::string& bar : {box_off({0, 6 * i, 6 * k}, {160, 6 * i + 1, 6 * k + 1}),
+                                     box_off({6 * i, 0, 6 * k + 2}, {6 * i + 1, 160, 6 * k + 3}),
+                                     box_off({6 * i + 2, 6 * k + 2, 0}, {6 * i + 3, 6 * k + 3, 160})}) {
+        const std::string name = std::to_string(count++) + ".off";
+        here.write(name, bar);
+        names += " " + name;
+      }
+    }
+  }
+  for (const std::string memory : {"", " --memory 100M"}) {
+    const Outcome run = here.nef("union" + names + " -o b.tiles --json" + memory);
+    REQUIRE(run.code == 0);
+    CHECK(run.out.find("read_operands") == std::string::npos);  // what regions report
+    CHECK(here.nef("info b.tiles --json").json()["result"]["volume"] == std::to_string(160 * count));
+  }
 }
 
 TEST_CASE("a run that is killed while it writes a folder leaves the old set or the new one") {

@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <filesystem>
@@ -48,17 +49,19 @@ class Workplace : public nef::test::TemporaryFolder {
   [[nodiscard]] std::string read(const std::string& name) const { return nef::test::slurp(file(name)); }
 };
 
-/// The bytes of an OFF file of the box [low, high]^3.
-inline std::string cube_off(int low, int high) {
+/// The bytes of an OFF file of a box.
+inline std::string box_off(const std::array<int, 3>& low, const std::array<int, 3>& high) {
   std::ostringstream text;
   text << "OFF\n8 6 0\n";
-  for (int i = 0; i < 8; ++i) {
-    text << ((i & 1) != 0 ? high : low) << ' ' << ((i & 2) != 0 ? high : low) << ' ' << ((i & 4) != 0 ? high : low)
-         << '\n';
+  for (unsigned k = 0; k < 8; ++k) {
+    for (unsigned i = 0; i < 3; ++i) text << ((k >> i & 1U) != 0 ? high[i] : low[i]) << (i < 2 ? ' ' : '\n');
   }
   text << "4 0 2 3 1\n4 4 5 7 6\n4 0 1 5 4\n4 2 6 7 3\n4 0 4 6 2\n4 1 3 7 5\n";
   return text.str();
 }
+
+/// The same of [low, high]^3.
+inline std::string cube_off(int low, int high) { return box_off({low, low, low}, {high, high, high}); }
 
 /// One line that says something, exit code 2, nothing on stdout.
 inline void check_refused(const Outcome& outcome, const std::string& words) {

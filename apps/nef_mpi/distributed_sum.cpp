@@ -44,25 +44,27 @@ Polyhedron part_in(const Polyhedron& set, const Region& region) {
 
 }  // namespace
 
-TiledPolyhedron distributed_sum(const Environment& mpi, const WorkFolder& work, const Polyhedron& a,
-                                const Polyhedron& b, std::size_t most, const Tiling& tiling, const Watcher& watcher) {
+PieceSource sums_of_parts(const Environment& mpi, const WorkFolder& work, const Polyhedron& a, const Polyhedron& b,
+                          std::size_t most, const Watcher& watcher) {
   NEF_ASSERT(a.is_bounded());
   const RegionDivision parts = divided_at_vertices(a.complex(), most);
   const std::size_t count = parts.parts().size();
-  do_tasks(
-      mpi, "sums", count, [&](std::size_t part) { return work.has(piece_name(part)); },
-      [](std::size_t part) { return "part " + std::to_string(part + 1); },
-      [&](std::size_t part) {
-        const Polyhedron sum = minkowski::minkowski_sum(part_in(a, parts.parts()[part].region), b);
-        write_file(work / piece_name(part), native_binary(sum));
-        return std::string();
-      },
-      [](std::size_t, const std::string&, double) {}, watcher);
-  const PieceSource sums{.count = static_cast<std::uint32_t>(count), .set = [&work](std::uint32_t part) {
-                           const std::string path = work / piece_name(part);
-                           return read_native_binary(read_file(path), path);
-                         }};
-  return distributed_union(mpi, work, sums, tiling, watcher);
+  do_tasks(mpi,
+           {.name = "sums",
+            .count = count,
+            .finished = [&](std::size_t part) { return work.has(piece_name(part)); },
+            .name_of_task = [](std::size_t part) { return "part " + std::to_string(part + 1); },
+            .task =
+                [&](std::size_t part) {
+                  const Polyhedron sum = minkowski::minkowski_sum(part_in(a, parts.parts()[part].region), b);
+                  write_file(work / piece_name(part), native_binary(sum));
+                  return std::string();
+                }},
+           watcher);
+  return {.count = static_cast<std::uint32_t>(count), .set = [&work](std::uint32_t part) {
+            const std::string path = work / piece_name(part);
+            return read_native_binary(read_file(path), path);
+          }};
 }
 
 }  // namespace nef::mpi

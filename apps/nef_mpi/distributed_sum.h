@@ -5,9 +5,9 @@
 
 namespace nef::mpi {
 
-/// Collective. The Minkowski sum of two sets: A is cut into closed parts whose union it is, so that the sum is the
-/// union of theirs with B; each is a task. `most`: vertices of A in a part. A must be bounded.
-TiledPolyhedron distributed_sum(const Environment& mpi, const WorkFolder& work, const Polyhedron& a,
-                                const Polyhedron& b, std::size_t most, const Tiling& tiling, const Watcher& watcher);
+/// Collective. Parts of the Minkowski sum of two sets, which is their union: A is cut into closed parts, and the sum of
+/// each with B is a task. `most`: vertices of A in a part. A must be bounded; `work` must outlive the result.
+PieceSource sums_of_parts(const Environment& mpi, const WorkFolder& work, const Polyhedron& a, const Polyhedron& b,
+                          std::size_t most, const Watcher& watcher);
 
 }  // namespace nef::mpi

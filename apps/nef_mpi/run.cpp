@@ -20,6 +20,7 @@
 #include "nef/io/file_bytes.h"
 #include "nef/program/run_program.h"
 #include "nef/tiles/storage/tile_folder.h"
+#include "nef/tiles/tile_tree.h"
 
 namespace nef::mpi {
 namespace {
@@ -124,10 +125,22 @@ class Run {
   }
 
   // The beginning of a job's text: all that decides which tasks there are, and what they give, but its inputs.
-  [[nodiscard]] std::string job(const std::string& name, std::size_t size_of_a_task) const {
-    return "nef_mpi " NEF_VERSION " " + name + " " + std::to_string(size_of_a_task) + " " +
-           std::to_string(session_.mesh.strict ? 1 : 0) + std::to_string(session_.mesh.as_surface ? 1 : 0) + " " +
-           flags_.tiles + "\n";
+  [[nodiscard]] std::string job(const std::string& name) const {
+    return "nef_mpi " NEF_VERSION " " + name + " " + std::to_string(session_.mesh.strict ? 1 : 0) +
+           std::to_string(session_.mesh.as_surface ? 1 : 0) + " " + flags_.tiles + "\n";
+  }
+
+  // Regions of pieces that meet many of them would repeat each other's work; what bounds memory are regions, though.
+  TiledPolyhedron united(const WorkFolder& work, const PieceSource& source) {
+    const Tiling tiling = this->tiling();
+    const MeasuredPieces pieces = measure_pieces(mpi_, work, source, watcher());
+    const RegionalUnion regions = pieces.regions();
+    if (regions.is_spread() || !flags_.memory.empty()) {
+      return union_by_regions(mpi_, work, pieces, regions, tiling, watcher());
+    }
+    const Polyhedron whole = union_up_a_tree(mpi_, work, pieces, tiling.threads, watcher());
+    if (names_tile_folder(session_.output)) return TiledPolyhedron(whole, tiling);
+    return {tile_leaf(whole, nullptr, true), tiling};
   }
 
   // What tasks make goes to files.
@@ -143,13 +156,12 @@ class Run {
     on_first([&] {
       pieces.emplace(session_.inputs, list_, session_.mesh);
       if (pieces->size() == 0) throw InputError("there are no pieces: name files, or give a --list");
-      work.prepare(job("union", pieces_of_a_region(pieces->size())) + pieces->text());
+      work.prepare(job("union") + pieces->text());
     });
     if (!pieces) pieces.emplace(session_.inputs, list_, session_.mesh);
     const PieceSource source{.count = pieces->size(), .set = [&](std::uint32_t i) { return pieces->set(i); }};
-    const Tiling tiling = this->tiling();
     const Stopwatch watch;
-    const TiledPolyhedron set = distributed_union(mpi_, work, source, tiling, watcher());
+    const TiledPolyhedron set = united(work, source);
     return finish("union", work, set, watch.seconds());
   }
 
@@ -161,14 +173,14 @@ class Run {
       if (!sets[0].is_bounded()) {
         throw InputError(session_.inputs[0] + ": unbounded; only bounded sets are cut into parts");
       }
-      work.prepare(job("minkowski", part_) + file_state(session_.inputs[0]) + file_state(session_.inputs[1]));
+      work.prepare(job("minkowski " + std::to_string(part_)) + file_state(session_.inputs[0]) +
+                   file_state(session_.inputs[1]));
     });
     if (sets.empty()) {
       for (const std::string& path : session_.inputs) sets.push_back(read_file_or_tiles(path, session_.mesh));
     }
-    const Tiling tiling = this->tiling();
     const Stopwatch watch;
-    const TiledPolyhedron set = distributed_sum(mpi_, work, sets[0], sets[1], part_, tiling, watcher());
+    const TiledPolyhedron set = united(work, sums_of_parts(mpi_, work, sets[0], sets[1], part_, watcher()));
     return finish("minkowski", work, set, watch.seconds());
   }
 
@@ -191,11 +203,14 @@ class Run {
       if (!hull_.quiet) std::cout << tasks->understanding() << "\n";
     });
     if (!tasks) tasks = std::make_unique<visual_hull::FrameTasks>(hull_);
-    do_tasks(
-        mpi_, "frames", tasks->size(), [&](std::size_t i) { return record->keep(i); },
-        [&](std::size_t i) { return "frame " + std::to_string(tasks->number(i)); },
-        [&](std::size_t i) { return tasks->make(i); },
-        [&](std::size_t, const std::string& line, double) { record->add(line); }, watcher());
+    do_tasks(mpi_,
+             {.name = "frames",
+              .count = tasks->size(),
+              .finished = [&](std::size_t i) { return record->keep(i); },
+              .name_of_task = [&](std::size_t i) { return "frame " + std::to_string(tasks->number(i)); },
+              .task = [&](std::size_t i) { return tasks->make(i); },
+              .done = [&](std::size_t, const std::string& line, double) { record->add(line); }},
+             watcher());
     std::string code = record ? std::to_string(record->finish()) : "";
     mpi_.share(code);
     return std::stoi(code);

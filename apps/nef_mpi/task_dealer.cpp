@@ -12,6 +12,7 @@
 #include <map>
 #include <new>
 #include <optional>
+#include <set>
 #include <thread>
 
 #include "nef/base/timing/stopwatch.h"
@@ -118,9 +119,18 @@ void work(const Task& task) {
 // Rank 0. It works itself, in a second thread, since the first one answers the others.
 class Dealer {
  public:
-  Dealer(int ranks, const std::vector<std::size_t>& todo, const Task& task, const TaskDone& done, int attempts)
+  Dealer(int ranks, const std::vector<std::size_t>& todo, const Task& task, const TaskDone& done,
+         const TaskNeeds& needs, int attempts)
       : task_(task), done_(done), attempts_(attempts) {
-    for (const std::size_t number : todo) waiting_.push_back(static_cast<std::int64_t>(number));
+    const std::set<std::size_t> to_come(todo.begin(), todo.end());
+    for (const std::size_t number : todo) {
+      for (const std::size_t need : needs ? needs(number) : std::vector<std::size_t>()) {
+        if (!to_come.contains(need)) continue;
+        ++missing_[number];
+        needed_by_[need].push_back(number);
+      }
+      if (!missing_.contains(number)) waiting_.push_back(static_cast<std::int64_t>(number));
+    }
     idle_.push_back(0);
     asking_ = ranks - 1;
   }
@@ -182,6 +192,10 @@ class Dealer {
     const auto number = static_cast<std::size_t>(outcome.task);
     if (outcome.good) {
       done_(number, outcome.text, outcome.seconds);
+      for (const std::size_t next : needed_by_[number]) {
+        // The rank that asks next is the one that has made what it needs, if all are busy.
+        if (--missing_[next] == 0) waiting_.push_front(static_cast<std::int64_t>(next));
+      }
     } else if (++tried_[number] < attempts_) {
       waiting_.push_back(outcome.task);
     } else {
@@ -197,6 +211,8 @@ class Dealer {
   int asking_ = 0;        // ranks that have not been heard of
   std::size_t under_way_ = 0;
   std::map<std::size_t, int> tried_;
+  std::map<std::size_t, std::size_t> missing_;                 // how many tasks a task waits for
+  std::map<std::size_t, std::vector<std::size_t>> needed_by_;  // which ones wait for a task
   std::vector<TaskFailure> failures_;
   std::future<Outcome> own_;
 };
@@ -237,11 +253,11 @@ void Environment::abort(int code) const {
 }
 
 std::vector<TaskFailure> deal_tasks(const Environment& mpi, const std::vector<std::size_t>& todo, const Task& task,
-                                    const TaskDone& done, int attempts) {
+                                    const TaskDone& done, const TaskNeeds& needs, int attempts) {
   std::vector<TaskFailure> failures;
   std::string text;
   if (mpi.first()) {
-    failures = Dealer(mpi.ranks(), todo, task, done, attempts).run();
+    failures = Dealer(mpi.ranks(), todo, task, done, needs, attempts).run();
     for (const TaskFailure& failure : failures) {
       text += std::to_string(failure.task) + ' ' + std::to_string(failure.error.size()) + ' ' + failure.error;
     }

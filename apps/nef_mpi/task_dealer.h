@@ -46,11 +46,15 @@ using Task = std::function<std::string(std::size_t task)>;
 /// Told on rank 0, in its main thread, of every task that is done, in any order, and how long that took.
 using TaskDone = std::function<void(std::size_t task, const std::string& result, double seconds)>;
 
+/// The tasks whose results a task needs.
+using TaskNeeds = std::function<std::vector<std::size_t>(std::size_t task)>;
+
 /// Collective. Does the tasks of `todo`, which counts on rank 0 only, each on one rank, rank 0 among them: whoever is
 /// free gets the next one. A task that fails is tried again, on another rank if there is one that asks, `attempts`
-/// times in all; the others go on. Returns the failures in the order of the tasks, on every rank. A rank that waits
-/// sleeps.
+/// times in all; the others go on, but those that need it. A task begins when those of `todo` that it needs (`needs`,
+/// asked on rank 0 only) are done, and then before others. Returns the failures in the order of the tasks, on every
+/// rank. A rank that waits sleeps.
 std::vector<TaskFailure> deal_tasks(const Environment& mpi, const std::vector<std::size_t>& todo, const Task& task,
-                                    const TaskDone& done, int attempts = 2);
+                                    const TaskDone& done, const TaskNeeds& needs = {}, int attempts = 2);
 
 }  // namespace nef::mpi

@@ -34,6 +34,11 @@ void WorkFolder::prepare(const std::string& job) const {
   write_file((path_ / kJob).string(), job);
 }
 
+void WorkFolder::remove(const std::string& name) const {
+  std::error_code ignored;
+  fs::remove(path_ / name, ignored);
+}
+
 void WorkFolder::remove() const {
   std::error_code ignored;
   fs::remove_all(path_, ignored);

@@ -20,6 +20,8 @@ class WorkFolder {
   [[nodiscard]] std::string operator/(const std::string& name) const { return (path_ / name).string(); }
   [[nodiscard]] bool has(const std::string& name) const { return std::filesystem::exists(path_ / name); }
 
+  /// Removes something in it, or all of it.
+  void remove(const std::string& name) const;
   void remove() const;
 
  private:

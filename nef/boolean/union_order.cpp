@@ -5,12 +5,10 @@
 #include <array>
 #include <numeric>
 
+#include "nef/complex/item_boxes.h"
+
 namespace nef {
 namespace {
-
-// So many tasks that threads which finish early find another one, whatever their number; a constant, so that the order
-// does not depend on it.
-constexpr std::size_t kTasks = 128;
 
 double middle(const UnionOperand& operand, std::size_t axis) {
   const double low = operand.box.low[axis];
@@ -20,10 +18,17 @@ double middle(const UnionOperand& operand, std::size_t axis) {
 
 }  // namespace
 
-UnionOrder::UnionOrder(std::span<const UnionOperand> operands) : operands_(operands) {
+UnionOperand union_operand(const Polyhedron& set) {
+  // What a union costs beside its vertices, in vertices.
+  constexpr std::size_t kAnyway = 8;
+  const Complex& c = set.complex();
+  return {vertices_box(c), c.vertex_count() + kAnyway, set.is_bounded()};
+}
+
+UnionOrder::UnionOrder(std::span<const UnionOperand> operands, std::size_t tasks) : operands_(operands) {
   std::vector<std::uint32_t> all(operands.size());
   std::iota(all.begin(), all.end(), 0U);
-  weight_of_task_ = weight(all) / kTasks;
+  weight_of_task_ = weight(all) / tasks;
   steps_.reserve(all.size());
   order(all);
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "nef/geometry/box_tree.h"
+#include "nef/polyhedron.h"
 
 namespace nef {
 
@@ -18,13 +19,20 @@ struct UnionOperand {
   bool bounded = true;     ///< otherwise its box says nothing
 };
 
+/// What a set is to an order.
+UnionOperand union_operand(const Polyhedron& set);
+
 /// Unions of two, as a tree over all operands: neighbours first, so that what a union copies is seldom more than what
 /// it is about. Halves of equal weight lie on either side of a plane; a set that outweighs the others around it waits
 /// for their union, and unbounded sets for that of all others. It depends on the operands and their order alone.
 class UnionOrder {
  public:
-  /// At least one operand. O(n log n).
-  explicit UnionOrder(std::span<const UnionOperand> operands);
+  /// So many tasks that threads which finish early find another one; a constant, so that the order does not depend on
+  /// the number of threads.
+  static constexpr std::size_t kTasks = 128;
+
+  /// Of at least one operand; a task has at most the weight of all by `tasks`. O(n log n).
+  explicit UnionOrder(std::span<const UnionOperand> operands, std::size_t tasks = kTasks);
 
   /// A union of two: operands by their numbers, results of step k as (number of operands) + k.
   struct Step {

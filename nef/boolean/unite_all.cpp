@@ -6,7 +6,6 @@
 #include "nef/base/progress.h"
 #include "nef/base/threads/parallel.h"
 #include "nef/boolean/union_order.h"
-#include "nef/complex/item_boxes.h"
 #include "nef/polyhedron.h"
 
 namespace nef {
@@ -38,14 +37,9 @@ class UnionRun {
 
  private:
   static std::vector<UnionOperand> measured(const std::vector<Polyhedron>& sets) {
-    // What a union costs beside its vertices, in vertices.
-    constexpr std::size_t kAnyway = 8;
     std::vector<UnionOperand> result;
     result.reserve(sets.size());
-    for (const Polyhedron& set : sets) {
-      const Complex& c = set.complex();
-      result.push_back({vertices_box(c), c.vertex_count() + kAnyway, set.is_bounded()});
-    }
+    for (const Polyhedron& set : sets) result.push_back(union_operand(set));
     return result;
   }
 

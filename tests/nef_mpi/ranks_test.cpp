@@ -75,6 +75,17 @@ std::string tetrahedra(int count, unsigned seed) {
   return text.str();
 }
 
+// Lines of bars from one end to the other, in two directions, which cross.
+std::string bars() {
+  std::string text;
+  for (int i = 0; i < 300; ++i) {
+    const std::string low = std::to_string(i % 15 * 5) + ", " + std::to_string(i / 15 * 5);
+    const std::string high = std::to_string(i % 15 * 5 + 2) + ", " + std::to_string(i / 15 * 5 + 3);
+    text += i % 2 == 0 ? "box(0, " + low + ", 75, " + high + ")\n" : "box(" + low + ", 0, " + high + ", 75)\n";
+  }
+  return text;
+}
+
 // Processes whose command line names both words.
 std::vector<pid_t> processes_with(const std::string& program, const std::string& word) {
   std::vector<pid_t> found;
@@ -146,8 +157,7 @@ TEST_CASE("a rank that is lost ends the run, and the next one goes on from what 
   REQUIRE(kill(lose_first ? ranks.front() : ranks.back(), SIGKILL) == 0);
   CHECK(run.get().code != 0);
   CHECK_FALSE(fs::exists(here.path() / output));
-  const std::size_t before = finished();
-  CHECK(before >= 3);
+  CHECK(finished() >= 3);
   const Outcome second = here.ranks(lose_first ? 7 : 2, "union --list " + list + " -o " + output + " --json");
   REQUIRE(second.code == 0);
   CHECK_FALSE(fs::exists(work));
@@ -174,6 +184,54 @@ TEST_CASE("a task that fails is tried again and named; the others are kept") {
   CHECK(bad.err.find("nef_mpi: ") == bad.err.rfind("nef_mpi: "));
   CHECK_THAT(here.ranks(2, "union none.off -o u.nef").err, Contains("none.off: no such file"));
   CHECK_THAT(here.ranks(2, "union -o u.nef").err, Contains("there are no pieces"));
+}
+
+TEST_CASE("pieces that lie everywhere are united up a tree instead of region by region") {
+  const Place here;
+  static_cast<void>(here.write("bars.txt", bars()));
+  REQUIRE(here.ranks(1, "union --list bars.txt -o one.nef --times times.csv").code == 0);
+  CHECK(here.read("times.csv").find("regions") == std::string::npos);
+  CHECK(here.read("times.csv").find("unions") != std::string::npos);
+  REQUIRE(here.run("nef", "convert one.nef -o one.tiles").code == 0);
+  REQUIRE(here.run("nef", "convert one.tiles -o canonical.nef").code == 0);
+  CHECK(here.read("one.nef") == here.read("canonical.nef"));
+  for (const int ranks : {2, 4, 7}) {
+    CAPTURE(ranks);
+    REQUIRE(here.ranks(ranks, "union --list bars.txt -o more.nef").code == 0);
+    CHECK(here.read("more.nef") == here.read("one.nef"));
+  }
+  REQUIRE(here.ranks(3, "union --list bars.txt -o bars.tiles --times times.csv").code == 0);
+  CHECK(here.read("times.csv").find("regions") == std::string::npos);
+  // Regions bound memory, whatever that costs.
+  REQUIRE(here.ranks(3, "union --list bars.txt -o bound.tiles --memory 10M --times times.csv").code == 0);
+  CHECK(here.read("times.csv").find("regions") != std::string::npos);
+  for (const std::string name : {"bars", "bound"}) {
+    REQUIRE(here.run("nef", "convert " + name + ".tiles -o glued.nef").code == 0);
+    CHECK(here.read("glued.nef") == here.read("one.nef"));
+  }
+}
+
+TEST_CASE("a union that fails is named, those that need it are left out, and the others are kept") {
+  const Place here;
+  static_cast<void>(here.write("bars.txt", bars() + "file(\"later.nef\")\n"));
+  CHECK(here.ranks(2, "union --list bars.txt -o u.nef").code == 2);  // there is no later.nef
+  static_cast<void>(here.run("nef", "eval 'box(0,0,0, 1,1,1)' -o later.nef"));
+  // What cannot be read where the result of a task is expected.
+  const fs::path work = here.path() / "u.nef.work";
+  fs::create_directories(work / "union-3.nef" / "in the way");
+  const Outcome run = here.ranks(2, "union --list bars.txt -o u.nef");
+  CAPTURE(run.err);
+  CHECK(run.code == 2);
+  CHECK_THAT(run.err, Contains("1 of ") && Contains("tasks failed (unions): union "));
+  CHECK_FALSE(fs::exists(here.path() / "u.nef"));
+  const auto kept = std::count_if(fs::directory_iterator(work), fs::directory_iterator(),
+                                  [](const auto& entry) { return entry.path().extension() == ".nef"; });
+  CHECK(kept >= 3);
+  fs::remove_all(work / "union-3.nef");
+  REQUIRE(here.ranks(3, "union --list bars.txt -o u.nef").code == 0);
+  static_cast<void>(here.write("bars.txt", bars()));
+  REQUIRE(here.ranks(1, "union --list bars.txt later.nef -o again.nef").code == 0);
+  CHECK(here.read("u.nef") == here.read("again.nef"));
 }
 
 TEST_CASE("sums part by part are sums") {

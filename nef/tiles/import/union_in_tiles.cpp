@@ -8,7 +8,6 @@
 
 #include "nef/base/progress.h"
 #include "nef/base/threads/parallel.h"
-#include "nef/complex/item_boxes.h"
 #include "nef/tiles/cuts/cutter.h"
 
 namespace nef {
@@ -25,16 +24,13 @@ std::array<double, 2> extent(const Box& box, std::size_t axis) {
 
 }  // namespace
 
-Box piece_box(const Polyhedron& set) {
-  if (set.is_empty()) return {};
+Box region_box(const UnionOperand& piece) {
+  if (piece.bounded) return piece.box;
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Box box;
-  if (!set.is_bounded()) {
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    box.low.fill(-kInfinity);
-    box.high.fill(kInfinity);
-    return box;
-  }
-  return vertices_box(set.complex());
+  box.low.fill(-kInfinity);
+  box.high.fill(kInfinity);
+  return box;
 }
 
 RegionalUnion::RegionalUnion(std::vector<Box> boxes, std::size_t most)
@@ -62,7 +58,7 @@ RegionalUnion divide_pieces(const PieceSource& pieces, unsigned threads, std::si
   std::vector<Box> boxes(pieces.count);
   std::atomic<std::uint32_t> measured = 0;
   parallel_for(pieces.count, threads, [&](std::size_t i) {
-    boxes[i] = piece_box(pieces.set(static_cast<std::uint32_t>(i)));
+    boxes[i] = region_box(union_operand(pieces.set(static_cast<std::uint32_t>(i))));
     tell_progress_of_item("boxes of the pieces", measured++, pieces.count);
   });
   return {std::move(boxes), most};

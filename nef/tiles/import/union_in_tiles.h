@@ -7,6 +7,7 @@
 #include <functional>
 #include <vector>
 
+#include "nef/boolean/union_order.h"
 #include "nef/tiles/cuts/region_division.h"
 #include "nef/tiles/tiled_polyhedron.h"
 
@@ -27,7 +28,7 @@ struct PieceSource {
 /// The union of many sets, as work on regions that do not depend on each other.
 class RegionalUnion {
  public:
-  /// `boxes`: of the boundary of each set, rounded outward (piece_box). A region has at most `most` sets, where planes
+  /// `boxes`: of the boundary of each set, rounded outward (region_box). A region has at most `most` sets, where planes
   /// can separate these.
   RegionalUnion(std::vector<Box> boxes, std::size_t most);
 
@@ -51,8 +52,8 @@ class RegionalUnion {
   RegionDivision division_;
 };
 
-/// The box of a set for RegionalUnion: empty for the empty set, all of space where the boundary is unbounded.
-Box piece_box(const Polyhedron& set);
+/// The box of a piece for RegionalUnion: empty for the empty set, all of space where the set is unbounded.
+Box region_box(const UnionOperand& piece);
 
 /// The regions for some pieces, each of which is made once, on up to `threads` threads.
 RegionalUnion divide_pieces(const PieceSource& pieces, unsigned threads, std::size_t most = kSetsOfARegion);

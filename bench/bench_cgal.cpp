@@ -8,6 +8,7 @@
 
 #include <cstdlib>
 #include <exception>
+#include <stdexcept>
 #include <string>
 
 #include "bench/generators.h"
@@ -97,6 +98,7 @@ Report run(const std::string& directory, int repeat) {
     report.build_s.push_back(watch.seconds());
   }
   Nef result;
+  if (bench_case.operation > Operation::kLocate) throw std::runtime_error("not asked to do many operands at once");
   const bool locating = bench_case.operation == Operation::kLocate;
   const std::size_t base_count = operands.size() - (bench_case.operation == Operation::kDifference ? 1 : 0);
   Nef base;

@@ -40,7 +40,7 @@ Surface surface_of(const Operand& operand) {
 
 Report run(const std::string& directory, int repeat) {
   const Case bench_case = read_case(directory);
-  if (bench_case.operation == Operation::kLocate) throw std::runtime_error("not a Boolean");
+  if (bench_case.operation >= Operation::kLocate) throw std::runtime_error("no Boolean of two");
   Report report;
   std::vector<Surface> operands;
   const Stopwatch build;

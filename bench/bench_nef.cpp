@@ -3,6 +3,7 @@
 // nef_bench_nef CASE_DIRECTORY [REPEAT [THREADS]]: this library on one case, on so many threads.
 #include <cstdlib>
 #include <exception>
+#include <span>
 #include <string>
 
 #include "bench/generators.h"
@@ -43,6 +44,16 @@ Report run(const std::string& directory, int repeat, unsigned threads) {
       const Stopwatch watch;
       const nef::Stopwatch clock;
       result = united(operands, operands.size(), threads);
+      report.op_s.push_back(watch.seconds());
+      report.op_wall_s.push_back(clock.seconds());
+    }
+  } else if (bench_case.operation == Operation::kUniteAll || bench_case.operation == Operation::kSubtractAll) {
+    const bool all = bench_case.operation == Operation::kUniteAll;
+    for (int i = 0; i < repeat; ++i) {
+      const Stopwatch watch;
+      const nef::Stopwatch clock;
+      result = all ? unite_all(operands, threads)
+                   : subtract(operands[0], unite_all(std::span(operands).subspan(1), threads), threads);
       report.op_s.push_back(watch.seconds());
       report.op_wall_s.push_back(clock.seconds());
     }

@@ -69,7 +69,7 @@ Case read_case(const std::string& directory) {
   std::ifstream in(directory + "/case.txt");
   Case result;
   int operation = 0;
-  if (!(in >> result.name >> operation) || operation < 0 || operation > 2) {
+  if (!(in >> result.name >> operation) || operation < 0 || operation > 4) {
     throw InputError(directory + "/case.txt: not a case; write one with nef_bench_generate");
   }
   result.operation = static_cast<Operation>(operation);

@@ -420,6 +420,51 @@ Case staircase(int n) {
   return result;
 }
 
+Case drill_holes(int n) {
+  Case result{"holes-" + std::to_string(n), Operation::kSubtractAll, std::vector<Operand>(1)};
+  constexpr long kUnit = 1000000;
+  const auto columns = static_cast<long>(std::ceil(std::sqrt(n)));
+  add_box(result.operands[0].mesh, {0, 0, 0}, {columns * kUnit, columns * kUnit, kUnit});
+  for (long i = 0; i < n; ++i) {
+    auto polygon = regular_polygon(64, 0.3 * kUnit, 0);
+    for (auto& corner : polygon) {
+      corner[0] += Rational(i % columns * kUnit + kUnit / 2);
+      corner[1] += Rational(i / columns * kUnit + kUnit / 2);
+    }
+    result.operands.push_back({prism(polygon, Rational(-kUnit), Rational(2 * kUnit)), false});
+  }
+  return result;
+}
+
+Case random_boxes(int n) {
+  Case result{"boxes-" + std::to_string(n), Operation::kUniteAll, std::vector<Operand>(static_cast<std::size_t>(n))};
+  Random random(0xb0c5ULL);
+  constexpr long kSide = 100000;  // of the largest boxes
+  const auto space = static_cast<long>(std::cbrt(n) * kSide);
+  for (Operand& operand : result.operands) {
+    Point low;
+    Point high;
+    for (std::size_t i = 0; i < 3; ++i) {
+      low[i] = random.below(space);
+      high[i] = low[i] + kSide / 2 + random.below(kSide / 2);
+    }
+    add_box(operand.mesh, low, high);
+  }
+  return result;
+}
+
+Case lattice(int n) {
+  Case result{"lattice-" + std::to_string(n), Operation::kUniteAll, {}};
+  for (long x = 0; x < n; ++x) {
+    for (long y = 0; y < n; ++y) {
+      for (long z = 0; z < n; ++z) {
+        add_box(result.operands.emplace_back().mesh, {4 * x, 4 * y, 4 * z}, {4 * x + 5, 4 * y + 5, 4 * z + 5});
+      }
+    }
+  }
+  return result;
+}
+
 Case point_location(int n) {
   Case result = tetgrid(n);
   result.name = "locate-" + std::to_string(n);
@@ -473,6 +518,9 @@ Case make_case(const std::string& name) {
   if (kind == "scans") return shifted_scans(number(1));
   if (kind == "bigsmall") return big_minus_small(number(1));
   if (kind == "staircase") return staircase(number(1));
+  if (kind == "holes") return drill_holes(number(1));
+  if (kind == "boxes") return random_boxes(number(1));
+  if (kind == "lattice") return lattice(number(1));
   if (kind == "locate") return point_location(number(1));
   if (kind == "cascade" || kind == "cascade2") return growing_cylinder(number(1), number(2), kind == "cascade2");
   if (kind == "cylinder" && words.size() == 3) return rotated_cylinder(number(1), parse_rational(words[2]).get_d());

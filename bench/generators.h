@@ -18,10 +18,10 @@ struct Operand {
   bool surface = false;
 };
 
-enum class Operation : std::uint8_t { kUnion, kDifference, kLocate };
+enum class Operation : std::uint8_t { kUnion, kDifference, kLocate, kUniteAll, kSubtractAll };
 
-/// Operands and what is to be done with them: their union from left to right, the first minus the
-/// others, or 1000 point locations in the union.
+/// Operands and what is to be done with them: their union from left to right, the union of all but the last minus the
+/// last, 1000 point locations in the union, the union in any order, or the first minus all others.
 struct Case {
   std::string name;
   Operation operation = Operation::kUnion;
@@ -68,6 +68,15 @@ Case big_minus_small(int level);
 
 /// n boxes, each overlapping the one before: united one after the other.
 Case staircase(int n);
+
+/// A plate minus n cylinders of 64 sides through it, in rows.
+Case drill_holes(int n);
+
+/// n boxes of random places and sizes, so that many overlap.
+Case random_boxes(int n);
+
+/// n^3 cubes of side 5/4 on a grid: neighbours overlap, with their sides in common planes.
+Case lattice(int n);
 
 /// 1000 pseudo-random points in the union of tetgrid(n).
 Case point_location(int n);

@@ -38,7 +38,7 @@ WANTED = {
 # Solids of which the peer takes all faces.
 MANIFOLD_CASES = [
     "tetgrid-12", "tetgrid-20", "wall-40", "cylinder-1000-1e-6", "spheres-5", "spheres-6", "spheres-7", "bigsmall-6",
-    "bigsmall-7", "scans-6",
+    "bigsmall-7", "bigsmall-8", "scans-6", "holes-50", "boxes-1000", "lattice-20",
 ]
 SWEEPS = {
     "tetgrid": [4, 6, 8, 10, 12, 14, 16], "wall": [10, 20, 40, 60, 80], "facet": [10, 20, 40, 80],

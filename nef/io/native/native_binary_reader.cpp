@@ -6,38 +6,18 @@
 #include <xxhash.h>
 
 #include <cstring>
-#include <string>
-#include <unordered_map>
 
 #include "nef/complex/owners.h"
 #include "nef/complex/patterns/pattern_interner.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/native/complete_sphere_map.h"
 #include "nef/io/native/native_binary.h"
+#include "nef/io/native/vertex_keys.h"
 #include "nef/synthesis/volume_linking.h"
 #include "nef/validation/validate.h"
 
 namespace nef {
 namespace {
-
-// Values that lie in the file.
-template <typename T>
-class Column {
- public:
-  explicit Column(const char* data) : data_(data) {}
-  T operator[](std::size_t i) const {
-    T value;
-    std::memcpy(&value, data_ + i * sizeof(T), sizeof(T));
-    return value;
-  }
-  // Some of them as they lie there.
-  [[nodiscard]] std::string_view bytes(std::size_t first, std::size_t count) const {
-    return {data_ + first * sizeof(T), count * sizeof(T)};
-  }
-
- private:
-  const char* data_;
-};
 
 class BinaryReader {
  public:
@@ -251,24 +231,6 @@ class BinaryReader {
     name_pair_owners(c_);
   }
 
-  // The columns of the items of sphere maps.
-  template <typename W>
-  struct ItemColumns {
-    Column<std::uint32_t> p, q;
-    Column<W> out, sface_around;
-    Column<LabelId> svertex_mark;
-    Column<std::uint32_t> plane;
-    Column<LabelId> shalfedge_mark;
-    Column<W> source, next, sface;
-    Column<std::uint32_t> sloop_plane;
-    Column<LabelId> sloop_mark;
-    Column<W> sloop_sface;
-    Column<W> entry_count;
-    Column<LabelId> sface_mark;
-    Column<std::uint8_t> kind;
-    Column<W> index;
-  };
-
   template <typename W>
   void sphere_maps() {
     vertex_records<W>();
@@ -297,7 +259,7 @@ class BinaryReader {
     for (const VertexId v : c_.vertex_ids()) {
       VertexRecord& record = c_.vertices[v];
       VertexRecord& end = c_.vertices[v.next()];
-      const bool has_key = read_key(columns, v, entries);
+      const bool has_key = keys_.read(columns, record, end, mark_[v.index()], entries, entries_);
       if (has_key && take_known(columns, v, entries)) continue;
       map_.clear();
       map_.mark = mark_[v.index()];
@@ -309,77 +271,24 @@ class BinaryReader {
       record.pattern = interner.intern(c_.patterns, map_.view(), c_.shalfedge_plane.pairs(), c_.other_planes);
       end.other_planes = static_cast<std::uint32_t>(c_.other_planes.size());
       c_.sloops.insert(c_.sloops.end(), map_.sloops.begin(), map_.sloops.end());
-      if (has_key) known_.emplace(key_, record.pattern);
+      if (has_key) keys_.learn(record.pattern);
     }
     demand(entries == entries_, "its sfaces have fewer entries than there are");
   }
 
-  // Into key_: all that the file says of a vertex but for its planes, and which of these its svertices name. Vertices
-  // with the same key have the same pattern, and what was found right of one is right of all. False if the vertex has
-  // sloops, or an svertex that is not where the arc of its number and the one before meet.
-  template <typename W>
-  bool read_key(const ItemColumns<W>& columns, VertexId v, std::uint64_t entries) {
-    const VertexRecord& begin = c_.vertices[v];
-    const VertexRecord& end = c_.vertices[v.next()];
-    const std::uint32_t pair = begin.shalfedges / 2;
-    const std::uint32_t pairs = end.shalfedges / 2 - pair;
-    const std::uint32_t first = begin.svertices.index();  // svertex, in the columns
-    const std::uint32_t svertices = end.svertices - begin.svertices;
-    const std::uint32_t sfaces = end.sfaces - begin.sfaces;
-    if (begin.sloops != end.sloops || svertices > pairs) return false;
-    key_.clear();
-    for (const std::uint32_t count : {svertices, pairs, sfaces, std::uint32_t{mark_[v.index()]}}) {
-      key_.append(reinterpret_cast<const char*>(&count), sizeof(count));
-    }
-    for (std::uint32_t i = 0; i < svertices; ++i) {
-      const PlaneId here{columns.plane[pair + i]};
-      const PlaneId before{columns.plane[pair + (i == 0 ? pairs : i) - 1]};
-      const PlaneId p{columns.p[first + i]};
-      const PlaneId q{columns.q[first + i]};
-      const auto names = [](PlaneId a, PlaneId b) { return a.row() == b.row(); };
-      const bool p_here = names(p, here);
-      const bool q_here = names(q, here);
-      if (p_here == q_here || !names(p_here ? q : p, before)) return false;
-      const PlaneId of_p = p_here ? here : before;
-      const PlaneId of_q = p_here ? before : here;
-      key_ += static_cast<char>((p_here ? 4 : 0) | (p == of_p ? 2 : 0) | (q == of_q ? 1 : 0));
-    }
-    key_ += columns.out.bytes(first, svertices);
-    key_ += columns.sface_around.bytes(first, svertices);
-    key_ += columns.svertex_mark.bytes(first, svertices);
-    key_ += columns.shalfedge_mark.bytes(pair, pairs);
-    key_ += columns.source.bytes(begin.shalfedges, 2 * pairs);
-    key_ += columns.next.bytes(begin.shalfedges, 2 * pairs);
-    key_ += columns.sface.bytes(begin.shalfedges, 2 * pairs);
-    key_ += columns.entry_count.bytes(begin.sfaces.index(), sfaces);
-    key_ += columns.sface_mark.bytes(begin.sfaces.index(), sfaces);
-    const std::uint64_t own = entries_of(columns, v);
-    if (own > entries_ - entries) return false;
-    key_ += columns.kind.bytes(entries, own);
-    key_ += columns.index.bytes(entries, own);
-    return true;
-  }
-
-  template <typename W>
-  std::uint64_t entries_of(const ItemColumns<W>& columns, VertexId v) const {
-    std::uint64_t sum = 0;
-    for (const SFaceId f : c_.sfaces(v)) sum += columns.entry_count[f.index()];
-    return sum;
-  }
-
-  // The vertex of key_, if one like it has been read before.
+  // The vertex whose key was read, if one like it has been read before.
   template <typename W>
   bool take_known(const ItemColumns<W>& columns, VertexId v, std::uint64_t& entries) {
-    const auto known = known_.find(key_);
-    if (known == known_.end()) return false;
+    const PatternId pattern = keys_.known();
+    if (!pattern.valid()) return false;
     VertexRecord& record = c_.vertices[v];
     VertexRecord& end = c_.vertices[v.next()];
-    record.pattern = known->second;
+    record.pattern = pattern;
     end.other_planes = record.other_planes;
     for (std::uint32_t i = record.shalfedges / 2; i < end.shalfedges / 2; ++i) {
       c_.shalfedge_plane.pairs().push_back(plane(columns.plane[i]));
     }
-    entries += entries_of(columns, v);
+    entries += columns.entries_of(record, end);
     return true;
   }
 
@@ -583,12 +492,8 @@ class BinaryReader {
   std::uint32_t shells_ = 0;
   std::uint32_t volumes_ = 0;
   std::vector<LabelId> mark_;  // of vertices
-  std::string key_;
-  struct KeyHash {
-    std::size_t operator()(const std::string& key) const { return XXH3_64bits(key.data(), key.size()); }
-  };
-  std::unordered_map<std::string, PatternId, KeyHash> known_;  // patterns by key
-  SphereMapBuffer map_;                                        // of the vertex at hand
+  VertexKeys keys_;
+  SphereMapBuffer map_;  // of the vertex at hand
   Column<std::uint32_t> isolated_counts_{nullptr};
   Complex c_;
 };

@@ -56,14 +56,8 @@ void ResultAssembly::reserve(ComplexBuilder& result) const {
   std::size_t vertices = 0;
   VertexRecord size;
   for (const Run& run : runs_) {
-    const VertexRecord& first = run.from->vertices[run.vertices.first];
-    const VertexRecord& last = run.from->vertices[run.vertices.first + run.vertices.count];
     vertices += run.vertices.count;
-    size.svertices += last.svertices - first.svertices;
-    size.shalfedges += last.shalfedges - first.shalfedges;
-    size.sloops += last.sloops - first.sloops;
-    size.sfaces += last.sfaces - first.sfaces;
-    size.other_planes += last.other_planes - first.other_planes;
+    size.advance(run.from->vertices[run.vertices.first], run.from->vertices[run.vertices.first + run.vertices.count]);
   }
   result.reserve(vertices, size);
 }

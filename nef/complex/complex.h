@@ -39,6 +39,15 @@ struct VertexRecord {
   SFaceId sfaces{0};
   std::uint32_t other_planes = 0;
   PatternId pattern;
+
+  /// Moves on by the items of vertices that begin at one record and end where another one begins.
+  void advance(const VertexRecord& begin, const VertexRecord& end) {
+    svertices += end.svertices - begin.svertices;
+    shalfedges += end.shalfedges - begin.shalfedges;
+    sloops += end.sloops - begin.sloops;
+    sfaces += end.sfaces - begin.sfaces;
+    other_planes += end.other_planes - begin.other_planes;
+  }
 };
 
 /// A connected, relatively open piece of a plane with one mark.

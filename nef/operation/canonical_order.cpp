@@ -238,13 +238,8 @@ class Canonical {
   [[nodiscard]] VertexRecord size_of(std::uint32_t first, std::uint32_t last) const {
     VertexRecord size;
     for (std::uint32_t i = first; i < last; ++i) {
-      const VertexRecord& begin = complex(i).vertices[vertices_[i].vertex];
-      const VertexRecord& end = complex(i).vertices[vertices_[i].vertex.next()];
-      size.svertices += end.svertices - begin.svertices;
-      size.shalfedges += end.shalfedges - begin.shalfedges;
-      size.sloops += end.sloops - begin.sloops;
-      size.sfaces += end.sfaces - begin.sfaces;
-      size.other_planes += end.other_planes - begin.other_planes;
+      const VertexId vertex = vertices_[i].vertex;
+      size.advance(complex(i).vertices[vertex], complex(i).vertices[vertex.next()]);
     }
     return size;
   }

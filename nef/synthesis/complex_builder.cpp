@@ -100,9 +100,7 @@ void ComplexBuilder::append_like(const PointTable& points, PointId point, Vertex
              end.other_planes == begin.other_planes);
   VertexRecord next = c.vertices.back();
   c.vertices.back().pattern = begin.pattern;
-  next.svertices += end.svertices - begin.svertices;
-  next.shalfedges += end.shalfedges - begin.shalfedges;
-  next.sfaces += end.sfaces - begin.sfaces;
+  next.advance(begin, end);
   c.points.push_from(points, point);
   c.shalfedge_plane.pairs().insert(c.shalfedge_plane.pairs().end(), planes.begin(), planes.end());
   c.vertices.push_back(next);
@@ -225,16 +223,10 @@ void ComplexBuilder::copy_records(std::span<const CopiedRun> runs) {
     patterns.set(run);
     const std::span<const VertexRecord> records = run.from->vertices[IdRange(run.first, run.count + 1)];
     const VertexRecord base = complex_.vertices.back();
-    const VertexRecord& begin = records.front();
     for (std::uint32_t i = 0; i < run.count; ++i) {
       complex_.vertices.back().pattern = patterns(records[i].pattern);
-      VertexRecord next = records[i + 1];
-      next.svertices += base.svertices - begin.svertices;
-      next.shalfedges += base.shalfedges - begin.shalfedges;
-      next.sloops += base.sloops - begin.sloops;
-      next.sfaces += base.sfaces - begin.sfaces;
-      next.other_planes += base.other_planes - begin.other_planes;
-      next.pattern = PatternId();
+      VertexRecord next = base;
+      next.advance(records.front(), records[i + 1]);
       complex_.vertices.push_back(next);
     }
   }

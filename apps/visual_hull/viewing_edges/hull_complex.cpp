@@ -203,10 +203,7 @@ void add_crowded(const std::vector<CrowdedVertex>& vertices, const std::vector<V
 nef::VertexRecord items_of(const std::vector<nef::Complex>& parts) {
   nef::VertexRecord sum;
   for (const nef::Complex& part : parts) {
-    const nef::VertexRecord& end = part.vertices.back();
-    sum.shalfedges += end.shalfedges;
-    sum.sloops += end.sloops;
-    sum.other_planes += end.other_planes;
+    sum.advance(part.vertices.front(), part.vertices.back());
   }
   for (std::uint32_t* count : {&sum.shalfedges, &sum.sloops, &sum.other_planes}) {
     *count += *count / kRoom;

@@ -27,9 +27,9 @@ constexpr double kSmallSetSteps = 120'000;  // more, divided by the vertices
 constexpr std::size_t kLook = 3;            // every how many steps a step is looked at, while the set is whole
 constexpr std::size_t kMemory = 8;          // steps looked at that an average is taken over
 
-// Set: a Polyhedron or a TiledPolyhedron.
-template <typename Set>
-Set combined(BooleanOperator op, const Set& a, const Polyhedron& b) {
+// Set, Operand: a Polyhedron or a TiledPolyhedron.
+template <typename Set, typename Operand>
+Set combined(BooleanOperator op, const Set& a, const Operand& b) {
   switch (op) {
     case BooleanOperator::kUnion:
       return unite(a, b);
@@ -135,6 +135,12 @@ void StepSequence::apply(BooleanOperator op, const Polyhedron& b) {
   } else {
     plain_ = combined(op, plain_, b);
   }
+  left_ -= std::min<std::size_t>(left_, 1);
+}
+
+void StepSequence::apply(BooleanOperator op, const TiledPolyhedron& b) {
+  if (!tiled_) return apply(op, b.polyhedron());
+  tiled_ = combined(op, *tiled_, b);
   left_ -= std::min<std::size_t>(left_, 1);
 }
 

@@ -32,6 +32,8 @@ class StepSequence {
   /// The set becomes (the set) op b. Costs what the operation of Polyhedron or TiledPolyhedron does, and the cutting
   /// where it begins to work in tiles.
   void apply(BooleanOperator op, const Polyhedron& b);
+  /// The same for an operand in tiles, of which those are looked at that meet the set's. Glues it if the set is whole.
+  void apply(BooleanOperator op, const TiledPolyhedron& b);
 
   /// How many tiles the set is in; none while it is in none.
   [[nodiscard]] std::size_t tile_count() const { return tiled_ ? tiled_->tile_count() : 0; }

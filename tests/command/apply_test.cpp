@@ -125,6 +125,13 @@ TEST_CASE("sets stay in tiles, in a folder, within a bound on memory") {
   REQUIRE(here.nef("difference b.tiles plain.nef a.off -o e.tiles").code == 0);
   CHECK(here.nef("info e.tiles --json").json()["result"]["volume"] == "1");
   REQUIRE(here.nef("union b.tiles a.off --memory 50K -o f.off").code == 0);
+  // Several operands in tiles.
+  REQUIRE(here.nef("convert a.off -o a.tiles").code == 0);
+  for (const std::string operation : {"union", "intersection", "difference", "symdiff"}) {
+    REQUIRE(here.nef(operation + " b.tiles a.tiles --memory 50K -o g.tiles").code == 0);
+    REQUIRE(here.nef(operation + " d.nef a.off -o g.nef").code == 0);
+    CHECK(here.nef("equal g.tiles g.nef").code == 0);
+  }
   CHECK(here.nef("info f.off --json").json()["result"]["volume"] == "513");
 }
 

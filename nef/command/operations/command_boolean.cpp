@@ -66,17 +66,23 @@ void finish_with_origins(Session& session, const Operation& operation, const std
   }
 }
 
-// One operand after the other, so that no two of them are in memory.
+// One operand after the other, so that no two of them are in memory; of those in tiles, what the set's tiles meet.
 void run_in_tiles(Session& session, const Operation& operation, const TileChoice& tiles) {
   TiledPolyhedron first = load_tiled(session, session.inputs[0], tiles.tiling);
   StepSequence sequence(std::move(first), session.inputs.size() - 1);
   double seconds = 0;
   for (std::size_t i = 1; i < session.inputs.size(); ++i) {
-    const Polyhedron operand = session.load(session.inputs[i]);
-    const Stopwatch watch;
-    session.show_phase("operands", i - 1, session.inputs.size() - 1);
-    sequence.apply(operation.step, operand);
-    seconds += watch.seconds();
+    const auto apply = [&](const auto& operand) {
+      const Stopwatch watch;
+      session.show_phase("operands", i - 1, session.inputs.size() - 1);
+      sequence.apply(operation.step, operand);
+      seconds += watch.seconds();
+    };
+    if (tiles.tiling.store != nullptr && names_tile_folder(session.inputs[i])) {
+      apply(load_tiled(session, session.inputs[i], tiles.tiling));
+    } else {
+      apply(session.load(session.inputs[i]));
+    }
   }
   finish_tiled(session, operation.name, sequence.tiled(tiles.tiling), seconds);
 }

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A mesh becomes the same solid, with the same notes or the same refusal, on any number of threads: there the solid is
+// made while the faces are checked, also where they turn out to be wrong.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <random>
+
+#include "nef/base/error.h"
+#include "nef/construct/construct.h"
+#include "nef/export/to_mesh.h"
+#include "nef/io/native/native_binary.h"
+#include "nef/polyhedron.h"
+
+namespace nef::test {
+namespace {
+
+// The bytes of the solid and the notes, or why there is none.
+std::string outcome(const Mesh& mesh, unsigned threads) {
+  Messages notes;
+  std::string result;
+  try {
+    result = native_binary(from_mesh(mesh, MeshOptions{.threads = threads}, &notes));
+  } catch (const InputError& error) {
+    result = error.what();
+  }
+  for (const std::string& note : notes) result += "\n" + note;
+  return result;
+}
+
+void same_on_any_number(const Mesh& mesh) {
+  const std::string on_one = outcome(mesh, 1);
+  for (const unsigned threads : {2U, 3U, 0U}) CHECK(outcome(mesh, threads) == on_one);
+}
+
+// Two cubes as one mesh, the second one moved.
+Mesh two_cubes(const Rational3& by) {
+  Mesh mesh = to_mesh(make_box({0, 0, 0}, {4, 4, 4})).mesh;
+  const std::size_t count = mesh.vertices.size();
+  const Mesh cube = mesh;
+  for (const Rational3& v : cube.vertices) mesh.vertices.push_back({v[0] + by[0], v[1] + by[1], v[2] + by[2]});
+  for (std::size_t f = 0; f < cube.face_count(); ++f) {
+    std::vector<std::uint32_t> face(cube.face(f).begin(), cube.face(f).end());
+    for (std::uint32_t& v : face) v += static_cast<std::uint32_t>(count);
+    mesh.push_face(face);
+  }
+  return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("meshes become the same solids on several threads", "[threads]") {
+  same_on_any_number(two_cubes({8, 0, 0}));               // apart
+  same_on_any_number(two_cubes({4, 1, 1}));               // touching in their faces
+  same_on_any_number(two_cubes({4, 4, 4}));               // touching in a vertex
+  same_on_any_number(two_cubes({2, 1, 1}));               // crossing
+  same_on_any_number(two_cubes({0, 0, 0}));               // twice the same
+  same_on_any_number(two_cubes({Rational(1, 3), 0, 0}));  // crossing in common planes
+  Mesh inside_out = two_cubes({8, 0, 0});
+  std::reverse(inside_out.corners.begin(), inside_out.corners.end());
+  same_on_any_number(inside_out);
+  Mesh half_turned = two_cubes({8, 0, 0});
+  std::reverse(half_turned.corners.begin() + static_cast<std::ptrdiff_t>(half_turned.corners.size() / 2),
+               half_turned.corners.end());
+  same_on_any_number(half_turned);
+}
+
+TEST_CASE("meshes that somebody has damaged become the same, or are refused alike, on several threads", "[threads]") {
+  std::mt19937 random(5);
+  const Mesh good = two_cubes({4, 4, 1});
+  for (int round = 0; round < 60; ++round) {
+    Mesh mesh = good;
+    for (int changes = 1 + static_cast<int>(random() % 2); changes > 0; --changes) {
+      if (random() % 2 == 0) {
+        mesh.corners[random() % mesh.corners.size()] =
+            static_cast<std::uint32_t>(random() % (mesh.vertices.size() + 1));
+      } else {
+        mesh.vertices[random() % mesh.vertices.size()][random() % 3] += static_cast<int>(random() % 5) - 2;
+      }
+    }
+    same_on_any_number(mesh);
+  }
+}
+
+}  // namespace nef::test

@@ -267,6 +267,9 @@ class MeshCase {
     case_.tell(off_bytes(mesh_, options));
   }
 
+  // On two threads, the solid is made before it is known whether the faces bound one.
+  [[nodiscard]] MeshOptions options() const { return MeshOptions{.threads = 1 + case_.choices().below(2)}; }
+
   // A face left out or turned: every edge of it is run through once too often or too seldom.
   void check_damaged() {
     Choices& choices = case_.choices();
@@ -283,7 +286,7 @@ class MeshCase {
     case_.tell("without face " + std::to_string(victim) + (turned ? ", but with it turned" : ""));
     case_.count("damaged meshes");
     try {
-      static_cast<void>(from_mesh(damaged));
+      static_cast<void>(from_mesh(damaged, options()));
     } catch (const Error&) {
       return;
     }
@@ -300,7 +303,7 @@ class MeshCase {
     }
     Polyhedron set;
     try {
-      set = from_mesh(mesh_);
+      set = from_mesh(mesh_, options());
     } catch (const Error& error) {
       case_.count("refused");
       const bool legal = consistent && only_cells_ && !overlap_;

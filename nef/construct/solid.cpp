@@ -47,8 +47,9 @@ class SolidBuilder {
       if (corners.empty()) continue;
       const bool plain = ring.read(v, corners);
       if (const VertexId like = plain ? ring.like() : VertexId(); like.valid()) {
-        result.append_like(f_.points, PointId{v}, like, ring.planes());
-        links.note_ring(result.so_far(), v, ring.corners());
+        if (result.append_like(f_.points, PointId{v}, like, ring.planes())) {
+          links.note_ring(result.so_far(), v, ring.corners());
+        }
         continue;
       }
       draw(v, corners);

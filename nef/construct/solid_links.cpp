@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "nef/base/error.h"
+
 namespace nef {
 
 SolidLinks::SolidLinks(const SolidFaces& faces)
@@ -60,6 +62,7 @@ bool SolidLinks::note_drawn_ring(const Complex& result, const Arrangement& drawi
 }
 
 std::optional<KnownLinks> SolidLinks::finish(const Complex& result) {
+  NEF_ASSERT(point_.size() == result.vertex_count() && end_.size() == result.svertex_count());
   if (!every_plane_is_used(result)) return std::nullopt;
   KnownLinks links;
   link_twins(result, links);

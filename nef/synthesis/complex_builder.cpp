@@ -89,10 +89,10 @@ void ComplexBuilder::append(const PointTable& points, PointId point, const Spher
   push(map);
 }
 
-void ComplexBuilder::append_like(const PointTable& points, PointId point, VertexId like,
+bool ComplexBuilder::append_like(const PointTable& points, PointId point, VertexId like,
                                  std::span<const PlaneId> planes) {
   check_interruption();
-  if (defect_) return;
+  if (defect_) return false;
   Complex& c = complex_;
   const VertexRecord& begin = c.vertices[like];
   const VertexRecord& end = c.vertices[like.next()];
@@ -104,6 +104,7 @@ void ComplexBuilder::append_like(const PointTable& points, PointId point, Vertex
   c.points.push_from(points, point);
   c.shalfedge_plane.pairs().insert(c.shalfedge_plane.pairs().end(), planes.begin(), planes.end());
   c.vertices.push_back(next);
+  return true;
 }
 
 void ComplexBuilder::push(const SphereMapView& map) {

@@ -50,7 +50,8 @@ class ComplexBuilder {
 
   /// Adds a vertex whose sphere map is that of one added before, `like`, but for its planes: `planes` are those of its
   /// even shalfedges. It must have no sloops, and its svertices must name planes of these only.
-  void append_like(const PointTable& points, PointId point, VertexId like, std::span<const PlaneId> planes);
+  /// False if nothing is added, since something was wrong before.
+  bool append_like(const PointTable& points, PointId point, VertexId like, std::span<const PlaneId> planes);
 
   /// Adds copies of consecutive vertices of another complex, from `first` on. Rows of its planes become rows[row]
   /// unless `rows` is empty, its marks other than kOutside become marks[mark] unless `marks` is empty. O(their items),

@@ -33,11 +33,13 @@ class VertexStars {
 
   /// True if two triangles have a common corner that is flat.
   [[nodiscard]] bool settle(const Triangle& a, const Triangle& b) const {
-    bool result = false;  // without branches, which nobody could foresee
+    unsigned result = 0;  // without branches, which nobody could foresee
     for (const std::uint32_t corner : a) {
-      result |= ((corner == b[0]) | (corner == b[1]) | (corner == b[2])) & (flat_[corner] != 0);
+      const unsigned shared = static_cast<unsigned>(corner == b[0]) | static_cast<unsigned>(corner == b[1]) |
+                              static_cast<unsigned>(corner == b[2]);
+      result |= shared & flat_[corner];
     }
-    return result;
+    return result != 0;
   }
 
  private:

@@ -65,6 +65,27 @@ TEST_CASE("meshes become the same solids on several threads", "[threads]") {
   same_on_any_number(half_turned);
 }
 
+// At the corner (4, 4, 4) of a cube a tetrahedron inside of it begins, turned like it: what is between them would be
+// inside and outside. There are vertices like others before that corner and after it.
+TEST_CASE("what is wrong in the middle of a mesh is told, checked or not", "[threads]") {
+  Mesh mesh = two_cubes({8, 8, 8});
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  for (const Rational3& v : {Rational3{4, 4, 4}, Rational3{1, 2, 2}, Rational3{2, 1, 2}, Rational3{2, 2, 1}}) {
+    mesh.vertices.push_back(v);
+  }
+  const Rational3& apex = mesh.vertices[first];
+  REQUIRE(apex == Rational3{4, 4, 4});
+  for (const std::array<std::uint32_t, 3>& t :
+       {std::array<std::uint32_t, 3>{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}}) {
+    mesh.push_face(std::array<std::uint32_t, 3>{first + t[0], first + t[1], first + t[2]});
+  }
+  for (const bool check : {true, false}) {
+    for (const unsigned threads : {1U, 2U}) {
+      CHECK_THROWS_AS(from_mesh(mesh, MeshOptions{.check = check, .threads = threads}), InputError);
+    }
+  }
+}
+
 TEST_CASE("meshes that somebody has damaged become the same, or are refused alike, on several threads", "[threads]") {
   std::mt19937 random(5);
   const Mesh good = two_cubes({4, 4, 1});

@@ -121,6 +121,13 @@ TEST_CASE("convolution: open solids and such with parts of their boundary, on a 
   });
 }
 
+// Where a facet of the sum came out with a border that turns the wrong way.
+TEST_CASE("convolution: a tetrahedron without a segment in its boundary, and a box with a tetrahedron") {
+  const Polyhedron full_a = nef::test::set("box(0,1,0,1,2,1) + hull(0,0,0,2,0,0,1,2,2,0,1,0)");
+  const Polyhedron full_b = nef::test::set("hull(2,0,1,0,1,0,0,0,0,0,0,1) ^ hull(0,0,0,0,0,0,2,2,1)");
+  CHECK(sums_agree(nef::intersect(full_a, nef::regularize(full_a)), nef::intersect(full_b, nef::regularize(full_b))));
+}
+
 TEST_CASE("convolution: solids with parts of their boundary that are turned, and all but parallel") {
   check("turned marks", 150, [] {
     const Polyhedron full_a = (*recipes(true, 4)).make();

@@ -63,24 +63,24 @@ bool VertexStars::is_closed_wide(std::span<const Wedge> star) {
 bool VertexStars::is_flat(std::uint32_t vertex, std::span<const Wedge> star, std::span<const Turns> turns) const {
   if (star.empty()) return false;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const int turn = turns[star[0].triangle][axis];
+    const std::int8_t turn = turns[star[0].triangle][axis];
     if (turn == 0) continue;
     const bool alike = std::all_of(star.begin() + 1, star.end(),
                                    [&](const Wedge& wedge) { return turns[wedge.triangle][axis] == turn; });
-    if (alike && times_around(vertex, star, axis, turn) == 1) return true;
+    if (alike && times_around(vertex, star, axis, turn > 0) == 1) return true;
   }
   return false;
 }
 
 // The number of wedges, each with its first border and without its last one, that hold the direction of the next axis.
-// Counterclockwise, such a wedge comes from at or below that axis to above it, as it is less than half a turn.
+// Going counterclockwise, such a wedge comes from at or below that axis to above it, as it is less than half a turn.
 std::size_t VertexStars::times_around(std::uint32_t vertex, std::span<const Wedge> star, std::size_t axis,
-                                      int turn) const {
+                                      bool counterclockwise) const {
   const std::size_t height = (axis + 2) % 3;
   std::size_t count = 0;
   for (const Wedge& wedge : star) {
-    const std::uint32_t first = turn > 0 ? wedge.from : wedge.to;
-    const std::uint32_t last = turn > 0 ? wedge.to : wedge.from;
+    const std::uint32_t first = counterclockwise ? wedge.from : wedge.to;
+    const std::uint32_t last = counterclockwise ? wedge.to : wedge.from;
     if (points_.compare(first, vertex, height) <= 0 && points_.compare(last, vertex, height) > 0) ++count;
   }
   return count;

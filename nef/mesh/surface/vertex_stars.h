@@ -55,7 +55,7 @@ class VertexStars {
   static bool is_closed_wide(std::span<const Wedge> star);
   [[nodiscard]] bool is_flat(std::uint32_t vertex, std::span<const Wedge> star, std::span<const Turns> turns) const;
   [[nodiscard]] std::size_t times_around(std::uint32_t vertex, std::span<const Wedge> star, std::size_t axis,
-                                         int turn) const;
+                                         bool counterclockwise) const;
 
   const MeshPoints& points_;
   std::vector<std::uint8_t> flat_;  // of each point

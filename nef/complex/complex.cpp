@@ -30,11 +30,11 @@ void Complex::trim() {
 }
 
 std::size_t Complex::bytes() const {
-  const auto size = [](const auto& column) { return column.capacity() * sizeof(*column.begin()); };
-  return planes.bytes() + points.bytes() + size(vertices) + patterns.bytes() + size(shalfedge_plane.pairs()) +
-         size(other_planes) + size(sloops) + size(svertex_owner) + size(twin) + size(pair_owner) +
-         size(shalfedge_facet.pairs()) + size(sloop_facet) + size(sface_shell) + size(facets) + size(cycle_begin) +
-         size(corners) + size(isolated_vertices) + size(shells) + size(volumes);
+  return planes.bytes() + points.bytes() + held_bytes(vertices) + patterns.bytes() +
+         held_bytes(shalfedge_plane.pairs()) + held_bytes(other_planes) + held_bytes(sloops) +
+         held_bytes(svertex_owner) + held_bytes(twin) + held_bytes(pair_owner) + held_bytes(shalfedge_facet.pairs()) +
+         held_bytes(sloop_facet) + held_bytes(sface_shell) + held_bytes(facets) + held_bytes(cycle_begin) +
+         held_bytes(corners) + held_bytes(isolated_vertices) + held_bytes(shells) + held_bytes(volumes);
 }
 
 }  // namespace nef

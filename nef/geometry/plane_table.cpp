@@ -228,8 +228,6 @@ void PlaneTable::make_room_for_one() {
   for (std::uint32_t row = 0; row < planes; ++row) slots_.add_new(row, RowSlots::hash_of(rows_, row));
 }
 
-std::size_t PlaneTable::bytes() const {
-  return rows_.bytes() + approximate_.capacity() * sizeof(approximate_[0]) + slots_.bytes();
-}
+std::size_t PlaneTable::bytes() const { return rows_.bytes() + held_bytes(approximate_) + slots_.bytes(); }
 
 }  // namespace nef

@@ -186,7 +186,7 @@ Rational3 PointTable::rational(PointId point) const {
   return result;
 }
 
-std::size_t PointTable::bytes() const { return rows_.bytes() + approximate_.capacity() * sizeof(approximate_[0]); }
+std::size_t PointTable::bytes() const { return rows_.bytes() + held_bytes(approximate_); }
 
 void PointTable::trim() {
   rows_.trim();

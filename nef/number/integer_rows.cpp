@@ -156,8 +156,7 @@ void IntegerRows::pop() {
 }
 
 std::size_t IntegerRows::bytes() const {
-  return limbs_.capacity() * sizeof(limbs_[0]) + begin_.capacity() * sizeof(begin_[0]) +
-         sizes_.capacity() * sizeof(sizes_[0]) + wide_.capacity() * sizeof(wide_[0]);
+  return held_bytes(limbs_) + held_bytes(begin_) + held_bytes(sizes_) + held_bytes(wide_);
 }
 
 void IntegerRows::reserve(std::size_t rows, std::size_t limbs_per_row) {

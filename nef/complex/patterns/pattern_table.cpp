@@ -30,8 +30,8 @@ void PatternTable::trim() {
 }
 
 std::size_t PatternTable::bytes() const {
-  const auto size = [](const auto& column) { return column.capacity() * sizeof(*column.begin()); };
-  return size(records_) + size(svertices_) + size(shalfedges_) + size(sfaces_) + size(entries_);
+  return held_bytes(records_) + held_bytes(svertices_) + held_bytes(shalfedges_) + held_bytes(sfaces_) +
+         held_bytes(entries_);
 }
 
 }  // namespace nef

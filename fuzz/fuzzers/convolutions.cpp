@@ -39,6 +39,7 @@ Solid random_solid(Choices& choices, int steps, int size, bool regular) {
       }
     }
     const bool minus = i > 0 && choices.one_in(3);
+    const bool either = !minus && !regular && choices.one_in(4);
     std::string hull = "hull(";
     for (const Rational3& p : points) {
       hull += to_string(p[0]) + "," + to_string(p[1]) + "," + to_string(p[2]) + (&p == &points.back() ? ")" : ", ");
@@ -48,8 +49,10 @@ Solid random_solid(Choices& choices, int steps, int size, bool regular) {
       piece = interior(piece);
       hull = "interior(" + hull + ")";
     }
-    solid.text = "(" + solid.text + (minus ? " - " : " + ") + hull + ")";
-    solid.set = minus ? subtract(solid.set, piece) : unite(solid.set, piece);
+    solid.text = "(" + solid.text + (minus ? " - " : either ? " ^ " : " + ") + hull + ")";
+    solid.set = minus    ? subtract(solid.set, piece)
+                : either ? symmetric_difference(solid.set, piece)
+                         : unite(solid.set, piece);
     if (!regular) continue;
     solid.text = "regularize" + solid.text;
     solid.set = regularize(solid.set);
@@ -98,6 +101,7 @@ void fuzz_convolutions(const Case& the_case) {
   options.strategy = minkowski::UnionStrategy::kConvolution;
   minkowski::MinkowskiReport report;
   const Polyhedron sum = the_case.valid(minkowski::minkowski_sum(first, second, options, &report), "sum");
+  Case::require(report.convolution_defects == 0, "convolution: no valid set");
   if (regular) Case::require(report.cells_a == 0, "cells: the convolution was given up");
   the_case.count(report.cells_a == 0 ? "by convolution" : "by cells");
   const Polyhedron turned = minkowski::negate(second);

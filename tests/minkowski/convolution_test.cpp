@@ -103,7 +103,7 @@ bool sums_agree(const Polyhedron& a, const Polyhedron& b) {
   options.strategy = UnionStrategy::kConvolution;
   MinkowskiReport report;
   const Polyhedron sum = valid(minkowski_sum(a, b, options, &report), "sum");
-  return nef::equal(sum, by_cells(a, b));
+  return report.convolution_defects == 0 && nef::equal(sum, by_cells(a, b));
 }
 
 // Solids with any part of their boundary, and with points, segments and facets missing inside.
@@ -121,7 +121,8 @@ TEST_CASE("convolution: open solids and such with parts of their boundary, on a 
   });
 }
 
-// Where a facet of the sum came out with a border that turns the wrong way.
+// A segment that is not in the sum separates two facets of the convolution in one plane: where another facet crosses
+// it, the sum has a vertex that no three planes of facets tell of.
 TEST_CASE("convolution: a tetrahedron without a segment in its boundary, and a box with a tetrahedron") {
   const Polyhedron full_a = nef::test::set("box(0,1,0,1,2,1) + hull(0,0,0,2,0,0,1,2,2,0,1,0)");
   const Polyhedron full_b = nef::test::set("hull(2,0,1,0,1,0,0,0,0,0,0,1) ^ hull(0,0,0,0,0,0,2,2,1)");

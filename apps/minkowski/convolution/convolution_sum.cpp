@@ -128,13 +128,12 @@ std::optional<Polyhedron> convolution_sum(const Polyhedron& set_a, const Polyhed
   const SurvivingIntervals intervals = surviving_intervals(facets, rounded, how);
   SumOfRegions made = sum_of_regions(facets, rounded, intervals, membership, saddles, options.threads,
                                      [&poll](double share) { poll(kOfIntervals + (1 - kOfIntervals) * share); });
-  // Synthesis checks what it is given; should it refuse, the cells are there, and the tests see that they were needed.
-  constexpr const char* kDefect = "the convolution had a defect: please report it";
-  if (std::holds_alternative<Defect>(made.sum)) return decline(kDefect);
-  // Marks on the boundary have been seen to come out wrong, and not all of that hinders synthesis: a facet may be left
-  // whose border turns the wrong way.
-  if (!is_closed && !validate(std::get<Complex>(made.sum)).empty()) return decline(kDefect);
-  report = {stacked.why, facets.size(), intervals.segments.size(), intervals.intervals.size(),
+  // Synthesis checks what it is given, but not all that wrong marks on the boundary would lead to: a facet whose border
+  // turns the wrong way. Should there be a bug, the cells are there, and the tests see that they were needed.
+  const auto* sum = std::get_if<Complex>(&made.sum);
+  report.has_defect = sum == nullptr || (!is_closed && !validate(*sum).empty());
+  if (report.has_defect) return decline("the convolution had a defect: please report it");
+  report = {stacked.why, false,      facets.size(), intervals.segments.size(), intervals.intervals.size(),
             made.points, made.tested};
   return Polyhedron(std::get<Complex>(std::move(made.sum)));
 }

@@ -15,6 +15,7 @@ namespace nef::minkowski {
 /// How much there was to do.
 struct ConvolutionReport {
   std::string why;            ///< the sum was made so, or was not, in words
+  bool has_defect = false;    ///< what was made is no valid set and was thrown away: a bug
   std::size_t facets = 0;     ///< of the reduced convolution
   std::size_t segments = 0;   ///< pairs of facets that meet in one
   std::size_t intervals = 0;  ///< parts of segments at which the boundary may be

@@ -2,6 +2,7 @@
 #include "apps/minkowski/convolution/region_vertices.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <unordered_map>
@@ -62,6 +63,7 @@ class VertexFinder {
   void add_points_beyond(std::uint32_t f, std::uint32_t g, const SegmentEnd& end);
   void add_points_near(const FacetSegment& s, const SegmentCut& cut, std::uint32_t facet);
   void add_meeting(std::uint32_t f, std::uint32_t g, std::uint32_t h);
+  void add_meeting_of(const std::array<PlaneId, 3>& planes);
   void add_corner(std::uint32_t corner);
   void add_point(PointId point);
   void draw_points();
@@ -99,7 +101,11 @@ class VertexFinder {
 void VertexFinder::add_corner(std::uint32_t corner) { add_point(meetings_.first_equal(PointId{corner})); }
 
 void VertexFinder::add_meeting(std::uint32_t f, std::uint32_t g, std::uint32_t h) {
-  const std::optional<Meeting> meeting = meetings_.meet({facets_.plane[f], facets_.plane[g], facets_.plane[h]});
+  add_meeting_of({facets_.plane[f], facets_.plane[g], facets_.plane[h]});
+}
+
+void VertexFinder::add_meeting_of(const std::array<PlaneId, 3>& planes) {
+  const std::optional<Meeting> meeting = meetings_.meet(planes);
   if (meeting) add_point(meeting->point);
 }
 
@@ -211,16 +217,18 @@ void VertexFinder::add_crossings(std::uint32_t f, std::uint32_t g) {
     const Box side = box_of(ring, i);
     for (std::uint32_t j = 0; j < other.size(); ++j) {
       if (!side.overlaps(box_of(other, j))) continue;
-      const std::optional<Meeting> meeting =
-          meetings_.meet({facets_.plane[f], pyramids_.side_plane(f, i), pyramids_.side_plane(g, j)});
-      if (meeting) add_point(meeting->point);
+      add_meeting_of({facets_.plane[f], pyramids_.side_plane(f, i), pyramids_.side_plane(g, j)});
     }
   }
 }
 
-// The points where the facet beyond a side may meet the segment's facets.
+// The points where the facet beyond a side may meet the segment's facets. Where marks are mixed, also where the segment
+// crosses the side itself: the side, or what is beyond it in the same plane, may be marked otherwise, and no three of
+// the planes tell of that.
 void VertexFinder::add_points_beyond(std::uint32_t f, std::uint32_t g, const SegmentEnd& end) {
   for (const std::uint32_t h : intervals_.at_side.at(side_key(facets_, end.facet, end.index))) add_meeting(f, g, h);
+  if (facets_.marks != BoundaryMarks::kMixed) return;
+  add_meeting_of({facets_.plane[f], facets_.plane[g], pyramids_.side_plane(end.facet, end.index)});
 }
 
 // Corners and sides of a facet near a cut.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // nef_bench_tiles cubes [LEVEL...] [--limit N]: tiny cubes off spheres of 8 * 4^LEVEL triangles, in tiles and without.
+// nef_bench_tiles cut [LEVEL [TURNS]] [--limit N] [--threads N]: the conversion of such a sphere, cutting and gluing in
+// turn, medians.
 // nef_bench_tiles chain [LEVEL [STEPS]] [--limit N] [--size D] [--every]: many boxes one after the other, plain, in
 // tiles, and in tiles where that pays; with --every the ratio at each step.
 // nef_bench_tiles fold [LEVEL [COUNT]] [--limit N] [--size D]: such boxes off a sphere, all at once and in tiles.
@@ -106,6 +108,22 @@ void cubes(int level, const Tiling& tiling) {
       static_cast<double>(in_tiles.vertex_count()) / static_cast<double>(plain.complex().vertex_count()),
       1e3 * steps[steps.size() / 2], 1e3 * steps[steps.size() * 95 / 100], 1e3 * median(plain_steps),
       one_version / 1048576, all_versions / one_version, same ? "the same" : "DIFFERENT");
+}
+
+void cut_and_glue(int level, int turns, const Tiling& tiling) {
+  const CubesOffSphere source(level);
+  std::array<std::vector<double>, 3> times;
+  for (int turn = 0; turn < turns; ++turn) {
+    Polyhedron plain;
+    TiledPolyhedron in_tiles;
+    Polyhedron glued;
+    times[0].push_back(seconds_of([&] { plain = from_mesh(source.sphere()); }));
+    times[1].push_back(seconds_of([&] { in_tiles = TiledPolyhedron(plain, tiling); }));
+    times[2].push_back(seconds_of([&] { glued = in_tiles.polyhedron(); }));
+  }
+  const double build = median(times[0]);
+  std::printf("%9zu triangles: from_mesh %.3f s, cutting %.2f of it, gluing %.2f (medians of %d)\n",
+              source.sphere().face_count(), build, median(times[1]) / build, median(times[2]) / build, turns);
 }
 
 // Boxes taken off and put back (every fifth one a symmetric difference), plain, in tiles, and in tiles where that pays.
@@ -278,7 +296,8 @@ int main(int argc, char** argv) {
   const std::vector<std::string> words(argv + 1, argv + argc);
   if (words.empty()) {
     std::fprintf(stderr,
-                 "usage: nef_bench_tiles cubes [LEVEL...] | chain [LEVEL [STEPS]] | fold [LEVEL [COUNT]] | union "
+                 "usage: nef_bench_tiles cubes [LEVEL...] | cut [LEVEL [TURNS]] | chain [LEVEL [STEPS]] | fold [LEVEL "
+                 "[COUNT]] | union "
                  "[COUNT], [--size D] [--every] "
                  "[--limit N] [--threads N] [--memory MB] [--stream | --no-tiles | --only]\n");
     return 2;
@@ -313,7 +332,9 @@ int main(int argc, char** argv) {
         numbers.push_back(std::stoi(words[i]));
       }
     }
-    if (words[0] == "chain") {
+    if (words[0] == "cut") {
+      nef::bench::cut_and_glue(numbers.empty() ? 7 : numbers[0], numbers.size() < 2 ? 5 : numbers[1], tiling);
+    } else if (words[0] == "chain") {
       nef::bench::chain(numbers.empty() ? 5 : numbers[0], numbers.size() < 2 ? 1000 : numbers[1], size, every, tiling);
     } else if (words[0] == "union") {
       nef::bench::unite_tetrahedra(numbers.empty() ? 10000U : static_cast<std::uint32_t>(numbers[0]), union_bench,

@@ -154,20 +154,36 @@ std::optional<PointId> PointTable::push_intersection(const PlaneTable& planes, P
     if (h[3] == 0) return std::nullopt;
     return push_homogeneous(std::array<Int128, 7>{h[0], h[1], h[2], h[3]});
   }
-  // Cramer's rule with the adjugate's rows m_i = n_j x n_k: w = n_p . m_p, x = -(sum of d_i m_i).
-  std::array<Integer, 7> h;
-  Integer minor;
+  // Cramer's rule with the adjugate's rows m_i = n_j x n_k: w = n_p . m_p, x = -(sum of d_i m_i). Getting memory for
+  // these integers would cost as much as the arithmetic, so it is kept.
+  thread_local std::array<Integer, 7> h;
+  thread_local Integer minor;
+  for (Integer& value : h) value = 0;
   mpz_ptr m = minor.get_mpz_t();
+  const auto coefficients = [&planes](PlaneId plane) {
+    return std::array<IntegerView, 4>{planes.coefficient(plane, 0), planes.coefficient(plane, 1),
+                                      planes.coefficient(plane, 2), planes.coefficient(plane, 3)};
+  };
+  const std::array<std::array<IntegerView, 4>, 3> n{coefficients(p), coefficients(q), coefficients(r)};
   for (std::size_t i = 0; i < 3; ++i) {
-    const PlaneId u = plane[(i + 1) % 3];
-    const PlaneId v = plane[(i + 2) % 3];
+    const auto& u = n[(i + 1) % 3];
+    const auto& v = n[(i + 2) % 3];
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t k1 = (k + 1) % 3;
       const std::size_t k2 = (k + 2) % 3;
-      mpz_mul(m, planes.coefficient(u, k1), planes.coefficient(v, k2));
-      mpz_submul(m, planes.coefficient(u, k2), planes.coefficient(v, k1));
-      if (i == 0) mpz_addmul(h[3].get_mpz_t(), planes.coefficient(p, k), m);
-      mpz_submul(h[k].get_mpz_t(), planes.coefficient(plane[i], 3), m);
+      // Planes parallel to axes have zeros.
+      const bool plus = u[k1].sign() != 0 && v[k2].sign() != 0;
+      const bool minus = u[k2].sign() != 0 && v[k1].sign() != 0;
+      if (!plus && !minus) continue;
+      if (plus) {
+        mpz_mul(m, u[k1], v[k2]);
+        if (minus) mpz_submul(m, u[k2], v[k1]);
+      } else {
+        mpz_mul(m, u[k2], v[k1]);
+        mpz_neg(m, m);
+      }
+      if (i == 0 && n[0][k].sign() != 0) mpz_addmul(h[3].get_mpz_t(), n[0][k], m);
+      if (n[i][3].sign() != 0) mpz_submul(h[k].get_mpz_t(), n[i][3], m);
       if (planes.infimaximal(plane[i])) mpz_submul(h[4 + k].get_mpz_t(), planes.coefficient(plane[i], 4), m);
     }
     if (sgn(h[3]) == 0) return std::nullopt;

@@ -2,7 +2,6 @@
 #include "nef/operation/canonical_map.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace nef {
 namespace {
@@ -19,13 +18,31 @@ void take_row(SVertex& svertex, std::uint32_t row) {
   }
 }
 
+// Maps are small as a rule.
+template <typename Item>
+void sort_few(std::vector<Item>& items) {
+  constexpr std::size_t kFew = 16;
+  if (items.size() > kFew) {
+    std::sort(items.begin(), items.end());
+    return;
+  }
+  for (std::size_t i = 1; i < items.size(); ++i) {
+    const Item item = items[i];
+    std::size_t at = i;
+    for (; at > 0 && item < items[at - 1]; --at) items[at] = items[at - 1];
+    items[at] = item;
+  }
+}
+
 }  // namespace
 
 SphereMapView CanonicalMapWriter::write(const SphereMapView& map, std::span<const BareLine> lines) {
   out_.clear();
   out_.mark = map.mark;
+  old_.assign(map.shalfedges.begin(), map.shalfedges.end());
+  for (SHalfedge& half : old_) half.plane = renamed(half.plane);
   write_svertices(map, lines);
-  write_shalfedges(map);
+  write_shalfedges();
   for (std::size_t l = 0; l < map.sloops.size(); ++l) {
     SLoop loop = map.sloops[l ^ (map.sloops[0].plane.flipped() ? 1U : 0U)];
     loop.plane = renamed(loop.plane);
@@ -39,20 +56,18 @@ void CanonicalMapWriter::write_svertices(const SphereMapView& map, std::span<con
   const auto count = static_cast<std::uint32_t>(map.svertices.size());
   named_.assign(map.svertices.begin(), map.svertices.end());
   for (std::uint32_t s = 0; s < count; ++s) named_[s].p = named_[s].q = PlaneId();
-  for (const SHalfedge& half : map.shalfedges) take_row(named_[half.source], renamed_[half.plane.row()]);
+  for (const SHalfedge& half : old_) take_row(named_[half.source], half.plane.row());
   for (const BareLine& line : lines) {
     for (const std::uint32_t row : line.rows) take_row(named_[line.svertex], row_[row]);
   }
   for (std::uint32_t s = 0; s < count; ++s) turn_along(map.svertices[s], named_[s]);
-  sorted_.resize(count);
-  std::iota(sorted_.begin(), sorted_.end(), 0U);
-  std::sort(sorted_.begin(), sorted_.end(), [this](std::uint32_t a, std::uint32_t b) {
-    return std::pair(named_[a].p, named_[a].q) < std::pair(named_[b].p, named_[b].q);
-  });
+  vertices_.resize(count);
+  for (std::uint32_t s = 0; s < count; ++s) vertices_[s] = {named_[s].p, named_[s].q, s};
+  sort_few(vertices_);
   svertex_.resize(count);
   for (std::uint32_t s = 0; s < count; ++s) {
-    svertex_[sorted_[s]] = s;
-    out_.svertices.push_back(named_[sorted_[s]]);
+    svertex_[vertices_[s].old] = s;
+    out_.svertices.push_back(named_[vertices_[s].old]);
   }
 }
 
@@ -71,25 +86,24 @@ void CanonicalMapWriter::turn_along(const SVertex& old, SVertex& svertex) const 
   if (!positive) svertex.q = svertex.q.opposite();
 }
 
-void CanonicalMapWriter::write_shalfedges(const SphereMapView& map) {
-  const auto count = static_cast<std::uint32_t>(map.shalfedges.size());
-  evens_.clear();
-  for (std::uint32_t e = 0; e < count; e += 2) evens_.push_back(e + (map.shalfedges[e].plane.flipped() ? 1 : 0));
-  const auto key = [&](std::uint32_t e) {
-    return std::array<std::uint32_t, 3>{renamed_[map.shalfedges[e].plane.row()], svertex_[map.shalfedges[e].source],
-                                        svertex_[map.target(e)]};
-  };
-  std::sort(evens_.begin(), evens_.end(), [&key](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+void CanonicalMapWriter::write_shalfedges() {
+  const auto count = static_cast<std::uint32_t>(old_.size());
+  halfedges_.clear();
+  for (std::uint32_t e = 0; e < count; e += 2) {
+    const std::uint32_t unflipped = e + (old_[e].plane.flipped() ? 1 : 0);
+    const SHalfedge& half = old_[unflipped];
+    halfedges_.push_back({half.plane.row(), svertex_[half.source], svertex_[old_[unflipped ^ 1U].source], unflipped});
+  }
+  sort_few(halfedges_);
   shalfedge_.resize(count);
-  for (std::uint32_t k = 0; k < evens_.size(); ++k) {
-    shalfedge_[evens_[k]] = 2 * k;
-    shalfedge_[evens_[k] ^ 1U] = 2 * k + 1;
+  for (std::uint32_t k = 0; k < halfedges_.size(); ++k) {
+    shalfedge_[halfedges_[k].old] = 2 * k;
+    shalfedge_[halfedges_[k].old ^ 1U] = 2 * k + 1;
   }
   for (SVertex& s : out_.svertices) s.out = kNone;
-  for (std::uint32_t k = 0; k < evens_.size(); ++k) {
-    for (const std::uint32_t old : {evens_[k], evens_[k] ^ 1U}) {
-      SHalfedge half = map.shalfedges[old];
-      half.plane = renamed(half.plane);
+  for (const NamedHalfedge& named : halfedges_) {
+    for (const std::uint32_t old : {named.old, named.old ^ 1U}) {
+      SHalfedge half = old_[old];
       half.source = svertex_[half.source];
       half.next = shalfedge_[half.next];
       half.prev = shalfedge_[half.prev];
@@ -101,26 +115,27 @@ void CanonicalMapWriter::write_shalfedges(const SphereMapView& map) {
 }
 
 void CanonicalMapWriter::write_sfaces(const SphereMapView& map) {
-  faces_.resize(map.sfaces.size());
+  faces_.resize(std::max(faces_.size(), map.sfaces.size()));  // what lists of entries have room for stays
+  const std::span<Face> faces(faces_.data(), map.sfaces.size());
   const std::uint32_t swap_loops = !map.sloops.empty() && map.sloops[0].plane.flipped() ? 1 : 0;
-  for (std::uint32_t f = 0; f < faces_.size(); ++f) {
-    faces_[f].old = f;
-    faces_[f].entries.clear();
+  for (std::uint32_t f = 0; f < faces.size(); ++f) {
+    faces[f].old = f;
+    faces[f].entries.clear();
     for (const SFaceEntry& entry : map.entries.subspan(map.sfaces[f].entries, map.sfaces[f].entry_count)) {
       std::uint32_t index = entry.index ^ swap_loops;
       if (entry.kind == SFaceEntry::Kind::kCycle) index = smallest_of_cycle(shalfedge_[entry.index]);
       if (entry.kind == SFaceEntry::Kind::kIsolatedVertex) index = svertex_[entry.index];
-      faces_[f].entries.emplace_back(entry.kind, index);
+      faces[f].entries.emplace_back(entry.kind, index);
     }
-    std::sort(faces_[f].entries.begin(), faces_[f].entries.end());
+    std::sort(faces[f].entries.begin(), faces[f].entries.end());
   }
-  std::sort(faces_.begin(), faces_.end(), [](const Face& a, const Face& b) { return a.entries < b.entries; });
-  sface_.resize(faces_.size());
-  for (std::uint32_t f = 0; f < faces_.size(); ++f) {
-    sface_[faces_[f].old] = f;
+  std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) { return a.entries < b.entries; });
+  sface_.resize(faces.size());
+  for (std::uint32_t f = 0; f < faces.size(); ++f) {
+    sface_[faces[f].old] = f;
     out_.sfaces.push_back({static_cast<std::uint32_t>(out_.entries.size()),
-                           static_cast<std::uint32_t>(faces_[f].entries.size()), map.sfaces[faces_[f].old].mark});
-    for (const auto& [kind, index] : faces_[f].entries) out_.entries.push_back({kind, index});
+                           static_cast<std::uint32_t>(faces[f].entries.size()), map.sfaces[faces[f].old].mark});
+    for (const auto& [kind, index] : faces[f].entries) out_.entries.push_back({kind, index});
   }
   const auto rename = [this](std::uint32_t& sface) {
     if (sface != kNone) sface = sface_[sface];

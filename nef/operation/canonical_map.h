@@ -39,6 +39,20 @@ class CanonicalMapWriter {
   [[nodiscard]] std::span<const std::uint32_t> svertex_numbers() const { return svertex_; }
 
  private:
+  // An svertex by the values of its planes, and its old number.
+  struct NamedVertex {
+    PlaneId p, q;
+    std::uint32_t old = 0;
+    auto operator<=>(const NamedVertex&) const = default;
+  };
+  // An unflipped shalfedge, and its old number.
+  struct NamedHalfedge {
+    std::uint32_t row = 0;
+    std::uint32_t source = 0;
+    std::uint32_t target = 0;
+    std::uint32_t old = 0;
+    auto operator<=>(const NamedHalfedge&) const = default;
+  };
   struct Face {
     std::vector<std::pair<SFaceEntry::Kind, std::uint32_t>> entries;
     std::uint32_t old = 0;
@@ -53,7 +67,7 @@ class CanonicalMapWriter {
 
   void write_svertices(const SphereMapView& map, std::span<const BareLine> lines);
   void turn_along(const SVertex& old, SVertex& svertex) const;
-  void write_shalfedges(const SphereMapView& map);
+  void write_shalfedges();
   void write_sfaces(const SphereMapView& map);
   [[nodiscard]] std::uint32_t smallest_of_cycle(std::uint32_t first) const;
 
@@ -63,10 +77,13 @@ class CanonicalMapWriter {
   std::span<const std::uint32_t> rows_;
   std::span<const std::uint32_t> renamed_;
   SphereMapBuffer out_;
-  // From old items to new ones.
-  std::vector<Face> faces_;
+  std::vector<SHalfedge> old_;  // in the old order, planes renamed
   std::vector<SVertex> named_;
-  std::vector<std::uint32_t> sorted_, svertex_, evens_, shalfedge_, sface_;
+  std::vector<NamedVertex> vertices_;
+  std::vector<NamedHalfedge> halfedges_;
+  std::vector<Face> faces_;
+  // From old items to new ones.
+  std::vector<std::uint32_t> svertex_, shalfedge_, sface_;
 };
 
 }  // namespace nef

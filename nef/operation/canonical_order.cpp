@@ -203,11 +203,15 @@ class Canonical {
     row_.assign(planes_.size(), kNone);  // until the end: the first vertex
     for_each_chunk([&](std::uint32_t first, std::uint32_t last, std::size_t) {
       for (std::uint32_t i = first; i < last; ++i) {
-        const SphereMapView map = this->map(i);
-        for (const SHalfedge& half : map.shalfedges) {
-          if (!half.plane.flipped()) take_smaller(row_[common(i, half.plane).row()], i);
+        const Complex& c = complex(i);
+        const VertexRecord& begin = c.vertices[vertices_[i].vertex];
+        const VertexRecord& end = c.vertices[vertices_[i].vertex.next()];
+        for (std::uint32_t pair = begin.shalfedges / 2; pair < end.shalfedges / 2; ++pair) {
+          take_smaller(row_[common(i, c.shalfedge_plane.pairs()[pair]).row()], i);
         }
-        for (const SLoop& loop : map.sloops) take_smaller(row_[common(i, loop.plane).row()], i);
+        for (std::uint32_t l = begin.sloops; l < end.sloops; ++l) {
+          take_smaller(row_[common(i, c.sloops[l].plane).row()], i);
+        }
       }
     });
     for (const BareLine& line : lines_) {

@@ -167,17 +167,35 @@ void SphereOverlay::hit(std::uint32_t node, std::uint32_t arc) {
   hits_.emplace_back(arc, node);
 }
 
-// Whether `arc` passes through, or ends at, the crossing of its circle with `other`'s that lies at
-// n_arc x n_other (first_crossing: there the arc's circle goes from the positive to the negative
-// side of the other plane) or at its antipode. end_node is set if it ends there.
-bool SphereOverlay::crosses_at(const InputArc& arc, const InputArc& other, const Direction& crossing,
-                               bool first_crossing, std::uint32_t& end_node) {
+// Sides of the ends of an arc by the circle of another one; nothing to know of a loop.
+SphereOverlay::EndSides SphereOverlay::sides_of_ends(const InputArc& arc, const InputArc& other) const {
+  if (arc.source == kNone) return {};
+  const auto side = [&](std::uint32_t node) {
+    if (node == other.source || node == other.target) return 0;
+    return side_of_circle(*planes_, other.plane, drawing_.nodes[node].direction);
+  };
+  const int from = side(arc.source);
+  return {from, arc.source == arc.target ? from : side(arc.target)};
+}
+
+// An arc whose ends lie on one side of a circle crosses it twice if it is longer than a half circle, or else never.
+bool SphereOverlay::stays_aside(const InputArc& arc, const EndSides& sides) const {
+  if (arc.source == kNone || arc.source == arc.target || sides.from == 0 || sides.from != sides.to) return false;
+  return orientation_on_circle(*planes_, arc.plane, drawing_.nodes[arc.source].direction,
+                               drawing_.nodes[arc.target].direction) >= 0;
+}
+
+// Whether `arc`, whose ends are on these sides of another circle, passes through, or ends at, the crossing of its
+// circle with that one that lies at n_arc x n_other (first_crossing: there the arc's circle goes from the positive to
+// the negative side of the other plane) or at its antipode. end_node is set if it ends there. Not for one that stays
+// aside.
+bool SphereOverlay::crosses_at(const InputArc& arc, const EndSides& sides, const Direction& crossing,
+                               bool first_crossing, std::uint32_t& end_node) const {
   end_node = kNone;
   if (arc.source == kNone) return true;
   const Direction& s = drawing_.nodes[arc.source].direction;
   const Direction& t = drawing_.nodes[arc.target].direction;
-  int from = side_of_circle(*planes_, other.plane, s);
-  int to = side_of_circle(*planes_, other.plane, t);
+  auto [from, to] = sides;
   // An end on the other circle is at this crossing or at the antipode; both are far apart, so the
   // filter always answers.
   if (from == 0) {
@@ -201,10 +219,7 @@ bool SphereOverlay::crosses_at(const InputArc& arc, const InputArc& other, const
     // It ends at the antipode, so it was there last; it met this crossing iff it started before.
     return from == (first_crossing ? 1 : -1);
   }
-  if (from != to) return first_crossing == (from > 0);
-  if (arc.source == arc.target) return true;
-  // Both ends on one side: both crossings or none.
-  return orientation_on_circle(*planes_, arc.plane, s, t) < 0;
+  return from == to || first_crossing == (from > 0);
 }
 
 void SphereOverlay::cross_pair(std::uint32_t arc_a, std::uint32_t arc_b) {
@@ -214,13 +229,17 @@ void SphereOverlay::cross_pair(std::uint32_t arc_a, std::uint32_t arc_b) {
     cross_coplanar(arc_a, arc_b);
     return;
   }
+  const EndSides of_a = sides_of_ends(a, b);
+  if (stays_aside(a, of_a)) return;
+  const EndSides of_b = sides_of_ends(b, a);
+  if (stays_aside(b, of_b)) return;
   Direction crossing = Direction::cross(*planes_, a.plane, b.plane);
   for (int k = 0; k < 2; ++k) {
     if (k == 1) crossing = crossing.negated();
     std::uint32_t end_a = kNone;
     std::uint32_t end_b = kNone;
     // Seen from b, the crossing n_a x n_b is the antipode of n_b x n_a.
-    if (!crosses_at(a, b, crossing, k == 0, end_a) || !crosses_at(b, a, crossing, k == 1, end_b)) continue;
+    if (!crosses_at(a, of_a, crossing, k == 0, end_a) || !crosses_at(b, of_b, crossing, k == 1, end_b)) continue;
     if (end_a != kNone && end_b != kNone) {
       NEF_ASSERT(end_a == end_b);
     } else if (end_a != kNone) {

@@ -49,8 +49,14 @@ class SphereOverlay {
   void cross_coplanar(std::uint32_t arc_a, std::uint32_t arc_b);
   void hit(std::uint32_t node, std::uint32_t arc);
   void place_isolated(std::uint32_t first_of_b);
-  bool crosses_at(const InputArc& arc, const InputArc& other, const Direction& crossing, bool first_crossing,
-                  std::uint32_t& end_node);
+  struct EndSides {
+    int from = 0;
+    int to = 0;
+  };
+  [[nodiscard]] EndSides sides_of_ends(const InputArc& arc, const InputArc& other) const;
+  [[nodiscard]] bool stays_aside(const InputArc& arc, const EndSides& sides) const;
+  bool crosses_at(const InputArc& arc, const EndSides& sides, const Direction& crossing, bool first_crossing,
+                  std::uint32_t& end_node) const;
   void cut_arcs();
   void add_piece(const InputArc& arc, std::uint32_t source, std::uint32_t target);
   void find_faces(int operand);

@@ -36,10 +36,19 @@ bool has_boundary(const SphereMapView& map) {
   return differs(map.sfaces) || differs(map.shalfedges) || differs(map.svertices) || differs(map.sloops);
 }
 
+bool BoundaryVertices::operator()(VertexId vertex) {
+  // Marks of great circles are no part of a pattern.
+  if (c_.vertices[vertex].sloops != c_.vertices[vertex.next()].sloops) return has_boundary(c_.sphere_map(vertex));
+  std::uint8_t& known = known_[c_.vertices[vertex].pattern.index()];
+  if (known == kUnknown) known = has_boundary(c_.sphere_map(vertex)) ? 1 : 0;
+  return known != 0;
+}
+
 TileMeasure measure_tile(const Complex& complex) {
   TileMeasure result;
+  BoundaryVertices has_boundary_at(complex);
   for (const VertexId v : complex.vertex_ids()) {
-    if (!has_boundary(complex.sphere_map(v))) continue;
+    if (!has_boundary_at(v)) continue;
     result.box.add_rounded(complex.points.approximate(point_of(v)));
     result.uniform = false;
   }

@@ -6,6 +6,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "nef/polyhedron.h"
 #include "nef/tiles/region.h"
@@ -61,6 +62,20 @@ TileMeasure measure_tile(const Complex& complex);
 
 /// True if the set has boundary at a point with this map: not all marks other than kOutside are the same.
 bool has_boundary(const SphereMapView& map);
+
+/// The same for the vertices of a complex, which must outlive it. Marks are those of patterns, each of which is looked
+/// at once.
+class BoundaryVertices {
+ public:
+  explicit BoundaryVertices(const Complex& complex) : c_(complex), known_(complex.patterns.size(), kUnknown) {}
+  bool operator()(VertexId vertex);
+
+ private:
+  static constexpr std::uint8_t kUnknown = 2;
+
+  const Complex& c_;
+  std::vector<std::uint8_t> known_;  // of each pattern
+};
 
 /// Leaves with these contents; `set` must be in its region. It is kept by the store, if there is one.
 TileRef uniform_leaf(LabelId mark);

@@ -11,6 +11,7 @@
 #include "nef/complex/owners.h"
 #include "nef/synthesis/complex_builder.h"
 #include "nef/synthesis/edge_linking.h"
+#include "nef/tiles/cuts/cut_edge.h"
 #include "nef/tiles/cuts/halving_plane.h"
 
 namespace nef {
@@ -41,7 +42,8 @@ PlaneTable own_planes(const PlaneTable& all, Complex& piece, std::vector<std::ui
 
 }  // namespace
 
-// The vertices of both halves: those of the piece in its order, then where edges cross the plane.
+// The vertices of both halves: those of the piece on that side in its order, then those on the plane, then where edges
+// cross it.
 class Cutter::Halves {
  public:
   Halves(const Complex& piece, PlaneTable& planes, PlaneId plane, SphereOverlay& overlay)
@@ -60,13 +62,16 @@ class Cutter::Halves {
       side_[v] = static_cast<std::int8_t>(side_of_plane(planes_, plane_, c_.points, point_of(v)));
     for (VertexId v{0}; v < side_.end_id();) {
       VertexId end = v.next();
-      if (side_[v] == 0) {
-        add_both(c_.points, point_of(v), c_.sphere_map(v));
-      } else {
-        while (end < side_.end_id() && side_[end] == side_[v]) ++end;
-        copy(v, end);
-      }
+      while (end < side_.end_id() && side_[end] == side_[v]) ++end;
+      if (side_[v] != 0) note_copy(v, end);
       v = end;
+    }
+    for (std::size_t x = 0; x < 2; ++x) {
+      builder_[x].copy(copies_[x], 1);
+      copies_[x] = {};
+    }
+    for (const VertexId v : side_.ids()) {
+      if (side_[v] == 0) add_both(c_.points, point_of(v), c_.sphere_map(v));
     }
     for (const HalfedgeId h : c_.halfedge_ids()) {
       if (side_[c_.source(h)] < 0 && side_[c_.target(h)] > 0) add_crossing(h);
@@ -80,12 +85,17 @@ class Cutter::Halves {
     VertexId first{0};  // in the piece
     std::uint32_t count = 0;
   };
+  // Where an edge of the piece that crosses the plane ends in a half.
+  struct End {
+    HalfedgeId svertex{0};  // there, of the new vertex
+    HalfedgeId halfedge;    // of the piece, on the way to the plane
+  };
 
-  void copy(VertexId first, VertexId end) {
+  void note_copy(VertexId first, VertexId end) {
     const std::size_t x = side_[first] < 0 ? 0 : 1;
-    const std::uint32_t shift = builder_[x].so_far().vertices.back().svertices - c_.vertices[first].svertices;
-    std::ranges::fill(shift_[IdRange(first, end)], shift);
-    builder_[x].copy(c_, first, end - first);
+    std::ranges::fill(shift_[IdRange(first, end)], svertices_[x] - c_.vertices[first].svertices);
+    svertices_[x] += c_.vertices[end].svertices - c_.vertices[first].svertices;
+    copies_[x].push_back({&c_, first, end - first, {}, {}});
     runs_[x].push_back({true, first, end - first});
   }
 
@@ -98,11 +108,28 @@ class Cutter::Halves {
 
   void add_crossing(HalfedgeId h) {
     const VertexId v = c_.source(h);
-    edge_pyramid(c_.sphere_map(v), c_.halfedges(v).position(h), pyramid_);
-    PointTable points;
-    const auto point = points.push_intersection(planes_, c_.svertex(h).p, c_.svertex(h).q, plane_);
+    const SphereMapView map = c_.sphere_map(v);
+    const std::uint32_t position = c_.halfedges(v).position(h);
+    const SVertex svertex = map.svertices[position];
+    const auto point = crossing_.push_intersection(planes_, svertex.p, svertex.q, plane_);
     NEF_ASSERT(point.has_value());
-    add_both(points, *point, pyramid_.view());
+    if (half_of_cut_edge(map, position, plane_, 0, half_)) {
+      add_end(0, *point, h);
+      half_of_cut_edge(map, position, plane_, 1, half_);
+      add_end(1, *point, c_.twin[h]);
+    } else {
+      edge_pyramid(map, position, pyramid_);
+      add_both(crossing_, *point, pyramid_.view());
+      unlinked_.resize(c_.vertex_count(), 0);
+      unlinked_[v] = unlinked_[c_.target(h)] = 1;
+    }
+    crossing_.pop();
+  }
+
+  void add_end(std::size_t x, PointId point, HalfedgeId halfedge) {
+    ends_[x].push_back({builder_[x].so_far().vertices.back().svertices, halfedge});
+    builder_[x].append(crossing_, point, half_.view());
+    runs_[x].push_back({false, VertexId(), 1});
   }
 
   // The ends of edges between copies are known.
@@ -120,13 +147,18 @@ class Cutter::Halves {
         }
       }
     }
+    for (const End& end : ends_[x]) {
+      const HalfedgeId halfedge = end.halfedge + shift_[c_.source(end.halfedge)];
+      known.twin[end.svertex] = halfedge;
+      known.twin[halfedge] = end.svertex;
+    }
     std::swap(half.planes, planes_);
     link_edges(half, known);
     std::swap(half.planes, planes_);
     return half;
   }
 
-  // True if all are known.
+  // True if all are known, or will be as ends of edges across the plane.
   bool copy_twins(VertexId v, int side, IndexedVector<HalfedgeId, HalfedgeId>& twin) const {
     bool all = true;
     for (const HalfedgeId h : c_.halfedges(v)) {
@@ -134,9 +166,9 @@ class Cutter::Halves {
       const VertexId end = c_.source(other);
       const bool kept = side_[end] == side;
       twin.push_back(kept ? other + shift_[end] : HalfedgeId());
-      all = all && kept;
+      all = all && (kept || side_[end] == -side);
     }
-    return all;
+    return all && (unlinked_.empty() || unlinked_[v] == 0);
   }
 
   static bool add_loose(const Complex& half, VertexId vertex, IndexedVector<HalfedgeId, HalfedgeId>& twin) {
@@ -153,6 +185,11 @@ class Cutter::Halves {
   IndexedVector<VertexId, std::int8_t> side_;     // of each vertex
   IndexedVector<VertexId, std::uint32_t> shift_;  // from its svertices to those of its copy, modulo 2^32
   Sides<std::vector<Run>> runs_;
+  Sides<std::vector<ComplexBuilder::CopiedRun>> copies_;
+  Sides<HalfedgeId> svertices_{HalfedgeId{0}, HalfedgeId{0}};  // of these copies
+  Sides<std::vector<End>> ends_;
+  IndexedVector<VertexId, std::uint8_t> unlinked_;  // ends of edges that cross the plane and are in no list of ends
+  PointTable crossing_;                             // one
   Sides<ComplexBuilder> builder_{ComplexBuilder{planes_}, ComplexBuilder{planes_}};
   SphereMapBuffer half_;
   SphereMapBuffer pyramid_;

@@ -31,8 +31,10 @@ double shortest_between(double low, double high) {
 
 std::optional<AxisPlane> halving_plane(const Complex& complex, std::size_t attempt) {
   std::vector<std::array<double, 3>> inner;
+  inner.reserve(complex.vertex_count());
+  BoundaryVertices has_boundary_at(complex);
   for (const VertexId v : complex.vertex_ids()) {
-    if (!complex.points.finite(point_of(v)) || !has_boundary(complex.sphere_map(v))) continue;
+    if (!has_boundary_at(v) || !complex.points.finite(point_of(v))) continue;
     const std::array<double, 3>& p = complex.points.approximate(point_of(v));
     if (std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2])) inner.push_back(p);
   }

@@ -112,8 +112,9 @@ std::optional<std::array<Rational3, 2>> bounds_of_tiles(const TileRef& tree, boo
     const Polyhedron set = leaf.node->set();
     const Complex& c = set.complex();
     ExtremePoints extreme(c.points);
+    BoundaryVertices has_boundary_at(c);
     for (const VertexId v : c.vertex_ids()) {
-      if (!has_boundary(c.sphere_map(v))) continue;
+      if (!has_boundary_at(v)) continue;
       if (!c.points.finite(point_of(v))) {
         is_bounded = false;
         return;

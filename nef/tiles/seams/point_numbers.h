@@ -15,6 +15,9 @@ class PointNumbers {
   /// O(1).
   std::uint32_t number(const PointTable& from, PointId point);
 
+  /// The number of a point that is taken up without a look for it: number() must not be asked for it. O(1).
+  std::uint32_t add(const PointTable& from, PointId point) { return points_.push_from(from, point).index(); }
+
   [[nodiscard]] const PointTable& table() const { return points_; }
 
  private:
@@ -22,6 +25,7 @@ class PointNumbers {
 
   PointTable points_;
   std::vector<std::uint32_t> slots_;  // open addressing, a power of two, at most half full
+  std::size_t used_ = 0;              // of these
 };
 
 }  // namespace nef

@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 
 #include "nef/base/error.h"
 #include "nef/base/interruption.h"
@@ -28,12 +27,6 @@
 
 namespace nef {
 namespace {
-
-// False only if a coordinate surely is not that of the plane.
-bool may_touch(double coordinate, const AxisPlane& plane) {
-  const double slack = 0x1p-50 * std::fabs(coordinate) + 1e-300;
-  return !(coordinate + slack < plane.bounds[0] || coordinate - slack > plane.bounds[1]);
-}
 
 // True if not all marks around the edge of an svertex are the same, kOutside left out.
 bool edge_has_boundary(const SphereMapView& map, std::uint32_t svertex) {
@@ -57,8 +50,11 @@ class SeamGlue {
   // Fills what the functions below return.
   void run() {
     check_interruption();
-    parallel_for(leaves_.size(), threads_, [this](std::size_t i) { read_leaf(leaves_[i]); });
+    parallel_for(leaves_.size(), threads_,
+                 [this](std::size_t i) { leaves_[i].set = leaf_set(leaves_[i].tree, leaves_[i].region); });
     name_planes();
+    parallel_for(leaves_.size(), threads_, [this](std::size_t i) { read_leaf(leaves_[i]); });
+    number_straight_edges();
     number_points();
     find_crossings();
     join_points();
@@ -108,7 +104,6 @@ class SeamGlue {
   // A cut or a leaf of the tree.
   struct Spot {
     PlaneId plane;  // invalid for a leaf
-    const AxisPlane* axis_plane = nullptr;
     std::uint32_t low = 0;
     std::uint32_t high = 0;
     std::uint32_t leaf = 0;
@@ -122,6 +117,15 @@ class SeamGlue {
     VertexId vertex{0};
     std::uint32_t point = kNone;  // among those of all seams; none if the set has no boundary there
     std::uint8_t walls = 0;       // a bit for each
+    bool straight = false;        // an edge that was cut there and goes on in the leaf on the other side
+
+    // True if a vertex of the whole may be there.
+    [[nodiscard]] bool joins() const { return point != kNone && !straight; }
+  };
+  // A seam vertex in one wall where an edge was cut, until it is known whether that goes on.
+  struct CutEdge {
+    std::uint32_t seam = 0;
+    std::array<std::uint32_t, 2> planes{};  // planes_of_cut_edge
   };
   // An edge of a leaf in a wall, between two of its seam vertices.
   struct LeafEdge {
@@ -135,7 +139,8 @@ class SeamGlue {
     Walls walls;
     Polyhedron set;
     std::vector<SeamVertex> seam;
-    PointTable points;  // of these, without common factors
+    PointTable points;  // of these, without common factors, but for cut edges
+    std::vector<CutEdge> cut_edges;
     std::vector<LeafEdge> edges;
     std::vector<std::uint32_t> rows;  // of its planes in the common table
   };
@@ -161,7 +166,6 @@ class SeamGlue {
     }
     const AxisPlane& plane = tree.node->plane;
     spots_[index].plane = plane.intern(planes_);
-    spots_[index].axis_plane = &plane;
     const std::array<TileRef, 2> parts = children(tree);
     Walls below = walls;
     below.spot[2 * plane.axis + 1] = index;
@@ -174,26 +178,49 @@ class SeamGlue {
     return index;
   }
 
-  // Finds the vertices and edges of a leaf in its walls. Touches nothing but the leaf.
-  void read_leaf(Leaf& leaf) const {
-    leaf.set = leaf_set(leaf.tree, leaf.region);
+  // The walls that each vertex of a leaf lies in, a bit for each. Beyond a wall is kOutside, so that it is a plane of
+  // the sphere maps of all vertices in it.
+  [[nodiscard]] IndexedVector<VertexId, std::uint8_t> walls_of_vertices(const Leaf& leaf) const {
     const Complex& c = leaf.set.complex();
-    IndexedVector<VertexId, std::uint8_t> on(c.vertex_count(), 0);  // a bit for each wall
+    std::vector<std::uint8_t> bits(leaf.rows.size(), 0);  // of each plane
     for (unsigned wall = 0; wall < 6; ++wall) {
       if (leaf.walls.spot[wall] == kNone) continue;
-      const Spot& spot = spots_[leaf.walls.spot[wall]];
-      for (const VertexId v : c.vertex_ids()) {
-        if (!may_touch(c.points.approximate(point_of(v))[wall / 2], *spot.axis_plane)) continue;
-        if (side_of_plane(planes_, spot.plane, c.points, point_of(v)) == 0)
-          on[v] |= static_cast<std::uint8_t>(1U << wall);
-      }
+      const auto at = std::find(leaf.rows.begin(), leaf.rows.end(), spots_[leaf.walls.spot[wall]].plane.row());
+      if (at != leaf.rows.end()) bits[static_cast<std::size_t>(at - leaf.rows.begin())] |= 1U << wall;
     }
+    IndexedVector<VertexId, std::uint8_t> on(c.vertex_count(), 0);
+    const std::vector<PlaneId>& planes = c.shalfedge_plane.pairs();
+    for (const VertexId v : c.vertex_ids()) {
+      const VertexRecord& begin = c.vertices[v];
+      const VertexRecord& end = c.vertices[v.next()];
+      for (std::uint32_t pair = begin.shalfedges / 2; pair < end.shalfedges / 2; ++pair) {
+        on[v] |= bits[planes[pair].row()];
+      }
+      for (std::uint32_t loop = begin.sloops; loop < end.sloops; ++loop) on[v] |= bits[c.sloops[loop].plane.row()];
+    }
+    return on;
+  }
+
+  // Finds the vertices and edges of a leaf in its walls. Touches nothing but the leaf.
+  void read_leaf(Leaf& leaf) const {
+    const Complex& c = leaf.set.complex();
+    const IndexedVector<VertexId, std::uint8_t> on = walls_of_vertices(leaf);
+    BoundaryVertices has_boundary_at(c);
     IndexedVector<VertexId, std::uint32_t> seam(c.vertex_count(), kNone);
     for (const VertexId v : c.vertex_ids()) {
       if (on[v] == 0) continue;
-      seam[v] = static_cast<std::uint32_t>(leaf.seam.size());
+      const auto index = static_cast<std::uint32_t>(leaf.seam.size());
+      seam[v] = index;
       leaf.seam.push_back({v, kNone, on[v]});
-      if (!has_boundary(c.sphere_map(v))) continue;
+      if (!has_boundary_at(v)) continue;
+      if (std::has_single_bit(on[v])) {
+        if (const auto planes =
+                planes_of_cut_edge(c.sphere_map(v), spots_[wall_of(leaf, on[v])].plane.row(), leaf.rows)) {
+          leaf.cut_edges.push_back({index, *planes});
+          leaf.seam.back().point = 0;  // it will get one
+          continue;
+        }
+      }
       leaf.seam.back().point = static_cast<std::uint32_t>(leaf.points.size());  // until they get common numbers
       leaf.points.push_reduced(c.points, point_of(v));
     }
@@ -224,11 +251,61 @@ class SeamGlue {
     }
   }
 
+  // The spot of the one wall of these.
+  static std::uint32_t wall_of(const Leaf& leaf, std::uint8_t walls) {
+    return leaf.walls.spot[static_cast<std::size_t>(std::countr_zero(walls))];
+  }
+
+  // Where the leaves on both sides of a cut have a cut edge with the same planes, that is one point, around which there
+  // are no other leaves: the edge goes on, and the whole has no vertex there. The point gets a number, as an end of
+  // edges in the wall, without a look at its coordinates.
+  void number_straight_edges() {
+    check_interruption();
+    struct End {
+      std::array<std::uint32_t, 2> planes;
+      std::uint32_t leaf;
+      std::uint32_t seam;
+    };
+    std::vector<std::uint32_t> begin(spots_.size() + 1U, 0);  // of the ends in each cut
+    const auto for_each_end = [this](const auto& body) {
+      for (std::uint32_t i = 0; i < leaves_.size(); ++i) {
+        for (const CutEdge& edge : leaves_[i].cut_edges) {
+          body(wall_of(leaves_[i], leaves_[i].seam[edge.seam].walls), End{edge.planes, i, edge.seam});
+        }
+      }
+    };
+    for_each_end([&begin](std::uint32_t spot, const End&) { ++begin[spot + 1U]; });
+    for (std::size_t spot = 0; spot < spots_.size(); ++spot) begin[spot + 1U] += begin[spot];
+    std::vector<End> ends(begin.back());
+    std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
+    for_each_end([&](std::uint32_t spot, const End& end) { ends[next[spot]++] = end; });
+    for (Leaf& leaf : leaves_) leaf.cut_edges = {};
+    parallel_for(spots_.size(), threads_, [&](std::size_t spot) {
+      std::sort(ends.begin() + begin[spot], ends.begin() + begin[spot + 1U],
+                [](const End& a, const End& b) { return a.planes < b.planes; });
+    });
+    for (std::size_t spot = 0; spot < spots_.size(); ++spot) {
+      for (std::uint32_t k = begin[spot]; k < begin[spot + 1U]; ++k) {
+        Leaf& leaf = leaves_[ends[k].leaf];
+        SeamVertex& one = leaf.seam[ends[k].seam];
+        if (k + 1U < begin[spot + 1U] && ends[k + 1U].planes == ends[k].planes) {
+          SeamVertex& other = leaves_[ends[k + 1U].leaf].seam[ends[k + 1U].seam];
+          one.straight = other.straight = true;
+          one.point = other.point = points_.add(leaf.set.complex().points, point_of(one.vertex));
+          ++k;
+        } else {
+          one.point = static_cast<std::uint32_t>(leaf.points.size());
+          leaf.points.push_reduced(leaf.set.complex().points, point_of(one.vertex));
+        }
+      }
+    }
+  }
+
   void number_points() {
     check_interruption();
     for (Leaf& leaf : leaves_) {
       for (SeamVertex& s : leaf.seam) {
-        if (s.point != kNone) s.point = points_.number(leaf.points, PointId{s.point});
+        if (s.point != kNone && !s.straight) s.point = points_.number(leaf.points, PointId{s.point});
       }
       leaf.points = PointTable();
     }
@@ -287,7 +364,7 @@ class SeamGlue {
     std::vector<std::uint32_t> begin(count + 1U, 0);  // of the members of each point
     for (const Leaf& leaf : leaves_) {
       for (const SeamVertex& s : leaf.seam) {
-        if (s.point != kNone) ++begin[s.point + 1U];
+        if (s.joins()) ++begin[s.point + 1U];
       }
     }
     for (std::uint32_t i = 0; i < count; ++i) begin[i + 1U] += begin[i];
@@ -295,7 +372,7 @@ class SeamGlue {
     std::vector<std::uint32_t> end(begin.begin(), begin.end() - 1);
     for (std::uint32_t i = 0; i < leaves_.size(); ++i) {
       for (std::uint32_t k = 0; k < leaves_[i].seam.size(); ++k) {
-        if (const std::uint32_t point = leaves_[i].seam[k].point; point != kNone) members[end[point]++] = {i, k};
+        if (const SeamVertex& s = leaves_[i].seam[k]; s.joins()) members[end[s.point]++] = {i, k};
       }
     }
     constexpr std::uint32_t kChunk = 1024;
@@ -305,7 +382,8 @@ class SeamGlue {
       Joiner joiner(*this);
       const auto first = static_cast<std::uint32_t>(chunk * kChunk);
       for (std::uint32_t point = first; point < std::min(count, first + kChunk); ++point) {
-        joiner.join(PointId{point}, std::span(members).subspan(begin[point], begin[point + 1U] - begin[point]));
+        const std::uint32_t size = begin[point + 1U] - begin[point];
+        if (size > 0 || crossing_[point]) joiner.join(PointId{point}, std::span(members).subspan(begin[point], size));
       }
       joined[chunk] = joiner.take();
     });
@@ -320,7 +398,7 @@ class SeamGlue {
     explicit Joiner(SeamGlue& glue) : glue_(glue), builder_(glue.planes_) {}
 
     void join(PointId point, std::span<const Member> members) {
-      if (inside_straight_edge(members) || (!glue_.crossing_[point.index()] && inside_facet(members))) return;
+      if (!glue_.crossing_[point.index()] && inside_facet(members)) return;
       holding_.clear();
       find_leaves(point, glue_.root_);
       NEF_ASSERT(holding_.size() > 1);
@@ -342,21 +420,6 @@ class SeamGlue {
     Complex take() { return builder_.take_so_far(); }
 
    private:
-    // An edge that was cut there and goes on in the leaf on the other side.
-    [[nodiscard]] bool inside_straight_edge(std::span<const Member> members) const {
-      if (members.size() != 2) return false;
-      const auto planes = planes_at(members[0]);
-      return planes && planes == planes_at(members[1]);
-    }
-
-    [[nodiscard]] std::optional<std::array<std::uint32_t, 2>> planes_at(const Member& member) const {
-      const Leaf& leaf = glue_.leaves_[member.leaf];
-      const SeamVertex& s = leaf.seam[member.seam];
-      if (!std::has_single_bit(s.walls)) return std::nullopt;
-      const std::uint32_t wall = leaf.walls.spot[static_cast<std::size_t>(std::countr_zero(s.walls))];
-      return planes_of_cut_edge(leaf.set.complex().sphere_map(s.vertex), glue_.spots_[wall].plane.row(), leaf.rows);
-    }
-
     // A facet that was cut along several walls.
     [[nodiscard]] bool inside_facet(std::span<const Member> members) const {
       if (members.empty()) return false;

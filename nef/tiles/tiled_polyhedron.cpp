@@ -136,12 +136,18 @@ std::optional<RayHit> shoot_ray(const TiledPolyhedron& a, const Rational3& origi
   return first_hit_in_tiles(a.tree(), origin, direction, accept);
 }
 
-std::optional<Rational> volume(const TiledPolyhedron& a) { return volume_of_tiles(a.tree()); }
+std::optional<Rational> volume(const TiledPolyhedron& a) {
+  return extent_of_tiles(a.tree(), true, false, a.tiling().threads).volume;
+}
 
 std::optional<std::array<Rational3, 2>> bounding_box(const TiledPolyhedron& a) {
-  bool bounded = false;
-  const std::optional<std::array<Rational3, 2>> bounds = bounds_of_tiles(a.tree(), bounded);
-  return bounded ? bounds : bounding_box(a.polyhedron());
+  const ExtentOfTiles extent = extent_of_tiles(a.tree(), false, true, a.tiling().threads);
+  return extent.bounded ? extent.box : bounding_box(a.polyhedron());
+}
+
+VolumeAndBox volume_and_bounding_box(const TiledPolyhedron& a) {
+  const ExtentOfTiles extent = extent_of_tiles(a.tree(), true, true, a.tiling().threads);
+  return {extent.volume, extent.bounded ? extent.box : bounding_box(a.polyhedron())};
 }
 
 }  // namespace nef

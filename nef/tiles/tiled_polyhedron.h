@@ -96,4 +96,11 @@ std::optional<Rational> volume(const TiledPolyhedron& a);
 /// Smallest and largest coordinates of the vertices, as of a Polyhedron. O(n); glues sets whose boundary is unbounded.
 std::optional<std::array<Rational3, 2>> bounding_box(const TiledPolyhedron& a);
 
+/// Both, where each tile is read once.
+struct VolumeAndBox {
+  std::optional<Rational> volume;
+  std::optional<std::array<Rational3, 2>> box;
+};
+VolumeAndBox volume_and_bounding_box(const TiledPolyhedron& a);
+
 }  // namespace nef

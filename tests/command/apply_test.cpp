@@ -239,6 +239,11 @@ TEST_CASE("sets in tiles are asked without being glued") {
   }
   CHECK(tiled["tiles"].get<int>() > 4);
   CHECK(here.nef("info b.tiles --glued --json").json()["result"] == whole);
+  for (const std::string flags : {"--memory 50K", "--memory 1G", "--memory 1 --threads 1"}) {
+    CHECK(here.nef("info b.tiles --json " + flags).json()["result"] == tiled);
+    CHECK(here.nef("equal b.tiles plain.nef " + flags).code == 0);
+    CHECK(here.nef("equal a.off b.tiles " + flags).code == 1);
+  }
   const std::string points = "0,0,0 4,4,4 1,1,1 3/2,3/2,3/2 8,8,8 1/2,1/2,1/2 -1,0,0 5/4,5/4,1";
   const nlohmann::json there = here.nef("locate b.tiles --json -- " + points).json()["points"];
   const nlohmann::json expected = here.nef("locate plain.nef --json -- " + points).json()["points"];
@@ -284,6 +289,8 @@ TEST_CASE("flags about tiles that say nothing useful are refused") {
   }
   CHECK(here.nef("union a.off a.off --tiles off --memory 1G -o b.nef").code == 2);
   CHECK(here.nef("info none.tiles").code == 2);
+  CHECK(here.nef("info a.off --memory 1G").code == 2);
+  CHECK(here.nef("equal a.off a.off --memory 1G").code == 2);
 }
 
 }  // namespace nef::test

@@ -13,6 +13,7 @@
 #include <fstream>
 #include <future>
 #include <random>
+#include <set>
 #include <sstream>
 #include <string>
 #include <thread>
@@ -75,13 +76,15 @@ std::string tetrahedra(int count, unsigned seed) {
   return text.str();
 }
 
-// Lines of bars from one end to the other, in two directions, which cross.
-std::string bars() {
+// Lines of bars from one end to the other, in two directions, which cross; so many in a row.
+std::string bars(int count = 300, int row = 15) {
   std::string text;
-  for (int i = 0; i < 300; ++i) {
-    const std::string low = std::to_string(i % 15 * 5) + ", " + std::to_string(i / 15 * 5);
-    const std::string high = std::to_string(i % 15 * 5 + 2) + ", " + std::to_string(i / 15 * 5 + 3);
-    text += i % 2 == 0 ? "box(0, " + low + ", 75, " + high + ")\n" : "box(" + low + ", 0, " + high + ", 75)\n";
+  const std::string end = std::to_string(5 * row);
+  for (int i = 0; i < count; ++i) {
+    const std::string low = std::to_string(i % row * 5) + ", " + std::to_string(i / row * 5);
+    const std::string high = std::to_string(i % row * 5 + 2) + ", " + std::to_string(i / row * 5 + 3);
+    text += i % 2 == 0 ? "box(0, " + low + ", " + end + ", " + high + ")\n"
+                       : "box(" + low + ", 0, " + high + ", " + end + ")\n";
   }
   return text;
 }
@@ -209,6 +212,55 @@ TEST_CASE("pieces that lie everywhere are united up a tree instead of region by 
     REQUIRE(here.run("nef", "convert " + name + ".tiles -o glued.nef").code == 0);
     CHECK(here.read("glued.nef") == here.read("one.nef"));
   }
+}
+
+TEST_CASE("a rank that is lost inside the tree of unions ends the run, and the next one goes on in the tree") {
+  const bool lose_first = GENERATE(false, true);
+  const int before_loss = lose_first ? 4 : 3;
+  CAPTURE(lose_first);
+  const Place here;
+  static_cast<void>(here.write("bars.txt", bars(1100, 33)));
+  const std::string list = here.file("bars.txt");
+  const fs::path work = here.path() / "u.nef.work";
+  const auto results = [&work] {
+    std::set<std::string> names;
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(work, error)) {
+      const std::string name = entry.path().filename().string();
+      if (name.starts_with("union-") && name.ends_with(".nef")) names.insert(name);
+    }
+    return names;
+  };
+  std::future<Outcome> run =
+      std::async(std::launch::async, [&] { return here.ranks(before_loss, "union --list " + list + " -o u.nef"); });
+  // A result that is gone has been used up by the union of two.
+  std::set<std::string> seen;
+  bool inside = false;
+  for (int i = 0; i < 60000 && !inside; ++i) {
+    const std::set<std::string> now = results();
+    inside = !std::includes(now.begin(), now.end(), seen.begin(), seen.end());
+    seen.insert(now.begin(), now.end());
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  REQUIRE(inside);
+  std::vector<pid_t> ranks = processes_with("nef_mpi", list);
+  std::sort(ranks.begin(), ranks.end());
+  REQUIRE(ranks.size() == static_cast<std::size_t>(before_loss));
+  REQUIRE(kill(lose_first ? ranks.front() : ranks.back(), SIGKILL) == 0);
+  CHECK(run.get().code != 0);
+  CHECK_FALSE(fs::exists(here.path() / "u.nef"));
+  CHECK_FALSE(results().empty());
+  REQUIRE(here.ranks(lose_first ? 7 : 2, "union --list " + list + " -o u.nef --times second.csv").code == 0);
+  CHECK_FALSE(fs::exists(work));
+  REQUIRE(here.ranks(1, "union --list " + list + " -o whole.nef --times whole.csv").code == 0);
+  CHECK(here.read("u.nef") == here.read("whole.nef"));
+  const auto unions = [&here](const std::string& name) {
+    std::istringstream lines(here.read(name));
+    std::size_t count = 0;
+    for (std::string line; std::getline(lines, line);) count += line.starts_with("unions,") ? 1 : 0;
+    return count;
+  };
+  CHECK(unions("second.csv") < unions("whole.csv"));
 }
 
 TEST_CASE("a union that fails is named, those that need it are left out, and the others are kept") {

@@ -93,6 +93,29 @@ TEST_CASE("what a killed run left is removed by the next one that needs files") 
   glued_is(first, make_sphere(10, 30), "the first");
 }
 
+TEST_CASE("volume and box read each tile once, on one thread and on several") {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("s.tiles");
+  const Polyhedron solid = subtract(make_sphere(10, 60), notch(1));
+  write_tiles(path, TiledPolyhedron(solid, {200, 1}));
+  for (const unsigned threads : {1U, 3U}) {
+    const std::shared_ptr<TileStore> store = store_in(folder, 1);  // holds one
+    const TiledPolyhedron set = read_tiles(path, store, threads);
+    for (const bool inside_out : {false, true}) {
+      const std::size_t before = store->counts().read;
+      const auto [found, box] = volume_and_bounding_box(inside_out ? complement(set) : set);
+      CHECK(found == (inside_out ? std::nullopt : volume(solid)));
+      CHECK(box == bounding_box(solid));
+      CHECK(store->counts().read - before <= set.tile_count());
+    }
+  }
+  // A leaf without boundary counts as its region.
+  const TiledPolyhedron half = TiledPolyhedron(make_halfspace(1, 0, 0, 0), {});
+  CHECK(volume_and_bounding_box(half).volume == std::nullopt);
+  CHECK(volume_and_bounding_box(half).box == bounding_box(make_halfspace(1, 0, 0, 0)));
+  CHECK(volume_and_bounding_box(TiledPolyhedron()).volume == Rational(0));
+}
+
 TEST_CASE("versions in folders share nothing that they lose, and write what is new") {
   const TemporaryFolder folder;
   const Polyhedron sphere = make_sphere(10, 60);

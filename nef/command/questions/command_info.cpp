@@ -3,6 +3,7 @@
 // nef info | convert | equal
 #include <optional>
 
+#include "nef/base/error.h"
 #include "nef/command/commands.h"
 #include "nef/command/tiles/tile_flags.h"
 #include "nef/program/set_info.h"
@@ -31,13 +32,22 @@ std::string volume_text(const Json& info) {
   return exact.find('/') == std::string::npos ? exact : exact + " (" + approximate.dump() + ")";
 }
 
-// What tiles tell without being glued: the same keys, as far as they go.
-Json tiled_info(Session& session) {
-  const TiledPolyhedron set = load_tiled(session, session.input, choose_tiles({}, session, session.input).tiling);
+// What tiles tell without being glued: the same keys, as far as they go. Each tile is read once, so that little memory
+// does if nothing is said of it.
+Json tiled_info(Session& session, TileFlags flags) {
+  if (flags.memory.empty()) flags.memory = "64M";
+  const TiledPolyhedron set = load_tiled(session, session.input, choose_tiles(flags, session, session.input).tiling);
   Json info = {{"tiles", set.tile_count()}, {"vertices_in_tiles", set.vertex_count()}};
-  add_volume(info, volume(set), {.exact = session.exact});
-  add_box(info, bounding_box(set), {.exact = session.exact});
+  const auto [volume, box] = volume_and_bounding_box(set);
+  add_volume(info, volume, {.exact = session.exact});
+  add_box(info, box, {.exact = session.exact});
   return info;
+}
+
+void require_tiles_for_memory(const TileFlags& flags, bool in_tiles) {
+  if (!in_tiles && !flags.memory.empty()) {
+    throw InputError("--memory is for sets in tiles: give a folder NAME.tiles, as nef convert makes it");
+  }
 }
 
 void add_info(CLI::App& app, Session& session) {
@@ -47,12 +57,15 @@ void add_info(CLI::App& app, Session& session) {
   command->add_flag("--exact", session.exact, "Print exact numbers however long they are");
   const auto glued = std::make_shared<bool>(false);
   command->add_flag("--glued", *glued, "Of a set in tiles all that is told of others, for which it is glued");
+  const auto flags = std::make_shared<TileFlags>();
+  add_memory_flag(command, *flags);
   command->footer(
       "Centroid, inertia tensor (about the centroid, density 1), principal moments and their axes are those of the\n"
       "solid parts. genus: of each shell that is a closed manifold surface.");
-  command->callback([&session, glued] {
+  command->callback([&session, glued, flags] {
     const bool in_tiles = names_tile_folder(session.input) && !*glued;
-    Json info = in_tiles ? tiled_info(session)
+    require_tiles_for_memory(*flags, in_tiles);
+    Json info = in_tiles ? tiled_info(session, *flags)
                          : set_info(session.load(session.input), {.exact = session.exact, .moments = true});
     if (session.json) return session.print("info", {{"result", std::move(info)}});
     info["volume"] = volume_text(info);
@@ -80,10 +93,13 @@ void add_convert(CLI::App& app, Session& session) {
 }
 
 // Folders of tiles are compared tile by tile. Labels, which tiles do not hold, are compared in whole sets.
-bool equal_files(Session& session, const std::string& first, const std::string& second) {
-  if (!names_tile_folder(first) && !names_tile_folder(second)) return equal(session.load(first), session.load(second));
-  const auto in_tiles = [&session](const std::string& path) -> std::optional<TiledPolyhedron> {
-    const Tiling tiling = choose_tiles({}, session, path).tiling;
+bool equal_files(Session& session, const std::string& first, const std::string& second, const TileFlags& flags) {
+  const bool any_in_tiles = names_tile_folder(first) || names_tile_folder(second);
+  require_tiles_for_memory(flags, any_in_tiles);
+  if (!any_in_tiles) return equal(session.load(first), session.load(second));
+  // One store for both.
+  const Tiling tiling = choose_tiles(flags, session, names_tile_folder(first) ? first : second).tiling;
+  const auto in_tiles = [&](const std::string& path) -> std::optional<TiledPolyhedron> {
     if (names_tile_folder(path)) return load_tiled(session, path, tiling);
     const Polyhedron set = session.load(path);
     if (set.complex().label_count > 2) return std::nullopt;
@@ -98,8 +114,10 @@ void add_equal(CLI::App& app, Session& session) {
   CLI::App* command = add_subcommand(app, session, "equal", "Are two sets the same? Exit code 0 if they are, 1 if not");
   command->add_option("inputs", session.inputs, "The two sets, as files")->required()->expected(2);
   add_input_flags(command, session);
-  command->callback([&session] {
-    const bool same = equal_files(session, session.inputs[0], session.inputs[1]);
+  const auto flags = std::make_shared<TileFlags>();
+  add_memory_flag(command, *flags);
+  command->callback([&session, flags] {
+    const bool same = equal_files(session, session.inputs[0], session.inputs[1], *flags);
     session.exit_code = same ? kYes : kNo;
     if (session.json) {
       session.print("equal", {{"equal", same}});

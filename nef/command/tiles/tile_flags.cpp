@@ -79,6 +79,14 @@ void add_tile_flags(CLI::App* command, TileFlags& flags) {
       ->type_name("SIZE");
 }
 
+void add_memory_flag(CLI::App* command, TileFlags& flags) {
+  command
+      ->add_option("--memory", flags.memory,
+                   "Keep tiles of a folder NAME.tiles within so much memory, such as 800M or 2G, and read them again "
+                   "when they are needed again")
+      ->type_name("SIZE");
+}
+
 TileChoice choose_tiles(const TileFlags& flags, const Session& session, const std::string& first_input) {
   TileChoice result;
   result.tiling.threads = session.threads;

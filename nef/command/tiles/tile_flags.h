@@ -17,6 +17,8 @@ struct TileFlags {
 };
 
 void add_tile_flags(CLI::App* command, TileFlags& flags);
+/// --memory alone, of a subcommand that only reads sets in tiles.
+void add_memory_flag(CLI::App* command, TileFlags& flags);
 
 /// Whether a run works in tiles, and how.
 struct TileChoice {

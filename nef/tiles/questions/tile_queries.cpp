@@ -2,9 +2,12 @@
 #include "nef/tiles/questions/tile_queries.h"
 
 #include <algorithm>
+#include <atomic>
 #include <utility>
 #include <vector>
 
+#include "nef/base/interruption.h"
+#include "nef/base/threads/parallel.h"
 #include "nef/complex/local_pyramid.h"
 #include "nef/query/measures/extreme_points.h"
 #include "nef/sphere_map/overlay.h"
@@ -89,48 +92,93 @@ Location locate_in_tiles(const TileRef& tree, const Rational3& point) {
   return {there.kind, 0, static_cast<LabelId>((there.mark != 0) != only.complemented ? 1 : 0)};
 }
 
-std::optional<Rational> volume_of_tiles(const TileRef& tree) {
-  std::optional<Rational> sum = Rational(0);
-  for_each_leaf(tree, Region{}, [&sum](const TileRef& leaf, const Region& region) {
-    if (!sum) return;
-    if (leaf.node->kind != Kind::kUniform) {
-      const std::optional<Rational> part = volume(leaf_set(leaf, region));
-      sum = part ? std::optional<Rational>(*sum + *part) : std::nullopt;
-    } else if (leaf.node->mark != 0) {
-      sum = bounded(region) ? std::optional<Rational>(*sum + extent(region, 0) * extent(region, 1) * extent(region, 2))
-                            : std::nullopt;
-    }
-  });
-  return sum;
+namespace {
+
+using Corners = std::array<Rational3, 2>;
+
+void enclose(std::optional<Corners>& box, const Corners& other) {
+  if (!box) {
+    box = other;
+    return;
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    (*box)[0][axis] = std::min((*box)[0][axis], other[0][axis]);
+    (*box)[1][axis] = std::max((*box)[1][axis], other[1][axis]);
+  }
 }
 
-std::optional<std::array<Rational3, 2>> bounds_of_tiles(const TileRef& tree, bool& is_bounded) {
-  std::optional<std::array<Rational3, 2>> result;
-  is_bounded = true;
-  for_each_leaf(tree, Region{}, [&](const TileRef& leaf, const Region&) {
-    if (leaf.node->kind == Kind::kUniform || !is_bounded) return;
-    const Polyhedron set = leaf.node->set();
-    const Complex& c = set.complex();
-    ExtremePoints extreme(c.points);
-    BoundaryVertices has_boundary_at(c);
-    for (const VertexId v : c.vertex_ids()) {
-      if (!has_boundary_at(v)) continue;
-      if (!c.points.finite(point_of(v))) {
-        is_bounded = false;
-        return;
+// `set`: what its node holds, if it is a tile.
+std::optional<Rational> volume_of_leaf(const TileRef& leaf, const Polyhedron& set, const Region& region) {
+  if (leaf.node->kind != Kind::kUniform) return volume(leaf.complemented ? complement(set) : set);
+  if (leaf.node->mark == 0) return Rational(0);
+  if (!bounded(region)) return std::nullopt;
+  return extent(region, 0) * extent(region, 1) * extent(region, 2);
+}
+
+// Nothing if a vertex lies at infinity.
+std::optional<Corners> box_of_tile(const Complex& c) {
+  ExtremePoints extreme(c.points);
+  BoundaryVertices has_boundary_at(c);
+  for (const VertexId v : c.vertex_ids()) {
+    if (!has_boundary_at(v)) continue;
+    if (!c.points.finite(point_of(v))) return std::nullopt;
+    extreme.add(point_of(v));
+  }
+  return extreme.box();  // a tile has boundary
+}
+
+// Two by two, so that few sums have the denominators of many.
+Rational sum_of(std::vector<Rational> parts) {
+  for (; parts.size() > 1; parts.resize((parts.size() + 1) / 2)) {
+    for (std::size_t i = 0; 2 * i < parts.size(); ++i) {
+      parts[i] = 2 * i + 1 < parts.size() ? Rational(parts[2 * i] + parts[2 * i + 1]) : parts[2 * i];
+    }
+  }
+  return parts.empty() ? Rational(0) : parts.front();
+}
+
+}  // namespace
+
+ExtentOfTiles extent_of_tiles(const TileRef& tree, bool with_volume, bool with_box, unsigned threads) {
+  std::vector<std::pair<TileRef, Region>> leaves;
+  for_each_leaf(tree, Region{},
+                [&leaves](const TileRef& leaf, const Region& region) { leaves.emplace_back(leaf, region); });
+  std::atomic<bool> finite = with_volume;
+  std::atomic<bool> bounded = true;
+  constexpr std::size_t kChunk = 16;
+  struct Part {
+    Rational volume;
+    std::optional<Corners> box;
+  };
+  std::vector<Part> parts((leaves.size() + kChunk - 1) / kChunk);
+  parallel_for(parts.size(), threads, [&](std::size_t chunk) {
+    check_interruption();
+    Part& part = parts[chunk];
+    for (std::size_t i = chunk * kChunk; i < std::min(leaves.size(), (chunk + 1) * kChunk); ++i) {
+      const auto& [leaf, region] = leaves[i];
+      const Polyhedron set = leaf.node->kind == Kind::kUniform ? Polyhedron() : leaf.node->set();
+      if (finite) {
+        const std::optional<Rational> volume = volume_of_leaf(leaf, set, region);
+        if (volume) part.volume += *volume;
+        if (!volume) finite = false;
       }
-      extreme.add(point_of(v));
-    }
-    const std::array<Rational3, 2> own = *extreme.box();  // a tile has boundary
-    if (!result) {
-      result = own;
-      return;
-    }
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      (*result)[0][axis] = std::min((*result)[0][axis], own[0][axis]);
-      (*result)[1][axis] = std::max((*result)[1][axis], own[1][axis]);
+      if (with_box && bounded && leaf.node->kind != Kind::kUniform) {
+        const std::optional<Corners> box = box_of_tile(set.complex());
+        if (box) enclose(part.box, *box);
+        if (!box) bounded = false;
+      }
     }
   });
+  ExtentOfTiles result;
+  result.bounded = bounded;
+  if (finite) {
+    std::vector<Rational> volumes;
+    for (Part& part : parts) volumes.push_back(std::move(part.volume));
+    result.volume = sum_of(std::move(volumes));
+  }
+  for (const Part& part : parts) {
+    if (part.box) enclose(result.box, *part.box);
+  }
   return result;
 }
 

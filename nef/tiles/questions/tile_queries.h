@@ -17,12 +17,18 @@ struct PyramidInTiles {
 };
 PyramidInTiles pyramid_in_tiles(const TileRef& tree, const Rational3& point);
 
-/// What nef/tiles/tiled_polyhedron.h says of the functions of these names.
+/// What nef/tiles/tiled_polyhedron.h says of the function of this name.
 Location locate_in_tiles(const TileRef& tree, const Rational3& point);
-std::optional<Rational> volume_of_tiles(const TileRef& tree);
 
-/// Smallest and largest coordinates of the vertices at which the set has boundary, those in walls included; nothing for
-/// none. `bounded` becomes false if any lies at infinity: then it means nothing.
-std::optional<std::array<Rational3, 2>> bounds_of_tiles(const TileRef& tree, bool& bounded);
+/// What is found out of tiles one by one.
+struct ExtentOfTiles {
+  std::optional<Rational> volume;  ///< nothing if it is infinite, or not asked for
+  /// Smallest and largest coordinates of the vertices at which the set has boundary, those in walls included; nothing
+  /// for none, or if it is not asked for.
+  std::optional<std::array<Rational3, 2>> box;
+  bool bounded = true;  ///< no such vertex lies at infinity; else `box` means nothing
+};
+/// Looks at each tile once, on up to `threads` threads, each of which holds one at a time.
+ExtentOfTiles extent_of_tiles(const TileRef& tree, bool with_volume, bool with_box, unsigned threads);
 
 }  // namespace nef

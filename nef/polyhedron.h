@@ -86,7 +86,7 @@ bool equal(const Polyhedron& a, const Polyhedron& b);
 
 /// An affine map x -> m x + t with rational entries.
 struct AffineMap {
-  std::array<std::array<Rational, 3>, 3> linear;
+  std::array<Rational3, 3> linear;
   Rational3 translation;
 
   static AffineMap identity();

@@ -31,6 +31,8 @@ def allowed(source: pathlib.PurePath, target: pathlib.PurePath) -> bool:
     if target.parts[0] not in ("nef", "apps"):
         return False
     if source.parts[0] == "apps":
+        if target.parts[:2] == ("nef", "command"):
+            return source.parts[1] == "nef"  # what programs share is in nef/program
         return target.parts[0] == "nef" or target.parts[1] in APPS[source.parts[1]] | {source.parts[1]}
     if target.parts[0] == "apps":
         return False

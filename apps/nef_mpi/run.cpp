@@ -16,9 +16,9 @@
 #include "apps/visual_hull/command/frames.h"
 #include "nef/base/error.h"
 #include "nef/base/timing/stopwatch.h"
-#include "nef/command/tiles/tile_flags.h"
 #include "nef/io/file_bytes.h"
 #include "nef/program/run_program.h"
+#include "nef/program/tile_flags.h"
 #include "nef/tiles/storage/tile_folder.h"
 #include "nef/tiles/tile_tree.h"
 

@@ -19,7 +19,7 @@ namespace {
 // to - from as an integer vector, up to a positive factor (both finite or both with parts in R:
 // then the part in R decides unless it is equal).
 Direction vector_between(const PointTable& points, PointId from, PointId to) {
-  std::array<Integer, 3> v;
+  Integer3 v;
   for (const std::size_t part : {std::size_t{4}, std::size_t{0}}) {
     bool zero = true;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -118,10 +118,10 @@ class SolidBuilder {
   PlaneId plane_across(std::uint32_t v, const Spoke& spoke) {
     const Direction along = vector_between(f_.points, PointId{v}, PointId{spoke.to});
     const Direction up = Direction::normal(f_.planes, spoke.first);
-    const std::array<Integer, 3>& edge = along.integers();
-    const std::array<Integer, 3>& normal = up.integers();
+    const Integer3& edge = along.integers();
+    const Integer3& normal = up.integers();
     Integer offset;
-    std::array<Integer, 3> n;
+    Integer3 n;
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t j = (i + 1) % 3;
       const std::size_t k = (i + 2) % 3;
@@ -237,7 +237,7 @@ SolidFaces infimaximal_box_faces(bool half) {
   constexpr std::array<std::array<std::uint32_t, 4>, 6> kSides{
       {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}};
   for (std::size_t i = 0; i < 6; ++i) {
-    std::array<Integer, 3> n;
+    Integer3 n;
     n[i / 2] = i % 2 == 0 ? -1 : 1;
     f.plane.push_back(f.planes.intern(n[0], n[1], n[2], 0, half && i == 5 ? 0 : -1));
     f.corners.insert(f.corners.end(), kSides[i].begin(), kSides[i].end());

@@ -3,13 +3,9 @@
 // Integer vectors in the direction of rational ones.
 #pragma once
 
-#include <array>
-
 #include "nef/number/number.h"
 
 namespace nef {
-
-using Integer3 = std::array<Integer, 3>;
 
 /// The least common denominator of the coordinates.
 Integer common_denominator(const Rational3& v);

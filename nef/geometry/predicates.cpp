@@ -166,8 +166,8 @@ Direction Direction::exact(const Integer& x, const Integer& y, const Integer& z)
 }
 
 Direction Direction::cross(const Direction& u, const Direction& v) {
-  const std::array<Integer, 3>& a = u.integers();
-  const std::array<Integer, 3>& b = v.integers();
+  const Integer3& a = u.integers();
+  const Integer3& b = v.integers();
   return exact(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]);
 }
 
@@ -187,11 +187,11 @@ Direction Direction::negated() const {
 }
 
 bool Direction::is_zero() const {
-  const std::array<Integer, 3>& v = integers();
+  const Integer3& v = integers();
   return v[0] == 0 && v[1] == 0 && v[2] == 0;
 }
 
-const std::array<Integer, 3>& Direction::integers() const& {
+const Integer3& Direction::integers() const& {
   if (known_) return integers_;
   NEF_ASSERT(planes_ != nullptr);
   for (std::size_t i = 0; i < 3; ++i) {
@@ -210,7 +210,7 @@ const std::array<Integer, 3>& Direction::integers() const& {
   return integers_;
 }
 
-std::array<Integer, 3> Direction::integers() && { return std::as_const(*this).integers(); }
+Integer3 Direction::integers() && { return std::as_const(*this).integers(); }
 
 void Direction::set_approximation_from_integers() {
   std::array<long, 3> exponent{};

@@ -48,9 +48,9 @@ class Direction {
   [[nodiscard]] bool is_zero() const;
 
   /// Integer components; computed at the first call.
-  [[nodiscard]] const std::array<Integer, 3>& integers() const&;
+  [[nodiscard]] const Integer3& integers() const&;
   /// Of a direction that ends with the expression: a copy, which may be bound to a reference.
-  [[nodiscard]] std::array<Integer, 3> integers() &&;
+  [[nodiscard]] Integer3 integers() &&;
 
   /// The planes that make a direction of an svertex; invalid for others.
   PlaneId p, q;
@@ -65,7 +65,7 @@ class Direction {
   const PlaneTable* planes_ = nullptr;
   mutable bool known_ = false;
   bool negative_ = false;  // of a plane's normal, or of p x q
-  mutable std::array<Integer, 3> integers_;
+  mutable Integer3 integers_;
 };
 
 /// sign(u . v)

@@ -116,7 +116,7 @@ std::array<std::uint32_t, 3> MeshFaces::corners_of(std::uint32_t triangle) const
 
 // A ring that was not cut, since it crosses itself. False if it is not planar.
 bool MeshFaces::add_defective_ring() {
-  const Integers area = vector_area();
+  const Integer3 area = vector_area();
   if (area[0] == 0 && area[1] == 0 && area[2] == 0) return true;
   const PlaneId plane = plane_through(area, ring_[0]);
   for (const std::uint32_t p : ring_) {
@@ -170,7 +170,7 @@ std::optional<PlaneId> MeshFaces::plane_of_small_triangle(std::span<const std::u
 PlaneId MeshFaces::plane_of_triangle(std::span<const std::uint32_t> t) {
   if (const std::optional<PlaneId> plane = plane_of_small_triangle(t)) return *plane;
   const IntegerView w = f_.points.coordinate(PointId{t[0]}, 3);
-  const auto difference = [&](std::uint32_t p, Integers& out) {
+  const auto difference = [&](std::uint32_t p, Integer3& out) {
     const IntegerView of_p = f_.points.coordinate(PointId{p}, 3);
     const bool same = mpz_cmp(w, of_p) == 0;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -217,9 +217,9 @@ PlaneId MeshFaces::plane_of_triangle(std::span<const std::uint32_t> t) {
 }
 
 // The plane of a normal through a point.
-PlaneId MeshFaces::plane_through(const Integers& normal, std::uint32_t p) {
+PlaneId MeshFaces::plane_through(const Integer3& normal, std::uint32_t p) {
   Integer offset;
-  Integers n = normal;
+  Integer3 n = normal;
   for (std::size_t i = 0; i < 3; ++i) {
     mpz_submul(offset.get_mpz_t(), normal[i].get_mpz_t(), f_.points.coordinate(PointId{p}, i));
     mpz_mul(n[i].get_mpz_t(), n[i].get_mpz_t(), f_.points.coordinate(PointId{p}, 3));
@@ -228,22 +228,22 @@ PlaneId MeshFaces::plane_through(const Integers& normal, std::uint32_t p) {
 }
 
 // The vector area of the ring up to a positive factor: the same denominator for all corners.
-MeshFaces::Integers MeshFaces::vector_area() const {
+Integer3 MeshFaces::vector_area() const {
   Integer common = 1;
   for (const std::uint32_t p : ring_) {
     mpz_lcm(common.get_mpz_t(), common.get_mpz_t(), f_.points.coordinate(PointId{p}, 3));
   }
   Integer factor;
-  const auto scaled = [&](std::uint32_t p, Integers& out) {
+  const auto scaled = [&](std::uint32_t p, Integer3& out) {
     mpz_divexact(factor.get_mpz_t(), common.get_mpz_t(), f_.points.coordinate(PointId{p}, 3));
     for (std::size_t k = 0; k < 3; ++k) {
       mpz_mul(out[k].get_mpz_t(), f_.points.coordinate(PointId{p}, k), factor.get_mpz_t());
     }
   };
-  Integers origin;
-  Integers u;
-  Integers v;
-  Integers area;
+  Integer3 origin;
+  Integer3 u;
+  Integer3 v;
+  Integer3 area;
   scaled(ring_[0], origin);
   for (std::size_t i = 1; i < ring_.size(); ++i) {
     scaled(ring_[i], v);

@@ -36,8 +36,6 @@ class MeshFaces {
   Complex oriented_surface();
 
  private:
-  using Integers = std::array<Integer, 3>;
-
   SolidFaces collect(std::span<const std::uint32_t> faces, bool reverse);  // all if empty
   void number_points();
   PointId push_small_point(std::uint32_t vertex);
@@ -48,8 +46,8 @@ class MeshFaces {
   void push(std::span<const std::uint32_t> ring, PlaneId plane);
   PlaneId plane_of_triangle(std::span<const std::uint32_t> t);
   std::optional<PlaneId> plane_of_small_triangle(std::span<const std::uint32_t> t);
-  PlaneId plane_through(const Integers& normal, std::uint32_t p);
-  [[nodiscard]] Integers vector_area() const;
+  PlaneId plane_through(const Integer3& normal, std::uint32_t p);
+  [[nodiscard]] Integer3 vector_area() const;
   void add_triangles(std::uint32_t face);
   void push_triangles(std::uint32_t face);
 
@@ -63,7 +61,7 @@ class MeshFaces {
   SolidFaces f_;
   bool reverse_ = false;
   std::vector<std::uint32_t> ring_;
-  std::array<Integer, 3> u_, v_, n_;
+  Integer3 u_, v_, n_;
   Integer offset_;
 };
 

@@ -13,8 +13,8 @@ namespace {
 
 // Sign of (p - o) . D if p lies on the line of the ray, else nothing.
 std::optional<int> position_on_line(const QueryRay& ray, const PointRef& p) {
-  const std::array<Integer, 3>& d = ray.direction.integers();
-  std::array<std::array<Integer, 3>, 2> difference;  // constant part, factor of R
+  const Integer3& d = ray.direction.integers();
+  std::array<Integer3, 2> difference;  // constant part, factor of R
   const IntegerView wo = ray.origin.coordinate(3);
   const IntegerView wp = p.coordinate(3);
   for (std::size_t part = 0; part < 2; ++part) {
@@ -24,13 +24,13 @@ std::optional<int> position_on_line(const QueryRay& ray, const PointRef& p) {
       mpz_submul(out, ray.origin.coordinate(4 * part + i), wp);
     }
   }
-  for (const std::array<Integer, 3>& v : difference) {
+  for (const Integer3& v : difference) {
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t j = (i + 1) % 3;
       if (v[i] * d[j] != v[j] * d[i]) return std::nullopt;
     }
   }
-  const auto dot = [&d](const std::array<Integer, 3>& v) -> int {
+  const auto dot = [&d](const Integer3& v) -> int {
     const Integer sum = v[0] * d[0] + v[1] * d[1] + v[2] * d[2];
     return sgn(sum);
   };
@@ -155,7 +155,7 @@ class RayShooter {
     if (side * sign_of_dot(normal, ray_.direction) >= 0) return std::nullopt;
     mpz_ptr m = slope_.get_mpz_t();
     mpz_ptr s = height_.get_mpz_t();
-    const std::array<Integer, 3>& d = ray_.direction.integers();
+    const Integer3& d = ray_.direction.integers();
     const IntegerView w = ray_.origin.coordinate(3);
     mpz_set_ui(m, 0);
     for (std::size_t i = 0; i < 3; ++i) {

@@ -38,7 +38,7 @@ void difference(const PointTable& table, std::uint32_t a, std::uint32_t b, std::
 class PlaneThrough {
  public:
   PlaneThrough(const PointTable& table, std::uint32_t a, std::uint32_t b, std::uint32_t c) : table_(table), a_(a) {
-    std::array<Integer, 3> v;
+    Integer3 v;
     difference(table, a, b, u_);
     difference(table, a, c, v);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -61,7 +61,7 @@ class PlaneThrough {
  private:
   const PointTable& table_;
   std::uint32_t a_;
-  std::array<Integer, 3> u_, normal_;
+  Integer3 u_, normal_;
   Integer sum_;
 };
 

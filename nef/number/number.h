@@ -15,8 +15,9 @@ namespace nef {
 using Integer = mpz_class;
 using Rational = mpq_class;
 
-/// Three exact coordinates, or the three components of an exact vector.
+/// Three exact coordinates, or the three components of an exact vector; whole numbers mostly for directions.
 using Rational3 = std::array<Rational, 3>;
+using Integer3 = std::array<Integer, 3>;
 
 /// The rational that `text` spells: "-3", "0.1" (one tenth), "1e-3", "1/3", "0.5/2.5". Nothing for anything else
 /// ("nan", "inf", "", "1/0", trailing characters, an exponent of more than five digits).

@@ -28,7 +28,7 @@ AffineMap AffineMap::scale(const Rational3& factors) {
 
 AffineMap AffineMap::rotate(const Rational3& axis, double degrees, double tolerance) {
   if (is_zero(axis)) throw InputError("the axis of a rotation must not be 0,0,0");
-  const std::array<Integer, 3> a = primitive(axis);
+  const Integer3 a = primitive(axis);
   const Integer length_square = a[0] * a[0] + a[1] * a[1] + a[2] * a[2];
   const HalfAngle half = rational_half_angle(exact_rational(degrees), exact_rational(tolerance), length_square);
   const Integer& c = half.cosine;

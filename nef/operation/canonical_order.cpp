@@ -174,10 +174,10 @@ class Canonical {
     svertex.p = common(line.place, svertex.p);
     svertex.q = common(line.place, svertex.q);
     const Direction direction = direction_of(planes_, svertex);
-    const std::array<Integer, 3>& d = direction.integers();
+    const Integer3& d = direction.integers();
     std::size_t found = line.rows[0] == kNone ? 0 : 1;
     for (std::size_t axis = 0; axis < 3 && found < 2; ++axis) {
-      std::array<Integer, 3> n;
+      Integer3 n;
       n[(axis + 1) % 3] = d[(axis + 2) % 3];
       n[(axis + 2) % 3] = -d[(axis + 1) % 3];
       if (n[(axis + 1) % 3] == 0 && n[(axis + 2) % 3] == 0) continue;
@@ -187,7 +187,7 @@ class Canonical {
     NEF_ASSERT(found == 2);
   }
 
-  std::uint32_t plane_through(const Point& point, std::array<Integer, 3>& n) {
+  std::uint32_t plane_through(const Point& point, Integer3& n) {
     Integer offset;
     Integer at_infinity;
     for (std::size_t i = 0; i < 3; ++i) {

@@ -14,10 +14,10 @@ namespace {
 
 // x -> (m x + t) / w in integers.
 struct IntegerMap {
-  std::array<std::array<Integer, 3>, 3> m;
-  std::array<Integer, 3> t;
+  std::array<Integer3, 3> m;
+  Integer3 t;
   Integer w = 1;
-  std::array<std::array<Integer, 3>, 3> cofactor;
+  std::array<Integer3, 3> cofactor;
   Integer determinant;
 
   explicit IntegerMap(const AffineMap& map) {
@@ -50,7 +50,7 @@ struct IntegerMap {
   // that positive sides stay positive.
   PlaneId map_plane(const PlaneTable& from, std::uint32_t row, const Integer& box_factor, PlaneTable& to) const {
     const PlaneId plane{row << 1U};
-    std::array<Integer, 3> n;
+    Integer3 n;
     Integer d = determinant * from.oriented_coefficient(plane, 3);
     Integer e = determinant * from.oriented_coefficient(plane, 4) * box_factor;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -212,7 +212,7 @@ class Translation {
     }
   }
 
-  const std::array<Integer, 3>& t_;
+  const Integer3& t_;
   const Integer& w_;
   std::array<Integer, 7> new_;
   Integer divisor_;

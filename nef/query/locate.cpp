@@ -71,7 +71,7 @@ std::optional<RayHit> shoot_ray(const Polyhedron& a, const Rational3& origin, co
   }
   const Complex& complex = a.complex();
   if (complex.vertex_count() == 0) return std::nullopt;
-  const std::array<Integer, 3> d = primitive(direction);
+  const Integer3 d = primitive(direction);
   PointTable table;
   const Direction towards = Direction::exact(d[0], d[1], d[2]);
   const QueryRay ray{{&table, table.push(origin)}, towards};

@@ -11,7 +11,7 @@
 namespace nef {
 
 /// The matrix of a quadratic form, or three axes as rows.
-using Rational3x3 = std::array<std::array<Rational, 3>, 3>;
+using Rational3x3 = std::array<Rational3, 3>;
 
 /// Integrals over a set of finite volume. Lower-dimensional parts count for nothing.
 struct Moments {

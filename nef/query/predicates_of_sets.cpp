@@ -59,6 +59,10 @@ bool is_closed_set(const Complex& complex) {
   return all_boundary_items(complex, [](LabelId mark, bool) { return is_selected(mark); });
 }
 
+bool is_full_dimensional_set(const Complex& complex) {
+  return all_boundary_items(complex, [](LabelId mark, bool full) { return !is_selected(mark) || full; });
+}
+
 bool is_regular_set(const Complex& complex) {
   return all_boundary_items(complex, [](LabelId mark, bool full) { return is_selected(mark) && full; });
 }

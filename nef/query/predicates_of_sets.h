@@ -24,6 +24,9 @@ bool is_open_set(const Complex& complex);
 /// Every boundary point is in the set. O(n).
 bool is_closed_set(const Complex& complex);
 
+/// The set lies in the closure of its interior: it is full-dimensional near each of its points. O(n).
+bool is_full_dimensional_set(const Complex& complex);
+
 /// The set is the closure of its interior: closed, and full-dimensional near each of its points.
 /// O(n).
 bool is_regular_set(const Complex& complex);

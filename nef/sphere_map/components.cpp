@@ -68,7 +68,7 @@ class CycleJoiner {
   };
 
   static Direction any_orthogonal(const Direction& n) {
-    const std::array<Integer, 3>& v = n.integers();
+    const Integer3& v = n.integers();
     return v[0] == 0 && v[1] == 0 ? Direction::exact(1, 0, 0) : Direction::exact(Integer(-v[1]), v[0], 0);
   }
 

@@ -490,7 +490,7 @@ void SphereOverlay::evaluate(const LabelFunction& f) {
       continue;
     }
     // The whole circle lies in one sface of this operand: any of its points tells which.
-    const std::array<Integer, 3>& v = n.integers();
+    const Integer3& v = n.integers();
     const Direction point =
         v[0] == 0 && v[1] == 0 ? Direction::exact(1, 0, 0) : Direction::exact(Integer(-v[1]), v[0], 0);
     const LabelId label = maps_[x].trivial() ? face_mark(x, 0) : mark_at(maps_[x], locate(*planes_, maps_[x], point));

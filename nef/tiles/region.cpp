@@ -25,7 +25,7 @@ PlaneId wall_plane(PlaneTable& planes, std::size_t axis, const AxisPlane* wall, 
     const PlaneId plane = wall->intern(planes);
     return sign > 0 ? plane : plane.opposite();
   }
-  std::array<Integer, 3> n;
+  Integer3 n;
   n[axis] = sign;
   return planes.intern(n[0], n[1], n[2], 0, -1);
 }
@@ -81,7 +81,7 @@ AxisPlane::AxisPlane(std::size_t axis_of_it, Rational position) : axis(axis_of_i
 }
 
 PlaneId AxisPlane::intern(PlaneTable& planes) const {
-  std::array<Integer, 3> n;
+  Integer3 n;
   n[axis] = at.get_den();
   return planes.intern(n[0], n[1], n[2], Integer(-at.get_num()));
 }

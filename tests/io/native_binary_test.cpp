@@ -84,6 +84,8 @@ TEST_CASE("Binary files hold everything") {
   check_comes_back(specimen());
   check_comes_back(overlay(specimen(), set("box(1,1,1,3,3,3)"),
                            [](LabelId x, LabelId y) { return static_cast<LabelId>(300 * x + 20000 * y); }));
+  check_comes_back(
+      set("point(-170141183460469231731687303715884105728, 0, 1)"));  // -2^127: one bit too long for two words
   check_comes_back(pyramid(100));
   check_comes_back(pyramid(400));  // indices of two bytes
 }

@@ -9,11 +9,9 @@
 namespace nef::minkowski {
 namespace {
 
-using Integers = std::array<Integer, 3>;
-
 // p - o up to a positive factor.
-Integers difference(const PointTable& points, PointId p, PointId o) {
-  Integers d;
+Integer3 difference(const PointTable& points, PointId p, PointId o) {
+  Integer3 d;
   for (std::size_t i = 0; i < 3; ++i) {
     mpz_mul(d[i].get_mpz_t(), points.coordinate(p, i), points.coordinate(o, 3));
     mpz_submul(d[i].get_mpz_t(), points.coordinate(o, i), points.coordinate(p, 3));
@@ -22,9 +20,9 @@ Integers difference(const PointTable& points, PointId p, PointId o) {
 }
 
 PlaneId plane_of_points(PlaneTable& planes, const PointTable& points, PointId o, PointId p, PointId q) {
-  const Integers u = difference(points, p, o);
-  const Integers v = difference(points, q, o);
-  Integers n;
+  const Integer3 u = difference(points, p, o);
+  const Integer3 v = difference(points, q, o);
+  Integer3 n;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3;
     const std::size_t k = (i + 2) % 3;
@@ -36,10 +34,10 @@ PlaneId plane_of_points(PlaneTable& planes, const PointTable& points, PointId o,
 
 }  // namespace
 
-PlaneId plane_through(PlaneTable& planes, const PointTable& points, const std::array<Integer, 3>& normal, PointId o) {
+PlaneId plane_through(PlaneTable& planes, const PointTable& points, const Integer3& normal, PointId o) {
   // Common factors go while numbers are short: of the normal first, mostly 1, then of the point's denominator and the
   // offset; the plane that is left has none.
-  Integers n = normal;
+  Integer3 n = normal;
   Integer divisor;
   for (std::size_t i = 0; i < 3 && divisor != 1; ++i) {
     mpz_gcd(divisor.get_mpz_t(), divisor.get_mpz_t(), n[i].get_mpz_t());
@@ -76,7 +74,7 @@ PlaneId ExactCells::plane(std::uint32_t face) {
     const std::uint32_t cell = rounded_.cell_of_face(face);
     const auto c = corners(face);
     const PointId o = point(cell, c[0]);
-    const std::vector<Integers>& normals = cells_[cell].normals;
+    const std::vector<Integer3>& normals = cells_[cell].normals;
     if (!normals.empty()) return plane_[face] = plane_through(planes, points, normals[local(face)], o);
     const PointId p = point(cell, c[c.size() / 3]);
     const PointId q = point(cell, c[2 * c.size() / 3]);

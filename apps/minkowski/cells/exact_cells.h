@@ -15,7 +15,7 @@
 namespace nef::minkowski {
 
 /// The plane of a normal through a point, its positive side where the normal points. O(1).
-PlaneId plane_through(PlaneTable& planes, const PointTable& points, const std::array<Integer, 3>& normal, PointId o);
+PlaneId plane_through(PlaneTable& planes, const PointTable& points, const Integer3& normal, PointId o);
 
 /// Where a point lies in a closed convex solid.
 struct CellLocation {

@@ -31,7 +31,7 @@ ConvexCell negated(const ConvexCell& cell) {
   for (Rational3& p : result.mesh.vertices) {
     for (Rational& x : p) mpq_neg(x.get_mpq_t(), x.get_mpq_t());
   }
-  for (std::array<Integer, 3>& n : result.normals) {
+  for (Integer3& n : result.normals) {
     for (Integer& x : n) mpz_neg(x.get_mpz_t(), x.get_mpz_t());
   }
   // A reflection turns the surface inside out: run the faces backwards. The edge that started at

@@ -27,7 +27,7 @@ struct ConvexCell {
   Mesh mesh;
   Boundary boundary = Boundary::kClosed;
   /// Outward normals of the faces, of any length, if whoever made the cell had them (dimension 3 only); or none.
-  std::vector<std::array<Integer, 3>> normals;
+  std::vector<Integer3> normals;
 
   // Only for kMixed; empty otherwise.
   std::vector<std::uint8_t> facet_marks;   ///< per face of the mesh (dimension 3 only)

@@ -57,8 +57,8 @@ class SolidSum {
   void add_parallelogram(std::uint32_t of_p, std::uint32_t of_q);
   void merge(const Direction& normal, const Loop& p, const Loop& q);
   void add_corner(std::uint32_t i, std::uint32_t j);
-  void end_face(bool marked, const std::array<Integer, 3>& normal);
-  [[nodiscard]] std::array<Integer, 3> normal_of_edges(std::uint32_t of_p, std::uint32_t of_q) const;
+  void end_face(bool marked, const Integer3& normal);
+  [[nodiscard]] Integer3 normal_of_edges(std::uint32_t of_p, std::uint32_t of_q) const;
   void set_marks();
 
   const NormalDiagram& p_;
@@ -80,7 +80,7 @@ void SolidSum::add_corner(std::uint32_t i, std::uint32_t j) {
   face_.push_back(it->second);
 }
 
-void SolidSum::end_face(bool marked, const std::array<Integer, 3>& normal) {
+void SolidSum::end_face(bool marked, const Integer3& normal) {
   sum_.mesh.push_face(face_);
   sum_.normals.push_back(normal);
   sum_.facet_marks.push_back(marked ? 1 : 0);
@@ -88,10 +88,10 @@ void SolidSum::end_face(bool marked, const std::array<Integer, 3>& normal) {
 }
 
 // The normal of a parallelogram whose first side is the edge of q and whose second is that of p.
-std::array<Integer, 3> SolidSum::normal_of_edges(std::uint32_t of_p, std::uint32_t of_q) const {
-  const std::array<Integer, 3>& u = q_.line(of_q).integers();
-  const std::array<Integer, 3>& v = p_.line(of_p).integers();
-  std::array<Integer, 3> n;
+Integer3 SolidSum::normal_of_edges(std::uint32_t of_p, std::uint32_t of_q) const {
+  const Integer3& u = q_.line(of_q).integers();
+  const Integer3& v = p_.line(of_p).integers();
+  Integer3 n;
   Integer divisor;
   for (std::size_t i = 0; i < 3; ++i) {
     mpz_ptr x = n[i].get_mpz_t();

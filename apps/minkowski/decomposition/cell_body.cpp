@@ -166,7 +166,7 @@ ConvexCell to_cell(const Complex& complex, const CellBody& body) {
       face.push_back(at->second);
     }
     cell.mesh.push_face(face);
-    std::array<Integer, 3>& n = cell.normals.emplace_back();
+    Integer3& n = cell.normals.emplace_back();
     for (std::size_t i = 0; i < 3; ++i) n[i] = complex.planes.oriented_coefficient(f.plane, i);
   }
   return cell;

@@ -10,6 +10,7 @@
 #include "apps/minkowski/decomposition/walls.h"
 #include "apps/minkowski/minkowski.h"
 #include "nef/base/error.h"
+#include "nef/query/predicates_of_sets.h"
 
 namespace nef::minkowski {
 
@@ -53,34 +54,7 @@ std::vector<ConvexCell> decompose_open(const Polyhedron& a) {
   return CellReader(walled.complex()).open_solids();
 }
 
-bool is_full_dimensional(const Polyhedron& a) {
-  const Complex& c = a.complex();
-  const auto selected = [](LabelId label) { return label == 1; };
-  for (const Facet& f : c.facets) {
-    if (selected(f.mark) && !selected(c.volumes[f.volume_above].mark) && !selected(c.volumes[f.volume_below].mark)) {
-      return false;
-    }
-  }
-  for (const VertexId v : c.vertex_ids()) {
-    const SphereMapView map = c.sphere_map(v);
-    const bool near_solid =
-        std::any_of(map.sfaces.begin(), map.sfaces.end(), [&](const SFace& f) { return selected(f.mark); });
-    if (selected(map.mark) && !near_solid) return false;
-    for (const SVertex& sv : map.svertices) {
-      if (!selected(sv.mark)) continue;
-      bool found = sv.out == kNone && selected(map.sfaces[sv.sface].mark);
-      if (sv.out != kNone) {
-        std::uint32_t e = sv.out;
-        do {
-          found = found || selected(map.sfaces[map.shalfedges[e].sface].mark);
-          e = map.next_around(e);
-        } while (e != sv.out);
-      }
-      if (!found) return false;
-    }
-  }
-  return true;
-}
+bool is_full_dimensional(const Polyhedron& a) { return is_full_dimensional_set(a.complex()); }
 
 bool is_point(const Polyhedron& a) {
   const Complex& c = a.complex();

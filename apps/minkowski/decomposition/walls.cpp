@@ -156,7 +156,7 @@ Polyhedron cut_facets(const Polyhedron& a, std::span<const FacetId> facets) {
   std::vector<Polyhedron> cuts;
   for (const FacetId f : facets) {
     const FacetRays rays(complex, f);
-    const std::array<Integer, 3> d = cut_direction(complex, complex.facets[f].plane).integers();
+    const Integer3 d = cut_direction(complex, complex.facets[f].plane).integers();
     for (const ReflexCorner& corner : reflex_corners(complex, f)) {
       const Rational3 p = complex.points.rational(point_of(corner.vertex));
       for (std::size_t k = 0; k < 2; ++k) {

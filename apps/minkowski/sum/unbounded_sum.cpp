@@ -38,7 +38,7 @@ std::set<std::array<Rational, 4>> dividing_planes(const Complex& c) {
     if (!is_selected(c.facets[f].mark) || c.planes.infimaximal(c.facets[f].plane)) continue;
     for (const ReflexCorner& corner : reflex_corners(c, f)) {
       const std::array<Rational, 4> own = coefficients(c.facets[f].plane);
-      const std::array<Integer, 3> g = cut_direction(c, c.facets[f].plane).integers();
+      const Integer3 g = cut_direction(c, c.facets[f].plane).integers();
       std::array<Rational, 4> n;
       const Rational3 p = c.points.rational(point_of(corner.vertex));
       for (std::size_t i = 0; i < 3; ++i) {

@@ -13,9 +13,9 @@ namespace {
 
 using minkowski::ConvexCell;
 
-Rational3 to_rational(const std::array<Integer, 3>& v) { return {Rational(v[0]), Rational(v[1]), Rational(v[2])}; }
+Rational3 to_rational(const Integer3& v) { return {Rational(v[0]), Rational(v[1]), Rational(v[2])}; }
 
-std::array<Integer, 3> opposite(const std::array<Integer, 3>& v) { return {-v[0], -v[1], -v[2]}; }
+Integer3 opposite(const Integer3& v) { return {-v[0], -v[1], -v[2]}; }
 
 }  // namespace
 
@@ -148,7 +148,7 @@ std::vector<std::vector<Rational3>> Blocking::blocked_cones(std::size_t a) {
 
 std::optional<std::vector<Rational3>> Blocking::directions() {
   constexpr std::size_t kMostNormals = 120;
-  std::set<std::array<Integer, 3>> normals{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  std::set<Integer3> normals{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   for (std::size_t a = 0; a < size(); ++a) {
     for (std::size_t b = a + 1; b < size(); ++b) {
       if (!pair(a, b).box.holds_origin(false)) continue;
@@ -156,17 +156,17 @@ std::optional<std::vector<Rational3>> Blocking::directions() {
         if (!body.holds_origin(false)) continue;
         for (const Face& face : body.faces) {
           if (face.offset != 0) continue;
-          const std::array<Integer, 3> normal = primitive(face.normal);
+          const Integer3 normal = primitive(face.normal);
           normals.insert(std::max(normal, opposite(normal)));
         }
       }
     }
     if (normals.size() > kMostNormals) return std::nullopt;
   }
-  std::set<std::pair<Integer, std::array<Integer, 3>>> found;
+  std::set<std::pair<Integer, Integer3>> found;
   for (auto p = normals.begin(); p != normals.end(); ++p) {
     for (auto q = std::next(p); q != normals.end(); ++q) {
-      const std::array<Integer, 3> d = primitive(cross(to_rational(*p), to_rational(*q)));
+      const Integer3 d = primitive(cross(to_rational(*p), to_rational(*q)));
       const Integer size = abs(d[0]) + abs(d[1]) + abs(d[2]);
       found.emplace(size, d);
       found.emplace(size, opposite(d));

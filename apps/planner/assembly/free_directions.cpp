@@ -36,7 +36,7 @@ FreeDirections free_directions(const Assembly& assembly, std::size_t part) {
                                                                                       : 0;
   for (const SVertex& ray : around.svertices) {
     if (ray.mark == 0) continue;
-    std::array<Integer, 3> d = direction_of(result.cone.complex().planes, ray).integers();
+    Integer3 d = direction_of(result.cone.complex().planes, ray).integers();
     const Integer common = gcd(gcd(d[0], d[1]), d[2]);
     for (Integer& x : d) x /= common;
     result.rays.push_back(d);

@@ -12,10 +12,10 @@ namespace nef::planner {
 
 /// The directions in which a part can begin to move while all others stay: a closed cone with its apex at the origin.
 struct FreeDirections {
-  Polyhedron cone;          ///< what of it lies in the cube from -1 to 1; only the origin if the part cannot move
-  int dimension = 0;        ///< 3 with an inside, 2 flat, 1 lines, 0 nothing but the origin
-  bool everything = false;  ///< nothing touches it
-  std::vector<std::array<Integer, 3>> rays;  ///< along its edges, and lines: without common factors, in order
+  Polyhedron cone;             ///< what of it lies in the cube from -1 to 1; only the origin if the part cannot move
+  int dimension = 0;           ///< 3 with an inside, 2 flat, 1 lines, 0 nothing but the origin
+  bool everything = false;     ///< nothing touches it
+  std::vector<Integer3> rays;  ///< along its edges, and lines: without common factors, in order
 };
 
 /// The exact cone of a part. The parts must be bounded solids that do not overlap.

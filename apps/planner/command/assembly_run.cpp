@@ -151,7 +151,7 @@ int tell_free_directions(const Arguments& a, const Assembly& assembly) {
   const Stopwatch watch;
   const FreeDirections free = free_directions(assembly, static_cast<std::size_t>(found - assembly.names.begin()));
   json rays = json::array();
-  for (const std::array<Integer, 3>& ray : free.rays) {
+  for (const Integer3& ray : free.rays) {
     rays.push_back({ray[0].get_str(), ray[1].get_str(), ray[2].get_str()});
   }
   const json report{{"assembly", assembly.name},
@@ -173,7 +173,7 @@ int tell_free_directions(const Arguments& a, const Assembly& assembly) {
     std::cout << text;
   } else if (!a.quiet) {
     std::cout << (free.everything ? "every direction" : "dimension " + std::to_string(free.dimension)) << '\n';
-    for (const std::array<Integer, 3>& ray : free.rays) std::cout << ray[0] << ' ' << ray[1] << ' ' << ray[2] << '\n';
+    for (const Integer3& ray : free.rays) std::cout << ray[0] << ' ' << ray[1] << ' ' << ray[2] << '\n';
   }
   return 0;
 }
@@ -215,19 +215,9 @@ int run_assembly(const Arguments& a) {
   bar.clear();
   const std::string text = report_text(
       run_report("assembly", assembly_json(answer, assembly), {{"op", watch.seconds(), {}}}, assembly.messages));
-  std::vector<std::string> views;
-  if (!a.page.empty()) views.push_back(a.page);
-  for (const std::string& file : a.outputs) {
-    if (is_view_file(file)) {
-      views.push_back(file);
-    } else {
-      write_file(file, text);
-    }
-  }
-  if (!views.empty()) {
-    const std::vector<view::Layer> layers = layers_of(answer, assembly);
-    for (const std::string& file : views) write_view(layers, assembly.name, file);
-  }
+  write_outputs(
+      a, assembly.name, [&text](const std::string&) { return std::optional(text); },
+      [&] { return layers_of(answer, assembly); });
   if (a.json) {
     std::cout << text;
   } else if (!a.quiet) {

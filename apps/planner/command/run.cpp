@@ -102,31 +102,22 @@ std::string timed_text(const ExactPath& path, const MotionLimits& limits) {
   return out;
 }
 
-std::string rendered(const Arguments& a, const std::string& file, const Answer& answer, const Asked& asked,
-                     const nlohmann::json& widest) {
+// What a file holds: the report whatever the answer; other formats hold a path.
+std::optional<std::string> rendered(const Arguments& a, const std::string& file, const Answer& answer,
+                                    const Asked& asked, const nlohmann::json& widest) {
   const std::string extension = std::filesystem::path(file).extension().string();
   if (extension == ".json") return report_of(a, answer, asked, widest);
+  if (!answer.path) return std::nullopt;
   if (extension == ".csv") return timed_text(*answer.path, a.limits);
   if (extension == ".path" || a.se3) return path_matrix(*answer.path, a.se3);
   return path_text(*answer.path);
 }
 
-// Reports and views are written whatever the answer; path formats only if there is a path.
-void write_outputs(const Arguments& a, const Answer& answer, const Asked& asked,
-                   const nlohmann::json& widest = nullptr) {
-  std::vector<std::string> views;
-  if (!a.page.empty()) views.push_back(a.page);
-  for (const std::string& file : a.outputs) {
-    const bool report = std::filesystem::path(file).extension() == ".json";
-    if (is_view_file(file)) {
-      views.push_back(file);
-    } else if (report || answer.path) {
-      write_file(file, rendered(a, file, answer, asked, widest));
-    }
-  }
-  if (views.empty()) return;
-  const std::vector<view::Layer> layers = view_layers(answer, asked.scene, asked.free);
-  for (const std::string& file : views) write_view(layers, asked.scene.name, file);
+void write_answer(const Arguments& a, const Answer& answer, const Asked& asked,
+                  const nlohmann::json& widest = nullptr) {
+  write_outputs(
+      a, asked.scene.name, [&](const std::string& file) { return rendered(a, file, answer, asked, widest); },
+      [&] { return view_layers(answer, asked.scene, asked.free); });
 }
 
 void print_path(const Arguments& a, const Answer& answer) {
@@ -166,7 +157,7 @@ void print(const Arguments& a, const Answer& answer, const Asked& asked, const n
 
 int check_given_path(const Arguments& a, const Problem& problem) {
   const Answer answer = problem.check(read_waypoints(a.given_path));
-  write_outputs(a, answer, problem);
+  write_answer(a, answer, problem);
   print(a, answer, problem);
   if (answer.path && a.tight && !a.json && !a.quiet) {
     std::cout << passages_text(problem.free_space()) << "uses passages:";
@@ -211,7 +202,7 @@ int answer_queries(const Arguments& a, const Problem& problem) {
 
 int run_stock_planner(const Arguments& a, const Problem& problem) {
   const OmplOutcome outcome = run_ompl(problem, {a.ompl, a.seconds, a.runs, a.path.digits});
-  write_outputs(a, outcome.answer, problem);
+  write_answer(a, outcome.answer, problem);
   if (!a.quiet && !a.json) std::cout << outcome.summary << '\n';
   if (a.json || outcome.answer.path) print(a, outcome.answer, problem);
   return outcome.exit_code;
@@ -229,7 +220,7 @@ int answer_question(const Arguments& a, const Problem& problem, const nlohmann::
     options.roomy = a.prefer == "roomy";
     answer = problem.solve(options);
   }
-  write_outputs(a, answer, problem, widest);
+  write_answer(a, answer, problem, widest);
   if (!list_only || a.json) print(a, answer, problem, widest);
   if (a.tight && !a.json && !a.quiet) std::cout << passages_text(problem.free_space());
   return list_only ? 0 : exit_code(answer);
@@ -258,7 +249,7 @@ std::optional<int> answer_without_tight_passages(const Arguments& a, const Scene
   Scene told = scene;
   told.messages.emplace_back("tight passages were not looked for, since there is a path with room; --tight lists them");
   const Asked asked(told, *found->free);
-  write_outputs(a, found->answer, asked, widest);
+  write_answer(a, found->answer, asked, widest);
   print(a, found->answer, asked, widest);
   return exit_code(found->answer);
 }

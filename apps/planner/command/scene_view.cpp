@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "nef/base/error.h"
+#include "nef/io/file_bytes.h"
 #include "nef/view/glb.h"
 #include "nef/view/page.h"
 
@@ -127,13 +127,29 @@ bool is_view_file(const std::string& file) {
   return extension == ".html" || extension == ".glb";
 }
 
-void write_view(const std::vector<view::Layer>& layers, const std::string& title, const std::string& file) {
-  const std::string extension = lower_extension_of(file);
-  if (extension == ".glb") return view::write_glb(layers, file);
-  if (extension != ".html") throw InputError(file + ": the extension must be .html (a page) or .glb (glTF)");
+void write_outputs(const Arguments& a, const std::string& title,
+                   const std::function<std::optional<std::string>(const std::string& file)>& text,
+                   const std::function<std::vector<view::Layer>()>& layers) {
+  std::vector<std::string> views;
+  if (!a.page.empty()) views.push_back(a.page);
+  for (const std::string& file : a.outputs) {
+    if (is_view_file(file)) {
+      views.push_back(file);
+    } else if (const std::optional<std::string> bytes = text(file)) {
+      write_file(file, *bytes);
+    }
+  }
+  if (views.empty()) return;
+  const std::vector<view::Layer> shown = layers();
   view::PageOptions options;
   options.title = title;
-  view::write_page(layers, file, options);
+  for (const std::string& file : views) {
+    if (lower_extension_of(file) == ".glb") {
+      view::write_glb(shown, file);
+    } else {
+      view::write_page(shown, file, options);
+    }
+  }
 }
 
 }  // namespace nef::planner

@@ -3,9 +3,12 @@
 // A scene and its answer to look at: pages and glTF files in which the robot moves.
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "apps/planner/command/arguments.h"
 #include "apps/planner/command/report.h"
 #include "nef/view/layer.h"
 
@@ -37,11 +40,13 @@ std::vector<view::Layer> view_layers(const Answer& answer, const Scene& scene, c
 
 inline constexpr double kPlaySeconds = 10;
 
-/// Writes layers by the file's extension: .html a page, .glb a glTF file. Throws InputError for another one, or where
-/// the file cannot be written.
-void write_view(const std::vector<view::Layer>& layers, const std::string& title, const std::string& file);
-
-/// True for a file that write_view writes.
+/// True for a file to look at: a page (.html) or a glTF file (.glb).
 bool is_view_file(const std::string& file);
+
+/// Writes the files that were asked for: those to look at from layers, which are made once if there is any, others from
+/// text(file), unless that is nothing. Throws InputError where a file cannot be written.
+void write_outputs(const Arguments& a, const std::string& title,
+                   const std::function<std::optional<std::string>(const std::string& file)>& text,
+                   const std::function<std::vector<view::Layer>()>& layers);
 
 }  // namespace nef::planner

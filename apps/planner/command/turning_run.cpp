@@ -12,7 +12,6 @@
 #include "apps/planner/command/turning_view.h"
 #include "nef/base/error.h"
 #include "nef/base/timing/stopwatch.h"
-#include "nef/io/file_bytes.h"
 #include "nef/program/run_report.h"
 
 namespace nef::planner {
@@ -88,23 +87,14 @@ int run_turning(const Arguments& a, const Scene& scene, const nlohmann::json& wi
   if (!times.empty()) report["times_s"] = times;
   if (!widest.is_null()) report["widest"] = widest;
   const std::string text = report_text(run_report("turning", report, {{"op", watch.seconds(), {}}}, scene.messages));
-  std::vector<std::string> views;
-  if (!a.page.empty()) views.push_back(a.page);
-  for (const std::string& file : a.outputs) {
-    const bool as_json = std::filesystem::path(file).extension() == ".json";
-    if (is_view_file(file)) {
-      views.push_back(file);
-    } else if (as_json || answer.status == TurningAnswer::Status::kPath) {
-      const bool timed = std::filesystem::path(file).extension() == ".csv";
-      write_file(file, as_json ? text
-                       : timed ? turning_csv(answer, question.axis, times)
-                               : turning_text(answer, question.axis));
-    }
-  }
-  if (!views.empty()) {
-    const std::vector<view::Layer> layers = turning_layers(answer, scene, question);
-    for (const std::string& file : views) write_view(layers, scene.name, file);
-  }
+  // The report whatever the answer; other formats hold a path.
+  const auto rendered = [&](const std::string& file) -> std::optional<std::string> {
+    const std::string extension = std::filesystem::path(file).extension().string();
+    if (extension == ".json") return text;
+    if (answer.status != TurningAnswer::Status::kPath) return std::nullopt;
+    return extension == ".csv" ? turning_csv(answer, question.axis, times) : turning_text(answer, question.axis);
+  };
+  write_outputs(a, scene.name, rendered, [&] { return turning_layers(answer, scene, question); });
   if (a.json) {
     std::cout << text;
   } else if (!a.quiet) {

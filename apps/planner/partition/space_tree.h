@@ -26,7 +26,7 @@ using LeafId = std::uint32_t;
 inline constexpr LeafId kNoLeaf = 0xffffffffU;
 
 /// A direction in which a point is moved by an infinitely small amount.
-using Nudge = std::array<Integer, 3>;
+using Nudge = Integer3;
 
 /// The corners of a box that holds the finite vertices of a complex with room to spare. O(n).
 std::array<Rational3, 2> room_around(const Complex& complex);

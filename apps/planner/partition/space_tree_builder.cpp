@@ -177,7 +177,7 @@ class SpaceTreeBuilder {
     if (piece.dimension == 1) return same_plane(piece.p, region.p) ? piece.q : piece.p;
     const std::size_t axis = axis_across(region);
     Integer d = -Integer(mpz_class(mpz_srcptr(points_.coordinate(piece.points[0], axis))));
-    std::array<Integer, 3> normal;
+    Integer3 normal;
     normal[axis] = mpz_class(mpz_srcptr(points_.coordinate(piece.points[0], 3)));
     return tree_.planes.intern(normal[0], normal[1], normal[2], d);
   }
@@ -193,7 +193,7 @@ class SpaceTreeBuilder {
                    tree_.planes.coefficient(region.p, (i + 2) % 3).sign() != 0;
       }
     } else {
-      const std::array<Integer, 3> direction =
+      const Integer3 direction =
           Direction::cross(tree_.planes, PlaneId{region.p.row() << 1U}, PlaneId{region.q.row() << 1U}).integers();
       for (std::size_t i = 0; i < 3; ++i) along[i] = direction[i] != 0;
     }

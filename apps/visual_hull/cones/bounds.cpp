@@ -161,8 +161,7 @@ class ProvenOptimum {
 
   // Where three planes meet, if that is the optimum: the objective is a combination of their normals without negative
   // factors (so no point that they allow is better), and all constraints allow it.
-  [[nodiscard]] std::optional<std::array<Rational, 3>> vertex(const std::array<std::size_t, 3>& k, std::size_t axis,
-                                                              int sign) const {
+  [[nodiscard]] std::optional<Rational3> vertex(const std::array<std::size_t, 3>& k, std::size_t axis, int sign) const {
     const auto& p = exact_[k[0]].a;
     const auto& q = exact_[k[1]].a;
     const auto& r = exact_[k[2]].a;
@@ -178,7 +177,7 @@ class ProvenOptimum {
     for (const Rational3* dual : {&qr, &rp, &pq}) {
       if (sgn((*dual)[axis]) * orientation * sign < 0) return std::nullopt;
     }
-    std::array<Rational, 3> x;
+    Rational3 x;
     for (std::size_t i = 0; i < 3; ++i) {
       x[i] = (exact_[k[0]].b * qr[i] + exact_[k[1]].b * rp[i] + exact_[k[2]].b * pq[i]) / determinant;
     }
@@ -186,7 +185,7 @@ class ProvenOptimum {
   }
 
   // Rounded constraints first: most are far from tight.
-  [[nodiscard]] bool allowed(const std::array<Rational, 3>& x) const {
+  [[nodiscard]] bool allowed(const Rational3& x) const {
     std::array<double, 3> at{};
     for (std::size_t i = 0; i < 3; ++i) at[i] = nef::nearest_double(x[i]);
     for (std::size_t k = 0; k < rounded_.size(); ++k) {

@@ -14,7 +14,7 @@
 #include "apps/visual_hull/scene/scene_number.h"
 #include "nef/base/error.h"
 #include "nef/base/in_quotes.h"
-#include "nef/io/native/binary_cursor.h"
+#include "nef/io/binary_cursor.h"
 
 namespace visual_hull {
 namespace fs = std::filesystem;

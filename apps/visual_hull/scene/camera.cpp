@@ -51,7 +51,7 @@ Camera Camera::from_parts(std::string name, const Matrix3& k, const Matrix3& r, 
 }
 
 Projection Camera::project(const Rational3& point) const {
-  std::array<Rational, 3> x;
+  Rational3 x;
   for (std::size_t i = 0; i < 3; ++i) {
     x[i] = matrix_[i][3];
     for (std::size_t j = 0; j < 3; ++j) x[i] += matrix_[i][j] * point[j];

@@ -11,7 +11,7 @@
 
 namespace visual_hull {
 
-using Matrix3 = std::array<std::array<Rational, 3>, 3>;
+using Matrix3 = std::array<Rational3, 3>;
 using Matrix34 = std::array<std::array<Rational, 4>, 3>;
 
 /// What a point of space looks like from a camera: u = x/depth, v = y/depth if depth > 0.

@@ -7,8 +7,8 @@
 #include "nef/base/timing/stopwatch.h"
 #include "nef/command/apply/steps_file.h"
 #include "nef/command/commands.h"
-#include "nef/command/tiles/tile_flags.h"
 #include "nef/io/file_bytes.h"
+#include "nef/program/tile_flags.h"
 #include "nef/tiles/storage/tile_folder.h"
 
 namespace nef {

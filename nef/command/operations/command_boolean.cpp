@@ -8,8 +8,8 @@
 #include "nef/base/error.h"
 #include "nef/base/timing/stopwatch.h"
 #include "nef/command/commands.h"
-#include "nef/command/tiles/tile_flags.h"
 #include "nef/operation/label_inputs.h"
+#include "nef/program/tile_flags.h"
 #include "nef/tiles/import/union_in_tiles.h"
 #include "nef/tiles/storage/tile_folder.h"
 

@@ -5,8 +5,8 @@
 
 #include "nef/base/error.h"
 #include "nef/command/commands.h"
-#include "nef/command/tiles/tile_flags.h"
 #include "nef/program/set_info.h"
+#include "nef/program/tile_flags.h"
 #include "nef/tiles/storage/tile_folder.h"
 
 namespace nef {

@@ -3,8 +3,8 @@
 // nef locate | ray
 #include "nef/base/timing/stopwatch.h"
 #include "nef/command/commands.h"
-#include "nef/command/tiles/tile_flags.h"
 #include "nef/program/numbers.h"
+#include "nef/program/tile_flags.h"
 #include "nef/query/location_name.h"
 #include "nef/tiles/storage/tile_folder.h"
 

@@ -116,7 +116,7 @@ class Nef3Writer {
       number(c_.vertices[v].shalfedges + s.out);
     }
     text_ += " |";
-    std::array<Integer, 3> direction = Direction::cross(c_.planes, s.p, s.q).integers();
+    Integer3 direction = Direction::cross(c_.planes, s.p, s.q).integers();
     Integer divisor = gcd(gcd(direction[0], direction[1]), direction[2]);
     for (const Integer& x : direction) integer(Integer(x / divisor).get_mpz_t());
     text_ += " 1";

@@ -9,8 +9,8 @@
 
 #include "nef/base/in_quotes.h"
 #include "nef/export/nearest_float.h"
+#include "nef/io/binary_cursor.h"
 #include "nef/io/file_bytes.h"
-#include "nef/io/native/binary_cursor.h"
 #include "nef/io/number_text.h"
 #include "nef/mesh/surface/mesh_surface.h"
 #include "nef/mesh/vertex_merger.h"
@@ -131,7 +131,7 @@ class GlbReader {
   }
 
   // Of a quaternion x, y, z, w of any length but zero.
-  [[nodiscard]] std::array<std::array<Rational, 3>, 3> rotation(const Json& quaternion) const {
+  [[nodiscard]] std::array<Rational3, 3> rotation(const Json& quaternion) const {
     std::array<Rational, 4> q;
     Rational norm;
     for (std::size_t i = 0; i < 4; ++i) {
@@ -140,7 +140,7 @@ class GlbReader {
     }
     if (norm == 0) fail(FileProblem::kNotANumber, "a rotation is the zero quaternion");
     const Rational s = 2 / norm;
-    std::array<std::array<Rational, 3>, 3> r;
+    std::array<Rational3, 3> r;
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t j = (i + 1) % 3;
       const std::size_t k = (i + 2) % 3;

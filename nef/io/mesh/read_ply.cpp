@@ -5,8 +5,8 @@
 #include <cmath>
 #include <optional>
 
+#include "nef/io/binary_cursor.h"
 #include "nef/io/mesh/mesh_reader.h"
-#include "nef/io/native/binary_cursor.h"
 #include "nef/io/text_cursor.h"
 
 namespace nef {

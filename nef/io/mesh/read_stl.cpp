@@ -4,8 +4,8 @@
 // corners tells them.
 #include <cmath>
 
+#include "nef/io/binary_cursor.h"
 #include "nef/io/mesh/mesh_reader.h"
-#include "nef/io/native/binary_cursor.h"
 #include "nef/io/text_cursor.h"
 #include "nef/mesh/vertex_merger.h"
 

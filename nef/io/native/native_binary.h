@@ -6,9 +6,8 @@
 //   8 bytes                 89 6e 65 66 0d 0a 1a 0a: what a transfer as text would spoil
 //   u32                     version of the form, 1
 //   u32 w                   bytes of an index within a vertex: 1, 2 or 4; its greatest value stands for none
-//   u32[12]                 numbers of planes, vertices, svertices, shalfedges, sloops, sfaces, entries, facets,
-//   cycles,
-//                           isolated vertices, shells, volumes
+//   u32[12]                 numbers of planes, vertices, svertices, shalfedges, sloops, sfaces, entries,
+//                           facets, cycles, isolated vertices, shells, volumes
 //   planes, points          each i32[5 or 7 per row] limbs of a number, negative like it; u64 limbs in all; u64[] limbs
 //   vertices                w svertices, w pairs of shalfedges, w pairs of sloops, w sfaces, u16 mark
 //   svertices               u32 p, u32 q, w out, w sface, u16 mark

@@ -2,14 +2,9 @@
 //
 // The checksum tells damage. All that reading and using a complex rely on to stay inside its arrays, and to come to an
 // end, is checked nevertheless, in one pass over each array: ranges, permutations, and links that must be mutual.
-#define XXH_INLINE_ALL
-#include <xxhash.h>
-
-#include <cstring>
-
 #include "nef/complex/owners.h"
 #include "nef/complex/patterns/pattern_interner.h"
-#include "nef/io/file_bytes.h"
+#include "nef/io/native/binary_file.h"
 #include "nef/io/native/complete_sphere_map.h"
 #include "nef/io/native/native_binary.h"
 #include "nef/io/native/vertex_keys.h"
@@ -21,139 +16,36 @@ namespace {
 
 class BinaryReader {
  public:
-  BinaryReader(std::string_view bytes, const std::string& path) : bytes_(bytes), path_(path) {}
+  BinaryReader(std::string_view bytes, const std::string& path) : file_(bytes, path) {}
 
   Polyhedron run(NativeContents contents) {
-    const std::uint32_t width = header();
     planes();
     points();
-    if (width == 1) sphere_maps<std::uint8_t>();
-    if (width == 2) sphere_maps<std::uint16_t>();
-    if (width == 4) sphere_maps<std::uint32_t>();
+    if (file_.width() == 1) sphere_maps<std::uint8_t>();
+    if (file_.width() == 2) sphere_maps<std::uint16_t>();
+    if (file_.width() == 4) sphere_maps<std::uint32_t>();
     edges();
     facets();
     isolated_vertices();
     volumes();
-    demand(at_ == bytes_.size(), "there is more after its end");
+    file_.demand(file_.at_end(), "there is more after its end");
     if (contents == NativeContents::kSet) {
-      if (const auto defect = detail::defect_in([this] { detail::check_box(c_); })) corrupt(defect->text());
+      if (const auto defect = detail::defect_in([this] { detail::check_box(c_); })) file_.corrupt(defect->text());
     }
     return Polyhedron(std::move(c_));
   }
 
  private:
-  [[noreturn]] void corrupt(const std::string& what) const {
-    throw FileError(FileProblem::kSyntax, path_ + ": the file is no valid polyhedron: " + what);
-  }
-  void demand(bool holds, const char* what) const {
-    if (!holds) corrupt(what);
-  }
-
-  template <typename T>
-  Column<T> column(std::size_t count) {
-    demand(count <= (bytes_.size() - at_) / sizeof(T), "its numbers of items do not fit its length");
-    const char* data = bytes_.data() + at_;
-    at_ += count * sizeof(T);
-    return Column<T>(data);
-  }
-
-  std::uint32_t header() {
-    const std::size_t least = kNativeMagic.size() + 14 * sizeof(std::uint32_t) + sizeof(std::uint64_t);
-    if (bytes_.size() < least) {
-      throw FileError(FileProblem::kTruncated, path_ + ": the file ends early; it is cut off");
-    }
-    at_ = kNativeMagic.size();
-    const auto version = column<std::uint32_t>(1)[0];
-    if (version != kNativeBinaryVersion) {
-      throw FileError(FileProblem::kUnsupported, path_ + ": the file has version " + std::to_string(version) +
-                                                     " of the binary form; this program reads version 1");
-    }
-    const std::size_t end = bytes_.size() - sizeof(std::uint64_t);
-    std::uint64_t checksum = 0;
-    std::memcpy(&checksum, bytes_.data() + end, sizeof(checksum));
-    if (checksum != XXH3_64bits(bytes_.data(), end)) {
-      throw FileError(FileProblem::kSyntax,
-                      path_ + ": the file is damaged or cut off: its checksum is not that of its bytes");
-    }
-    bytes_ = bytes_.substr(0, end);
-    const auto width = column<std::uint32_t>(1)[0];
-    demand(width == 1 || width == 2 || width == 4, "an index has neither 1, 2 nor 4 bytes");
-    const auto counts = column<std::uint32_t>(12);
-    std::size_t i = 0;
-    for (std::uint32_t* count : {&planes_, &vertices_, &svertices_, &shalfedges_, &sloops_, &sfaces_, &entries_,
-                                 &facets_, &cycles_, &isolated_, &shells_, &volumes_}) {
-      *count = counts[i++];
-      // Every item takes a byte at least, so that nothing larger than the file is ever made.
-      demand(*count <= bytes_.size(), "its numbers of items do not fit its length");
-    }
-    return width;
-  }
-
-  // One row of numbers after the other: those of up to two words below 2^127 as such, others as views.
-  template <std::size_t kWidth, typename TakeShort, typename TakeLong>
-  void numbers(std::size_t rows, TakeShort&& take_short, TakeLong&& take_long) {
-    constexpr std::size_t width = kWidth;
-    const auto sizes = column<std::int32_t>(width * rows);
-    const std::uint64_t limbs = column<std::uint64_t>(1)[0];
-    const auto limb = column<mp_limb_t>(limbs);
-    std::vector<mp_limb_t> row_limbs;
-    std::array<mpz_t, kWidth> values;
-    std::array<Int128, kWidth> words{};
-    std::array<std::int32_t, kWidth> size{};
-    std::uint64_t next = 0;
-    for (std::size_t row = 0; row < rows; ++row) {
-      std::uint64_t total = 0;
-      bool is_short = true;
-      for (std::size_t i = 0; i < width; ++i) {
-        size[i] = sizes[row * width + i];
-        demand(size[i] > -0x40000000 && size[i] < 0x40000000, "a number is too long");
-        total += static_cast<std::uint64_t>(size[i] < 0 ? -size[i] : size[i]);
-        is_short = is_short && size[i] >= -2 && size[i] <= 2;
-      }
-      demand(total <= limbs - next, "its numbers are longer than it says");
-      if (is_short) {
-        std::uint64_t at = next;
-        for (std::size_t i = 0; i < width; ++i) {
-          const std::int32_t length = size[i] < 0 ? -size[i] : size[i];
-          const mp_limb_t low = length > 0 ? limb[at] : 0;
-          const mp_limb_t high = length > 1 ? limb[at + 1] : 0;
-          at += static_cast<std::uint64_t>(length);
-          demand(length == 0 || (length == 1 ? low : high) != 0, "a number begins with zeros");
-          is_short = is_short && high >> 63U == 0;
-          const auto absolute = static_cast<Int128>(static_cast<Unsigned128>(high) << 64U | low);
-          words[i] = size[i] < 0 ? -absolute : absolute;
-        }
-        if (is_short) {
-          next = at;
-          take_short(row, words);
-          continue;
-        }
-      }
-      row_limbs.resize(total);
-      for (std::uint64_t i = 0; i < total; ++i) row_limbs[i] = limb[next + i];
-      next += total;
-      const mp_limb_t* at = row_limbs.data();
-      for (std::size_t i = 0; i < width; ++i) {
-        const std::int32_t length = size[i] < 0 ? -size[i] : size[i];
-        demand(length == 0 || at[length - 1] != 0, "a number begins with zeros");
-        mpz_roinit_n(values[i], at, size[i]);
-        at += length;
-      }
-      take_long(row, values);
-    }
-    demand(next == limbs, "its numbers are shorter than it says");
-  }
-
   void planes() {
-    c_.planes.reserve(planes_);
+    c_.planes.reserve(n_.planes);
     const auto put = [this](std::size_t row, int lead, PlaneId plane) {
-      demand(lead > 0, "a plane has no normal, or one of the wrong sign");
-      demand(plane == PlaneId{static_cast<std::uint32_t>(2 * row)}, "a plane occurs twice");
+      file_.demand(lead > 0, "a plane has no normal, or one of the wrong sign");
+      file_.demand(plane == PlaneId{static_cast<std::uint32_t>(2 * row)}, "a plane occurs twice");
     };
     const auto lead = [](int a, int b, int c) { return a != 0 ? a : b != 0 ? b : c; };
     const auto sign = [](Int128 value) { return (value > 0) - (value < 0); };
-    numbers<5>(
-        planes_,
+    file_.numbers<5>(
+        n_.planes,
         [&](std::size_t row, const std::array<Int128, 5>& n) {
           const int first = lead(sign(n[0]), sign(n[1]), sign(n[2]));
           put(row, first, first > 0 ? c_.planes.intern_primitive(n) : PlaneId());
@@ -170,24 +62,24 @@ class BinaryReader {
   }
 
   void points() {
-    c_.points.reserve(vertices_);
+    c_.points.reserve(n_.vertices);
     std::array<Integer, 7> h;
     constexpr const char* kNotPositive = "the denominator of a point is not positive";
-    numbers<7>(
-        vertices_,
+    file_.numbers<7>(
+        n_.vertices,
         [&](std::size_t, const std::array<Int128, 7>& n) {
-          demand(n[3] > 0, kNotPositive);
+          file_.demand(n[3] > 0, kNotPositive);
           c_.points.push_homogeneous(n);
         },
         [&](std::size_t, const std::array<mpz_t, 7>& n) {
           for (std::size_t i = 0; i < 7; ++i) mpz_set(h[i].get_mpz_t(), n[i]);
-          demand(h[3] > 0, kNotPositive);
+          file_.demand(h[3] > 0, kNotPositive);
           c_.points.push_homogeneous(h);
         });
   }
 
   PlaneId plane(std::uint32_t value) const {
-    demand(value / 2 < planes_, "a plane does not exist");
+    file_.demand(value / 2 < n_.planes, "a plane does not exist");
     return PlaneId{value};
   }
 
@@ -204,14 +96,14 @@ class BinaryReader {
 
   template <typename W>
   void vertex_records() {
-    const auto svertices = column<W>(vertices_);
-    const auto pairs = column<W>(vertices_);
-    const auto loop_pairs = column<W>(vertices_);
-    const auto sfaces = column<W>(vertices_);
-    const auto marks = column<LabelId>(vertices_);
-    c_.vertices.assign(vertices_ + 1, {});
+    const auto svertices = file_.column<W>(n_.vertices);
+    const auto pairs = file_.column<W>(n_.vertices);
+    const auto loop_pairs = file_.column<W>(n_.vertices);
+    const auto sfaces = file_.column<W>(n_.vertices);
+    const auto marks = file_.column<LabelId>(n_.vertices);
+    c_.vertices.assign(n_.vertices + 1, {});
     std::uint64_t total = 0;
-    for (std::uint32_t v = 0; v < vertices_; ++v) {
+    for (std::uint32_t v = 0; v < n_.vertices; ++v) {
       const VertexRecord& record = c_.vertices[VertexId{v}];
       mark_.push_back(mark(marks[v]));
       VertexRecord& end = c_.vertices[VertexId{v + 1}];
@@ -221,12 +113,14 @@ class BinaryReader {
       end.sfaces = record.sfaces + sfaces[v];
       total += std::uint64_t{svertices[v]} + 2 * std::uint64_t{pairs[v]} + 2 * std::uint64_t{loop_pairs[v]} + sfaces[v];
       // Sums that wrap around would not be what the whole file has.
-      demand(total <= std::uint64_t{4} * bytes_.size() && sfaces[v] > 0, "its vertices have more items than there are");
+      file_.demand(total <= std::uint64_t{4} * file_.size() && sfaces[v] > 0,
+                   "its vertices have more items than there are");
     }
     const VertexRecord& last = c_.vertices.back();
-    demand(last.svertices.index() == svertices_ && last.shalfedges == shalfedges_ && last.sloops == sloops_ &&
-               last.sfaces.index() == sfaces_ && total == std::uint64_t{svertices_} + shalfedges_ + sloops_ + sfaces_,
-           "its vertices have not the items that it holds");
+    file_.demand(last.svertices.index() == n_.svertices && last.shalfedges == n_.shalfedges &&
+                     last.sloops == n_.sloops && last.sfaces.index() == n_.sfaces &&
+                     total == std::uint64_t{n_.svertices} + n_.shalfedges + n_.sloops + n_.sfaces,
+                 "its vertices have not the items that it holds");
     name_svertex_owners(c_);
     name_pair_owners(c_);
   }
@@ -235,31 +129,31 @@ class BinaryReader {
   void sphere_maps() {
     vertex_records<W>();
     // In this order, in which they lie in the file.
-    const ItemColumns<W> columns{column<std::uint32_t>(svertices_),
-                                 column<std::uint32_t>(svertices_),
-                                 column<W>(svertices_),
-                                 column<W>(svertices_),
-                                 column<LabelId>(svertices_),
-                                 column<std::uint32_t>(shalfedges_ / 2),
-                                 column<LabelId>(shalfedges_ / 2),
-                                 column<W>(shalfedges_),
-                                 column<W>(shalfedges_),
-                                 column<W>(shalfedges_),
-                                 column<std::uint32_t>(sloops_ / 2),
-                                 column<LabelId>(sloops_ / 2),
-                                 column<W>(sloops_),
-                                 column<W>(sfaces_),
-                                 column<LabelId>(sfaces_),
-                                 column<std::uint8_t>(entries_),
-                                 column<W>(entries_)};
-    c_.shalfedge_plane.pairs().reserve(shalfedges_ / 2);
-    c_.sloops.reserve(sloops_);
+    const ItemColumns<W> columns{file_.column<std::uint32_t>(n_.svertices),
+                                 file_.column<std::uint32_t>(n_.svertices),
+                                 file_.column<W>(n_.svertices),
+                                 file_.column<W>(n_.svertices),
+                                 file_.column<LabelId>(n_.svertices),
+                                 file_.column<std::uint32_t>(n_.shalfedges / 2),
+                                 file_.column<LabelId>(n_.shalfedges / 2),
+                                 file_.column<W>(n_.shalfedges),
+                                 file_.column<W>(n_.shalfedges),
+                                 file_.column<W>(n_.shalfedges),
+                                 file_.column<std::uint32_t>(n_.sloops / 2),
+                                 file_.column<LabelId>(n_.sloops / 2),
+                                 file_.column<W>(n_.sloops),
+                                 file_.column<W>(n_.sfaces),
+                                 file_.column<LabelId>(n_.sfaces),
+                                 file_.column<std::uint8_t>(n_.entries),
+                                 file_.column<W>(n_.entries)};
+    c_.shalfedge_plane.pairs().reserve(n_.shalfedges / 2);
+    c_.sloops.reserve(n_.sloops);
     PatternInterner interner;
     std::uint64_t entries = 0;  // of the vertices so far
     for (const VertexId v : c_.vertex_ids()) {
       VertexRecord& record = c_.vertices[v];
       VertexRecord& end = c_.vertices[v.next()];
-      const bool has_key = keys_.read(columns, record, end, mark_[v.index()], entries, entries_);
+      const bool has_key = keys_.read(columns, record, end, mark_[v.index()], entries, n_.entries);
       if (has_key && take_known(columns, v, entries)) continue;
       map_.clear();
       map_.mark = mark_[v.index()];
@@ -267,13 +161,13 @@ class BinaryReader {
       for (std::uint32_t i = record.shalfedges; i < end.shalfedges; ++i) take_shalfedge(columns, i);
       for (std::uint32_t i = record.sloops; i < end.sloops; ++i) take_sloop(columns, i);
       for (const SFaceId f : c_.sfaces(v)) take_sface(columns, f.index(), entries);
-      if (const char* fault = complete_sphere_map(map_)) corrupt(fault);
+      if (const char* fault = complete_sphere_map(map_)) file_.corrupt(fault);
       record.pattern = interner.intern(c_.patterns, map_.view(), c_.shalfedge_plane.pairs(), c_.other_planes);
       end.other_planes = static_cast<std::uint32_t>(c_.other_planes.size());
       c_.sloops.insert(c_.sloops.end(), map_.sloops.begin(), map_.sloops.end());
       if (has_key) keys_.learn(record.pattern);
     }
-    demand(entries == entries_, "its sfaces have fewer entries than there are");
+    file_.demand(entries == n_.entries, "its sfaces have fewer entries than there are");
   }
 
   // The vertex whose key was read, if one like it has been read before.
@@ -296,7 +190,7 @@ class BinaryReader {
   void take_svertex(const ItemColumns<W>& columns, std::uint32_t i) {
     const PlaneId p = plane(columns.p[i]);
     const PlaneId q = plane(columns.q[i]);
-    demand(p.row() != q.row(), "an svertex has one plane twice");
+    file_.demand(p.row() != q.row(), "an svertex has one plane twice");
     map_.svertices.push_back(
         {p, q, local(columns.out[i]), local(columns.sface_around[i]), mark(columns.svertex_mark[i])});
   }
@@ -320,9 +214,9 @@ class BinaryReader {
   void take_sface(const ItemColumns<W>& columns, std::uint32_t f, std::uint64_t& entries) {
     const std::uint32_t count = columns.entry_count[f];
     map_.sfaces.push_back({static_cast<std::uint32_t>(map_.entries.size()), count, mark(columns.sface_mark[f])});
-    demand(count <= entries_ - entries, "its sfaces have more entries than there are");
+    file_.demand(count <= n_.entries - entries, "its sfaces have more entries than there are");
     for (const std::uint64_t last = entries + count; entries < last; ++entries) {
-      demand(columns.kind[entries] <= 2, "an entry is of no kind");
+      file_.demand(columns.kind[entries] <= 2, "an entry is of no kind");
       map_.entries.push_back({static_cast<SFaceEntry::Kind>(columns.kind[entries]), columns.index[entries]});
     }
   }
@@ -338,42 +232,43 @@ class BinaryReader {
   }
 
   void edges() {
-    const auto twins = column<std::uint32_t>(svertices_);
+    const auto twins = file_.column<std::uint32_t>(n_.svertices);
     const bool has_bare_edges = any_isolated_svertex();
-    c_.twin.resize(svertices_);
+    c_.twin.resize(n_.svertices);
     for (const HalfedgeId h : c_.halfedge_ids()) {
       const HalfedgeId t{twins[h.index()]};
-      demand(c_.twin.contains(t) && t != h && twins[t.index()] == h.index(), "the two ends of an edge are not mutual");
-      demand(!has_bare_edges || (c_.svertex(h).out == kNone) == (c_.svertex(t).out == kNone),
-             "an edge has facets at one end only");
+      file_.demand(c_.twin.contains(t) && t != h && twins[t.index()] == h.index(),
+                   "the two ends of an edge are not mutual");
+      file_.demand(!has_bare_edges || (c_.svertex(h).out == kNone) == (c_.svertex(t).out == kNone),
+                   "an edge has facets at one end only");
       c_.twin[h] = t;
     }
   }
 
   void facets() {
-    const auto lengths = column<std::uint32_t>(cycles_);
-    const auto corners = column<std::uint32_t>(shalfedges_ / 2);
-    const auto cycle_counts = column<std::uint32_t>(facets_);
-    isolated_counts_ = column<std::uint32_t>(facets_);
-    c_.cycle_begin.resize(cycles_ + 1);
+    const auto lengths = file_.column<std::uint32_t>(n_.cycles);
+    const auto corners = file_.column<std::uint32_t>(n_.shalfedges / 2);
+    const auto cycle_counts = file_.column<std::uint32_t>(n_.facets);
+    isolated_counts_ = file_.column<std::uint32_t>(n_.facets);
+    c_.cycle_begin.resize(n_.cycles + 1);
     for (const CycleId i : c_.cycle_ids()) {
       const std::uint32_t length = lengths[i.index()];
-      demand(length > 0 && length <= shalfedges_ / 2 - c_.cycle_begin[i], "a cycle is empty or too long");
+      file_.demand(length > 0 && length <= n_.shalfedges / 2 - c_.cycle_begin[i], "a cycle is empty or too long");
       c_.cycle_begin[i.next()] = c_.cycle_begin[i] + length;
     }
-    demand(c_.cycle_begin.back() == shalfedges_ / 2, "some corners are in no cycle");
-    c_.corners.resize(shalfedges_ / 2);
+    file_.demand(c_.cycle_begin.back() == n_.shalfedges / 2, "some corners are in no cycle");
+    c_.corners.resize(n_.shalfedges / 2);
     for (std::uint32_t i = 0; i < c_.corners.size(); ++i) {
       c_.corners[i] = corners[i];
-      demand(corners[i] < shalfedges_, "a corner does not exist");
+      file_.demand(corners[i] < n_.shalfedges, "a corner does not exist");
     }
-    c_.shalfedge_facet.assign(shalfedges_, HalffacetId());
-    c_.facets.resize(facets_);
+    c_.shalfedge_facet.assign(n_.shalfedges, HalffacetId());
+    c_.facets.resize(n_.facets);
     std::uint32_t first = 0;
     std::uint32_t isolated = 0;
-    for (std::uint32_t f = 0; f < facets_; ++f) {
-      demand(cycle_counts[f] > 0 && cycle_counts[f] <= cycles_ - first, "a facet has no cycle");
-      demand(isolated_counts_[f] <= isolated_ - isolated, "a facet has more isolated vertices than there are");
+    for (std::uint32_t f = 0; f < n_.facets; ++f) {
+      file_.demand(cycle_counts[f] > 0 && cycle_counts[f] <= n_.cycles - first, "a facet has no cycle");
+      file_.demand(isolated_counts_[f] <= n_.isolated - isolated, "a facet has more isolated vertices than there are");
       Facet& facet = c_.facets[FacetId{f}];
       facet.first_cycle = CycleId{first};
       facet.cycle_count = cycle_counts[f];
@@ -382,41 +277,41 @@ class BinaryReader {
       const SHalfedge corner = c_.shalfedge(c_.corners_of(facet.first_cycle).front());
       facet.plane = corner.plane;
       facet.mark = corner.mark;
-      demand(!facet.plane.flipped(), "a facet is seen from the wrong side");
+      file_.demand(!facet.plane.flipped(), "a facet is seen from the wrong side");
       for (const CycleId k : facet.cycles()) check_cycle(FacetId{f}, c_.corners_of(k));
       first += facet.cycle_count;
       isolated += facet.isolated_count;
     }
-    demand(first == cycles_ && isolated == isolated_, "some cycles or isolated vertices belong to no facet");
+    file_.demand(first == n_.cycles && isolated == n_.isolated, "some cycles or isolated vertices belong to no facet");
   }
 
   void check_cycle(FacetId f, std::span<const std::uint32_t> cycle) {
     HalfedgeId arriving = c_.twin[c_.corner_halfedge(cycle.back())];
     for (const std::uint32_t corner : cycle) {
       const SHalfedge e = c_.shalfedge(corner);
-      demand(!c_.shalfedge_facet.pairs()[corner / 2].valid(), "a corner belongs to two facets");
-      demand(e.plane == c_.facets[f].plane && e.mark == c_.facets[f].mark, "a corner belongs to another facet");
-      demand(c_.corner_back_halfedge(corner) == arriving, "a cycle leaves its edges");
+      file_.demand(!c_.shalfedge_facet.pairs()[corner / 2].valid(), "a corner belongs to two facets");
+      file_.demand(e.plane == c_.facets[f].plane && e.mark == c_.facets[f].mark, "a corner belongs to another facet");
+      file_.demand(c_.corner_back_halfedge(corner) == arriving, "a cycle leaves its edges");
       arriving = c_.twin[c_.corner_halfedge(corner)];
       c_.shalfedge_facet.set(corner, halffacet_of(f, false));
     }
   }
 
   void isolated_vertices() {
-    const auto vertices = column<std::uint32_t>(isolated_);
-    c_.isolated_vertices.resize(isolated_);
-    c_.sloop_facet.assign(sloops_, HalffacetId());
-    demand(isolated_ == sloops_ / 2, "the vertices inside facets are not those with sloops");
+    const auto vertices = file_.column<std::uint32_t>(n_.isolated);
+    c_.isolated_vertices.resize(n_.isolated);
+    c_.sloop_facet.assign(n_.sloops, HalffacetId());
+    file_.demand(n_.isolated == n_.sloops / 2, "the vertices inside facets are not those with sloops");
     for (const FacetId f : c_.facets.ids()) {
       const Facet& facet = c_.facets[f];
       for (std::uint32_t i = facet.first_isolated; i < facet.first_isolated + facet.isolated_count; ++i) {
         const VertexId v{vertices[i]};
-        demand(v.index() < vertices_ && c_.vertices[v.next()].sloops == c_.vertices[v].sloops + 2,
-               "a vertex inside a facet has no sloop");
+        file_.demand(v.index() < n_.vertices && c_.vertices[v.next()].sloops == c_.vertices[v].sloops + 2,
+                     "a vertex inside a facet has no sloop");
         for (std::uint32_t l = c_.vertices[v].sloops; l < c_.vertices[v.next()].sloops; ++l) {
           const SLoop& loop = c_.sloops[l];
-          demand(!c_.sloop_facet[l].valid() && loop.plane.row() == facet.plane.row() && loop.mark == facet.mark,
-                 "a vertex belongs to another facet");
+          file_.demand(!c_.sloop_facet[l].valid() && loop.plane.row() == facet.plane.row() && loop.mark == facet.mark,
+                       "a vertex belongs to another facet");
           c_.sloop_facet[l] = halffacet_of(f, loop.plane.flipped());
         }
         c_.isolated_vertices[i] = v;
@@ -425,26 +320,26 @@ class BinaryReader {
   }
 
   void volumes() {
-    const auto shell_of = column<std::uint32_t>(sfaces_);
-    const auto volume_of = column<std::uint32_t>(shells_);
-    const auto marks = column<LabelId>(volumes_);
-    demand(volumes_ > 0, "there is no outer volume");
-    c_.volumes.resize(volumes_);
-    for (std::uint32_t i = 0; i < volumes_; ++i) {
+    const auto shell_of = file_.column<std::uint32_t>(n_.sfaces);
+    const auto volume_of = file_.column<std::uint32_t>(n_.shells);
+    const auto marks = file_.column<LabelId>(n_.volumes);
+    file_.demand(n_.volumes > 0, "there is no outer volume");
+    c_.volumes.resize(n_.volumes);
+    for (std::uint32_t i = 0; i < n_.volumes; ++i) {
       c_.volumes[VolumeId{i}].mark = mark(marks[i]);
-      demand(i == 0 || marks[i] != kOutside, "only the outer volume is outside");
+      file_.demand(i == 0 || marks[i] != kOutside, "only the outer volume is outside");
     }
-    c_.shells.resize(shells_);
-    for (std::uint32_t s = 0; s < shells_; ++s) {
+    c_.shells.resize(n_.shells);
+    for (std::uint32_t s = 0; s < n_.shells; ++s) {
       const std::uint32_t volume = volume_of[s];
-      demand(volume < volumes_ && (s == 0 || volume == volume_of[s - 1] || volume == volume_of[s - 1] + 1),
-             "shells of volumes do not follow each other");
+      file_.demand(volume < n_.volumes && (s == 0 || volume == volume_of[s - 1] || volume == volume_of[s - 1] + 1),
+                   "shells of volumes do not follow each other");
       c_.shells[ShellId{s}].volume = VolumeId{volume};
       Volume& owner = c_.volumes[VolumeId{volume}];
       if (owner.shell_count++ == 0) owner.first_shell = ShellId{s};
     }
-    demand(shells_ == 0 ? volumes_ == 1 : volume_of[0] == 0 && volume_of[shells_ - 1] + 1 == volumes_,
-           "a volume has no boundary");
+    file_.demand(n_.shells == 0 ? n_.volumes == 1 : volume_of[0] == 0 && volume_of[n_.shells - 1] + 1 == n_.volumes,
+                 "a volume has no boundary");
     fill_shells(shell_of);
     for (Facet& facet : c_.facets) {
       const std::uint32_t corner = c_.corners_of(facet).front();
@@ -453,44 +348,31 @@ class BinaryReader {
     }
     for (std::uint32_t i = 0; i < c_.patterns.size(); ++i) {
       const SphereMapView map = c_.patterns.view(PatternId{i});
-      demand(map.mark != kOutside, "only the outer volume is outside");
-      for (const SVertex& s : map.svertices) demand(s.mark != kOutside, "only the outer volume is outside");
+      file_.demand(map.mark != kOutside, "only the outer volume is outside");
+      for (const SVertex& s : map.svertices) file_.demand(s.mark != kOutside, "only the outer volume is outside");
     }
-    for (const Facet& f : c_.facets) demand(f.mark != kOutside, "only the outer volume is outside");
+    for (const Facet& f : c_.facets) file_.demand(f.mark != kOutside, "only the outer volume is outside");
   }
 
   void fill_shells(const Column<std::uint32_t>& shell_of) {
-    c_.sface_shell.resize(sfaces_);
-    std::vector<bool> used(shells_, false);
+    c_.sface_shell.resize(n_.sfaces);
+    std::vector<bool> used(n_.shells, false);
     SFaceId f{0};
     for (const VertexId v : c_.vertex_ids()) {
       for (const SFace& face : c_.sphere_map(v).sfaces) {
         const ShellId s{shell_of[f.index()]};
-        demand(c_.shells.contains(s), "a shell does not exist");
-        demand(c_.volumes[c_.shells[s].volume].mark == face.mark, "a volume has two marks");
+        file_.demand(c_.shells.contains(s), "a shell does not exist");
+        file_.demand(c_.volumes[c_.shells[s].volume].mark == face.mark, "a volume has two marks");
         used[s.index()] = true;
         c_.sface_shell[f] = s;
         ++f;
       }
     }
-    demand(std::find(used.begin(), used.end(), false) == used.end(), "a shell is empty");
+    file_.demand(std::find(used.begin(), used.end(), false) == used.end(), "a shell is empty");
   }
 
-  std::string_view bytes_;
-  const std::string& path_;
-  std::size_t at_ = 0;
-  std::uint32_t planes_ = 0;
-  std::uint32_t vertices_ = 0;
-  std::uint32_t svertices_ = 0;
-  std::uint32_t shalfedges_ = 0;
-  std::uint32_t sloops_ = 0;
-  std::uint32_t sfaces_ = 0;
-  std::uint32_t entries_ = 0;
-  std::uint32_t facets_ = 0;
-  std::uint32_t cycles_ = 0;
-  std::uint32_t isolated_ = 0;
-  std::uint32_t shells_ = 0;
-  std::uint32_t volumes_ = 0;
+  BinaryFile file_;
+  const BinaryFile::Counts n_ = file_.counts();
   std::vector<LabelId> mark_;  // of vertices
   VertexKeys keys_;
   SphereMapBuffer map_;  // of the vertex at hand

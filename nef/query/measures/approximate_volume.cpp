@@ -13,27 +13,25 @@
 namespace nef {
 namespace {
 
-using Vec = std::array<double, 3>;
-
-double size_of(const Vec& a) { return std::max({std::fabs(a[0]), std::fabs(a[1]), std::fabs(a[2])}); }
+double size_of(const Double3& a) { return std::max({std::fabs(a[0]), std::fabs(a[1]), std::fabs(a[2])}); }
 
 // Twice the area vector of a facet about one of its corners: the products are as small as the facet.
 struct Area {
-  Vec vector{};
+  Double3 vector{};
   double error = 0;  // of a component
 };
 
 // Coordinates are off by e at most.
-Area twice_area(const Complex& c, const Facet& facet, const Vec& corner0, double e) {
+Area twice_area(const Complex& c, const Facet& facet, const Double3& corner0, double e) {
   Area area;
   double products = 0;  // two of them make a component of a cross product
   double vague = 0;     // by how much their factors are off
   std::size_t corners = 0;
   for (const CycleId k : facet.cycles()) {
     for (const std::uint32_t corner : c.corners_of(k)) {
-      const Vec p = minus(c.points.approximate(point_of(c.shalfedge_vertex(corner))), corner0);
-      const Vec q = minus(c.points.approximate(point_of(c.target(c.corner_halfedge(corner)))), corner0);
-      const Vec product = cross(p, q);
+      const Double3 p = minus(c.points.approximate(point_of(c.shalfedge_vertex(corner))), corner0);
+      const Double3 q = minus(c.points.approximate(point_of(c.target(c.corner_halfedge(corner)))), corner0);
+      const Double3 product = cross(p, q);
       for (std::size_t i = 0; i < 3; ++i) area.vector[i] += product[i];
       products += 2 * size_of(p) * size_of(q);
       vague += 2 * e * (size_of(p) + size_of(q) + e);
@@ -61,17 +59,17 @@ struct Sums {
 };
 
 // Relative to the origin; coordinates are off by e at most.
-Sums sums_over(const Complex& c, std::span<const Facet> facets, const Vec& origin, double e) {
+Sums sums_over(const Complex& c, std::span<const Facet> facets, const Double3& origin, double e) {
   Sums sums;
   for (const Facet& facet : facets) {
     const bool above = c.volumes[facet.volume_above].mark != 0;
     const bool below = c.volumes[facet.volume_below].mark != 0;
     if (above == below || facet.cycle_count == 0) continue;
-    const Vec corner0 = c.points.approximate(point_of(c.shalfedge_vertex(c.corners_of(facet.first_cycle).front())));
+    const Double3 corner0 = c.points.approximate(point_of(c.shalfedge_vertex(c.corners_of(facet.first_cycle).front())));
     const Area area = twice_area(c, facet, corner0, e);
     const std::array<double, 4>& n = c.planes.approximate(facet.plane);
     const bool upward = (dot(area.vector, {n[0], n[1], n[2]}) > 0) != facet.plane.flipped();
-    const Vec place = minus(corner0, origin);
+    const Double3 place = minus(corner0, origin);
     sums.value += (upward == below ? 1 : -1) * dot(place, area.vector);
     const double reach = size_of(place);
     const double size = 3 * reach * size_of(area.vector);
@@ -88,7 +86,7 @@ Sums areas_over(const Complex& c, std::span<const Facet> facets, double e) {
   Sums sums;
   for (const Facet& facet : facets) {
     if (facet.cycle_count == 0) continue;
-    const Vec corner0 = c.points.approximate(point_of(c.shalfedge_vertex(c.corners_of(facet.first_cycle).front())));
+    const Double3 corner0 = c.points.approximate(point_of(c.shalfedge_vertex(c.corners_of(facet.first_cycle).front())));
     const Area area = twice_area(c, facet, corner0, e);
     const double size = std::sqrt(dot(area.vector, area.vector)) / 2;
     sums.value += size;
@@ -133,7 +131,7 @@ MeasuredVolume approximate_volume(const Polyhedron& bounded, unsigned threads) {
   const Complex& c = bounded.complex();
   if (c.vertex_count() == 0) return {};
   // Relative to a point of the set: little is lost by cancellation.
-  const Vec origin = c.points.approximate(PointId(0U));
+  const Double3 origin = c.points.approximate(PointId(0U));
   const double e = error_of_differences(c);
   const Sums sums = summed(c, threads, [&](std::span<const Facet> some) { return sums_over(c, some, origin, e); });
   return {sums.value / 6, sums.error / 6};

@@ -76,7 +76,7 @@ class RayThroughTiles {
       return product == 0;
     }
     if (kind != Location::Kind::kEdge) return false;
-    const std::array<Integer, 3>& along = direction_of(there.planes, there.map.svertices[0]).integers();
+    const Integer3& along = direction_of(there.planes, there.map.svertices[0]).integers();
     return is_zero(cross(Rational3{along[0], along[1], along[2]}, direction_));
   }
 

@@ -8,7 +8,7 @@ namespace nef::view {
 namespace {
 
 // Unit vector along exact integers of any size: scaled by a common power of two first.
-std::array<double, 3> unit_vector(const std::array<Integer, 3>& v) {
+std::array<double, 3> unit_vector(const Integer3& v) {
   std::size_t bits = 0;
   for (const Integer& x : v) bits = std::max(bits, x == 0 ? 0 : mpz_sizeinbase(x.get_mpz_t(), 2));
   std::array<double, 3> d{};

@@ -63,7 +63,7 @@ void add_box(SolidFaces& faces, int size, bool inward) {
     faces.points.push({(i & 1) != 0 ? size : -size, (i & 2) != 0 ? size : -size, (i & 4) != 0 ? size : -size});
   }
   for (std::size_t i = 0; i < 6; ++i) {
-    std::array<Integer, 3> n;
+    Integer3 n;
     n[i / 2] = i % 2 == 0 ? -1 : 1;
     const PlaneId plane = faces.planes.intern(n[0], n[1], n[2], -size);
     faces.plane.push_back(inward ? plane.opposite() : plane);

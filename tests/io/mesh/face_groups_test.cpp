@@ -197,8 +197,8 @@ TEST_CASE("faces of a mended mesh lie where the faces do that they come from") {
     ++mended;
     for (std::size_t f = 0; f < rounded.mesh.face_count(); ++f) {
       const auto from = exact.face(rounded.face_of[f]);
-      std::array<Rational, 3> low = exact.vertices[from[0]];
-      std::array<Rational, 3> high = low;
+      Rational3 low = exact.vertices[from[0]];
+      Rational3 high = low;
       for (const std::uint32_t v : from) {
         for (std::size_t i = 0; i < 3; ++i) {
           low[i] = std::min(low[i], exact.vertices[v][i]);

@@ -158,14 +158,14 @@ TEST_CASE("the cone of free directions holds what a small step shows to be free"
         }
       }
     }
-    for (const std::array<Integer, 3>& ray : free.rays) {
+    for (const Integer3& ray : free.rays) {
       CHECK(contains(free.cone, {Rational(ray[0], 100), Rational(ray[1], 100), Rational(ray[2], 100)}));
     }
   }
   CHECK(dimensions.size() > 1);
   CHECK(free_directions(load_assembly("rings"), 0).everything);
   CHECK(free_directions(load_assembly("cube_in_a_box"), 1).dimension == 0);
-  const std::vector<std::array<Integer, 3>> along{{0, 1, 0}};
+  const std::vector<Integer3> along{{0, 1, 0}};
   CHECK(free_directions(load_assembly("dovetail"), 1).rays == along);
 }
 

@@ -19,7 +19,7 @@ PlaneId FacetPyramids::side_plane(std::uint32_t facet, std::uint32_t side) {
   const auto [axis, sign] = projection_axis(facets_.planes, facets_.plane[facet]);
   const std::size_t u = (axis + 1) % 3;
   const std::size_t v = (axis + 2) % 3;
-  std::array<Integer, 3> normal;
+  Integer3 normal;
   const PointTable& points = facets_.points;
   const auto difference = [&](std::size_t i) {
     return Integer(Integer(points.coordinate(to, i)) * Integer(points.coordinate(from, 3)) -
@@ -80,7 +80,7 @@ bool FacetPyramids::holds(std::uint32_t facet, PointId point) {
 }
 
 Rational3 FacetPyramids::point_towards(PointId from, const Direction& direction) {
-  const std::array<Integer, 3>& d = direction.integers();
+  const Integer3& d = direction.integers();
   const Rational3 at = facets_.points.rational(from);
   const std::vector<FacetAtPoint> here = facets_at(from);
   const Box bounds = tree_.bounds();

@@ -171,7 +171,7 @@ class Convolution {
                bool swapped, const Direction& normal) {
     const MarkedPolygon p = polygon(ours, piece);
     const MarkedPolygon q = polygon(theirs, other);
-    const std::array<Integer, 3>& n = normal.integers();
+    const Integer3& n = normal.integers();
     for (const SumCorner& c : polygon_sum(p, q, {Rational(n[0]), Rational(n[1]), Rational(n[2])})) {
       push_corner(pair(piece.ring[c.p], other.ring[c.q], swapped), c.mark, c.side);
     }

@@ -7,21 +7,19 @@
 namespace nef::minkowski {
 namespace {
 
-using Integers = std::array<Integer, 3>;
-
-std::size_t bits(const Integers& v) {
+std::size_t bits(const Integer3& v) {
   std::size_t most = 0;
   for (const Integer& x : v) most = std::max(most, mpz_sizeinbase(x.get_mpz_t(), 2));
   return most;
 }
 
-Direction direction(const Integers& v) { return Direction::exact(v[0], v[1], v[2]); }
+Direction direction(const Integer3& v) { return Direction::exact(v[0], v[1], v[2]); }
 
 // A u 2^i + B v 2^j, so that both are about as long, the second one shorter by 2^ratio.
-Integers mean(const Integers& u, const Integers& v, std::size_t ratio) {
+Integer3 mean(const Integer3& u, const Integer3& v, std::size_t ratio) {
   const std::size_t a = bits(u) + ratio;
   const std::size_t b = bits(v) + 2 * ratio;
-  Integers result;
+  Integer3 result;
   for (std::size_t i = 0; i < 3; ++i) {
     result[i] = b > a ? Integer((u[i] << (b - a)) + v[i]) : Integer(u[i] + (v[i] << (a - b)));
   }
@@ -29,7 +27,7 @@ Integers mean(const Integers& u, const Integers& v, std::size_t ratio) {
 }
 
 // A direction inside an arc.
-Integers inside_arc(const PlaneTable& planes, const SphereMapView& map, std::uint32_t shalfedge) {
+Integer3 inside_arc(const PlaneTable& planes, const SphereMapView& map, std::uint32_t shalfedge) {
   const PlaneId plane = map.shalfedges[shalfedge].plane;
   const Direction from = direction_of(planes, map.svertices[map.shalfedges[shalfedge].source]);
   const Direction to = direction_of(planes, map.svertices[map.target(shalfedge)]);
@@ -38,16 +36,16 @@ Integers inside_arc(const PlaneTable& planes, const SphereMapView& map, std::uin
 }
 
 // Any direction in a plane.
-Integers inside_circle(const PlaneTable& planes, PlaneId plane) {
-  const Integers n = Direction::normal(planes, plane).integers();
+Integer3 inside_circle(const PlaneTable& planes, PlaneId plane) {
+  const Integer3 n = Direction::normal(planes, plane).integers();
   if (n[0] != 0 || n[1] != 0) return {Integer(-n[1]), n[0], Integer(0)};
   return {Integer(1), Integer(0), Integer(0)};
 }
 
 // Off the arc or circle of a plane to its left, less and less.
 Direction beside(const PlaneTable& planes, const SphereMapView& map, std::uint32_t sface, PlaneId plane,
-                 const Integers& on_side) {
-  const Integers normal = Direction::normal(planes, plane).integers();
+                 const Integer3& on_side) {
+  const Integer3 normal = Direction::normal(planes, plane).integers();
   for (std::size_t ratio = 1;; ratio += ratio) {
     Direction candidate = direction(mean(on_side, normal, ratio));
     const SphereLocation at = locate(planes, map, candidate);

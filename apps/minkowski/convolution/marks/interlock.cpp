@@ -65,7 +65,7 @@ bool is_saddle(const Complex& c, const SphereMapView& map) {
 // free.
 void find_hull(const Complex& c, const SphereMapView& map, Saddle& saddle) {
   std::vector<Direction> edges;
-  std::array<Integer, 3> sum;
+  Integer3 sum;
   for (const SVertex& s : map.svertices) {
     edges.push_back(direction_of(c.planes, s));
     for (std::size_t i = 0; i < 3; ++i) sum[i] += edges.back().integers()[i];

@@ -3,9 +3,11 @@
 // Options of subcommands that can work in tiles.
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <string>
 
-#include "nef/command/commands.h"
+#include "nef/program/report.h"
+#include "nef/program/session.h"
 #include "nef/tiles/step_sequence.h"
 
 namespace nef {

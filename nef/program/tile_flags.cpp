@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nef/command/tiles/tile_flags.h"
+#include "nef/program/tile_flags.h"
 
 #include <charconv>
 #include <filesystem>

@@ -215,6 +215,11 @@ PlaneId PlaneTable::find_or_add_last() {
     std::array<double, 4> result{};
     for (std::size_t i = 0; i < 4; ++i) result[i] = scaled(rows_.at(candidate, i), top);
     if (rows_.sign(candidate, 4) != 0) result[3] = rows_.sign(candidate, 4) > 0 ? HUGE_VAL : -HUGE_VAL;
+    // What is lost here may be all that matters at a point far away.
+    constexpr double kLeast = 0x1p-1000;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (rows_.sign(candidate, i) != 0 && std::fabs(result[i]) < kLeast) result[3] = HUGE_VAL;
+    }
     return result;
   });
 }

@@ -65,7 +65,8 @@ class PlaneTable {
 
   /// Doubles for filters, of the unflipped plane: the coefficients scaled by a power of two so
   /// that the largest normal component lies in [1/2, 1); each within 2^-52 relative of the truth.
-  /// The offset is infinite for a plane with a factor of R.
+  /// The offset is infinite for a plane with a factor of R, and where a component of the normal is
+  /// so small beside the largest that doubles do not hold it: no filter decides then.
   [[nodiscard]] const std::array<double, 4>& approximate(PlaneId plane) const { return approximate_[plane.row()]; }
 
   /// True if the plane has a part in R.

@@ -2,17 +2,24 @@
 #include "nef/geometry/ray_filter.h"
 
 #include <cmath>
+#include <limits>
 
 namespace nef {
 
 RayFilter::RayFilter(const Box& origin, const Direction& direction) : origin_(origin) {
-  const std::array<Integer, 3>& exact = direction.integers();
+  const Integer3& exact = direction.integers();
+  // Of a cross product, small components are known no better than the largest.
+  const Direction each = Direction::exact(exact[0], exact[1], exact[2]);
   for (std::size_t i = 0; i < 3; ++i) {
-    direction_[i] = direction.approximate[i];
+    direction_[i] = each.approximate[i];
     sign_[i] = sgn(exact[i]);
     if (std::fabs(direction_[i]) > std::fabs(direction_[main_])) main_ = i;
     reach_.low[i] = sign_[i] >= 0 ? origin_.low[i] : -HUGE_VAL;
     reach_.high[i] = sign_[i] <= 0 ? origin_.high[i] : HUGE_VAL;
+  }
+  // A component beside which doubles have no room: NaNs refuse nothing.
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (sign_[i] != 0 && std::fabs(direction_[i]) < 0x1p-1000) direction_[i] = std::numeric_limits<double>::quiet_NaN();
   }
   axis_parallel_ = (sign_[0] == 0) + (sign_[1] == 0) + (sign_[2] == 0) == 2;
 }

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "nef/base/error.h"
+#include "nef/geometry/ray_filter.h"
 
 namespace nef::test {
 namespace {
@@ -73,6 +74,32 @@ TEST_CASE("side of plane: far by the filter, on it exactly, beside it exactly") 
   CHECK(side_of_plane(planes, plane.opposite(), points, above) == -1);
   CHECK(predicate_counts().filter == before.filter + 1);
   CHECK(predicate_counts().exact == before.exact + 4);
+}
+
+TEST_CASE(
+    "what no double has beside the largest component of a plane or a direction counts where points are far away") {
+  PlaneTable planes;
+  PointTable points;
+  const Integer far = power(2, 680);
+  const PlaneId plane = planes.intern(far, power(2, 1080), 1, 0);
+  CHECK(side_of_plane(planes, plane, points, points.push({1, 0, Rational(-far)})) == 0);
+  CHECK(side_of_plane(planes, plane, points, points.push({1, 0, Rational(-far - 1)})) == -1);
+  CHECK(side_of_plane(planes, plane.opposite(), points, points.push({1, 0, Rational(-far - 1)})) == 1);
+
+  Box origin;
+  origin.add_rounded({0, 0, 0});
+  const auto may_meet = [&origin](const Direction& direction, const std::array<double, 3>& point) {
+    Box there;
+    there.add_rounded(point);
+    return RayFilter(origin, direction).may_meet(there);
+  };
+  CHECK(may_meet(Direction::exact(1, power(2, 1080), power(2, 700)), {0x1p-100, 0x1p980, 0x1p600}));
+  // A component that is all but lost in a product of doubles: the direction is (1, n^2, -(n^2 + n)).
+  const Integer n = power(2, 60);
+  const Direction along = Direction::cross(planes, planes.intern(0, n + 1, n, 0), planes.intern(n, n + 2, n + 1, 0));
+  CHECK(along.integers() == Integer3{1, n * n, -(n * n + n)});
+  CHECK(may_meet(along, {1, 0x1p120, -(0x1p120 + 0x1p60)}));
+  CHECK_FALSE(may_meet(along, {-1, 0x1p120, -(0x1p120 + 0x1p60)}));
 }
 
 TEST_CASE("coordinates beyond the range of doubles are compared exactly") {

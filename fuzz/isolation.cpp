@@ -14,6 +14,8 @@
 #include <cstring>
 #include <new>
 
+#include "nef/base/timing/stopwatch.h"
+
 namespace nef::fuzz {
 
 // Lives in memory that parent and child share, so it survives the child.
@@ -28,6 +30,7 @@ struct SharedNotes {
   };
 
   std::uint64_t cases;
+  double slowest;  // CPU seconds
   std::uint32_t choice_count;
   std::uint32_t story_length;
   bool failed;
@@ -86,6 +89,7 @@ bool run_one(const Fuzzer& fuzzer, Choices choices, SharedNotes& notes) {
   });
   SharedJournal journal(notes);
   set_alarm(fuzzer.seconds_a_case);
+  const ProcessStopwatch watch;
   std::string complaint;
   try {
     fuzzer.run(Case(choices, journal));
@@ -95,6 +99,7 @@ bool run_one(const Fuzzer& fuzzer, Choices choices, SharedNotes& notes) {
     complaint = std::string("unexpected exception: ") + error.what();
   }
   ++notes.cases;
+  notes.slowest = std::max(notes.slowest, watch.seconds());
   if (complaint.empty()) return true;
   std::replace(complaint.begin(), complaint.end(), '\n', ' ');
   copy_text(notes.complaint, complaint);
@@ -181,6 +186,8 @@ std::optional<Finding> Worker::ended(int status) {
   finding.choices.assign(notes_->choices, notes_->choices + notes_->choice_count);
   return finding;
 }
+
+double Worker::slowest() const { return notes_->slowest; }
 
 Counters Worker::counters() const {
   Counters result;

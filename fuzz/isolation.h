@@ -47,6 +47,8 @@ class Worker {
   std::optional<Finding> ended(int status);
   /// What was counted, the cases themselves under "cases". Valid after the end.
   [[nodiscard]] Counters counters() const;
+  /// CPU seconds of the case that took longest. Valid after the end.
+  [[nodiscard]] double slowest() const;
 
  private:
   const Fuzzer& fuzzer_;

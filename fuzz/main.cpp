@@ -49,7 +49,7 @@ class Run {
     for (const Fuzzer& fuzzer : fuzzers()) {
       const bool chosen = arguments.only.empty() ||
                           std::find(arguments.only.begin(), arguments.only.end(), fuzzer.name) != arguments.only.end();
-      if (chosen) turns_.push_back({&fuzzer, 0, {}, {}});
+      if (chosen) turns_.push_back({&fuzzer, 0, {}, 0, {}});
     }
     for (const std::string& name : arguments.only) fuzzer_named(name);
     const double each = arguments.seconds * arguments.jobs / static_cast<double>(turns_.size());
@@ -82,6 +82,7 @@ class Run {
     const Fuzzer* fuzzer;
     std::uint64_t slices;
     Counters counters;
+    double slowest = 0;              // CPU seconds of a case
     std::vector<std::string> kinds;  // of complaints that were reported
   };
   struct Running {
@@ -104,6 +105,7 @@ class Run {
     const std::optional<Finding> finding = at->worker->ended(status);
     for (const auto& [what, times] : at->worker->counters()) at->turn->counters[what] += times;
     Turn& turn = *at->turn;
+    turn.slowest = std::max(turn.slowest, at->worker->slowest());
     workers_.erase(at);
     if (finding) handle(turn, *finding);
   }
@@ -133,7 +135,7 @@ class Run {
       for (const auto& [what, times] : turn.counters) {
         if (what != "cases") line += fmt::format(", {} {}", times, what);
       }
-      fmt::print("{:12} {}\n", turn.fuzzer->name, line);
+      fmt::print("{:12} {}; {:.1f} s at most\n", turn.fuzzer->name, line, turn.slowest);
     }
     fmt::print("fuzz: seed {}, {:.0f} s: {}\n", arguments_.seed, arguments_.seconds,
                findings_ == 0 ? "no failures" : fmt::format("{} failures", findings_));

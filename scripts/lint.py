@@ -1,12 +1,11 @@
 #!/usr/bin/env python3
-"""Runs clang-tidy over sources of ours in a build tree, one process a core: the libraries, programs, fuzzers and the
-Python binding, and headers that these include. Not tests and benchmarks.
+"""Runs clang-tidy over all sources of ours in a build tree, one process a core, and prints each finding once.
 
-Usage: lint.py BUILD_DIRECTORY [BUDGET]
+Usage: lint.py BUILD_DIRECTORY [PART...]
 
-With a budget (CPU seconds, by what sources of nef/ and of apps/ take), only sources that changed and one that includes
-each header that changed, then a share of the rest that rotates from day to day (see ci_selection.py). Says what it
-leaves out. Exits 1 and prints the findings if there are any.
+The build tree is best one of NEF_COMPILE_TOGETHER: what headers cost is paid once for some forty sources, so that all of
+them are looked at in the time that a tenth would take one by one. With PARTs, only translation units whose paths have
+one of them. Exits 1 if there are findings, and where clang-tidy did not come to its end.
 """
 import concurrent.futures
 import json
@@ -14,87 +13,70 @@ import os
 import re
 import subprocess
 import sys
+import time
 
-import ci_selection
-
-INCLUDE = re.compile(r'^#include "([^"]+)"', re.MULTILINE)
-
-
-def cost(source: str) -> int:
-    """CPU seconds that clang-tidy took for a source of this kind, measured: GMP and little else, or OMPL, OpenCV, JSON."""
-    return 5 if source.startswith("nef/") else 15
+FOLDERS = ("nef", "apps", "fuzz", "python", "tests", "bench")
+WARNING = re.compile(r"^(/\S+:\d+:\d+): (?:warning|error): ", re.MULTILINE)
+# What stands in a unit is no slip: it includes sources.
+OPTIONS = ["--quiet", "--extra-arg=-Wno-unknown-warning-option", "--checks=-bugprone-suspicious-include"]
 
 
-def all_sources(build: str) -> list[str]:
+def units(build: str) -> dict[str, list[str]]:
+    """What is compiled, with the sources of ours in it."""
     with open(os.path.join(build, "compile_commands.json"), encoding="utf-8") as file:
-        commands = json.load(file)
-    root = os.getcwd() + "/"
-    names = {entry["file"][len(root) :] for entry in commands if entry["file"].startswith(root)}
-    return sorted(name for name in names if name.startswith(("nef/", "apps/", "fuzz/", "python/")))
+        names = {os.path.relpath(entry["file"]) for entry in json.load(file)}
+    result = {}
+    for name in sorted(names):
+        if name.startswith(tuple(folder + "/" for folder in FOLDERS)):
+            result[name] = [name]
+        elif os.path.exists(name):
+            with open(name, encoding="utf-8") as file:
+                result[name] = re.findall(r'^#include "(.*\.cpp)"$', file.read(), re.MULTILINE)
+    return {name: sources for name, sources in result.items() if sources}
 
 
-def concerned(sources: list[str]) -> list[str]:
-    """The sources that changed, and for each header that changed its own source or else the first that includes it."""
-    changed = set(ci_selection.changed())
-    result = [source for source in sources if source in changed]
-    headers = {file for file in changed if file.endswith(".h") and os.path.exists(file)}
-    for header in sorted(headers):
-        own = header[:-2] + ".cpp"
-        if own in sources:
-            result.append(own)
-            continue
+def stand_in_for_made_sources(chosen: dict[str, list[str]]) -> None:
+    """What is made while building is no source of ours, but is included."""
+    for sources in chosen.values():
         for source in sources:
-            with open(source, encoding="utf-8") as file:
-                if header in INCLUDE.findall(file.read()):
-                    result.append(source)
-                    break
-    return list(dict.fromkeys(result))
-
-
-def affordable(sources: list[str], budget: int) -> list[str]:
-    chosen = []
-    for source in sources:
-        budget -= cost(source)
-        if budget < 0:
-            break
-        chosen.append(source)
-    return chosen
-
-
-def within(sources: list[str], budget: int) -> list[str]:
-    first = concerned(sources)
-    chosen = affordable(ci_selection.rotated(first), budget * 3 // 4)
-    budget -= sum(cost(source) for source in chosen)
-    rest = [source for source in ci_selection.rotated(sources) if source not in first]
-    turn = affordable(rest, budget)
-    print(f"lint: {len(chosen)} of {len(first)} sources that changes concern, {len(turn)} of the {len(rest)} others, whose "
-          f"turn it is today; left out {len(sources) - len(chosen) - len(turn)}", flush=True)
-    return chosen + turn
+            if not os.path.exists(source):
+                os.makedirs(os.path.dirname(source), exist_ok=True)
+                open(source, "w", encoding="utf-8").close()
 
 
 def main() -> int:
-    build = sys.argv[1]
-    sources = all_sources(build)
-    if len(sys.argv) > 2:
-        sources = within(sources, int(sys.argv[2]))
+    build, parts = sys.argv[1], sys.argv[2:]
+    chosen = {name: sources for name, sources in units(build).items()
+              if not parts or any(part in name for part in parts)}
+    stand_in_for_made_sources(chosen)
+    headers = f"--header-filter=^{re.escape(os.getcwd())}/({'|'.join(FOLDERS)})/.*\\.(h|cpp)$"
 
-    def check(source: str) -> str:
-        result = subprocess.run(
-            ["clang-tidy", "--quiet", "--extra-arg=-Wno-unknown-warning-option", "-p", build, source],
-            capture_output=True,
-            text=True,
-            check=False,
-        )
-        return result.stdout if "warning:" in result.stdout or "error:" in result.stdout else ""
+    def check(unit: str) -> tuple[str, subprocess.CompletedProcess, float]:
+        begin = time.monotonic()
+        command = ["clang-tidy", *OPTIONS, headers, "-p", build, unit]
+        return unit, subprocess.run(command, capture_output=True, text=True, check=False), time.monotonic() - begin
 
-    findings = 0
+    places = set()
+    broken = 0
+    largest_first = sorted(chosen, key=lambda unit: -len(chosen[unit]))
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        for output in pool.map(check, sources):
-            if output:
-                findings += 1
-                print(output)
-    print(f"clang-tidy: {len(sources)} sources, {findings} with findings")
-    return 1 if findings else 0
+        for unit, result, seconds in pool.map(check, largest_first):
+            if os.environ.get("NEF_LINT_TIMES"):
+                print(f"{seconds:6.1f} s {unit}", flush=True)
+            starts = [match.start() for match in WARNING.finditer(result.stdout)]
+            for start, end in zip(starts, starts[1:] + [len(result.stdout)]):
+                finding = result.stdout[start:end]
+                place = finding.splitlines()[0]
+                ours = place.startswith(os.getcwd() + "/") or ": error: " in place
+                if ours and place not in places:
+                    places.add(place)
+                    print(finding.rstrip(), flush=True)
+            if result.returncode != 0 and not starts:
+                broken += 1
+                print(f"clang-tidy ended with {result.returncode} at {unit}\n{result.stderr[-2000:]}", flush=True)
+    count = sum(len(sources) for sources in chosen.values())
+    print(f"clang-tidy: {count} sources in {len(chosen)} units, {len(places)} findings")
+    return 1 if places or broken else 0
 
 
 if __name__ == "__main__":

@@ -89,7 +89,7 @@ TEST_CASE("command: the report says which strategy was taken, and why") {
     const Outcome outcome = place.run(arguments + " -o out.nef --json");
     CAPTURE(arguments, outcome.err);
     REQUIRE(outcome.code == 0);
-    const json found = json::parse(outcome.out)["strategies"];
+    json found = json::parse(outcome.out)["strategies"];
     for (const json& strategy : found) CHECK_FALSE(strategy["why"].get<std::string>().empty());
     return found;
   };

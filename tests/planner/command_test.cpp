@@ -173,7 +173,7 @@ TEST_CASE("long work tells how far it is") {
 
 TEST_CASE("OMPL from the command line: a planner, and a benchmark log") {
   const Folder folder;
-  CHECK(planner(folder, scene("s7_one_box") + " --ompl rrtconnect --time 5").code == 0);
+  CHECK(planner(folder, scene("s7_one_box") + " --ompl rrtconnect --time 60").code == 0);
   CHECK(planner(folder, scene("s1_narrower") + " --ompl RRTConnect --time 0.1").code == 4);
   CHECK(planner(folder, scene("s1_narrower") + " --ompl TightPlanner").code == 1);
   const std::string log = folder.file("bench.log");

@@ -34,8 +34,11 @@ TEST_CASE("many points about a slanted solid") {
   const AffineMap turn = AffineMap::rotate({1, 2, 3}, 33);
   const Polyhedron solid = transform(test::set("box(0,0,0,1,2,3) - interior(box(0,0,0,1,1,1))"), turn);
   std::vector<std::array<double, 3>> points;
-  for (int i = 0; i < 20 * 20 * 20; ++i)
-    points.push_back({i % 20 / 4.0 - 2.5, i / 20 % 20 / 4.0 - 2.5, i / 400 / 4.0 - 1});
+  for (int z = 0; z < 20; ++z) {
+    for (int y = 0; y < 20; ++y) {
+      for (int x = 0; x < 20; ++x) points.push_back({x / 4.0 - 2.5, y / 4.0 - 2.5, z / 4.0 - 1});
+    }
+  }
   const std::vector<LabelId> marks = locate_many(solid, points);
   std::size_t inside = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {

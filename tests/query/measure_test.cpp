@@ -23,14 +23,18 @@ constexpr int kCells = 5;
 struct Cells {
   std::array<bool, kCells * kCells * kCells> full{};
 
+  static std::size_t index(int x, int y, int z) {
+    const int at = (x * kCells + y) * kCells + z;
+    return static_cast<std::size_t>(at);
+  }
   [[nodiscard]] bool at(int x, int y, int z) const {
     const auto inside = [](int c) { return c >= 0 && c < kCells; };
-    return inside(x) && inside(y) && inside(z) && full[static_cast<std::size_t>((x * kCells + y) * kCells + z)];
+    return inside(x) && inside(y) && inside(z) && full[index(x, y, z)];
   }
   void fill(const std::array<int, 3>& low, const std::array<int, 3>& high, bool value) {
     for (int x = low[0]; x < high[0]; ++x) {
       for (int y = low[1]; y < high[1]; ++y) {
-        for (int z = low[2]; z < high[2]; ++z) full[static_cast<std::size_t>((x * kCells + y) * kCells + z)] = value;
+        for (int z = low[2]; z < high[2]; ++z) full[index(x, y, z)] = value;
       }
     }
   }

@@ -45,7 +45,7 @@ Rational brute_simplest(const Rational& low, const Rational& high) {
   if (low <= 0 && high >= 0) return 0;
   for (long q = 1;; ++q) {
     const double nearest = low > 0 ? std::ceil(low.get_d() * q - 1e-9) : std::floor(high.get_d() * q + 1e-9);
-    const Rational x = Rational(static_cast<long>(nearest)) / q;
+    Rational x = Rational(static_cast<long>(nearest)) / q;
     if (low <= x && x <= high) return x;
   }
 }

@@ -15,7 +15,8 @@
 #include "nef/construct/construct.h"
 #include "nef/polyhedron.h"
 
-using namespace nef;
+namespace nef {
+namespace {
 
 TEST_CASE("parallel_for calls every index once and books all predicate counts on the caller", "[parallel]") {
   for (const unsigned threads : {0U, 1U, 2U, 7U}) {
@@ -75,3 +76,6 @@ TEST_CASE("Unions and intersections of many sets do not depend on the number of 
   for (const Polyhedron& box : boxes) slabs.push_back(complement(box));
   CHECK(equal(intersect_all(slabs, 3), complement(one)));
 }
+
+}  // namespace
+}  // namespace nef

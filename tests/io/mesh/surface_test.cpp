@@ -12,8 +12,7 @@
 #include "nef/polyhedron.h"
 #include "nef/validation/validate.h"
 
-using namespace nef;
-
+namespace nef {
 namespace {
 
 Mesh triangles(const std::vector<Rational3>& points, const std::vector<std::array<std::uint32_t, 3>>& faces) {
@@ -81,7 +80,7 @@ TEST_CASE("Random triangles on a small grid: the surface is the union of its fac
       for (std::uint32_t& v : face) v = *rc::gen::inRange<std::uint32_t>(0, 7);
     }
     const Mesh mesh = triangles(points, faces);
-    const Polyhedron set = from_mesh(mesh, MeshOptions{.as_surface = true});
+    Polyhedron set = from_mesh(mesh, MeshOptions{.as_surface = true});
     RC_ASSERT(validate(set.complex()).empty());
     RC_ASSERT(equal(set, by_unions(mesh)));
   }));
@@ -171,3 +170,5 @@ TEST_CASE("A solid of one component that touches itself is the solid between its
   CHECK(validate(read.complex()).empty());
   CHECK(equal(read, solid));
 }
+
+}  // namespace nef

@@ -267,7 +267,7 @@ TEST_CASE("An edge that stands inside a face is no crossing", "[winding]") {
 TEST_CASE("Boxes glued face to face lose the wall between them", "[winding]") {
   const auto made = [](const std::vector<Brick>& bricks) {
     Messages messages;
-    const Polyhedron set = from_mesh(mesh_of(bricks), {}, &messages);
+    Polyhedron set = from_mesh(mesh_of(bricks), {}, &messages);
     CHECK(validate(set.complex()).empty());
     return set;
   };

@@ -35,7 +35,7 @@ Polyhedron random_set(unsigned seed) {
     for (Rational& x : high) x += small_number(random, 0, 3, 1);
     parts.push_back(make_box(low, high));
   }
-  const Polyhedron set = complement(unite_all(parts));
+  Polyhedron set = complement(unite_all(parts));
   switch (seed % 3) {
     case 0:
       return set;

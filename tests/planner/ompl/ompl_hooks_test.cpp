@@ -86,7 +86,7 @@ TEST_CASE("declared parameters set what they name") {
   CHECK(planner.params().setParam("keep_roadmap", "0"));
   CHECK_FALSE(planner.getKeepRoadmap());
   planner.setProblemDefinition(world.definition);
-  CHECK(planner.solve(5.0) == ob::PlannerStatus::EXACT_SOLUTION);
+  CHECK(planner.solve(60.0) == ob::PlannerStatus::EXACT_SOLUTION);
   CHECK(planner.getExactPath()->thinness.piece == 3);
 }
 
@@ -109,15 +109,15 @@ TEST_CASE("a goal that cannot be sampled is not recognized; starts in collision 
   TightPlanner planner(world.si);
   world.definition->setGoal(std::make_shared<Somewhere>(world.si));
   planner.setProblemDefinition(world.definition);
-  CHECK(planner.solve(1.0) == ob::PlannerStatus::UNRECOGNIZED_GOAL_TYPE);
+  CHECK(planner.solve(60.0) == ob::PlannerStatus::UNRECOGNIZED_GOAL_TYPE);
   world.definition->setGoal(world.setup.getGoal());
   world.definition->clearStartStates();
   planner.clear();
-  CHECK_THROWS_AS(planner.solve(1.0), ompl::Exception);
+  CHECK_THROWS_AS(planner.solve(60.0), ompl::Exception);
   ob::ScopedState<> inside_the_wall(world.si);
   inside_the_wall = std::vector<double>{4, 0, 0};
   world.definition->addStartState(inside_the_wall);
-  CHECK(planner.solve(1.0) == ob::PlannerStatus::INVALID_START);
+  CHECK(planner.solve(60.0) == ob::PlannerStatus::INVALID_START);
 }
 
 TEST_CASE("the free space is built once, or for every query if it is not to be kept") {
@@ -131,14 +131,14 @@ TEST_CASE("the free space is built once, or for every query if it is not to be k
   planner.setProblemDefinition(world.definition);
   for (int query = 0; query < 3; ++query) {
     planner.clear();
-    CHECK(planner.solve(5.0) == ob::PlannerStatus::EXACT_SOLUTION);
+    CHECK(planner.solve(60.0) == ob::PlannerStatus::EXACT_SOLUTION);
   }
   CHECK(built == 1);
   CHECK(planner.getPreprocessingTime() > 0);
   planner.setKeepRoadmap(false);
   for (int query = 0; query < 2; ++query) {
     planner.clear();
-    CHECK(planner.solve(5.0) == ob::PlannerStatus::EXACT_SOLUTION);
+    CHECK(planner.solve(60.0) == ob::PlannerStatus::EXACT_SOLUTION);
   }
   CHECK(built == 3);
 }
@@ -174,7 +174,7 @@ TEST_CASE("planner data is stored and read back with its exact states") {
   scene.start = Rational3{Rational(1, 3), Rational(1, 7), 1};
   const Problem problem(scene);
   TranslationPlanning setup(problem);
-  REQUIRE(setup.solve(1.0));
+  REQUIRE(setup.solve(60.0));
   ob::PlannerData data(setup.getSpaceInformation());
   setup.getPlannerData(data);
   std::stringstream file;

@@ -112,7 +112,7 @@ TEST_CASE("TightPlanner solves every solvable scene through OMPL, before and aft
     INFO(name);
     const Problem problem(load(name));
     TranslationPlanning setup(problem);
-    CHECK(setup.solve(5.0) == ob::PlannerStatus::EXACT_SOLUTION);
+    CHECK(setup.solve(60.0) == ob::PlannerStatus::EXACT_SOLUTION);
     REQUIRE(setup.haveExactSolutionPath());
     CHECK(setup.getSolutionPath().check());
     setup.simplifySolution();
@@ -127,7 +127,7 @@ TEST_CASE("TightPlanner proves infeasibility") {
     INFO(name);
     const Problem problem(load(name));
     TranslationPlanning setup(problem);
-    const ob::PlannerStatus status = setup.solve(5.0);
+    const ob::PlannerStatus status = setup.solve(60.0);
     CHECK_FALSE(status);
     CHECK_FALSE(setup.haveSolutionPath());
     REQUIRE(setup.getProblemDefinition()->hasSolutionNonExistenceProof());
@@ -147,10 +147,10 @@ TEST_CASE("statuses of wrong questions, several goals, many queries on one free 
   const Problem problem(load("s1_tight_hole"));
   TranslationPlanning setup(problem);
   setup.setExactStartAndGoal({4, 0, 0}, {7, 1, 1});
-  CHECK(setup.solve(1.0) == ob::PlannerStatus::INVALID_START);
+  CHECK(setup.solve(60.0) == ob::PlannerStatus::INVALID_START);
   setup.clear();
   setup.setExactStartAndGoal({1, 1, 1}, {4, 0, 0});
-  CHECK(setup.solve(1.0) == ob::PlannerStatus::INVALID_GOAL);
+  CHECK(setup.solve(60.0) == ob::PlannerStatus::INVALID_GOAL);
   setup.clear();
   // One goal in another component, one in reach.
   const ob::SpaceInformationPtr& si = setup.getSpaceInformation();
@@ -160,16 +160,16 @@ TEST_CASE("statuses of wrong questions, several goals, many queries on one free 
   goals->addState(outside.state);
   goals->addState(inside.state);
   setup.setGoal(goals);
-  CHECK(setup.solve(1.0) == ob::PlannerStatus::EXACT_SOLUTION);
+  CHECK(setup.solve(60.0) == ob::PlannerStatus::EXACT_SOLUTION);
   const FreeSpace* before = setup.getTightPlanner()->getFreeSpace().get();
   setup.clear();
   setup.setExactStartAndGoal({Rational(1, 3), 1, 1}, {7, Rational(1, 3), 1});
-  CHECK(setup.solve(1.0) == ob::PlannerStatus::EXACT_SOLUTION);
+  CHECK(setup.solve(60.0) == ob::PlannerStatus::EXACT_SOLUTION);
   CHECK(setup.getTightPlanner()->getFreeSpace().get() == before);
   CHECK(setup.getTightPlanner()->params().hasParam("min_dimension"));
   setup.clear();
   setup.getTightPlanner()->params().setParam("min_dimension", "3");
-  setup.solve(1.0);
+  setup.solve(60.0);
   const auto proof =
       std::static_pointer_cast<DisconnectionProof>(setup.getProblemDefinition()->getSolutionNonExistenceProof());
   REQUIRE(proof);
@@ -179,7 +179,7 @@ TEST_CASE("statuses of wrong questions, several goals, many queries on one free 
 TEST_CASE("the roadmap is exported as planner data") {
   const Problem problem(load("s1_tight_hole"));
   TranslationPlanning setup(problem);
-  REQUIRE(setup.solve(1.0));
+  REQUIRE(setup.solve(60.0));
   ob::PlannerData data(setup.getSpaceInformation());
   setup.getPlannerData(data);
   CHECK(data.numVertices() > problem.free_space().zones().stations().size());

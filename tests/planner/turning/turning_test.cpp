@@ -286,8 +286,11 @@ TEST_CASE("random boxes in the plane against a fine grid of poses") {
       const TurningRobot robot(scene.robot, question.axis);
       constexpr int kSteps = 49;
       constexpr int kTurns = 64;  // the full circle
-      std::vector<char> free(static_cast<std::size_t>(kSteps * kSteps * kTurns), 0);
-      const auto index = [](int i, int k, int t) { return static_cast<std::size_t>((t * kSteps + i) * kSteps + k); };
+      std::vector<char> free(std::size_t{kSteps} * kSteps * kTurns, 0);
+      const auto index = [](int i, int k, int t) {
+        const int at = (t * kSteps + i) * kSteps + k;
+        return static_cast<std::size_t>(at);
+      };
       for (int t = 0; t < kTurns; ++t) {
         Scene slice = scene;
         slice.robot = robot.at(ratio(t, 16));

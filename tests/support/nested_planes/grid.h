@@ -41,7 +41,8 @@ class Grid {
       const int falling = (u + v > kScale) - (u + v < kScale);
       // Centre; four half diagonals; four triangles.
       constexpr std::array<int, 9> kKinds{8, 4, 9, 5, 3, 6, 10, 7, 11};
-      kind = kKinds[static_cast<std::size_t>(3 * (rising + 1) + falling + 1)];
+      const int place = 3 * (rising + 1) + falling + 1;
+      kind = kKinds[static_cast<std::size_t>(place)];
     }
     const int level = 2 * (p[2] / kScale) + (p[2] % kScale != 0 ? 1 : 0);
     return (square * 12 + kind) * 2 * kHeight + level;

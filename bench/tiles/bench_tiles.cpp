@@ -17,6 +17,7 @@
 #include <cstring>
 #include <exception>
 #include <functional>
+#include <memory>
 #include <random>
 
 #include "bench/generators.h"
@@ -76,38 +77,69 @@ class CubesOffSphere {
   std::mt19937_64 random_{1};
 };
 
-void cubes(int level, const Tiling& tiling) {
-  CubesOffSphere source(level);
-  Polyhedron plain;
-  const double build = seconds_of([&] { plain = from_mesh(source.sphere()); });
-  std::vector<double> plain_steps;
-  for (int i = 0; i < 2; ++i) {
-    const Polyhedron cube = source.next(0.0005);
-    plain_steps.push_back(seconds_of([&] { static_cast<void>(subtract(plain, cube)); }));
+// A sphere of one size and what is measured of it.
+class CubesRun {
+ public:
+  CubesRun(int level, const Tiling& tiling) : source_(level) {
+    build_ = seconds_of([&] { plain_ = from_mesh(source_.sphere()); });
+    for (int i = 0; i < 2; ++i) {
+      const Polyhedron cube = source_.next(kSize);
+      plain_steps_.push_back(seconds_of([&] { static_cast<void>(subtract(plain_, cube)); }));
+    }
+    const std::size_t before = allocated();
+    cutting_ = seconds_of([&] { in_tiles_ = TiledPolyhedron(plain_, tiling); });
+    one_version_ = static_cast<double>(allocated() - before);
+    versions_.push_back(in_tiles_);
   }
-  TiledPolyhedron in_tiles;
-  const std::size_t before_cutting = allocated();
-  const double cutting = seconds_of([&] { in_tiles = TiledPolyhedron(plain, tiling); });
-  const double one_version = static_cast<double>(allocated() - before_cutting);
-  std::vector<double> steps;
-  std::vector<TiledPolyhedron> versions{in_tiles};
-  const std::size_t before_steps = allocated();
-  for (int i = 0; i < 1000; ++i) {
-    const Polyhedron cube = source.next(0.0005);
-    steps.push_back(seconds_of([&] { versions.push_back(subtract(versions.back(), cube)); }));
+
+  void step(int count) {
+    const std::size_t before = allocated();
+    for (int i = 0; i < count; ++i) {
+      const Polyhedron cube = source_.next(kSize);
+      steps_.push_back(seconds_of([&] { versions_.push_back(subtract(versions_.back(), cube)); }));
+    }
+    other_versions_ += static_cast<double>(allocated() - before);
   }
-  const double all_versions = one_version + static_cast<double>(allocated() - before_steps);
-  std::sort(steps.begin(), steps.end());
-  Polyhedron whole;
-  const double glue = seconds_of([&] { whole = in_tiles.polyhedron(); });
-  const bool same = equal(whole, plain);
-  std::printf(
-      "%9zu triangles: from_mesh %.3f s, cutting %.2f of it, gluing %.2f; %zu tiles, %.2f times the vertices; cube: "
-      "median %.3f ms, 95%% %.3f ms, plain %.2f ms; %.0f MB, with 1000 versions %.2f times that; glued %s\n",
-      source.sphere().face_count(), build, cutting / build, glue / build, in_tiles.tile_count(),
-      static_cast<double>(in_tiles.vertex_count()) / static_cast<double>(plain.complex().vertex_count()),
-      1e3 * steps[steps.size() / 2], 1e3 * steps[steps.size() * 95 / 100], 1e3 * median(plain_steps),
-      one_version / 1048576, all_versions / one_version, same ? "the same" : "DIFFERENT");
+
+  // Returns the median of the steps.
+  double report() {
+    std::sort(steps_.begin(), steps_.end());
+    Polyhedron whole;
+    const double glue = seconds_of([&] { whole = in_tiles_.polyhedron(); });
+    const bool same = equal(whole, plain_);
+    std::printf(
+        "%9zu triangles: from_mesh %.3f s, cutting %.2f of it, gluing %.2f; %zu tiles, %.2f times the vertices; cube: "
+        "median %.3f ms, 95%% %.3f ms, plain %.2f ms; %.0f MB, with %zu versions %.2f times that; glued %s\n",
+        source_.sphere().face_count(), build_, cutting_ / build_, glue / build_, in_tiles_.tile_count(),
+        static_cast<double>(in_tiles_.vertex_count()) / static_cast<double>(plain_.complex().vertex_count()),
+        1e3 * steps_[steps_.size() / 2], 1e3 * steps_[steps_.size() * 95 / 100], 1e3 * median(plain_steps_),
+        one_version_ / 1048576, steps_.size(), (one_version_ + other_versions_) / one_version_,
+        same ? "the same" : "DIFFERENT");
+    return steps_[steps_.size() / 2];
+  }
+
+ private:
+  static constexpr double kSize = 0.0005;
+
+  CubesOffSphere source_;
+  Polyhedron plain_;
+  TiledPolyhedron in_tiles_;
+  std::vector<TiledPolyhedron> versions_;
+  std::vector<double> plain_steps_, steps_;
+  double build_ = 0, cutting_ = 0, one_version_ = 0, other_versions_ = 0;
+};
+
+// Steps of all sizes in turn, a hundred at a time.
+void cubes(const std::vector<int>& levels, const Tiling& tiling) {
+  std::vector<std::unique_ptr<CubesRun>> runs;
+  for (const int level : levels) runs.push_back(std::make_unique<CubesRun>(level, tiling));
+  for (int round = 0; round < 10; ++round) {
+    for (const auto& run : runs) run->step(100);
+  }
+  std::vector<double> medians;
+  for (const auto& run : runs) medians.push_back(run->report());
+  std::printf("cube, slowest / fastest size: %.2f\n",
+              *std::max_element(medians.begin(), medians.end()) / *std::min_element(medians.begin(), medians.end()));
 }
 
 void cut_and_glue(int level, int turns, const Tiling& tiling) {
@@ -343,7 +375,7 @@ int main(int argc, char** argv) {
       nef::bench::fold(numbers.empty() ? 6 : numbers[0], numbers.size() < 2 ? 1000 : numbers[1], size, tiling);
     } else {
       if (numbers.empty()) numbers = {7, 8};
-      for (const int level : numbers) nef::bench::cubes(level, tiling);
+      nef::bench::cubes(numbers, tiling);
     }
   } catch (const std::exception& error) {
     std::fprintf(stderr, "nef_bench_tiles: %s\n", error.what());

@@ -99,10 +99,7 @@ class IntersectionFinder {
       }
       take(found.facets, f, cells);
     }
-    for (const HalfedgeId e : c.halfedge_ids()) {
-      if (c.svertex(e).out != kNone || e > c.twin[e]) continue;
-      take(found.bare_edges, e, edge_cells(x, found, e));
-    }
+    for (const HalfedgeId e : c.bare_edges()) take(found.bare_edges, e, edge_cells(x, found, e));
     return found;
   }
 

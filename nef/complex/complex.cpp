@@ -13,15 +13,39 @@ VertexId Complex::sface_vertex(SFaceId sface) const {
   return VertexId{after - vertices.begin() - 1};
 }
 
+FacetSides sides_of_facet(const Complex& complex, FacetId facet) {
+  const std::uint32_t corner = complex.corners_of(facet).front();
+  const auto [above, below] = complex.shalfedge_sfaces(corner);
+  return {complex.shalfedge(corner).mark, complex.sface_volume(above), complex.sface_volume(below)};
+}
+
+std::vector<HalfedgeId> Complex::bare_edges() const {
+  std::vector<bool> has_bare(patterns.size());
+  for (std::uint32_t i = 0; i < patterns.size(); ++i) {
+    const auto svertices = patterns.svertices(PatternId{i});
+    has_bare[i] = std::any_of(svertices.begin(), svertices.end(), [](const SVertex& s) { return s.out == kNone; });
+  }
+  std::vector<HalfedgeId> result;
+  for (const VertexId v : vertex_ids()) {
+    const PatternId pattern = vertices.pattern(v);
+    if (!has_bare[pattern.index()]) continue;
+    const IdRange<HalfedgeId> own = halfedges(v);
+    for (const HalfedgeId h : own) {
+      if (patterns.svertex(pattern, own.position(h)).out == kNone && h < twin[h]) result.push_back(h);
+    }
+  }
+  return result;
+}
+
 void Complex::trim() {
   planes.trim();
   points.trim();
-  trim_capacity(vertices);
+  vertices.trim();
   patterns.trim();
   trim_capacity(shalfedge_plane.pairs());
   trim_capacity(other_planes);
   trim_capacity(sloops);
-  trim_capacity(facets);
+  facets.trim();
   trim_capacity(cycle_begin);
   trim_capacity(corners);
   trim_capacity(isolated_vertices);
@@ -30,11 +54,11 @@ void Complex::trim() {
 }
 
 std::size_t Complex::bytes() const {
-  return planes.bytes() + points.bytes() + held_bytes(vertices) + patterns.bytes() +
-         held_bytes(shalfedge_plane.pairs()) + held_bytes(other_planes) + held_bytes(sloops) +
-         held_bytes(svertex_owner) + held_bytes(twin) + held_bytes(pair_owner) + held_bytes(shalfedge_facet.pairs()) +
-         held_bytes(sloop_facet) + held_bytes(sface_shell) + held_bytes(facets) + held_bytes(cycle_begin) +
-         held_bytes(corners) + held_bytes(isolated_vertices) + held_bytes(shells) + held_bytes(volumes);
+  return planes.bytes() + points.bytes() + vertices.bytes() + patterns.bytes() + held_bytes(shalfedge_plane.pairs()) +
+         held_bytes(other_planes) + held_bytes(sloops) + held_bytes(svertex_owner) + held_bytes(twin) +
+         held_bytes(pair_owner) + held_bytes(shalfedge_facet.pairs()) + held_bytes(sloop_facet) +
+         held_bytes(sface_shell) + facets.bytes() + held_bytes(cycle_begin) + held_bytes(corners) +
+         held_bytes(isolated_vertices) + held_bytes(shells) + held_bytes(volumes);
 }
 
 }  // namespace nef

@@ -19,6 +19,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -26,44 +27,12 @@
 #include "nef/complex/ids.h"
 #include "nef/complex/patterns/pair_columns.h"
 #include "nef/complex/patterns/pattern_table.h"
+#include "nef/complex/tables/facet_table.h"
+#include "nef/complex/tables/vertex_table.h"
 #include "nef/geometry/point_table.h"
 #include "nef/sphere_map/sphere_map.h"
 
 namespace nef {
-
-/// Where the items of the sphere map of a vertex begin; they end where the next vertex's begin.
-struct VertexRecord {
-  HalfedgeId svertices{0};
-  std::uint32_t shalfedges = 0;
-  std::uint32_t sloops = 0;
-  SFaceId sfaces{0};
-  std::uint32_t other_planes = 0;
-  PatternId pattern;
-
-  /// Moves on by the items of vertices that begin at one record and end where another one begins.
-  void advance(const VertexRecord& begin, const VertexRecord& end) {
-    svertices += end.svertices - begin.svertices;
-    shalfedges += end.shalfedges - begin.shalfedges;
-    sloops += end.sloops - begin.sloops;
-    sfaces += end.sfaces - begin.sfaces;
-    other_planes += end.other_planes - begin.other_planes;
-  }
-};
-
-/// A connected, relatively open piece of a plane with one mark.
-struct Facet {
-  PlaneId plane;  ///< unflipped
-  LabelId mark = 0;
-  CycleId first_cycle{0};  ///< the outer cycle; holes follow
-  std::uint32_t cycle_count = 0;
-  std::uint32_t first_isolated = 0;  ///< vertices inside the facet, in isolated_vertices
-  std::uint32_t isolated_count = 0;
-  VolumeId volume_above{0};  ///< on the positive side of the plane
-  VolumeId volume_below{0};
-
-  /// The outer cycle first.
-  [[nodiscard]] IdRange<CycleId> cycles() const { return {first_cycle, cycle_count}; }
-};
 
 /// A connected component of the boundary of a volume; the sfaces that touch it know it (see shell_sfaces.h).
 struct Shell {
@@ -84,7 +53,7 @@ struct Complex {
   PlaneTable planes;
   PointTable points;
 
-  IndexedVector<VertexId, VertexRecord> vertices{VertexRecord{}};  ///< one more than there are vertices
+  VertexTable vertices;  ///< one more than there are vertices
 
   PatternTable patterns;  ///< each is that of a vertex
   PlaneColumn shalfedge_plane;
@@ -99,7 +68,7 @@ struct Complex {
   std::vector<HalffacetId> sloop_facet;
   IndexedVector<SFaceId, ShellId> sface_shell;
 
-  IndexedVector<FacetId, Facet> facets;
+  FacetTable facets;
   IndexedVector<CycleId, std::uint32_t> cycle_begin{0};  ///< into corners; one more than there are cycles
   std::vector<std::uint32_t> corners;                    ///< shalfedges
   std::vector<VertexId> isolated_vertices;
@@ -130,17 +99,17 @@ struct Complex {
 
   /// The halfedges that leave a vertex; the first is svertex 0 of its sphere map.
   [[nodiscard]] IdRange<HalfedgeId> halfedges(VertexId vertex) const {
-    return {vertices[vertex].svertices, vertices[vertex.next()].svertices};
+    return {vertices.svertices(vertex), vertices.svertices(vertex.next())};
   }
 
   /// The sfaces around a vertex, likewise.
   [[nodiscard]] IdRange<SFaceId> sfaces(VertexId vertex) const {
-    return {vertices[vertex].sfaces, vertices[vertex.next()].sfaces};
+    return {vertices.sfaces(vertex), vertices.sfaces(vertex.next())};
   }
 
   /// The sphere map of a vertex.
   [[nodiscard]] SphereMapView sphere_map(VertexId vertex) const {
-    const VertexRecord& record = vertices[vertex];
+    const VertexRecord record = vertices[vertex];
     const LocalPlanes named = local_planes(vertex);
     return {{patterns.svertices(record.pattern), named},
             {patterns.shalfedges(record.pattern), named},
@@ -150,13 +119,13 @@ struct Complex {
             patterns.mark(record.pattern)};
   }
 
-  [[nodiscard]] LabelId mark(VertexId vertex) const { return patterns.mark(vertices[vertex].pattern); }
+  [[nodiscard]] LabelId mark(VertexId vertex) const { return patterns.mark(vertices.pattern(vertex)); }
 
   /// A halfedge as the svertex that it is in the sphere map of its source. Needs svertex_owner.
   [[nodiscard]] SVertex svertex(HalfedgeId halfedge) const {
     const VertexId vertex = svertex_owner[halfedge];
-    const VertexRecord& record = vertices[vertex];
-    return with_planes(patterns.svertex(record.pattern, halfedge - record.svertices), local_planes(vertex));
+    return with_planes(patterns.svertex(vertices.pattern(vertex), halfedge - vertices.svertices(vertex)),
+                       local_planes(vertex));
   }
 
   /// A shalfedge by its number in the complex. Needs the owners.
@@ -175,34 +144,45 @@ struct Complex {
   /// The mark of an sface. O(log n).
   [[nodiscard]] LabelId sface_mark(SFaceId sface) const {
     const VertexId vertex = sface_vertex(sface);
-    return patterns.sfaces(vertices[vertex].pattern)[sface - vertices[vertex].sfaces].mark;
+    return patterns.sfaces(vertices.pattern(vertex))[sface - vertices.sfaces(vertex)].mark;
   }
 
   /// The vertex that a halfedge leaves, and the one at its other end.
   [[nodiscard]] VertexId source(HalfedgeId halfedge) const { return svertex_owner[halfedge]; }
   [[nodiscard]] VertexId target(HalfedgeId halfedge) const { return svertex_owner[twin[halfedge]]; }
 
+  /// The edges that no facet touches, each by its smaller halfedge, ascending. O(vertices).
+  [[nodiscard]] std::vector<HalfedgeId> bare_edges() const;
+
   /// The smaller halfedge of an edge, where one is to stand for both.
   [[nodiscard]] HalfedgeId edge(HalfedgeId halfedge) const { return std::min(halfedge, twin[halfedge]); }
 
   /// The halfedge that leaves the vertex of a corner along the facet boundary (facet to its left).
   [[nodiscard]] HalfedgeId corner_halfedge(std::uint32_t corner) const {
-    return vertices[shalfedge_vertex(corner)].svertices + in_pattern(corner).source;
+    return vertices.svertices(shalfedge_vertex(corner)) + in_pattern(corner).source;
   }
   /// The halfedge at the vertex of a corner that leads back along the facet boundary.
   [[nodiscard]] HalfedgeId corner_back_halfedge(std::uint32_t corner) const {
-    return vertices[shalfedge_vertex(corner)].svertices + in_pattern(corner ^ 1U).source;
+    return vertices.svertices(shalfedge_vertex(corner)) + in_pattern(corner ^ 1U).source;
+  }
+  /// The sfaces on both sides of a shalfedge: to its left and to its right.
+  [[nodiscard]] std::array<SFaceId, 2> shalfedge_sfaces(std::uint32_t shalfedge) const {
+    const VertexId vertex = shalfedge_vertex(shalfedge);
+    const PatternId pattern = vertices.pattern(vertex);
+    const std::uint32_t local = shalfedge - vertices.shalfedges(vertex);
+    const SFaceId first = vertices.sfaces(vertex);
+    return {first + patterns.shalfedge(pattern, local).sface, first + patterns.shalfedge(pattern, local ^ 1U).sface};
   }
   /// The sface to the left of a shalfedge.
   [[nodiscard]] SFaceId shalfedge_sface(std::uint32_t shalfedge) const {
-    return vertices[shalfedge_vertex(shalfedge)].sfaces + in_pattern(shalfedge).sface;
+    return vertices.sfaces(shalfedge_vertex(shalfedge)) + in_pattern(shalfedge).sface;
   }
   [[nodiscard]] VolumeId sface_volume(SFaceId sface) const { return shells[sface_shell[sface]].volume; }
 
   /// The volume on the side from which a halffacet is seen.
   [[nodiscard]] VolumeId halffacet_volume(HalffacetId halffacet) const {
-    const Facet& f = facets[facet_of(halffacet)];
-    return is_below(halffacet) ? f.volume_below : f.volume_above;
+    const FacetSides sides = facets.sides_of(facet_of(halffacet));
+    return is_below(halffacet) ? sides.volume_below : sides.volume_above;
   }
 
   /// The corners of a cycle.
@@ -232,17 +212,20 @@ struct Complex {
 
  private:
   [[nodiscard]] LocalPlanes local_planes(VertexId vertex) const {
-    const VertexRecord& record = vertices[vertex];
-    return {shalfedge_plane.pairs().data() + record.shalfedges / 2,
-            (vertices[vertex.next()].shalfedges - record.shalfedges) / 2, other_planes.data() + record.other_planes};
+    const std::uint32_t pairs = vertices.shalfedges(vertex) / 2;
+    return {shalfedge_plane.pairs().data() + pairs, vertices.shalfedges(vertex.next()) / 2 - pairs,
+            other_planes.data() + vertices.other_planes(vertex)};
   }
 
   // Its plane is but a name.
   [[nodiscard]] const SHalfedge& in_pattern(std::uint32_t shalfedge) const {
-    const VertexRecord& record = vertices[shalfedge_vertex(shalfedge)];
-    return patterns.shalfedge(record.pattern, shalfedge - record.shalfedges);
+    const VertexId vertex = shalfedge_vertex(shalfedge);
+    return patterns.shalfedge(vertices.pattern(vertex), shalfedge - vertices.shalfedges(vertex));
   }
 };
+
+/// What is on a facet and on both sides of it, as its first corner tells it; where shells and volumes are known.
+FacetSides sides_of_facet(const Complex& complex, FacetId facet);
 
 /// Calls change(plane) for the planes that sphere maps of a complex name, those of twins once. Of a complex that is not
 /// const, planes may be changed; then opposite planes must become opposite planes.

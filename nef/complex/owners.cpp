@@ -12,8 +12,7 @@ void name_svertex_owners(Complex& complex) {
 
 void name_pair_owners(Complex& complex) {
   complex.pair_owner.clear();
-  const auto as_many = [](const VertexRecord& v) { return v.svertices.index() == v.shalfedges / 2; };
-  if (std::all_of(complex.vertices.begin(), complex.vertices.end(), as_many)) return;
+  if (complex.vertices.has_two_shalfedges_per_svertex()) return;
   complex.pair_owner.resize(complex.shalfedge_count() / 2);
   const auto owner = complex.pair_owner.begin();
   for (const VertexId v : complex.vertex_ids()) {

@@ -21,22 +21,20 @@ void rewrite_sphere_maps(Complex& c, Change&& change) {
   std::vector<PlaneId> planes;
   std::vector<PlaneId> others;
   std::vector<SLoop> sloops;
-  IndexedVector<VertexId, std::pair<PatternId, std::uint32_t>> records;
+  VertexTable records;
   planes.reserve(c.shalfedge_plane.pairs().size());
-  records.reserve(c.vertex_count());
+  records.reserve(c.vertices.size());
   SphereMapBuffer map;
   for (const VertexId v : c.vertex_ids()) {
     map.assign(c.sphere_map(v));
     change(v, map);
-    const auto first_other = static_cast<std::uint32_t>(others.size());
-    records.push_back({interner.intern(patterns, map.view(), planes, others), first_other});
+    VertexRecord end = c.vertices[v.next()];
+    const PatternId pattern = interner.intern(patterns, map.view(), planes, others);
+    end.other_planes = static_cast<std::uint32_t>(others.size());
+    records.add(pattern, end);
     sloops.insert(sloops.end(), map.sloops.begin(), map.sloops.end());
   }
-  for (const VertexId v : c.vertex_ids()) {
-    c.vertices[v].pattern = records[v].first;
-    c.vertices[v].other_planes = records[v].second;
-  }
-  c.vertices.back().other_planes = static_cast<std::uint32_t>(others.size());
+  c.vertices = std::move(records);
   c.patterns = std::move(patterns);
   c.shalfedge_plane.pairs() = std::move(planes);
   c.other_planes = std::move(others);

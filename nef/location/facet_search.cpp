@@ -118,7 +118,7 @@ class ParityCount {
   }
 
   const Complex& complex_;
-  const Facet& facet_;
+  Facet facet_;
   const PointRef& point_;
   std::size_t k_ = 0;
   std::size_t m_ = 0;

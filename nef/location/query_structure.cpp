@@ -62,8 +62,7 @@ void QueryStructure::collect(const Complex& complex, const BoxTree* places) {
     push_item(f.index(), kFacetItem, box, boxes);
     if (corners.size() > kLargeFacet) large_facets_.push_back(f);
   }
-  for (const HalfedgeId h : complex.halfedge_ids()) {
-    if (complex.svertex(h).out != kNone || h > complex.twin[h]) continue;
+  for (const HalfedgeId h : complex.bare_edges()) {
     const Box box = edge_box(complex, h);
     if (asked_for(box)) push_item(h.index(), kEdgeItem, box, boxes);
   }

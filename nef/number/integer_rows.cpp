@@ -49,7 +49,7 @@ void IntegerRows::end_row() {
   if (limbs_.size() > std::numeric_limits<std::uint32_t>::max()) {
     throw UnsupportedError("the set needs more than 32 gigabytes of coordinates; use fewer or shorter ones");
   }
-  begin_.push_back(static_cast<std::uint32_t>(limbs_.size()));
+  if (++size_ % kTogether == 0) begin_.push_back(static_cast<std::uint32_t>(limbs_.size()));
 }
 
 std::uint32_t IntegerRows::push(std::span<const mpz_srcptr> row) {
@@ -95,8 +95,8 @@ std::uint32_t IntegerRows::push(std::span<const Int128> row) {
 std::uint32_t IntegerRows::push_from(const IntegerRows& other, std::uint32_t index) {
   NEF_ASSERT(other.width_ == width_ && &other != this);
   const auto result = static_cast<std::uint32_t>(size());
-  const auto first = other.limbs_.begin() + static_cast<std::ptrdiff_t>(other.begin_[index]);
-  const auto last = other.limbs_.begin() + static_cast<std::ptrdiff_t>(other.begin_[index + 1]);
+  const auto first = other.limbs_.begin() + static_cast<std::ptrdiff_t>(other.begin(index));
+  const auto last = other.limbs_.begin() + static_cast<std::ptrdiff_t>(other.begin(index + 1));
   limbs_.insert(limbs_.end(), first, last);
   append_sizes(other, index * width_, (index + std::size_t{1}) * width_);
   end_row();
@@ -107,13 +107,17 @@ void IntegerRows::append(const IntegerRows& other, std::size_t first, std::size_
   NEF_ASSERT(other.width_ == width_ && &other != this);
   const std::size_t last = first + count;
   const auto limb = [&other](std::size_t row) {
-    return other.limbs_.begin() + static_cast<std::ptrdiff_t>(other.begin_[row]);
+    return other.limbs_.begin() + static_cast<std::ptrdiff_t>(other.begin(row));
   };
+  if (count == 0) return;
+  const std::size_t base = limbs_.size() - other.begin(first);  // modulo 2^64
   limbs_.insert(limbs_.end(), limb(first), limb(last));
   append_sizes(other, first * width_, last * width_);
-  const std::uint32_t base = begin_.back() - other.begin_[first];  // modulo 2^32
-  for (std::size_t row = first + 1; row < last; ++row) begin_.push_back(base + other.begin_[row]);
-  if (count > 0) end_row();
+  for (std::size_t row = size_ + kTogether - size_ % kTogether; row < size_ + count; row += kTogether) {
+    begin_.push_back(static_cast<std::uint32_t>(base + other.begin(first + row - size_)));
+  }
+  size_ += count - 1;
+  end_row();
 }
 
 bool IntegerRows::same_sizes(std::uint32_t row, const IntegerRows& other, std::uint32_t other_row) const {
@@ -126,10 +130,10 @@ bool IntegerRows::same_sizes(std::uint32_t row, const IntegerRows& other, std::u
 }
 
 bool IntegerRows::equal(std::uint32_t row, const IntegerRows& other, std::uint32_t other_row) const {
-  return same_sizes(row, other, other_row) &&
-         std::equal(limbs_.begin() + static_cast<std::ptrdiff_t>(begin_[row]),
-                    limbs_.begin() + static_cast<std::ptrdiff_t>(begin_[row + 1]),
-                    other.limbs_.begin() + static_cast<std::ptrdiff_t>(other.begin_[other_row]));
+  if (!same_sizes(row, other, other_row)) return false;
+  const std::span<const mp_limb_t> limbs = limbs_of(row);
+  return std::equal(limbs.begin(), limbs.end(),
+                    other.limbs_.begin() + static_cast<std::ptrdiff_t>(other.begin(other_row)));
 }
 
 std::uint64_t IntegerRows::hash(std::uint32_t row) const {
@@ -138,7 +142,7 @@ std::uint64_t IntegerRows::hash(std::uint32_t row) const {
     h = (h ^ value) * 0xff51afd7ed558ccdULL;
     h ^= h >> 32;
   };
-  for (std::size_t i = begin_[row]; i < begin_[row + 1]; ++i) mix(limbs_[i]);
+  for (const mp_limb_t limb : limbs_of(row)) mix(limb);
   std::uint64_t sizes = 0;  // a byte of each, which is all of it but for giants
   for (std::size_t i = 0; i < width_; ++i) sizes = sizes << 8U | static_cast<std::uint8_t>(size(row * width_ + i));
   mix(sizes);
@@ -146,8 +150,8 @@ std::uint64_t IntegerRows::hash(std::uint32_t row) const {
 }
 
 void IntegerRows::pop() {
-  begin_.pop_back();
-  limbs_.resize(begin_.back());
+  limbs_.resize(begin(size_ - 1));
+  if (size_-- % kTogether == 0) begin_.pop_back();
   if (is_wide_) {
     wide_.resize(wide_.size() - width_);
   } else {
@@ -161,7 +165,7 @@ std::size_t IntegerRows::bytes() const {
 
 void IntegerRows::reserve(std::size_t rows, std::size_t limbs_per_row) {
   limbs_.reserve(rows * limbs_per_row);
-  begin_.reserve(rows + 1);
+  begin_.reserve(rows / kTogether + 1);
   if (!is_wide_) sizes_.reserve(kPadding + rows * width_);
 }
 

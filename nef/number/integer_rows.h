@@ -36,7 +36,7 @@ class IntegerRows {
  public:
   explicit IntegerRows(std::size_t width) : width_(width), begin_{0}, sizes_(kPadding, 0) {}
 
-  [[nodiscard]] std::size_t size() const { return begin_.size() - 1; }
+  [[nodiscard]] std::size_t size() const { return size_; }
 
   /// Appends a row; `row.size()` is the width. Returns its index.
   std::uint32_t push(std::span<const mpz_srcptr> row);
@@ -52,8 +52,9 @@ class IntegerRows {
 
   /// Entry `column` of row `row`.
   [[nodiscard]] IntegerView at(std::uint32_t row, std::size_t column) const {
+    const std::size_t first = first_together(row) * width_;
     const std::size_t i = row * width_ + column;
-    return {limbs_.data() + begin_[row] + limbs_before(i, column), size(i)};
+    return {limbs_.data() + begin_[row / kTogether] + limbs_between(first, i), size(i)};
   }
 
   [[nodiscard]] int sign(std::uint32_t row, std::size_t column) const {
@@ -81,23 +82,40 @@ class IntegerRows {
  private:
   static constexpr std::size_t kPadding = 8;  // bytes before the first size
 
-  // The limbs of the `column` entries before entry `i`.
-  [[nodiscard]] std::size_t limbs_before(std::size_t i, std::size_t column) const {
-    if (std::endian::native == std::endian::little && !is_wide_ && column <= kPadding) {
-      return bytes_before(i, column);
-    }
+  // Rows whose first limb is not noted are read on from one that is at most so many before.
+  static constexpr std::size_t kTogether = 4;
+
+  [[nodiscard]] static std::size_t first_together(std::size_t row) { return row - row % kTogether; }
+
+  // Where the limbs of a row begin; those of the row after the last one, where they end.
+  [[nodiscard]] std::size_t begin(std::size_t row) const {
+    return begin_[row / kTogether] + limbs_between(first_together(row) * width_, row * width_);
+  }
+
+  // The limbs of a row.
+  [[nodiscard]] std::span<const mp_limb_t> limbs_of(std::size_t row) const {
+    return {limbs_.data() + begin(row), limbs_between(row * width_, (row + 1) * width_)};
+  }
+
+  // How many limbs some entries have.
+  [[nodiscard]] std::size_t limbs_between(std::size_t first, std::size_t last) const {
     std::size_t sum = 0;
-    for (std::size_t k = i - column; k < i; ++k) sum += static_cast<std::size_t>(std::abs(size(k)));
+    if (std::endian::native == std::endian::little && !is_wide_) {
+      for (; last - first > kPadding; last -= kPadding) sum += limbs_before(last, kPadding);
+      return sum + limbs_before(last, last - first);
+    }
+    for (std::size_t k = first; k < last; ++k) sum += static_cast<std::size_t>(std::abs(size(k)));
     return sum;
   }
 
-  // The same without a loop, which would cost more than what is done with the entry: eight sizes are read at once, of
-  // which the last ones count. Each byte is made positive; as 127 is the largest, none carries into its neighbour.
-  [[nodiscard]] std::size_t bytes_before(std::size_t i, std::size_t column) const {
-    if (column == 0) return 0;
+  // The limbs of the `count` entries, at most eight, before one, without a loop, which would cost more than what is
+  // done with the entry: eight sizes are read at once, of which the last ones count. Each byte is made positive; as 127
+  // is the largest, none carries into its neighbour.
+  [[nodiscard]] std::size_t limbs_before(std::size_t i, std::size_t count) const {
+    if (count == 0) return 0;
     std::uint64_t sizes = 0;
     std::memcpy(&sizes, &sizes_[i], kPadding);  // ends before entry i, thanks to the padding
-    sizes >>= 8 * (kPadding - column);
+    sizes >>= 8 * (kPadding - count);
     const std::uint64_t negative = sizes >> 7U & 0x0101010101010101U;
     sizes = (sizes ^ negative * 0xFF) + negative;
     constexpr std::uint64_t kEven = 0x00FF00FF00FF00FFU;
@@ -113,7 +131,8 @@ class IntegerRows {
 
   std::size_t width_;
   std::vector<mp_limb_t> limbs_;
-  std::vector<std::uint32_t> begin_;  // size()+1 offsets into limbs_
+  std::size_t size_ = 0;
+  std::vector<std::uint32_t> begin_;  // of row 0, 4, 8, ... up to size(): its first limb
   // width_ signed limb counts a row, as GMP keeps them, behind kPadding zeros; in `wide_`, without these, once one of
   // them needs more than a byte.
   std::vector<std::int8_t> sizes_;

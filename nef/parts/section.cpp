@@ -21,8 +21,8 @@ class SectionReader {
     for (const Facet& facet : c_.facets) {
       if (is_selected(facet.mark)) add_polygon(facet);
     }
-    for (const HalfedgeId h : c_.halfedge_ids()) {
-      if (h < c_.twin[h] && c_.svertex(h).out == kNone && is_selected(c_.svertex(h).mark)) add_segment(h);
+    for (const HalfedgeId h : c_.bare_edges()) {
+      if (is_selected(c_.svertex(h).mark)) add_segment(h);
     }
     for (const VertexId v : c_.vertex_ids()) {
       if (c_.sphere_map(v).trivial()) out_.points.push_back(c_.points.rational(point_of(v)));

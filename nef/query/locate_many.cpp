@@ -122,8 +122,8 @@ class CellGrid {
       for (const std::uint32_t corner : c_.corners_of(facet)) box.add(vertex_box(c_, c_.shalfedge_vertex(corner)));
       enter(box, &c_.planes.approximate(facet.plane));
     }
-    for (const HalfedgeId h : c_.halfedge_ids()) {
-      if (h < c_.twin[h] && c_.svertex(h).out == kNone && !is_box_edge(c_, h)) enter(edge_box(c_, h), nullptr);
+    for (const HalfedgeId h : c_.bare_edges()) {
+      if (!is_box_edge(c_, h)) enter(edge_box(c_, h), nullptr);
     }
     for (const VertexId v : c_.vertex_ids()) {
       if (!is_box_vertex(c_, v)) enter(vertex_box(c_, v), nullptr);

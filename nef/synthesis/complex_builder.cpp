@@ -99,25 +99,24 @@ bool ComplexBuilder::append_like(const PointTable& points, PointId point, Vertex
   NEF_ASSERT(2 * planes.size() == end.shalfedges - begin.shalfedges && end.sloops == begin.sloops &&
              end.other_planes == begin.other_planes);
   VertexRecord next = c.vertices.back();
-  c.vertices.back().pattern = begin.pattern;
   next.advance(begin, end);
   c.points.push_from(points, point);
   c.shalfedge_plane.pairs().insert(c.shalfedge_plane.pairs().end(), planes.begin(), planes.end());
-  c.vertices.push_back(next);
+  c.vertices.add(begin.pattern, next);
   return true;
 }
 
 void ComplexBuilder::push(const SphereMapView& map) {
   Complex& c = complex_;
   VertexRecord end = c.vertices.back();
-  c.vertices.back().pattern = interner_.intern(c.patterns, map, c.shalfedge_plane.pairs(), c.other_planes);
+  const PatternId pattern = interner_.intern(c.patterns, map, c.shalfedge_plane.pairs(), c.other_planes);
   c.sloops.insert(c.sloops.end(), map.sloops.begin(), map.sloops.end());
   end.svertices += static_cast<std::uint32_t>(map.svertices.size());
   end.shalfedges += static_cast<std::uint32_t>(map.shalfedges.size());
   end.sloops += static_cast<std::uint32_t>(map.sloops.size());
   end.sfaces += static_cast<std::uint32_t>(map.sfaces.size());
   end.other_planes = static_cast<std::uint32_t>(c.other_planes.size());
-  c.vertices.push_back(end);
+  c.vertices.add(pattern, end);
 }
 
 void ComplexBuilder::copy(const Complex& from, VertexId first, std::uint32_t count, std::span<const std::uint32_t> rows,
@@ -222,13 +221,13 @@ void ComplexBuilder::copy_records(std::span<const CopiedRun> runs) {
   PatternsOfRuns patterns(interner_, complex_.patterns);
   for (const CopiedRun& run : runs) {
     patterns.set(run);
-    const std::span<const VertexRecord> records = run.from->vertices[IdRange(run.first, run.count + 1)];
+    const VertexTable& records = run.from->vertices;
+    const VertexRecord first = records[run.first];
     const VertexRecord base = complex_.vertices.back();
-    for (std::uint32_t i = 0; i < run.count; ++i) {
-      complex_.vertices.back().pattern = patterns(records[i].pattern);
+    for (VertexId v = run.first; v < run.first + run.count; ++v) {
       VertexRecord next = base;
-      next.advance(records.front(), records[i + 1]);
-      complex_.vertices.push_back(next);
+      next.advance(first, records[v.next()]);
+      complex_.vertices.add(patterns(records[v].pattern), next);
     }
   }
 }

@@ -37,7 +37,7 @@ bool few(const Complex& c) { return c.shalfedge_count() < 1U << 15U; }  // one s
 
 /// Some facets, numbered from 0 on, as the complex holds all of them.
 struct LinkedFacets {
-  std::vector<Facet> facets;
+  FacetTable facets;
   std::vector<std::uint32_t> cycle_begin{0};
   std::vector<std::uint32_t> corners;
   std::vector<VertexId> isolated_vertices;
@@ -192,8 +192,6 @@ class FacetLinker {
     const std::uint32_t first_inside = facets.front().first_isolated;
     const std::uint32_t end_inside = facets.back().first_isolated + facets.back().isolated_count;
     const auto base = static_cast<std::uint32_t>(result_.corners.size()) - known_->cycle_begin[first];  // modulo 2^32
-    const auto cycles = static_cast<std::uint32_t>(result_.cycle_begin.size() - 1) - first.index();
-    const auto inside = static_cast<std::uint32_t>(result_.isolated_vertices.size()) - first_inside;
     result_.corners.insert(result_.corners.end(), known_->corners.begin() + known_->cycle_begin[first],
                            known_->corners.begin() + known_->cycle_begin[end]);
     for (CycleId i = first; i != end; ++i) result_.cycle_begin.push_back(known_->cycle_begin[i.next()] + base);
@@ -201,8 +199,6 @@ class FacetLinker {
                                      known_->isolated_vertices.begin() + end_inside);
     for (Facet facet : facets) {
       facet.plane = PlaneId{facet.plane.row() << 1U};
-      facet.first_cycle = CycleId{facet.first_cycle.index() + cycles};
-      facet.first_isolated += inside;
       result_.facets.push_back(facet);
     }
   }
@@ -288,29 +284,18 @@ class FacetLinker {
   }
 
   void emit(std::uint32_t row, std::span<const std::uint32_t> cycles, std::span<const VertexId> inside) {
-    Facet facet = begin_facet(row, cycles.size(), inside.size());
-    for (const std::uint32_t i : cycles) add_cycle(std::span(traced_).subspan(cycles_[i].first, cycles_[i].count));
-    end_facet(facet, inside);
-  }
-
-  [[nodiscard]] Facet begin_facet(std::uint32_t row, std::size_t cycles, std::size_t inside) const {
     Facet facet;
     facet.plane = PlaneId{row << 1U};
-    facet.first_cycle = CycleId{result_.cycle_begin.size() - 1};
-    facet.cycle_count = static_cast<std::uint32_t>(cycles);
-    facet.first_isolated = static_cast<std::uint32_t>(result_.isolated_vertices.size());
-    facet.isolated_count = static_cast<std::uint32_t>(inside);
-    return facet;
+    facet.cycle_count = static_cast<std::uint32_t>(cycles.size());
+    facet.isolated_count = static_cast<std::uint32_t>(inside.size());
+    result_.facets.push_back(facet);
+    for (const std::uint32_t i : cycles) add_cycle(std::span(traced_).subspan(cycles_[i].first, cycles_[i].count));
+    result_.isolated_vertices.insert(result_.isolated_vertices.end(), inside.begin(), inside.end());
   }
 
   void add_cycle(std::span<const std::uint32_t> corners) {
     result_.corners.insert(result_.corners.end(), corners.begin(), corners.end());
     result_.cycle_begin.push_back(static_cast<std::uint32_t>(result_.corners.size()));
-  }
-
-  void end_facet(Facet& facet, std::span<const VertexId> inside) {
-    result_.isolated_vertices.insert(result_.isolated_vertices.end(), inside.begin(), inside.end());
-    result_.facets.push_back(facet);
   }
 
   const Complex& c_;
@@ -364,14 +349,8 @@ std::vector<Share> shares_of(const Complex& c, unsigned threads) {
 
 // Behind the facets that are there.
 void append(const LinkedFacets& more, Complex& c) {
-  const auto first_cycle = static_cast<std::uint32_t>(c.cycle_begin.size() - 1);
   const auto first_corner = static_cast<std::uint32_t>(c.corners.size());
-  const auto first_isolated = static_cast<std::uint32_t>(c.isolated_vertices.size());
-  for (Facet facet : more.facets) {
-    facet.first_cycle = CycleId{facet.first_cycle.index() + first_cycle};
-    facet.first_isolated += first_isolated;
-    c.facets.push_back(facet);
-  }
+  c.facets.append(more.facets);
   for (std::size_t i = 1; i < more.cycle_begin.size(); ++i) c.cycle_begin.push_back(first_corner + more.cycle_begin[i]);
   c.corners.insert(c.corners.end(), more.corners.begin(), more.corners.end());
   c.isolated_vertices.insert(c.isolated_vertices.end(), more.isolated_vertices.begin(), more.isolated_vertices.end());
@@ -379,7 +358,7 @@ void append(const LinkedFacets& more, Complex& c) {
 
 void put_together(std::vector<LinkedFacets>& parts, Complex& c) {
   if (parts.size() == 1) {
-    c.facets.values() = std::move(parts[0].facets);
+    c.facets = std::move(parts[0].facets);
     c.cycle_begin.values() = std::move(parts[0].cycle_begin);
     c.corners = std::move(parts[0].corners);
     c.isolated_vertices = std::move(parts[0].isolated_vertices);
@@ -401,7 +380,7 @@ void put_together(std::vector<LinkedFacets>& parts, Complex& c) {
   for (const LinkedFacets& part : parts) append(part, c);
 }
 
-// Tells shalfedges and sloops their facets, and facets their marks.
+// Tells shalfedges and sloops their facets.
 void name_facets(Complex& c, unsigned threads) {
   c.shalfedge_facet.assign(c.shalfedge_count(), HalffacetId());
   c.sloop_facet.assign(c.sloops.size(), HalffacetId());
@@ -411,7 +390,6 @@ void name_facets(Complex& c, unsigned threads) {
     const FacetId end{std::min((k + 1) * range, c.facets.size())};
     for (FacetId f{k * range}; f < end; ++f) {
       const std::span<const std::uint32_t> corners = c.corners_of(f);
-      c.facets[f].mark = c.shalfedge(corners[0]).mark;
       for (const std::uint32_t corner : corners) c.shalfedge_facet.set(corner, halffacet_of(f, false));
       for (const VertexId v : c.isolated_vertices_of(c.facets[f])) {
         const std::uint32_t loop = c.vertices[v].sloops;

@@ -54,8 +54,7 @@ class VolumeLinker {
         if (root != f) sfaces_.unite(root, f);
       }
     }
-    for (const HalfedgeId s : c_.halfedge_ids()) {
-      if (c_.svertex(s).out != kNone || s > c_.twin[s]) continue;
+    for (const HalfedgeId s : c_.bare_edges()) {
       const HalfedgeId t = c_.twin[s];
       const VertexId v = c_.source(s);
       const VertexId w = c_.source(t);
@@ -68,11 +67,13 @@ class VolumeLinker {
     for (const FacetId id : facets) {
       const Facet& facet = c_.facets[id];
       const std::span<const std::uint32_t> corners = c_.corners_of(facet);
-      std::uint32_t above = sets.find(c_.shalfedge_sface(corners[0]).index());
-      std::uint32_t below = sets.find(c_.shalfedge_sface(corners[0] ^ 1U).index());
+      const auto first = c_.shalfedge_sfaces(corners[0]);
+      std::uint32_t above = sets.find(first[0].index());
+      std::uint32_t below = sets.find(first[1].index());
       for (const std::uint32_t corner : corners.subspan(1)) {
-        above = join(sets, above, c_.shalfedge_sface(corner));
-        below = join(sets, below, c_.shalfedge_sface(corner ^ 1U));
+        const auto sfaces = c_.shalfedge_sfaces(corner);
+        above = join(sets, above, sfaces[0]);
+        below = join(sets, below, sfaces[1]);
       }
       for (const VertexId v : c_.isolated_vertices_of(facet)) {
         const VertexRecord& record = c_.vertices[v];
@@ -273,17 +274,11 @@ class VolumeLinker {
     parallel_for_ranges(c_.sface_count(), kTogether, threads_, [&](std::size_t first, std::size_t last) {
       for (const SFaceId f : IdRange(SFaceId{first}, SFaceId{last})) c_.sface_shell[f] = shell_of[root(f)];
     });
-    const auto name_volumes = [this](std::size_t first, std::size_t last) {
-      for (std::size_t f = first; f < last; ++f) {
-        Facet& facet = c_.facets[FacetId{f}];
-        const std::uint32_t corner = c_.corners_of(facet)[0];
-        facet.volume_above = c_.sface_volume(c_.shalfedge_sface(corner));
-        facet.volume_below = c_.sface_volume(c_.shalfedge_sface(corner ^ 1U));
-      }
-    };
-    // Only which volume a shell bounds is asked, which is known already.
-    const std::size_t count = c_.facets.size();
-    parallel_calls(threads_, {[&] { name_volumes(0, count / 2); }, [&] { name_volumes(count / 2, count); }});
+    std::vector<FacetSides> sides(c_.facets.size());
+    parallel_for_ranges(sides.size(), kTogether, threads_, [&](std::size_t first, std::size_t last) {
+      for (std::size_t f = first; f < last; ++f) sides[f] = sides_of_facet(c_, FacetId{f});
+    });
+    c_.facets.assign_sides(sides);
   }
 
   Complex& c_;

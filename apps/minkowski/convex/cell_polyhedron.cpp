@@ -103,11 +103,11 @@ Polyhedron to_polyhedron(const ConvexCell& cell) {
 
   Complex complex = closed.complex();
   const Correspondence of(cell, complex);
-  for (Facet& facet : complex.facets) {
+  complex.facets.assign_marks([&](FacetId facet) -> LabelId {
     const auto corners = complex.corners_of(facet);
     const auto owner = [&](std::size_t k) { return complex.shalfedge_vertex(corners[k]); };
-    facet.mark = of.facet(owner(0), owner(1), owner(2)) ? 1 : 0;
-  }
+    return of.facet(owner(0), owner(1), owner(2)) ? 1 : 0;
+  });
   rewrite_sphere_maps(complex, [&](VertexId v, SphereMapBuffer& map) {
     const VertexRecord& record = complex.vertices[v];
     map.mark = of.vertex(v) ? 1 : 0;

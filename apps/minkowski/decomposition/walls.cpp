@@ -131,7 +131,7 @@ class FacetRays {
     return top / bottom;
   }
 
-  const Facet& facet_;
+  Facet facet_;
   std::size_t drop_ = 0;
   std::vector<std::array<Rational3, 2>> edges_;
 };

@@ -125,7 +125,11 @@ Complex labelled(const Complex& original, const Connection& connection, const st
       mark(map.sloops[l].mark, connection.of_facet(facet_of(original.sloop_facet[record.sloops + l])));
     }
   });
-  for (const FacetId f : c.facets.ids()) mark(c.facets[f].mark, connection.of_facet(f));
+  c.facets.assign_marks([&](FacetId f) {
+    LabelId label = c.facets[f].mark;
+    mark(label, connection.of_facet(f));
+    return label;
+  });
   for (const VolumeId v : c.volumes.ids()) mark(c.volumes[v].mark, connection.of_volume(v));
   c.label_count = 3;
   return c;

@@ -106,9 +106,11 @@ class BorderRemover {
   explicit BorderRemover(const Complex& c) : c_(c), result_(c) {}
 
   Complex run() {
-    for (Facet& facet : result_.facets) {
-      if (!at_infinity(facet.plane)) facet.mark = thin(facet) ? 1 : 0;
-    }
+    result_.facets.assign_marks([this](FacetId f) -> LabelId {
+      const Facet facet = c_.facets[f];
+      if (at_infinity(facet.plane)) return facet.mark;
+      return thin(facet) ? 1 : 0;
+    });
     rewrite_sphere_maps(result_, [this](VertexId v, SphereMapBuffer& map) {
       for (std::uint32_t e = 0; e < map.shalfedges.size(); ++e) map.shalfedges[e].mark = arc_mark(v, e);
       for (std::uint32_t l = 0; l < map.sloops.size(); ++l) {

@@ -18,10 +18,7 @@ ItemTree::ItemTree(const Complex& complex) {
   for (const FacetId f : complex.facets.ids()) {
     push({Kind::kFacet, f.index()}, facet_box(complex, complex.facets[f]));
   }
-  for (const HalfedgeId h : complex.halfedge_ids()) {
-    if (complex.twin[h] < h || complex.svertex(h).out != kNone) continue;
-    push({Kind::kEdge, h.index()}, edge_box(complex, h));
-  }
+  for (const HalfedgeId h : complex.bare_edges()) push({Kind::kEdge, h.index()}, edge_box(complex, h));
   for (const VertexId v : complex.vertex_ids()) {
     const SphereMapView map = complex.sphere_map(v);
     if (!map.svertices.empty() || !map.sloops.empty()) continue;

@@ -101,24 +101,23 @@ class BinaryReader {
     const auto loop_pairs = file_.column<W>(n_.vertices);
     const auto sfaces = file_.column<W>(n_.vertices);
     const auto marks = file_.column<LabelId>(n_.vertices);
-    c_.vertices.assign(n_.vertices + 1, {});
+    c_.vertices.reserve(n_.vertices + 1);
+    VertexRecord end;
     std::uint64_t total = 0;
     for (std::uint32_t v = 0; v < n_.vertices; ++v) {
-      const VertexRecord& record = c_.vertices[VertexId{v}];
       mark_.push_back(mark(marks[v]));
-      VertexRecord& end = c_.vertices[VertexId{v + 1}];
-      end.svertices = record.svertices + svertices[v];
-      end.shalfedges = record.shalfedges + 2 * pairs[v];
-      end.sloops = record.sloops + 2 * loop_pairs[v];
-      end.sfaces = record.sfaces + sfaces[v];
+      end.svertices += svertices[v];
+      end.shalfedges += 2 * pairs[v];
+      end.sloops += 2 * loop_pairs[v];
+      end.sfaces += sfaces[v];
+      c_.vertices.add(PatternId(), end);
       total += std::uint64_t{svertices[v]} + 2 * std::uint64_t{pairs[v]} + 2 * std::uint64_t{loop_pairs[v]} + sfaces[v];
       // Sums that wrap around would not be what the whole file has.
       file_.demand(total <= std::uint64_t{4} * file_.size() && sfaces[v] > 0,
                    "its vertices have more items than there are");
     }
-    const VertexRecord& last = c_.vertices.back();
-    file_.demand(last.svertices.index() == n_.svertices && last.shalfedges == n_.shalfedges &&
-                     last.sloops == n_.sloops && last.sfaces.index() == n_.sfaces &&
+    file_.demand(end.svertices.index() == n_.svertices && end.shalfedges == n_.shalfedges && end.sloops == n_.sloops &&
+                     end.sfaces.index() == n_.sfaces &&
                      total == std::uint64_t{n_.svertices} + n_.shalfedges + n_.sloops + n_.sfaces,
                  "its vertices have not the items that it holds");
     name_svertex_owners(c_);
@@ -151,8 +150,8 @@ class BinaryReader {
     PatternInterner interner;
     std::uint64_t entries = 0;  // of the vertices so far
     for (const VertexId v : c_.vertex_ids()) {
-      VertexRecord& record = c_.vertices[v];
-      VertexRecord& end = c_.vertices[v.next()];
+      const VertexRecord record = c_.vertices[v];
+      const VertexRecord end = c_.vertices[v.next()];
       const bool has_key = keys_.read(columns, record, end, mark_[v.index()], entries, n_.entries);
       if (has_key && take_known(columns, v, entries)) continue;
       map_.clear();
@@ -162,12 +161,17 @@ class BinaryReader {
       for (std::uint32_t i = record.sloops; i < end.sloops; ++i) take_sloop(columns, i);
       for (const SFaceId f : c_.sfaces(v)) take_sface(columns, f.index(), entries);
       if (const char* fault = complete_sphere_map(map_)) file_.corrupt(fault);
-      record.pattern = interner.intern(c_.patterns, map_.view(), c_.shalfedge_plane.pairs(), c_.other_planes);
-      end.other_planes = static_cast<std::uint32_t>(c_.other_planes.size());
+      const PatternId pattern = interner.intern(c_.patterns, map_.view(), c_.shalfedge_plane.pairs(), c_.other_planes);
+      name_pattern(v, pattern);
       c_.sloops.insert(c_.sloops.end(), map_.sloops.begin(), map_.sloops.end());
-      if (has_key) keys_.learn(record.pattern);
+      if (has_key) keys_.learn(pattern);
     }
     file_.demand(entries == n_.entries, "its sfaces have fewer entries than there are");
+  }
+
+  void name_pattern(VertexId v, PatternId pattern) {
+    c_.vertices.set_pattern(v, pattern);
+    c_.vertices.set_other_planes(v.next(), static_cast<std::uint32_t>(c_.other_planes.size()));
   }
 
   // The vertex whose key was read, if one like it has been read before.
@@ -175,10 +179,9 @@ class BinaryReader {
   bool take_known(const ItemColumns<W>& columns, VertexId v, std::uint64_t& entries) {
     const PatternId pattern = keys_.known();
     if (!pattern.valid()) return false;
-    VertexRecord& record = c_.vertices[v];
-    VertexRecord& end = c_.vertices[v.next()];
-    record.pattern = pattern;
-    end.other_planes = record.other_planes;
+    const VertexRecord record = c_.vertices[v];
+    const VertexRecord end = c_.vertices[v.next()];
+    name_pattern(v, pattern);
     for (std::uint32_t i = record.shalfedges / 2; i < end.shalfedges / 2; ++i) {
       c_.shalfedge_plane.pairs().push_back(plane(columns.plane[i]));
     }
@@ -263,13 +266,13 @@ class BinaryReader {
       file_.demand(corners[i] < n_.shalfedges, "a corner does not exist");
     }
     c_.shalfedge_facet.assign(n_.shalfedges, HalffacetId());
-    c_.facets.resize(n_.facets);
+    c_.facets.reserve(n_.facets);
     std::uint32_t first = 0;
     std::uint32_t isolated = 0;
     for (std::uint32_t f = 0; f < n_.facets; ++f) {
       file_.demand(cycle_counts[f] > 0 && cycle_counts[f] <= n_.cycles - first, "a facet has no cycle");
       file_.demand(isolated_counts_[f] <= n_.isolated - isolated, "a facet has more isolated vertices than there are");
-      Facet& facet = c_.facets[FacetId{f}];
+      Facet facet;
       facet.first_cycle = CycleId{first};
       facet.cycle_count = cycle_counts[f];
       facet.first_isolated = isolated;
@@ -278,19 +281,20 @@ class BinaryReader {
       facet.plane = corner.plane;
       facet.mark = corner.mark;
       file_.demand(!facet.plane.flipped(), "a facet is seen from the wrong side");
-      for (const CycleId k : facet.cycles()) check_cycle(FacetId{f}, c_.corners_of(k));
+      c_.facets.push_back(facet);
+      for (const CycleId k : facet.cycles()) check_cycle(FacetId{f}, facet, c_.corners_of(k));
       first += facet.cycle_count;
       isolated += facet.isolated_count;
     }
     file_.demand(first == n_.cycles && isolated == n_.isolated, "some cycles or isolated vertices belong to no facet");
   }
 
-  void check_cycle(FacetId f, std::span<const std::uint32_t> cycle) {
+  void check_cycle(FacetId f, const Facet& facet, std::span<const std::uint32_t> cycle) {
     HalfedgeId arriving = c_.twin[c_.corner_halfedge(cycle.back())];
     for (const std::uint32_t corner : cycle) {
       const SHalfedge e = c_.shalfedge(corner);
       file_.demand(!c_.shalfedge_facet.pairs()[corner / 2].valid(), "a corner belongs to two facets");
-      file_.demand(e.plane == c_.facets[f].plane && e.mark == c_.facets[f].mark, "a corner belongs to another facet");
+      file_.demand(e.plane == facet.plane && e.mark == facet.mark, "a corner belongs to another facet");
       file_.demand(c_.corner_back_halfedge(corner) == arriving, "a cycle leaves its edges");
       arriving = c_.twin[c_.corner_halfedge(corner)];
       c_.shalfedge_facet.set(corner, halffacet_of(f, false));
@@ -341,11 +345,10 @@ class BinaryReader {
     file_.demand(n_.shells == 0 ? n_.volumes == 1 : volume_of[0] == 0 && volume_of[n_.shells - 1] + 1 == n_.volumes,
                  "a volume has no boundary");
     fill_shells(shell_of);
-    for (Facet& facet : c_.facets) {
-      const std::uint32_t corner = c_.corners_of(facet).front();
-      facet.volume_above = c_.sface_volume(c_.shalfedge_sface(corner));
-      facet.volume_below = c_.sface_volume(c_.shalfedge_sface(corner ^ 1U));
-    }
+    std::vector<FacetSides> sides;
+    sides.reserve(c_.facets.size());
+    for (const FacetId f : c_.facets.ids()) sides.push_back(sides_of_facet(c_, f));
+    c_.facets.assign_sides(sides);
     for (std::uint32_t i = 0; i < c_.patterns.size(); ++i) {
       const SphereMapView map = c_.patterns.view(PatternId{i});
       file_.demand(map.mark != kOutside, "only the outer volume is outside");

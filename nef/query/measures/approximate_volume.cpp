@@ -59,9 +59,10 @@ struct Sums {
 };
 
 // Relative to the origin; coordinates are off by e at most.
-Sums sums_over(const Complex& c, std::span<const Facet> facets, const Double3& origin, double e) {
+Sums sums_over(const Complex& c, IdRange<FacetId> facets, const Double3& origin, double e) {
   Sums sums;
-  for (const Facet& facet : facets) {
+  for (const FacetId f : facets) {
+    const Facet facet = c.facets[f];
     const bool above = c.volumes[facet.volume_above].mark != 0;
     const bool below = c.volumes[facet.volume_below].mark != 0;
     if (above == below || facet.cycle_count == 0) continue;
@@ -82,9 +83,10 @@ Sums sums_over(const Complex& c, std::span<const Facet> facets, const Double3& o
 }
 
 // Coordinates are off by e at most.
-Sums areas_over(const Complex& c, std::span<const Facet> facets, double e) {
+Sums areas_over(const Complex& c, IdRange<FacetId> facets, double e) {
   Sums sums;
-  for (const Facet& facet : facets) {
+  for (const FacetId f : facets) {
+    const Facet facet = c.facets[f];
     if (facet.cycle_count == 0) continue;
     const Double3 corner0 = c.points.approximate(point_of(c.shalfedge_vertex(c.corners_of(facet.first_cycle).front())));
     const Area area = twice_area(c, facet, corner0, e);
@@ -112,11 +114,11 @@ constexpr std::size_t kFacets = 4096;  // of a task
 // over(facets) for all facets, some thousands at a time: the sums do not depend on the threads.
 template <typename Over>
 Sums summed(const Complex& c, unsigned threads, const Over& over) {
-  const std::span<const Facet> facets(c.facets.values());
-  std::vector<Sums> sums((facets.size() + kFacets - 1) / kFacets);
+  const std::size_t facets = c.facets.size();
+  std::vector<Sums> sums((facets + kFacets - 1) / kFacets);
   parallel_for(sums.size(), threads, [&](std::size_t task) {
     const std::size_t first = task * kFacets;
-    sums[task] = over(facets.subspan(first, std::min(kFacets, facets.size() - first)));
+    sums[task] = over(IdRange(FacetId{first}, FacetId{std::min(first + kFacets, facets)}));
   });
   Sums all;
   for (const Sums& some : sums) all.add(some);
@@ -133,14 +135,14 @@ MeasuredVolume approximate_volume(const Polyhedron& bounded, unsigned threads) {
   // Relative to a point of the set: little is lost by cancellation.
   const Double3 origin = c.points.approximate(PointId(0U));
   const double e = error_of_differences(c);
-  const Sums sums = summed(c, threads, [&](std::span<const Facet> some) { return sums_over(c, some, origin, e); });
+  const Sums sums = summed(c, threads, [&](IdRange<FacetId> some) { return sums_over(c, some, origin, e); });
   return {sums.value / 6, sums.error / 6};
 }
 
 MeasuredArea approximate_area(const Polyhedron& bounded, unsigned threads) {
   const Complex& c = bounded.complex();
   const double e = error_of_differences(c);
-  const Sums sums = summed(c, threads, [&](std::span<const Facet> some) { return areas_over(c, some, e); });
+  const Sums sums = summed(c, threads, [&](IdRange<FacetId> some) { return areas_over(c, some, e); });
   return {sums.value, sums.error};
 }
 

@@ -46,7 +46,7 @@ class RegionFiller {
   Complex fill() {
     for (const VolumeId v : c_.volumes.ids()) c_.volumes[v].mark = inside_[v];
     rewrite_sphere_maps(c_, [this](VertexId v, SphereMapBuffer& map) { fill(v, map); });
-    for (Facet& facet : c_.facets) facet.mark = mark_between(facet);
+    c_.facets.assign_marks([this](FacetId f) { return mark_between(c_.facets[f]); });
     c_.label_count = 2;
     return has_idle_items() ? simplified() : std::move(c_);
   }

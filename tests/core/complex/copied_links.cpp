@@ -17,7 +17,7 @@ bool same_bytes(const std::vector<Item>& a, const std::vector<Item>& b) {
   return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Item)) == 0);
 }
 
-bool same_facets(const IndexedVector<FacetId, Facet>& a, const IndexedVector<FacetId, Facet>& b) {
+bool same_facets(const FacetTable& a, const FacetTable& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Facet& f, const Facet& g) {
     return f.plane == g.plane && f.mark == g.mark && f.first_cycle == g.first_cycle && f.cycle_count == g.cycle_count &&
            f.first_isolated == g.first_isolated && f.isolated_count == g.isolated_count &&

@@ -42,19 +42,21 @@ struct Breaker {
   bool changes_pattern = false;  // that of one vertex, to `map`, whose planes are names
   VertexId changed_vertex{0};
   SphereMapBuffer map{};
+  std::function<void()> store{};  // puts back what the complex gave away by value
 
   void look(const std::string& field) {
     if (changes++ % kEvery != 0) return;
+    if (store) store();
     const PatternTable patterns = c.patterns;
     const PatternId old = c.vertices[changed_vertex].pattern;
-    if (changes_pattern) c.vertices[changed_vertex].pattern = c.patterns.push(map);
+    if (changes_pattern) c.vertices.set_pattern(changed_vertex, c.patterns.push(map));
     if (validate(c).empty()) {
       ++missed[field];
     } else {
       ++reported;
     }
     if (!changes_pattern) return;
-    c.vertices[changed_vertex].pattern = old;
+    c.vertices.set_pattern(changed_vertex, old);
     c.patterns = patterns;
   }
   void index(const std::string& field, std::uint32_t& x, std::size_t end) {
@@ -95,8 +97,8 @@ struct Breaker {
   }
   // One plane may have two names.
   void name(const std::string& field, PlaneId& x) {
-    const VertexRecord& a = c.vertices[changed_vertex];
-    const VertexRecord& b = c.vertices[changed_vertex.next()];
+    const VertexRecord a = c.vertices[changed_vertex];
+    const VertexRecord b = c.vertices[changed_vertex.next()];
     std::vector<PlaneId> planes(c.shalfedge_plane.pairs().begin() + a.shalfedges / 2,
                                 c.shalfedge_plane.pairs().begin() + b.shalfedges / 2);
     planes.insert(planes.end(), c.other_planes.begin() + a.other_planes, c.other_planes.begin() + b.other_planes);
@@ -119,20 +121,23 @@ struct Breaker {
   }
 
   void sphere_items() {
-    for (VertexRecord& v : c.vertices) {
+    for (VertexId id{0}; id.index() < c.vertices.size(); ++id) {
+      VertexRecord v = c.vertices[id];
+      store = [this, id, &v] { c.vertices.set(id, v); };
       index("begin of svertices", v.svertices, c.svertex_count());
       index("begin of shalfedges", v.shalfedges, c.shalfedge_count());
       index("begin of sloops", v.sloops, c.sloops.size());
       index("begin of sfaces", v.sfaces, c.sface_count());
       index("begin of other planes", v.other_planes, c.other_planes.size());
+      std::exchange(store, {})();
     }
     for (const VertexId v : c.vertex_ids()) {
       const PatternId old = c.vertices[v].pattern;
       for (const PatternId none : {PatternId(), PatternId{c.patterns.size()}}) {
-        c.vertices[v].pattern = none;
+        c.vertices.set_pattern(v, none);
         look("pattern");
       }
-      c.vertices[v].pattern = old;
+      c.vertices.set_pattern(v, old);
       change_pattern(v);
     }
     for (PlaneId& p : c.shalfedge_plane.pairs()) plane("plane of a shalfedge", p);
@@ -180,7 +185,9 @@ struct Breaker {
     column("facet of a shalfedge", c.shalfedge_facet.pairs(), 2 * c.facets.size());
     column("facet of a sloop", c.sloop_facet, 2 * c.facets.size());
     column("shell of an sface", c.sface_shell.values(), c.shells.size());
-    for (Facet& f : c.facets) {
+    for (const FacetId id : c.facets.ids()) {
+      Facet f = c.facets[id];
+      store = [this, id, &f] { c.facets.set(id, f); };
       plane("plane of a facet", f.plane);
       mark("mark of a facet", f.mark);
       index("first cycle", f.first_cycle, c.cycle_begin.size());
@@ -189,6 +196,7 @@ struct Breaker {
       index("number of isolated vertices", f.isolated_count, c.isolated_vertices.size());
       index("volume above", f.volume_above, c.volumes.size());
       index("volume below", f.volume_below, c.volumes.size());
+      std::exchange(store, {})();
     }
     column("begin of a cycle", c.cycle_begin.values(), c.corners.size());
     column("corner", c.corners, c.shalfedge_count());
@@ -249,7 +257,7 @@ TEST_CASE("the validator names the broken invariant and the guilty items") {
           SphereMapBuffer map;
           map.assign(c.patterns.view(c.vertices[VertexId{3}].pattern));
           map.mark = 2;
-          c.vertices[VertexId{3}].pattern = c.patterns.push(map);
+          c.vertices.set_pattern(VertexId{3}, c.patterns.push(map));
         }) == "marks are below the number of labels, vertex 3");
   CHECK(broken([](Complex& c) { c.svertex_owner[HalfedgeId{0}] = VertexId{1}; }) ==
         "svertices know their vertex, vertex 0");
@@ -261,8 +269,9 @@ TEST_CASE("the validator names the broken invariant and the guilty items") {
           std::swap(c.volumes[kOuterVolume].mark, c.volumes[VolumeId{1}].mark);
         }).find("volume") != std::string::npos);
   CHECK(broken([](Complex& c) {
-          Facet& facet = c.facets[FacetId{2}];
+          Facet facet = c.facets[FacetId{2}];
           facet.plane = facet.plane.opposite();
+          c.facets.set(FacetId{2}, facet);
         }).find("a facet has an unflipped plane, facet 2") == 0);
   CHECK(broken([](Complex& c) { c.sface_shell[SFaceId{0}] = ShellId(); }).find("sfaces have a shell") == 0);
   CHECK_FALSE(broken([](Complex& c) { ++c.shells[ShellId{1}].volume; }).empty());

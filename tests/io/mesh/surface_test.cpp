@@ -93,7 +93,7 @@ TEST_CASE("Faces that touch or cross themselves still hold their corners", "[sur
     std::vector<std::uint32_t> face(points.size());
     std::iota(face.begin(), face.end(), 0U);
     mesh.push_face(face);
-    const Polyhedron set = from_mesh(mesh, MeshOptions{.as_surface = true});
+    Polyhedron set = from_mesh(mesh, MeshOptions{.as_surface = true});
     CHECK(validate(set.complex()).empty());
     for (const Rational3& p : points) CHECK(contains(set, p));
     return set;

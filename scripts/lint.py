@@ -1,12 +1,15 @@
 #!/usr/bin/env python3
 """Runs clang-tidy over all sources of ours in a build tree, one process a core, and prints each finding once.
 
-Usage: lint.py BUILD_DIRECTORY [PART...]
+Usage: lint.py BUILD_DIRECTORY [--seconds N] [PART...]
 
 The build tree is best one of NEF_COMPILE_TOGETHER: what headers cost is paid once for some forty sources, so that all of
 them are looked at in the time that a tenth would take one by one. With PARTs, only translation units whose paths have
-one of them. Exits 1 if there are findings, and where clang-tidy did not come to its end.
+one of them. With --seconds, as many units as take about so much of CPU together: those first that changes concern (see
+ci_selection.py), then others in turn; what is left out is printed. Exits 1 if there are findings, and where clang-tidy
+did not come to its end.
 """
+import argparse
 import concurrent.futures
 import json
 import os
@@ -15,9 +18,12 @@ import subprocess
 import sys
 import time
 
+import ci_selection
+
 FOLDERS = ("nef", "apps", "fuzz", "python", "tests", "bench")
 WARNING = re.compile(r"^(/\S+:\d+:\d+): (?:warning|error): ", re.MULTILINE)
 # What stands in a unit is no slip: it includes sources.
+SECONDS_PER_SOURCE = 4  # of CPU, on average
 OPTIONS = ["--quiet", "--extra-arg=-Wno-unknown-warning-option", "--checks=-bugprone-suspicious-include"]
 
 
@@ -35,6 +41,38 @@ def units(build: str) -> dict[str, list[str]]:
     return {name: sources for name, sources in result.items() if sources}
 
 
+def concerned(every: dict[str, list[str]], files: list[str]) -> set[str]:
+    """The units that hold one of these files, or include it; one of those for each header."""
+    unit_of = {source: unit for unit, sources in every.items() for source in sources}
+    includers: dict[str, set[str]] = {}
+    for source, unit in unit_of.items():
+        if os.path.exists(source):
+            with open(source, encoding="utf-8") as text:
+                for header in re.findall(r'^#include "(.*\.h)"$', text.read(), re.MULTILINE):
+                    includers.setdefault(header, set()).add(unit)
+    result = {unit_of[file] for file in files if file in unit_of}
+    for file in files:
+        units_of_header = includers.get(file, set())
+        if units_of_header and not units_of_header & result:
+            result.add(min(units_of_header))
+    return result
+
+
+def of_today(every: dict[str, list[str]], seconds: int) -> dict[str, list[str]]:
+    """As many units as there is time for, and a line for each that is left out."""
+    first = concerned(every, ci_selection.changed())
+    order = ci_selection.rotated(sorted(first)) + ci_selection.rotated(sorted(set(every) - first))
+    chosen = {}
+    left = seconds / SECONDS_PER_SOURCE
+    for unit in order:
+        if len(every[unit]) <= left:
+            left -= len(every[unit])
+            chosen[unit] = every[unit]
+        else:
+            print(f"left out today{', though changed' if unit in first else ''}: {unit}, {len(every[unit])} sources")
+    return chosen
+
+
 def stand_in_for_made_sources(chosen: dict[str, list[str]]) -> None:
     """What is made while building is no source of ours, but is included."""
     for sources in chosen.values():
@@ -45,9 +83,16 @@ def stand_in_for_made_sources(chosen: dict[str, list[str]]) -> None:
 
 
 def main() -> int:
-    build, parts = sys.argv[1], sys.argv[2:]
+    parser = argparse.ArgumentParser()
+    parser.add_argument("build")
+    parser.add_argument("--seconds", type=int)
+    parser.add_argument("parts", nargs="*")
+    arguments = parser.parse_args()
+    build, parts = arguments.build, arguments.parts
     chosen = {name: sources for name, sources in units(build).items()
               if not parts or any(part in name for part in parts)}
+    if arguments.seconds is not None:
+        chosen = of_today(chosen, arguments.seconds)
     stand_in_for_made_sources(chosen)
     headers = f"--header-filter=^{re.escape(os.getcwd())}/({'|'.join(FOLDERS)})/.*\\.(h|cpp)$"
 

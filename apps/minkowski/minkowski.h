@@ -18,8 +18,8 @@
 
 #include "apps/minkowski/convex/convex_cell.h"
 #include "nef/base/interruption.h"
+#include "nef/forward.h"
 #include "nef/geometry/predicates.h"
-#include "nef/polyhedron.h"
 
 namespace nef::minkowski {
 

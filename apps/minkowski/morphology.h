@@ -14,6 +14,7 @@
 
 #include "apps/minkowski/minkowski.h"
 #include "nef/distance/distance.h"
+#include "nef/polyhedron.h"
 
 namespace nef::minkowski {
 

@@ -19,6 +19,7 @@
 #include "nef/base/threads/parallel.h"
 #include "nef/base/timing/phase_timer.h"
 #include "nef/construct/construct.h"
+#include "nef/polyhedron.h"
 
 namespace visual_hull {
 namespace {

@@ -22,6 +22,7 @@
 #include "apps/visual_hull/verify/consistency.h"
 #include "apps/visual_hull/verify/verify.h"
 #include "nef/geometry/predicates.h"
+#include "nef/polyhedron.h"
 
 namespace visual_hull {
 

@@ -17,6 +17,7 @@
 #include "tests/support/minkowski_shapes.h"
 #ifdef NEF_BENCH_CGAL
 #include "bench/minkowski/cgal_peer.h"
+#include "nef/polyhedron.h"
 #endif
 
 namespace {

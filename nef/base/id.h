@@ -17,11 +17,14 @@
 
 namespace nef {
 
+/// No index, where indices are bare numbers.
+inline constexpr std::uint32_t kNone = 0xffffffffU;
+
 /// A 32-bit index that cannot be mixed up with an index of another kind, or with a number. `Tag` is never defined.
 template <typename Tag>
 class Id {
  public:
-  static constexpr std::uint32_t kNone = 0xffffffffU;
+  static constexpr std::uint32_t kNone = nef::kNone;
 
   /// No index.
   constexpr Id() = default;

@@ -95,7 +95,7 @@ class LinkCopier {
     const VertexRecord& first = c_.vertices[vertex];
     const VertexRecord& last = c_.vertices[vertex.next()];
     if (first.svertices < last.svertices) loose.loose_vertices.push_back(vertex);
-    for (std::uint32_t e = first.shalfedges; e < last.shalfedges; ++e) {
+    for (const SHalfedgeId e : c_.shalfedges(vertex)) {
       if (!c_.shalfedge_plane[e].flipped()) loose.loose_corners.push_back(e);
     }
     if (first.sloops < last.sloops) loose.loose_isolated.push_back(vertex);
@@ -162,11 +162,11 @@ class LinkCopier {
   void copy_facet(std::size_t x, const Facet& facet, KnownLinks& to) const {
     const Complex& own = *operands_[x];
     const IndexedVector<VertexId, Copy>& copies = copies_[x];
-    const std::span<const std::uint32_t> corners = own.corners_of(facet);
+    const std::span<const SHalfedgeId> corners = own.corners_of(facet);
     const std::span<const VertexId> inside = own.isolated_vertices_of(facet);
     const std::size_t base = to.corners.size();
     bool whole = true;
-    for (const std::uint32_t corner : corners) {
+    for (const SHalfedgeId corner : corners) {
       const Copy& copy = copies[own.shalfedge_vertex(corner)];
       whole = copy.state == Copy::State::kWhole;
       if (!whole) break;
@@ -193,8 +193,8 @@ class LinkCopier {
   }
 
   static void loosen(const Complex& own, const IndexedVector<VertexId, Copy>& copies,
-                     std::span<const std::uint32_t> corners, std::span<const VertexId> inside, KnownLinks& to) {
-    for (const std::uint32_t corner : corners) {
+                     std::span<const SHalfedgeId> corners, std::span<const VertexId> inside, KnownLinks& to) {
+    for (const SHalfedgeId corner : corners) {
       const Copy& copy = copies[own.shalfedge_vertex(corner)];
       if (copy.state != Copy::State::kGone) to.loose_corners.push_back(corner + copy.shalfedge_shift);
     }

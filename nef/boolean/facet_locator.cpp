@@ -17,7 +17,7 @@ const BoxTree& FacetLocator::tree(FacetId facet) const {
   LazyTree& entry = trees_.at(facet);
   std::call_once(entry.once, [&] {
     std::vector<Box> boxes;
-    for (const std::uint32_t corner : corners_of(facet)) {
+    for (const SHalfedgeId corner : corners_of(facet)) {
       boxes.push_back(operand_.edge_box(operand_.complex().corner_halfedge(corner)));
     }
     entry.tree = BoxTree(boxes);

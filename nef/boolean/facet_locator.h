@@ -29,9 +29,9 @@ class FacetLocator {
   /// The boundary edges of the facet (as halfedges of its corners) whose boxes meet `box`.
   template <typename Visit>
   void for_each_edge(FacetId facet, const Box& box, Visit&& visit) const {
-    const std::span<const std::uint32_t> corners = corners_of(facet);
+    const std::span<const SHalfedgeId> corners = corners_of(facet);
     if (corners.size() <= kSmall) {
-      for (const std::uint32_t corner : corners) visit(operand_.complex().corner_halfedge(corner));
+      for (const SHalfedgeId corner : corners) visit(operand_.complex().corner_halfedge(corner));
     } else {
       tree(facet).for_each_overlap(box,
                                    [&](std::uint32_t i) { visit(operand_.complex().corner_halfedge(corners[i])); });
@@ -40,7 +40,7 @@ class FacetLocator {
 
  private:
   static constexpr std::size_t kSmall = 24;
-  [[nodiscard]] std::span<const std::uint32_t> corners_of(FacetId facet) const {
+  [[nodiscard]] std::span<const SHalfedgeId> corners_of(FacetId facet) const {
     return operand_.complex().corners_of(facet);
   }
   struct LazyTree {

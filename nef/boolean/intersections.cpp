@@ -94,7 +94,7 @@ class IntersectionFinder {
     }
     for (const FacetId f : c.facets.ids()) {
       CellRange cells;
-      for (const std::uint32_t corner : c.corners_of(c.facets[f].first_cycle)) {
+      for (const SHalfedgeId corner : c.corners_of(c.facets[f].first_cycle)) {
         cells.add(found.vertices[c.shalfedge_vertex(corner)]);
       }
       take(found.facets, f, cells);

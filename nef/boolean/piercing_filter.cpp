@@ -9,22 +9,16 @@
 namespace nef {
 namespace {
 
-constexpr double kRoundingUnit = 0x1p-53;
-
 struct Form {
   double low = 0;  ///< of the absolute value
   double high = 0;
 };
 
-// The form of a plane at a point, up to sign; 16u of the sum of magnitudes bounds the error (see
-// side_of_plane).
+// The form of a plane at a point, up to sign.
 Form absolute_form(const std::array<double, 4>& n, const std::array<double, 3>& x) {
-  const double t0 = n[0] * x[0];
-  const double t1 = n[1] * x[1];
-  const double t2 = n[2] * x[2];
-  const double value = std::fabs(t0 + t1 + t2 + n[3]);
-  const double error = 16 * kRoundingUnit * (std::fabs(t0) + std::fabs(t1) + std::fabs(t2) + std::fabs(n[3])) + 1e-300;
-  return {value > error ? value - error : 0.0, value + error};
+  const Approximation form = approximate_form(n, x);
+  const double value = std::fabs(form.value);
+  return {value > form.error ? value - form.error : 0.0, value + form.error};
 }
 
 }  // namespace

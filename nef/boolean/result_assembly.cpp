@@ -70,7 +70,7 @@ std::vector<std::uint8_t> ResultAssembly::used_planes(std::size_t planes) const 
     const VertexRecord& begin = from.vertices[run.vertices.first];
     const VertexRecord& end = from.vertices[run.vertices.first + run.vertices.count];
     const auto note = [&](const auto& use) {
-      for (std::uint32_t e = begin.shalfedges; e < end.shalfedges; e += 2) use(from.shalfedge_plane[e]);
+      for (SHalfedgeId e = begin.shalfedges; e < end.shalfedges; e += 2) use(from.shalfedge_plane[e]);
       for (std::uint32_t i = begin.other_planes; i < end.other_planes; ++i) use(from.other_planes[i]);
       for (std::uint32_t l = begin.sloops; l < end.sloops; ++l) use(from.sloops[l].plane);
     };

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "nef/complex/item_boxes.h"
+#include "nef/polyhedron.h"
 
 namespace nef {
 namespace {

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "nef/forward.h"
 #include "nef/geometry/box_tree.h"
-#include "nef/polyhedron.h"
 
 namespace nef {
 

@@ -70,7 +70,7 @@ struct Complex {
 
   FacetTable facets;
   IndexedVector<CycleId, std::uint32_t> cycle_begin{0};  ///< into corners; one more than there are cycles
-  std::vector<std::uint32_t> corners;                    ///< shalfedges
+  std::vector<SHalfedgeId> corners;
   std::vector<VertexId> isolated_vertices;
 
   IndexedVector<ShellId, Shell> shells;
@@ -82,13 +82,14 @@ struct Complex {
   [[nodiscard]] std::size_t facet_count() const { return facets.size(); }
   [[nodiscard]] std::size_t volume_count() const { return volumes.size(); }
   [[nodiscard]] std::uint32_t svertex_count() const { return vertices.back().svertices.index(); }
-  [[nodiscard]] std::uint32_t shalfedge_count() const { return vertices.back().shalfedges; }
+  [[nodiscard]] std::uint32_t shalfedge_count() const { return vertices.back().shalfedges.index(); }
   [[nodiscard]] std::uint32_t sface_count() const { return vertices.back().sfaces.index(); }
 
   [[nodiscard]] IdRange<VertexId> vertex_ids() const {
     return {VertexId{0}, static_cast<std::uint32_t>(vertices.size() - 1)};
   }
   [[nodiscard]] IdRange<HalfedgeId> halfedge_ids() const { return {HalfedgeId{0}, vertices.back().svertices}; }
+  [[nodiscard]] IdRange<SHalfedgeId> shalfedge_ids() const { return {SHalfedgeId{0}, vertices.back().shalfedges}; }
   [[nodiscard]] IdRange<SFaceId> sface_ids() const { return {SFaceId{0}, vertices.back().sfaces}; }
   [[nodiscard]] IdRange<CycleId> cycle_ids() const {
     return {CycleId{0}, static_cast<std::uint32_t>(cycle_begin.size() - 1)};
@@ -100,6 +101,11 @@ struct Complex {
   /// The halfedges that leave a vertex; the first is svertex 0 of its sphere map.
   [[nodiscard]] IdRange<HalfedgeId> halfedges(VertexId vertex) const {
     return {vertices.svertices(vertex), vertices.svertices(vertex.next())};
+  }
+
+  /// The shalfedges around a vertex, likewise.
+  [[nodiscard]] IdRange<SHalfedgeId> shalfedges(VertexId vertex) const {
+    return {vertices.shalfedges(vertex), vertices.shalfedges(vertex.next())};
   }
 
   /// The sfaces around a vertex, likewise.
@@ -128,8 +134,8 @@ struct Complex {
                        local_planes(vertex));
   }
 
-  /// A shalfedge by its number in the complex. Needs the owners.
-  [[nodiscard]] SHalfedge shalfedge(std::uint32_t shalfedge) const {
+  /// A shalfedge as the item that it is in the sphere map of its vertex. Needs the owners.
+  [[nodiscard]] SHalfedge shalfedge(SHalfedgeId shalfedge) const {
     SHalfedge item = in_pattern(shalfedge);
     item.plane = shalfedge_plane[shalfedge];
     return item;
@@ -137,8 +143,8 @@ struct Complex {
 
   /// The vertex of a shalfedge. Where every svertex has two arcs, as in all sets whose boundary is a manifold, a vertex
   /// has as many svertices as pairs of shalfedges, and one list of owners serves both.
-  [[nodiscard]] VertexId shalfedge_vertex(std::uint32_t shalfedge) const {
-    return pair_owner.empty() ? svertex_owner[HalfedgeId{shalfedge >> 1U}] : pair_owner[shalfedge >> 1U];
+  [[nodiscard]] VertexId shalfedge_vertex(SHalfedgeId shalfedge) const {
+    return pair_owner.empty() ? svertex_owner[HalfedgeId{pair_of(shalfedge)}] : pair_owner[pair_of(shalfedge)];
   }
 
   /// The mark of an sface. O(log n).
@@ -158,15 +164,15 @@ struct Complex {
   [[nodiscard]] HalfedgeId edge(HalfedgeId halfedge) const { return std::min(halfedge, twin[halfedge]); }
 
   /// The halfedge that leaves the vertex of a corner along the facet boundary (facet to its left).
-  [[nodiscard]] HalfedgeId corner_halfedge(std::uint32_t corner) const {
+  [[nodiscard]] HalfedgeId corner_halfedge(SHalfedgeId corner) const {
     return vertices.svertices(shalfedge_vertex(corner)) + in_pattern(corner).source;
   }
   /// The halfedge at the vertex of a corner that leads back along the facet boundary.
-  [[nodiscard]] HalfedgeId corner_back_halfedge(std::uint32_t corner) const {
-    return vertices.svertices(shalfedge_vertex(corner)) + in_pattern(corner ^ 1U).source;
+  [[nodiscard]] HalfedgeId corner_back_halfedge(SHalfedgeId corner) const {
+    return vertices.svertices(shalfedge_vertex(corner)) + in_pattern(twin_of(corner)).source;
   }
   /// The sfaces on both sides of a shalfedge: to its left and to its right.
-  [[nodiscard]] std::array<SFaceId, 2> shalfedge_sfaces(std::uint32_t shalfedge) const {
+  [[nodiscard]] std::array<SFaceId, 2> shalfedge_sfaces(SHalfedgeId shalfedge) const {
     const VertexId vertex = shalfedge_vertex(shalfedge);
     const PatternId pattern = vertices.pattern(vertex);
     const std::uint32_t local = shalfedge - vertices.shalfedges(vertex);
@@ -174,7 +180,7 @@ struct Complex {
     return {first + patterns.shalfedge(pattern, local).sface, first + patterns.shalfedge(pattern, local ^ 1U).sface};
   }
   /// The sface to the left of a shalfedge.
-  [[nodiscard]] SFaceId shalfedge_sface(std::uint32_t shalfedge) const {
+  [[nodiscard]] SFaceId shalfedge_sface(SHalfedgeId shalfedge) const {
     return vertices.sfaces(shalfedge_vertex(shalfedge)) + in_pattern(shalfedge).sface;
   }
   [[nodiscard]] VolumeId sface_volume(SFaceId sface) const { return shells[sface_shell[sface]].volume; }
@@ -186,15 +192,15 @@ struct Complex {
   }
 
   /// The corners of a cycle.
-  [[nodiscard]] std::span<const std::uint32_t> corners_of(CycleId cycle) const {
+  [[nodiscard]] std::span<const SHalfedgeId> corners_of(CycleId cycle) const {
     return {corners.data() + cycle_begin[cycle], cycle_begin[cycle.next()] - cycle_begin[cycle]};
   }
   /// All corners of a facet, cycle after cycle.
-  [[nodiscard]] std::span<const std::uint32_t> corners_of(const Facet& facet) const {
+  [[nodiscard]] std::span<const SHalfedgeId> corners_of(const Facet& facet) const {
     const std::uint32_t first = cycle_begin[facet.first_cycle];
     return {corners.data() + first, cycle_begin[facet.cycles().end_id()] - first};
   }
-  [[nodiscard]] std::span<const std::uint32_t> corners_of(FacetId facet) const { return corners_of(facets[facet]); }
+  [[nodiscard]] std::span<const SHalfedgeId> corners_of(FacetId facet) const { return corners_of(facets[facet]); }
 
   /// The vertices inside a facet.
   [[nodiscard]] std::span<const VertexId> isolated_vertices_of(const Facet& facet) const {
@@ -212,20 +218,21 @@ struct Complex {
 
  private:
   [[nodiscard]] LocalPlanes local_planes(VertexId vertex) const {
-    const std::uint32_t pairs = vertices.shalfedges(vertex) / 2;
-    return {shalfedge_plane.pairs().data() + pairs, vertices.shalfedges(vertex.next()) / 2 - pairs,
+    const std::uint32_t pairs = pair_of(vertices.shalfedges(vertex));
+    return {shalfedge_plane.pairs().data() + pairs, pair_of(vertices.shalfedges(vertex.next())) - pairs,
             other_planes.data() + vertices.other_planes(vertex)};
   }
 
   // Its plane is but a name.
-  [[nodiscard]] const SHalfedge& in_pattern(std::uint32_t shalfedge) const {
+  [[nodiscard]] const SHalfedge& in_pattern(SHalfedgeId shalfedge) const {
     const VertexId vertex = shalfedge_vertex(shalfedge);
     return patterns.shalfedge(vertices.pattern(vertex), shalfedge - vertices.shalfedges(vertex));
   }
 };
 
-/// What is on a facet and on both sides of it, as its first corner tells it; where shells and volumes are known.
-FacetSides sides_of_facet(const Complex& complex, FacetId facet);
+/// Writes into all facets what is on them and on both sides of them, as their first corners tell it; where shells and
+/// volumes are known. O(facets).
+void name_sides_of_facets(Complex& complex, unsigned threads = 1);
 
 /// Calls change(plane) for the planes that sphere maps of a complex name, those of twins once. Of a complex that is not
 /// const, planes may be changed; then opposite planes must become opposite planes.

@@ -61,7 +61,7 @@ Winding winding_number(const std::vector<const Rational3*>& polygon, const Ratio
 std::vector<const Rational3*> cycle_points(const Complex& complex, const IndexedVector<VertexId, Rational3>& points,
                                            CycleId cycle) {
   std::vector<const Rational3*> result;
-  for (const std::uint32_t corner : complex.corners_of(cycle)) {
+  for (const SHalfedgeId corner : complex.corners_of(cycle)) {
     result.push_back(&points[complex.shalfedge_vertex(corner)]);
   }
   return result;

@@ -13,6 +13,7 @@ using FacetId = Id<struct FacetTag>;          ///< both sides of a facet
 using HalfedgeId = Id<struct HalfedgeTag>;    ///< an edge as it leaves one of its ends: an svertex of the complex
 using HalffacetId = Id<struct HalffacetTag>;  ///< one side of a facet
 using PatternId = Id<struct PatternTag>;      ///< a sphere map without its planes
+using SHalfedgeId = Id<struct SHalfedgeTag>;  ///< an arc in the sphere map of its vertex, in one of its directions
 using SFaceId = Id<struct SFaceTag>;          ///< an sface of the complex: a volume as a vertex of its boundary sees it
 using ShellId = Id<struct ShellTag>;
 using VertexId = Id<struct VertexTag>;
@@ -23,6 +24,12 @@ inline constexpr VolumeId kOuterVolume{0};
 
 /// Where a vertex lies, in the points of its complex.
 constexpr PointId point_of(VertexId vertex) { return PointId{vertex.index()}; }
+
+/// The same arc in the other direction; of two twins, the even one stands first.
+constexpr SHalfedgeId twin_of(SHalfedgeId shalfedge) { return SHalfedgeId{shalfedge.index() ^ 1U}; }
+/// The number of the pair of twins that a shalfedge belongs to.
+constexpr std::uint32_t pair_of(SHalfedgeId shalfedge) { return shalfedge.index() >> 1U; }
+constexpr bool is_odd(SHalfedgeId shalfedge) { return (shalfedge.index() & 1U) != 0; }
 
 /// Halffacet 2f is facet f seen from the positive side of its unflipped plane, 2f + 1 from the other side.
 constexpr HalffacetId halffacet_of(FacetId facet, bool below) {

@@ -18,7 +18,7 @@ Box edge_box(const Complex& complex, HalfedgeId halfedge) {
 Box facet_box(const Complex& complex, const Facet& facet) {
   Box box;
   // The first cycle is the outer one.
-  for (const std::uint32_t corner : complex.corners_of(facet.first_cycle)) {
+  for (const SHalfedgeId corner : complex.corners_of(facet.first_cycle)) {
     box.add_rounded(complex.points.approximate(point_of(complex.shalfedge_vertex(corner))));
   }
   return box;

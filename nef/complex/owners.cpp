@@ -16,7 +16,8 @@ void name_pair_owners(Complex& complex) {
   complex.pair_owner.resize(complex.shalfedge_count() / 2);
   const auto owner = complex.pair_owner.begin();
   for (const VertexId v : complex.vertex_ids()) {
-    std::fill(owner + complex.vertices[v].shalfedges / 2, owner + complex.vertices[v.next()].shalfedges / 2, v);
+    std::fill(owner + pair_of(complex.vertices.shalfedges(v)), owner + pair_of(complex.vertices.shalfedges(v.next())),
+              v);
   }
 }
 

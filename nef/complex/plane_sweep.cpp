@@ -22,7 +22,7 @@ class PlaneSweep {
  public:
   PlaneSweep(const Complex& complex, PlaneId plane) : c_(complex), plane_(plane), axes_(complex.planes, plane) {}
 
-  std::vector<CornerBelow> run(std::span<const std::uint32_t> corners, std::span<const VertexId> vertices) {
+  std::vector<CornerBelow> run(std::span<const SHalfedgeId> corners, std::span<const VertexId> vertices) {
     rank_vertices(corners, vertices);
     collect_edges(corners);
     std::vector<std::uint32_t> query_at(order_.size(), kNone);
@@ -31,9 +31,9 @@ class PlaneSweep {
   }
 
  private:
-  void rank_vertices(std::span<const std::uint32_t> corners, std::span<const VertexId> vertices) {
+  void rank_vertices(std::span<const SHalfedgeId> corners, std::span<const VertexId> vertices) {
     // The other end of an edge is the vertex of another corner.
-    for (const std::uint32_t corner : corners) ids_.push_back(c_.shalfedge_vertex(corner));
+    for (const SHalfedgeId corner : corners) ids_.push_back(c_.shalfedge_vertex(corner));
     ids_.insert(ids_.end(), vertices.begin(), vertices.end());
     std::sort(ids_.begin(), ids_.end());
     ids_.erase(std::unique(ids_.begin(), ids_.end()), ids_.end());
@@ -51,7 +51,7 @@ class PlaneSweep {
 
   // A facet lies to the left of the halfedge of its corner: above it if the halfedge ascends in axes that turn
   // counterclockwise, or descends in others.
-  void collect_edges(std::span<const std::uint32_t> corners) {
+  void collect_edges(std::span<const SHalfedgeId> corners) {
     for (std::uint32_t i = 0; i < corners.size(); ++i) {
       const HalfedgeId halfedge = c_.corner_halfedge(corners[i]);
       const std::uint32_t from = rank_of(c_.shalfedge_vertex(corners[i]));
@@ -129,7 +129,7 @@ class PlaneSweep {
 
 }  // namespace
 
-std::vector<CornerBelow> corners_below(const Complex& complex, PlaneId plane, std::span<const std::uint32_t> corners,
+std::vector<CornerBelow> corners_below(const Complex& complex, PlaneId plane, std::span<const SHalfedgeId> corners,
                                        std::span<const VertexId> vertices) {
   return PlaneSweep(complex, plane).run(corners, vertices);
 }

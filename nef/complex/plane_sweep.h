@@ -25,7 +25,7 @@ struct CornerBelow {
 /// the vertex sees a facet below itself, that is the facet of this corner. Corners and vertices lie in the unflipped
 /// `plane`; edges do not cross. The answers come in lexicographic order of the vertices, first coordinate first. O(n
 /// log n) for n corners and vertices together.
-std::vector<CornerBelow> corners_below(const Complex& complex, PlaneId plane, std::span<const std::uint32_t> corners,
+std::vector<CornerBelow> corners_below(const Complex& complex, PlaneId plane, std::span<const SHalfedgeId> corners,
                                        std::span<const VertexId> vertices);
 
 }  // namespace nef

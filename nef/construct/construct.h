@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "nef/forward.h"
 #include "nef/mesh/mesh.h"
-#include "nef/polyhedron.h"
 
 namespace nef {
 

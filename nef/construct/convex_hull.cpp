@@ -16,6 +16,7 @@
 #include "nef/construct/planar_hull.h"
 #include "nef/geometry/predicates.h"
 #include "nef/geometry/vectors.h"
+#include "nef/polyhedron.h"
 
 namespace nef {
 namespace {
@@ -52,7 +53,7 @@ class Quickhull {
   void find_visible(std::uint32_t triangle, std::uint32_t point);
   void cone(std::uint32_t point);
   void hand_out(std::uint32_t point, std::uint32_t first_triangle);
-  double orient(const HullTriangle& t, std::uint32_t point, double& bound) const;
+  Approximation orient(const HullTriangle& t, std::uint32_t point) const;
   PlaneId plane_of(HullTriangle& t);
   bool above(HullTriangle& t, std::uint32_t point, double& height);
   Hull flat_hull(const std::vector<std::uint32_t>& simplex) const;
@@ -79,7 +80,7 @@ class Quickhull {
 // absolute error of at most e = 10uM, M the largest coordinate, rounding included. For differences
 // of at most D the determinant's six products of three change by less than 6 * 3 D^2 e (1 + 1/32)
 // if e <= D/64, and evaluating it rounds by less than 6 * 8u D^3. Hence 20 D^2 e + 64u D^3.
-double Quickhull::orient(const HullTriangle& t, std::uint32_t point, double& bound) const {
+Approximation Quickhull::orient(const HullTriangle& t, std::uint32_t point) const {
   const std::array<double, 3>& o = approximate(t.vertex[0]);
   std::array<std::array<double, 3>, 3> d{};
   double extent = 0;
@@ -89,12 +90,15 @@ double Quickhull::orient(const HullTriangle& t, std::uint32_t point, double& bou
     d[2][i] = approximate(point)[i] - o[i];
     extent = std::max({extent, std::fabs(d[0][i]), std::fabs(d[1][i]), std::fabs(d[2][i])});
   }
-  constexpr double kUnit = 0x1p-53;
+  constexpr double kUnit = kRoundingUnit;
   const double error = 10 * kUnit * largest_;
-  bound = error * 64 <= extent ? 20 * extent * extent * error + 64 * kUnit * extent * extent * extent + 1e-290
-                               : std::numeric_limits<double>::infinity();
-  return d[2][0] * (d[0][1] * d[1][2] - d[0][2] * d[1][1]) + d[2][1] * (d[0][2] * d[1][0] - d[0][0] * d[1][2]) +
-         d[2][2] * (d[0][0] * d[1][1] - d[0][1] * d[1][0]);
+  const double bound = error * 64 <= extent
+                           ? 20 * extent * extent * error + 64 * kUnit * extent * extent * extent + 1e-290
+                           : std::numeric_limits<double>::infinity();
+  const double value = d[2][0] * (d[0][1] * d[1][2] - d[0][2] * d[1][1]) +
+                       d[2][1] * (d[0][2] * d[1][0] - d[0][0] * d[1][2]) +
+                       d[2][2] * (d[0][0] * d[1][1] - d[0][1] * d[1][0]);
+  return {value, bound};
 }
 
 PlaneId Quickhull::plane_of(HullTriangle& t) {
@@ -108,13 +112,9 @@ PlaneId Quickhull::plane_of(HullTriangle& t) {
 
 // `height` is only for choosing a far point.
 bool Quickhull::above(HullTriangle& t, std::uint32_t point, double& height) {
-  double bound = 0;
-  height = orient(t, point, bound);
-  if (std::fabs(height) > bound && std::fabs(height) < std::numeric_limits<double>::infinity()) {
-    ++predicate_counts().filter;
-    return height > 0;
-  }
-  return side_of_plane(planes_, plane_of(t), table_, PointId(point)) > 0;
+  const Approximation rough = orient(t, point);
+  height = rough.value;
+  return sign_by_ladder(rough, [&] { return side_of_plane(planes_, plane_of(t), table_, PointId(point)); }) > 0;
 }
 
 std::vector<std::uint32_t> Quickhull::span() {

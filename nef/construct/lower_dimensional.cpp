@@ -9,6 +9,7 @@
 #include "nef/geometry/integer_vector.h"
 #include "nef/geometry/vectors.h"
 #include "nef/mesh/polygon/simple_ring.h"
+#include "nef/polyhedron.h"
 #include "nef/synthesis/complex_builder.h"
 
 namespace nef {

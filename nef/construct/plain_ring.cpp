@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "nef/number/approximation.h"
+
 namespace nef {
 
 namespace {
@@ -25,9 +27,9 @@ bool PlainRing::read(std::uint32_t point, std::span<const FaceCorner> corners) {
     const bool swapped = second.row() < first.row();
     const bool turned = second.flipped();
     if (swapped) std::swap(first, second);
-    const int sign = direction(point, ring_[i].next, first, second);
-    if (sign == 0) return false;
-    bits_ = bits_ << 3U | (swapped ? 4U : 0U) | (turned ? 2U : 0U) | (sign > 0 ? 1U : 0U);
+    const std::optional<int> sign = direction(point, ring_[i].next, first, second);
+    if (!sign) return false;
+    bits_ = bits_ << 3U | (swapped ? 4U : 0U) | (turned ? 2U : 0U) | (*sign > 0 ? 1U : 0U);
   }
   return true;
 }
@@ -50,12 +52,12 @@ bool PlainRing::order(std::span<const FaceCorner> corners) {
   return true;
 }
 
-// The sign of (first normal x second normal).(to - from) for the unflipped planes; 0 if doubles can not tell.
+// The sign of (first normal x second normal).(to - from) for the unflipped planes; nothing if doubles can not tell.
 //
 // Components of normals are at most 1 and within 2^-52, so those of the product are within 2^-49. Coordinates are
 // within 2^-51 of themselves, so differences are within 2^-50 of the sum of their sizes. What the sum of products is
 // off by is doubled, which covers that it is itself rounded. Nothing is so small that it could have vanished.
-int PlainRing::direction(std::uint32_t from, std::uint32_t to, PlaneId first, PlaneId second) const {
+std::optional<int> PlainRing::direction(std::uint32_t from, std::uint32_t to, PlaneId first, PlaneId second) const {
   const std::array<double, 4>& n = faces_.planes.approximate(first);
   const std::array<double, 4>& m = faces_.planes.approximate(second);
   const std::array<double, 3>& a = faces_.points.approximate(PointId{from});
@@ -72,8 +74,8 @@ int PlainRing::direction(std::uint32_t from, std::uint32_t to, PlaneId first, Pl
     error += (std::fabs(difference) + off) * 0x1p-49 + std::fabs(product) * (off + std::fabs(difference) * 0x1p-51);
   }
   constexpr double kTiny = 1e-280;
-  if (!(error > kTiny && std::fabs(dot) > 2 * error)) return 0;  // also where something is infinite
-  return dot > 0 ? 1 : -1;
+  if (!(error > kTiny)) return std::nullopt;
+  return Approximation{dot, 2 * error}.sign();
 }
 
 }  // namespace nef

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <unordered_map>
 #include <vector>
@@ -48,7 +49,7 @@ class PlainRing {
 
  private:
   bool order(std::span<const FaceCorner> corners);
-  [[nodiscard]] int direction(std::uint32_t from, std::uint32_t to, PlaneId first, PlaneId second) const;
+  [[nodiscard]] std::optional<int> direction(std::uint32_t from, std::uint32_t to, PlaneId first, PlaneId second) const;
 
   const SolidFaces& faces_;
   std::vector<FaceCorner> ring_;

@@ -4,6 +4,7 @@
 #include "nef/base/error.h"
 #include "nef/construct/construct.h"
 #include "nef/construct/solid.h"
+#include "nef/polyhedron.h"
 
 namespace nef {
 

@@ -6,6 +6,7 @@
 
 #include "nef/base/error.h"
 #include "nef/construct/construct.h"
+#include "nef/polyhedron.h"
 
 namespace nef {
 namespace {

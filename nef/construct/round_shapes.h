@@ -3,7 +3,10 @@
 // Polyhedra in place of balls and cylinders, with the corners that OpenSCAD gives them.
 #pragma once
 
-#include "nef/polyhedron.h"
+#include <vector>
+
+#include "nef/forward.h"
+#include "nef/number/number.h"
 
 namespace nef {
 

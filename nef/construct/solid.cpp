@@ -79,7 +79,7 @@ class SolidBuilder {
     const auto corners = static_cast<std::uint32_t>(corners_.size());
     VertexRecord size;
     size.svertices = HalfedgeId{corners};
-    size.shalfedges = 2 * corners;
+    size.shalfedges = SHalfedgeId{2 * corners};
     size.sfaces = SFaceId{2 * used};
     result.reserve(used, size);
   }

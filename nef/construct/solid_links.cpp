@@ -8,7 +8,7 @@
 namespace nef {
 
 SolidLinks::SolidLinks(const SolidFaces& faces)
-    : faces_(faces), vertex_of_(faces.points.size()), shalfedge_of_(faces.corners.size(), kNone) {
+    : faces_(faces), vertex_of_(faces.points.size()), shalfedge_of_(faces.corners.size()) {
   point_.reserve(faces.points.size());
   end_.reserve(faces.corners.size());
 }
@@ -19,7 +19,7 @@ bool SolidLinks::note(const Complex& result, std::uint32_t point, const Arrangem
   if (plain) {
     vertex_of_[point] = point_.end_id();
   } else {
-    for (const std::uint32_t corner : corners) shalfedge_of_[corner] = kNone;
+    for (const std::uint32_t corner : corners) shalfedge_of_[corner] = SHalfedgeId();
     end_.resize(result.vertices[VertexId{result.vertex_count() - 1}].svertices.index());
     end_.resize(result.svertex_count(), kNone);
   }
@@ -28,7 +28,7 @@ bool SolidLinks::note(const Complex& result, std::uint32_t point, const Arrangem
 }
 
 void SolidLinks::note_ring(const Complex& result, std::uint32_t point, std::span<const FaceCorner> ring) {
-  std::uint32_t shalfedge = result.vertices[VertexId{result.vertex_count() - 1}].shalfedges;
+  SHalfedgeId shalfedge = result.vertices.shalfedges(VertexId{result.vertex_count() - 1});
   for (const FaceCorner& corner : ring) {
     end_.push_back(corner.next);
     shalfedge_of_[corner.at] = shalfedge + (faces_.plane[corner.face].flipped() ? 1U : 0U);
@@ -48,14 +48,14 @@ bool SolidLinks::note_drawn_ring(const Complex& result, const Arrangement& drawi
       map.shalfedges.size() != 2 * static_cast<std::size_t>(n)) {
     return false;
   }
-  const std::uint32_t base = result.vertices[vertex].shalfedges;
+  const SHalfedgeId base = result.vertices.shalfedges(vertex);
   std::uint32_t half = 0;
   for (std::uint32_t i = 0; i < n; ++i) {
     const std::uint32_t node = drawing.source(half);
     const std::span<const std::uint32_t> two = drawing.around(drawing.target(half));
     if (two.size() != 2 || (i > 0 && half == 0) || map.shalfedges[2 * i].plane != drawing.plane(half)) return false;
     end_.push_back(ends[node]);
-    shalfedge_of_[corners[half >> 1U]] = base + 2 * i + (drawing.plane(half).flipped() ? 1U : 0U);
+    shalfedge_of_[corners[half >> 1U]] = base + (2 * i + (drawing.plane(half).flipped() ? 1U : 0U));
     half = two[0] == (half ^ 1U) ? two[1] : two[0];
   }
   return half == 0;
@@ -76,7 +76,7 @@ bool SolidLinks::every_plane_is_used(const Complex& result) const {
   for (std::uint32_t f = 0; f < faces_.plane.size(); ++f) {
     const auto first = shalfedge_of_.begin() + faces_.begin[f];
     const auto last = shalfedge_of_.begin() + faces_.begin[f + 1];
-    if (std::any_of(first, last, [](std::uint32_t e) { return e != kNone; })) used[faces_.plane[f].row()] = true;
+    if (std::any_of(first, last, [](SHalfedgeId e) { return e.valid(); })) used[faces_.plane[f].row()] = true;
   }
   for (const VertexId v : result.vertex_ids()) {
     if (vertex_of_[point_[v]].valid()) continue;
@@ -132,7 +132,7 @@ void SolidLinks::link_facets(const Complex& result, KnownLinks& links) const {
   }
   for (const VertexId v : result.vertex_ids()) {
     if (vertex_of_[point_[v]].valid()) continue;
-    for (std::uint32_t e = result.vertices[v].shalfedges; e < result.vertices[v.next()].shalfedges; ++e) {
+    for (const SHalfedgeId e : result.shalfedges(v)) {
       if (!result.shalfedge_plane[e].flipped()) links.loose_corners.push_back(e);
     }
     if (result.vertices[v].sloops < result.vertices[v.next()].sloops) links.loose_isolated.push_back(v);
@@ -142,11 +142,11 @@ void SolidLinks::link_facets(const Complex& result, KnownLinks& links) const {
 
 // From its smallest corner on. If not all corners are plain, those that are become loose.
 bool SolidLinks::push_cycle(std::uint32_t face, KnownLinks& links) const {
-  const std::span<const std::uint32_t> ring =
+  const std::span<const SHalfedgeId> ring =
       std::span(shalfedge_of_).subspan(faces_.begin[face], faces_.begin[face + 1] - faces_.begin[face]);
-  if (std::find(ring.begin(), ring.end(), kNone) != ring.end()) {
-    for (const std::uint32_t e : ring) {
-      if (e != kNone) links.loose_corners.push_back(e);
+  if (std::find(ring.begin(), ring.end(), SHalfedgeId()) != ring.end()) {
+    for (const SHalfedgeId e : ring) {
+      if (e.valid()) links.loose_corners.push_back(e);
     }
     return false;
   }

@@ -45,8 +45,8 @@ class SolidLinks {
   std::vector<VertexId> vertex_of_;               // of each point: plain vertex of the result, or none
   IndexedVector<VertexId, std::uint32_t> point_;  // of each vertex: that of the faces
   IndexedVector<HalfedgeId, std::uint32_t>
-      end_;                                  // of each svertex: the point it leads to; kNone if its vertex is not plain
-  std::vector<std::uint32_t> shalfedge_of_;  // of each corner of faces at a plain vertex: on the unflipped plane
+      end_;                                // of each svertex: the point it leads to; kNone if its vertex is not plain
+  std::vector<SHalfedgeId> shalfedge_of_;  // of each corner of faces at a plain vertex: on the unflipped plane
 };
 
 }  // namespace nef

@@ -17,6 +17,7 @@
 #include "nef/complex/item_boxes.h"
 #include "nef/construct/construct.h"
 #include "nef/distance/nearest_features.h"
+#include "nef/polyhedron.h"
 #include "nef/query/predicates_of_sets.h"
 
 namespace nef {

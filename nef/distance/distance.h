@@ -7,7 +7,8 @@
 #include <optional>
 #include <string_view>
 
-#include "nef/polyhedron.h"
+#include "nef/forward.h"
+#include "nef/number/number.h"
 
 namespace nef {
 

@@ -44,7 +44,7 @@ struct Side {
     std::vector<Box> boxes;
     for (const Facet& facet : c.facets) {
       Box& box = boxes.emplace_back();
-      for (const std::uint32_t corner : c.corners_of(facet)) box.add(vertex_box(c, c.shalfedge_vertex(corner)));
+      for (const SHalfedgeId corner : c.corners_of(facet)) box.add(vertex_box(c, c.shalfedge_vertex(corner)));
     }
     facets = BoxTree(boxes);
     boxes.clear();

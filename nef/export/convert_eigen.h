@@ -12,6 +12,7 @@
 #include "nef/base/error.h"
 #include "nef/construct/construct.h"
 #include "nef/export/to_mesh.h"
+#include "nef/polyhedron.h"
 
 namespace nef {
 

@@ -8,6 +8,7 @@
 #include "nef/base/error.h"
 #include "nef/mesh/polygon/triangulate.h"
 #include "nef/number/nearest_quotient.h"
+#include "nef/polyhedron.h"
 
 namespace nef {
 namespace {
@@ -142,7 +143,7 @@ class Exporter {
       const Facet& facet = complex_.facets[f];
       if (!is_selected(facet.mark) || sees_other(facet)) continue;
       boundary_.push_back(f);
-      for (const std::uint32_t corner : complex_.corners_of(facet)) {
+      for (const SHalfedgeId corner : complex_.corners_of(facet)) {
         const HalfedgeId h = complex_.corner_halfedge(corner);
         in_facet[h] = in_facet[complex_.twin[h]] = true;
         held[complex_.shalfedge_vertex(corner)] = true;
@@ -168,7 +169,7 @@ class Exporter {
   // A volume on a side of the facet is lost as a whole.
   [[nodiscard]] bool sees_other(const Facet& facet) const {
     if (volumes_[facet.volume_above].other || volumes_[facet.volume_below].other) return true;
-    for (const std::uint32_t corner : complex_.corners_of(facet)) {
+    for (const SHalfedgeId corner : complex_.corners_of(facet)) {
       if (!finite(complex_.shalfedge_vertex(corner))) return true;
     }
     return false;
@@ -181,7 +182,7 @@ class Exporter {
     for (const VertexId v : points_) number_[v] = 0;
     corner_vertices_.reserve(complex_.corners.size());
     for (const FacetId f : boundary_) {
-      for (const std::uint32_t corner : complex_.corners_of(f)) {
+      for (const SHalfedgeId corner : complex_.corners_of(f)) {
         const VertexId v = complex_.shalfedge_vertex(corner);
         number_[v] = 0;
         corner_vertices_.push_back(v);
@@ -401,7 +402,7 @@ class Exporter {
     IndexedVector<HalfedgeId, bool> seen_edge(complex_.svertex_count(), false);
     IndexedVector<VertexId, bool> seen_vertex(complex_.vertex_count(), false);
     for (const FacetId f : boundary_) {
-      for (const std::uint32_t corner : complex_.corners_of(f)) {
+      for (const SHalfedgeId corner : complex_.corners_of(f)) {
         const VertexId v = complex_.shalfedge_vertex(corner);
         const HalfedgeId h = complex_.corner_halfedge(corner);
         if (!seen_vertex[v] && !is_selected(complex_.mark(v))) ++open_.vertices;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "nef/construct/construct.h"
+#include "nef/geometry/point_table.h"
 
 namespace nef {
 

@@ -13,7 +13,7 @@ namespace nef {
 /// An oriented plane: twice its row in a PlaneTable, plus one if seen from its other side.
 /// Two planes of one table are the same point set iff their rows are equal.
 struct PlaneId {
-  static constexpr std::uint32_t kNone = 0xffffffffU;
+  static constexpr std::uint32_t kNone = nef::kNone;
   std::uint32_t value = kNone;
 
   constexpr PlaneId() = default;

@@ -39,7 +39,7 @@ double scaled(mpz_srcptr value, long top) {
 template <typename Approximate>
 PlaneId PlaneTable::find_or_add_last(Approximate&& approximate) {
   const auto candidate = static_cast<std::uint32_t>(rows_.size() - 1);
-  make_room_for_one();
+  make_room_for(1);
   const std::uint32_t hash = RowSlots::hash_of(rows_, candidate);
   RowSlots::Slot& slot = slots_.find(rows_, hash, rows_, candidate);
   if (!slot.empty()) {
@@ -129,7 +129,7 @@ PlaneId PlaneTable::intern_primitive(const std::array<Int128, 5>& plane) {
 PlaneId PlaneTable::intern_from(const PlaneTable& other, PlaneId plane) {
   if (&other == this) return plane;
   // The other row is normalized already; only its place in this table is in question.
-  make_room_for_one();
+  make_room_for(1);
   const std::uint32_t hash = RowSlots::hash_of(other.rows_, plane.row());
   RowSlots::Slot& slot = slots_.find(rows_, hash, other.rows_, plane.row());
   if (!slot.empty()) return PlaneId{slot.row << 1U | (plane.value & 1U)};
@@ -137,6 +137,34 @@ PlaneId PlaneTable::intern_from(const PlaneTable& other, PlaneId plane) {
   slot = {row, hash};
   approximate_.push_back(other.approximate_[plane.row()]);
   return PlaneId{row << 1U | (plane.value & 1U)};
+}
+
+// Slots are all over a large table, so all are fetched before the first one is looked at.
+std::vector<std::uint32_t> PlaneTable::intern_all(const PlaneTable& other) {
+  NEF_ASSERT(&other != this);
+  const std::size_t count = other.size();
+  make_room_for(count);
+  std::vector<std::uint32_t> hashes(count);
+  for (std::uint32_t row = 0; row < count; ++row) {
+    hashes[row] = RowSlots::hash_of(other.rows_, row);
+    slots_.prefetch(hashes[row]);
+  }
+  std::vector<std::uint32_t> result(count);
+  for (std::uint32_t row = 0; row < count; ++row) {
+    const RowSlots::Slot& slot = std::as_const(slots_).find(rows_, hashes[row], other.rows_, row);
+    result[row] = slot.empty() ? kNotHere : slot.row;
+  }
+  for (std::size_t first = 0; first < count; ++first) {
+    std::size_t last = first;
+    for (auto row = static_cast<std::uint32_t>(size()); last < count && result[last] == kNotHere; ++last, ++row) {
+      result[last] = row;
+      slots_.add_new(row, hashes[last]);
+    }
+    if (last == first) continue;
+    append(other, first, last - first);
+    first = last;
+  }
+  return result;
 }
 
 std::uint32_t PlaneTable::append_new(const PlaneTable& other, std::uint32_t row) {
@@ -147,6 +175,10 @@ std::uint32_t PlaneTable::append_new(const PlaneTable& other, std::uint32_t row)
 
 void PlaneTable::append_new(const PlaneTable& other, std::size_t first, std::size_t count) {
   slots_.clear();
+  append(other, first, count);
+}
+
+void PlaneTable::append(const PlaneTable& other, std::size_t first, std::size_t count) {
   const auto from = other.approximate_.begin() + static_cast<std::ptrdiff_t>(first);
   approximate_.insert(approximate_.end(), from, from + static_cast<std::ptrdiff_t>(count));
   rows_.append(other.rows_, first, count);
@@ -224,11 +256,11 @@ PlaneId PlaneTable::find_or_add_last() {
   });
 }
 
-void PlaneTable::make_room_for_one() {
+void PlaneTable::make_room_for(std::size_t more) {
   const std::size_t planes = approximate_.size();  // a candidate is not among them
-  if (2 * (planes + 1) <= slots_.size()) return;
+  if (2 * (planes + more) <= slots_.size()) return;
   const bool anew = slots_.size() == 0;
-  slots_.reserve(std::max(2 * planes + 4, approximate_.capacity()));
+  slots_.reserve(std::max({2 * planes + 4, planes + more, approximate_.capacity()}));
   if (!anew) return;
   for (std::uint32_t row = 0; row < planes; ++row) slots_.add_new(row, RowSlots::hash_of(rows_, row));
 }

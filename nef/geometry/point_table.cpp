@@ -134,7 +134,12 @@ PointId PointTable::push_reduced(const PointTable& other, PointId point) {
 }
 
 bool PointTable::is_reduced(PointId point, Integer& divisor) const {
-  mpz_set(divisor.get_mpz_t(), coordinate(point, 3));
+  const IntegerView w = coordinate(point, 3);
+  if (mpz_cmp_ui(static_cast<mpz_srcptr>(w), 1) == 0) {
+    divisor = 1;
+    return true;
+  }
+  mpz_set(divisor.get_mpz_t(), w);
   for (std::size_t i = 0; i < 7 && divisor != 1; ++i) {
     mpz_gcd(divisor.get_mpz_t(), divisor.get_mpz_t(), coordinate(point, i));
   }
@@ -154,12 +159,10 @@ std::optional<PointId> PointTable::push_intersection(const PlaneTable& planes, P
     if (h[3] == 0) return std::nullopt;
     return push_homogeneous(std::array<Int128, 7>{h[0], h[1], h[2], h[3]});
   }
-  // Cramer's rule with the adjugate's rows m_i = n_j x n_k: w = n_p . m_p, x = -(sum of d_i m_i). Getting memory for
-  // these integers would cost as much as the arithmetic, so it is kept.
-  thread_local std::array<Integer, 7> h;
-  thread_local Integer minor;
+  // Cramer's rule with the adjugate's rows m_i = n_j x n_k: w = n_p . m_p, x = -(sum of d_i m_i).
+  std::array<Integer, 7>& h = scratch_.coordinates;
   for (Integer& value : h) value = 0;
-  mpz_ptr m = minor.get_mpz_t();
+  mpz_ptr m = scratch_.minor.get_mpz_t();
   const auto coefficients = [&planes](PlaneId plane) {
     return std::array<IntegerView, 4>{planes.coefficient(plane, 0), planes.coefficient(plane, 1),
                                       planes.coefficient(plane, 2), planes.coefficient(plane, 3)};

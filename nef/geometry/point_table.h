@@ -85,10 +85,24 @@ class PointTable {
   void trim();
 
  private:
+  // For intermediate results: getting memory for them anew would cost as much as the arithmetic. A copy has its own.
+  struct Scratch {
+    Scratch() = default;
+    ~Scratch() = default;
+    Scratch(const Scratch& /*other*/) {}
+    Scratch(Scratch&& /*other*/) noexcept {}
+    Scratch& operator=(const Scratch& /*other*/) { return *this; }
+    Scratch& operator=(Scratch&& /*other*/) noexcept { return *this; }
+
+    std::array<Integer, 7> coordinates;
+    Integer minor;
+  };
+
   void push_approximation();
 
   IntegerRows rows_;
   std::vector<std::array<double, 3>> approximate_;
+  Scratch scratch_;
 };
 
 }  // namespace nef

@@ -15,9 +15,7 @@
 namespace nef {
 namespace {
 
-constexpr double kUnit = 0x1p-53;
-
-int sign_of(double value) { return (value > 0) - (value < 0); }
+constexpr double kUnit = kRoundingUnit;
 
 // Sign of constant + factor * R.
 int sign_with_infimaximal(mpz_srcptr constant, mpz_srcptr factor) {
@@ -73,41 +71,16 @@ int compare_coordinate_exact(const PointTable& points, PointId p, PointId q, int
 }  // namespace
 
 int side_of_plane(const PlaneTable& planes, PlaneId plane, const PointTable& points, PointId point) {
-  const std::array<double, 4>& n = planes.approximate(plane);
-  const std::array<double, 3>& x = points.approximate(point);
-  const double t0 = n[0] * x[0];
-  const double t1 = n[1] * x[1];
-  const double t2 = n[2] * x[2];
-  const double value = t0 + t1 + t2 + n[3];
-  // Each product has a relative error under 4u + 4u + u plus higher terms, the offset 4u, and
-  // three additions contribute 3u of the sum of magnitudes: 13u in all; 16u is safe. The
-  // absolute term covers underflow. Infinities and NaNs fail the comparison and go on.
-  const double bound = 16 * kUnit * (std::fabs(t0) + std::fabs(t1) + std::fabs(t2) + std::fabs(n[3])) + 1e-300;
-  int sign = 0;
-  if (std::fabs(value) > bound && std::fabs(value) < std::numeric_limits<double>::infinity()) {
-    ++predicate_counts().filter;
-    sign = sign_of(value);
-  } else {
-    ++predicate_counts().exact;
-    sign = side_of_plane_exact(planes, plane, points, point);
-  }
+  const int sign = sign_by_ladder(approximate_form(planes.approximate(plane), points.approximate(point)),
+                                  [&] { return side_of_plane_exact(planes, plane, points, point); });
   return plane.flipped() ? -sign : sign;
 }
 
 int compare_coordinate(const PointTable& points, PointId p, PointId q, int axis) {
   if (p == q) return 0;
   const auto k = static_cast<std::size_t>(axis);
-  const double a = points.approximate(p)[k];
-  const double b = points.approximate(q)[k];
-  const double difference = a - b;
-  // 4u relative on each coordinate, u on the difference.
-  const double bound = 6 * kUnit * (std::fabs(a) + std::fabs(b)) + 1e-300;
-  if (std::fabs(difference) > bound && std::fabs(difference) < std::numeric_limits<double>::infinity()) {
-    ++predicate_counts().filter;
-    return sign_of(difference);
-  }
-  ++predicate_counts().exact;
-  return compare_coordinate_exact(points, p, q, axis);
+  return sign_by_ladder(approximate_difference(points.approximate(p)[k], points.approximate(q)[k]),
+                        [&] { return compare_coordinate_exact(points, p, q, axis); });
 }
 
 int compare_lexicographic(const PointTable& points, PointId p, PointId q) {
@@ -246,18 +219,14 @@ int sign_of_dot(const Direction& u, const Direction& v) {
       u.approximate[0] * v.approximate[0] + u.approximate[1] * v.approximate[1] + u.approximate[2] * v.approximate[2];
   // Components are at most 1: a component's error e moves the sum by at most 3e (both at once by
   // the product of errors, far below), rounding by 3 products and 2 sums, under 8u.
-  const double bound = 3.1 * (u.error + v.error) + 16 * kUnit;
-  if (std::fabs(value) > bound) {
-    ++predicate_counts().filter;
-    return sign_of(value);
-  }
-  ++predicate_counts().exact;
-  Integer sum;
-  mpz_ptr s = sum.get_mpz_t();
-  mpz_mul(s, at(u, 0), at(v, 0));
-  mpz_addmul(s, at(u, 1), at(v, 1));
-  mpz_addmul(s, at(u, 2), at(v, 2));
-  return mpz_sgn(s);
+  return sign_by_ladder({value, 3.1 * (u.error + v.error) + 16 * kUnit}, [&] {
+    Integer sum;
+    mpz_ptr s = sum.get_mpz_t();
+    mpz_mul(s, at(u, 0), at(v, 0));
+    mpz_addmul(s, at(u, 1), at(v, 1));
+    mpz_addmul(s, at(u, 2), at(v, 2));
+    return mpz_sgn(s);
+  });
 }
 
 int sign_of_determinant(const Direction& u, const Direction& v, const Direction& w) {
@@ -268,21 +237,17 @@ int sign_of_determinant(const Direction& u, const Direction& v, const Direction&
       a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
   // Components are at most 1, cofactors at most 2: an error e in one vector moves the value by at
   // most 6e; rounding: 6 terms of 3 operations and 5 sums, under 40u.
-  const double bound = 6.2 * (u.error + v.error + w.error) + 64 * kUnit;
-  if (std::fabs(value) > bound) {
-    ++predicate_counts().filter;
-    return sign_of(value);
-  }
-  ++predicate_counts().exact;
-  Integer sum;
-  Integer component;
-  mpz_ptr s = sum.get_mpz_t();
-  mpz_ptr t = component.get_mpz_t();
-  for (std::size_t i = 0; i < 3; ++i) {
-    cross_component(t, v, w, i);
-    mpz_addmul(s, at(u, i), t);
-  }
-  return mpz_sgn(s);
+  return sign_by_ladder({value, 6.2 * (u.error + v.error + w.error) + 64 * kUnit}, [&] {
+    Integer sum;
+    Integer component;
+    mpz_ptr s = sum.get_mpz_t();
+    mpz_ptr t = component.get_mpz_t();
+    for (std::size_t i = 0; i < 3; ++i) {
+      cross_component(t, v, w, i);
+      mpz_addmul(s, at(u, i), t);
+    }
+    return mpz_sgn(s);
+  });
 }
 
 bool same_direction(const Direction& u, const Direction& v) {

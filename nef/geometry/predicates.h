@@ -6,13 +6,31 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 #include "nef/base/timing/predicate_counts.h"
 #include "nef/geometry/plane_table.h"
 #include "nef/geometry/point_table.h"
+#include "nef/number/approximation.h"
 
 namespace nef {
+
+/// The form of an unflipped plane at a point, both as their tables approximate them. Each product is off by 4u + 4u + u
+/// plus higher terms, u = 2^-53, the offset by 4u, and three additions by 3u of the sum of magnitudes: 13u in all; 16u
+/// is safe. The absolute term covers underflow.
+inline Approximation approximate_form(const std::array<double, 4>& plane, const std::array<double, 3>& point) {
+  const double t0 = plane[0] * point[0];
+  const double t1 = plane[1] * point[1];
+  const double t2 = plane[2] * point[2];
+  const double sizes = std::fabs(t0) + std::fabs(t1) + std::fabs(t2) + std::fabs(plane[3]);
+  return {t0 + t1 + t2 + plane[3], 16 * kRoundingUnit * sizes + 1e-300};
+}
+
+/// a - b for two coordinates as a point table approximates them: 4u of each, u of the difference.
+inline Approximation approximate_difference(double a, double b) {
+  return {a - b, 6 * kRoundingUnit * (std::fabs(a) + std::fabs(b)) + 1e-300};
+}
 
 /// The sign of the plane's form at the point: +1 on its positive side, 0 on the plane.
 int side_of_plane(const PlaneTable& planes, PlaneId plane, const PointTable& points, PointId point);

@@ -14,6 +14,7 @@
 #include "nef/import/mesh_faces.h"
 #include "nef/mesh/polygon/perturbed_turn.h"
 #include "nef/mesh/polygon/triangulate.h"
+#include "nef/polyhedron.h"
 
 namespace nef {
 namespace {
@@ -63,7 +64,7 @@ class WindingFiller {
     std::vector<std::vector<std::uint32_t>> rings;
     for (const CycleId i : facet.cycles()) {
       std::vector<std::uint32_t>& ring = rings.emplace_back();
-      for (const std::uint32_t corner : c_.corners_of(i)) ring.push_back(point_of(c_.shalfedge_vertex(corner)).index());
+      for (const SHalfedgeId corner : c_.corners_of(i)) ring.push_back(point_of(c_.shalfedge_vertex(corner)).index());
     }
     std::vector<Triangulator::Triangle> triangles;
     const std::size_t axis = largest_component(facet.plane);

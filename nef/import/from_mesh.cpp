@@ -17,6 +17,7 @@
 #include "nef/import/mesh_faces.h"
 #include "nef/import/try_from_mesh.h"
 #include "nef/mesh/mesh_check.h"
+#include "nef/polyhedron.h"
 
 namespace nef {
 namespace {

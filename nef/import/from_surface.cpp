@@ -9,6 +9,7 @@
 #include "nef/import/mesh_faces.h"
 #include "nef/mesh/polygon/triangulate.h"
 #include "nef/mesh/surface/surface_contacts.h"
+#include "nef/polyhedron.h"
 
 namespace nef {
 namespace {

@@ -17,6 +17,7 @@
 #include "nef/mesh/edge_order.h"
 #include "nef/mesh/surface/mesh_surface.h"
 #include "nef/mesh/vertex_merger.h"
+#include "nef/polyhedron.h"
 
 namespace nef {
 namespace {

@@ -14,6 +14,7 @@
 #include "nef/io/native/native_format.h"
 #include "nef/io/number_text.h"
 #include "nef/mesh/separate_sheets.h"
+#include "nef/polyhedron.h"
 
 namespace nef {
 

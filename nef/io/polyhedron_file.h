@@ -11,8 +11,9 @@
 #include <vector>
 
 #include "nef/construct/construct.h"
+#include "nef/forward.h"
+#include "nef/geometry/ids.h"
 #include "nef/io/mesh/mesh_writer.h"
-#include "nef/polyhedron.h"
 
 namespace nef {
 

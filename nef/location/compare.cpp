@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "nef/location/compare.h"
 
-#include <cmath>
-#include <limits>
-
 namespace nef {
 namespace {
 
@@ -26,17 +23,8 @@ int compare_exact(const PointRef& p, const PointRef& q, std::size_t axis) {
 int compare_coordinate(const PointRef& p, const PointRef& q, int axis) {
   if (p.table == q.table) return compare_coordinate(*p.table, p.id, q.id, axis);
   const auto k = static_cast<std::size_t>(axis);
-  const double a = p.approximate()[k];
-  const double b = q.approximate()[k];
-  const double difference = a - b;
-  // As in nef/geometry/predicates.cpp: 4 units on each coordinate, one on the difference.
-  const double bound = 6 * 0x1p-53 * (std::fabs(a) + std::fabs(b)) + 1e-300;
-  if (std::fabs(difference) > bound && std::fabs(difference) < std::numeric_limits<double>::infinity()) {
-    ++predicate_counts().filter;
-    return difference > 0 ? 1 : -1;
-  }
-  ++predicate_counts().exact;
-  return compare_exact(p, q, k);
+  return sign_by_ladder(approximate_difference(p.approximate()[k], q.approximate()[k]),
+                        [&] { return compare_exact(p, q, k); });
 }
 
 bool same_point(const PointRef& p, const PointRef& q) {

@@ -23,8 +23,7 @@ namespace {
 // Sign of component k of n_g x n_f.
 int sign_of_cross_component(const PlaneTable& planes, PlaneId g, PlaneId f, std::size_t k) {
   const Direction cross = Direction::cross(planes, g, f);
-  if (std::fabs(cross.approximate[k]) > cross.error) return cross.approximate[k] > 0 ? 1 : -1;
-  return sgn(cross.integers()[k]);
+  return sign_by_ladder({cross.approximate[k], cross.error}, [&] { return sgn(cross.integers()[k]); });
 }
 
 class ParityCount {
@@ -58,7 +57,7 @@ class ParityCount {
            (a[m_] < low_[m_] && b[m_] < low_[m_]);
   }
 
-  void add(std::uint32_t corner) {
+  void add(SHalfedgeId corner) {
     const VertexId u = complex_.shalfedge_vertex(corner);
     const HalfedgeId halfedge = complex_.corner_halfedge(corner);
     const VertexId v = complex_.target(halfedge);
@@ -136,7 +135,7 @@ FacetPlace locate_in_facet(const Complex& complex, const Facet& facet, const Poi
   if (edges == nullptr) {
     for (const CycleId c : facet.cycles()) {
       if (count.on_boundary()) break;
-      const std::span<const std::uint32_t> cycle = complex.corners_of(c);
+      const std::span<const SHalfedgeId> cycle = complex.corners_of(c);
       VertexId v = complex.shalfedge_vertex(cycle.front());
       for (std::size_t i = 0; i < cycle.size() && !count.on_boundary(); ++i) {
         const VertexId u = v;
@@ -145,7 +144,7 @@ FacetPlace locate_in_facet(const Complex& complex, const Facet& facet, const Poi
       }
     }
   } else {
-    const std::span<const std::uint32_t> corners = complex.corners_of(facet);
+    const std::span<const SHalfedgeId> corners = complex.corners_of(facet);
     const Box query = point_box(point);
     edges->for_each_if([&](const Box& box) { return !count.on_boundary() && count.may_matter(box, query); },
                        [&](std::uint32_t i) { count.add(corners[i]); });
@@ -155,9 +154,9 @@ FacetPlace locate_in_facet(const Complex& complex, const Facet& facet, const Poi
 
 BoxTree facet_edge_tree(const Complex& complex, const Facet& facet) {
   std::vector<Box> boxes;
-  const std::span<const std::uint32_t> corners = complex.corners_of(facet);
+  const std::span<const SHalfedgeId> corners = complex.corners_of(facet);
   boxes.reserve(corners.size());
-  for (const std::uint32_t corner : corners) boxes.push_back(edge_box(complex, complex.corner_halfedge(corner)));
+  for (const SHalfedgeId corner : corners) boxes.push_back(edge_box(complex, complex.corner_halfedge(corner)));
   return BoxTree(boxes);
 }
 

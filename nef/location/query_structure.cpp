@@ -55,9 +55,9 @@ void QueryStructure::collect(const Complex& complex, const BoxTree* places) {
     return found;
   };
   for (const FacetId f : complex.facets.ids()) {
-    const std::span<const std::uint32_t> corners = complex.corners_of(f);
+    const std::span<const SHalfedgeId> corners = complex.corners_of(f);
     Box box;
-    for (const std::uint32_t c : corners) box.add(vertex_box(complex, complex.shalfedge_vertex(c)));
+    for (const SHalfedgeId corner : corners) box.add(vertex_box(complex, complex.shalfedge_vertex(corner)));
     if (!asked_for(box)) continue;
     push_item(f.index(), kFacetItem, box, boxes);
     if (corners.size() > kLargeFacet) large_facets_.push_back(f);
@@ -146,8 +146,8 @@ SFaceId QueryStructure::first_sface_minus_x(const Complex& complex, VertexId ver
   if (!hit) return {};
   if (hit->kind == ComplexHit::Kind::kFacet) {
     // A corner is oriented like the positive halffacet; its twin looks to the other side.
-    const std::uint32_t corner = complex.corners_of(facet_of(hit->halffacet()))[0];
-    return complex.shalfedge_sface(corner ^ (is_below(hit->halffacet()) ? 1U : 0U));
+    const SHalfedgeId corner = complex.corners_of(facet_of(hit->halffacet()))[0];
+    return complex.shalfedge_sfaces(corner)[is_below(hit->halffacet()) ? 1 : 0];
   }
   NEF_ASSERT(hit->sface.valid());
   return hit->sface;

@@ -137,10 +137,10 @@ class RayShooter {
 
   // The ray runs in the plane of the facet.
   void visit_boundary(FacetId f) {
-    const std::span<const std::uint32_t> corners = complex_.corners_of(f);
+    const std::span<const SHalfedgeId> corners = complex_.corners_of(f);
     const BoxTree* edges = structure_.edge_tree(complex_, f);
     if (edges == nullptr) {
-      for (const std::uint32_t corner : corners) visit_edge(complex_.corner_halfedge(corner));
+      for (const SHalfedgeId corner : corners) visit_edge(complex_.corner_halfedge(corner));
     } else {
       edges->for_each_if([&](const Box& box) { return filter_.may_meet(mirrored(box)); },
                          [&](std::uint32_t i) { visit_edge(complex_.corner_halfedge(corners[i])); });

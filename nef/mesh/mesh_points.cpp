@@ -221,8 +221,8 @@ void MeshPoints::extend(Box& box, std::uint32_t p) const {
 // most 6 (ex sy sz + sx ey sz + sx sy ez) up to terms of second order, for which 7 instead of 6 is more than enough;
 // its own evaluation rounds each product at most eight times: 48 u sx sy sz. Underflow adds less than 1e-200
 // while all coordinates are below 1e100.
-MeshPoints::Determinant MeshPoints::determinant(std::uint32_t a, std::uint32_t b, std::uint32_t c,
-                                                std::uint32_t d) const {
+Approximation MeshPoints::determinant(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const {
+  if (!filter_) return {0, HUGE_VAL};
   const auto& p = approximate_[a];
   const auto& q = approximate_[b];
   const auto& r = approximate_[c];
@@ -245,15 +245,8 @@ MeshPoints::Determinant MeshPoints::determinant(std::uint32_t a, std::uint32_t b
   return {value, error};
 }
 
-int MeshPoints::filtered_orientation(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const {
-  if (!filter_) return 0;
-  const auto [value, error] = determinant(a, b, c, d);
-  return value > error ? 1 : value < -error ? -1 : 0;
-}
-
 int MeshPoints::orientation(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const {
-  const int sign = filtered_orientation(a, b, c, d);
-  return sign != 0 ? sign : orientation_exact(a, b, c, d);
+  return sign_by_ladder(determinant(a, b, c, d), [&] { return orientation_exact(a, b, c, d); });
 }
 
 int MeshPoints::orientation_exact(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const {
@@ -275,7 +268,7 @@ bool MeshPoints::coplanar(std::uint32_t a, std::uint32_t b, std::uint32_t c,
                           std::span<const std::uint32_t> others) const {
   std::optional<PlaneThrough> plane;
   for (const std::uint32_t p : others) {
-    if (filtered_orientation(a, b, c, p) != 0) return false;
+    if (determinant(a, b, c, p).sign()) return false;  // never 0: a determinant has an error
     if (!integers_.empty()) {
       if (orientation_exact(a, b, c, p) != 0) return false;
       continue;
@@ -287,39 +280,33 @@ bool MeshPoints::coplanar(std::uint32_t a, std::uint32_t b, std::uint32_t c,
 }
 
 // The same filter with two products of two differences.
-std::optional<int> MeshPoints::orientation_by_doubles(std::uint32_t a, std::uint32_t b, std::uint32_t c,
-                                                      std::size_t axis) const {
-  if (filter_) {
-    const std::size_t i = axis == 2 ? 0 : axis + 1;
-    const std::size_t j = i == 2 ? 0 : i + 1;
-    const auto& p = approximate_[a];
-    const double x1 = approximate_[b][i] - p[i];
-    const double y1 = approximate_[b][j] - p[j];
-    const double x2 = approximate_[c][i] - p[i];
-    const double y2 = approximate_[c][j] - p[j];
-    const double sx = std::max(std::abs(x1), std::abs(x2)) * (1 + 0x1p-50) + 2 * margin_[i];
-    const double sy = std::max(std::abs(y1), std::abs(y2)) * (1 + 0x1p-50) + 2 * margin_[j];
-    const double ex = 2 * margin_[i] + 0x1p-53 * sx;
-    const double ey = 2 * margin_[j] + 0x1p-53 * sy;
-    const double value = x1 * y2 - x2 * y1;
-    // Of small integers everything is exact.
-    if (margin_[i] == 0 && margin_[j] == 0 && sx * sy < 0x1p51) return (value > 0) - (value < 0);
-    const double bound = 3 * (ex * sy + sx * ey) + 0x1p-49 * sx * sy + 1e-290;
-    if (value > bound) return 1;
-    if (value < -bound) return -1;
-  }
-  return std::nullopt;
+Approximation MeshPoints::component(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::size_t axis) const {
+  if (!filter_) return {0, HUGE_VAL};
+  const std::size_t i = axis == 2 ? 0 : axis + 1;
+  const std::size_t j = i == 2 ? 0 : i + 1;
+  const auto& p = approximate_[a];
+  const double x1 = approximate_[b][i] - p[i];
+  const double y1 = approximate_[b][j] - p[j];
+  const double x2 = approximate_[c][i] - p[i];
+  const double y2 = approximate_[c][j] - p[j];
+  const double sx = std::max(std::abs(x1), std::abs(x2)) * (1 + 0x1p-50) + 2 * margin_[i];
+  const double sy = std::max(std::abs(y1), std::abs(y2)) * (1 + 0x1p-50) + 2 * margin_[j];
+  const double value = x1 * y2 - x2 * y1;
+  // Of small integers everything is exact.
+  if (margin_[i] == 0 && margin_[j] == 0 && sx * sy < 0x1p51) return {value, 0};
+  const double ex = 2 * margin_[i] + 0x1p-53 * sx;
+  const double ey = 2 * margin_[j] + 0x1p-53 * sy;
+  return {value, 3 * (ex * sy + sx * ey) + 0x1p-49 * sx * sy + 1e-290};
 }
 
 int MeshPoints::orientation_along(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::size_t axis) const {
-  const std::optional<int> sign = orientation_by_doubles(a, b, c, axis);
-  return sign ? *sign : orientation_along_exact(a, b, c, axis);
+  return sign_by_ladder(component(a, b, c, axis), [&] { return orientation_along_exact(a, b, c, axis); });
 }
 
 std::array<std::int8_t, 3> MeshPoints::filtered_turns(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
   std::array<std::int8_t, 3> result{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    result[axis] = static_cast<std::int8_t>(orientation_by_doubles(a, b, c, axis).value_or(0));
+    result[axis] = static_cast<std::int8_t>(component(a, b, c, axis).sign().value_or(0));
   }
   return result;
 }

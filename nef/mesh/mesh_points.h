@@ -6,12 +6,12 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
 #include "nef/geometry/box_tree.h"
 #include "nef/geometry/point_table.h"
+#include "nef/number/approximation.h"
 #include "nef/number/number.h"
 
 namespace nef {
@@ -31,16 +31,10 @@ class MeshPoints {
   /// The sign of det(b - a, c - a, d - a): +1 if a, b, c turn counterclockwise as seen from d's side.
   [[nodiscard]] int orientation(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const;
 
-  /// The same if doubles can tell, and 0 if they can not: much cheaper where points are in one plane, or all but.
-  [[nodiscard]] int filtered_orientation(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const;
-
-  /// det(b - a, c - a, d - a) in the scaled space of approximate(), and what it is off by at most. The points must be
+  /// det(b - a, c - a, d - a) in the scaled space of approximate(). Its sign, if it tells one, is that of
+  /// orientation(), and much cheaper where points are in one plane, or all but. Tells nothing if the points are not
   /// moderate.
-  struct Determinant {
-    double value = 0;
-    double error = 0;
-  };
-  [[nodiscard]] Determinant determinant(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const;
+  [[nodiscard]] Approximation determinant(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const;
 
   /// The sign of component `axis` of (b - a) x (c - a): orientation of the three points in the projection along
   /// that axis.
@@ -91,8 +85,8 @@ class MeshPoints {
   void approximate_integers();
   void find_margins(bool exact);
   [[nodiscard]] int orientation_exact(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const;
-  [[nodiscard]] std::optional<int> orientation_by_doubles(std::uint32_t a, std::uint32_t b, std::uint32_t c,
-                                                          std::size_t axis) const;
+  // Of (b - a) x (c - a), in the scaled space. Nothing if the points are not moderate.
+  [[nodiscard]] Approximation component(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::size_t axis) const;
   [[nodiscard]] int orientation_along_exact(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::size_t axis) const;
 
   std::vector<std::array<double, 3>> approximate_;

@@ -95,9 +95,9 @@ std::uint32_t IntegerRows::push(std::span<const Int128> row) {
 std::uint32_t IntegerRows::push_from(const IntegerRows& other, std::uint32_t index) {
   NEF_ASSERT(other.width_ == width_ && &other != this);
   const auto result = static_cast<std::uint32_t>(size());
-  const auto first = other.limbs_.begin() + static_cast<std::ptrdiff_t>(other.begin(index));
-  const auto last = other.limbs_.begin() + static_cast<std::ptrdiff_t>(other.begin(index + 1));
-  limbs_.insert(limbs_.end(), first, last);
+  const std::span<const mp_limb_t> limbs = other.limbs_of(index);
+  make_room(limbs_, limbs.size());
+  for (const mp_limb_t limb : limbs) limbs_.push_back(limb);  // few as a rule
   append_sizes(other, index * width_, (index + std::size_t{1}) * width_);
   end_row();
   return result;

@@ -48,6 +48,9 @@ class RowSlots {
     slots_[at] = {row, hash};
   }
 
+  /// Has the place fetched where rows of this hash are looked for. There must be room.
+  void prefetch(std::uint32_t hash) const { __builtin_prefetch(&slots_[hash & (slots_.size() - 1)]); }
+
   /// The slot of the row of `rows` that equals a row of `other`, or the empty one where it belongs.
   [[nodiscard]] const Slot& find(const IntegerRows& rows, std::uint32_t hash, const IntegerRows& other,
                                  std::uint32_t other_row) const {

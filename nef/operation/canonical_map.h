@@ -26,10 +26,10 @@ class CanonicalMapWriter {
   CanonicalMapWriter(const PlaneTable& planes, const PlaneTable& ordered, std::span<const std::uint32_t> row)
       : planes_(planes), ordered_(ordered), row_(row) {}
 
-  /// Maps that follow name rows of `planes` by rows[r], which become ordered[r]; both empty if by themselves.
+  /// Maps that follow name rows of `planes` by rows[r], which become ordered[r]; `rows` is empty if by themselves.
   void set_rows(std::span<const std::uint32_t> rows, std::span<const std::uint32_t> ordered) {
     rows_ = rows;
-    renamed_ = rows.empty() ? row_ : ordered;
+    renamed_ = ordered;
   }
 
   /// The canonical map of one; valid until the next call.

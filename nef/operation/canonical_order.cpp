@@ -2,13 +2,15 @@
 #include "nef/operation/canonical_order.h"
 
 #include <algorithm>
-#include <atomic>
+#include <cmath>
 
 #include "nef/base/error.h"
 #include "nef/base/interruption.h"
 #include "nef/base/threads/parallel.h"
 #include "nef/geometry/spatial_order.h"
 #include "nef/operation/canonical_map.h"
+#include "nef/operation/canonical_ring.h"
+#include "nef/polyhedron.h"
 #include "nef/sphere_map/sphere_geometry.h"
 #include "nef/synthesis/complex_builder.h"
 
@@ -24,14 +26,6 @@ bool coefficients_less(const PlaneTable& planes, std::uint32_t a, std::uint32_t 
   return false;
 }
 
-// Becomes the smaller one, whatever other threads do to it.
-void take_smaller(std::uint32_t& smallest, std::uint32_t value) {
-  const std::atomic_ref<std::uint32_t> shared(smallest);
-  std::uint32_t now = shared.load(std::memory_order_relaxed);
-  while (value < now && !shared.compare_exchange_weak(now, value, std::memory_order_relaxed)) {
-  }
-}
-
 class Canonical {
  public:
   Canonical(PlaneTable&& planes, std::span<const CanonicalPart> parts, std::vector<CanonicalVertex>&& vertices,
@@ -39,15 +33,17 @@ class Canonical {
       : planes_(std::move(planes)), parts_(parts), vertices_(std::move(vertices)), threads_(threads) {}
 
   Complex run(LabelId outer) {
+    read_points();
     drop_idle_box(outer);
     reduce_points();
     put_in_order();
+    find_rings();
     choose_lines();
     PlaneTable planes = ordered_planes();
     ComplexBuilder builder(planes);
     write(planes, builder);
     KnownLinks known = known_twins(builder.so_far());
-    svertices_ = {};
+    numbers_ = {};
     return builder.finish(outer, std::move(known), threads_);
   }
 
@@ -60,6 +56,22 @@ class Canonical {
   [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(vertices_.size()); }
   [[nodiscard]] const Complex& complex(std::uint32_t i) const { return *parts_[vertices_[i].part].complex; }
   [[nodiscard]] SphereMapView map(std::uint32_t i) const { return complex(i).sphere_map(vertices_[i].vertex); }
+  // Null if the map of a vertex is no ring.
+  [[nodiscard]] const RingOfPattern* ring(std::uint32_t i) const {
+    return rings_[vertices_[i].part].of(complex(i).vertices.pattern(vertices_[i].vertex));
+  }
+  // Those of its even shalfedges.
+  [[nodiscard]] std::span<const PlaneId> planes_of_pairs(std::uint32_t i) const {
+    const Complex& c = complex(i);
+    const std::uint32_t first = pair_of(c.vertices.shalfedges(vertices_[i].vertex));
+    const std::uint32_t end = pair_of(c.vertices.shalfedges(vertices_[i].vertex.next()));
+    return std::span(c.shalfedge_plane.pairs()).subspan(first, end - first);
+  }
+  [[nodiscard]] std::span<const SLoop> sloops(std::uint32_t i) const {
+    const Complex& c = complex(i);
+    const std::uint32_t first = c.vertices[vertices_[i].vertex].sloops;
+    return std::span(c.sloops).subspan(first, c.vertices[vertices_[i].vertex.next()].sloops - first);
+  }
   [[nodiscard]] PlaneId common(std::uint32_t i, PlaneId plane) const {
     const std::span<const std::uint32_t> rows = parts_[vertices_[i].part].rows;
     return rows.empty() ? plane : PlaneId{rows[plane.row()] << 1U | (plane.value & 1U)};
@@ -81,47 +93,58 @@ class Canonical {
     });
   }
 
+  // What there is to know of them, in one pass.
+  void read_points() {
+    places_.resize(count());
+    reducible_.assign(count(), 0);
+    for_each_chunk([&](std::uint32_t first, std::uint32_t last, std::size_t) {
+      Integer divisor;
+      for (std::uint32_t i = first; i < last; ++i) {
+        const PointTable& points = complex(i).points;
+        const PointId point = point_of(vertices_[i].vertex);
+        places_[i] = points.approximate(point);
+        reducible_[i] = points.is_reduced(point, divisor) ? 0 : 1;
+      }
+    });
+  }
+
   void drop_idle_box(LabelId& outer) {
-    std::vector<CanonicalVertex> infinite;
-    const auto is_infinite = [this](const CanonicalVertex& v) {
-      return !parts_[v.part].complex->points.finite(point_of(v.vertex));
+    // Doubles of infinite points are infinite, those of other ones seldom.
+    const auto is_infinite = [this](std::uint32_t i) {
+      return !std::isfinite(places_[i][0] + places_[i][1] + places_[i][2]) &&
+             !complex(i).points.finite(point_of(vertices_[i].vertex));
     };
-    std::copy_if(vertices_.begin(), vertices_.end(), std::back_inserter(infinite), is_infinite);
+    std::vector<std::uint32_t> infinite;
+    for (std::uint32_t i = 0; i < count(); ++i) {
+      if (is_infinite(i)) infinite.push_back(i);
+    }
     ComplexBuilder box(planes_);
-    for (const CanonicalVertex& v : infinite) box.copy(*parts_[v.part].complex, v.vertex, 1);
+    for (const std::uint32_t i : infinite) box.copy(complex(i), vertices_[i].vertex, 1);
     if (!box.has_idle_box()) return;
     outer = box.so_far().mark(VertexId{0});
-    std::erase_if(vertices_, is_infinite);
+    for (auto at = infinite.rbegin(); at != infinite.rend(); ++at) {
+      vertices_.erase(vertices_.begin() + *at);
+      places_.erase(places_.begin() + *at);
+      reducible_.erase(reducible_.begin() + *at);
+    }
   }
 
   // Those whose coordinates have common factors.
   void reduce_points() {
-    std::vector<std::uint8_t> reducible(count(), 0);
-    for_each_chunk([&](std::uint32_t first, std::uint32_t last, std::size_t) {
-      Integer divisor;
-      for (std::uint32_t i = first; i < last; ++i) {
-        reducible[i] = complex(i).points.is_reduced(point_of(vertices_[i].vertex), divisor) ? 0 : 1;
-      }
-    });
     for (std::uint32_t i = 0; i < count(); ++i) {
-      if (reducible[i] == 0) continue;
+      if (reducible_[i] == 0) continue;
       if (reduced_at_.empty()) reduced_at_.assign(count(), kNone);
-      reduced_.push_reduced(complex(i).points, point_of(vertices_[i].vertex));
-      reduced_at_[i] = static_cast<std::uint32_t>(reduced_.size() - 1);
+      const PointId point = reduced_.push_reduced(complex(i).points, point_of(vertices_[i].vertex));
+      reduced_at_[i] = point.index();
+      places_[i] = reduced_.approximate(point);
     }
+    reducible_ = {};
   }
 
   // Along a curve through space; lexicographic within its cells.
   void put_in_order() {
-    std::vector<std::array<double, 3>> places(count());
-    for_each_chunk([&](std::uint32_t first, std::uint32_t last, std::size_t) {
-      for (std::uint32_t i = first; i < last; ++i) {
-        const Point p = point(i);
-        places[i] = p.table.approximate(p.id);
-      }
-    });
     PointTable two;
-    const std::vector<std::uint32_t> order = spatial_order(places, [&](std::uint32_t a, std::uint32_t b) {
+    const std::vector<std::uint32_t> order = spatial_order(places_, [&](std::uint32_t a, std::uint32_t b) {
       const Point p = point(a);
       const Point q = point(b);
       two.push_from(p.table, p.id);
@@ -139,6 +162,14 @@ class Canonical {
     }
     vertices_ = std::move(vertices);
     reduced_at_ = std::move(reduced_at);
+    places_ = {};
+  }
+
+  void find_rings() {
+    rings_.resize(parts_.size());
+    parallel_for_ranges(parts_.size(), kParts, threads_, [this](std::size_t first, std::size_t last) {
+      for (std::size_t k = first; k < last; ++k) rings_[k] = RingsOfPatterns(parts_[k].complex->patterns);
+    });
   }
 
   // The two planes that name the line of each svertex: of facets where two arrive, others parallel to an axis.
@@ -147,6 +178,8 @@ class Canonical {
     for_each_chunk([&](std::uint32_t first, std::uint32_t last, std::size_t chunk) {
       std::vector<std::array<std::uint32_t, 2>> rows;  // that arrive at each svertex
       for (std::uint32_t i = first; i < last; ++i) {
+        if (const RingOfPattern* ring = this->ring(i); ring != nullptr && ring->names_lines(planes_of_pairs(i)))
+          continue;
         const SphereMapView map = this->map(i);
         rows.assign(map.svertices.size(), {kNone, kNone});
         for (const SHalfedge& half : map.shalfedges) {
@@ -200,32 +233,24 @@ class Canonical {
 
   // Those in use, by the first vertex that uses them; fills row_.
   PlaneTable ordered_planes() {
-    row_.assign(planes_.size(), kNone);  // until the end: the first vertex
-    for_each_chunk([&](std::uint32_t first, std::uint32_t last, std::size_t) {
-      for (std::uint32_t i = first; i < last; ++i) {
-        const Complex& c = complex(i);
-        const VertexRecord& begin = c.vertices[vertices_[i].vertex];
-        const VertexRecord& end = c.vertices[vertices_[i].vertex.next()];
-        for (std::uint32_t pair = begin.shalfedges / 2; pair < end.shalfedges / 2; ++pair) {
-          take_smaller(row_[common(i, c.shalfedge_plane.pairs()[pair]).row()], i);
-        }
-        for (std::uint32_t l = begin.sloops; l < end.sloops; ++l) {
-          take_smaller(row_[common(i, c.sloops[l].plane).row()], i);
-        }
-      }
-    });
-    for (const BareLine& line : lines_) {
-      for (const std::uint32_t row : line.rows) take_smaller(row_[row], line.place);
-    }
+    constexpr std::uint32_t kUsed = 0;  // until the end
+    row_.assign(planes_.size(), kNone);
+    std::vector<std::uint32_t> used;
+    used.reserve(planes_.size());
+    const auto use = [&](std::uint32_t row) {
+      if (row_[row] != kNone) return;
+      row_[row] = kUsed;
+      used.push_back(row);
+    };
     std::vector<std::uint32_t> begin(count() + 1U, 0);  // of the planes of each vertex
-    for (const std::uint32_t first : row_) {
-      if (first != kNone) ++begin[first + 1U];
-    }
-    for (std::uint32_t i = 0; i < count(); ++i) begin[i + 1U] += begin[i];
-    std::vector<std::uint32_t> used(begin.back());
-    std::vector<std::uint32_t> end(begin.begin(), begin.end() - 1);
-    for (std::uint32_t row = 0; row < row_.size(); ++row) {
-      if (row_[row] != kNone) used[end[row_[row]]++] = row;
+    auto line = lines_.begin();
+    for (std::uint32_t i = 0; i < count(); ++i) {
+      for (const PlaneId plane : planes_of_pairs(i)) use(common(i, plane).row());
+      for (const SLoop& loop : sloops(i)) use(common(i, loop.plane).row());
+      for (; line != lines_.end() && line->place == i; ++line) {
+        for (const std::uint32_t row : line->rows) use(row);
+      }
+      begin[i + 1U] = static_cast<std::uint32_t>(used.size());
     }
     for_each_chunk([&](std::uint32_t first, std::uint32_t last, std::size_t) {
       for (std::uint32_t i = first; i < last; ++i) {
@@ -248,15 +273,28 @@ class Canonical {
     return size;
   }
 
-  // All vertices into the builder; fills svertices_.
+  // All vertices into the builder; fills numbers_.
   void write(PlaneTable& planes, ComplexBuilder& builder) {
-    std::vector<std::vector<std::uint32_t>> ordered(parts_.size());  // of the planes of parts
-    svertices_.resize(parts_.size());
-    parallel_for(parts_.size(), threads_, [&](std::size_t k) {
-      ordered[k].reserve(parts_[k].rows.size());
-      for (const std::uint32_t row : parts_[k].rows) ordered[k].push_back(row_[row]);
-      if (!parts_[k].complex->twin.empty()) svertices_[k].assign(parts_[k].complex->svertex_count(), HalfedgeId());
+    // Where what is said of each part begins: of its planes, which become rows of the result, and of its svertices.
+    std::vector<std::size_t> begin(parts_.size() + 1, 0);
+    first_number_.assign(parts_.size() + 1, 0);
+    for (std::size_t k = 0; k < parts_.size(); ++k) {
+      begin[k + 1] = begin[k] + parts_[k].rows.size();
+      const Complex& c = *parts_[k].complex;
+      first_number_[k + 1] = first_number_[k] + (c.twin.empty() ? 0 : c.svertex_count());
+    }
+    std::vector<std::uint32_t> ordered(begin.back());
+    numbers_.assign(first_number_.back(), HalfedgeId());
+    parallel_for_ranges(parts_.size(), kParts, threads_, [&](std::size_t first, std::size_t last) {
+      for (std::size_t k = first; k < last; ++k) {
+        std::transform(parts_[k].rows.begin(), parts_[k].rows.end(), ordered.begin() + begin[k],
+                       [this](std::uint32_t row) { return row_[row]; });
+      }
     });
+    const auto rows_of = [&](std::uint32_t part) {
+      if (parts_[part].rows.empty()) return std::span<const std::uint32_t>(row_);
+      return std::span<const std::uint32_t>(ordered).subspan(begin[part], begin[part + 1] - begin[part]);
+    };
     const std::size_t chunks = chunk_count();
     std::vector<std::uint32_t> first_svertex(chunks + 1, 0);
     std::vector<Complex> written(chunks);
@@ -266,21 +304,32 @@ class Canonical {
       ComplexBuilder part(planes);
       part.reserve(last - first, size);
       CanonicalMapWriter writer(planes_, planes, row_);
+      CanonicalRings rings;
       auto line = std::lower_bound(lines_.begin(), lines_.end(), first,
                                    [](const BareLine& l, std::uint32_t place) { return l.place < place; });
       for (std::uint32_t i = first; i < last; ++i) {
         const CanonicalVertex& v = vertices_[i];
-        const auto line_end = std::find_if(line, lines_.end(), [i](const BareLine& l) { return l.place != i; });
-        writer.set_rows(parts_[v.part].rows, ordered[v.part]);
         const HalfedgeId at = part.so_far().vertices.back().svertices;
+        const std::span<HalfedgeId> numbers = numbers_of(v.part);
+        const std::uint32_t old = complex(i).vertices.svertices(v.vertex).index();
         const Point p = point(i);
+        const RingOfPattern* ring = this->ring(i);
+        if (ring != nullptr && !rings.read(*ring, planes_of_pairs(i), rows_of(v.part))) ring = nullptr;
+        if (const CanonicalRings::Written* like = ring == nullptr ? nullptr : rings.known()) {
+          part.append_like(p.table, p.id, like->vertex, rings.planes());
+          if (numbers.empty()) continue;
+          const std::span<const std::uint8_t> svertices = rings.svertices();
+          for (std::size_t k = 0; k < svertices.size(); ++k) numbers[old + svertices[k]] = at + like->svertex[k];
+          continue;
+        }
+        const auto line_end = std::find_if(line, lines_.end(), [i](const BareLine& l) { return l.place != i; });
+        writer.set_rows(parts_[v.part].rows, rows_of(v.part));
         part.append(p.table, p.id, writer.write(map(i), {line, line_end}));
+        if (ring != nullptr) rings.learn(VertexId{i - first}, writer.svertex_numbers());
         line = line_end;
-        if (svertices_[v.part].empty()) continue;
-        HalfedgeId old = complex(i).vertices[v.vertex].svertices;
-        for (const std::uint32_t s : writer.svertex_numbers()) {
-          svertices_[v.part][old] = at + s;
-          ++old;
+        if (numbers.empty()) continue;
+        for (std::uint32_t s = 0; s < writer.svertex_numbers().size(); ++s) {
+          numbers[old + s] = at + writer.svertex_numbers()[s];
         }
       }
       written[chunk] = part.take_so_far();
@@ -291,8 +340,9 @@ class Canonical {
     for_each_chunk([&](std::uint32_t first, std::uint32_t last, std::size_t chunk) {
       for (std::uint32_t i = first; i < last; ++i) {
         const CanonicalVertex& v = vertices_[i];
-        if (svertices_[v.part].empty()) continue;
-        for (const HalfedgeId h : complex(i).halfedges(v.vertex)) svertices_[v.part][h] += first_svertex[chunk];
+        const std::span<HalfedgeId> numbers = numbers_of(v.part);
+        if (numbers.empty()) continue;
+        for (const HalfedgeId h : complex(i).halfedges(v.vertex)) numbers[h.index()] += first_svertex[chunk];
       }
     });
   }
@@ -305,18 +355,23 @@ class Canonical {
     }
   }
 
-  [[nodiscard]] KnownLinks known_twins(const Complex& written) const {
+  // None if the part has no twins.
+  [[nodiscard]] std::span<HalfedgeId> numbers_of(std::uint32_t part) {
+    return std::span(numbers_).subspan(first_number_[part], first_number_[part + 1U] - first_number_[part]);
+  }
+
+  [[nodiscard]] KnownLinks known_twins(const Complex& written) {
     KnownLinks known;
     known.twin.assign(written.svertex_count(), HalfedgeId());
     std::vector<std::vector<VertexId>> loose(chunk_count());
     for_each_chunk([&](std::uint32_t first, std::uint32_t last, std::size_t chunk) {
       for (std::uint32_t i = first; i < last; ++i) {
-        const IndexedVector<HalfedgeId, HalfedgeId>& numbers = svertices_[vertices_[i].part];
+        const std::span<const HalfedgeId> numbers = numbers_of(vertices_[i].part);
         const Complex& c = complex(i);
         bool all = true;
         for (const HalfedgeId h : c.halfedges(vertices_[i].vertex)) {
-          const HalfedgeId twin = numbers.empty() ? HalfedgeId() : numbers[c.twin[h]];
-          if (twin.valid()) known.twin[numbers[h]] = twin;
+          const HalfedgeId twin = numbers.empty() ? HalfedgeId() : numbers[c.twin[h].index()];
+          if (twin.valid()) known.twin[numbers[h.index()]] = twin;
           all = all && twin.valid();
         }
         if (!all) loose[chunk].push_back(VertexId{i});
@@ -327,16 +382,21 @@ class Canonical {
   }
 
   static constexpr std::uint32_t kChunk = 8192;  // vertices
+  static constexpr std::size_t kParts = 32;      // of a task
 
   PlaneTable planes_;
   std::span<const CanonicalPart> parts_;
   std::vector<CanonicalVertex> vertices_;
   unsigned threads_;
+  std::vector<std::array<double, 3>> places_;  // of vertices, until they are in order
+  std::vector<std::uint8_t> reducible_;        // coordinates of a vertex have common factors
   PointTable reduced_;
   std::vector<std::uint32_t> reduced_at_;  // of each vertex, or kNone; empty if all are reduced as they are
+  std::vector<RingsOfPatterns> rings_;     // of the parts
   std::vector<BareLine> lines_;            // in the order of the vertices
   std::vector<std::uint32_t> row_;         // of each plane in the result
-  std::vector<IndexedVector<HalfedgeId, HalfedgeId>> svertices_;  // numbers in the result; of each part that has twins
+  std::vector<std::size_t> first_number_;  // of each part in the list below
+  std::vector<HalfedgeId> numbers_;        // in the result, of the svertices of parts that have twins
 };
 
 }  // namespace

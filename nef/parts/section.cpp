@@ -31,7 +31,7 @@ class SectionReader {
 
  private:
   void add_polygon(const Facet& facet) {
-    for (const std::uint32_t corner : c_.corners_of(facet)) {
+    for (const SHalfedgeId corner : c_.corners_of(facet)) {
       if (is_box_vertex(c_, c_.shalfedge_vertex(corner))) {
         ++out_.unbounded;
         return;
@@ -43,7 +43,7 @@ class SectionReader {
     SectionPolygon polygon;
     for (const CycleId i : facet.cycles()) {
       std::vector<Rational3> ring;
-      for (const std::uint32_t corner : c_.corners_of(i)) {
+      for (const SHalfedgeId corner : c_.corners_of(i)) {
         ring.push_back(c_.points.rational(point_of(c_.shalfedge_vertex(corner))));
       }
       if (along < 0) std::reverse(ring.begin(), ring.end());

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "nef/base/union_find.h"
+#include "nef/polyhedron.h"
 #include "nef/query/predicates_of_sets.h"
 #include "nef/synthesis/complex_builder.h"
 

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "nef/polyhedron.h"
+#include "nef/forward.h"
 
 namespace nef {
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "nef/base/timing/phase_timer.h"
+#include "nef/polyhedron.h"
 #include "nef/program/set_info.h"
 
 namespace nef {

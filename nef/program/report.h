@@ -5,6 +5,7 @@
 
 #include <functional>
 
+#include "nef/polyhedron.h"
 #include "nef/program/session.h"
 
 namespace nef {

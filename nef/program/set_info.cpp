@@ -5,6 +5,7 @@
 #include <cctype>
 #include <cmath>
 
+#include "nef/polyhedron.h"
 #include "nef/query/measure.h"
 #include "nef/query/measures/approximate_volume.h"
 #include "nef/query/moments.h"

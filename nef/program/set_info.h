@@ -4,7 +4,8 @@
 #include <cstddef>
 #include <nlohmann/json.hpp>
 
-#include "nef/polyhedron.h"
+#include "nef/forward.h"
+#include "nef/number/number.h"
 
 namespace nef {
 

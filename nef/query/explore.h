@@ -33,7 +33,7 @@ void visit_cycles(const Polyhedron& a, FacetId facet, OnCycle&& cycle) {
   std::vector<VertexId> ring;
   for (const CycleId k : c.facets[facet].cycles()) {
     ring.clear();
-    for (const std::uint32_t corner : c.corners_of(k)) ring.push_back(c.shalfedge_vertex(corner));
+    for (const SHalfedgeId corner : c.corners_of(k)) ring.push_back(c.shalfedge_vertex(corner));
     cycle(std::span<const VertexId>(ring));
   }
 }

@@ -19,6 +19,7 @@
 #include "nef/complex/item_boxes.h"
 #include "nef/geometry/box_tree.h"
 #include "nef/location/facet_search.h"
+#include "nef/polyhedron.h"
 #include "nef/query/predicates_of_sets.h"
 
 namespace nef {
@@ -119,7 +120,7 @@ class CellGrid {
       if (is_box_facet(c_, f)) continue;
       const Facet& facet = c_.facets[f];
       Box box;
-      for (const std::uint32_t corner : c_.corners_of(facet)) box.add(vertex_box(c_, c_.shalfedge_vertex(corner)));
+      for (const SHalfedgeId corner : c_.corners_of(facet)) box.add(vertex_box(c_, c_.shalfedge_vertex(corner)));
       enter(box, &c_.planes.approximate(facet.plane));
     }
     for (const HalfedgeId h : c_.bare_edges()) {

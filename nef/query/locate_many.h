@@ -5,7 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "nef/polyhedron.h"
+#include "nef/forward.h"
+#include "nef/geometry/ids.h"
 
 namespace nef {
 

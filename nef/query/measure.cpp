@@ -33,7 +33,7 @@ class FacetRatio {
     const PlaneAxes axes(c_.planes, facet.plane);
     k_ = static_cast<std::size_t>(axes.first);
     m_ = static_cast<std::size_t>(axes.second);
-    const std::span<const std::uint32_t> corners = c_.corners_of(facet);
+    const std::span<const SHalfedgeId> corners = c_.corners_of(facet);
     if (corners.size() <= kSmall) {
       sum_small(corners);
     } else {
@@ -52,16 +52,16 @@ class FacetRatio {
   static constexpr std::size_t kSmall = 16;
 
   // Twice A_l over the least common denominator of the corners.
-  void sum_small(std::span<const std::uint32_t> corners) {
+  void sum_small(std::span<const SHalfedgeId> corners) {
     mpz_ptr common = scratch_.get_mpz_t();
     mpz_set_ui(common, 1);
-    for (const std::uint32_t corner : corners) {
+    for (const SHalfedgeId corner : corners) {
       const IntegerView w = c_.points.coordinate(point_of(c_.shalfedge_vertex(corner)), 3);
       if (mpz_divisible_p(common, w) == 0) mpz_lcm(common, common, w);
     }
     mpz_ptr sum = numerator.get_mpz_t();
     mpz_set_ui(sum, 0);
-    for (const std::uint32_t corner : corners) {
+    for (const SHalfedgeId corner : corners) {
       const PointId u = point_of(c_.shalfedge_vertex(corner));
       const PointId v = point_of(c_.target(c_.corner_halfedge(corner)));
       mpz_divexact(factor_.get_mpz_t(), common, c_.points.coordinate(u, 3));
@@ -74,9 +74,9 @@ class FacetRatio {
   }
 
   // The same edge by edge: the common denominator of many corners may be far too long.
-  void sum_large(std::span<const std::uint32_t> corners) {
+  void sum_large(std::span<const SHalfedgeId> corners) {
     RationalSum sum;
-    for (const std::uint32_t corner : corners) {
+    for (const SHalfedgeId corner : corners) {
       const PointId u = point_of(c_.shalfedge_vertex(corner));
       const PointId v = point_of(c_.target(c_.corner_halfedge(corner)));
       cross(u, v);
@@ -119,7 +119,7 @@ double times_root(const FacetRatio& ratio, const Integer& square) {
 }
 
 bool has_finite_vertices(const Complex& c, const Facet& facet) {
-  for (const std::uint32_t corner : c.corners_of(facet)) {
+  for (const SHalfedgeId corner : c.corners_of(facet)) {
     if (is_box_vertex(c, c.shalfedge_vertex(corner))) return false;
   }
   return true;

@@ -6,6 +6,7 @@
 #include "nef/query/moments.h"
 
 #include "nef/geometry/vectors.h"
+#include "nef/polyhedron.h"
 #include "nef/query/measure.h"
 #include "nef/query/measures/rational_sum.h"
 #include "nef/query/predicates_of_sets.h"
@@ -56,9 +57,9 @@ std::optional<Moments> moments(const Polyhedron& a) {
     const bool below = is_selected(c.volumes[facet.volume_below].mark);
     if (above == below) continue;
     // Cycles run counterclockwise as seen from above, so the sum is positive for a set that lies below.
-    const std::span<const std::uint32_t> corners = c.corners_of(facet);
+    const std::span<const SHalfedgeId> corners = c.corners_of(facet);
     const Rational3 apex = c.points.rational(point_of(c.shalfedge_vertex(corners.front())));
-    for (const std::uint32_t corner : corners) {
+    for (const SHalfedgeId corner : corners) {
       const VertexId u = c.shalfedge_vertex(corner);
       const VertexId v = c.target(c.corner_halfedge(corner));
       if (u == c.shalfedge_vertex(corners.front()) || v == c.shalfedge_vertex(corners.front())) continue;

@@ -6,7 +6,8 @@
 #include <array>
 #include <optional>
 
-#include "nef/polyhedron.h"
+#include "nef/forward.h"
+#include "nef/number/number.h"
 
 namespace nef {
 

@@ -12,6 +12,7 @@
 #include "nef/export/convert_openmesh.h"
 #include "nef/export/to_mesh.h"
 #include "nef/import/try_from_mesh.h"
+#include "nef/polyhedron.h"
 #include "nef/remeshing/collapse_edges.h"
 #include "nef/remeshing/sheets.h"
 #include "nef/remeshing/triangle_mesh.h"

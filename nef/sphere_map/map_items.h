@@ -13,8 +13,6 @@
 
 namespace nef {
 
-inline constexpr std::uint32_t kNone = 0xffffffffU;
-
 /// A point of the sphere: an edge of the complex as it leaves a vertex.
 struct SVertex {
   PlaneId p, q;                 ///< direction n_p x n_q

@@ -35,7 +35,7 @@ bool idle_corner(const SphereMapView& map) {
 void ComplexBuilder::reserve(std::size_t vertices, const VertexRecord& items, std::size_t limbs) {
   complex_.points.reserve(vertices, limbs);
   complex_.vertices.reserve(vertices + 1);
-  complex_.shalfedge_plane.pairs().reserve(items.shalfedges / 2);
+  complex_.shalfedge_plane.pairs().reserve(pair_of(items.shalfedges));
   complex_.other_planes.reserve(items.other_planes);
   complex_.sloops.reserve(items.sloops);
 }
@@ -203,7 +203,7 @@ void ComplexBuilder::copy_planes(const CopiedRun& run) {
   };
   const VertexRecord& begin = run.from->vertices[run.first];
   const VertexRecord& end = run.from->vertices[run.first + run.count];
-  copy_changed(run.from->shalfedge_plane.pairs(), begin.shalfedges / 2, end.shalfedges / 2,
+  copy_changed(run.from->shalfedge_plane.pairs(), pair_of(begin.shalfedges), pair_of(end.shalfedges),
                complex_.shalfedge_plane.pairs(), with_rows);
   copy_changed(run.from->other_planes, begin.other_planes, end.other_planes, complex_.other_planes, with_rows);
 }

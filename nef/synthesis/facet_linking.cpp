@@ -39,22 +39,22 @@ bool few(const Complex& c) { return c.shalfedge_count() < 1U << 15U; }  // one s
 struct LinkedFacets {
   FacetTable facets;
   std::vector<std::uint32_t> cycle_begin{0};
-  std::vector<std::uint32_t> corners;
+  std::vector<SHalfedgeId> corners;
   std::vector<VertexId> isolated_vertices;
 };
 
 /// Corners of facets and vertices inside facets, those of some planes.
 struct Share {
-  std::vector<std::uint32_t> corners;  // shalfedges whose planes are not flipped, ascending
-  std::vector<VertexId> isolated;      // ascending
-  std::uint32_t first_row = 0;         // of the planes
+  std::vector<SHalfedgeId> corners;  // shalfedges whose planes are not flipped, ascending
+  std::vector<VertexId> isolated;    // ascending
+  std::uint32_t first_row = 0;       // of the planes
   std::uint32_t end_row = 0;
 };
 
 class FacetLinker {
  public:
   /// `known` may be null. `done` has a place for each shalfedge, unset for those of the share.
-  FacetLinker(const Complex& complex, const KnownLinks* known, std::vector<std::uint8_t>& done)
+  FacetLinker(const Complex& complex, const KnownLinks* known, IndexedVector<SHalfedgeId, std::uint8_t>& done)
       : c_(complex), known_(known), done_(done) {}
 
   LinkedFacets run(const Share& share) {
@@ -67,33 +67,44 @@ class FacetLinker {
   }
 
  private:
-  std::uint32_t next_corner(std::uint32_t corner) const {
-    const HalfedgeId there = c_.twin[c_.corner_halfedge(corner)];
+  struct Corner {
+    SHalfedgeId shalfedge;
+    VertexId vertex;
+  };
+
+  // Reads patterns, not sphere maps: it is asked for every corner.
+  [[nodiscard]] Corner next(const Corner& corner) const {
+    const std::uint32_t local = corner.shalfedge - c_.vertices.shalfedges(corner.vertex);
+    const HalfedgeId ahead =
+        c_.vertices.svertices(corner.vertex) + c_.patterns.shalfedge(c_.vertices.pattern(corner.vertex), local).source;
+    const HalfedgeId there = c_.twin[ahead];
     const VertexId vertex = c_.source(there);
-    const SphereMapView map = c_.sphere_map(vertex);
-    const PlaneId wanted = c_.shalfedge_plane[corner].opposite();
-    const std::uint32_t first = map.svertices[there - c_.vertices[vertex].svertices].out;
+    const PatternId pattern = c_.vertices.pattern(vertex);
+    const SHalfedgeId base = c_.vertices.shalfedges(vertex);
+    const PlaneId wanted = c_.shalfedge_plane[corner.shalfedge].opposite();
+    const std::uint32_t first = c_.patterns.svertex(pattern, there - c_.vertices.svertices(vertex)).out;
     std::uint32_t e = first;
-    while (map.shalfedges[e].plane != wanted) {
-      e = map.next_around(e);
-      detail::require(e != first, "a facet goes on along its edges", {{"shalfedge", corner}});
+    while (c_.shalfedge_plane[base + e] != wanted) {
+      e = c_.patterns.shalfedge(pattern, e).prev ^ 1U;  // the next around the svertex
+      detail::require(e != first, "a facet goes on along its edges", {{"shalfedge", corner.shalfedge}});
     }
-    return c_.vertices[vertex].shalfedges + (e ^ 1U);
+    return {base + (e ^ 1U), vertex};
   }
 
-  void trace_cycles(std::span<const std::uint32_t> corners) {
+  void trace_cycles(std::span<const SHalfedgeId> corners) {
     traced_.reserve(corners.size());
-    for (const std::uint32_t first : corners) {
+    for (const SHalfedgeId first : corners) {
       if (done_[first] != 0) continue;
       CycleRecord cycle;
       cycle.row = c_.shalfedge_plane[first].row();
       cycle.first = static_cast<std::uint32_t>(traced_.size());
-      std::uint32_t corner = first;
-      for (; done_[corner] == 0; corner = next_corner(corner)) {
-        done_[corner] = 1;
-        traced_.push_back(corner);
+      Corner corner{first, c_.shalfedge_vertex(first)};
+      for (; done_[corner.shalfedge] == 0; corner = next(corner)) {
+        done_[corner.shalfedge] = 1;
+        traced_.push_back(corner.shalfedge);
       }
-      detail::require(corner == first, "cycles of facets are disjoint", {{"shalfedge", first}, {"shalfedge", corner}});
+      detail::require(corner.shalfedge == first, "cycles of facets are disjoint",
+                      {{"shalfedge", first}, {"shalfedge", corner.shalfedge}});
       cycle.count = static_cast<std::uint32_t>(traced_.size()) - cycle.first;
       cycles_.push_back(cycle);
     }
@@ -236,14 +247,14 @@ class FacetLinker {
   }
 
   void classify(CycleRecord& cycle, const PlaneAxes& axes) const {
-    const std::span<const std::uint32_t> corners(traced_.data() + cycle.first, cycle.count);
-    for (const std::uint32_t corner : corners) {
+    const std::span<const SHalfedgeId> corners(traced_.data() + cycle.first, cycle.count);
+    for (const SHalfedgeId corner : corners) {
       const VertexId v = c_.shalfedge_vertex(corner);
       if (v == cycle.lowest) continue;
       if (!cycle.lowest.valid() || axes.compare(c_.points, point_of(v), point_of(cycle.lowest)) < 0) cycle.lowest = v;
     }
     cycle.outer = true;
-    for (const std::uint32_t corner : corners) {
+    for (const SHalfedgeId corner : corners) {
       if (c_.shalfedge_vertex(corner) != cycle.lowest) continue;
       const HalfedgeId ahead = c_.corner_halfedge(corner);
       const HalfedgeId back = c_.corner_back_halfedge(corner);
@@ -259,7 +270,7 @@ class FacetLinker {
   // Completes facet_of for the holes, and appends the facets of the points.
   void nest(std::uint32_t row, std::span<const std::uint32_t> cycles,
             std::span<const std::pair<std::uint32_t, VertexId>> points, std::vector<std::uint32_t>& facet_of) const {
-    std::vector<std::uint32_t> corners;
+    std::vector<SHalfedgeId> corners;
     std::vector<std::uint32_t> cycle_of;  // of each corner, as a position in `cycles`
     std::vector<VertexId> lowest;         // vertices of holes and points
     std::vector<std::uint32_t> asking;    // their positions in facet_of
@@ -293,15 +304,15 @@ class FacetLinker {
     result_.isolated_vertices.insert(result_.isolated_vertices.end(), inside.begin(), inside.end());
   }
 
-  void add_cycle(std::span<const std::uint32_t> corners) {
+  void add_cycle(std::span<const SHalfedgeId> corners) {
     result_.corners.insert(result_.corners.end(), corners.begin(), corners.end());
     result_.cycle_begin.push_back(static_cast<std::uint32_t>(result_.corners.size()));
   }
 
   const Complex& c_;
   const KnownLinks* known_;
-  std::vector<std::uint8_t>& done_;
-  std::vector<std::uint32_t> traced_;
+  IndexedVector<SHalfedgeId, std::uint8_t>& done_;
+  std::vector<SHalfedgeId> traced_;
   std::vector<CycleRecord> cycles_;
   std::vector<std::pair<std::uint32_t, VertexId>> isolated_;  // (plane row, vertex)
   LinkedFacets result_;
@@ -313,13 +324,13 @@ Share everything(const Complex& c, const KnownLinks* known) {
   all.end_row = static_cast<std::uint32_t>(c.planes.size());
   if (known != nullptr) {
     all.corners = known->loose_corners;
-    std::erase_if(all.corners, [&c](std::uint32_t e) { return c.shalfedge_plane[e].flipped(); });
+    std::erase_if(all.corners, [&c](SHalfedgeId e) { return c.shalfedge_plane[e].flipped(); });
     all.isolated = known->loose_isolated;
     std::erase_if(all.isolated, [&c](VertexId v) { return c.vertices[v].sloops == c.vertices[v.next()].sloops; });
     return all;
   }
   all.corners.reserve(c.shalfedge_count() / 2);
-  for (std::uint32_t e = 0; e < c.shalfedge_count(); ++e) {
+  for (const SHalfedgeId e : c.shalfedge_ids()) {
     if (!c.shalfedge_plane[e].flipped()) all.corners.push_back(e);
   }
   for (const VertexId v : c.vertex_ids()) {
@@ -330,9 +341,10 @@ Share everything(const Complex& c, const KnownLinks* known) {
 
 std::vector<Share> shares_of(const Complex& c, unsigned threads) {
   const std::size_t rows = (c.planes.size() + kShares - 1) / kShares;
-  auto corners = shared_out<std::uint32_t>(c.shalfedge_count(), threads, [&](std::size_t e, const auto& put) {
+  auto corners = shared_out<SHalfedgeId>(c.shalfedge_count(), threads, [&](std::size_t i, const auto& put) {
+    const SHalfedgeId e{i};
     const PlaneId plane = c.shalfedge_plane[e];
-    if (!plane.flipped()) put(plane.row() / rows, static_cast<std::uint32_t>(e));
+    if (!plane.flipped()) put(plane.row() / rows, e);
   });
   std::vector<Share> shares(kShares);
   for (std::size_t s = 0; s < kShares; ++s) {
@@ -389,8 +401,8 @@ void name_facets(Complex& c, unsigned threads) {
   parallel_for(tasks, threads, [&](std::size_t k) {
     const FacetId end{std::min((k + 1) * range, c.facets.size())};
     for (FacetId f{k * range}; f < end; ++f) {
-      const std::span<const std::uint32_t> corners = c.corners_of(f);
-      for (const std::uint32_t corner : corners) c.shalfedge_facet.set(corner, halffacet_of(f, false));
+      const std::span<const SHalfedgeId> corners = c.corners_of(f);
+      for (const SHalfedgeId corner : corners) c.shalfedge_facet.set(corner, halffacet_of(f, false));
       for (const VertexId v : c.isolated_vertices_of(c.facets[f])) {
         const std::uint32_t loop = c.vertices[v].sloops;
         for (std::uint32_t l = loop; l < loop + 2; ++l) {
@@ -408,7 +420,7 @@ void link(Complex& c, const KnownLinks* known, unsigned threads) {
   } else {
     shares = shares_of(c, threads);
   }
-  std::vector<std::uint8_t> done(c.shalfedge_count(), 0);
+  IndexedVector<SHalfedgeId, std::uint8_t> done(c.shalfedge_count(), 0);
   std::vector<LinkedFacets> parts(shares.size());
   parallel_for(shares.size(), threads,
                [&](std::size_t s) { parts[s] = FacetLinker(c, known, done).run(std::exchange(shares[s], {})); });

@@ -19,13 +19,13 @@ struct KnownLinks {
 
   std::vector<Facet> facets;  ///< in the order of their planes; only planes and ranges are set
   IndexedVector<CycleId, std::uint32_t> cycle_begin{0};  ///< of the cycles of these facets
-  std::vector<std::uint32_t> corners;                    ///< of these cycles, each cycle from its smallest corner on
+  std::vector<SHalfedgeId> corners;                      ///< of these cycles, each cycle from its smallest corner on
   std::vector<VertexId> isolated_vertices;               ///< inside these facets
   std::vector<std::uint32_t>
       mixed_rows;  ///< of planes whose facets come from several complexes: their order is not known
 
-  std::vector<std::uint32_t> loose_corners;  ///< the corners of all other facets, ascending
-  std::vector<VertexId> loose_isolated;      ///< the vertices inside other facets
+  std::vector<SHalfedgeId> loose_corners;  ///< the corners of all other facets, ascending
+  std::vector<VertexId> loose_isolated;    ///< the vertices inside other facets
 };
 
 }  // namespace nef

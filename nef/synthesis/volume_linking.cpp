@@ -66,11 +66,11 @@ class VolumeLinker {
   void join_sfaces_of(IdRange<FacetId> facets, UnionFind& sets) const {
     for (const FacetId id : facets) {
       const Facet& facet = c_.facets[id];
-      const std::span<const std::uint32_t> corners = c_.corners_of(facet);
+      const std::span<const SHalfedgeId> corners = c_.corners_of(facet);
       const auto first = c_.shalfedge_sfaces(corners[0]);
       std::uint32_t above = sets.find(first[0].index());
       std::uint32_t below = sets.find(first[1].index());
-      for (const std::uint32_t corner : corners.subspan(1)) {
+      for (const SHalfedgeId corner : corners.subspan(1)) {
         const auto sfaces = c_.shalfedge_sfaces(corner);
         above = join(sets, above, sfaces[0]);
         below = join(sets, below, sfaces[1]);
@@ -225,8 +225,8 @@ class VolumeLinker {
       detail::require(hit->sface.valid(), "a ray comes out of a volume", {{"vertex", v}});
       return hit->sface;
     }
-    const std::uint32_t corner = c_.corners_of(facet_of(hit->halffacet()))[0];
-    return c_.shalfedge_sface(corner ^ (is_below(hit->halffacet()) ? 1U : 0U));
+    const SHalfedgeId corner = c_.corners_of(facet_of(hit->halffacet()))[0];
+    return c_.shalfedge_sfaces(corner)[is_below(hit->halffacet()) ? 1 : 0];
   }
 
   void number_volumes() {
@@ -274,11 +274,7 @@ class VolumeLinker {
     parallel_for_ranges(c_.sface_count(), kTogether, threads_, [&](std::size_t first, std::size_t last) {
       for (const SFaceId f : IdRange(SFaceId{first}, SFaceId{last})) c_.sface_shell[f] = shell_of[root(f)];
     });
-    std::vector<FacetSides> sides(c_.facets.size());
-    parallel_for_ranges(sides.size(), kTogether, threads_, [&](std::size_t first, std::size_t last) {
-      for (std::size_t f = first; f < last; ++f) sides[f] = sides_of_facet(c_, FacetId{f});
-    });
-    c_.facets.assign_sides(sides);
+    name_sides_of_facets(c_, threads_);
   }
 
   Complex& c_;

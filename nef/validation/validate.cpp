@@ -20,7 +20,7 @@ void check_pattern(const Complex& c, const VertexRecord& a, const VertexRecord& 
   const SphereMapView map = c.patterns.view(a.pattern);
   const std::uint32_t pairs = (b.shalfedges - a.shalfedges) / 2;
   require(map.svertices.size() == b.svertices - a.svertices && map.shalfedges.size() == 2 * std::size_t{pairs} &&
-              map.sfaces.size() == b.sfaces - a.sfaces && a.shalfedges % 2 == 0,
+              map.sfaces.size() == b.sfaces - a.sfaces && !is_odd(a.shalfedges),
           "vertices have as many items as their patterns", {{"vertex", v}});
   const std::uint32_t planes = pairs + b.other_planes - a.other_planes;
   for (const SVertex& s : map.svertices) {
@@ -35,7 +35,7 @@ void check_array_sizes(const Complex& c) {
   require(c.points.size() == c.vertex_count(), "one point for each vertex",
           {{"points", c.points.size()}, {"vertices", c.vertex_count()}});
   const VertexRecord& last = c.vertices.back();
-  require(last.shalfedges == c.shalfedge_plane.size() && last.sloops == c.sloops.size() &&
+  require(last.shalfedges.index() == c.shalfedge_plane.size() && last.sloops == c.sloops.size() &&
               last.other_planes == c.other_planes.size(),
           "the sentinel ends all sphere items", {});
   require(c.svertex_owner.size() == c.svertex_count() && c.twin.size() == c.svertex_count() &&
@@ -44,8 +44,10 @@ void check_array_sizes(const Complex& c) {
               c.sface_shell.size() == c.sface_count(),
           "columns of synthesis are parallel to the sphere items", {});
   const VertexRecord& first = c.vertices.front();
-  require(first.svertices.index() + first.shalfedges + first.sloops + first.sfaces.index() + first.other_planes == 0,
-          "the first vertex begins at zero", {});
+  require(
+      first.svertices.index() + first.shalfedges.index() + first.sloops + first.sfaces.index() + first.other_planes ==
+          0,
+      "the first vertex begins at zero", {});
   for (const VertexId v : c.vertex_ids()) {
     const VertexRecord& a = c.vertices[v];
     const VertexRecord& b = c.vertices[v.next()];
@@ -65,8 +67,8 @@ void check_owners(const Complex& c) {
     };
     require(owned(c.svertex_owner.values(), a.svertices.index(), b.svertices.index()), "svertices know their vertex",
             {{"vertex", v}});
-    require(c.pair_owner.empty() ? c.shalfedge_count() == 0 || a.svertices.index() == a.shalfedges / 2
-                                 : owned(c.pair_owner, a.shalfedges / 2, b.shalfedges / 2),
+    require(c.pair_owner.empty() ? c.shalfedge_count() == 0 || a.svertices.index() == pair_of(a.shalfedges)
+                                 : owned(c.pair_owner, pair_of(a.shalfedges), pair_of(b.shalfedges)),
             "shalfedges know their vertex", {{"vertex", v}});
   }
 }
@@ -163,7 +165,7 @@ void check_marks(const Complex& c) {
     }
   }
   for (const HalfedgeId h : c.halfedge_ids()) require(known(c.svertex(h).mark), name, {{"halfedge", h}});
-  for (std::size_t e = 0; e < c.shalfedge_count(); ++e) require(known(c.shalfedge(e).mark), name, {{"shalfedge", e}});
+  for (const SHalfedgeId e : c.shalfedge_ids()) require(known(c.shalfedge(e).mark), name, {{"shalfedge", e}});
   for (std::size_t l = 0; l < c.sloops.size(); ++l) require(known(c.sloops[l].mark), name, {{"sloop", l}});
   for (const FacetId f : c.facets.ids()) require(known(c.facets[f].mark), name, {{"facet", f}});
   for (const VolumeId v : c.volumes.ids()) require(known(c.volumes[v].mark), name, {{"volume", v}});

@@ -37,38 +37,38 @@ void check_facet_ranges(const Complex& c) {
   }
 }
 
-void check_corner(const Complex& c, FacetId f, std::uint32_t corner) {
+void check_corner(const Complex& c, FacetId f, SHalfedgeId corner) {
   const Facet& facet = c.facets[f];
-  require(corner < c.shalfedge_count(), "corners are shalfedges", {{"facet", f}, {"corner", corner}});
+  require(corner.index() < c.shalfedge_count(), "corners are shalfedges", {{"facet", f}, {"corner", corner}});
   const SHalfedge& e = c.shalfedge(corner);
   require(e.plane == facet.plane, "corners lie in the plane of their facet", {{"facet", f}, {"shalfedge", corner}});
   require(e.mark == facet.mark, "corners have the mark of their facet", {{"facet", f}, {"shalfedge", corner}});
-  require(
-      c.shalfedge_facet[corner] == halffacet_of(f, false) && c.shalfedge_facet[corner ^ 1U] == halffacet_of(f, true),
-      "shalfedges know their halffacet", {{"facet", f}, {"shalfedge", corner}});
+  require(c.shalfedge_facet[corner] == halffacet_of(f, false) &&
+              c.shalfedge_facet[twin_of(corner)] == halffacet_of(f, true),
+          "shalfedges know their halffacet", {{"facet", f}, {"shalfedge", corner}});
   require(c.sface_volume(c.shalfedge_sface(corner)) == facet.volume_above &&
-              c.sface_volume(c.shalfedge_sface(corner ^ 1U)) == facet.volume_below,
+              c.sface_volume(c.shalfedge_sface(twin_of(corner))) == facet.volume_below,
           "a facet has one volume on each side", {{"facet", f}, {"shalfedge", corner}});
 }
 
 void check_cycles(const Complex& c) {
-  std::vector<bool> met(c.shalfedge_count(), false);
+  IndexedVector<SHalfedgeId, bool> met(c.shalfedge_count(), false);
   for (const FacetId f : c.facets.ids()) {
     for (const CycleId k : c.facets[f].cycles()) {
-      const std::span<const std::uint32_t> cycle = c.corners_of(k);
+      const std::span<const SHalfedgeId> cycle = c.corners_of(k);
       for (std::size_t i = 0; i < cycle.size(); ++i) {
-        const std::uint32_t corner = cycle[i];
+        const SHalfedgeId corner = cycle[i];
         check_corner(c, f, corner);
         require(!met[corner], "a corner belongs to one cycle", {{"facet", f}, {"shalfedge", corner}});
-        met[corner] = met[corner ^ 1U] = true;
-        const std::uint32_t following = cycle[(i + 1) % cycle.size()];
-        require(
-            following < c.shalfedge_count() && c.twin[c.corner_halfedge(corner)] == c.corner_back_halfedge(following),
-            "cycles follow edges", {{"facet", f}, {"shalfedge", corner}, {"shalfedge", following}});
+        met[corner] = met[twin_of(corner)] = true;
+        const SHalfedgeId following = cycle[(i + 1) % cycle.size()];
+        require(following.index() < c.shalfedge_count() &&
+                    c.twin[c.corner_halfedge(corner)] == c.corner_back_halfedge(following),
+                "cycles follow edges", {{"facet", f}, {"shalfedge", corner}, {"shalfedge", following}});
       }
     }
   }
-  for (std::size_t e = 0; e < met.size(); ++e) require(met[e], "every shalfedge is a corner", {{"shalfedge", e}});
+  for (const SHalfedgeId e : c.shalfedge_ids()) require(met[e], "every shalfedge is a corner", {{"shalfedge", e}});
 }
 
 void check_isolated_vertices(const Complex& c) {
@@ -121,7 +121,7 @@ void check_cycle_nesting(const Complex& c) {
     for (std::uint32_t k = 0; k < facet.cycle_count; ++k) {
       const CycleId cycle = facet.cycles()[k];
       cycles.push_back(cycle_points(c, points, cycle));
-      for (const std::uint32_t corner : c.corners_of(cycle)) {
+      for (const SHalfedgeId corner : c.corners_of(cycle)) {
         boxes[k].add_rounded(c.points.approximate(point_of(c.shalfedge_vertex(corner))));
       }
       const int area = projection.sign * sgn(doubled_area(cycles[k], projection.axis));

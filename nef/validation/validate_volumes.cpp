@@ -59,7 +59,7 @@ void check_connection(const Complex& c) {
       sfaces.unite(of_halffacet[halffacet].index(), sface.index());
     }
   };
-  for (std::uint32_t e = 0; e < c.shalfedge_count(); ++e) meet(c.shalfedge_facet[e], c.shalfedge_sface(e));
+  for (const SHalfedgeId e : c.shalfedge_ids()) meet(c.shalfedge_facet[e], c.shalfedge_sface(e));
   for (const VertexId v : c.vertex_ids()) {
     for (std::uint32_t i = c.vertices[v].sloops; i < c.vertices[v.next()].sloops; ++i) {
       meet(c.sloop_facet[i], c.vertices[v].sfaces + c.sloops[i].sface);
@@ -147,7 +147,7 @@ struct Targets {
 Targets targets_of(const Complex& c) {
   std::vector<Box> boxes(c.facets.size());
   for (const FacetId f : c.facets.ids()) {
-    for (const std::uint32_t corner : c.corners_of(f)) {
+    for (const SHalfedgeId corner : c.corners_of(f)) {
       boxes[f.index()].add_rounded(c.points.approximate(point_of(c.shalfedge_vertex(corner))));
     }
   }

@@ -64,7 +64,7 @@ class SceneBuilder {
     std::vector<std::vector<std::uint32_t>> rings;
     for (const CycleId i : facet.cycles()) {
       std::vector<std::uint32_t>& ring = rings.emplace_back();
-      for (const std::uint32_t corner : complex_.corners_of(i)) {
+      for (const SHalfedgeId corner : complex_.corners_of(i)) {
         ring.push_back(number_[complex_.shalfedge_vertex(corner)]);
         if (ring.back() == kUnused) return {};
       }

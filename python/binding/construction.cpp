@@ -8,6 +8,7 @@
 #include "binding/meshes.h"
 #include "nef/construct/construct.h"
 #include "nef/io/polyhedron_file.h"
+#include "nef/polyhedron.h"
 #include "nef/program/expression/expression.h"
 
 namespace nef::python {

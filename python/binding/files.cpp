@@ -11,6 +11,7 @@
 #include "nef/export/to_mesh.h"
 #include "nef/io/native/native_format.h"
 #include "nef/io/polyhedron_file.h"
+#include "nef/polyhedron.h"
 
 namespace nef::python {
 std::string path_text(py::handle path) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "binding/base/bindings.h"
 #include "binding/base/errors.h"
+#include "nef/polyhedron.h"
 
 PYBIND11_MODULE(_nef, module) {
   module.doc() = "The core of the package nef; see there.";

@@ -7,6 +7,7 @@
 #include "binding/base/bindings.h"
 #include "binding/base/set_hash.h"
 #include "nef/parts/split.h"
+#include "nef/polyhedron.h"
 
 namespace nef::python {
 AffineMap map_from(py::handle matrix) {

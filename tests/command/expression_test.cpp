@@ -5,6 +5,7 @@
 
 #include <array>
 
+#include "nef/polyhedron.h"
 #include "nef/program/expression/expression.h"
 #include "nef/program/numbers.h"
 

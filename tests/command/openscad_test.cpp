@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "command/process.h"
+#include "nef/polyhedron.h"
 #include "nef/program/expression/openscad.h"
 
 namespace nef::test {

@@ -14,6 +14,7 @@
 #include "nef/io/mesh/mesh_reader.h"
 #include "nef/io/mesh/mesh_writer.h"
 #include "nef/io/polyhedron_file.h"
+#include "nef/polyhedron.h"
 #include "support/temporary_folder.h"
 
 namespace nef::test {

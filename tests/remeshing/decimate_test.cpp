@@ -6,6 +6,7 @@
 #include <set>
 
 #include "nef/io/mesh/mesh_reader.h"
+#include "nef/polyhedron.h"
 #include "nef/query/measure.h"
 #include "tests/support/paths.h"
 

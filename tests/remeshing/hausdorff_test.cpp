@@ -8,6 +8,7 @@
 #include "nef/base/error.h"
 #include "nef/construct/construct.h"
 #include "nef/distance/distance.h"
+#include "nef/polyhedron.h"
 
 namespace nef {
 namespace {

@@ -9,6 +9,7 @@
 #include "nef/base/error.h"
 #include "nef/export/to_mesh.h"
 #include "nef/number/nearest_quotient.h"
+#include "nef/polyhedron.h"
 #include "nef/query/measure.h"
 
 namespace nef {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "nef/construct/construct.h"
+#include "nef/polyhedron.h"
 
 namespace nef::test {
 

@@ -15,6 +15,7 @@
 #include "nef/base/timing/stopwatch.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/polyhedron_file.h"
+#include "nef/polyhedron.h"
 #include "nef/program/numbers.h"
 #include "nef/program/progress_bar.h"
 #include "nef/program/report.h"

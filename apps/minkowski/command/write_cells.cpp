@@ -10,6 +10,7 @@
 
 #include "nef/io/file_bytes.h"
 #include "nef/io/polyhedron_file.h"
+#include "nef/polyhedron.h"
 
 namespace nef::minkowski {
 namespace {

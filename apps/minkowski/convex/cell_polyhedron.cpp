@@ -12,6 +12,7 @@
 #include "nef/base/error.h"
 #include "nef/complex/rewrite_sphere_maps.h"
 #include "nef/construct/solid.h"
+#include "nef/polyhedron.h"
 
 namespace nef::minkowski {
 namespace {

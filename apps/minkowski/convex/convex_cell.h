@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "nef/construct/construct.h"
-#include "nef/polyhedron.h"
+#include "nef/forward.h"
 
 namespace nef::minkowski {
 

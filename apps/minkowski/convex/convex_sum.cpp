@@ -14,6 +14,7 @@
 #include "apps/minkowski/convex/flat_sum.h"
 #include "apps/minkowski/convex/normal_diagram.h"
 #include "nef/base/error.h"
+#include "nef/base/id.h"
 
 namespace nef::minkowski {
 namespace {
@@ -217,12 +218,9 @@ int compare_turn(const NormalDiagram& q, std::uint32_t c, std::uint32_t d, const
   // A dot product is at most 3 and within 3.1 (e + e') + 16u (see sign_of_dot); each of the two
   // products of them is then within 6.2 times that, rounding included.
   const double error = 3.1 * (std::max(u.error, v.error) + std::max(n1.error, n2.error)) + 0x1p-49;
-  const int signs = q.sign_of(c) * q.sign_of(d);
-  if (std::fabs(value) > 14 * error) {
-    ++predicate_counts().filter;
-    return value > 0 ? -signs : signs;
-  }
-  return -signs * sign_of_dot(Direction::cross(u, v), Direction::cross(n1, n2));
+  const int sign = sign_by_ladder({value, 14 * error},
+                                  [&] { return sign_of_dot(Direction::cross(u, v), Direction::cross(n1, n2)); });
+  return -q.sign_of(c) * q.sign_of(d) * sign;
 }
 
 // What happens next at vertex v of q, extreme at some direction between n1 and n2, as the direction turns on to n2.

@@ -9,6 +9,7 @@
 #include "nef/construct/convex_hull.h"
 #include "nef/construct/planar_hull.h"
 #include "nef/geometry/vectors.h"
+#include "nef/polyhedron.h"
 
 namespace nef::minkowski {
 namespace {

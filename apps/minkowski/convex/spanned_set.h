@@ -5,7 +5,8 @@
 
 #include <vector>
 
-#include "nef/polyhedron.h"
+#include "nef/forward.h"
+#include "nef/number/number.h"
 
 namespace nef::minkowski {
 

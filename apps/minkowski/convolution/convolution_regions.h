@@ -12,7 +12,7 @@
 #include "apps/minkowski/convolution/marks/interlock.h"
 #include "apps/minkowski/convolution/marks/sum_membership.h"
 #include "nef/base/defect.h"
-#include "nef/polyhedron.h"
+#include "nef/forward.h"
 
 namespace nef::minkowski {
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "nef/polyhedron.h"
+#include "nef/forward.h"
 
 namespace nef::minkowski {
 

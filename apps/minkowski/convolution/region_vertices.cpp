@@ -267,6 +267,8 @@ void VertexFinder::add_points_of(const FacetSegment& s, const SegmentCut& cut) {
 std::uint32_t VertexFinder::nearest(const FacetSegment& s, const SegmentCut& cut, bool last) const {
   const std::size_t axis = main_axis(s);
   const double length = s.to[axis] - s.from[axis];
+  // Below, t is off by the errors of a point and of both ends, each at most that of the segment, and by a few roundings
+  // of numbers of at most about 1; the cut's range has room for its own.
   const double doubt = 4 * s.error / std::fabs(length) + 1e-12;
   const bool up = length > 0;
   std::uint32_t best = kNone;

@@ -62,7 +62,7 @@ void CellReader::collect_items(VolumeId volume) {
   };
   for (const FacetId f : facets_) {
     const Facet& facet = complex_.facets[f];
-    for (const std::uint32_t c : complex_.corners_of(facet)) {
+    for (const SHalfedgeId c : complex_.corners_of(facet)) {
       add_vertex(complex_.shalfedge_vertex(c));
       const HalfedgeId forth = complex_.corner_halfedge(c);
       const HalfedgeId h = complex_.edge(forth);
@@ -104,7 +104,7 @@ CellReader::Carriers CellReader::carriers(const ConvexCell& cell) const {
   for (const FacetId f : facets_) {
     const auto corners = complex_.corners_of(f);
     Faces faces = result.of_vertex[local_[complex_.shalfedge_vertex(corners[0])]];
-    for (const std::uint32_t c : corners) faces = common(faces, result.of_vertex[local_[complex_.shalfedge_vertex(c)]]);
+    for (const SHalfedgeId c : corners) faces = common(faces, result.of_vertex[local_[complex_.shalfedge_vertex(c)]]);
     NEF_ASSERT(faces.size() == 1);
     result.of_facet.push_back(std::move(faces));
   }
@@ -200,7 +200,7 @@ void CellReader::count_planes(std::span<const FacetId> by_plane) {
       last_plane[local_[v]] = facet.plane.row();
       ++planes_at_[local_[v]];
     };
-    for (const std::uint32_t c : complex_.corners_of(facet)) meet(complex_.shalfedge_vertex(c));
+    for (const SHalfedgeId c : complex_.corners_of(facet)) meet(complex_.shalfedge_vertex(c));
     for (const VertexId v : complex_.isolated_vertices_of(facet)) meet(v);
   }
 }
@@ -209,14 +209,14 @@ void CellReader::count_planes(std::span<const FacetId> by_plane) {
 std::vector<VertexId> CellReader::outline(std::span<const FacetId> facets) const {
   std::vector<VertexId> ring;
   if (facets.size() == 1 && complex_.facets[facets[0]].cycle_count == 1) {
-    for (const std::uint32_t c : complex_.corners_of(facets[0])) {
+    for (const SHalfedgeId c : complex_.corners_of(facets[0])) {
       ring.push_back(complex_.shalfedge_vertex(c));
     }
     return ring;
   }
   std::map<HalfedgeId, VertexId> open;  // halfedge -> its source, if its twin has not come yet
   for (const FacetId f : facets) {
-    for (const std::uint32_t c : complex_.corners_of(f)) {
+    for (const SHalfedgeId c : complex_.corners_of(f)) {
       const HalfedgeId h = complex_.corner_halfedge(c);
       if (open.erase(complex_.twin[h]) == 0) open.emplace(h, complex_.shalfedge_vertex(c));
     }

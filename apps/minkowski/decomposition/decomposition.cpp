@@ -10,6 +10,7 @@
 #include "apps/minkowski/decomposition/walls.h"
 #include "apps/minkowski/minkowski.h"
 #include "nef/base/error.h"
+#include "nef/polyhedron.h"
 #include "nef/query/predicates_of_sets.h"
 
 namespace nef::minkowski {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "apps/minkowski/convex/convex_cell.h"
-#include "nef/polyhedron.h"
+#include "nef/forward.h"
 
 namespace nef::minkowski {
 

@@ -143,7 +143,7 @@ bool PlaneSlicer::holds(FacetId facet, const std::array<Rational, 2>& p) {
   const std::size_t i = (drop + 1) % 3;
   const std::size_t j = (drop + 2) % 3;
   bool inside = false;
-  for (const std::uint32_t c : complex_.corners_of(f)) {
+  for (const SHalfedgeId c : complex_.corners_of(f)) {
     const Rational3& a = point(complex_.shalfedge_vertex(c));
     const Rational3& b = point(complex_.target(complex_.corner_halfedge(c)));
     if ((a[i] > x[i]) == (b[i] > x[i])) continue;
@@ -158,7 +158,7 @@ void PlaneSlicer::add_facet(FacetId facet) {
   bool off = false;
   bool positive = false;
   bool negative = false;
-  for (const std::uint32_t c : corners) {
+  for (const SHalfedgeId c : corners) {
     const int s = side(complex_.shalfedge_vertex(c));
     off = off || s != 0;
     positive = positive || s >= 0;
@@ -167,7 +167,7 @@ void PlaneSlicer::add_facet(FacetId facet) {
   if (!(positive && negative)) return;
 
   std::vector<std::array<Rational, 2>> hits;
-  for (const std::uint32_t c : corners) {
+  for (const SHalfedgeId c : corners) {
     const VertexId a = complex_.shalfedge_vertex(c);
     const VertexId b = complex_.target(complex_.corner_halfedge(c));
     const int sa = side(a);

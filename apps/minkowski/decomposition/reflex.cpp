@@ -119,7 +119,7 @@ std::vector<ReflexCorner> reflex_corners(const Complex& complex, FacetId facet) 
   for (const VertexId v : complex.isolated_vertices_of(f)) {
     result.push_back({v, {true, true}});
   }
-  for (const std::uint32_t corner : complex.corners_of(f)) {
+  for (const SHalfedgeId corner : complex.corners_of(f)) {
     const HalfedgeId forth = complex.corner_halfedge(corner);
     const HalfedgeId back = complex.corner_back_halfedge(corner);
     const auto direction = [&](HalfedgeId h) {

@@ -13,6 +13,7 @@
 #include "apps/minkowski/decomposition/wall_builder.h"
 #include "nef/base/error.h"
 #include "nef/construct/construct.h"
+#include "nef/polyhedron.h"
 
 namespace nef::minkowski {
 namespace {
@@ -91,7 +92,7 @@ class FacetRays {
  public:
   FacetRays(const Complex& complex, FacetId facet) : facet_(complex.facets[facet]) {
     while (complex.planes.coefficient(facet_.plane, drop_).sign() == 0) ++drop_;
-    for (const std::uint32_t c : complex.corners_of(facet_)) {
+    for (const SHalfedgeId c : complex.corners_of(facet_)) {
       edges_.push_back({complex.points.rational(point_of(complex.shalfedge_vertex(c))),
                         complex.points.rational(point_of(complex.target(complex.corner_halfedge(c))))});
     }

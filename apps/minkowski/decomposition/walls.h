@@ -8,7 +8,8 @@
 #include <cstdint>
 #include <span>
 
-#include "nef/polyhedron.h"
+#include "nef/complex/ids.h"
+#include "nef/forward.h"
 
 namespace nef::minkowski {
 

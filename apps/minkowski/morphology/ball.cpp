@@ -5,6 +5,7 @@
 #include "apps/minkowski/convex/tools.h"
 #include "apps/minkowski/morphology.h"
 #include "nef/base/error.h"
+#include "nef/polyhedron.h"
 
 namespace nef::minkowski {
 namespace {

@@ -8,6 +8,7 @@
 #include "apps/minkowski/morphology.h"
 #include "nef/base/union_find.h"
 #include "nef/complex/rewrite_sphere_maps.h"
+#include "nef/polyhedron.h"
 
 namespace nef::minkowski {
 namespace {
@@ -55,7 +56,7 @@ class Connection {
   void for_each_at(VertexId v, Visit&& visit) const {
     visit(of_vertex(v));
     for (const HalfedgeId h : c_.halfedges(v)) visit(of_edge(h));
-    for (std::uint32_t e = c_.vertices[v].shalfedges; e < c_.vertices[v.next()].shalfedges; ++e) {
+    for (const SHalfedgeId e : c_.shalfedges(v)) {
       visit(of_facet(facet_of(c_.shalfedge_facet[e])));
     }
     for (std::uint32_t l = c_.vertices[v].sloops; l < c_.vertices[v.next()].sloops; ++l) {
@@ -73,7 +74,7 @@ class Connection {
 
   void connect_at(VertexId v) {
     for_each_at(v, [&](std::uint32_t item) { join(of_vertex(v), item); });
-    for (std::uint32_t e = c_.vertices[v].shalfedges; e < c_.vertices[v.next()].shalfedges; ++e) {
+    for (const SHalfedgeId e : c_.shalfedges(v)) {
       const std::uint32_t edge = of_edge(c_.corner_halfedge(e));
       join(edge, of_facet(facet_of(c_.shalfedge_facet[e])));
       join(edge, of_volume(c_.sface_volume(c_.shalfedge_sface(e))));

@@ -4,6 +4,7 @@
 #include "apps/minkowski/decomposition/decomposition.h"
 #include "nef/base/error.h"
 #include "nef/construct/construct.h"
+#include "nef/polyhedron.h"
 
 namespace nef::minkowski {
 namespace {

@@ -6,6 +6,7 @@
 #include "apps/minkowski/morphology.h"
 #include "nef/base/error.h"
 #include "nef/geometry/vectors.h"
+#include "nef/polyhedron.h"
 
 namespace nef::minkowski {
 namespace {

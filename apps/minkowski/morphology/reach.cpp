@@ -2,6 +2,7 @@
 #include "apps/minkowski/decomposition/decomposition.h"
 #include "apps/minkowski/morphology.h"
 #include "nef/base/error.h"
+#include "nef/polyhedron.h"
 
 namespace nef::minkowski {
 

@@ -8,6 +8,7 @@
 #include "apps/minkowski/minkowski.h"
 #include "nef/base/union_find.h"
 #include "nef/complex/rewrite_sphere_maps.h"
+#include "nef/polyhedron.h"
 
 namespace nef::minkowski {
 namespace {

@@ -16,6 +16,7 @@
 #include "nef/base/error.h"
 #include "nef/base/timing/phase_timer.h"
 #include "nef/construct/construct.h"
+#include "nef/polyhedron.h"
 
 namespace nef::minkowski {
 namespace {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "apps/minkowski/sum/pair_sums.h"
+#include "nef/polyhedron.h"
 
 namespace nef::minkowski {
 

@@ -7,6 +7,7 @@
 #include "apps/minkowski/convolution/convolution_sum.h"
 #include "apps/minkowski/sum/work_progress.h"
 #include "nef/base/timing/phase_timer.h"
+#include "nef/polyhedron.h"
 
 namespace nef::minkowski {
 namespace {

@@ -18,6 +18,7 @@
 #include "nef/base/threads/parallel.h"
 #include "nef/base/timing/phase_timer.h"
 #include "nef/construct/construct.h"
+#include "nef/polyhedron.h"
 
 namespace nef::minkowski {
 namespace {
@@ -81,7 +82,7 @@ class SpanReader {
       facets_of_volume_[facet.volume_above].push_back(f);
       if (facet.volume_below != facet.volume_above) facets_of_volume_[facet.volume_below].push_back(f);
       if (!c_.planes.infimaximal(facet.plane)) continue;
-      for (const std::uint32_t corner : c_.corners_of(facet)) on_box_[edge(c_.corner_halfedge(corner))] = true;
+      for (const SHalfedgeId corner : c_.corners_of(facet)) on_box_[edge(c_.corner_halfedge(corner))] = true;
     }
   }
 
@@ -165,7 +166,7 @@ class SpanReader {
   void add_facet(FacetId f) {
     const Facet& facet = c_.facets[f];
     bool bounded_by_edges = false;
-    for (const std::uint32_t corner : c_.corners_of(facet)) {
+    for (const SHalfedgeId corner : c_.corners_of(facet)) {
       const HalfedgeId h = edge(c_.corner_halfedge(corner));
       add_vertex(c_.shalfedge_vertex(corner));
       if (on_box_[h]) continue;

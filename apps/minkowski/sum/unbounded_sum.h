@@ -6,7 +6,7 @@
 
 #include "apps/minkowski/convex/spanned_set.h"
 #include "apps/minkowski/minkowski.h"
-#include "nef/polyhedron.h"
+#include "nef/forward.h"
 
 namespace nef::minkowski {
 

@@ -22,6 +22,7 @@
 #include "apps/minkowski/union/union_vertices.h"
 #include "apps/minkowski/union/visible_faces.h"
 #include "nef/base/error.h"
+#include "nef/polyhedron.h"
 
 namespace nef::minkowski {
 namespace {

@@ -12,7 +12,7 @@
 #include <span>
 
 #include "apps/minkowski/convex/convex_cell.h"
-#include "nef/polyhedron.h"
+#include "nef/forward.h"
 
 namespace nef::minkowski {
 

@@ -74,15 +74,14 @@ class Crossings {
     const Facet& facet = complex_.facets[f];
     const Approximation form_a = pa_.form(complex_.planes, facet.plane);
     const Approximation form_b = pb_.form(complex_.planes, facet.plane);
-    if (form_a.sign() * form_b.sign() > 0) return;
-    const std::optional<RoughPoint> point = crossing_point(from_, to_, form_a, form_b);
-    const InFacet place = point ? place_in_facet(complex_, facet, *point) : InFacet::kUnsure;
+    if (form_a.sign().value_or(0) * form_b.sign().value_or(0) > 0) return;
+    const InFacet place = place_in_facet(complex_, facet, crossing_point(from_, to_, form_a, form_b));
     if (place == InFacet::kOutside) return;
     const int at_a = pa_.side(complex_.planes, facet.plane);
     const int at_b = pb_.side(complex_.planes, facet.plane);
     if (at_a * at_b > 0) return;
     if (at_a == 0 && at_b == 0) {
-      for (const std::uint32_t corner : complex_.corners_of(facet)) edge(complex_.corner_halfedge(corner));
+      for (const SHalfedgeId corner : complex_.corners_of(facet)) edge(complex_.corner_halfedge(corner));
       for (const VertexId v : complex_.isolated_vertices_of(facet)) vertex(v);
       return;
     }

@@ -36,9 +36,9 @@ class FacetEdges {
     const PlaneAxes axes(complex.planes, facet.plane);
     u_ = static_cast<std::size_t>(axes.first);
     v_ = static_cast<std::size_t>(axes.second);
-    const std::span<const std::uint32_t> corners = complex.corners_of(facet);
+    const std::span<const SHalfedgeId> corners = complex.corners_of(facet);
     ends_.reserve(corners.size());
-    for (const std::uint32_t corner : corners) {
+    for (const SHalfedgeId corner : corners) {
       const HalfedgeId halfedge = complex.corner_halfedge(corner);
       ends_.push_back({complex.points.approximate(point_of(complex.source(halfedge))),
                        complex.points.approximate(point_of(complex.target(halfedge)))});

@@ -5,24 +5,22 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 
 #include "apps/planner/free_space/vectors.h"
 #include "apps/planner/partition/exact_point.h"
 #include "nef/complex/complex.h"
+#include "nef/number/approximation.h"
 
 namespace nef::planner {
 
-/// A point known by doubles and how far off each coordinate may be.
-struct RoughPoint {
-  std::array<double, 3> at{};
-  std::array<double, 3> error{};
-};
+/// A point known by doubles.
+using RoughPoint = std::array<Approximation, 3>;
 
 /// The point of the segment `from` + t (`to` - `from`) in which a linear form vanishes that has these values at its
-/// ends; nothing if the values do not tell them apart for sure. `from` and `to` are within 2^-53 relative of the truth.
-std::optional<RoughPoint> crossing_point(const Vector3d& from, const Vector3d& to, const Approximation& form_at_from,
-                                         const Approximation& form_at_to);
+/// ends; nothing is known of it if the values do not tell them apart for sure. `from` and `to` are within 2^-53
+/// relative of the truth.
+RoughPoint crossing_point(const Vector3d& from, const Vector3d& to, const Approximation& form_at_from,
+                          const Approximation& form_at_to);
 
 /// Where a point lies that is in the plane of a facet.
 enum class InFacet : std::uint8_t {

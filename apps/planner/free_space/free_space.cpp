@@ -148,7 +148,7 @@ std::vector<Rational3> FreeSpace::vertices(CellId cell) const {
       break;
     }
     case 2:
-      for (const std::uint32_t corner : c.corners_of(c.facets[FacetId{i}].first_cycle)) {
+      for (const SHalfedgeId corner : c.corners_of(c.facets[FacetId{i}].first_cycle)) {
         result.push_back(c.points.rational(point_of(c.shalfedge_vertex(corner))));
       }
       break;

@@ -49,7 +49,7 @@ class Surroundings {
   }
 
  private:
-  [[nodiscard]] CellId facet(std::uint32_t shalfedge) const {
+  [[nodiscard]] CellId facet(SHalfedgeId shalfedge) const {
     return cells_.facet(facet_of(c_.shalfedge_facet[shalfedge]));
   }
   [[nodiscard]] CellId volume(SFaceId sface) const { return cells_.volume(c_.sface_volume(sface)); }

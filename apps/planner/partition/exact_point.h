@@ -8,17 +8,11 @@
 #include <cmath>
 
 #include "nef/geometry/plane_table.h"
+#include "nef/geometry/predicates.h"
+#include "nef/number/approximation.h"
 #include "nef/number/number.h"
 
 namespace nef::planner {
-
-/// A value known by a double and a bound on its error.
-struct Approximation {
-  double value = 0;
-  double error = 0;
-  /// The certain sign, or 0 if the bound does not exclude it.
-  [[nodiscard]] int sign() const { return value > error ? 1 : value < -error ? -1 : 0; }
-};
 
 /// A fixed exact point. Integers are computed at the first question that needs them, so an
 /// object belongs to one thread.
@@ -37,21 +31,13 @@ class ExactPoint {
   /// The form of the unflipped plane, in the scale of PlaneTable::approximate. Planes with a part
   /// in R are not allowed.
   [[nodiscard]] Approximation form(const PlaneTable& planes, PlaneId plane) const {
-    const std::array<double, 4>& n = planes.approximate(plane);
-    const double t0 = n[0] * approximate_[0];
-    const double t1 = n[1] * approximate_[1];
-    const double t2 = n[2] * approximate_[2];
-    // Relative to the sum of magnitudes: 4u for a coefficient, u for a coordinate, u for a product
-    // and 3u for the sums make 9u; 16u leaves room for higher terms, the last one covers underflow.
-    const double magnitude = std::fabs(t0) + std::fabs(t1) + std::fabs(t2) + std::fabs(n[3]);
-    return {t0 + t1 + t2 + n[3], 16 * 0x1p-53 * magnitude + 1e-300};
+    return approximate_form(planes.approximate(plane), approximate_);
   }
   /// The exact form times w: an integer.
   [[nodiscard]] Integer exact_form(const PlaneTable& planes, PlaneId plane) const;
   /// The side of the unflipped plane: +1, 0, -1. Exact.
   [[nodiscard]] int side(const PlaneTable& planes, PlaneId plane) const {
-    if (const int sign = form(planes, plane).sign(); sign != 0) return sign;
-    return sgn(exact_form(planes, plane));
+    return sign_by_ladder(form(planes, plane), [&] { return sgn(exact_form(planes, plane)); });
   }
 
  private:
@@ -110,25 +96,13 @@ class ExactSegment {
 inline int ExactSegment::side(const PlaneForms& forms, const SegmentParameter& t) const {
   if (!t.plane.valid()) {
     const Approximation& here = t.direction == 0 ? forms.at_a : forms.at_b;
-    if (const int sign = here.sign(); sign != 0) return sign;
-    return exact_side(forms.plane, t);
+    return sign_by_ladder(here, [&] { return exact_side(forms.plane, t); });
   }
   if (t.plane.row() == forms.plane.row()) return 0;
   // With q the form of t's plane and p that of the asked one: p at t is (q(a) p(b) - p(a) q(b)) / (q(a) - q(b)), and
-  // the denominator has the sign of q(a). The error of the numerator is that of its factors, and 4u of the products
-  // for its own rounding; the factor covers the rounding of the bound itself, the last term underflow.
-  const double plus = t.at_a.value * forms.at_b.value;
-  const double minus = forms.at_a.value * t.at_b.value;
-  const double size_plus = std::fabs(t.at_a.value) * forms.at_b.error + std::fabs(forms.at_b.value) * t.at_a.error +
-                           t.at_a.error * forms.at_b.error;
-  const double size_minus = std::fabs(forms.at_a.value) * t.at_b.error + std::fabs(t.at_b.value) * forms.at_a.error +
-                            forms.at_a.error * t.at_b.error;
-  const double error =
-      (size_plus + size_minus + 4 * 0x1p-53 * (std::fabs(plus) + std::fabs(minus))) * (1 + 0x1p-48) + 1e-300;
-  const double value = plus - minus;
-  if (value > error) return t.direction;
-  if (value < -error) return -t.direction;
-  return exact_side(forms.plane, t);
+  // the denominator has the sign of q(a).
+  const Approximation numerator = t.at_a * forms.at_b - forms.at_a * t.at_b;
+  return sign_by_ladder(t.direction > 0 ? numerator : -numerator, [&] { return exact_side(forms.plane, t); });
 }
 
 }  // namespace nef::planner

@@ -13,7 +13,7 @@ PlaneId side_plane(const Complex& complex, const Facet& facet, HalfedgeId halfed
 }
 
 // True if the facet's angle at the corner is at most a half-turn.
-bool convex_at(const Complex& complex, std::uint32_t corner) {
+bool convex_at(const Complex& complex, SHalfedgeId corner) {
   const HalfedgeId out = complex.corner_halfedge(corner);
   const HalfedgeId back = complex.corner_back_halfedge(corner);
   if (out == back) return false;
@@ -25,7 +25,7 @@ bool convex_at(const Complex& complex, std::uint32_t corner) {
 
 bool is_convex(const Complex& complex, const Facet& facet) {
   if (facet.cycle_count != 1) return false;
-  for (const std::uint32_t corner : complex.corners_of(facet)) {
+  for (const SHalfedgeId corner : complex.corners_of(facet)) {
     if (!convex_at(complex, corner)) return false;
   }
   return true;
@@ -84,7 +84,7 @@ void append_facet_pieces(const Complex& complex, FacetId f, CellId cell, const P
     piece.cell = cell;
     piece.dimension = 2;
     piece.p = facet.plane;
-    for (const std::uint32_t corner : complex.corners_of(facet)) {
+    for (const SHalfedgeId corner : complex.corners_of(facet)) {
       piece.points.push_back(point_of(complex.shalfedge_vertex(corner)));
       piece.sides.push_back(side_plane(complex, facet, complex.corner_halfedge(corner)));
       piece.seams.push_back(false);
@@ -93,7 +93,7 @@ void append_facet_pieces(const Complex& complex, FacetId f, CellId cell, const P
     return;
   }
   std::vector<ConvexPiece> edges;
-  for (const std::uint32_t corner : complex.corners_of(facet)) {
+  for (const SHalfedgeId corner : complex.corners_of(facet)) {
     const HalfedgeId halfedge = complex.corner_halfedge(corner);
     ConvexPiece edge;
     edge.dimension = 1;
@@ -114,7 +114,7 @@ bool facet_contains(const Complex& complex, FacetId f, const Rational3& point) {
   const std::size_t u = (axis + 1) % 3;
   const std::size_t v = (axis + 2) % 3;
   bool inside = false;
-  for (const std::uint32_t corner : complex.corners_of(facet)) {
+  for (const SHalfedgeId corner : complex.corners_of(facet)) {
     const HalfedgeId halfedge = complex.corner_halfedge(corner);
     const Rational3 a = complex.points.rational(point_of(complex.source(halfedge)));
     const Rational3 b = complex.points.rational(point_of(complex.target(halfedge)));

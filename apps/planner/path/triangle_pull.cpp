@@ -151,7 +151,7 @@ std::vector<HalfedgeId> edges_near(const FreeSpace& free, const Triangle& triang
                            [&](const ItemTree::Item& item) {
                              if (item.kind == ItemTree::Kind::kEdge) add(HalfedgeId{item.index});
                              if (item.kind != ItemTree::Kind::kFacet) return;
-                             for (const std::uint32_t corner : c.corners_of(FacetId{item.index})) {
+                             for (const SHalfedgeId corner : c.corners_of(FacetId{item.index})) {
                                add(c.corner_halfedge(corner));
                              }
                            });

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "nef/construct/construct.h"
-#include "nef/polyhedron.h"
+#include "nef/forward.h"
 
 namespace nef::planner {
 

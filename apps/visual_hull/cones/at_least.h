@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "nef/polyhedron.h"
+#include "nef/forward.h"
 
 namespace visual_hull {
 

@@ -18,6 +18,7 @@
 
 #include "apps/visual_hull/cones/boundary_node.h"
 #include "nef/base/error.h"
+#include "nef/polyhedron.h"
 #include "nef/synthesis/complex_builder.h"
 
 namespace visual_hull {

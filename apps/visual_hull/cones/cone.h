@@ -5,7 +5,7 @@
 
 #include "apps/visual_hull/scene/camera.h"
 #include "apps/visual_hull/scene/world_box.h"
-#include "nef/polyhedron.h"
+#include "nef/forward.h"
 
 namespace visual_hull {
 

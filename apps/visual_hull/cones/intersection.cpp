@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "nef/base/threads/parallel.h"
+#include "nef/polyhedron.h"
 
 namespace visual_hull {
 namespace {

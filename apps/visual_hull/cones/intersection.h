@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apps/visual_hull/cones/cone.h"
+#include "nef/polyhedron.h"
 
 namespace visual_hull {
 

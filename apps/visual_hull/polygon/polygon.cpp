@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "nef/base/error.h"
+#include "nef/number/approximation.h"
 
 namespace visual_hull {
 namespace {
@@ -84,12 +85,9 @@ int orientation(const Point2& a, const Point2& b, const Point2& c) {
   for (const Point2* p : {&a, &b, &c}) {
     largest = std::max({largest, std::abs(p->approximate[0]), std::abs(p->approximate[1])});
   }
-  const double bound = 0x1p-46 * largest * largest;
-  if (largest > 1e-140 && largest < 1e140) {
-    if (determinant > bound) return 1;
-    if (determinant < -bound) return -1;
-  }
-  return exact_orientation(a, b, c);
+  const bool moderate = largest > 1e-140 && largest < 1e140;
+  return nef::sign_by_ladder({determinant, moderate ? 0x1p-46 * largest * largest : HUGE_VAL},
+                             [&] { return exact_orientation(a, b, c); });
 }
 
 namespace {

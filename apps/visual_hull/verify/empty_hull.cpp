@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "nef/construct/construct.h"
+#include "nef/polyhedron.h"
 
 namespace visual_hull {
 namespace {

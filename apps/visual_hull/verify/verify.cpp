@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "apps/visual_hull/verify/verify_inside.h"
+#include "nef/polyhedron.h"
 
 namespace visual_hull {
 namespace {
@@ -129,7 +130,7 @@ std::vector<std::vector<std::vector<Vec>>> project_facets(const nef::Polyhedron&
     bool visible = true;
     for (const nef::CycleId c : facet.cycles()) {
       cycles.emplace_back();
-      for (const std::uint32_t corner : complex.corners_of(c)) {
+      for (const nef::SHalfedgeId corner : complex.corners_of(c)) {
         const nef::VertexId v = complex.shalfedge_vertex(corner);
         visible = visible && front[v];
         cycles.back().push_back(seen[v]);

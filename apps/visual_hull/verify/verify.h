@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "apps/visual_hull/scene/camera.h"
-#include "nef/polyhedron.h"
+#include "nef/forward.h"
 
 namespace visual_hull {
 

@@ -12,6 +12,7 @@
 
 #include "apps/visual_hull/polygon/silhouette_index.h"
 #include "apps/visual_hull/scene/camera_planes.h"
+#include "nef/polyhedron.h"
 
 namespace visual_hull {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "apps/visual_hull/scene/camera.h"
-#include "nef/polyhedron.h"
+#include "nef/forward.h"
 
 namespace visual_hull {
 

@@ -9,6 +9,7 @@
 #include "apps/visual_hull/viewing_edges/space_halving.h"
 #include "nef/base/threads/parallel.h"
 #include "nef/base/threads/shared_out.h"
+#include "nef/polyhedron.h"
 
 namespace visual_hull {
 namespace {

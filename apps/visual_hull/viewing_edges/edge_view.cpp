@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "nef/base/timing/predicate_counts.h"
+#include "nef/number/approximation.h"
 
 namespace visual_hull {
 namespace {
@@ -32,8 +33,8 @@ std::optional<int> orient(const Seen& a, const Seen& b, const Seen& c) {
   const double sum = std::abs(bu) + std::abs(bv) + std::abs(cu) + std::abs(cv);
   const double bound = 3 * e * sum + 9 * e * e + (std::abs(left) + std::abs(right)) * kUnit;
   const double value = left - right;
-  if (!(std::abs(value) > bound)) return std::nullopt;
-  return value > 0 ? 1 : -1;
+  // Never 0, even where nothing is off: what lies on a line is for exact location.
+  return nef::Approximation{value, bound + 1e-300}.sign();
 }
 
 // What exact location asks of a point of the image: on which side of a line it lies.

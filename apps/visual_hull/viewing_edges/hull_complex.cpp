@@ -16,6 +16,7 @@
 #include "apps/visual_hull/scene/camera_planes.h"
 #include "apps/visual_hull/viewing_edges/corners.h"
 #include "nef/base/threads/parallel.h"
+#include "nef/polyhedron.h"
 #include "nef/synthesis/complex_builder.h"
 
 namespace visual_hull {
@@ -205,9 +206,8 @@ nef::VertexRecord items_of(const std::vector<nef::Complex>& parts) {
   for (const nef::Complex& part : parts) {
     sum.advance(part.vertices.front(), part.vertices.back());
   }
-  for (std::uint32_t* count : {&sum.shalfedges, &sum.sloops, &sum.other_planes}) {
-    *count += *count / kRoom;
-  }
+  sum.shalfedges += 2 * (pair_of(sum.shalfedges) / kRoom);
+  for (std::uint32_t* count : {&sum.sloops, &sum.other_planes}) *count += *count / kRoom;
   return sum;
 }
 

@@ -6,7 +6,7 @@
 
 #include "apps/visual_hull/viewing_edges/crowded_vertex.h"
 #include "apps/visual_hull/viewing_edges/edge_view.h"
-#include "nef/polyhedron.h"
+#include "nef/forward.h"
 
 namespace visual_hull {
 

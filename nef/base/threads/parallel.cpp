@@ -31,11 +31,6 @@
 
 namespace nef {
 
-PredicateCounts& predicate_counts() {
-  thread_local PredicateCounts counts;
-  return counts;
-}
-
 namespace {
 
 /// Books what is counted on this thread, until its end, on a sum; also if an exception ends it.

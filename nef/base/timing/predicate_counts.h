@@ -22,8 +22,12 @@ struct PredicateCounts {
   }
 };
 
-/// The counts of the calling thread since it started. Take the difference of two readings.
-/// This is the library's only state outside of objects; it feeds reports, never an answer.
-PredicateCounts& predicate_counts();
+namespace detail {
+inline constinit thread_local PredicateCounts counts_of_thread;
+}  // namespace detail
+
+/// The counts of the calling thread since it started. Take the difference of two readings. They feed reports, never an
+/// answer. In a header, since a filter costs hardly more than a call.
+inline PredicateCounts& predicate_counts() { return detail::counts_of_thread; }
 
 }  // namespace nef

@@ -15,8 +15,8 @@ namespace nef {
 /// The planes of shalfedges: twins lie in one plane, oriented otherwise.
 class PlaneColumn {
  public:
-  [[nodiscard]] PlaneId operator[](std::size_t half) const {
-    return PlaneId{values_[half >> 1U].value ^ static_cast<std::uint32_t>(half & 1U)};
+  [[nodiscard]] PlaneId operator[](SHalfedgeId half) const {
+    return PlaneId{values_[pair_of(half)].value ^ (half.index() & 1U)};
   }
   [[nodiscard]] std::size_t size() const { return 2 * values_.size(); }
 
@@ -31,12 +31,12 @@ class PlaneColumn {
 /// The halffacets that shalfedges lie on: twins lie on the two sides of one facet.
 class HalffacetColumn {
  public:
-  [[nodiscard]] HalffacetId operator[](std::size_t half) const {
-    return HalffacetId{values_[half >> 1U].index() ^ static_cast<std::uint32_t>(half & 1U)};
+  [[nodiscard]] HalffacetId operator[](SHalfedgeId half) const {
+    return HalffacetId{values_[pair_of(half)].index() ^ (half.index() & 1U)};
   }
   /// Sets the twin's, too.
-  void set(std::size_t half, HalffacetId value) {
-    values_[half >> 1U] = HalffacetId{value.index() ^ static_cast<std::uint32_t>(half & 1U)};
+  void set(SHalfedgeId half, HalffacetId value) {
+    values_[pair_of(half)] = HalffacetId{value.index() ^ (half.index() & 1U)};
   }
   void assign(std::size_t halves, HalffacetId of_even) { values_.assign(halves / 2, of_even); }
   [[nodiscard]] std::size_t size() const { return 2 * values_.size(); }

@@ -18,7 +18,6 @@ FacetId FacetTable::push_back(const Facet& facet) {
 }
 
 void FacetTable::append(const FacetTable& more) {
-  reserve(std::max(rows_.capacity(), size() + more.size()));
   for (const Facet& facet : more) push_back(facet);
 }
 

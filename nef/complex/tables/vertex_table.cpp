@@ -5,17 +5,19 @@
 
 namespace nef {
 
-void VertexTable::set_shalfedges(std::size_t i, std::uint32_t value) {
+void VertexTable::set_shalfedges(std::size_t i, SHalfedgeId value) {
   if (shalfedges_.empty()) {
     shalfedges_.reserve(rows_.capacity());
-    for (const Row& row : rows_) shalfedges_.push_back(2 * row.svertices.index());
+    for (const Row& row : rows_) shalfedges_.emplace_back(2 * row.svertices.index());
   }
   shalfedges_[i] = value;
 }
 
 void VertexTable::trim() {
   trim_capacity(rows_);
-  for (std::vector<std::uint32_t>* column : {&shalfedges_, &sloops_, &other_planes_}) trim_capacity(*column);
+  trim_capacity(shalfedges_);
+  trim_capacity(sloops_);
+  trim_capacity(other_planes_);
 }
 
 std::size_t VertexTable::bytes() const {

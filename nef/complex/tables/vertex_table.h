@@ -13,7 +13,7 @@ namespace nef {
 /// Where the items of the sphere map of a vertex begin; they end where the next vertex's begin.
 struct VertexRecord {
   HalfedgeId svertices{0};
-  std::uint32_t shalfedges = 0;
+  SHalfedgeId shalfedges{0};
   std::uint32_t sloops = 0;
   SFaceId sfaces{0};
   std::uint32_t other_planes = 0;
@@ -53,7 +53,7 @@ class VertexTable {
     return record;
   }
   [[nodiscard]] HalfedgeId svertices(VertexId id) const { return rows_[id.index()].svertices; }
-  [[nodiscard]] std::uint32_t shalfedges(VertexId id) const { return shalfedges(std::size_t{id.index()}); }
+  [[nodiscard]] SHalfedgeId shalfedges(VertexId id) const { return shalfedges(std::size_t{id.index()}); }
   [[nodiscard]] SFaceId sfaces(VertexId id) const { return rows_[id.index()].sfaces; }
   [[nodiscard]] std::uint32_t other_planes(VertexId id) const { return other_planes(std::size_t{id.index()}); }
   [[nodiscard]] PatternId pattern(VertexId id) const { return rows_[id.index()].pattern; }
@@ -84,7 +84,8 @@ class VertexTable {
   void set(VertexId id, const VertexRecord& record) {
     const std::size_t i = id.index();
     rows_[i] = {record.svertices, record.sfaces, record.pattern};
-    if (!shalfedges_.empty() || record.shalfedges != 2 * record.svertices.index()) set_shalfedges(i, record.shalfedges);
+    if (!shalfedges_.empty() || record.shalfedges.index() != 2 * record.svertices.index())
+      set_shalfedges(i, record.shalfedges);
     if (!sloops_.empty() || record.sloops != 0) set_in(sloops_, i, record.sloops);
     set_other_planes(id, record.other_planes);
   }
@@ -100,19 +101,20 @@ class VertexTable {
     PatternId pattern;
   };
 
-  [[nodiscard]] std::uint32_t shalfedges(std::size_t i) const {
-    return shalfedges_.empty() ? 2 * rows_[i].svertices.index() : shalfedges_[i];
+  [[nodiscard]] SHalfedgeId shalfedges(std::size_t i) const {
+    return shalfedges_.empty() ? SHalfedgeId{2 * rows_[i].svertices.index()} : shalfedges_[i];
   }
   [[nodiscard]] std::uint32_t other_planes(std::size_t i) const { return other_planes_.empty() ? 0 : other_planes_[i]; }
   void set_in(std::vector<std::uint32_t>& column, std::size_t i, std::uint32_t value) {
     if (column.empty()) column.resize(size());
     column[i] = value;
   }
-  void set_shalfedges(std::size_t i, std::uint32_t value);
+  void set_shalfedges(std::size_t i, SHalfedgeId value);
 
   std::vector<Row> rows_{Row{}};
   // Of each row, or none: see above.
-  std::vector<std::uint32_t> shalfedges_, sloops_, other_planes_;
+  std::vector<SHalfedgeId> shalfedges_;
+  std::vector<std::uint32_t> sloops_, other_planes_;
 };
 
 }  // namespace nef

@@ -13,7 +13,7 @@
 #include <string_view>
 
 #include "nef/construct/construct.h"
-#include "nef/polyhedron.h"
+#include "nef/forward.h"
 
 namespace nef {
 

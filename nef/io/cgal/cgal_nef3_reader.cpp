@@ -4,6 +4,7 @@
 
 #include "nef/io/cgal/cgal_nef3.h"
 #include "nef/io/text_cursor.h"
+#include "nef/polyhedron.h"
 #include "nef/synthesis/complex_builder.h"
 
 namespace nef {

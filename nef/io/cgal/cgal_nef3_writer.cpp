@@ -3,6 +3,7 @@
 #include "nef/complex/shell_sfaces.h"
 #include "nef/io/cgal/cgal_nef3.h"
 #include "nef/io/number_text.h"
+#include "nef/polyhedron.h"
 
 namespace nef {
 namespace {
@@ -23,7 +24,7 @@ class Nef3Writer {
       halffacet(halffacet_of(f, true));
     }
     for (const VolumeId v : c_.volumes.ids()) volume(v);
-    for (std::uint32_t e = 0; e < c_.shalfedge_count(); ++e) shalfedge(e);
+    for (const SHalfedgeId e : c_.shalfedge_ids()) shalfedge(e);
     for (std::uint32_t l = 0; l < c_.sloops.size(); ++l) sloop(l);
     for (const VertexId v : c_.vertex_ids()) sfaces(v);
     return std::move(text_ += "/* end Selective Nef complex */\n");
@@ -34,15 +35,15 @@ class Nef3Writer {
  private:
   // Halffacet 2f has the twins of our corners, which go on to the twin of the next; 2f + 1 has the corners, backwards.
   void link_facet_cycles() {
-    next_.assign(c_.shalfedge_count(), 0);
-    prev_.assign(c_.shalfedge_count(), 0);
+    next_.resize(c_.shalfedge_count());
+    prev_.resize(c_.shalfedge_count());
     for (const CycleId i : c_.cycle_ids()) {
       const auto corners = c_.corners_of(i);
       for (std::size_t k = 0; k < corners.size(); ++k) {
-        const std::uint32_t here = corners[k];
-        const std::uint32_t ahead = corners[(k + 1) % corners.size()];
-        next_[here ^ 1U] = ahead ^ 1U;
-        prev_[ahead ^ 1U] = here ^ 1U;
+        const SHalfedgeId here = corners[k];
+        const SHalfedgeId ahead = corners[(k + 1) % corners.size()];
+        next_[twin_of(here)] = twin_of(ahead);
+        prev_[twin_of(ahead)] = twin_of(here);
         next_[ahead] = here;
         prev_[here] = ahead;
       }
@@ -92,7 +93,7 @@ class Nef3Writer {
     const VertexRecord& after = c_.vertices[v.next()];
     begin(v.index());
     range(record.svertices.index(), after.svertices.index());
-    range(record.shalfedges, after.shalfedges);
+    range(record.shalfedges.index(), after.shalfedges.index());
     range(record.sfaces.index(), after.sfaces.index());
     number(record.sloops == after.sloops ? -2 : static_cast<std::int64_t>(record.sloops));
     text_ += " |";
@@ -113,7 +114,7 @@ class Nef3Writer {
       number((c_.vertices[v].sfaces + s.sface).index());
     } else {
       number(0);
-      number(c_.vertices[v].shalfedges + s.out);
+      number((c_.vertices.shalfedges(v) + s.out).index());
     }
     text_ += " |";
     Integer3 direction = Direction::cross(c_.planes, s.p, s.q).integers();
@@ -136,8 +137,8 @@ class Nef3Writer {
     number(opposite(h).index());
     text_ += ',';
     for (const CycleId i : facet.cycles()) {
-      const std::uint32_t corner = c_.corners_of(i)[0];
-      number(above ? corner ^ 1U : corner);
+      const SHalfedgeId corner = c_.corners_of(i)[0];
+      number((above ? twin_of(corner) : corner).index());
     }
     text_ += " ,";
     for (const VertexId v : c_.isolated_vertices_of(facet)) {
@@ -159,21 +160,21 @@ class Nef3Writer {
     end(volume.mark);
   }
 
-  void shalfedge(std::uint32_t e) {
+  void shalfedge(SHalfedgeId e) {
     const VertexRecord& record = c_.vertices[c_.shalfedge_vertex(e)];
     const SHalfedge& s = c_.shalfedge(e);
-    begin(e);
+    begin(e.index());
     const auto item = [this](std::uint32_t value) {
       number(value);
       text_ += ',';
     };
-    item(e ^ 1U);
-    item(record.shalfedges + s.prev);
-    item(record.shalfedges + s.next);
+    item(twin_of(e).index());
+    item((record.shalfedges + s.prev).index());
+    item((record.shalfedges + s.next).index());
     item((record.svertices + s.source).index());
     item((record.sfaces + s.sface).index());
-    item(prev_[e]);
-    item(next_[e]);
+    item(prev_[e].index());
+    item(next_[e].index());
     number(opposite(c_.shalfedge_facet[e]).index());
     plane(s.plane, true);
     end(s.mark);
@@ -212,7 +213,7 @@ class Nef3Writer {
         }
         text_ += ' ';
       };
-      list(SFaceEntry::Kind::kCycle, record.shalfedges);
+      list(SFaceEntry::Kind::kCycle, record.shalfedges.index());
       list(SFaceEntry::Kind::kIsolatedVertex, record.svertices.index());
       list(SFaceEntry::Kind::kLoop, record.sloops);
       text_ += ',';
@@ -223,8 +224,8 @@ class Nef3Writer {
 
   const Complex& c_;
   std::string text_;
-  std::vector<std::uint32_t> next_;  // along a facet's boundary, as CGAL has it
-  std::vector<std::uint32_t> prev_;
+  IndexedVector<SHalfedgeId, SHalfedgeId> next_;  // along a facet's boundary, as CGAL has it
+  IndexedVector<SHalfedgeId, SHalfedgeId> prev_;
   IndexedVector<ShellId, SFaceId> first_sface_;
   VertexId loop_vertex_{0};
   bool other_marks_ = false;

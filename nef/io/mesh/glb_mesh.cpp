@@ -14,6 +14,7 @@
 #include "nef/io/number_text.h"
 #include "nef/mesh/surface/mesh_surface.h"
 #include "nef/mesh/vertex_merger.h"
+#include "nef/polyhedron.h"
 
 namespace nef {
 namespace {

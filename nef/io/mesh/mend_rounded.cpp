@@ -25,6 +25,7 @@
 #include "nef/mesh/mesh_check.h"
 #include "nef/mesh/surface/mesh_surface.h"
 #include "nef/mesh/surface/nested_components.h"
+#include "nef/polyhedron.h"
 
 namespace nef {
 namespace {

@@ -15,6 +15,7 @@
 #include "nef/io/zip_archive.h"
 #include "nef/mesh/surface/mesh_surface.h"
 #include "nef/mesh/vertex_merger.h"
+#include "nef/polyhedron.h"
 
 namespace nef {
 namespace {

@@ -31,7 +31,7 @@
 #include <string>
 #include <string_view>
 
-#include "nef/polyhedron.h"
+#include "nef/forward.h"
 
 namespace nef {
 

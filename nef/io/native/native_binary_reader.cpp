@@ -8,6 +8,7 @@
 #include "nef/io/native/complete_sphere_map.h"
 #include "nef/io/native/native_binary.h"
 #include "nef/io/native/vertex_keys.h"
+#include "nef/polyhedron.h"
 #include "nef/synthesis/volume_linking.h"
 #include "nef/validation/validate.h"
 
@@ -116,8 +117,8 @@ class BinaryReader {
       file_.demand(total <= std::uint64_t{4} * file_.size() && sfaces[v] > 0,
                    "its vertices have more items than there are");
     }
-    file_.demand(end.svertices.index() == n_.svertices && end.shalfedges == n_.shalfedges && end.sloops == n_.sloops &&
-                     end.sfaces.index() == n_.sfaces &&
+    file_.demand(end.svertices.index() == n_.svertices && end.shalfedges.index() == n_.shalfedges &&
+                     end.sloops == n_.sloops && end.sfaces.index() == n_.sfaces &&
                      total == std::uint64_t{n_.svertices} + n_.shalfedges + n_.sloops + n_.sfaces,
                  "its vertices have not the items that it holds");
     name_svertex_owners(c_);
@@ -157,7 +158,7 @@ class BinaryReader {
       map_.clear();
       map_.mark = mark_[v.index()];
       for (const HalfedgeId h : c_.halfedges(v)) take_svertex(columns, h.index());
-      for (std::uint32_t i = record.shalfedges; i < end.shalfedges; ++i) take_shalfedge(columns, i);
+      for (const SHalfedgeId e : c_.shalfedges(v)) take_shalfedge(columns, e.index());
       for (std::uint32_t i = record.sloops; i < end.sloops; ++i) take_sloop(columns, i);
       for (const SFaceId f : c_.sfaces(v)) take_sface(columns, f.index(), entries);
       if (const char* fault = complete_sphere_map(map_)) file_.corrupt(fault);
@@ -182,7 +183,7 @@ class BinaryReader {
     const VertexRecord record = c_.vertices[v];
     const VertexRecord end = c_.vertices[v.next()];
     name_pattern(v, pattern);
-    for (std::uint32_t i = record.shalfedges / 2; i < end.shalfedges / 2; ++i) {
+    for (std::uint32_t i = pair_of(record.shalfedges); i < pair_of(end.shalfedges); ++i) {
       c_.shalfedge_plane.pairs().push_back(plane(columns.plane[i]));
     }
     entries += columns.entries_of(record, end);
@@ -262,7 +263,7 @@ class BinaryReader {
     file_.demand(c_.cycle_begin.back() == n_.shalfedges / 2, "some corners are in no cycle");
     c_.corners.resize(n_.shalfedges / 2);
     for (std::uint32_t i = 0; i < c_.corners.size(); ++i) {
-      c_.corners[i] = corners[i];
+      c_.corners[i] = SHalfedgeId{corners[i]};
       file_.demand(corners[i] < n_.shalfedges, "a corner does not exist");
     }
     c_.shalfedge_facet.assign(n_.shalfedges, HalffacetId());
@@ -289,11 +290,11 @@ class BinaryReader {
     file_.demand(first == n_.cycles && isolated == n_.isolated, "some cycles or isolated vertices belong to no facet");
   }
 
-  void check_cycle(FacetId f, const Facet& facet, std::span<const std::uint32_t> cycle) {
+  void check_cycle(FacetId f, const Facet& facet, std::span<const SHalfedgeId> cycle) {
     HalfedgeId arriving = c_.twin[c_.corner_halfedge(cycle.back())];
-    for (const std::uint32_t corner : cycle) {
+    for (const SHalfedgeId corner : cycle) {
       const SHalfedge e = c_.shalfedge(corner);
-      file_.demand(!c_.shalfedge_facet.pairs()[corner / 2].valid(), "a corner belongs to two facets");
+      file_.demand(!c_.shalfedge_facet.pairs()[pair_of(corner)].valid(), "a corner belongs to two facets");
       file_.demand(e.plane == facet.plane && e.mark == facet.mark, "a corner belongs to another facet");
       file_.demand(c_.corner_back_halfedge(corner) == arriving, "a cycle leaves its edges");
       arriving = c_.twin[c_.corner_halfedge(corner)];
@@ -345,10 +346,7 @@ class BinaryReader {
     file_.demand(n_.shells == 0 ? n_.volumes == 1 : volume_of[0] == 0 && volume_of[n_.shells - 1] + 1 == n_.volumes,
                  "a volume has no boundary");
     fill_shells(shell_of);
-    std::vector<FacetSides> sides;
-    sides.reserve(c_.facets.size());
-    for (const FacetId f : c_.facets.ids()) sides.push_back(sides_of_facet(c_, f));
-    c_.facets.assign_sides(sides);
+    name_sides_of_facets(c_);
     for (std::uint32_t i = 0; i < c_.patterns.size(); ++i) {
       const SphereMapView map = c_.patterns.view(PatternId{i});
       file_.demand(map.mark != kOutside, "only the outer volume is outside");

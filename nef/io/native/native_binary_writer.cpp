@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "nef/io/native/native_binary.h"
+#include "nef/polyhedron.h"
 
 namespace nef {
 namespace {

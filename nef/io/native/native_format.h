@@ -28,7 +28,7 @@
 #include <string>
 #include <string_view>
 
-#include "nef/polyhedron.h"
+#include "nef/forward.h"
 
 namespace nef {
 

@@ -2,6 +2,7 @@
 #include "nef/io/native/native_binary.h"
 #include "nef/io/native/native_format.h"
 #include "nef/io/text_cursor.h"
+#include "nef/polyhedron.h"
 #include "nef/synthesis/complex_builder.h"
 #include "nef/validation/validate.h"
 

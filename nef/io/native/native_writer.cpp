@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "nef/io/native/native_format.h"
 #include "nef/io/number_text.h"
+#include "nef/polyhedron.h"
 
 namespace nef {
 namespace {

@@ -22,8 +22,8 @@ class VertexKeys {
   template <typename W>
   bool read(const ItemColumns<W>& columns, const VertexRecord& begin, const VertexRecord& end, LabelId mark,
             std::uint64_t entries, std::uint64_t all_entries) {
-    const std::uint32_t pair = begin.shalfedges / 2;
-    const std::uint32_t pairs = end.shalfedges / 2 - pair;
+    const std::uint32_t pair = pair_of(begin.shalfedges);
+    const std::uint32_t pairs = pair_of(end.shalfedges) - pair;
     const std::uint32_t first = begin.svertices.index();  // svertex, in the columns
     const std::uint32_t svertices = end.svertices - begin.svertices;
     const std::uint32_t sfaces = end.sfaces - begin.sfaces;
@@ -49,9 +49,9 @@ class VertexKeys {
     key_ += columns.sface_around.bytes(first, svertices);
     key_ += columns.svertex_mark.bytes(first, svertices);
     key_ += columns.shalfedge_mark.bytes(pair, pairs);
-    key_ += columns.source.bytes(begin.shalfedges, 2 * pairs);
-    key_ += columns.next.bytes(begin.shalfedges, 2 * pairs);
-    key_ += columns.sface.bytes(begin.shalfedges, 2 * pairs);
+    key_ += columns.source.bytes(begin.shalfedges.index(), 2 * pairs);
+    key_ += columns.next.bytes(begin.shalfedges.index(), 2 * pairs);
+    key_ += columns.sface.bytes(begin.shalfedges.index(), 2 * pairs);
     key_ += columns.entry_count.bytes(begin.sfaces.index(), sfaces);
     key_ += columns.sface_mark.bytes(begin.sfaces.index(), sfaces);
     const std::uint64_t own = columns.entries_of(begin, end);

@@ -63,7 +63,7 @@ std::vector<Component> measured_components(const MeshSurface& surface, std::vect
       component_of[t] = component_of[first];
     }
     Component& component = components[component_of[t]];
-    const MeshPoints::Determinant volume = points.determinant(component.origin, corners[0], corners[1], corners[2]);
+    const Approximation volume = points.determinant(component.origin, corners[0], corners[1], corners[2]);
     component.volume += volume.value;
     component.error += volume.error;
     for (const std::uint32_t v : corners) {

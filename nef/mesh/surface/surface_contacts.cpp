@@ -337,7 +337,7 @@ bool SurfaceContacts::meet_in_corner(std::uint32_t t, std::uint32_t u) const {
       corner = v;
       continue;
     }
-    const int sign = points_.filtered_orientation(a[0], a[1], a[2], v);
+    const int sign = points_.determinant(a[0], a[1], a[2], v).sign().value_or(0);
     one_side = one_side && sign != 0 && sign != -side;
     side = sign;
   }

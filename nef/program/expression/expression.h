@@ -35,6 +35,7 @@
 
 #include "nef/base/error.h"
 #include "nef/construct/construct.h"
+#include "nef/polyhedron.h"
 
 namespace nef {
 

@@ -7,6 +7,7 @@
 #include "nef/base/error.h"
 #include "nef/construct/round_shapes.h"
 #include "nef/export/to_mesh.h"
+#include "nef/polyhedron.h"
 #include "nef/program/expression/openscad_text.h"
 
 namespace nef {

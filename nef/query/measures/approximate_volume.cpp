@@ -9,6 +9,7 @@
 
 #include "nef/base/threads/parallel.h"
 #include "nef/geometry/vectors.h"
+#include "nef/polyhedron.h"
 
 namespace nef {
 namespace {
@@ -28,7 +29,7 @@ Area twice_area(const Complex& c, const Facet& facet, const Double3& corner0, do
   double vague = 0;     // by how much their factors are off
   std::size_t corners = 0;
   for (const CycleId k : facet.cycles()) {
-    for (const std::uint32_t corner : c.corners_of(k)) {
+    for (const SHalfedgeId corner : c.corners_of(k)) {
       const Double3 p = minus(c.points.approximate(point_of(c.shalfedge_vertex(corner))), corner0);
       const Double3 q = minus(c.points.approximate(point_of(c.target(c.corner_halfedge(corner)))), corner0);
       const Double3 product = cross(p, q);

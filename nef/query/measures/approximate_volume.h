@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "nef/polyhedron.h"
+#include "nef/forward.h"
 
 namespace nef {
 

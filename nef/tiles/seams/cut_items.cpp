@@ -9,14 +9,15 @@
 #include "nef/tiles/seams/cut_items.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 
 namespace nef {
 namespace {
 
-constexpr std::size_t kMost = 64;  // svertices
+constexpr std::size_t kMost = 64;  // svertices, or pairs of shalfedges
 
-std::uint64_t bit(std::uint32_t svertex) { return std::uint64_t{1} << svertex; }
+std::uint64_t bit(std::uint32_t item) { return std::uint64_t{1} << item; }
 
 // The mark on the inner side of an arc of a wall, which must be its own, too.
 std::optional<LabelId> inner_mark(const SphereMapView& map, std::uint32_t shalfedge) {
@@ -30,73 +31,62 @@ std::optional<LabelId> inner_mark(const SphereMapView& map, std::uint32_t shalfe
 
 }  // namespace
 
-std::optional<std::array<std::uint32_t, 2>> planes_of_cut_edge(const SphereMapView& map, std::uint32_t wall,
-                                                               std::span<const std::uint32_t> rows) {
-  const std::size_t size = map.svertices.size();
-  if (size < 3 || size > kMost || !map.sloops.empty() || map.shalfedges.size() != 4 * (size - 1)) return std::nullopt;
+std::uint64_t facets_of_cut_edge(const SphereMapView& pattern, std::uint64_t in_wall) {
+  const std::size_t size = pattern.svertices.size();
+  if (size < 3 || size > kMost || !pattern.sloops.empty() || pattern.shalfedges.size() != 4 * (size - 1)) return 0;
+  if (pattern.shalfedges.size() > 2 * kMost || static_cast<std::size_t>(std::popcount(in_wall)) != size - 1) return 0;
   std::uint64_t on_circle = 0;
-  std::size_t arcs_of_circle = 0;
-  for (std::uint32_t e = 0; e < map.shalfedges.size(); e += 2) {
-    const SHalfedge& half = map.shalfedges[e];
-    if (rows[half.plane.row()] != wall) continue;
-    ++arcs_of_circle;
-    on_circle |= bit(half.source) | bit(map.target(e));
-    if (!inner_mark(map, e)) return std::nullopt;
+  for (std::uint32_t e = 0; e < pattern.shalfedges.size(); e += 2) {
+    if ((in_wall & bit(e / 2)) == 0) continue;
+    on_circle |= bit(pattern.shalfedges[e].source) | bit(pattern.target(e));
+    if (!inner_mark(pattern, e)) return 0;
   }
-  if (arcs_of_circle != size - 1 || static_cast<std::size_t>(std::popcount(on_circle)) != size - 1) return std::nullopt;
+  if (static_cast<std::size_t>(std::popcount(on_circle)) != size - 1) return 0;
   const auto pole = static_cast<std::uint32_t>(std::countr_one(on_circle));
-  if (map.svertices[pole].mark != map.mark) return std::nullopt;
-  std::array<std::uint32_t, 2> smallest{kNone, kNone};
-  for (std::uint32_t e = 0; e < map.shalfedges.size(); e += 2) {
-    const SHalfedge& half = map.shalfedges[e];
-    const std::uint32_t row = rows[half.plane.row()];
-    if (row == wall) continue;
-    if (half.source != pole && map.target(e) != pole) return std::nullopt;
-    const std::uint32_t end = half.source == pole ? map.target(e) : half.source;
-    if (end == pole || map.svertices[end].mark != half.mark) return std::nullopt;
-    if (row < smallest[0]) {
-      smallest = {row, smallest[0]};
-    } else if (row != smallest[0]) {
-      smallest[1] = std::min(smallest[1], row);
-    }
+  if (pattern.svertices[pole].mark != pattern.mark) return 0;
+  std::uint64_t facets = 0;
+  for (std::uint32_t e = 0; e < pattern.shalfedges.size(); e += 2) {
+    if ((in_wall & bit(e / 2)) != 0) continue;
+    const std::uint32_t source = pattern.shalfedges[e].source;
+    const std::uint32_t target = pattern.target(e);
+    if (source != pole && target != pole) return 0;
+    const std::uint32_t end = source == pole ? target : source;
+    if (end == pole || pattern.svertices[end].mark != pattern.shalfedges[e].mark) return 0;
+    facets |= bit(e / 2);
   }
-  if (smallest[1] == kNone) return std::nullopt;
-  return smallest;
+  return facets;
 }
 
-std::optional<FacetInside> cut_facet(const SphereMapView& map, std::span<const std::uint32_t> walls,
-                                     std::span<const std::uint32_t> rows) {
-  if (map.sfaces.size() != 3 || !map.sloops.empty()) return std::nullopt;
-  const auto in_wall = [&](std::uint32_t e) {
-    return std::find(walls.begin(), walls.end(), rows[map.shalfedges[e].plane.row()]) != walls.end();
-  };
-  std::uint32_t arc = kNone;
-  for (std::uint32_t e = 0; e < map.shalfedges.size(); e += 2) {
-    if (in_wall(e)) continue;
-    if (arc != kNone) return std::nullopt;
-    arc = e;
+std::optional<CutFacet> cut_facet(const SphereMapView& pattern, std::uint64_t in_wall) {
+  if (pattern.sfaces.size() != 3 || !pattern.sloops.empty() || pattern.shalfedges.size() > 2 * kMost) {
+    return std::nullopt;
   }
-  if (arc == kNone) return std::nullopt;
-  arc ^= map.shalfedges[arc].plane.flipped() ? 1U : 0U;
-  FacetInside facet;
-  facet.row = rows[map.shalfedges[arc].plane.row()];
-  facet.mark = map.shalfedges[arc].mark;
-  facet.above = map.sfaces[map.shalfedges[arc].sface].mark;
-  facet.below = map.sfaces[map.shalfedges[arc ^ 1U].sface].mark;
-  if (facet.above == kOutside || facet.below == kOutside || map.mark != facet.mark) return std::nullopt;
-  const std::array<std::uint32_t, 2> ends{map.shalfedges[arc].source, map.target(arc)};
+  CutFacet facet;
+  std::size_t arcs = 0;
+  for (std::uint32_t e = 0; e < pattern.shalfedges.size(); e += 2) {
+    if ((in_wall & bit(e / 2)) != 0) continue;
+    facet.shalfedge = e;
+    ++arcs;
+  }
+  if (arcs != 1) return std::nullopt;
+  const SHalfedge arc = pattern.shalfedges[facet.shalfedge];
+  facet.mark = arc.mark;
+  facet.left = pattern.sfaces[arc.sface].mark;
+  facet.right = pattern.sfaces[pattern.shalfedges[facet.shalfedge ^ 1U].sface].mark;
+  if (facet.left == kOutside || facet.right == kOutside || pattern.mark != facet.mark) return std::nullopt;
+  const std::array<std::uint32_t, 2> ends{arc.source, pattern.target(facet.shalfedge)};
   for (const std::uint32_t end : ends) {
-    if (map.svertices[end].mark != facet.mark) return std::nullopt;
+    if (pattern.svertices[end].mark != facet.mark) return std::nullopt;
   }
-  for (std::uint32_t e = 0; e < map.shalfedges.size(); ++e) {
-    if (!in_wall(e)) continue;
-    const std::optional<LabelId> mark = inner_mark(map, e);
+  for (std::uint32_t e = 0; e < pattern.shalfedges.size(); ++e) {
+    if ((in_wall & bit(e / 2)) == 0) continue;
+    const std::optional<LabelId> mark = inner_mark(pattern, e);
     if (!mark) return std::nullopt;
-    const std::uint32_t source = map.shalfedges[e].source;
-    if (source != ends[0] && source != ends[1] && map.svertices[source].mark != *mark) return std::nullopt;
+    const std::uint32_t source = pattern.shalfedges[e].source;
+    if (source != ends[0] && source != ends[1] && pattern.svertices[source].mark != *mark) return std::nullopt;
   }
   const bool bare =
-      std::any_of(map.svertices.begin(), map.svertices.end(), [](const SVertex& s) { return s.out == kNone; });
+      std::any_of(pattern.svertices.begin(), pattern.svertices.end(), [](const SVertex& s) { return s.out == kNone; });
   if (bare) return std::nullopt;
   return facet;
 }

@@ -3,35 +3,32 @@
 // What tiles look like at points of their walls where edges and facets of the whole were cut, and no vertex of it is.
 #pragma once
 
-#include <array>
+#include <cstdint>
 #include <optional>
-#include <span>
 
 #include "nef/sphere_map/sphere_map.h"
 
 namespace nef {
 
-/// A tile at a point of one wall (by its row) where it is one edge with its facets that ends there: the same all along
-/// that edge, kOutside beyond the wall. The two smallest rows of the facets' planes, in a common table of which rows[r]
-/// is row r of the map; nothing if it looks otherwise, or if all facets lie in one plane. Where the tiles on both sides
-/// have the same rows at a point, the edge goes on straight: no vertex of the whole is there. O(size of the map).
-std::optional<std::array<std::uint32_t, 2>> planes_of_cut_edge(const SphereMapView& map, std::uint32_t wall,
-                                                               std::span<const std::uint32_t> rows);
+/// A tile at a point of one wall where it is one edge with its facets that ends there: the same all along that edge,
+/// kOutside beyond the wall. Asks the pattern of the map alone: `in_wall` has a bit for each pair of shalfedges that
+/// lies in the plane of the wall. The pairs that lie in facets; none if it looks otherwise. Where the tiles on both
+/// sides have such maps at a point with the same two planes among those of the facets, the edge goes on straight: no
+/// vertex of the whole is there. O(size of the map).
+std::uint64_t facets_of_cut_edge(const SphereMapView& pattern, std::uint64_t in_wall);
 
-/// The inside of a facet: its plane, and marks on it and on both sides of the unflipped plane.
-struct FacetInside {
-  std::uint32_t row = kNone;
+/// The inside of a facet that walls cut, in a pattern: a shalfedge in its plane, and marks on it and to both sides.
+struct CutFacet {
+  std::uint32_t shalfedge = 0;
   LabelId mark = 0;
-  LabelId above = 0;
-  LabelId below = 0;
-  bool operator==(const FacetInside&) const = default;
+  LabelId left = 0;
+  LabelId right = 0;
 };
 
-/// A tile at a point of several walls (by their rows) where it is the inside of a facet that all of them cut; nothing
-/// if it looks otherwise. Where all tiles that have a vertex at a point say the same, no vertex of the whole is there:
-/// one that has none there either has the same facet, or ends in a wall that the facet cuts along a line, along which
-/// it does not change. O(size of the map).
-std::optional<FacetInside> cut_facet(const SphereMapView& map, std::span<const std::uint32_t> walls,
-                                     std::span<const std::uint32_t> rows);
+/// A tile at a point of several walls where it is the inside of a facet that all of them cut; nothing if it looks
+/// otherwise. Where all tiles that have a vertex at a point have the same plane and marks there, no vertex of the whole
+/// is there: one that has none there either has the same facet, or ends in a wall that the facet cuts along a line,
+/// along which it does not change. Asks the pattern alone, `in_wall` is as above. O(size of the map).
+std::optional<CutFacet> cut_facet(const SphereMapView& pattern, std::uint64_t in_wall);
 
 }  // namespace nef

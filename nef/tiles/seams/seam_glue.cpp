@@ -21,25 +21,13 @@
 #include "nef/operation/canonical_order.h"
 #include "nef/sphere_map/overlay.h"
 #include "nef/synthesis/complex_builder.h"
-#include "nef/tiles/seams/cut_items.h"
+#include "nef/tiles/seams/half_rings.h"
+#include "nef/tiles/seams/leaf_seam.h"
 #include "nef/tiles/seams/point_numbers.h"
 #include "nef/tiles/seams/wall_crossings.h"
 
 namespace nef {
 namespace {
-
-// True if not all marks around the edge of an svertex are the same, kOutside left out.
-bool edge_has_boundary(const SphereMapView& map, std::uint32_t svertex) {
-  const SVertex& edge = map.svertices[svertex];
-  if (edge.out == kNone) return true;
-  std::uint32_t e = edge.out;
-  do {
-    const LabelId side = map.sfaces[map.shalfedges[e].sface].mark;
-    if (map.shalfedges[e].mark != edge.mark || (side != edge.mark && side != kOutside)) return true;
-    e = map.next_around(e);
-  } while (e != edge.out);
-  return false;
-}
 
 class SeamGlue {
  public:
@@ -53,7 +41,13 @@ class SeamGlue {
     parallel_for(leaves_.size(), threads_,
                  [this](std::size_t i) { leaves_[i].set = leaf_set(leaves_[i].tree, leaves_[i].region); });
     name_planes();
-    parallel_for(leaves_.size(), threads_, [this](std::size_t i) { read_leaf(leaves_[i]); });
+    parallel_for_ranges(leaves_.size(), kTogether, threads_, [this](std::size_t first, std::size_t last) {
+      SeamReader reader;
+      for (std::size_t i = first; i < last; ++i) {
+        Leaf& leaf = leaves_[i];
+        reader.read(leaf.set.complex(), leaf.rows, rows_of_walls(leaf), leaf);
+      }
+    });
     number_straight_edges();
     number_points();
     find_crossings();
@@ -112,36 +106,11 @@ class SeamGlue {
   struct Walls {
     std::array<std::uint32_t, 6> spot{kNone, kNone, kNone, kNone, kNone, kNone};  // 2 * axis + (1 for the upper one)
   };
-  // A vertex of a leaf in a seam.
-  struct SeamVertex {
-    VertexId vertex{0};
-    std::uint32_t point = kNone;  // among those of all seams; none if the set has no boundary there
-    std::uint8_t walls = 0;       // a bit for each
-    bool straight = false;        // an edge that was cut there and goes on in the leaf on the other side
-
-    // True if a vertex of the whole may be there.
-    [[nodiscard]] bool joins() const { return point != kNone && !straight; }
-  };
-  // A seam vertex in one wall where an edge was cut, until it is known whether that goes on.
-  struct CutEdge {
-    std::uint32_t seam = 0;
-    std::array<std::uint32_t, 2> planes{};  // planes_of_cut_edge
-  };
-  // An edge of a leaf in a wall, between two of its seam vertices.
-  struct LeafEdge {
-    std::uint32_t wall = 0;
-    std::array<std::uint32_t, 2> seam{};
-    HalfedgeId halfedge{0};
-  };
-  struct Leaf {
+  struct Leaf : LeafSeam {
     TileRef tree;
     Region region;
     Walls walls;
     Polyhedron set;
-    std::vector<SeamVertex> seam;
-    PointTable points;  // of these, without common factors, but for cut edges
-    std::vector<CutEdge> cut_edges;
-    std::vector<LeafEdge> edges;
     std::vector<std::uint32_t> rows;  // of its planes in the common table
   };
   // A seam vertex of a leaf.
@@ -178,77 +147,20 @@ class SeamGlue {
     return index;
   }
 
-  // The walls that each vertex of a leaf lies in, a bit for each. Beyond a wall is kOutside, so that it is a plane of
-  // the sphere maps of all vertices in it.
-  [[nodiscard]] IndexedVector<VertexId, std::uint8_t> walls_of_vertices(const Leaf& leaf) const {
-    const Complex& c = leaf.set.complex();
-    std::vector<std::uint8_t> bits(leaf.rows.size(), 0);  // of each plane
-    for (unsigned wall = 0; wall < 6; ++wall) {
-      if (leaf.walls.spot[wall] == kNone) continue;
-      const auto at = std::find(leaf.rows.begin(), leaf.rows.end(), spots_[leaf.walls.spot[wall]].plane.row());
-      if (at != leaf.rows.end()) bits[static_cast<std::size_t>(at - leaf.rows.begin())] |= 1U << wall;
+  [[nodiscard]] std::array<std::uint32_t, 6> rows_of_walls(const Leaf& leaf) const {
+    std::array<std::uint32_t, 6> rows;
+    for (std::size_t wall = 0; wall < 6; ++wall) {
+      const std::uint32_t spot = leaf.walls.spot[wall];
+      rows[wall] = spot == kNone ? kNone : spots_[spot].plane.row();
     }
-    IndexedVector<VertexId, std::uint8_t> on(c.vertex_count(), 0);
-    const std::vector<PlaneId>& planes = c.shalfedge_plane.pairs();
-    for (const VertexId v : c.vertex_ids()) {
-      const VertexRecord& begin = c.vertices[v];
-      const VertexRecord& end = c.vertices[v.next()];
-      for (std::uint32_t pair = begin.shalfedges / 2; pair < end.shalfedges / 2; ++pair) {
-        on[v] |= bits[planes[pair].row()];
-      }
-      for (std::uint32_t loop = begin.sloops; loop < end.sloops; ++loop) on[v] |= bits[c.sloops[loop].plane.row()];
-    }
-    return on;
-  }
-
-  // Finds the vertices and edges of a leaf in its walls. Touches nothing but the leaf.
-  void read_leaf(Leaf& leaf) const {
-    const Complex& c = leaf.set.complex();
-    const IndexedVector<VertexId, std::uint8_t> on = walls_of_vertices(leaf);
-    BoundaryVertices has_boundary_at(c);
-    IndexedVector<VertexId, std::uint32_t> seam(c.vertex_count(), kNone);
-    for (const VertexId v : c.vertex_ids()) {
-      if (on[v] == 0) continue;
-      const auto index = static_cast<std::uint32_t>(leaf.seam.size());
-      seam[v] = index;
-      leaf.seam.push_back({v, kNone, on[v]});
-      if (!has_boundary_at(v)) continue;
-      if (std::has_single_bit(on[v])) {
-        if (const auto planes =
-                planes_of_cut_edge(c.sphere_map(v), spots_[wall_of(leaf, on[v])].plane.row(), leaf.rows)) {
-          leaf.cut_edges.push_back({index, *planes});
-          leaf.seam.back().point = 0;  // it will get one
-          continue;
-        }
-      }
-      leaf.seam.back().point = static_cast<std::uint32_t>(leaf.points.size());  // until they get common numbers
-      leaf.points.push_reduced(c.points, point_of(v));
-    }
-    for (const SeamVertex& s : leaf.seam) {
-      if (s.point == kNone) continue;
-      for (const HalfedgeId h : c.halfedges(s.vertex)) {
-        const VertexId target = c.target(h);
-        const unsigned common = on[s.vertex] & on[target];
-        if (common == 0 || c.twin[h] < h) continue;
-        if (!edge_has_boundary(c.sphere_map(s.vertex), c.halfedges(s.vertex).position(h))) continue;
-        for (std::uint32_t wall = 0; wall < 6; ++wall) {
-          if ((common >> wall & 1U) != 0) leaf.edges.push_back({wall, {seam[s.vertex], seam[target]}, h});
-        }
-      }
-    }
+    return rows;
   }
 
   void name_planes() {
     std::size_t planes = planes_.size();
     for (const Leaf& leaf : leaves_) planes += leaf.set.complex().planes.size();
     planes_.reserve(planes);
-    for (Leaf& leaf : leaves_) {
-      const PlaneTable& own = leaf.set.complex().planes;
-      leaf.rows.reserve(own.size());
-      for (std::uint32_t row = 0; row < own.size(); ++row) {
-        leaf.rows.push_back(planes_.intern_from(own, PlaneId{row << 1U}).row());
-      }
-    }
+    for (Leaf& leaf : leaves_) leaf.rows = planes_.intern_all(leaf.set.complex().planes);
   }
 
   // The spot of the one wall of these.
@@ -262,7 +174,7 @@ class SeamGlue {
   void number_straight_edges() {
     check_interruption();
     struct End {
-      std::array<std::uint32_t, 2> planes;
+      std::uint64_t planes;  // both
       std::uint32_t leaf;
       std::uint32_t seam;
     };
@@ -270,7 +182,8 @@ class SeamGlue {
     const auto for_each_end = [this](const auto& body) {
       for (std::uint32_t i = 0; i < leaves_.size(); ++i) {
         for (const CutEdge& edge : leaves_[i].cut_edges) {
-          body(wall_of(leaves_[i], leaves_[i].seam[edge.seam].walls), End{edge.planes, i, edge.seam});
+          body(wall_of(leaves_[i], leaves_[i].seam[edge.seam].walls),
+               End{std::uint64_t{edge.planes[0]} << 32U | edge.planes[1], i, edge.seam});
         }
       }
     };
@@ -293,9 +206,6 @@ class SeamGlue {
           one.straight = other.straight = true;
           one.point = other.point = points_.add(leaf.set.complex().points, point_of(one.vertex));
           ++k;
-        } else {
-          one.point = static_cast<std::uint32_t>(leaf.points.size());
-          leaf.points.push_reduced(leaf.set.complex().points, point_of(one.vertex));
         }
       }
     }
@@ -303,23 +213,38 @@ class SeamGlue {
 
   void number_points() {
     check_interruption();
+    PointTable one;
+    Integer divisor;
     for (Leaf& leaf : leaves_) {
+      const PointTable& own = leaf.set.complex().points;
       for (SeamVertex& s : leaf.seam) {
-        if (s.point != kNone && !s.straight) s.point = points_.number(leaf.points, PointId{s.point});
+        if (!s.joins()) continue;
+        const PointId point = point_of(s.vertex);
+        if (own.is_reduced(point, divisor)) {
+          s.point = points_.number(own, point);
+        } else {
+          s.point = points_.number(one, one.push_reduced(own, point));
+          one.pop();
+        }
       }
-      leaf.points = PointTable();
     }
   }
 
   void find_crossings() {
-    std::vector<std::vector<WallEdge>> edges(spots_.size());
+    std::vector<std::uint32_t> begin(spots_.size() + 1U, 0);  // of the edges in each cut
+    for (const Leaf& leaf : leaves_) {
+      for (const LeafEdge& edge : leaf.edges) ++begin[leaf.walls.spot[edge.wall] + 1U];
+    }
+    for (std::size_t spot = 0; spot < spots_.size(); ++spot) begin[spot + 1U] += begin[spot];
+    std::vector<WallEdge> edges(begin.back());
+    std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
     for (std::uint32_t i = 0; i < leaves_.size(); ++i) {
       Leaf& leaf = leaves_[i];
       for (const LeafEdge& edge : leaf.edges) {
         const std::uint32_t a = leaf.seam[edge.seam[0]].point;
         const std::uint32_t b = leaf.seam[edge.seam[1]].point;
-        edges[leaf.walls.spot[edge.wall]].push_back(
-            {{std::min(a, b), std::max(a, b)}, edge.wall % 2 == 0, i, edge.halfedge});
+        edges[next[leaf.walls.spot[edge.wall]]++] = {
+            {std::min(a, b), std::max(a, b)}, edge.wall % 2 == 0, i, edge.halfedge};
       }
       leaf.edges = {};
     }
@@ -327,7 +252,8 @@ class SeamGlue {
     parallel_for(spots_.size(), threads_, [&](std::size_t spot) {
       const PlaneId cut = spots_[spot].plane;
       if (!cut.valid()) return;
-      crossings[spot] = wall_crossings(planes_, cut, points_.table(), std::move(edges[spot]),
+      crossings[spot] = wall_crossings(planes_, cut, points_.table(),
+                                       std::span(edges).subspan(begin[spot], begin[spot + 1U] - begin[spot]),
                                        [&](const WallEdge& edge) { return other_plane(cut, edge); });
     });
     crossing_.assign(points_.table().size(), false);
@@ -399,6 +325,7 @@ class SeamGlue {
 
     void join(PointId point, std::span<const Member> members) {
       if (!glue_.crossing_[point.index()] && inside_facet(members)) return;
+      if (join_halves(point, members)) return;
       holding_.clear();
       find_leaves(point, glue_.root_);
       NEF_ASSERT(holding_.size() > 1);
@@ -420,23 +347,42 @@ class SeamGlue {
     Complex take() { return builder_.take_so_far(); }
 
    private:
+    // A ring that one wall cuts: no other leaves are around the point.
+    bool join_halves(PointId point, std::span<const Member> members) {
+      if (members.size() != 2) return false;
+      std::array<std::uint32_t, 2> spot{};
+      for (std::size_t k = 0; k < 2; ++k) {
+        const Leaf& leaf = glue_.leaves_[members[k].leaf];
+        const std::uint8_t walls = leaf.seam[members[k].seam].walls;
+        if (!std::has_single_bit(walls)) return false;
+        spot[k] = wall_of(leaf, walls);
+      }
+      if (spot[0] != spot[1]) return false;
+      for (std::size_t k = 0; k < 2; ++k) {
+        const VertexId vertex = glue_.leaves_[members[k].leaf].seam[members[k].seam].vertex;
+        load(members[k].leaf, point, vertex, k == 0 ? joined_ : next_);
+      }
+      const std::uint32_t wall = glue_.spots_[spot[0]].plane.row();
+      if (!half_rings_.join(glue_.planes_, wall, joined_.view(), next_.view(), result_)) return false;
+      builder_.add(glue_.points_.table(), point, result_.view());
+      return true;
+    }
+
     // A facet that was cut along several walls.
     [[nodiscard]] bool inside_facet(std::span<const Member> members) const {
       if (members.empty()) return false;
-      const std::optional<FacetInside> facet = facet_at(members[0]);
-      return facet && std::all_of(members.begin() + 1, members.end(),
-                                  [&](const Member& member) { return facet_at(member) == facet; });
+      const FacetInside* facet = facet_at(members[0]);
+      return facet != nullptr && std::all_of(members.begin() + 1, members.end(), [&](const Member& member) {
+               const FacetInside* other = facet_at(member);
+               return other != nullptr && *other == *facet;
+             });
     }
 
-    [[nodiscard]] std::optional<FacetInside> facet_at(const Member& member) const {
+    // Null if it is something else.
+    [[nodiscard]] const FacetInside* facet_at(const Member& member) const {
       const Leaf& leaf = glue_.leaves_[member.leaf];
-      const SeamVertex& s = leaf.seam[member.seam];
-      std::array<std::uint32_t, 6> walls{};
-      std::size_t count = 0;
-      for (std::size_t wall = 0; wall < walls.size(); ++wall) {
-        if ((s.walls >> wall & 1U) != 0) walls[count++] = glue_.spots_[leaf.walls.spot[wall]].plane.row();
-      }
-      return cut_facet(leaf.set.complex().sphere_map(s.vertex), std::span(walls).first(count), leaf.rows);
+      const std::uint32_t facet = leaf.seam[member.seam].facet;
+      return facet == kNone ? nullptr : &leaf.facets[facet];
     }
 
     // The leaves that hold a point.
@@ -477,10 +423,13 @@ class SeamGlue {
     const SeamGlue& glue_;
     ComplexBuilder builder_;
     std::vector<std::uint32_t> holding_;
+    HalfRings half_rings_;
     SphereOverlay overlay_;
     LabelFunction whichever_{LabelFunction::WhicheverIsInside{}};
     SphereMapBuffer joined_, next_, result_;
   };
+
+  static constexpr std::size_t kTogether = 32;  // leaves of a task
 
   unsigned threads_;
   std::vector<Spot> spots_;

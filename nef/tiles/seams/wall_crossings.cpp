@@ -10,17 +10,26 @@ namespace nef {
 namespace {
 
 // The edges below the cut and above it that the other side does not have.
-std::array<std::vector<WallEdge>, 2> of_one_side(std::vector<WallEdge>&& edges) {
-  std::sort(edges.begin(), edges.end(), [](const WallEdge& a, const WallEdge& b) { return a.key() < b.key(); });
+std::array<std::vector<WallEdge>, 2> of_one_side(std::span<const WallEdge> edges) {
+  struct Named {
+    std::uint64_t points;
+    std::uint32_t edge;
+  };
+  std::vector<Named> sorted;
+  sorted.reserve(edges.size());
+  for (std::uint32_t i = 0; i < edges.size(); ++i) {
+    sorted.push_back({std::uint64_t{edges[i].points[0]} << 32U | edges[i].points[1], i});
+  }
+  std::sort(sorted.begin(), sorted.end(), [](const Named& a, const Named& b) { return a.points < b.points; });
   std::array<std::vector<WallEdge>, 2> alone;
-  for (std::size_t i = 0; i < edges.size();) {
-    std::size_t end = i;
+  for (std::size_t i = 0; i < sorted.size();) {
+    const WallEdge& first = edges[sorted[i].edge];
     bool matched = false;
-    while (end < edges.size() && edges[end].points == edges[i].points) {
-      matched = matched || edges[end].above != edges[i].above;
-      ++end;
+    std::size_t end = i;
+    for (; end < sorted.size() && sorted[end].points == sorted[i].points; ++end) {
+      matched = matched || edges[sorted[end].edge].above != first.above;
     }
-    if (!matched) alone[edges[i].above ? 1 : 0].push_back(edges[i]);
+    if (!matched) alone[first.above ? 1 : 0].push_back(first);
     i = end;
   }
   return alone;
@@ -35,10 +44,10 @@ Box box_of(const WallEdge& edge, const PointTable& points) {
 }  // namespace
 
 std::vector<PlaneTriple> wall_crossings(const PlaneTable& planes, PlaneId cut, const PointTable& points,
-                                        std::vector<WallEdge>&& edges,
+                                        std::span<const WallEdge> edges,
                                         const std::function<PlaneId(const WallEdge&)>& other_plane) {
   std::vector<PlaneTriple> crossings;
-  const auto [below, above] = of_one_side(std::move(edges));
+  const auto [below, above] = of_one_side(edges);
   if (below.empty() || above.empty()) return crossings;
   const auto separates = [&](PlaneId plane, const WallEdge& edge) {
     return side_of_plane(planes, plane, points, PointId{edge.points[0]}) *
@@ -47,14 +56,15 @@ std::vector<PlaneTriple> wall_crossings(const PlaneTable& planes, PlaneId cut, c
   };
   std::vector<Box> boxes;
   for (const WallEdge& edge : above) boxes.push_back(box_of(edge, points));
+  std::vector<PlaneId> of_above(above.size());  // as they are asked for
   const BoxTree tree(boxes);
   for (const WallEdge& a : below) {
+    PlaneId of_a;
     tree.for_each_overlap(box_of(a, points), [&, &others = above](std::uint32_t i) {
-      const WallEdge& b = others[i];
-      const PlaneId of_a = other_plane(a);
-      if (!separates(of_a, b)) return;
-      const PlaneId of_b = other_plane(b);
-      if (separates(of_b, a)) crossings.push_back({cut, of_a, of_b});
+      if (!of_a.valid()) of_a = other_plane(a);
+      if (!separates(of_a, others[i])) return;
+      if (!of_above[i].valid()) of_above[i] = other_plane(others[i]);
+      if (separates(of_above[i], a)) crossings.push_back({cut, of_a, of_above[i]});
     });
   }
   return crossings;

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
-#include <utility>
+#include <span>
 #include <vector>
 
 #include "nef/complex/ids.h"
@@ -19,8 +19,6 @@ struct WallEdge {
   bool above = false;                   ///< its tile lies above the cut
   std::uint32_t leaf = 0;
   HalfedgeId halfedge{0};
-
-  [[nodiscard]] auto key() const { return std::pair(points, above); }
 };
 
 /// The planes that meet in a point.
@@ -30,7 +28,7 @@ using PlaneTriple = std::array<PlaneId, 3>;
 /// are left out: nothing of either side crosses them. `other_plane` gives a plane that holds an edge, other than that
 /// of the cut. O(n log n) expected for n edges that cross few others.
 std::vector<PlaneTriple> wall_crossings(const PlaneTable& planes, PlaneId cut, const PointTable& points,
-                                        std::vector<WallEdge>&& edges,
+                                        std::span<const WallEdge> edges,
                                         const std::function<PlaneId(const WallEdge&)>& other_plane);
 
 }  // namespace nef

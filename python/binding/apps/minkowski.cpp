@@ -9,6 +9,7 @@
 
 #include "binding/base/bindings.h"
 #include "nef/distance/distance.h"
+#include "nef/polyhedron.h"
 
 namespace nef::python {
 namespace {

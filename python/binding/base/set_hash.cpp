@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "binding/base/set_hash.h"
 
+#include "nef/polyhedron.h"
 #include "nef/query/predicates_of_sets.h"
 
 namespace nef::python {

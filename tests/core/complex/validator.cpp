@@ -99,8 +99,8 @@ struct Breaker {
   void name(const std::string& field, PlaneId& x) {
     const VertexRecord a = c.vertices[changed_vertex];
     const VertexRecord b = c.vertices[changed_vertex.next()];
-    std::vector<PlaneId> planes(c.shalfedge_plane.pairs().begin() + a.shalfedges / 2,
-                                c.shalfedge_plane.pairs().begin() + b.shalfedges / 2);
+    std::vector<PlaneId> planes(c.shalfedge_plane.pairs().begin() + pair_of(a.shalfedges),
+                                c.shalfedge_plane.pairs().begin() + pair_of(b.shalfedges));
     planes.insert(planes.end(), c.other_planes.begin() + a.other_planes, c.other_planes.begin() + b.other_planes);
     const auto meant = [&planes](PlaneId id) {
       return id.row() < planes.size() ? PlaneId{planes[id.row()].value ^ (id.value & 1U)} : PlaneId();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "nef/export/convert_eigen.h"
+#include "nef/polyhedron.h"
 
 #include <catch2/catch.hpp>
 

@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "nef/export/to_mesh.h"
+#include "nef/polyhedron.h"
 
 namespace nef {
 namespace {

@@ -11,6 +11,7 @@
 #include "nef/io/mesh/mesh_reader.h"
 #include "nef/mesh/mesh_check.h"
 #include "nef/mesh/surface/mesh_surface.h"
+#include "nef/polyhedron.h"
 #include "tests/support/paths.h"
 
 namespace nef {

@@ -9,6 +9,7 @@
 #include "nef/export/to_mesh.h"
 #include "nef/import/repair.h"
 #include "nef/io/mesh/mesh_reader.h"
+#include "nef/polyhedron.h"
 
 namespace nef {
 namespace {

@@ -12,6 +12,7 @@
 #include "nef/io/mesh/mesh_reader.h"
 #include "nef/io/polyhedron_file.h"
 #include "nef/mesh/mesh_check.h"
+#include "nef/polyhedron.h"
 #include "support/ball.h"
 #include "support/temporary_folder.h"
 

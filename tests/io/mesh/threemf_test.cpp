@@ -8,6 +8,7 @@
 #include "nef/io/mesh/mesh_reader.h"
 #include "nef/io/polyhedron_file.h"
 #include "nef/io/zip_archive.h"
+#include "nef/polyhedron.h"
 #include "support/temporary_folder.h"
 
 namespace nef::test {

@@ -11,6 +11,7 @@
 #include "nef/construct/construct.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/polyhedron_file.h"
+#include "nef/polyhedron.h"
 #include "nef/query/measure.h"
 #include "tests/support/paths.h"
 #include "tests/support/report_shape.h"

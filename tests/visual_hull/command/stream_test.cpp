@@ -13,6 +13,7 @@
 #include "nef/base/threads/parallel.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/polyhedron_file.h"
+#include "nef/polyhedron.h"
 #include "tests/support/paths.h"
 #include "tests/visual_hull/command/run_command.h"
 #include "tests/visual_hull/helpers.h"

@@ -10,6 +10,7 @@
 #include "apps/visual_hull/verify/empty_hull.h"
 #include "apps/visual_hull/verify/sight_lines.h"
 #include "nef/base/error.h"
+#include "nef/polyhedron.h"
 #include "tests/support/paths.h"
 #include "tests/visual_hull/helpers.h"
 #include "tests/visual_hull/scratch.h"

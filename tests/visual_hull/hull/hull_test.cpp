@@ -5,6 +5,7 @@
 #include <set>
 
 #include "nef/base/error.h"
+#include "nef/polyhedron.h"
 #include "tests/visual_hull/helpers.h"
 
 namespace visual_hull {

@@ -3,6 +3,7 @@
 // The thesis' kind of example: three letters, one for each camera, with polygons of our own.
 #include <algorithm>
 
+#include "nef/polyhedron.h"
 #include "nef/query/measures/approximate_volume.h"
 #include "tests/support/paths.h"
 #include "tests/visual_hull/helpers.h"

@@ -124,6 +124,8 @@ class SegmentCutter {
       return touching(s, h, form);
     }
     const double t = form.at / (form.at - last);
+    // Both ends are surely off the plane, so 0 < t < 1: the forms' errors move it by less than twice their part of the
+    // slope, and what rounds in it is a few units of 2^-53, a thousandth of the last term.
     const double doubt = form.error / std::fabs(form.slope) * 2 + 1e-13;
     Double3 x{};
     double reach = 0;

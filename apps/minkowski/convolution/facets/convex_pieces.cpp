@@ -63,8 +63,7 @@ std::vector<std::vector<std::uint32_t>> ConvexPieces::cut(FacetId id) {
   std::vector<Ring> rings;
   for (const CycleId cycle : facet.cycles()) {
     Ring& ring = rings.emplace_back();
-    for (const std::uint32_t corner : c_.corners_of(cycle))
-      ring.push_back(point_of(c_.shalfedge_vertex(corner)).index());
+    for (const SHalfedgeId corner : c_.corners_of(cycle)) ring.push_back(point_of(c_.shalfedge_vertex(corner)).index());
   }
   if (rings.size() == 1 && is_convex(rings[0])) return rings;
   find_slits(rings);

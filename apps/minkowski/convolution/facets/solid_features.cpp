@@ -6,6 +6,7 @@
 
 #include "apps/minkowski/convolution/facets/convex_pieces.h"
 #include "nef/mesh/edge_order.h"
+#include "nef/polyhedron.h"
 
 namespace nef::minkowski {
 

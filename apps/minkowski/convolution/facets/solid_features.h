@@ -8,7 +8,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "nef/polyhedron.h"
+#include "nef/complex/complex.h"
+#include "nef/forward.h"
 #include "nef/sphere_map/sphere_geometry.h"
 
 namespace nef::minkowski {

@@ -5,10 +5,8 @@ The last green run is, in this order: the commit in NEF_CI_BASE, the commit that
 in a fresh clone, which knows no runs, the state before the last commits (HISTORY of them).
 
 Usage: ci_selection.py base                     the commit, and how it was found
-       ci_selection.py tests SECONDS            lines "run NAME SHARES" and "left NAME": test programs for the sanitizers,
-                                                which take so many CPU seconds together to build and run, and of how
-                                                many shares of its test cases a program runs one
-       ci_selection.py cases SHARES             of the names on the standard input, those of today's share
+       ci_selection.py tests SECONDS            lines "run NAME" and "left NAME": test programs for the sanitizers, which
+                                                take so many CPU seconds together to build and run
        ci_selection.py green                    records that HEAD is green
 """
 import os
@@ -20,23 +18,23 @@ HISTORY = 25
 RECORD = "build/ci-green"
 
 # Test programs under the sanitizers: CPU seconds that it takes there to build what the stage before has not built, and to
-# run a share of their test cases; into how many shares these are dealt, one a day; and the folders that they are about.
-# The core's are always looked at. The stage prints what a program took; what is said here is to be no less.
+# run them; and the folders that they are about. The core's are always looked at. The stage prints what a program took; what
+# is said here is to be no less.
 CORE = {
-    "test_core": (60, 75, 1),
-    "test_laws": (20, 10, 1),
-    "test_query": (25, 40, 1),
-    "test_tiles": (15, 145, 1),
-    "test_io": (50, 60, 1),
+    "test_core": (60, 75),
+    "test_laws": (20, 10),
+    "test_query": (25, 40),
+    "test_tiles": (15, 220),
+    "test_io": (50, 120),
 }
 POOL = {
-    "test_minkowski": (60, 240, 3, "apps/minkowski/", "tests/minkowski/"),
-    "test_visual_hull": (60, 150, 2, "apps/visual_hull/", "tests/visual_hull/"),
-    "test_planner": (90, 200, 2, "apps/planner/", "tests/planner/"),
-    "test_view": (30, 60, 1, "nef/view/", "tests/view/"),
-    "test_nef_mpi": (20, 60, 1, "apps/nef_mpi/", "tests/nef_mpi/"),
-    "test_remeshing": (20, 60, 1, "nef/remeshing/", "tests/remeshing/"),
-    "test_command": (40, 120, 1, "apps/nef/", "nef/command/", "nef/program/", "tests/command/"),
+    "test_minkowski": (60, 220, "apps/minkowski/", "tests/minkowski/"),
+    "test_visual_hull": (60, 100, "apps/visual_hull/", "tests/visual_hull/"),
+    "test_planner": (90, 200, "apps/planner/", "tests/planner/"),
+    "test_view": (30, 20, "nef/view/", "tests/view/"),
+    "test_nef_mpi": (20, 200, "apps/nef_mpi/", "tests/nef_mpi/"),
+    "test_remeshing": (20, 20, "nef/remeshing/", "tests/remeshing/"),
+    "test_command": (40, 120, "apps/nef/", "nef/command/", "nef/program/", "tests/command/"),
 }
 
 
@@ -87,17 +85,17 @@ def rotated(items: list[str]) -> list[str]:
 def tests(seconds: int) -> None:
     """The core's programs, then those whose folders changed, then others in turn, as long as the time is enough."""
     files = changed()
-    touched = [name for name, (_, _, _, *folders) in POOL.items() if any(file.startswith(tuple(folders)) for file in files)]
+    touched = [name for name, (_, _, *folders) in POOL.items() if any(file.startswith(tuple(folders)) for file in files)]
     rest = [name for name in rotated(list(POOL)) if name not in touched]
     chosen = list(CORE)
-    left = seconds - sum(build + run for build, run, _ in CORE.values())
+    left = seconds - sum(build + run for build, run in CORE.values())
     for name in rotated(touched) + rest:
         build, run, *_ = POOL[name]
         if build + run <= left:
             left -= build + run
             chosen.append(name)
     for name in list(CORE) + list(POOL):
-        print(f"run {name} {(CORE | POOL)[name][2]}" if name in chosen else f"left {name}")
+        print(f"{'run' if name in chosen else 'left'} {name}")
 
 
 def main() -> int:
@@ -107,9 +105,6 @@ def main() -> int:
         print(f"{commit[:12] or '-'} ({why}); {len(changed())} files changed")
     elif command == "tests":
         tests(int(sys.argv[2]))
-    elif command == "cases":
-        shares = int(sys.argv[2])
-        sys.stdout.writelines(name for i, name in enumerate(sys.stdin) if i % shares == day() % shares)
     elif command == "green":
         os.makedirs("build", exist_ok=True)
         with open(RECORD, "w", encoding="utf-8") as file:

@@ -99,7 +99,7 @@ TEST_CASE("halves of cut edges are those of the overlay") {
       }
     }));
   }
-  CHECK(count > 1000);
+  CHECK(count > 0);
 }
 
 }  // namespace nef::test

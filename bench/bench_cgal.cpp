@@ -87,35 +87,44 @@ bool inside(const Nef& set, const Rational3& p) {
   return c->mark();
 }
 
-Report run(const std::string& directory, int repeat) {
+// Meshes are there only while they are converted.
+std::vector<Nef> build(const std::string& directory, Report& report) {
   const Case bench_case = read_case(directory);
+  std::vector<Nef> operands;
+  const Stopwatch watch;
+  for (const Operand& operand : bench_case.operands) operands.push_back(operand_of(operand));
+  report.build_s.push_back(watch.seconds());
+  return operands;
+}
+
+Report run(const std::string& directory, int repeat) {
+  const CaseKind kind = read_case_kind(directory);
+  if (kind.operation > Operation::kLocate) throw std::runtime_error("not asked to do many operands at once");
   Report report;
   std::vector<Nef> operands;
   for (int i = 0; i < repeat; ++i) {
     operands.clear();
-    const Stopwatch watch;
-    for (const Operand& operand : bench_case.operands) operands.push_back(operand_of(operand));
-    report.build_s.push_back(watch.seconds());
+    operands = build(directory, report);
   }
   Nef result;
-  if (bench_case.operation > Operation::kLocate) throw std::runtime_error("not asked to do many operands at once");
-  const bool locating = bench_case.operation == Operation::kLocate;
-  const std::size_t base_count = operands.size() - (bench_case.operation == Operation::kDifference ? 1 : 0);
+  const bool locating = kind.operation == Operation::kLocate;
+  const std::size_t base_count = operands.size() - (kind.operation == Operation::kDifference ? 1 : 0);
   Nef base;
-  if (bench_case.operation != Operation::kUnion) base = united(operands, base_count);
+  if (kind.operation != Operation::kUnion) base = united(operands, base_count);
   std::vector<Rational3> points;
   if (locating) {
-    points = query_points(std::stoi(bench_case.name.substr(bench_case.name.find('-') + 1)));
+    points = query_points(std::stoi(kind.name.substr(kind.name.find('-') + 1)));
     result = base;
     static_cast<void>(inside(result, points[0]));
   }
   for (int i = 0; i < repeat; ++i) {
+    if (!locating) result = Nef();
     const Stopwatch watch;
     if (locating) {
       report.inside = 0;
       for (const Rational3& p : points) report.inside += inside(result, p) ? 1 : 0;
     } else {
-      result = bench_case.operation == Operation::kUnion ? united(operands, operands.size()) : base - operands.back();
+      result = kind.operation == Operation::kUnion ? united(operands, operands.size()) : base - operands.back();
     }
     report.op_s.push_back(watch.seconds());
   }

@@ -21,55 +21,54 @@ Polyhedron united(const std::vector<Polyhedron>& operands, std::size_t count, un
   return result;
 }
 
-Report run(const std::string& directory, int repeat, unsigned threads) {
+// Meshes are there only while they are converted, as in a program that reads files.
+std::vector<Polyhedron> build(const std::string& directory, unsigned threads, Report& report) {
   const Case bench_case = read_case(directory);
+  std::vector<Polyhedron> operands;
+  const Stopwatch watch;
+  const nef::Stopwatch clock;
+  for (const Operand& operand : bench_case.operands) {
+    MeshOptions options;
+    options.threads = threads;
+    options.as_surface = operand.surface;
+    operands.push_back(from_mesh(operand.mesh, options));
+  }
+  report.build_s.push_back(watch.seconds());
+  report.build_wall_s.push_back(clock.seconds());
+  return operands;
+}
+
+Report run(const std::string& directory, int repeat, unsigned threads) {
+  const CaseKind kind = read_case_kind(directory);
   Report report;
   std::vector<Polyhedron> operands;
   for (int i = 0; i < repeat; ++i) {
     operands.clear();
-    const Stopwatch watch;
-    const nef::Stopwatch clock;
-    for (const Operand& operand : bench_case.operands) {
-      MeshOptions options;
-      options.threads = threads;
-      options.as_surface = operand.surface;
-      operands.push_back(from_mesh(operand.mesh, options));
-    }
-    report.build_s.push_back(watch.seconds());
-    report.build_wall_s.push_back(clock.seconds());
+    operands = build(directory, threads, report);
   }
   Polyhedron result;
-  if (bench_case.operation == Operation::kUnion) {
+  const auto operate = [&](const auto& operation) {
     for (int i = 0; i < repeat; ++i) {
+      result = Polyhedron();
       const Stopwatch watch;
       const nef::Stopwatch clock;
-      result = united(operands, operands.size(), threads);
+      result = operation();
       report.op_s.push_back(watch.seconds());
       report.op_wall_s.push_back(clock.seconds());
     }
-  } else if (bench_case.operation == Operation::kUniteAll || bench_case.operation == Operation::kSubtractAll) {
-    const bool all = bench_case.operation == Operation::kUniteAll;
-    for (int i = 0; i < repeat; ++i) {
-      const Stopwatch watch;
-      const nef::Stopwatch clock;
-      result = all ? unite_all(operands, threads)
-                   : subtract(operands[0], unite_all(std::span(operands).subspan(1), threads), threads);
-      report.op_s.push_back(watch.seconds());
-      report.op_wall_s.push_back(clock.seconds());
-    }
-  } else if (bench_case.operation == Operation::kDifference) {
+  };
+  if (kind.operation == Operation::kUnion) {
+    operate([&] { return united(operands, operands.size(), threads); });
+  } else if (kind.operation == Operation::kUniteAll) {
+    operate([&] { return unite_all(operands, threads); });
+  } else if (kind.operation == Operation::kSubtractAll) {
+    operate([&] { return subtract(operands[0], unite_all(std::span(operands).subspan(1), threads), threads); });
+  } else if (kind.operation == Operation::kDifference) {
     const Polyhedron base = united(operands, operands.size() - 1, threads);
-    for (int i = 0; i < repeat; ++i) {
-      const Stopwatch watch;
-      const nef::Stopwatch clock;
-      result = subtract(base, operands.back(), threads);
-      report.op_s.push_back(watch.seconds());
-      report.op_wall_s.push_back(clock.seconds());
-    }
+    operate([&] { return subtract(base, operands.back(), threads); });
   } else {
     result = united(operands, operands.size(), threads);
-    const std::vector<Rational3> points =
-        query_points(std::stoi(bench_case.name.substr(bench_case.name.find('-') + 1)));
+    const std::vector<Rational3> points = query_points(std::stoi(kind.name.substr(kind.name.find('-') + 1)));
     static_cast<void>(contains(result, points[0]));  // CGAL's structure is there after the union; build ours, too
     for (int i = 0; i < repeat; ++i) {
       const Stopwatch watch;

@@ -52,6 +52,16 @@ Mesh read_off(const std::string& path) {
   return mesh;
 }
 
+CaseKind read_kind(std::istream& in, const std::string& directory) {
+  CaseKind kind;
+  int operation = 0;
+  if (!(in >> kind.name >> operation) || operation < 0 || operation > 4) {
+    throw InputError(directory + "/case.txt: not a case; write one with nef_bench_generate");
+  }
+  kind.operation = static_cast<Operation>(operation);
+  return kind;
+}
+
 }  // namespace
 
 void write_case(const Case& bench_case, const std::string& directory) {
@@ -65,14 +75,15 @@ void write_case(const Case& bench_case, const std::string& directory) {
   write_file(directory + "/case.txt", out.str());
 }
 
+CaseKind read_case_kind(const std::string& directory) {
+  std::ifstream in(directory + "/case.txt");
+  return read_kind(in, directory);
+}
+
 Case read_case(const std::string& directory) {
   std::ifstream in(directory + "/case.txt");
-  Case result;
-  int operation = 0;
-  if (!(in >> result.name >> operation) || operation < 0 || operation > 4) {
-    throw InputError(directory + "/case.txt: not a case; write one with nef_bench_generate");
-  }
-  result.operation = static_cast<Operation>(operation);
+  const CaseKind of = read_kind(in, directory);
+  Case result{of.name, of.operation, {}};
   for (std::string kind; in >> kind;) {
     const std::string path = directory + "/" + std::to_string(result.operands.size()) + ".off";
     result.operands.push_back({read_off(path), kind == "surface"});

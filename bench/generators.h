@@ -95,4 +95,13 @@ void write_case(const Case& bench_case, const std::string& directory);
 /// Reads what write_case wrote.
 Case read_case(const std::string& directory);
 
+/// What a case asks for, without its operands.
+struct CaseKind {
+  std::string name;
+  Operation operation = Operation::kUnion;
+};
+
+/// Of what write_case wrote.
+CaseKind read_case_kind(const std::string& directory);
+
 }  // namespace nef::bench

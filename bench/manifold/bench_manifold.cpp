@@ -53,25 +53,41 @@ Manifold evaluated(const Manifold& lazy) {
   return lazy;
 }
 
+// The meshes of a case, in the order of its operands.
+std::vector<MeshGL64> read_meshes(const std::string& directory) {
+  std::ifstream in(directory + "/case.txt");
+  std::string word;
+  in >> word >> word;
+  std::vector<MeshGL64> meshes;
+  for (std::string kind; in >> kind;) {
+    if (kind == "surface") throw std::runtime_error("not a solid");
+    meshes.push_back(read_off(directory + "/" + std::to_string(meshes.size()) + ".off"));
+  }
+  return meshes;
+}
+
+// Meshes are there only while they are converted.
+std::vector<Manifold> build(const std::string& directory, Report& report) {
+  const std::vector<MeshGL64> meshes = read_meshes(directory);
+  std::vector<Manifold> operands;
+  const Stopwatch watch;
+  for (const MeshGL64& mesh : meshes) operands.push_back(evaluated(Manifold(mesh)));
+  report.build_s.push_back(watch.seconds());
+  return operands;
+}
+
 Report run(const std::string& directory, int repeat) {
   std::ifstream in(directory + "/case.txt");
   std::string name;
   int operation = 0;
   if (!(in >> name >> operation)) throw std::runtime_error("no case");
   if (operation == 2) throw std::runtime_error("not a Boolean");
-  std::vector<MeshGL64> meshes;
-  for (std::string kind; in >> kind;) {
-    if (kind == "surface") throw std::runtime_error("not a solid");
-    meshes.push_back(read_off(directory + "/" + std::to_string(meshes.size()) + ".off"));
-  }
   const bool difference = operation == 1;
   Report report;
   Manifold result;
   for (int i = 0; i < repeat; ++i) {
-    std::vector<Manifold> operands;
-    const Stopwatch build;
-    for (const MeshGL64& mesh : meshes) operands.push_back(evaluated(Manifold(mesh)));
-    report.build_s.push_back(build.seconds());
+    result = Manifold();
+    const std::vector<Manifold> operands = build(directory, report);
     const bool together = operation > 2;
     const std::size_t before = difference ? operands.size() - 1 : 1;
     Manifold base = operands[0];

@@ -29,6 +29,14 @@ class ComplexOverlay {
   std::optional<Complex> run(const std::function<const QueryStructure&()>& queries_a,
                              const std::function<const QueryStructure&()>& queries_b) {
     Intersections found = intersect_boundaries(operands_, tables_, threads_);
+    collect(found, queries_a, queries_b);
+    return finished(std::move(found));
+  }
+
+ private:
+  // The vertices of the result.
+  void collect(const Intersections& found, const std::function<const QueryStructure&()>& queries_a,
+               const std::function<const QueryStructure&()>& queries_b) {
     std::array<IndexedVector<VertexId, LabelId>, 2> marks;
     const auto find_marks = [&](std::size_t x) {
       marks[x] = marks_of_untouched(operands_, x, tables_, found, x == 0 ? queries_b : queries_a);
@@ -39,16 +47,14 @@ class ComplexOverlay {
     for_each_vertex(
         found, [](std::size_t, VertexId) {}, note_meeting);
     for (const Crossing& crossing : found.crossings) note_meeting({crossing.point, crossing.item});
-    const OverlaidMeetings overlaid(operands_, tables_, f_, meetings, threads_);
+    overlaid_.emplace(operands_, tables_, f_, meetings, threads_);
     std::size_t next = 0;
-    const auto push_next = [&](const Meeting&) { result_.add(overlaid[next++]); };
+    const auto push_next = [&](const Meeting&) { result_.add((*overlaid_)[next++]); };
     for_each_vertex(
         found, [&](std::size_t x, VertexId v) { push_untouched(x, v, marks[x][v]); }, push_next);
-    while (next < meetings.size()) result_.add(overlaid[next++]);
-    return finished(std::move(found));
+    while (next < meetings.size()) result_.add((*overlaid_)[next++]);
   }
 
- private:
   // The vertices of both operands in the order of the result: those that touch nothing, and those at which pyramids
   // meet. Where two vertices meet, that of operand 0. Gone through twice: what meets is overlaid on several threads,
   // and then put in its place.
@@ -74,15 +80,19 @@ class ComplexOverlay {
     const Complex& b = operands_[1].complex();
     const LabelId outer = f_(a.volumes[kOuterVolume].mark, b.volumes[kOuterVolume].mark);
     if (result_.is_first_operand() && outer == a.volumes[kOuterVolume].mark) return std::nullopt;
+    // What is done with goes before the result needs room.
+    tables_.points = PointTable();
+    found.vertex_item = {};
+    found.crossings = {};
     ComplexBuilder builder(tables_.planes);
     result_.write(tables_.planes, builder, threads_);
+    overlaid_.reset();
     if ((a.has_box() || b.has_box()) && builder.has_idle_box()) return builder.finish(outer, threads_);
     std::optional<KnownLinks> known;
     if (result_.is_mostly_copies()) {
       known = copied_links(builder.so_far(), result_.origins(), {&a, &b}, found.contacts, threads_);
     }
     found = {};
-    tables_.points = PointTable();
     return known ? builder.finish(outer, *std::move(known), threads_) : builder.finish(outer, threads_);
   }
 
@@ -191,6 +201,7 @@ class ComplexOverlay {
   SphereMapBuffer out_;
   std::vector<LabelId> marks_;
   std::array<Restrictions, 2> restrictions_;
+  std::optional<OverlaidMeetings> overlaid_;  // holds what the result takes from it until that is written
   ResultAssembly result_;
 };
 

@@ -130,7 +130,8 @@ void ResultAssembly::write(PlaneTable& planes, ComplexBuilder& result, unsigned 
     const std::span<const LabelId> marks = run.marks == nullptr ? std::span<const LabelId>() : *run.marks;
     copies.push_back({run.from, r.first, r.count, rows.of_origin[r.origin], marks});
   }
-  parallel_calls(threads, {[&] { result.copy(copies, threads); }, [&] { drop_planes(planes, rows); }});
+  // On one thread, the dropped planes are gone before the copies are there.
+  parallel_calls(threads, {[&] { drop_planes(planes, rows); }, [&] { result.copy(copies, threads); }});
 }
 
 }  // namespace nef

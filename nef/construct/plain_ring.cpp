@@ -18,6 +18,7 @@ bool PlainRing::read(std::uint32_t point, std::span<const FaceCorner> corners) {
   if (corners.size() < 3 || corners.size() > kMost || !order(corners)) return false;
   const std::size_t n = ring_.size();
   planes_.clear();
+  edges_.clear();
   for (const FaceCorner& corner : ring_) planes_.push_back(faces_.plane[corner.face]);
   bits_ = 1;  // ends the bits of any number of edges
   for (std::size_t i = 0; i < n; ++i) {
@@ -29,7 +30,36 @@ bool PlainRing::read(std::uint32_t point, std::span<const FaceCorner> corners) {
     if (swapped) std::swap(first, second);
     const std::optional<int> sign = direction(point, ring_[i].next, first, second);
     if (!sign) return false;
+    const PlaneId unflipped{second.row() << 1U};
+    edges_.push_back({PlaneId{first.row() << 1U}, *sign > 0 ? unflipped : unflipped.opposite()});
     bits_ = bits_ << 3U | (swapped ? 4U : 0U) | (turned ? 2U : 0U) | (*sign > 0 ? 1U : 0U);
+  }
+  return true;
+}
+
+// Svertex i leads along the edge of corner i, shalfedge 2 i is the half of that corner's arc that leaves it.
+bool PlainRing::write(const SolidMarks& marks, SphereMapBuffer& map) const {
+  const auto n = static_cast<std::uint32_t>(ring_.size());
+  const auto mark_of = [&](std::uint32_t i) { return planes_[i].flipped() ? marks.flipped_boundary : marks.boundary; };
+  map.clear();
+  map.mark = mark_of(0);
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const std::uint32_t ahead = i + 1 == n ? 0 : i + 1;
+    const std::uint32_t behind = i == 0 ? n - 1 : i - 1;
+    const LabelId mark = mark_of(i);
+    if (mark == marks.outside && mark == marks.inside) return false;
+    if (mark != map.mark) map.mark = marks.boundary;
+    SVertex& v = map.svertices.emplace_back();
+    v.p = edges_[i].p;
+    v.q = edges_[i].q;
+    v.out = 2 * i;
+    v.mark = mark == mark_of(behind) ? mark : marks.boundary;
+    map.shalfedges.push_back({planes_[i], i, 2 * ahead, 2 * behind, 0, mark});
+    map.shalfedges.push_back({planes_[i].opposite(), ahead, 2 * behind + 1, 2 * ahead + 1, 1, mark});
+  }
+  for (const std::uint32_t side : {0U, 1U}) {
+    map.sfaces.push_back({side, 1, side == 0 ? marks.outside : marks.inside});
+    map.entries.push_back({SFaceEntry::Kind::kCycle, side});
   }
   return true;
 }

@@ -38,6 +38,9 @@ class PlainRing {
   /// Their planes.
   [[nodiscard]] std::span<const PlaneId> planes() const { return planes_; }
 
+  /// The sphere map of the vertex that was read, as drawing it would make it; false if the marks hide a part of it.
+  [[nodiscard]] bool write(const SolidMarks& marks, SphereMapBuffer& map) const;
+
   /// A vertex that was learned with the same bits, if there is one.
   [[nodiscard]] VertexId like() const {
     const auto known = known_.find(bits_);
@@ -48,12 +51,18 @@ class PlainRing {
   void learn(VertexId vertex) { known_.emplace(bits_, vertex); }
 
  private:
+  // Unflipped planes whose normals have the direction of an edge for their product, or the second one flipped.
+  struct EdgePlanes {
+    PlaneId p, q;
+  };
+
   bool order(std::span<const FaceCorner> corners);
   [[nodiscard]] std::optional<int> direction(std::uint32_t from, std::uint32_t to, PlaneId first, PlaneId second) const;
 
   const SolidFaces& faces_;
   std::vector<FaceCorner> ring_;
   std::vector<PlaneId> planes_;
+  std::vector<EdgePlanes> edges_;  // to the next points of the ring
   std::uint64_t bits_ = 0;
   std::unordered_map<std::uint64_t, VertexId> known_;
 };

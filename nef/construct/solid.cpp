@@ -37,29 +37,11 @@ class SolidBuilder {
   SolidBuilder(SolidFaces&& faces, const SolidMarks& marks) : f_(std::move(faces)), marks_(marks) {}
 
   std::variant<Complex, Defect> run() {
-    collect_corners();
     ComplexBuilder result(f_.planes);
-    reserve(result);
-    SolidLinks links(f_);
-    PlainRing ring(f_);
-    for (std::uint32_t v = 0; v < f_.points.size(); ++v) {
-      const std::span<const FaceCorner> corners = std::span(corners_).subspan(first_[v], first_[v + 1] - first_[v]);
-      if (corners.empty()) continue;
-      const bool plain = ring.read(v, corners);
-      if (const VertexId like = plain ? ring.like() : VertexId(); like.valid()) {
-        if (result.append_like(f_.points, PointId{v}, like, ring.planes())) {
-          links.note_ring(result.so_far(), v, ring.corners());
-        }
-        continue;
-      }
-      draw(v, corners);
-      drawing_.sort_around_nodes(f_.planes);
-      check_sides(v);
-      if (!result.add_sorted(f_.points, PointId{v}, drawing_)) continue;
-      const bool is_ring = links.note(result.so_far(), v, drawing_, ends_, ring_);
-      if (plain && is_ring) ring.learn(VertexId{result.so_far().vertex_count() - 1});
-    }
-    std::optional<KnownLinks> known = links.finish(result.so_far());
+    std::optional<KnownLinks> known = add_vertices(result);
+    f_.plane = {};
+    f_.begin = {};
+    f_.corners = {};
     return known ? result.try_finish(marks_.outside, std::move(*known)) : result.try_finish(marks_.outside);
   }
 
@@ -71,6 +53,44 @@ class SolidBuilder {
     std::uint32_t arcs = 0;
     LabelId mark = kOutside;  // none yet
   };
+
+  // And the links between them that the faces tell.
+  std::optional<KnownLinks> add_vertices(ComplexBuilder& result) {
+    collect_corners();
+    reserve(result);
+    SolidLinks links(f_);
+    PlainRing ring(f_);
+    for (std::uint32_t v = 0; v < f_.points.size(); ++v) {
+      const std::span<const FaceCorner> corners = std::span(corners_).subspan(first_[v], first_[v + 1] - first_[v]);
+      if (corners.empty()) continue;
+      if (ring.read(v, corners)) {
+        if (const VertexId like = ring.like(); like.valid()) {
+          if (result.append_like(f_.points, PointId{v}, like, ring.planes())) {
+            links.note_ring(result.so_far(), v, ring.corners());
+          }
+          continue;
+        }
+        if (ring.write(marks_, map_)) {
+          if (result.add(f_.points, PointId{v}, map_.view())) {
+            links.note_ring(result.so_far(), v, ring.corners());
+            ring.learn(VertexId{result.so_far().vertex_count() - 1});
+          }
+          continue;
+        }
+      }
+      draw(v, corners);
+      drawing_.sort_around_nodes(f_.planes);
+      check_sides(v);
+      if (result.add_sorted(f_.points, PointId{v}, drawing_)) {
+        links.note(result.so_far(), v, drawing_, ends_, ring_);
+      }
+    }
+    // Links need room: what is done with goes first.
+    corners_ = {};
+    first_ = {};
+    f_.points = PointTable();
+    return links.finish(result.so_far());
+  }
 
   // As for faces that are all facets, which is as much as there can be of each.
   void reserve(ComplexBuilder& result) const {
@@ -214,6 +234,7 @@ class SolidBuilder {
   std::vector<std::uint32_t> ends_;  // of the spokes
   std::vector<std::uint32_t> ring_;  // the corners around the vertex, in f_.corners
   Arrangement drawing_;
+  SphereMapBuffer map_;  // of the vertex at hand, where it need not be drawn
 };
 
 // Where a defect is a bug.

@@ -13,10 +13,9 @@ SolidLinks::SolidLinks(const SolidFaces& faces)
   end_.reserve(faces.corners.size());
 }
 
-bool SolidLinks::note(const Complex& result, std::uint32_t point, const Arrangement& drawing,
+void SolidLinks::note(const Complex& result, std::uint32_t point, const Arrangement& drawing,
                       std::span<const std::uint32_t> ends, std::span<const std::uint32_t> corners) {
-  const bool plain = note_drawn_ring(result, drawing, ends, corners);
-  if (plain) {
+  if (note_drawn_ring(result, drawing, ends, corners)) {
     vertex_of_[point] = point_.end_id();
   } else {
     for (const std::uint32_t corner : corners) shalfedge_of_[corner] = SHalfedgeId();
@@ -24,7 +23,6 @@ bool SolidLinks::note(const Complex& result, std::uint32_t point, const Arrangem
     end_.resize(result.svertex_count(), kNone);
   }
   point_.push_back(point);
-  return plain;
 }
 
 void SolidLinks::note_ring(const Complex& result, std::uint32_t point, std::span<const FaceCorner> ring) {

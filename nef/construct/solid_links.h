@@ -22,8 +22,8 @@ class SolidLinks {
   explicit SolidLinks(const SolidFaces& faces);
 
   /// The last vertex of the result: it lies at `point`; node n of its drawing leads to point `ends[n]`, arc a stands
-  /// for corner `corners[a]` of all faces. True if the vertex is plain.
-  bool note(const Complex& result, std::uint32_t point, const Arrangement& drawing, std::span<const std::uint32_t> ends,
+  /// for corner `corners[a]` of all faces.
+  void note(const Complex& result, std::uint32_t point, const Arrangement& drawing, std::span<const std::uint32_t> ends,
             std::span<const std::uint32_t> corners);
 
   /// The same for a plain vertex whose corners are given in the order of its ring.

@@ -130,8 +130,8 @@ class Exporter {
 
   void collect_facets() {
     for (const FacetId f : complex_.facets.ids()) {
-      const Facet& facet = complex_.facets[f];
-      if (volumes_[facet.volume_above].selected != volumes_[facet.volume_below].selected) boundary_.push_back(f);
+      const FacetSides sides = complex_.facets.sides_of(f);
+      if (volumes_[sides.volume_above].selected != volumes_[sides.volume_below].selected) boundary_.push_back(f);
     }
   }
 
@@ -356,15 +356,17 @@ class Exporter {
   }
 
   void look_for_losses() {
-    for (const Facet& facet : complex_.facets) {
+    for (const FacetId f : complex_.facets.ids()) {
+      const FacetSides facet = complex_.facets.sides_of(f);
       SeenVolumes sides = volumes_[facet.volume_above];
       sides.add(volumes_[facet.volume_below]);
       judge(sides, facet.mark, &Items::facets);
     }
     // Then whatever lies in the closure of a facet sees a volume of the mesh, and is lost only if it is not selected.
     const bool all_facets = boundary_.size() == complex_.facet_count() && !lower_dimensional_;
+    const std::vector<bool> keeps_all = all_facets ? whole_patterns() : std::vector<bool>(complex_.patterns.size());
     for (const VertexId v : complex_.vertex_ids()) {
-      if (!finite(v)) continue;
+      if (keeps_all[complex_.vertices.pattern(v).index()] || !finite(v)) continue;
       const VertexRecord& record = complex_.vertices[v];
       const VertexRecord& end = complex_.vertices[v.next()];
       const bool at_facet = all_facets && (record.shalfedges < end.shalfedges || record.sloops < end.sloops);
@@ -381,6 +383,18 @@ class Exporter {
         judge(sides_of_edge(v, h), svertex.mark, &Items::edges);
       }
     }
+  }
+
+  // Of each pattern: its vertices and all their edges are selected, and lie in facets.
+  [[nodiscard]] std::vector<bool> whole_patterns() const {
+    std::vector<bool> result;
+    for (std::uint32_t i = 0; i < complex_.patterns.size(); ++i) {
+      const SphereMapView map = complex_.patterns.view(PatternId{i});
+      const auto is_whole = [&](const SVertex& s) { return s.out != kNone && is_selected(s.mark); };
+      result.push_back(!map.shalfedges.empty() && is_selected(map.mark) &&
+                       std::all_of(map.svertices.begin(), map.svertices.end(), is_whole));
+    }
+    return result;
   }
 
   [[nodiscard]] SeenVolumes sides_of_edge(VertexId vertex, HalfedgeId halfedge) const {
@@ -451,6 +465,7 @@ class Exporter {
 }  // namespace
 
 std::array<double, 3> nearest_doubles(const PointTable& points, PointId point) {
+  if (points.is_nearest(point)) return points.approximate(point);
   const IntegerView w = points.coordinate(point, 3);
   std::array<double, 3> result;
   for (std::size_t i = 0; i < 3; ++i) result[i] = nearest_quotient(points.coordinate(point, i), w);

@@ -13,6 +13,8 @@ namespace nef {
 
 namespace {
 
+constexpr Int128 kExactDouble = Int128{1} << 53U;  // integers below it are doubles
+
 // The homogeneous coordinates x, y, z, w of a point whose fractions and common denominator are small.
 bool small_coordinates(const Rational3& point, std::array<std::int64_t, 4>& h) {
   std::array<std::int64_t, 3> denominator{};
@@ -90,7 +92,14 @@ PointId PointTable::push(const Rational3& point) {
 PointId PointTable::push_homogeneous(const std::array<Int128, 7>& h) {
   NEF_ASSERT(h[3] > 0);
   const PointId id{rows_.push(h)};
-  push_approximation();
+  const auto exact = [&h](std::size_t i) { return h[i] < kExactDouble && -h[i] < kExactDouble; };
+  if (exact(0) && exact(1) && exact(2) && exact(3) && h[4] == 0 && h[5] == 0 && h[6] == 0) {
+    const auto w = static_cast<double>(h[3]);
+    approximate_.push_back(
+        {static_cast<double>(h[0]) / w, static_cast<double>(h[1]) / w, static_cast<double>(h[2]) / w});
+  } else {
+    push_approximation();
+  }
   return id;
 }
 

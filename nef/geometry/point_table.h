@@ -60,6 +60,10 @@ class PointTable {
   /// The three doubles of a point.
   [[nodiscard]] const std::array<double, 3>& approximate(PointId point) const { return approximate_[point.index()]; }
 
+  /// True if `approximate` gives the doubles nearest to the coordinates: those of a finite point whose integers are
+  /// doubles themselves, as the one quotient is then all that is rounded.
+  [[nodiscard]] bool is_nearest(PointId point) const { return finite(point) && rows_.are_doubles(point.index()); }
+
   /// Equal for points with the same homogeneous coordinates (as push makes them of equal points).
   [[nodiscard]] std::uint64_t hash(PointId point) const { return rows_.hash(point.index()); }
   [[nodiscard]] bool identical(PointId a, PointId b) const { return identical(a, *this, b); }

@@ -3,8 +3,10 @@
 // Meshes to solids: check, merge equal vertices, find the plane of every face, then draw each
 // vertex's sphere map from the corners of the faces around it.
 #include <algorithm>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 
 #include "nef/base/error.h"
@@ -39,34 +41,41 @@ std::vector<std::uint32_t> first_faces(const Mesh& mesh, const MeshSurface& surf
   return result;
 }
 
-std::variant<Complex, Defect> try_solid(const Mesh& mesh, const MeshSurface& surface, const MeshOptions& options,
+// The surface of the mesh is as large as what is made of it. Whoever is done with it hands it on, so that it is gone
+// before there is a solid.
+using SharedSurface = std::shared_ptr<const MeshSurface>;
+
+std::variant<Complex, Defect> try_solid(const Mesh& mesh, SharedSurface surface, const MeshOptions& options,
                                         Messages* messages) {
-  MeshFaces faces(mesh, surface, options, messages);
-  std::variant<Complex, Defect> made = faces.solid(false);
+  constexpr SolidMarks kMarks{1, 1, 0};
+  SolidFaces faces = MeshFaces(mesh, *surface, options, messages).take(false);
+  surface.reset();
+  std::variant<Complex, Defect> made = try_make_solid(std::move(faces), kMarks);
   const Complex* complex = std::get_if<Complex>(&made);
   if (complex == nullptr || complex->vertex_count() == 0 || complex->volumes[kOuterVolume].mark != 1) return made;
   if (messages != nullptr) messages->push_back(kTurnedOver);
-  return faces.solid(true);
+  return try_make_solid(MeshFaces(mesh, MeshSurface(mesh), options, messages).take(true), kMarks);
 }
 
 // Of a mesh that has been checked: only its components may not fit together.
-Polyhedron solid(const Mesh& mesh, const MeshSurface& surface, const MeshOptions& options, Messages* messages) {
-  std::variant<Complex, Defect> made = try_solid(mesh, surface, options, messages);
+Polyhedron solid(const Mesh& mesh, SharedSurface surface, const MeshOptions& options, Messages* messages) {
+  std::variant<Complex, Defect> made = try_solid(mesh, std::move(surface), options, messages);
   if (Complex* complex = std::get_if<Complex>(&made)) return Polyhedron(std::move(*complex));
   Defect& defect = std::get<Defect>(made);
   if (defect.kind != Defect::Kind::kMarks) throw detail::BrokenInvariant(std::move(defect));
   std::string list;
-  for (const std::uint32_t f : first_faces(mesh, surface)) list += (list.empty() ? "" : ", ") + std::to_string(f);
+  for (const std::uint32_t f : first_faces(mesh, MeshSurface(mesh)))
+    list += (list.empty() ? "" : ", ") + std::to_string(f);
   throw InputError("components of the mesh (which begin at faces " + list.substr(0, 60) +
                    ") contradict each other: one is turned like the one around it, or not like those beside it; "
                    "turn its faces over");
 }
 
 // Of a mesh that has not: nothing if it is not as clean as was promised.
-std::optional<Polyhedron> unchecked_solid(const Mesh& mesh, const MeshSurface& surface, const MeshOptions& options,
+std::optional<Polyhedron> unchecked_solid(const Mesh& mesh, SharedSurface surface, const MeshOptions& options,
                                           Messages* messages) {
   try {
-    std::variant<Complex, Defect> made = try_solid(mesh, surface, options, messages);
+    std::variant<Complex, Defect> made = try_solid(mesh, std::move(surface), options, messages);
     if (Complex* complex = std::get_if<Complex>(&made)) return Polyhedron(std::move(*complex));
   } catch (const InputError&) {
     // The checks say it better.
@@ -106,24 +115,25 @@ bool has_good_faces(const MeshSurface& surface) {
                      [](FaceDefect defect) { return defect == FaceDefect::kNone; });
 }
 
-Polyhedron checked_solid(const Mesh& mesh, const MeshSurface& surface, const MeshOptions& options, Messages* messages) {
+Polyhedron checked_solid(const Mesh& mesh, SharedSurface surface, const MeshOptions& options, Messages* messages) {
   tell_progress("self-intersections", 0, 0);
-  if (options.threads != 1 && has_good_faces(surface)) {
+  if (options.threads != 1 && has_good_faces(*surface)) {
     // The solid is made while the faces are looked at: hardly any mesh has contacts, and what is made of one that has
     // some is thrown away.
     std::optional<Polyhedron> early;
     Messages notes;
     bool contact = false;
-    parallel_calls(options.threads, {[&] { contact = check(mesh, surface); },
+    parallel_calls(options.threads, {[&] { contact = check(mesh, *surface); },
                                      [&] { early = unchecked_solid(mesh, surface, options, &notes); }});
-    if (contact) return solid_in_contact(mesh, surface, options, messages);
-    if (!early) return solid(mesh, surface, options, messages);  // which tells what is wrong
+    if (contact) return solid_in_contact(mesh, *surface, options, messages);
+    if (!early) return solid(mesh, std::move(surface), options, messages);  // which tells what is wrong
     if (messages != nullptr) messages->insert(messages->end(), notes.begin(), notes.end());
     return *std::move(early);
   }
   // Without a face that has no area, its neighbours meet in parts of edges.
-  const bool contact = check(mesh, surface) || has_faces_without_area(surface);
-  return contact ? solid_in_contact(mesh, surface, options, messages) : solid(mesh, surface, options, messages);
+  const bool contact = check(mesh, *surface) || has_faces_without_area(*surface);
+  return contact ? solid_in_contact(mesh, *surface, options, messages)
+                 : solid(mesh, std::move(surface), options, messages);
 }
 
 }  // namespace
@@ -132,17 +142,18 @@ Polyhedron from_mesh(const Mesh& mesh, const MeshOptions& options, Messages* mes
   if (options.as_surface) return from_surface(mesh, MeshSurface(mesh), SurfaceUse::kSet, options, messages);
   if (mesh.face_count() == 0) throw InputError("the mesh has no faces, so it bounds no solid");
   tell_progress("faces of the mesh", 0, 0);
-  const MeshSurface surface(mesh);
+  auto surface = std::make_shared<const MeshSurface>(mesh);
   Messages notes;
-  note_faces_without_area(surface, &notes);
+  note_faces_without_area(*surface, &notes);
   std::optional<Polyhedron> result;
-  if (!options.check && !has_faces_without_area(surface)) {
+  if (!options.check && !has_faces_without_area(*surface)) {
     const std::size_t before = notes.size();
-    result = unchecked_solid(mesh, surface, options, &notes);
+    result = unchecked_solid(mesh, std::exchange(surface, nullptr), options, &notes);
     if (!result) notes.resize(before);
+    if (!result) surface = std::make_shared<const MeshSurface>(mesh);
   }
   // Also if the mesh is not as clean as was promised: the checks say why, or what to do with it.
-  if (!result) result = checked_solid(mesh, surface, options, &notes);
+  if (!result) result = checked_solid(mesh, std::move(surface), options, &notes);
   if (messages != nullptr) messages->insert(messages->end(), notes.begin(), notes.end());
   return *std::move(result);
 }

@@ -15,23 +15,35 @@ namespace nef {
 MeshFaces::MeshFaces(const Mesh& mesh, const MeshSurface& surface, const MeshOptions& options, Messages* messages)
     : mesh_(mesh), surface_(surface), options_(options), messages_(messages) {}
 
-std::variant<Complex, Defect> MeshFaces::solid(bool reverse) { return try_make_solid(collect({}, reverse), {1, 1, 0}); }
-
-Complex MeshFaces::surface(std::span<const std::uint32_t> faces) { return make_surface(collect(faces, false), 1); }
-
-Complex MeshFaces::oriented_surface() { return make_oriented_surface(collect({}, false)); }
-
-SolidFaces MeshFaces::collect(std::span<const std::uint32_t> faces, bool reverse) {
-  f_ = {};
+SolidFaces MeshFaces::take(bool reverse) && {
   reverse_ = reverse;
   number_points();
+  f_.points = std::move(points_);
+  add_faces({});
+  f_.names = std::move(vertex_of_);
+  return std::move(f_);
+}
+
+Complex MeshFaces::surface(std::span<const std::uint32_t> faces) { return make_surface(collect(faces), 1); }
+
+Complex MeshFaces::oriented_surface() { return make_oriented_surface(collect({})); }
+
+SolidFaces MeshFaces::collect(std::span<const std::uint32_t> faces) {
+  f_ = {};
+  number_points();
+  f_.points = points_;
+  f_.names = vertex_of_;
+  add_faces(faces);
+  return std::move(f_);
+}
+
+void MeshFaces::add_faces(std::span<const std::uint32_t> faces) {
   const std::vector<std::uint32_t> order = in_order_of_points(faces);
   f_.plane.reserve(order.size());
   f_.planes.reserve(order.size());
   f_.begin.reserve(order.size() + 1);
   f_.corners.reserve(mesh_.corners.size());
   for (const std::uint32_t face : order) add_face(face);
-  return std::move(f_);
 }
 
 // Faces by their first point, so that their planes, too, come in spatial order.
@@ -43,7 +55,7 @@ std::vector<std::uint32_t> MeshFaces::in_order_of_points(std::span<const std::ui
     for (const std::uint32_t v : mesh_.face(face(i))) result = std::min(result, point_of_[v]);
     return result;
   };
-  std::vector<std::uint32_t> begin(points_.size() + 1, 0);
+  std::vector<std::uint32_t> begin(vertex_of_.size() + 1, 0);
   std::vector<std::uint32_t> order;
   order.reserve(count);
   for (std::uint32_t i = 0; i < count; ++i) {
@@ -58,22 +70,19 @@ std::vector<std::uint32_t> MeshFaces::in_order_of_points(std::span<const std::ui
 }
 
 void MeshFaces::number_points() {
-  if (point_of_.empty()) {
-    point_of_.resize(mesh_.vertices.size());
-    points_.reserve(mesh_.vertices.size());
-    const PointTable& known = surface_.points.table();
-    std::vector<std::array<double, 3>> places;
-    places.reserve(mesh_.vertices.size());
-    for (std::uint32_t v = 0; v < mesh_.vertices.size(); ++v) places.push_back(surface_.points.approximate(v));
-    for (const std::uint32_t v : spatial_order(places)) {
-      if (surface_.place[v] != v) continue;
-      point_of_[v] = (known.size() > 0 ? points_.push_from(known, PointId{v}) : push_small_point(v)).index();
-      vertex_of_.push_back(v);
-    }
-    for (std::uint32_t v = 0; v < mesh_.vertices.size(); ++v) point_of_[v] = point_of_[surface_.place[v]];
+  if (!point_of_.empty()) return;
+  point_of_.resize(mesh_.vertices.size());
+  points_.reserve(mesh_.vertices.size());
+  const PointTable& known = surface_.points.table();
+  std::vector<std::array<double, 3>> places;
+  places.reserve(mesh_.vertices.size());
+  for (std::uint32_t v = 0; v < mesh_.vertices.size(); ++v) places.push_back(surface_.points.approximate(v));
+  for (const std::uint32_t v : spatial_order(places)) {
+    if (surface_.place[v] != v) continue;
+    point_of_[v] = (known.size() > 0 ? points_.push_from(known, PointId{v}) : push_small_point(v)).index();
+    vertex_of_.push_back(v);
   }
-  f_.points = points_;
-  f_.names = vertex_of_;
+  for (std::uint32_t v = 0; v < mesh_.vertices.size(); ++v) point_of_[v] = point_of_[surface_.place[v]];
 }
 
 // A vertex with small integers for coordinates.
@@ -151,7 +160,8 @@ std::optional<PlaneId> MeshFaces::plane_of_small_triangle(std::span<const std::u
   }
   std::array<std::int64_t, 3> n;
   for (std::size_t i = 0; i < 3; ++i) n[i] = u[(i + 1) % 3] * v[(i + 2) % 3] - u[(i + 2) % 3] * v[(i + 1) % 3];
-  const std::int64_t divisor = std::gcd(std::gcd(n[0], n[1]), n[2]);
+  std::int64_t divisor = std::gcd(n[0], n[1]);
+  if (divisor != 1) divisor = std::gcd(divisor, n[2]);
   if (divisor == 0) return PlaneId();
   Int128 offset = 0;
   for (std::size_t i = 0; i < 3; ++i) {

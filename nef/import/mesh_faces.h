@@ -25,9 +25,9 @@ class MeshFaces {
   /// All arguments must outlive this object; `messages` may be null. All indices in faces must be good.
   MeshFaces(const Mesh& mesh, const MeshSurface& surface, const MeshOptions& options, Messages* messages);
 
-  /// The solid that the faces bound, or with `reverse` the one that they bound when turned over; what is wrong if they
-  /// bound none. Throws InputError if they are not closed. O(n log n).
-  std::variant<Complex, Defect> solid(bool reverse);
+  /// All faces, with `reverse` turned over, for try_make_solid. Takes the tables out of this object, which is of no use
+  /// any more. O(n log n).
+  SolidFaces take(bool reverse) &&;
 
   /// The union of the faces as a two-dimensional set. They must meet in common vertices and edges only. O(n log n).
   Complex surface(std::span<const std::uint32_t> faces);
@@ -36,7 +36,8 @@ class MeshFaces {
   Complex oriented_surface();
 
  private:
-  SolidFaces collect(std::span<const std::uint32_t> faces, bool reverse);  // all if empty
+  SolidFaces collect(std::span<const std::uint32_t> faces);  // all if empty
+  void add_faces(std::span<const std::uint32_t> faces);
   void number_points();
   PointId push_small_point(std::uint32_t vertex);
   [[nodiscard]] std::vector<std::uint32_t> in_order_of_points(std::span<const std::uint32_t> faces) const;

@@ -10,6 +10,7 @@
 
 #include "nef/mesh/area_vector.h"
 #include "nef/mesh/edge_order.h"
+#include "nef/mesh/surface/convex_surface.h"
 #include "nef/mesh/surface/mesh_surface.h"
 #include "nef/mesh/surface/surface_contacts.h"
 
@@ -393,6 +394,7 @@ std::vector<MeshProblem> check_mesh(const Mesh& mesh, const MeshCheckOptions& op
 }
 
 std::vector<MeshProblem> check_mesh(const Mesh& mesh, const MeshSurface& surface, const MeshCheckOptions& options) {
+  if (bounds_small_convex_solid(mesh, surface)) return {};
   Report report(options.max_per_kind);
   const SurfaceContacts contacts(surface);
   check_faces(mesh, surface, report);

@@ -2,6 +2,7 @@
 #include "nef/number/integer_rows.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include "nef/base/capacity.h"
@@ -45,6 +46,17 @@ void IntegerRows::append_sizes(const IntegerRows& other, std::size_t first, std:
   sizes_.insert(sizes_.end(), from + static_cast<std::ptrdiff_t>(first), from + static_cast<std::ptrdiff_t>(last));
 }
 
+// Makes room for a row of so many limbs.
+void IntegerRows::begin_row(std::size_t limbs) {
+  make_room(limbs_, limbs);
+  if (begin_.empty()) {
+    begin_.push_back(0);
+    make_room(sizes_, kPadding + width_);
+    sizes_.assign(kPadding, 0);
+  }
+  if (!is_wide_) make_room(sizes_, width_);
+}
+
 void IntegerRows::end_row() {
   if (limbs_.size() > std::numeric_limits<std::uint32_t>::max()) {
     throw UnsupportedError("the set needs more than 32 gigabytes of coordinates; use fewer or shorter ones");
@@ -57,8 +69,7 @@ std::uint32_t IntegerRows::push(std::span<const mpz_srcptr> row) {
   const auto index = static_cast<std::uint32_t>(size());
   std::size_t total = 0;
   for (const mpz_srcptr value : row) total += mpz_size(value);
-  make_room(limbs_, total);
-  if (!is_wide_) make_room(sizes_, width_);
+  begin_row(total);
   for (const mpz_srcptr value : row) {
     const std::size_t limbs = mpz_size(value);
     const mp_limb_t* data = mpz_limbs_read(value);
@@ -71,23 +82,29 @@ std::uint32_t IntegerRows::push(std::span<const mpz_srcptr> row) {
 }
 
 std::uint32_t IntegerRows::push(std::span<const Int128> row) {
-  NEF_ASSERT(row.size() == width_);
+  NEF_ASSERT(row.size() == width_ && width_ <= kPadding);
   static_assert(GMP_NUMB_BITS == 64);
   const auto index = static_cast<std::uint32_t>(size());
-  make_room(limbs_, 2 * width_);
-  if (!is_wide_) make_room(sizes_, width_);
-  std::size_t end = limbs_.size();
-  limbs_.resize(end + 2 * width_);  // as many as there may be
-  for (const Int128 value : row) {
-    const Unsigned128 size = magnitude(value);
+  std::array<mp_limb_t, 2 * kPadding> limbs{};
+  std::array<std::int8_t, kPadding> sizes{};
+  std::size_t end = 0;
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    const Unsigned128 size = magnitude(row[i]);
     const auto high = static_cast<mp_limb_t>(size >> 64U);
-    limbs_[end] = static_cast<mp_limb_t>(size);
-    const std::int32_t limbs = high != 0 ? 2 : (limbs_[end] != 0 ? 1 : 0);
-    if (high != 0) limbs_[end + 1] = high;
-    end += static_cast<std::size_t>(limbs);
-    push_size(value < 0 ? -limbs : limbs);
+    limbs[end] = static_cast<mp_limb_t>(size);
+    limbs[end + 1] = high;
+    const int count = high != 0 ? 2 : (limbs[end] != 0 ? 1 : 0);
+    sizes[i] = static_cast<std::int8_t>(row[i] < 0 ? -count : count);
+    end += static_cast<std::size_t>(count);
   }
-  limbs_.resize(end);
+  begin_row(end);
+  limbs_.insert(limbs_.end(), limbs.begin(), limbs.begin() + static_cast<std::ptrdiff_t>(end));
+  const auto last = sizes.begin() + static_cast<std::ptrdiff_t>(width_);
+  if (is_wide_) {
+    wide_.insert(wide_.end(), sizes.begin(), last);
+  } else {
+    sizes_.insert(sizes_.end(), sizes.begin(), last);
+  }
   end_row();
   return index;
 }
@@ -96,7 +113,7 @@ std::uint32_t IntegerRows::push_from(const IntegerRows& other, std::uint32_t ind
   NEF_ASSERT(other.width_ == width_ && &other != this);
   const auto result = static_cast<std::uint32_t>(size());
   const std::span<const mp_limb_t> limbs = other.limbs_of(index);
-  make_room(limbs_, limbs.size());
+  begin_row(limbs.size());
   for (const mp_limb_t limb : limbs) limbs_.push_back(limb);  // few as a rule
   append_sizes(other, index * width_, (index + std::size_t{1}) * width_);
   end_row();
@@ -110,6 +127,7 @@ void IntegerRows::append(const IntegerRows& other, std::size_t first, std::size_
     return other.limbs_.begin() + static_cast<std::ptrdiff_t>(other.begin(row));
   };
   if (count == 0) return;
+  begin_row(0);
   const std::size_t base = limbs_.size() - other.begin(first);  // modulo 2^64
   limbs_.insert(limbs_.end(), limb(first), limb(last));
   append_sizes(other, first * width_, last * width_);
@@ -118,6 +136,16 @@ void IntegerRows::append(const IntegerRows& other, std::size_t first, std::size_
   }
   size_ += count - 1;
   end_row();
+}
+
+bool IntegerRows::are_doubles(std::uint32_t row) const {
+  if (is_wide_) return false;
+  constexpr mp_limb_t kLimit = mp_limb_t{1} << 53U;
+  const std::int8_t* const sizes = sizes_.data() + kPadding + row * width_;
+  const auto one_limb = [](std::int8_t size) { return size >= -1 && size <= 1; };
+  const std::span<const mp_limb_t> limbs = limbs_of(row);
+  return std::all_of(sizes, sizes + width_, one_limb) &&
+         std::all_of(limbs.begin(), limbs.end(), [](mp_limb_t limb) { return limb <= kLimit; });
 }
 
 bool IntegerRows::same_sizes(std::uint32_t row, const IntegerRows& other, std::uint32_t other_row) const {

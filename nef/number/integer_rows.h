@@ -34,7 +34,7 @@ class IntegerView {
 /// Rows of `width` integers each. Rows are appended and never change.
 class IntegerRows {
  public:
-  explicit IntegerRows(std::size_t width) : width_(width), begin_{0}, sizes_(kPadding, 0) {}
+  explicit IntegerRows(std::size_t width) : width_(width) {}
 
   [[nodiscard]] std::size_t size() const { return size_; }
 
@@ -61,6 +61,9 @@ class IntegerRows {
     const std::int32_t size = this->size(row * width_ + column);
     return (size > 0) - (size < 0);
   }
+
+  /// True if the integers of a row are doubles: at most 2^53 in magnitude.
+  [[nodiscard]] bool are_doubles(std::uint32_t row) const;
 
   /// True if the two rows hold the same integers.
   [[nodiscard]] bool equal(std::uint32_t row, const IntegerRows& other, std::uint32_t other_row) const;
@@ -124,6 +127,7 @@ class IntegerRows {
 
   [[nodiscard]] std::int32_t size(std::size_t i) const { return is_wide_ ? wide_[i] : sizes_[kPadding + i]; }
   [[nodiscard]] bool same_sizes(std::uint32_t row, const IntegerRows& other, std::uint32_t other_row) const;
+  void begin_row(std::size_t limbs);
   void push_size(std::int32_t size);
   void append_sizes(const IntegerRows& other, std::size_t first, std::size_t last);
   void widen();
@@ -132,9 +136,9 @@ class IntegerRows {
   std::size_t width_;
   std::vector<mp_limb_t> limbs_;
   std::size_t size_ = 0;
-  std::vector<std::uint32_t> begin_;  // of row 0, 4, 8, ... up to size(): its first limb
+  std::vector<std::uint32_t> begin_;  // of row 0, 4, 8, ... up to size(): its first limb; empty before there is a row
   // width_ signed limb counts a row, as GMP keeps them, behind kPadding zeros; in `wide_`, without these, once one of
-  // them needs more than a byte.
+  // them needs more than a byte. Empty before there is a row: many tables never have one.
   std::vector<std::int8_t> sizes_;
   std::vector<std::int32_t> wide_;
   bool is_wide_ = false;

@@ -93,7 +93,7 @@ double approximate_quotient(mpz_srcptr numerator, mpz_srcptr denominator) {
     // Both conversions and the quotient round once: within 3 * 2^-53 relative.
     const double quotient =
         static_cast<double>(mpz_getlimbn(numerator, 0)) / static_cast<double>(mpz_getlimbn(denominator, 0));
-    return mpz_sgn(numerator) == mpz_sgn(denominator) ? quotient : -quotient;
+    return (mpz_sgn(numerator) < 0) == (mpz_sgn(denominator) < 0) ? quotient : -quotient;  // zero has no sign
   }
   long numerator_exponent = 0;
   long denominator_exponent = 0;

@@ -12,6 +12,8 @@
 namespace nef {
 namespace {
 
+constexpr std::size_t kFewVertices = 16;
+
 void rename(PlaneId& plane, std::span<const std::uint32_t> rows) {
   plane = PlaneId{rows[plane.row()] << 1U | (plane.value & 1U)};
 }
@@ -38,6 +40,10 @@ void ComplexBuilder::reserve(std::size_t vertices, const VertexRecord& items, st
   complex_.shalfedge_plane.pairs().reserve(pair_of(items.shalfedges));
   complex_.other_planes.reserve(items.other_planes);
   complex_.sloops.reserve(items.sloops);
+  // Of a few vertices each may have a pattern of its own; many share theirs.
+  if (vertices <= kFewVertices) {
+    complex_.patterns.reserve(vertices, items.svertices.index(), items.shalfedges.index(), items.sfaces.index());
+  }
 }
 
 // Into map_. True if that is the map of a vertex.

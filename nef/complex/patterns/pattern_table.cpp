@@ -21,6 +21,14 @@ PatternId PatternTable::push(const SphereMapBuffer& map) {
   return id;
 }
 
+void PatternTable::reserve(std::size_t patterns, std::size_t svertices, std::size_t shalfedges, std::size_t sfaces) {
+  records_.reserve(patterns + 1);
+  svertices_.reserve(svertices);
+  shalfedges_.reserve(shalfedges);
+  sfaces_.reserve(sfaces);
+  entries_.reserve(sfaces);
+}
+
 void PatternTable::trim() {
   trim_capacity(records_);
   trim_capacity(svertices_);

@@ -57,6 +57,9 @@ class PatternTable {
     for (auto& item : table.sfaces_) visit(item.mark);
   }
 
+  /// Room for so many patterns with so many items in all.
+  void reserve(std::size_t patterns, std::size_t svertices, std::size_t shalfedges, std::size_t sfaces);
+
   void trim();
 
   [[nodiscard]] std::size_t bytes() const;

@@ -144,9 +144,15 @@ MeshSurface::MeshSurface(const Mesh& mesh)
       defects(mesh.face_count(), FaceDefect::kNone) {
   Triangulator triangulator(points);
   std::vector<std::uint32_t> ring;
-  triangles.reserve(mesh.corners.size());
-  face_of.reserve(mesh.corners.size());
-  pieces.reserve(mesh.corners.size());
+  // A ring of n corners becomes n - 2 triangles.
+  const std::size_t count = mesh.corners.size() - std::min(mesh.corners.size(), 2 * mesh.face_count());
+  triangles.reserve(count);
+  face_of.reserve(count);
+  pieces.reserve(count);
+  triangle_begin.reserve(mesh.face_count() + 1);
+  planar.reserve(mesh.face_count());
+  irregular.reserve(mesh.face_count());
+  ring_begin.reserve(mesh.face_count() + 1);
   for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
     ring.clear();
     bool bad = false;

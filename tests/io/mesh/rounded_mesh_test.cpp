@@ -28,6 +28,7 @@ TEST_CASE("A rounded mesh is the exact one with every coordinate rounded once") 
       for (std::size_t v = 0; v < exact.mesh.vertices.size(); ++v) {
         for (std::size_t i = 0; i < 3; ++i) {
           CHECK(rounded.mesh.vertices[v][i] == nearest_double(exact.mesh.vertices[v][i]));
+          CHECK(std::signbit(rounded.mesh.vertices[v][i]) == (exact.mesh.vertices[v][i] < 0));  // no -0
         }
       }
     }

@@ -62,6 +62,11 @@ class PlaneTable {
     return rows_.at(plane.row(), column);
   }
 
+  /// All five coefficients of the unflipped plane, if they are below 2^62 in magnitude; else false.
+  [[nodiscard]] bool small_coefficients(PlaneId plane, std::array<std::int64_t, 5>& out) const {
+    return rows_.read_small(plane.row(), out);
+  }
+
   /// Coefficient with the sign of the oriented plane, as a number of its own.
   [[nodiscard]] Integer oriented_coefficient(PlaneId plane, std::size_t column) const;
 

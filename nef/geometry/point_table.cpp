@@ -16,7 +16,7 @@ namespace {
 constexpr Int128 kExactDouble = Int128{1} << 53U;  // integers below it are doubles
 
 // The homogeneous coordinates x, y, z, w of a point whose fractions and common denominator are small.
-bool small_coordinates(const Rational3& point, std::array<std::int64_t, 4>& h) {
+bool small_fractions(const Rational3& point, std::array<std::int64_t, 4>& h) {
   std::array<std::int64_t, 3> denominator{};
   h[3] = 1;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -39,14 +39,13 @@ bool small_coordinates(const Rational3& point, std::array<std::int64_t, 4>& h) {
 // The coefficients of three finite planes, if all are below 2^40.
 bool small_coefficients(const PlaneTable& planes, const std::array<PlaneId, 3>& plane,
                         std::array<std::array<std::int64_t, 4>, 3>& out) {
-  constexpr mp_limb_t kLimit = mp_limb_t{1} << 40U;
+  constexpr std::int64_t kLimit = std::int64_t{1} << 40U;
   for (std::size_t i = 0; i < 3; ++i) {
-    if (planes.infimaximal(plane[i])) return false;
+    std::array<std::int64_t, 5> n{};
+    if (!planes.small_coefficients(plane[i], n) || n[4] != 0) return false;
     for (std::size_t k = 0; k < 4; ++k) {
-      const IntegerView value = planes.coefficient(plane[i], k);
-      if (mpz_size(value) > 1 || mpz_getlimbn(value, 0) >= kLimit) return false;
-      const auto magnitude = static_cast<std::int64_t>(mpz_getlimbn(value, 0));
-      out[i][k] = value.sign() < 0 ? -magnitude : magnitude;
+      if (n[k] >= kLimit || n[k] <= -kLimit) return false;
+      out[i][k] = n[k];
     }
   }
   return true;
@@ -75,7 +74,7 @@ std::array<Int128, 4> small_intersection(const std::array<std::array<std::int64_
 }  // namespace
 
 PointId PointTable::push(const Rational3& point) {
-  if (std::array<std::int64_t, 4> small{}; small_coordinates(point, small))
+  if (std::array<std::int64_t, 4> small{}; small_fractions(point, small))
     return push_homogeneous(std::array<Int128, 7>{small[0], small[1], small[2], small[3]});  // no part in R
   std::array<Integer, 7> h;
   mpz_ptr w = h[3].get_mpz_t();

@@ -57,6 +57,11 @@ class PointTable {
     return rows_.at(point.index(), column);
   }
 
+  /// All seven homogeneous coordinates, if they are below 2^62 in magnitude; else false.
+  [[nodiscard]] bool small_coordinates(PointId point, std::array<std::int64_t, 7>& out) const {
+    return rows_.read_small(point.index(), out);
+  }
+
   /// The three doubles of a point.
   [[nodiscard]] const std::array<double, 3>& approximate(PointId point) const { return approximate_[point.index()]; }
 

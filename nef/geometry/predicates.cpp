@@ -5,6 +5,7 @@
 #include "nef/geometry/predicates.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -24,6 +25,18 @@ int sign_with_infimaximal(mpz_srcptr constant, mpz_srcptr factor) {
 }
 
 int side_of_plane_exact(const PlaneTable& planes, PlaneId plane, const PointTable& points, PointId point) {
+  std::array<std::int64_t, 5> n{};
+  std::array<std::int64_t, 7> x{};
+  if (planes.small_coefficients(plane, n) && points.small_coordinates(point, x)) {
+    // Four products below 2^124.
+    Int128 constant = static_cast<Int128>(n[3]) * x[3];
+    Int128 factor = static_cast<Int128>(n[4]) * x[3];
+    for (std::size_t i = 0; i < 3; ++i) {
+      constant += static_cast<Int128>(n[i]) * x[i];
+      factor += static_cast<Int128>(n[i]) * x[4 + i];
+    }
+    return factor != 0 ? sign_of(factor) : sign_of(constant);
+  }
   Integer constant;
   Integer factor;
   mpz_ptr c = constant.get_mpz_t();
@@ -46,12 +59,6 @@ int compare_quotients(mpz_srcptr x, mpz_srcptr wp, mpz_srcptr y, mpz_srcptr wq) 
   const int sign = mpz_sgn(x);
   if (sign != mpz_sgn(y)) return sign > mpz_sgn(y) ? 1 : -1;
   if (sign == 0) return 0;
-  const auto limb = [](mpz_srcptr value) { return static_cast<Unsigned128>(mpz_getlimbn(value, 0)); };
-  if (mpz_size(x) == 1 && mpz_size(wp) == 1 && mpz_size(y) == 1 && mpz_size(wq) == 1) {
-    const Unsigned128 left = limb(x) * limb(wq);
-    const Unsigned128 right = limb(y) * limb(wp);
-    return left == right ? 0 : left > right ? sign : -sign;
-  }
   Integer difference;
   mpz_ptr d = difference.get_mpz_t();
   mpz_mul(d, x, wq);
@@ -60,9 +67,18 @@ int compare_quotients(mpz_srcptr x, mpz_srcptr wp, mpz_srcptr y, mpz_srcptr wq) 
 }
 
 int compare_coordinate_exact(const PointTable& points, PointId p, PointId q, int axis) {
+  const auto k = static_cast<std::size_t>(axis);
+  std::array<std::int64_t, 7> a{};
+  std::array<std::int64_t, 7> b{};
+  if (points.small_coordinates(p, a) && points.small_coordinates(q, b)) {
+    const auto difference = [&](std::size_t i) {
+      return static_cast<Int128>(a[i]) * b[3] - static_cast<Int128>(b[i]) * a[3];
+    };
+    const int sign = sign_of(difference(4 + k));
+    return sign != 0 ? sign : sign_of(difference(k));
+  }
   const IntegerView wp = points.coordinate(p, 3);
   const IntegerView wq = points.coordinate(q, 3);
-  const auto k = static_cast<std::size_t>(axis);
   // The part in R decides first.
   const int sign = compare_quotients(points.coordinate(p, 4 + k), wp, points.coordinate(q, 4 + k), wq);
   return sign != 0 ? sign : compare_quotients(points.coordinate(p, k), wp, points.coordinate(q, k), wq);

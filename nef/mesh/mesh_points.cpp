@@ -13,8 +13,6 @@ namespace {
 // Coordinates below 2^40 give differences below 2^41, minors below 2^83 and determinants below 2^126.
 constexpr std::int64_t kIntegerLimit = std::int64_t{1} << 40U;
 
-int sign_of(Int128 value) { return (value > 0) - (value < 0); }
-
 // b - a in homogeneous integers, scaled by the positive product of their denominators where these differ: the axes
 // from `first` on, as many as there is room for (of two, the second may be the first axis).
 void difference(const PointTable& table, std::uint32_t a, std::uint32_t b, std::span<Integer> out,

@@ -17,6 +17,8 @@ inline Unsigned128 magnitude(Int128 value) {
   return value < 0 ? -static_cast<Unsigned128>(value) : static_cast<Unsigned128>(value);
 }
 
+inline int sign_of(Int128 value) { return (value > 0) - (value < 0); }
+
 /// The number of bits of a value: 0 for 0.
 inline int bit_width(Unsigned128 value) {
   const auto high = static_cast<std::uint64_t>(value >> 64U);

@@ -11,6 +11,8 @@
 namespace nef {
 namespace {
 
+constexpr std::size_t kMostShort = 9;  // entries of a row of two words each
+
 // Room for that many more at once: a table of one row, as queries make, allocates once.
 template <typename T>
 void make_room(std::vector<T>& values, std::size_t more) {
@@ -82,11 +84,11 @@ std::uint32_t IntegerRows::push(std::span<const mpz_srcptr> row) {
 }
 
 std::uint32_t IntegerRows::push(std::span<const Int128> row) {
-  NEF_ASSERT(row.size() == width_ && width_ <= kPadding);
+  NEF_ASSERT(row.size() == width_ && width_ <= kMostShort);
   static_assert(GMP_NUMB_BITS == 64);
   const auto index = static_cast<std::uint32_t>(size());
-  std::array<mp_limb_t, 2 * kPadding> limbs{};
-  std::array<std::int8_t, kPadding> sizes{};
+  std::array<mp_limb_t, 2 * kMostShort> limbs{};
+  std::array<std::int8_t, kMostShort> sizes{};
   std::size_t end = 0;
   for (std::size_t i = 0; i < row.size(); ++i) {
     const Unsigned128 size = magnitude(row[i]);

@@ -41,7 +41,7 @@ class IntegerRows {
   /// Appends a row; `row.size()` is the width. Returns its index.
   std::uint32_t push(std::span<const mpz_srcptr> row);
 
-  /// The same for integers of two words.
+  /// The same for integers of two words, at most nine of them.
   std::uint32_t push(std::span<const Int128> row);
 
   /// Appends a copy of row `index` of `other` (same width). Returns its new index.
@@ -55,6 +55,23 @@ class IntegerRows {
     const std::size_t first = first_together(row) * width_;
     const std::size_t i = row * width_ + column;
     return {limbs_.data() + begin_[row / kTogether] + limbs_between(first, i), size(i)};
+  }
+
+  /// The first entries of a row, as many as there is room for; false if one of them is not below 2^62 in magnitude.
+  /// Much cheaper than views of them.
+  [[nodiscard]] bool read_small(std::uint32_t row, std::span<std::int64_t> out) const {
+    if (is_wide_) return false;
+    const std::int8_t* const sizes = sizes_.data() + kPadding + row * width_;
+    const mp_limb_t* limb = limbs_.data() + begin(row);
+    constexpr mp_limb_t kLimit = mp_limb_t{1} << 62U;
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      out[i] = 0;
+      if (sizes[i] == 0) continue;
+      if (sizes[i] > 1 || sizes[i] < -1 || *limb >= kLimit) return false;
+      out[i] = sizes[i] < 0 ? -static_cast<std::int64_t>(*limb) : static_cast<std::int64_t>(*limb);
+      ++limb;
+    }
+    return true;
   }
 
   [[nodiscard]] int sign(std::uint32_t row, std::size_t column) const {

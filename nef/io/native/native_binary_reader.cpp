@@ -44,11 +44,10 @@ class BinaryReader {
       file_.demand(plane == PlaneId{static_cast<std::uint32_t>(2 * row)}, "a plane occurs twice");
     };
     const auto lead = [](int a, int b, int c) { return a != 0 ? a : b != 0 ? b : c; };
-    const auto sign = [](Int128 value) { return (value > 0) - (value < 0); };
     file_.numbers<5>(
         n_.planes,
         [&](std::size_t row, const std::array<Int128, 5>& n) {
-          const int first = lead(sign(n[0]), sign(n[1]), sign(n[2]));
+          const int first = lead(sign_of(n[0]), sign_of(n[1]), sign_of(n[2]));
           put(row, first, first > 0 ? c_.planes.intern_primitive(n) : PlaneId());
         },
         [&](std::size_t row, const std::array<mpz_t, 5>& n) {

@@ -183,6 +183,48 @@ TEST_CASE("points of planes and of fractions are the same however wide their int
   }
 }
 
+TEST_CASE("signs of sums that all but vanish are exact, however wide the integers are") {
+  std::mt19937_64 random(11);
+  for (const unsigned bits : {20U, 30U, 31U, 61U, 62U, 63U, 64U, 90U}) {
+    // As wide as that, and often as large as that can be.
+    const auto number = [&]() -> Integer {
+      Integer value = power(2, bits) - 1 - static_cast<long>(random() % 3);
+      if (random() % 2 == 0) value = Integer(static_cast<unsigned long>(random())) * power(2, bits) / power(2, 64);
+      return random() % 2 == 0 ? value : Integer(-value);
+    };
+    for (int round = 0; round < 100; ++round) {
+      INFO(bits << " bits, round " << round);
+      PlaneTable planes;
+      PointTable points;
+      const Integer3 n{number(), number(), number() | 1};
+      const Integer w = abs(number()) | 1;
+      const std::array<Integer, 3> x{number(), number(), number()};
+      const auto fraction = [](const Integer& numerator, const Integer& denominator) -> Rational {
+        Rational result(numerator, denominator);
+        result.canonicalize();
+        return result;
+      };
+      // The last coordinate is that of the plane there, or beside it.
+      const Integer d = number();
+      const Rational on = fraction(-(n[0] * x[0] + n[1] * x[1] + d * w), n[2] * w);
+      const Rational beside = fraction(static_cast<long>(random() % 3) - 1, power(2, 2 * bits));
+      const PlaneId plane = planes.intern(n[0], n[1], n[2], d);
+      const Rational3 at{fraction(x[0], w), fraction(x[1], w), on + beside};
+      const Rational sum = n[0] * at[0] + n[1] * at[1] + n[2] * at[2] + d;
+      CHECK(side_of_plane(planes, plane, points, points.push(at)) == sgn(sum));
+      // Of one denominator and of two: that of a plane x = constant, and the order of neighbours.
+      const std::array<Rational, 2> values{
+          fraction(x[0], w), random() % 2 == 0 ? fraction(x[0] * 2, w * 2) : fraction(x[0] * 2 + 1, w * 2)};
+      const PointId a = points.push({values[0], 0, 0});
+      const PointId b = points.push({values[1], 0, 0});
+      CHECK(compare_coordinate(points, a, b, 0) == sgn(Rational(values[0] - values[1])));
+      const PlaneId wall = planes.intern(values[0].get_den(), 0, 0, Integer(-values[0].get_num()));
+      CHECK(side_of_plane(planes, wall, points, a) == 0);
+      CHECK(side_of_plane(planes, wall, points, b) == (wall.flipped() ? -1 : 1) * sgn(Rational(values[1] - values[0])));
+    }
+  }
+}
+
 TEST_CASE("infimaximal points and planes: R is greater than every number") {
   PlaneTable planes;
   PointTable points;

@@ -200,6 +200,16 @@ TEST_CASE("errors give the column and what was expected") {
   CHECK(refusal(std::string(100000, '(')).find("nested too deeply") != std::string::npos);
 }
 
+TEST_CASE("nested parentheses within the limit are evaluated, and those beyond it are refused on any stack") {
+  const auto nested = [](std::size_t depth) {
+    return std::string(depth, '(') + "box(0,0,0,1,1,1)" + std::string(depth, ')');
+  };
+  CHECK(volume(evaluate_expression(nested(990))) == 1);
+  CHECK(refusal(nested(1010)).find("nested too deeply") != std::string::npos);
+  CHECK(volume(evaluate_expression("box(0,0,0,1,1," + std::string(990, '(') + "1" + std::string(990, ')') + ")")) == 1);
+  CHECK(refusal("box(0,0,0,1,1," + std::string(1010, '-') + "1)").find("nested too deeply") != std::string::npos);
+}
+
 TEST_CASE("lists of numbers") {
   CHECK(parse_triple("1,-2/3,0.5", "point") == Rational3{1, Rational(-2, 3), Rational(1, 2)});
   CHECK(parse_triple(" 1 2 3 ", "point") == Rational3{1, 2, 3});

@@ -39,14 +39,18 @@ Surface surface_of(const Operand& operand) {
 }
 
 Report run(const std::string& directory, int repeat) {
-  const Case bench_case = read_case(directory);
-  if (bench_case.operation >= Operation::kLocate) throw std::runtime_error("no Boolean of two");
+  const Operation operation = read_case_kind(directory).operation;
+  if (operation >= Operation::kLocate) throw std::runtime_error("no Boolean of two");
   Report report;
   std::vector<Surface> operands;
-  const Stopwatch build;
-  for (const Operand& operand : bench_case.operands) operands.push_back(surface_of(operand));
-  report.build_s.push_back(build.seconds());
-  const bool difference = bench_case.operation == Operation::kDifference;
+  double build_seconds = 0;
+  read_operands(directory, [&](const Operand& operand) {
+    const Stopwatch watch;
+    operands.push_back(surface_of(operand));
+    build_seconds += watch.seconds();
+  });
+  report.build_s.push_back(build_seconds);
+  const bool difference = operation == Operation::kDifference;
   const std::size_t before = difference ? operands.size() - 1 : 1;
   Surface base = operands[0];
   bool ok = true;

@@ -8,6 +8,7 @@
 
 #include "bench/generators.h"
 #include "bench/report.h"
+#include "nef/base/freed_memory.h"
 #include "nef/base/timing/stopwatch.h"
 #include "nef/export/to_mesh.h"
 #include "nef/polyhedron.h"
@@ -21,20 +22,23 @@ Polyhedron united(const std::vector<Polyhedron>& operands, std::size_t count, un
   return result;
 }
 
-// Meshes are there only while they are converted, as in a program that reads files.
 std::vector<Polyhedron> build(const std::string& directory, unsigned threads, Report& report) {
-  const Case bench_case = read_case(directory);
   std::vector<Polyhedron> operands;
-  const Stopwatch watch;
-  const nef::Stopwatch clock;
-  for (const Operand& operand : bench_case.operands) {
+  double seconds = 0;
+  double wall_seconds = 0;
+  read_operands(directory, [&](const Operand& operand) {
+    const Stopwatch watch;
+    const nef::Stopwatch clock;
     MeshOptions options;
     options.threads = threads;
     options.as_surface = operand.surface;
     operands.push_back(from_mesh(operand.mesh, options));
-  }
-  report.build_s.push_back(watch.seconds());
-  report.build_wall_s.push_back(clock.seconds());
+    seconds += watch.seconds();
+    wall_seconds += clock.seconds();
+  });
+  return_freed_memory();  // as read_polyhedron does behind large files
+  report.build_s.push_back(seconds);
+  report.build_wall_s.push_back(wall_seconds);
   return operands;
 }
 

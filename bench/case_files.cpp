@@ -80,15 +80,13 @@ CaseKind read_case_kind(const std::string& directory) {
   return read_kind(in, directory);
 }
 
-Case read_case(const std::string& directory) {
+void read_operands(const std::string& directory, const std::function<void(const Operand&)>& take) {
   std::ifstream in(directory + "/case.txt");
-  const CaseKind of = read_kind(in, directory);
-  Case result{of.name, of.operation, {}};
-  for (std::string kind; in >> kind;) {
-    const std::string path = directory + "/" + std::to_string(result.operands.size()) + ".off";
-    result.operands.push_back({read_off(path), kind == "surface"});
+  static_cast<void>(read_kind(in, directory));
+  std::size_t index = 0;
+  for (std::string kind; in >> kind; ++index) {
+    take({read_off(directory + "/" + std::to_string(index) + ".off"), kind == "surface"});
   }
-  return result;
 }
 
 }  // namespace nef::bench

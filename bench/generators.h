@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -92,9 +93,6 @@ Case make_case(const std::string& name);
 /// operation, then a line "solid" or "surface" for each operand.
 void write_case(const Case& bench_case, const std::string& directory);
 
-/// Reads what write_case wrote.
-Case read_case(const std::string& directory);
-
 /// What a case asks for, without its operands.
 struct CaseKind {
   std::string name;
@@ -103,5 +101,9 @@ struct CaseKind {
 
 /// Of what write_case wrote.
 CaseKind read_case_kind(const std::string& directory);
+
+/// Reads the operands of what write_case wrote, one after the other, and hands each to `take`: as in a program that converts
+/// a file before it reads the next, no two of them are there at once.
+void read_operands(const std::string& directory, const std::function<void(const Operand&)>& take);
 
 }  // namespace nef::bench

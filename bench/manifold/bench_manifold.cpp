@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "bench/report.h"
+#include "nef/base/freed_memory.h"
 
 namespace nef::bench {
 namespace {
@@ -53,26 +54,22 @@ Manifold evaluated(const Manifold& lazy) {
   return lazy;
 }
 
-// The meshes of a case, in the order of its operands.
-std::vector<MeshGL64> read_meshes(const std::string& directory) {
+// Each mesh is converted before the next one is read.
+std::vector<Manifold> build(const std::string& directory, Report& report) {
   std::ifstream in(directory + "/case.txt");
   std::string word;
   in >> word >> word;
-  std::vector<MeshGL64> meshes;
+  std::vector<Manifold> operands;
+  double seconds = 0;
   for (std::string kind; in >> kind;) {
     if (kind == "surface") throw std::runtime_error("not a solid");
-    meshes.push_back(read_off(directory + "/" + std::to_string(meshes.size()) + ".off"));
+    const MeshGL64 mesh = read_off(directory + "/" + std::to_string(operands.size()) + ".off");
+    const Stopwatch watch;
+    operands.push_back(evaluated(Manifold(mesh)));
+    seconds += watch.seconds();
   }
-  return meshes;
-}
-
-// Meshes are there only while they are converted.
-std::vector<Manifold> build(const std::string& directory, Report& report) {
-  const std::vector<MeshGL64> meshes = read_meshes(directory);
-  std::vector<Manifold> operands;
-  const Stopwatch watch;
-  for (const MeshGL64& mesh : meshes) operands.push_back(evaluated(Manifold(mesh)));
-  report.build_s.push_back(watch.seconds());
+  return_freed_memory();
+  report.build_s.push_back(seconds);
   return operands;
 }
 

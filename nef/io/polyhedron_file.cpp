@@ -5,6 +5,7 @@
 #include <array>
 #include <map>
 
+#include "nef/base/freed_memory.h"
 #include "nef/export/to_mesh.h"
 #include "nef/io/cgal/cgal_nef3.h"
 #include "nef/io/file_bytes.h"
@@ -129,17 +130,15 @@ FaceGroups write_boundary(const std::string& path, const std::string& extension,
   return std::move(write_options.groups);
 }
 
-}  // namespace
+// The bytes go once they are read.
+Mesh mesh_of(std::string&& bytes, const std::string& path) {
+  const std::string taken = std::move(bytes);
+  return read_mesh(taken, path);
+}
 
-Polyhedron read_polyhedron(const std::string& path, const MeshOptions& options, Messages* messages) {
-  const std::string extension = lower_extension(path);
-  const std::string bytes = read_file(path);  // once: it may be a pipe
-  if (!is_mesh_extension(extension)) {
-    // Files without a telling extension are known by their first word.
-    if (extension == "nef3" || bytes.starts_with("Selective Nef Complex")) return read_nef3(bytes, path);
-    if (extension == "nef" || bytes.starts_with("nef ") || is_native_binary(bytes)) return read_native(bytes, path);
-  }
-  const Mesh mesh = read_mesh(bytes, path);
+Polyhedron set_of_mesh_file(std::string&& bytes, const std::string& path, const MeshOptions& options,
+                            Messages* messages) {
+  const Mesh mesh = mesh_of(std::move(bytes), path);
   // What write_polyhedron makes of the empty set.
   if (mesh.vertices.empty() && mesh.face_count() == 0) return Polyhedron();
   try {
@@ -147,6 +146,23 @@ Polyhedron read_polyhedron(const std::string& path, const MeshOptions& options, 
   } catch (const InputError& error) {
     throw InputError(path + ": " + error.what());
   }
+}
+
+}  // namespace
+
+Polyhedron read_polyhedron(const std::string& path, const MeshOptions& options, Messages* messages) {
+  const std::string extension = lower_extension(path);
+  std::string bytes = read_file(path);  // once: it may be a pipe
+  if (!is_mesh_extension(extension)) {
+    // Files without a telling extension are known by their first word.
+    if (extension == "nef3" || bytes.starts_with("Selective Nef Complex")) return read_nef3(bytes, path);
+    if (extension == "nef" || bytes.starts_with("nef ") || is_native_binary(bytes)) return read_native(bytes, path);
+  }
+  constexpr std::size_t kLarge = std::size_t{1} << 22U;  // smaller ones leave little behind
+  const bool is_large = bytes.size() > kLarge;
+  Polyhedron set = set_of_mesh_file(std::move(bytes), path, options, messages);
+  if (is_large) return_freed_memory();
+  return set;
 }
 
 void write_polyhedron(const std::string& path, const Polyhedron& polyhedron, const PolyhedronWriteOptions& options,

@@ -89,8 +89,7 @@ PlaneId PlaneTable::intern_primitive(const std::array<mpz_srcptr, 4>& plane) {
   std::size_t lead = 0;
   while (mpz_sgn(plane[lead]) == 0) ++lead;
   NEF_ASSERT(lead < 3);
-  mpz_t zero;
-  mpz_roinit_n(zero, nullptr, 0);
+  const IntegerView zero(nullptr, 0);
   const bool flip = mpz_sgn(plane[lead]) < 0;
   if (!flip) {
     const std::array<mpz_srcptr, 5> row{plane[0], plane[1], plane[2], plane[3], zero};

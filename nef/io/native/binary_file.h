@@ -105,7 +105,7 @@ class BinaryFile {
           continue;
         }
       }
-      row_limbs.resize(total);
+      row_limbs.resize(total + 1);  // of a zero behind all others, GMP may read a limb
       for (std::uint64_t i = 0; i < total; ++i) row_limbs[i] = limb[next + i];
       next += total;
       const mp_limb_t* at = row_limbs.data();

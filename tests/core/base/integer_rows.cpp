@@ -88,4 +88,26 @@ TEST_CASE("a table of integers may begin with a giant") {
   CHECK(holds_rows(table, {row}));
 }
 
+// Some of GMP's functions read the lowest limb of zero. Behind the last entry there may be no memory, which ended a reader
+// of meshes by a signal where a table filled its pages.
+TEST_CASE("a zero of a table of integers has a limb of its own") {
+  IntegerRows table(3);
+  push_row(table, {Integer(0), Integer(7), Integer(0)});
+  push_row(table, {Integer(-5), Integer(0), Integer(0)});
+  push_row(table, {Integer(0), Integer(0), Integer(0)});
+  table.trim();
+  std::size_t zeros = 0;
+  for (std::uint32_t row = 0; row < table.size(); ++row) {
+    for (std::size_t column = 0; column < 3; ++column) {
+      const IntegerView value = table.at(row, column);
+      if (value.sign() != 0) continue;
+      ++zeros;
+      CHECK(mpz_limbs_read(value)[0] == 0);
+      CHECK(mpz_get_si(value) == 0);
+      CHECK(mpz_fits_slong_p(value) != 0);
+    }
+  }
+  CHECK(zeros == 7);
+}
+
 }  // namespace nef::test

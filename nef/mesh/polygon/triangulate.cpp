@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Holes are joined to the outer ring one after another, the one that reaches farthest (lexicographically) first, by a
-// segment from its farthest vertex to a vertex that lies farther still. Holes that are not joined yet can not block
-// such a segment, so only the ring that has grown so far is looked at, and some vertex of it is always visible.
-// Then strictly convex corners whose triangle holds no other vertex are cut off. Vertices are compared by
-// index, so that the two sides of a bridge, and a ring that meets itself, are not in each other's way.
+// Rings that may be no polygon lose their ears: strictly convex corners whose triangle holds no other vertex are cut off.
+// Vertices are compared by index, so that a ring that meets itself is not in its own way. Polygons that are known to be
+// some are swept, but for what is seen to be convex or has four corners.
 #include "nef/mesh/polygon/triangulate.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "nef/complex/facet_plane.h"
-#include "nef/mesh/polygon/simple_ring.h"
 
 namespace nef {
 
@@ -32,112 +29,6 @@ std::uint32_t Triangulator::append_ring(std::span<const std::uint32_t> ring) {
     nodes_.push_back({ring[i], first + (i + size - 1) % size, first + (i + 1) % size});
   }
   return first;
-}
-
-// True if the direction from a node to a point runs into the polygon.
-bool Triangulator::in_cone(std::uint32_t node, std::uint32_t point) const {
-  const std::uint32_t before = nodes_[nodes_[node].prev].point;
-  const std::uint32_t at = nodes_[node].point;
-  const std::uint32_t after = nodes_[nodes_[node].next].point;
-  const int corner = turn(before, at, after);
-  const bool left_of_next = turn(at, after, point) > 0;
-  const bool left_of_prev = turn(before, at, point) > 0;
-  if (corner > 0) return left_of_next && left_of_prev;
-  if (corner < 0) return left_of_next || left_of_prev;
-  // The tip of a dangling edge is open all around; a straight corner on one side.
-  const bool tip = (points_.compare(before, at) < 0) == (points_.compare(after, at) < 0);
-  return tip || left_of_next;
-}
-
-bool Triangulator::sees(std::uint32_t hole, std::uint32_t target, std::uint32_t outer) const {
-  const std::uint32_t p = nodes_[hole].point;
-  const std::uint32_t q = nodes_[target].point;
-  if (!in_cone(target, p)) return false;
-  Box box;
-  points_.extend(box, p);
-  points_.extend(box, q);
-  std::uint32_t node = outer;
-  do {
-    const std::uint32_t a = nodes_[node].point;
-    const std::uint32_t b = nodes_[nodes_[node].next].point;
-    Box edge;
-    points_.extend(edge, a);
-    points_.extend(edge, b);
-    if (box.overlaps(edge)) {
-      const bool touches = a == q || b == q;
-      if (!touches && segments_meet(points_, p, q, a, b, axis_)) return false;
-      // An edge at the target may only meet the segment there: not if it runs back along it.
-      if (touches && a != b) {
-        const std::uint32_t other = a == q ? b : a;
-        if (turn(p, q, other) == 0 && (points_.compare(other, q) < 0) == (points_.compare(p, q) < 0)) return false;
-      }
-    }
-    node = nodes_[node].next;
-  } while (node != outer);
-  return true;
-}
-
-// Makes one ring of two by a bridge, walked once in each direction.
-void Triangulator::join(std::uint32_t hole, std::uint32_t target) {
-  if (nodes_[hole].point == nodes_[target].point) {
-    const std::uint32_t hole_next = nodes_[hole].next;
-    const std::uint32_t target_next = nodes_[target].next;
-    nodes_[hole].next = target_next;
-    nodes_[target_next].prev = hole;
-    nodes_[target].next = hole_next;
-    nodes_[hole_next].prev = target;
-    return;
-  }
-  const auto hole_copy = static_cast<std::uint32_t>(nodes_.size());
-  const std::uint32_t target_copy = hole_copy + 1;
-  const Node old_hole = nodes_[hole];
-  const Node old_target = nodes_[target];
-  // target -> hole ... hole_copy -> target_copy -> what followed target.
-  nodes_.push_back({old_hole.point, old_hole.prev, target_copy});
-  nodes_.push_back({old_target.point, hole_copy, old_target.next});
-  nodes_[old_hole.prev].next = hole_copy;
-  nodes_[old_target.next].prev = target_copy;
-  nodes_[target].next = hole;
-  nodes_[hole].prev = target;
-}
-
-bool Triangulator::bridge(std::uint32_t hole, std::uint32_t outer) {
-  const std::uint32_t p = nodes_[hole].point;
-  const auto& from = points_.approximate(p);
-  std::vector<std::pair<double, std::uint32_t>> candidates;
-  std::uint32_t node = outer;
-  do {
-    const std::uint32_t q = nodes_[node].point;
-    if (q == p && in_cone(node, nodes_[nodes_[hole].next].point)) {
-      join(hole, node);
-      return true;
-    }
-    if (q != p && points_.compare(q, p) > 0) {
-      const auto& to = points_.approximate(q);
-      const double distance = std::hypot(to[0] - from[0], to[1] - from[1], to[2] - from[2]);
-      candidates.emplace_back(distance == distance ? distance : HUGE_VAL, node);
-    }
-    node = nodes_[node].next;
-  } while (node != outer);
-  // The nearest vertex is nearly always visible, so a heap beats sorting all.
-  const auto farther = [](const auto& x, const auto& y) { return y < x; };
-  std::make_heap(candidates.begin(), candidates.end(), farther);
-  while (!candidates.empty()) {
-    std::pop_heap(candidates.begin(), candidates.end(), farther);
-    const std::uint32_t target = candidates.back().second;
-    candidates.pop_back();
-    if (!sees(hole, target, outer)) continue;
-    // A hole that meets itself there has more than one corner at that vertex.
-    std::uint32_t corner = hole;
-    do {
-      if (nodes_[corner].point == p && in_cone(corner, nodes_[target].point)) {
-        join(corner, target);
-        return true;
-      }
-      corner = nodes_[corner].next;
-    } while (corner != hole);
-  }
-  return false;
 }
 
 // Tells whether points lie in a triangle, borders included, by doubles where these are sure.
@@ -236,11 +127,15 @@ bool Triangulator::is_ear(std::uint32_t node) const {
   return true;
 }
 
+// Few are all compared with each ear, which is sooner done than to search for those beside it.
 void Triangulator::sort_blunt() {
   std::erase_if(blunt_, [this](std::uint32_t node) { return !nodes_[node].blunt; });
+  stale_ = 0;
+  sorted_ = 0;
+  for (Row& row : rows_) row.clear();
+  if (blunt_.size() <= kFew) return;
   for (std::size_t k = 0; k < 2; ++k) {
     Row& row = rows_[k];
-    row.clear();
     for (const std::uint32_t node : blunt_) {
       const auto& x = points_.approximate(nodes_[node].point);
       row.push_back({x[(axis_ + 1 + k) % 3], x[(axis_ + 2 - k) % 3], node});
@@ -248,7 +143,6 @@ void Triangulator::sort_blunt() {
     std::sort(row.begin(), row.end(), [](const Place& x, const Place& y) { return x.at < y.at; });
   }
   sorted_ = blunt_.size();
-  stale_ = 0;
 }
 
 // Sorts anew after as many changes that nothing is looked at in vain for long.
@@ -260,7 +154,6 @@ void Triangulator::set_blunt(std::uint32_t node, bool blunt) {
   } else {
     ++stale_;
   }
-  constexpr std::size_t kFew = 16;
   if (stale_ > kFew + sorted_ / 2 || blunt_.size() - sorted_ > kFew + sorted_ / 8) sort_blunt();
 }
 
@@ -305,34 +198,62 @@ bool Triangulator::clip(std::uint32_t start, std::vector<Triangle>& out) {
   return true;
 }
 
-bool Triangulator::triangulate(std::span<const std::vector<std::uint32_t>> rings, std::size_t axis, int sign,
-                               std::vector<Triangle>& out) {
-  axis_ = axis;
-  sign_ = sign;
-  nodes_.clear();
-  if (rings.empty() || rings[0].size() < 3) return false;
-  const std::uint32_t outer = append_ring(rings[0]);
-  std::vector<std::uint32_t> holes;  // the farthest node of each
-  for (std::size_t i = 1; i < rings.size(); ++i) {
-    if (rings[i].empty()) return false;
-    const std::uint32_t first = append_ring(rings[i]);
-    std::uint32_t best = first;
-    for (std::uint32_t node = first; node < nodes_.size(); ++node) {
-      if (points_.compare(nodes_[node].point, nodes_[best].point) > 0) best = node;
-    }
-    holes.push_back(best);
+// Of a ring whose corners all turn left by less than half a turn: it goes around once if it rises once and falls once.
+bool Triangulator::is_convex() const {
+  const auto n = static_cast<std::uint32_t>(projected_.size());
+  std::uint32_t peaks = 0;
+  bool rose = projected_.before(projected_[n - 1], projected_[0]);
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const std::uint32_t next = i + 1 == n ? 0 : i + 1;
+    if (projected_.turn(i == 0 ? n - 1 : i - 1, i, next) <= 0) return false;
+    const bool rises = projected_.before(projected_[i], projected_[next]);
+    peaks += rose && !rises ? 1 : 0;
+    rose = rises;
   }
-  std::sort(holes.begin(), holes.end(), [&](std::uint32_t a, std::uint32_t b) {
-    const int order = points_.compare(nodes_[a].point, nodes_[b].point);
-    return order != 0 ? order > 0 : a < b;
-  });
-  for (const std::uint32_t hole : holes) {
-    if (!bridge(hole, outer)) return false;
+  return peaks == 1;
+}
+
+// Two triangles on both sides of a diagonal are the polygon if both turn left.
+bool Triangulator::cut_four(std::vector<Triangle>& out) const {
+  const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    out.push_back({projected_.point(a), projected_.point(b), projected_.point(c)});
+  };
+  if (projected_.turn(3, 0, 1) > 0 && projected_.turn(1, 2, 3) > 0) {
+    add(3, 0, 1);
+    add(1, 2, 3);
+    return true;
+  }
+  if (projected_.turn(0, 1, 2) <= 0 || projected_.turn(2, 3, 0) <= 0) return false;
+  add(0, 1, 2);
+  add(2, 3, 0);
+  return true;
+}
+
+bool Triangulator::triangulate(std::span<const std::uint32_t> corners, std::span<const std::uint32_t> ring_end,
+                               std::size_t axis, int sign, std::vector<Triangle>& out) {
+  if (ring_end.empty() || ring_end[0] < 3) return false;
+  projected_.assign(corners, axis, sign);
+  if (ring_end.size() == 1 && corners.size() == 4) return cut_four(out);
+  if (ring_end.size() == 1 && is_convex()) {
+    cut_convex(corners, out);
+    return true;
   }
   const std::size_t old = out.size();
-  if (clip(outer, out)) return true;
+  if (sweep_.triangulate(projected_, ring_end, out)) return true;
   out.resize(old);
   return false;
+}
+
+bool Triangulator::triangulate(std::span<const std::vector<std::uint32_t>> rings, std::size_t axis, int sign,
+                               std::vector<Triangle>& out) {
+  corners_.clear();
+  ring_end_.clear();
+  for (const std::vector<std::uint32_t>& ring : rings) {
+    if (ring.empty()) return false;
+    corners_.insert(corners_.end(), ring.begin(), ring.end());
+    ring_end_.push_back(static_cast<std::uint32_t>(corners_.size()));
+  }
+  return triangulate(corners_, ring_end_, axis, sign, out);
 }
 
 bool Triangulator::triangulate(std::span<const std::uint32_t> ring, std::size_t axis, int sign,

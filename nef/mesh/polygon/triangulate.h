@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Exact triangulation of planar polygons with holes: bridges to the holes, then ears.
+// Exact triangulation of planar polygons with holes: by a plane sweep, or ear by ear where a ring may be no polygon.
 #pragma once
 
 #include <array>
@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "nef/mesh/mesh_points.h"
+#include "nef/mesh/polygon/projected_corners.h"
+#include "nef/mesh/polygon/sweep_triangulation.h"
 
 namespace nef {
 
@@ -26,21 +28,30 @@ class Triangulator {
   using Triangle = std::array<std::uint32_t, 3>;
 
   /// `points` must outlive the triangulator.
-  explicit Triangulator(const MeshPoints& points) : points_(points) {}
+  explicit Triangulator(const MeshPoints& points) : points_(points), projected_(points) {}
 
-  /// Cuts a polygon into triangles between its own vertices, oriented like it, and appends them to `out`. The first
-  /// ring is the outer one; the others are holes, turned the other way. Rings may have straight corners and may touch
-  /// themselves at vertices and along edges from within (dangling edges), but not cross. `axis` is a
-  /// coordinate axis along which the plane projects one to one, and `sign` is +1 if the outer ring turns
-  /// counterclockwise in that projection as orientation_along sees it.
+  /// Cuts a polygon into triangles between its own vertices, oriented like it, and appends them to `out`. The corners
+  /// are given ring after ring, each ring ending before the corner that ring_end says. The first ring is the outer one;
+  /// the others are holes, turned the other way. Rings may have straight corners and may touch themselves and each
+  /// other at vertices, and themselves along edges from within (dangling edges), but not cross; no corner lies inside
+  /// an edge. A hole may be a single edge, walked out and back. Equal points have equal numbers. `axis` is a coordinate
+  /// axis along which the plane projects one to one, and `sign` is +1 if the outer ring turns counterclockwise in that
+  /// projection as orientation_along sees it.
   ///
-  /// Returns false, and appends nothing, if the rings are no such polygon. O(n) for convex polygons; with r corners
-  /// that are not convex, each ear is compared with those of them that lie beside it along a coordinate axis: O(n r) at
-  /// worst, with about a nanosecond a step.
+  /// Returns false, and appends nothing, if it finds that the rings are no such polygon; triangles that overlap can only
+  /// come of rings that go around some points twice. O(n log n), and O(n) for convex polygons; by the plane sweep of
+  /// [Hertel, Mehlhorn 1983].
+  bool triangulate(std::span<const std::uint32_t> corners, std::span<const std::uint32_t> ring_end, std::size_t axis,
+                   int sign, std::vector<Triangle>& out);
+
+  /// The same for rings in lists of their own.
   bool triangulate(std::span<const std::vector<std::uint32_t>> rings, std::size_t axis, int sign,
                    std::vector<Triangle>& out);
 
-  /// The same for a single ring.
+  /// The same for a single ring that may be no polygon. Corners are cut off one after another, which finds a polygon in
+  /// more rings: corners may lie inside of edges, from within. O(n) for convex polygons; with r corners that are
+  /// not convex, each ear is compared with those of them that lie beside it along a coordinate axis: O(n r) at worst,
+  /// with about a nanosecond a step.
   bool triangulate(std::span<const std::uint32_t> ring, std::size_t axis, int sign, std::vector<Triangle>& out);
 
   /// The same for a ring that is strictly convex (in some projection), which is not asked again. O(n).
@@ -59,10 +70,8 @@ class Triangulator {
   }
   [[nodiscard]] int turn_at(std::uint32_t node) const;
   std::uint32_t append_ring(std::span<const std::uint32_t> ring);
-  bool bridge(std::uint32_t hole, std::uint32_t outer);
-  [[nodiscard]] bool sees(std::uint32_t hole, std::uint32_t target, std::uint32_t outer) const;
-  [[nodiscard]] bool in_cone(std::uint32_t node, std::uint32_t point) const;
-  void join(std::uint32_t hole, std::uint32_t target);
+  [[nodiscard]] bool is_convex() const;
+  bool cut_four(std::vector<Triangle>& out) const;
   bool clip(std::uint32_t start, std::vector<Triangle>& out);
   // Where a corner that is not convex lies along an axis of the projection, and which node it is.
   struct Place {
@@ -70,6 +79,7 @@ class Triangulator {
     double other = 0;  // along the other axis
     std::uint32_t node = 0;
   };
+  static constexpr std::size_t kFew = 16;  // corners that need no order
   // Corners that are not convex, in order along an axis; some may have become convex since.
   using Row = std::vector<Place>;
   // The triangle that a corner would be cut off with.
@@ -88,6 +98,10 @@ class Triangulator {
   std::array<Row, 2> rows_;           // those that were among them when they were last sorted
   std::size_t sorted_ = 0;            // how many of blunt_ are in the rows
   std::size_t stale_ = 0;             // and how many of those have become convex
+  ProjectedCorners projected_;
+  SweepTriangulator sweep_;
+  std::vector<std::uint32_t> corners_;
+  std::vector<std::uint32_t> ring_end_;
 };
 
 }  // namespace nef

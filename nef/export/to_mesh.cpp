@@ -86,7 +86,12 @@ class Exporter {
     run();
     RoundedMeshExport result;
     result.mesh.vertices.reserve(vertices_.size());
-    for (const VertexId v : vertices_) result.mesh.vertices.push_back(nearest_doubles(complex_.points, point_of(v)));
+    const PointTable& points = complex_.points;
+    const bool all_are_nearest = points.all_are_nearest();  // of those that are finite, as these are
+    for (const VertexId v : vertices_) {
+      const PointId p = point_of(v);
+      result.mesh.vertices.push_back(all_are_nearest ? points.approximate(p) : nearest_doubles(points, p));
+    }
     result.mesh.face_begin = std::move(faces_.face_begin);
     result.mesh.corners = std::move(faces_.corners);
     result.lost = std::move(lost_);
@@ -197,13 +202,15 @@ class Exporter {
   }
 
   // `corners`: the vertices of the facet's corners, cycle after cycle.
-  void collect_rings(const Facet& facet, const VertexId* corners,
-                     std::vector<std::vector<std::uint32_t>>& rings) const {
-    rings.resize(facet.cycle_count);
-    for (std::uint32_t i = 0; i < facet.cycle_count; ++i) {
-      rings[i].resize(complex_.corners_of(facet.cycles()[i]).size());
-      for (std::uint32_t& v : rings[i]) v = number_[*corners++];
+  void collect_rings(const Facet& facet, const VertexId* corners) {
+    ring_end_.clear();
+    std::uint32_t size = 0;
+    for (const CycleId cycle : facet.cycles()) {
+      size += static_cast<std::uint32_t>(complex_.corners_of(cycle).size());
+      ring_end_.push_back(size);
     }
+    rings_.resize(size);
+    for (std::uint32_t i = 0; i < size; ++i) rings_[i] = number_[corners[i]];
   }
 
   // A ring that meets itself is no polygon for most readers.
@@ -246,16 +253,18 @@ class Exporter {
       if (!points.empty()) triangulator_.emplace(points_.emplace(exporter.complex_.points, points));
     }
 
-    void triangulate(std::vector<std::vector<std::uint32_t>>& rings, const ProjectionAxis& projection,
-                     std::vector<Triangulator::Triangle>& out) {
-      for (std::vector<std::uint32_t>& ring : rings) {
-        for (std::uint32_t& v : ring) v = number_[v];
-      }
-      const bool done = triangulator_->triangulate(rings, projection.axis, projection.sign, out);
+    // Valid until the next call.
+    [[nodiscard]] std::span<const Triangulator::Triangle> triangulate(std::vector<std::uint32_t>& corners,
+                                                                      std::span<const std::uint32_t> ring_end,
+                                                                      const ProjectionAxis& projection) {
+      for (std::uint32_t& v : corners) v = number_[v];
+      triangles_.clear();
+      const bool done = triangulator_->triangulate(corners, ring_end, projection.axis, projection.sign, triangles_);
       NEF_ASSERT(done);
-      for (Triangulator::Triangle& triangle : out) {
+      for (Triangulator::Triangle& triangle : triangles_) {
         for (std::uint32_t& v : triangle) v = vertex_[v];
       }
+      return triangles_;
     }
 
     [[nodiscard]] bool strictly_convex(const std::vector<std::uint32_t>& ring, std::size_t axis) const {
@@ -276,18 +285,25 @@ class Exporter {
     std::vector<std::uint32_t> vertex_;
     std::optional<MeshPoints> points_;
     std::optional<Triangulator> triangulator_;
+    std::vector<Triangulator::Triangle> triangles_;
   };
 
   [[nodiscard]] bool is_triangle(const Facet& facet) const {
     return facet.cycle_count == 1 && complex_.corners_of(facet.first_cycle).size() == 3;
   }
 
+  // As many as there are if none stays a polygon: a facet of n corners in c cycles is n + 2 c - 4 triangles.
+  void reserve_faces() {
+    std::size_t count = corner_vertices_.size();
+    for (const FacetId f : boundary_) count += 2 * std::size_t{complex_.facets[f].cycle_count};
+    count -= 4 * boundary_.size();
+    faces_.face_begin.reserve(options_.keep_polygons ? boundary_.size() + 1 : count + 1);
+    faces_.corners.reserve(options_.keep_polygons ? corner_vertices_.size() : 3 * count);
+  }
+
   void write_facets() {
     Polygons polygons(*this);
-    std::vector<std::vector<std::uint32_t>> rings;
-    std::vector<Triangulator::Triangle> triangles;
-    faces_.face_begin.reserve(boundary_.size() + 1);
-    faces_.corners.reserve(corner_vertices_.size());
+    reserve_faces();
     const VertexId* corners = corner_vertices_.data();
     for (const FacetId f : boundary_) {
       const Facet& facet = complex_.facets[f];
@@ -300,22 +316,16 @@ class Exporter {
         push_triangle(v, flip);
         continue;
       }
-      collect_rings(facet, corners, rings);
-      corners += complex_.corners_of(facet).size();
+      collect_rings(facet, corners);
+      corners += rings_.size();
       const ProjectionAxis projection = projection_axis(complex_.planes, facet.plane);
-      const bool whole =
-          rings.size() == 1 && (!options_.only_convex || polygons.strictly_convex(rings[0], projection.axis));
-      if (options_.keep_polygons && whole && may_stay_polygon(rings[0])) {
-        if (flip) std::reverse(rings[0].begin(), rings[0].end());
-        faces_.push_face(rings[0]);
+      if (options_.keep_polygons && ring_end_.size() == 1 &&
+          (!options_.only_convex || polygons.strictly_convex(rings_, projection.axis)) && may_stay_polygon(rings_)) {
+        if (flip) std::reverse(rings_.begin(), rings_.end());
+        faces_.push_face(rings_);
         continue;
       }
-      triangles.clear();
-      polygons.triangulate(rings, projection, triangles);
-      for (auto& triangle : triangles) {
-        if (flip) std::swap(triangle[1], triangle[2]);
-        faces_.push_face(triangle);
-      }
+      push_triangles(polygons.triangulate(rings_, ring_end_, projection), flip);
     }
     fill_marks();
   }
@@ -343,6 +353,19 @@ class Exporter {
       std::swap(face[1], face[2]);
     }
     faces_.push_face(face);
+  }
+
+  void push_triangles(std::span<const Triangulator::Triangle> triangles, bool flip) {
+    const std::size_t old = faces_.corners.size();
+    faces_.corners.resize(old + 3 * triangles.size());
+    std::uint32_t* to = faces_.corners.data() + old;
+    for (const Triangulator::Triangle& t : triangles) {
+      to[0] = t[0];
+      to[1] = flip ? t[2] : t[1];
+      to[2] = flip ? t[1] : t[2];
+      to += 3;
+      faces_.face_begin.push_back(static_cast<std::uint32_t>(to - faces_.corners.data()));
+    }
   }
 
   // Sorts an item by what its mark and the volumes around it say about the mesh.
@@ -456,6 +479,8 @@ class Exporter {
   Items flat_;
   Items open_;
   Items cracks_;
+  std::vector<std::uint32_t> rings_;     // of one facet, of vertices of the mesh
+  std::vector<std::uint32_t> ring_end_;  // and where in these each ring ends
   std::vector<VertexId> vertices_;  // of the complex, of each vertex of the mesh
   Mesh faces_;                      // its vertices come last
   std::vector<std::array<LabelId, 3>> face_marks_;

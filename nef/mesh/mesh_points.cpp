@@ -128,9 +128,10 @@ void MeshPoints::approximate_integers() {
 
 bool MeshPoints::read_homogeneous(const PointTable& points, std::span<const PointId> chosen) {
   homogeneous_.resize(chosen.size());
+  PointTable::SmallReader reader(points);
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     std::array<std::int64_t, 7> h;
-    if (!points.small_coordinates(chosen[i], h)) {
+    if (!reader.read(chosen[i], h)) {
       homogeneous_.clear();
       return false;
     }

@@ -24,7 +24,7 @@ void ProjectedCorners::assign(std::span<const std::uint32_t> corners, std::size_
     const std::array<double, 3>& p = points_.approximate(corners[i]);
     const double x = p[axes_[0]];
     const double y = p[axes_[1]];
-    corners_[i] = {x, y, corners[i]};
+    corners_[i] = {x, y, corners[i], static_cast<std::uint32_t>(i)};
     low = {std::min(low[0], x), std::min(low[1], y)};
     high = {std::max(high[0], x), std::max(high[1], y)};
   }

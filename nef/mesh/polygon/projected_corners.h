@@ -22,6 +22,7 @@ class ProjectedCorners {
     double x = 0;
     double y = 0;
     std::uint32_t point = 0;
+    std::uint32_t index = 0;  // its number among the corners
   };
 
   /// `points` must outlive the corners.

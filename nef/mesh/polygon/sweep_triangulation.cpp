@@ -278,17 +278,59 @@ void SweepTriangulator::link(std::span<const std::uint32_t> ring_end) {
   }
 }
 
+// Parts of rings that go to the right, and those that go to the left, turned round.
+void SweepTriangulator::collect_runs(std::span<const std::uint32_t> ring_end) {
+  sorted_.resize(corners_->size());
+  run_end_.clear();
+  std::uint32_t i = 0;
+  for (const std::uint32_t last : ring_end) {
+    while (i < last) {
+      const std::uint32_t first = i;
+      sorted_[i] = (*corners_)[i];
+      ++i;
+      if (i < last) {
+        const bool rises = corners_->before(sorted_[first], (*corners_)[i]);
+        do {
+          sorted_[i] = (*corners_)[i];
+          ++i;
+        } while (i < last && corners_->before(sorted_[i - 1], (*corners_)[i]) == rises);
+        if (!rises) std::reverse(sorted_.begin() + first, sorted_.begin() + i);
+      }
+      run_end_.push_back(i);
+    }
+  }
+}
+
+// Neighbours are merged until one is left.
+void SweepTriangulator::merge_runs() {
+  merged_.resize(sorted_.size());
+  const auto before = [this](const ProjectedCorners::Corner& a, const ProjectedCorners::Corner& b) {
+    return corners_->before(a, b);
+  };
+  while (run_end_.size() > 1) {
+    std::size_t kept = 0;
+    std::uint32_t first = 0;
+    for (std::size_t i = 0; i < run_end_.size(); i += 2) {
+      const std::uint32_t middle = run_end_[i];
+      const std::uint32_t last = i + 1 < run_end_.size() ? run_end_[i + 1] : middle;
+      std::merge(sorted_.begin() + first, sorted_.begin() + middle, sorted_.begin() + middle, sorted_.begin() + last,
+                 merged_.begin() + first, before);
+      run_end_[kept++] = first = last;
+    }
+    run_end_.resize(kept);
+    std::swap(sorted_, merged_);
+  }
+}
+
 // Corners at one point have one rank.
-void SweepTriangulator::sort() {
-  const auto n = static_cast<std::uint32_t>(corners_->size());
-  events_.resize(n);
+void SweepTriangulator::sort(std::span<const std::uint32_t> ring_end) {
+  collect_runs(ring_end);
+  merge_runs();
+  const auto n = static_cast<std::uint32_t>(sorted_.size());
   order_.resize(n);
-  for (std::uint32_t i = 0; i < n; ++i) events_[i] = {(*corners_)[i], i};
-  std::sort(events_.begin(), events_.end(),
-            [this](const Event& a, const Event& b) { return corners_->before(a.at, b.at); });
   for (std::uint32_t i = 0; i < n; ++i) {
-    order_[i] = events_[i].corner;
-    const bool same = i > 0 && events_[i].at.point == events_[i - 1].at.point;
+    order_[i] = sorted_[i].index;
+    const bool same = i > 0 && sorted_[i].point == sorted_[i - 1].point;
     links_[order_[i]].rank = same ? links_[order_[i - 1]].rank : i;
   }
 }
@@ -303,7 +345,7 @@ bool SweepTriangulator::triangulate(const ProjectedCorners& corners, std::span<c
   free_intervals_.clear();
   status_.clear();
   link(ring_end);
-  sort();
+  sort(ring_end);
   for (std::size_t i = 0; i < order_.size();) {
     std::size_t j = i + 1;
     while (j < order_.size() && links_[order_[j]].rank == links_[order_[i]].rank) ++j;

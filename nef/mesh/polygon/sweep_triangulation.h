@@ -27,7 +27,7 @@ class SweepTriangulator {
   /// or of another one, turned round: what is appended covers each point as often as the rings go around it.
   ///
   /// Returns false, and appends nothing in effect (the caller resizes), if the rings are no such polygon. O(n log n)
-  /// for n corners: they are sorted, those at which intervals begin or part look for their place among the intervals,
+  /// for n corners: the runs of rings to the right and to the left are merged, corners at which intervals begin or part look for their place among the intervals,
   /// and everything else takes O(1) a triangle.
   bool triangulate(const ProjectedCorners& corners, std::span<const std::uint32_t> ring_end, std::vector<Triangle>& out);
 
@@ -56,7 +56,9 @@ class SweepTriangulator {
   enum class Kind : std::uint8_t { kEnd, kMerge, kFloor, kCeiling, kSplit, kStart, kAlone };
 
   void link(std::span<const std::uint32_t> ring_end);
-  void sort();
+  void sort(std::span<const std::uint32_t> ring_end);
+  void collect_runs(std::span<const std::uint32_t> ring_end);
+  void merge_runs();
   bool reach(std::span<const std::uint32_t> corners);
   void separate(std::span<const std::uint32_t> corners);
   [[nodiscard]] bool clockwise_before(std::uint32_t at, std::uint32_t a, std::uint32_t b) const;
@@ -82,12 +84,10 @@ class SweepTriangulator {
   const ProjectedCorners* corners_ = nullptr;
   std::vector<Triangle>* out_ = nullptr;
   std::vector<Links> links_;
-  std::vector<std::uint32_t> order_;
-  struct Event {
-    ProjectedCorners::Corner at;
-    std::uint32_t corner = 0;
-  };
-  std::vector<Event> events_;
+  std::vector<std::uint32_t> order_;                // of all corners
+  std::vector<ProjectedCorners::Corner> sorted_;    // runs in order, which become one
+  std::vector<ProjectedCorners::Corner> merged_;
+  std::vector<std::uint32_t> run_end_;
   std::vector<Cell> cells_;
   std::vector<Interval> intervals_;
   std::vector<std::uint32_t> free_intervals_;

@@ -199,18 +199,24 @@ bool Triangulator::clip(std::uint32_t start, std::vector<Triangle>& out) {
 }
 
 // Of a ring whose corners all turn left by less than half a turn: it goes around once if it rises once and falls once.
-bool Triangulator::is_convex() const {
+bool Triangulator::goes_around_once() const {
   const auto n = static_cast<std::uint32_t>(projected_.size());
   std::uint32_t peaks = 0;
   bool rose = projected_.before(projected_[n - 1], projected_[0]);
   for (std::uint32_t i = 0; i < n; ++i) {
-    const std::uint32_t next = i + 1 == n ? 0 : i + 1;
-    if (projected_.turn(i == 0 ? n - 1 : i - 1, i, next) <= 0) return false;
-    const bool rises = projected_.before(projected_[i], projected_[next]);
+    const bool rises = projected_.before(projected_[i], projected_[i + 1 == n ? 0 : i + 1]);
     peaks += rose && !rises ? 1 : 0;
     rose = rises;
   }
   return peaks == 1;
+}
+
+bool Triangulator::is_convex() const {
+  const auto n = static_cast<std::uint32_t>(projected_.size());
+  for (std::uint32_t i = 0; i < n; ++i) {
+    if (projected_.turn(i == 0 ? n - 1 : i - 1, i, i + 1 == n ? 0 : i + 1) <= 0) return false;
+  }
+  return goes_around_once();
 }
 
 // Two triangles on both sides of a diagonal are the polygon if both turn left.
@@ -229,16 +235,80 @@ bool Triangulator::cut_four(std::vector<Triangle>& out) const {
   return true;
 }
 
+// Tells whether a corner is in the way of an ear, borders included.
+bool Triangulator::blocks(std::uint32_t corner, const std::array<std::uint32_t, 3>& ear) const {
+  const std::uint32_t p = projected_.point(corner);
+  if (p == projected_.point(ear[0]) || p == projected_.point(ear[1]) || p == projected_.point(ear[2])) return false;
+  return projected_.turn(ear[2], ear[0], corner) >= 0 && projected_.turn(ear[0], ear[1], corner) >= 0 &&
+         projected_.turn(ear[1], ear[2], corner) >= 0;
+}
+
+// Ears of a ring of at most kSmall corners, as clip cuts them off; false if there are none left.
+bool Triangulator::clip_small(std::span<const std::uint32_t> corners, std::vector<Triangle>& out) {
+  const auto n = static_cast<std::uint32_t>(projected_.size());
+  std::array<std::uint32_t, kSmall> prev;
+  std::array<std::uint32_t, kSmall> next;
+  std::array<std::uint32_t, kSmall> blunt;
+  std::array<bool, kSmall> is_blunt;
+  std::uint32_t blunt_count = 0;
+  for (std::uint32_t i = 0; i < n; ++i) {
+    prev[i] = i == 0 ? n - 1 : i - 1;
+    next[i] = i + 1 == n ? 0 : i + 1;
+    is_blunt[i] = projected_.turn(prev[i], i, next[i]) <= 0;
+    if (is_blunt[i]) blunt[blunt_count++] = i;
+  }
+  if (blunt_count == 0 && goes_around_once()) {
+    cut_convex(corners, out);
+    return true;
+  }
+  std::uint32_t at = 0;
+  std::uint32_t failures = 0;
+  for (std::uint32_t count = n; count > 3;) {
+    const std::array<std::uint32_t, 3> ear{prev[at], at, next[at]};
+    const auto is_free = [&] {
+      return std::none_of(blunt.begin(), blunt.begin() + blunt_count, [&](std::uint32_t b) { return blocks(b, ear); });
+    };
+    if (is_blunt[at] || !is_free()) {
+      at = next[at];
+      if (++failures > count) return false;
+      continue;
+    }
+    failures = 0;
+    out.push_back({projected_.point(ear[0]), projected_.point(at), projected_.point(ear[2])});
+    next[ear[0]] = ear[2];
+    prev[ear[2]] = ear[0];
+    --count;
+    for (const std::uint32_t i : {ear[0], ear[2]}) {
+      const bool was_blunt = is_blunt[i];
+      is_blunt[i] = projected_.turn(prev[i], i, next[i]) <= 0;
+      if (is_blunt[i] == was_blunt) continue;
+      if (is_blunt[i]) {
+        blunt[blunt_count++] = i;
+      } else {
+        std::uint32_t* const end = blunt.data() + blunt_count--;
+        *std::find(blunt.data(), end, i) = end[-1];
+      }
+    }
+    at = next[ear[2]];
+  }
+  if (projected_.turn(prev[at], at, next[at]) <= 0) return false;
+  out.push_back({projected_.point(prev[at]), projected_.point(at), projected_.point(next[at])});
+  return true;
+}
+
 bool Triangulator::triangulate(std::span<const std::uint32_t> corners, std::span<const std::uint32_t> ring_end,
                                std::size_t axis, int sign, std::vector<Triangle>& out) {
   if (ring_end.empty() || ring_end[0] < 3) return false;
   projected_.assign(corners, axis, sign);
   if (ring_end.size() == 1 && corners.size() == 4) return cut_four(out);
-  if (ring_end.size() == 1 && is_convex()) {
+  const std::size_t old = out.size();
+  if (ring_end.size() == 1 && corners.size() <= kSmall) {
+    if (clip_small(corners, out)) return true;
+    out.resize(old);
+  } else if (ring_end.size() == 1 && is_convex()) {
     cut_convex(corners, out);
     return true;
   }
-  const std::size_t old = out.size();
   if (sweep_.triangulate(projected_, ring_end, out)) return true;
   out.resize(old);
   return false;

@@ -70,8 +70,11 @@ class Triangulator {
   }
   [[nodiscard]] int turn_at(std::uint32_t node) const;
   std::uint32_t append_ring(std::span<const std::uint32_t> ring);
+  [[nodiscard]] bool goes_around_once() const;
   [[nodiscard]] bool is_convex() const;
   bool cut_four(std::vector<Triangle>& out) const;
+  [[nodiscard]] bool blocks(std::uint32_t corner, const std::array<std::uint32_t, 3>& ear) const;
+  bool clip_small(std::span<const std::uint32_t> corners, std::vector<Triangle>& out);
   bool clip(std::uint32_t start, std::vector<Triangle>& out);
   // Where a corner that is not convex lies along an axis of the projection, and which node it is.
   struct Place {
@@ -79,7 +82,8 @@ class Triangulator {
     double other = 0;  // along the other axis
     std::uint32_t node = 0;
   };
-  static constexpr std::size_t kFew = 16;  // corners that need no order
+  static constexpr std::size_t kFew = 16;    // corners that need no order
+  static constexpr std::size_t kSmall = 24;  // corners of a ring that loses its ears sooner than it is swept
   // Corners that are not convex, in order along an axis; some may have become convex since.
   using Row = std::vector<Place>;
   // The triangle that a corner would be cut off with.

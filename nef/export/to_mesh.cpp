@@ -257,10 +257,13 @@ class Exporter {
     [[nodiscard]] std::span<const Triangulator::Triangle> triangulate(std::vector<std::uint32_t>& corners,
                                                                       std::span<const std::uint32_t> ring_end,
                                                                       const ProjectionAxis& projection) {
-      for (std::uint32_t& v : corners) v = number_[v];
+      // Numbers are the same if all vertices take part.
+      const bool renumbered = vertex_.size() != number_.size();
+      for (std::size_t i = 0; renumbered && i < corners.size(); ++i) corners[i] = number_[corners[i]];
       triangles_.clear();
       const bool done = triangulator_->triangulate(corners, ring_end, projection.axis, projection.sign, triangles_);
       NEF_ASSERT(done);
+      if (!renumbered) return triangles_;
       for (Triangulator::Triangle& triangle : triangles_) {
         for (std::uint32_t& v : triangle) v = vertex_[v];
       }

@@ -115,7 +115,13 @@ MeshPoints::MeshPoints(const PointTable& points, std::span<const PointId> chosen
   find_margins(false);
   if (is_short) return;
   table_.reserve(chosen.size());
-  for (const PointId p : chosen) table_.push_from(points, p);
+  for (std::size_t i = 0; i < chosen.size();) {
+    // Points that follow each other are copied at once.
+    std::size_t count = 1;
+    while (i + count < chosen.size() && chosen[i + count].index() == chosen[i].index() + count) ++count;
+    table_.append(points, chosen[i].index(), count);
+    i += count;
+  }
 }
 
 // Below 2^40 every integer is a double.
@@ -161,34 +167,45 @@ bool MeshPoints::no_integers() {
   return false;
 }
 
-// Most points have the denominator of the one before, or one that divides the common one; else the quotient is taken to
-// lowest terms.
+// The common denominator first. Most points have the denominator of the one before, or one that divides what is known of
+// the common one; else the quotients are taken to lowest terms.
+bool MeshPoints::find_denominator() {
+  std::int64_t last = 1;
+  for (const auto& [x, y, z, w] : homogeneous_) {
+    if (w == last) continue;
+    if (denominator_ % w != 0) {
+      for (const std::int64_t numerator : {x, y, z}) {
+        const std::int64_t rest = numerator % w;
+        if (rest == 0) continue;
+        const std::int64_t reduced = w / common_divisor(w, rest);
+        const std::int64_t missing = reduced / common_divisor(reduced, denominator_);
+        if (missing >= kIntegerLimit || static_cast<Int128>(denominator_) * missing >= kIntegerLimit) return false;
+        denominator_ *= missing;
+      }
+      // Others with the same denominator need not be multiples.
+      continue;
+    }
+    last = w;
+  }
+  return true;
+}
+
 bool MeshPoints::make_integers_of_homogeneous() {
-  integers_.reserve(homogeneous_.size());
+  if (!find_denominator()) return no_integers();
+  integers_.resize(homogeneous_.size());
   std::int64_t last = 0;
   std::int64_t factor = 0;  // the common denominator over `last`; 0 if that is no integer
-  for (const auto& [x, y, z, w] : homogeneous_) {
-    std::array<std::int64_t, 3>& point = integers_.emplace_back();
-    const std::array<std::int64_t, 3> numerators{x, y, z};
+  for (std::size_t i = 0; i < integers_.size(); ++i) {
+    const std::array<std::int64_t, 4>& from = homogeneous_[i];
+    const std::int64_t w = from[3];
+    if (w != last) factor = denominator_ % w == 0 ? denominator_ / w : 0;
+    last = w;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (w != last) factor = denominator_ % w == 0 ? denominator_ / w : 0;
-      last = w;
-      std::int64_t numerator = numerators[axis];
-      std::int64_t scale = factor;
-      if (factor == 0) {
-        const std::int64_t common = common_divisor(w, numerator);
-        const std::int64_t reduced = w / common;
-        const std::int64_t missing = reduced / common_divisor(reduced, denominator_);
-        if (missing != 1) {
-          if (!enlarge_denominator(missing)) return no_integers();
-          last = 0;
-        }
-        numerator /= common;
-        scale = denominator_ / reduced;
-      }
-      const Int128 scaled = static_cast<Int128>(numerator) * scale;
+      // The quotient is an integer, as the common denominator is a multiple of the reduced one.
+      const Int128 product = static_cast<Int128>(from[axis]) * (factor != 0 ? factor : denominator_);
+      const Int128 scaled = factor != 0 ? product : product / w;
       if (scaled >= kIntegerLimit || scaled <= -kIntegerLimit) return no_integers();
-      point[axis] = static_cast<std::int64_t>(scaled);
+      integers_[i][axis] = static_cast<std::int64_t>(scaled);
     }
   }
   return true;

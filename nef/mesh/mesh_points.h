@@ -86,6 +86,7 @@ class MeshPoints {
   bool make_integers(std::span<const Rational3> points);
   bool make_integers(const PointTable& points, std::span<const PointId> chosen);
   bool read_homogeneous(const PointTable& points, std::span<const PointId> chosen);
+  bool find_denominator();
   bool make_integers_of_homogeneous();
   bool enlarge_denominator(std::int64_t factor);
   bool no_integers();

@@ -13,9 +13,10 @@
 
 namespace nef {
 
-std::uint32_t SweepTriangulator::push(std::uint32_t corner, std::uint32_t rest) {
-  cells_.push_back({corner, rest});
-  return static_cast<std::uint32_t>(cells_.size() - 1);
+// A corner is in four cells at most, for which there is room.
+inline std::uint32_t SweepTriangulator::push(std::uint32_t corner, std::uint32_t rest) {
+  cells_[cell_count_] = {corner, rest};
+  return cell_count_++;
 }
 
 std::uint32_t SweepTriangulator::new_interval() {
@@ -28,18 +29,18 @@ std::uint32_t SweepTriangulator::new_interval() {
   return id;
 }
 
-void SweepTriangulator::add_known(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+inline void SweepTriangulator::add_known(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
   out_->push_back({corners_->point(a), corners_->point(b), corners_->point(c)});
 }
 
-bool SweepTriangulator::add(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-  if (corners_->turn(a, b, c) <= 0) return false;
+inline bool SweepTriangulator::add(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+  if (!corners_->turns_left(a, b, c)) return false;
   add_known(a, b, c);
   return true;
 }
 
 // Joins a corner on the edge below to the lower part of the chain, all of which it sees.
-bool SweepTriangulator::fan_lower(const Interval& interval, std::uint32_t p) {
+inline bool SweepTriangulator::fan_lower(const Interval& interval, std::uint32_t p) {
   Cell cell = cells_[interval.lower];
   while (cell.rest != kNone) {
     const Cell next = cells_[cell.rest];
@@ -49,7 +50,7 @@ bool SweepTriangulator::fan_lower(const Interval& interval, std::uint32_t p) {
   return true;
 }
 
-bool SweepTriangulator::fan_upper(const Interval& interval, std::uint32_t p) {
+inline bool SweepTriangulator::fan_upper(const Interval& interval, std::uint32_t p) {
   Cell cell = cells_[interval.upper];
   while (cell.rest != kNone) {
     const Cell next = cells_[cell.rest];
@@ -60,31 +61,31 @@ bool SweepTriangulator::fan_upper(const Interval& interval, std::uint32_t p) {
 }
 
 // Joins a corner to what it sees of the lower part of the chain from its beginning on. Returns what is left of that.
-std::uint32_t SweepTriangulator::cut_lower(const Interval& interval, std::uint32_t p) {
+inline std::uint32_t SweepTriangulator::cut_lower(const Interval& interval, std::uint32_t p) {
   std::uint32_t first = interval.lower;
   while (cells_[first].rest != kNone) {
     const std::uint32_t a = cells_[first].corner;
     const std::uint32_t b = cells_[cells_[first].rest].corner;
-    if (corners_->turn(p, a, b) <= 0) break;
+    if (!corners_->turns_left(p, a, b)) break;
     add_known(p, a, b);
     first = cells_[first].rest;
   }
   return first;
 }
 
-std::uint32_t SweepTriangulator::cut_upper(const Interval& interval, std::uint32_t p) {
+inline std::uint32_t SweepTriangulator::cut_upper(const Interval& interval, std::uint32_t p) {
   std::uint32_t first = interval.upper;
   while (cells_[first].rest != kNone) {
     const std::uint32_t a = cells_[first].corner;
     const std::uint32_t b = cells_[cells_[first].rest].corner;
-    if (corners_->turn(p, b, a) <= 0) break;
+    if (!corners_->turns_left(p, b, a)) break;
     add_known(p, b, a);
     first = cells_[first].rest;
   }
   return first;
 }
 
-bool SweepTriangulator::go_on_below(std::uint32_t p) {
+inline bool SweepTriangulator::go_on_below(std::uint32_t p) {
   const std::uint32_t id = links_[links_[p].prev].above;
   if (id == kNone) return false;
   links_[links_[p].prev].above = kNone;
@@ -97,7 +98,7 @@ bool SweepTriangulator::go_on_below(std::uint32_t p) {
   return true;
 }
 
-bool SweepTriangulator::go_on_above(std::uint32_t p) {
+inline bool SweepTriangulator::go_on_above(std::uint32_t p) {
   const std::uint32_t id = links_[links_[p].next].below;
   if (id == kNone) return false;
   links_[links_[p].next].below = kNone;
@@ -155,7 +156,7 @@ bool SweepTriangulator::split(std::uint32_t p, Kind kind) {
   const OrderedBlocks::Place place = find(p);
   const std::uint32_t low = status_.before(place);
   if (low == kNone || broken_) return false;
-  if (corners_->turn(links_[intervals_[low].ceiling].prev, intervals_[low].ceiling, p) <= 0) return false;
+  if (!corners_->turns_left(links_[intervals_[low].ceiling].prev, intervals_[low].ceiling, p)) return false;
   const std::uint32_t lower = push(p, cut_lower(intervals_[low], p));
   const std::uint32_t upper = push(p, cut_upper(intervals_[low], p));
   if (kind == Kind::kAlone) {
@@ -193,7 +194,7 @@ SweepTriangulator::Kind SweepTriangulator::kind_of(std::uint32_t corner) const {
   const bool to_right = links_[at.next].rank > at.rank;
   if (from_right != to_right) return to_right ? Kind::kFloor : Kind::kCeiling;
   // Where both edges coincide, the corner is the tip of a dangling edge, with the polygon all around.
-  const bool convex = corners_->turn(at.prev, corner, at.next) > 0;
+  const bool convex = corners_->turns_left(at.prev, corner, at.next);
   if (from_right) return convex ? Kind::kStart : Kind::kSplit;
   return convex ? Kind::kEnd : Kind::kMerge;
 }
@@ -250,9 +251,8 @@ void SweepTriangulator::separate(std::span<const std::uint32_t> corners) {
   }
 }
 
-// All corners at one point.
-bool SweepTriangulator::reach(std::span<const std::uint32_t> corners) {
-  if (corners.size() == 1) return handle(corners[0], kind_of(corners[0]));
+// More than one corner at one point.
+bool SweepTriangulator::reach_together(std::span<const std::uint32_t> corners) {
   separate(corners);
   if (broken_) return false;
   constexpr auto phase = [](Kind kind) {
@@ -302,11 +302,9 @@ void SweepTriangulator::collect_runs(std::span<const std::uint32_t> ring_end) {
 }
 
 // Neighbours are merged until one is left.
-void SweepTriangulator::merge_runs() {
+template <typename Before>
+void SweepTriangulator::merge_runs(Before before) {
   merged_.resize(sorted_.size());
-  const auto before = [this](const ProjectedCorners::Corner& a, const ProjectedCorners::Corner& b) {
-    return corners_->before(a, b);
-  };
   while (run_end_.size() > 1) {
     std::size_t kept = 0;
     std::uint32_t first = 0;
@@ -324,15 +322,34 @@ void SweepTriangulator::merge_runs() {
 
 // Corners at one point have one rank.
 void SweepTriangulator::sort(std::span<const std::uint32_t> ring_end) {
+  using Corner = ProjectedCorners::Corner;
   collect_runs(ring_end);
-  merge_runs();
-  const auto n = static_cast<std::uint32_t>(sorted_.size());
-  order_.resize(n);
-  for (std::uint32_t i = 0; i < n; ++i) {
-    order_[i] = sorted_[i].index;
-    const bool same = i > 0 && sorted_[i].point == sorted_[i - 1].point;
-    links_[order_[i]].rank = same ? links_[order_[i - 1]].rank : i;
+  if (corners_->ordered()) {
+    merge_runs([](const Corner& a, const Corner& b) { return ProjectedCorners::before_ordered(a, b); });
+  } else {
+    merge_runs([this](const Corner& a, const Corner& b) { return corners_->before(a, b); });
   }
+  std::uint32_t rank = 0;
+  for (std::uint32_t i = 0; i < sorted_.size(); ++i) {
+    if (i > 0 && sorted_[i].point != sorted_[i - 1].point) rank = i;
+    links_[sorted_[i].index].rank = rank;
+  }
+}
+
+// The corners from one on that lie at the same point; false if they do not fit into a polygon.
+bool SweepTriangulator::reach(std::size_t first, std::size_t last) {
+  if (last - first == 1) {
+    const std::uint32_t corner = sorted_[first].index;
+    return handle(corner, kind_of(corner));
+  }
+  here_.clear();
+  for (std::size_t i = first; i < last; ++i) {
+    const std::uint32_t corner = sorted_[i].index;
+    const Links& at = links_[corner];
+    if (at.next != corner && links_[at.next].rank == at.rank) return false;
+    here_.push_back(corner);
+  }
+  return reach_together(here_);
 }
 
 bool SweepTriangulator::triangulate(const ProjectedCorners& corners, std::span<const std::uint32_t> ring_end,
@@ -340,21 +357,17 @@ bool SweepTriangulator::triangulate(const ProjectedCorners& corners, std::span<c
   corners_ = &corners;
   out_ = &out;
   broken_ = false;
-  cells_.clear();
+  cell_count_ = 0;
+  if (cells_.size() < 4 * corners.size()) cells_.resize(4 * corners.size());
   intervals_.clear();
   free_intervals_.clear();
   status_.clear();
   link(ring_end);
   sort(ring_end);
-  for (std::size_t i = 0; i < order_.size();) {
-    std::size_t j = i + 1;
-    while (j < order_.size() && links_[order_[j]].rank == links_[order_[i]].rank) ++j;
-    const std::span<const std::uint32_t> here(order_.data() + i, j - i);
-    for (const std::uint32_t c : here) {
-      if (links_[c].next != c && links_[links_[c].next].rank == links_[c].rank) return false;
-    }
-    if (!reach(here)) return false;
-    i = j;
+  for (std::size_t i = 0; i < sorted_.size();) {
+    const std::size_t first = i++;
+    while (i < sorted_.size() && sorted_[i].point == sorted_[first].point) ++i;
+    if (!reach(first, i)) return false;
   }
   return status_.size() == 0;
 }

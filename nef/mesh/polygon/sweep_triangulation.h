@@ -58,8 +58,10 @@ class SweepTriangulator {
   void link(std::span<const std::uint32_t> ring_end);
   void sort(std::span<const std::uint32_t> ring_end);
   void collect_runs(std::span<const std::uint32_t> ring_end);
-  void merge_runs();
-  bool reach(std::span<const std::uint32_t> corners);
+  template <typename Before>
+  void merge_runs(Before before);
+  bool reach(std::size_t first, std::size_t last);
+  bool reach_together(std::span<const std::uint32_t> corners);
   void separate(std::span<const std::uint32_t> corners);
   [[nodiscard]] bool clockwise_before(std::uint32_t at, std::uint32_t a, std::uint32_t b) const;
   [[nodiscard]] Kind kind_of(std::uint32_t corner) const;
@@ -84,11 +86,12 @@ class SweepTriangulator {
   const ProjectedCorners* corners_ = nullptr;
   std::vector<Triangle>* out_ = nullptr;
   std::vector<Links> links_;
-  std::vector<std::uint32_t> order_;                // of all corners
   std::vector<ProjectedCorners::Corner> sorted_;    // runs in order, which become one
   std::vector<ProjectedCorners::Corner> merged_;
   std::vector<std::uint32_t> run_end_;
+  std::vector<std::uint32_t> here_;  // corners at one point
   std::vector<Cell> cells_;
+  std::uint32_t cell_count_ = 0;
   std::vector<Interval> intervals_;
   std::vector<std::uint32_t> free_intervals_;
   OrderedBlocks status_;

@@ -28,7 +28,7 @@ class Triangulator {
   using Triangle = std::array<std::uint32_t, 3>;
 
   /// `points` must outlive the triangulator.
-  explicit Triangulator(const MeshPoints& points) : points_(points), projected_(points) {}
+  explicit Triangulator(const MeshPoints& points) : projected_(points) {}
 
   /// Cuts a polygon into triangles between its own vertices, oriented like it, and appends them to `out`. The corners
   /// are given ring after ring, each ring ending before the corner that ring_end says. The first ring is the outer one;
@@ -59,23 +59,21 @@ class Triangulator {
 
  private:
   struct Node {
-    std::uint32_t point = 0;
     std::uint32_t prev = 0;
     std::uint32_t next = 0;
     bool blunt = false;  // not strictly convex
   };
 
-  [[nodiscard]] int turn(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
-    return sign_ * points_.orientation_along(a, b, c, axis_);
+  void push(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::vector<Triangle>& out) const {
+    out.push_back({projected_.point(a), projected_.point(b), projected_.point(c)});
   }
-  [[nodiscard]] int turn_at(std::uint32_t node) const;
-  std::uint32_t append_ring(std::span<const std::uint32_t> ring);
+  void link_corners();
+  [[nodiscard]] bool is_blunt(std::uint32_t node) const;
   [[nodiscard]] bool goes_around_once() const;
   [[nodiscard]] bool is_convex() const;
   bool cut_four(std::vector<Triangle>& out) const;
-  [[nodiscard]] bool blocks(std::uint32_t corner, const std::array<std::uint32_t, 3>& ear) const;
   bool clip_small(std::span<const std::uint32_t> corners, std::vector<Triangle>& out);
-  bool clip(std::uint32_t start, std::vector<Triangle>& out);
+  bool clip(std::vector<Triangle>& out);
   // Where a corner that is not convex lies along an axis of the projection, and which node it is.
   struct Place {
     double at = 0;
@@ -86,26 +84,22 @@ class Triangulator {
   static constexpr std::size_t kSmall = 24;  // corners of a ring that loses its ears sooner than it is swept
   // Corners that are not convex, in order along an axis; some may have become convex since.
   using Row = std::vector<Place>;
-  // The triangle that a corner would be cut off with.
-  class Ear;
 
   [[nodiscard]] bool is_ear(std::uint32_t node) const;
-  void collect_blunt(std::uint32_t start, std::size_t& count);
+  void collect_blunt();
   void sort_blunt();
   void set_blunt(std::uint32_t node, bool blunt);
 
-  const MeshPoints& points_;
-  std::size_t axis_ = 2;
-  int sign_ = 1;
-  std::vector<Node> nodes_;
+  ProjectedCorners projected_;
+  SweepTriangulator sweep_;
+  std::vector<Node> nodes_;           // of each corner of a ring: what is left of it
   std::vector<std::uint32_t> blunt_;  // nodes that may lie in an ear
   std::array<Row, 2> rows_;           // those that were among them when they were last sorted
   std::size_t sorted_ = 0;            // how many of blunt_ are in the rows
   std::size_t stale_ = 0;             // and how many of those have become convex
-  ProjectedCorners projected_;
-  SweepTriangulator sweep_;
   std::vector<std::uint32_t> corners_;
   std::vector<std::uint32_t> ring_end_;
+  std::vector<std::uint32_t> queue_;
 };
 
 }  // namespace nef

@@ -224,10 +224,14 @@ std::vector<std::function<Rational3(const Rational&, const Rational&)>> placemen
       [](const Rational& x, const Rational& y) {
         return Rational3{(x * 5 - y) / 1000003 + y / 998244353, (x + y * 3) / 1000003, 0};
       },
-      // Beyond what doubles are filters for.
+      // Beyond what doubles are filters for, and beyond their range.
       [huge](const Rational& x, const Rational& y) {
         const Rational far = huge * huge * huge * huge;
         return Rational3{x * far + y, y * far, 0};
+      },
+      [huge](const Rational& x, const Rational& y) {
+        const Rational far = huge * huge * huge * huge * huge;
+        return Rational3{x * far * far + far, y * far * far - x, 0};
       },
   };
 }

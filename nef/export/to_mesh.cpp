@@ -26,6 +26,7 @@ struct SeenVolumes {
     unselected = unselected || volume.unselected;
     other = other || volume.other;
   }
+  bool operator==(const SeenVolumes&) const = default;
 };
 
 // How many facets, edges and vertices there are of something.
@@ -34,6 +35,25 @@ struct Items {
   std::size_t edges = 0;
   std::size_t vertices = 0;
   [[nodiscard]] bool any() const { return facets + edges + vertices > 0; }
+  Items& operator+=(const Items& more) {
+    facets += more.facets;
+    edges += more.edges;
+    vertices += more.vertices;
+    return *this;
+  }
+};
+
+// What the mesh does not say.
+struct Losses {
+  Items flat;    // outside the solids
+  Items open;    // of their boundary, without belonging to the set
+  Items cracks;  // missing inside of them
+  Losses& operator+=(const Losses& more) {
+    flat += more.flat;
+    open += more.open;
+    cracks += more.cracks;
+    return *this;
+  }
 };
 
 std::string plural(std::size_t count, const char* one, const char* many) {
@@ -371,14 +391,14 @@ class Exporter {
     }
   }
 
-  // Sorts an item by what its mark and the volumes around it say about the mesh.
-  void judge(const SeenVolumes& sides, LabelId mark, std::size_t Items::*member) {
+  // Sorts items by what their mark and the volumes around them say about the mesh.
+  void judge(const SeenVolumes& sides, LabelId mark, std::size_t Items::*member, std::size_t count, Losses& to) const {
     const bool selected = is_selected(mark);
     if (sides.selected && !selected) {
-      Items& items = sides.unselected || sides.other ? open_ : cracks_;
-      ++(items.*member);
+      Items& items = sides.unselected || sides.other ? to.open : to.cracks;
+      items.*member += count;
     }
-    if (!sides.selected && !sides.other && selected && !lower_dimensional_) ++(flat_.*member);
+    if (!sides.selected && !sides.other && selected && !lower_dimensional_) to.flat.*member += count;
   }
 
   void look_for_losses() {
@@ -386,29 +406,49 @@ class Exporter {
       const FacetSides facet = complex_.facets.sides_of(f);
       SeenVolumes sides = volumes_[facet.volume_above];
       sides.add(volumes_[facet.volume_below]);
-      judge(sides, facet.mark, &Items::facets);
+      judge(sides, facet.mark, &Items::facets, 1, losses_);
     }
     // Then whatever lies in the closure of a facet sees a volume of the mesh, and is lost only if it is not selected.
     const bool all_facets = boundary_.size() == complex_.facet_count() && !lower_dimensional_;
     const std::vector<bool> keeps_all = all_facets ? whole_patterns() : std::vector<bool>(complex_.patterns.size());
+    // What a vertex and the ends of edges there add is the same for those that have a pattern and see the same volumes.
+    struct Known {
+      std::vector<SeenVolumes> seen;  // by each sface
+      Losses losses;
+    };
+    std::vector<Known> known(complex_.patterns.size());
+    std::vector<SeenVolumes> seen;
+    Losses ends;
     for (const VertexId v : complex_.vertex_ids()) {
-      if (keeps_all[complex_.vertices.pattern(v).index()] || !finite(v)) continue;
-      const VertexRecord& record = complex_.vertices[v];
-      const VertexRecord& end = complex_.vertices[v.next()];
-      const bool at_facet = all_facets && (record.shalfedges < end.shalfedges || record.sloops < end.sloops);
-      if (!at_facet || !is_selected(complex_.mark(v))) {
-        SeenVolumes sides;
-        for (const SFaceId s : complex_.sfaces(v)) sides.add(volumes_[complex_.sface_volume(s)]);
-        judge(sides, complex_.mark(v), &Items::vertices);
-      }
-      for (const HalfedgeId h : complex_.halfedges(v)) {
-        const SVertex& svertex = complex_.svertex(h);
-        if (all_facets && svertex.out != kNone && is_selected(svertex.mark)) continue;
-        const bool far_finite = finite(complex_.target(h));
-        if (far_finite && complex_.twin[h] < h) continue;  // each edge once
-        judge(sides_of_edge(v, h), svertex.mark, &Items::edges);
-      }
+      const std::uint32_t pattern = complex_.vertices.pattern(v).index();
+      if (keeps_all[pattern] || !finite(v)) continue;
+      seen.clear();
+      for (const SFaceId s : complex_.sfaces(v)) seen.push_back(volumes_[complex_.sface_volume(s)]);
+      Known& here = known[pattern];
+      // With a box, the other ends of edges matter, too.
+      if (complex_.has_box() || here.seen != seen) here = {seen, losses_at(v, seen, all_facets)};
+      ends += here.losses;
     }
+    for (Items* items : {&ends.flat, &ends.open, &ends.cracks}) items->edges /= 2;
+    losses_ += ends;
+  }
+
+  // Of a vertex and its edges, which count once for each end. `seen`: by each of its sfaces.
+  [[nodiscard]] Losses losses_at(VertexId v, const std::vector<SeenVolumes>& seen, bool all_facets) const {
+    Losses losses;
+    const SphereMapView map = complex_.sphere_map(v);
+    const bool at_facet = all_facets && !(map.shalfedges.empty() && map.sloops.empty());
+    if (!at_facet || !is_selected(map.mark)) {
+      SeenVolumes sides;
+      for (const SeenVolumes& volume : seen) sides.add(volume);
+      judge(sides, map.mark, &Items::vertices, 1, losses);
+    }
+    for (const HalfedgeId h : complex_.halfedges(v)) {
+      const SVertex& svertex = complex_.svertex(h);
+      if (all_facets && svertex.out != kNone && is_selected(svertex.mark)) continue;
+      judge(sides_of_edge(v, h), svertex.mark, &Items::edges, finite(complex_.target(h)) ? 1 : 2, losses);
+    }
+    return losses;
   }
 
   // Of each pattern: its vertices and all their edges are selected, and lie in facets.
@@ -445,8 +485,8 @@ class Exporter {
       for (const SHalfedgeId corner : complex_.corners_of(f)) {
         const VertexId v = complex_.shalfedge_vertex(corner);
         const HalfedgeId h = complex_.corner_halfedge(corner);
-        if (!seen_vertex[v] && !is_selected(complex_.mark(v))) ++open_.vertices;
-        if (!seen_edge[h] && !is_selected(complex_.svertex(h).mark)) ++open_.edges;
+        if (!seen_vertex[v] && !is_selected(complex_.mark(v))) ++losses_.open.vertices;
+        if (!seen_edge[h] && !is_selected(complex_.svertex(h).mark)) ++losses_.open.edges;
         seen_vertex[v] = true;
         seen_edge[h] = seen_edge[complex_.twin[h]] = true;
       }
@@ -459,11 +499,12 @@ class Exporter {
     if (lost_volumes_ > 0) {
       lost.push_back(plural(lost_volumes_, "unbounded volume is", "unbounded volumes are") + " not in the mesh");
     }
-    if (flat_.any()) lost.push_back("parts outside the solids are not in the mesh: " + list(flat_));
-    if (open_.any()) {
-      lost.push_back("the mesh is closed where the boundary does not belong to the set: " + list(open_));
+    if (losses_.flat.any()) lost.push_back("parts outside the solids are not in the mesh: " + list(losses_.flat));
+    if (losses_.open.any()) {
+      lost.push_back("the mesh is closed where the boundary does not belong to the set: " + list(losses_.open));
     }
-    if (cracks_.any()) lost.push_back("what is missing inside the solids is filled in the mesh: " + list(cracks_));
+    if (losses_.cracks.any())
+      lost.push_back("what is missing inside the solids is filled in the mesh: " + list(losses_.cracks));
   }
 
   enum class Answer : std::uint8_t { kUnknown, kYes, kNo };
@@ -479,13 +520,11 @@ class Exporter {
   std::vector<VertexId> points_;
   bool lower_dimensional_ = false;
   std::size_t lost_volumes_ = 0;
-  Items flat_;
-  Items open_;
-  Items cracks_;
+  Losses losses_;
   std::vector<std::uint32_t> rings_;     // of one facet, of vertices of the mesh
   std::vector<std::uint32_t> ring_end_;  // and where in these each ring ends
-  std::vector<VertexId> vertices_;  // of the complex, of each vertex of the mesh
-  Mesh faces_;                      // its vertices come last
+  std::vector<VertexId> vertices_;       // of the complex, of each vertex of the mesh
+  Mesh faces_;                           // its vertices come last
   std::vector<std::array<LabelId, 3>> face_marks_;
   std::vector<std::string> lost_;
 };
@@ -494,10 +533,8 @@ class Exporter {
 
 std::array<double, 3> nearest_doubles(const PointTable& points, PointId point) {
   if (points.is_nearest(point)) return points.approximate(point);
-  const IntegerView w = points.coordinate(point, 3);
-  std::array<double, 3> result;
-  for (std::size_t i = 0; i < 3; ++i) result[i] = nearest_quotient(points.coordinate(point, i), w);
-  return result;
+  const std::array<IntegerView, 4> h = points.coordinates(point);
+  return {nearest_quotient(h[0], h[3]), nearest_quotient(h[1], h[3]), nearest_quotient(h[2], h[3])};
 }
 
 RoundedMeshExport to_rounded_mesh(const Polyhedron& polyhedron, const MeshExportOptions& options) {

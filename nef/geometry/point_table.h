@@ -57,6 +57,9 @@ class PointTable {
     return rows_.at(point.index(), column);
   }
 
+  /// The homogeneous coordinates x, y, z, w.
+  [[nodiscard]] std::array<IntegerView, 4> coordinates(PointId point) const { return rows_.first<4>(point.index()); }
+
   /// All seven homogeneous coordinates, if they are below 2^62 in magnitude; else false.
   [[nodiscard]] bool small_coordinates(PointId point, std::array<std::int64_t, 7>& out) const {
     return rows_.read_small(point.index(), out);

@@ -22,8 +22,8 @@ void assign(Integer& to, Int128 value) {
 
 }  // namespace
 
-// b - a along an axis, scaled by the positive product of their denominators. Below 2^125, as homogeneous coordinates are
-// below 2^62.
+// b - a along an axis, scaled by the positive product of their denominators. Below 2^125, as homogeneous coordinates
+// are below 2^62.
 Int128 MeshPoints::short_difference(std::uint32_t a, std::uint32_t b, std::size_t axis) const {
   const auto& p = homogeneous_[a];
   const auto& q = homogeneous_[b];
@@ -37,17 +37,17 @@ void MeshPoints::difference(std::uint32_t a, std::uint32_t b, std::span<Integer>
     for (std::size_t k = 0; k < out.size(); ++k) assign(out[k], short_difference(a, b, (first + k) % 3));
     return;
   }
-  const IntegerView wa = table_.coordinate(PointId{a}, 3);
-  const IntegerView wb = table_.coordinate(PointId{b}, 3);
-  const bool same = mpz_cmp(wa, wb) == 0;
+  const std::array<IntegerView, 4> p = table_.coordinates(PointId{a});
+  const std::array<IntegerView, 4> q = table_.coordinates(PointId{b});
+  const bool same = mpz_cmp(p[3], q[3]) == 0;
   for (std::size_t k = 0; k < out.size(); ++k) {
     const std::size_t axis = (first + k) % 3;
     mpz_ptr d = out[k].get_mpz_t();
     if (same) {
-      mpz_sub(d, table_.coordinate(PointId{b}, axis), table_.coordinate(PointId{a}, axis));
+      mpz_sub(d, q[axis], p[axis]);
     } else {
-      mpz_mul(d, table_.coordinate(PointId{b}, axis), wa);
-      mpz_submul(d, table_.coordinate(PointId{a}, axis), wb);
+      mpz_mul(d, q[axis], p[3]);
+      mpz_submul(d, p[axis], q[3]);
     }
   }
 }
@@ -167,8 +167,8 @@ bool MeshPoints::no_integers() {
   return false;
 }
 
-// The common denominator first. Most points have the denominator of the one before, or one that divides what is known of
-// the common one; else the quotients are taken to lowest terms.
+// The common denominator first. Most points have the denominator of the one before, or one that divides what is known
+// of the common one; else the quotients are taken to lowest terms.
 bool MeshPoints::find_denominator() {
   std::int64_t last = 1;
   for (const auto& [x, y, z, w] : homogeneous_) {

@@ -101,7 +101,7 @@ class MeshPoints {
 
   std::vector<std::array<double, 3>> approximate_;
   std::int64_t denominator_ = 1;
-  std::vector<std::array<std::int64_t, 3>> integers_;  // scaled coordinates below 2^40; empty if there are none
+  std::vector<std::array<std::int64_t, 3>> integers_;     // scaled coordinates below 2^40; empty if there are none
   std::vector<std::array<std::int64_t, 4>> homogeneous_;  // below 2^62, if there are none and all are such
   PointTable table_;                                      // filled only where these are not
   std::array<double, 3> margin_{};

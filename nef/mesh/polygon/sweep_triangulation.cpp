@@ -201,13 +201,19 @@ SweepTriangulator::Kind SweepTriangulator::kind_of(std::uint32_t corner) const {
 
 bool SweepTriangulator::handle(std::uint32_t corner, Kind kind) {
   switch (kind) {
-    case Kind::kEnd: return end(corner);
-    case Kind::kMerge: return merge(corner);
-    case Kind::kFloor: return go_on_below(corner);
-    case Kind::kCeiling: return go_on_above(corner);
-    case Kind::kStart: return start(corner);
+    case Kind::kEnd:
+      return end(corner);
+    case Kind::kMerge:
+      return merge(corner);
+    case Kind::kFloor:
+      return go_on_below(corner);
+    case Kind::kCeiling:
+      return go_on_above(corner);
+    case Kind::kStart:
+      return start(corner);
     case Kind::kSplit:
-    case Kind::kAlone: break;
+    case Kind::kAlone:
+      break;
   }
   return split(corner, kind);
 }

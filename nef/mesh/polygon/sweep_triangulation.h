@@ -27,9 +27,10 @@ class SweepTriangulator {
   /// or of another one, turned round: what is appended covers each point as often as the rings go around it.
   ///
   /// Returns false, and appends nothing in effect (the caller resizes), if the rings are no such polygon. O(n log n)
-  /// for n corners: the runs of rings to the right and to the left are merged, corners at which intervals begin or part look for their place among the intervals,
-  /// and everything else takes O(1) a triangle.
-  bool triangulate(const ProjectedCorners& corners, std::span<const std::uint32_t> ring_end, std::vector<Triangle>& out);
+  /// for n corners: the runs of rings to the right and to the left are merged, corners at which intervals begin or part
+  /// look for their place among the intervals, and everything else takes O(1) a triangle.
+  bool triangulate(const ProjectedCorners& corners, std::span<const std::uint32_t> ring_end,
+                   std::vector<Triangle>& out);
 
  private:
   static constexpr std::uint32_t kNone = 0xffffffffU;
@@ -86,7 +87,7 @@ class SweepTriangulator {
   const ProjectedCorners* corners_ = nullptr;
   std::vector<Triangle>* out_ = nullptr;
   std::vector<Links> links_;
-  std::vector<ProjectedCorners::Corner> sorted_;    // runs in order, which become one
+  std::vector<ProjectedCorners::Corner> sorted_;  // runs in order, which become one
   std::vector<ProjectedCorners::Corner> merged_;
   std::vector<std::uint32_t> run_end_;
   std::vector<std::uint32_t> here_;  // corners at one point

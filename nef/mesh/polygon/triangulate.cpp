@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Rings that may be no polygon lose their ears: strictly convex corners whose triangle holds no other vertex are cut off.
-// Vertices are compared by index, so that a ring that meets itself is not in its own way. Polygons that are known to be
-// some are swept, but for what is seen to be convex or has four corners.
+// Rings that may be no polygon lose their ears: strictly convex corners whose triangle holds no other vertex are cut
+// off. Vertices are compared by index, so that a ring that meets itself is not in its own way. Polygons that are known
+// to be some are swept, but for what is seen to be convex or has four corners.
 #include "nef/mesh/polygon/triangulate.h"
 
 #include <algorithm>

@@ -38,9 +38,9 @@ class Triangulator {
   /// axis along which the plane projects one to one, and `sign` is +1 if the outer ring turns counterclockwise in that
   /// projection as orientation_along sees it.
   ///
-  /// Returns false, and appends nothing, if it finds that the rings are no such polygon; triangles that overlap can only
-  /// come of rings that go around some points twice. O(n log n), and O(n) for convex polygons; by the plane sweep of
-  /// [Hertel, Mehlhorn 1983].
+  /// Returns false, and appends nothing, if it finds that the rings are no such polygon; triangles that overlap can
+  /// only come of rings that go around some points twice. O(n log n), and O(n) for convex polygons; by the plane sweep
+  /// of [Hertel, Mehlhorn 1983].
   bool triangulate(std::span<const std::uint32_t> corners, std::span<const std::uint32_t> ring_end, std::size_t axis,
                    int sign, std::vector<Triangle>& out);
 

@@ -210,16 +210,26 @@ std::vector<std::function<Rational3(const Rational&, const Rational&)>> placemen
   const Rational huge(Integer("1000000000000000000000000000000007"));
   const Rational third(1, 3);
   return {
-      [](const Rational& x, const Rational& y) { return Rational3{x, y, 0}; },
-      [](const Rational& x, const Rational& y) { return Rational3{2 * x + y, y - x, 0}; },
+      [](const Rational& x, const Rational& y) {
+        return Rational3{x, y, 0};
+      },
+      [](const Rational& x, const Rational& y) {
+        return Rational3{2 * x + y, y - x, 0};
+      },
       // By the angle of 3-4-5, with long denominators.
       [tiny, third](const Rational& x, const Rational& y) {
         return Rational3{(3 * x - 4 * y) * tiny + third, (4 * x + 3 * y) * tiny - third, 0};
       },
       // Nearly on one line.
-      [tiny](const Rational& x, const Rational& y) { return Rational3{x, 7 * x + y * tiny, 0}; },
-      [tiny](const Rational& x, const Rational& y) { return Rational3{x * tiny - y, x + y, 0}; },
-      [huge](const Rational& x, const Rational& y) { return Rational3{x * huge, x + y * huge, 0}; },
+      [tiny](const Rational& x, const Rational& y) {
+        return Rational3{x, 7 * x + y * tiny, 0};
+      },
+      [tiny](const Rational& x, const Rational& y) {
+        return Rational3{x * tiny - y, x + y, 0};
+      },
+      [huge](const Rational& x, const Rational& y) {
+        return Rational3{x * huge, x + y * huge, 0};
+      },
       // Homogeneous coordinates of more than 40 bits.
       [](const Rational& x, const Rational& y) {
         return Rational3{(x * 5 - y) / 1000003 + y / 998244353, (x + y * 3) / 1000003, 0};
@@ -241,7 +251,9 @@ Polygon random_room(int width, int height) {
   const int cells = *rc::gen::inRange(5, 11);
   const int walls = *rc::gen::inRange(0, 5);
   Polygon polygon;
-  polygon.rings = Room(width, height, [&] { return out_of(cells, 10); }, [&] { return out_of(walls, 10); }).rings();
+  polygon.rings = Room(
+                      width, height, [&] { return out_of(cells, 10); }, [&] { return out_of(walls, 10); })
+                      .rings();
   const auto place = *rc::gen::elementOf(placements());
   const auto bend = *rc::gen::inRange(0, 2);
   for (int y = 0; y <= height; ++y) {
@@ -372,7 +384,9 @@ TEST_CASE("A triangulation takes O(n log n) predicates") {
   // Combs of n teeth that all begin at once, along and across the sweep.
   const auto comb = [](int n, bool across) {
     Polygon polygon;
-    const auto push = [&](int x, int y) { polygon.points.push_back(across ? Rational3{-y, x, 0} : Rational3{x, y, 0}); };
+    const auto push = [&](int x, int y) {
+      polygon.points.push_back(across ? Rational3{-y, x, 0} : Rational3{x, y, 0});
+    };
     push(0, -1);
     push(2 * n, -1);
     for (int i = n; i > 0; --i) {

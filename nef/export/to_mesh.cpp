@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "nef/base/error.h"
+#include "nef/export/mesh_losses.h"
 #include "nef/mesh/polygon/triangulate.h"
 #include "nef/number/nearest_quotient.h"
 #include "nef/polyhedron.h"
@@ -14,64 +15,6 @@ namespace nef {
 namespace {
 
 constexpr std::uint32_t kUnused = 0xffffffffU;
-
-// What kinds of volumes an item sees.
-struct SeenVolumes {
-  bool selected = false;    // a volume that goes into the mesh
-  bool unselected = false;  // one that does not belong to the set
-  bool other = false;       // one that is lost as a whole, or lies beyond an infimaximal box
-
-  void add(const SeenVolumes& volume) {
-    selected = selected || volume.selected;
-    unselected = unselected || volume.unselected;
-    other = other || volume.other;
-  }
-  bool operator==(const SeenVolumes&) const = default;
-};
-
-// How many facets, edges and vertices there are of something.
-struct Items {
-  std::size_t facets = 0;
-  std::size_t edges = 0;
-  std::size_t vertices = 0;
-  [[nodiscard]] bool any() const { return facets + edges + vertices > 0; }
-  Items& operator+=(const Items& more) {
-    facets += more.facets;
-    edges += more.edges;
-    vertices += more.vertices;
-    return *this;
-  }
-};
-
-// What the mesh does not say.
-struct Losses {
-  Items flat;    // outside the solids
-  Items open;    // of their boundary, without belonging to the set
-  Items cracks;  // missing inside of them
-  Losses& operator+=(const Losses& more) {
-    flat += more.flat;
-    open += more.open;
-    cracks += more.cracks;
-    return *this;
-  }
-};
-
-std::string plural(std::size_t count, const char* one, const char* many) {
-  return std::to_string(count) + " " + (count == 1 ? one : many);
-}
-
-std::string list(const Items& items) {
-  std::string text;
-  const auto add = [&text](std::size_t count, const char* one, const char* many) {
-    if (count == 0) return;
-    if (!text.empty()) text += ", ";
-    text += plural(count, one, many);
-  };
-  add(items.facets, "facet", "facets");
-  add(items.edges, "edge", "edges");
-  add(items.vertices, "vertex", "vertices");
-  return text;
-}
 
 class Exporter {
  public:
@@ -85,7 +28,7 @@ class Exporter {
     number_vertices();
     write_facets();
     look_for_losses();
-    report_losses();
+    if (lower_dimensional_) count_open_borders();
   }
 
   MeshExport exact() {
@@ -97,7 +40,7 @@ class Exporter {
     result.closed = !lower_dimensional_;
     for (const auto& [v, w] : lines_) result.lines.push_back({number_[v], number_[w]});
     for (const VertexId v : points_) result.points.push_back(number_[v]);
-    result.lost = std::move(lost_);
+    result.lost = losses_.lines();
     result.face_marks = std::move(face_marks_);
     return result;
   }
@@ -114,7 +57,7 @@ class Exporter {
     }
     result.mesh.face_begin = std::move(faces_.face_begin);
     result.mesh.corners = std::move(faces_.corners);
-    result.lost = std::move(lost_);
+    result.lost = losses_.lines();
     return result;
   }
 
@@ -146,7 +89,7 @@ class Exporter {
         volumes_[v].unselected = true;
       } else if (unbounded[v]) {
         volumes_[v].other = true;
-        ++lost_volumes_;
+        ++losses_.volumes;
       } else {
         volumes_[v].selected = true;
       }
@@ -392,10 +335,11 @@ class Exporter {
   }
 
   // Sorts items by what their mark and the volumes around them say about the mesh.
-  void judge(const SeenVolumes& sides, LabelId mark, std::size_t Items::*member, std::size_t count, Losses& to) const {
+  void judge(const SeenVolumes& sides, LabelId mark, std::size_t ItemCounts::*member, std::size_t count,
+             MeshLosses& to) const {
     const bool selected = is_selected(mark);
     if (sides.selected && !selected) {
-      Items& items = sides.unselected || sides.other ? to.open : to.cracks;
+      ItemCounts& items = sides.unselected || sides.other ? to.open : to.cracks;
       items.*member += count;
     }
     if (!sides.selected && !sides.other && selected && !lower_dimensional_) to.flat.*member += count;
@@ -406,7 +350,7 @@ class Exporter {
       const FacetSides facet = complex_.facets.sides_of(f);
       SeenVolumes sides = volumes_[facet.volume_above];
       sides.add(volumes_[facet.volume_below]);
-      judge(sides, facet.mark, &Items::facets, 1, losses_);
+      judge(sides, facet.mark, &ItemCounts::facets, 1, losses_);
     }
     // Then whatever lies in the closure of a facet sees a volume of the mesh, and is lost only if it is not selected.
     const bool all_facets = boundary_.size() == complex_.facet_count() && !lower_dimensional_;
@@ -414,11 +358,11 @@ class Exporter {
     // What a vertex and the ends of edges there add is the same for those that have a pattern and see the same volumes.
     struct Known {
       std::vector<SeenVolumes> seen;  // by each sface
-      Losses losses;
+      MeshLosses losses;
     };
     std::vector<Known> known(complex_.patterns.size());
     std::vector<SeenVolumes> seen;
-    Losses ends;
+    MeshLosses ends;
     for (const VertexId v : complex_.vertex_ids()) {
       const std::uint32_t pattern = complex_.vertices.pattern(v).index();
       if (keeps_all[pattern] || !finite(v)) continue;
@@ -429,24 +373,24 @@ class Exporter {
       if (complex_.has_box() || here.seen != seen) here = {seen, losses_at(v, seen, all_facets)};
       ends += here.losses;
     }
-    for (Items* items : {&ends.flat, &ends.open, &ends.cracks}) items->edges /= 2;
+    for (ItemCounts* items : {&ends.flat, &ends.open, &ends.cracks}) items->edges /= 2;
     losses_ += ends;
   }
 
   // Of a vertex and its edges, which count once for each end. `seen`: by each of its sfaces.
-  [[nodiscard]] Losses losses_at(VertexId v, const std::vector<SeenVolumes>& seen, bool all_facets) const {
-    Losses losses;
+  [[nodiscard]] MeshLosses losses_at(VertexId v, const std::vector<SeenVolumes>& seen, bool all_facets) const {
+    MeshLosses losses;
     const SphereMapView map = complex_.sphere_map(v);
     const bool at_facet = all_facets && !(map.shalfedges.empty() && map.sloops.empty());
     if (!at_facet || !is_selected(map.mark)) {
       SeenVolumes sides;
       for (const SeenVolumes& volume : seen) sides.add(volume);
-      judge(sides, map.mark, &Items::vertices, 1, losses);
+      judge(sides, map.mark, &ItemCounts::vertices, 1, losses);
     }
     for (const HalfedgeId h : complex_.halfedges(v)) {
       const SVertex& svertex = complex_.svertex(h);
       if (all_facets && svertex.out != kNone && is_selected(svertex.mark)) continue;
-      judge(sides_of_edge(v, h), svertex.mark, &Items::edges, finite(complex_.target(h)) ? 1 : 2, losses);
+      judge(sides_of_edge(v, h), svertex.mark, &ItemCounts::edges, finite(complex_.target(h)) ? 1 : 2, losses);
     }
     return losses;
   }
@@ -493,20 +437,6 @@ class Exporter {
     }
   }
 
-  void report_losses() {
-    std::vector<std::string>& lost = lost_;
-    if (lower_dimensional_) count_open_borders();
-    if (lost_volumes_ > 0) {
-      lost.push_back(plural(lost_volumes_, "unbounded volume is", "unbounded volumes are") + " not in the mesh");
-    }
-    if (losses_.flat.any()) lost.push_back("parts outside the solids are not in the mesh: " + list(losses_.flat));
-    if (losses_.open.any()) {
-      lost.push_back("the mesh is closed where the boundary does not belong to the set: " + list(losses_.open));
-    }
-    if (losses_.cracks.any())
-      lost.push_back("what is missing inside the solids is filled in the mesh: " + list(losses_.cracks));
-  }
-
   enum class Answer : std::uint8_t { kUnknown, kYes, kNo };
 
   const Complex& complex_;
@@ -519,14 +449,12 @@ class Exporter {
   std::vector<std::array<VertexId, 2>> lines_;     // of the complex
   std::vector<VertexId> points_;
   bool lower_dimensional_ = false;
-  std::size_t lost_volumes_ = 0;
-  Losses losses_;
+  MeshLosses losses_;
   std::vector<std::uint32_t> rings_;     // of one facet, of vertices of the mesh
   std::vector<std::uint32_t> ring_end_;  // and where in these each ring ends
   std::vector<VertexId> vertices_;       // of the complex, of each vertex of the mesh
   Mesh faces_;                           // its vertices come last
   std::vector<std::array<LabelId, 3>> face_marks_;
-  std::vector<std::string> lost_;
 };
 
 }  // namespace

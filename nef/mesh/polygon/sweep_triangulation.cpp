@@ -342,7 +342,7 @@ void SweepTriangulator::sort(std::span<const std::uint32_t> ring_end) {
   }
 }
 
-// The corners from one on that lie at the same point; false if they do not fit into a polygon.
+// The line comes to the corners of one point, from `first` up to `last`.
 bool SweepTriangulator::reach(std::size_t first, std::size_t last) {
   if (last - first == 1) {
     const std::uint32_t corner = sorted_[first].index;

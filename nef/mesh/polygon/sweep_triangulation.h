@@ -26,7 +26,7 @@ class SweepTriangulator {
   /// appended to `out`. Each of them is asked whether it does turn so, and every side of one is a side of the polygon
   /// or of another one, turned round: what is appended covers each point as often as the rings go around it.
   ///
-  /// Returns false, and appends nothing in effect (the caller resizes), if the rings are no such polygon. O(n log n)
+  /// Returns false if the rings are no such polygon; what has been appended then is worth nothing. O(n log n)
   /// for n corners: the runs of rings to the right and to the left are merged, corners at which intervals begin or part
   /// look for their place among the intervals, and everything else takes O(1) a triangle.
   bool triangulate(const ProjectedCorners& corners, std::span<const std::uint32_t> ring_end,
@@ -53,6 +53,11 @@ class SweepTriangulator {
     std::uint32_t ceiling = 0;    // and of the edge above
     std::uint32_t lower = kNone;  // cells, down to the left end of the edge below
     std::uint32_t upper = kNone;  // up to that of the edge above
+  };
+  // An edge as it leaves a point or arrives there.
+  struct Arm {
+    std::uint32_t far = 0;  // the corner at the other end
+    bool leaves = false;
   };
   enum class Kind : std::uint8_t { kEnd, kMerge, kFloor, kCeiling, kSplit, kStart, kAlone };
 
@@ -97,10 +102,6 @@ class SweepTriangulator {
   std::vector<std::uint32_t> free_intervals_;
   OrderedBlocks status_;
   bool broken_ = false;  // an answer that no such polygon gives
-  struct Arm {
-    std::uint32_t far = 0;  // the corner at the other end
-    bool leaves = false;
-  };
   std::vector<Arm> arms_;
 };
 

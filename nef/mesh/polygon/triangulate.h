@@ -34,9 +34,9 @@ class Triangulator {
   /// are given ring after ring, each ring ending before the corner that ring_end says. The first ring is the outer one;
   /// the others are holes, turned the other way. Rings may have straight corners and may touch themselves and each
   /// other at vertices, and themselves along edges from within (dangling edges), but not cross; no corner lies inside
-  /// an edge. A hole may be a single edge, walked out and back. Equal points have equal numbers. `axis` is a coordinate
-  /// axis along which the plane projects one to one, and `sign` is +1 if the outer ring turns counterclockwise in that
-  /// projection as orientation_along sees it.
+  /// an edge. A hole may be a single edge, walked out and back, or a point. Equal points have equal numbers. `axis` is
+  /// a coordinate axis along which the plane projects one to one, and `sign` is +1 if the outer ring turns
+  /// counterclockwise in that projection as orientation_along sees it.
   ///
   /// Returns false, and appends nothing, if it finds that the rings are no such polygon; triangles that overlap can
   /// only come of rings that go around some points twice. O(n log n), and O(n) for convex polygons; by the plane sweep

@@ -441,6 +441,34 @@ TEST_CASE("Rings that are no polygon are refused or covered as often as they go 
   }));
 }
 
+TEST_CASE("A list in blocks is in the order in which places were found") {
+  CHECK(rc::check([] {
+    // Items stand for numbers, which only the predicate knows.
+    const auto numbers =
+        *rc::gen::unique<std::vector<int>>(*rc::gen::inRange<std::size_t>(0, 700), rc::gen::arbitrary<int>());
+    OrderedBlocks list;
+    std::set<int> in;
+    std::map<int, std::uint32_t> item_of;
+    for (std::uint32_t i = 0; i < numbers.size(); ++i) {
+      const auto find = [&](int number) {
+        return list.find([&](std::uint32_t item) { return numbers[item] < number; });
+      };
+      const OrderedBlocks::Place place = find(numbers[i]);
+      const auto after = in.lower_bound(numbers[i]);
+      RC_ASSERT(list.before(place) == (after == in.begin() ? OrderedBlocks::kNone : item_of[*std::prev(after)]));
+      list.insert(place, i);
+      in.insert(numbers[i]);
+      item_of[numbers[i]] = i;
+      if (i % 3 == 2) {
+        const int out = *std::next(in.begin(), static_cast<std::ptrdiff_t>(i % in.size()));
+        list.erase(item_of[out]);
+        in.erase(out);
+      }
+      RC_ASSERT(list.size() == in.size());
+    }
+  }));
+}
+
 TEST_CASE("Products of two words each are compared") {
   CHECK(rc::check([] {
     const auto number = [] {

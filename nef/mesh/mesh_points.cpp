@@ -266,10 +266,7 @@ bool MeshPoints::make_integers(std::span<const Rational3> points) {
         fits = scaled < kIntegerLimit && scaled > -kIntegerLimit;
         integers_[i][axis] = static_cast<std::int64_t>(scaled);
       }
-      if (!fits) {
-        integers_.clear();
-        return false;
-      }
+      if (!fits) return no_integers();
     }
   }
   return true;

@@ -21,14 +21,14 @@ struct Polygon {
   std::vector<Ring> rings;
 };
 
-Rational doubled_area(const Rational3& a, const Rational3& b, const Rational3& c) {
+Rational twice_the_area(const Rational3& a, const Rational3& b, const Rational3& c) {
   return (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
 }
 
-Rational doubled_area(const std::vector<Rational3>& points, std::span<const std::uint32_t> ring) {
+Rational twice_the_area(const std::vector<Rational3>& points, std::span<const std::uint32_t> ring) {
   Rational sum;
   for (std::size_t i = 1; i + 1 < ring.size(); ++i) {
-    sum += doubled_area(points[ring[0]], points[ring[i]], points[ring[i + 1]]);
+    sum += twice_the_area(points[ring[0]], points[ring[i]], points[ring[i + 1]]);
   }
   return sum;
 }
@@ -49,19 +49,19 @@ std::string fault(const Polygon& polygon, const std::vector<Triangulator::Triang
   std::set<std::uint32_t> used;
   Rational area;
   for (const Ring& ring : polygon.rings) {
-    area -= doubled_area(points, ring);
+    area -= twice_the_area(points, ring);
     add_sides(sides, ring, -1);
     used.insert(ring.begin(), ring.end());
   }
   for (const Triangulator::Triangle& t : triangles) {
-    const Rational its = doubled_area(points, t);
+    const Rational its = twice_the_area(points, t);
     if (its <= 0) return "a triangle does not turn counterclockwise";
     area += its;
     add_sides(sides, t, 1);
     for (const std::uint32_t p : used) {
       bool inside = true;
       for (std::size_t i = 0; inside && i < 3; ++i) {
-        inside = doubled_area(points[t[i]], points[t[(i + 1) % 3]], points[p]) > 0;
+        inside = twice_the_area(points[t[i]], points[t[(i + 1) % 3]], points[p]) > 0;
       }
       if (inside) return "a corner lies inside a triangle";
     }
@@ -181,7 +181,7 @@ class Room {
 // The outer ring first.
 void put_outer_first(Polygon& polygon) {
   for (Ring& ring : polygon.rings) {
-    if (doubled_area(polygon.points, ring) > 0) std::swap(ring, polygon.rings[0]);
+    if (twice_the_area(polygon.points, ring) > 0) std::swap(ring, polygon.rings[0]);
   }
 }
 
@@ -195,7 +195,7 @@ void drop_straight_corners(Polygon& polygon, const std::function<bool()>& drops)
     for (std::size_t i = 0; i < ring.size() && ring.size() > 3;) {
       const std::array<std::uint32_t, 3> three{ring[i == 0 ? ring.size() - 1 : i - 1], ring[i],
                                                ring[i + 1 == ring.size() ? 0 : i + 1]};
-      if (uses[ring[i]] == 1 && three[0] != three[2] && doubled_area(polygon.points, three) == 0 && drops()) {
+      if (uses[ring[i]] == 1 && three[0] != three[2] && twice_the_area(polygon.points, three) == 0 && drops()) {
         ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(i));
       } else {
         ++i;
@@ -431,9 +431,9 @@ TEST_CASE("Rings that are no polygon are refused or covered as often as they go 
       return;
     }
     Rational area;
-    for (const Ring& ring : polygon.rings) area -= doubled_area(polygon.points, ring);
+    for (const Ring& ring : polygon.rings) area -= twice_the_area(polygon.points, ring);
     for (const Triangulator::Triangle& t : triangles) {
-      const Rational its = doubled_area(polygon.points, t);
+      const Rational its = twice_the_area(polygon.points, t);
       RC_ASSERT(its > 0);
       area += its;
     }

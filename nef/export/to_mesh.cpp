@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "nef/base/error.h"
+#include "nef/export/mesh_losses.h"
 #include "nef/mesh/polygon/triangulate.h"
 #include "nef/number/nearest_quotient.h"
 #include "nef/polyhedron.h"
@@ -14,44 +15,6 @@ namespace nef {
 namespace {
 
 constexpr std::uint32_t kUnused = 0xffffffffU;
-
-// What kinds of volumes an item sees.
-struct SeenVolumes {
-  bool selected = false;    // a volume that goes into the mesh
-  bool unselected = false;  // one that does not belong to the set
-  bool other = false;       // one that is lost as a whole, or lies beyond an infimaximal box
-
-  void add(const SeenVolumes& volume) {
-    selected = selected || volume.selected;
-    unselected = unselected || volume.unselected;
-    other = other || volume.other;
-  }
-};
-
-// How many facets, edges and vertices there are of something.
-struct Items {
-  std::size_t facets = 0;
-  std::size_t edges = 0;
-  std::size_t vertices = 0;
-  [[nodiscard]] bool any() const { return facets + edges + vertices > 0; }
-};
-
-std::string plural(std::size_t count, const char* one, const char* many) {
-  return std::to_string(count) + " " + (count == 1 ? one : many);
-}
-
-std::string list(const Items& items) {
-  std::string text;
-  const auto add = [&text](std::size_t count, const char* one, const char* many) {
-    if (count == 0) return;
-    if (!text.empty()) text += ", ";
-    text += plural(count, one, many);
-  };
-  add(items.facets, "facet", "facets");
-  add(items.edges, "edge", "edges");
-  add(items.vertices, "vertex", "vertices");
-  return text;
-}
 
 class Exporter {
  public:
@@ -65,7 +28,7 @@ class Exporter {
     number_vertices();
     write_facets();
     look_for_losses();
-    report_losses();
+    if (lower_dimensional_) count_open_borders();
   }
 
   MeshExport exact() {
@@ -77,7 +40,7 @@ class Exporter {
     result.closed = !lower_dimensional_;
     for (const auto& [v, w] : lines_) result.lines.push_back({number_[v], number_[w]});
     for (const VertexId v : points_) result.points.push_back(number_[v]);
-    result.lost = std::move(lost_);
+    result.lost = losses_.lines();
     result.face_marks = std::move(face_marks_);
     return result;
   }
@@ -86,10 +49,15 @@ class Exporter {
     run();
     RoundedMeshExport result;
     result.mesh.vertices.reserve(vertices_.size());
-    for (const VertexId v : vertices_) result.mesh.vertices.push_back(nearest_doubles(complex_.points, point_of(v)));
+    const PointTable& points = complex_.points;
+    const bool all_are_nearest = points.all_are_nearest();  // of those that are finite, as these are
+    for (const VertexId v : vertices_) {
+      const PointId p = point_of(v);
+      result.mesh.vertices.push_back(all_are_nearest ? points.approximate(p) : nearest_doubles(points, p));
+    }
     result.mesh.face_begin = std::move(faces_.face_begin);
     result.mesh.corners = std::move(faces_.corners);
-    result.lost = std::move(lost_);
+    result.lost = losses_.lines();
     return result;
   }
 
@@ -121,7 +89,7 @@ class Exporter {
         volumes_[v].unselected = true;
       } else if (unbounded[v]) {
         volumes_[v].other = true;
-        ++lost_volumes_;
+        ++losses_.volumes;
       } else {
         volumes_[v].selected = true;
       }
@@ -197,13 +165,15 @@ class Exporter {
   }
 
   // `corners`: the vertices of the facet's corners, cycle after cycle.
-  void collect_rings(const Facet& facet, const VertexId* corners,
-                     std::vector<std::vector<std::uint32_t>>& rings) const {
-    rings.resize(facet.cycle_count);
-    for (std::uint32_t i = 0; i < facet.cycle_count; ++i) {
-      rings[i].resize(complex_.corners_of(facet.cycles()[i]).size());
-      for (std::uint32_t& v : rings[i]) v = number_[*corners++];
+  void collect_rings(const Facet& facet, const VertexId* corners) {
+    ring_end_.clear();
+    std::uint32_t size = 0;
+    for (const CycleId cycle : facet.cycles()) {
+      size += static_cast<std::uint32_t>(complex_.corners_of(cycle).size());
+      ring_end_.push_back(size);
     }
+    rings_.resize(size);
+    for (std::uint32_t i = 0; i < size; ++i) rings_[i] = number_[corners[i]];
   }
 
   // A ring that meets itself is no polygon for most readers.
@@ -246,16 +216,21 @@ class Exporter {
       if (!points.empty()) triangulator_.emplace(points_.emplace(exporter.complex_.points, points));
     }
 
-    void triangulate(std::vector<std::vector<std::uint32_t>>& rings, const ProjectionAxis& projection,
-                     std::vector<Triangulator::Triangle>& out) {
-      for (std::vector<std::uint32_t>& ring : rings) {
-        for (std::uint32_t& v : ring) v = number_[v];
-      }
-      const bool done = triangulator_->triangulate(rings, projection.axis, projection.sign, out);
+    // Valid until the next call.
+    [[nodiscard]] std::span<const Triangulator::Triangle> triangulate(std::vector<std::uint32_t>& corners,
+                                                                      std::span<const std::uint32_t> ring_end,
+                                                                      const ProjectionAxis& projection) {
+      // Numbers are the same if all vertices take part.
+      const bool renumbered = vertex_.size() != number_.size();
+      for (std::size_t i = 0; renumbered && i < corners.size(); ++i) corners[i] = number_[corners[i]];
+      triangles_.clear();
+      const bool done = triangulator_->triangulate(corners, ring_end, projection.axis, projection.sign, triangles_);
       NEF_ASSERT(done);
-      for (Triangulator::Triangle& triangle : out) {
+      if (!renumbered) return triangles_;
+      for (Triangulator::Triangle& triangle : triangles_) {
         for (std::uint32_t& v : triangle) v = vertex_[v];
       }
+      return triangles_;
     }
 
     [[nodiscard]] bool strictly_convex(const std::vector<std::uint32_t>& ring, std::size_t axis) const {
@@ -276,18 +251,25 @@ class Exporter {
     std::vector<std::uint32_t> vertex_;
     std::optional<MeshPoints> points_;
     std::optional<Triangulator> triangulator_;
+    std::vector<Triangulator::Triangle> triangles_;
   };
 
   [[nodiscard]] bool is_triangle(const Facet& facet) const {
     return facet.cycle_count == 1 && complex_.corners_of(facet.first_cycle).size() == 3;
   }
 
+  // As many as there are if none stays a polygon: a facet of n corners in c cycles is n + 2 c - 4 triangles.
+  void reserve_faces() {
+    std::size_t count = corner_vertices_.size();
+    for (const FacetId f : boundary_) count += 2 * std::size_t{complex_.facets[f].cycle_count};
+    count -= 4 * boundary_.size();
+    faces_.face_begin.reserve(options_.keep_polygons ? boundary_.size() + 1 : count + 1);
+    faces_.corners.reserve(options_.keep_polygons ? corner_vertices_.size() : 3 * count);
+  }
+
   void write_facets() {
     Polygons polygons(*this);
-    std::vector<std::vector<std::uint32_t>> rings;
-    std::vector<Triangulator::Triangle> triangles;
-    faces_.face_begin.reserve(boundary_.size() + 1);
-    faces_.corners.reserve(corner_vertices_.size());
+    reserve_faces();
     const VertexId* corners = corner_vertices_.data();
     for (const FacetId f : boundary_) {
       const Facet& facet = complex_.facets[f];
@@ -300,22 +282,16 @@ class Exporter {
         push_triangle(v, flip);
         continue;
       }
-      collect_rings(facet, corners, rings);
-      corners += complex_.corners_of(facet).size();
+      collect_rings(facet, corners);
+      corners += rings_.size();
       const ProjectionAxis projection = projection_axis(complex_.planes, facet.plane);
-      const bool whole =
-          rings.size() == 1 && (!options_.only_convex || polygons.strictly_convex(rings[0], projection.axis));
-      if (options_.keep_polygons && whole && may_stay_polygon(rings[0])) {
-        if (flip) std::reverse(rings[0].begin(), rings[0].end());
-        faces_.push_face(rings[0]);
+      if (options_.keep_polygons && ring_end_.size() == 1 &&
+          (!options_.only_convex || polygons.strictly_convex(rings_, projection.axis)) && may_stay_polygon(rings_)) {
+        if (flip) std::reverse(rings_.begin(), rings_.end());
+        faces_.push_face(rings_);
         continue;
       }
-      triangles.clear();
-      polygons.triangulate(rings, projection, triangles);
-      for (auto& triangle : triangles) {
-        if (flip) std::swap(triangle[1], triangle[2]);
-        faces_.push_face(triangle);
-      }
+      push_triangles(polygons.triangulate(rings_, ring_end_, projection), flip);
     }
     fill_marks();
   }
@@ -345,14 +321,28 @@ class Exporter {
     faces_.push_face(face);
   }
 
-  // Sorts an item by what its mark and the volumes around it say about the mesh.
-  void judge(const SeenVolumes& sides, LabelId mark, std::size_t Items::*member) {
+  void push_triangles(std::span<const Triangulator::Triangle> triangles, bool flip) {
+    const std::size_t old = faces_.corners.size();
+    faces_.corners.resize(old + 3 * triangles.size());
+    std::uint32_t* to = faces_.corners.data() + old;
+    for (const Triangulator::Triangle& t : triangles) {
+      to[0] = t[0];
+      to[1] = flip ? t[2] : t[1];
+      to[2] = flip ? t[1] : t[2];
+      to += 3;
+      faces_.face_begin.push_back(static_cast<std::uint32_t>(to - faces_.corners.data()));
+    }
+  }
+
+  // Sorts items by what their mark and the volumes around them say about the mesh.
+  void judge(const SeenVolumes& sides, LabelId mark, std::size_t ItemCounts::*member, std::size_t count,
+             MeshLosses& to) const {
     const bool selected = is_selected(mark);
     if (sides.selected && !selected) {
-      Items& items = sides.unselected || sides.other ? open_ : cracks_;
-      ++(items.*member);
+      ItemCounts& items = sides.unselected || sides.other ? to.open : to.cracks;
+      items.*member += count;
     }
-    if (!sides.selected && !sides.other && selected && !lower_dimensional_) ++(flat_.*member);
+    if (!sides.selected && !sides.other && selected && !lower_dimensional_) to.flat.*member += count;
   }
 
   void look_for_losses() {
@@ -360,29 +350,49 @@ class Exporter {
       const FacetSides facet = complex_.facets.sides_of(f);
       SeenVolumes sides = volumes_[facet.volume_above];
       sides.add(volumes_[facet.volume_below]);
-      judge(sides, facet.mark, &Items::facets);
+      judge(sides, facet.mark, &ItemCounts::facets, 1, losses_);
     }
     // Then whatever lies in the closure of a facet sees a volume of the mesh, and is lost only if it is not selected.
     const bool all_facets = boundary_.size() == complex_.facet_count() && !lower_dimensional_;
     const std::vector<bool> keeps_all = all_facets ? whole_patterns() : std::vector<bool>(complex_.patterns.size());
+    // What a vertex and the ends of edges there add is the same for those that have a pattern and see the same volumes.
+    struct Known {
+      std::vector<SeenVolumes> seen;  // by each sface
+      MeshLosses losses;
+    };
+    std::vector<Known> known(complex_.patterns.size());
+    std::vector<SeenVolumes> seen;
+    MeshLosses ends;
     for (const VertexId v : complex_.vertex_ids()) {
-      if (keeps_all[complex_.vertices.pattern(v).index()] || !finite(v)) continue;
-      const VertexRecord& record = complex_.vertices[v];
-      const VertexRecord& end = complex_.vertices[v.next()];
-      const bool at_facet = all_facets && (record.shalfedges < end.shalfedges || record.sloops < end.sloops);
-      if (!at_facet || !is_selected(complex_.mark(v))) {
-        SeenVolumes sides;
-        for (const SFaceId s : complex_.sfaces(v)) sides.add(volumes_[complex_.sface_volume(s)]);
-        judge(sides, complex_.mark(v), &Items::vertices);
-      }
-      for (const HalfedgeId h : complex_.halfedges(v)) {
-        const SVertex& svertex = complex_.svertex(h);
-        if (all_facets && svertex.out != kNone && is_selected(svertex.mark)) continue;
-        const bool far_finite = finite(complex_.target(h));
-        if (far_finite && complex_.twin[h] < h) continue;  // each edge once
-        judge(sides_of_edge(v, h), svertex.mark, &Items::edges);
-      }
+      const std::uint32_t pattern = complex_.vertices.pattern(v).index();
+      if (keeps_all[pattern] || !finite(v)) continue;
+      seen.clear();
+      for (const SFaceId s : complex_.sfaces(v)) seen.push_back(volumes_[complex_.sface_volume(s)]);
+      Known& here = known[pattern];
+      // With a box, the other ends of edges matter, too.
+      if (complex_.has_box() || here.seen != seen) here = {seen, losses_at(v, seen, all_facets)};
+      ends += here.losses;
     }
+    for (ItemCounts* items : {&ends.flat, &ends.open, &ends.cracks}) items->edges /= 2;
+    losses_ += ends;
+  }
+
+  // Of a vertex and its edges, which count once for each end. `seen`: by each of its sfaces.
+  [[nodiscard]] MeshLosses losses_at(VertexId v, const std::vector<SeenVolumes>& seen, bool all_facets) const {
+    MeshLosses losses;
+    const SphereMapView map = complex_.sphere_map(v);
+    const bool at_facet = all_facets && !(map.shalfedges.empty() && map.sloops.empty());
+    if (!at_facet || !is_selected(map.mark)) {
+      SeenVolumes sides;
+      for (const SeenVolumes& volume : seen) sides.add(volume);
+      judge(sides, map.mark, &ItemCounts::vertices, 1, losses);
+    }
+    for (const HalfedgeId h : complex_.halfedges(v)) {
+      const SVertex& svertex = complex_.svertex(h);
+      if (all_facets && svertex.out != kNone && is_selected(svertex.mark)) continue;
+      judge(sides_of_edge(v, h), svertex.mark, &ItemCounts::edges, finite(complex_.target(h)) ? 1 : 2, losses);
+    }
+    return losses;
   }
 
   // Of each pattern: its vertices and all their edges are selected, and lie in facets.
@@ -419,25 +429,12 @@ class Exporter {
       for (const SHalfedgeId corner : complex_.corners_of(f)) {
         const VertexId v = complex_.shalfedge_vertex(corner);
         const HalfedgeId h = complex_.corner_halfedge(corner);
-        if (!seen_vertex[v] && !is_selected(complex_.mark(v))) ++open_.vertices;
-        if (!seen_edge[h] && !is_selected(complex_.svertex(h).mark)) ++open_.edges;
+        if (!seen_vertex[v] && !is_selected(complex_.mark(v))) ++losses_.open.vertices;
+        if (!seen_edge[h] && !is_selected(complex_.svertex(h).mark)) ++losses_.open.edges;
         seen_vertex[v] = true;
         seen_edge[h] = seen_edge[complex_.twin[h]] = true;
       }
     }
-  }
-
-  void report_losses() {
-    std::vector<std::string>& lost = lost_;
-    if (lower_dimensional_) count_open_borders();
-    if (lost_volumes_ > 0) {
-      lost.push_back(plural(lost_volumes_, "unbounded volume is", "unbounded volumes are") + " not in the mesh");
-    }
-    if (flat_.any()) lost.push_back("parts outside the solids are not in the mesh: " + list(flat_));
-    if (open_.any()) {
-      lost.push_back("the mesh is closed where the boundary does not belong to the set: " + list(open_));
-    }
-    if (cracks_.any()) lost.push_back("what is missing inside the solids is filled in the mesh: " + list(cracks_));
   }
 
   enum class Answer : std::uint8_t { kUnknown, kYes, kNo };
@@ -452,24 +449,20 @@ class Exporter {
   std::vector<std::array<VertexId, 2>> lines_;     // of the complex
   std::vector<VertexId> points_;
   bool lower_dimensional_ = false;
-  std::size_t lost_volumes_ = 0;
-  Items flat_;
-  Items open_;
-  Items cracks_;
-  std::vector<VertexId> vertices_;  // of the complex, of each vertex of the mesh
-  Mesh faces_;                      // its vertices come last
+  MeshLosses losses_;
+  std::vector<std::uint32_t> rings_;     // of one facet, of vertices of the mesh
+  std::vector<std::uint32_t> ring_end_;  // and where in these each ring ends
+  std::vector<VertexId> vertices_;       // of the complex, of each vertex of the mesh
+  Mesh faces_;                           // its vertices come last
   std::vector<std::array<LabelId, 3>> face_marks_;
-  std::vector<std::string> lost_;
 };
 
 }  // namespace
 
 std::array<double, 3> nearest_doubles(const PointTable& points, PointId point) {
   if (points.is_nearest(point)) return points.approximate(point);
-  const IntegerView w = points.coordinate(point, 3);
-  std::array<double, 3> result;
-  for (std::size_t i = 0; i < 3; ++i) result[i] = nearest_quotient(points.coordinate(point, i), w);
-  return result;
+  const std::array<IntegerView, 4> h = points.coordinates(point);
+  return {nearest_quotient(h[0], h[3]), nearest_quotient(h[1], h[3]), nearest_quotient(h[2], h[3])};
 }
 
 RoundedMeshExport to_rounded_mesh(const Polyhedron& polyhedron, const MeshExportOptions& options) {

@@ -57,10 +57,23 @@ class PointTable {
     return rows_.at(point.index(), column);
   }
 
+  /// The homogeneous coordinates x, y, z, w.
+  [[nodiscard]] std::array<IntegerView, 4> coordinates(PointId point) const { return rows_.first<4>(point.index()); }
+
   /// All seven homogeneous coordinates, if they are below 2^62 in magnitude; else false.
   [[nodiscard]] bool small_coordinates(PointId point, std::array<std::int64_t, 7>& out) const {
     return rows_.read_small(point.index(), out);
   }
+
+  /// The same for many points; cheaper for those that follow each other. Valid until the table changes.
+  class SmallReader {
+   public:
+    explicit SmallReader(const PointTable& points) : rows_(points.rows_) {}
+    [[nodiscard]] bool read(PointId point, std::array<std::int64_t, 7>& out) { return rows_.read(point.index(), out); }
+
+   private:
+    IntegerRows::SmallReader rows_;
+  };
 
   /// The three doubles of a point.
   [[nodiscard]] const std::array<double, 3>& approximate(PointId point) const { return approximate_[point.index()]; }
@@ -68,6 +81,10 @@ class PointTable {
   /// True if `approximate` gives the doubles nearest to the coordinates: those of a finite point whose integers are
   /// doubles themselves, as the one quotient is then all that is rounded.
   [[nodiscard]] bool is_nearest(PointId point) const { return finite(point) && rows_.are_doubles(point.index()); }
+
+  /// True if that is so for all points that are finite; false may be said of very few where it is, too. O(n), much
+  /// cheaper than to ask for each.
+  [[nodiscard]] bool all_are_nearest() const { return rows_.all_are_doubles(); }
 
   /// Equal for points with the same homogeneous coordinates (as push makes them of equal points).
   [[nodiscard]] std::uint64_t hash(PointId point) const { return rows_.hash(point.index()); }

@@ -13,32 +13,52 @@ namespace {
 // Coordinates below 2^40 give differences below 2^41, minors below 2^83 and determinants below 2^126.
 constexpr std::int64_t kIntegerLimit = std::int64_t{1} << 40U;
 
+void assign(Integer& to, Int128 value) {
+  const Unsigned128 size = magnitude(value);
+  const std::array<std::uint64_t, 2> words{static_cast<std::uint64_t>(size), static_cast<std::uint64_t>(size >> 64U)};
+  mpz_import(to.get_mpz_t(), words.size(), -1, sizeof(std::uint64_t), 0, 0, words.data());
+  if (value < 0) mpz_neg(to.get_mpz_t(), to.get_mpz_t());
+}
+
+}  // namespace
+
+// b - a along an axis, scaled by the positive product of their denominators. Below 2^125, as homogeneous coordinates
+// are below 2^62.
+Int128 MeshPoints::short_difference(std::uint32_t a, std::uint32_t b, std::size_t axis) const {
+  const auto& p = homogeneous_[a];
+  const auto& q = homogeneous_[b];
+  return static_cast<Int128>(q[axis]) * p[3] - static_cast<Int128>(p[axis]) * q[3];
+}
+
 // b - a in homogeneous integers, scaled by the positive product of their denominators where these differ: the axes
 // from `first` on, as many as there is room for (of two, the second may be the first axis).
-void difference(const PointTable& table, std::uint32_t a, std::uint32_t b, std::span<Integer> out,
-                std::size_t first = 0) {
-  const IntegerView wa = table.coordinate(PointId{a}, 3);
-  const IntegerView wb = table.coordinate(PointId{b}, 3);
-  const bool same = mpz_cmp(wa, wb) == 0;
+void MeshPoints::difference(std::uint32_t a, std::uint32_t b, std::span<Integer> out, std::size_t first) const {
+  if (!homogeneous_.empty()) {
+    for (std::size_t k = 0; k < out.size(); ++k) assign(out[k], short_difference(a, b, (first + k) % 3));
+    return;
+  }
+  const std::array<IntegerView, 4> p = table_.coordinates(PointId{a});
+  const std::array<IntegerView, 4> q = table_.coordinates(PointId{b});
+  const bool same = mpz_cmp(p[3], q[3]) == 0;
   for (std::size_t k = 0; k < out.size(); ++k) {
     const std::size_t axis = (first + k) % 3;
     mpz_ptr d = out[k].get_mpz_t();
     if (same) {
-      mpz_sub(d, table.coordinate(PointId{b}, axis), table.coordinate(PointId{a}, axis));
+      mpz_sub(d, q[axis], p[axis]);
     } else {
-      mpz_mul(d, table.coordinate(PointId{b}, axis), wa);
-      mpz_submul(d, table.coordinate(PointId{a}, axis), wb);
+      mpz_mul(d, q[axis], p[3]);
+      mpz_submul(d, p[axis], q[3]);
     }
   }
 }
 
 // The plane through three points, up to a positive factor.
-class PlaneThrough {
+class MeshPoints::PlaneThrough {
  public:
-  PlaneThrough(const PointTable& table, std::uint32_t a, std::uint32_t b, std::uint32_t c) : table_(table), a_(a) {
+  PlaneThrough(const MeshPoints& points, std::uint32_t a, std::uint32_t b, std::uint32_t c) : points_(points), a_(a) {
     Integer3 v;
-    difference(table, a, b, u_);
-    difference(table, a, c, v);
+    points.difference(a, b, u_);
+    points.difference(a, c, v);
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t j = (i + 1) % 3;
       const std::size_t k = (i + 2) % 3;
@@ -49,7 +69,7 @@ class PlaneThrough {
 
   // The sign of normal . (p - a).
   int side(std::uint32_t p) {
-    difference(table_, a_, p, u_);
+    points_.difference(a_, p, u_);
     mpz_mul(sum_.get_mpz_t(), normal_[0].get_mpz_t(), u_[0].get_mpz_t());
     mpz_addmul(sum_.get_mpz_t(), normal_[1].get_mpz_t(), u_[1].get_mpz_t());
     mpz_addmul(sum_.get_mpz_t(), normal_[2].get_mpz_t(), u_[2].get_mpz_t());
@@ -57,13 +77,11 @@ class PlaneThrough {
   }
 
  private:
-  const PointTable& table_;
+  const MeshPoints& points_;
   std::uint32_t a_;
   Integer3 u_, normal_;
   Integer sum_;
 };
-
-}  // namespace
 
 MeshPoints::MeshPoints(std::span<const Rational3> points) {
   approximate_.reserve(points.size());
@@ -87,16 +105,23 @@ MeshPoints::MeshPoints(PointTable points) : table_(std::move(points)) {
 
 MeshPoints::MeshPoints(const PointTable& points, std::span<const PointId> chosen) {
   approximate_.reserve(chosen.size());
-  if (make_integers(points, chosen)) {
+  const bool is_short = read_homogeneous(points, chosen);
+  if (is_short ? make_integers_of_homogeneous() : make_integers(points, chosen)) {
+    homogeneous_.clear();
     approximate_integers();
     return;
   }
-  table_.reserve(chosen.size());
-  for (const PointId p : chosen) {
-    table_.push_from(points, p);
-    approximate_.push_back(points.approximate(p));
-  }
+  for (const PointId p : chosen) approximate_.push_back(points.approximate(p));
   find_margins(false);
+  if (is_short) return;
+  table_.reserve(chosen.size());
+  for (std::size_t i = 0; i < chosen.size();) {
+    // Points that follow each other are copied at once.
+    std::size_t count = 1;
+    while (i + count < chosen.size() && chosen[i + count].index() == chosen[i].index() + count) ++count;
+    table_.append(points, chosen[i].index(), count);
+    i += count;
+  }
 }
 
 // Below 2^40 every integer is a double.
@@ -107,27 +132,91 @@ void MeshPoints::approximate_integers() {
   find_margins(true);
 }
 
+bool MeshPoints::read_homogeneous(const PointTable& points, std::span<const PointId> chosen) {
+  homogeneous_.resize(chosen.size());
+  PointTable::SmallReader reader(points);
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    std::array<std::int64_t, 7> h;
+    if (!reader.read(chosen[i], h)) {
+      homogeneous_.clear();
+      return false;
+    }
+    homogeneous_[i] = {h[0], h[1], h[2], h[3]};
+  }
+  return true;
+}
+
 // The common denominator grows where a coordinate is not a multiple of its inverse; what is there is scaled then, which
 // happens forty times at most.
+bool MeshPoints::enlarge_denominator(std::int64_t factor) {
+  if (factor >= kIntegerLimit || static_cast<Int128>(denominator_) * factor >= kIntegerLimit) return false;
+  denominator_ *= factor;
+  for (auto& point : integers_) {
+    for (std::int64_t& x : point) {
+      const Int128 larger = static_cast<Int128>(x) * factor;
+      if (larger >= kIntegerLimit || larger <= -kIntegerLimit) return false;
+      x = static_cast<std::int64_t>(larger);
+    }
+  }
+  return true;
+}
+
+bool MeshPoints::no_integers() {
+  integers_.clear();
+  denominator_ = 1;
+  return false;
+}
+
+// The common denominator first. Most points have the denominator of the one before, or one that divides what is known
+// of the common one; else the quotients are taken to lowest terms.
+bool MeshPoints::find_denominator() {
+  std::int64_t last = 1;
+  for (const auto& [x, y, z, w] : homogeneous_) {
+    if (w == last) continue;
+    if (denominator_ % w != 0) {
+      for (const std::int64_t numerator : {x, y, z}) {
+        const std::int64_t rest = numerator % w;
+        if (rest == 0) continue;
+        const std::int64_t reduced = w / common_divisor(w, rest);
+        const std::int64_t missing = reduced / common_divisor(reduced, denominator_);
+        if (missing >= kIntegerLimit || static_cast<Int128>(denominator_) * missing >= kIntegerLimit) return false;
+        denominator_ *= missing;
+      }
+      // Others with the same denominator need not be multiples.
+      continue;
+    }
+    last = w;
+  }
+  return true;
+}
+
+bool MeshPoints::make_integers_of_homogeneous() {
+  if (!find_denominator()) return no_integers();
+  integers_.resize(homogeneous_.size());
+  std::int64_t last = 0;
+  std::int64_t factor = 0;  // the common denominator over `last`; 0 if that is no integer
+  for (std::size_t i = 0; i < integers_.size(); ++i) {
+    const std::array<std::int64_t, 4>& from = homogeneous_[i];
+    const std::int64_t w = from[3];
+    if (w != last) factor = denominator_ % w == 0 ? denominator_ / w : 0;
+    last = w;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      // The quotient is an integer, as the common denominator is a multiple of the reduced one.
+      const Int128 product = static_cast<Int128>(from[axis]) * (factor != 0 ? factor : denominator_);
+      const Int128 scaled = factor != 0 ? product : product / w;
+      if (scaled >= kIntegerLimit || scaled <= -kIntegerLimit) return no_integers();
+      integers_[i][axis] = static_cast<std::int64_t>(scaled);
+    }
+  }
+  return true;
+}
+
+// The same for numbers of any size, in GMP.
 bool MeshPoints::make_integers(const PointTable& points, std::span<const PointId> chosen) {
   Integer scaled;
   Integer quotient;
   Integer rest;
   integers_.reserve(chosen.size());
-  const auto enlarge = [this](mpz_srcptr by) {
-    if (mpz_cmp_ui(by, kIntegerLimit) >= 0) return false;
-    const auto factor = static_cast<std::int64_t>(mpz_get_ui(by));
-    if (static_cast<Int128>(denominator_) * factor >= kIntegerLimit) return false;
-    denominator_ *= factor;
-    for (auto& point : integers_) {
-      for (std::int64_t& x : point) {
-        const Int128 larger = static_cast<Int128>(x) * factor;
-        if (larger >= kIntegerLimit || larger <= -kIntegerLimit) return false;
-        x = static_cast<std::int64_t>(larger);
-      }
-    }
-    return true;
-  };
   for (const PointId p : chosen) {
     const IntegerView w = points.coordinate(p, 3);
     std::array<std::int64_t, 3>& point = integers_.emplace_back();
@@ -139,18 +228,15 @@ bool MeshPoints::make_integers(const PointTable& points, std::span<const PointId
       if (rest != 0) {
         mpz_gcd(rest.get_mpz_t(), rest.get_mpz_t(), w);
         mpz_divexact(rest.get_mpz_t(), w, rest.get_mpz_t());
-        fits = enlarge(rest.get_mpz_t());
+        fits = mpz_cmp_ui(rest.get_mpz_t(), kIntegerLimit) < 0 &&
+               enlarge_denominator(static_cast<std::int64_t>(mpz_get_ui(rest.get_mpz_t())));
         mpz_mul(scaled.get_mpz_t(), scaled.get_mpz_t(), rest.get_mpz_t());
         mpz_divexact(quotient.get_mpz_t(), scaled.get_mpz_t(), w);
       }
       fits = fits && mpz_cmpabs_ui(quotient.get_mpz_t(), kIntegerLimit) < 0;
       if (fits) point[axis] = mpz_get_si(quotient.get_mpz_t());
     }
-    if (!fits) {
-      integers_.clear();
-      denominator_ = 1;
-      return false;
-    }
+    if (!fits) return no_integers();
   }
   return true;
 }
@@ -180,10 +266,7 @@ bool MeshPoints::make_integers(std::span<const Rational3> points) {
         fits = scaled < kIntegerLimit && scaled > -kIntegerLimit;
         integers_[i][axis] = static_cast<std::int64_t>(scaled);
       }
-      if (!fits) {
-        integers_.clear();
-        return false;
-      }
+      if (!fits) return no_integers();
     }
   }
   return true;
@@ -259,7 +342,7 @@ int MeshPoints::orientation_exact(std::uint32_t a, std::uint32_t b, std::uint32_
                    m[0][1] * (m[1][2] * m[2][0] - m[1][0] * m[2][2]) +
                    m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]));
   }
-  return PlaneThrough(table_, a, b, c).side(d);
+  return PlaneThrough(*this, a, b, c).side(d);
 }
 
 bool MeshPoints::coplanar(std::uint32_t a, std::uint32_t b, std::uint32_t c,
@@ -271,7 +354,7 @@ bool MeshPoints::coplanar(std::uint32_t a, std::uint32_t b, std::uint32_t c,
       if (orientation_exact(a, b, c, p) != 0) return false;
       continue;
     }
-    if (!plane) plane.emplace(table_, a, b, c);
+    if (!plane) plane.emplace(*this, a, b, c);
     if (plane->side(p) != 0) return false;
   }
   return true;
@@ -318,11 +401,15 @@ int MeshPoints::orientation_along_exact(std::uint32_t a, std::uint32_t b, std::u
     const auto& r = integers_[c];
     return sign_of(static_cast<Int128>(q[i] - p[i]) * (r[j] - p[j]) - static_cast<Int128>(r[i] - p[i]) * (q[j] - p[j]));
   }
+  if (!homogeneous_.empty()) {
+    return compare_products(short_difference(a, b, i), short_difference(a, c, j), short_difference(a, c, i),
+                            short_difference(a, b, j));
+  }
   std::array<Integer, 2> u;
   std::array<Integer, 2> v;
   Integer sum;
-  difference(table_, a, b, u, i);
-  difference(table_, a, c, v, i);
+  difference(a, b, u, i);
+  difference(a, c, v, i);
   mpz_mul(sum.get_mpz_t(), u[0].get_mpz_t(), v[1].get_mpz_t());
   mpz_submul(sum.get_mpz_t(), v[0].get_mpz_t(), u[1].get_mpz_t());
   return sgn(sum);
@@ -361,8 +448,9 @@ int MeshPoints::compare(std::uint32_t a, std::uint32_t b, std::size_t axis) cons
   if (!integers_.empty()) {
     return (integers_[a][axis] > integers_[b][axis]) - (integers_[a][axis] < integers_[b][axis]);
   }
+  if (!homogeneous_.empty()) return sign_of(short_difference(b, a, axis));
   Integer gap_along;
-  difference(table_, b, a, std::span(&gap_along, 1), axis);
+  difference(b, a, std::span(&gap_along, 1), axis);
   return sgn(gap_along);
 }
 

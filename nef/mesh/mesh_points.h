@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Exact predicates on the points of a mesh, by index: a double filter, then 128-bit integers where a small common
-// denominator exists (decimal files), then GMP.
+// Exact predicates on the points of a mesh, by index: a double filter, then integers of two words where a
+// small common denominator exists (decimal files) or homogeneous coordinates are below 2^62, then GMP.
 #pragma once
 
 #include <array>
@@ -12,6 +12,7 @@
 #include "nef/geometry/box_tree.h"
 #include "nef/geometry/point_table.h"
 #include "nef/number/approximation.h"
+#include "nef/number/int128.h"
 #include "nef/number/number.h"
 
 namespace nef {
@@ -23,7 +24,8 @@ class MeshPoints {
   explicit MeshPoints(std::span<const Rational3> points);
   /// The same for points that a table holds; all must be finite.
   explicit MeshPoints(PointTable points);
-  /// The same for some points of a table, which must be finite; they get numbers in this order.
+  /// The same for some points of a table, which must be finite; they get numbers in this order. Small
+  /// integers are read without GMP.
   MeshPoints(const PointTable& points, std::span<const PointId> chosen);
 
   [[nodiscard]] std::size_t size() const { return approximate_.size(); }
@@ -64,7 +66,8 @@ class MeshPoints {
   [[nodiscard]] std::span<const std::array<std::int64_t, 3>> integers() const { return integers_; }
   [[nodiscard]] std::int64_t denominator() const { return denominator_; }
 
-  /// The points as a table with the same numbers, where there are no small integers; empty if there are.
+  /// The points as a table with the same numbers, where there are no small integers; empty if there are, and for chosen
+  /// points of another table.
   [[nodiscard]] const PointTable& table() const { return table_; }
 
   /// Coordinates in a space that is scaled by one positive factor, each within margin(axis) of the truth.
@@ -78,12 +81,19 @@ class MeshPoints {
   void extend(Box& box, std::uint32_t p) const;
 
  private:
-  struct Differences;
+  class PlaneThrough;
 
   bool make_integers(std::span<const Rational3> points);
   bool make_integers(const PointTable& points, std::span<const PointId> chosen);
+  bool read_homogeneous(const PointTable& points, std::span<const PointId> chosen);
+  bool find_denominator();
+  bool make_integers_of_homogeneous();
+  bool enlarge_denominator(std::int64_t factor);
+  bool no_integers();
   void approximate_integers();
   void find_margins(bool exact);
+  [[nodiscard]] Int128 short_difference(std::uint32_t a, std::uint32_t b, std::size_t axis) const;
+  void difference(std::uint32_t a, std::uint32_t b, std::span<Integer> out, std::size_t first = 0) const;
   [[nodiscard]] int orientation_exact(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const;
   // Of (b - a) x (c - a), in the scaled space. Nothing if the points are not moderate.
   [[nodiscard]] Approximation component(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::size_t axis) const;
@@ -91,8 +101,9 @@ class MeshPoints {
 
   std::vector<std::array<double, 3>> approximate_;
   std::int64_t denominator_ = 1;
-  std::vector<std::array<std::int64_t, 3>> integers_;  // scaled coordinates below 2^40; empty if there are none
-  PointTable table_;                                   // filled only where integers_ is not
+  std::vector<std::array<std::int64_t, 3>> integers_;     // scaled coordinates below 2^40; empty if there are none
+  std::vector<std::array<std::int64_t, 4>> homogeneous_;  // below 2^62, if there are none and all are such
+  PointTable table_;                                      // filled only where these are not
   std::array<double, 3> margin_{};
   bool filter_ = true;
 };

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <compare>
 #include <cstdint>
 #include <numeric>
 
@@ -42,6 +43,37 @@ inline std::int64_t common_divisor(std::int64_t denominator, Int128 value) {
                                                                  static_cast<Unsigned128>(denominator - 1)));
   }
   return std::gcd(denominator, static_cast<std::int64_t>(value % denominator));
+}
+
+/// a b of two words each, in four.
+struct WideProduct {
+  Unsigned128 high = 0;
+  Unsigned128 low = 0;
+  auto operator<=>(const WideProduct&) const = default;
+};
+inline WideProduct wide_product(Unsigned128 a, Unsigned128 b) {
+  const auto a0 = static_cast<std::uint64_t>(a);
+  const auto a1 = static_cast<std::uint64_t>(a >> 64U);
+  const auto b0 = static_cast<std::uint64_t>(b);
+  const auto b1 = static_cast<std::uint64_t>(b >> 64U);
+  const Unsigned128 lowest = static_cast<Unsigned128>(a0) * b0;
+  const Unsigned128 cross = static_cast<Unsigned128>(a1) * b0;
+  // Below 2^128: the largest product of two words leaves room for two words.
+  const Unsigned128 middle = static_cast<Unsigned128>(a0) * b1 + static_cast<std::uint64_t>(cross) + (lowest >> 64U);
+  return {static_cast<Unsigned128>(a1) * b1 + (cross >> 64U) + (middle >> 64U),
+          middle << 64U | static_cast<std::uint64_t>(lowest)};
+}
+
+/// The sign of a b - c d. The magnitudes are below 2^127.
+inline int compare_products(Int128 a, Int128 b, Int128 c, Int128 d) {
+  const Unsigned128 all = magnitude(a) | magnitude(b) | magnitude(c) | magnitude(d);
+  if (all >> 63U == 0) return sign_of(a * b - c * d);
+  const int left = sign_of(a) * sign_of(b);
+  const int right = sign_of(c) * sign_of(d);
+  if (left != right) return left > right ? 1 : -1;
+  const WideProduct x = wide_product(magnitude(a), magnitude(b));
+  const WideProduct y = wide_product(magnitude(c), magnitude(d));
+  return left * ((x > y) - (x < y));
 }
 
 }  // namespace nef

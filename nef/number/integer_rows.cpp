@@ -150,6 +150,17 @@ bool IntegerRows::are_doubles(std::uint32_t row) const {
          std::all_of(limbs.begin(), limbs.end(), [](mp_limb_t limb) { return limb <= kLimit; });
 }
 
+// Loops without branches, for vector instructions.
+bool IntegerRows::all_are_doubles() const {
+  if (is_wide_) return false;
+  constexpr mp_limb_t kLimit = mp_limb_t{1} << 53U;
+  mp_limb_t bits = 0;
+  for (const mp_limb_t limb : limbs_) bits |= limb;
+  std::uint8_t largest = 0;  // of sizes plus one
+  for (const std::int8_t size : sizes_) largest = std::max(largest, static_cast<std::uint8_t>(size + 1));
+  return bits < kLimit && largest <= 2;
+}
+
 bool IntegerRows::same_sizes(std::uint32_t row, const IntegerRows& other, std::uint32_t other_row) const {
   const std::size_t mine = row * width_;
   const std::size_t others = other_row * width_;

@@ -6,11 +6,13 @@
 
 #include <gmp.h>
 
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "nef/number/int128.h"
@@ -60,22 +62,52 @@ class IntegerRows {
     return {limbs_.data() + begin_[row / kTogether] + limbs_between(first, i), size(i)};
   }
 
+  /// The first `count` entries of a row; cheaper than one after another.
+  template <std::size_t count>
+  [[nodiscard]] std::array<IntegerView, count> first(std::uint32_t row) const {
+    const mp_limb_t* limb = limbs_.data() + begin(row);
+    std::size_t i = row * width_;
+    const auto next = [&] {
+      const std::int32_t size = this->size(i++);
+      const IntegerView view(limb, size);
+      limb += std::abs(size);
+      return view;
+    };
+    return [&]<std::size_t... k>(std::index_sequence<k...> /*columns*/) {
+      return std::array<IntegerView, count>{(static_cast<void>(k), next())...};
+    }
+    (std::make_index_sequence<count>());
+  }
+
   /// The first entries of a row, as many as there is room for; false if one of them is not below 2^62 in magnitude.
   /// Much cheaper than views of them.
   [[nodiscard]] bool read_small(std::uint32_t row, std::span<std::int64_t> out) const {
     if (is_wide_) return false;
-    const std::int8_t* const sizes = sizes_.data() + kPadding + row * width_;
     const mp_limb_t* limb = limbs_.data() + begin(row);
-    constexpr mp_limb_t kLimit = mp_limb_t{1} << 62U;
-    for (std::size_t i = 0; i < out.size(); ++i) {
-      out[i] = 0;
-      if (sizes[i] == 0) continue;
-      if (sizes[i] > 1 || sizes[i] < -1 || *limb >= kLimit) return false;
-      out[i] = sizes[i] < 0 ? -static_cast<std::int64_t>(*limb) : static_cast<std::int64_t>(*limb);
-      ++limb;
-    }
-    return true;
+    return read_small(sizes_.data() + kPadding + row * width_, limb, out);
   }
+
+  /// The same for whole rows, one after another, of a table that does not change meanwhile: where a row begins need not
+  /// be found if it follows the last one.
+  class SmallReader {
+   public:
+    explicit SmallReader(const IntegerRows& rows) : rows_(rows) {}
+
+    /// `out` has room for the whole row.
+    [[nodiscard]] bool read(std::uint32_t row, std::span<std::int64_t> out) {
+      if (rows_.is_wide_) return false;
+      if (row != next_ || limb_ == nullptr) limb_ = rows_.limbs_.data() + rows_.begin(row);
+      next_ = row + 1;
+      if (read_small(rows_.sizes_.data() + kPadding + row * rows_.width_, limb_, out)) return true;
+      limb_ = nullptr;
+      return false;
+    }
+
+   private:
+    const IntegerRows& rows_;
+    std::uint32_t next_ = 0;
+    const mp_limb_t* limb_ = nullptr;
+  };
 
   [[nodiscard]] int sign(std::uint32_t row, std::size_t column) const {
     const std::int32_t size = this->size(row * width_ + column);
@@ -84,6 +116,9 @@ class IntegerRows {
 
   /// True if the integers of a row are doubles: at most 2^53 in magnitude.
   [[nodiscard]] bool are_doubles(std::uint32_t row) const;
+  /// True if those of all rows are below 2^53; only one that is 2^53 itself could still be a double. A fraction of a
+  /// nanosecond an integer.
+  [[nodiscard]] bool all_are_doubles() const;
 
   /// True if the two rows hold the same integers.
   [[nodiscard]] bool equal(std::uint32_t row, const IntegerRows& other, std::uint32_t other_row) const;
@@ -103,6 +138,19 @@ class IntegerRows {
   void trim();
 
  private:
+  // Entries of one limb at most, moving on in the limbs.
+  [[nodiscard]] static bool read_small(const std::int8_t* sizes, const mp_limb_t*& limb, std::span<std::int64_t> out) {
+    constexpr mp_limb_t kLimit = mp_limb_t{1} << 62U;
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      out[i] = 0;
+      if (sizes[i] == 0) continue;
+      if (sizes[i] > 1 || sizes[i] < -1 || *limb >= kLimit) return false;
+      out[i] = sizes[i] < 0 ? -static_cast<std::int64_t>(*limb) : static_cast<std::int64_t>(*limb);
+      ++limb;
+    }
+    return true;
+  }
+
   static constexpr std::size_t kPadding = 8;  // bytes before the first size
 
   // Rows whose first limb is not noted are read on from one that is at most so many before.

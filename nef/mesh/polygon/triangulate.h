@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Exact triangulation of planar polygons with holes: bridges to the holes, then ears.
+// Exact triangulation of planar polygons with holes: by a plane sweep, or ear by ear where a ring may be no polygon.
 #pragma once
 
 #include <array>
@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "nef/mesh/mesh_points.h"
+#include "nef/mesh/polygon/projected_corners.h"
+#include "nef/mesh/polygon/sweep_triangulation.h"
 
 namespace nef {
 
@@ -26,21 +28,30 @@ class Triangulator {
   using Triangle = std::array<std::uint32_t, 3>;
 
   /// `points` must outlive the triangulator.
-  explicit Triangulator(const MeshPoints& points) : points_(points) {}
+  explicit Triangulator(const MeshPoints& points) : projected_(points) {}
 
-  /// Cuts a polygon into triangles between its own vertices, oriented like it, and appends them to `out`. The first
-  /// ring is the outer one; the others are holes, turned the other way. Rings may have straight corners and may touch
-  /// themselves at vertices and along edges from within (dangling edges), but not cross. `axis` is a
-  /// coordinate axis along which the plane projects one to one, and `sign` is +1 if the outer ring turns
+  /// Cuts a polygon into triangles between its own vertices, oriented like it, and appends them to `out`. The corners
+  /// are given ring after ring, each ring ending before the corner that ring_end says. The first ring is the outer one;
+  /// the others are holes, turned the other way. Rings may have straight corners and may touch themselves and each
+  /// other at vertices, and themselves along edges from within (dangling edges), but not cross; no corner lies inside
+  /// an edge. A hole may be a single edge, walked out and back, or a point. Equal points have equal numbers. `axis` is
+  /// a coordinate axis along which the plane projects one to one, and `sign` is +1 if the outer ring turns
   /// counterclockwise in that projection as orientation_along sees it.
   ///
-  /// Returns false, and appends nothing, if the rings are no such polygon. O(n) for convex polygons; with r corners
-  /// that are not convex, each ear is compared with those of them that lie beside it along a coordinate axis: O(n r) at
-  /// worst, with about a nanosecond a step.
+  /// Returns false, and appends nothing, if it finds that the rings are no such polygon; triangles that overlap can
+  /// only come of rings that go around some points twice. O(n log n), and O(n) for convex polygons; by the plane sweep
+  /// of [Hertel, Mehlhorn 1983].
+  bool triangulate(std::span<const std::uint32_t> corners, std::span<const std::uint32_t> ring_end, std::size_t axis,
+                   int sign, std::vector<Triangle>& out);
+
+  /// The same for rings in lists of their own.
   bool triangulate(std::span<const std::vector<std::uint32_t>> rings, std::size_t axis, int sign,
                    std::vector<Triangle>& out);
 
-  /// The same for a single ring.
+  /// The same for a single ring that may be no polygon. Corners are cut off one after another, which finds a polygon in
+  /// more rings: corners may lie inside of edges, from within. O(n) for convex polygons; with r corners that are
+  /// not convex, each ear is compared with those of them that lie beside it along a coordinate axis: O(n r) at worst,
+  /// with about a nanosecond a step.
   bool triangulate(std::span<const std::uint32_t> ring, std::size_t axis, int sign, std::vector<Triangle>& out);
 
   /// The same for a ring that is strictly convex (in some projection), which is not asked again. O(n).
@@ -48,46 +59,47 @@ class Triangulator {
 
  private:
   struct Node {
-    std::uint32_t point = 0;
     std::uint32_t prev = 0;
     std::uint32_t next = 0;
     bool blunt = false;  // not strictly convex
   };
 
-  [[nodiscard]] int turn(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
-    return sign_ * points_.orientation_along(a, b, c, axis_);
+  void push(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::vector<Triangle>& out) const {
+    out.push_back({projected_.point(a), projected_.point(b), projected_.point(c)});
   }
-  [[nodiscard]] int turn_at(std::uint32_t node) const;
-  std::uint32_t append_ring(std::span<const std::uint32_t> ring);
-  bool bridge(std::uint32_t hole, std::uint32_t outer);
-  [[nodiscard]] bool sees(std::uint32_t hole, std::uint32_t target, std::uint32_t outer) const;
-  [[nodiscard]] bool in_cone(std::uint32_t node, std::uint32_t point) const;
-  void join(std::uint32_t hole, std::uint32_t target);
-  bool clip(std::uint32_t start, std::vector<Triangle>& out);
+  void link_corners();
+  [[nodiscard]] bool is_blunt(std::uint32_t node) const;
+  [[nodiscard]] bool goes_around_once() const;
+  [[nodiscard]] bool is_convex() const;
+  bool cut_four(std::vector<Triangle>& out) const;
+  bool clip_small(std::span<const std::uint32_t> corners, std::vector<Triangle>& out);
+  bool clip(std::vector<Triangle>& out);
   // Where a corner that is not convex lies along an axis of the projection, and which node it is.
   struct Place {
     double at = 0;
     double other = 0;  // along the other axis
     std::uint32_t node = 0;
   };
+  static constexpr std::size_t kFew = 16;    // corners that need no order
+  static constexpr std::size_t kSmall = 24;  // corners of a ring that loses its ears sooner than it is swept
   // Corners that are not convex, in order along an axis; some may have become convex since.
   using Row = std::vector<Place>;
-  // The triangle that a corner would be cut off with.
-  class Ear;
 
   [[nodiscard]] bool is_ear(std::uint32_t node) const;
-  void collect_blunt(std::uint32_t start, std::size_t& count);
+  void collect_blunt();
   void sort_blunt();
   void set_blunt(std::uint32_t node, bool blunt);
 
-  const MeshPoints& points_;
-  std::size_t axis_ = 2;
-  int sign_ = 1;
-  std::vector<Node> nodes_;
+  ProjectedCorners projected_;
+  SweepTriangulator sweep_;
+  std::vector<Node> nodes_;           // of each corner of a ring: what is left of it
   std::vector<std::uint32_t> blunt_;  // nodes that may lie in an ear
   std::array<Row, 2> rows_;           // those that were among them when they were last sorted
   std::size_t sorted_ = 0;            // how many of blunt_ are in the rows
   std::size_t stale_ = 0;             // and how many of those have become convex
+  std::vector<std::uint32_t> corners_;
+  std::vector<std::uint32_t> ring_end_;
+  std::vector<std::uint32_t> queue_;
 };
 
 }  // namespace nef

@@ -132,10 +132,11 @@ TEST_CASE("Chosen points of a table answer as the points themselves") {
     std::vector<PointId> chosen;
     const auto count = *rc::gen::inRange(3, 12);
     const bool large = *rc::gen::arbitrary<bool>();
+    const bool many = *rc::gen::arbitrary<bool>();  // denominators: their product is not below 2^40
     for (int i = 0; i < count; ++i) {
       std::array<Integer, 7> h;
       for (std::size_t k = 0; k < 3; ++k) h[k] = *rc::gen::inRange(-30, 30);
-      h[3] = *rc::gen::element(1, 2, 3, 12, 60);
+      h[3] = many ? *rc::gen::element(1, 60, 1000003, 998244353, 999999937) : *rc::gen::element(1, 2, 3, 12, 60);
       const Integer factor = large ? Integer("1000000000000000000000007") : Integer(6);
       Rational3 point;
       for (std::size_t k = 0; k < 3; ++k) {
@@ -157,6 +158,18 @@ TEST_CASE("Chosen points of a table answer as the points themselves") {
     for (std::uint32_t a = 0; a < points.size(); ++a) {
       for (std::uint32_t b = 0; b < points.size(); ++b) {
         RC_ASSERT(other.compare(a, b) == (points[a] > points[b]) - (points[a] < points[b]));
+        const std::uint32_t c = (2 * b + 1) % static_cast<std::uint32_t>(points.size());
+        const std::uint32_t d = (a + b + 2) % static_cast<std::uint32_t>(points.size());
+        Rational determinant;
+        for (std::size_t i = 0; i < 3; ++i) {
+          const std::size_t j = (i + 1) % 3;
+          const std::size_t k = (i + 2) % 3;
+          const Rational minor = (points[b][j] - points[a][j]) * (points[c][k] - points[a][k]) -
+                                 (points[c][j] - points[a][j]) * (points[b][k] - points[a][k]);
+          RC_ASSERT(other.orientation_along(a, b, c, i) == sgn(minor));
+          determinant += minor * (points[d][i] - points[a][i]);
+        }
+        RC_ASSERT(other.orientation(a, b, c, d) == sgn(determinant));
       }
     }
   }));

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/mesh/polygon/projected_corners.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nef {
+
+// The filter of turns is that of MeshPoints::orientation_along for points in the box of the polygon: the sides of the
+// box, which are no smaller than any difference of coordinates in it, stand for these differences in its bound. Where
+// coordinates are integers and products of differences are below 2^52, everything is computed exactly.
+//
+// Coordinates are within the margin of the truth, so those that differ by more than two margins differ in truth; two
+// more are for the rounding of b - gap, which is less than 2^-52 of the largest coordinate, a quarter of the margin.
+void ProjectedCorners::assign(std::span<const std::uint32_t> corners, std::size_t axis, int sign) {
+  axis_ = axis;
+  sign_ = sign;
+  axes_ = {(axis + 1) % 3, (axis + 2) % 3};
+  if (sign < 0) std::swap(axes_[0], axes_[1]);
+  corners_.resize(corners.size());
+  std::array<double, 2> low{HUGE_VAL, HUGE_VAL};
+  std::array<double, 2> high{-HUGE_VAL, -HUGE_VAL};
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const std::array<double, 3>& p = points_.approximate(corners[i]);
+    const double x = p[axes_[0]];
+    const double y = p[axes_[1]];
+    corners_[i] = {x, y, corners[i], static_cast<std::uint32_t>(i)};
+    low = {std::min(low[0], x), std::min(low[1], y)};
+    high = {std::max(high[0], x), std::max(high[1], y)};
+  }
+  std::array<double, 2> size;
+  std::array<double, 2> error;
+  ordered_ = true;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const double margin = points_.margin(axes_[k]);
+    size[k] = (high[k] - low[k]) * (1 + 0x1p-50) + 2 * margin;
+    error[k] = 2 * margin + kRoundingUnit * size[k];
+    gap_[k] = points_.moderate() ? 4 * margin : HUGE_VAL;
+    ordered_ = ordered_ && gap_[k] == 0;
+  }
+  if (!points_.moderate()) {
+    bound_ = HUGE_VAL;
+  } else if (ordered_ && size[0] * size[1] < 0x1p51) {
+    bound_ = 0;
+  } else {
+    bound_ = 3 * (error[0] * size[1] + size[0] * error[1]) + 0x1p-49 * size[0] * size[1] + 1e-290;
+  }
+}
+
+bool ProjectedCorners::before_exact(const Corner& a, const Corner& b) const {
+  if (a.point == b.point) return false;
+  if (const int order = points_.compare(a.point, b.point, axes_[0]); order != 0) return order < 0;
+  if (const int order = points_.compare(a.point, b.point, axes_[1]); order != 0) return order < 0;
+  return a.point < b.point;
+}
+
+}  // namespace nef

@@ -16,6 +16,13 @@ namespace {
 
 constexpr std::uint32_t kUnused = 0xffffffffU;
 
+// The one quotient of such integers is all that is rounded.
+bool are_doubles(const std::array<std::int64_t, 7>& homogeneous) {
+  constexpr std::int64_t kLimit = std::int64_t{1} << 53U;
+  return std::all_of(homogeneous.begin(), homogeneous.begin() + 4,
+                     [](std::int64_t x) { return x <= kLimit && x >= -kLimit; });
+}
+
 class Exporter {
  public:
   Exporter(const Complex& complex, const MeshExportOptions& options)
@@ -51,9 +58,12 @@ class Exporter {
     result.mesh.vertices.reserve(vertices_.size());
     const PointTable& points = complex_.points;
     const bool all_are_nearest = points.all_are_nearest();  // of those that are finite, as these are
+    PointTable::SmallReader reader(points);
+    std::array<std::int64_t, 7> h;
     for (const VertexId v : vertices_) {
       const PointId p = point_of(v);
-      result.mesh.vertices.push_back(all_are_nearest ? points.approximate(p) : nearest_doubles(points, p));
+      const bool is_nearest = all_are_nearest || (reader.read(p, h) && are_doubles(h));
+      result.mesh.vertices.push_back(is_nearest ? points.approximate(p) : nearest_doubles(points, p));
     }
     result.mesh.face_begin = std::move(faces_.face_begin);
     result.mesh.corners = std::move(faces_.corners);
@@ -260,8 +270,12 @@ class Exporter {
 
   // As many as there are if none stays a polygon: a facet of n corners in c cycles is n + 2 c - 4 triangles.
   void reserve_faces() {
-    std::size_t count = corner_vertices_.size();
-    for (const FacetId f : boundary_) count += 2 * std::size_t{complex_.facets[f].cycle_count};
+    std::size_t cycles = complex_.cycle_begin.size() - 1;
+    if (boundary_.size() != complex_.facet_count()) {
+      cycles = 0;
+      for (const FacetId f : boundary_) cycles += complex_.facets[f].cycle_count;
+    }
+    std::size_t count = corner_vertices_.size() + 2 * cycles;
     count -= 4 * boundary_.size();
     faces_.face_begin.reserve(options_.keep_polygons ? boundary_.size() + 1 : count + 1);
     faces_.corners.reserve(options_.keep_polygons ? corner_vertices_.size() : 3 * count);
@@ -318,7 +332,7 @@ class Exporter {
     } else if (flip) {
       std::swap(face[1], face[2]);
     }
-    faces_.push_face(face);
+    push_triangles({&face, 1}, false);
   }
 
   void push_triangles(std::span<const Triangulator::Triangle> triangles, bool flip) {

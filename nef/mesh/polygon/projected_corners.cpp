@@ -47,6 +47,14 @@ void ProjectedCorners::assign(std::span<const std::uint32_t> corners, std::size_
   }
 }
 
+int ProjectedCorners::unsure_turn(std::uint32_t i, std::uint32_t j, std::uint32_t k) const {
+  if (bound_ == 0) {  // all was computed exactly, so it is 0
+    ++predicate_counts().filter;
+    return 0;
+  }
+  return sign_ * points_.orientation_along(point(i), point(j), point(k), axis_);
+}
+
 bool ProjectedCorners::before_exact(const Corner& a, const Corner& b) const {
   if (a.point == b.point) return false;
   if (const int order = points_.compare(a.point, b.point, axes_[0]); order != 0) return order < 0;

@@ -102,8 +102,8 @@ struct CaseKind {
 /// Of what write_case wrote.
 CaseKind read_case_kind(const std::string& directory);
 
-/// Reads the operands of what write_case wrote, one after the other, and hands each to `take`: as in a program that converts
-/// a file before it reads the next, no two of them are there at once.
+/// Reads the operands of what write_case wrote, one after the other, and hands each to `take`: as in a program that
+/// converts a file before it reads the next, no two of them are there at once.
 void read_operands(const std::string& directory, const std::function<void(const Operand&)>& take);
 
 }  // namespace nef::bench

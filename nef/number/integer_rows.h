@@ -23,8 +23,8 @@ namespace nef {
 /// A read-only view of one integer of an IntegerRows. Valid until the table changes.
 class IntegerView {
  public:
-  /// The highest limb is not zero. The limbs of zero are not looked at: behind the last entry of a table there may be no
-  /// memory, but some of GMP's functions read the lowest limb before they look how many there are (mpz_get_si,
+  /// The highest limb is not zero. The limbs of zero are not looked at: behind the last entry of a table there may be
+  /// no memory, but some of GMP's functions read the lowest limb before they look how many there are (mpz_get_si,
   /// mpz_fits_slong_p, mpz_odd_p).
   IntegerView(const mp_limb_t* limbs, int signed_size)
       : value_ MPZ_ROINIT_N(const_cast<mp_limb_t*>(signed_size == 0 ? &kLimbOfZero : limbs), signed_size) {}

@@ -12,8 +12,8 @@
 namespace nef {
 namespace {
 
-// Of parentheses and functions in one another. A level takes some 4 KB of the stack under AddressSanitizer, and far less
-// otherwise, so half of the usual 8 MB is left for what evaluates the expression.
+// Of parentheses and functions in one another. A level takes some 4 KB of the stack under AddressSanitizer, and far
+// less otherwise, so half of the usual 8 MB is left for what evaluates the expression.
 constexpr std::size_t kDeepestExpression = 1000;
 
 class ExpressionParser : private ExpressionScanner {

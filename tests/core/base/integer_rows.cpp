@@ -88,8 +88,8 @@ TEST_CASE("a table of integers may begin with a giant") {
   CHECK(holds_rows(table, {row}));
 }
 
-// Some of GMP's functions read the lowest limb of zero. Behind the last entry there may be no memory, which ended a reader
-// of meshes by a signal where a table filled its pages.
+// Some of GMP's functions read the lowest limb of zero. Behind the last entry there may be no memory, which ended a
+// reader of meshes by a signal where a table filled its pages.
 TEST_CASE("a zero of a table of integers has a limb of its own") {
   IntegerRows table(3);
   push_row(table, {Integer(0), Integer(7), Integer(0)});

@@ -99,7 +99,7 @@ class Room {
  public:
   Room(int width, int height, const std::function<bool()>& is_cell, const std::function<bool()>& is_wall)
       : width_(width), height_(height) {
-    const auto count = static_cast<std::size_t>(width * height);
+    const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     std::vector<bool> cells(count);
     for (std::size_t i = 0; i < count; ++i) cells[i] = is_cell();
     for (auto& closed : walls_) {

@@ -39,10 +39,7 @@ class ProjectedCorners {
 
   /// +1 if the corners i, j, k turn counterclockwise, 0 if they lie on one line, -1 else.
   [[nodiscard]] int turn(std::uint32_t i, std::uint32_t j, std::uint32_t k) const {
-    const Corner& a = corners_[i];
-    const Corner& b = corners_[j];
-    const Corner& c = corners_[k];
-    const double value = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
+    const double value = rough_turn(corners_[i], corners_[j], corners_[k]);
     if (value > bound_ || value < -bound_) {
       ++predicate_counts().filter;
       return value > 0 ? 1 : -1;
@@ -52,10 +49,7 @@ class ProjectedCorners {
 
   /// True if they turn counterclockwise.
   [[nodiscard]] bool turns_left(std::uint32_t i, std::uint32_t j, std::uint32_t k) const {
-    const Corner& a = corners_[i];
-    const Corner& b = corners_[j];
-    const Corner& c = corners_[k];
-    const double value = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
+    const double value = rough_turn(corners_[i], corners_[j], corners_[k]);
     if (value > bound_ || value < -bound_) {
       ++predicate_counts().filter;
       return value > 0;
@@ -91,7 +85,7 @@ class ProjectedCorners {
 
    private:
     [[nodiscard]] bool is_right_of(const Corner& from, const Corner& to, const Corner& p) const {
-      return (to.x - from.x) * (p.y - from.y) - (p.x - from.x) * (to.y - from.y) < -all_.bound_;
+      return rough_turn(from, to, p) < -all_.bound_;
     }
 
     const ProjectedCorners& all_;
@@ -116,6 +110,10 @@ class ProjectedCorners {
   }
 
  private:
+  // Twice the area of the triangle in doubles, off by at most bound_; positive where it turns counterclockwise.
+  [[nodiscard]] static double rough_turn(const Corner& a, const Corner& b, const Corner& c) {
+    return (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
+  }
   // Where the bound leaves it open. Not in the header, so that what calls for a turn stays short.
   [[nodiscard]] int unsure_turn(std::uint32_t i, std::uint32_t j, std::uint32_t k) const;
   [[nodiscard]] bool before_exact(const Corner& a, const Corner& b) const;

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <span>
 
 #include "nef/base/error.h"
 #include "nef/export/mesh_losses.h"
@@ -28,20 +28,14 @@ class Exporter {
   Exporter(const Complex& complex, const MeshExportOptions& options)
       : complex_(complex), options_(options), volumes_(complex.volume_count()) {}
 
-  void run() {
-    classify_volumes();
-    collect_facets();
-    if (boundary_.empty() && options_.lower_dimensional) collect_lower_dimensional();
-    number_vertices();
-    write_facets();
-    look_for_losses();
-    if (lower_dimensional_) count_open_borders();
-  }
-
   MeshExport exact() {
-    run();
-    faces_.vertices.reserve(vertices_.size());
-    for (const VertexId v : vertices_) faces_.vertices.push_back(complex_.points.rational(point_of(v)));
+    choose_vertices();
+    std::vector<std::array<double, 3>> doubles;
+    doubles.reserve(places_.size());
+    for (const PointId p : places_) doubles.push_back(complex_.points.approximate(p));
+    write(doubles);
+    faces_.vertices.reserve(places_.size());
+    for (const PointId p : places_) faces_.vertices.push_back(complex_.points.rational(p));
     MeshExport result;
     result.mesh = std::move(faces_);
     result.closed = !lower_dimensional_;
@@ -53,18 +47,10 @@ class Exporter {
   }
 
   RoundedMeshExport rounded() {
-    run();
+    choose_vertices();
     RoundedMeshExport result;
-    result.mesh.vertices.reserve(vertices_.size());
-    const PointTable& points = complex_.points;
-    const bool all_are_nearest = points.all_are_nearest();  // of those that are finite, as these are
-    PointTable::SmallReader reader(points);
-    std::array<std::int64_t, 7> h;
-    for (const VertexId v : vertices_) {
-      const PointId p = point_of(v);
-      const bool is_nearest = all_are_nearest || (reader.read(p, h) && are_doubles(h));
-      result.mesh.vertices.push_back(is_nearest ? points.approximate(p) : nearest_doubles(points, p));
-    }
+    result.mesh.vertices = nearest_to_places();
+    write(result.mesh.vertices);
     result.mesh.face_begin = std::move(faces_.face_begin);
     result.mesh.corners = std::move(faces_.corners);
     result.lost = losses_.lines();
@@ -78,6 +64,35 @@ class Exporter {
   }
   [[nodiscard]] bool finite(VertexId vertex) const {
     return !complex_.has_box() || complex_.points.finite(point_of(vertex));
+  }
+
+  // Chooses and numbers what the mesh has, up to its faces.
+  void choose_vertices() {
+    classify_volumes();
+    collect_facets();
+    if (boundary_.empty() && options_.lower_dimensional) collect_lower_dimensional();
+    number_vertices();
+  }
+
+  // `doubles`: near the vertices of the mesh.
+  void write(std::span<const std::array<double, 3>> doubles) {
+    write_facets(doubles);
+    look_for_losses();
+    if (lower_dimensional_) count_open_borders();
+  }
+
+  [[nodiscard]] std::vector<std::array<double, 3>> nearest_to_places() const {
+    std::vector<std::array<double, 3>> doubles;
+    doubles.reserve(places_.size());
+    const PointTable& points = complex_.points;
+    const bool all_are_nearest = points.all_are_nearest();  // of those that are finite, as these are
+    PointTable::SmallReader reader(points);
+    std::array<std::int64_t, 7> h;
+    for (const PointId p : places_) {
+      const bool is_nearest = all_are_nearest || (reader.read(p, h) && are_doubles(h));
+      doubles.push_back(is_nearest ? points.approximate(p) : nearest_doubles(points, p));
+    }
+    return doubles;
   }
 
   // A selected volume is unbounded if it is the outer one, or has a facet on an infimaximal box.
@@ -160,17 +175,19 @@ class Exporter {
     for (const VertexId v : points_) number_[v] = 0;
     corner_vertices_.reserve(complex_.corners.size());
     for (const FacetId f : boundary_) {
-      for (const SHalfedgeId corner : complex_.corners_of(f)) {
+      const std::span<const SHalfedgeId> corners = complex_.corners_of(f);
+      for (const SHalfedgeId corner : corners) {
         const VertexId v = complex_.shalfedge_vertex(corner);
         number_[v] = 0;
         corner_vertices_.push_back(v);
       }
+      if (!is_triangle(corners)) polygon_corners_ += corners.size();
     }
     for (const VertexId v : number_.ids()) {
       if (number_[v] == kUnused) continue;
       NEF_ASSERT(finite(v));
-      number_[v] = static_cast<std::uint32_t>(vertices_.size());
-      vertices_.push_back(v);
+      number_[v] = static_cast<std::uint32_t>(places_.size());
+      places_.push_back(point_of(v));
     }
   }
 
@@ -189,10 +206,10 @@ class Exporter {
   // A ring that meets itself is no polygon for most readers.
   bool may_stay_polygon(const std::vector<std::uint32_t>& ring) {
     if (options_.polygon_corner) {
-      passes_.resize(vertices_.size(), Answer::kUnknown);
+      passes_.resize(places_.size(), Answer::kUnknown);
       for (const std::uint32_t v : ring) {
         if (passes_[v] == Answer::kUnknown) {
-          const Rational3 corner = complex_.points.rational(point_of(vertices_[v]));
+          const Rational3 corner = complex_.points.rational(places_[v]);
           passes_[v] = options_.polygon_corner(corner) ? Answer::kYes : Answer::kNo;
         }
         if (passes_[v] == Answer::kNo) return false;
@@ -203,70 +220,39 @@ class Exporter {
     return std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end();
   }
 
-  // Facets that are no triangles: their vertices as a triangulator asks for them, in small integers where that is
-  // possible, and by numbers of their own.
-  class Polygons {
-   public:
-    explicit Polygons(const Exporter& exporter) : number_(exporter.vertices_.size(), kUnused) {
-      const VertexId* corners = exporter.corner_vertices_.data();
-      for (const FacetId f : exporter.boundary_) {
-        const std::size_t size = exporter.complex_.corners_of(f).size();
-        if (!exporter.is_triangle(exporter.complex_.facets[f])) {
-          for (std::size_t i = 0; i < size; ++i) number_[exporter.number_[corners[i]]] = 0;
+  // The points that a triangulator is asked about.
+  [[nodiscard]] MeshPoints points_of_polygons(std::span<const std::array<double, 3>> doubles) const {
+    if (polygon_corners_ == 0) return MeshPoints(PointTable());
+    std::vector<std::uint32_t> asked;  // all, unless these are much fewer
+    if (polygon_corners_ < places_.size() / 2) {
+      asked.reserve(polygon_corners_);
+      const VertexId* corners = corner_vertices_.data();
+      for (const FacetId f : boundary_) {
+        const std::span<const SHalfedgeId> of_facet = complex_.corners_of(f);
+        if (!is_triangle(of_facet)) {
+          for (std::size_t i = 0; i < of_facet.size(); ++i) asked.push_back(number_[corners[i]]);
         }
-        corners += size;
+        corners += of_facet.size();
       }
-      std::vector<PointId> points;
-      for (std::uint32_t v = 0; v < number_.size(); ++v) {
-        if (number_[v] == kUnused) continue;
-        number_[v] = static_cast<std::uint32_t>(vertex_.size());
-        vertex_.push_back(v);
-        points.push_back(point_of(exporter.vertices_[v]));
-      }
-      if (!points.empty()) triangulator_.emplace(points_.emplace(exporter.complex_.points, points));
     }
-
-    // Valid until the next call.
-    [[nodiscard]] std::span<const Triangulator::Triangle> triangulate(std::vector<std::uint32_t>& corners,
-                                                                      std::span<const std::uint32_t> ring_end,
-                                                                      const ProjectionAxis& projection) {
-      // Numbers are the same if all vertices take part.
-      const bool renumbered = vertex_.size() != number_.size();
-      for (std::size_t i = 0; renumbered && i < corners.size(); ++i) corners[i] = number_[corners[i]];
-      triangles_.clear();
-      const bool done = triangulator_->triangulate(corners, ring_end, projection.axis, projection.sign, triangles_);
-      NEF_ASSERT(done);
-      if (!renumbered) return triangles_;
-      for (Triangulator::Triangle& triangle : triangles_) {
-        for (std::uint32_t& v : triangle) v = vertex_[v];
-      }
-      return triangles_;
-    }
-
-    [[nodiscard]] bool strictly_convex(const std::vector<std::uint32_t>& ring, std::size_t axis) const {
-      const std::size_t n = ring.size();
-      const auto turn = [&](std::size_t i) {
-        return points_->orientation_along(number_[ring[(i + n - 1) % n]], number_[ring[i]], number_[ring[(i + 1) % n]],
-                                          axis);
-      };
-      const int first = turn(0);
-      for (std::size_t i = 1; i < n; ++i) {
-        if (turn(i) != first) return false;
-      }
-      return first != 0;
-    }
-
-   private:
-    std::vector<std::uint32_t> number_;  // of each vertex of the mesh
-    std::vector<std::uint32_t> vertex_;
-    std::optional<MeshPoints> points_;
-    std::optional<Triangulator> triangulator_;
-    std::vector<Triangulator::Triangle> triangles_;
-  };
-
-  [[nodiscard]] bool is_triangle(const Facet& facet) const {
-    return facet.cycle_count == 1 && complex_.corners_of(facet.first_cycle).size() == 3;
+    return MeshPoints(complex_.points, places_, doubles, asked);
   }
+
+  [[nodiscard]] static bool strictly_convex(const MeshPoints& points, const std::vector<std::uint32_t>& ring,
+                                            std::size_t axis) {
+    const std::size_t n = ring.size();
+    const auto turn = [&](std::size_t i) {
+      return points.orientation_along(ring[(i + n - 1) % n], ring[i], ring[(i + 1) % n], axis);
+    };
+    const int first = turn(0);
+    for (std::size_t i = 1; i < n; ++i) {
+      if (turn(i) != first) return false;
+    }
+    return first != 0;
+  }
+
+  // The outer cycle has three corners at least.
+  static bool is_triangle(std::span<const SHalfedgeId> corners) { return corners.size() == 3; }
 
   // As many as there are if none stays a polygon: a facet of n corners in c cycles is n + 2 c - 4 triangles.
   void reserve_faces() {
@@ -281,8 +267,9 @@ class Exporter {
     faces_.corners.reserve(options_.keep_polygons ? corner_vertices_.size() : 3 * count);
   }
 
-  void write_facets() {
-    Polygons polygons(*this);
+  void write_facets(std::span<const std::array<double, 3>> doubles) {
+    const MeshPoints points = points_of_polygons(doubles);
+    Triangulator triangulator(points);
     reserve_faces();
     const VertexId* corners = corner_vertices_.data();
     for (const FacetId f : boundary_) {
@@ -290,7 +277,7 @@ class Exporter {
       // Cycles turn counterclockwise as seen from above, which is outside if the solid lies below.
       const bool flip = volumes_[facet.volume_above].selected;
       note_marks(facet, flip);
-      if (is_triangle(facet)) {
+      if (is_triangle(complex_.corners_of(facet))) {
         const std::array<std::uint32_t, 3> v{number_[corners[0]], number_[corners[1]], number_[corners[2]]};
         corners += 3;
         push_triangle(v, flip);
@@ -300,12 +287,15 @@ class Exporter {
       corners += rings_.size();
       const ProjectionAxis projection = projection_axis(complex_.planes, facet.plane);
       if (options_.keep_polygons && ring_end_.size() == 1 &&
-          (!options_.only_convex || polygons.strictly_convex(rings_, projection.axis)) && may_stay_polygon(rings_)) {
+          (!options_.only_convex || strictly_convex(points, rings_, projection.axis)) && may_stay_polygon(rings_)) {
         if (flip) std::reverse(rings_.begin(), rings_.end());
         faces_.push_face(rings_);
         continue;
       }
-      push_triangles(polygons.triangulate(rings_, ring_end_, projection), flip);
+      triangles_.clear();
+      const bool done = triangulator.triangulate(rings_, ring_end_, projection.axis, projection.sign, triangles_);
+      NEF_ASSERT(done);
+      push_triangles(triangles_, flip);
     }
     fill_marks();
   }
@@ -458,16 +448,18 @@ class Exporter {
   IndexedVector<VolumeId, SeenVolumes> volumes_;
   std::vector<FacetId> boundary_;
   std::vector<VertexId> corner_vertices_;          // of the complex, of all corners of these
+  std::size_t polygon_corners_ = 0;                // those of facets that are no triangles
   IndexedVector<VertexId, std::uint32_t> number_;  // in the mesh, of each vertex
   std::vector<Answer> passes_;                     // of each vertex of the mesh: may it be a corner of a polygon?
   std::vector<std::array<VertexId, 2>> lines_;     // of the complex
   std::vector<VertexId> points_;
   bool lower_dimensional_ = false;
   MeshLosses losses_;
-  std::vector<std::uint32_t> rings_;     // of one facet, of vertices of the mesh
-  std::vector<std::uint32_t> ring_end_;  // and where in these each ring ends
-  std::vector<VertexId> vertices_;       // of the complex, of each vertex of the mesh
-  Mesh faces_;                           // its vertices come last
+  std::vector<std::uint32_t> rings_;               // of one facet, of vertices of the mesh
+  std::vector<std::uint32_t> ring_end_;            // and where in these each ring ends
+  std::vector<Triangulator::Triangle> triangles_;  // of one facet
+  std::vector<PointId> places_;                    // of each vertex of the mesh
+  Mesh faces_;                                     // its vertices come last
   std::vector<std::array<LabelId, 3>> face_marks_;
 };
 

@@ -18,13 +18,19 @@ double centre(const Box& box, std::size_t axis) {
 
 }  // namespace
 
-BoxTree::BoxTree(std::span<const Box> boxes) : order_(boxes.size()) {
+BoxTree::BoxTree(std::span<const Box> boxes, BoxSplit split) : order_(boxes.size()) {
   if (boxes.empty()) return;
   std::vector<std::array<double, 3>> centres(boxes.size());
   for (std::uint32_t i = 0; i < boxes.size(); ++i) {
     for (std::size_t axis = 0; axis < 3; ++axis) centres[i][axis] = centre(boxes[i], axis);
   }
-  std::vector<SpatialKey> keys = spatial_keys(centres);
+  std::vector<SpatialKey> keys;
+  if (split == BoxSplit::kCells) {
+    keys = spatial_keys(centres);
+  } else {  // all in one cell
+    keys.resize(boxes.size());
+    for (std::uint32_t i = 0; i < boxes.size(); ++i) keys[i].index = i;
+  }
   nodes_.reserve(boxes.size());
   nodes_.emplace_back();
   split_cells(0, 0, keys, centres);

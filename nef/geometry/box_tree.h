@@ -44,11 +44,16 @@ struct Box {
   }
 };
 
-/// Static tree over n boxes: O(n) to build as a rule, O(n log n) at most, O(log n + hits) expected for a query.
+/// How a BoxTree is made: into halves of a cube, which is soon done, or into halves of the boxes along the axis on which
+/// they spread most, which parts boxes better that overlap many others, or are flat, and pays where each of them is
+/// asked for.
+enum class BoxSplit : std::uint8_t { kCells, kMedians };
+
+/// Static tree over n boxes: by cells O(n) to build as a rule, O(n log n) at most, O(log n + hits) expected for a query.
 class BoxTree {
  public:
   BoxTree() = default;
-  explicit BoxTree(std::span<const Box> boxes);
+  explicit BoxTree(std::span<const Box> boxes, BoxSplit split = BoxSplit::kCells);
 
   /// Calls visit(index of box) for every box that overlaps `query`, in an order that depends
   /// only on the boxes.

@@ -87,7 +87,7 @@ void MeshFaces::number_points() {
 
 // A vertex with small integers for coordinates.
 PointId MeshFaces::push_small_point(std::uint32_t vertex) {
-  const std::array<std::int64_t, 3>& x = surface_.points.integers()[vertex];
+  const std::array<std::int64_t, 3> x = surface_.points.integers(vertex);
   std::int64_t common = surface_.points.denominator();
   for (const std::int64_t value : x) common = common_divisor(common, value);
   return points_.push_homogeneous(
@@ -145,11 +145,11 @@ void MeshFaces::push(std::span<const std::uint32_t> ring, PlaneId plane) {
 // N = D^2 n, the plane is N.(x D) = N.(a D). The factors of N are divided out first; what then remains between N D and
 // the offset is a divisor of D. As D and the integers x D are below 2^40 and N is below 2^61, nothing exceeds 2^103.
 std::optional<PlaneId> MeshFaces::plane_of_small_triangle(std::span<const std::uint32_t> t) {
-  const auto integers = surface_.points.integers();
-  if (integers.empty()) return std::nullopt;
-  const std::array<std::int64_t, 3>& a = integers[vertex_of_[t[0]]];
-  const std::array<std::int64_t, 3>& b = integers[vertex_of_[t[1]]];
-  const std::array<std::int64_t, 3>& c = integers[vertex_of_[t[2]]];
+  const MeshPoints& points = surface_.points;
+  if (!points.are_integers()) return std::nullopt;
+  const std::array<std::int64_t, 3> a = points.integers(vertex_of_[t[0]]);
+  const std::array<std::int64_t, 3> b = points.integers(vertex_of_[t[1]]);
+  const std::array<std::int64_t, 3> c = points.integers(vertex_of_[t[2]]);
   std::array<std::int64_t, 3> u;
   std::array<std::int64_t, 3> v;
   constexpr std::int64_t kLimit = std::int64_t{1} << 30U;
@@ -168,7 +168,7 @@ std::optional<PlaneId> MeshFaces::plane_of_small_triangle(std::span<const std::u
     if (divisor != 1) n[i] /= divisor;
     offset -= static_cast<Int128>(n[i]) * a[i];
   }
-  const std::int64_t denominator = surface_.points.denominator();
+  const std::int64_t denominator = points.denominator();
   const std::int64_t common = common_divisor(denominator, offset);
   const Int128 factor = denominator / common;
   if (common != 1) offset /= common;

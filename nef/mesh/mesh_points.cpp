@@ -20,25 +20,35 @@ void assign(Integer& to, Int128 value) {
   if (value < 0) mpz_neg(to.get_mpz_t(), to.get_mpz_t());
 }
 
-}  // namespace
+// x, y, z, w where they are below 2^62.
+using Homogeneous = std::array<std::int64_t, 7>;
 
-// b - a along an axis, scaled by the positive product of their denominators. Below 2^125, as homogeneous coordinates
-// are below 2^62.
-Int128 MeshPoints::short_difference(std::uint32_t a, std::uint32_t b, std::size_t axis) const {
-  const auto& p = homogeneous_[a];
-  const auto& q = homogeneous_[b];
-  return static_cast<Int128>(q[axis]) * p[3] - static_cast<Int128>(p[axis]) * q[3];
+// b - a along an axis, scaled by the positive product of their denominators. Below 2^125.
+Int128 short_difference(const Homogeneous& a, const Homogeneous& b, std::size_t axis) {
+  return static_cast<Int128>(b[axis]) * a[3] - static_cast<Int128>(a[axis]) * b[3];
 }
+
+// Of a coordinate in lowest terms; kIntegerLimit if it is not below that.
+std::int64_t reduced_denominator(const PointTable& points, PointId point, std::size_t axis) {
+  const IntegerView w = points.coordinate(point, 3);
+  Integer reduced;
+  mpz_gcd(reduced.get_mpz_t(), points.coordinate(point, axis), w);
+  mpz_divexact(reduced.get_mpz_t(), w, reduced.get_mpz_t());
+  return mpz_cmp_ui(reduced.get_mpz_t(), kIntegerLimit) < 0 ? mpz_get_si(reduced.get_mpz_t()) : kIntegerLimit;
+}
+
+}  // namespace
 
 // b - a in homogeneous integers, scaled by the positive product of their denominators where these differ: the axes
 // from `first` on, as many as there is room for (of two, the second may be the first axis).
 void MeshPoints::difference(std::uint32_t a, std::uint32_t b, std::span<Integer> out, std::size_t first) const {
-  if (!homogeneous_.empty()) {
-    for (std::size_t k = 0; k < out.size(); ++k) assign(out[k], short_difference(a, b, (first + k) % 3));
+  if (Homogeneous from{}, to{};
+      source().small_coordinates(place(a), from) && source().small_coordinates(place(b), to)) {
+    for (std::size_t k = 0; k < out.size(); ++k) assign(out[k], short_difference(from, to, (first + k) % 3));
     return;
   }
-  const std::array<IntegerView, 4> p = table_.coordinates(PointId{a});
-  const std::array<IntegerView, 4> q = table_.coordinates(PointId{b});
+  const std::array<IntegerView, 4> p = source().coordinates(place(a));
+  const std::array<IntegerView, 4> q = source().coordinates(place(b));
   const bool same = mpz_cmp(p[3], q[3]) == 0;
   for (std::size_t k = 0; k < out.size(); ++k) {
     const std::size_t axis = (first + k) % 3;
@@ -84,163 +94,99 @@ class MeshPoints::PlaneThrough {
 };
 
 MeshPoints::MeshPoints(std::span<const Rational3> points) {
-  approximate_.reserve(points.size());
-  if (make_integers(points)) {
-    approximate_integers();
-    return;
+  own_.reserve(points.size());
+  if (!make_integers(points)) {
+    table_.reserve(points.size());
+    for (const Rational3& point : points) {
+      table_.push(point);
+      own_.push_back(table_.approximate(PointId{table_.size() - 1}));
+    }
   }
-  table_.reserve(points.size());
-  for (const Rational3& point : points) {
-    table_.push(point);
-    approximate_.push_back(table_.approximate(PointId{table_.size() - 1}));
-  }
-  find_margins(false);
+  approximate_ = own_;
+  find_margins({});
 }
 
 MeshPoints::MeshPoints(PointTable points) : table_(std::move(points)) {
-  approximate_.reserve(table_.size());
-  for (std::size_t i = 0; i < table_.size(); ++i) approximate_.push_back(table_.approximate(PointId{i}));
-  find_margins(false);
+  own_.reserve(table_.size());
+  for (std::size_t i = 0; i < table_.size(); ++i) own_.push_back(table_.approximate(PointId{i}));
+  approximate_ = own_;
+  find_margins({});
 }
 
-MeshPoints::MeshPoints(const PointTable& points, std::span<const PointId> chosen) {
-  approximate_.reserve(chosen.size());
-  const bool is_short = read_homogeneous(points, chosen);
-  if (is_short ? make_integers_of_homogeneous() : make_integers(points, chosen)) {
-    homogeneous_.clear();
-    approximate_integers();
-    return;
+MeshPoints::MeshPoints(const PointTable& table, std::span<const PointId> places,
+                       std::span<const std::array<double, 3>> doubles, std::span<const std::uint32_t> asked)
+    : approximate_(doubles), other_table_(&table), places_(places) {
+  are_integers_ = find_denominator(asked) && scale_to_integers(asked);
+  if (!are_integers_) {
+    denominator_ = 1;
+    own_.clear();
+    approximate_ = doubles;
   }
-  for (const PointId p : chosen) approximate_.push_back(points.approximate(p));
-  find_margins(false);
-  if (is_short) return;
-  table_.reserve(chosen.size());
-  for (std::size_t i = 0; i < chosen.size();) {
-    // Points that follow each other are copied at once.
-    std::size_t count = 1;
-    while (i + count < chosen.size() && chosen[i + count].index() == chosen[i].index() + count) ++count;
-    table_.append(points, chosen[i].index(), count);
-    i += count;
+  find_margins(asked);
+}
+
+// False if the common denominator becomes too large with one more.
+bool MeshPoints::enlarge_denominator(std::int64_t more) {
+  const std::int64_t missing = more / common_divisor(more, denominator_);
+  if (missing >= kIntegerLimit || static_cast<Int128>(denominator_) * missing >= kIntegerLimit) return false;
+  denominator_ *= missing;
+  return true;
+}
+
+// The least common denominator. Most points have the denominator of the one before, or one that divides what is known
+// of the common one; else the quotients are taken to lowest terms.
+bool MeshPoints::find_denominator(std::span<const std::uint32_t> asked) {
+  PointTable::SmallReader reader(*other_table_);
+  const std::size_t count = asked.empty() ? places_.size() : asked.size();
+  std::int64_t last = 1;
+  for (std::size_t i = 0; i < count; ++i) {
+    const PointId place = places_[asked.empty() ? i : asked[i]];
+    Homogeneous h;
+    if (!reader.read(place, h)) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (!enlarge_denominator(reduced_denominator(*other_table_, place, axis))) return false;
+      }
+      continue;
+    }
+    const std::int64_t w = h[3];
+    if (w == last) continue;
+    if (denominator_ % w == 0) {
+      last = w;
+      continue;
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::int64_t rest = h[axis] % w;
+      if (rest != 0 && !enlarge_denominator(w / common_divisor(w, rest))) return false;
+    }
+    // Others with the same denominator need not be multiples.
   }
+  return true;
+}
+
+// x D is an integer, and the double near x is off by 2^-51 of it at most: below 2^40, the product with D is off by less
+// than half, and one that is not is found to be too large.
+bool MeshPoints::scale_to_integers(std::span<const std::uint32_t> asked) {
+  const auto factor = static_cast<double>(denominator_);
+  const std::size_t count = asked.empty() ? places_.size() : asked.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t p = asked.empty() ? i : asked[i];
+    std::array<double, 3> scaled = approximate_[p];
+    for (double& x : scaled) {
+      x *= factor;
+      if (!(std::abs(x) < static_cast<double>(kIntegerLimit) - 1)) return false;
+      x = static_cast<double>(static_cast<std::int64_t>(x + (x < 0 ? -0.5 : 0.5)));
+    }
+    if (own_.empty()) {
+      if (scaled == approximate_[p]) continue;
+      own_.assign(approximate_.begin(), approximate_.end());
+      approximate_ = own_;
+    }
+    own_[p] = scaled;
+  }
+  return true;
 }
 
 // Below 2^40 every integer is a double.
-void MeshPoints::approximate_integers() {
-  for (const auto& p : integers_) {
-    approximate_.push_back({static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])});
-  }
-  find_margins(true);
-}
-
-bool MeshPoints::read_homogeneous(const PointTable& points, std::span<const PointId> chosen) {
-  homogeneous_.resize(chosen.size());
-  PointTable::SmallReader reader(points);
-  for (std::size_t i = 0; i < chosen.size(); ++i) {
-    std::array<std::int64_t, 7> h;
-    if (!reader.read(chosen[i], h)) {
-      homogeneous_.clear();
-      return false;
-    }
-    homogeneous_[i] = {h[0], h[1], h[2], h[3]};
-  }
-  return true;
-}
-
-// The common denominator grows where a coordinate is not a multiple of its inverse; what is there is scaled then, which
-// happens forty times at most.
-bool MeshPoints::enlarge_denominator(std::int64_t factor) {
-  if (factor >= kIntegerLimit || static_cast<Int128>(denominator_) * factor >= kIntegerLimit) return false;
-  denominator_ *= factor;
-  for (auto& point : integers_) {
-    for (std::int64_t& x : point) {
-      const Int128 larger = static_cast<Int128>(x) * factor;
-      if (larger >= kIntegerLimit || larger <= -kIntegerLimit) return false;
-      x = static_cast<std::int64_t>(larger);
-    }
-  }
-  return true;
-}
-
-bool MeshPoints::no_integers() {
-  integers_.clear();
-  denominator_ = 1;
-  return false;
-}
-
-// The common denominator first. Most points have the denominator of the one before, or one that divides what is known
-// of the common one; else the quotients are taken to lowest terms.
-bool MeshPoints::find_denominator() {
-  std::int64_t last = 1;
-  for (const auto& [x, y, z, w] : homogeneous_) {
-    if (w == last) continue;
-    if (denominator_ % w != 0) {
-      for (const std::int64_t numerator : {x, y, z}) {
-        const std::int64_t rest = numerator % w;
-        if (rest == 0) continue;
-        const std::int64_t reduced = w / common_divisor(w, rest);
-        const std::int64_t missing = reduced / common_divisor(reduced, denominator_);
-        if (missing >= kIntegerLimit || static_cast<Int128>(denominator_) * missing >= kIntegerLimit) return false;
-        denominator_ *= missing;
-      }
-      // Others with the same denominator need not be multiples.
-      continue;
-    }
-    last = w;
-  }
-  return true;
-}
-
-bool MeshPoints::make_integers_of_homogeneous() {
-  if (!find_denominator()) return no_integers();
-  integers_.resize(homogeneous_.size());
-  std::int64_t last = 0;
-  std::int64_t factor = 0;  // the common denominator over `last`; 0 if that is no integer
-  for (std::size_t i = 0; i < integers_.size(); ++i) {
-    const std::array<std::int64_t, 4>& from = homogeneous_[i];
-    const std::int64_t w = from[3];
-    if (w != last) factor = denominator_ % w == 0 ? denominator_ / w : 0;
-    last = w;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      // The quotient is an integer, as the common denominator is a multiple of the reduced one.
-      const Int128 product = static_cast<Int128>(from[axis]) * (factor != 0 ? factor : denominator_);
-      const Int128 scaled = factor != 0 ? product : product / w;
-      if (scaled >= kIntegerLimit || scaled <= -kIntegerLimit) return no_integers();
-      integers_[i][axis] = static_cast<std::int64_t>(scaled);
-    }
-  }
-  return true;
-}
-
-// The same for numbers of any size, in GMP.
-bool MeshPoints::make_integers(const PointTable& points, std::span<const PointId> chosen) {
-  Integer scaled;
-  Integer quotient;
-  Integer rest;
-  integers_.reserve(chosen.size());
-  for (const PointId p : chosen) {
-    const IntegerView w = points.coordinate(p, 3);
-    std::array<std::int64_t, 3>& point = integers_.emplace_back();
-    bool fits = true;
-    for (std::size_t axis = 0; fits && axis < 3; ++axis) {
-      const IntegerView x = points.coordinate(p, axis);
-      mpz_mul_ui(scaled.get_mpz_t(), x, static_cast<unsigned long>(denominator_));
-      mpz_tdiv_qr(quotient.get_mpz_t(), rest.get_mpz_t(), scaled.get_mpz_t(), w);
-      if (rest != 0) {
-        mpz_gcd(rest.get_mpz_t(), rest.get_mpz_t(), w);
-        mpz_divexact(rest.get_mpz_t(), w, rest.get_mpz_t());
-        fits = mpz_cmp_ui(rest.get_mpz_t(), kIntegerLimit) < 0 &&
-               enlarge_denominator(static_cast<std::int64_t>(mpz_get_ui(rest.get_mpz_t())));
-        mpz_mul(scaled.get_mpz_t(), scaled.get_mpz_t(), rest.get_mpz_t());
-        mpz_divexact(quotient.get_mpz_t(), scaled.get_mpz_t(), w);
-      }
-      fits = fits && mpz_cmpabs_ui(quotient.get_mpz_t(), kIntegerLimit) < 0;
-      if (fits) point[axis] = mpz_get_si(quotient.get_mpz_t());
-    }
-    if (!fits) return no_integers();
-  }
-  return true;
-}
-
 bool MeshPoints::make_integers(std::span<const Rational3> points) {
   std::int64_t denominator = 1;
   for (const Rational3& point : points) {
@@ -254,33 +200,39 @@ bool MeshPoints::make_integers(std::span<const Rational3> points) {
       denominator = static_cast<std::int64_t>(common);
     }
   }
-  denominator_ = denominator;
-  integers_.resize(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
+  for (const Rational3& point : points) {
+    std::array<double, 3>& to = own_.emplace_back();
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const Rational& x = points[i][axis];
+      const Rational& x = point[axis];
       bool fits = mpz_fits_slong_p(x.get_num_mpz_t()) != 0;
       if (fits) {
         const Int128 scaled = static_cast<Int128>(mpz_get_si(x.get_num_mpz_t())) *
                               (denominator / static_cast<std::int64_t>(mpz_get_ui(x.get_den_mpz_t())));
         fits = scaled < kIntegerLimit && scaled > -kIntegerLimit;
-        integers_[i][axis] = static_cast<std::int64_t>(scaled);
+        to[axis] = static_cast<double>(static_cast<std::int64_t>(scaled));
       }
-      if (!fits) return no_integers();
+      if (!fits) {
+        own_.clear();
+        return false;
+      }
     }
   }
+  denominator_ = denominator;
+  are_integers_ = true;
   return true;
 }
 
 // PointTable promises doubles within 2^-51 relative. Beyond 1e100 products of three may overflow: no filter then.
-void MeshPoints::find_margins(bool exact) {
+void MeshPoints::find_margins(std::span<const std::uint32_t> asked) {
   std::array<double, 3> largest{};
-  for (const auto& p : approximate_) {
+  const std::size_t count = asked.empty() ? approximate_.size() : asked.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::array<double, 3>& p = approximate_[asked.empty() ? i : asked[i]];
     for (std::size_t axis = 0; axis < 3; ++axis) largest[axis] = std::max(largest[axis], std::abs(p[axis]));
   }
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (!(largest[axis] < 1e100)) filter_ = false;
-    margin_[axis] = exact ? 0.0 : largest[axis] * 0x1p-50 + 1e-290;
+    margin_[axis] = are_integers_ ? 0.0 : largest[axis] * 0x1p-50 + 1e-290;
   }
 }
 
@@ -331,12 +283,12 @@ int MeshPoints::orientation(std::uint32_t a, std::uint32_t b, std::uint32_t c, s
 }
 
 int MeshPoints::orientation_exact(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const {
-  if (!integers_.empty()) {
+  if (are_integers_) {
+    const std::array<std::int64_t, 3> origin = integers(a);
+    const std::array<std::array<std::int64_t, 3>, 3> to{integers(b), integers(c), integers(d)};
     std::array<std::array<Int128, 3>, 3> m;
     for (std::size_t i = 0; i < 3; ++i) {
-      m[0][i] = integers_[b][i] - integers_[a][i];
-      m[1][i] = integers_[c][i] - integers_[a][i];
-      m[2][i] = integers_[d][i] - integers_[a][i];
+      for (std::size_t k = 0; k < 3; ++k) m[k][i] = to[k][i] - origin[i];
     }
     return sign_of(m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) +
                    m[0][1] * (m[1][2] * m[2][0] - m[1][0] * m[2][2]) +
@@ -350,7 +302,7 @@ bool MeshPoints::coplanar(std::uint32_t a, std::uint32_t b, std::uint32_t c,
   std::optional<PlaneThrough> plane;
   for (const std::uint32_t p : others) {
     if (determinant(a, b, c, p).sign()) return false;  // never 0: a determinant has an error
-    if (!integers_.empty()) {
+    if (are_integers_) {
       if (orientation_exact(a, b, c, p) != 0) return false;
       continue;
     }
@@ -395,15 +347,16 @@ std::array<std::int8_t, 3> MeshPoints::filtered_turns(std::uint32_t a, std::uint
 int MeshPoints::orientation_along_exact(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::size_t axis) const {
   const std::size_t i = axis == 2 ? 0 : axis + 1;
   const std::size_t j = i == 2 ? 0 : i + 1;
-  if (!integers_.empty()) {
-    const auto& p = integers_[a];
-    const auto& q = integers_[b];
-    const auto& r = integers_[c];
+  if (are_integers_) {
+    const std::array<std::int64_t, 3> p = integers(a);
+    const std::array<std::int64_t, 3> q = integers(b);
+    const std::array<std::int64_t, 3> r = integers(c);
     return sign_of(static_cast<Int128>(q[i] - p[i]) * (r[j] - p[j]) - static_cast<Int128>(r[i] - p[i]) * (q[j] - p[j]));
   }
-  if (!homogeneous_.empty()) {
-    return compare_products(short_difference(a, b, i), short_difference(a, c, j), short_difference(a, c, i),
-                            short_difference(a, b, j));
+  if (Homogeneous p{}, q{}, r{}; source().small_coordinates(place(a), p) && source().small_coordinates(place(b), q) &&
+                                 source().small_coordinates(place(c), r)) {
+    return compare_products(short_difference(p, q, i), short_difference(p, r, j), short_difference(p, r, i),
+                            short_difference(p, q, j));
   }
   std::array<Integer, 2> u;
   std::array<Integer, 2> v;
@@ -445,13 +398,16 @@ int MeshPoints::compare(std::uint32_t a, std::uint32_t b, std::size_t axis) cons
   const double gap = approximate_[a][axis] - approximate_[b][axis];
   // The margins are far above the rounding of this difference unless they are zero, when the doubles are exact.
   if (filter_ && std::abs(gap) > 4 * margin_[axis]) return gap > 0 ? 1 : -1;
-  if (!integers_.empty()) {
-    return (integers_[a][axis] > integers_[b][axis]) - (integers_[a][axis] < integers_[b][axis]);
+  return are_integers_ ? 0 : compare_exact(a, b, axis);
+}
+
+int MeshPoints::compare_exact(std::uint32_t a, std::uint32_t b, std::size_t axis) const {
+  if (Homogeneous p{}, q{}; source().small_coordinates(place(a), p) && source().small_coordinates(place(b), q)) {
+    return sign_of(short_difference(q, p, axis));
   }
-  if (!homogeneous_.empty()) return sign_of(short_difference(b, a, axis));
-  Integer gap_along;
-  difference(b, a, std::span(&gap_along, 1), axis);
-  return sgn(gap_along);
+  Integer gap;
+  difference(b, a, std::span(&gap, 1), axis);
+  return sgn(gap);
 }
 
 int MeshPoints::compare(std::uint32_t a, std::uint32_t b) const {

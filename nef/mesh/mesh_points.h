@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Exact predicates on the points of a mesh, by index: a double filter, then integers of two words where a
-// small common denominator exists (decimal files) or homogeneous coordinates are below 2^62, then GMP.
+// Exact predicates on the points of a mesh, by index: a double filter, which is exact where a small common denominator
+// exists (decimal files), then integers of two words where homogeneous coordinates are below 2^62, then GMP.
 #pragma once
 
 #include <array>
@@ -24,9 +24,18 @@ class MeshPoints {
   explicit MeshPoints(std::span<const Rational3> points);
   /// The same for points that a table holds; all must be finite.
   explicit MeshPoints(PointTable points);
-  /// The same for some points of a table, which must be finite; they get numbers in this order. Small
-  /// integers are read without GMP.
-  MeshPoints(const PointTable& points, std::span<const PointId> chosen);
+  /// Some finite points of a table, in an order of their own: `places`. `doubles` are their coordinates, each within
+  /// 2^-51 relative of the truth. Only the points `asked` (all if there are none) may be asked about, and cost
+  /// O(1) each. The table, `places` and `doubles` must outlive these points and not
+  /// change.
+  MeshPoints(const PointTable& table, std::span<const PointId> places, std::span<const std::array<double, 3>> doubles,
+             std::span<const std::uint32_t> asked);
+
+  MeshPoints(MeshPoints&&) = default;
+  MeshPoints& operator=(MeshPoints&&) = default;
+  MeshPoints(const MeshPoints&) = delete;
+  MeshPoints& operator=(const MeshPoints&) = delete;
+  ~MeshPoints() = default;
 
   [[nodiscard]] std::size_t size() const { return approximate_.size(); }
 
@@ -61,17 +70,23 @@ class MeshPoints {
   /// Lexicographic comparison.
   [[nodiscard]] int compare(std::uint32_t a, std::uint32_t b) const;
 
-  /// The integers x D, y D, z D of a point for one denominator D of all points, where these are below 2^40; empty if
-  /// they are not.
-  [[nodiscard]] std::span<const std::array<std::int64_t, 3>> integers() const { return integers_; }
+  /// True if there is one denominator D of all points such that the integers x D, y D, z D are below 2^40.
+  [[nodiscard]] bool are_integers() const { return are_integers_; }
+  /// These integers of a point, where there are such.
+  [[nodiscard]] std::array<std::int64_t, 3> integers(std::uint32_t p) const {
+    const std::array<double, 3>& x = approximate_[p];
+    return {static_cast<std::int64_t>(x[0]), static_cast<std::int64_t>(x[1]), static_cast<std::int64_t>(x[2])};
+  }
   [[nodiscard]] std::int64_t denominator() const { return denominator_; }
 
-  /// The points as a table with the same numbers, where there are no small integers; empty if there are, and for chosen
-  /// points of another table.
+  /// The points as a table with the same numbers, where there are no small integers; empty if there are, and for points
+  /// of another table.
   [[nodiscard]] const PointTable& table() const { return table_; }
 
-  /// Coordinates in a space that is scaled by one positive factor, each within margin(axis) of the truth.
+  /// Coordinates in a space that is scaled by one positive factor, each within margin(axis) of the truth: exactly the
+  /// integers, with a margin of 0, where there are such.
   [[nodiscard]] const std::array<double, 3>& approximate(std::uint32_t p) const { return approximate_[p]; }
+  [[nodiscard]] std::span<const std::array<double, 3>> approximate() const { return approximate_; }
   [[nodiscard]] double margin(std::size_t axis) const { return margin_[axis]; }
 
   /// True if these are below 1e100, so that products of three do not overflow.
@@ -84,26 +99,26 @@ class MeshPoints {
   class PlaneThrough;
 
   bool make_integers(std::span<const Rational3> points);
-  bool make_integers(const PointTable& points, std::span<const PointId> chosen);
-  bool read_homogeneous(const PointTable& points, std::span<const PointId> chosen);
-  bool find_denominator();
-  bool make_integers_of_homogeneous();
-  bool enlarge_denominator(std::int64_t factor);
-  bool no_integers();
-  void approximate_integers();
-  void find_margins(bool exact);
-  [[nodiscard]] Int128 short_difference(std::uint32_t a, std::uint32_t b, std::size_t axis) const;
+  bool enlarge_denominator(std::int64_t more);
+  bool find_denominator(std::span<const std::uint32_t> asked);
+  bool scale_to_integers(std::span<const std::uint32_t> asked);
+  void find_margins(std::span<const std::uint32_t> asked);
+  [[nodiscard]] const PointTable& source() const { return other_table_ != nullptr ? *other_table_ : table_; }
+  [[nodiscard]] PointId place(std::uint32_t p) const { return other_table_ != nullptr ? places_[p] : PointId{p}; }
   void difference(std::uint32_t a, std::uint32_t b, std::span<Integer> out, std::size_t first = 0) const;
   [[nodiscard]] int orientation_exact(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const;
   // Of (b - a) x (c - a), in the scaled space. Nothing if the points are not moderate.
   [[nodiscard]] Approximation component(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::size_t axis) const;
   [[nodiscard]] int orientation_along_exact(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::size_t axis) const;
+  [[nodiscard]] int compare_exact(std::uint32_t a, std::uint32_t b, std::size_t axis) const;
 
-  std::vector<std::array<double, 3>> approximate_;
+  std::vector<std::array<double, 3>> own_;  // empty where the doubles are another's
+  std::span<const std::array<double, 3>> approximate_;
+  bool are_integers_ = false;  // what approximate_ holds
   std::int64_t denominator_ = 1;
-  std::vector<std::array<std::int64_t, 3>> integers_;     // scaled coordinates below 2^40; empty if there are none
-  std::vector<std::array<std::int64_t, 4>> homogeneous_;  // below 2^62, if there are none and all are such
-  PointTable table_;                                      // filled only where these are not
+  PointTable table_;                         // filled only where these are not, and no other table is
+  const PointTable* other_table_ = nullptr;  // and the points there
+  std::span<const PointId> places_;
   std::array<double, 3> margin_{};
   bool filter_ = true;
 };

@@ -87,10 +87,10 @@ std::vector<std::uint32_t> merge_equal(std::span<const Rational3> points) {
       [points](std::uint32_t i, std::uint32_t j) { return points[i] == points[j]; });
 }
 
-std::vector<std::uint32_t> merge_equal(std::span<const std::array<std::int64_t, 3>> points) {
+std::vector<std::uint32_t> merge_equal(std::span<const std::array<double, 3>> points) {
   const auto hash = [points](std::uint32_t i) {
     std::uint64_t result = 0;
-    for (const std::int64_t x : points[i]) result = mix(result, static_cast<std::uint64_t>(x));
+    for (const double x : points[i]) result = mix(result, static_cast<std::uint64_t>(static_cast<std::int64_t>(x)));
     return result;
   };
   return first_equal(points.size(), hash,

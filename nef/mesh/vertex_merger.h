@@ -3,6 +3,7 @@
 // One index for each exact point.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -31,7 +32,7 @@ class VertexMerger {
 
 /// For each point the smallest index of a point with the same coordinates. Expected O(n).
 std::vector<std::uint32_t> merge_equal(std::span<const Rational3> points);
-/// The same for points with integers for coordinates.
-std::vector<std::uint32_t> merge_equal(std::span<const std::array<std::int64_t, 3>> points);
+/// The same for points with integers for coordinates, in doubles.
+std::vector<std::uint32_t> merge_equal(std::span<const std::array<double, 3>> points);
 
 }  // namespace nef

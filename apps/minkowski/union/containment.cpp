@@ -12,7 +12,7 @@ std::vector<std::uint8_t> held_by_others(std::span<const ConvexCell> cells) {
   // A cell strictly inside another one is smaller, so there are no cycles: every cell that is
   // dropped lies in one that is kept.
   std::vector<std::uint8_t> held(cells.size(), 0);
-  const BoxTree tree(rounded.boxes());
+  const BoxTree tree(rounded.boxes(), BoxSplit::kMedians);
   for (std::uint32_t i = 0; i < cells.size(); ++i) {
     const auto around = [&](const Box& box) { return box_holds(box, rounded.box(i)); };
     tree.for_each_if(around, [&](std::uint32_t j) {

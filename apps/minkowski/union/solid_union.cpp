@@ -32,12 +32,12 @@ class SolidUnion {
   SolidUnion(std::span<const ConvexCell> cells, const RoundedCells& rounded, const SolidUnionOptions& options)
       : cells_(cells),
         rounded_(rounded),
-        boxes_(rounded.boxes()),
+        boxes_(rounded.boxes(), BoxSplit::kMedians),
         vertices_(cells, rounded, boxes_),
         exact_(vertices_.exact()),
         cutter_(rounded, exact_),
         visible_(visible_faces(cells, rounded, boxes_, exact_, options.threads)),
-        tree_(visible_.boxes),
+        tree_(visible_.boxes, BoxSplit::kMedians),
         budget_(options.budget),
         poll_(options.poll) {
     for (std::uint32_t c = 0; c < rounded.size(); ++c) apart_.push_back(rounded.first_face(c));

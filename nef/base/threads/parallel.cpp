@@ -13,7 +13,6 @@
 
 #ifdef NEF_THREAD_SANITIZER
 #include <thread>
-#include <vector>
 #else
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
@@ -25,6 +24,7 @@
 #include <limits>
 #include <mutex>
 #include <utility>
+#include <vector>
 
 #include "nef/base/interruption.h"
 #include "nef/base/timing/predicate_counts.h"
@@ -33,23 +33,16 @@ namespace nef {
 
 namespace {
 
-/// Books what is counted on this thread, until its end, on a sum; also if an exception ends it.
+/// Books what is counted on this thread, until its end, on a sum of its own; also if an exception ends it.
 class Booking {
  public:
-  Booking(PredicateCounts& sum, std::mutex& mutex) : sum_(sum), mutex_(mutex), saved_(predicate_counts()) {
-    predicate_counts() = {};
-  }
-  ~Booking() {
-    const std::scoped_lock lock(mutex_);
-    sum_ += predicate_counts();
-    predicate_counts() = saved_;
-  }
+  explicit Booking(PredicateCounts& sum) : sum_(sum), saved_(std::exchange(predicate_counts(), {})) {}
+  ~Booking() { sum_ = std::exchange(predicate_counts(), saved_); }
   Booking(const Booking&) = delete;
   Booking& operator=(const Booking&) = delete;
 
  private:
   PredicateCounts& sum_;
-  std::mutex& mutex_;
   PredicateCounts saved_;
 };
 
@@ -125,10 +118,9 @@ void parallel_for(std::size_t count, unsigned threads, const std::function<void(
     }
     return;
   }
-  // Every call is booked on the sum, wherever it runs, the caller's thread included; the sum goes to the caller, also
-  // if a call throws.
-  PredicateCounts sum;
-  std::mutex mutex;
+  // Every call is booked on a sum of its own, wherever it runs, the caller's thread included; all go to the caller,
+  // also if a call throws.
+  std::vector<PredicateCounts> sums(count);
   FirstFailure failure;
   const std::atomic<bool>* const stop = Interruptible::current();
   run_on_threads(count, threads, [&](std::size_t i) {
@@ -136,13 +128,13 @@ void parallel_for(std::size_t count, unsigned threads, const std::function<void(
     try {
       const Interruptible interruptible(stop);
       check_interruption();
-      const Booking booking(sum, mutex);
+      const Booking booking(sums[i]);
       body(i);
     } catch (...) {
       failure.record(i, std::current_exception());
     }
   });
-  predicate_counts() += sum;
+  for (const PredicateCounts& sum : sums) predicate_counts() += sum;
   failure.rethrow();
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "nef/mesh/mesh_points.h"
+#include "nef/mesh/polygon/ear_clipping.h"
 #include "nef/mesh/polygon/projected_corners.h"
 #include "nef/mesh/polygon/sweep_triangulation.h"
 
@@ -48,55 +49,24 @@ class Triangulator {
   bool triangulate(std::span<const std::vector<std::uint32_t>> rings, std::size_t axis, int sign,
                    std::vector<Triangle>& out);
 
-  /// The same for a single ring that may be no polygon. Corners are cut off one after another, which finds a polygon in
-  /// more rings: corners may lie inside of edges, from within. O(n) for convex polygons; with r corners that are
-  /// not convex, each ear is compared with those of them that lie beside it along a coordinate axis: O(n r) at worst,
-  /// with about a nanosecond a step.
+  /// The same for a single ring that may be no polygon. Corners are cut off one after another (EarClipper), which finds
+  /// a polygon in more rings: corners may lie inside of edges, from within. O(n) for convex polygons, O(n^2) at worst.
   bool triangulate(std::span<const std::uint32_t> ring, std::size_t axis, int sign, std::vector<Triangle>& out);
 
   /// The same for a ring that is strictly convex (in some projection), which is not asked again. O(n).
   void cut_convex(std::span<const std::uint32_t> ring, std::vector<Triangle>& out);
 
  private:
-  struct Node {
-    std::uint32_t prev = 0;
-    std::uint32_t next = 0;
-    bool blunt = false;  // not strictly convex
-  };
-
   void push(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::vector<Triangle>& out) const {
     out.push_back({projected_.point(a), projected_.point(b), projected_.point(c)});
   }
-  void link_corners();
-  [[nodiscard]] bool is_blunt(std::uint32_t node) const;
   [[nodiscard]] bool goes_around_once() const;
   [[nodiscard]] bool is_convex() const;
   bool cut_four(std::vector<Triangle>& out) const;
-  bool clip_small(std::span<const std::uint32_t> corners, std::vector<Triangle>& out);
-  bool clip(std::vector<Triangle>& out);
-  // Where a corner that is not convex lies along an axis of the projection, and which node it is.
-  struct Place {
-    double at = 0;
-    double other = 0;  // along the other axis
-    std::uint32_t node = 0;
-  };
-  static constexpr std::size_t kFew = 16;    // corners that need no order
-  static constexpr std::size_t kSmall = 24;  // corners of a ring that loses its ears sooner than it is swept
-  // Corners that are not convex, in order along an axis; some may have become convex since.
-  using Row = std::vector<Place>;
-
-  [[nodiscard]] bool is_ear(std::uint32_t node) const;
-  void collect_blunt();
-  void sort_blunt();
-  void set_blunt(std::uint32_t node, bool blunt);
 
   ProjectedCorners projected_;
   SweepTriangulator sweep_;
-  std::vector<Node> nodes_;           // of each corner of a ring: what is left of it
-  std::vector<std::uint32_t> blunt_;  // nodes that may lie in an ear
-  std::array<Row, 2> rows_;           // those that were among them when they were last sorted
-  std::size_t sorted_ = 0;            // how many of blunt_ are in the rows
-  std::size_t stale_ = 0;             // and how many of those have become convex
+  EarClipper ears_;
   std::vector<std::uint32_t> corners_;
   std::vector<std::uint32_t> ring_end_;
   std::vector<std::uint32_t> queue_;

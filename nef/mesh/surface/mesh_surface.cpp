@@ -140,7 +140,7 @@ int ring_orientation(const MeshPoints& points, const std::vector<std::uint32_t>&
 
 MeshSurface::MeshSurface(const Mesh& mesh)
     : points(mesh.vertices),
-      place(points.integers().empty() ? merge_equal(mesh.vertices) : merge_equal(points.integers())),
+      place(points.are_integers() ? merge_equal(points.approximate()) : merge_equal(mesh.vertices)),
       defects(mesh.face_count(), FaceDefect::kNone) {
   Triangulator triangulator(points);
   std::vector<std::uint32_t> ring;

@@ -13,6 +13,7 @@
 
 #include "bench/generators.h"
 #include "bench/report.h"
+#include "nef/base/freed_memory.h"
 
 namespace nef::bench {
 namespace {
@@ -141,6 +142,7 @@ Report run(const std::string& directory, int repeat) {
 }  // namespace nef::bench
 
 int main(int argc, char** argv) {
+  nef::keep_freed_memory();
   if (argc < 2) {
     std::fprintf(stderr, "usage: nef_bench_cgal CASE_DIRECTORY [REPEAT]\n");
     return 2;

@@ -14,6 +14,7 @@
 
 #include "bench/generators.h"
 #include "bench/report.h"
+#include "nef/base/freed_memory.h"
 
 namespace nef::bench {
 namespace {
@@ -85,6 +86,7 @@ Report run(const std::string& directory, int repeat) {
 }  // namespace nef::bench
 
 int main(int argc, char** argv) {
+  nef::keep_freed_memory();
   if (argc < 2) {
     std::fprintf(stderr, "usage: nef_bench_corefinement CASE_DIRECTORY [REPEAT]\n");
     return 2;

@@ -99,6 +99,7 @@ Report run(const std::string& directory, int repeat, unsigned threads) {
 }  // namespace nef::bench
 
 int main(int argc, char** argv) {
+  nef::keep_freed_memory();
   if (argc < 2) {
     std::fprintf(stderr, "usage: nef_bench_nef CASE_DIRECTORY [REPEAT [THREADS]]\n");
     return 2;

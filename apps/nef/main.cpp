@@ -3,9 +3,11 @@
 // The program `nef`, with Minkowski sums in its expressions.
 #include "apps/minkowski/minkowski.h"
 #include "apps/minkowski/morphology.h"
+#include "nef/base/freed_memory.h"
 #include "nef/command/run_command.h"
 
 int main(int argc, char** argv) {
+  nef::keep_freed_memory();
   nef::CommandExtensions extensions;
   extensions.minkowski = [](const nef::Polyhedron& a, const nef::Polyhedron& b) {
     return nef::minkowski::minkowski_sum(a, b);

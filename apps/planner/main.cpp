@@ -2,5 +2,9 @@
 //
 // The program `planner`. The work is in the library and in command/.
 #include "apps/planner/command/run.h"
+#include "nef/base/freed_memory.h"
 
-int main(int argc, char** argv) { return nef::planner::run_command(argc, argv); }
+int main(int argc, char** argv) {
+  nef::keep_freed_memory();
+  return nef::planner::run_command(argc, argv);
+}

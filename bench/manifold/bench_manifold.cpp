@@ -116,6 +116,7 @@ Report run(const std::string& directory, int repeat) {
 }  // namespace nef::bench
 
 int main(int argc, char** argv) {
+  nef::keep_freed_memory();
   if (argc < 2) {
     std::fprintf(stderr, "usage: nef_bench_manifold CASE_DIRECTORY [REPEAT]\n");
     return 2;

@@ -17,6 +17,7 @@
 #include "tests/support/minkowski_shapes.h"
 #ifdef NEF_BENCH_CGAL
 #include "bench/minkowski/cgal_peer.h"
+#include "nef/base/freed_memory.h"
 #include "nef/polyhedron.h"
 #endif
 
@@ -132,6 +133,7 @@ void run_decomposition(const std::string& name, const Mesh& mesh, const Settings
 }  // namespace
 
 int main(int argc, char** argv) {
+  nef::keep_freed_memory();
   CLI::App app("Minkowski sums beside CGAL's");
   Settings settings;
   std::vector<std::string> meshes;

@@ -22,6 +22,7 @@
 
 #include "bench/generators.h"
 #include "bench/report.h"
+#include "nef/base/freed_memory.h"
 #include "nef/base/threads/parallel.h"
 #include "nef/base/timing/stopwatch.h"
 #include "nef/io/native/native_binary.h"
@@ -325,6 +326,7 @@ void unite_tetrahedra(std::uint32_t count, const UnionBench& bench, const Tiling
 }  // namespace nef::bench
 
 int main(int argc, char** argv) {
+  nef::keep_freed_memory();
   const std::vector<std::string> words(argv + 1, argv + argc);
   if (words.empty()) {
     std::fprintf(stderr,

@@ -20,6 +20,7 @@
 #include "nef/program/report.h"
 #ifdef NEF_BENCH_CGAL
 #include "bench/visual_hull/cgal_peer.h"
+#include "nef/base/freed_memory.h"
 #endif
 
 namespace visual_hull::bench {
@@ -189,6 +190,7 @@ void run(const Settings& settings) {
 }  // namespace visual_hull::bench
 
 int main(int argc, char** argv) {
+  nef::keep_freed_memory();
   visual_hull::bench::Settings settings;
   bool no_growth = false;
   CLI::App app{"Times of the visual hull's intersection, beside CGAL where it is installed"};

@@ -142,12 +142,11 @@ PointId PointTable::push_reduced(const PointTable& other, PointId point) {
 }
 
 bool PointTable::is_reduced(PointId point, Integer& divisor) const {
-  const IntegerView w = coordinate(point, 3);
-  if (mpz_cmp_ui(static_cast<mpz_srcptr>(w), 1) == 0) {
+  if (rows_.is_one(point.index(), 3)) {
     divisor = 1;
     return true;
   }
-  mpz_set(divisor.get_mpz_t(), w);
+  mpz_set(divisor.get_mpz_t(), coordinate(point, 3));
   for (std::size_t i = 0; i < 7 && divisor != 1; ++i) {
     mpz_gcd(divisor.get_mpz_t(), divisor.get_mpz_t(), coordinate(point, i));
   }

@@ -114,6 +114,11 @@ class IntegerRows {
     return (size > 0) - (size < 0);
   }
 
+  [[nodiscard]] bool is_one(std::uint32_t row, std::size_t column) const {
+    const std::size_t i = row * width_ + column;
+    return size(i) == 1 && limbs_[begin_[row / kTogether] + limbs_between(first_together(row) * width_, i)] == 1;
+  }
+
   /// True if the integers of a row are doubles: at most 2^53 in magnitude.
   [[nodiscard]] bool are_doubles(std::uint32_t row) const;
   /// True if those of all rows are below 2^53; only one that is 2^53 itself could still be a double. A fraction of a

@@ -15,9 +15,6 @@ class PointNumbers {
   /// O(1).
   std::uint32_t number(const PointTable& from, PointId point);
 
-  /// The number of a point that is taken up without a look for it: number() must not be asked for it. O(1).
-  std::uint32_t add(const PointTable& from, PointId point) { return points_.push_from(from, point).index(); }
-
   [[nodiscard]] const PointTable& table() const { return points_; }
 
  private:

@@ -113,6 +113,10 @@ class SeamGlue {
     Polyhedron set;
     std::vector<std::uint32_t> rows;  // of its planes in the common table
   };
+  struct LeafVertex {
+    std::uint32_t leaf = 0;
+    VertexId vertex{0};
+  };
   // A seam vertex of a leaf.
   struct Member {
     std::uint32_t leaf = 0;
@@ -170,7 +174,7 @@ class SeamGlue {
 
   // Where the leaves on both sides of a cut have a cut edge with the same planes, that is one point, around which there
   // are no other leaves: the edge goes on, and the whole has no vertex there. The point gets a number, as an end of
-  // edges in the wall, without a look at its coordinates.
+  // edges in the wall, without a look at its coordinates: kStraight and its place in straight_.
   void number_straight_edges() {
     check_interruption();
     struct End {
@@ -204,11 +208,19 @@ class SeamGlue {
         if (k + 1U < begin[spot + 1U] && ends[k + 1U].planes == ends[k].planes) {
           SeamVertex& other = leaves_[ends[k + 1U].leaf].seam[ends[k + 1U].seam];
           one.straight = other.straight = true;
-          one.point = other.point = points_.add(leaf.set.complex().points, point_of(one.vertex));
+          one.point = other.point = kStraight | static_cast<std::uint32_t>(straight_.size());
+          straight_.push_back({ends[k].leaf, one.vertex});
           ++k;
         }
       }
     }
+  }
+
+  // Where the coordinates of a point of a seam are.
+  [[nodiscard]] TablePoint point(std::uint32_t number) const {
+    if ((number & kStraight) == 0) return {points_.table(), PointId{number}};
+    const LeafVertex& at = straight_[number & ~kStraight];
+    return {leaves_[at.leaf].set.complex().points, point_of(at.vertex)};
   }
 
   void number_points() {
@@ -252,9 +264,10 @@ class SeamGlue {
     parallel_for(spots_.size(), threads_, [&](std::size_t spot) {
       const PlaneId cut = spots_[spot].plane;
       if (!cut.valid()) return;
-      crossings[spot] = wall_crossings(planes_, cut, points_.table(),
-                                       std::span(edges).subspan(begin[spot], begin[spot + 1U] - begin[spot]),
-                                       [&](const WallEdge& edge) { return other_plane(cut, edge); });
+      crossings[spot] = wall_crossings(
+          planes_, cut, std::span(edges).subspan(begin[spot], begin[spot + 1U] - begin[spot]),
+          [this](std::uint32_t number) { return point(number); },
+          [&](const WallEdge& edge) { return other_plane(cut, edge); });
     });
     crossing_.assign(points_.table().size(), false);
     for (const std::vector<PlaneTriple>& some : crossings) {
@@ -429,15 +442,17 @@ class SeamGlue {
     SphereMapBuffer joined_, next_, result_;
   };
 
-  static constexpr std::size_t kTogether = 32;  // leaves of a task
+  static constexpr std::size_t kTogether = 32;             // leaves of a task
+  static constexpr std::uint32_t kStraight = 0x80000000U;  // in the number of a point where an edge goes on
 
   unsigned threads_;
   std::vector<Spot> spots_;
   std::vector<Leaf> leaves_;
   std::uint32_t root_ = 0;
   PlaneTable planes_;
-  PointNumbers points_;         // of seams
-  std::vector<bool> crossing_;  // of these: edges of tiles on both sides of a cut cross there
+  PointNumbers points_;               // of seams, where a vertex of the whole may be
+  std::vector<LeafVertex> straight_;  // one of each two where an edge goes on
+  std::vector<bool> crossing_;        // of these: edges of tiles on both sides of a cut cross there
   Complex of_seams_;
 };
 

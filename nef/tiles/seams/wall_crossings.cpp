@@ -35,32 +35,32 @@ std::array<std::vector<WallEdge>, 2> of_one_side(std::span<const WallEdge> edges
   return alone;
 }
 
-Box box_of(const WallEdge& edge, const PointTable& points) {
+Box box_of(const TablePoint& from, const TablePoint& to) {
   Box box;
-  for (const std::uint32_t point : edge.points) box.add_rounded(points.approximate(PointId{point}));
+  for (const TablePoint* point : {&from, &to}) box.add_rounded(point->table.approximate(point->id));
   return box;
 }
 
 }  // namespace
 
-std::vector<PlaneTriple> wall_crossings(const PlaneTable& planes, PlaneId cut, const PointTable& points,
-                                        std::span<const WallEdge> edges,
+std::vector<PlaneTriple> wall_crossings(const PlaneTable& planes, PlaneId cut, std::span<const WallEdge> edges,
+                                        const std::function<TablePoint(std::uint32_t)>& point,
                                         const std::function<PlaneId(const WallEdge&)>& other_plane) {
   std::vector<PlaneTriple> crossings;
   const auto [below, above] = of_one_side(edges);
   if (below.empty() || above.empty()) return crossings;
+  const auto side = [&](PlaneId plane, const TablePoint& at) { return side_of_plane(planes, plane, at.table, at.id); };
   const auto separates = [&](PlaneId plane, const WallEdge& edge) {
-    return side_of_plane(planes, plane, points, PointId{edge.points[0]}) *
-               side_of_plane(planes, plane, points, PointId{edge.points[1]}) <
-           0;
+    return side(plane, point(edge.points[0])) * side(plane, point(edge.points[1])) < 0;
   };
+  const auto box = [&](const WallEdge& edge) { return box_of(point(edge.points[0]), point(edge.points[1])); };
   std::vector<Box> boxes;
-  for (const WallEdge& edge : above) boxes.push_back(box_of(edge, points));
+  for (const WallEdge& edge : above) boxes.push_back(box(edge));
   std::vector<PlaneId> of_above(above.size());  // as they are asked for
   const BoxTree tree(boxes);
   for (const WallEdge& a : below) {
     PlaneId of_a;
-    tree.for_each_overlap(box_of(a, points), [&, &others = above](std::uint32_t i) {
+    tree.for_each_overlap(box(a), [&, &others = above](std::uint32_t i) {
       if (!of_a.valid()) of_a = other_plane(a);
       if (!separates(of_a, others[i])) return;
       if (!of_above[i].valid()) of_above[i] = other_plane(others[i]);

@@ -21,14 +21,21 @@ struct WallEdge {
   HalfedgeId halfedge{0};
 };
 
+/// A point of some table.
+struct TablePoint {
+  const PointTable& table;
+  PointId id;
+};
+
 /// The planes that meet in a point.
 using PlaneTriple = std::array<PlaneId, 3>;
 
 /// Where edges of tiles above a cut cross edges of tiles below it, in the interior of both. Edges that both sides have
-/// are left out: nothing of either side crosses them. `other_plane` gives a plane that holds an edge, other than that
-/// of the cut. O(n log n) expected for n edges that cross few others.
-std::vector<PlaneTriple> wall_crossings(const PlaneTable& planes, PlaneId cut, const PointTable& points,
-                                        std::span<const WallEdge> edges,
+/// are left out: nothing of either side crosses them, and their points are not asked for. `point` gives the place of
+/// one, `other_plane` a plane that holds an edge, other than that of the cut. O(n log n) expected for n edges that
+/// cross few others.
+std::vector<PlaneTriple> wall_crossings(const PlaneTable& planes, PlaneId cut, std::span<const WallEdge> edges,
+                                        const std::function<TablePoint(std::uint32_t)>& point,
                                         const std::function<PlaneId(const WallEdge&)>& other_plane);
 
 }  // namespace nef

@@ -19,9 +19,9 @@ inline void return_freed_memory() {
 }
 
 /// For a program, at its beginning: keeps up to 1 GiB of what is freed at the end of the heap, and takes arrays of less
-/// than 32 MiB from the heap, so that an operation finds what the one before it used, instead of having the system clear
-/// each page anew, which is a tenth of the time of an operation. For the whole process, so libraries do not call it;
-/// nothing happens with another C library.
+/// than 32 MiB from the heap, so that an operation finds what the one before it used, instead of having the system
+/// clear each page anew, which is a tenth of the time of an operation. For the whole process, so libraries do not call
+/// it; nothing happens with another C library.
 inline void keep_freed_memory() {
 #if defined(__GLIBC__)
   mallopt(M_TRIM_THRESHOLD, 1 << 30);

@@ -11,8 +11,9 @@ namespace {
 
 using IntegerRow = std::vector<Integer>;
 
-// Now and then a giant, of more limbs than a byte counts.
+// Now and then a giant, of more limbs than a byte counts, and now and then 1.
 Integer short_or_giant(std::mt19937& random, int giants_of_100) {
+  if (random() % 8 == 0) return 1;
   const bool giant = static_cast<int>(random() % 100) < giants_of_100;
   Integer value = 0;
   for (unsigned limbs = giant ? 120 + random() % 20 : random() % 4; limbs > 0; --limbs) {
@@ -37,7 +38,10 @@ bool holds_rows(const IntegerRows& table, const std::vector<IntegerRow>& rows) {
   if (table.size() != rows.size()) return false;
   for (std::uint32_t r = 0; r < rows.size(); ++r) {
     for (std::size_t i = 0; i < rows[r].size(); ++i) {
-      if (mpz_cmp(table.at(r, i), rows[r][i].get_mpz_t()) != 0 || table.sign(r, i) != sgn(rows[r][i])) return false;
+      if (mpz_cmp(table.at(r, i), rows[r][i].get_mpz_t()) != 0 || table.sign(r, i) != sgn(rows[r][i]) ||
+          table.is_one(r, i) != (rows[r][i] == 1)) {
+        return false;
+      }
     }
   }
   return true;

@@ -179,4 +179,49 @@ TEST_CASE("Chosen points of a table answer as the points themselves") {
   }));
 }
 
+TEST_CASE("Points that may not be asked about do not matter") {
+  CHECK(rc::check([] {
+    PointTable table;
+    std::vector<PointId> places;
+    std::vector<std::array<double, 3>> doubles;
+    std::vector<std::uint32_t> asked;
+    std::vector<Rational3> of_asked;
+    const Integer wide("1000000000000000000000007");
+    for (int i = *rc::gen::inRange(4, 12); i > 0; --i) {
+      const bool odd = *rc::gen::arbitrary<bool>();  // a denominator that no small integers allow for
+      std::array<Integer, 7> h;
+      for (std::size_t k = 0; k < 3; ++k) h[k] = *rc::gen::inRange(-5, 5);
+      h[3] = odd ? wide : Integer(*rc::gen::element(1, 2, 5));
+      Rational3 point;
+      for (std::size_t k = 0; k < 3; ++k) {
+        point[k] = Rational(h[k], h[3]);
+        point[k].canonicalize();
+      }
+      if (!odd) {
+        asked.push_back(static_cast<std::uint32_t>(places.size()));
+        of_asked.push_back(point);
+      }
+      places.push_back(table.push_homogeneous(h));
+      doubles.push_back(table.approximate(places.back()));
+    }
+    RC_PRE(!asked.empty());
+    const MeshPoints borrowed(table, places, doubles, asked);
+    const MeshPoints own{std::span<const Rational3>(of_asked)};
+    RC_ASSERT(borrowed.are_integers());
+    RC_ASSERT(borrowed.denominator() == own.denominator());
+    const auto count = static_cast<std::uint32_t>(asked.size());
+    for (std::uint32_t a = 0; a < count; ++a) {
+      RC_ASSERT(borrowed.integers(asked[a]) == own.integers(a));
+      for (std::uint32_t b = 0; b < count; ++b) {
+        const std::uint32_t c = (a + 2 * b + 1) % count;
+        RC_ASSERT(borrowed.compare(asked[a], asked[b]) == (of_asked[a] > of_asked[b]) - (of_asked[a] < of_asked[b]));
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          RC_ASSERT(borrowed.orientation_along(asked[a], asked[b], asked[c], axis) ==
+                    own.orientation_along(a, b, c, axis));
+        }
+      }
+    }
+  }));
+}
+
 }  // namespace nef::test

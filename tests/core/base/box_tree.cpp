@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/geometry/box_tree.h"
+
+#include <algorithm>
+#include <array>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <random>
+#include <utility>
+#include <vector>
+
+namespace nef::test {
+namespace {
+
+// Small integers, so that many boxes touch or lie in each other; some are flat, some are points, some reach to
+// infinity.
+std::vector<Box> random_boxes(std::mt19937& random, std::size_t count) {
+  std::vector<Box> boxes(count);
+  for (Box& box : boxes) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      box.low[axis] = static_cast<int>(random() % 20);
+      box.high[axis] = box.low[axis] + static_cast<int>(random() % 4);
+    }
+    if (random() % 16 == 0) box.high[random() % 3] = HUGE_VAL;
+    if (random() % 16 == 0) box.low[random() % 3] = -HUGE_VAL;
+  }
+  return boxes;
+}
+
+}  // namespace
+
+TEST_CASE("trees of boxes find what overlaps, however they are split") {
+  std::mt19937 random(7);
+  for (const std::size_t count : {0U, 1U, 4U, 5U, 40U, 300U}) {
+    std::vector<Box> boxes = random_boxes(random, count);
+    if (count == 40) std::fill(boxes.begin(), boxes.end(), boxes[0]);
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      for (std::uint32_t j = i + 1; j < count; ++j) {
+        if (boxes[i].overlaps(boxes[j])) pairs.emplace_back(i, j);
+      }
+    }
+    for (const BoxSplit split : {BoxSplit::kCells, BoxSplit::kMedians}) {
+      CAPTURE(count, static_cast<int>(split));
+      const BoxTree tree(boxes, split);
+      CHECK(tree.size() == count);
+      std::vector<std::pair<std::uint32_t, std::uint32_t>> found;
+      tree.for_each_pair([&](std::uint32_t i, std::uint32_t j) { found.emplace_back(i, j); });
+      std::sort(found.begin(), found.end());
+      CHECK(found == pairs);
+      for (const Box& query : random_boxes(random, 20)) {
+        std::vector<bool> hit(count, false);
+        tree.for_each_overlap(query, [&](std::uint32_t i) {
+          CHECK(!hit[i]);
+          hit[i] = true;
+        });
+        for (std::uint32_t i = 0; i < count; ++i) CHECK(hit[i] == boxes[i].overlaps(query));
+      }
+    }
+  }
+}
+
+}  // namespace nef::test

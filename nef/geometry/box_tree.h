@@ -44,12 +44,13 @@ struct Box {
   }
 };
 
-/// How a BoxTree is made: into halves of a cube, which is soon done, or into halves of the boxes along the axis on which
-/// they spread most, which parts boxes better that overlap many others, or are flat, and pays where each of them is
-/// asked for.
+/// How a BoxTree is made: into halves of a cube, which is soon done, or into halves of the boxes along the axis on
+/// which they spread most, which parts boxes better that overlap many others, or are flat, and pays where each of them
+/// is asked for.
 enum class BoxSplit : std::uint8_t { kCells, kMedians };
 
-/// Static tree over n boxes: by cells O(n) to build as a rule, O(n log n) at most, O(log n + hits) expected for a query.
+/// Static tree over n boxes: by cells O(n) to build as a rule, O(n log n) at most, O(log n + hits) expected for a
+/// query.
 class BoxTree {
  public:
   BoxTree() = default;

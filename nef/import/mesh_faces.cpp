@@ -74,10 +74,7 @@ void MeshFaces::number_points() {
   point_of_.resize(mesh_.vertices.size());
   points_.reserve(mesh_.vertices.size());
   const PointTable& known = surface_.points.table();
-  std::vector<std::array<double, 3>> places;
-  places.reserve(mesh_.vertices.size());
-  for (std::uint32_t v = 0; v < mesh_.vertices.size(); ++v) places.push_back(surface_.points.approximate(v));
-  for (const std::uint32_t v : spatial_order(places)) {
+  for (const std::uint32_t v : spatial_order(surface_.points.approximate())) {
     if (surface_.place[v] != v) continue;
     point_of_[v] = (known.size() > 0 ? points_.push_from(known, PointId{v}) : push_small_point(v)).index();
     vertex_of_.push_back(v);

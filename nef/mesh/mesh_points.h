@@ -26,8 +26,7 @@ class MeshPoints {
   explicit MeshPoints(PointTable points);
   /// Some finite points of a table, in an order of their own: `places`. `doubles` are their coordinates, each within
   /// 2^-51 relative of the truth. Only the points `asked` (all if there are none) may be asked about, and cost
-  /// O(1) each. The table, `places` and `doubles` must outlive these points and not
-  /// change.
+  /// O(1) each. The table, `places` and `doubles` must outlive these points and not change.
   MeshPoints(const PointTable& table, std::span<const PointId> places, std::span<const std::array<double, 3>> doubles,
              std::span<const std::uint32_t> asked);
 

@@ -116,7 +116,7 @@ std::uint32_t IntegerRows::push_from(const IntegerRows& other, std::uint32_t ind
   const auto result = static_cast<std::uint32_t>(size());
   const std::span<const mp_limb_t> limbs = other.limbs_of(index);
   begin_row(limbs.size());
-  limbs_.insert(limbs_.end(), limbs.begin(), limbs.end());
+  for (const mp_limb_t limb : limbs) limbs_.push_back(limb);  // few as a rule
   append_sizes(other, index * width_, (index + std::size_t{1}) * width_);
   end_row();
   return result;

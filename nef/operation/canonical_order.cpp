@@ -8,6 +8,7 @@
 #include "nef/base/interruption.h"
 #include "nef/base/threads/parallel.h"
 #include "nef/geometry/spatial_order.h"
+#include "nef/location/compare.h"
 #include "nef/operation/canonical_map.h"
 #include "nef/operation/canonical_ring.h"
 #include "nef/polyhedron.h"
@@ -52,11 +53,6 @@ class Canonical {
   }
 
  private:
-  struct Point {
-    const PointTable& table;
-    PointId id;
-  };
-
   [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(vertices_.size()); }
   [[nodiscard]] const Complex& complex(std::uint32_t i) const { return *parts_[vertices_[i].part].complex; }
   [[nodiscard]] SphereMapView map(std::uint32_t i) const { return complex(i).sphere_map(vertices_[i].vertex); }
@@ -80,9 +76,9 @@ class Canonical {
     const std::span<const std::uint32_t> rows = parts_[vertices_[i].part].rows;
     return rows.empty() ? plane : PlaneId{rows[plane.row()] << 1U | (plane.value & 1U)};
   }
-  [[nodiscard]] Point point(std::uint32_t i) const {
-    if (!reduced_at_.empty() && reduced_at_[i] != kNone) return {reduced_, PointId{reduced_at_[i]}};
-    return {complex(i).points, point_of(vertices_[i].vertex)};
+  [[nodiscard]] PointRef point(std::uint32_t i) const {
+    if (!reduced_at_.empty() && reduced_at_[i] != kNone) return {&reduced_, PointId{reduced_at_[i]}};
+    return {&complex(i).points, point_of(vertices_[i].vertex)};
   }
 
   // Calls body(first, last, chunk) for parts of all vertices, several at once; one thread has one part.
@@ -149,10 +145,10 @@ class Canonical {
   void put_in_order() {
     PointTable two;
     const std::vector<std::uint32_t> order = spatial_order(places_, [&](std::uint32_t a, std::uint32_t b) {
-      const Point p = point(a);
-      const Point q = point(b);
-      two.push_from(p.table, p.id);
-      two.push_from(q.table, q.id);
+      const PointRef p = point(a);
+      const PointRef q = point(b);
+      two.push_from(*p.table, p.id);
+      two.push_from(*q.table, q.id);
       const bool less = compare_lexicographic(two, PointId{0}, PointId{1}) < 0;
       two.pop();
       two.pop();
@@ -224,13 +220,13 @@ class Canonical {
     NEF_ASSERT(found == 2);
   }
 
-  std::uint32_t plane_through(const Point& point, Integer3& n) {
+  std::uint32_t plane_through(const PointRef& point, Integer3& n) {
     Integer offset;
     Integer at_infinity;
     for (std::size_t i = 0; i < 3; ++i) {
-      mpz_submul(offset.get_mpz_t(), n[i].get_mpz_t(), point.table.coordinate(point.id, i));
-      mpz_submul(at_infinity.get_mpz_t(), n[i].get_mpz_t(), point.table.coordinate(point.id, 4 + i));
-      mpz_mul(n[i].get_mpz_t(), n[i].get_mpz_t(), point.table.coordinate(point.id, 3));
+      mpz_submul(offset.get_mpz_t(), n[i].get_mpz_t(), point.coordinate(i));
+      mpz_submul(at_infinity.get_mpz_t(), n[i].get_mpz_t(), point.coordinate(4 + i));
+      mpz_mul(n[i].get_mpz_t(), n[i].get_mpz_t(), point.coordinate(3));
     }
     return planes_.intern(n[0], n[1], n[2], offset, at_infinity).row();
   }
@@ -316,11 +312,11 @@ class Canonical {
         const HalfedgeId at = part.so_far().vertices.back().svertices;
         const std::span<HalfedgeId> numbers = numbers_of(v.part);
         const std::uint32_t old = complex(i).vertices.svertices(v.vertex).index();
-        const Point p = point(i);
+        const PointRef p = point(i);
         const RingOfPattern* ring = this->ring(i);
         if (ring != nullptr && !rings.read(*ring, planes_of_pairs(i), rows_of(v.part))) ring = nullptr;
         if (const CanonicalRings::Written* like = ring == nullptr ? nullptr : rings.known()) {
-          part.append_like(p.table, p.id, like->vertex, rings.planes());
+          part.append_like(*p.table, p.id, like->vertex, rings.planes());
           if (numbers.empty()) continue;
           const std::span<const std::uint8_t> svertices = rings.svertices();
           for (std::size_t k = 0; k < svertices.size(); ++k) numbers[old + svertices[k]] = at + like->svertex[k];
@@ -328,7 +324,7 @@ class Canonical {
         }
         const auto line_end = std::find_if(line, lines_.end(), [i](const BareLine& l) { return l.place != i; });
         writer.set_rows(parts_[v.part].rows, rows_of(v.part));
-        part.append(p.table, p.id, writer.write(map(i), {line, line_end}));
+        part.append(*p.table, p.id, writer.write(map(i), {line, line_end}));
         if (ring != nullptr) rings.learn(VertexId{i - first}, writer.svertex_numbers());
         line = line_end;
         if (numbers.empty()) continue;

@@ -217,10 +217,10 @@ class SeamGlue {
   }
 
   // Where the coordinates of a point of a seam are.
-  [[nodiscard]] TablePoint point(std::uint32_t number) const {
-    if ((number & kStraight) == 0) return {points_.table(), PointId{number}};
+  [[nodiscard]] PointRef point(std::uint32_t number) const {
+    if ((number & kStraight) == 0) return {&points_.table(), PointId{number}};
     const LeafVertex& at = straight_[number & ~kStraight];
-    return {leaves_[at.leaf].set.complex().points, point_of(at.vertex)};
+    return {&leaves_[at.leaf].set.complex().points, point_of(at.vertex)};
   }
 
   void number_points() {

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "nef/geometry/box_tree.h"
-#include "nef/geometry/predicates.h"
 
 namespace nef {
 namespace {
@@ -35,23 +34,23 @@ std::array<std::vector<WallEdge>, 2> of_one_side(std::span<const WallEdge> edges
   return alone;
 }
 
-Box box_of(const TablePoint& from, const TablePoint& to) {
+Box box_of(const PointRef& from, const PointRef& to) {
   Box box;
-  for (const TablePoint* point : {&from, &to}) box.add_rounded(point->table.approximate(point->id));
+  for (const PointRef& point : {from, to}) box.add_rounded(point.approximate());
   return box;
 }
 
 }  // namespace
 
 std::vector<PlaneTriple> wall_crossings(const PlaneTable& planes, PlaneId cut, std::span<const WallEdge> edges,
-                                        const std::function<TablePoint(std::uint32_t)>& point,
+                                        const std::function<PointRef(std::uint32_t)>& point,
                                         const std::function<PlaneId(const WallEdge&)>& other_plane) {
   std::vector<PlaneTriple> crossings;
   const auto [below, above] = of_one_side(edges);
   if (below.empty() || above.empty()) return crossings;
-  const auto side = [&](PlaneId plane, const TablePoint& at) { return side_of_plane(planes, plane, at.table, at.id); };
   const auto separates = [&](PlaneId plane, const WallEdge& edge) {
-    return side(plane, point(edge.points[0])) * side(plane, point(edge.points[1])) < 0;
+    return side_of_plane(planes, plane, point(edge.points[0])) * side_of_plane(planes, plane, point(edge.points[1])) <
+           0;
   };
   const auto box = [&](const WallEdge& edge) { return box_of(point(edge.points[0]), point(edge.points[1])); };
   std::vector<Box> boxes;

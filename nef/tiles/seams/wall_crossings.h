@@ -9,7 +9,7 @@
 
 #include "nef/complex/ids.h"
 #include "nef/geometry/plane_table.h"
-#include "nef/geometry/point_table.h"
+#include "nef/location/compare.h"
 
 namespace nef {
 
@@ -21,12 +21,6 @@ struct WallEdge {
   HalfedgeId halfedge{0};
 };
 
-/// A point of some table.
-struct TablePoint {
-  const PointTable& table;
-  PointId id;
-};
-
 /// The planes that meet in a point.
 using PlaneTriple = std::array<PlaneId, 3>;
 
@@ -35,7 +29,7 @@ using PlaneTriple = std::array<PlaneId, 3>;
 /// one, `other_plane` a plane that holds an edge, other than that of the cut. O(n log n) expected for n edges that
 /// cross few others.
 std::vector<PlaneTriple> wall_crossings(const PlaneTable& planes, PlaneId cut, std::span<const WallEdge> edges,
-                                        const std::function<TablePoint(std::uint32_t)>& point,
+                                        const std::function<PointRef(std::uint32_t)>& point,
                                         const std::function<PlaneId(const WallEdge&)>& other_plane);
 
 }  // namespace nef

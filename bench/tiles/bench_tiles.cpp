@@ -78,17 +78,38 @@ class CubesOffSphere {
   std::mt19937_64 random_{1};
 };
 
+// Medians of the seconds to make a set of a mesh, to cut it into tiles, and to glue it again.
+struct ThereAndBack {
+  double build = 0;
+  double cutting = 0;
+  double gluing = 0;
+};
+
+// In turns: a system that gives a process memory for the first time takes longer, whoever asks for it.
+ThereAndBack there_and_back(const Mesh& mesh, int turns, const Tiling& tiling) {
+  std::array<std::vector<double>, 3> times;
+  for (int turn = 0; turn < turns; ++turn) {
+    Polyhedron plain;
+    TiledPolyhedron in_tiles;
+    Polyhedron glued;
+    times[0].push_back(seconds_of([&] { plain = from_mesh(mesh); }));
+    times[1].push_back(seconds_of([&] { in_tiles = TiledPolyhedron(plain, tiling); }));
+    times[2].push_back(seconds_of([&] { glued = in_tiles.polyhedron(); }));
+  }
+  return {median(times[0]), median(times[1]), median(times[2])};
+}
+
 // A sphere of one size and what is measured of it.
 class CubesRun {
  public:
-  CubesRun(int level, const Tiling& tiling) : source_(level) {
-    build_ = seconds_of([&] { plain_ = from_mesh(source_.sphere()); });
+  CubesRun(int level, const Tiling& tiling)
+      : source_(level), times_(there_and_back(source_.sphere(), kTurns, tiling)), plain_(from_mesh(source_.sphere())) {
     for (int i = 0; i < 2; ++i) {
       const Polyhedron cube = source_.next(kSize);
       plain_steps_.push_back(seconds_of([&] { static_cast<void>(subtract(plain_, cube)); }));
     }
     const std::size_t before = allocated();
-    cutting_ = seconds_of([&] { in_tiles_ = TiledPolyhedron(plain_, tiling); });
+    in_tiles_ = TiledPolyhedron(plain_, tiling);
     one_version_ = static_cast<double>(allocated() - before);
     versions_.push_back(in_tiles_);
   }
@@ -105,13 +126,12 @@ class CubesRun {
   // Returns the median of the steps.
   double report() {
     std::sort(steps_.begin(), steps_.end());
-    Polyhedron whole;
-    const double glue = seconds_of([&] { whole = in_tiles_.polyhedron(); });
-    const bool same = equal(whole, plain_);
+    const bool same = equal(in_tiles_.polyhedron(), plain_);
     std::printf(
         "%9zu triangles: from_mesh %.3f s, cutting %.2f of it, gluing %.2f; %zu tiles, %.2f times the vertices; cube: "
         "median %.3f ms, 95%% %.3f ms, plain %.2f ms; %.0f MB, with %zu versions %.2f times that; glued %s\n",
-        source_.sphere().face_count(), build_, cutting_ / build_, glue / build_, in_tiles_.tile_count(),
+        source_.sphere().face_count(), times_.build, times_.cutting / times_.build, times_.gluing / times_.build,
+        in_tiles_.tile_count(),
         static_cast<double>(in_tiles_.vertex_count()) / static_cast<double>(plain_.complex().vertex_count()),
         1e3 * steps_[steps_.size() / 2], 1e3 * steps_[steps_.size() * 95 / 100], 1e3 * median(plain_steps_),
         one_version_ / 1048576, steps_.size(), (one_version_ + other_versions_) / one_version_,
@@ -121,13 +141,15 @@ class CubesRun {
 
  private:
   static constexpr double kSize = 0.0005;
+  static constexpr int kTurns = 3;
 
   CubesOffSphere source_;
+  ThereAndBack times_;
   Polyhedron plain_;
   TiledPolyhedron in_tiles_;
   std::vector<TiledPolyhedron> versions_;
   std::vector<double> plain_steps_, steps_;
-  double build_ = 0, cutting_ = 0, one_version_ = 0, other_versions_ = 0;
+  double one_version_ = 0, other_versions_ = 0;
 };
 
 // Steps of all sizes in turn, a hundred at a time.
@@ -145,18 +167,10 @@ void cubes(const std::vector<int>& levels, const Tiling& tiling) {
 
 void cut_and_glue(int level, int turns, const Tiling& tiling) {
   const CubesOffSphere source(level);
-  std::array<std::vector<double>, 3> times;
-  for (int turn = 0; turn < turns; ++turn) {
-    Polyhedron plain;
-    TiledPolyhedron in_tiles;
-    Polyhedron glued;
-    times[0].push_back(seconds_of([&] { plain = from_mesh(source.sphere()); }));
-    times[1].push_back(seconds_of([&] { in_tiles = TiledPolyhedron(plain, tiling); }));
-    times[2].push_back(seconds_of([&] { glued = in_tiles.polyhedron(); }));
-  }
-  const double build = median(times[0]);
+  const ThereAndBack times = there_and_back(source.sphere(), turns, tiling);
   std::printf("%9zu triangles: from_mesh %.3f s, cutting %.2f of it, gluing %.2f (medians of %d)\n",
-              source.sphere().face_count(), build, median(times[1]) / build, median(times[2]) / build, turns);
+              source.sphere().face_count(), times.build, times.cutting / times.build, times.gluing / times.build,
+              turns);
 }
 
 // Boxes taken off and put back (every fifth one a symmetric difference), plain, in tiles, and in tiles where that pays.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "nef/base/error.h"
+#include "nef/base/monitor.h"
 #include "nef/operation/compact_marks.h"
 #include "nef/polyhedron.h"
 
@@ -41,7 +42,8 @@ class LabeledPolyhedron {
   /// labels that meet, maybe for others; the result keeps the labels that some point has.
   /// Cost as for a Boolean operation, and one comparison for each pair and label of the result.
   template <typename Function>
-  friend LabeledPolyhedron overlay(const LabeledPolyhedron& a, const LabeledPolyhedron& b, Function&& f) {
+  friend LabeledPolyhedron overlay(const LabeledPolyhedron& a, const LabeledPolyhedron& b, Function&& f,
+                                   const Monitor& monitor = {}) {
     std::vector<Label> labels;
     const auto intern = [&labels](Label label) {
       const auto at = std::find(labels.begin(), labels.end(), label);
@@ -50,13 +52,14 @@ class LabeledPolyhedron {
       if (index >= kOutside) throw UnsupportedError("more than 65535 different labels in one polyhedron");
       return static_cast<LabelId>(index);
     };
-    Polyhedron set = nef::overlay(a.set_, b.set_, [&](LabelId x, LabelId y) {
+    const auto combined = [&](LabelId x, LabelId y) {
       // Asked for labels up to the larger of 2 and those in use.
       const auto clamp = [](LabelId id, const std::vector<Label>& known) {
         return std::min<std::size_t>(id, known.size() - 1);
       };
       return intern(f(a.labels_[clamp(x, a.labels_)], b.labels_[clamp(y, b.labels_)]));
-    });
+    };
+    Polyhedron set = nef::overlay(a.set_, b.set_, combined, 1, monitor);
     // f may have been asked for pairs that meet nowhere, too.
     CompactMarks compact = compact_marks(set);
     std::vector<Label> in_use;
@@ -66,10 +69,11 @@ class LabeledPolyhedron {
 
   /// The set of points whose label satisfies the predicate.
   template <typename Predicate>
-  [[nodiscard]] Polyhedron where(Predicate&& predicate) const {
-    return nef::overlay(set_, Polyhedron(), [&](LabelId x, LabelId) {
+  [[nodiscard]] Polyhedron where(Predicate&& predicate, const Monitor& monitor = {}) const {
+    const auto satisfies = [&](LabelId x, LabelId) {
       return static_cast<LabelId>(x < labels_.size() && predicate(labels_[x]));
-    });
+    };
+    return nef::overlay(set_, Polyhedron(), satisfies, 1, monitor);
   }
 
  private:

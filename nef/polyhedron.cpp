@@ -13,7 +13,7 @@ namespace {
 
 Complex constant(LabelId mark) {
   PlaneTable none;
-  return ComplexBuilder(none).finish(mark);
+  return ComplexBuilder(none, {}).finish(mark);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/complex/complex.h"
 #include "nef/number/number.h"
 
@@ -54,35 +55,37 @@ class Polyhedron {
 
 // Boolean operations (thesis chapter 5): exact, total, O((n + k) log n) for n items and k
 // crossings on well-shaped input. On up to `threads` threads (0: as many as the machine has) where the sets are large
-// enough to gain by it; the result is the same, item for item, for any number of them.
-Polyhedron unite(const Polyhedron& a, const Polyhedron& b, unsigned threads = 1);
-Polyhedron intersect(const Polyhedron& a, const Polyhedron& b, unsigned threads = 1);
-Polyhedron subtract(const Polyhedron& a, const Polyhedron& b, unsigned threads = 1);
-Polyhedron symmetric_difference(const Polyhedron& a, const Polyhedron& b, unsigned threads = 1);
+// enough to gain by it; the result is the same, item for item, for any number of them. What may take long is given a
+// monitor: who stops it, is told how far it has come, and counts its predicates.
+Polyhedron unite(const Polyhedron& a, const Polyhedron& b, unsigned threads = 1, const Monitor& monitor = {});
+Polyhedron intersect(const Polyhedron& a, const Polyhedron& b, unsigned threads = 1, const Monitor& monitor = {});
+Polyhedron subtract(const Polyhedron& a, const Polyhedron& b, unsigned threads = 1, const Monitor& monitor = {});
+Polyhedron symmetric_difference(const Polyhedron& a, const Polyhedron& b, unsigned threads = 1,
+                                const Monitor& monitor = {});
 
 /// The union (intersection) of any number of sets: nothing (everything) for none. Pairs of sets are
 /// combined smallest first on up to `threads` threads (0: as many as the machine has).
-Polyhedron unite_all(std::span<const Polyhedron> sets, unsigned threads = 1);
-Polyhedron intersect_all(std::span<const Polyhedron> sets, unsigned threads = 1);
+Polyhedron unite_all(std::span<const Polyhedron> sets, unsigned threads = 1, const Monitor& monitor = {});
+Polyhedron intersect_all(std::span<const Polyhedron> sets, unsigned threads = 1, const Monitor& monitor = {});
 
 /// A \ B etc. for marks of any kind: the result is marked f(mark in a, mark in b) everywhere.
 /// f is asked once for each pair of labels that occur, maybe for others; InputError if it gives kOutside.
 /// With several threads f is called by any of them, one at a time.
 Polyhedron overlay(const Polyhedron& a, const Polyhedron& b, const std::function<LabelId(LabelId, LabelId)>& f,
-                   unsigned threads = 1);
+                   unsigned threads = 1, const Monitor& monitor = {});
 
 // Unary operations: O(n).
 Polyhedron complement(const Polyhedron& a);
-Polyhedron interior(const Polyhedron& a);
-Polyhedron closure(const Polyhedron& a);
-Polyhedron boundary(const Polyhedron& a);
+Polyhedron interior(const Polyhedron& a, const Monitor& monitor = {});
+Polyhedron closure(const Polyhedron& a, const Monitor& monitor = {});
+Polyhedron boundary(const Polyhedron& a, const Monitor& monitor = {});
 /// The interior of the complement.
-Polyhedron exterior(const Polyhedron& a);
+Polyhedron exterior(const Polyhedron& a, const Monitor& monitor = {});
 /// The closure of the interior.
-Polyhedron regularize(const Polyhedron& a);
+Polyhedron regularize(const Polyhedron& a, const Monitor& monitor = {});
 
 /// True if the two are the same set.
-bool equal(const Polyhedron& a, const Polyhedron& b);
+bool equal(const Polyhedron& a, const Polyhedron& b, const Monitor& monitor = {});
 
 /// An affine map x -> m x + t with rational entries.
 struct AffineMap {
@@ -104,7 +107,7 @@ struct AffineMap {
 
 /// The image under an invertible map. Throws InputError if the determinant is zero. O(n) for
 /// bounded sets; unbounded ones are clipped to their box anew, by one Boolean operation.
-Polyhedron transform(const Polyhedron& a, const AffineMap& map);
+Polyhedron transform(const Polyhedron& a, const AffineMap& map, const Monitor& monitor = {});
 
 /// What holds a point.
 struct Location {
@@ -150,7 +153,7 @@ std::vector<long> euler_numbers(const Polyhedron& a);
 
 /// Checks every invariant of the complex. Returns the name of the first broken one with the
 /// guilty items, or an empty string.
-std::string validate(const Complex& complex);
+std::string validate(const Complex& complex, const Monitor& monitor = {});
 
 /// Vertices, edges, facets, volumes, shells without the items of an infimaximal box (as CGAL
 /// counts: each edge and facet once, the outer volume included).

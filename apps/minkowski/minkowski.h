@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "apps/minkowski/convex/convex_cell.h"
-#include "nef/base/interruption.h"
+#include "nef/base/monitor.h"
 #include "nef/forward.h"
 #include "nef/geometry/predicates.h"
 
@@ -50,6 +50,7 @@ struct MinkowskiOptions {
   /// work that is done in thousandths of all: (done, 1000), always by the calling thread; false stops the sum: it
   /// throws nef::Interrupted. What consists of several sums (an opening) counts anew for each.
   std::function<bool(std::size_t, std::size_t)> progress;
+  Monitor monitor = {};  ///< who watches; what it refers to must outlive the call
 };
 
 /// How a sum was made, in words: a strategy by its name in the program (`nary, queue`: one, then the other), `none`
@@ -94,14 +95,14 @@ Polyhedron minkowski_sum(const Polyhedron& a, const Polyhedron& b, const Minkows
 /// have disjoint interiors and cover the interior's closure; they carry the marks of their walls and sides. What marks
 /// keep out of them (a selected part of a side that is not selected whole, an antenna) follows as cells of dimension 2,
 /// 1, 0. A convex set is one cell. Throws UnsupportedError for an unbounded set.
-std::vector<ConvexCell> decompose(const Polyhedron& a);
+std::vector<ConvexCell> decompose(const Polyhedron& a, const Monitor& monitor = {});
 
 /// True if the set is convex (marks included: a closed box without one point of an edge is not).
 /// O(n) for sets with one volume; bounded sets only, others throw UnsupportedError.
-bool is_convex(const Polyhedron& a);
+bool is_convex(const Polyhedron& a, const Monitor& monitor = {});
 
 /// The set of the points -x, x in a.
-Polyhedron negate(const Polyhedron& a);
+Polyhedron negate(const Polyhedron& a, const Monitor& monitor = {});
 
 /// A closed set without its border. The border is the boundary of solid parts, the open edges of surfaces and the ends
 /// of curves; a single point has none. Told locally, so that it has one meaning where parts of different dimension

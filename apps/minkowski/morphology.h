@@ -44,10 +44,10 @@ struct BallApproximation {
 /// scaled by the least multiple of 2^-20 for which all facets are surely outside of it (kOuter): 4 splits^2 + 2
 /// vertices, the error falls with the square of `splits`. Rational, symmetric under sign changes of coordinates. Throws
 /// InputError unless radius > 0 and 1 <= splits <= 64.
-BallApproximation ball_approximation(const Rational& radius, int splits, Side side);
+BallApproximation ball_approximation(const Rational& radius, int splits, Side side, const Monitor& monitor = {});
 
 /// The inner one as a set: ball(r, n) of expressions. Throws InputError unless `splits` is a whole number from 1 to 64.
-Polyhedron inner_ball(const Rational& radius, const Rational& splits);
+Polyhedron inner_ball(const Rational& radius, const Rational& splits, const Monitor& monitor = {});
 
 /// A set that lies inside (kInner) or around (kOuter) the offset of A by a radius: A + a closed ball for radius > 0, A
 /// eroded by one for radius < 0, A itself for 0. The true offset lies between the two, and both are within `error` (see
@@ -62,12 +62,12 @@ Polyhedron sweep(const Polyhedron& a, std::span<const Rational3> path, const Min
 /// The convex hull of a set, with its marks: the hull of an open set is open, that of a box without a corner lacks it,
 /// that of a line and a point is an open strip and these two. O(n log n) expected for bounded closed sets, an
 /// intersection for each face of the hull otherwise.
-Polyhedron hull(const Polyhedron& a);
+Polyhedron hull(const Polyhedron& a, const Monitor& monitor = {});
 
 /// By how much the hull of a set exceeds it, if that is next to nothing: at most 10^-9 of the hull's volume, but not
 /// zero. That is what a convex solid looks like whose coordinates were rounded; taking its hull instead, which holds
 /// it, makes sums fast. Nothing for other sets. O(n log n) expected.
-std::optional<Rational> excess_of_hull(const Polyhedron& a);
+std::optional<Rational> excess_of_hull(const Polyhedron& a, const Monitor& monitor = {});
 
 /// How two bounded sets stand to each other; their closures and interiors decide.
 struct Penetration {
@@ -105,6 +105,6 @@ Reach reach(const Polyhedron& tool, const Polyhedron& part, const std::optional<
 /// The connected component of a set that holds a point, empty if the set does not hold it; without a point, the
 /// component of what lies beyond all finite points (empty for bounded sets; for sets that leave the finite by several
 /// ways, all of these). Connected means: by paths within the set, passages of dimension 1 and 0 included. O(n log n).
-Polyhedron component_of(const Polyhedron& a, const std::optional<Rational3>& point);
+Polyhedron component_of(const Polyhedron& a, const std::optional<Rational3>& point, const Monitor& monitor = {});
 
 }  // namespace nef::minkowski

@@ -9,8 +9,10 @@
 int main(int argc, char** argv) {
   nef::keep_freed_memory();
   nef::CommandExtensions extensions;
-  extensions.minkowski = [](const nef::Polyhedron& a, const nef::Polyhedron& b) {
-    return nef::minkowski::minkowski_sum(a, b);
+  extensions.minkowski = [](const nef::Polyhedron& a, const nef::Polyhedron& b, const nef::Monitor& monitor) {
+    nef::minkowski::MinkowskiOptions options;
+    options.monitor = monitor;
+    return nef::minkowski::minkowski_sum(a, b, options);
   };
   extensions.ball = nef::minkowski::inner_ball;
   extensions.hull = nef::minkowski::hull;

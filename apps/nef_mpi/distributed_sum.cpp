@@ -61,7 +61,7 @@ PieceSource sums_of_parts(const Environment& mpi, const WorkFolder& work, const 
                   return std::string();
                 }},
            watcher);
-  return {.count = static_cast<std::uint32_t>(count), .set = [&work](std::uint32_t part) {
+  return {.count = static_cast<std::uint32_t>(count), .set = [&work](std::uint32_t part, const Monitor&) {
             const std::string path = work / piece_name(part);
             return read_native_binary(read_file(path), path);
           }};

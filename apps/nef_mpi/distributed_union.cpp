@@ -81,7 +81,7 @@ MeasuredPieces measure_pieces(const Environment& mpi, const WorkFolder& work, co
   const auto measure = [&](std::size_t task) {
     std::vector<OperandRecord> records;
     for (auto i = static_cast<std::uint32_t>(task) * kBoxesOfATask; i < last(task); ++i) {
-      const UnionOperand operand = union_operand(pieces.set(i));
+      const UnionOperand operand = union_operand(pieces.set(i, {}));
       records.push_back({operand.box, operand.weight, operand.bounded ? 1U : 0U});
     }
     return bytes_of(records);
@@ -119,8 +119,8 @@ TiledPolyhedron union_by_regions(const Environment& mpi, const WorkFolder& work,
   of_a_task.threads = 1;
   const auto unite_region = [&](std::size_t region) {
     std::vector<Polyhedron> sets;
-    for (const std::uint32_t piece : regions.pieces_of(region)) sets.push_back(pieces.source.set(piece));
-    write_tiles(work / region_name(region), {regions.unite_in(region, std::move(sets), of_a_task), of_a_task});
+    for (const std::uint32_t piece : regions.pieces_of(region)) sets.push_back(pieces.source.set(piece, {}));
+    write_tiles(work / region_name(region), {regions.unite_in(region, std::move(sets), of_a_task, {}), of_a_task});
     return std::string();
   };
   do_tasks(mpi,
@@ -132,7 +132,7 @@ TiledPolyhedron union_by_regions(const Environment& mpi, const WorkFolder& work,
            watcher);
   if (!mpi.first()) return {};
   std::vector<TileRef> trees(regions.region_count());
-  parallel_for(trees.size(), tiling.threads, [&](std::size_t region) {
+  parallel_for(trees.size(), tiling.threads, {}, [&](std::size_t region, const Monitor&) {
     trees[region] = read_tiles(work / region_name(region), tiling.store).tree();
   });
   return {regions.tree(trees), tiling};

@@ -24,13 +24,22 @@ PieceList::PieceList(std::vector<std::string> files, const std::string& list, co
   }
 }
 
-Polyhedron PieceList::set(std::uint32_t piece) const {
-  if (piece < files_.size()) return read_file_or_tiles(files_[piece], options_);
+Polyhedron PieceList::set(std::uint32_t piece, const Monitor& monitor) const {
+  MeshOptions mesh = options_;
+  mesh.monitor = monitor;
+  if (piece < files_.size()) return read_file_or_tiles(files_[piece], mesh);
   const Line& line = lines_[piece - files_.size()];
   const std::filesystem::path folder = std::filesystem::path(list_).parent_path();
   ExpressionOptions options;
-  options.load = [&](const std::string& file) { return read_file_or_tiles((folder / file).string(), options_); };
-  options.minkowski = [](const Polyhedron& a, const Polyhedron& b) { return minkowski::minkowski_sum(a, b); };
+  options.load = [&](const std::string& file, const Monitor&) {
+    return read_file_or_tiles((folder / file).string(), mesh);
+  };
+  options.minkowski = [](const Polyhedron& a, const Polyhedron& b, const Monitor& own) {
+    minkowski::MinkowskiOptions sum;
+    sum.monitor = own;
+    return minkowski::minkowski_sum(a, b, sum);
+  };
+  options.monitor = monitor;
   try {
     return evaluate_expression(line.expression, options);
   } catch (const InputError& error) {

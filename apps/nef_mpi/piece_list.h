@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/construct/construct.h"
 #include "nef/tiles/import/union_in_tiles.h"
 
@@ -18,7 +19,7 @@ class PieceList {
 
   [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(files_.size() + lines_.size()); }
   /// Makes a set. Errors tell of the file, or of the list and the line.
-  [[nodiscard]] Polyhedron set(std::uint32_t piece) const;
+  [[nodiscard]] Polyhedron set(std::uint32_t piece, const Monitor& monitor) const;
   /// What tells this list from others, files' times of writing included.
   [[nodiscard]] std::string text() const;
 

@@ -159,7 +159,8 @@ class Run {
       work.prepare(job("union") + pieces->text());
     });
     if (!pieces) pieces.emplace(session_.inputs, list_, session_.mesh);
-    const PieceSource source{.count = pieces->size(), .set = [&](std::uint32_t i) { return pieces->set(i); }};
+    const PieceSource source{.count = pieces->size(),
+                             .set = [&](std::uint32_t i, const Monitor& own) { return pieces->set(i, own); }};
     const Stopwatch watch;
     const TiledPolyhedron set = united(work, source);
     return finish("union", work, set, watch.seconds());
@@ -208,7 +209,7 @@ class Run {
               .count = tasks->size(),
               .finished = [&](std::size_t i) { return record->keep(i); },
               .name_of_task = [&](std::size_t i) { return "frame " + std::to_string(tasks->number(i)); },
-              .task = [&](std::size_t i) { return tasks->make(i); },
+              .task = [&](std::size_t i) { return tasks->make(i, {}); },
               .done = [&](std::size_t, const std::string& line, double) { record->add(line); }},
              watcher());
     std::string code = record ? std::to_string(record->finish()) : "";

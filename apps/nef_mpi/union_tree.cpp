@@ -82,7 +82,7 @@ class UnionTree {
 
   Polyhedron unite_at(std::size_t node, unsigned threads) {
     std::vector<Polyhedron> sets;
-    for (const std::uint32_t piece : nodes_[node].pieces) sets.push_back(pieces_.source.set(piece));
+    for (const std::uint32_t piece : nodes_[node].pieces) sets.push_back(pieces_.source.set(piece, {}));
     for (const std::size_t child : nodes_[node].nodes) sets.push_back(result(child));
     return unite_all(sets, threads);
   }

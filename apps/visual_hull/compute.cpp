@@ -39,16 +39,17 @@ struct Run {
     if (progress) progress(phase, view, done, total);
   }
 
-  /// body(i) for every view, on as many threads as the user allows.
-  void each_view(Phase phase, const Views& views, const std::function<void(std::size_t)>& body) const {
+  /// body(i, own) for every view, on as many threads as the user allows.
+  void each_view(Phase phase, const Views& views, const nef::Monitor& monitor,
+                 const std::function<void(std::size_t, const nef::Monitor& own)>& body) const {
     std::size_t begun = 0;
     std::mutex telling;
-    nef::parallel_for(views.size(), options.threads, [&](std::size_t i) {
+    nef::parallel_for(views.size(), options.threads, monitor, [&](std::size_t i, const nef::Monitor& own) {
       {
         const std::lock_guard<std::mutex> lock(telling);
         tell(phase, views[i].name, begun++, views.size());
       }
-      body(i);
+      body(i, own);
     });
   }
 };
@@ -102,28 +103,29 @@ Views views_of(const Scene& scene) {
 
 /// Scene -> Masks.
 std::vector<LoadedMask> masks_of(const Run& run, const Scene& scene, const std::filesystem::path& folder,
-                                 const SilhouetteOptions& options, Result& result) {
+                                 const SilhouetteOptions& options, Result& result, const nef::Monitor& monitor) {
   std::vector<LoadedMask> masks(result.views.size());
-  timed(result.phases, Phase::kLoad, [&] {
+  timed(result.phases, Phase::kLoad, monitor, [&](const nef::Monitor& watching) {
     const std::vector<std::filesystem::path> images = images_of(scene, folder, run.options.images);
     for (std::size_t i = 0; i < masks.size(); ++i) {
       if (!scene.views[i].polygons) result.views[i].image = images[i];
     }
-    run.each_view(Phase::kLoad, result.views,
-                  [&](std::size_t i) { masks[i] = load_mask(result.views[i], scene.views[i], options); });
+    run.each_view(Phase::kLoad, result.views, watching, [&](std::size_t i, const nef::Monitor&) {
+      masks[i] = load_mask(result.views[i], scene.views[i], options);
+    });
   });
   return masks;
 }
 
 /// Masks -> Silhouettes.
 void add_silhouettes(const Run& run, const Scene& scene, std::vector<LoadedMask> masks,
-                     const SilhouetteOptions& options, Result& result) {
-  timed(result.phases, Phase::kContours, [&] {
-    run.each_view(Phase::kContours, result.views, [&](std::size_t i) {
+                     const SilhouetteOptions& options, Result& result, const nef::Monitor& monitor) {
+  timed(result.phases, Phase::kContours, monitor, [&](const nef::Monitor& watching) {
+    run.each_view(Phase::kContours, result.views, watching, [&](std::size_t i, const nef::Monitor& own) {
       const View& view = scene.views[i];
       result.views[i].silhouette = view.polygons
-                                       ? silhouette_of_polygons(*view.polygons, view.name, options)
-                                       : silhouette_of_mask(masks[i].mask, masks[i].unseen, view.name, options);
+                                       ? silhouette_of_polygons(*view.polygons, view.name, options, own)
+                                       : silhouette_of_mask(masks[i].mask, masks[i].unseen, view.name, options, own);
       masks[i] = {};
     });
   });
@@ -171,7 +173,8 @@ WorldBox guessed_box(const Place& place) {
   return box;
 }
 
-Room room_of(const Scene& scene, const Options& options, const Views& views, const Place& place) {
+Room room_of(const Scene& scene, const Options& options, const Views& views, const Place& place,
+             const nef::Monitor& monitor) {
   Room room;
   const bool given = options.box || scene.box;
   if (given) {
@@ -185,7 +188,7 @@ Room room_of(const Scene& scene, const Options& options, const Views& views, con
   std::vector<HalfSpace> half_spaces;
   for (std::size_t i = 0; i < views.size(); ++i) {
     if (views[i].silhouette.background) continue;
-    const std::vector<HalfSpace> cone = convex_cone(place.cameras[i], views[i].silhouette.region);
+    const std::vector<HalfSpace> cone = convex_cone(place.cameras[i], views[i].silhouette.region, monitor);
     half_spaces.insert(half_spaces.end(), cone.begin(), cone.end());
   }
   const Bounds bounds = bounds_of(half_spaces);
@@ -204,10 +207,11 @@ Room room_of(const Scene& scene, const Options& options, const Views& views, con
 }
 
 /// Compares the views and, if that is asked for, leaves out the guilty ones. The room is found anew without them.
-void compare(const Run& run, const Scene& scene, Result& result, Place& place, Room& room) {
+void compare(const Run& run, const Scene& scene, Result& result, Place& place, Room& room,
+             const nef::Monitor& monitor) {
   while (true) {
     const std::vector<ComparedView> views = compared(result.views, place);
-    Consistency found = compare_views(views, room.box, run.options.threads);
+    Consistency found = compare_views(views, room.box, run.options.threads, monitor);
     const bool all = views.size() == result.views.size();
     if (!all) return;  // views that keep what they do not see are not judged
     const std::optional<std::size_t> guilty = found.guilty;
@@ -219,18 +223,19 @@ void compare(const Run& run, const Scene& scene, Result& result, Place& place, R
     const auto at = static_cast<std::ptrdiff_t>(*guilty);
     result.views.erase(result.views.begin() + at);
     place.cameras.erase(place.cameras.begin() + at);
-    room = room_of(scene, run.options, result.views, place);
+    room = room_of(scene, run.options, result.views, place, monitor);
   }
 }
 
 /// Cones, one a view; views that keep what they do not see have the complement of their background.
-std::vector<Part> cones_of(const Run& run, Views& views, const Place& place, const Room& room) {
+std::vector<Part> cones_of(const Run& run, Views& views, const Place& place, const Room& room,
+                           const nef::Monitor& monitor) {
   std::vector<Part> parts(views.size());
-  run.each_view(Phase::kCones, views, [&](std::size_t i) {
+  run.each_view(Phase::kCones, views, monitor, [&](std::size_t i, const nef::Monitor& own) {
     ViewResult& view = views[i];
-    nef::Polyhedron cone = make_cone(place.cameras[i], view.silhouette.region, room.box);
+    nef::Polyhedron cone = make_cone(place.cameras[i], view.silhouette.region, room.box, own);
     view.cone_facets = nef::counts(cone).facets;
-    if (view.silhouette.background) cone = nef::complement(nef::interior(cone));
+    if (view.silhouette.background) cone = nef::complement(nef::interior(cone, own));
     const auto& row = place.cameras[i].matrix()[2];
     parts[i] = {std::move(cone), {row[0], row[1], row[2]}};
   });
@@ -238,7 +243,8 @@ std::vector<Part> cones_of(const Run& run, Views& views, const Place& place, con
 }
 
 /// The hull vertex by vertex, where the views allow that and it is worth it.
-std::optional<nef::Polyhedron> direct(const Run& run, const Views& views, const Place& place, const Room& room) {
+std::optional<nef::Polyhedron> direct(const Run& run, const Views& views, const Place& place, const Room& room,
+                                      const nef::Monitor& monitor) {
   std::vector<DirectView> inputs;
   for (std::size_t i = 0; i < views.size(); ++i) {
     if (views[i].silhouette.background) return std::nullopt;
@@ -250,25 +256,26 @@ std::optional<nef::Polyhedron> direct(const Run& run, const Views& views, const 
     if (room.enclosing->low[i] <= room.box.low[i] || room.enclosing->high[i] >= room.box.high[i]) return std::nullopt;
   }
   run.tell(Phase::kIntersection, "edges", 0, 1);
-  std::optional<nef::Polyhedron> hull = direct_hull(inputs, *room.enclosing, run.options.threads);
+  std::optional<nef::Polyhedron> hull = direct_hull(inputs, *room.enclosing, run.options.threads, monitor);
   if (hull && nef::counts(*hull).volumes < 2) return std::nullopt;  // empty or flat: the general way finds out why
   return hull;
 }
 
 /// Cones -> Hull.
-nef::Polyhedron hull_of_parts(const Run& run, const Views& views, const Room& room, const std::vector<Part>& parts) {
-  const nef::Polyhedron box = nef::make_box(room.box.low, room.box.high);
+nef::Polyhedron hull_of_parts(const Run& run, const Views& views, const Room& room, const std::vector<Part>& parts,
+                              const nef::Monitor& monitor) {
+  const nef::Polyhedron box = nef::make_box(room.box.low, room.box.high, monitor);
   if (run.options.at_least) {
     std::vector<nef::Polyhedron> cones;
     for (const Part& part : parts) cones.push_back(part.solid);
-    return in_at_least(cones, *run.options.at_least, box);
+    return in_at_least(cones, *run.options.at_least, box, monitor);
   }
   std::vector<Part> all = parts;
   // A box that was found is larger than what the cones leave, but for views that keep space.
   bool needed = !room.found;
   for (const ViewResult& view : views) needed = needed || view.silhouette.background;
   if (needed) all.push_back({box, {}});
-  return intersect_parts(std::move(all), run.options.threads, [&run](std::size_t done, std::size_t total) {
+  return intersect_parts(std::move(all), run.options.threads, monitor, [&run](std::size_t done, std::size_t total) {
     run.tell(Phase::kIntersection, "", done, total);
   });
 }
@@ -282,13 +289,14 @@ std::string list_of(const std::vector<std::string>& names) {
 }
 
 /// Why the hull is empty.
-Vanished explain_empty(const Run& run, const Views& views, const Place& place, const Room& room) {
+Vanished explain_empty(const Run& run, const Views& views, const Place& place, const Room& room,
+                       const nef::Monitor& monitor) {
   constexpr std::size_t kMostSets = 5;
   Vanished vanished{views.back().name, "the views have no point in common", {}};
   const std::vector<ComparedView> plain = compared(views, place);
   if (run.options.at_least) vanished.reason = "no point lies in so many silhouettes";
   if (plain.size() < views.size() || run.options.at_least) return vanished;
-  for (const auto& set : views_without_common_point(plain, room.box, kMostSets, run.options.threads)) {
+  for (const auto& set : views_without_common_point(plain, room.box, kMostSets, run.options.threads, monitor)) {
     std::vector<std::string> names;
     for (const std::size_t i : set) names.push_back(views[i].name);
     if (vanished.sets.empty()) {
@@ -308,9 +316,10 @@ Vanished explain_empty(const Run& run, const Views& views, const Place& place, c
 }
 
 /// At which view the last volume went, of a hull that has points, edges or facets only.
-Vanished explain_flat(const Views& views, const Room& room, const std::vector<Part>& parts) {
-  const nef::Polyhedron box = nef::make_box(room.box.low, room.box.high);
-  const std::size_t view = vanishes_at(parts, box, true).value_or(parts.size() - 1);
+Vanished explain_flat(const Views& views, const Room& room, const std::vector<Part>& parts,
+                      const nef::Monitor& monitor) {
+  const nef::Polyhedron box = nef::make_box(room.box.low, room.box.high, monitor);
+  const std::size_t view = vanishes_at(parts, box, true, monitor).value_or(parts.size() - 1);
   return {views[view].name, "what it leaves has no volume (only points, edges or facets)", {}};
 }
 
@@ -322,28 +331,33 @@ struct FoundHull {
 };
 
 /// Cones -> Hull, where the direct way is not asked for or does not do.
-FoundHull hull_of_cones(const Run& run, const Place& place, const Room& room, Views& views, PhaseReports& phases) {
+FoundHull hull_of_cones(const Run& run, const Place& place, const Room& room, Views& views, PhaseReports& phases,
+                        const nef::Monitor& monitor) {
   FoundHull found;
   std::vector<Part> parts;
   if (!room.empty) {
-    timed(phases, Phase::kCones, [&] { parts = cones_of(run, views, place, room); });
-    timed(phases, Phase::kIntersection, [&] { found.hull = hull_of_parts(run, views, room, parts); });
+    timed(phases, Phase::kCones, monitor,
+          [&](const nef::Monitor& watching) { parts = cones_of(run, views, place, room, watching); });
+    timed(phases, Phase::kIntersection, monitor,
+          [&](const nef::Monitor& watching) { found.hull = hull_of_parts(run, views, room, parts, watching); });
   }
-  timed(phases, Phase::kIntersection, [&] {
+  timed(phases, Phase::kIntersection, monitor, [&](const nef::Monitor& watching) {
     if (found.hull.is_empty()) {
-      found.vanished = explain_empty(run, views, place, room);
-    } else if (nef::interior(found.hull).is_empty()) {
-      found.vanished = explain_flat(views, room, parts);
+      found.vanished = explain_empty(run, views, place, room, watching);
+    } else if (nef::interior(found.hull, watching).is_empty()) {
+      found.vanished = explain_flat(views, room, parts, watching);
     }
   });
   return found;
 }
 
 /// Silhouettes, Box -> Hull, in the coordinates of the place.
-FoundHull hull_in_room(const Run& run, const Place& place, const Room& room, Views& views, PhaseReports& phases) {
+FoundHull hull_in_room(const Run& run, const Place& place, const Room& room, Views& views, PhaseReports& phases,
+                       const nef::Monitor& monitor) {
   std::optional<nef::Polyhedron> made;
   if (!room.empty && run.options.way != Way::kCones && !run.options.at_least) {
-    timed(phases, Phase::kIntersection, [&] { made = direct(run, views, place, room); });
+    timed(phases, Phase::kIntersection, monitor,
+          [&](const nef::Monitor& watching) { made = direct(run, views, place, room, watching); });
   }
   if (made) return {*std::move(made), true, std::nullopt};
   if (run.options.way == Way::kDirect) {
@@ -351,20 +365,20 @@ FoundHull hull_in_room(const Run& run, const Place& place, const Room& room, Vie
         "--way direct: not for these views (fewer than three, a camera in the box, background, a box that cuts the "
         "hull, or too many coincidences that doubles do not decide); use --way cones");
   }
-  return hull_of_cones(run, place, room, views, phases);
+  return hull_of_cones(run, place, room, views, phases, monitor);
 }
 
-void verify(const Run& run, Result& result) {
-  run.each_view(Phase::kVerify, result.views, [&](std::size_t i) {
+void verify(const Run& run, Result& result, const nef::Monitor& monitor) {
+  run.each_view(Phase::kVerify, result.views, monitor, [&](std::size_t i, const nef::Monitor& own) {
     ViewResult& view = result.views[i];
     if (!view.silhouette.background) {
-      view.verification = verify_view(result.hull, view.camera, view.silhouette.region);
+      view.verification = verify_view(result.hull, view.camera, view.silhouette.region, kLinesPerPixel, own);
       return;
     }
     // Nothing of it is seen as background for sure.
-    const nef::Polyhedron seen = nef::interior(make_cone(view.camera, view.silhouette.region, result.box));
+    const nef::Polyhedron seen = nef::interior(make_cone(view.camera, view.silhouette.region, result.box, own), own);
     Verification check;
-    check.inside = nef::intersect(result.hull, seen).is_empty();
+    check.inside = nef::intersect(result.hull, seen, 1, own).is_empty();
     if (!check.inside) check.problem = "a part of the hull is seen as background";
     check.area_known = false;
     view.verification = check;
@@ -379,11 +393,12 @@ const char* phase_name(Phase phase) {
   return kNames[static_cast<std::size_t>(phase)];
 }
 
-void timed(PhaseReports& reports, Phase phase, const std::function<void()>& work) {
+void timed(PhaseReports& reports, Phase phase, const nef::Monitor& monitor,
+           const std::function<void(const nef::Monitor&)>& work) {
   PhaseReport& report = reports[static_cast<std::size_t>(phase)];
-  const nef::PhaseTimer timer(report.seconds, report.predicates);
+  const nef::PhaseTimer timer(report.seconds, report.predicates, monitor);
   const nef::ProcessStopwatch processor;
-  work();
+  work(timer.monitor());
   report.cpu_seconds += processor.seconds();
 }
 
@@ -402,25 +417,28 @@ void check_options(const Scene& scene, const Options& options) {
 }
 
 /// Silhouettes -> Box -> Cones -> Hull.
-void finish(const Run& run, const Scene& scene, Place place, Result& result) {
+void finish(const Run& run, const Scene& scene, Place place, Result& result, const nef::Monitor& monitor) {
   Room room;
-  timed(result.phases, Phase::kBox, [&] { room = room_of(scene, run.options, result.views, place); });
+  timed(result.phases, Phase::kBox, monitor,
+        [&](const nef::Monitor& watching) { room = room_of(scene, run.options, result.views, place, watching); });
   if (run.options.suspects || run.options.drop_suspects) {
-    timed(result.phases, Phase::kSuspects, [&] { compare(run, scene, result, place, room); });
+    timed(result.phases, Phase::kSuspects, monitor,
+          [&](const nef::Monitor& watching) { compare(run, scene, result, place, room, watching); });
   }
   result.box = place.outward(room.box);
   result.box_found = room.found;
   if (room.enclosing) result.enclosing = place.outward(*room.enclosing);
-  FoundHull found = hull_in_room(run, place, room, result.views, result.phases);
+  FoundHull found = hull_in_room(run, place, room, result.views, result.phases, monitor);
   result.direct = found.direct;
   result.vanished = std::move(found.vanished);
   result.hull = std::move(found.hull);
   if (place.moved()) {
-    timed(result.phases, Phase::kIntersection,
-          [&] { result.hull = nef::transform(result.hull, nef::AffineMap::translate(place.shift)); });
+    timed(result.phases, Phase::kIntersection, monitor, [&](const nef::Monitor& watching) {
+      result.hull = nef::transform(result.hull, nef::AffineMap::translate(place.shift), watching);
+    });
   }
   if (run.options.verify && !result.vanished) {
-    timed(result.phases, Phase::kVerify, [&] { verify(run, result); });
+    timed(result.phases, Phase::kVerify, monitor, [&](const nef::Monitor& watching) { verify(run, result, watching); });
   }
 }
 
@@ -428,7 +446,7 @@ void finish(const Run& run, const Scene& scene, Place place, Result& result) {
 
 Result compute(const Scene& scene, const std::filesystem::path& folder, const Options& options,
                const Progress& progress) {
-  return HullStream(scene, options).frame(folder, std::nullopt, progress);
+  return HullStream(scene, options).frame(folder, std::nullopt, progress, options.monitor);
 }
 
 struct HullStream::State {
@@ -443,6 +461,7 @@ HullStream::HullStream(Scene scene, const Options& options) {
   check_options(scene, options);
   auto state = std::make_shared<State>();
   state->options = options;
+  state->options.monitor = {};  // what it refers to need not live as long
   state->silhouettes = silhouette_options(scene, options);
   state->place = place_of(cameras_of(scene));
   state->views = views_of(scene);
@@ -450,7 +469,8 @@ HullStream::HullStream(Scene scene, const Options& options) {
   state_ = std::move(state);
 }
 
-Result HullStream::frame(const std::vector<cv::Mat>& masks, const Progress& progress) const {
+Result HullStream::frame(const std::vector<cv::Mat>& masks, const Progress& progress,
+                         const nef::Monitor& monitor) const {
   const State& s = *state_;
   const Run run{s.options, progress};
   if (masks.size() != s.views.size()) {
@@ -461,8 +481,8 @@ Result HullStream::frame(const std::vector<cv::Mat>& masks, const Progress& prog
   result.origin = s.silhouettes.origin;
   result.views = s.views;
   std::vector<LoadedMask> loaded(masks.size());
-  timed(result.phases, Phase::kLoad, [&] {
-    run.each_view(Phase::kLoad, result.views, [&](std::size_t i) {
+  timed(result.phases, Phase::kLoad, monitor, [&](const nef::Monitor& watching) {
+    run.each_view(Phase::kLoad, result.views, watching, [&](std::size_t i, const nef::Monitor&) {
       const View& view = s.scene.views[i];
       if (view.polygons) return;
       if (masks[i].type() != CV_8UC1 || masks[i].empty()) {
@@ -473,13 +493,13 @@ Result HullStream::frame(const std::vector<cv::Mat>& masks, const Progress& prog
       check_size_of(loaded[i].mask, view, "the mask");
     });
   });
-  add_silhouettes(run, s.scene, std::move(loaded), s.silhouettes, result);
-  finish(run, s.scene, s.place, result);
+  add_silhouettes(run, s.scene, std::move(loaded), s.silhouettes, result, monitor);
+  finish(run, s.scene, s.place, result, monitor);
   return result;
 }
 
 Result HullStream::frame(const std::filesystem::path& folder, const std::optional<std::filesystem::path>& images,
-                         const Progress& progress) const {
+                         const Progress& progress, const nef::Monitor& monitor) const {
   const State& s = *state_;
   Options options = s.options;
   if (images) options.images = images;
@@ -487,8 +507,9 @@ Result HullStream::frame(const std::filesystem::path& folder, const std::optiona
   Result result;
   result.origin = s.silhouettes.origin;
   result.views = s.views;
-  add_silhouettes(run, s.scene, masks_of(run, s.scene, folder, s.silhouettes, result), s.silhouettes, result);
-  finish(run, s.scene, s.place, result);
+  add_silhouettes(run, s.scene, masks_of(run, s.scene, folder, s.silhouettes, result, monitor), s.silhouettes, result,
+                  monitor);
+  finish(run, s.scene, s.place, result, monitor);
   return result;
 }
 

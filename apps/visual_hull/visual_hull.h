@@ -21,6 +21,7 @@
 #include "apps/visual_hull/silhouette/silhouette.h"
 #include "apps/visual_hull/verify/consistency.h"
 #include "apps/visual_hull/verify/verify.h"
+#include "nef/base/monitor.h"
 #include "nef/geometry/predicates.h"
 #include "nef/polyhedron.h"
 
@@ -60,7 +61,8 @@ struct Options {
   bool drop_suspects = false;           ///< leave out the guilty view, compare again, and so on; three views stay
   std::optional<std::size_t> at_least;  ///< the points in at least so many silhouettes, instead of in all
   bool verify = false;
-  unsigned threads = 1;  ///< 0: as many as the machine has; the result is the same
+  unsigned threads = 1;       ///< 0: as many as the machine has; the result is the same
+  nef::Monitor monitor = {};  ///< who watches compute; what it refers to must outlive the call
 };
 
 /// What one view has come to.
@@ -109,7 +111,8 @@ struct Result {
 Result compute(const Scene& scene, const std::filesystem::path& folder, const Options& options,
                const Progress& progress = {});
 
-/// Runs `work` and adds its time and predicates to a phase.
-void timed(PhaseReports& reports, Phase phase, const std::function<void()>& work);
+/// Runs `work` and adds its time, and the predicates that it counts with what it is given, to a phase.
+void timed(PhaseReports& reports, Phase phase, const nef::Monitor& monitor,
+           const std::function<void(const nef::Monitor&)>& work);
 
 }  // namespace visual_hull

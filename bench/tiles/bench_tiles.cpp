@@ -269,8 +269,9 @@ Polyhedron unite_smallest_first(std::vector<Polyhedron> left, unsigned threads) 
     });
     const std::size_t pairs = left.size() / 2;
     std::vector<Polyhedron> next(pairs);
-    parallel_for(pairs, threads,
-                 [&](std::size_t i) { next[i] = unite(left[2 * i], left[2 * i + 1], pairs == 1 ? threads : 1); });
+    parallel_for(pairs, threads, {}, [&](std::size_t i, const nef::Monitor& own) {
+      next[i] = unite(left[2 * i], left[2 * i + 1], pairs == 1 ? threads : 1, own);
+    });
     next.insert(next.end(), left.begin() + static_cast<std::ptrdiff_t>(2 * pairs), left.end());
     left = std::move(next);
   }
@@ -297,8 +298,9 @@ struct UnionBench {
 };
 
 void unite_tetrahedra(std::uint32_t count, const UnionBench& bench, const Tiling& tiling) {
-  const PieceSource made_when_needed{
-      .count = count, .set = [count, &bench](std::uint32_t i) { return random_tetrahedron(i, count, bench.size); }};
+  const PieceSource made_when_needed{.count = count, .set = [count, &bench](std::uint32_t i, const nef::Monitor&) {
+                                       return random_tetrahedron(i, count, bench.size);
+                                     }};
   std::printf("%u tetrahedra, %u threads\n", count, tiling.threads);
   std::size_t vertices = 0;
   std::size_t tiles = 0;

@@ -122,7 +122,7 @@ void measure(const std::string& name, const Scene& scene, const std::filesystem:
   row.cones = seconds_of([&] {
     for (const ViewResult& view : result.views) {
       const auto& axis = view.camera.matrix()[2];
-      parts.push_back({make_cone(view.camera, view.silhouette.region, result.box), {axis[0], axis[1], axis[2]}});
+      parts.push_back({make_cone(view.camera, view.silhouette.region, result.box, {}), {axis[0], axis[1], axis[2]}});
     }
   });
   parts.push_back({nef::make_box(result.box.low, result.box.high), {}});
@@ -132,7 +132,7 @@ void measure(const std::string& name, const Scene& scene, const std::filesystem:
   const bool direct = result.direct && !settings.cones;
   const auto operation = [&] {
     if (direct) {
-      static_cast<void>(direct_hull(inputs, *result.enclosing, 1));
+      static_cast<void>(direct_hull(inputs, *result.enclosing, 1, {}));
     } else {
       static_cast<void>(intersect_parts(parts));
     }

@@ -56,7 +56,7 @@ Nef pyramid(const Camera& camera, const Ring& ring, const Rational& depth) {
     for (std::size_t i = 0; i < 3; ++i) q[i] = camera.centre()[i] + depth * q[i];
     builder.points.push_back(q);
   }
-  const bool flip = (ring_orientation(ring) > 0) == (camera.handedness() > 0);
+  const bool flip = (ring_orientation(ring, {}) > 0) == (camera.handedness() > 0);
   std::vector<std::size_t> cap;
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t a = 1 + i;

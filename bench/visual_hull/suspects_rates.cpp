@@ -65,13 +65,13 @@ std::optional<Seen> seen(const Set& set, const Camera& camera, const cv::Mat& ma
   SilhouetteOptions options;
   options.origin = set.origin;
   options.simplify.tolerance = 1;
-  return Seen{camera, silhouette_of_mask(mask, {}, camera.name(), options).region};
+  return Seen{camera, silhouette_of_mask(mask, {}, camera.name(), options, {}).region};
 }
 
 WorldBox box_of(const std::vector<Seen>& views, const WorldBox& otherwise) {
   std::vector<HalfSpace> half_spaces;
   for (const Seen& view : views) {
-    const auto cone = convex_cone(view.camera, view.silhouette);
+    const auto cone = convex_cone(view.camera, view.silhouette, {});
     half_spaces.insert(half_spaces.end(), cone.begin(), cone.end());
   }
   const Bounds bounds = bounds_of(half_spaces);
@@ -81,7 +81,7 @@ WorldBox box_of(const std::vector<Seen>& views, const WorldBox& otherwise) {
 Consistency compared(const std::vector<Seen>& views, const WorldBox& box) {
   std::vector<ComparedView> inputs;
   for (const Seen& view : views) inputs.push_back({&view.camera, &view.silhouette});
-  return compare_views(inputs, box, 1);
+  return compare_views(inputs, box, 1, {});
 }
 
 cv::Mat shifted(const cv::Mat& mask, double pixels, Random& random) {

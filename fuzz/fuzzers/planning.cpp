@@ -259,7 +259,7 @@ class PlanningCase {
     if (answer.path) check(answer.path->points, start, goal, truth, "path");
     const planner::FreeSpace fresh(problem.free_space().set());
     const planner::CellFilter filter(fresh);
-    if (const auto way = planner::narrow_way(fresh, filter, 0, point_of(start), point_of(goal))) {
+    if (const auto way = planner::narrow_way(fresh, filter, 0, point_of(start), point_of(goal), {})) {
       check(*way, start, goal, truth, "narrow way");
       case_.count("narrow ways");
     }

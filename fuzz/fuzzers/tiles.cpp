@@ -108,7 +108,7 @@ class Fold {
     others_.emplace_back('!', std::string(), std::vector<Fold>());
   }
   void cut(const AxisPlane& plane) {
-    const auto halves = cut_tree(tiled_.tree(), plane, nef::Tiling{});
+    const auto halves = cut_tree(tiled_.tree(), plane, nef::Tiling{}, {});
     tiled_ = TiledPolyhedron(cut_node(plane, halves[0], halves[1]), tiled_.tiling());
   }
   static Fold of(const Primitive& primitive, const nef::Tiling& tiling) {
@@ -258,7 +258,7 @@ void check_pieces(const Case& the_case, const nef::Tiling& tiling) {
     the_case.tell("piece " + primitives.back().text());
   }
   const PieceSource source{.count = static_cast<std::uint32_t>(sets.size()),
-                           .set = [&sets](std::uint32_t i) { return sets[i]; }};
+                           .set = [&sets](std::uint32_t i, const nef::Monitor&) { return sets[i]; }};
   const TiledPolyhedron united = union_in_tiles(source, tiling, 1 + choices.below(5));
   for (int i = 0; i < 30; ++i) {
     Rational3 p;

@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "nef/base/error.h"
-#include "nef/base/progress.h"
 #include "nef/base/threads/parallel.h"
 #include "nef/boolean/overlay_complexes.h"
 #include "nef/complex/item_boxes.h"
@@ -34,7 +33,8 @@ std::size_t first_to_intersect(std::span<const Polyhedron> sets) {
 
 }  // namespace
 
-Polyhedron overlay(const Polyhedron& a, const Polyhedron& b, const Function& f, unsigned threads) {
+Polyhedron overlay(const Polyhedron& a, const Polyhedron& b, const Function& f, unsigned threads,
+                   const Monitor& monitor) {
   const Complex& ca = a.complex();
   const Complex& cb = b.complex();
   const LabelFunction table(ca.label_count, cb.label_count, [&f](LabelId x, LabelId y) {
@@ -51,60 +51,56 @@ Polyhedron overlay(const Polyhedron& a, const Polyhedron& b, const Function& f, 
   if (ca.vertex_count() + cb.vertex_count() < kWorthThreads) threads = 1;
   std::optional<Complex> result = overlay_complexes(
       ca, cb, table, [&a]() -> const QueryStructure& { return a.queries(); },
-      [&b]() -> const QueryStructure& { return b.queries(); }, threads);
+      [&b]() -> const QueryStructure& { return b.queries(); }, threads, monitor);
   return result ? Polyhedron(std::move(*result)) : a;
 }
 
-Polyhedron unite(const Polyhedron& a, const Polyhedron& b, unsigned threads) {
+Polyhedron unite(const Polyhedron& a, const Polyhedron& b, unsigned threads, const Monitor& monitor) {
   if (a.is_empty() || b.is_everything()) return b;
   if (b.is_empty() || a.is_everything()) return a;
   return overlay(
-      a, b, [](LabelId x, LabelId y) { return static_cast<LabelId>(x != 0 || y != 0); }, threads);
+      a, b, [](LabelId x, LabelId y) { return static_cast<LabelId>(x != 0 || y != 0); }, threads, monitor);
 }
 
-Polyhedron intersect(const Polyhedron& a, const Polyhedron& b, unsigned threads) {
+Polyhedron intersect(const Polyhedron& a, const Polyhedron& b, unsigned threads, const Monitor& monitor) {
   if (a.is_empty() || b.is_everything()) return a;
   if (b.is_empty() || a.is_everything()) return b;
   if (a.is_bounded() && b.is_bounded() && apart(a, b)) return {};
   return overlay(
-      a, b, [](LabelId x, LabelId y) { return static_cast<LabelId>(x != 0 && y != 0); }, threads);
+      a, b, [](LabelId x, LabelId y) { return static_cast<LabelId>(x != 0 && y != 0); }, threads, monitor);
 }
 
-Polyhedron subtract(const Polyhedron& a, const Polyhedron& b, unsigned threads) {
+Polyhedron subtract(const Polyhedron& a, const Polyhedron& b, unsigned threads, const Monitor& monitor) {
   if (a.is_empty() || b.is_empty()) return a;
   if (a.is_bounded() && b.is_bounded() && apart(a, b)) return a;
   return overlay(
-      a, b, [](LabelId x, LabelId y) { return static_cast<LabelId>(x != 0 && y == 0); }, threads);
+      a, b, [](LabelId x, LabelId y) { return static_cast<LabelId>(x != 0 && y == 0); }, threads, monitor);
 }
 
-Polyhedron symmetric_difference(const Polyhedron& a, const Polyhedron& b, unsigned threads) {
+Polyhedron symmetric_difference(const Polyhedron& a, const Polyhedron& b, unsigned threads, const Monitor& monitor) {
   if (a.is_empty()) return b;
   if (b.is_empty()) return a;
   return overlay(
-      a, b, [](LabelId x, LabelId y) { return static_cast<LabelId>((x != 0) != (y != 0)); }, threads);
+      a, b, [](LabelId x, LabelId y) { return static_cast<LabelId>((x != 0) != (y != 0)); }, threads, monitor);
 }
 
 // In rounds: sets of similar size form pairs, and all pairs of a round are intersected at once. The order does not
 // depend on the number of threads, so neither does the order of items in the result.
-Polyhedron intersect_all(std::span<const Polyhedron> sets, unsigned threads) {
+Polyhedron intersect_all(std::span<const Polyhedron> sets, unsigned threads, const Monitor& monitor) {
   if (sets.empty()) return Polyhedron::everything();
   std::vector<Polyhedron> left(sets.begin(), sets.end());
   std::atomic<std::size_t> done{0};
-  // Many small operations tell of themselves as one; a single one, of what it does.
-  const ProgressFunction nobody;
   while (left.size() > 1) {
     std::stable_sort(left.begin(), left.end(), [](const Polyhedron& x, const Polyhedron& y) {
       return x.complex().vertex_count() < y.complex().vertex_count();
     });
     const std::size_t pairs = first_to_intersect(left) / 2;
     std::vector<Polyhedron> next(pairs);
-    parallel_for(pairs, threads, [&](std::size_t i) {
-      {
-        std::optional<ProgressListener> quiet;
-        if (sets.size() > 2) quiet.emplace(nobody);
-        next[i] = intersect(left[2 * i], left[2 * i + 1], pairs == 1 ? threads : 1);
-      }
-      if (sets.size() > 2) tell_progress("sets", ++done, sets.size() - 1);
+    parallel_for(pairs, threads, monitor, [&](std::size_t i, const Monitor& own) {
+      // Many small operations tell of themselves as one; a single one, of what it does.
+      const Monitor of_pair = sets.size() > 2 ? own.quiet() : own;
+      next[i] = intersect(left[2 * i], left[2 * i + 1], pairs == 1 ? threads : 1, of_pair);
+      if (sets.size() > 2) own.tell_progress("sets", ++done, sets.size() - 1);
     });
     next.insert(next.end(), left.begin() + static_cast<std::ptrdiff_t>(2 * pairs), left.end());
     left = std::move(next);
@@ -112,7 +108,7 @@ Polyhedron intersect_all(std::span<const Polyhedron> sets, unsigned threads) {
   return left.front();
 }
 
-bool equal(const Polyhedron& a, const Polyhedron& b) {
+bool equal(const Polyhedron& a, const Polyhedron& b, const Monitor& monitor) {
   const Complex& ca = a.complex();
   const Complex& cb = b.complex();
   // The representation is unique: different counts settle it without geometry.
@@ -121,7 +117,8 @@ bool equal(const Polyhedron& a, const Polyhedron& b) {
       ca.volumes[kOuterVolume].mark != cb.volumes[kOuterVolume].mark) {
     return false;
   }
-  return overlay(a, b, [](LabelId x, LabelId y) { return static_cast<LabelId>(x != y); }).is_empty();
+  const auto differ = [](LabelId x, LabelId y) { return static_cast<LabelId>(x != y); };
+  return overlay(a, b, differ, 1, monitor).is_empty();
 }
 
 }  // namespace nef

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/boolean/intersections.h"
 #include "nef/synthesis/known_links.h"
 
@@ -24,6 +25,7 @@ struct VertexRun {
 /// order; copies of an operand are in its order. O(n), one pass over the arrays, on up to `threads` threads.
 KnownLinks copied_links(const Complex& result, std::span<const VertexRun> runs,
                         const std::array<const Complex*, 2>& operands,
-                        const std::array<std::vector<EdgeContact>, 2>& contacts, unsigned threads);
+                        const std::array<std::vector<EdgeContact>, 2>& contacts, unsigned threads,
+                        const Monitor& monitor);
 
 }  // namespace nef

@@ -41,7 +41,7 @@ bool FacetLocator::surely_misses(FacetId facet, const Box& box) const {
   return parity.surely_outside();
 }
 
-Item FacetLocator::locate(FacetId facet, PointId point) const {
+Item FacetLocator::locate(FacetId facet, PointId point, const Monitor& monitor) const {
   const PlaneTable& planes = tables_.planes;
   const PointTable& points = tables_.points;
   const PlaneId plane = operand_.facet_plane(facet);
@@ -59,26 +59,26 @@ Item FacetLocator::locate(FacetId facet, PointId point) const {
     if (found.kind != Item::Kind::kNone) return;
     const VertexId a = operand_.source(halfedge);
     const VertexId b = operand_.target(halfedge);
-    const int a_height = compare_coordinate(points, operand_.point(a), point, axes.second);
-    const int b_height = compare_coordinate(points, operand_.point(b), point, axes.second);
+    const int a_height = compare_coordinate(points, operand_.point(a), point, axes.second, monitor);
+    const int b_height = compare_coordinate(points, operand_.point(b), point, axes.second, monitor);
     if (a_height * b_height > 0) return;
-    if (a_height == 0 && compare_coordinate(points, operand_.point(a), point, axes.first) == 0) {
+    if (a_height == 0 && compare_coordinate(points, operand_.point(a), point, axes.first, monitor) == 0) {
       found = Item(a);
       return;
     }
-    if (b_height == 0 && compare_coordinate(points, operand_.point(b), point, axes.first) == 0) {
+    if (b_height == 0 && compare_coordinate(points, operand_.point(b), point, axes.first, monitor) == 0) {
       found = Item(b);
       return;
     }
     if (a_height == 0 && b_height == 0) {
-      if (compare_coordinate(points, operand_.point(a), point, axes.first) !=
-          compare_coordinate(points, operand_.point(b), point, axes.first)) {
+      if (compare_coordinate(points, operand_.point(a), point, axes.first, monitor) !=
+          compare_coordinate(points, operand_.point(b), point, axes.first, monitor)) {
         found = Item(operand_.edge(halfedge));
       }
       return;
     }
-    const EdgeSide edge = operand_.edge_side(planes, plane, halfedge);
-    const int side = edge.left * side_of_plane(planes, edge.other, points, point);
+    const EdgeSide edge = operand_.edge_side(planes, plane, halfedge, monitor);
+    const int side = edge.left * side_of_plane(planes, edge.other, points, point, monitor);
     if (side == 0) {
       // On the line, and strictly between the ends in height.
       if (a_height * b_height < 0) found = Item(operand_.edge(halfedge));
@@ -94,8 +94,8 @@ Item FacetLocator::locate(FacetId facet, PointId point) const {
   if (found.kind != Item::Kind::kNone || !inside) return found;
   const Facet& f = operand_.complex().facets[facet];
   for (const VertexId v : operand_.complex().isolated_vertices_of(f)) {
-    if (compare_coordinate(points, operand_.point(v), point, axes.first) == 0 &&
-        compare_coordinate(points, operand_.point(v), point, axes.second) == 0) {
+    if (compare_coordinate(points, operand_.point(v), point, axes.first, monitor) == 0 &&
+        compare_coordinate(points, operand_.point(v), point, axes.second, monitor) == 0) {
       return Item(v);
     }
   }

@@ -4,6 +4,7 @@
 #include <mutex>
 #include <unordered_map>
 
+#include "nef/base/monitor.h"
 #include "nef/boolean/operand.h"
 
 namespace nef {
@@ -20,7 +21,7 @@ class FacetLocator {
 
   /// The item of the (closed) facet that holds a point of its plane: the facet itself, an edge or
   /// a vertex of its boundary or an isolated vertex inside; kNone if the point lies outside.
-  [[nodiscard]] Item locate(FacetId facet, PointId point) const;
+  [[nodiscard]] Item locate(FacetId facet, PointId point, const Monitor& monitor) const;
 
   /// True only if a point of the facet's plane that lies in `box` is not in the closed facet. In double
   /// precision, with proven bounds.

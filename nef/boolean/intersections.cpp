@@ -8,8 +8,6 @@
 #include <unordered_set>
 
 #include "nef/base/error.h"
-#include "nef/base/interruption.h"
-#include "nef/base/progress.h"
 #include "nef/base/threads/parallel.h"
 #include "nef/boolean/facet_locator.h"
 #include "nef/boolean/piercing_filter.h"
@@ -20,10 +18,12 @@ namespace {
 
 class IntersectionFinder {
  public:
-  IntersectionFinder(const std::array<Operand, 2>& operands, CommonTables& tables, unsigned threads)
+  IntersectionFinder(const std::array<Operand, 2>& operands, CommonTables& tables, unsigned threads,
+                     const Monitor& monitor)
       : operands_(operands),
         tables_(tables),
         threads_(threads),
+        monitor_(monitor),
         locators_{FacetLocator{operands[0], tables}, FacetLocator{operands[1], tables}} {
     for (std::size_t x = 0; x < 2; ++x) result_.vertex_item[x].resize(operands[x].complex().vertex_count());
   }
@@ -114,13 +114,13 @@ class IntersectionFinder {
     const std::size_t count = operands_[0].complex().facets.size() + operands_[1].complex().facets.size();
     std::array<OccupancyGrid, 2> grids{OccupancyGrid(region, count), OccupancyGrid(region, count)};
     std::array<Candidates, 2> found;
-    parallel_for(2, threads_, [&](std::size_t x) {
+    parallel_for(2, threads_, monitor_, [&](std::size_t x, const Monitor&) {
       found[x] = candidates(x, grids[x]);
       for (const auto* cells : {&found[x].facets.cells, &found[x].bare_edges.cells, &found[x].bare_vertices.cells}) {
         for (const CellRange& range : *cells) grids[x].mark(range);
       }
     });
-    parallel_for(2, threads_, [&](std::size_t x) { collect(x, found[x], grids[1 - x]); });
+    parallel_for(2, threads_, monitor_, [&](std::size_t x, const Monitor&) { collect(x, found[x], grids[1 - x]); });
   }
 
   // The items that come near the other operand, with a tree of their boxes.
@@ -160,7 +160,9 @@ class IntersectionFinder {
     }
   }
 
-  int side(PlaneId plane, PointId point) const { return side_of_plane(tables_.planes, plane, tables_.points, point); }
+  int side(PlaneId plane, PointId point, const Monitor& monitor) const {
+    return side_of_plane(tables_.planes, plane, tables_.points, point, monitor);
+  }
 
   // A vertex of operand x has been found on an item of the other one.
   void place_vertex(std::size_t x, VertexId vertex, const Item& item) {
@@ -183,14 +185,15 @@ class IntersectionFinder {
     constexpr std::size_t kAtOnce = 16;
     std::array<std::vector<Pair<I>>, kAtOnce> found;
     for (std::size_t begin = 0; begin < count; begin += kAtOnce * kTogether) {
-      check_interruption();
-      tell_progress(phase, begin, count);
+      monitor_.check_interruption();
+      monitor_.tell_progress(phase, begin, count);
       const std::size_t end = std::min(count, begin + kAtOnce * kTogether);
-      parallel_for_ranges(end - begin, kTogether, threads_, [&](std::size_t first, std::size_t last) {
-        std::vector<Pair<I>>& pairs = found[first / kTogether];
-        pairs.clear();
-        for (std::size_t k = begin + first; k < begin + last; ++k) find(k, pairs);
-      });
+      parallel_for_ranges(end - begin, kTogether, threads_, monitor_,
+                          [&](std::size_t first, std::size_t last, const Monitor& own) {
+                            std::vector<Pair<I>>& pairs = found[first / kTogether];
+                            pairs.clear();
+                            for (std::size_t k = begin + first; k < begin + last; ++k) find(k, pairs, own);
+                          });
       for (std::size_t part = 0; part * kTogether < end - begin; ++part) {
         for (const Pair<I>& pair : found[part]) use(pair);
       }
@@ -201,17 +204,17 @@ class IntersectionFinder {
     const Operand& other = operands_[1 - x];
     const std::vector<VertexId>& vertices = near_[x].vertices;
     const auto placed = [&](VertexId v) { return result_.vertex_item[x][v].kind != Item::Kind::kNone; };
-    const auto find = [&](std::size_t k, std::vector<Pair<VertexId>>& pairs) {
+    const auto find = [&](std::size_t k, std::vector<Pair<VertexId>>& pairs, const Monitor& monitor) {
       const VertexId v = vertices[k];
       if (placed(v)) return;
       near_[1 - x].facet_tree.for_each_overlap(operands_[x].vertex_box(v), [&](std::uint32_t i) {
         const FacetId facet = near_[1 - x].facets[i];
-        if (side(other.facet_plane(facet), operands_[x].point(v)) == 0) pairs.push_back({v, facet});
+        if (side(other.facet_plane(facet), operands_[x].point(v), monitor) == 0) pairs.push_back({v, facet});
       });
     };
     find_and_use<VertexId>(vertices.size(), "vertices in facets", find, [&](const Pair<VertexId>& pair) {
       if (placed(pair.own)) return;
-      const Item item = locators_[1 - x].locate(pair.facet, operands_[x].point(pair.own));
+      const Item item = locators_[1 - x].locate(pair.facet, operands_[x].point(pair.own), monitor_);
       if (item.kind != Item::Kind::kNone) place_vertex(x, pair.own, item);
     });
   }
@@ -226,14 +229,14 @@ class IntersectionFinder {
       targets.bare_vertex_tree.for_each_overlap(box, [&](std::uint32_t i) {
         if (result_.vertex_item[x][v].kind != Item::Kind::kNone) return;
         const VertexId w = targets.bare_vertices[i];
-        if (compare_lexicographic(tables_.points, p, other.point(w)) == 0) place_vertex(x, v, Item(w));
+        if (compare_lexicographic(tables_.points, p, other.point(w), monitor_) == 0) place_vertex(x, v, Item(w));
       });
       targets.bare_edge_tree.for_each_overlap(box, [&](std::uint32_t i) {
         if (result_.vertex_item[x][v].kind != Item::Kind::kNone) return;
         const HalfedgeId e = targets.bare_edges[i];
-        if (side(other.svertex(e).p, p) != 0 || side(other.svertex(e).q, p) != 0) return;
-        const int from = compare_lexicographic(tables_.points, p, other.point(other.source(e)));
-        const int to = compare_lexicographic(tables_.points, p, other.point(other.target(e)));
+        if (side(other.svertex(e).p, p, monitor_) != 0 || side(other.svertex(e).q, p, monitor_) != 0) return;
+        const int from = compare_lexicographic(tables_.points, p, other.point(other.source(e)), monitor_);
+        const int to = compare_lexicographic(tables_.points, p, other.point(other.target(e)), monitor_);
         if (from * to < 0) place_vertex(x, v, Item(e));
         if (from == 0) place_vertex(x, v, Item(other.source(e)));
         if (to == 0) place_vertex(x, v, Item(other.target(e)));
@@ -245,22 +248,23 @@ class IntersectionFinder {
     const Operand& own = operands_[x];
     const Operand& other = operands_[1 - x];
     const std::vector<HalfedgeId>& edges = near_[x].edges;
-    const auto find = [&](std::size_t k, std::vector<Pair<HalfedgeId>>& pairs) {
+    const auto find = [&](std::size_t k, std::vector<Pair<HalfedgeId>>& pairs, const Monitor& monitor) {
       const HalfedgeId e = edges[k];
       const PointId a = own.point(own.source(e));
       const PointId b = own.point(own.target(e));
       near_[1 - x].facet_tree.for_each_overlap(own.edge_box(e), [&](std::uint32_t i) {
         const FacetId facet = near_[1 - x].facets[i];
         const PlaneId plane = other.facet_plane(facet);
-        const int side_a = side(plane, a);
-        const int side_b = side(plane, b);
-        if (side_a * side_b < 0 ? may_pierce(x, a, b, facet) : side_a == 0 && side_b == 0) pairs.push_back({e, facet});
+        const int side_a = side(plane, a, monitor);
+        const int side_b = side(plane, b, monitor);
+        const bool may_meet = side_a * side_b < 0 ? may_pierce(x, a, b, facet, monitor) : side_a == 0 && side_b == 0;
+        if (may_meet) pairs.push_back({e, facet});
       });
     };
     find_and_use<HalfedgeId>(edges.size(), "edges through facets", find, [&](const Pair<HalfedgeId>& pair) {
       const HalfedgeId e = pair.own;
       const PlaneId plane = other.facet_plane(pair.facet);
-      if (side(plane, own.point(own.source(e))) != 0) {
+      if (side(plane, own.point(own.source(e)), monitor_) != 0) {
         pierce(x, e, pair.facet);
         return;
       }
@@ -270,10 +274,10 @@ class IntersectionFinder {
   }
 
   // False only if the segment from a to b, which passes through the plane of a facet, misses the facet.
-  [[nodiscard]] bool may_pierce(std::size_t x, PointId a, PointId b, FacetId facet) const {
+  [[nodiscard]] bool may_pierce(std::size_t x, PointId a, PointId b, FacetId facet, const Monitor& monitor) const {
     const Box rough = piercing_box(tables_.planes, operands_[1 - x].facet_plane(facet), tables_.points, a, b);
     const bool misses = locators_[1 - x].surely_misses(facet, rough);
-    if (misses) ++predicate_counts().filter;
+    if (misses) monitor.count_filter();
     return !misses;
   }
 
@@ -283,7 +287,7 @@ class IntersectionFinder {
     const std::optional<PointId> point =
         tables_.points.push_intersection(tables_.planes, line.p, line.q, operands_[1 - x].facet_plane(facet));
     NEF_ASSERT(point.has_value());
-    const Item item = locators_[1 - x].locate(facet, *point);
+    const Item item = locators_[1 - x].locate(facet, *point, monitor_);
     const bool used = item.kind == Item::Kind::kFacet || item.kind == Item::Kind::kEdge;
     if (!used || !add_crossing(x, e, item, *point)) tables_.points.pop();
     if (item.kind == Item::Kind::kVertex) place_vertex(1 - x, item.vertex(), Item(e));
@@ -294,13 +298,18 @@ class IntersectionFinder {
   void cross_in_plane(std::size_t x, HalfedgeId e, HalfedgeId f, PlaneId plane) {
     const Operand& own = operands_[x];
     const Operand& other = operands_[1 - x];
-    const PlaneId through_f = other.edge_side(tables_.planes, plane, f).other;
-    if (side(through_f, own.point(own.source(e))) * side(through_f, own.point(own.target(e))) >= 0) return;
-    const PlaneId through_e = own.edge_side(tables_.planes, plane, e).other;
-    if (side(through_e, other.point(other.source(f))) * side(through_e, other.point(other.target(f))) >= 0) return;
+    const PlaneId through_f = other.edge_side(tables_.planes, plane, f, monitor_).other;
+    if (!parts(through_f, own.point(own.source(e)), own.point(own.target(e)))) return;
+    const PlaneId through_e = own.edge_side(tables_.planes, plane, e, monitor_).other;
+    if (!parts(through_e, other.point(other.source(f)), other.point(other.target(f)))) return;
     const std::optional<PointId> point = tables_.points.push_intersection(tables_.planes, plane, through_e, through_f);
     NEF_ASSERT(point.has_value());
     if (!add_crossing(x, e, Item(f), *point)) tables_.points.pop();
+  }
+
+  // True if the points lie strictly on both sides of the plane.
+  [[nodiscard]] bool parts(PlaneId plane, PointId a, PointId b) const {
+    return side(plane, a, monitor_) * side(plane, b, monitor_) < 0;
   }
 
   bool add_crossing(std::size_t x, HalfedgeId e, const Item& item, PointId point) {
@@ -332,8 +341,8 @@ class IntersectionFinder {
         for (const PlaneId plane : {other.p, other.q}) {
           const std::optional<PointId> point = tables_.points.push_intersection(tables_.planes, line.p, line.q, plane);
           if (!point) continue;
-          const bool on_both =
-              side(other.p, *point) == 0 && side(other.q, *point) == 0 && inside(a, e, *point) && inside(b, f, *point);
+          const bool on_both = side(other.p, *point, monitor_) == 0 && side(other.q, *point, monitor_) == 0 &&
+                               inside(a, e, *point) && inside(b, f, *point);
           if (!on_both || !add_crossing(0, e, Item(f), *point)) tables_.points.pop();
           return;
         }
@@ -342,8 +351,8 @@ class IntersectionFinder {
   }
 
   bool inside(const Operand& operand, HalfedgeId e, PointId point) const {
-    return compare_lexicographic(tables_.points, point, operand.point(operand.source(e))) *
-               compare_lexicographic(tables_.points, point, operand.point(operand.target(e))) <
+    return compare_lexicographic(tables_.points, point, operand.point(operand.source(e)), monitor_) *
+               compare_lexicographic(tables_.points, point, operand.point(operand.target(e)), monitor_) <
            0;
   }
 
@@ -358,6 +367,7 @@ class IntersectionFinder {
   const std::array<Operand, 2>& operands_;
   CommonTables& tables_;
   unsigned threads_;
+  Monitor monitor_;
   std::array<FacetLocator, 2> locators_;
   std::array<Near, 2> near_;
   std::unordered_set<std::uint64_t> edge_pairs_;
@@ -366,8 +376,9 @@ class IntersectionFinder {
 
 }  // namespace
 
-Intersections intersect_boundaries(const std::array<Operand, 2>& operands, CommonTables& tables, unsigned threads) {
-  return IntersectionFinder(operands, tables, threads).run();
+Intersections intersect_boundaries(const std::array<Operand, 2>& operands, CommonTables& tables, unsigned threads,
+                                   const Monitor& monitor) {
+  return IntersectionFinder(operands, tables, threads, monitor).run();
 }
 
 }  // namespace nef

@@ -8,6 +8,7 @@
 #include <array>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/boolean/operand.h"
 
 namespace nef {
@@ -35,6 +36,7 @@ struct Intersections {
 };
 
 /// Finds all of them, on up to `threads` threads. New points are added to the tables.
-Intersections intersect_boundaries(const std::array<Operand, 2>& operands, CommonTables& tables, unsigned threads);
+Intersections intersect_boundaries(const std::array<Operand, 2>& operands, CommonTables& tables, unsigned threads,
+                                   const Monitor& monitor);
 
 }  // namespace nef

@@ -9,16 +9,18 @@
 
 namespace nef {
 
-CommonTables::CommonTables(const Complex& first, const Complex& second, unsigned threads) {
-  const auto find_planes = [&] { rows_of_second = first.planes.rows_of(second.planes, threads); };
-  const auto copy = [&] {
+CommonTables::CommonTables(const Complex& first, const Complex& second, unsigned threads, const Monitor& monitor) {
+  const auto find_planes = [&](const Monitor& own) {
+    rows_of_second = first.planes.rows_of(second.planes, threads, own);
+  };
+  const auto copy = [&](const Monitor&) {
     planes.reserve(first.planes.size() + second.planes.size());
     planes.append_new(first.planes, 0, first.planes.size());
     points.reserve(first.points.size() + second.points.size());
     points.append(first.points, 0, first.points.size());
     points.append(second.points, 0, second.points.size());
   };
-  const auto find_bounds = [&] {
+  const auto find_bounds = [&](const Monitor&) {
     for (std::size_t x = 0; x < 2; ++x) {
       const Complex& complex = x == 0 ? first : second;
       for (const VertexId v : complex.vertex_ids()) {
@@ -26,7 +28,7 @@ CommonTables::CommonTables(const Complex& first, const Complex& second, unsigned
       }
     }
   };
-  parallel_calls(threads, {find_planes, copy, find_bounds});
+  parallel_calls(threads, monitor, {find_planes, copy, find_bounds});
   planes.append_missing(second.planes, rows_of_second);
 }
 
@@ -75,10 +77,11 @@ SphereMapView Operand::pyramid(const Item& item, LabelId label, SphereMapBuffer&
   return scratch.view();
 }
 
-LabelId Operand::volume_mark(const PlaneTable& planes, const Item& item, const Direction& direction) const {
+LabelId Operand::volume_mark(const PlaneTable& planes, const Item& item, const Direction& direction,
+                             const Monitor& monitor) const {
   SphereMapBuffer scratch;
   const SphereMapView map = pyramid(item, 0, scratch);
-  const SphereLocation where = locate(planes, map, direction);
+  const SphereLocation where = locate(planes, map, direction, monitor);
   NEF_ASSERT(where.kind == SphereLocation::Kind::kSFace);
   return map.sfaces[where.index].mark;
 }

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/complex/complex.h"
 #include "nef/complex/facet_plane.h"
 #include "nef/geometry/box_tree.h"
@@ -23,7 +24,7 @@ struct CommonTables {
   std::array<Box, 2> bounds;                  ///< of the vertices of each operand
 
   /// O(planes and points), on up to `threads` threads.
-  CommonTables(const Complex& first, const Complex& second, unsigned threads);
+  CommonTables(const Complex& first, const Complex& second, unsigned threads, const Monitor& monitor);
 };
 
 /// What item of a complex a point lies on. A halfedge stands for its edge: the smaller of the two.
@@ -76,8 +77,9 @@ class Operand {
 
   /// The plane other than `plane` (a common name) that holds the edge, and the side of it to the
   /// left of the halfedge in `plane`. See edge_side in nef/complex/facet_plane.h.
-  [[nodiscard]] EdgeSide edge_side(const PlaneTable& planes, PlaneId plane, HalfedgeId halfedge) const {
-    return nef::edge_side(planes, plane, svertex(halfedge));
+  [[nodiscard]] EdgeSide edge_side(const PlaneTable& planes, PlaneId plane, HalfedgeId halfedge,
+                                   const Monitor& monitor) const {
+    return nef::edge_side(planes, plane, svertex(halfedge), monitor);
   }
 
   /// The local pyramid at an item; the whole-space one of `label` for no item. `scratch` may hold it.
@@ -85,7 +87,8 @@ class Operand {
 
   /// The mark of the volume that `direction` leads into from a point on `item`. It must not lead
   /// along a lower-dimensional item.
-  [[nodiscard]] LabelId volume_mark(const PlaneTable& planes, const Item& item, const Direction& direction) const;
+  [[nodiscard]] LabelId volume_mark(const PlaneTable& planes, const Item& item, const Direction& direction,
+                                    const Monitor& monitor) const;
 
  private:
   void rename(SphereMapBuffer& map) const;

@@ -18,17 +18,18 @@ namespace {
 
 class ComplexOverlay {
  public:
-  ComplexOverlay(const Complex& a, const Complex& b, const LabelFunction& f, unsigned threads)
+  ComplexOverlay(const Complex& a, const Complex& b, const LabelFunction& f, unsigned threads, const Monitor& monitor)
       : f_(f),
         threads_(threads),
-        tables_(a, b, threads_),
+        monitor_(monitor),
+        tables_(a, b, threads_, monitor_),
         operands_{Operand(a, tables_, 0), Operand(b, tables_, 1)},
         result_(operands_, tables_) {}
 
   // Nothing if the result is operand 0.
   std::optional<Complex> run(const std::function<const QueryStructure&()>& queries_a,
                              const std::function<const QueryStructure&()>& queries_b) {
-    Intersections found = intersect_boundaries(operands_, tables_, threads_);
+    Intersections found = intersect_boundaries(operands_, tables_, threads_, monitor_);
     collect(found, queries_a, queries_b);
     return finished(std::move(found));
   }
@@ -38,16 +39,17 @@ class ComplexOverlay {
   void collect(const Intersections& found, const std::function<const QueryStructure&()>& queries_a,
                const std::function<const QueryStructure&()>& queries_b) {
     std::array<IndexedVector<VertexId, LabelId>, 2> marks;
-    const auto find_marks = [&](std::size_t x) {
-      marks[x] = marks_of_untouched(operands_, x, tables_, found, x == 0 ? queries_b : queries_a);
+    const auto find_marks = [&](std::size_t x, const Monitor& own) {
+      marks[x] = marks_of_untouched(operands_, x, tables_, found, x == 0 ? queries_b : queries_a, own);
     };
-    parallel_calls(threads_, {[&] { find_marks(0); }, [&] { find_marks(1); }});
+    parallel_calls(threads_, monitor_,
+                   {[&](const Monitor& own) { find_marks(0, own); }, [&](const Monitor& own) { find_marks(1, own); }});
     std::vector<Meeting> meetings;
     const auto note_meeting = [&](const Meeting& meeting) { meetings.push_back(meeting); };
     for_each_vertex(
         found, [](std::size_t, VertexId) {}, note_meeting);
     for (const Crossing& crossing : found.crossings) note_meeting({crossing.point, crossing.item});
-    overlaid_.emplace(operands_, tables_, f_, meetings, threads_);
+    overlaid_.emplace(operands_, tables_, f_, meetings, threads_, monitor_);
     std::size_t next = 0;
     const auto push_next = [&](const Meeting&) { result_.add((*overlaid_)[next++]); };
     for_each_vertex(
@@ -84,13 +86,13 @@ class ComplexOverlay {
     tables_.points = PointTable();
     found.vertex_item = {};
     found.crossings = {};
-    ComplexBuilder builder(tables_.planes);
-    result_.write(tables_.planes, builder, threads_);
+    ComplexBuilder builder(tables_.planes, monitor_);
+    result_.write(tables_.planes, builder, threads_, monitor_);
     overlaid_.reset();
     if ((a.has_box() || b.has_box()) && builder.has_idle_box()) return builder.finish(outer, threads_);
     std::optional<KnownLinks> known;
     if (result_.is_mostly_copies()) {
-      known = copied_links(builder.so_far(), result_.origins(), {&a, &b}, found.contacts, threads_);
+      known = copied_links(builder.so_far(), result_.origins(), {&a, &b}, found.contacts, threads_, monitor_);
     }
     found = {};
     return known ? builder.finish(outer, *std::move(known), threads_) : builder.finish(outer, threads_);
@@ -154,7 +156,7 @@ class ComplexOverlay {
         std::array<Item, 2> items;
         items[x] = Item(v);
         const SphereMapBuffer& map = overlay_.at(items, other);
-        if (is_vertex(tables_.planes, map.view())) result_.add(operands_[x].point(v), map.view());
+        if (is_vertex(tables_.planes, map.view(), monitor_)) result_.add(operands_[x].point(v), map.view());
         return;
       }
     }
@@ -194,9 +196,10 @@ class ComplexOverlay {
 
   const LabelFunction& f_;
   unsigned threads_;
+  Monitor monitor_;
   CommonTables tables_;
   std::array<Operand, 2> operands_;
-  PyramidOverlay overlay_{operands_, tables_, f_};
+  PyramidOverlay overlay_{operands_, tables_, f_, monitor_};
   SphereMapBuffer scratch_;
   SphereMapBuffer out_;
   std::vector<LabelId> marks_;
@@ -209,8 +212,9 @@ class ComplexOverlay {
 
 std::optional<Complex> overlay_complexes(const Complex& a, const Complex& b, const LabelFunction& f,
                                          const std::function<const QueryStructure&()>& queries_a,
-                                         const std::function<const QueryStructure&()>& queries_b, unsigned threads) {
-  return ComplexOverlay(a, b, f, threads).run(queries_a, queries_b);
+                                         const std::function<const QueryStructure&()>& queries_b, unsigned threads,
+                                         const Monitor& monitor) {
+  return ComplexOverlay(a, b, f, threads, monitor).run(queries_a, queries_b);
 }
 
 }  // namespace nef

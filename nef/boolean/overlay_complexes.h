@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 
+#include "nef/base/monitor.h"
 #include "nef/boolean/untouched.h"
 #include "nef/sphere_map/label_function.h"
 
@@ -16,6 +17,7 @@ namespace nef {
 /// of them.
 std::optional<Complex> overlay_complexes(const Complex& a, const Complex& b, const LabelFunction& f,
                                          const std::function<const QueryStructure&()>& queries_a,
-                                         const std::function<const QueryStructure&()>& queries_b, unsigned threads = 1);
+                                         const std::function<const QueryStructure&()>& queries_b, unsigned threads,
+                                         const Monitor& monitor);
 
 }  // namespace nef

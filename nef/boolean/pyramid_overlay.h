@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/boolean/operand.h"
 #include "nef/sphere_map/overlay.h"
 
@@ -14,8 +15,9 @@ namespace nef {
 class PyramidOverlay {
  public:
   /// All must outlive it.
-  PyramidOverlay(const std::array<Operand, 2>& operands, const CommonTables& tables, const LabelFunction& f)
-      : operands_(operands), tables_(tables), f_(f) {}
+  PyramidOverlay(const std::array<Operand, 2>& operands, const CommonTables& tables, const LabelFunction& f,
+                 const Monitor& monitor)
+      : operands_(operands), tables_(tables), f_(f), monitor_(monitor) {}
 
   /// The pyramids at two items, overlaid and simplified; `label` is the mark around the point in an operand that has no
   /// item there. Valid until the next call.
@@ -25,6 +27,7 @@ class PyramidOverlay {
   const std::array<Operand, 2>& operands_;
   const CommonTables& tables_;
   const LabelFunction& f_;
+  Monitor monitor_;
   SphereOverlay overlay_;
   std::array<SphereMapBuffer, 2> scratch_;
   SphereMapBuffer out_;
@@ -47,7 +50,7 @@ class OverlaidMeetings {
  public:
   /// Makes the overlays on up to `threads` threads, and tells of its progress.
   OverlaidMeetings(const std::array<Operand, 2>& operands, const CommonTables& tables, const LabelFunction& f,
-                   std::span<const Meeting> meetings, unsigned threads);
+                   std::span<const Meeting> meetings, unsigned threads, const Monitor& monitor);
 
   /// The vertex at meeting k, if the point is one; its planes have common names. Belongs to this object.
   [[nodiscard]] VertexOf operator[](std::size_t k) const;

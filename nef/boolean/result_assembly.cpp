@@ -120,7 +120,7 @@ void ResultAssembly::drop_planes(PlaneTable& planes, const FinalRows& rows) {
   planes = std::move(kept);
 }
 
-void ResultAssembly::write(PlaneTable& planes, ComplexBuilder& result, unsigned threads) const {
+void ResultAssembly::write(PlaneTable& planes, ComplexBuilder& result, unsigned threads, const Monitor& monitor) const {
   const FinalRows rows = final_rows(planes.size());
   reserve(result);
   std::vector<ComplexBuilder::CopiedRun> copies;
@@ -131,7 +131,9 @@ void ResultAssembly::write(PlaneTable& planes, ComplexBuilder& result, unsigned 
     copies.push_back({run.from, r.first, r.count, rows.of_origin[r.origin], marks});
   }
   // On one thread, the dropped planes are gone before the copies are there.
-  parallel_calls(threads, {[&] { drop_planes(planes, rows); }, [&] { result.copy(copies, threads); }});
+  parallel_calls(threads, monitor,
+                 {[&](const Monitor&) { drop_planes(planes, rows); },
+                  [&](const Monitor& own) { result.copy(copies, threads, own); }});
 }
 
 }  // namespace nef

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/boolean/copied_links.h"
 #include "nef/boolean/pyramid_overlay.h"
 #include "nef/synthesis/complex_builder.h"
@@ -37,7 +38,7 @@ class ResultAssembly {
 
   /// Writes all vertices. Of the planes of the tables, which `result` must have been made with, those that nothing uses
   /// are dropped. On up to `threads` threads.
-  void write(PlaneTable& planes, ComplexBuilder& result, unsigned threads) const;
+  void write(PlaneTable& planes, ComplexBuilder& result, unsigned threads, const Monitor& monitor) const;
 
   /// Where its vertices come from.
   [[nodiscard]] std::vector<VertexRun> origins() const;
@@ -65,7 +66,7 @@ class ResultAssembly {
   const CommonTables& tables_;
   std::vector<Run> runs_;
   PlaneTable none_;
-  ComplexBuilder new_{none_};  // the new vertices that this made itself
+  ComplexBuilder new_{none_, {}};  // the new vertices that this made itself; only appends
 };
 
 }  // namespace nef

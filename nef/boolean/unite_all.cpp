@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <atomic>
-#include <optional>
 #include <vector>
 
-#include "nef/base/progress.h"
 #include "nef/base/threads/parallel.h"
 #include "nef/boolean/union_order.h"
 #include "nef/polyhedron.h"
@@ -17,19 +15,20 @@ class UnionRun {
   explicit UnionRun(std::vector<Polyhedron>&& sets)
       : sets_(std::move(sets)), operands_(measured(sets_)), order_(operands_), alone_(order_.steps().size() == 1) {}
 
-  Polyhedron result(unsigned threads) {
+  Polyhedron result(unsigned threads, const Monitor& monitor) {
     const auto steps = static_cast<std::uint32_t>(order_.steps().size());
     sets_.resize(operands_.size() + steps);
     if (threads == 1) {
-      run({0, steps}, 1);
+      run({0, steps}, 1, monitor);
       return sets_.back();
     }
-    parallel_for(order_.tasks().size(), threads, [this](std::size_t i) { run(order_.tasks()[i], 1); });
+    parallel_for(order_.tasks().size(), threads, monitor,
+                 [this](std::size_t i, const Monitor& own) { run(order_.tasks()[i], 1, own); });
     // The last unions are large and few: threads that find none of their own help with those of others.
     constexpr std::size_t kFew = 8;
     for (const std::vector<std::uint32_t>& round : order_.rounds()) {
-      parallel_for(round.size(), threads, [&](std::size_t i) {
-        run({round[i], round[i] + 1}, round.size() < kFew ? threads : 1);
+      parallel_for(round.size(), threads, monitor, [&](std::size_t i, const Monitor& own) {
+        run({round[i], round[i] + 1}, round.size() < kFew ? threads : 1, own);
       });
     }
     return sets_.back();
@@ -43,19 +42,15 @@ class UnionRun {
     return result;
   }
 
-  void run(const UnionOrder::Task& task, unsigned threads) {
+  void run(const UnionOrder::Task& task, unsigned threads, const Monitor& own) {
+    // Many small operations tell of themselves as one; a single one, of what it does.
+    const Monitor of_step = alone_ ? own : own.quiet();
     for (std::uint32_t k = task.first; k < task.last; ++k) {
       Polyhedron& a = sets_[order_.steps()[k].first];
       Polyhedron& b = sets_[order_.steps()[k].second];
-      {
-        // Many small operations tell of themselves as one; a single one, of what it does.
-        const ProgressFunction nobody;
-        std::optional<ProgressListener> quiet;
-        if (!alone_) quiet.emplace(nobody);
-        sets_[operands_.size() + k] = unite(a, b, threads);
-      }
+      sets_[operands_.size() + k] = unite(a, b, threads, of_step);
       a = b = Polyhedron();
-      if (!alone_) tell_progress("sets", ++done_, order_.steps().size());
+      if (!alone_) own.tell_progress("sets", ++done_, order_.steps().size());
     }
   }
 
@@ -68,7 +63,7 @@ class UnionRun {
 
 }  // namespace
 
-Polyhedron unite_all(std::span<const Polyhedron> sets, unsigned threads) {
+Polyhedron unite_all(std::span<const Polyhedron> sets, unsigned threads, const Monitor& monitor) {
   std::vector<Polyhedron> left;
   left.reserve(sets.size());
   for (const Polyhedron& set : sets) {
@@ -77,7 +72,7 @@ Polyhedron unite_all(std::span<const Polyhedron> sets, unsigned threads) {
   }
   if (left.empty()) return sets.empty() ? Polyhedron() : sets.front();
   if (left.size() == 1) return left.front();
-  return UnionRun(std::move(left)).result(threads);
+  return UnionRun(std::move(left)).result(threads, monitor);
 }
 
 }  // namespace nef

@@ -14,10 +14,11 @@ namespace {
 class UntouchedMarks {
  public:
   UntouchedMarks(const std::array<Operand, 2>& operands, std::size_t x, const CommonTables& tables,
-                 const Intersections& intersections)
+                 const Intersections& intersections, const Monitor& monitor)
       : own_(operands[x]),
         other_(operands[1 - x]),
         tables_(tables),
+        monitor_(monitor),
         items_(intersections.vertex_item[x]),
         contacts_(intersections.contacts[x]),
         marks_(own_.complex().vertex_count(), 0),
@@ -45,7 +46,8 @@ class UntouchedMarks {
     spread();
     for (const VertexId v : marks_.ids()) {
       if (touched(v) || known_[v]) continue;
-      const VolumeId volume = queries().volume_at(other_.complex(), PointRef{&own_.complex().points, point_of(v)});
+      const VolumeId volume =
+          queries().volume_at(other_.complex(), PointRef{&own_.complex().points, point_of(v)}, monitor_);
       settle(v, other_.complex().volumes[volume].mark);
       spread();
     }
@@ -88,11 +90,12 @@ class UntouchedMarks {
   LabelId mark_toward(const Item& item, HalfedgeId h, VertexId w) const {
     if (item.kind == Item::Kind::kFacet) {
       const Facet& facet = other_.complex().facets[item.facet()];
-      const int side = side_of_plane(tables_.planes, other_.plane(facet.plane), tables_.points, own_.point(w));
+      const int side =
+          side_of_plane(tables_.planes, other_.plane(facet.plane), tables_.points, own_.point(w), monitor_);
       NEF_ASSERT(side != 0);
       return other_.complex().volumes[side > 0 ? facet.volume_above : facet.volume_below].mark;
     }
-    return other_.volume_mark(tables_.planes, item, direction_of(tables_.planes, own_.svertex(h)));
+    return other_.volume_mark(tables_.planes, item, direction_of(tables_.planes, own_.svertex(h)), monitor_);
   }
 
   // All contacts of one edge: the extreme ones tell about its ends.
@@ -110,7 +113,7 @@ class UntouchedMarks {
     }
     const int rising = direction.approximate[axis] > 0 ? 1 : -1;
     const auto before = [&](const EdgeContact& a, const EdgeContact& b) {
-      return rising * compare_coordinate(tables_.points, a.point, b.point, static_cast<int>(axis)) < 0;
+      return rising * compare_coordinate(tables_.points, a.point, b.point, static_cast<int>(axis), monitor_) < 0;
     };
     if (want_source) {
       const auto nearest = std::min_element(contacts.begin(), contacts.end(), before);
@@ -125,6 +128,7 @@ class UntouchedMarks {
   const Operand& own_;
   const Operand& other_;
   const CommonTables& tables_;
+  Monitor monitor_;
   const IndexedVector<VertexId, Item>& items_;
   const std::vector<EdgeContact>& contacts_;
   IndexedVector<VertexId, LabelId> marks_;
@@ -137,8 +141,9 @@ class UntouchedMarks {
 
 IndexedVector<VertexId, LabelId> marks_of_untouched(const std::array<Operand, 2>& operands, std::size_t x,
                                                     const CommonTables& tables, const Intersections& intersections,
-                                                    const std::function<const QueryStructure&()>& queries_of_other) {
-  return UntouchedMarks(operands, x, tables, intersections).run(queries_of_other);
+                                                    const std::function<const QueryStructure&()>& queries_of_other,
+                                                    const Monitor& monitor) {
+  return UntouchedMarks(operands, x, tables, intersections, monitor).run(queries_of_other);
 }
 
 }  // namespace nef

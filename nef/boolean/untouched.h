@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/boolean/intersections.h"
 #include "nef/location/query_structure.h"
 
@@ -15,6 +16,7 @@ namespace nef {
 /// for a point location.
 IndexedVector<VertexId, LabelId> marks_of_untouched(const std::array<Operand, 2>& operands, std::size_t x,
                                                     const CommonTables& tables, const Intersections& intersections,
-                                                    const std::function<const QueryStructure&()>& queries_of_other);
+                                                    const std::function<const QueryStructure&()>& queries_of_other,
+                                                    const Monitor& monitor);
 
 }  // namespace nef

@@ -3,7 +3,7 @@
 
 #include <iostream>
 
-#include "nef/base/progress.h"
+#include "nef/base/monitor.h"
 #include "nef/command/commands.h"
 #include "nef/program/run_program.h"
 
@@ -51,7 +51,7 @@ int run_command(int argc, char** argv, const CommandExtensions& extensions) {
   const ProgressFunction show = [&session](const char* phase, std::size_t done, std::size_t total) {
     session.show_phase(phase, done, total);
   };
-  const ProgressListener listener(show);
+  session.monitor = Monitor().telling(show);
   return run_program(
       app, argc, argv, [&session] { return session.exit_code; },
       [&session](const std::string& line) { session.complain(line); });

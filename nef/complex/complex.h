@@ -24,6 +24,7 @@
 #include <span>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/complex/ids.h"
 #include "nef/complex/patterns/pair_columns.h"
 #include "nef/complex/patterns/pattern_table.h"
@@ -232,7 +233,7 @@ struct Complex {
 
 /// Writes into all facets what is on them and on both sides of them, as their first corners tell it; where shells and
 /// volumes are known. O(facets).
-void name_sides_of_facets(Complex& complex, unsigned threads = 1);
+void name_sides_of_facets(Complex& complex, unsigned threads, const Monitor& monitor);
 
 /// Calls change(plane) for the planes that sphere maps of a complex name, those of twins once. Of a complex that is not
 /// const, planes may be changed; then opposite planes must become opposite planes.

@@ -20,12 +20,12 @@ PlaneAxes::PlaneAxes(const PlaneTable& planes, PlaneId plane) {
   positive = n[drop] > 0;
 }
 
-int PlaneAxes::compare(const PointTable& points, PointId a, PointId b) const {
-  const int sign = compare_coordinate(points, a, b, first);
-  return sign != 0 ? sign : compare_coordinate(points, a, b, second);
+int PlaneAxes::compare(const PointTable& points, PointId a, PointId b, const Monitor& monitor) const {
+  const int sign = compare_coordinate(points, a, b, first, monitor);
+  return sign != 0 ? sign : compare_coordinate(points, a, b, second, monitor);
 }
 
-EdgeSide edge_side(const PlaneTable& planes, PlaneId plane, const SVertex& s) {
+EdgeSide edge_side(const PlaneTable& planes, PlaneId plane, const SVertex& s, const Monitor& monitor) {
   // With F = plane (unflipped normal f) and d = n_p x n_q: the left normal in the plane is f x d.
   // If p is F (up to orientation) and d = k f x g for k = +-1 and g the normal of the other plane,
   // then (f x d) . g = k ((f . g)^2 - |f|^2 |g|^2) < 0 for k = 1: left is the side of -k.
@@ -34,12 +34,13 @@ EdgeSide edge_side(const PlaneTable& planes, PlaneId plane, const SVertex& s) {
   const PlaneId other{s.p.row() << 1U};
   const Direction d = direction_of(planes, s);
   const Direction left = Direction::cross(Direction::normal(planes, PlaneId{plane.row() << 1U}), d);
-  return {other, sign_of_dot(left, Direction::normal(planes, other))};
+  return {other, sign_of_dot(left, Direction::normal(planes, other), monitor)};
 }
 
-int side_of_edge(const Complex& complex, PlaneId plane, HalfedgeId halfedge, const PointTable& points, PointId point) {
-  const EdgeSide side = edge_side(complex.planes, plane, complex.svertex(halfedge));
-  return side.left * side_of_plane(complex.planes, side.other, points, point);
+int side_of_edge(const Complex& complex, PlaneId plane, HalfedgeId halfedge, const PointTable& points, PointId point,
+                 const Monitor& monitor) {
+  const EdgeSide side = edge_side(complex.planes, plane, complex.svertex(halfedge), monitor);
+  return side.left * side_of_plane(complex.planes, side.other, points, point, monitor);
 }
 
 }  // namespace nef

@@ -56,7 +56,7 @@ void edge_pyramid(const SphereMapView& map, std::uint32_t svertex, SphereMapBuff
   out.svertices = {ahead, back};
 }
 
-bool is_vertex(const PlaneTable& planes, const SphereMapView& map) {
+bool is_vertex(const PlaneTable& planes, const SphereMapView& map, const Monitor& monitor) {
   if (!map.sloops.empty()) return !map.svertices.empty() || map.mark != map.sloops[0].mark;
   if (map.svertices.empty()) return map.mark != map.sfaces[0].mark;
   if (map.svertices.size() != 2) return true;
@@ -66,7 +66,7 @@ bool is_vertex(const PlaneTable& planes, const SphereMapView& map) {
   for (std::uint32_t e = 0; e < map.shalfedges.size(); e += 2) {
     if (map.shalfedges[e].source == map.target(e)) return true;
   }
-  return !same_direction(direction_of(planes, a), direction_of(planes, b).negated());
+  return !same_direction(direction_of(planes, a), direction_of(planes, b).negated(), monitor);
 }
 
 }  // namespace nef

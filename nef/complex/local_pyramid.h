@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/complex/complex.h"
 
 namespace nef {
@@ -17,6 +18,6 @@ void edge_pyramid(const SphereMapView& map, std::uint32_t svertex, SphereMapBuff
 
 /// True if a point with this simplified sphere map is a vertex of the complex, and not a point
 /// inside a volume, facet or edge.
-bool is_vertex(const PlaneTable& planes, const SphereMapView& map);
+bool is_vertex(const PlaneTable& planes, const SphereMapView& map, const Monitor& monitor);
 
 }  // namespace nef

@@ -20,7 +20,8 @@ struct SweepEdge {
 
 class PlaneSweep {
  public:
-  PlaneSweep(const Complex& complex, PlaneId plane) : c_(complex), plane_(plane), axes_(complex.planes, plane) {}
+  PlaneSweep(const Complex& complex, PlaneId plane, const Monitor& monitor)
+      : c_(complex), plane_(plane), axes_(complex.planes, plane), monitor_(monitor) {}
 
   std::vector<CornerBelow> run(std::span<const SHalfedgeId> corners, std::span<const VertexId> vertices) {
     rank_vertices(corners, vertices);
@@ -38,8 +39,9 @@ class PlaneSweep {
     std::sort(ids_.begin(), ids_.end());
     ids_.erase(std::unique(ids_.begin(), ids_.end()), ids_.end());
     order_ = ids_;
-    std::sort(order_.begin(), order_.end(),
-              [this](VertexId a, VertexId b) { return axes_.compare(c_.points, point_of(a), point_of(b)) < 0; });
+    std::sort(order_.begin(), order_.end(), [this](VertexId a, VertexId b) {
+      return axes_.compare(c_.points, point_of(a), point_of(b), monitor_) < 0;
+    });
     ranks_.resize(ids_.size());
     for (std::uint32_t rank = 0; rank < order_.size(); ++rank) ranks_[position_of(order_[rank])] = rank;
   }
@@ -58,13 +60,13 @@ class PlaneSweep {
       const std::uint32_t to = rank_of(c_.target(halfedge));
       if ((from < to) != axes_.positive) continue;
       edges_.push_back({i, axes_.positive ? halfedge : c_.twin[halfedge], std::min(from, to), std::max(from, to),
-                        edge_side(c_.planes, plane_, c_.svertex(halfedge))});
+                        edge_side(c_.planes, plane_, c_.svertex(halfedge), monitor_)});
     }
   }
 
   // True if the vertex lies above the line of the edge.
   bool below_vertex(const SweepEdge& edge, std::uint32_t rank) const {
-    return edge.side.left * side_of_plane(c_.planes, edge.side.other, c_.points, point_of(order_[rank])) > 0;
+    return edge.side.left * side_of_plane(c_.planes, edge.side.other, c_.points, point_of(order_[rank]), monitor_) > 0;
   }
 
   // For two edges that one sweep line meets.
@@ -72,7 +74,7 @@ class PlaneSweep {
     if (a.low < b.low) return below_vertex(a, b.low);
     if (a.low > b.low) return !below_vertex(b, a.low);
     const int turn = orientation_on_circle(c_.planes, plane_, direction_of(c_.planes, c_.svertex(a.outgoing)),
-                                           direction_of(c_.planes, c_.svertex(b.outgoing)));
+                                           direction_of(c_.planes, c_.svertex(b.outgoing)), monitor_);
     return axes_.positive ? turn > 0 : turn < 0;
   }
 
@@ -121,6 +123,7 @@ class PlaneSweep {
   const Complex& c_;
   PlaneId plane_;
   PlaneAxes axes_;
+  Monitor monitor_;
   std::vector<VertexId> ids_;         // of the vertices, ascending
   std::vector<std::uint32_t> ranks_;  // of ids_
   std::vector<VertexId> order_;       // ids by rank
@@ -130,8 +133,8 @@ class PlaneSweep {
 }  // namespace
 
 std::vector<CornerBelow> corners_below(const Complex& complex, PlaneId plane, std::span<const SHalfedgeId> corners,
-                                       std::span<const VertexId> vertices) {
-  return PlaneSweep(complex, plane).run(corners, vertices);
+                                       std::span<const VertexId> vertices, const Monitor& monitor) {
+  return PlaneSweep(complex, plane, monitor).run(corners, vertices);
 }
 
 }  // namespace nef

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/complex/facet_plane.h"
 
 namespace nef {
@@ -26,6 +27,6 @@ struct CornerBelow {
 /// `plane`; edges do not cross. The answers come in lexicographic order of the vertices, first coordinate first. O(n
 /// log n) for n corners and vertices together.
 std::vector<CornerBelow> corners_below(const Complex& complex, PlaneId plane, std::span<const SHalfedgeId> corners,
-                                       std::span<const VertexId> vertices);
+                                       std::span<const VertexId> vertices, const Monitor& monitor);
 
 }  // namespace nef

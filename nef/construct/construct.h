@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/forward.h"
 #include "nef/mesh/mesh.h"
 
@@ -15,26 +16,26 @@ namespace nef {
 
 /// The closed box [low, high]. A box that is flat in some directions is a facet, segment or
 /// point; low > high in one gives the empty set.
-Polyhedron make_box(const Rational3& low, const Rational3& high);
+Polyhedron make_box(const Rational3& low, const Rational3& high, const Monitor& monitor = {});
 
 /// a x + b y + c z + d <= 0 (or < 0, if not closed). The normal must not be zero.
 Polyhedron make_halfspace(const Rational& a, const Rational& b, const Rational& c, const Rational& d,
-                          bool closed = true);
+                          bool closed = true, const Monitor& monitor = {});
 
 /// The closed convex hull of any number of points, of whatever dimension it is.
-Polyhedron convex_hull(std::span<const Rational3> points);
+Polyhedron convex_hull(std::span<const Rational3> points, const Monitor& monitor = {});
 
 /// The closed convex hull as a mesh with planar faces (no two coplanar), for points that span
 /// space; throws InputError if they do not.
-Mesh convex_hull_mesh(std::span<const Rational3> points);
+Mesh convex_hull_mesh(std::span<const Rational3> points, const Monitor& monitor = {});
 
-Polyhedron make_point(const Rational3& point);
-Polyhedron make_segment(const Rational3& a, const Rational3& b);
+Polyhedron make_point(const Rational3& point, const Monitor& monitor = {});
+Polyhedron make_segment(const Rational3& a, const Rational3& b, const Monitor& monitor = {});
 
 /// A closed planar polygon as a two-dimensional set; `rings` are simple cycles in one plane
 /// without common interior, combined by parity (outer cycles and holes in any order).
 /// Throws InputError if the points are not coplanar or a ring touches or crosses itself.
-Polyhedron make_polygon(std::span<const std::vector<Rational3>> rings);
+Polyhedron make_polygon(std::span<const std::vector<Rational3>> rings, const Monitor& monitor = {});
 
 /// How a mesh becomes a solid.
 struct MeshOptions {
@@ -42,6 +43,7 @@ struct MeshOptions {
   bool as_surface = false;  ///< the union of the faces as a two-dimensional set; any mesh will do
   bool check = true;        ///< look for contacts of faces (a mesh without any may skip it; with some, it may go wrong)
   unsigned threads = 1;     ///< to use at most; 0: as many as the machine has. The result does not depend on them
+  Monitor monitor = {};     ///< who watches; what it refers to must outlive the call
 };
 
 /// Notes about what was done to the input (faces that were triangulated).

@@ -35,7 +35,7 @@ struct HullTriangle {
 
 class Quickhull {
  public:
-  explicit Quickhull(std::span<const Rational3> points) : points_(points) {
+  Quickhull(std::span<const Rational3> points, const Monitor& monitor) : points_(points), monitor_(monitor) {
     table_.reserve(points.size());
     for (const Rational3& p : points) {
       const PointId id = table_.push(p);
@@ -64,6 +64,7 @@ class Quickhull {
   }
 
   std::span<const Rational3> points_;
+  Monitor monitor_;
   PointTable table_;
   PlaneTable planes_;
   double largest_ = 0;
@@ -114,7 +115,8 @@ PlaneId Quickhull::plane_of(HullTriangle& t) {
 bool Quickhull::above(HullTriangle& t, std::uint32_t point, double& height) {
   const Approximation rough = orient(t, point);
   height = rough.value;
-  return sign_by_ladder(rough, [&] { return side_of_plane(planes_, plane_of(t), table_, PointId(point)); }) > 0;
+  return sign_by_ladder(rough, monitor_,
+                        [&] { return side_of_plane(planes_, plane_of(t), table_, PointId(point), monitor_); }) > 0;
 }
 
 std::vector<std::uint32_t> Quickhull::span() {
@@ -348,10 +350,10 @@ Hull Quickhull::run() {
 
 }  // namespace
 
-Hull hull_of(std::span<const Rational3> points) { return Quickhull(points).run(); }
+Hull hull_of(std::span<const Rational3> points, const Monitor& monitor) { return Quickhull(points, monitor).run(); }
 
-Mesh convex_hull_mesh(std::span<const Rational3> points) {
-  Hull hull = hull_of(points);
+Mesh convex_hull_mesh(std::span<const Rational3> points, const Monitor& monitor) {
+  Hull hull = hull_of(points, monitor);
   if (hull.dimension < 3) {
     constexpr std::array<const char*, 4> kNames = {"are none", "are one point", "lie on a line", "lie in a plane"};
     const int name = hull.dimension + 1;
@@ -361,19 +363,19 @@ Mesh convex_hull_mesh(std::span<const Rational3> points) {
   return std::move(hull.mesh);
 }
 
-Polyhedron convex_hull(std::span<const Rational3> points) {
-  Hull hull = hull_of(points);
+Polyhedron convex_hull(std::span<const Rational3> points, const Monitor& monitor) {
+  Hull hull = hull_of(points, monitor);
   switch (hull.dimension) {
     case -1:
       return {};
     case 0:
-      return make_point(hull.mesh.vertices[0]);
+      return make_point(hull.mesh.vertices[0], monitor);
     case 1:
-      return make_segment(hull.mesh.vertices[0], hull.mesh.vertices[1]);
+      return make_segment(hull.mesh.vertices[0], hull.mesh.vertices[1], monitor);
     case 2:
-      return make_polygon(std::span<const std::vector<Rational3>>(&hull.mesh.vertices, 1));
+      return make_polygon(std::span<const std::vector<Rational3>>(&hull.mesh.vertices, 1), monitor);
     default:
-      return from_mesh(hull.mesh, MeshOptions{.strict = true, .as_surface = false, .check = false});
+      return from_mesh(hull.mesh, MeshOptions{.strict = true, .as_surface = false, .check = false, .monitor = monitor});
   }
 }
 

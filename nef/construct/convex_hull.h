@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/construct/construct.h"
 
 namespace nef {
@@ -22,6 +23,6 @@ struct Hull {
 
 /// The hull of any number of points; equal points may occur. Exact, O(n log n) expected for points
 /// in general position and O(n^2) at worst (quickhull: Barber, Dobkin, Huhdanpaa, ACM TOMS 1996).
-Hull hull_of(std::span<const Rational3> points);
+Hull hull_of(std::span<const Rational3> points, const Monitor& monitor = {});
 
 }  // namespace nef

@@ -25,9 +25,9 @@ Direction integer_direction(const Rational3& v) {
 }
 
 // The direction `v` as the meeting of two planes through it.
-Direction direction_in(const PlaneTable& planes, PlaneId p, PlaneId q, const Rational3& v) {
+Direction direction_in(const PlaneTable& planes, PlaneId p, PlaneId q, const Rational3& v, const Monitor& monitor) {
   Direction d = Direction::cross(planes, p, q);
-  return sign_of_dot(d, integer_direction(v)) > 0 ? d : d.negated();
+  return sign_of_dot(d, integer_direction(v), monitor) > 0 ? d : d.negated();
 }
 
 // The normal of the plane of all rings. Throws InputError if they do not lie in one.
@@ -47,14 +47,14 @@ Rational3 normal_of_rings(std::span<const std::vector<Rational3>> rings) {
   return normal;
 }
 
-void require_simple(const std::vector<Rational3>& ring, const Rational3& normal) {
+void require_simple(const std::vector<Rational3>& ring, const Rational3& normal, const Monitor& monitor) {
   for (std::size_t i = 0; i < ring.size(); ++i) {
     if (ring[i] == ring[(i + 1) % ring.size()]) throw InputError("a ring of the polygon repeats a point");
   }
   const std::size_t axis = normal[0] != 0 ? 0 : normal[1] != 0 ? 1 : 2;
   std::vector<std::uint32_t> corners(ring.size());
   std::iota(corners.begin(), corners.end(), 0U);
-  const auto sides = sides_that_meet(MeshPoints(ring), corners, axis);
+  const auto sides = sides_that_meet(MeshPoints(ring), corners, axis, monitor);
   if (!sides) return;
   const auto name = [&](std::uint32_t side) {
     return std::to_string(side) + "-" + std::to_string((side + 1) % ring.size());
@@ -64,9 +64,9 @@ void require_simple(const std::vector<Rational3>& ring, const Rational3& normal)
 }
 
 // The closed polygon inside one ring that is simple.
-Polyhedron fill_ring(std::vector<Rational3> points, const Rational3& normal) {
+Polyhedron fill_ring(std::vector<Rational3> points, const Rational3& normal, const Monitor& monitor) {
   PlaneTable planes;
-  ComplexBuilder builder(planes);
+  ComplexBuilder builder(planes, monitor);
   const PlaneId plane = plane_through(planes, normal, points[0]);
   Rational3 area;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -82,7 +82,7 @@ Polyhedron fill_ring(std::vector<Rational3> points, const Rational3& normal) {
     drawing.centre = 1;
     for (const Rational3& v : {ahead, back}) {
       Arrangement::Node node;
-      node.direction = direction_in(planes, plane, plane_through(planes, cross(v, normal), here), v);
+      node.direction = direction_in(planes, plane, plane_through(planes, cross(v, normal), here), v, monitor);
       node.mark = 1;
       drawing.nodes.push_back(std::move(node));
     }
@@ -94,20 +94,20 @@ Polyhedron fill_ring(std::vector<Rational3> points, const Rational3& normal) {
 
 }  // namespace
 
-Polyhedron make_point(const Rational3& point) {
+Polyhedron make_point(const Rational3& point, const Monitor& monitor) {
   PlaneTable planes;
-  ComplexBuilder builder(planes);
+  ComplexBuilder builder(planes, monitor);
   Arrangement drawing;
   drawing.centre = 1;
   builder.add(point, drawing);
   return Polyhedron(builder.finish(0));
 }
 
-Polyhedron make_segment(const Rational3& a, const Rational3& b) {
+Polyhedron make_segment(const Rational3& a, const Rational3& b, const Monitor& monitor) {
   const Rational3 d = minus(b, a);
-  if (is_zero(d)) return make_point(a);
+  if (is_zero(d)) return make_point(a, monitor);
   PlaneTable planes;
-  ComplexBuilder builder(planes);
+  ComplexBuilder builder(planes, monitor);
   const Rational3 n1 = d[0] == 0 && d[1] == 0 ? Rational3{1, 0, 0} : Rational3{Rational(-d[1]), d[0], 0};
   const PlaneId p = plane_through(planes, n1, a);
   const PlaneId q = plane_through(planes, cross(d, n1), a);
@@ -115,7 +115,7 @@ Polyhedron make_segment(const Rational3& a, const Rational3& b) {
     Arrangement drawing;
     drawing.centre = 1;
     Arrangement::Node node;
-    node.direction = direction_in(planes, p, q, at_a ? d : minus(a, b));
+    node.direction = direction_in(planes, p, q, at_a ? d : minus(a, b), monitor);
     node.mark = 1;
     drawing.nodes.push_back(std::move(node));
     builder.add(at_a ? a : b, drawing);
@@ -123,15 +123,15 @@ Polyhedron make_segment(const Rational3& a, const Rational3& b) {
   return Polyhedron(builder.finish(0));
 }
 
-Polyhedron make_polygon(std::span<const std::vector<Rational3>> rings) {
+Polyhedron make_polygon(std::span<const std::vector<Rational3>> rings, const Monitor& monitor) {
   const Rational3 normal = normal_of_rings(rings);
   // Each ring by itself; parity combines them.
   Polyhedron result;
   for (const std::vector<Rational3>& ring : rings) {
-    require_simple(ring, normal);
-    const Polyhedron piece = fill_ring(ring, normal);
+    require_simple(ring, normal, monitor);
+    const Polyhedron piece = fill_ring(ring, normal, monitor);
     // Rings may touch: the parity of the closed sets loses points of the boundary, its closure has them.
-    result = result.is_empty() ? piece : closure(symmetric_difference(result, piece));
+    result = result.is_empty() ? piece : closure(symmetric_difference(result, piece, 1, monitor), monitor);
   }
   return result;
 }

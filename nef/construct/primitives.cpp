@@ -8,7 +8,7 @@
 
 namespace nef {
 
-Polyhedron make_box(const Rational3& low, const Rational3& high) {
+Polyhedron make_box(const Rational3& low, const Rational3& high, const Monitor& monitor) {
   int extent = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     if (low[i] > high[i]) return {};
@@ -26,11 +26,11 @@ Polyhedron make_box(const Rational3& low, const Rational3& high) {
       }
       if (distinct) corners.push_back(p);
     }
-    if (extent == 0) return make_point(corners[0]);
-    if (extent == 1) return make_segment(corners[0], corners[1]);
+    if (extent == 0) return make_point(corners[0], monitor);
+    if (extent == 1) return make_segment(corners[0], corners[1], monitor);
     std::swap(corners[2], corners[3]);
     const std::vector<std::vector<Rational3>> ring{corners};
-    return make_polygon(ring);
+    return make_polygon(ring, monitor);
   }
   SolidFaces f;
   for (int i = 0; i < 8; ++i) {
@@ -45,10 +45,11 @@ Polyhedron make_box(const Rational3& low, const Rational3& high) {
     f.corners.insert(f.corners.end(), kSides[i].begin(), kSides[i].end());
     f.begin.push_back(static_cast<std::uint32_t>(f.corners.size()));
   }
-  return Polyhedron(make_solid(std::move(f), {1, 1, 0}));
+  return Polyhedron(make_solid(std::move(f), {1, 1, 0}, monitor));
 }
 
-Polyhedron make_halfspace(const Rational& a, const Rational& b, const Rational& c, const Rational& d, bool closed) {
+Polyhedron make_halfspace(const Rational& a, const Rational& b, const Rational& c, const Rational& d, bool closed,
+                          const Monitor& monitor) {
   const Rational3 n{a, b, c};
   if (a == 0 && b == 0 && c == 0) {
     throw InputError("a half-space needs a normal that is not (0,0,0)");
@@ -63,8 +64,8 @@ Polyhedron make_halfspace(const Rational& a, const Rational& b, const Rational& 
     map.linear[i] = {u[i], v[i], n[i]};
     map.translation[i] = -d * n[i] / square;
   }
-  const Polyhedron result = transform(Polyhedron(make_lower_halfspace()), map);
-  return closed ? result : interior(result);
+  const Polyhedron result = transform(Polyhedron(make_lower_halfspace(monitor)), map, monitor);
+  return closed ? result : interior(result, monitor);
 }
 
 }  // namespace nef

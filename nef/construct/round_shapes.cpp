@@ -57,7 +57,7 @@ std::vector<std::array<Rational, 2>> unit_circle(unsigned fragments) {
   return corners;
 }
 
-Polyhedron make_sphere(const Rational& radius, unsigned fragments) {
+Polyhedron make_sphere(const Rational& radius, unsigned fragments, const Monitor& monitor) {
   require_fragments(fragments);
   if (radius <= 0) return Polyhedron();
   const std::vector<std::array<Rational, 2>> circle = unit_circle(fragments);
@@ -67,17 +67,18 @@ Polyhedron make_sphere(const Rational& radius, unsigned fragments) {
     const auto [z, r] = cosine_and_sine(180.0 * (i + 0.5) / rings);
     add_ring(points, circle, radius * exact_rational(r), radius * exact_rational(z));
   }
-  return convex_hull(points);
+  return convex_hull(points, monitor);
 }
 
-Polyhedron make_cylinder(const Rational& height, const Rational& bottom, const Rational& top, unsigned fragments) {
+Polyhedron make_cylinder(const Rational& height, const Rational& bottom, const Rational& top, unsigned fragments,
+                         const Monitor& monitor) {
   require_fragments(fragments);
   if (height <= 0 || bottom < 0 || top < 0 || (bottom == 0 && top == 0)) return Polyhedron();
   const std::vector<std::array<Rational, 2>> circle = unit_circle(fragments);
   std::vector<Rational3> points;
   add_ring(points, circle, bottom, 0);
   add_ring(points, circle, top, height);
-  return convex_hull(points);
+  return convex_hull(points, monitor);
 }
 
 unsigned openscad_fragments(double radius, double number, double angle, double size) {

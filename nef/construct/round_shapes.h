@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/forward.h"
 #include "nef/number/number.h"
 
@@ -13,12 +14,13 @@ namespace nef {
 /// A ball about the origin: rings of `fragments` (at least 3) corners on the sphere, (fragments + 1) / 2 of them, half
 /// a step from the poles, so that it is a bit shorter than the ball. Sines and cosines are rounded to doubles; what is
 /// made of them is exact, so that the faces between two rings are planar. Empty if the radius is not positive.
-Polyhedron make_sphere(const Rational& radius, unsigned fragments);
+Polyhedron make_sphere(const Rational& radius, unsigned fragments, const Monitor& monitor = {});
 
 /// A cylinder or a piece of a cone about the z axis, from z = 0 with the radius `bottom` to `height` with the radius
 /// `top`, one of which may be 0: polygons of `fragments` (at least 3) corners, the first in the direction of x. Empty
 /// if there is nothing inside.
-Polyhedron make_cylinder(const Rational& height, const Rational& bottom, const Rational& top, unsigned fragments);
+Polyhedron make_cylinder(const Rational& height, const Rational& bottom, const Rational& top, unsigned fragments,
+                         const Monitor& monitor = {});
 
 /// The corners of a regular polygon on the circle of radius one, counterclockwise from (1, 0), rounded to doubles;
 /// multiples of 30 and 45 degrees as exact as these can be.

@@ -34,10 +34,11 @@ Direction vector_between(const PointTable& points, PointId from, PointId to) {
 
 class SolidBuilder {
  public:
-  SolidBuilder(SolidFaces&& faces, const SolidMarks& marks) : f_(std::move(faces)), marks_(marks) {}
+  SolidBuilder(SolidFaces&& faces, const SolidMarks& marks, const Monitor& monitor)
+      : f_(std::move(faces)), marks_(marks), monitor_(monitor) {}
 
   std::variant<Complex, Defect> run() {
-    ComplexBuilder result(f_.planes);
+    ComplexBuilder result(f_.planes, monitor_);
     std::optional<KnownLinks> known = add_vertices(result);
     f_.plane = {};
     f_.begin = {};
@@ -79,7 +80,7 @@ class SolidBuilder {
         }
       }
       draw(v, corners);
-      drawing_.sort_around_nodes(f_.planes);
+      drawing_.sort_around_nodes(f_.planes, monitor_);
       check_sides(v);
       if (result.add_sorted(f_.points, PointId{v}, drawing_)) {
         links.note(result.so_far(), v, drawing_, ends_, ring_);
@@ -172,8 +173,8 @@ class SolidBuilder {
     // right to a thousandth, and so is d (its error is below 2^-30): parallel vectors then have a
     // product of at least half their lengths' product.
     const bool reliable = length > 0x1p-40 * magnitude && magnitude < std::numeric_limits<double>::infinity();
-    const int sign =
-        reliable ? (dot > 0 ? 1 : -1) : sign_of_dot(d, vector_between(f_.points, PointId{v}, PointId{spoke.to}));
+    const int sign = reliable ? (dot > 0 ? 1 : -1)
+                              : sign_of_dot(d, vector_between(f_.points, PointId{v}, PointId{spoke.to}), monitor_);
     return sign > 0 ? std::move(d) : Direction::cross(f_.planes, spoke.second, spoke.first);
   }
 
@@ -228,6 +229,7 @@ class SolidBuilder {
 
   SolidFaces f_;
   SolidMarks marks_;
+  Monitor monitor_;
   std::vector<std::uint32_t> first_;
   std::vector<FaceCorner> corners_;
   std::vector<Spoke> spokes_;
@@ -269,26 +271,28 @@ SolidFaces infimaximal_box_faces(bool half) {
 
 }  // namespace
 
-Complex make_solid(SolidFaces&& faces, const SolidMarks& marks) {
-  return complex_of(try_make_solid(std::move(faces), marks));
+Complex make_solid(SolidFaces&& faces, const SolidMarks& marks, const Monitor& monitor) {
+  return complex_of(try_make_solid(std::move(faces), marks, monitor));
 }
 
-std::variant<Complex, Defect> try_make_solid(SolidFaces&& faces, const SolidMarks& marks) {
-  return SolidBuilder(std::move(faces), marks).run();
+std::variant<Complex, Defect> try_make_solid(SolidFaces&& faces, const SolidMarks& marks, const Monitor& monitor) {
+  return SolidBuilder(std::move(faces), marks, monitor).run();
 }
 
-Complex make_surface(SolidFaces&& faces, LabelId mark) {
-  return complex_of(SolidBuilder(std::move(faces), {mark, 0, 0}).run());
+Complex make_surface(SolidFaces&& faces, LabelId mark, const Monitor& monitor) {
+  return complex_of(SolidBuilder(std::move(faces), {mark, 0, 0}, monitor).run());
 }
 
-Complex make_oriented_surface(SolidFaces&& faces) {
-  return complex_of(SolidBuilder(std::move(faces), {1, 0, 0, 2}).run());
+Complex make_oriented_surface(SolidFaces&& faces, const Monitor& monitor) {
+  return complex_of(SolidBuilder(std::move(faces), {1, 0, 0, 2}, monitor).run());
 }
 
-Complex make_infimaximal_box() { return make_solid(infimaximal_box_faces(false), {1, 1, 0}); }
+Complex make_infimaximal_box(const Monitor& monitor) {
+  return make_solid(infimaximal_box_faces(false), {1, 1, 0}, monitor);
+}
 
-Complex clip_to_infimaximal_box(const Complex& solid) {
-  const Complex box = make_infimaximal_box();
+Complex clip_to_infimaximal_box(const Complex& solid, const Monitor& monitor) {
+  const Complex box = make_infimaximal_box(monitor);
   const LabelFunction clip(solid.label_count, 2,
                            [](LabelId mark, LabelId in_box) { return in_box != 0 ? mark : kOutside; });
   std::unique_ptr<const QueryStructure> of_solid;
@@ -299,10 +303,12 @@ Complex clip_to_infimaximal_box(const Complex& solid) {
   };
   return overlay_complexes(
              solid, box, clip, [&]() -> const QueryStructure& { return ask(solid, of_solid); },
-             [&]() -> const QueryStructure& { return ask(box, of_box); })
+             [&]() -> const QueryStructure& { return ask(box, of_box); }, 1, monitor)
       .value_or(solid);
 }
 
-Complex make_lower_halfspace() { return clip_to_infimaximal_box(make_solid(infimaximal_box_faces(true), {1, 1, 0})); }
+Complex make_lower_halfspace(const Monitor& monitor) {
+  return clip_to_infimaximal_box(make_solid(infimaximal_box_faces(true), {1, 1, 0}, monitor), monitor);
+}
 
 }  // namespace nef

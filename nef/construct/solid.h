@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "nef/base/defect.h"
+#include "nef/base/monitor.h"
 #include "nef/complex/complex.h"
 
 namespace nef {
@@ -32,29 +33,29 @@ struct SolidMarks {
 /// The complex of the solid. Coplanar neighbouring faces become one facet. The faces must not
 /// cross; throws InputError naming an edge (by vertex numbers) around which inside and outside do not alternate.
 /// O(n log n).
-Complex make_solid(SolidFaces&& faces, const SolidMarks& marks);
+Complex make_solid(SolidFaces&& faces, const SolidMarks& marks, const Monitor& monitor);
 
 /// The same for faces that may cross, or whose components may have the inside on different sides: then it may return
 /// what does not fit together.
-std::variant<Complex, Defect> try_make_solid(SolidFaces&& faces, const SolidMarks& marks);
+std::variant<Complex, Defect> try_make_solid(SolidFaces&& faces, const SolidMarks& marks, const Monitor& monitor);
 
 /// The union of the faces as a two-dimensional set of the given mark, 0 around it. The faces may have borders and may
 /// meet in any number around an edge, but nowhere else than in common vertices and edges. O(n log n).
-Complex make_surface(SolidFaces&& faces, LabelId mark);
+Complex make_surface(SolidFaces&& faces, LabelId mark, const Monitor& monitor);
 
 /// The same, marked 1 where faces are seen from the positive side of their plane and 2 where from the other one; 1
 /// where such faces meet.
-Complex make_oriented_surface(SolidFaces&& faces);
+Complex make_oriented_surface(SolidFaces&& faces, const Monitor& monitor);
 
 /// The solid [-R, R]^3 in coordinates with parts in the infimaximal number R (thesis 3.3): an
 /// ordinary solid, whose outside is marked 0.
-Complex make_infimaximal_box();
+Complex make_infimaximal_box(const Monitor& monitor);
 
 /// The complex with everything outside of that box replaced by kOutside: how an unbounded set is
 /// represented. On the walls of the box the marks of `solid` are taken as they are.
-Complex clip_to_infimaximal_box(const Complex& solid);
+Complex clip_to_infimaximal_box(const Complex& solid, const Monitor& monitor);
 
 /// z <= 0, clipped to the box.
-Complex make_lower_halfspace();
+Complex make_lower_halfspace(const Monitor& monitor);
 
 }  // namespace nef

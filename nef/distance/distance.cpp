@@ -37,15 +37,15 @@ std::size_t coefficient_bits(const Complex& c) {
 }
 
 // A cube that holds a nearest pair of points of any two cells of these complexes, and a point of each cell.
-Polyhedron wide_enough(const Complex& a, const Complex& b) {
+Polyhedron wide_enough(const Complex& a, const Complex& b, const Monitor& monitor) {
   Integer far = 1;
   far <<= 12 * std::max(coefficient_bits(a), coefficient_bits(b)) + 14;
   const Rational r(far);
-  return make_box({-r, -r, -r}, {r, r, r});
+  return make_box({-r, -r, -r}, {r, r, r}, monitor);
 }
 
 // A point of a closed set that is not empty.
-Rational3 some_point(const Polyhedron& closed) {
+Rational3 some_point(const Polyhedron& closed, const Monitor& monitor) {
   const auto first_vertex = [](const Complex& c) -> std::optional<Rational3> {
     for (const VertexId v : c.vertex_ids()) {
       if (!is_box_vertex(c, v)) return c.points.rational(point_of(v));
@@ -54,7 +54,7 @@ Rational3 some_point(const Polyhedron& closed) {
   };
   const Complex& c = closed.complex();
   if (std::optional<Rational3> vertex = first_vertex(c)) return *vertex;
-  std::optional<Rational3> corner = first_vertex(intersect(closed, wide_enough(c, c)).complex());
+  std::optional<Rational3> corner = first_vertex(intersect(closed, wide_enough(c, c, monitor), 1, monitor).complex());
   NEF_ASSERT(corner);
   return *corner;
 }
@@ -87,27 +87,29 @@ std::string_view contact_name(Contact contact) {
   return "overlapping";
 }
 
-std::optional<Distance> distance(const Polyhedron& a, const Polyhedron& b) {
+std::optional<Distance> distance(const Polyhedron& a, const Polyhedron& b, const Monitor& monitor) {
   if (a.is_empty() || b.is_empty()) return std::nullopt;
-  Polyhedron closed_a = a.is_closed() ? a : closure(a);
-  Polyhedron closed_b = b.is_closed() ? b : closure(b);
+  Polyhedron closed_a = a.is_closed() ? a : closure(a, monitor);
+  Polyhedron closed_b = b.is_closed() ? b : closure(b, monitor);
   Distance result;
   const bool bounded = closed_a.is_bounded() && closed_b.is_bounded();
   if (!bounded || vertices_box(closed_a.complex()).overlaps(vertices_box(closed_b.complex()))) {
-    const Polyhedron common = intersect(closed_a, closed_b);
+    const Polyhedron common = intersect(closed_a, closed_b, 1, monitor);
     if (!common.is_empty()) {
-      result.contact = intersect(interior(a), interior(b)).is_empty() ? Contact::kTouching : Contact::kOverlapping;
-      result.common_point = result.contact == Contact::kOverlapping || !intersect(a, b).is_empty();
-      result.on_a = result.on_b = some_point(common);
+      result.contact = intersect(interior(a, monitor), interior(b, monitor), 1, monitor).is_empty()
+                           ? Contact::kTouching
+                           : Contact::kOverlapping;
+      result.common_point = result.contact == Contact::kOverlapping || !intersect(a, b, 1, monitor).is_empty();
+      result.on_a = result.on_b = some_point(common, monitor);
       return result;
     }
   }
   if (!bounded) {
-    const Polyhedron cube = wide_enough(closed_a.complex(), closed_b.complex());
-    closed_a = intersect(closed_a, cube);
-    closed_b = intersect(closed_b, cube);
+    const Polyhedron cube = wide_enough(closed_a.complex(), closed_b.complex(), monitor);
+    closed_a = intersect(closed_a, cube, 1, monitor);
+    closed_b = intersect(closed_b, cube, 1, monitor);
   }
-  const NearestPair pair = nearest_features(closed_a.complex(), closed_b.complex());
+  const NearestPair pair = nearest_features(closed_a.complex(), closed_b.complex(), monitor);
   result.squared = pair.squared;
   result.on_a = pair.on_a;
   result.on_b = pair.on_b;

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string_view>
 
+#include "nef/base/monitor.h"
 #include "nef/forward.h"
 #include "nef/number/number.h"
 
@@ -39,6 +40,6 @@ struct Distance {
 /// The distance of two sets, bounded or not; nothing if one of them is empty. Of several nearest pairs the same one is
 /// found each time. O(n log n) for well-shaped sets; where the boxes around the sets overlap, up to three Boolean
 /// operations more.
-std::optional<Distance> distance(const Polyhedron& a, const Polyhedron& b);
+std::optional<Distance> distance(const Polyhedron& a, const Polyhedron& b, const Monitor& monitor = {});
 
 }  // namespace nef

@@ -83,7 +83,7 @@ struct Side {
 
 class Search {
  public:
-  Search(const Complex& a, const Complex& b) : a_(a), b_(b) {}
+  Search(const Complex& a, const Complex& b, const Monitor& monitor) : a_(a), b_(b), monitor_(monitor) {}
 
   NearestPair run() {
     start();
@@ -164,12 +164,13 @@ class Search {
     const Rational3 foot = along(p, -t, normal);
     PointTable table;
     const PointRef at{&table, table.push(foot)};
-    if (locate_in_facet(side.c, facet, at, side.edges_of(f)).kind == FacetPlace::Kind::kOutside) return;
+    if (locate_in_facet(side.c, facet, at, side.edges_of(f), monitor_).kind == FacetPlace::Kind::kOutside) return;
     offer(swapped ? NearestPair{std::move(squared), foot, p} : NearestPair{std::move(squared), p, foot});
   }
 
   Side a_;
   Side b_;
+  Monitor monitor_;
   std::optional<NearestPair> best_;
   double limit_ = std::numeric_limits<double>::infinity();
 };
@@ -212,6 +213,8 @@ NearestPair nearest_of_segments(const std::array<Rational3, 2>& a, const std::ar
   return result;
 }
 
-NearestPair nearest_features(const Complex& a, const Complex& b) { return Search(a, b).run(); }
+NearestPair nearest_features(const Complex& a, const Complex& b, const Monitor& monitor) {
+  return Search(a, b, monitor).run();
+}
 
 }  // namespace nef

@@ -25,8 +25,8 @@ bool are_doubles(const std::array<std::int64_t, 7>& homogeneous) {
 
 class Exporter {
  public:
-  Exporter(const Complex& complex, const MeshExportOptions& options)
-      : complex_(complex), options_(options), volumes_(complex.volume_count()) {}
+  Exporter(const Complex& complex, const MeshExportOptions& options, const Monitor& monitor)
+      : complex_(complex), options_(options), monitor_(monitor), volumes_(complex.volume_count()) {}
 
   MeshExport exact() {
     choose_vertices();
@@ -238,11 +238,11 @@ class Exporter {
     return MeshPoints(complex_.points, places_, doubles, asked);
   }
 
-  [[nodiscard]] static bool strictly_convex(const MeshPoints& points, const std::vector<std::uint32_t>& ring,
-                                            std::size_t axis) {
+  [[nodiscard]] bool strictly_convex(const MeshPoints& points, const std::vector<std::uint32_t>& ring,
+                                     std::size_t axis) const {
     const std::size_t n = ring.size();
     const auto turn = [&](std::size_t i) {
-      return points.orientation_along(ring[(i + n - 1) % n], ring[i], ring[(i + 1) % n], axis);
+      return points.orientation_along(ring[(i + n - 1) % n], ring[i], ring[(i + 1) % n], axis, monitor_);
     };
     const int first = turn(0);
     for (std::size_t i = 1; i < n; ++i) {
@@ -269,7 +269,7 @@ class Exporter {
 
   void write_facets(std::span<const std::array<double, 3>> doubles) {
     const MeshPoints points = points_of_polygons(doubles);
-    Triangulator triangulator(points);
+    Triangulator triangulator(points, monitor_);
     reserve_faces();
     const VertexId* corners = corner_vertices_.data();
     for (const FacetId f : boundary_) {
@@ -445,6 +445,7 @@ class Exporter {
 
   const Complex& complex_;
   const MeshExportOptions& options_;
+  Monitor monitor_;
   IndexedVector<VolumeId, SeenVolumes> volumes_;
   std::vector<FacetId> boundary_;
   std::vector<VertexId> corner_vertices_;          // of the complex, of all corners of these
@@ -471,12 +472,13 @@ std::array<double, 3> nearest_doubles(const PointTable& points, PointId point) {
   return {nearest_quotient(h[0], h[3]), nearest_quotient(h[1], h[3]), nearest_quotient(h[2], h[3])};
 }
 
-RoundedMeshExport to_rounded_mesh(const Polyhedron& polyhedron, const MeshExportOptions& options) {
-  return Exporter(polyhedron.complex(), options).rounded();
+RoundedMeshExport to_rounded_mesh(const Polyhedron& polyhedron, const MeshExportOptions& options,
+                                  const Monitor& monitor) {
+  return Exporter(polyhedron.complex(), options, monitor).rounded();
 }
 
-MeshExport to_mesh(const Polyhedron& polyhedron, const MeshExportOptions& options) {
-  return Exporter(polyhedron.complex(), options).exact();
+MeshExport to_mesh(const Polyhedron& polyhedron, const MeshExportOptions& options, const Monitor& monitor) {
+  return Exporter(polyhedron.complex(), options, monitor).exact();
 }
 
 }  // namespace nef

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/construct/construct.h"
 #include "nef/geometry/point_table.h"
 
@@ -46,7 +47,7 @@ struct MeshExport {
 /// vertices. A set without such volumes has an empty mesh, or if the options ask for it, its facets as faces and what
 /// lies outside of these as lines and points. O(n) plus the triangulation of facets that are not convex (see
 /// nef/mesh/polygon/triangulate.h).
-MeshExport to_mesh(const Polyhedron& polyhedron, const MeshExportOptions& options = {});
+MeshExport to_mesh(const Polyhedron& polyhedron, const MeshExportOptions& options = {}, const Monitor& monitor = {});
 
 /// A mesh whose coordinates are doubles; otherwise as Mesh.
 struct RoundedMesh {
@@ -64,7 +65,8 @@ struct RoundedMeshExport {
 
 /// The mesh of to_mesh, rounded. Ten times as fast, as no exact number is made where doubles give the nearest one:
 /// quotients of integers below 2^53.
-RoundedMeshExport to_rounded_mesh(const Polyhedron& polyhedron, const MeshExportOptions& options = {});
+RoundedMeshExport to_rounded_mesh(const Polyhedron& polyhedron, const MeshExportOptions& options = {},
+                                  const Monitor& monitor = {});
 
 /// The doubles nearest to the coordinates of a finite point.
 std::array<double, 3> nearest_doubles(const PointTable& points, PointId point);

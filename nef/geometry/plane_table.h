@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/geometry/ids.h"
 #include "nef/number/row_slots.h"
 
@@ -45,7 +46,8 @@ class PlaneTable {
   void append_new(const PlaneTable& other, std::size_t first, std::size_t count);
 
   /// For each plane of another table its row in this one, or kNotHere. On up to `threads` threads. O(planes of both).
-  [[nodiscard]] std::vector<std::uint32_t> rows_of(const PlaneTable& other, unsigned threads) const;
+  [[nodiscard]] std::vector<std::uint32_t> rows_of(const PlaneTable& other, unsigned threads,
+                                                   const Monitor& monitor) const;
   static constexpr std::uint32_t kNotHere = 0xffffffffU;
 
   /// Appends those planes of the other table that rows_of() has not found here, in their order, and fills their rows

@@ -86,22 +86,23 @@ int compare_coordinate_exact(const PointTable& points, PointId p, PointId q, int
 
 }  // namespace
 
-int side_of_plane(const PlaneTable& planes, PlaneId plane, const PointTable& points, PointId point) {
-  const int sign = sign_by_ladder(approximate_form(planes.approximate(plane), points.approximate(point)),
+int side_of_plane(const PlaneTable& planes, PlaneId plane, const PointTable& points, PointId point,
+                  const Monitor& monitor) {
+  const int sign = sign_by_ladder(approximate_form(planes.approximate(plane), points.approximate(point)), monitor,
                                   [&] { return side_of_plane_exact(planes, plane, points, point); });
   return plane.flipped() ? -sign : sign;
 }
 
-int compare_coordinate(const PointTable& points, PointId p, PointId q, int axis) {
+int compare_coordinate(const PointTable& points, PointId p, PointId q, int axis, const Monitor& monitor) {
   if (p == q) return 0;
   const auto k = static_cast<std::size_t>(axis);
-  return sign_by_ladder(approximate_difference(points.approximate(p)[k], points.approximate(q)[k]),
+  return sign_by_ladder(approximate_difference(points.approximate(p)[k], points.approximate(q)[k]), monitor,
                         [&] { return compare_coordinate_exact(points, p, q, axis); });
 }
 
-int compare_lexicographic(const PointTable& points, PointId p, PointId q) {
+int compare_lexicographic(const PointTable& points, PointId p, PointId q, const Monitor& monitor) {
   for (int axis = 0; axis < 3; ++axis) {
-    if (const int sign = compare_coordinate(points, p, q, axis); sign != 0) return sign;
+    if (const int sign = compare_coordinate(points, p, q, axis, monitor); sign != 0) return sign;
   }
   return 0;
 }
@@ -230,12 +231,12 @@ void cross_component(mpz_ptr out, const Direction& v, const Direction& w, std::s
 
 }  // namespace
 
-int sign_of_dot(const Direction& u, const Direction& v) {
+int sign_of_dot(const Direction& u, const Direction& v, const Monitor& monitor) {
   const double value =
       u.approximate[0] * v.approximate[0] + u.approximate[1] * v.approximate[1] + u.approximate[2] * v.approximate[2];
   // Components are at most 1: a component's error e moves the sum by at most 3e (both at once by
   // the product of errors, far below), rounding by 3 products and 2 sums, under 8u.
-  return sign_by_ladder({value, 3.1 * (u.error + v.error) + 16 * kUnit}, [&] {
+  return sign_by_ladder({value, 3.1 * (u.error + v.error) + 16 * kUnit}, monitor, [&] {
     Integer sum;
     mpz_ptr s = sum.get_mpz_t();
     mpz_mul(s, at(u, 0), at(v, 0));
@@ -245,7 +246,7 @@ int sign_of_dot(const Direction& u, const Direction& v) {
   });
 }
 
-int sign_of_determinant(const Direction& u, const Direction& v, const Direction& w) {
+int sign_of_determinant(const Direction& u, const Direction& v, const Direction& w, const Monitor& monitor) {
   const std::array<double, 3>& a = u.approximate;
   const std::array<double, 3>& b = v.approximate;
   const std::array<double, 3>& c = w.approximate;
@@ -253,7 +254,7 @@ int sign_of_determinant(const Direction& u, const Direction& v, const Direction&
       a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
   // Components are at most 1, cofactors at most 2: an error e in one vector moves the value by at
   // most 6e; rounding: 6 terms of 3 operations and 5 sums, under 40u.
-  return sign_by_ladder({value, 6.2 * (u.error + v.error + w.error) + 64 * kUnit}, [&] {
+  return sign_by_ladder({value, 6.2 * (u.error + v.error + w.error) + 64 * kUnit}, monitor, [&] {
     Integer sum;
     Integer component;
     mpz_ptr s = sum.get_mpz_t();
@@ -266,9 +267,9 @@ int sign_of_determinant(const Direction& u, const Direction& v, const Direction&
   });
 }
 
-bool same_direction(const Direction& u, const Direction& v) {
+bool same_direction(const Direction& u, const Direction& v, const Monitor& monitor) {
   if (u.p.valid() && u.p == v.p && u.q.valid() && u.q == v.q) {
-    ++predicate_counts().identity;
+    monitor.count_identity();
     return true;
   }
   // Both have largest component about 1 in max norm, but are scaled differently only within the
@@ -283,38 +284,40 @@ bool same_direction(const Direction& u, const Direction& v) {
     // Each side is within (error of component + error of the norm, relative) of its truth.
     const double difference = u.approximate[i] / lu - v.approximate[i] / lv;
     if (std::fabs(difference) > 2.1 * (u.error / lu + v.error / lv) + 16 * kUnit) {
-      ++predicate_counts().filter;
+      monitor.count_filter();
       return false;
     }
   }
-  ++predicate_counts().exact;
+  monitor.count_exact();
   Integer component;
   mpz_ptr t = component.get_mpz_t();
   for (std::size_t i = 0; i < 3; ++i) {
     cross_component(t, u, v, i);
     if (mpz_sgn(t) != 0) return false;
   }
-  return sign_of_dot(u, v) > 0;
+  return sign_of_dot(u, v, monitor) > 0;
 }
 
-int side_of_circle(const PlaneTable& planes, PlaneId plane, const Direction& direction) {
+int side_of_circle(const PlaneTable& planes, PlaneId plane, const Direction& direction, const Monitor& monitor) {
   if (direction.q.valid() && (direction.p.row() == plane.row() || direction.q.row() == plane.row())) {
-    ++predicate_counts().identity;
+    monitor.count_identity();
     return 0;
   }
-  return sign_of_dot(Direction::normal(planes, plane), direction);
+  return sign_of_dot(Direction::normal(planes, plane), direction, monitor);
 }
 
-int orientation_on_circle(const PlaneTable& planes, PlaneId plane, const Direction& u, const Direction& v) {
-  return sign_of_determinant(Direction::normal(planes, plane), u, v);
+int orientation_on_circle(const PlaneTable& planes, PlaneId plane, const Direction& u, const Direction& v,
+                          const Monitor& monitor) {
+  return sign_of_determinant(Direction::normal(planes, plane), u, v, monitor);
 }
 
-int orientation_around(const PlaneTable& planes, const Direction& d, PlaneId plane1, PlaneId plane2) {
+int orientation_around(const PlaneTable& planes, const Direction& d, PlaneId plane1, PlaneId plane2,
+                       const Monitor& monitor) {
   if (plane1.row() == plane2.row()) {
-    ++predicate_counts().identity;
+    monitor.count_identity();
     return 0;
   }
-  return sign_of_determinant(d, Direction::normal(planes, plane1), Direction::normal(planes, plane2));
+  return sign_of_determinant(d, Direction::normal(planes, plane1), Direction::normal(planes, plane2), monitor);
 }
 
 }  // namespace nef

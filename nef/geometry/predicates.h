@@ -2,14 +2,15 @@
 //
 // The few questions that everything above asks of coordinates. Each is a sign, answered by a named
 // ladder: by identity (same row of the plane table), then by a double filter whose bound is
-// derived beside its constant, then exactly. All answers are exact; only their cost differs.
+// derived beside its constant, then exactly. All answers are exact; only their cost differs, and
+// who counts them is told which it was.
 #pragma once
 
 #include <array>
 #include <cmath>
 #include <cstdint>
 
-#include "nef/base/timing/predicate_counts.h"
+#include "nef/base/monitor.h"
 #include "nef/geometry/plane_table.h"
 #include "nef/geometry/point_table.h"
 #include "nef/number/approximation.h"
@@ -33,13 +34,14 @@ inline Approximation approximate_difference(double a, double b) {
 }
 
 /// The sign of the plane's form at the point: +1 on its positive side, 0 on the plane.
-int side_of_plane(const PlaneTable& planes, PlaneId plane, const PointTable& points, PointId point);
+int side_of_plane(const PlaneTable& planes, PlaneId plane, const PointTable& points, PointId point,
+                  const Monitor& monitor);
 
 /// The sign of p[axis] - q[axis].
-int compare_coordinate(const PointTable& points, PointId p, PointId q, int axis);
+int compare_coordinate(const PointTable& points, PointId p, PointId q, int axis, const Monitor& monitor);
 
 /// Lexicographic comparison of coordinates; 0 iff the points are the same.
-int compare_lexicographic(const PointTable& points, PointId p, PointId q);
+int compare_lexicographic(const PointTable& points, PointId p, PointId q, const Monitor& monitor);
 
 /// A vector that matters up to a positive factor: a plane's normal, the direction of an edge, or
 /// one that was computed. Holds doubles with a proven error, and exact integers once they are
@@ -87,24 +89,26 @@ class Direction {
 };
 
 /// sign(u . v)
-int sign_of_dot(const Direction& u, const Direction& v);
+int sign_of_dot(const Direction& u, const Direction& v, const Monitor& monitor);
 
 /// sign(u . (v x w))
-int sign_of_determinant(const Direction& u, const Direction& v, const Direction& w);
+int sign_of_determinant(const Direction& u, const Direction& v, const Direction& w, const Monitor& monitor);
 
 /// True if u and v are positive multiples of each other.
-bool same_direction(const Direction& u, const Direction& v);
+bool same_direction(const Direction& u, const Direction& v, const Monitor& monitor);
 
 /// The sign of a plane's form at a direction: which open half-sphere of the great circle of
 /// `plane` the svertex lies in. By identity where `plane` made `direction`.
-int side_of_circle(const PlaneTable& planes, PlaneId plane, const Direction& direction);
+int side_of_circle(const PlaneTable& planes, PlaneId plane, const Direction& direction, const Monitor& monitor);
 
 /// sign(n . (u x v)) for two directions on the great circle of `plane`: +1 if v comes within a
 /// half-turn after u, counterclockwise as seen from the positive side.
-int orientation_on_circle(const PlaneTable& planes, PlaneId plane, const Direction& u, const Direction& v);
+int orientation_on_circle(const PlaneTable& planes, PlaneId plane, const Direction& u, const Direction& v,
+                          const Monitor& monitor);
 
 /// sign(d . (n1 x n2)) for two planes through the line of d: how the half-planes that leave d
 /// along them are turned about d.
-int orientation_around(const PlaneTable& planes, const Direction& d, PlaneId plane1, PlaneId plane2);
+int orientation_around(const PlaneTable& planes, const Direction& d, PlaneId plane1, PlaneId plane2,
+                       const Monitor& monitor);
 
 }  // namespace nef

@@ -21,8 +21,8 @@ namespace {
 
 class WindingFiller {
  public:
-  WindingFiller(const Polyhedron& faces, const Mesh& mesh, const MeshSurface& surface)
-      : c_(faces.complex()), mesh_(mesh), surface_(surface) {}
+  WindingFiller(const Polyhedron& faces, const Mesh& mesh, const MeshSurface& surface, const Monitor& monitor)
+      : c_(faces.complex()), mesh_(mesh), surface_(surface), monitor_(monitor) {}
 
   Polyhedron run(Messages* messages) {
     if (c_.facet_count() == 0) throw InputError("the faces of the mesh enclose nothing");
@@ -49,7 +49,7 @@ class WindingFiller {
     }
     const BoxTree tree(boxes);
     const MeshPoints points(c_.points);
-    Triangulator triangulator(points);
+    Triangulator triangulator(points, monitor_);
     coverings_.resize(c_.facet_count());
     for (const FacetId f : c_.facets.ids()) count_coverings(tree, f, inner_point(f, triangulator));
   }
@@ -180,7 +180,7 @@ class WindingFiller {
     }
     // Where every facet has different marks on its sides, everything that was needed still is.
     Polyhedron result(std::move(filled));
-    return idle ? regularize(result) : result;
+    return idle ? regularize(result, monitor_) : result;
   }
 
   struct Covering {
@@ -191,14 +191,16 @@ class WindingFiller {
   const Complex& c_;
   const Mesh& mesh_;
   const MeshSurface& surface_;
+  Monitor monitor_;
   IndexedVector<FacetId, Covering> coverings_;
   IndexedVector<VolumeId, int> winding_;
 };
 
 }  // namespace
 
-Polyhedron fill_by_winding(const Polyhedron& faces, const Mesh& mesh, const MeshSurface& surface, Messages* messages) {
-  return WindingFiller(faces, mesh, surface).run(messages);
+Polyhedron fill_by_winding(const Polyhedron& faces, const Mesh& mesh, const MeshSurface& surface, Messages* messages,
+                           const Monitor& monitor) {
+  return WindingFiller(faces, mesh, surface, monitor).run(messages);
 }
 
 }  // namespace nef

@@ -10,7 +10,7 @@
 #include <variant>
 
 #include "nef/base/error.h"
-#include "nef/base/progress.h"
+#include "nef/base/monitor.h"
 #include "nef/base/threads/parallel.h"
 #include "nef/base/union_find.h"
 #include "nef/construct/construct.h"
@@ -50,11 +50,12 @@ std::variant<Complex, Defect> try_solid(const Mesh& mesh, SharedSurface surface,
   constexpr SolidMarks kMarks{1, 1, 0};
   SolidFaces faces = MeshFaces(mesh, *surface, options, messages).take(false);
   surface.reset();
-  std::variant<Complex, Defect> made = try_make_solid(std::move(faces), kMarks);
+  std::variant<Complex, Defect> made = try_make_solid(std::move(faces), kMarks, options.monitor);
   const Complex* complex = std::get_if<Complex>(&made);
   if (complex == nullptr || complex->vertex_count() == 0 || complex->volumes[kOuterVolume].mark != 1) return made;
   if (messages != nullptr) messages->push_back(kTurnedOver);
-  return try_make_solid(MeshFaces(mesh, MeshSurface(mesh), options, messages).take(true), kMarks);
+  return try_make_solid(MeshFaces(mesh, MeshSurface(mesh, options.monitor), options, messages).take(true), kMarks,
+                        options.monitor);
 }
 
 // Of a mesh that has been checked: only its components may not fit together.
@@ -64,7 +65,7 @@ Polyhedron solid(const Mesh& mesh, SharedSurface surface, const MeshOptions& opt
   Defect& defect = std::get<Defect>(made);
   if (defect.kind != Defect::Kind::kMarks) throw detail::BrokenInvariant(std::move(defect));
   std::string list;
-  for (const std::uint32_t f : first_faces(mesh, MeshSurface(mesh)))
+  for (const std::uint32_t f : first_faces(mesh, MeshSurface(mesh, options.monitor)))
     list += (list.empty() ? "" : ", ") + std::to_string(f);
   throw InputError("components of the mesh (which begin at faces " + list.substr(0, 60) +
                    ") contradict each other: one is turned like the one around it, or not like those beside it; "
@@ -96,13 +97,15 @@ void note_faces_without_area(const MeshSurface& surface, Messages* messages) {
 // Faces meet in points that are no vertices of both; the union of the faces finds these.
 Polyhedron solid_in_contact(const Mesh& mesh, const MeshSurface& surface, const MeshOptions& options,
                             Messages* messages) {
-  return fill_by_winding(from_surface(mesh, surface, SurfaceUse::kBorder, options, messages), mesh, surface, messages);
+  return fill_by_winding(from_surface(mesh, surface, SurfaceUse::kBorder, options, messages), mesh, surface, messages,
+                         options.monitor);
 }
 
 // True if faces meet otherwise than in common vertices and edges. Throws InputError for what no solid has.
-bool check(const Mesh& mesh, const MeshSurface& surface) {
+bool check(const Mesh& mesh, const MeshSurface& surface, const Monitor& monitor) {
   bool touching = false;
-  for (const MeshProblem& problem : check_mesh(mesh, surface, {.max_per_kind = 1, .self_intersections = true})) {
+  constexpr MeshCheckOptions kFirst{.max_per_kind = 1, .self_intersections = true};
+  for (const MeshProblem& problem : check_mesh(mesh, surface, kFirst, monitor)) {
     if (!problem.legal) throw InputError(problem.text);
     if (problem.kind == MeshProblemKind::kTouching || problem.kind == MeshProblemKind::kDuplicateFace) touching = true;
   }
@@ -116,22 +119,27 @@ bool has_good_faces(const MeshSurface& surface) {
 }
 
 Polyhedron checked_solid(const Mesh& mesh, SharedSurface surface, const MeshOptions& options, Messages* messages) {
-  tell_progress("self-intersections", 0, 0);
+  options.monitor.tell_progress("self-intersections", 0, 0);
   if (options.threads != 1 && has_good_faces(*surface)) {
     // The solid is made while the faces are looked at: hardly any mesh has contacts, and what is made of one that has
     // some is thrown away.
     std::optional<Polyhedron> early;
     Messages notes;
     bool contact = false;
-    parallel_calls(options.threads, {[&] { contact = check(mesh, *surface); },
-                                     [&] { early = unchecked_solid(mesh, surface, options, &notes); }});
+    parallel_calls(options.threads, options.monitor,
+                   {[&](const Monitor& own) { contact = check(mesh, *surface, own); },
+                    [&](const Monitor& own) {
+                      MeshOptions with_own = options;
+                      with_own.monitor = own;
+                      early = unchecked_solid(mesh, surface, with_own, &notes);
+                    }});
     if (contact) return solid_in_contact(mesh, *surface, options, messages);
     if (!early) return solid(mesh, std::move(surface), options, messages);  // which tells what is wrong
     if (messages != nullptr) messages->insert(messages->end(), notes.begin(), notes.end());
     return *std::move(early);
   }
   // Without a face that has no area, its neighbours meet in parts of edges.
-  const bool contact = check(mesh, *surface) || has_faces_without_area(*surface);
+  const bool contact = check(mesh, *surface, options.monitor) || has_faces_without_area(*surface);
   return contact ? solid_in_contact(mesh, *surface, options, messages)
                  : solid(mesh, std::move(surface), options, messages);
 }
@@ -139,10 +147,12 @@ Polyhedron checked_solid(const Mesh& mesh, SharedSurface surface, const MeshOpti
 }  // namespace
 
 Polyhedron from_mesh(const Mesh& mesh, const MeshOptions& options, Messages* messages) {
-  if (options.as_surface) return from_surface(mesh, MeshSurface(mesh), SurfaceUse::kSet, options, messages);
+  if (options.as_surface) {
+    return from_surface(mesh, MeshSurface(mesh, options.monitor), SurfaceUse::kSet, options, messages);
+  }
   if (mesh.face_count() == 0) throw InputError("the mesh has no faces, so it bounds no solid");
-  tell_progress("faces of the mesh", 0, 0);
-  auto surface = std::make_shared<const MeshSurface>(mesh);
+  options.monitor.tell_progress("faces of the mesh", 0, 0);
+  auto surface = std::make_shared<const MeshSurface>(mesh, options.monitor);
   Messages notes;
   note_faces_without_area(*surface, &notes);
   std::optional<Polyhedron> result;
@@ -150,7 +160,7 @@ Polyhedron from_mesh(const Mesh& mesh, const MeshOptions& options, Messages* mes
     const std::size_t before = notes.size();
     result = unchecked_solid(mesh, std::exchange(surface, nullptr), options, &notes);
     if (!result) notes.resize(before);
-    if (!result) surface = std::make_shared<const MeshSurface>(mesh);
+    if (!result) surface = std::make_shared<const MeshSurface>(mesh, options.monitor);
   }
   // Also if the mesh is not as clean as was promised: the checks say why, or what to do with it.
   if (!result) result = checked_solid(mesh, std::move(surface), options, &notes);

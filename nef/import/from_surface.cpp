@@ -20,7 +20,7 @@ struct Groups {
   std::vector<std::uint32_t> single;
 };
 
-Groups group_faces(const Mesh& mesh, const MeshSurface& surface, SurfaceUse use) {
+Groups group_faces(const Mesh& mesh, const MeshSurface& surface, SurfaceUse use, const Monitor& monitor) {
   const std::size_t count = mesh.face_count();
   std::vector<std::vector<std::uint32_t>> contacts(count);
   std::vector<bool> single(count, false);
@@ -29,7 +29,7 @@ Groups group_faces(const Mesh& mesh, const MeshSurface& surface, SurfaceUse use)
   for (std::uint32_t f = 0; f < count; ++f) {
     single[f] = surface.defects[f] != FaceDefect::kNone || (!areas_only && surface.irregular[f]);
   }
-  SurfaceContacts(surface).for_each([&](SurfaceContacts::Kind /*kind*/, std::uint32_t t, std::uint32_t u) {
+  SurfaceContacts(surface, monitor).for_each([&](SurfaceContacts::Kind /*kind*/, std::uint32_t t, std::uint32_t u) {
     const std::uint32_t f = surface.face_of[t];
     const std::uint32_t g = surface.face_of[u];
     if (f == g) single[f] = true;
@@ -63,10 +63,11 @@ Groups group_faces(const Mesh& mesh, const MeshSurface& surface, SurfaceUse use)
 }
 
 // Cuts a ring into triangles with union equal to the polygon, if it is one that touches itself at most from within.
-bool cut(const MeshPoints& points, const std::vector<std::uint32_t>& ring, std::vector<Triangulator::Triangle>& out) {
-  Triangulator triangulator(points);
+bool cut(const MeshPoints& points, const std::vector<std::uint32_t>& ring, std::vector<Triangulator::Triangle>& out,
+         const Monitor& monitor) {
+  Triangulator triangulator(points, monitor);
   for (const std::size_t axis : projection_axes(points, ring)) {
-    const int sign = ring_orientation(points, ring, axis);
+    const int sign = ring_orientation(points, ring, axis, monitor);
     if (sign != 0 && triangulator.triangulate(ring, axis, sign, out)) return true;
   }
   return false;
@@ -74,16 +75,19 @@ bool cut(const MeshPoints& points, const std::vector<std::uint32_t>& ring, std::
 
 // What a ring in a plane of this normal encloses an odd number of times, with its sides. Pyramids over the triangles of
 // a fan, with one apex, are combined by parity: what that leaves of lower dimension, regularization removes.
-void add_enclosed(const std::vector<Rational3>& ring, const Rational3& normal, std::vector<Polyhedron>& out) {
+void add_enclosed(const std::vector<Rational3>& ring, const Rational3& normal, std::vector<Polyhedron>& out,
+                  const Monitor& monitor) {
   const Rational3 apex{ring[0][0] + normal[0], ring[0][1] + normal[1], ring[0][2] + normal[2]};
   Polyhedron cone;
   for (std::size_t i = 1; i + 1 < ring.size(); ++i) {
     const Rational3 corners[4] = {ring[0], ring[i], ring[i + 1], apex};
-    cone = symmetric_difference(cone, regularize(convex_hull(corners)));
+    cone = symmetric_difference(cone, regularize(convex_hull(corners, monitor), monitor), 1, monitor);
   }
   const Rational offset = dot(normal, ring[0]);
-  out.push_back(intersect(regularize(cone), make_halfspace(normal[0], normal[1], normal[2], -offset)));
-  for (std::size_t i = 0; i < ring.size(); ++i) out.push_back(make_segment(ring[i], ring[(i + 1) % ring.size()]));
+  out.push_back(intersect(regularize(cone, monitor),
+                          make_halfspace(normal[0], normal[1], normal[2], -offset, true, monitor), 1, monitor));
+  for (std::size_t i = 0; i < ring.size(); ++i)
+    out.push_back(make_segment(ring[i], ring[(i + 1) % ring.size()], monitor));
 }
 
 // The normal of the plane of the points; the zero vector if they lie on a line, nothing if they lie in no plane.
@@ -96,7 +100,8 @@ std::optional<Rational3> normal_if_planar(const std::vector<Rational3>& points) 
 }
 
 // A face that is degenerate or touches or crosses itself.
-void add_single(const Mesh& mesh, const MeshSurface& surface, std::uint32_t f, std::vector<Polyhedron>& out) {
+void add_single(const Mesh& mesh, const MeshSurface& surface, std::uint32_t f, std::vector<Polyhedron>& out,
+                const Monitor& monitor) {
   std::vector<std::uint32_t> ring;
   for (const std::uint32_t v : mesh.face(f)) {
     if (ring.empty() || ring.back() != surface.place[v]) ring.push_back(surface.place[v]);
@@ -104,11 +109,11 @@ void add_single(const Mesh& mesh, const MeshSurface& surface, std::uint32_t f, s
   while (ring.size() > 1 && ring.back() == ring.front()) ring.pop_back();
   if (ring.size() < 3) return;
   std::vector<Triangulator::Triangle> triangles;
-  if (!cut(surface.points, ring, triangles)) {
+  if (!cut(surface.points, ring, triangles, monitor)) {
     std::vector<Rational3> points;
     for (const std::uint32_t v : ring) points.push_back(mesh.vertices[v]);
     if (const std::optional<Rational3> normal = normal_if_planar(points); normal && !is_zero(*normal)) {
-      add_enclosed(points, *normal, out);
+      add_enclosed(points, *normal, out, monitor);
       return;
     }
     // On a line, or bent and crossing itself however one looks at it: a fan keeps the corners.
@@ -116,7 +121,7 @@ void add_single(const Mesh& mesh, const MeshSurface& surface, std::uint32_t f, s
   }
   for (const Triangulator::Triangle& t : triangles) {
     const Rational3 corners[3] = {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
-    out.push_back(convex_hull(corners));
+    out.push_back(convex_hull(corners, monitor));
   }
 }
 
@@ -131,12 +136,12 @@ Polyhedron from_surface(const Mesh& mesh, const MeshSurface& surface, SurfaceUse
       throw InputError("face " + std::to_string(f) + " names vertex " + std::to_string(v) + ", which does not exist");
     }
   }
-  const Groups groups = group_faces(mesh, surface, use);
+  const Groups groups = group_faces(mesh, surface, use, options.monitor);
   std::vector<Polyhedron> parts;
   MeshFaces faces(mesh, surface, options, messages);
   for (const std::vector<std::uint32_t>& group : groups.proper) parts.emplace_back(faces.surface(group));
-  for (const std::uint32_t f : groups.single) add_single(mesh, surface, f, parts);
-  return unite_all(parts);
+  for (const std::uint32_t f : groups.single) add_single(mesh, surface, f, parts, options.monitor);
+  return unite_all(parts, 1, options.monitor);
 }
 
 }  // namespace nef

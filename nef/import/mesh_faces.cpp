@@ -24,9 +24,11 @@ SolidFaces MeshFaces::take(bool reverse) && {
   return std::move(f_);
 }
 
-Complex MeshFaces::surface(std::span<const std::uint32_t> faces) { return make_surface(collect(faces), 1); }
+Complex MeshFaces::surface(std::span<const std::uint32_t> faces) {
+  return make_surface(collect(faces), 1, options_.monitor);
+}
 
-Complex MeshFaces::oriented_surface() { return make_oriented_surface(collect({})); }
+Complex MeshFaces::oriented_surface() { return make_oriented_surface(collect({}), options_.monitor); }
 
 SolidFaces MeshFaces::collect(std::span<const std::uint32_t> faces) {
   f_ = {};
@@ -126,7 +128,7 @@ bool MeshFaces::add_defective_ring() {
   if (area[0] == 0 && area[1] == 0 && area[2] == 0) return true;
   const PlaneId plane = plane_through(area, ring_[0]);
   for (const std::uint32_t p : ring_) {
-    if (side_of_plane(f_.planes, plane, f_.points, PointId{p}) != 0) return false;
+    if (side_of_plane(f_.planes, plane, f_.points, PointId{p}, options_.monitor) != 0) return false;
   }
   push(ring_, plane);
   return true;

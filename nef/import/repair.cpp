@@ -42,15 +42,16 @@ Mesh mesh_of(const std::vector<Rational3>& vertices, const std::vector<Ring>& ri
   return mesh;
 }
 
-std::string refusal(const Mesh& mesh) {
-  const std::variant<Polyhedron, MeshRefusal> made = try_from_mesh(mesh);
+std::string refusal(const Mesh& mesh, const Monitor& monitor) {
+  const std::variant<Polyhedron, MeshRefusal> made = try_from_mesh(mesh, {.monitor = monitor});
   const auto* refused = std::get_if<MeshRefusal>(&made);
   return refused == nullptr ? "" : refused->text;
 }
 
 class Repairer {
  public:
-  Repairer(const Mesh& mesh, const RepairOptions& options) : vertices_(mesh.vertices), options_(options) {
+  Repairer(const Mesh& mesh, const RepairOptions& options, const Monitor& monitor)
+      : vertices_(mesh.vertices), options_(options), monitor_(monitor) {
     const std::vector<std::uint32_t> place = merge_equal(mesh.vertices);
     std::size_t merged = 0;
     for (std::uint32_t v = 0; v < place.size(); ++v) merged += place[v] != v ? 1 : 0;
@@ -75,7 +76,7 @@ class Repairer {
     RepairedMesh result;
     result.mesh = mesh_of(vertices_, rings_);
     result.done = std::move(done_);
-    result.problem = refusal(result.mesh);
+    result.problem = refusal(result.mesh, monitor_);
     return result;
   }
 
@@ -97,7 +98,7 @@ class Repairer {
 
   void drop_faces_without_area() {
     const Mesh mesh = mesh_of(vertices_, rings_);
-    const MeshSurface surface(mesh);
+    const MeshSurface surface(mesh, monitor_);
     std::vector<Ring> kept;
     for (std::size_t f = 0; f < rings_.size(); ++f) {
       const FaceDefect defect = surface.defects[f];
@@ -152,8 +153,9 @@ class Repairer {
     note(split, "vertex", "vertices", "in the side of a face made a corner of it");
   }
 
-  static Ring vertices_between(const MeshPoints& points, const BoxTree& tree, const std::vector<std::uint32_t>& border,
-                               std::uint32_t u, std::uint32_t v) {
+  [[nodiscard]] Ring vertices_between(const MeshPoints& points, const BoxTree& tree,
+                                      const std::vector<std::uint32_t>& border, std::uint32_t u,
+                                      std::uint32_t v) const {
     Box box;
     points.extend(box, u);
     points.extend(box, v);
@@ -161,7 +163,7 @@ class Repairer {
     const bool up = points.compare(u, v) < 0;
     tree.for_each_overlap(box, [&](std::uint32_t i) {
       const std::uint32_t p = border[i];
-      if (p == u || p == v || !points.collinear(u, v, p)) return;
+      if (p == u || p == v || !points.collinear(u, v, p, monitor_)) return;
       if ((points.compare(u, p) < 0) == up && (points.compare(p, v) < 0) == up) inside.push_back(p);
     });
     std::sort(inside.begin(), inside.end(),
@@ -253,7 +255,7 @@ class Repairer {
     std::size_t filled = 0;
     for (Ring& loop : border_loops()) {
       const Mesh lid = mesh_of(vertices_, {loop});
-      const MeshSurface surface(lid);
+      const MeshSurface surface(lid, monitor_);
       if (surface.defects[0] != FaceDefect::kNone || !surface.planar[0]) continue;
       rings_.push_back(std::move(loop));
       ++filled;
@@ -297,7 +299,7 @@ class Repairer {
     for (Component& component : list) {
       std::vector<Ring> rings;
       for (const std::uint32_t f : component.faces) rings.push_back(rings_[f]);
-      std::variant<Polyhedron, MeshRefusal> made = try_from_mesh(mesh_of(vertices_, rings));
+      std::variant<Polyhedron, MeshRefusal> made = try_from_mesh(mesh_of(vertices_, rings), {.monitor = monitor_});
       auto* solid = std::get_if<Polyhedron>(&made);
       if (solid == nullptr) continue;
       component.solid = std::move(*solid);
@@ -339,15 +341,16 @@ class Repairer {
 
   std::vector<Rational3> vertices_;
   RepairOptions options_;
+  Monitor monitor_;
   std::vector<Ring> rings_;
   std::vector<std::string> done_;
 };
 
 }  // namespace
 
-RepairedMesh repair_mesh(const Mesh& mesh, const RepairOptions& options) {
-  if (refusal(mesh).empty()) return {mesh, {}, ""};
-  return Repairer(mesh, options).run();
+RepairedMesh repair_mesh(const Mesh& mesh, const RepairOptions& options, const Monitor& monitor) {
+  if (refusal(mesh, monitor).empty()) return {mesh, {}, ""};
+  return Repairer(mesh, options, monitor).run();
 }
 
 }  // namespace nef

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/construct/construct.h"
 
 namespace nef {
@@ -26,6 +27,6 @@ struct RepairedMesh {
 /// are turned to fit their neighbours, and components are turned outward or, inside an odd number of others, inward.
 /// Holes whose border lies in a plane are filled if the options say so. O(n log n), and a point location for each pair
 /// of a component and another in whose box it lies.
-RepairedMesh repair_mesh(const Mesh& mesh, const RepairOptions& options = {});
+RepairedMesh repair_mesh(const Mesh& mesh, const RepairOptions& options = {}, const Monitor& monitor = {});
 
 }  // namespace nef

@@ -51,7 +51,7 @@ void round_and_mend(Mesh& mesh, const std::string& extension, unsigned threads, 
   const Rounding rounding = single           ? rounding_to_binary_floats()
                             : options.binary ? rounding_to_binary_doubles()
                                              : rounding_to_decimals();
-  MendedMesh rounded = round_mesh(mesh, rounding, threads);
+  MendedMesh rounded = round_mesh(mesh, rounding, threads, options.monitor);
   if (!rounded.legal) {
     notes.push_back("rounded to " + std::string(single ? "single" : "double") +
                     " precision the mesh is no border of a solid any more, and could not be mended (" +
@@ -102,7 +102,8 @@ FaceGroups write_boundary(const std::string& path, const std::string& extension,
   export_options.keep_polygons = extension != "stl" && extension != "glb" && extension != "3mf";
   export_options.only_convex = !options.polygons;
   export_options.lower_dimensional = true;
-  MeshWriteOptions write_options{options.exact, options.binary, extension};
+  MeshWriteOptions write_options{
+      .exact = options.exact, .binary = options.binary, .format = extension, .monitor = options.monitor};
   export_options.polygon_corner = [&](const Rational3& point) {
     return survives_writing(point, extension, write_options);
   };
@@ -110,7 +111,7 @@ FaceGroups write_boundary(const std::string& path, const std::string& extension,
     export_options.selected = groups->selected;
     export_options.face_marks = true;
   }
-  MeshExport result = to_mesh(polyhedron, export_options);
+  MeshExport result = to_mesh(polyhedron, export_options, options.monitor);
   Messages notes = result.lost;
   if (groups != nullptr) write_options.groups = groups_of(result, *groups);
   if (extension == "obj") {
@@ -155,8 +156,12 @@ Polyhedron read_polyhedron(const std::string& path, const MeshOptions& options, 
   std::string bytes = read_file(path);  // once: it may be a pipe
   if (!is_mesh_extension(extension)) {
     // Files without a telling extension are known by their first word.
-    if (extension == "nef3" || bytes.starts_with("Selective Nef Complex")) return read_nef3(bytes, path);
-    if (extension == "nef" || bytes.starts_with("nef ") || is_native_binary(bytes)) return read_native(bytes, path);
+    if (extension == "nef3" || bytes.starts_with("Selective Nef Complex")) {
+      return read_nef3(bytes, path, options.monitor);
+    }
+    if (extension == "nef" || bytes.starts_with("nef ") || is_native_binary(bytes)) {
+      return read_native(bytes, path, options.monitor);
+    }
   }
   constexpr std::size_t kLarge = std::size_t{1} << 22U;  // smaller ones leave little behind
   const bool is_large = bytes.size() > kLarge;

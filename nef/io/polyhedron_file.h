@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/construct/construct.h"
 #include "nef/forward.h"
 #include "nef/geometry/ids.h"
@@ -34,6 +35,7 @@ struct PolyhedronWriteOptions {
   /// Red, green and blue for the vertices of the mesh that goes to a file; PLY and GLB only.
   std::function<std::vector<std::array<std::uint8_t, 3>>(const Mesh&)> vertex_colors = {};
   std::string format = {};  ///< instead of the extension of the path, which may be none
+  Monitor monitor = {};     ///< who watches; what it refers to must outlive the call
 };
 
 /// Writes a polyhedron; the file gets its name when it is whole. "-" is standard output. Mesh formats hold the boundary

@@ -20,16 +20,16 @@ int compare_exact(const PointRef& p, const PointRef& q, std::size_t axis) {
 
 }  // namespace
 
-int compare_coordinate(const PointRef& p, const PointRef& q, int axis) {
-  if (p.table == q.table) return compare_coordinate(*p.table, p.id, q.id, axis);
+int compare_coordinate(const PointRef& p, const PointRef& q, int axis, const Monitor& monitor) {
+  if (p.table == q.table) return compare_coordinate(*p.table, p.id, q.id, axis, monitor);
   const auto k = static_cast<std::size_t>(axis);
-  return sign_by_ladder(approximate_difference(p.approximate()[k], q.approximate()[k]),
+  return sign_by_ladder(approximate_difference(p.approximate()[k], q.approximate()[k]), monitor,
                         [&] { return compare_exact(p, q, k); });
 }
 
-bool same_point(const PointRef& p, const PointRef& q) {
+bool same_point(const PointRef& p, const PointRef& q, const Monitor& monitor) {
   for (int axis = 0; axis < 3; ++axis) {
-    if (compare_coordinate(p, q, axis) != 0) return false;
+    if (compare_coordinate(p, q, axis, monitor) != 0) return false;
   }
   return true;
 }

@@ -21,15 +21,15 @@ namespace nef {
 namespace {
 
 // Sign of component k of n_g x n_f.
-int sign_of_cross_component(const PlaneTable& planes, PlaneId g, PlaneId f, std::size_t k) {
+int sign_of_cross_component(const PlaneTable& planes, PlaneId g, PlaneId f, std::size_t k, const Monitor& monitor) {
   const Direction cross = Direction::cross(planes, g, f);
-  return sign_by_ladder({cross.approximate[k], cross.error}, [&] { return sgn(cross.integers()[k]); });
+  return sign_by_ladder({cross.approximate[k], cross.error}, monitor, [&] { return sgn(cross.integers()[k]); });
 }
 
 class ParityCount {
  public:
-  ParityCount(const Complex& complex, const Facet& facet, const PointRef& point)
-      : complex_(complex), facet_(facet), point_(point) {
+  ParityCount(const Complex& complex, const Facet& facet, const PointRef& point, const Monitor& monitor)
+      : complex_(complex), facet_(facet), point_(point), monitor_(monitor) {
     const PlaneAxes axes(complex.planes, facet.plane);
     k_ = static_cast<std::size_t>(axes.first);
     m_ = static_cast<std::size_t>(axes.second);
@@ -71,7 +71,7 @@ class ParityCount {
     const SVertex& edge = complex_.svertex(halfedge);
     const bool facet_first = edge.p.row() == facet_.plane.row();
     const PlaneId g = facet_first ? edge.q : edge.p;
-    const int g_side = side_of_plane(complex_.planes, g, point_);
+    const int g_side = side_of_plane(complex_.planes, g, point_, monitor_);
     if (g_side == 0) {
       place_ = {FacetPlace::Kind::kEdge, halfedge.index()};
       return;
@@ -84,7 +84,7 @@ class ParityCount {
     } else if (edge.q.row() == facet_.plane.row()) {
       if (edge.q.flipped()) turn = -turn;
     } else {
-      turn = sign_of_cross_component(complex_.planes, g, facet_.plane, k_);
+      turn = sign_of_cross_component(complex_.planes, g, facet_.plane, k_, monitor_);
     }
     if (-g_side * turn * ray_sign_ > 0) inside_ = !inside_;
   }
@@ -98,7 +98,7 @@ class ParityCount {
 
  private:
   [[nodiscard]] int compare(VertexId vertex, std::size_t axis) const {
-    return compare_coordinate(PointRef{&complex_.points, point_of(vertex)}, point_, static_cast<int>(axis));
+    return compare_coordinate(PointRef{&complex_.points, point_of(vertex)}, point_, static_cast<int>(axis), monitor_);
   }
 
   // An end (or both) at the height of the point: is the point on the edge? On the plane of the
@@ -119,6 +119,7 @@ class ParityCount {
   const Complex& complex_;
   Facet facet_;
   const PointRef& point_;
+  Monitor monitor_;
   std::size_t k_ = 0;
   std::size_t m_ = 0;
   int ray_sign_ = 1;
@@ -130,8 +131,9 @@ class ParityCount {
 
 }  // namespace
 
-FacetPlace locate_in_facet(const Complex& complex, const Facet& facet, const PointRef& point, const BoxTree* edges) {
-  ParityCount count(complex, facet, point);
+FacetPlace locate_in_facet(const Complex& complex, const Facet& facet, const PointRef& point, const BoxTree* edges,
+                           const Monitor& monitor) {
+  ParityCount count(complex, facet, point, monitor);
   if (edges == nullptr) {
     for (const CycleId c : facet.cycles()) {
       if (count.on_boundary()) break;

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "nef/base/monitor.h"
 #include "nef/complex/complex.h"
 #include "nef/geometry/box_tree.h"
 #include "nef/location/compare.h"
@@ -22,7 +23,8 @@ struct FacetPlace {
 
 /// The place of `point`, which must lie on the plane of the facet. `edges`, if given, is the tree
 /// made by facet_edge_tree; without it the cost is linear in the number of corners.
-FacetPlace locate_in_facet(const Complex& complex, const Facet& facet, const PointRef& point, const BoxTree* edges);
+FacetPlace locate_in_facet(const Complex& complex, const Facet& facet, const PointRef& point, const BoxTree* edges,
+                           const Monitor& monitor);
 
 /// The tree over the boundary edges of a facet: item i is the edge that leaves corner i of
 /// complex.corners_of(facet).

@@ -20,16 +20,16 @@ const Direction& minus_x() {
   return direction;
 }
 
-bool on_edge(const Complex& complex, HalfedgeId halfedge, const PointRef& point) {
+bool on_edge(const Complex& complex, HalfedgeId halfedge, const PointRef& point, const Monitor& monitor) {
   const SVertex& edge = complex.svertex(halfedge);
-  if (side_of_plane(complex.planes, edge.p, point) != 0) return false;
-  if (side_of_plane(complex.planes, edge.q, point) != 0) return false;
+  if (side_of_plane(complex.planes, edge.p, point, monitor) != 0) return false;
+  if (side_of_plane(complex.planes, edge.q, point, monitor) != 0) return false;
   // On the line; between the ends iff so in lexicographic order.
   const PointRef u{&complex.points, point_of(complex.source(halfedge))};
   const PointRef v{&complex.points, point_of(complex.target(halfedge))};
   for (int axis = 0; axis < 3; ++axis) {
-    const int u_side = compare_coordinate(u, point, axis);
-    const int v_side = compare_coordinate(v, point, axis);
+    const int u_side = compare_coordinate(u, point, axis, monitor);
+    const int v_side = compare_coordinate(v, point, axis, monitor);
     if (u_side != 0 || v_side != 0) return u_side * v_side < 0;
   }
   return false;
@@ -92,17 +92,19 @@ const BoxTree* QueryStructure::edge_tree(const Complex& complex, FacetId facet) 
   return &large.edges;
 }
 
-std::optional<VertexId> QueryStructure::free_vertex_at(const Complex& complex, const PointRef& point) const {
+std::optional<VertexId> QueryStructure::free_vertex_at(const Complex& complex, const PointRef& point,
+                                                       const Monitor& monitor) const {
   std::optional<VertexId> result;
   tree_.for_each_overlap(mirrored(point_box(point)), [&](std::uint32_t i) {
     const VertexId vertex{items_[i] / 4};
     if (items_[i] % 4 != kVertexItem || result) return;
-    if (same_point({&complex.points, point_of(vertex)}, point)) result = vertex;
+    if (same_point({&complex.points, point_of(vertex)}, point, monitor)) result = vertex;
   });
   return result;
 }
 
-std::optional<ComplexHit> QueryStructure::item_at(const Complex& complex, const PointRef& point) const {
+std::optional<ComplexHit> QueryStructure::item_at(const Complex& complex, const PointRef& point,
+                                                  const Monitor& monitor) const {
   using Kind = ComplexHit::Kind;
   std::optional<ComplexHit> result;
   tree_.for_each_overlap(mirrored(point_box(point)), [&](std::uint32_t i) {
@@ -111,14 +113,15 @@ std::optional<ComplexHit> QueryStructure::item_at(const Complex& complex, const 
     switch (items_[i] % 4) {
       case kVertexItem:
         // A vertex inside a facet takes precedence over that facet.
-        if (same_point({&complex.points, point_of(VertexId{index})}, point)) result = ComplexHit::at(VertexId{index});
+        if (same_point({&complex.points, point_of(VertexId{index})}, point, monitor))
+          result = ComplexHit::at(VertexId{index});
         return;
       case kEdgeItem: {
         const HalfedgeId edge{index};
         for (const VertexId end : {complex.source(edge), complex.target(edge)}) {
-          if (same_point({&complex.points, point_of(end)}, point)) result = ComplexHit::at(end);
+          if (same_point({&complex.points, point_of(end)}, point, monitor)) result = ComplexHit::at(end);
         }
-        if (on_edge(complex, edge, point)) result = ComplexHit::at_edge(edge);
+        if (on_edge(complex, edge, point, monitor)) result = ComplexHit::at_edge(edge);
         return;
       }
       default:
@@ -126,8 +129,8 @@ std::optional<ComplexHit> QueryStructure::item_at(const Complex& complex, const 
     }
     const FacetId f{index};
     const Facet& facet = complex.facets[f];
-    if (result || side_of_plane(complex.planes, facet.plane, point) != 0) return;
-    const FacetPlace place = locate_in_facet(complex, facet, point, edge_tree(complex, f));
+    if (result || side_of_plane(complex.planes, facet.plane, point, monitor) != 0) return;
+    const FacetPlace place = locate_in_facet(complex, facet, point, edge_tree(complex, f), monitor);
     if (place.kind == FacetPlace::Kind::kInside)
       result = ComplexHit{Kind::kFacet, halffacet_of(f, false).index(), SFaceId()};
     if (place.kind == FacetPlace::Kind::kEdge) result = ComplexHit::at_edge(place.halfedge());
@@ -137,12 +140,13 @@ std::optional<ComplexHit> QueryStructure::item_at(const Complex& complex, const 
   return result;
 }
 
-std::optional<ComplexHit> QueryStructure::first_hit_minus_x(const Complex& complex, VertexId vertex) const {
-  return first_hit(complex, {{&complex.points, point_of(vertex)}, minus_x()});
+std::optional<ComplexHit> QueryStructure::first_hit_minus_x(const Complex& complex, VertexId vertex,
+                                                            const Monitor& monitor) const {
+  return first_hit(complex, {{&complex.points, point_of(vertex)}, minus_x()}, {}, nullptr, monitor);
 }
 
-SFaceId QueryStructure::first_sface_minus_x(const Complex& complex, VertexId vertex) const {
-  const std::optional<ComplexHit> hit = first_hit_minus_x(complex, vertex);
+SFaceId QueryStructure::first_sface_minus_x(const Complex& complex, VertexId vertex, const Monitor& monitor) const {
+  const std::optional<ComplexHit> hit = first_hit_minus_x(complex, vertex, monitor);
   if (!hit) return {};
   if (hit->kind == ComplexHit::Kind::kFacet) {
     // A corner is oriented like the positive halffacet; its twin looks to the other side.
@@ -153,8 +157,8 @@ SFaceId QueryStructure::first_sface_minus_x(const Complex& complex, VertexId ver
   return hit->sface;
 }
 
-VolumeId QueryStructure::volume_at(const Complex& complex, const PointRef& point) const {
-  const std::optional<ComplexHit> hit = first_hit(complex, {point, minus_x()});
+VolumeId QueryStructure::volume_at(const Complex& complex, const PointRef& point, const Monitor& monitor) const {
+  const std::optional<ComplexHit> hit = first_hit(complex, {point, minus_x()}, {}, nullptr, monitor);
   return hit ? volume_before(complex, *hit) : kOuterVolume;
 }
 

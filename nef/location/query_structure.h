@@ -11,6 +11,7 @@
 #include <optional>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/complex/complex.h"
 #include "nef/geometry/box_tree.h"
 #include "nef/location/compare.h"
@@ -56,24 +57,26 @@ class QueryStructure {
 
   /// The vertex, edge or facet (kFacet: index of the positive halffacet) that holds the point;
   /// nothing if it lies in a volume. O(log n) expected.
-  [[nodiscard]] std::optional<ComplexHit> item_at(const Complex& complex, const PointRef& point) const;
+  [[nodiscard]] std::optional<ComplexHit> item_at(const Complex& complex, const PointRef& point,
+                                                  const Monitor& monitor) const;
 
   /// The first vertex, edge or facet that the ray meets and `accept` (if given) takes. A facet
   /// in whose plane the ray runs and an edge on whose line it runs are not met themselves, but
   /// their boundaries are. `at`, if given, becomes the point that is met (finite rays only).
-  [[nodiscard]] std::optional<ComplexHit> first_hit(const Complex& complex, const QueryRay& ray,
-                                                    const Accept& accept = {}, Rational3* at = nullptr) const;
+  [[nodiscard]] std::optional<ComplexHit> first_hit(const Complex& complex, const QueryRay& ray, const Accept& accept,
+                                                    Rational3* at, const Monitor& monitor) const;
 
   /// The first vertex, edge or facet strictly left (smaller x, same y and z) of a vertex, which
   /// may be infimaximal.
-  [[nodiscard]] std::optional<ComplexHit> first_hit_minus_x(const Complex& complex, VertexId vertex) const;
+  [[nodiscard]] std::optional<ComplexHit> first_hit_minus_x(const Complex& complex, VertexId vertex,
+                                                            const Monitor& monitor) const;
 
   /// The sface of that first item which bounds the region between it and the vertex;
   /// none if there is no such item. The vertex must have nothing of its own in direction -x.
-  [[nodiscard]] SFaceId first_sface_minus_x(const Complex& complex, VertexId vertex) const;
+  [[nodiscard]] SFaceId first_sface_minus_x(const Complex& complex, VertexId vertex, const Monitor& monitor) const;
 
   /// The volume that holds a point which item_at does not find on anything.
-  [[nodiscard]] VolumeId volume_at(const Complex& complex, const PointRef& point) const;
+  [[nodiscard]] VolumeId volume_at(const Complex& complex, const PointRef& point, const Monitor& monitor) const;
 
   [[nodiscard]] std::size_t bytes() const;
 
@@ -88,7 +91,8 @@ class QueryStructure {
   void collect(const Complex& complex, const BoxTree* places);
   void push_item(std::uint32_t index, Primitive kind, const Box& box, std::vector<Box>& boxes);
   [[nodiscard]] const BoxTree* edge_tree(const Complex& complex, FacetId facet) const;
-  [[nodiscard]] std::optional<VertexId> free_vertex_at(const Complex& complex, const PointRef& point) const;
+  [[nodiscard]] std::optional<VertexId> free_vertex_at(const Complex& complex, const PointRef& point,
+                                                       const Monitor& monitor) const;
 
   // Holds the boxes mirrored at the origin, so that its order of traversal (small coordinates
   // first) goes outward from the origin of a ray towards -x, the direction that location uses.

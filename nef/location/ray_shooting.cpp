@@ -43,11 +43,12 @@ std::optional<int> position_on_line(const QueryRay& ray, const PointRef& p) {
 class RayShooter {
  public:
   RayShooter(const Complex& complex, const QueryStructure& structure, const QueryRay& ray,
-             const QueryStructure::Accept& accept)
+             const QueryStructure::Accept& accept, const Monitor& monitor)
       : complex_(complex),
         structure_(structure),
         ray_(ray),
         accept_(accept),
+        monitor_(monitor),
         filter_(mirrored(point_box(ray.origin)), ray.direction.negated()),
         finite_origin_(ray.origin.table->finite(ray.origin.id)) {}
 
@@ -85,20 +86,20 @@ class RayShooter {
     const SVertex& edge = complex_.svertex(halfedge);
     PlaneId crossed = edge.p;
     PlaneId other = edge.q;
-    if (side_of_circle(complex_.planes, crossed, ray_.direction) == 0) std::swap(crossed, other);
+    if (side_of_circle(complex_.planes, crossed, ray_.direction, monitor_) == 0) std::swap(crossed, other);
     const VertexId u = complex_.source(halfedge);
     const VertexId v = complex_.target(halfedge);
-    if (side_of_circle(complex_.planes, crossed, ray_.direction) == 0) {
+    if (side_of_circle(complex_.planes, crossed, ray_.direction, monitor_) == 0) {
       // Parallel: met at its ends, if at all.
       visit_vertex(u);
       visit_vertex(v);
       return;
     }
     const std::optional<PointRef> meeting = meet(crossed);
-    if (!meeting || side_of_plane(complex_.planes, other, *meeting) != 0) return;
+    if (!meeting || side_of_plane(complex_.planes, other, *meeting, monitor_) != 0) return;
     for (int axis = 0; axis < 3; ++axis) {
-      const int u_side = compare_coordinate(PointRef{&complex_.points, point_of(u)}, *meeting, axis);
-      const int v_side = compare_coordinate(PointRef{&complex_.points, point_of(v)}, *meeting, axis);
+      const int u_side = compare_coordinate(PointRef{&complex_.points, point_of(u)}, *meeting, axis, monitor_);
+      const int v_side = compare_coordinate(PointRef{&complex_.points, point_of(v)}, *meeting, axis, monitor_);
       if (u_side == 0 && v_side == 0) continue;
       if (u_side * v_side > 0) return;
       if (u_side * v_side < 0) return offer(ComplexHit::at_edge(halfedge), *meeting);
@@ -108,13 +109,13 @@ class RayShooter {
 
   void visit_facet(FacetId f) {
     const Facet& facet = complex_.facets[f];
-    if (side_of_circle(complex_.planes, facet.plane, ray_.direction) == 0) {
-      if (side_of_plane(complex_.planes, facet.plane, ray_.origin) == 0) visit_boundary(f);
+    if (side_of_circle(complex_.planes, facet.plane, ray_.direction, monitor_) == 0) {
+      if (side_of_plane(complex_.planes, facet.plane, ray_.origin, monitor_) == 0) visit_boundary(f);
       return;
     }
     const std::optional<PointRef> meeting = meet(facet.plane);
     if (!meeting || (hit_ && !nearer(*meeting))) return;
-    const FacetPlace place = locate_in_facet(complex_, facet, *meeting, structure_.edge_tree(complex_, f));
+    const FacetPlace place = locate_in_facet(complex_, facet, *meeting, structure_.edge_tree(complex_, f), monitor_);
     switch (place.kind) {
       case FacetPlace::Kind::kOutside:
         return;
@@ -127,11 +128,11 @@ class RayShooter {
     }
     if (facet.isolated_count > 0) {
       // What is met may be a vertex inside the facet.
-      if (const auto vertex = structure_.free_vertex_at(complex_, *meeting)) {
+      if (const auto vertex = structure_.free_vertex_at(complex_, *meeting, monitor_)) {
         return offer(ComplexHit::at(*vertex), *meeting);
       }
     }
-    const bool from_above = side_of_plane(complex_.planes, facet.plane, ray_.origin) > 0;
+    const bool from_above = side_of_plane(complex_.planes, facet.plane, ray_.origin, monitor_) > 0;
     offer({ComplexHit::Kind::kFacet, halffacet_of(f, !from_above).index(), SFaceId()}, *meeting);
   }
 
@@ -150,9 +151,9 @@ class RayShooter {
   // The point ahead on the ray where it crosses a plane that is not parallel to it.
   // With m = n . D and s = the plane's form at the origin P / w: Q = (m P - s D) / (m w).
   std::optional<PointRef> meet(PlaneId plane) {
-    const int side = side_of_plane(complex_.planes, plane, ray_.origin);
+    const int side = side_of_plane(complex_.planes, plane, ray_.origin, monitor_);
     const Direction normal = Direction::normal(complex_.planes, plane);
-    if (side * sign_of_dot(normal, ray_.direction) >= 0) return std::nullopt;
+    if (side * sign_of_dot(normal, ray_.direction, monitor_) >= 0) return std::nullopt;
     mpz_ptr m = slope_.get_mpz_t();
     mpz_ptr s = height_.get_mpz_t();
     const Integer3& d = ray_.direction.integers();
@@ -183,7 +184,8 @@ class RayShooter {
   }
 
   [[nodiscard]] bool nearer(const PointRef& point) const {
-    return compare_coordinate(point, position_, static_cast<int>(filter_.main_axis())) * filter_.main_sign() > 0;
+    return compare_coordinate(point, position_, static_cast<int>(filter_.main_axis()), monitor_) * filter_.main_sign() >
+           0;
   }
 
   void offer(const ComplexHit& hit, const PointRef& position) {
@@ -199,7 +201,7 @@ class RayShooter {
     if (hit.kind == ComplexHit::Kind::kFacet) return {};
     const Direction back = ray_.direction.negated();
     if (hit.kind == ComplexHit::Kind::kVertex) {
-      const SphereLocation place = locate(complex_.planes, complex_.sphere_map(hit.vertex()), back);
+      const SphereLocation place = locate(complex_.planes, complex_.sphere_map(hit.vertex()), back, monitor_);
       return place.kind == SphereLocation::Kind::kSFace ? complex_.vertices[hit.vertex()].sfaces + place.index
                                                         : SFaceId();
     }
@@ -210,7 +212,7 @@ class RayShooter {
     if (edge.out == kNone) return record.sfaces + edge.sface;
     const Direction axis = direction_of(complex_.planes, edge);
     const Wedge wedge =
-        locate_wedge(complex_.planes, map, hit.halfedge() - record.svertices, Direction::cross(axis, back));
+        locate_wedge(complex_.planes, map, hit.halfedge() - record.svertices, Direction::cross(axis, back), monitor_);
     return wedge.on ? SFaceId() : record.sfaces + map.shalfedges[wedge.shalfedge].sface;
   }
 
@@ -218,6 +220,7 @@ class RayShooter {
   const QueryStructure& structure_;
   const QueryRay& ray_;
   const QueryStructure::Accept& accept_;
+  Monitor monitor_;
   RayFilter filter_;  // mirrored at the origin, like the tree of a QueryStructure
   bool finite_origin_;
   PointTable scratch_;
@@ -228,9 +231,9 @@ class RayShooter {
 };
 
 std::optional<ComplexHit> QueryStructure::first_hit(const Complex& complex, const QueryRay& ray, const Accept& accept,
-                                                    Rational3* at) const {
+                                                    Rational3* at, const Monitor& monitor) const {
   NEF_ASSERT(!ray.direction.is_zero());
-  return RayShooter(complex, *this, ray, accept).shoot(at);
+  return RayShooter(complex, *this, ray, accept, monitor).shoot(at);
 }
 
 }  // namespace nef

@@ -389,14 +389,15 @@ const char* name(MeshProblemKind kind) {
   return "unknown problem";
 }
 
-std::vector<MeshProblem> check_mesh(const Mesh& mesh, const MeshCheckOptions& options) {
-  return check_mesh(mesh, MeshSurface(mesh), options);
+std::vector<MeshProblem> check_mesh(const Mesh& mesh, const MeshCheckOptions& options, const Monitor& monitor) {
+  return check_mesh(mesh, MeshSurface(mesh, monitor), options, monitor);
 }
 
-std::vector<MeshProblem> check_mesh(const Mesh& mesh, const MeshSurface& surface, const MeshCheckOptions& options) {
-  if (bounds_small_convex_solid(mesh, surface)) return {};
+std::vector<MeshProblem> check_mesh(const Mesh& mesh, const MeshSurface& surface, const MeshCheckOptions& options,
+                                    const Monitor& monitor) {
+  if (bounds_small_convex_solid(mesh, surface, monitor)) return {};
   Report report(options.max_per_kind);
-  const SurfaceContacts contacts(surface);
+  const SurfaceContacts contacts(surface, monitor);
   check_faces(mesh, surface, report);
   bool closed = all_triangles(surface) && contacts.stars().all_closed();
   if (!closed) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/mesh/mesh.h"
 
 namespace nef {
@@ -53,9 +54,11 @@ struct MeshCheckOptions {
 /// or a vertex are legal: the edge has four faces that pair up, which is reported as legal. Whether components that
 /// touch or lie in each other contradict each other is known only when the solid is made (from_mesh). All decisions are
 /// exact. O(n log n) for meshes whose faces meet few others; 20000 triangles take about 50 ms.
-std::vector<MeshProblem> check_mesh(const Mesh& mesh, const MeshCheckOptions& options = {});
+std::vector<MeshProblem> check_mesh(const Mesh& mesh, const MeshCheckOptions& options = {},
+                                    const Monitor& monitor = {});
 /// The same for a mesh whose surface is there already.
-std::vector<MeshProblem> check_mesh(const Mesh& mesh, const MeshSurface& surface, const MeshCheckOptions& options);
+std::vector<MeshProblem> check_mesh(const Mesh& mesh, const MeshSurface& surface, const MeshCheckOptions& options,
+                                    const Monitor& monitor);
 
 /// How far the corners of a face are from the plane through their centroid whose normal is the area vector of the
 /// face: the largest distance. Zero iff the face is planar and not degenerate, or has no area vector.

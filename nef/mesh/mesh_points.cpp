@@ -278,8 +278,9 @@ Approximation MeshPoints::determinant(std::uint32_t a, std::uint32_t b, std::uin
   return {value, error};
 }
 
-int MeshPoints::orientation(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const {
-  return sign_by_ladder(determinant(a, b, c, d), [&] { return orientation_exact(a, b, c, d); });
+int MeshPoints::orientation(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d,
+                            const Monitor& monitor) const {
+  return sign_by_ladder(determinant(a, b, c, d), monitor, [&] { return orientation_exact(a, b, c, d); });
 }
 
 int MeshPoints::orientation_exact(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const {
@@ -332,8 +333,9 @@ Approximation MeshPoints::component(std::uint32_t a, std::uint32_t b, std::uint3
   return {value, 3 * (ex * sy + sx * ey) + 0x1p-49 * sx * sy + 1e-290};
 }
 
-int MeshPoints::orientation_along(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::size_t axis) const {
-  return sign_by_ladder(component(a, b, c, axis), [&] { return orientation_along_exact(a, b, c, axis); });
+int MeshPoints::orientation_along(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::size_t axis,
+                                  const Monitor& monitor) const {
+  return sign_by_ladder(component(a, b, c, axis), monitor, [&] { return orientation_along_exact(a, b, c, axis); });
 }
 
 std::array<std::int8_t, 3> MeshPoints::filtered_turns(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
@@ -368,14 +370,15 @@ int MeshPoints::orientation_along_exact(std::uint32_t a, std::uint32_t b, std::u
   return sgn(sum);
 }
 
-bool MeshPoints::collinear(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
+bool MeshPoints::collinear(std::uint32_t a, std::uint32_t b, std::uint32_t c, const Monitor& monitor) const {
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (orientation_along(a, b, c, axis) != 0) return false;
+    if (orientation_along(a, b, c, axis, monitor) != 0) return false;
   }
   return true;
 }
 
-std::size_t MeshPoints::projection_axis(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
+std::size_t MeshPoints::projection_axis(std::uint32_t a, std::uint32_t b, std::uint32_t c,
+                                        const Monitor& monitor) const {
   std::array<double, 3> size{};
   const auto& p = approximate_[a];
   const auto& q = approximate_[b];
@@ -389,7 +392,7 @@ std::size_t MeshPoints::projection_axis(std::uint32_t a, std::uint32_t b, std::u
   std::sort(order.begin(), order.end(),
             [&](std::size_t i, std::size_t j) { return size[i] != size[j] ? size[i] > size[j] : i < j; });
   for (const std::size_t axis : order) {
-    if (orientation_along(a, b, c, axis) != 0) return axis;
+    if (orientation_along(a, b, c, axis, monitor) != 0) return axis;
   }
   return order[0];
 }

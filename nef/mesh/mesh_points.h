@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/geometry/box_tree.h"
 #include "nef/geometry/point_table.h"
 #include "nef/number/approximation.h"
@@ -39,7 +40,8 @@ class MeshPoints {
   [[nodiscard]] std::size_t size() const { return approximate_.size(); }
 
   /// The sign of det(b - a, c - a, d - a): +1 if a, b, c turn counterclockwise as seen from d's side.
-  [[nodiscard]] int orientation(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const;
+  [[nodiscard]] int orientation(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d,
+                                const Monitor& monitor) const;
 
   /// det(b - a, c - a, d - a) in the scaled space of approximate(). Its sign, if it tells one, is that of
   /// orientation(), and much cheaper where points are in one plane, or all but. Tells nothing if the points are not
@@ -48,13 +50,14 @@ class MeshPoints {
 
   /// The sign of component `axis` of (b - a) x (c - a): orientation of the three points in the projection along
   /// that axis.
-  [[nodiscard]] int orientation_along(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::size_t axis) const;
+  [[nodiscard]] int orientation_along(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::size_t axis,
+                                      const Monitor& monitor) const;
 
   /// The same for each axis if doubles can tell, and 0 where they can not.
   [[nodiscard]] std::array<std::int8_t, 3> filtered_turns(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
 
   /// True if the three points lie on one line.
-  [[nodiscard]] bool collinear(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
+  [[nodiscard]] bool collinear(std::uint32_t a, std::uint32_t b, std::uint32_t c, const Monitor& monitor) const;
 
   /// True if all of `others` lie in the plane of a, b and c, which are not on one line.
   [[nodiscard]] bool coplanar(std::uint32_t a, std::uint32_t b, std::uint32_t c,
@@ -62,7 +65,8 @@ class MeshPoints {
 
   /// An axis along which the three points, not collinear, do not project to one line; usually the one along which
   /// their triangle looks largest.
-  [[nodiscard]] std::size_t projection_axis(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
+  [[nodiscard]] std::size_t projection_axis(std::uint32_t a, std::uint32_t b, std::uint32_t c,
+                                            const Monitor& monitor) const;
 
   /// The sign of a[axis] - b[axis].
   [[nodiscard]] int compare(std::uint32_t a, std::uint32_t b, std::size_t axis) const;

@@ -10,7 +10,7 @@
 #include <optional>
 #include <utility>
 
-#include "nef/base/timing/predicate_counts.h"
+#include "nef/base/monitor.h"
 
 namespace nef {
 
@@ -65,12 +65,12 @@ inline Approximation operator/(const Approximation& a, const Approximation& b) {
 
 /// The sign of a number: what its approximation tells, else what `exact()` says. Counts which of the two it was.
 template <typename Exact>
-int sign_by_ladder(const Approximation& rough, Exact&& exact) {
+int sign_by_ladder(const Approximation& rough, const Monitor& monitor, Exact&& exact) {
   if (const std::optional<int> sign = rough.sign()) {
-    ++predicate_counts().filter;
+    monitor.count_filter();
     return *sign;
   }
-  ++predicate_counts().exact;
+  monitor.count_exact();
   return std::forward<Exact>(exact)();
 }
 

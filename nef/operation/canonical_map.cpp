@@ -81,7 +81,7 @@ void CanonicalMapWriter::turn_along(const SVertex& old, SVertex& svertex) const 
     positive = (p.flipped() != q.flipped()) == (p.row() != svertex.p.row());
   } else {
     positive = sign_of_dot(Direction::cross(planes_, common(old.p), common(old.q)),
-                           Direction::cross(ordered_, svertex.p, svertex.q)) > 0;
+                           Direction::cross(ordered_, svertex.p, svertex.q), monitor_) > 0;
   }
   if (!positive) svertex.q = svertex.q.opposite();
 }

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/sphere_map/sphere_map.h"
 
 namespace nef {
@@ -23,8 +24,9 @@ struct BareLine {
 class CanonicalMapWriter {
  public:
   /// `planes` are those that maps mean, `ordered` those of the result, of which row[r] is row r of `planes`.
-  CanonicalMapWriter(const PlaneTable& planes, const PlaneTable& ordered, std::span<const std::uint32_t> row)
-      : planes_(planes), ordered_(ordered), row_(row) {}
+  CanonicalMapWriter(const PlaneTable& planes, const PlaneTable& ordered, std::span<const std::uint32_t> row,
+                     const Monitor& monitor)
+      : planes_(planes), ordered_(ordered), row_(row), monitor_(monitor) {}
 
   /// Maps that follow name rows of `planes` by rows[r], which become ordered[r]; `rows` is empty if by themselves.
   void set_rows(std::span<const std::uint32_t> rows, std::span<const std::uint32_t> ordered) {
@@ -74,6 +76,7 @@ class CanonicalMapWriter {
   const PlaneTable& planes_;
   const PlaneTable& ordered_;
   std::span<const std::uint32_t> row_;
+  Monitor monitor_;
   std::span<const std::uint32_t> rows_;
   std::span<const std::uint32_t> renamed_;
   SphereMapBuffer out_;

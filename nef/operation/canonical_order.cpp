@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "nef/base/error.h"
-#include "nef/base/interruption.h"
 #include "nef/base/threads/parallel.h"
 #include "nef/geometry/spatial_order.h"
 #include "nef/location/compare.h"
@@ -34,8 +33,12 @@ bool coefficients_less(const PlaneTable& planes, std::uint32_t a, std::uint32_t 
 class Canonical {
  public:
   Canonical(PlaneTable&& planes, std::span<const CanonicalPart> parts, std::vector<CanonicalVertex>&& vertices,
-            unsigned threads)
-      : planes_(std::move(planes)), parts_(parts), vertices_(std::move(vertices)), threads_(threads) {}
+            unsigned threads, const Monitor& monitor)
+      : planes_(std::move(planes)),
+        parts_(parts),
+        vertices_(std::move(vertices)),
+        threads_(threads),
+        monitor_(monitor) {}
 
   Complex run(LabelId outer) {
     read_points();
@@ -45,7 +48,7 @@ class Canonical {
     find_rings();
     choose_lines();
     PlaneTable planes = ordered_planes();
-    ComplexBuilder builder(planes);
+    ComplexBuilder builder(planes, monitor_);
     write(planes, builder);
     KnownLinks known = known_twins(builder.so_far());
     numbers_ = {};
@@ -81,15 +84,15 @@ class Canonical {
     return {&complex(i).points, point_of(vertices_[i].vertex)};
   }
 
-  // Calls body(first, last, chunk) for parts of all vertices, several at once; one thread has one part.
+  // Calls body(first, last, chunk, own) for parts of all vertices, several at once; one thread has one part.
   [[nodiscard]] std::size_t chunk_count() const { return threads_ == 1 ? 1 : (count() + kChunk - 1) / kChunk; }
   template <typename Body>
   void for_each_chunk(Body&& body) const {
     const std::size_t chunks = chunk_count();
-    check_interruption();
-    parallel_for(chunks, threads_, [&](std::size_t k) {
+    monitor_.check_interruption();
+    parallel_for(chunks, threads_, monitor_, [&](std::size_t k, const Monitor& own) {
       const auto first = static_cast<std::uint32_t>(k * kChunk);
-      body(first, chunks == 1 ? count() : std::min(count(), first + kChunk), k);
+      body(first, chunks == 1 ? count() : std::min(count(), first + kChunk), k, own);
     });
   }
 
@@ -97,7 +100,7 @@ class Canonical {
   void read_points() {
     places_.resize(count());
     reducible_.assign(count(), 0);
-    for_each_chunk([&](std::uint32_t first, std::uint32_t last, std::size_t) {
+    for_each_chunk([&](std::uint32_t first, std::uint32_t last, std::size_t, const Monitor&) {
       Integer divisor;
       for (std::uint32_t i = first; i < last; ++i) {
         const PointTable& points = complex(i).points;
@@ -118,7 +121,7 @@ class Canonical {
     for (std::uint32_t i = 0; i < count(); ++i) {
       if (is_infinite(i)) infinite.push_back(i);
     }
-    ComplexBuilder box(planes_);
+    ComplexBuilder box(planes_, monitor_);
     for (const std::uint32_t i : infinite) box.copy(complex(i), vertices_[i].vertex, 1);
     if (!box.has_idle_box()) return;
     outer = box.so_far().mark(VertexId{0});
@@ -149,7 +152,7 @@ class Canonical {
       const PointRef q = point(b);
       two.push_from(*p.table, p.id);
       two.push_from(*q.table, q.id);
-      const bool less = compare_lexicographic(two, PointId{0}, PointId{1}) < 0;
+      const bool less = compare_lexicographic(two, PointId{0}, PointId{1}, monitor_) < 0;
       two.pop();
       two.pop();
       return less;
@@ -167,15 +170,18 @@ class Canonical {
 
   void find_rings() {
     rings_.resize(parts_.size());
-    parallel_for_ranges(parts_.size(), kParts, threads_, [this](std::size_t first, std::size_t last) {
-      for (std::size_t k = first; k < last; ++k) rings_[k] = RingsOfPatterns(parts_[k].complex->patterns);
-    });
+    parallel_for_ranges(parts_.size(), kParts, threads_, monitor_,
+                        [this](std::size_t first, std::size_t last, const Monitor&) {
+                          for (std::size_t k = first; k < last; ++k) {
+                            rings_[k] = RingsOfPatterns(parts_[k].complex->patterns);
+                          }
+                        });
   }
 
   // The two planes that name the line of each svertex: of facets where two arrive, others parallel to an axis.
   void choose_lines() {
     std::vector<std::vector<BareLine>> of_chunk(chunk_count());
-    for_each_chunk([&](std::uint32_t first, std::uint32_t last, std::size_t chunk) {
+    for_each_chunk([&](std::uint32_t first, std::uint32_t last, std::size_t chunk, const Monitor&) {
       std::vector<std::array<std::uint32_t, 2>> rows;  // that arrive at each svertex
       for (std::uint32_t i = first; i < last; ++i) {
         if (const RingOfPattern* ring = this->ring(i); ring != nullptr && ring->names_lines(planes_of_pairs(i)))
@@ -252,7 +258,7 @@ class Canonical {
       }
       begin[i + 1U] = static_cast<std::uint32_t>(used.size());
     }
-    for_each_chunk([&](std::uint32_t first, std::uint32_t last, std::size_t) {
+    for_each_chunk([&](std::uint32_t first, std::uint32_t last, std::size_t, const Monitor&) {
       for (std::uint32_t i = first; i < last; ++i) {
         std::sort(used.begin() + begin[i], used.begin() + begin[i + 1U],
                   [this](std::uint32_t a, std::uint32_t b) { return coefficients_less(planes_, a, b); });
@@ -285,12 +291,13 @@ class Canonical {
     }
     std::vector<std::uint32_t> ordered(begin.back());
     numbers_.assign(first_number_.back(), HalfedgeId());
-    parallel_for_ranges(parts_.size(), kParts, threads_, [&](std::size_t first, std::size_t last) {
-      for (std::size_t k = first; k < last; ++k) {
-        std::transform(parts_[k].rows.begin(), parts_[k].rows.end(), ordered.begin() + begin[k],
-                       [this](std::uint32_t row) { return row_[row]; });
-      }
-    });
+    parallel_for_ranges(parts_.size(), kParts, threads_, monitor_,
+                        [&](std::size_t first, std::size_t last, const Monitor&) {
+                          for (std::size_t k = first; k < last; ++k) {
+                            std::transform(parts_[k].rows.begin(), parts_[k].rows.end(), ordered.begin() + begin[k],
+                                           [this](std::uint32_t row) { return row_[row]; });
+                          }
+                        });
     const auto rows_of = [&](std::uint32_t part) {
       if (parts_[part].rows.empty()) return std::span<const std::uint32_t>(row_);
       return std::span<const std::uint32_t>(ordered).subspan(begin[part], begin[part + 1] - begin[part]);
@@ -298,12 +305,12 @@ class Canonical {
     const std::size_t chunks = chunk_count();
     std::vector<std::uint32_t> first_svertex(chunks + 1, 0);
     std::vector<Complex> written(chunks);
-    for_each_chunk([&](std::uint32_t first, std::uint32_t last, std::size_t chunk) {
+    for_each_chunk([&](std::uint32_t first, std::uint32_t last, std::size_t chunk, const Monitor& own) {
       const VertexRecord size = size_of(first, last);
       first_svertex[chunk + 1] = size.svertices.index();
-      ComplexBuilder part(planes);
+      ComplexBuilder part(planes, own);
       part.reserve(last - first, size);
-      CanonicalMapWriter writer(planes_, planes, row_);
+      CanonicalMapWriter writer(planes_, planes, row_, own);
       CanonicalRings rings;
       auto line = std::lower_bound(lines_.begin(), lines_.end(), first,
                                    [](const BareLine& l, std::uint32_t place) { return l.place < place; });
@@ -337,7 +344,7 @@ class Canonical {
     if (chunks == 1) return builder.take_vertices(std::move(written[0]));
     join(written, builder);
     for (std::size_t k = 0; k < chunks; ++k) first_svertex[k + 1] += first_svertex[k];
-    for_each_chunk([&](std::uint32_t first, std::uint32_t last, std::size_t chunk) {
+    for_each_chunk([&](std::uint32_t first, std::uint32_t last, std::size_t chunk, const Monitor&) {
       for (std::uint32_t i = first; i < last; ++i) {
         const CanonicalVertex& v = vertices_[i];
         const std::span<HalfedgeId> numbers = numbers_of(v.part);
@@ -364,7 +371,7 @@ class Canonical {
     KnownLinks known;
     known.twin.assign(written.svertex_count(), HalfedgeId());
     std::vector<std::vector<VertexId>> loose(chunk_count());
-    for_each_chunk([&](std::uint32_t first, std::uint32_t last, std::size_t chunk) {
+    for_each_chunk([&](std::uint32_t first, std::uint32_t last, std::size_t chunk, const Monitor&) {
       for (std::uint32_t i = first; i < last; ++i) {
         const std::span<const HalfedgeId> numbers = numbers_of(vertices_[i].part);
         const Complex& c = complex(i);
@@ -388,6 +395,7 @@ class Canonical {
   std::span<const CanonicalPart> parts_;
   std::vector<CanonicalVertex> vertices_;
   unsigned threads_;
+  Monitor monitor_;
   std::vector<std::array<double, 3>> places_;  // of vertices, until they are in order
   std::vector<std::uint8_t> reducible_;        // coordinates of a vertex have common factors
   PointTable reduced_;
@@ -402,17 +410,18 @@ class Canonical {
 }  // namespace
 
 Complex canonical_complex(PlaneTable&& planes, std::span<const CanonicalPart> parts,
-                          std::vector<CanonicalVertex>&& vertices, LabelId outer, unsigned threads) {
-  return Canonical(std::move(planes), parts, std::move(vertices), threads).run(outer);
+                          std::vector<CanonicalVertex>&& vertices, LabelId outer, unsigned threads,
+                          const Monitor& monitor) {
+  return Canonical(std::move(planes), parts, std::move(vertices), threads, monitor).run(outer);
 }
 
-Polyhedron in_canonical_order(const Polyhedron& set) {
+Polyhedron in_canonical_order(const Polyhedron& set, const Monitor& monitor) {
   const Complex& c = set.complex();
   std::vector<CanonicalVertex> vertices(c.vertex_count());
   for (const VertexId v : c.vertex_ids()) vertices[v.index()].vertex = v;
   const CanonicalPart part{&c, {}};
-  return Polyhedron(
-      canonical_complex(PlaneTable(c.planes), {&part, 1}, std::move(vertices), c.volumes[kOuterVolume].mark));
+  return Polyhedron(canonical_complex(PlaneTable(c.planes), {&part, 1}, std::move(vertices),
+                                      c.volumes[kOuterVolume].mark, 1, monitor));
 }
 
 }  // namespace nef

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/polyhedron.h"
 
 namespace nef {
@@ -11,7 +12,7 @@ namespace nef {
 /// The same set with its items in an order that depends on nothing but the set, and with points and lines without
 /// facets written in one way: sets that are equal get complexes that are equal item for item, and so the same files.
 /// Vertices come along a curve through space, planes as vertices use them. O(n log n), about half a Boolean operation.
-Polyhedron in_canonical_order(const Polyhedron& set);
+Polyhedron in_canonical_order(const Polyhedron& set, const Monitor& monitor = {});
 
 /// Where vertices of a complex that is to be written come from.
 struct CanonicalPart {
@@ -28,6 +29,7 @@ struct CanonicalVertex {
 /// threads. Twins of a part are those of the result where both ends are among the vertices. `outer` is the mark of all
 /// of space if there are no vertices.
 Complex canonical_complex(PlaneTable&& planes, std::span<const CanonicalPart> parts,
-                          std::vector<CanonicalVertex>&& vertices, LabelId outer, unsigned threads = 1);
+                          std::vector<CanonicalVertex>&& vertices, LabelId outer, unsigned threads,
+                          const Monitor& monitor);
 
 }  // namespace nef

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/labeled_polyhedron.h"
 
 namespace nef {
@@ -20,7 +21,8 @@ using InputSet = std::vector<std::uint32_t>;
 /// input to another. Inputs that overlap in many ways need many labels: UnsupportedError beyond some 65000. The cost is
 /// that of uniting the sets with their inner walls kept. `threads` 0: as many as the machine has; the result does not
 /// depend on it.
-LabeledPolyhedron<InputSet> label_inputs(std::span<const Polyhedron> inputs, unsigned threads = 1);
+LabeledPolyhedron<InputSet> label_inputs(std::span<const Polyhedron> inputs, unsigned threads = 1,
+                                         const Monitor& monitor = {});
 
 /// The inputs on whose boundary a facet lies, from the inputs that hold its two sides: those on one side only.
 InputSet origins(const InputSet& one_side, const InputSet& other_side);

@@ -218,21 +218,22 @@ class Translation {
   Integer divisor_;
 };
 
-Complex synthesized(Complex&& image, LabelId outer) {
+Complex synthesized(Complex&& image, LabelId outer, const Monitor& monitor) {
   PlaneTable planes = std::move(image.planes);
-  ComplexBuilder builder(planes);
+  ComplexBuilder builder(planes, monitor);
   builder.take_vertices(std::move(image));
   return builder.finish(outer);
 }
 
 }  // namespace
 
-Polyhedron transform(const Polyhedron& a, const AffineMap& map) {
+Polyhedron transform(const Polyhedron& a, const AffineMap& map, const Monitor& monitor) {
   const IntegerMap exact(map);
   const Complex& c = a.complex();
   if (!c.has_box() && Translation::is_one(exact)) return Polyhedron(Translation(exact)(c));
-  if (!c.has_box()) return Polyhedron(synthesized(map_complex(c, exact, 1), c.volumes[kOuterVolume].mark));
-  return Polyhedron(clip_to_infimaximal_box(synthesized(map_complex(c, exact, exact.box_factor()), kOutside)));
+  if (!c.has_box()) return Polyhedron(synthesized(map_complex(c, exact, 1), c.volumes[kOuterVolume].mark, monitor));
+  return Polyhedron(
+      clip_to_infimaximal_box(synthesized(map_complex(c, exact, exact.box_factor()), kOutside, monitor), monitor));
 }
 
 }  // namespace nef

@@ -3,7 +3,6 @@
 // Unary operations change marks locally, simplify, and synthesize. In a simplified complex every
 // vertex, edge and facet is a boundary item, which makes the topological operations simple:
 // interior deselects all of them, closure and boundary select all of them (thesis 4.5, 5.2).
-#include "nef/base/progress.h"
 #include "nef/operation/for_each_mark.h"
 #include "nef/polyhedron.h"
 #include "nef/synthesis/complex_builder.h"
@@ -16,14 +15,14 @@ enum class Volumes { kKeep, kClear };
 
 class MarkChanger {
  public:
-  MarkChanger(const Complex& c, Lower lower, Volumes volumes)
-      : c_(c), lower_(lower == Lower::kSelect ? 1 : 0), clear_volumes_(volumes == Volumes::kClear) {}
+  MarkChanger(const Complex& c, Lower lower, Volumes volumes, const Monitor& monitor)
+      : c_(c), lower_(lower == Lower::kSelect ? 1 : 0), clear_volumes_(volumes == Volumes::kClear), monitor_(monitor) {}
 
   Complex run() {
     PlaneTable planes = c_.planes;
-    ComplexBuilder result(planes);
+    ComplexBuilder result(planes, monitor_);
     for (const VertexId v : c_.vertex_ids()) {
-      tell_progress_of_item("sphere maps", v.index(), c_.vertex_count());
+      monitor_.tell_progress_of_item("sphere maps", v.index(), c_.vertex_count());
       load(c_.sphere_map(v));
       if (!c_.points.finite(point_of(v))) mark_trace_on_box();
       result.add(c_.points, point_of(v), drawing_);
@@ -100,6 +99,7 @@ class MarkChanger {
   const Complex& c_;
   LabelId lower_;
   bool clear_volumes_;
+  Monitor monitor_;
   Arrangement drawing_;
 };
 
@@ -114,20 +114,20 @@ Polyhedron complement(const Polyhedron& a) {
   return Polyhedron(std::move(c));
 }
 
-Polyhedron interior(const Polyhedron& a) {
-  return Polyhedron(MarkChanger(a.complex(), Lower::kClear, Volumes::kKeep).run());
+Polyhedron interior(const Polyhedron& a, const Monitor& monitor) {
+  return Polyhedron(MarkChanger(a.complex(), Lower::kClear, Volumes::kKeep, monitor).run());
 }
 
-Polyhedron closure(const Polyhedron& a) {
-  return Polyhedron(MarkChanger(a.complex(), Lower::kSelect, Volumes::kKeep).run());
+Polyhedron closure(const Polyhedron& a, const Monitor& monitor) {
+  return Polyhedron(MarkChanger(a.complex(), Lower::kSelect, Volumes::kKeep, monitor).run());
 }
 
-Polyhedron boundary(const Polyhedron& a) {
-  return Polyhedron(MarkChanger(a.complex(), Lower::kSelect, Volumes::kClear).run());
+Polyhedron boundary(const Polyhedron& a, const Monitor& monitor) {
+  return Polyhedron(MarkChanger(a.complex(), Lower::kSelect, Volumes::kClear, monitor).run());
 }
 
-Polyhedron exterior(const Polyhedron& a) { return interior(complement(a)); }
+Polyhedron exterior(const Polyhedron& a, const Monitor& monitor) { return interior(complement(a), monitor); }
 
-Polyhedron regularize(const Polyhedron& a) { return closure(interior(a)); }
+Polyhedron regularize(const Polyhedron& a, const Monitor& monitor) { return closure(interior(a, monitor), monitor); }
 
 }  // namespace nef

@@ -75,14 +75,14 @@ class SectionReader {
 
 }  // namespace
 
-Section section(const Polyhedron& a, const Rational3& normal, const Rational& offset) {
+Section section(const Polyhedron& a, const Rational3& normal, const Rational& offset, const Monitor& monitor) {
   if (normal[0] == 0 && normal[1] == 0 && normal[2] == 0) {
     throw InputError("the plane of a section needs a normal that is not (0,0,0)");
   }
-  const Polyhedron plane = boundary(make_halfspace(normal[0], normal[1], normal[2], offset));
+  const Polyhedron plane = boundary(make_halfspace(normal[0], normal[1], normal[2], offset, true, monitor), monitor);
   Section result;
-  result.set = intersect(a, plane);
-  const Polyhedron closed = closure(result.set);
+  result.set = intersect(a, plane, 1, monitor);
+  const Polyhedron closed = closure(result.set, monitor);
   SectionReader(closed.complex(), normal, result).run();
   return result;
 }

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/polyhedron.h"
 
 namespace nef {
@@ -34,6 +35,6 @@ struct Section {
 
 /// The section of the set with the plane of all points x with normal . x + offset = 0. Throws InputError if the normal
 /// is zero. One Boolean operation with the plane: O(n) and O(k log k) for k items in the section.
-Section section(const Polyhedron& a, const Rational3& normal, const Rational& offset);
+Section section(const Polyhedron& a, const Rational3& normal, const Rational& offset, const Monitor& monitor = {});
 
 }  // namespace nef

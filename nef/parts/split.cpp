@@ -33,7 +33,7 @@ struct Piece {
 
 class PieceMaker {
  public:
-  explicit PieceMaker(const Complex& complex) : c_(complex) {
+  PieceMaker(const Complex& complex, const Monitor& monitor) : c_(complex), monitor_(monitor) {
     for (const VertexId v : c_.vertex_ids()) {
       if (is_box_vertex(c_, v)) box_vertices_.push_back(v);
     }
@@ -51,14 +51,14 @@ class PieceMaker {
       vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
     }
     PlaneTable planes;
-    ComplexBuilder result(planes);
+    ComplexBuilder result(planes, monitor_);
     row_.resize(c_.planes.size(), kNone);
     for (const VertexId v : vertices) {
       const SphereMapView map = c_.sphere_map(v);
       kept(v, map, kept_);
       draw(map);
-      drawing_.sort_around_nodes(c_.planes);
-      drawing_.simplify_and_assemble(c_.planes, out_);
+      drawing_.sort_around_nodes(c_.planes, monitor_);
+      drawing_.simplify_and_assemble(c_.planes, out_, monitor_);
       rename_planes(planes);
       result.add(c_.points, point_of(v), out_.view());
     }
@@ -109,6 +109,7 @@ class PieceMaker {
   }
 
   const Complex& c_;
+  Monitor monitor_;
   std::vector<VertexId> box_vertices_;
   std::vector<std::uint32_t> row_;  // of a plane in the piece at hand
   std::vector<std::uint32_t> rows_in_use_;
@@ -225,7 +226,7 @@ void keep_volume(const Complex& c, VolumeId volume, VertexId v, const SphereMapV
 
 }  // namespace
 
-std::vector<Polyhedron> split(const Polyhedron& a) {
+std::vector<Polyhedron> split(const Polyhedron& a, const Monitor& monitor) {
   const Complex& c = a.complex();
   Components components(c);
   std::vector<std::uint32_t> number;  // of the piece of a component
@@ -253,7 +254,7 @@ std::vector<Polyhedron> split(const Polyhedron& a) {
   std::sort(order.begin(), order.end(),
             [&](std::uint32_t i, std::uint32_t j) { return component_of[i] < component_of[j]; });
   std::vector<Polyhedron> result;
-  PieceMaker maker(c);
+  PieceMaker maker(c, monitor);
   for (const std::uint32_t i : order) {
     result.push_back(maker.make(pieces[i], [&](VertexId v, const SphereMapView& map, Kept& out) {
       components.keep(component_of[i], v, map, out);
@@ -262,7 +263,7 @@ std::vector<Polyhedron> split(const Polyhedron& a) {
   return result;
 }
 
-std::vector<Polyhedron> split_volumes(const Polyhedron& a) {
+std::vector<Polyhedron> split_volumes(const Polyhedron& a, const Monitor& monitor) {
   const Complex& c = a.complex();
   IndexedVector<VolumeId, Piece> pieces(c.volume_count());
   pieces[kOuterVolume].outer = is_selected(c.volumes[kOuterVolume].mark) ? c.volumes[kOuterVolume].mark : LabelId{0};
@@ -273,7 +274,7 @@ std::vector<Polyhedron> split_volumes(const Polyhedron& a) {
     }
   }
   std::vector<Polyhedron> result;
-  PieceMaker maker(c);
+  PieceMaker maker(c, monitor);
   for (const VolumeId volume : c.volumes.ids()) {
     if (!is_selected(c.volumes[volume].mark)) continue;
     result.push_back(maker.make(

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/forward.h"
 
 namespace nef {
@@ -14,12 +15,12 @@ namespace nef {
 /// none meets the closure of another. Labels are kept; every label but 0 counts as in the set. In the order of the
 /// first volume, facet, edge or vertex of each in a.complex(); none for the empty set.
 /// O(n log n) for n items in all, beside the planes, which are copied for each component that has few of them.
-std::vector<Polyhedron> split(const Polyhedron& a);
+std::vector<Polyhedron> split(const Polyhedron& a, const Monitor& monitor = {});
 
 /// For each volume (connected open region) of the set, in the order of a.complex().volumes: the volume and what the
 /// set has of its boundary. Two cubes that touch in an edge are one component, but two of these; parts of the set that
 /// bound no volume of it (walls and wires) are in none of them. A vertex, edge or facet between two volumes of the set
 /// is in both pieces. Cost as for split.
-std::vector<Polyhedron> split_volumes(const Polyhedron& a);
+std::vector<Polyhedron> split_volumes(const Polyhedron& a, const Monitor& monitor = {});
 
 }  // namespace nef

@@ -9,7 +9,7 @@
 #include "nef/program/set_info.h"
 
 namespace nef {
-Json info_json(const Polyhedron& set) { return set_info(set); }
+Json info_json(const Polyhedron& set, const Monitor& monitor) { return set_info(set, {}, monitor); }
 
 std::string summary(const Polyhedron& set) {
   if (set.is_empty()) return "the empty set";
@@ -31,15 +31,15 @@ Json point_json(const Rational3& point) {
   return Json::array({to_string(point[0]), to_string(point[1]), to_string(point[2])});
 }
 
-Measured measure(int repeat, const std::function<Polyhedron()>& operation) {
+Measured measure(int repeat, const Monitor& monitor, const std::function<Polyhedron(const Monitor&)>& operation) {
   Measured result;
   std::vector<double> times;
   for (int i = 0; i < std::max(repeat, 1); ++i) {
     times.push_back(0);
     result.predicates = {};
     Polyhedron set = [&] {
-      const PhaseTimer timer(times.back(), result.predicates);
-      return operation();
+      const PhaseTimer phase(times.back(), result.predicates, monitor);
+      return operation(phase.monitor());
     }();
     // The set of an earlier round goes outside of the time that is taken.
     result.set = std::move(set);
@@ -59,7 +59,7 @@ void finish(Session& session, const std::string& command, const Measured& measur
   session.spent("op", measured.seconds, measured.predicates);
   Json found{{"repeat", session.repeat}};
   found.update(more);
-  found["result"] = info_json(measured.set);
+  found["result"] = info_json(measured.set, session.monitor);
   session.print(command, found);
 }
 

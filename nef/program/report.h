@@ -12,7 +12,7 @@ namespace nef {
 
 /// What reports tell about a set (see set_info): counts, properties, measures without moments. Numbers that are
 /// infinite, undefined or longer than a line are null.
-Json info_json(const Polyhedron& set);
+Json info_json(const Polyhedron& set, const Monitor& monitor = {});
 
 /// "8 vertices, 12 edges, 6 facets, 2 volumes, 2 shells"
 std::string summary(const Polyhedron& set);
@@ -28,8 +28,8 @@ struct Measured {
   PredicateCounts predicates;
 };
 
-/// Computes `repeat` times.
-Measured measure(int repeat, const std::function<Polyhedron()>& operation);
+/// Computes `repeat` times. The operation's monitor watches as `monitor` does, and counts what is measured.
+Measured measure(int repeat, const Monitor& monitor, const std::function<Polyhedron(const Monitor&)>& operation);
 
 /// Writes the result and prints what the flags ask for: a summary, or a report with the members of `more` and the set
 /// under `result`.

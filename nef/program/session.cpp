@@ -13,18 +13,23 @@
 #include "nef/tiles/storage/tile_folder.h"
 
 namespace nef {
-Polyhedron Session::load(const std::string& path) { return load_all({path}).front(); }
+Polyhedron Session::load(const std::string& path) { return load(path, monitor); }
 
-std::vector<Polyhedron> Session::load_all(const std::vector<std::string>& paths) {
+Polyhedron Session::load(const std::string& path, const Monitor& monitor) { return load_all({path}, monitor).front(); }
+
+std::vector<Polyhedron> Session::load_all(const std::vector<std::string>& paths) { return load_all(paths, monitor); }
+
+std::vector<Polyhedron> Session::load_all(const std::vector<std::string>& paths, const Monitor& monitor) {
   const Stopwatch watch;
   const std::size_t first = messages.size();
-  MeshOptions options = mesh;
-  options.threads = threads;
   std::vector<Polyhedron> sets(paths.size());
   std::vector<Messages> notes(paths.size());
   std::atomic<std::size_t> done = 0;
   show_phase("reading", 0, paths.size());
-  parallel_for(paths.size(), threads, [&](std::size_t i) {
+  parallel_for(paths.size(), threads, monitor, [&](std::size_t i, const Monitor& own) {
+    MeshOptions options = mesh;
+    options.threads = threads;
+    options.monitor = own;
     sets[i] = read_file_or_tiles(paths[i], options, &notes[i]);
     show_phase("reading", ++done, paths.size());
   });
@@ -43,7 +48,8 @@ void Session::store(const Polyhedron& set) {
   const std::size_t first = messages.size();
   if (names_tile_folder(output)) {
     if (set.complex().label_count > 2) messages.emplace_back("tiles hold a set: all marks but 0 have become 1");
-    write_tiles(output, TiledPolyhedron(set, {.limit = kVerticesOfTileInFile, .threads = threads}));
+    const Tiling tiling{.limit = kVerticesOfTileInFile, .threads = threads};
+    write_tiles(output, TiledPolyhedron(set, tiling, monitor));
   } else {
     write_polyhedron(output, set, write_options(), &messages);
   }
@@ -69,6 +75,7 @@ PolyhedronWriteOptions Session::write_options() const {
   options.text = text;
   options.polygons = polygons;
   options.threads = threads;
+  options.monitor = monitor;
   options.format = output == "-" && format.empty() ? "nef" : format;
   return options;
 }

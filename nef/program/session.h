@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/construct/construct.h"
 #include "nef/io/polyhedron_file.h"
 #include "nef/program/progress_bar.h"
@@ -43,6 +44,7 @@ class Session {
   int repeat = 1;
   unsigned threads = 0;  ///< 0: as many as the machine has
 
+  Monitor monitor;  ///< who watches the run
   int exit_code = kYes;
   Messages messages;  ///< notes about what was done to inputs and what an output does not hold
 
@@ -50,6 +52,8 @@ class Session {
   Polyhedron load(const std::string& path);
   /// The same for many, several at once.
   std::vector<Polyhedron> load_all(const std::vector<std::string>& paths);
+  /// As the first, watched by `monitor` instead of that of the run.
+  Polyhedron load(const std::string& path, const Monitor& monitor);
   /// Writes a set to `output`, if there is one; "-" is standard output, which then holds nothing else.
   void store(const Polyhedron& set);
   /// Writes a set with labels to `output`, its faces in groups (see write_groups); returns how many each has.
@@ -72,6 +76,7 @@ class Session {
   void complain(const std::string& line);
 
  private:
+  std::vector<Polyhedron> load_all(const std::vector<std::string>& paths, const Monitor& monitor);
   void show_messages(std::size_t first);
   PolyhedronWriteOptions write_options() const;
 

@@ -40,19 +40,19 @@ Json exact_or_null(const Rational3& point, const SetInfoOptions& options) {
 }
 
 // Of what is bounded, without the exact volume.
-void add_approximate_volume(Json& info, const Polyhedron& set) {
-  const MeasuredVolume measured = approximate_volume(set);
+void add_approximate_volume(Json& info, const Polyhedron& set, const Monitor& monitor) {
+  const MeasuredVolume measured = approximate_volume(set, 1, monitor);
   info["volume_double"] = number_or_null(measured.value);
   info["volume_error"] = number_or_null(measured.error);
 }
 
 // As exact as the volume, which is where the time goes.
-void add_area(Json& info, const Polyhedron& set, const SetInfoOptions& options) {
+void add_area(Json& info, const Polyhedron& set, const SetInfoOptions& options, const Monitor& monitor) {
   if (options.volume || !set.is_bounded()) {
     info["area"] = number_or_null(surface_area(set));
     return;
   }
-  const MeasuredArea measured = approximate_area(set);
+  const MeasuredArea measured = approximate_area(set, 1, monitor);
   info["area"] = number_or_null(measured.value);
   info["area_error"] = number_or_null(measured.error);
 }
@@ -94,7 +94,7 @@ void add_box(Json& info, const std::optional<std::array<Rational3, 2>>& box, con
   if (!low.is_null() && !high.is_null()) info["bbox_exact"] = {low, high};
 }
 
-Json set_info(const Polyhedron& set, const SetInfoOptions& options) {
+Json set_info(const Polyhedron& set, const SetInfoOptions& options, const Monitor& monitor) {
   const Counts count = counts(set);
   Json info;
   info["vertices"] = count.vertices;
@@ -107,8 +107,8 @@ Json set_info(const Polyhedron& set, const SetInfoOptions& options) {
   info["closed"] = set.is_closed();
   info["regular"] = set.is_regular();
   add_volume(info, options.volume ? volume(set) : std::nullopt, options);
-  if (!options.volume && set.is_bounded()) add_approximate_volume(info, set);
-  add_area(info, set, options);
+  if (!options.volume && set.is_bounded()) add_approximate_volume(info, set, monitor);
+  add_area(info, set, options, monitor);
   add_box(info, bounding_box(set), options);
   info["euler_numbers"] = euler_numbers(set);
   info["genus"] = Json::array();

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <nlohmann/json.hpp>
 
+#include "nef/base/monitor.h"
 #include "nef/forward.h"
 #include "nef/number/number.h"
 
@@ -22,7 +23,7 @@ inline constexpr std::size_t kShortNumber = 100;
 /// too long or not wanted are null. Where the exact volume is not wanted, `volume_double` and `area` are
 /// off by at most `volume_error` and `area_error`. `volume_digits` says how many digits the exact volume has (numerator
 /// and denominator together).
-nlohmann::ordered_json set_info(const Polyhedron& set, const SetInfoOptions& options = {});
+nlohmann::ordered_json set_info(const Polyhedron& set, const SetInfoOptions& options = {}, const Monitor& monitor = {});
 
 /// The members that tell of a volume, which may be infinite, and of a box, which may not be there.
 void add_volume(nlohmann::ordered_json& info, const std::optional<Rational>& content, const SetInfoOptions& options);

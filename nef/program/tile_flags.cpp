@@ -54,8 +54,10 @@ TiledPolyhedron mesh_in_tiles(Session& session, const std::string& path, const T
   const Mesh mesh = read_mesh(path);
   if (mesh.vertices.empty() && mesh.face_count() == 0) return {TiledPolyhedron().tree(), tiling};
   Messages notes;
+  MeshOptions options = session.mesh;
+  options.monitor = session.monitor;
   try {
-    TiledPolyhedron set = tiles_from_mesh(mesh, session.mesh, tiling, &notes);
+    TiledPolyhedron set = tiles_from_mesh(mesh, options, tiling, &notes);
     session.note_all(notes);
     return set;
   } catch (const InputError& error) {
@@ -114,11 +116,13 @@ TileChoice choose_tiles(const TileFlags& flags, const Session& session, const st
 
 TiledPolyhedron load_tiled(Session& session, const std::string& path, const Tiling& tiling) {
   const bool in_tiles = names_tile_folder(path);
-  if (!in_tiles && !is_mesh_extension(lower_extension(path))) return TiledPolyhedron(session.load(path), tiling);
+  if (!in_tiles && !is_mesh_extension(lower_extension(path))) {
+    return TiledPolyhedron(session.load(path), tiling, session.monitor);
+  }
   const Stopwatch watch;
   session.show_phase("reading");
   TiledPolyhedron set =
-      in_tiles ? read_tiles(path, tiling.store, tiling.threads) : mesh_in_tiles(session, path, tiling);
+      in_tiles ? read_tiles(path, tiling.store, tiling.threads, session.monitor) : mesh_in_tiles(session, path, tiling);
   session.spent("read_tiles", watch.seconds());
   return set;
 }
@@ -129,7 +133,7 @@ void finish_tiled(Session& session, const std::string& command, const TiledPolyh
     session.show_phase("gluing");
     Measured glued;
     const Stopwatch watch;
-    glued.set = set.polyhedron();
+    glued.set = set.polyhedron(session.monitor);
     session.spent("glue", watch.seconds());
     glued.seconds = seconds;
     return finish(session, command, glued, more);

@@ -31,8 +31,8 @@ Location locate(const Polyhedron& a, const Rational3& point) {
   PointTable table;
   const PointRef query{&table, table.push(point)};
   const QueryStructure& structure = a.queries();
-  if (const std::optional<ComplexHit> hit = structure.item_at(complex, query)) return location_of(complex, *hit);
-  const VolumeId volume = structure.volume_at(complex, query);
+  if (const std::optional<ComplexHit> hit = structure.item_at(complex, query, {})) return location_of(complex, *hit);
+  const VolumeId volume = structure.volume_at(complex, query, {});
   return {Location::Kind::kVolume, volume.index(), complex.volumes[volume].mark};
 }
 
@@ -85,7 +85,7 @@ std::optional<RayHit> shoot_ray(const Polyhedron& a, const Rational3& origin, co
     return !at_infinity && (!accept || accept(location_of(complex, hit)));
   };
   RayHit result;
-  const std::optional<ComplexHit> hit = a.queries().first_hit(complex, ray, takes, &result.point);
+  const std::optional<ComplexHit> hit = a.queries().first_hit(complex, ray, takes, &result.point, {});
   if (!hit) return std::nullopt;
   result.location = location_of(complex, *hit);
   return result;

@@ -177,7 +177,8 @@ class CellGrid {
 
 }  // namespace
 
-std::vector<LabelId> locate_many(const Polyhedron& a, std::span<const std::array<double, 3>> points, unsigned threads) {
+std::vector<LabelId> locate_many(const Polyhedron& a, std::span<const std::array<double, 3>> points, unsigned threads,
+                                 const Monitor& monitor) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!std::isfinite(points[i][0]) || !std::isfinite(points[i][1]) || !std::isfinite(points[i][2])) {
       throw InputError("a coordinate of point " + std::to_string(i) + " is not a finite number");
@@ -189,7 +190,7 @@ std::vector<LabelId> locate_many(const Polyhedron& a, std::span<const std::array
   static_cast<void>(a.queries());
   CellGrid grid(complex, points.size());
   constexpr std::size_t kChunk = 4096;
-  parallel_for((points.size() + kChunk - 1) / kChunk, threads, [&](std::size_t chunk) {
+  parallel_for((points.size() + kChunk - 1) / kChunk, threads, monitor, [&](std::size_t chunk, const Monitor&) {
     const std::size_t end = std::min(points.size(), (chunk + 1) * kChunk);
     for (std::size_t i = chunk * kChunk; i < end; ++i) marks[i] = grid.mark(a, points[i]);
   });

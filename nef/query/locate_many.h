@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/forward.h"
 #include "nef/geometry/ids.h"
 
@@ -15,6 +16,6 @@ namespace nef {
 /// or vertex enters are answered by one point location each, so far from the boundary a point costs some nanoseconds;
 /// near it, a point location. On up to `threads` threads (0: as many as the machine has).
 std::vector<LabelId> locate_many(const Polyhedron& a, std::span<const std::array<double, 3>> points,
-                                 unsigned threads = 1);
+                                 unsigned threads = 1, const Monitor& monitor = {});
 
 }  // namespace nef

@@ -175,7 +175,7 @@ double surface_area(const Complex& c) {
 }
 
 std::optional<std::array<Rational3, 2>> bounding_box(const Complex& c) {
-  ExtremePoints extreme(c.points);
+  ExtremePoints extreme(c.points, {});
   for (const VertexId v : c.vertex_ids()) {
     if (!is_box_vertex(c, v)) extreme.add(point_of(v));
   }

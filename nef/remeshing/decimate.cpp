@@ -41,8 +41,8 @@ Mesh collapsed(TriangleMesh work, const Mesh& exact, const std::vector<std::uint
   return result;
 }
 
-bool is_legal(const Mesh& mesh) {
-  return mesh.face_count() > 0 && std::holds_alternative<Polyhedron>(try_from_mesh(mesh));
+bool is_legal(const Mesh& mesh, const Monitor& monitor) {
+  return mesh.face_count() > 0 && std::holds_alternative<Polyhedron>(try_from_mesh(mesh, {.monitor = monitor}));
 }
 
 // Adds the vertices of faces that mesh_to_openmesh could not fit in even so: a sheet that comes back to an edge.
@@ -62,8 +62,8 @@ void add_separate_vertices(const TriangleMesh& work, Sheets& sheets) {
 
 }  // namespace
 
-DecimatedMesh decimate(const Polyhedron& set, std::size_t triangles) {
-  MeshExport whole = to_mesh(set);
+DecimatedMesh decimate(const Polyhedron& set, std::size_t triangles, const Monitor& monitor) {
+  MeshExport whole = to_mesh(set, {}, monitor);
   const Mesh& exact = whole.mesh;
   if (exact.face_count() == 0) throw InputError("the set has no bounded solid part, so there is no mesh to decimate");
   Sheets sheets = sheets_of(exact);
@@ -74,7 +74,7 @@ DecimatedMesh decimate(const Polyhedron& set, std::size_t triangles) {
   std::size_t wanted = triangles;
   for (int i = 0; i < kAttempts && wanted < exact.face_count(); ++i) {
     Mesh attempt = collapsed(work, exact, sheets.original, wanted);
-    if (is_legal(attempt)) {
+    if (is_legal(attempt, monitor)) {
       result.mesh = std::move(attempt);
       break;
     }

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 
+#include "nef/base/monitor.h"
 #include "nef/construct/construct.h"
 #include "nef/remeshing/hausdorff.h"
 
@@ -21,6 +22,6 @@ struct DecimatedMesh {
 /// triangles would cross each other, more of them stay. Sheets that meet in an edge or a vertex keep both. Throws
 /// InputError if the set has no bounded solid part. O(n log n) for n triangles, and a check of legality for each
 /// attempt.
-DecimatedMesh decimate(const Polyhedron& set, std::size_t triangles);
+DecimatedMesh decimate(const Polyhedron& set, std::size_t triangles, const Monitor& monitor = {});
 
 }  // namespace nef

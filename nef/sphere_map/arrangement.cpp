@@ -5,7 +5,6 @@
 #include <numeric>
 
 #include "nef/base/defect.h"
-#include "nef/base/interruption.h"
 #include "nef/sphere_map/components.h"
 #include "nef/sphere_map/sphere_geometry.h"
 
@@ -41,7 +40,7 @@ void Arrangement::load(const PlaneTable& planes, const SphereMapView& map) {
   }
 }
 
-void Arrangement::sort_around_nodes(const PlaneTable& planes) {
+void Arrangement::sort_around_nodes(const PlaneTable& planes, const Monitor& monitor) {
   for (Node& node : nodes) node.degree = 0;
   for (const Arc& arc : arcs) {
     ++nodes[arc.source].degree;
@@ -64,7 +63,7 @@ void Arrangement::sort_around_nodes(const PlaneTable& planes) {
     const Direction reference = Direction::normal(planes, plane(*first));
     std::sort(first + 1, first + node.degree, [&](std::uint32_t a, std::uint32_t b) {
       return compare_around(node.direction, reference, Direction::normal(planes, plane(a)),
-                            Direction::normal(planes, plane(b))) < 0;
+                            Direction::normal(planes, plane(b)), monitor) < 0;
     });
   }
 }
@@ -112,7 +111,7 @@ void Arrangement::trace_chains() {
 }
 
 // The corner of a solid as a rule: one ring of arcs in which nothing is redundant. It is walked around once.
-bool Arrangement::assemble_ring(const PlaneTable& planes, SphereMapBuffer& out) const {
+bool Arrangement::assemble_ring(const PlaneTable& planes, SphereMapBuffer& out, const Monitor& monitor) const {
   const auto n = static_cast<std::uint32_t>(nodes.size());
   if (n < 2 || arcs.size() != n || circle.present) return false;
   for (const Arc& arc : arcs) {
@@ -129,7 +128,7 @@ bool Arrangement::assemble_ring(const PlaneTable& planes, SphereMapBuffer& out) 
     v.q = nodes[node].direction.q;
     v.out = 2 * i;
     v.mark = nodes[node].mark;
-    choose_planes(planes, node, v);
+    choose_planes(planes, node, v, monitor);
     out.svertices.push_back(v);
     const LabelId mark = arcs[half >> 1U].mark;
     detail::require_one_mark(left(half) == left(0) && left(half ^ 1U) == left(1), "an sface has one mark",
@@ -149,11 +148,11 @@ bool Arrangement::assemble_ring(const PlaneTable& planes, SphereMapBuffer& out) 
   return true;
 }
 
-void Arrangement::simplify_and_assemble(const PlaneTable& planes, SphereMapBuffer& out) {
-  check_interruption();  // whatever makes many vertices comes through here
+void Arrangement::simplify_and_assemble(const PlaneTable& planes, SphereMapBuffer& out, const Monitor& monitor) {
+  monitor.check_interruption();  // whatever makes many vertices comes through here
   out.clear();
   out.mark = centre;
-  if (assemble_ring(planes, out)) return;
+  if (assemble_ring(planes, out, monitor)) return;
   out.clear();
   out.mark = centre;
   drop_redundant_arcs();
@@ -183,7 +182,7 @@ void Arrangement::simplify_and_assemble(const PlaneTable& planes, SphereMapBuffe
     const std::uint32_t half = halves_[nodes[n].first_half];
     loop = Circle{true, plane(half), nodes[n].mark, left(half), left(half ^ 1U)};
   }
-  build_incidences(planes, out);
+  build_incidences(planes, out, monitor);
   if (loop.present) {
     out.sloops.push_back({loop.plane, kNone, loop.mark});
     out.sloops.push_back({loop.plane.opposite(), kNone, loop.mark});
@@ -194,10 +193,10 @@ void Arrangement::simplify_and_assemble(const PlaneTable& planes, SphereMapBuffe
     out.sfaces.push_back({0, 0, whole});
     return;
   }
-  build_faces(planes, out);
+  build_faces(planes, out, monitor);
 }
 
-void Arrangement::build_incidences(const PlaneTable& planes, SphereMapBuffer& out) {
+void Arrangement::build_incidences(const PlaneTable& planes, SphereMapBuffer& out, const Monitor& monitor) {
   node_svertex_.assign(nodes.size(), kNone);
   for (std::uint32_t n = 0; n < nodes.size(); ++n) {
     if (!essential(n)) continue;
@@ -242,13 +241,14 @@ void Arrangement::build_incidences(const PlaneTable& planes, SphereMapBuffer& ou
     }
   }
   for (std::uint32_t n = 0; n < nodes.size(); ++n) {
-    if (essential(n)) choose_planes(planes, n, out.svertices[node_svertex_[n]]);
+    if (essential(n)) choose_planes(planes, n, out.svertices[node_svertex_[n]], monitor);
   }
 }
 
 // An svertex should be the meeting of two planes of facets that are there: then no plane outlives
 // its facets, and both ends of an edge use planes of the same facets.
-void Arrangement::choose_planes(const PlaneTable& planes, std::uint32_t node, SVertex& v) const {
+void Arrangement::choose_planes(const PlaneTable& planes, std::uint32_t node, SVertex& v,
+                                const Monitor& monitor) const {
   const std::span<const std::uint32_t> ring = around(node);
   if (ring.size() < 2) return;
   PlaneId first = plane(ring[0]);
@@ -271,7 +271,7 @@ void Arrangement::choose_planes(const PlaneTable& planes, std::uint32_t node, SV
   if (same_pair) {
     positive = (v.p.flipped() != v.q.flipped()) == (v.p.row() != first.row());
   } else {
-    positive = sign_of_dot(nodes[node].direction, Direction::cross(planes, first, second)) > 0;
+    positive = sign_of_dot(nodes[node].direction, Direction::cross(planes, first, second), monitor) > 0;
   }
   v.p = first;
   v.q = positive ? second : second.opposite();
@@ -305,7 +305,7 @@ void Arrangement::collect_cycles(const SphereMapBuffer& out) {
 
 // Cycles of different components may bound one sface. By Euler's formula a component of v svertices and e edges has
 // e - v + 2 cycles (an isolated svertex, too), so the number of cycles tells the number of components: mostly one.
-void Arrangement::build_faces(const PlaneTable& planes, SphereMapBuffer& out) {
+void Arrangement::build_faces(const PlaneTable& planes, SphereMapBuffer& out, const Monitor& monitor) {
   collect_cycles(out);
   const auto count = static_cast<std::uint32_t>(cycles_.size());
   const std::size_t components =
@@ -315,7 +315,7 @@ void Arrangement::build_faces(const PlaneTable& planes, SphereMapBuffer& out) {
     face_of_cycle_.resize(count);
     std::iota(face_of_cycle_.begin(), face_of_cycle_.end(), 0U);
   } else {
-    face_of_cycle_ = join_cycles(planes, out.view(), cycle_of_half_, cycle_of_vertex_, cycle_of_loop_, count);
+    face_of_cycle_ = join_cycles(planes, out.view(), cycle_of_half_, cycle_of_vertex_, cycle_of_loop_, count, monitor);
   }
   // From representatives, each the smallest of its sface, to numbers of sfaces and their ranges of entries.
   for (std::uint32_t c = 0; c < count; ++c) {

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/sphere_map/sphere_map.h"
 
 namespace nef {
@@ -52,7 +53,7 @@ class Arrangement {
 
   /// Step 1: orders the halves that leave each node counterclockwise. Interiors of arcs must be
   /// disjoint and free of nodes.
-  void sort_around_nodes(const PlaneTable& planes);
+  void sort_around_nodes(const PlaneTable& planes, const Monitor& monitor);
 
   /// The halves that leave `node`, counterclockwise.
   [[nodiscard]] std::span<const std::uint32_t> around(std::uint32_t node) const {
@@ -73,17 +74,17 @@ class Arrangement {
   /// Step 2: removes what does not separate: arcs with one mark on both sides and in between,
   /// nodes like what surrounds them; joins arcs that continue through a node of their own mark.
   /// Then builds the sphere map into `out`. The marks must be consistent around every node.
-  void simplify_and_assemble(const PlaneTable& planes, SphereMapBuffer& out);
+  void simplify_and_assemble(const PlaneTable& planes, SphereMapBuffer& out, const Monitor& monitor);
 
  private:
   void drop_redundant_arcs();
   bool passes_through(std::uint32_t node) const;
   void trace_chains();
-  void build_incidences(const PlaneTable& planes, SphereMapBuffer& out);
-  bool assemble_ring(const PlaneTable& planes, SphereMapBuffer& out) const;
-  void choose_planes(const PlaneTable& planes, std::uint32_t node, SVertex& v) const;
+  void build_incidences(const PlaneTable& planes, SphereMapBuffer& out, const Monitor& monitor);
+  bool assemble_ring(const PlaneTable& planes, SphereMapBuffer& out, const Monitor& monitor) const;
+  void choose_planes(const PlaneTable& planes, std::uint32_t node, SVertex& v, const Monitor& monitor) const;
   void collect_cycles(const SphereMapBuffer& out);
-  void build_faces(const PlaneTable& planes, SphereMapBuffer& out);
+  void build_faces(const PlaneTable& planes, SphereMapBuffer& out, const Monitor& monitor);
 
   struct Cycle {
     SFaceEntry entry;

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/sphere_map/sphere_map.h"
 
 namespace nef {
@@ -17,6 +18,7 @@ namespace nef {
 std::vector<std::uint32_t> join_cycles(const PlaneTable& planes, const SphereMapView& map,
                                        const std::vector<std::uint32_t>& cycle_of_half,
                                        const std::vector<std::uint32_t>& cycle_of_vertex,
-                                       const std::vector<std::uint32_t>& cycle_of_loop, std::uint32_t cycle_count);
+                                       const std::vector<std::uint32_t>& cycle_of_loop, std::uint32_t cycle_count,
+                                       const Monitor& monitor);
 
 }  // namespace nef

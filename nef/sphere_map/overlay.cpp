@@ -44,8 +44,9 @@ Box box_around(const std::array<double, 3>& p, double radius) {
 }  // namespace
 
 void SphereOverlay::overlay(const PlaneTable& planes, const SphereMapView& a, const SphereMapView& b,
-                            const LabelFunction& f, SphereMapBuffer& out) {
+                            const LabelFunction& f, SphereMapBuffer& out, const Monitor& monitor) {
   planes_ = &planes;
+  monitor_ = monitor;
   maps_ = {a, b};
   drawing_.clear();
   support_.clear();
@@ -59,13 +60,13 @@ void SphereOverlay::overlay(const PlaneTable& planes, const SphereMapView& a, co
   cross_arcs(first_of_b);
   place_isolated(first_of_b);
   cut_arcs();
-  drawing_.sort_around_nodes(planes);
+  drawing_.sort_around_nodes(planes, monitor);
   face_.assign(2 * drawing_.arcs.size(), {kNone, kNone});
   node_face_.assign(drawing_.nodes.size(), {kNone, kNone});
   find_faces(0);
   find_faces(1);
   evaluate(f);
-  drawing_.simplify_and_assemble(planes, out);
+  drawing_.simplify_and_assemble(planes, out, monitor);
 }
 
 void SphereOverlay::load(const SphereMapView& map, std::uint8_t operand) {
@@ -104,11 +105,11 @@ void SphereOverlay::merge_nodes(std::uint32_t first_of_b) {
     std::uint32_t found = kNone;
     if (large) {
       tree.for_each_overlap(box_around(unit(nodes[j].direction), kSlack), [&](std::uint32_t i) {
-        if (found == kNone && same_direction(nodes[i].direction, nodes[j].direction)) found = i;
+        if (found == kNone && same_direction(nodes[i].direction, nodes[j].direction, monitor_)) found = i;
       });
     } else {
       for (std::uint32_t i = 0; i < first_of_b && found == kNone; ++i) {
-        if (same_direction(nodes[i].direction, nodes[j].direction)) found = i;
+        if (same_direction(nodes[i].direction, nodes[j].direction, monitor_)) found = i;
       }
     }
     if (found != kNone) {
@@ -143,7 +144,7 @@ void SphereOverlay::cross_arcs(std::uint32_t first_of_b) {
     if (arc.source == kNone || arc.source == arc.target) return everywhere;
     const Direction& s = drawing_.nodes[arc.source].direction;
     const Direction& t = drawing_.nodes[arc.target].direction;
-    if (orientation_on_circle(*planes_, arc.plane, s, t) <= 0) return everywhere;
+    if (orientation_on_circle(*planes_, arc.plane, s, t, monitor_) <= 0) return everywhere;
     const std::array<double, 3> u = unit(s);
     const std::array<double, 3> v = unit(t);
     const double chord =
@@ -172,7 +173,7 @@ SphereOverlay::EndSides SphereOverlay::sides_of_ends(const InputArc& arc, const 
   if (arc.source == kNone) return {};
   const auto side = [&](std::uint32_t node) {
     if (node == other.source || node == other.target) return 0;
-    return side_of_circle(*planes_, other.plane, drawing_.nodes[node].direction);
+    return side_of_circle(*planes_, other.plane, drawing_.nodes[node].direction, monitor_);
   };
   const int from = side(arc.source);
   return {from, arc.source == arc.target ? from : side(arc.target)};
@@ -182,7 +183,7 @@ SphereOverlay::EndSides SphereOverlay::sides_of_ends(const InputArc& arc, const 
 bool SphereOverlay::stays_aside(const InputArc& arc, const EndSides& sides) const {
   if (arc.source == kNone || arc.source == arc.target || sides.from == 0 || sides.from != sides.to) return false;
   return orientation_on_circle(*planes_, arc.plane, drawing_.nodes[arc.source].direction,
-                               drawing_.nodes[arc.target].direction) >= 0;
+                               drawing_.nodes[arc.target].direction, monitor_) >= 0;
 }
 
 // Whether `arc`, whose ends are on these sides of another circle, passes through, or ends at, the crossing of its
@@ -199,20 +200,20 @@ bool SphereOverlay::crosses_at(const InputArc& arc, const EndSides& sides, const
   // An end on the other circle is at this crossing or at the antipode; both are far apart, so the
   // filter always answers.
   if (from == 0) {
-    if (sign_of_dot(s, crossing) > 0) {
+    if (sign_of_dot(s, crossing, monitor_) > 0) {
       end_node = arc.source;
       return true;
     }
     from = first_crossing ? 1 : -1;  // it starts at the antipode and heads for this crossing
     if (to == 0 && arc.source != arc.target) {
-      end_node = sign_of_dot(t, crossing) > 0 ? arc.target : kNone;
+      end_node = sign_of_dot(t, crossing, monitor_) > 0 ? arc.target : kNone;
       return true;  // a half circle to it, or from the antipode around to itself: the latter is excluded
     }
     if (arc.source == arc.target) return true;
     return to != from;
   }
   if (to == 0) {
-    if (sign_of_dot(t, crossing) > 0) {
+    if (sign_of_dot(t, crossing, monitor_) > 0) {
       end_node = arc.target;
       return true;
     }
@@ -271,7 +272,7 @@ void SphereOverlay::cross_coplanar(std::uint32_t arc_a, std::uint32_t arc_b) {
       } else if (node != arc.source && node != arc.target) {
         const std::vector<Arrangement::Node>& n = drawing_.nodes;
         if (strictly_between_on_circle(*planes_, arc.plane, n[arc.source].direction, n[node].direction,
-                                       n[arc.target].direction, arc.source == arc.target)) {
+                                       n[arc.target].direction, arc.source == arc.target, monitor_)) {
           hit(node, i);
         }
       }
@@ -291,10 +292,10 @@ void SphereOverlay::place_isolated(std::uint32_t first_of_b) {
       for (std::uint32_t i = first; i < last; ++i) {
         const InputArc& arc = input_[i];
         const std::vector<Arrangement::Node>& n = drawing_.nodes;
-        if (side_of_circle(*planes_, arc.plane, n[node].direction) != 0) continue;
+        if (side_of_circle(*planes_, arc.plane, n[node].direction, monitor_) != 0) continue;
         if (arc.source == kNone ||
             strictly_between_on_circle(*planes_, arc.plane, n[arc.source].direction, n[node].direction,
-                                       n[arc.target].direction, arc.source == arc.target)) {
+                                       n[arc.target].direction, arc.source == arc.target, monitor_)) {
           hit(node, i);
           break;
         }
@@ -328,7 +329,8 @@ void SphereOverlay::cut_arcs() {
       if (x.second == y.second || y.second == start) return false;
       if (x.second == start) return true;
       const Direction& s = n[start].direction;
-      return strictly_between_on_circle(*planes_, arc.plane, s, n[x.second].direction, n[y.second].direction, false);
+      return strictly_between_on_circle(*planes_, arc.plane, s, n[x.second].direction, n[y.second].direction, false,
+                                        monitor_);
     });
     std::uint32_t from = start;
     for (auto h = first; h != hit; ++h) {
@@ -435,7 +437,7 @@ void SphereOverlay::find_faces(int operand) {
   spread();
   for (std::uint32_t node = 0; node < drawing_.nodes.size(); ++node) {
     if (known[node]) continue;
-    const SphereLocation where = locate(*planes_, map, drawing_.nodes[node].direction);
+    const SphereLocation where = locate(*planes_, map, drawing_.nodes[node].direction, monitor_);
     NEF_ASSERT(where.kind == SphereLocation::Kind::kSFace);
     settle(node, where.index);
     spread();
@@ -493,7 +495,8 @@ void SphereOverlay::evaluate(const LabelFunction& f) {
     const Integer3& v = n.integers();
     const Direction point =
         v[0] == 0 && v[1] == 0 ? Direction::exact(1, 0, 0) : Direction::exact(Integer(-v[1]), v[0], 0);
-    const LabelId label = maps_[x].trivial() ? face_mark(x, 0) : mark_at(maps_[x], locate(*planes_, maps_[x], point));
+    const LabelId label =
+        maps_[x].trivial() ? face_mark(x, 0) : mark_at(maps_[x], locate(*planes_, maps_[x], point, monitor_));
     labels[0][x] = labels[1][x] = labels[2][x] = label;
   }
   drawing_.circle.mark = f(labels[0][0], labels[0][1]);

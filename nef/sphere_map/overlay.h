@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/sphere_map/arrangement.h"
 #include "nef/sphere_map/label_function.h"
 
@@ -21,7 +22,7 @@ class SphereOverlay {
   /// O(n m) sign tests for small maps; O((n + m + k) log(n + m)) expected for large ones with k
   /// crossings.
   void overlay(const PlaneTable& planes, const SphereMapView& a, const SphereMapView& b, const LabelFunction& f,
-               SphereMapBuffer& out);
+               SphereMapBuffer& out, const Monitor& monitor);
 
  private:
   enum class Support : std::uint8_t { kUnknown, kVertex, kArc, kFace };
@@ -64,7 +65,8 @@ class SphereOverlay {
   [[nodiscard]] std::uint32_t face_left_of(int operand, std::uint32_t owner) const;
   [[nodiscard]] LabelId mark_of_owner(int operand, std::uint32_t owner) const;
 
-  const PlaneTable* planes_ = nullptr;
+  const PlaneTable* planes_ = nullptr;  // of the call, as the next
+  Monitor monitor_;
   std::array<SphereMapView, 2> maps_;
   Arrangement drawing_;
   std::vector<NodeSupport> support_;

@@ -74,14 +74,16 @@ SphericalPolyhedron SphericalPolyhedron::half_sphere(const Integer3& normal, boo
   return SphericalPolyhedron(std::move(body));
 }
 
-SphericalPolyhedron SphericalPolyhedron::great_circle(const Integer3& normal) { return boundary(half_sphere(normal)); }
+SphericalPolyhedron SphericalPolyhedron::great_circle(const Integer3& normal, const Monitor& monitor) {
+  return boundary(half_sphere(normal), monitor);
+}
 
-SphericalPolyhedron SphericalPolyhedron::great_arc(const Integer3& a, const Integer3& b) {
+SphericalPolyhedron SphericalPolyhedron::great_arc(const Integer3& a, const Integer3& b, const Monitor& monitor) {
   require_direction(a);
   require_direction(b);
   const Integer3 n = cross(a, b);
   if (is_zero(n)) {
-    if (a[0] * b[0] + a[1] * b[1] + a[2] * b[2] > 0) return point(a);
+    if (a[0] * b[0] + a[1] * b[1] + a[2] * b[2] > 0) return point(a, monitor);
     throw InputError("two opposite directions do not determine a great arc; join them by way of a third one");
   }
   Body body;
@@ -89,56 +91,63 @@ SphericalPolyhedron SphericalPolyhedron::great_arc(const Integer3& a, const Inte
   drawing.nodes.push_back(node_on(body.planes, n, a));
   drawing.nodes.push_back(node_on(body.planes, n, b));
   drawing.arcs.push_back({intern(body.planes, n), 0, 1, 1, 0, 0});
-  drawing.sort_around_nodes(body.planes);
-  drawing.simplify_and_assemble(body.planes, body.map);
+  drawing.sort_around_nodes(body.planes, monitor);
+  drawing.simplify_and_assemble(body.planes, body.map, monitor);
   return SphericalPolyhedron(std::move(body));
 }
 
-SphericalPolyhedron SphericalPolyhedron::point(const Integer3& direction) {
+SphericalPolyhedron SphericalPolyhedron::point(const Integer3& direction, const Monitor& monitor) {
   require_direction(direction);
   Body body;
   Arrangement drawing;
   drawing.nodes.push_back(node_on(body.planes, any_orthogonal(direction), direction));
-  drawing.sort_around_nodes(body.planes);
-  drawing.simplify_and_assemble(body.planes, body.map);
+  drawing.sort_around_nodes(body.planes, monitor);
+  drawing.simplify_and_assemble(body.planes, body.map, monitor);
   return SphericalPolyhedron(std::move(body));
 }
 
 SphereLocation SphericalPolyhedron::locate(const Integer3& direction) const {
   require_direction(direction);
-  return nef::locate(planes(), map(), Direction::exact(direction[0], direction[1], direction[2]));
+  return nef::locate(planes(), map(), Direction::exact(direction[0], direction[1], direction[2]), {});
 }
 
 bool SphericalPolyhedron::contains(const Integer3& direction) const { return mark_at(map(), locate(direction)) != 0; }
 
-SphericalPolyhedron combine(const SphericalPolyhedron& a, const SphericalPolyhedron& b,
-                            LabelId (*f)(LabelId, LabelId)) {
+SphericalPolyhedron combine(const SphericalPolyhedron& a, const SphericalPolyhedron& b, LabelId (*f)(LabelId, LabelId),
+                            const Monitor& monitor) {
   SphericalPolyhedron::Body body;
   SphereMapBuffer copies[2];
   const SphereMapView map_a = renamed(a.map(), a.planes(), body.planes, copies[0]);
   const SphereMapView map_b = renamed(b.map(), b.planes(), body.planes, copies[1]);
-  SphereOverlay().overlay(body.planes, map_a, map_b, LabelFunction(2, 2, f), body.map);
+  SphereOverlay().overlay(body.planes, map_a, map_b, LabelFunction(2, 2, f), body.map, monitor);
   body.map.mark = 0;
   return SphericalPolyhedron(std::move(body));
 }
 
-SphericalPolyhedron unite(const SphericalPolyhedron& a, const SphericalPolyhedron& b) {
-  return combine(a, b, [](LabelId x, LabelId y) { return static_cast<LabelId>(x | y); });
+SphericalPolyhedron unite(const SphericalPolyhedron& a, const SphericalPolyhedron& b, const Monitor& monitor) {
+  return combine(
+      a, b, [](LabelId x, LabelId y) { return static_cast<LabelId>(x | y); }, monitor);
 }
 
-SphericalPolyhedron intersect(const SphericalPolyhedron& a, const SphericalPolyhedron& b) {
-  return combine(a, b, [](LabelId x, LabelId y) { return static_cast<LabelId>(x & y); });
+SphericalPolyhedron intersect(const SphericalPolyhedron& a, const SphericalPolyhedron& b, const Monitor& monitor) {
+  return combine(
+      a, b, [](LabelId x, LabelId y) { return static_cast<LabelId>(x & y); }, monitor);
 }
 
-SphericalPolyhedron subtract(const SphericalPolyhedron& a, const SphericalPolyhedron& b) {
-  return combine(a, b, [](LabelId x, LabelId y) { return static_cast<LabelId>(x != 0 && y == 0); });
+SphericalPolyhedron subtract(const SphericalPolyhedron& a, const SphericalPolyhedron& b, const Monitor& monitor) {
+  return combine(
+      a, b, [](LabelId x, LabelId y) { return static_cast<LabelId>(x != 0 && y == 0); }, monitor);
 }
 
-SphericalPolyhedron symmetric_difference(const SphericalPolyhedron& a, const SphericalPolyhedron& b) {
-  return combine(a, b, [](LabelId x, LabelId y) { return static_cast<LabelId>(x ^ y); });
+SphericalPolyhedron symmetric_difference(const SphericalPolyhedron& a, const SphericalPolyhedron& b,
+                                         const Monitor& monitor) {
+  return combine(
+      a, b, [](LabelId x, LabelId y) { return static_cast<LabelId>(x ^ y); }, monitor);
 }
 
-bool equal(const SphericalPolyhedron& a, const SphericalPolyhedron& b) { return symmetric_difference(a, b).is_empty(); }
+bool equal(const SphericalPolyhedron& a, const SphericalPolyhedron& b, const Monitor& monitor) {
+  return symmetric_difference(a, b, monitor).is_empty();
+}
 
 SphericalPolyhedron complement(const SphericalPolyhedron& a) {
   SphericalPolyhedron::Body body = *a.body_;
@@ -151,7 +160,8 @@ SphericalPolyhedron complement(const SphericalPolyhedron& a) {
 }
 
 // In a simplified map all svertices, shalfedges and sloops are boundary items.
-SphericalPolyhedron change_marks(const SphericalPolyhedron& a, bool select_lower, bool keep_faces) {
+SphericalPolyhedron change_marks(const SphericalPolyhedron& a, bool select_lower, bool keep_faces,
+                                 const Monitor& monitor) {
   SphericalPolyhedron::Body body = *a.body_;
   const LabelId lower = select_lower ? 1 : 0;
   for (SVertex& item : body.map.svertices) item.mark = lower;
@@ -162,18 +172,26 @@ SphericalPolyhedron change_marks(const SphericalPolyhedron& a, bool select_lower
   }
   Arrangement drawing;
   drawing.load(body.planes, body.map.view());
-  drawing.sort_around_nodes(body.planes);
-  drawing.simplify_and_assemble(body.planes, body.map);
+  drawing.sort_around_nodes(body.planes, monitor);
+  drawing.simplify_and_assemble(body.planes, body.map, monitor);
   body.map.mark = 0;
   return SphericalPolyhedron(std::move(body));
 }
 
-SphericalPolyhedron interior(const SphericalPolyhedron& a) { return change_marks(a, false, true); }
+SphericalPolyhedron interior(const SphericalPolyhedron& a, const Monitor& monitor) {
+  return change_marks(a, false, true, monitor);
+}
 
-SphericalPolyhedron closure(const SphericalPolyhedron& a) { return change_marks(a, true, true); }
+SphericalPolyhedron closure(const SphericalPolyhedron& a, const Monitor& monitor) {
+  return change_marks(a, true, true, monitor);
+}
 
-SphericalPolyhedron boundary(const SphericalPolyhedron& a) { return change_marks(a, true, false); }
+SphericalPolyhedron boundary(const SphericalPolyhedron& a, const Monitor& monitor) {
+  return change_marks(a, true, false, monitor);
+}
 
-SphericalPolyhedron regularize(const SphericalPolyhedron& a) { return closure(interior(a)); }
+SphericalPolyhedron regularize(const SphericalPolyhedron& a, const Monitor& monitor) {
+  return closure(interior(a, monitor), monitor);
+}
 
 }  // namespace nef

@@ -7,6 +7,7 @@
 
 #include <memory>
 
+#include "nef/base/monitor.h"
 #include "nef/geometry/integer_vector.h"
 #include "nef/sphere_map/sphere_geometry.h"
 
@@ -21,11 +22,11 @@ class SphericalPolyhedron {
   /// Directions x with normal.x < 0 (or <= 0). Throws InputError for the zero vector, as all below.
   static SphericalPolyhedron half_sphere(const Integer3& normal, bool closed = true);
   /// Directions x with normal.x = 0.
-  static SphericalPolyhedron great_circle(const Integer3& normal);
+  static SphericalPolyhedron great_circle(const Integer3& normal, const Monitor& monitor = {});
   /// The closed arc from a to b, shorter than a half circle; a point if they are the same direction.
   /// Throws InputError if they are opposite.
-  static SphericalPolyhedron great_arc(const Integer3& a, const Integer3& b);
-  static SphericalPolyhedron point(const Integer3& direction);
+  static SphericalPolyhedron great_arc(const Integer3& a, const Integer3& b, const Monitor& monitor = {});
+  static SphericalPolyhedron point(const Integer3& direction, const Monitor& monitor = {});
   /// The local pyramid of somebody else's complex or query, without its centre.
   SphericalPolyhedron(const PlaneTable& planes, const SphereMapView& map);
 
@@ -42,8 +43,9 @@ class SphericalPolyhedron {
 
  private:
   friend SphericalPolyhedron combine(const SphericalPolyhedron&, const SphericalPolyhedron&,
-                                     LabelId (*f)(LabelId, LabelId));
-  friend SphericalPolyhedron change_marks(const SphericalPolyhedron&, bool select_lower, bool keep_faces);
+                                     LabelId (*f)(LabelId, LabelId), const Monitor& monitor);
+  friend SphericalPolyhedron change_marks(const SphericalPolyhedron&, bool select_lower, bool keep_faces,
+                                          const Monitor& monitor);
   friend SphericalPolyhedron complement(const SphericalPolyhedron&);
 
   struct Body {
@@ -55,18 +57,19 @@ class SphericalPolyhedron {
 };
 
 // O(n m) for small maps, O((n + m + k) log(n + m)) for large ones with k crossings.
-SphericalPolyhedron unite(const SphericalPolyhedron& a, const SphericalPolyhedron& b);
-SphericalPolyhedron intersect(const SphericalPolyhedron& a, const SphericalPolyhedron& b);
-SphericalPolyhedron subtract(const SphericalPolyhedron& a, const SphericalPolyhedron& b);
-SphericalPolyhedron symmetric_difference(const SphericalPolyhedron& a, const SphericalPolyhedron& b);
-bool equal(const SphericalPolyhedron& a, const SphericalPolyhedron& b);
+SphericalPolyhedron unite(const SphericalPolyhedron& a, const SphericalPolyhedron& b, const Monitor& monitor = {});
+SphericalPolyhedron intersect(const SphericalPolyhedron& a, const SphericalPolyhedron& b, const Monitor& monitor = {});
+SphericalPolyhedron subtract(const SphericalPolyhedron& a, const SphericalPolyhedron& b, const Monitor& monitor = {});
+SphericalPolyhedron symmetric_difference(const SphericalPolyhedron& a, const SphericalPolyhedron& b,
+                                         const Monitor& monitor = {});
+bool equal(const SphericalPolyhedron& a, const SphericalPolyhedron& b, const Monitor& monitor = {});
 
 // O(n log n).
 SphericalPolyhedron complement(const SphericalPolyhedron& a);
-SphericalPolyhedron interior(const SphericalPolyhedron& a);
-SphericalPolyhedron closure(const SphericalPolyhedron& a);
-SphericalPolyhedron boundary(const SphericalPolyhedron& a);
+SphericalPolyhedron interior(const SphericalPolyhedron& a, const Monitor& monitor = {});
+SphericalPolyhedron closure(const SphericalPolyhedron& a, const Monitor& monitor = {});
+SphericalPolyhedron boundary(const SphericalPolyhedron& a, const Monitor& monitor = {});
 /// The closure of the interior.
-SphericalPolyhedron regularize(const SphericalPolyhedron& a);
+SphericalPolyhedron regularize(const SphericalPolyhedron& a, const Monitor& monitor = {});
 
 }  // namespace nef

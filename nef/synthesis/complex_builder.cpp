@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "nef/base/error.h"
-#include "nef/base/interruption.h"
 #include "nef/base/threads/parallel.h"
 #include "nef/complex/local_pyramid.h"
 #include "nef/synthesis/synthesis.h"
@@ -50,11 +49,11 @@ void ComplexBuilder::reserve(std::size_t vertices, const VertexRecord& items, st
 bool ComplexBuilder::simplify(Arrangement& drawing, bool sorted) {
   if (defect_) return false;
   defect_ = detail::defect_in([&] {
-    if (!sorted) drawing.sort_around_nodes(planes_);
-    drawing.simplify_and_assemble(planes_, map_);
+    if (!sorted) drawing.sort_around_nodes(planes_, monitor_);
+    drawing.simplify_and_assemble(planes_, map_, monitor_);
   });
   if (defect_) defect_->items.push_back({"vertex", complex_.vertex_count()});
-  return !defect_ && is_vertex(planes_, map_.view());
+  return !defect_ && is_vertex(planes_, map_.view(), monitor_);
 }
 
 bool ComplexBuilder::add(const Rational3& point, Arrangement& drawing) {
@@ -85,7 +84,7 @@ bool ComplexBuilder::add(const std::array<PlaneId, 3>& meeting, Arrangement& dra
 }
 
 bool ComplexBuilder::add(const PointTable& points, PointId point, const SphereMapView& map) {
-  if (defect_ || !is_vertex(planes_, map)) return false;
+  if (defect_ || !is_vertex(planes_, map, monitor_)) return false;
   append(points, point, map);
   return true;
 }
@@ -97,7 +96,7 @@ void ComplexBuilder::append(const PointTable& points, PointId point, const Spher
 
 bool ComplexBuilder::append_like(const PointTable& points, PointId point, VertexId like,
                                  std::span<const PlaneId> planes) {
-  check_interruption();
+  monitor_.check_interruption();
   if (defect_) return false;
   Complex& c = complex_;
   const VertexRecord& begin = c.vertices[like];
@@ -128,24 +127,25 @@ void ComplexBuilder::push(const SphereMapView& map) {
 void ComplexBuilder::copy(const Complex& from, VertexId first, std::uint32_t count, std::span<const std::uint32_t> rows,
                           std::span<const LabelId> marks) {
   const CopiedRun run{&from, first, count, rows, marks};
-  copy(std::span(&run, 1), 1);
+  copy(std::span(&run, 1), 1, monitor_);
 }
 
 // Patterns keep their places for planes, so only where items begin changes, and the names of planes and marks. Each
 // array depends on nothing but the same array of the other complexes.
-void ComplexBuilder::copy(std::span<const CopiedRun> runs, unsigned threads) {
+void ComplexBuilder::copy(std::span<const CopiedRun> runs, unsigned threads, const Monitor& monitor) {
   const auto all = [runs](const auto& copy_run) {
     for (const CopiedRun& run : runs) copy_run(run);
   };
   // The longest array first.
-  parallel_calls(threads, {[&] { copy_records(runs); },
-                           [&] {
-                             all([this](const CopiedRun& run) {
-                               complex_.points.append(run.from->points, point_of(run.first).index(), run.count);
-                             });
-                           },
-                           [&] { all([this](const CopiedRun& run) { copy_planes(run); }); },
-                           [&] { all([this](const CopiedRun& run) { copy_sloops(run); }); }});
+  parallel_calls(threads, monitor,
+                 {[&](const Monitor&) { copy_records(runs); },
+                  [&](const Monitor&) {
+                    all([this](const CopiedRun& run) {
+                      complex_.points.append(run.from->points, point_of(run.first).index(), run.count);
+                    });
+                  },
+                  [&](const Monitor&) { all([this](const CopiedRun& run) { copy_planes(run); }); },
+                  [&](const Monitor&) { all([this](const CopiedRun& run) { copy_sloops(run); }); }});
 }
 
 namespace {
@@ -271,7 +271,7 @@ bool ComplexBuilder::has_idle_box() const {
 void ComplexBuilder::drop_idle_box(LabelId& outer) {
   if (!has_idle_box()) return;
   const Complex& c = complex_;
-  ComplexBuilder kept(planes_);
+  ComplexBuilder kept(planes_, monitor_);
   kept.reserve(c.vertex_count(), c.vertices.back());
   const VertexId end{c.vertex_count()};
   VertexId first{0};  // of the run of finite vertices
@@ -317,14 +317,14 @@ Complex ComplexBuilder::finish(LabelId outer, unsigned threads) {
 
 Complex ComplexBuilder::finish_unreduced(LabelId outer, unsigned threads) {
   Complex complex = take();
-  synthesize(complex, outer, threads);
+  synthesize(complex, outer, threads, monitor_);
   complex.trim();
   return complex;
 }
 
 Complex ComplexBuilder::finish(LabelId outer, KnownLinks&& known, unsigned threads) {
   Complex complex = take();
-  synthesize(complex, outer, std::move(known), threads);
+  synthesize(complex, outer, std::move(known), threads, monitor_);
   complex.trim();
   return complex;
 }

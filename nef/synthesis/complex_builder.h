@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "nef/base/defect.h"
+#include "nef/base/monitor.h"
 #include "nef/complex/patterns/pattern_interner.h"
 #include "nef/sphere_map/arrangement.h"
 #include "nef/synthesis/known_links.h"
@@ -26,7 +27,7 @@ namespace nef {
 class ComplexBuilder {
  public:
   /// `planes` are those of all sphere maps. It must outlive the builder; finishing takes the planes out of it.
-  explicit ComplexBuilder(PlaneTable& planes) : planes_(planes) {}
+  ComplexBuilder(PlaneTable& planes, const Monitor& monitor) : planes_(planes), monitor_(monitor) {}
   ComplexBuilder(const ComplexBuilder&) = delete;
   ComplexBuilder& operator=(const ComplexBuilder&) = delete;
 
@@ -72,8 +73,9 @@ class ComplexBuilder {
     std::span<const std::uint32_t> rows;
     std::span<const LabelId> marks;
   };
-  /// The same for all of these, one after the other, on up to `threads` threads.
-  void copy(std::span<const CopiedRun> runs, unsigned threads);
+  /// The same for all of these, one after the other, on up to `threads` threads. The thread that calls need not be the
+  /// builder's, and brings its monitor.
+  void copy(std::span<const CopiedRun> runs, unsigned threads, const Monitor& monitor);
 
   /// Takes the vertices of a complex as they are, in place of those added so far.
   void take_vertices(Complex&& from);
@@ -114,6 +116,7 @@ class ComplexBuilder {
   Complex finish_unreduced(LabelId outer, unsigned threads);
 
   PlaneTable& planes_;
+  Monitor monitor_;
   Complex complex_;
   PatternInterner interner_;  // of complex_.patterns
   SphereMapBuffer map_;

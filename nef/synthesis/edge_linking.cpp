@@ -102,18 +102,20 @@ class LineTable {
 
 class Linker {
  public:
-  explicit Linker(Complex& complex, unsigned threads = 1) : c_(complex), threads_(threads) {}
+  Linker(Complex& complex, unsigned threads, const Monitor& monitor)
+      : c_(complex), threads_(threads), monitor_(monitor) {}
 
   void link_all() {
     keys_.resize(c_.svertex_count());
     c_.twin.assign(c_.svertex_count(), HalfedgeId());
     const VertexId end{c_.vertex_count()};
-    parallel_for((c_.vertex_count() + kVertices - 1) / kVertices, threads_, [&](std::size_t task) {
-      const VertexId first{task * kVertices};
-      for (VertexId v = first; v < std::min(first + kVertices, end); ++v) {
-        name_lines(v, keys_.data() + c_.vertices[v].svertices.index());
-      }
-    });
+    parallel_for((c_.vertex_count() + kVertices - 1) / kVertices, threads_, monitor_,
+                 [&](std::size_t task, const Monitor&) {
+                   const VertexId first{task * kVertices};
+                   for (VertexId v = first; v < std::min(first + kVertices, end); ++v) {
+                     name_lines(v, keys_.data() + c_.vertices[v].svertices.index());
+                   }
+                 });
     name_bare_lines();
     bucket();
   }
@@ -170,17 +172,18 @@ class Linker {
     if (threads_ == 1 || keys_.size() < kFewKeys) {
       std::vector<std::uint32_t> all(keys_.size());
       std::iota(all.begin(), all.end(), 0U);
-      bucket(all);
+      bucket(all, monitor_);
       return;
     }
-    const auto shares = shared_out<std::uint32_t>(keys_.size(), threads_, [&](std::size_t i, const auto& put) {
-      put((hash(keys_[i]) >> 40U) % kShares, static_cast<std::uint32_t>(i));
-    });
-    parallel_for(kShares, threads_, [&](std::size_t share) { bucket(shares[share]); });
+    const auto shares = shared_out<std::uint32_t>(
+        keys_.size(), threads_, monitor_,
+        [&](std::size_t i, const auto& put) { put((hash(keys_[i]) >> 40U) % kShares, static_cast<std::uint32_t>(i)); });
+    parallel_for(kShares, threads_, monitor_,
+                 [&](std::size_t share, const Monitor& own) { bucket(shares[share], own); });
   }
 
   // Pairs up the svertices of some keys: all those of each line among them.
-  void bucket(std::span<const std::uint32_t> mine) {
+  void bucket(std::span<const std::uint32_t> mine, const Monitor& own) {
     std::size_t capacity = 16;
     while (capacity < mine.size() + mine.size() / 2) capacity *= 2;
     std::vector<std::uint32_t> slots(capacity, kNone);    // first key of the group in this slot
@@ -207,7 +210,7 @@ class Linker {
     for (const std::uint32_t head : crowded) {
       group.clear();
       for (std::uint32_t i = head; i != kNone; i = next[i]) group.push_back(svertex(mine[i]));
-      pair_along_line(group);
+      pair_along_line(group, own);
     }
   }
 
@@ -220,15 +223,15 @@ class Linker {
   }
 
   // +1 if the svertex points along the line's reference direction.
-  int sense(HalfedgeId s, HalfedgeId reference, const Direction& direction) const {
+  int sense(HalfedgeId s, HalfedgeId reference, const Direction& direction, const Monitor& own) const {
     const SVertex& v = c_.svertex(s);
     const SVertex& r = c_.svertex(reference);
     if (v.p.row() == r.p.row() && v.q.row() == r.q.row())
       return ((v.p.value ^ v.q.value ^ r.p.value ^ r.q.value) & 1U) != 0 ? -1 : 1;
-    return sign_of_dot(direction, Direction::cross(c_.planes, v.p, v.q));
+    return sign_of_dot(direction, Direction::cross(c_.planes, v.p, v.q), own);
   }
 
-  void pair_along_line(std::vector<HalfedgeId>& group) {
+  void pair_along_line(std::vector<HalfedgeId>& group, const Monitor& own) {
     const HalfedgeId reference = group.front();
     const Direction direction = Direction::cross(c_.planes, c_.svertex(reference).p, c_.svertex(reference).q);
     int axis = 0;
@@ -245,10 +248,10 @@ class Linker {
       int sense;
     };
     std::vector<Entry> entries;
-    for (const HalfedgeId s : group) entries.push_back({s, c_.source(s), sense(s, reference, direction)});
+    for (const HalfedgeId s : group) entries.push_back({s, c_.source(s), sense(s, reference, direction, own)});
     std::sort(entries.begin(), entries.end(), [&](const Entry& a, const Entry& b) {
       if (a.vertex == b.vertex) return a.sense < b.sense;  // an edge ends before the next begins
-      return rising * compare_coordinate(c_.points, point_of(a.vertex), point_of(b.vertex), axis) < 0;
+      return rising * compare_coordinate(c_.points, point_of(a.vertex), point_of(b.vertex), axis, own) < 0;
     });
     detail::require(entries.size() % 2 == 0, "an edge has two ends", {{"halfedge", reference}});
     for (std::size_t i = 0; i < entries.size(); i += 2) {
@@ -260,17 +263,20 @@ class Linker {
 
   Complex& c_;
   unsigned threads_;
+  Monitor monitor_;
   std::vector<LineKey> keys_;
   std::vector<HalfedgeId> loose_;  // svertices of the keys; empty: all
 };
 
 }  // namespace
 
-void link_edges(Complex& complex, unsigned threads) { Linker(complex, threads).link_all(); }
+void link_edges(Complex& complex, unsigned threads, const Monitor& monitor) {
+  Linker(complex, threads, monitor).link_all();
+}
 
-void link_edges(Complex& complex, KnownLinks& known) {
+void link_edges(Complex& complex, KnownLinks& known, const Monitor& monitor) {
   complex.twin = std::move(known.twin);
-  if (!known.loose_vertices.empty()) Linker(complex).link_loose(known.loose_vertices);
+  if (!known.loose_vertices.empty()) Linker(complex, 1, monitor).link_loose(known.loose_vertices);
 }
 
 }  // namespace nef

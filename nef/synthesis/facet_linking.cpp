@@ -54,8 +54,9 @@ struct Share {
 class FacetLinker {
  public:
   /// `known` may be null. `done` has a place for each shalfedge, unset for those of the share.
-  FacetLinker(const Complex& complex, const KnownLinks* known, IndexedVector<SHalfedgeId, std::uint8_t>& done)
-      : c_(complex), known_(known), done_(done) {}
+  FacetLinker(const Complex& complex, const KnownLinks* known, IndexedVector<SHalfedgeId, std::uint8_t>& done,
+              const Monitor& monitor)
+      : c_(complex), known_(known), done_(done), monitor_(monitor) {}
 
   LinkedFacets run(const Share& share) {
     trace_cycles(share.corners);
@@ -251,7 +252,9 @@ class FacetLinker {
     for (const SHalfedgeId corner : corners) {
       const VertexId v = c_.shalfedge_vertex(corner);
       if (v == cycle.lowest) continue;
-      if (!cycle.lowest.valid() || axes.compare(c_.points, point_of(v), point_of(cycle.lowest)) < 0) cycle.lowest = v;
+      if (!cycle.lowest.valid() || axes.compare(c_.points, point_of(v), point_of(cycle.lowest), monitor_) < 0) {
+        cycle.lowest = v;
+      }
     }
     cycle.outer = true;
     for (const SHalfedgeId corner : corners) {
@@ -260,7 +263,7 @@ class FacetLinker {
       const HalfedgeId back = c_.corner_back_halfedge(corner);
       if (ahead == back ||
           orientation_on_circle(c_.planes, c_.shalfedge_plane[corner], direction_of(c_.planes, c_.svertex(ahead)),
-                                direction_of(c_.planes, c_.svertex(back))) <= 0) {
+                                direction_of(c_.planes, c_.svertex(back)), monitor_) <= 0) {
         cycle.outer = false;
         return;
       }
@@ -287,7 +290,7 @@ class FacetLinker {
       asking.push_back(static_cast<std::uint32_t>(facet_of.size()));
       facet_of.push_back(kNone);
     }
-    for (const CornerBelow& below : corners_below(c_, PlaneId{row << 1U}, corners, lowest)) {
+    for (const CornerBelow& below : corners_below(c_, PlaneId{row << 1U}, corners, lowest, monitor_)) {
       const std::uint32_t facet = below.corner == kNone ? kNone : facet_of[cycle_of[below.corner]];
       detail::require(facet != kNone, "a hole lies in a facet", {{"vertex", lowest[below.query]}});
       facet_of[asking[below.query]] = facet;
@@ -312,6 +315,7 @@ class FacetLinker {
   const Complex& c_;
   const KnownLinks* known_;
   IndexedVector<SHalfedgeId, std::uint8_t>& done_;
+  Monitor monitor_;
   std::vector<SHalfedgeId> traced_;
   std::vector<CycleRecord> cycles_;
   std::vector<std::pair<std::uint32_t, VertexId>> isolated_;  // (plane row, vertex)
@@ -339,9 +343,9 @@ Share everything(const Complex& c, const KnownLinks* known) {
   return all;
 }
 
-std::vector<Share> shares_of(const Complex& c, unsigned threads) {
+std::vector<Share> shares_of(const Complex& c, unsigned threads, const Monitor& monitor) {
   const std::size_t rows = (c.planes.size() + kShares - 1) / kShares;
-  auto corners = shared_out<SHalfedgeId>(c.shalfedge_count(), threads, [&](std::size_t i, const auto& put) {
+  auto corners = shared_out<SHalfedgeId>(c.shalfedge_count(), threads, monitor, [&](std::size_t i, const auto& put) {
     const SHalfedgeId e{i};
     const PlaneId plane = c.shalfedge_plane[e];
     if (!plane.flipped()) put(plane.row() / rows, e);
@@ -393,12 +397,12 @@ void put_together(std::vector<LinkedFacets>& parts, Complex& c) {
 }
 
 // Tells shalfedges and sloops their facets.
-void name_facets(Complex& c, unsigned threads) {
+void name_facets(Complex& c, unsigned threads, const Monitor& monitor) {
   c.shalfedge_facet.assign(c.shalfedge_count(), HalffacetId());
   c.sloop_facet.assign(c.sloops.size(), HalffacetId());
   const std::size_t tasks = few(c) ? 1 : kShares;
   const std::size_t range = (c.facets.size() + tasks - 1) / tasks;
-  parallel_for(tasks, threads, [&](std::size_t k) {
+  parallel_for(tasks, threads, monitor, [&](std::size_t k, const Monitor&) {
     const FacetId end{std::min((k + 1) * range, c.facets.size())};
     for (FacetId f{k * range}; f < end; ++f) {
       const std::span<const SHalfedgeId> corners = c.corners_of(f);
@@ -413,25 +417,30 @@ void name_facets(Complex& c, unsigned threads) {
   });
 }
 
-void link(Complex& c, const KnownLinks* known, unsigned threads) {
+void link(Complex& c, const KnownLinks* known, unsigned threads, const Monitor& monitor) {
   std::vector<Share> shares;
   if (known != nullptr || threads == 1 || few(c)) {
     shares.push_back(everything(c, known));
   } else {
-    shares = shares_of(c, threads);
+    shares = shares_of(c, threads, monitor);
   }
   IndexedVector<SHalfedgeId, std::uint8_t> done(c.shalfedge_count(), 0);
   std::vector<LinkedFacets> parts(shares.size());
-  parallel_for(shares.size(), threads,
-               [&](std::size_t s) { parts[s] = FacetLinker(c, known, done).run(std::exchange(shares[s], {})); });
+  parallel_for(shares.size(), threads, monitor, [&](std::size_t s, const Monitor& own) {
+    parts[s] = FacetLinker(c, known, done, own).run(std::exchange(shares[s], {}));
+  });
   put_together(parts, c);
-  name_facets(c, threads);
+  name_facets(c, threads, monitor);
 }
 
 }  // namespace
 
-void link_facets(Complex& complex, unsigned threads) { link(complex, nullptr, threads); }
+void link_facets(Complex& complex, unsigned threads, const Monitor& monitor) {
+  link(complex, nullptr, threads, monitor);
+}
 
-void link_facets(Complex& complex, const KnownLinks& known, unsigned threads) { link(complex, &known, threads); }
+void link_facets(Complex& complex, const KnownLinks& known, unsigned threads, const Monitor& monitor) {
+  link(complex, &known, threads, monitor);
+}
 
 }  // namespace nef

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "nef/synthesis/synthesis.h"
 
-#include "nef/base/interruption.h"
-#include "nef/base/progress.h"
 #include "nef/base/threads/parallel.h"
 #include "nef/complex/owners.h"
 #include "nef/synthesis/edge_linking.h"
@@ -13,13 +11,14 @@ namespace nef {
 namespace {
 
 // Edges, facets and volumes; and nothing.
-void begin(std::size_t step) {
-  check_interruption();
-  tell_progress("synthesis", step - 1, 3);
+void begin(std::size_t step, const Monitor& monitor) {
+  monitor.check_interruption();
+  monitor.tell_progress("synthesis", step - 1, 3);
 }
 
-void name_owners_and_labels(Complex& c, LabelId outer, unsigned threads) {
-  parallel_calls(threads, {[&] { name_svertex_owners(c); }, [&] { name_pair_owners(c); }});
+void name_owners_and_labels(Complex& c, LabelId outer, unsigned threads, const Monitor& monitor) {
+  parallel_calls(threads, monitor,
+                 {[&](const Monitor&) { name_svertex_owners(c); }, [&](const Monitor&) { name_pair_owners(c); }});
   LabelId largest = 1;
   const auto take = [&largest](LabelId mark) {
     if (mark != kOutside && mark > largest) largest = mark;
@@ -32,31 +31,31 @@ void name_owners_and_labels(Complex& c, LabelId outer, unsigned threads) {
 
 }  // namespace
 
-void synthesize(Complex& complex, LabelId outer, unsigned threads) {
-  name_owners_and_labels(complex, outer, threads);
-  begin(1);
-  link_edges(complex, threads);
-  begin(2);
-  link_facets(complex, threads);
-  begin(3);
-  link_volumes(complex, outer, threads);
-  begin(4);
+void synthesize(Complex& complex, LabelId outer, unsigned threads, const Monitor& monitor) {
+  name_owners_and_labels(complex, outer, threads, monitor);
+  begin(1, monitor);
+  link_edges(complex, threads, monitor);
+  begin(2, monitor);
+  link_facets(complex, threads, monitor);
+  begin(3, monitor);
+  link_volumes(complex, outer, threads, monitor);
+  begin(4, monitor);
 }
 
-void synthesize(Complex& complex, LabelId outer, KnownLinks&& known, unsigned threads) {
-  name_owners_and_labels(complex, outer, threads);
-  begin(1);
-  link_edges(complex, known);
-  begin(2);
+void synthesize(Complex& complex, LabelId outer, KnownLinks&& known, unsigned threads, const Monitor& monitor) {
+  name_owners_and_labels(complex, outer, threads, monitor);
+  begin(1, monitor);
+  link_edges(complex, known, monitor);
+  begin(2, monitor);
   if (known.facets.empty() && known.loose_corners.empty() && known.loose_isolated.empty()) {
-    link_facets(complex, threads);
+    link_facets(complex, threads, monitor);
   } else {
-    link_facets(complex, known, threads);
+    link_facets(complex, known, threads, monitor);
   }
-  begin(3);
+  begin(3, monitor);
   known = {};
-  link_volumes(complex, outer, threads);
-  begin(4);
+  link_volumes(complex, outer, threads, monitor);
+  begin(4, monitor);
 }
 
 }  // namespace nef

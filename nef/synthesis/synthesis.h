@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "nef/base/monitor.h"
 #include "nef/synthesis/known_links.h"
 
 namespace nef {
@@ -9,9 +10,9 @@ namespace nef {
 /// 4.6). The sphere maps must be simplified and complete: every vertex of the complex is there.
 /// `outer` is the mark of the outer volume, needed where there are no vertices at all (otherwise
 /// the sphere maps tell). O(n log n). Owners and volumes are found on up to `threads` threads.
-void synthesize(Complex& complex, LabelId outer, unsigned threads = 1);
+void synthesize(Complex& complex, LabelId outer, unsigned threads, const Monitor& monitor);
 
 /// The same, item for item, where some links are known.
-void synthesize(Complex& complex, LabelId outer, KnownLinks&& known, unsigned threads = 1);
+void synthesize(Complex& complex, LabelId outer, KnownLinks&& known, unsigned threads, const Monitor& monitor);
 
 }  // namespace nef

@@ -24,7 +24,8 @@ namespace {
 
 class VolumeLinker {
  public:
-  VolumeLinker(Complex& complex, unsigned threads) : c_(complex), threads_(threads) {}
+  VolumeLinker(Complex& complex, unsigned threads, const Monitor& monitor)
+      : c_(complex), threads_(threads), monitor_(monitor) {}
 
   void run() {
     join_sfaces();
@@ -43,12 +44,13 @@ class VolumeLinker {
     } else {
       UnionFind others(c_.sface_count());
       const auto half = static_cast<std::uint32_t>(count / 2);
-      parallel_calls(threads_, {[&] {
-                                  join_sfaces_of({FacetId{0}, half}, sfaces_);
-                                },
-                                [&] {
-                                  join_sfaces_of({FacetId{half}, static_cast<std::uint32_t>(count) - half}, others);
-                                }});
+      parallel_calls(threads_, monitor_,
+                     {[&](const Monitor&) {
+                        join_sfaces_of({FacetId{0}, half}, sfaces_);
+                      },
+                      [&](const Monitor&) {
+                        join_sfaces_of({FacetId{half}, static_cast<std::uint32_t>(count) - half}, others);
+                      }});
       for (std::uint32_t f = 0; f < others.size(); ++f) {
         const std::uint32_t root = others.find(f);
         if (root != f) sfaces_.unite(root, f);
@@ -118,29 +120,35 @@ class VolumeLinker {
     std::vector<VertexId> lowest;  // of each id; others: not valid
 
     // A vertex of a component, in the order of vertices.
-    void add(const PointTable& points, std::uint32_t id, VertexId vertex) {
+    void add(const PointTable& points, std::uint32_t id, VertexId vertex, const Monitor& own) {
       VertexId& low = lowest[id];
       if (!low.valid()) ids.push_back(id);
-      if (!low.valid() || compare_lexicographic(points, point_of(vertex), point_of(low)) < 0) low = vertex;
+      if (!low.valid() || compare_lexicographic(points, point_of(vertex), point_of(low), own) < 0) low = vertex;
     }
   };
 
   // Half of the vertices each on its own.
   [[nodiscard]] Components find_components() const {
-    const auto of_range = [this](IdRange<VertexId> range, Components& found) {
+    const auto of_range = [this](IdRange<VertexId> range, Components& found, const Monitor& own) {
       found.lowest.assign(c_.sface_count(), VertexId());
-      for (const VertexId v : range) found.add(c_.points, component(v), v);
+      for (const VertexId v : range) found.add(c_.points, component(v), v, own);
     };
     Components all;
     if (threads_ == 1) {
-      of_range(c_.vertex_ids(), all);
+      of_range(c_.vertex_ids(), all, monitor_);
       return all;
     }
     Components others;
     const VertexId middle{c_.vertex_count() / 2};
     const VertexId end = c_.vertex_ids().end_id();
-    parallel_calls(threads_, {[&] { of_range({VertexId{0}, middle}, all); }, [&] { of_range({middle, end}, others); }});
-    for (const std::uint32_t id : others.ids) all.add(c_.points, id, others.lowest[id]);
+    parallel_calls(threads_, monitor_,
+                   {[&](const Monitor& own) {
+                      of_range({VertexId{0}, middle}, all, own);
+                    },
+                    [&](const Monitor& own) {
+                      of_range({middle, end}, others, own);
+                    }});
+    for (const std::uint32_t id : others.ids) all.add(c_.points, id, others.lowest[id], monitor_);
     return all;
   }
 
@@ -179,10 +187,11 @@ class VolumeLinker {
         return direction_of(c_.planes, map.svertices[map.shalfedges[shalfedge].source]);
       };
       const std::uint32_t second = map.shalfedges[0].next;
-      const int turn = sign_of_determinant(direction(0), direction(second), direction(map.shalfedges[second].next));
+      const int turn =
+          sign_of_determinant(direction(0), direction(second), direction(map.shalfedges[second].next), monitor_);
       if (turn != 0) return map.shalfedges[turn > 0 ? 1 : 0].sface;
     }
-    const SphereLocation where = locate(c_.planes, map, minus_x);
+    const SphereLocation where = locate(c_.planes, map, minus_x, monitor_);
     return where.kind == SphereLocation::Kind::kSFace ? where.index : kNone;
   }
 
@@ -219,7 +228,7 @@ class VolumeLinker {
   // all rays.
   SFaceId sface_seen_from(VertexId v, const BoxTree& places) {
     if (!queries_) queries_ = std::make_unique<QueryStructure>(c_, places);
-    const std::optional<ComplexHit> hit = queries_->first_hit_minus_x(c_, v);
+    const std::optional<ComplexHit> hit = queries_->first_hit_minus_x(c_, v, monitor_);
     if (!hit) return {};
     if (hit->kind != ComplexHit::Kind::kFacet) {
       detail::require(hit->sface.valid(), "a ray comes out of a volume", {{"vertex", v}});
@@ -271,14 +280,18 @@ class VolumeLinker {
   void fill_shells(const std::vector<ShellId>& shell_of) {
     constexpr std::size_t kTogether = 16384;
     c_.sface_shell.resize(c_.sface_count());
-    parallel_for_ranges(c_.sface_count(), kTogether, threads_, [&](std::size_t first, std::size_t last) {
-      for (const SFaceId f : IdRange(SFaceId{first}, SFaceId{last})) c_.sface_shell[f] = shell_of[root(f)];
-    });
-    name_sides_of_facets(c_, threads_);
+    parallel_for_ranges(c_.sface_count(), kTogether, threads_, monitor_,
+                        [&](std::size_t first, std::size_t last, const Monitor&) {
+                          for (const SFaceId f : IdRange(SFaceId{first}, SFaceId{last})) {
+                            c_.sface_shell[f] = shell_of[root(f)];
+                          }
+                        });
+    name_sides_of_facets(c_, threads_, monitor_);
   }
 
   Complex& c_;
   unsigned threads_;
+  Monitor monitor_;
   UnionFind sfaces_;
   UnionFind parts_;    // over representatives of sfaces_: components of the boundary
   UnionFind volumes_;  // over representatives of sfaces_
@@ -289,13 +302,13 @@ class VolumeLinker {
 
 }  // namespace
 
-void link_volumes(Complex& complex, LabelId outer, unsigned threads) {
+void link_volumes(Complex& complex, LabelId outer, unsigned threads, const Monitor& monitor) {
   if (complex.vertex_count() == 0) {
     complex.volumes.assign(1, Volume{outer, ShellId{0}, 0});
     complex.shells.clear();
     return;
   }
-  VolumeLinker(complex, threads).run();
+  VolumeLinker(complex, threads, monitor).run();
 }
 
 }  // namespace nef

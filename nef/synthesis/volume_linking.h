@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "nef/base/monitor.h"
 #include "nef/complex/complex.h"
 
 namespace nef {
@@ -8,6 +9,6 @@ namespace nef {
 /// Last step of synthesis: sfaces that see each other across a facet or along an edge without
 /// facets form shells; shells that are nested form volumes (thesis 4.6.4). Facets must be linked.
 /// Near-linear, plus one ray for each connected component of the boundary after the first. On up to `threads` threads.
-void link_volumes(Complex& complex, LabelId outer, unsigned threads = 1);
+void link_volumes(Complex& complex, LabelId outer, unsigned threads, const Monitor& monitor);
 
 }  // namespace nef

@@ -62,9 +62,9 @@ SolidFaces region_faces(const Region& region) {
 }
 
 // Marked 0 outside and 1 inside and on the walls.
-Complex remarked(const Complex& box, LabelId mark) {
+Complex remarked(const Complex& box, LabelId mark, const Monitor& monitor) {
   PlaneTable planes = box.planes;
-  ComplexBuilder builder(planes);
+  ComplexBuilder builder(planes, monitor);
   const std::array<LabelId, 2> marks{kOutside, mark};
   builder.copy(box, {}, marks);
   return builder.finish(kOutside);
@@ -103,12 +103,12 @@ bool Region::unbounded() const {
   return std::all_of(low.begin(), low.end(), open) && std::all_of(high.begin(), high.end(), open);
 }
 
-Complex uniform_tile(const Region& region, LabelId mark) {
-  return remarked(make_solid(region_faces(region), {1, 1, 0}), mark);
+Complex uniform_tile(const Region& region, LabelId mark, const Monitor& monitor) {
+  return remarked(make_solid(region_faces(region), {1, 1, 0}, monitor), mark, monitor);
 }
 
-Complex infimaximal_corners(LabelId mark) {
-  Complex corners = make_infimaximal_box();
+Complex infimaximal_corners(LabelId mark, const Monitor& monitor) {
+  Complex corners = make_infimaximal_box(monitor);
   PatternTable::for_each_mark(corners.patterns, [mark](LabelId& item) { item = item == 0 ? kOutside : mark; });
   return corners;
 }

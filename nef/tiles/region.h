@@ -6,6 +6,7 @@
 #include <array>
 #include <memory>
 
+#include "nef/base/monitor.h"
 #include "nef/complex/complex.h"
 #include "nef/geometry/box_tree.h"
 #include "nef/number/number.h"
@@ -47,10 +48,10 @@ struct Region {
 
 /// The complex of a region that has the same mark everywhere, kOutside beyond it; without an infimaximal box, and so
 /// without vertices, if the region is all of space.
-Complex uniform_tile(const Region& region, LabelId mark);
+Complex uniform_tile(const Region& region, LabelId mark, const Monitor& monitor);
 
 /// The eight corners of the infimaximal box, each with the map of an octant of the given mark. Their links are those of
 /// a box; they use the planes of the result.
-Complex infimaximal_corners(LabelId mark);
+Complex infimaximal_corners(LabelId mark, const Monitor& monitor);
 
 }  // namespace nef

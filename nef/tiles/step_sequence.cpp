@@ -27,20 +27,20 @@ constexpr double kSmallSetSteps = 120'000;  // more, divided by the vertices
 constexpr std::size_t kLook = 3;            // every how many steps a step is looked at, while the set is whole
 constexpr std::size_t kMemory = 8;          // steps looked at that an average is taken over
 
-// Set, Operand: a Polyhedron or a TiledPolyhedron.
-template <typename Set, typename Operand>
-Set combined(BooleanOperator op, const Set& a, const Operand& b) {
+// Set, Operand: a Polyhedron or a TiledPolyhedron. Rest: what its operations are given besides.
+template <typename Set, typename Operand, typename... Rest>
+Set combined(BooleanOperator op, const Set& a, const Operand& b, const Rest&... rest) {
   switch (op) {
     case BooleanOperator::kUnion:
-      return unite(a, b);
+      return unite(a, b, rest...);
     case BooleanOperator::kIntersection:
-      return intersect(a, b);
+      return intersect(a, b, rest...);
     case BooleanOperator::kDifference:
-      return subtract(a, b);
+      return subtract(a, b, rest...);
     case BooleanOperator::kSymmetricDifference:
       break;
   }
-  return symmetric_difference(a, b);
+  return symmetric_difference(a, b, rest...);
 }
 
 using Places = std::span<std::array<double, 3>>;
@@ -85,9 +85,10 @@ std::size_t vertices_in(const TileRef& tree, const Box& box, std::size_t limit) 
 
 }  // namespace
 
-StepSequence::StepSequence(Polyhedron start, std::size_t steps, TileUse use, const Tiling& tiling)
+StepSequence::StepSequence(Polyhedron start, std::size_t steps, TileUse use, const Tiling& tiling,
+                           const Monitor& monitor)
     : plain_(std::move(start)), left_(steps), use_(use), tiling_(tiling) {
-  if (use_ == TileUse::kAlways) tiled_.emplace(std::exchange(plain_, Polyhedron()), tiling_);
+  if (use_ == TileUse::kAlways) tiled_.emplace(std::exchange(plain_, Polyhedron()), tiling_, monitor);
 }
 
 StepSequence::StepSequence(TiledPolyhedron start, std::size_t steps)
@@ -103,12 +104,12 @@ double StepSequence::saving(const Polyhedron& b) const {
   return own - touched - kOperandCut * static_cast<double>(b.complex().vertex_count());
 }
 
-void StepSequence::choose() {
+void StepSequence::choose(const Monitor& monitor) {
   const auto left = static_cast<double>(left_);
   if (tiled_) {
     const double own = static_cast<double>(vertex_count()) / kSeams;
     if (-average_ * left < kCutAndGlue * kMargin * own) return;
-    plain_ = tiled_->polyhedron();
+    plain_ = tiled_->polyhedron(monitor);
     tiled_.reset();
   } else {
     const auto own = static_cast<double>(vertex_count());
@@ -116,13 +117,13 @@ void StepSequence::choose() {
     if (static_cast<double>(seen_) < kEvidence + kSmallSetSteps / own) return;
     if (average_ * left < kCutAndGlue * kMargin * own) return;
     // One tile, which steps cut where they touch it: so none of them pays for all.
-    tiled_.emplace(tile_leaf(in_two_marks(std::exchange(plain_, Polyhedron())), tiling_.store, true), tiling_);
+    tiled_.emplace(tile_leaf(in_two_marks(std::exchange(plain_, Polyhedron()), monitor), tiling_.store, true), tiling_);
   }
 }
 
-void StepSequence::apply(BooleanOperator op, const Polyhedron& b) {
+void StepSequence::apply(BooleanOperator op, const Polyhedron& b, const Monitor& monitor) {
   if (use_ == TileUse::kWherePays) {
-    choose();
+    choose(monitor);
     // Looking at all vertices of a whole set for every step would cost a twentieth of it.
     if (tiled_ || seen_ % kLook == 0) {
       ++looks_;
@@ -131,16 +132,16 @@ void StepSequence::apply(BooleanOperator op, const Polyhedron& b) {
     ++seen_;
   }
   if (tiled_) {
-    tiled_ = combined(op, *tiled_, b);
+    tiled_ = combined(op, *tiled_, b, monitor);
   } else {
-    plain_ = combined(op, plain_, b);
+    plain_ = combined(op, plain_, b, 1U, monitor);
   }
   left_ -= std::min<std::size_t>(left_, 1);
 }
 
-void StepSequence::apply(BooleanOperator op, const TiledPolyhedron& b) {
-  if (!tiled_) return apply(op, b.polyhedron());
-  tiled_ = combined(op, *tiled_, b);
+void StepSequence::apply(BooleanOperator op, const TiledPolyhedron& b, const Monitor& monitor) {
+  if (!tiled_) return apply(op, b.polyhedron(monitor), monitor);
+  tiled_ = combined(op, *tiled_, b, monitor);
   left_ -= std::min<std::size_t>(left_, 1);
 }
 
@@ -148,11 +149,13 @@ std::size_t StepSequence::vertex_count() const {
   return tiled_ ? tiled_->vertex_count() : plain_.complex().vertex_count();
 }
 
-TiledPolyhedron StepSequence::tiled(const Tiling& tiling) const {
-  if (!tiled_) return TiledPolyhedron(plain_, tiling);
-  return {fully_cut(tiled_->tree(), tiling_), tiling_};
+TiledPolyhedron StepSequence::tiled(const Tiling& tiling, const Monitor& monitor) const {
+  if (!tiled_) return TiledPolyhedron(plain_, tiling, monitor);
+  return {fully_cut(tiled_->tree(), tiling_, monitor), tiling_};
 }
 
-Polyhedron StepSequence::result() const { return tiled_ ? tiled_->polyhedron() : in_canonical_order(plain_); }
+Polyhedron StepSequence::result(const Monitor& monitor) const {
+  return tiled_ ? tiled_->polyhedron(monitor) : in_canonical_order(plain_, monitor);
+}
 
 }  // namespace nef

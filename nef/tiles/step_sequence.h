@@ -24,16 +24,17 @@ enum class TileUse : std::uint8_t {
 class StepSequence {
  public:
   /// `steps`: how many will follow.
-  StepSequence(Polyhedron start, std::size_t steps, TileUse use = TileUse::kWherePays, const Tiling& tiling = {});
+  StepSequence(Polyhedron start, std::size_t steps, TileUse use = TileUse::kWherePays, const Tiling& tiling = {},
+               const Monitor& monitor = {});
 
   /// The same for a set that is in tiles, and stays so.
   StepSequence(TiledPolyhedron start, std::size_t steps);
 
   /// The set becomes (the set) op b. Costs what the operation of Polyhedron or TiledPolyhedron does, and the cutting
   /// where it begins to work in tiles.
-  void apply(BooleanOperator op, const Polyhedron& b);
+  void apply(BooleanOperator op, const Polyhedron& b, const Monitor& monitor = {});
   /// The same for an operand in tiles, of which those are looked at that meet the set's. Glues it if the set is whole.
-  void apply(BooleanOperator op, const TiledPolyhedron& b);
+  void apply(BooleanOperator op, const TiledPolyhedron& b, const Monitor& monitor = {});
 
   /// How many tiles the set is in; none while it is in none.
   [[nodiscard]] std::size_t tile_count() const { return tiled_ ? tiled_->tile_count() : 0; }
@@ -41,14 +42,16 @@ class StepSequence {
   [[nodiscard]] std::size_t vertex_count() const;
 
   /// The set in tiles, cut so if it is not.
-  [[nodiscard]] TiledPolyhedron tiled(const Tiling& tiling) const;
+  [[nodiscard]] TiledPolyhedron tiled(const Tiling& tiling, const Monitor& monitor = {}) const;
   /// The set in canonical order.
-  [[nodiscard]] Polyhedron result() const;
+  [[nodiscard]] Polyhedron result(const Monitor& monitor = {}) const;
   /// The set, with its items as the last operation left them unless it is in tiles.
-  [[nodiscard]] Polyhedron result_in_any_order() const { return tiled_ ? tiled_->polyhedron() : plain_; }
+  [[nodiscard]] Polyhedron result_in_any_order(const Monitor& monitor = {}) const {
+    return tiled_ ? tiled_->polyhedron(monitor) : plain_;
+  }
 
  private:
-  void choose();
+  void choose(const Monitor& monitor);
   [[nodiscard]] double saving(const Polyhedron& b) const;
 
   Polyhedron plain_;

@@ -22,9 +22,10 @@ TileRef TileRef::complement() const {
   return {node, !complemented};
 }
 
-Polyhedron in_two_marks(const Polyhedron& set) {
+Polyhedron in_two_marks(const Polyhedron& set, const Monitor& monitor) {
   if (set.complex().label_count <= 2) return set;
-  return overlay(set, Polyhedron(), [](LabelId x, LabelId) { return static_cast<LabelId>(x != 0 ? 1 : 0); });
+  const auto one_mark = [](LabelId x, LabelId) { return static_cast<LabelId>(x != 0 ? 1 : 0); };
+  return overlay(set, Polyhedron(), one_mark, 1, monitor);
 }
 
 bool has_boundary(const SphereMapView& map) {
@@ -96,8 +97,8 @@ std::array<TileRef, 2> children(const TileRef& cut) {
   return {cut.node->low.complement(), cut.node->high.complement()};
 }
 
-Polyhedron leaf_set(const TileRef& leaf, const Region& region) {
-  if (leaf.node->kind == TileNode::Kind::kUniform) return Polyhedron(uniform_tile(region, leaf.node->mark));
+Polyhedron leaf_set(const TileRef& leaf, const Region& region, const Monitor& monitor) {
+  if (leaf.node->kind == TileNode::Kind::kUniform) return Polyhedron(uniform_tile(region, leaf.node->mark, monitor));
   return leaf.complemented ? complement(leaf.node->set()) : leaf.node->set();
 }
 

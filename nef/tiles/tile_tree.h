@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/polyhedron.h"
 #include "nef/tiles/region.h"
 #include "nef/tiles/storage/tile_store.h"
@@ -50,7 +51,7 @@ struct TileNode {
 };
 
 /// The set with the marks 0 and 1 only: all others become 1.
-Polyhedron in_two_marks(const Polyhedron& set);
+Polyhedron in_two_marks(const Polyhedron& set, const Monitor& monitor);
 
 /// What of a complex tells whether and where it is cut. Needs its sphere maps only.
 struct TileMeasure {
@@ -88,7 +89,7 @@ TileRef cut_node(const AxisPlane& plane, TileRef low, TileRef high);
 std::array<TileRef, 2> children(const TileRef& cut);
 
 /// The set of a leaf, in its region.
-Polyhedron leaf_set(const TileRef& leaf, const Region& region);
+Polyhedron leaf_set(const TileRef& leaf, const Region& region, const Monitor& monitor);
 
 /// The mark beyond a plane of a tile whose boundary lies strictly on one side of it: above for side = +1, below for -1.
 LabelId mark_beyond(const TileNode& tile, const AxisPlane& plane, int side);

@@ -22,17 +22,19 @@ constexpr TruthTable kIntersection{false, false, false, true};
 constexpr TruthTable kDifference{false, false, true, false};
 constexpr TruthTable kSymmetricDifference{false, true, true, false};
 
-TiledPolyhedron combine(const TiledPolyhedron& a, const TiledPolyhedron& b, const TruthTable& f) {
-  return {overlay_trees(a.tree(), b.tree(), f, a.tiling()), a.tiling()};
+TiledPolyhedron combine(const TiledPolyhedron& a, const TiledPolyhedron& b, const TruthTable& f,
+                        const Monitor& monitor) {
+  return {overlay_trees(a.tree(), b.tree(), f, a.tiling(), monitor), a.tiling()};
 }
 
 // A plain operand comes as one leaf, and is cut only where that pays.
-TiledPolyhedron combine(const TiledPolyhedron& a, const Polyhedron& b, const TruthTable& f) {
-  return {overlay_trees(a.tree(), tile_leaf(in_two_marks(b), nullptr), f, a.tiling()), a.tiling()};
+TiledPolyhedron combine(const TiledPolyhedron& a, const Polyhedron& b, const TruthTable& f, const Monitor& monitor) {
+  return {overlay_trees(a.tree(), tile_leaf(in_two_marks(b, monitor), nullptr), f, a.tiling(), monitor), a.tiling()};
 }
 
-TiledPolyhedron by_gluing(const TiledPolyhedron& a, Polyhedron (*change)(const Polyhedron&)) {
-  return TiledPolyhedron(change(a.polyhedron()), a.tiling());
+TiledPolyhedron by_gluing(const TiledPolyhedron& a, Polyhedron (*change)(const Polyhedron&, const Monitor&),
+                          const Monitor& monitor) {
+  return TiledPolyhedron(change(a.polyhedron(monitor), monitor), a.tiling(), monitor);
 }
 
 // The axis that each axis is taken to; nothing if any is taken to none.
@@ -51,16 +53,16 @@ std::optional<std::array<std::size_t, 3>> axes_of(const AffineMap& map) {
 }
 
 TileRef transformed(const TileRef& tree, const AffineMap& map, const std::array<std::size_t, 3>& to,
-                    const Tiling& tiling) {
+                    const Tiling& tiling, const Monitor& monitor) {
   if (tree.node->kind == Kind::kUniform) return tree;
   if (tree.node->kind == Kind::kTile) {
-    return {tile_leaf(transform(tree.node->set(), map), tiling.store).node, tree.complemented};
+    return {tile_leaf(transform(tree.node->set(), map, monitor), tiling.store).node, tree.complemented};
   }
   const AxisPlane& plane = tree.node->plane;
   const std::size_t axis = to[plane.axis];
   const Rational& factor = map.linear[axis][plane.axis];
-  TileRef low = transformed(tree.node->low, map, to, tiling);
-  TileRef high = transformed(tree.node->high, map, to, tiling);
+  TileRef low = transformed(tree.node->low, map, to, tiling, monitor);
+  TileRef high = transformed(tree.node->high, map, to, tiling, monitor);
   if (factor < 0) std::swap(low, high);
   const TileRef result =
       cut_node(AxisPlane(axis, factor * plane.at + map.translation[axis]), std::move(low), std::move(high));
@@ -71,13 +73,13 @@ TileRef transformed(const TileRef& tree, const AffineMap& map, const std::array<
 
 TiledPolyhedron::TiledPolyhedron() : TiledPolyhedron(uniform_leaf(0), Tiling{}) {}
 
-TiledPolyhedron::TiledPolyhedron(const Polyhedron& set, const Tiling& tiling)
-    : TiledPolyhedron(subdivided(in_two_marks(set), tiling, tiling.threads), tiling) {}
+TiledPolyhedron::TiledPolyhedron(const Polyhedron& set, const Tiling& tiling, const Monitor& monitor)
+    : TiledPolyhedron(subdivided(in_two_marks(set, monitor), tiling, tiling.threads, monitor), tiling) {}
 
-TiledPolyhedron::TiledPolyhedron(std::span<const Polyhedron> pieces, const Tiling& tiling)
-    : TiledPolyhedron(union_in_tiles(
-          {.count = static_cast<std::uint32_t>(pieces.size()), .set = [pieces](std::uint32_t i) { return pieces[i]; }},
-          tiling)) {}
+TiledPolyhedron::TiledPolyhedron(std::span<const Polyhedron> pieces, const Tiling& tiling, const Monitor& monitor)
+    : TiledPolyhedron(union_in_tiles({.count = static_cast<std::uint32_t>(pieces.size()),
+                                      .set = [pieces](std::uint32_t i, const Monitor&) { return pieces[i]; }},
+                                     tiling, kSetsOfARegion, monitor)) {}
 
 TiledPolyhedron::TiledPolyhedron(TileRef root, const Tiling& tiling)
     : root_(std::make_shared<const TileRef>(std::move(root))), tiling_(tiling) {}
@@ -90,41 +92,64 @@ bool TiledPolyhedron::is_empty() const { return root_->node->kind == Kind::kUnif
 
 bool TiledPolyhedron::is_everything() const { return root_->node->kind == Kind::kUniform && root_->node->mark != 0; }
 
-Polyhedron TiledPolyhedron::polyhedron() const { return glue_all_tiles(*root_, tiling_.threads); }
-
-TiledPolyhedron unite(const TiledPolyhedron& a, const TiledPolyhedron& b) { return combine(a, b, kUnion); }
-TiledPolyhedron unite(const TiledPolyhedron& a, const Polyhedron& b) { return combine(a, b, kUnion); }
-TiledPolyhedron intersect(const TiledPolyhedron& a, const TiledPolyhedron& b) { return combine(a, b, kIntersection); }
-TiledPolyhedron intersect(const TiledPolyhedron& a, const Polyhedron& b) { return combine(a, b, kIntersection); }
-TiledPolyhedron subtract(const TiledPolyhedron& a, const TiledPolyhedron& b) { return combine(a, b, kDifference); }
-TiledPolyhedron subtract(const TiledPolyhedron& a, const Polyhedron& b) { return combine(a, b, kDifference); }
-TiledPolyhedron symmetric_difference(const TiledPolyhedron& a, const TiledPolyhedron& b) {
-  return combine(a, b, kSymmetricDifference);
-}
-TiledPolyhedron symmetric_difference(const TiledPolyhedron& a, const Polyhedron& b) {
-  return combine(a, b, kSymmetricDifference);
+Polyhedron TiledPolyhedron::polyhedron(const Monitor& monitor) const {
+  return glue_all_tiles(*root_, tiling_.threads, monitor);
 }
 
-TiledPolyhedron overlay(const TiledPolyhedron& a, const TiledPolyhedron& b, const TruthTable& f) {
-  return combine(a, b, f);
+TiledPolyhedron unite(const TiledPolyhedron& a, const TiledPolyhedron& b, const Monitor& monitor) {
+  return combine(a, b, kUnion, monitor);
 }
-TiledPolyhedron overlay(const TiledPolyhedron& a, const Polyhedron& b, const TruthTable& f) { return combine(a, b, f); }
+TiledPolyhedron unite(const TiledPolyhedron& a, const Polyhedron& b, const Monitor& monitor) {
+  return combine(a, b, kUnion, monitor);
+}
+TiledPolyhedron intersect(const TiledPolyhedron& a, const TiledPolyhedron& b, const Monitor& monitor) {
+  return combine(a, b, kIntersection, monitor);
+}
+TiledPolyhedron intersect(const TiledPolyhedron& a, const Polyhedron& b, const Monitor& monitor) {
+  return combine(a, b, kIntersection, monitor);
+}
+TiledPolyhedron subtract(const TiledPolyhedron& a, const TiledPolyhedron& b, const Monitor& monitor) {
+  return combine(a, b, kDifference, monitor);
+}
+TiledPolyhedron subtract(const TiledPolyhedron& a, const Polyhedron& b, const Monitor& monitor) {
+  return combine(a, b, kDifference, monitor);
+}
+TiledPolyhedron symmetric_difference(const TiledPolyhedron& a, const TiledPolyhedron& b, const Monitor& monitor) {
+  return combine(a, b, kSymmetricDifference, monitor);
+}
+TiledPolyhedron symmetric_difference(const TiledPolyhedron& a, const Polyhedron& b, const Monitor& monitor) {
+  return combine(a, b, kSymmetricDifference, monitor);
+}
+
+TiledPolyhedron overlay(const TiledPolyhedron& a, const TiledPolyhedron& b, const TruthTable& f,
+                        const Monitor& monitor) {
+  return combine(a, b, f, monitor);
+}
+TiledPolyhedron overlay(const TiledPolyhedron& a, const Polyhedron& b, const TruthTable& f, const Monitor& monitor) {
+  return combine(a, b, f, monitor);
+}
 
 TiledPolyhedron complement(const TiledPolyhedron& a) { return {a.tree().complement(), a.tiling()}; }
 
-TiledPolyhedron interior(const TiledPolyhedron& a) { return by_gluing(a, interior); }
-TiledPolyhedron closure(const TiledPolyhedron& a) { return by_gluing(a, closure); }
-TiledPolyhedron boundary(const TiledPolyhedron& a) { return by_gluing(a, boundary); }
-TiledPolyhedron exterior(const TiledPolyhedron& a) { return by_gluing(a, exterior); }
-TiledPolyhedron regularize(const TiledPolyhedron& a) { return by_gluing(a, regularize); }
-
-TiledPolyhedron transform(const TiledPolyhedron& a, const AffineMap& map) {
-  const std::optional<std::array<std::size_t, 3>> to = axes_of(map);
-  if (!to || a.tree().node->kind != Kind::kCut) return TiledPolyhedron(transform(a.polyhedron(), map), a.tiling());
-  return {transformed(a.tree(), map, *to, a.tiling()), a.tiling()};
+TiledPolyhedron interior(const TiledPolyhedron& a, const Monitor& monitor) { return by_gluing(a, interior, monitor); }
+TiledPolyhedron closure(const TiledPolyhedron& a, const Monitor& monitor) { return by_gluing(a, closure, monitor); }
+TiledPolyhedron boundary(const TiledPolyhedron& a, const Monitor& monitor) { return by_gluing(a, boundary, monitor); }
+TiledPolyhedron exterior(const TiledPolyhedron& a, const Monitor& monitor) { return by_gluing(a, exterior, monitor); }
+TiledPolyhedron regularize(const TiledPolyhedron& a, const Monitor& monitor) {
+  return by_gluing(a, regularize, monitor);
 }
 
-bool equal(const TiledPolyhedron& a, const TiledPolyhedron& b) { return symmetric_difference(a, b).is_empty(); }
+TiledPolyhedron transform(const TiledPolyhedron& a, const AffineMap& map, const Monitor& monitor) {
+  const std::optional<std::array<std::size_t, 3>> to = axes_of(map);
+  if (!to || a.tree().node->kind != Kind::kCut) {
+    return TiledPolyhedron(transform(a.polyhedron(monitor), map, monitor), a.tiling(), monitor);
+  }
+  return {transformed(a.tree(), map, *to, a.tiling(), monitor), a.tiling()};
+}
+
+bool equal(const TiledPolyhedron& a, const TiledPolyhedron& b, const Monitor& monitor) {
+  return symmetric_difference(a, b, monitor).is_empty();
+}
 
 Location locate(const TiledPolyhedron& a, const Rational3& point) { return locate_in_tiles(a.tree(), point); }
 
@@ -136,18 +161,18 @@ std::optional<RayHit> shoot_ray(const TiledPolyhedron& a, const Rational3& origi
   return first_hit_in_tiles(a.tree(), origin, direction, accept);
 }
 
-std::optional<Rational> volume(const TiledPolyhedron& a) {
-  return extent_of_tiles(a.tree(), true, false, a.tiling().threads).volume;
+std::optional<Rational> volume(const TiledPolyhedron& a, const Monitor& monitor) {
+  return extent_of_tiles(a.tree(), true, false, a.tiling().threads, monitor).volume;
 }
 
-std::optional<std::array<Rational3, 2>> bounding_box(const TiledPolyhedron& a) {
-  const ExtentOfTiles extent = extent_of_tiles(a.tree(), false, true, a.tiling().threads);
-  return extent.bounded ? extent.box : bounding_box(a.polyhedron());
+std::optional<std::array<Rational3, 2>> bounding_box(const TiledPolyhedron& a, const Monitor& monitor) {
+  const ExtentOfTiles extent = extent_of_tiles(a.tree(), false, true, a.tiling().threads, monitor);
+  return extent.bounded ? extent.box : bounding_box(a.polyhedron(monitor));
 }
 
-VolumeAndBox volume_and_bounding_box(const TiledPolyhedron& a) {
-  const ExtentOfTiles extent = extent_of_tiles(a.tree(), true, true, a.tiling().threads);
-  return {extent.volume, extent.bounded ? extent.box : bounding_box(a.polyhedron())};
+VolumeAndBox volume_and_bounding_box(const TiledPolyhedron& a, const Monitor& monitor) {
+  const ExtentOfTiles extent = extent_of_tiles(a.tree(), true, true, a.tiling().threads, monitor);
+  return {extent.volume, extent.bounded ? extent.box : bounding_box(a.polyhedron(monitor))};
 }
 
 }  // namespace nef

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 
+#include "nef/base/monitor.h"
 #include "nef/polyhedron.h"
 #include "nef/tiles/tiling.h"
 
@@ -23,9 +24,10 @@ class TiledPolyhedron {
   /// The empty set.
   TiledPolyhedron();
   /// Cuts a set into tiles. O(n log n).
-  explicit TiledPolyhedron(const Polyhedron& set, const Tiling& tiling = {});
+  explicit TiledPolyhedron(const Polyhedron& set, const Tiling& tiling = {}, const Monitor& monitor = {});
   /// The union of any number of sets, region by region (import/union_in_tiles.h).
-  explicit TiledPolyhedron(std::span<const Polyhedron> pieces, const Tiling& tiling = {.limit = kVerticesOfTileInFile});
+  explicit TiledPolyhedron(std::span<const Polyhedron> pieces, const Tiling& tiling = {.limit = kVerticesOfTileInFile},
+                           const Monitor& monitor = {});
 
   [[nodiscard]] const Tiling& tiling() const { return tiling_; }
   [[nodiscard]] std::size_t tile_count() const;
@@ -37,7 +39,7 @@ class TiledPolyhedron {
   [[nodiscard]] bool is_everything() const;
 
   /// The set in one complex, in canonical order: it depends on the set alone, not on how it is cut. O(n log n).
-  [[nodiscard]] Polyhedron polyhedron() const;
+  [[nodiscard]] Polyhedron polyhedron(const Monitor& monitor = {}) const;
 
   [[nodiscard]] const TileRef& tree() const { return *root_; }
   /// A set from a tree of tiles over all of space.
@@ -50,34 +52,36 @@ class TiledPolyhedron {
 
 // Boolean operations. O(1) for every node of the first operand's tree that the boundary of the second one meets, and an
 // operation of Polyhedron for every such tile. A second operand that is in no tiles is not cut as long as it is small.
-TiledPolyhedron unite(const TiledPolyhedron& a, const TiledPolyhedron& b);
-TiledPolyhedron unite(const TiledPolyhedron& a, const Polyhedron& b);
-TiledPolyhedron intersect(const TiledPolyhedron& a, const TiledPolyhedron& b);
-TiledPolyhedron intersect(const TiledPolyhedron& a, const Polyhedron& b);
-TiledPolyhedron subtract(const TiledPolyhedron& a, const TiledPolyhedron& b);
-TiledPolyhedron subtract(const TiledPolyhedron& a, const Polyhedron& b);
-TiledPolyhedron symmetric_difference(const TiledPolyhedron& a, const TiledPolyhedron& b);
-TiledPolyhedron symmetric_difference(const TiledPolyhedron& a, const Polyhedron& b);
+TiledPolyhedron unite(const TiledPolyhedron& a, const TiledPolyhedron& b, const Monitor& monitor = {});
+TiledPolyhedron unite(const TiledPolyhedron& a, const Polyhedron& b, const Monitor& monitor = {});
+TiledPolyhedron intersect(const TiledPolyhedron& a, const TiledPolyhedron& b, const Monitor& monitor = {});
+TiledPolyhedron intersect(const TiledPolyhedron& a, const Polyhedron& b, const Monitor& monitor = {});
+TiledPolyhedron subtract(const TiledPolyhedron& a, const TiledPolyhedron& b, const Monitor& monitor = {});
+TiledPolyhedron subtract(const TiledPolyhedron& a, const Polyhedron& b, const Monitor& monitor = {});
+TiledPolyhedron symmetric_difference(const TiledPolyhedron& a, const TiledPolyhedron& b, const Monitor& monitor = {});
+TiledPolyhedron symmetric_difference(const TiledPolyhedron& a, const Polyhedron& b, const Monitor& monitor = {});
 /// Any other of them: a point is in the result if f[2 * (in a) + (in b)] holds.
-TiledPolyhedron overlay(const TiledPolyhedron& a, const TiledPolyhedron& b, const std::array<bool, 4>& f);
-TiledPolyhedron overlay(const TiledPolyhedron& a, const Polyhedron& b, const std::array<bool, 4>& f);
+TiledPolyhedron overlay(const TiledPolyhedron& a, const TiledPolyhedron& b, const std::array<bool, 4>& f,
+                        const Monitor& monitor = {});
+TiledPolyhedron overlay(const TiledPolyhedron& a, const Polyhedron& b, const std::array<bool, 4>& f,
+                        const Monitor& monitor = {});
 
 /// O(1).
 TiledPolyhedron complement(const TiledPolyhedron& a);
 
 // Topology of neighbourhoods, which tiles do not know at their walls: these glue and cut again, O(n log n).
-TiledPolyhedron interior(const TiledPolyhedron& a);
-TiledPolyhedron closure(const TiledPolyhedron& a);
-TiledPolyhedron boundary(const TiledPolyhedron& a);
-TiledPolyhedron exterior(const TiledPolyhedron& a);
-TiledPolyhedron regularize(const TiledPolyhedron& a);
+TiledPolyhedron interior(const TiledPolyhedron& a, const Monitor& monitor = {});
+TiledPolyhedron closure(const TiledPolyhedron& a, const Monitor& monitor = {});
+TiledPolyhedron boundary(const TiledPolyhedron& a, const Monitor& monitor = {});
+TiledPolyhedron exterior(const TiledPolyhedron& a, const Monitor& monitor = {});
+TiledPolyhedron regularize(const TiledPolyhedron& a, const Monitor& monitor = {});
 
 /// The image under an invertible map; throws InputError if the determinant is zero. Tile by tile if the map takes axes
 /// to axes; otherwise the set is glued and cut again. O(n), or O(n log n).
-TiledPolyhedron transform(const TiledPolyhedron& a, const AffineMap& map);
+TiledPolyhedron transform(const TiledPolyhedron& a, const AffineMap& map, const Monitor& monitor = {});
 
 /// True if the two are the same set. Costs a symmetric difference: tiles that they share cost nothing.
-bool equal(const TiledPolyhedron& a, const TiledPolyhedron& b);
+bool equal(const TiledPolyhedron& a, const TiledPolyhedron& b, const Monitor& monitor = {});
 
 /// Exact point location in the tiles that hold the point; O(log n) expected after their structures are built. The kind
 /// of item is that of the whole set, whatever the tiles; its index means nothing and is 0.
@@ -91,16 +95,16 @@ std::optional<RayHit> shoot_ray(const TiledPolyhedron& a, const Rational3& origi
                                 const std::function<bool(const Location&)>& accept = {});
 
 /// Volume of the set, if finite: the sum over the tiles.
-std::optional<Rational> volume(const TiledPolyhedron& a);
+std::optional<Rational> volume(const TiledPolyhedron& a, const Monitor& monitor = {});
 
 /// Smallest and largest coordinates of the vertices, as of a Polyhedron. O(n); glues sets whose boundary is unbounded.
-std::optional<std::array<Rational3, 2>> bounding_box(const TiledPolyhedron& a);
+std::optional<std::array<Rational3, 2>> bounding_box(const TiledPolyhedron& a, const Monitor& monitor = {});
 
 /// Both, where each tile is read once.
 struct VolumeAndBox {
   std::optional<Rational> volume;
   std::optional<std::array<Rational3, 2>> box;
 };
-VolumeAndBox volume_and_bounding_box(const TiledPolyhedron& a);
+VolumeAndBox volume_and_bounding_box(const TiledPolyhedron& a, const Monitor& monitor = {});
 
 }  // namespace nef

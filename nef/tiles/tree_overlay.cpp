@@ -6,7 +6,6 @@
 #include <optional>
 #include <vector>
 
-#include "nef/base/interruption.h"
 #include "nef/base/threads/parallel.h"
 #include "nef/tiles/cuts/cutter.h"
 #include "nef/tiles/seams/seam_glue.h"
@@ -65,24 +64,24 @@ class TreeOverlay {
   }
 
   // Nothing for two leaves.
-  [[nodiscard]] std::optional<Split> split(const Task& task) const {
+  [[nodiscard]] std::optional<Split> split(const Task& task, const Monitor& monitor) const {
     const bool cut_a = task.a.node->kind == Kind::kCut;
     if (!cut_a && task.b.node->kind != Kind::kCut) return std::nullopt;
     Split result;
     result.plane = cut_a ? &task.a.node->plane : &task.b.node->plane;
     const AxisPlane& plane = *result.plane;
-    const std::array<TileRef, 2> of_a = cut_a ? children(task.a) : cut_leaf(task.a, plane, tiling_);
+    const std::array<TileRef, 2> of_a = cut_a ? children(task.a) : cut_leaf(task.a, plane, tiling_, monitor);
     std::array<TileRef, 2> of_b{task.b, task.b};
     bool whole = task.whole;
     if (task.b.node->kind == Kind::kCut) {
-      of_b = cut_tree(task.b, plane, tiling_);
+      of_b = cut_tree(task.b, plane, tiling_, monitor);
     } else if (const int side = plane.side(task.b.node->box); side != 0) {
       of_b[side < 0 ? 1 : 0] = beyond(*task.b.node, task.b.complemented, plane, side);
       whole = false;
     } else if (task.b.node->vertices <= kSmall && !reaches_infinity(task.b.node->box)) {
       whole = false;
     } else {
-      of_b = cut_leaf(task.b, plane, tiling_);
+      of_b = cut_leaf(task.b, plane, tiling_, monitor);
     }
     for (std::size_t x = 0; x < 2; ++x) {
       result.tasks[x] = {of_a[x], of_b[x], whole, x == 0 ? task.region.below(plane) : task.region.above(plane)};
@@ -91,23 +90,24 @@ class TreeOverlay {
   }
 
   // The set of a task from those of its parts.
-  [[nodiscard]] TileRef joined(const Task& task, const AxisPlane& plane, const std::array<TileRef, 2>& result) const {
+  [[nodiscard]] TileRef joined(const Task& task, const AxisPlane& plane, const std::array<TileRef, 2>& result,
+                               const Monitor& monitor) const {
     if (task.a.node->kind == Kind::kCut && result == children(task.a)) return task.a;
     TileRef node = cut_node(plane, result[0], result[1]);
-    return shrunk(node) ? tile_leaf(glue_tiles(node, task.region), tiling_.store) : node;
+    return shrunk(node) ? tile_leaf(glue_tiles(node, task.region, monitor), tiling_.store) : node;
   }
 
-  [[nodiscard]] TileRef run(const Task& task) const {
-    check_interruption();
+  [[nodiscard]] TileRef run(const Task& task, const Monitor& monitor) const {
+    monitor.check_interruption();
     if (std::optional<TileRef> known = at_once(task)) return *known;
-    const std::optional<Split> parts = split(task);
-    if (!parts) return leaves(task);
-    const TileRef low = run(parts->tasks[0]);
-    return joined(task, *parts->plane, {low, run(parts->tasks[1])});
+    const std::optional<Split> parts = split(task, monitor);
+    if (!parts) return leaves(task, monitor);
+    const TileRef low = run(parts->tasks[0], monitor);
+    return joined(task, *parts->plane, {low, run(parts->tasks[1], monitor)}, monitor);
   }
 
   // The same on several threads. The first tasks are split one after the other.
-  [[nodiscard]] TileRef run_in_parallel(const Task& task) const {
+  [[nodiscard]] TileRef run_in_parallel(const Task& task, const Monitor& monitor) const {
     struct Node {
       Task task;
       const AxisPlane* plane = nullptr;
@@ -119,7 +119,7 @@ class TreeOverlay {
     for (std::size_t i = 0; i < nodes.size() && nodes.size() < kEnough; ++i) {
       nodes[i].result = at_once(nodes[i].task);
       if (nodes[i].result) continue;
-      const std::optional<Split> parts = split(nodes[i].task);
+      const std::optional<Split> parts = split(nodes[i].task, monitor);
       if (!parts) continue;
       nodes[i].plane = parts->plane;
       for (std::size_t x = 0; x < 2; ++x) {
@@ -131,12 +131,13 @@ class TreeOverlay {
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       if (!nodes[i].result && nodes[i].plane == nullptr) open.push_back(i);
     }
-    parallel_for(open.size(), tiling_.threads,
-                 [&](std::size_t i) { nodes[open[i]].result = run(nodes[open[i]].task); });
+    parallel_for(open.size(), tiling_.threads, monitor,
+                 [&](std::size_t i, const Monitor& own) { nodes[open[i]].result = run(nodes[open[i]].task, own); });
     for (std::size_t i = nodes.size(); i-- > 0;) {
       Node& node = nodes[i];
       if (node.plane == nullptr) continue;
-      node.result = joined(node.task, *node.plane, {*nodes[node.parts[0]].result, *nodes[node.parts[1]].result});
+      node.result =
+          joined(node.task, *node.plane, {*nodes[node.parts[0]].result, *nodes[node.parts[1]].result}, monitor);
     }
     return *nodes[0].result;
   }
@@ -153,19 +154,19 @@ class TreeOverlay {
            tree.node->high.node->kind != Kind::kCut && tree.node->vertices < tiling_.limit / 2;
   }
 
-  [[nodiscard]] TileRef leaves(const Task& task) const {
+  [[nodiscard]] TileRef leaves(const Task& task, const Monitor& monitor) const {
     const TileRef& a = task.a;
     const TileRef& b = task.b;
-    const Polyhedron first = a.node->kind == Kind::kUniform ? leaf_set(a, task.region) : a.node->set();
+    const Polyhedron first = a.node->kind == Kind::kUniform ? leaf_set(a, task.region, monitor) : a.node->set();
     const bool uncut = a.node->kind == Kind::kTile && a.node->uncut;
-    if (uncut && touches_small_part(first.complex(), *b.node)) return cut_around(task, first.complex());
+    if (uncut && touches_small_part(first.complex(), *b.node)) return cut_around(task, first.complex(), monitor);
     const auto marks = [&](LabelId x, LabelId y) {
       return static_cast<LabelId>(value((x != 0) != a.complemented, (y != 0) != b.complemented) ? 1 : 0);
     };
-    Polyhedron result = overlay(first, b.node->set(), marks);
+    Polyhedron result = overlay(first, b.node->set(), marks, 1, monitor);
     if (&result.complex() == &first.complex()) return {a.node, false};
     const bool large = result.complex().vertex_count() > tiling_.limit;
-    if (large && !uncut) return subdivided(result, tiling_);
+    if (large && !uncut) return subdivided(result, tiling_, 1, monitor);
     return tile_leaf(std::move(result), tiling_.store, large);
   }
 
@@ -184,19 +185,21 @@ class TreeOverlay {
 
   // The result in an uncut leaf, cut in halves again and again where b is: what is left over shares with later
   // versions.
-  [[nodiscard]] TileRef cut_around(const Task& task, const Complex& a) const {
-    Cutter cutter(a.planes, tiling_);
+  [[nodiscard]] TileRef cut_around(const Task& task, const Complex& a, const Monitor& monitor) const {
+    Cutter cutter(a.planes, tiling_, monitor);
     std::optional<Complex> loose;
     if (!a.has_box()) loose = cutter.loose(a);
     const std::optional<Cutter::Halved> halved = cutter.halve(loose ? *loose : a);
-    if (halved) return cut_around(cutter, *halved, task);
+    if (halved) return cut_around(cutter, *halved, task, monitor);
     // What planes cannot separate is not tried again.
-    return run({with_mark(task.a, tile_leaf(task.a.node->set(), tiling_.store)), task.b, task.whole, task.region});
+    return run({with_mark(task.a, tile_leaf(task.a.node->set(), tiling_.store)), task.b, task.whole, task.region},
+               monitor);
   }
 
   // `task.a` stands for what the halves are of.
-  [[nodiscard]] TileRef cut_around(Cutter& cutter, Cutter::Halved halved, const Task& task) const {
-    check_interruption();
+  [[nodiscard]] TileRef cut_around(Cutter& cutter, Cutter::Halved halved, const Task& task,
+                                   const Monitor& monitor) const {
+    monitor.check_interruption();
     const int side = halved.plane.side(task.b.node->box);
     std::array<TileRef, 2> result;
     for (std::size_t x = 0; x < 2; ++x) {
@@ -206,7 +209,7 @@ class TreeOverlay {
       if (touched) {
         if (std::optional<Cutter::Halved> quarters = cutter.halve(half)) {
           half = Complex();
-          result[x] = cut_around(cutter, std::move(*quarters), part);
+          result[x] = cut_around(cutter, std::move(*quarters), part, monitor);
           continue;
         }
       } else {
@@ -214,7 +217,7 @@ class TreeOverlay {
       }
       const bool uncut = !touched && half.vertex_count() > tiling_.limit;
       part.a = with_mark(task.a, cutter.leaf(std::move(half), uncut));
-      result[x] = run(part);
+      result[x] = run(part, monitor);
     }
     return cut_node(halved.plane, result[0], result[1]);
   }
@@ -235,28 +238,30 @@ class TreeOverlay {
 
 }  // namespace
 
-TileRef overlay_trees(const TileRef& a, const TileRef& b, const TruthTable& f, const Tiling& tiling) {
+TileRef overlay_trees(const TileRef& a, const TileRef& b, const TruthTable& f, const Tiling& tiling,
+                      const Monitor& monitor) {
   const TreeOverlay overlay(f, tiling);
   const TreeOverlay::Task task{a, b, true, Region{}};
-  return tiling.threads == 1 ? overlay.run(task) : overlay.run_in_parallel(task);
+  return tiling.threads == 1 ? overlay.run(task, monitor) : overlay.run_in_parallel(task, monitor);
 }
 
-std::array<TileRef, 2> cut_tree(const TileRef& tree, const AxisPlane& plane, const Tiling& tiling) {
+std::array<TileRef, 2> cut_tree(const TileRef& tree, const AxisPlane& plane, const Tiling& tiling,
+                                const Monitor& monitor) {
   if (tree.node->kind == Kind::kUniform) return {tree, tree};
-  if (tree.node->kind == Kind::kTile) return cut_leaf(tree, plane, tiling);
+  if (tree.node->kind == Kind::kTile) return cut_leaf(tree, plane, tiling, monitor);
   const AxisPlane& own = tree.node->plane;
   const auto [low, high] = children(tree);
   if (own == plane) return {low, high};
   if (own.axis != plane.axis) {
-    const std::array<TileRef, 2> of_low = cut_tree(low, plane, tiling);
-    const std::array<TileRef, 2> of_high = cut_tree(high, plane, tiling);
+    const std::array<TileRef, 2> of_low = cut_tree(low, plane, tiling, monitor);
+    const std::array<TileRef, 2> of_high = cut_tree(high, plane, tiling, monitor);
     return {cut_node(own, of_low[0], of_high[0]), cut_node(own, of_low[1], of_high[1])};
   }
   if (own.at < plane.at) {
-    const std::array<TileRef, 2> of_high = cut_tree(high, plane, tiling);
+    const std::array<TileRef, 2> of_high = cut_tree(high, plane, tiling, monitor);
     return {cut_node(own, low, of_high[0]), of_high[1]};
   }
-  const std::array<TileRef, 2> of_low = cut_tree(low, plane, tiling);
+  const std::array<TileRef, 2> of_low = cut_tree(low, plane, tiling, monitor);
   return {of_low[0], cut_node(own, of_low[1], high)};
 }
 

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/polyhedron.h"
 #include "nef/sphere_map/sphere_geometry.h"
 #include "nef/validation/validate.h"
@@ -73,8 +74,8 @@ void check_owners(const Complex& c) {
   }
 }
 
-void check_planes_meet_point(const Complex& c, VertexId v, const SphereMapView& map) {
-  const auto on = [&](PlaneId plane) { return side_of_plane(c.planes, plane, c.points, point_of(v)) == 0; };
+void check_planes_meet_point(const Complex& c, VertexId v, const SphereMapView& map, const Monitor& monitor) {
+  const auto on = [&](PlaneId plane) { return side_of_plane(c.planes, plane, c.points, point_of(v), monitor) == 0; };
   for (std::size_t i = 0; i < map.svertices.size(); ++i) {
     require(on(map.svertices[i].p) && on(map.svertices[i].q), "planes of an svertex pass through its vertex",
             {{"vertex", v}, {"svertex", i}});
@@ -90,7 +91,7 @@ void check_planes_meet_point(const Complex& c, VertexId v, const SphereMapView& 
 
 // A vertex is redundant if space looks the same from a point beside it on its lowest item: inside
 // a volume, a facet, or an edge.
-void check_vertex_needed(const Complex& c, VertexId v, const SphereMapView& map) {
+void check_vertex_needed(const Complex& c, VertexId v, const SphereMapView& map, const Monitor& monitor) {
   const LabelId mark = map.mark;
   if (map.svertices.empty()) {
     const LabelId around = map.sloops.empty() ? map.sfaces[0].mark : map.sloops[0].mark;
@@ -103,35 +104,36 @@ void check_vertex_needed(const Complex& c, VertexId v, const SphereMapView& map)
   for (std::uint32_t e = 0; e < map.shalfedges.size(); ++e) {
     if (map.shalfedges[e].source == map.target(e)) return;
   }
-  const bool opposite =
-      same_direction(direction_of(c.planes, map.svertices[0]), direction_of(c.planes, map.svertices[1]).negated());
+  const bool opposite = same_direction(direction_of(c.planes, map.svertices[0]),
+                                       direction_of(c.planes, map.svertices[1]).negated(), monitor);
   require(!opposite, "no redundant vertex in an edge", {{"vertex", v}});
 }
 
-void check_sphere_maps(const Complex& c) {
+void check_sphere_maps(const Complex& c, const Monitor& monitor) {
   for (const VertexId v : c.vertex_ids()) {
     const SphereMapView map = c.sphere_map(v);
-    const std::string broken = validate(c.planes, map);
+    const std::string broken = validate(c.planes, map, monitor);
     require(broken.empty(), broken.c_str(), {{"vertex", v}});
-    check_planes_meet_point(c, v, map);
+    check_planes_meet_point(c, v, map, monitor);
   }
 }
 
-void check_vertices(const Complex& c) {
-  for (const VertexId v : c.vertex_ids()) check_vertex_needed(c, v, c.sphere_map(v));
+void check_vertices(const Complex& c, const Monitor& monitor) {
+  for (const VertexId v : c.vertex_ids()) check_vertex_needed(c, v, c.sphere_map(v), monitor);
   std::vector<VertexId> order(c.vertex_ids().begin(), c.vertex_ids().end());
-  std::sort(order.begin(), order.end(),
-            [&c](VertexId a, VertexId b) { return compare_lexicographic(c.points, point_of(a), point_of(b)) < 0; });
+  std::sort(order.begin(), order.end(), [&](VertexId a, VertexId b) {
+    return compare_lexicographic(c.points, point_of(a), point_of(b), monitor) < 0;
+  });
   for (std::size_t i = 1; i < order.size(); ++i) {
-    require(compare_lexicographic(c.points, point_of(order[i - 1]), point_of(order[i])) < 0, "vertices are distinct",
-            {{"vertex", order[i - 1]}, {"vertex", order[i]}});
+    require(compare_lexicographic(c.points, point_of(order[i - 1]), point_of(order[i]), monitor) < 0,
+            "vertices are distinct", {{"vertex", order[i - 1]}, {"vertex", order[i]}});
   }
 }
 
 // Sign of the coordinate of the direction along an axis.
 int component_sign(const Direction& direction, std::size_t axis) { return sgn(direction.integers()[axis]); }
 
-void check_edges(const Complex& c) {
+void check_edges(const Complex& c, const Monitor& monitor) {
   for (const HalfedgeId h : c.halfedge_ids()) {
     const HalfedgeId t = c.twin[h];
     require(c.twin.contains(t) && t != h && c.twin[t] == h, "twins of halfedges are mutual", {{"halfedge", h}});
@@ -139,13 +141,13 @@ void check_edges(const Complex& c) {
     const PointId from = point_of(c.source(h));
     const PointId to = point_of(c.source(t));
     const Direction along = direction_of(c.planes, c.svertex(h));
-    require(same_direction(along, direction_of(c.planes, c.svertex(t)).negated()),
+    require(same_direction(along, direction_of(c.planes, c.svertex(t)).negated(), monitor),
             "twin halfedges have opposite directions", {{"halfedge", h}});
-    require(side_of_plane(c.planes, c.svertex(h).p, c.points, to) == 0 &&
-                side_of_plane(c.planes, c.svertex(h).q, c.points, to) == 0,
+    require(side_of_plane(c.planes, c.svertex(h).p, c.points, to, monitor) == 0 &&
+                side_of_plane(c.planes, c.svertex(h).q, c.points, to, monitor) == 0,
             "both ends of an edge lie on its line", {{"halfedge", h}});
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      require(compare_coordinate(c.points, to, from, static_cast<int>(axis)) == component_sign(along, axis),
+      require(compare_coordinate(c.points, to, from, static_cast<int>(axis), monitor) == component_sign(along, axis),
               "an edge leads from its source to its target", {{"halfedge", h}});
     }
   }
@@ -189,17 +191,17 @@ void check_outside(const Complex& c) {
   }
 }
 
-std::string first_broken(const Complex& complex, bool sphere_maps) {
+std::string first_broken(const Complex& complex, bool sphere_maps, const Monitor& monitor) {
   const std::optional<Defect> defect = detail::defect_in([&] {
     check_array_sizes(complex);
     check_owners(complex);
     check_marks(complex);
-    if (sphere_maps) check_sphere_maps(complex);
-    check_vertices(complex);
-    check_edges(complex);
+    if (sphere_maps) check_sphere_maps(complex, monitor);
+    check_vertices(complex, monitor);
+    check_edges(complex, monitor);
     check_outside(complex);
     detail::check_facets(complex);
-    detail::check_volumes(complex);
+    detail::check_volumes(complex, monitor);
     detail::check_box(complex);
   });
   return defect ? defect->text() : std::string();
@@ -207,8 +209,10 @@ std::string first_broken(const Complex& complex, bool sphere_maps) {
 
 }  // namespace
 
-std::string validate(const Complex& complex) { return first_broken(complex, true); }
+std::string validate(const Complex& complex, const Monitor& monitor) { return first_broken(complex, true, monitor); }
 
-std::string detail::validate_links(const Complex& complex) { return first_broken(complex, false); }
+std::string detail::validate_links(const Complex& complex, const Monitor& monitor) {
+  return first_broken(complex, false, monitor);
+}
 
 }  // namespace nef

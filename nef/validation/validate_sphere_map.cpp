@@ -14,7 +14,8 @@ using detail::require;
 
 class SphereMapChecker {
  public:
-  SphereMapChecker(const PlaneTable& planes, const SphereMapView& map) : planes_(planes), map_(map) {}
+  SphereMapChecker(const PlaneTable& planes, const SphereMapView& map, const Monitor& monitor)
+      : planes_(planes), map_(map), monitor_(monitor) {}
 
   void run() {
     check_ranges();
@@ -88,13 +89,13 @@ class SphereMapChecker {
     for (std::size_t i = 0; i < directions_.size(); ++i) {
       require(!directions_[i].is_zero(), "planes of an svertex are not parallel", {{"svertex", i}});
       for (std::size_t j = 0; j < i; ++j) {
-        require(!same_direction(directions_[i], directions_[j]), "svertices are distinct",
+        require(!same_direction(directions_[i], directions_[j], monitor_), "svertices are distinct",
                 {{"svertex", j}, {"svertex", i}});
       }
     }
     for (std::size_t i = 0; i < map_.shalfedges.size(); ++i) {
       const SHalfedge& e = map_.shalfedges[i];
-      require(sign_of_dot(Direction::normal(planes_, e.plane), directions_[e.source]) == 0,
+      require(sign_of_dot(Direction::normal(planes_, e.plane), directions_[e.source], monitor_) == 0,
               "source of a shalfedge lies on its great circle", {{"shalfedge", i}, {"svertex", e.source}});
     }
   }
@@ -111,8 +112,8 @@ class SphereMapChecker {
       std::uint32_t met = 1;
       for (std::uint32_t e = map_.next_around(first); e != first; e = map_.next_around(e)) {
         const Direction n = Direction::normal(planes_, map_.shalfedges[e].plane);
-        require(compare_around(directions_[v], reference, last, n) < 0, "arcs lie counterclockwise around an svertex",
-                {{"svertex", v}, {"shalfedge", e}});
+        require(compare_around(directions_[v], reference, last, n, monitor_) < 0,
+                "arcs lie counterclockwise around an svertex", {{"svertex", v}, {"shalfedge", e}});
         last = n;
         ++met;
       }
@@ -124,8 +125,9 @@ class SphereMapChecker {
   [[nodiscard]] bool inside_arc(std::uint32_t arc, const Direction& x) const {
     const std::uint32_t s = map_.shalfedges[arc].source;
     const std::uint32_t t = map_.target(arc);
-    if (same_direction(x, directions_[s]) || same_direction(x, directions_[t])) return false;
-    return strictly_between_on_circle(planes_, map_.shalfedges[arc].plane, directions_[s], x, directions_[t], s == t);
+    if (same_direction(x, directions_[s], monitor_) || same_direction(x, directions_[t], monitor_)) return false;
+    return strictly_between_on_circle(planes_, map_.shalfedges[arc].plane, directions_[s], x, directions_[t], s == t,
+                                      monitor_);
   }
 
   void check_arcs_are_disjoint() const {
@@ -133,7 +135,7 @@ class SphereMapChecker {
       const PlaneId plane = map_.shalfedges[i].plane;
       const Direction n = Direction::normal(planes_, plane);
       for (std::uint32_t v = 0; v < directions_.size(); ++v) {
-        if (sign_of_dot(n, directions_[v]) != 0) continue;
+        if (sign_of_dot(n, directions_[v], monitor_) != 0) continue;
         require(!inside_arc(i, directions_[v]), "no svertex inside an arc", {{"shalfedge", i}, {"svertex", v}});
       }
       for (std::uint32_t j = 0; j < i; j += 2) {
@@ -154,7 +156,7 @@ class SphereMapChecker {
     if (map_.sloops.empty()) return;
     const Direction n = Direction::normal(planes_, map_.sloops[0].plane);
     for (std::uint32_t v = 0; v < directions_.size(); ++v) {
-      require(sign_of_dot(n, directions_[v]) != 0, "no svertex on a sloop", {{"svertex", v}});
+      require(sign_of_dot(n, directions_[v], monitor_) != 0, "no svertex on a sloop", {{"svertex", v}});
     }
     for (std::uint32_t i = 0; i < map_.shalfedges.size(); i += 2) {
       const Direction x = Direction::cross(n, Direction::normal(planes_, map_.shalfedges[i].plane));
@@ -242,13 +244,14 @@ class SphereMapChecker {
 
   const PlaneTable& planes_;
   const SphereMapView& map_;
+  Monitor monitor_;
   std::vector<Direction> directions_;
 };
 
 }  // namespace
 
-std::string validate(const PlaneTable& planes, const SphereMapView& map) {
-  const std::optional<Defect> defect = detail::defect_in([&] { SphereMapChecker(planes, map).run(); });
+std::string validate(const PlaneTable& planes, const SphereMapView& map, const Monitor& monitor) {
+  const std::optional<Defect> defect = detail::defect_in([&] { SphereMapChecker(planes, map, monitor).run(); });
   return defect ? defect->text() : std::string();
 }
 

@@ -84,26 +84,26 @@ void check_connection(const Complex& c) {
   }
 }
 
-VertexId lowest_vertex(const Complex& c, std::span<const SFaceId> sfaces) {
+VertexId lowest_vertex(const Complex& c, std::span<const SFaceId> sfaces, const Monitor& monitor) {
   VertexId lowest;
   for (const SFaceId sface : sfaces) {
     const VertexId v = c.sface_vertex(sface);
-    if (!lowest.valid() || compare_lexicographic(c.points, point_of(v), point_of(lowest)) < 0) lowest = v;
+    if (!lowest.valid() || compare_lexicographic(c.points, point_of(v), point_of(lowest), monitor) < 0) lowest = v;
   }
   return lowest;
 }
 
 // Seen from its lowest vertex, an inner shell has the volume on the low side, an outer one not.
-bool is_outer(const Complex& c, const ShellSfaces& sfaces, ShellId s) {
-  const VertexId v = lowest_vertex(c, sfaces.of(s));
-  const SphereLocation low = locate(c.planes, c.sphere_map(v), Direction::exact(-1, 0, 0));
+bool is_outer(const Complex& c, const ShellSfaces& sfaces, ShellId s, const Monitor& monitor) {
+  const VertexId v = lowest_vertex(c, sfaces.of(s), monitor);
+  const SphereLocation low = locate(c.planes, c.sphere_map(v), Direction::exact(-1, 0, 0), monitor);
   return low.kind != SphereLocation::Kind::kSFace || c.sface_shell[c.vertices[v].sfaces + low.index] != s;
 }
 
-void check_outer_shells(const Complex& c, const ShellSfaces& sfaces) {
+void check_outer_shells(const Complex& c, const ShellSfaces& sfaces, const Monitor& monitor) {
   for (const VolumeId i : c.volumes.ids()) {
     for (const ShellId s : c.volumes[i].shells()) {
-      require(is_outer(c, sfaces, s) == (i != kOuterVolume && s == c.volumes[i].first_shell),
+      require(is_outer(c, sfaces, s, monitor) == (i != kOuterVolume && s == c.volumes[i].first_shell),
               "the outer shell of a volume comes first, and volume 0 has none", {{"volume", i}, {"shell", s}});
     }
   }
@@ -118,7 +118,7 @@ struct Inward {
   Integer3 on;
   Integer3 inward;
 };
-Inward inward_of(const PlaneTable& planes, const SphereMapView& map, const SFace& sface) {
+Inward inward_of(const PlaneTable& planes, const SphereMapView& map, const SFace& sface, const Monitor& monitor) {
   if (sface.entry_count == 0) return {Integer3{1, 0, 0}, Integer3{0, 1, 0}};
   const SFaceEntry& entry = map.entries[sface.entries];
   if (entry.kind == SFaceEntry::Kind::kIsolatedVertex) {
@@ -135,7 +135,7 @@ Inward inward_of(const PlaneTable& planes, const SphereMapView& map, const SFace
   const Direction s = direction_of(planes, map.svertices[map.shalfedges[entry.index].source]);
   const Direction t = direction_of(planes, map.svertices[map.target(entry.index)]);
   // An arc of at least a half-turn holds the direction a quarter-turn after its source.
-  const bool short_arc = sign_of_determinant(n, s, t) > 0;
+  const bool short_arc = sign_of_determinant(n, s, t, monitor) > 0;
   return {short_arc ? scaled_sum(1, s.integers(), t.integers()) : Direction::cross(n, s).integers(), n.integers()};
 }
 
@@ -197,16 +197,16 @@ FirstFacet shoot(const Complex& c, const Targets& targets, VertexId origin, cons
 }
 
 // The volume that holds the surroundings of a shell.
-VolumeId volume_around(const Complex& c, const Targets& targets, SFaceId sface) {
+VolumeId volume_around(const Complex& c, const Targets& targets, SFaceId sface, const Monitor& monitor) {
   const VertexId v = c.sface_vertex(sface);
   const std::uint32_t local = c.sfaces(v).position(sface);
   const SphereMapView map = c.sphere_map(v);
-  const Inward inward = inward_of(c.planes, map, map.sfaces[local]);
+  const Inward inward = inward_of(c.planes, map, map.sfaces[local], monitor);
   for (unsigned attempt = 1; attempt < 256; ++attempt) {
     // Ever closer to the boundary of the sface, and ever another way; sfaces may be as thin as coordinates are long.
     const Integer3 bent = scaled_sum(64 * attempt, inward.inward, Integer3{attempt, 3 * attempt * attempt, 7});
     const Integer3 along = scaled_sum(Integer(1) << (4 * attempt + attempt * attempt / 4), inward.on, bent);
-    const SphereLocation place = locate(c.planes, map, Direction::exact(along[0], along[1], along[2]));
+    const SphereLocation place = locate(c.planes, map, Direction::exact(along[0], along[1], along[2]), monitor);
     if (place.kind != SphereLocation::Kind::kSFace || place.index != local) continue;
     const FirstFacet first = shoot(c, targets, v, along);
     if (!first.degenerate) return first.volume;
@@ -214,12 +214,12 @@ VolumeId volume_around(const Complex& c, const Targets& targets, SFaceId sface) 
   break_invariant(Defect::Kind::kStructure, "some direction leads into an sface", {{"sface", sface}});
 }
 
-void check_shell_nesting(const Complex& c, const ShellSfaces& sfaces) {
+void check_shell_nesting(const Complex& c, const ShellSfaces& sfaces, const Monitor& monitor) {
   const Targets targets = targets_of(c);
   for (const VolumeId i : c.volumes.ids()) {
     for (const ShellId s : c.volumes[i].shells()) {
       if (i != kOuterVolume && s == c.volumes[i].first_shell) continue;
-      require(volume_around(c, targets, sfaces.of(s).front()) == i, "inner shells lie in their volume",
+      require(volume_around(c, targets, sfaces.of(s).front(), monitor) == i, "inner shells lie in their volume",
               {{"volume", i}, {"shell", s}});
     }
   }
@@ -227,12 +227,12 @@ void check_shell_nesting(const Complex& c, const ShellSfaces& sfaces) {
 
 }  // namespace
 
-void check_volumes(const Complex& complex) {
+void check_volumes(const Complex& complex, const Monitor& monitor) {
   check_partition(complex);
   check_connection(complex);
   const ShellSfaces sfaces(complex);
-  check_outer_shells(complex, sfaces);
-  check_shell_nesting(complex, sfaces);
+  check_outer_shells(complex, sfaces, monitor);
+  check_shell_nesting(complex, sfaces, monitor);
 }
 
 }  // namespace nef::detail

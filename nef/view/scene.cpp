@@ -17,7 +17,8 @@ constexpr std::uint32_t kUnused = 0xffffffffU;
 // Adds the items of one complex, without those of an infimaximal box, to an empty scene.
 class SceneBuilder {
  public:
-  SceneBuilder(const Complex& complex, Scene& scene) : complex_(complex), scene_(scene) {}
+  SceneBuilder(const Complex& complex, Scene& scene, const Monitor& monitor)
+      : complex_(complex), scene_(scene), monitor_(monitor) {}
 
   void run() {
     add_volumes();
@@ -74,7 +75,7 @@ class SceneBuilder {
 
   void add_facets() {
     const MeshPoints points(exact_);
-    Triangulator triangulator(points);
+    Triangulator triangulator(points, monitor_);
     for (const FacetId f : complex_.facets.ids()) {
       const Facet& facet = complex_.facets[f];
       const std::vector<std::vector<std::uint32_t>> rings = rings_of(facet);
@@ -102,6 +103,7 @@ class SceneBuilder {
 
   const Complex& complex_;
   Scene& scene_;
+  Monitor monitor_;
   IndexedVector<VertexId, std::uint32_t> number_;  // scene vertex of each vertex
   std::vector<Rational3> exact_;                   // point of each scene vertex
 };
@@ -134,7 +136,8 @@ Origin origin_of(std::uint32_t mask, bool box) {
 
 // Finds out which items lie on the planes of a cut. A mask has a bit for each plane that holds a vertex; an edge or
 // facet lies on the planes that hold all its vertices.
-void find_origins(const Complex& drawn, const std::vector<std::array<Rational, 4>>& planes, bool box, Scene& scene) {
+void find_origins(const Complex& drawn, const std::vector<std::array<Rational, 4>>& planes, bool box, Scene& scene,
+                  const Monitor& monitor) {
   PlaneTable table;
   std::vector<PlaneId> ids;
   for (const auto& p : planes) ids.push_back(table.intern({p[0], p[1], p[2]}, p[3]));
@@ -142,7 +145,7 @@ void find_origins(const Complex& drawn, const std::vector<std::array<Rational, 4
   for (SceneVertex& vertex : scene.vertices) {
     std::uint32_t mask = 0;
     for (std::size_t i = 0; i < ids.size(); ++i) {
-      if (side_of_plane(table, ids[i], drawn.points, PointId{vertex.index}) == 0) mask |= 1U << i;
+      if (side_of_plane(table, ids[i], drawn.points, PointId{vertex.index}, monitor) == 0) mask |= 1U << i;
     }
     masks.push_back(mask);
     vertex.origin = origin_of(mask, box);
@@ -159,7 +162,7 @@ void find_origins(const Complex& drawn, const std::vector<std::array<Rational, 4
 
 }  // namespace
 
-Scene build_scene(const Polyhedron& polyhedron, const SceneOptions& options) {
+Scene build_scene(const Polyhedron& polyhedron, const SceneOptions& options, const Monitor& monitor) {
   Scene scene;
   scene.source = polyhedron;
   Polyhedron drawn = polyhedron;
@@ -167,7 +170,7 @@ Scene build_scene(const Polyhedron& polyhedron, const SceneOptions& options) {
   const Complex& complex = polyhedron.complex();
   if (complex.has_box() || Scene::selected(complex.volumes[kOuterVolume].mark)) {
     box = options.box ? *options.box : visible_box({&polyhedron, 1});
-    drawn = intersect(drawn, make_box((*box)[0], (*box)[1]));
+    drawn = intersect(drawn, make_box((*box)[0], (*box)[1], monitor), 1, monitor);
     scene.box = {rounded((*box)[0]), rounded((*box)[1])};
   }
   if (options.section) {
@@ -175,11 +178,11 @@ Scene build_scene(const Polyhedron& polyhedron, const SceneOptions& options) {
     if (a == 0 && b == 0 && c == 0) {
       throw InputError("section 0,0,0,d is no plane: give a,b,c,d with a normal (a,b,c) other than zero");
     }
-    drawn = intersect(drawn, make_halfspace(a, b, c, d));
+    drawn = intersect(drawn, make_halfspace(a, b, c, d, true, monitor), 1, monitor);
   }
-  SceneBuilder(drawn.complex(), scene).run();
+  SceneBuilder(drawn.complex(), scene, monitor).run();
   if (box || options.section) {
-    find_origins(drawn.complex(), cutting_planes(box, options), box.has_value(), scene);
+    find_origins(drawn.complex(), cutting_planes(box, options), box.has_value(), scene, monitor);
     if (options.indices) {
       find_items(drawn.complex(), scene);
     } else {

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/polyhedron.h"
 
 namespace nef::view {
@@ -91,7 +92,7 @@ struct Scene {
 /// Everything there is to see of a polyhedron. Facets are triangulated exactly, without new vertices. Unbounded parts
 /// are cut off at a visible box (and sections are made) by Boolean operations, so what is drawn is the exact
 /// intersection. O(n) plus the triangulation for bounded sets without a section.
-Scene build_scene(const Polyhedron& polyhedron, const SceneOptions& options = {});
+Scene build_scene(const Polyhedron& polyhedron, const SceneOptions& options = {}, const Monitor& monitor = {});
 
 /// A box around all finite vertices of all sets, and around the places where their unbounded planes and lines are, with
 /// a margin of about a third; [-1,1]^3 for sets without any. Sets that are shown together should be cut at one box.

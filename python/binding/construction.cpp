@@ -25,7 +25,7 @@ Polyhedron halfspace(py::handle a, py::handle b, py::handle c, py::handle d, boo
 Polyhedron hull(py::handle points) {
   std::vector<Rational3> held = to_points(points, "points");
   const std::size_t count = held.size();
-  return call(count, [held = std::move(held)] { return convex_hull(held); });
+  return call(count, [held = std::move(held)](const Monitor& monitor) { return convex_hull(held, monitor); });
 }
 
 Polyhedron polygon(const py::list& rings) {
@@ -36,32 +36,39 @@ Polyhedron polygon(const py::list& rings) {
 
 Polyhedron solid_from_mesh(py::handle vertices, py::handle faces, bool strict, bool surface, bool check) {
   const auto mesh = std::make_shared<const Mesh>(mesh_from_arrays(vertices, faces));
-  const MeshOptions options{strict, surface, check};
+  MeshOptions options{strict, surface, check};
   using Made = std::pair<Polyhedron, Messages>;
-  const Made made = call(mesh->vertices.size() + mesh->face_count(), [mesh, options]() -> Made {
-    Messages messages;
-    try {
-      Polyhedron set = from_mesh(*mesh, options, &messages);
-      return {std::move(set), std::move(messages)};
-    } catch (const InputError& error) {
-      throw MeshError(error.what(), check_mesh(*mesh));
-    }
-  });
+  const Made made =
+      call(mesh->vertices.size() + mesh->face_count(), [mesh, options](const Monitor& monitor) mutable -> Made {
+        Messages messages;
+        options.monitor = monitor;
+        try {
+          Polyhedron set = from_mesh(*mesh, options, &messages);
+          return {std::move(set), std::move(messages)};
+        } catch (const InputError& error) {
+          throw MeshError(error.what(), check_mesh(*mesh, {}, monitor));
+        }
+      });
   warn(made.second);
   return made.first;
 }
 
 Polyhedron evaluate(const std::string& text) {
   // An expression may stand for any amount of work.
-  return call(kSmallCall, [text] {
+  return call(kSmallCall, [text](const Monitor& monitor) {
     ExpressionOptions options;
-    options.load = [](const std::string& path) { return read_polyhedron(path); };
+    options.load = [](const std::string& path, const Monitor& watching) {
+      return read_polyhedron(path, {.monitor = watching});
+    };
+    options.monitor = monitor;
     return evaluate_expression(text, options);
   });
 }
 
 Polyhedron many(const std::vector<Polyhedron>& sets, unsigned threads, bool unite) {
-  return call(items(sets), [=] { return unite ? unite_all(sets, threads) : intersect_all(sets, threads); });
+  return call(items(sets), [=](const Monitor& monitor) {
+    return unite ? unite_all(sets, threads, monitor) : intersect_all(sets, threads, monitor);
+  });
 }
 
 // The function is asked beforehand for every pair of labels that occur, with the interpreter's lock.
@@ -76,11 +83,12 @@ Polyhedron overlay_labels(const Polyhedron& a, const Polyhedron& b, const py::fu
       (*table)[x * columns + y] = static_cast<LabelId>(label);
     }
   }
-  return call(items(a) + items(b), [=] {
-    return overlay(a, b, [&](LabelId x, LabelId y) {
+  return call(items(a) + items(b), [=](const Monitor& monitor) {
+    const auto combined = [&](LabelId x, LabelId y) {
       // The overlay tabulates at least labels 0 and 1.
       return x < rows && y < columns ? (*table)[x * columns + y] : LabelId{0};
-    });
+    };
+    return overlay(a, b, combined, 1, monitor);
   });
 }
 
@@ -124,14 +132,7 @@ Numbers in it are exact: 0.1 is one tenth. Raises InputError, whose `offset` is 
       "intersect_all", [](const std::vector<Polyhedron>& sets, unsigned threads) { return many(sets, threads, false); },
       py::arg("sets"), py::arg("threads") = 1,
       "The intersection of any number of sets; all of space for none. threads: 0 for as many as the machine has.");
-  m.def(
-      "_listen",
-      [](const py::object& function) {
-        ProgressFunction next(function);
-        std::swap(next, progress_of_thread());
-        return next.function();
-      },
-      py::arg("function"));
+  m.attr("_progress") = progress_variable();
   m.def("everything", &Polyhedron::everything, "All of space.");
   m.def("overlay", &overlay_labels, py::arg("a"), py::arg("b"), py::arg("function"),
         R"(The set whose points carry the label function(label in a, label in b).

@@ -24,11 +24,12 @@ namespace {
 Polyhedron read(py::handle path, bool strict, bool surface) {
   using Made = std::pair<Polyhedron, Messages>;
   const std::string file = path_text(path);
-  const Made made = call(kSmallCall, [=]() -> Made {
+  const Made made = call(kSmallCall, [=](const Monitor& monitor) -> Made {
     Messages messages;
     MeshOptions options;
     options.strict = strict;
     options.as_surface = surface;
+    options.monitor = monitor;
     Polyhedron set = read_polyhedron(file, options, &messages);
     return {std::move(set), std::move(messages)};
   });
@@ -43,8 +44,9 @@ void write(const Polyhedron& a, py::handle path, bool exact, bool binary, bool p
   options.binary = binary;
   options.polygons = polygons;
   // A file that is being written is finished, or never there: it is renamed into its place at the end.
-  warn(call(items(a), [=] {
+  warn(call(items(a), [=](const Monitor& monitor) mutable {
     Messages messages;
+    options.monitor = monitor;
     write_polyhedron(file, a, options, &messages);
     return messages;
   }));
@@ -54,11 +56,11 @@ py::tuple mesh_of(const Polyhedron& a, bool polygons, bool exact) {
   MeshExportOptions options;
   options.keep_polygons = polygons;
   if (exact) {
-    const MeshExport made = call(items(a), [=] { return to_mesh(a, options); });
+    const MeshExport made = call(items(a), [=](const Monitor& monitor) { return to_mesh(a, options, monitor); });
     warn(made.lost);
     return mesh_to_arrays(made.mesh, !polygons);
   }
-  RoundedMeshExport made = call(items(a), [=] { return to_rounded_mesh(a, options); });
+  RoundedMeshExport made = call(items(a), [=](const Monitor& monitor) { return to_rounded_mesh(a, options, monitor); });
   warn(made.lost);
   return mesh_to_arrays(std::move(made.mesh), !polygons);
 }
@@ -78,11 +80,12 @@ py::tuple core_times(py::handle vertices, py::handle faces) {
 }
 
 py::bytes bytes_of(const Polyhedron& a) {
-  return call(items(a), [a] { return native_text(a); });
+  return call(items(a), [a](const Monitor&) { return native_text(a); });
 }
 
 Polyhedron from_bytes(const std::string& bytes) {
-  return call(bytes.size() / 100, [bytes] { return read_native(bytes, "pickled set"); });
+  return call(bytes.size() / 100,
+              [bytes](const Monitor& monitor) { return read_native(bytes, "pickled set", monitor); });
 }
 
 }  // namespace

@@ -37,29 +37,31 @@ AffineMap map_from(py::handle matrix) {
 
 namespace {
 
-using Unary = Polyhedron (*)(const Polyhedron&);
-using Binary = Polyhedron (*)(const Polyhedron&, const Polyhedron&, unsigned threads);
+using Unary = Polyhedron (*)(const Polyhedron&, const Monitor&);
+using Binary = Polyhedron (*)(const Polyhedron&, const Polyhedron&, unsigned threads, const Monitor&);
 
 auto unary(Unary operation) {
-  return [operation](const Polyhedron& a) { return call(items(a), [=] { return operation(a); }); };
+  return [operation](const Polyhedron& a) {
+    return call(items(a), [=](const Monitor& monitor) { return operation(a, monitor); });
+  };
 }
 
 auto binary(Binary operation) {
   return [operation](const Polyhedron& a, const Polyhedron& b) {
-    return call(items(a) + items(b), [=] { return operation(a, b, 1); });
+    return call(items(a) + items(b), [=](const Monitor& monitor) { return operation(a, b, 1, monitor); });
   };
 }
 
 bool is_subset(const Polyhedron& a, const Polyhedron& b) {
-  return call(items(a) + items(b), [=] { return subtract(a, b).is_empty(); });
+  return call(items(a) + items(b), [=](const Monitor& monitor) { return subtract(a, b, 1, monitor).is_empty(); });
 }
 
 bool is_same(const Polyhedron& a, const Polyhedron& b) {
-  return call(items(a) + items(b), [=] { return equal(a, b); });
+  return call(items(a) + items(b), [=](const Monitor& monitor) { return equal(a, b, monitor); });
 }
 
 Polyhedron transformed(const Polyhedron& a, const AffineMap& map) {
-  return call(items(a), [=] { return transform(a, map); });
+  return call(items(a), [=](const Monitor& monitor) { return transform(a, map, monitor); });
 }
 
 AffineMap scaling(py::handle factors) {
@@ -72,7 +74,9 @@ AffineMap scaling(py::handle factors) {
 
 std::vector<Polyhedron> parts(const Polyhedron& a, const std::string& by) {
   if (by != "components" && by != "volumes") throw py::value_error("by must be 'components' or 'volumes'");
-  return call(items(a), [a, by] { return by == "volumes" ? split_volumes(a) : split(a); });
+  return call(items(a), [a, by](const Monitor& monitor) {
+    return by == "volumes" ? split_volumes(a, monitor) : split(a, monitor);
+  });
 }
 
 }  // namespace
@@ -83,7 +87,10 @@ void bind_operations(PolyhedronClass& c) {
       .def("__and__", binary(intersect), py::is_operator(), "Intersection.")
       .def("__sub__", binary(subtract), py::is_operator(), "Difference.")
       .def("__xor__", binary(symmetric_difference), py::is_operator(), "Symmetric difference.")
-      .def("__invert__", unary(complement), "Complement: all points that are not in the set.")
+      .def(
+          "__invert__",
+          [](const Polyhedron& a) { return call(items(a), [=](const Monitor&) { return complement(a); }); },
+          "Complement: all points that are not in the set.")
       .def("__eq__", &is_same, py::is_operator(), "True if both are the same set of points.")
       .def(
           "__ne__", [](const Polyhedron& a, const Polyhedron& b) { return !is_same(a, b); }, py::is_operator())
@@ -99,7 +106,8 @@ void bind_operations(PolyhedronClass& c) {
       .def(
           "isdisjoint",
           [](const Polyhedron& a, const Polyhedron& b) {
-            return call(items(a) + items(b), [=] { return intersect(a, b).is_empty(); });
+            return call(items(a) + items(b),
+                        [=](const Monitor& monitor) { return intersect(a, b, 1, monitor).is_empty(); });
           },
           py::arg("other"), "True if no point is in both sets.")
       .def("__hash__", &set_hash, "The same for equal sets. O(number of vertices).")

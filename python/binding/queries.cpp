@@ -44,13 +44,14 @@ std::vector<LabelId> marks_at(const Polyhedron& a, py::handle points, unsigned t
     const auto* rows = reinterpret_cast<const std::array<double, 3>*>(doubles->data());
     // A copy, so that what happens to the array meanwhile does not matter.
     auto held = std::make_shared<std::vector<std::array<double, 3>>>(rows, rows + count);
-    return call(items(a) + count, [a, held, threads] { return locate_many(a, *held, threads); });
+    return call(items(a) + count,
+                [a, held, threads](const Monitor& monitor) { return locate_many(a, *held, threads, monitor); });
   }
   auto exact = std::make_shared<std::vector<Rational3>>(to_points(points, "points"));
-  return call(items(a) + exact->size(), [a, exact] {
+  return call(items(a) + exact->size(), [a, exact](const Monitor& monitor) {
     std::vector<LabelId> marks;
     for (const Rational3& p : *exact) {
-      check_interruption();
+      monitor.check_interruption();
       marks.push_back(locate(a, p).mark);
     }
     return marks;
@@ -83,7 +84,7 @@ py::object labels_at(const Polyhedron& a, py::handle points, unsigned threads) {
 py::object ray(const Polyhedron& a, py::handle origin, py::handle direction) {
   const Rational3 from = to_triple(origin, "an origin");
   const Rational3 towards = to_triple(direction, "a direction");
-  const auto hit = call(items(a), [=] { return shoot_ray(a, from, towards); });
+  const auto hit = call(items(a), [=](const Monitor&) { return shoot_ray(a, from, towards); });
   if (!hit) return py::none();
   return result_of("RayHit", py::make_tuple(from_triple(hit->point), location_of(hit->location)));
 }
@@ -97,7 +98,7 @@ py::object rings_of(const SectionPolygon& polygon, bool exact) {
 py::object section_of(const Polyhedron& a, py::handle normal, py::handle offset, bool exact) {
   const Rational3 n = to_triple(normal, "a normal");
   const Rational d = to_rational(offset);
-  const Section cut = call(items(a), [=] { return section(a, n, d); });
+  const Section cut = call(items(a), [=](const Monitor& monitor) { return section(a, n, d, monitor); });
   py::list polygons;
   for (const SectionPolygon& polygon : cut.polygons) polygons.append(rings_of(polygon, exact));
   py::list segments;
@@ -107,7 +108,8 @@ py::object section_of(const Polyhedron& a, py::handle normal, py::handle offset,
 }
 
 py::object distance_of(const Polyhedron& a, const Polyhedron& b) {
-  const std::optional<Distance> found = call(items(a) + items(b), [=] { return distance(a, b); });
+  const std::optional<Distance> found =
+      call(items(a) + items(b), [=](const Monitor& monitor) { return distance(a, b, monitor); });
   if (!found) return py::none();
   return result_of("Distance",
                    py::make_tuple(contact_name(found->contact), found->common_point, found->value(),
@@ -115,7 +117,7 @@ py::object distance_of(const Polyhedron& a, const Polyhedron& b) {
 }
 
 py::object moments_of(const Polyhedron& a) {
-  const std::optional<Moments> found = call(items(a), [a] { return moments(a); });
+  const std::optional<Moments> found = call(items(a), [a](const Monitor&) { return moments(a); });
   if (!found) return py::none();
   const std::optional<Rational3> centre = found->centroid();
   py::object centroid = py::none();
@@ -134,7 +136,7 @@ py::object moments_of(const Polyhedron& a) {
 }
 
 py::object counts_of(const Polyhedron& a) {
-  const Counts n = call(items(a), [a] { return counts(a); });
+  const Counts n = call(items(a), [a](const Monitor&) { return counts(a); });
   return result_of("Counts", py::make_tuple(n.vertices, n.edges, n.facets, n.volumes, n.shells));
 }
 
@@ -147,7 +149,7 @@ std::vector<LabelId> labels_of(const Polyhedron& a) {
 }
 
 py::object box_of(const Polyhedron& a) {
-  const auto box = call(items(a), [a] { return bounding_box(a); });
+  const auto box = call(items(a), [a](const Monitor&) { return bounding_box(a); });
   if (!box) return py::none();
   return py::make_tuple(from_triple((*box)[0]), from_triple((*box)[1]));
 }
@@ -190,10 +192,14 @@ InputError if the normal is zero.)")
 Its `squared` is exact (a Fraction), as are the nearest points; `contact` is 'disjoint', 'touching' (the closures meet,
 the interiors do not) or 'overlapping'; `common_point` tells whether a point is in both sets themselves.)")
       .def(
-          "volume", [](const Polyhedron& a) { return optional_fraction(call(items(a), [a] { return volume(a); })); },
+          "volume",
+          [](const Polyhedron& a) {
+            return optional_fraction(call(items(a), [a](const Monitor&) { return volume(a); }));
+          },
           "The volume, a Fraction; None if it is infinite.")
       .def(
-          "surface_area", [](const Polyhedron& a) { return call(items(a), [a] { return surface_area(a); }); },
+          "surface_area",
+          [](const Polyhedron& a) { return call(items(a), [a](const Monitor&) { return surface_area(a); }); },
           "The area of the facets, each once, as a float; infinite if one is unbounded.")
       .def("bounding_box", &box_of,
            "Smallest and largest coordinates of the vertices, as two tuples of Fractions; None if there are no "
@@ -203,11 +209,15 @@ the interiors do not) or 'overlapping'; `common_point` tells whether a point is 
            "infinite.")
       .def("counts", &counts_of, "nef.Counts(vertices, edges, facets, volumes, shells), the outer volume included.")
       .def(
-          "euler_numbers", [](const Polyhedron& a) { return call(items(a), [a] { return euler_numbers(a); }); },
+          "euler_numbers",
+          [](const Polyhedron& a) { return call(items(a), [a](const Monitor&) { return euler_numbers(a); }); },
           "V - E + F of each shell.")
       .def("labels", &labels_of, "The labels that points of space carry, increasing; 0 and 1 in an ordinary set.")
       .def(
-          "validate", [](const Polyhedron& a) { return call(items(a), [a] { return validate(a.complex()); }); },
+          "validate",
+          [](const Polyhedron& a) {
+            return call(items(a), [a](const Monitor& monitor) { return validate(a.complex(), monitor); });
+          },
           "The name of the first broken invariant of the complex, with the guilty items; empty, unless there is a "
           "bug.");
 }

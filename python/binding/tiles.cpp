@@ -18,23 +18,25 @@
 namespace nef::python {
 namespace {
 
-using TiledUnary = TiledPolyhedron (*)(const TiledPolyhedron&);
-using TiledBinary = TiledPolyhedron (*)(const TiledPolyhedron&, const TiledPolyhedron&);
-using TiledWithPlain = TiledPolyhedron (*)(const TiledPolyhedron&, const Polyhedron&);
+using TiledUnary = TiledPolyhedron (*)(const TiledPolyhedron&, const Monitor&);
+using TiledBinary = TiledPolyhedron (*)(const TiledPolyhedron&, const TiledPolyhedron&, const Monitor&);
+using TiledWithPlain = TiledPolyhedron (*)(const TiledPolyhedron&, const Polyhedron&, const Monitor&);
 
 auto tiled_unary(TiledUnary operation) {
-  return [operation](const TiledPolyhedron& a) { return call(items(a), [=] { return operation(a); }); };
+  return [operation](const TiledPolyhedron& a) {
+    return call(items(a), [=](const Monitor& monitor) { return operation(a, monitor); });
+  };
 }
 
 auto tiled_binary(TiledBinary operation) {
   return [operation](const TiledPolyhedron& a, const TiledPolyhedron& b) {
-    return call(items(a) + items(b), [=] { return operation(a, b); });
+    return call(items(a) + items(b), [=](const Monitor& monitor) { return operation(a, b, monitor); });
   };
 }
 
 auto with_plain(TiledWithPlain operation) {
   return [operation](const TiledPolyhedron& a, const Polyhedron& b) {
-    return call(items(a) + items(b), [=] { return operation(a, b); });
+    return call(items(a) + items(b), [=](const Monitor& monitor) { return operation(a, b, monitor); });
   };
 }
 
@@ -46,12 +48,12 @@ Tiling tiling_of(std::size_t limit, unsigned threads) {
 
 TiledPolyhedron cut(const Polyhedron& set, std::size_t limit, unsigned threads) {
   const Tiling tiling = tiling_of(limit, threads);
-  return call(items(set), [=] { return TiledPolyhedron(set, tiling); });
+  return call(items(set), [=](const Monitor& monitor) { return TiledPolyhedron(set, tiling, monitor); });
 }
 
 TiledPolyhedron unite_in_tiles(const std::vector<Polyhedron>& sets, std::size_t limit, unsigned threads) {
   const Tiling tiling = tiling_of(limit, threads);
-  return call(items(sets), [=] { return TiledPolyhedron(sets, tiling); });
+  return call(items(sets), [=](const Monitor& monitor) { return TiledPolyhedron(sets, tiling, monitor); });
 }
 
 TiledPolyhedron cut_mesh(py::handle vertices, py::handle faces, bool strict, bool surface, std::size_t limit,
@@ -62,9 +64,10 @@ TiledPolyhedron cut_mesh(py::handle vertices, py::handle faces, bool strict, boo
   options.strict = strict;
   options.as_surface = surface;
   using Made = std::pair<TiledPolyhedron, Messages>;
-  const Made made = call(mesh->face_count(), [=]() -> Made {
+  const Made made = call(mesh->face_count(), [=](const Monitor& monitor) mutable -> Made {
     if (mesh->vertices.empty() && mesh->face_count() == 0) return {TiledPolyhedron(Polyhedron(), tiling), {}};
     Messages messages;
+    options.monitor = monitor;
     TiledPolyhedron set = tiles_from_mesh(*mesh, options, tiling, &messages);
     return {std::move(set), std::move(messages)};
   });
@@ -75,15 +78,15 @@ TiledPolyhedron cut_mesh(py::handle vertices, py::handle faces, bool strict, boo
 TiledPolyhedron read_folder(py::handle path, const std::optional<std::uint64_t>& memory, unsigned threads) {
   const std::string folder = path_text(path);
   // Reading a folder is never small: its files tell only later how large they are.
-  return call(kSmallCall, [=] {
+  return call(kSmallCall, [=](const Monitor& monitor) {
     const auto store = memory ? std::make_shared<TileStore>(std::filesystem::temp_directory_path(), *memory) : nullptr;
-    return read_tiles(folder, store, threads);
+    return read_tiles(folder, store, threads, monitor);
   });
 }
 
 void write_folder(const TiledPolyhedron& a, py::handle path) {
   const std::string folder = path_text(path);
-  call(items(a), [=] {
+  call(items(a), [=](const Monitor&) {
     write_tiles(folder, a);
     return 0;
   });
@@ -96,19 +99,19 @@ py::object tiled_location(const Location& location) {
 
 py::object locate_in_tiles(const TiledPolyhedron& a, py::handle point) {
   const Rational3 p = to_triple(point, "a point");
-  return tiled_location(call(items(a), [=] { return locate(a, p); }));
+  return tiled_location(call(items(a), [=](const Monitor&) { return locate(a, p); }));
 }
 
 py::object contained(const TiledPolyhedron& a, py::handle points) {
   if (is_one_point(points)) {
     const Rational3 p = to_triple(points, "a point");
-    return py::bool_(call(items(a), [=] { return contains(a, p); }));
+    return py::bool_(call(items(a), [=](const Monitor&) { return contains(a, p); }));
   }
   const auto all = std::make_shared<const std::vector<Rational3>>(to_points(points, "points"));
-  const std::vector<bool> in = call(items(a) + all->size(), [=] {
+  const std::vector<bool> in = call(items(a) + all->size(), [=](const Monitor& monitor) {
     std::vector<bool> result;
     for (const Rational3& p : *all) {
-      check_interruption();
+      monitor.check_interruption();
       result.push_back(contains(a, p));
     }
     return result;
@@ -121,18 +124,18 @@ py::object contained(const TiledPolyhedron& a, py::handle points) {
 py::object ray_in_tiles(const TiledPolyhedron& a, py::handle origin, py::handle direction) {
   const Rational3 from = to_triple(origin, "an origin");
   const Rational3 towards = to_triple(direction, "a direction");
-  const auto hit = call(items(a), [=] { return shoot_ray(a, from, towards); });
+  const auto hit = call(items(a), [=](const Monitor&) { return shoot_ray(a, from, towards); });
   if (!hit) return py::none();
   return result_of("RayHit", py::make_tuple(from_triple(hit->point), tiled_location(hit->location)));
 }
 
 py::object volume_of_tiles(const TiledPolyhedron& a) {
-  const std::optional<Rational> value = call(items(a), [=] { return volume(a); });
+  const std::optional<Rational> value = call(items(a), [=](const Monitor& monitor) { return volume(a, monitor); });
   return value ? to_fraction(*value) : py::none();
 }
 
 py::object box_of_tiles(const TiledPolyhedron& a) {
-  const auto box = call(items(a), [=] { return bounding_box(a); });
+  const auto box = call(items(a), [=](const Monitor& monitor) { return bounding_box(a, monitor); });
   if (!box) return py::none();
   return py::make_tuple(from_triple((*box)[0]), from_triple((*box)[1]));
 }
@@ -147,9 +150,12 @@ void bind_tiled_operators(py::class_<TiledPolyhedron>& c) {
   both("__sub__", subtract, subtract, "Difference.");
   both("__xor__", symmetric_difference, symmetric_difference, "Symmetric difference.");
   const auto same = [](const TiledPolyhedron& a, const TiledPolyhedron& b) {
-    return call(items(a) + items(b), [=] { return equal(a, b); });
+    return call(items(a) + items(b), [=](const Monitor& monitor) { return equal(a, b, monitor); });
   };
-  c.def("__invert__", tiled_unary(complement), py::is_operator(), "Complement. O(1).")
+  c.def(
+       "__invert__",
+       [](const TiledPolyhedron& a) { return call(items(a), [=](const Monitor&) { return complement(a); }); },
+       py::is_operator(), "Complement. O(1).")
       .def("__eq__", same, py::is_operator(), "True if both are the same set, however they are cut.")
       .def(
           "__ne__", [same](const TiledPolyhedron& a, const TiledPolyhedron& b) { return !same(a, b); },
@@ -162,7 +168,10 @@ void bind_tiled_operators(py::class_<TiledPolyhedron>& c) {
 
 void bind_tiled_methods(py::class_<TiledPolyhedron>& c) {
   c.def(
-       "polyhedron", [](const TiledPolyhedron& a) { return call(items(a), [=] { return a.polyhedron(); }); },
+       "polyhedron",
+       [](const TiledPolyhedron& a) {
+         return call(items(a), [=](const Monitor& monitor) { return a.polyhedron(monitor); });
+       },
        "The set as a Polyhedron: glued, in an order that depends on the set alone.")
       .def("is_empty", &TiledPolyhedron::is_empty, "True for the set without points. O(1).")
       .def("is_everything", &TiledPolyhedron::is_everything, "True for all of space. O(1).")
@@ -175,7 +184,7 @@ of shape (N, 3).)")
           "__contains__",
           [](const TiledPolyhedron& a, py::handle p) {
             const Rational3 point = to_triple(p, "a point");
-            return call(items(a), [=] { return contains(a, point); });
+            return call(items(a), [=](const Monitor&) { return contains(a, point); });
           },
           py::arg("point"))
       .def("locate", &locate_in_tiles, py::arg("point"),
@@ -193,7 +202,7 @@ of shape (N, 3).)")
           "transform",
           [](const TiledPolyhedron& a, py::handle matrix) {
             const AffineMap map = map_from(matrix);
-            return call(items(a), [=] { return transform(a, map); });
+            return call(items(a), [=](const Monitor& monitor) { return transform(a, map, monitor); });
           },
           py::arg("matrix"), "The image under an affine map; tile by tile if it takes axes to axes.")
       .def(

@@ -11,35 +11,35 @@ namespace nef::python {
 namespace {
 
 std::vector<view::Layer> layers_of(const std::vector<Polyhedron>& sets, const std::vector<std::string>& names,
-                                   bool indices) {
+                                   bool indices, const Monitor& monitor) {
   view::SceneOptions options;
   options.box = view::visible_box(sets);
   options.indices = indices;
   std::vector<view::Layer> layers;
   for (std::size_t i = 0; i < sets.size(); ++i) {
-    check_interruption();
+    monitor.check_interruption();
     view::Layer& layer = layers.emplace_back();
     layer.name = i < names.size() ? names[i] : "set " + std::to_string(i + 1);
-    layer.scene = view::build_scene(sets[i], options);
+    layer.scene = view::build_scene(sets[i], options, monitor);
   }
   return layers;
 }
 
 py::bytes picture(const std::vector<Polyhedron>& sets, std::uint32_t width, std::uint32_t height) {
-  return call(items(sets), [=] {
+  return call(items(sets), [=](const Monitor& monitor) {
     view::PictureOptions options;
     options.width = width;
     options.height = height;
-    return view::png_bytes(view::draw_picture(layers_of(sets, {}, false), options));
+    return view::png_bytes(view::draw_picture(layers_of(sets, {}, false, monitor), options));
   });
 }
 
 void write_page(const std::vector<Polyhedron>& sets, const std::vector<std::string>& names, const std::string& path,
                 const std::string& title) {
-  call(items(sets), [=] {
+  call(items(sets), [=](const Monitor& monitor) {
     view::PageOptions options;
     options.title = title;
-    view::write_page(layers_of(sets, names, true), path, options);
+    view::write_page(layers_of(sets, names, true, monitor), path, options);
     return true;
   });
 }

@@ -42,21 +42,26 @@ __all__ = [
 
 @contextlib.contextmanager
 def progress(function: Optional[Callable[[str, int, int], object]]) -> Iterator[None]:
-    """While the block runs, what this thread computes with nef's own operators and functions (Booleans, topological
-    operations, unite_all, from_mesh, read) calls function(phase, done, total); a total of 0 means that it is not known.
+    """While the block runs, what it computes with nef's own operators and functions (Booleans, topological operations,
+    unite_all, from_mesh, read) calls function(phase, done, total); a total of 0 means that it is not known.
 
     A large operation calls it some hundred times, a small one (a few thousand vertices) a few times. It may be called in
-    another thread than this one, one call at a time. An exception in it ends the operation and comes out of it. Blocks
+    another thread than the block's, one call at a time. An exception in it ends the operation and comes out of it. Blocks
     nest; None listens to nothing. The applications have `progress` arguments of their own.
+
+    The block is a matter of its context (see contextvars): it concerns no other task or thread, but those that run in a copy
+    of the context, as tasks that are made in the block and asyncio.to_thread do.
 
         >>> with nef.progress(lambda phase, done, total: print(phase, done, total)):  # doctest: +SKIP
         ...     c = a - b
     """
-    before = _nef._listen(function)
+    if function is not None and not callable(function):
+        raise TypeError("progress must be a function or None")
+    token = _nef._progress.set(function)
     try:
         yield
     finally:
-        _nef._listen(before)
+        _nef._progress.reset(token)
 
 
 def empty() -> Polyhedron:

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Threads, Ctrl-C, memory. No test here depends on how fast the machine is, but for an upper bound of seconds."""
+import asyncio
 import concurrent.futures
+import contextvars
 import gc
 import os
 import signal
@@ -154,10 +156,39 @@ def test_exception_of_progress_ends_the_operation():
             pass
 
 
-def test_progress_belongs_to_a_thread():
+def test_progress_belongs_to_a_context():
     a, b = ball(100), ball(100, seed=1)
     told = []
     with nef.progress(lambda *what: told.append(what)):
         with concurrent.futures.ThreadPoolExecutor(1) as pool:
             pool.submit(lambda: a | b).result()
-        assert not told
+            assert not told
+            pool.submit(contextvars.copy_context().run, lambda: a | b).result()
+            assert told
+            count = len(told)
+            pool.submit(lambda: a | b).result()
+        contextvars.Context().run(lambda: a | b)
+        assert len(told) == count
+
+
+def test_progress_of_tasks():
+    a, b = ball(100), ball(100, seed=1)
+
+    async def unite(told):
+        with nef.progress(lambda *what: told.append(what)):
+            await asyncio.sleep(0)  # the other task comes into its block
+            a | b
+            await asyncio.to_thread(lambda: a | b)
+        count = len(told)
+        await asyncio.sleep(0)
+        a | b
+        assert len(told) == count
+
+    async def both(first, second):
+        await asyncio.gather(unite(first), unite(second))
+
+    first, second, before = [], [], []
+    with nef.progress(lambda *what: before.append(what)):
+        asyncio.run(both(first, second))
+        assert first and first == second
+        assert before

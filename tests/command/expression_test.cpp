@@ -155,14 +155,14 @@ TEST_CASE("round shapes, hulls of sets, Minkowski sums") {
   CHECK(refusal("hull(halfspace(0,0,1,0))").find("unbounded") != std::string::npos);
   CHECK(refusal("nothing + minkowski(nothing, nothing)") == "column 11: Minkowski sums cannot be computed here");
   ExpressionOptions options;
-  options.minkowski = [](const Polyhedron& a, const Polyhedron&) { return a; };
+  options.minkowski = [](const Polyhedron& a, const Polyhedron&, const Monitor&) { return a; };
   CHECK(equal(evaluate_expression("minkowski(point(1,2,3), nothing)", options), make_point({1, 2, 3})));
 }
 
 TEST_CASE("files come from the caller") {
   ExpressionOptions options;
   std::vector<std::string> asked;
-  options.load = [&asked](const std::string& path) {
+  options.load = [&asked](const std::string& path, const Monitor&) {
     asked.push_back(path);
     return make_point({1, 2, 3});
   };

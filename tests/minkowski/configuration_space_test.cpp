@@ -146,8 +146,8 @@ TEST_CASE("obstacles cut up once: the same free spaces for any robot of convex p
         const auto box = bounded ? kBox : std::nullopt;
         const Polyhedron all = bounded ? nef::make_box((*kBox)[0], (*kBox)[1]) : Polyhedron::everything();
         const auto free = [&](bool may_touch) {
-          const nef::minkowski::FixedObstacles fixed(obstacles, box, may_touch);
-          return nef::test::valid(fixed.free_positions(pieces), "free space");
+          const nef::minkowski::FixedObstacles fixed(obstacles, box, may_touch, {});
+          return nef::test::valid(fixed.free_positions(pieces, {}), "free space");
         };
         CHECK(nef::equal(free(true), boxes.empty() ? all : configuration_space(robot, obstacles, box)));
         const Polyhedron touched =

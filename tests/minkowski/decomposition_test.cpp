@@ -71,7 +71,7 @@ TEST_CASE("cells reassemble exactly to the set, whatever its marks") {
     const Polyhedron a = set(text);
     for (const std::size_t axis : {0U, 1U, 2U}) {
       CAPTURE(text, axis);
-      check_cells(a, decompose_along(a, axis));
+      check_cells(a, decompose_along(a, axis, {}));
     }
   }
 }
@@ -84,7 +84,7 @@ TEST_CASE("the same under an oblique rotation, where no wall is parallel to a fa
         "box(0,0,0,3,3,3) - polygon(1,1,1, 2,1,1, 2,2,1, 1,2,1)"}) {
     CAPTURE(text);
     const Polyhedron a = nef::transform(set(text), turn);
-    for (const std::size_t axis : {0U, 1U, 2U}) check_cells(a, decompose_along(a, axis));
+    for (const std::size_t axis : {0U, 1U, 2U}) check_cells(a, decompose_along(a, axis, {}));
   }
 }
 
@@ -99,7 +99,7 @@ TEST_CASE("the twisted prism of Schoenhardt, whose reflex edges depend on one an
                                                            {1, 2, 5}, {1, 5, 4}, {2, 0, 3}, {2, 3, 5}};
   for (const auto& face : faces) mesh.push_face(face);
   const Polyhedron a = nef::from_mesh(mesh);
-  for (const std::size_t axis : {0U, 1U, 2U}) CHECK(check_cells(a, decompose_along(a, axis)) >= 3);
+  for (const std::size_t axis : {0U, 1U, 2U}) CHECK(check_cells(a, decompose_along(a, axis, {})) >= 3);
 }
 
 TEST_CASE("few cells: no wall for an edge that is not reflex") {
@@ -129,7 +129,7 @@ TEST_CASE("the generated mushroom") {
   REQUIRE(mesh.face_count() == 448);
   const Polyhedron a = nef::from_mesh(mesh);
   // Walls along z would make 113 cells; CGAL's, which always stand along x, make 72.
-  CHECK(wall_axis(a.complex()) != 2);
+  CHECK(wall_axis(a.complex(), {}) != 2);
   CHECK(check_cells(a, decompose(a), false) == 72);
 }
 
@@ -145,7 +145,7 @@ TEST_CASE("walls stand along the axis that needs few: a plate with long shafts a
     const std::size_t chosen = check_cells(a, decompose(a));
     for (const std::size_t axis : {0U, 1U, 2U}) {
       CAPTURE(axis);
-      CHECK(chosen <= check_cells(a, decompose_along(a, axis)));
+      CHECK(chosen <= check_cells(a, decompose_along(a, axis, {})));
     }
   }
 }

@@ -131,7 +131,7 @@ void check_location(bool unbounded) {
     RC_ASSERT((pyramid.mark != 0) == scene.holds(p));
     for (int k = 0; k < 4; ++k) {
       const Rational3 d = random_direction();
-      const SphereLocation on = locate(scene.set.complex().planes, pyramid.view(), to_direction(d));
+      const SphereLocation on = locate(scene.set.complex().planes, pyramid.view(), to_direction(d), {});
       RC_ASSERT((mark_at(pyramid.view(), on) != 0) == scene.holds(along(p, Rational(1, 1000), d)));
     }
     // Where the pyramid is not constant, something must have been found there, and only there.

@@ -41,8 +41,8 @@ std::size_t cut_edges(const Complex& c, const PlaneTable& planes, PlaneId plane)
   const LabelFunction differ(8, 8, [](LabelId x, LabelId y) { return static_cast<LabelId>(x == y ? 0 : 1); });
   for (const VertexId v : c.vertex_ids()) {
     for (const HalfedgeId h : c.halfedges(v)) {
-      if (side_of_plane(planes, plane, c.points, point_of(v)) >= 0) continue;
-      if (side_of_plane(planes, plane, c.points, point_of(c.target(h))) <= 0) continue;
+      if (side_of_plane(planes, plane, c.points, point_of(v), {}) >= 0) continue;
+      if (side_of_plane(planes, plane, c.points, point_of(c.target(h)), {}) <= 0) continue;
       SphereMapBuffer pyramid;
       const SphereMapView map = c.sphere_map(v);
       const std::uint32_t position = c.halfedges(v).position(h);
@@ -54,7 +54,7 @@ std::size_t cut_edges(const Complex& c, const PlaneTable& planes, PlaneId plane)
         SphereMapBuffer beyond;
         beyond.assign_circle(plane, 0, side == 0 ? kOutside : 0, side == 0 ? 0 : kOutside);
         SphereMapBuffer expected;
-        overlay.overlay(planes, pyramid.view(), beyond.view(), keep, expected);
+        overlay.overlay(planes, pyramid.view(), beyond.view(), keep, expected, {});
         // Where all facets lie in one plane, the edge has no name of its own.
         const bool flat = std::all_of(pyramid.shalfedges.begin(), pyramid.shalfedges.end(), [&](const SHalfedge& e) {
           return e.plane.row() == pyramid.shalfedges[0].plane.row();
@@ -65,11 +65,11 @@ std::size_t cut_edges(const Complex& c, const PlaneTable& planes, PlaneId plane)
         CHECK(half.entries.size() == expected.entries.size());
         // svertex 0 is what is left of the edge.
         const Direction edge = direction_of(planes, map.svertices[position]);
-        CHECK(same_direction(direction_of(planes, half.svertices[0]), side == 0 ? edge.negated() : edge));
+        CHECK(same_direction(direction_of(planes, half.svertices[0]), side == 0 ? edge.negated() : edge, {}));
         name_outside(half, 7);
         name_outside(expected, 7);
         SphereMapBuffer difference;
-        overlay.overlay(planes, half.view(), expected.view(), differ, difference);
+        overlay.overlay(planes, half.view(), expected.view(), differ, difference, {});
         CHECK(difference.view().trivial());
         CHECK(difference.mark == 0);
       }
@@ -86,7 +86,7 @@ TEST_CASE("halves of cut edges are those of the overlay") {
     CHECK(rc::check(std::string("halves of cut edges") + (bounded ? " (bounded)" : " (unbounded)"), [&] {
       const Polyhedron a = (*recipes(bounded, 4).as("A")).make();
       const Tiling tiling;
-      Cutter cutter(a.complex().planes, tiling);
+      Cutter cutter(a.complex().planes, tiling, {});
       Complex piece = cutter.loose(a.complex());
       // The second cut meets edges in the wall of the first one.
       for (const std::size_t axis : {0U, 2U, 1U}) {

@@ -46,7 +46,7 @@ inline rc::Gen<Cuts> some_cuts(std::size_t most, int grid = 3) {
 /// The tree cut along the plane in one of its leaves, where the plane goes through that leaf's region.
 inline TileRef cut_once(const TileRef& tree, const AxisPlane& plane, unsigned way) {
   if (tree.node->kind != TileNode::Kind::kCut) {
-    const auto halves = cut_tree(tree, plane, Tiling{});
+    const auto halves = cut_tree(tree, plane, Tiling{}, {});
     // Kept apart, even where both sides are the same.
     TileNode node;
     node.kind = TileNode::Kind::kCut;

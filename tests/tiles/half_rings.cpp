@@ -31,16 +31,16 @@ std::size_t cut_maps(const Complex& c) {
       for (std::size_t side = 0; side < 2; ++side) {
         SphereMapBuffer beyond;
         beyond.assign_circle(wall, 0, side == 0 ? kOutside : 0, side == 0 ? 0 : kOutside);
-        overlay.overlay(planes, map, beyond.view(), keep, halves[side]);
+        overlay.overlay(planes, map, beyond.view(), keep, halves[side], {});
       }
       for (std::size_t side = 0; side < 2; ++side) {
         SphereMapBuffer joined;
-        if (!rings.join(planes, wall.row(), halves[side].view(), halves[1 - side].view(), joined)) continue;
+        if (!rings.join(planes, wall.row(), halves[side].view(), halves[1 - side].view(), joined, {})) continue;
         ++count;
         CHECK(joined.svertices.size() == map.svertices.size());
         CHECK(joined.shalfedges.size() == map.shalfedges.size());
         SphereMapBuffer difference;
-        overlay.overlay(planes, joined.view(), map, differ, difference);
+        overlay.overlay(planes, joined.view(), map, differ, difference, {});
         CHECK(difference.view().trivial());
         CHECK(difference.mark == 0);
       }

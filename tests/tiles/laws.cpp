@@ -86,7 +86,7 @@ TEST_CASE("a tile that nobody has cut is cut where a step touches it") {
   for_all_cut_pairs("uncut", 2, [&](const Polyhedron& a, const Polyhedron& b, const Cuts&, const Cuts&) {
     const Polyhedron whole = unite(a, far);
     const Tiling tiling{*rc::gen::inRange<std::size_t>(16, 60), 1};
-    const TiledPolyhedron x(tile_leaf(in_two_marks(whole), nullptr, true), tiling);
+    const TiledPolyhedron x(tile_leaf(in_two_marks(whole, {}), nullptr, true), tiling);
     glued_is(unite(x, b), unite(whole, b), "A + B");
     glued_is(intersect(x, b), intersect(whole, b), "A * B");
     glued_is(subtract(complement(x), b), subtract(complement(whole), b), "!A - B");
@@ -94,7 +94,7 @@ TEST_CASE("a tile that nobody has cut is cut where a step touches it") {
     leaves_are_valid(once.tree(), "A ^ B");
     const Polyhedron moved = transform(b, AffineMap::translate({22, -2, 0}));
     glued_is(subtract(once, moved), subtract(symmetric_difference(whole, b), moved), "A ^ B - C");
-    glued_is({fully_cut(once.tree(), tiling), tiling}, symmetric_difference(whole, b), "A ^ B, cut");
+    glued_is({fully_cut(once.tree(), tiling, {}), tiling}, symmetric_difference(whole, b), "A ^ B, cut");
     if (once.tile_count() > 1) ++cut;
   });
   CHECK(cut > 0);  // two of three, whatever the number of cases

@@ -95,7 +95,7 @@ TEST_CASE("unions of many sets, region by region", "[threads]") {
       for (const Recipe& recipe : recipes_of_pieces) sets.push_back(recipe.make());
       const Tiling tiling{*rc::gen::inRange<std::size_t>(8, 60), *rc::gen::element(1U, 2U)};
       const PieceSource source{.count = static_cast<std::uint32_t>(sets.size()),
-                               .set = [&sets](std::uint32_t i) { return sets[i]; }};
+                               .set = [&sets](std::uint32_t i, const Monitor&) { return sets[i]; }};
       const TiledPolyhedron united = union_in_tiles(source, tiling, *rc::gen::inRange<std::size_t>(1, 5));
       leaves_are_valid(united.tree(), "union");
       glued_is(united, unite_all(sets), "union");

@@ -56,8 +56,8 @@ PlaneId plane_through(PlaneTable& planes, const PointTable& points, const Intege
   return planes.intern_primitive({n[0].get_mpz_t(), n[1].get_mpz_t(), n[2].get_mpz_t(), offset.get_mpz_t()});
 }
 
-ExactCells::ExactCells(std::span<const ConvexCell> cells, const RoundedCells& rounded)
-    : cells_(cells), rounded_(rounded), plane_(rounded.face_count()) {
+ExactCells::ExactCells(std::span<const ConvexCell> cells, const RoundedCells& rounded, const Monitor& monitor)
+    : cells_(cells), rounded_(rounded), plane_(rounded.face_count()), monitor_(monitor) {
   std::size_t vertices = 0;
   for (const ConvexCell& cell : cells) vertices += cell.mesh.vertices.size();
   point_of_.assign(vertices, kNone);
@@ -91,7 +91,7 @@ int ExactCells::side(std::uint32_t face, std::uint32_t cell, std::uint32_t verte
   ++doubtful_;
   const PlaneId p = plane(face);
   const PointId x = point(cell, vertex);
-  return side_of_plane(planes, p, points, x);
+  return side_of_plane(planes, p, points, x, monitor_);
 }
 
 void ExactCells::locate(std::uint32_t cell, PointId point, CellLocation& result) {
@@ -109,7 +109,7 @@ void ExactCells::locate(std::uint32_t cell, PointId point, CellLocation& result)
   std::size_t kept = 0;
   for (const std::uint32_t f : result.faces) {
     ++doubtful_;
-    const int s = side_of_plane(planes, plane(f), points, point);
+    const int s = side_of_plane(planes, plane(f), points, point, monitor_);
     if (s > 0) return;
     if (s == 0) result.faces[kept++] = f;
   }
@@ -132,8 +132,8 @@ void ExactCells::pyramid(const CellLocation& at, SphereMapBuffer& out) {
   } else {
     draw_vertex(cell, at.faces);
   }
-  drawing_.sort_around_nodes(planes);
-  drawing_.simplify_and_assemble(planes, out);
+  drawing_.sort_around_nodes(planes, monitor_);
+  drawing_.simplify_and_assemble(planes, out, monitor_);
 }
 
 // Inside an edge: with f to its left, it runs along n_f x n_g, and the half circle of f goes from

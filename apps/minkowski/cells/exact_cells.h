@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "apps/minkowski/cells/rounded_cells.h"
+#include "nef/base/monitor.h"
 #include "nef/geometry/predicates.h"
 #include "nef/sphere_map/arrangement.h"
 
@@ -28,8 +29,8 @@ struct CellLocation {
 /// numbers in the rounded cells. Not to be shared between threads.
 class ExactCells {
  public:
-  /// Both must outlive the object.
-  ExactCells(std::span<const ConvexCell> cells, const RoundedCells& rounded);
+  /// Cells and rounded cells must outlive the object.
+  ExactCells(std::span<const ConvexCell> cells, const RoundedCells& rounded, const Monitor& monitor);
 
   /// The plane of a face, its positive side outside.
   PlaneId plane(std::uint32_t face);
@@ -66,6 +67,7 @@ class ExactCells {
   const RoundedCells& rounded_;
   std::vector<PlaneId> plane_;           // per face, invalid until asked for
   std::vector<std::uint32_t> point_of_;  // per vertex, kNone until asked for
+  Monitor monitor_;
   Arrangement drawing_;
   std::uint64_t doubtful_ = 0;
 };

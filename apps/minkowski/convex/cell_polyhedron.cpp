@@ -18,7 +18,7 @@ namespace nef::minkowski {
 namespace {
 
 // With normals at hand, planes need no more than an offset, and there is nothing to check.
-Polyhedron solid_with_normals(const ConvexCell& cell, const SolidMarks& marks) {
+Polyhedron solid_with_normals(const ConvexCell& cell, const SolidMarks& marks, const Monitor& monitor) {
   SolidFaces faces;
   faces.points.reserve(cell.mesh.vertices.size());
   for (const Rational3& p : cell.mesh.vertices) faces.points.push(p);
@@ -28,24 +28,24 @@ Polyhedron solid_with_normals(const ConvexCell& cell, const SolidMarks& marks) {
   }
   faces.begin = cell.mesh.face_begin;
   faces.corners = cell.mesh.corners;
-  return Polyhedron(make_solid(std::move(faces), marks));
+  return Polyhedron(make_solid(std::move(faces), marks, monitor));
 }
 
-Polyhedron closed_polyhedron(const ConvexCell& cell) {
+Polyhedron closed_polyhedron(const ConvexCell& cell, const Monitor& monitor) {
   const std::vector<Rational3>& v = cell.mesh.vertices;
   switch (cell.dimension) {
     case 0:
-      return make_point(v[0]);
+      return make_point(v[0], monitor);
     case 1:
-      return make_segment(v[0], v[1]);
+      return make_segment(v[0], v[1], monitor);
     case 2: {
       std::vector<Rational3> ring;
       for (const std::uint32_t i : cell.mesh.face(0)) ring.push_back(v[i]);
-      return make_polygon(std::span<const std::vector<Rational3>>(&ring, 1));
+      return make_polygon(std::span<const std::vector<Rational3>>(&ring, 1), monitor);
     }
     default:
-      if (!cell.normals.empty()) return solid_with_normals(cell, {.boundary = 1, .inside = 1, .outside = 0});
-      return from_mesh(cell.mesh, MeshOptions{.strict = true, .as_surface = false, .check = false});
+      if (!cell.normals.empty()) return solid_with_normals(cell, {.boundary = 1, .inside = 1, .outside = 0}, monitor);
+      return from_mesh(cell.mesh, MeshOptions{.strict = true, .as_surface = false, .check = false, .monitor = monitor});
   }
 }
 
@@ -94,13 +94,13 @@ class Correspondence {
 
 }  // namespace
 
-Polyhedron to_polyhedron(const ConvexCell& cell) {
+Polyhedron to_polyhedron(const ConvexCell& cell, const Monitor& monitor) {
   if (cell.boundary == ConvexCell::Boundary::kOpen && cell.dimension == 3 && !cell.normals.empty()) {
-    return solid_with_normals(cell, {.boundary = 0, .inside = 1, .outside = 0});
+    return solid_with_normals(cell, {.boundary = 0, .inside = 1, .outside = 0}, monitor);
   }
-  Polyhedron closed = closed_polyhedron(cell);
+  Polyhedron closed = closed_polyhedron(cell, monitor);
   if (cell.boundary == ConvexCell::Boundary::kClosed) return closed;
-  if (cell.boundary == ConvexCell::Boundary::kOpen && cell.dimension == 3) return interior(closed);
+  if (cell.boundary == ConvexCell::Boundary::kOpen && cell.dimension == 3) return interior(closed, monitor);
 
   Complex complex = closed.complex();
   const Correspondence of(cell, complex);

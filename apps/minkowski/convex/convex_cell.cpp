@@ -9,8 +9,8 @@
 
 namespace nef::minkowski {
 
-ConvexCell hull_cell(std::span<const Rational3> points) {
-  Hull hull = hull_of(points);
+ConvexCell hull_cell(std::span<const Rational3> points, const Monitor& monitor) {
+  Hull hull = hull_of(points, monitor);
   NEF_ASSERT(hull.dimension >= 0);
   ConvexCell cell;
   cell.dimension = hull.dimension;

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/construct/construct.h"
 #include "nef/forward.h"
 
@@ -46,16 +47,16 @@ struct ConvexCell {
 };
 
 /// The cell as a point set. O(n).
-Polyhedron to_polyhedron(const ConvexCell& cell);
+Polyhedron to_polyhedron(const ConvexCell& cell, const Monitor& monitor = {});
 
 /// The closed convex hull of some points (at least one) as a cell. O(n log n) expected.
-ConvexCell hull_cell(std::span<const Rational3> points);
+ConvexCell hull_cell(std::span<const Rational3> points, const Monitor& monitor = {});
 
 /// c + d for convex cells with their marks: a face of the sum belongs to it iff the two faces that
 /// it is the sum of do [Hachenberger 2006, 10.2.1]. Operands of any dimension. For two solids the overlay of
 /// the normal diagrams is walked, O((n + m + k) log(n + m)) for k facets of the sum and vertices
 /// of bounded degree; if one is flat, the hull of all sums of vertices is taken.
-ConvexCell convex_sum(const ConvexCell& c, const ConvexCell& d);
+ConvexCell convex_sum(const ConvexCell& c, const ConvexCell& d, const Monitor& monitor = {});
 
 /// The cell of the points -x. O(n).
 ConvexCell negated(const ConvexCell& cell);

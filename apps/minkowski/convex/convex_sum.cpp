@@ -40,7 +40,7 @@ Loop extreme_loop(const NormalDiagram& d, const NormalDiagram::Extreme& e) {
 
 class SolidSum {
  public:
-  SolidSum(const NormalDiagram& p, const NormalDiagram& q) : p_(p), q_(q) {}
+  SolidSum(const NormalDiagram& p, const NormalDiagram& q, const Monitor& monitor) : p_(p), q_(q), monitor_(monitor) {}
   ConvexCell run();
 
  private:
@@ -64,6 +64,7 @@ class SolidSum {
 
   const NormalDiagram& p_;
   const NormalDiagram& q_;
+  Monitor monitor_;
   std::vector<std::uint32_t> start_in_q_;  // per face of p: a vertex of q that is extreme along its normal
   ConvexCell sum_;
   std::vector<VertexPair> pairs_;  // per vertex of the sum
@@ -115,14 +116,14 @@ void SolidSum::merge(const Direction& normal, const Loop& p, const Loop& q) {
   const Edge first{&p_, p[0]};
   const auto orientation = [&](const Edge& a, const Edge& b) {
     return a.diagram->sign_of(a.corner) * b.diagram->sign_of(b.corner) *
-           sign_of_determinant(normal, a.diagram->line(a.corner), b.diagram->line(b.corner));
+           sign_of_determinant(normal, a.diagram->line(a.corner), b.diagram->line(b.corner), monitor_);
   };
   // 0 for angles in [0, 180) against the first edge, 1 for [180, 360).
   const auto half = [&](const Edge& e) {
     const int sign = orientation(first, e);
     if (sign != 0) return sign > 0 ? 0 : 1;
     const int along = first.diagram->sign_of(first.corner) * e.diagram->sign_of(e.corner) *
-                      sign_of_dot(first.diagram->line(first.corner), e.diagram->line(e.corner));
+                      sign_of_dot(first.diagram->line(first.corner), e.diagram->line(e.corner), monitor_);
     return along > 0 ? 0 : 1;
   };
   const auto compare = [&](const Edge& a, const Edge& b) {
@@ -163,7 +164,7 @@ void SolidSum::facets_of_p() {
       const std::uint32_t other = p_.face(p_.twin(c));
       if (other < f) start = start_in_q_[other];
     }
-    const NormalDiagram::Extreme e = q_.extreme(p_.normal(f), start);
+    const NormalDiagram::Extreme e = q_.extreme(p_.normal(f), start, monitor_);
     start_in_q_[f] = start = e.vertex;
     const Loop loop = face_loop(p_, first);
     bool marked = p_.cell().facet_marked(f);
@@ -188,7 +189,7 @@ void SolidSum::facets_of_q() {
       const std::uint32_t other = q_.face(q_.twin(c));
       if (other < g) start = starts[other];
     }
-    const NormalDiagram::Extreme e = p_.extreme(q_.normal(g), start);
+    const NormalDiagram::Extreme e = p_.extreme(q_.normal(g), start, monitor_);
     starts[g] = start = e.vertex;
     if (e.dimension == 2) continue;  // two parallel facets: done from the other side
     const Loop loop = face_loop(q_, first);
@@ -207,7 +208,8 @@ void SolidSum::facets_of_q() {
 // How far two edges c, d of q are from becoming level as the direction turns from n1 to n2: the
 // sign of t(c) - t(d), where edge . (n1 (1-t) + n2 t) = 0. With a = edge.n1 < 0 < b = edge.n2 that
 // is the sign of a_d b_c - a_c b_d, which is -(c x d) . (n1 x n2).
-int compare_turn(const NormalDiagram& q, std::uint32_t c, std::uint32_t d, const Direction& n1, const Direction& n2) {
+int compare_turn(const NormalDiagram& q, std::uint32_t c, std::uint32_t d, const Direction& n1, const Direction& n2,
+                 const Monitor& monitor) {
   const Direction& u = q.line(c);
   const Direction& v = q.line(d);
   const auto dot = [](const Direction& x, const Direction& y) {
@@ -218,8 +220,9 @@ int compare_turn(const NormalDiagram& q, std::uint32_t c, std::uint32_t d, const
   // A dot product is at most 3 and within 3.1 (e + e') + 16u (see sign_of_dot); each of the two
   // products of them is then within 6.2 times that, rounding included.
   const double error = 3.1 * (std::max(u.error, v.error) + std::max(n1.error, n2.error)) + 0x1p-49;
-  const int sign = sign_by_ladder({value, 14 * error},
-                                  [&] { return sign_of_dot(Direction::cross(u, v), Direction::cross(n1, n2)); });
+  const int sign = sign_by_ladder({value, 14 * error}, monitor, [&] {
+    return sign_of_dot(Direction::cross(u, v), Direction::cross(n1, n2), monitor);
+  });
   return -q.sign_of(c) * q.sign_of(d) * sign;
 }
 
@@ -231,14 +234,14 @@ SolidSum::Turn SolidSum::next_turn(std::uint32_t v, const Direction& n1, const D
   const std::uint32_t first = q_.corner_at(v);
   std::uint32_t c = first;
   do {
-    const int rise = q_.sign_along(c, n2);
-    const int start = rise >= 0 ? q_.sign_along(c, n1) : 0;
+    const int rise = q_.sign_along(c, n2, monitor_);
+    const int start = rise >= 0 ? q_.sign_along(c, n1, monitor_) : 0;
     if (rise == 0) {
       level_all_the_time = level_all_the_time || start == 0;
     } else if (rise > 0 && start == 0) {
       turn.level = c;
     } else if (rise > 0) {
-      const int order = turn.next == kNone ? -1 : compare_turn(q_, c, turn.next, n1, n2);
+      const int order = turn.next == kNone ? -1 : compare_turn(q_, c, turn.next, n1, n2, monitor_);
       if (order < 0) turn.next = c;
       if (order <= 0) tie = order == 0;
     }
@@ -264,7 +267,7 @@ void SolidSum::walk(std::uint32_t corner) {
   }
   std::uint32_t passed = kNone;  // an edge of the facet of q whose normal the arc passed through last
   while (turn.next != kNone) {
-    if (turn.at_facet || (passed != kNone && compare_turn(q_, turn.next, passed, n1, n2) == 0)) {
+    if (turn.at_facet || (passed != kNone && compare_turn(q_, turn.next, passed, n1, n2, monitor_) == 0)) {
       passed = turn.next;
     } else {
       add_parallelogram(corner, turn.next);
@@ -335,13 +338,15 @@ ConvexCell SolidSum::run() {
 
 }  // namespace
 
-ConvexCell convex_sum(const ConvexCell& c, const ConvexCell& d) {
+ConvexCell convex_sum(const ConvexCell& c, const ConvexCell& d, const Monitor& monitor) {
   if (d.dimension == 0) return translated(c, d.mesh.vertices[0]);
   if (c.dimension == 0) return translated(d, c.mesh.vertices[0]);
-  if (c.dimension < 3 || d.dimension < 3) return flat_sum(c, d);
-  return convex_sum(NormalDiagram(c), NormalDiagram(d));
+  if (c.dimension < 3 || d.dimension < 3) return flat_sum(c, d, monitor);
+  return convex_sum(NormalDiagram(c), NormalDiagram(d), monitor);
 }
 
-ConvexCell convex_sum(const NormalDiagram& c, const NormalDiagram& d) { return SolidSum(c, d).run(); }
+ConvexCell convex_sum(const NormalDiagram& c, const NormalDiagram& d, const Monitor& monitor) {
+  return SolidSum(c, d, monitor).run();
+}
 
 }  // namespace nef::minkowski

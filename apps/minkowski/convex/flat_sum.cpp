@@ -41,13 +41,13 @@ bool face_mark(const ConvexCell& cell, std::vector<std::uint32_t> vertices) {
 
 // A face of the sum is the sum of the two faces
 // whose vertices make its vertices.
-ConvexCell flat_sum(const ConvexCell& c, const ConvexCell& d) {
+ConvexCell flat_sum(const ConvexCell& c, const ConvexCell& d, const Monitor& monitor) {
   std::vector<Rational3> points;
   points.reserve(c.mesh.vertices.size() * d.mesh.vertices.size());
   for (const Rational3& p : c.mesh.vertices) {
     for (const Rational3& q : d.mesh.vertices) points.push_back(sum_of_points(p, q));
   }
-  Hull hull = hull_of(points);
+  Hull hull = hull_of(points, monitor);
   ConvexCell sum;
   sum.dimension = hull.dimension;
   sum.mesh = std::move(hull.mesh);

@@ -12,6 +12,6 @@ inline Rational3 sum_of_points(const Rational3& a, const Rational3& b) {
 }
 
 /// The sum of cells of any dimensions by the hull of all sums of their vertices. O(n m log(n m)) expected.
-ConvexCell flat_sum(const ConvexCell& c, const ConvexCell& d);
+ConvexCell flat_sum(const ConvexCell& c, const ConvexCell& d, const Monitor& monitor);
 
 }  // namespace nef::minkowski

@@ -117,14 +117,14 @@ void NormalDiagram::set_directions() {
   }
 }
 
-std::uint32_t NormalDiagram::extreme_vertex(const Direction& n, std::uint32_t start) const {
+std::uint32_t NormalDiagram::extreme_vertex(const Direction& n, std::uint32_t start, const Monitor& monitor) const {
   std::uint32_t v = start;
   for (bool moved = true; moved;) {
     moved = false;
     const std::uint32_t first = corner_at_[v];
     std::uint32_t c = first;
     do {
-      if (sign_along(c, n) > 0) {
+      if (sign_along(c, n, monitor) > 0) {
         v = target(c);
         moved = true;
         break;
@@ -135,13 +135,13 @@ std::uint32_t NormalDiagram::extreme_vertex(const Direction& n, std::uint32_t st
   return v;
 }
 
-NormalDiagram::Extreme NormalDiagram::extreme(const Direction& n, std::uint32_t start) const {
+NormalDiagram::Extreme NormalDiagram::extreme(const Direction& n, std::uint32_t start, const Monitor& monitor) const {
   Extreme result;
-  result.vertex = extreme_vertex(n, start);
+  result.vertex = extreme_vertex(n, start, monitor);
   const std::uint32_t first = corner_at_[result.vertex];
   std::uint32_t c = first;
   do {
-    if (sign_along(c, n) == 0) {
+    if (sign_along(c, n, monitor) == 0) {
       // Of two such edges of one vertex, the one that starts the face has it to its left, and the
       // other is that face's last edge, backwards.
       const bool starts_face = result.dimension == 1 && face_[c] == face_[twin_[result.corner]];

@@ -42,12 +42,12 @@ class NormalDiagram {
   [[nodiscard]] int sign_of(std::uint32_t corner) const { return corner < twin_[corner] ? 1 : -1; }
 
   /// sign(edge . n)
-  [[nodiscard]] int sign_along(std::uint32_t corner, const Direction& n) const {
-    return sign_of(corner) * sign_of_dot(line(corner), n);
+  [[nodiscard]] int sign_along(std::uint32_t corner, const Direction& n, const Monitor& monitor) const {
+    return sign_of(corner) * sign_of_dot(line(corner), n, monitor);
   }
 
   /// A vertex that is extreme in direction n, found by climbing from `start`.
-  [[nodiscard]] std::uint32_t extreme_vertex(const Direction& n, std::uint32_t start) const;
+  [[nodiscard]] std::uint32_t extreme_vertex(const Direction& n, std::uint32_t start, const Monitor& monitor) const;
 
   /// What is extreme in direction n.
   struct Extreme {
@@ -55,7 +55,7 @@ class NormalDiagram {
     std::uint32_t vertex = 0;  ///< a vertex of it
     std::uint32_t corner = 0;
   };
-  [[nodiscard]] Extreme extreme(const Direction& n, std::uint32_t start) const;
+  [[nodiscard]] Extreme extreme(const Direction& n, std::uint32_t start, const Monitor& monitor) const;
 
  private:
   void connect();
@@ -67,6 +67,6 @@ class NormalDiagram {
 };
 
 /// The sum of two solids whose diagrams are at hand already (see convex_sum for cells).
-ConvexCell convex_sum(const NormalDiagram& c, const NormalDiagram& d);
+ConvexCell convex_sum(const NormalDiagram& c, const NormalDiagram& d, const Monitor& monitor);
 
 }  // namespace nef::minkowski

@@ -33,7 +33,7 @@ struct Constraint {
   bool is_plane = false;
 };
 
-std::vector<Constraint> constraints_of(const SpannedSet& set) {
+std::vector<Constraint> constraints_of(const SpannedSet& set, const Monitor& monitor) {
   std::vector<Constraint> result;
   const auto add = [&](const Rational3& n, const Rational3& p) {
     const auto leaves = [&](const Rational3& r) { return sgn(dot(n, r)) > 0; };
@@ -43,7 +43,7 @@ std::vector<Constraint> constraints_of(const SpannedSet& set) {
   for (const Rational3& p : set.points) {
     for (const Rational3& r : set.rays) points.push_back(plus(p, r));
   }
-  const Mesh mesh = hull_of(points).mesh;
+  const Mesh mesh = hull_of(points, monitor).mesh;
   if (mesh.face_count() == 0) {
     NEF_ASSERT(mesh.vertices.size() == 2);
     const Rational3 d = minus(mesh.vertices[1], mesh.vertices[0]);
@@ -68,28 +68,29 @@ std::vector<Constraint> constraints_of(const SpannedSet& set) {
   return result;
 }
 
-Polyhedron plane_of(const Constraint& c) {
-  return boundary(make_halfspace(c.n[0], c.n[1], c.n[2], Rational(-dot(c.n, c.p))));
+Polyhedron plane_of(const Constraint& c, const Monitor& monitor) {
+  return boundary(make_halfspace(c.n[0], c.n[1], c.n[2], Rational(-dot(c.n, c.p)), true, monitor), monitor);
 }
 
 }  // namespace
 
-Polyhedron to_polyhedron(const SpannedSet& set, bool closed) {
+Polyhedron to_polyhedron(const SpannedSet& set, bool closed, const Monitor& monitor) {
   if (set.rays.empty()) {
-    ConvexCell cell = hull_cell(set.points);
-    return to_polyhedron(closed ? std::move(cell) : opened(std::move(cell)));
+    ConvexCell cell = hull_cell(set.points, monitor);
+    return to_polyhedron(closed ? std::move(cell) : opened(std::move(cell)), monitor);
   }
   std::vector<Polyhedron> sets;
-  for (const Constraint& c : constraints_of(set)) {
-    sets.push_back(c.is_plane ? plane_of(c) : make_halfspace(c.n[0], c.n[1], c.n[2], Rational(-dot(c.n, c.p)), closed));
+  for (const Constraint& c : constraints_of(set, monitor)) {
+    sets.push_back(c.is_plane ? plane_of(c, monitor)
+                              : make_halfspace(c.n[0], c.n[1], c.n[2], Rational(-dot(c.n, c.p)), closed, monitor));
   }
-  return intersect_all(sets);
+  return intersect_all(sets, 1, monitor);
 }
 
-std::vector<Polyhedron> border_planes(const SpannedSet& set) {
+std::vector<Polyhedron> border_planes(const SpannedSet& set, const Monitor& monitor) {
   std::vector<Polyhedron> result;
-  for (const Constraint& c : constraints_of(set)) {
-    if (!c.is_plane) result.push_back(plane_of(c));
+  for (const Constraint& c : constraints_of(set, monitor)) {
+    if (!c.is_plane) result.push_back(plane_of(c, monitor));
   }
   return result;
 }

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/forward.h"
 #include "nef/number/number.h"
 
@@ -19,11 +20,11 @@ struct SpannedSet {
 
 /// The set, or its interior relative to its own dimension. The planes of its facets are those facets of the hull of all
 /// points p and p + r that no ray leaves. O(n log n) expected for n such points, plus an intersection of half-spaces.
-Polyhedron to_polyhedron(const SpannedSet& set, bool closed);
+Polyhedron to_polyhedron(const SpannedSet& set, bool closed, const Monitor& monitor);
 
 /// Planes that a set with rays is on one side of, each of which touches it, but does not hold it: all of its relative
 /// boundary lies in them.
-std::vector<Polyhedron> border_planes(const SpannedSet& set);
+std::vector<Polyhedron> border_planes(const SpannedSet& set, const Monitor& monitor);
 
 /// The set of the sums a + b.
 SpannedSet sum_of(const SpannedSet& a, const SpannedSet& b);

@@ -34,7 +34,7 @@ Rational3 on_sphere(double x, double y, double z) {
 
 }  // namespace
 
-ConvexCell ball(const Rational& radius, int splits) {
+ConvexCell ball(const Rational& radius, int splits, const Monitor& monitor) {
   if (sgn(radius) <= 0) throw InputError("the radius of a ball must be positive, not " + to_string(radius));
   if (splits < 1 || splits > 64) {
     throw InputError("a ball has 1 to 64 splits an edge, not " + std::to_string(splits) + " (4 N^2 + 2 vertices)");
@@ -52,10 +52,10 @@ ConvexCell ball(const Rational& radius, int splits) {
       }
     }
   }
-  return hull_cell(points);
+  return hull_cell(points, monitor);
 }
 
-ConvexCell box_tool(const Rational3& extents) {
+ConvexCell box_tool(const Rational3& extents, const Monitor& monitor) {
   std::vector<Rational3> points;
   for (int signs = 0; signs < 8; ++signs) {
     Rational3 p;
@@ -65,7 +65,7 @@ ConvexCell box_tool(const Rational3& extents) {
     }
     points.push_back(p);
   }
-  return hull_cell(points);
+  return hull_cell(points, monitor);
 }
 
 }  // namespace nef::minkowski

@@ -23,14 +23,14 @@ struct Regions {
 };
 
 // The svertex in the direction of a segment, or against it.
-std::uint32_t svertex_along(const ConvolutionFacets& facets, const RegionVertex& v, const FacetSegment& s,
-                            bool forward) {
+std::uint32_t svertex_along(const ConvolutionFacets& facets, const RegionVertex& v, const FacetSegment& s, bool forward,
+                            const Monitor& monitor) {
   Direction d = Direction::cross(facets.planes, facets.plane[s.f], facets.plane[s.g]);
   double along = 0;
   for (std::size_t i = 0; i < 3; ++i) along += d.approximate[i] * (s.to[i] - s.from[i]);
   if ((along > 0) != forward) d = d.negated();
   for (std::uint32_t i = 0; i < v.map.svertices.size(); ++i) {
-    if (same_direction(direction_of(facets.planes, v.map.svertices[i]), d)) return i;
+    if (same_direction(direction_of(facets.planes, v.map.svertices[i]), d, monitor)) return i;
   }
   return kNone;
 }
@@ -38,12 +38,12 @@ std::uint32_t svertex_along(const ConvolutionFacets& facets, const RegionVertex&
 // The same half-planes leave both ends of the interval, and the same regions lie between them. Seen from the other end
 // a half-plane is that of the opposite plane, and has the region on its other side.
 void join(const ConvolutionFacets& facets, const SurvivingIntervals& intervals, const RegionVertices& found,
-          const RegionJoint& joint, Regions& regions) {
+          const RegionJoint& joint, Regions& regions, const Monitor& monitor) {
   const FacetSegment& s = intervals.segments[joint.segment];
   const RegionVertex& from = found.vertices[joint.from];
   const RegionVertex& to = found.vertices[joint.to];
-  const std::uint32_t here = svertex_along(facets, from, s, true);
-  const std::uint32_t there = svertex_along(facets, to, s, false);
+  const std::uint32_t here = svertex_along(facets, from, s, true, monitor);
+  const std::uint32_t there = svertex_along(facets, to, s, false, monitor);
   if (here == kNone || there == kNone) return;
   const SphereMapView a = from.map.view();
   const SphereMapView b = to.map.view();
@@ -64,7 +64,7 @@ void join(const ConvolutionFacets& facets, const SurvivingIntervals& intervals, 
 }
 
 Regions joined_regions(const ConvolutionFacets& facets, const SurvivingIntervals& intervals,
-                       const RegionVertices& found) {
+                       const RegionVertices& found, const Monitor& monitor) {
   Regions regions;
   std::uint32_t count = 0;
   for (const RegionVertex& v : found.vertices) {
@@ -72,7 +72,7 @@ Regions joined_regions(const ConvolutionFacets& facets, const SurvivingIntervals
     count += static_cast<std::uint32_t>(v.map.sfaces.size());
   }
   regions.same.reset(count);
-  for (const RegionJoint& joint : found.joints) join(facets, intervals, found, joint, regions);
+  for (const RegionJoint& joint : found.joints) join(facets, intervals, found, joint, regions, monitor);
   return regions;
 }
 
@@ -84,7 +84,7 @@ struct RegionsInside {
 // For each region around a vertex whether it is inside.
 RegionsInside regions_inside(const ConvolutionFacets& facets, FacetPyramids& pyramids, const SumMembership& membership,
                              const std::vector<RegionVertex>& vertices, Regions& regions, unsigned threads,
-                             const std::function<void(double)>& poll) {
+                             const Monitor& monitor, const std::function<void(double)>& poll) {
   enum : std::uint8_t { kOut, kIn, kUnknown, kAsked };
   std::vector<std::uint8_t> state(regions.same.size(), kUnknown);
   for (std::uint32_t i = 0; i < vertices.size(); ++i) {
@@ -105,16 +105,16 @@ RegionsInside regions_inside(const ConvolutionFacets& facets, FacetPyramids& pyr
       if (state[region] != kUnknown) continue;
       state[region] = kAsked;
       const Direction into =
-          v.map.view().trivial() ? Direction::exact(1, 0, 0) : direction_into(facets.planes, v.map.view(), f);
+          v.map.view().trivial() ? Direction::exact(1, 0, 0) : direction_into(facets.planes, v.map.view(), f, monitor);
       questions.push_back({region, pyramids.point_towards(v.point, into)});
     }
   }
   constexpr std::size_t kBlock = 64;
   for (std::size_t first = 0; first < questions.size(); first += kBlock) {
     poll(static_cast<double>(first) / static_cast<double>(questions.size()));
-    parallel_for(std::min(kBlock, questions.size() - first), threads, [&](std::size_t k) {
+    parallel_for(std::min(kBlock, questions.size() - first), threads, monitor, [&](std::size_t k, const Monitor& own) {
       const Question& q = questions[first + k];
-      state[q.region] = membership.in_closure(q.point) ? kIn : kOut;
+      state[q.region] = membership.in_closure(q.point, own) ? kIn : kOut;
     });
   }
   for (std::uint32_t r = 0; r < state.size(); ++r) state[r] = state[regions.same.find(r)];
@@ -124,8 +124,9 @@ RegionsInside regions_inside(const ConvolutionFacets& facets, FacetPyramids& pyr
 // Marks all items around all vertices; says how many were put to the definition.
 std::size_t mark_boundary(const ConvolutionFacets& facets, FacetPyramids& pyramids, const SumMembership& membership,
                           const Regions& regions, const std::vector<std::uint8_t>& inside, unsigned threads,
-                          const std::function<void(double)>& poll, std::vector<RegionVertex>& vertices) {
-  BoundaryMarker marker(pyramids, facets);
+                          const Monitor& monitor, const std::function<void(double)>& poll,
+                          std::vector<RegionVertex>& vertices) {
+  BoundaryMarker marker(pyramids, facets, monitor);
   for (std::uint32_t i = 0; i < vertices.size(); ++i) {
     RegionVertex& v = vertices[i];
     for (std::uint32_t f = 0; f < v.map.sfaces.size(); ++f) v.map.sfaces[f].mark = inside[regions.first[i] + f];
@@ -143,9 +144,9 @@ std::size_t mark_boundary(const ConvolutionFacets& facets, FacetPyramids& pyrami
 }
 
 std::variant<Complex, Defect> complex_of(const ConvolutionFacets& facets, PlaneTable& planes,
-                                         const std::vector<RegionVertex>& vertices) {
+                                         const std::vector<RegionVertex>& vertices, const Monitor& monitor) {
   const bool is_closed = facets.marks == BoundaryMarks::kAll;
-  ComplexBuilder builder(planes);
+  ComplexBuilder builder(planes, monitor);
   Arrangement drawing;
   for (const RegionVertex& v : vertices) {
     const auto is_inside = [](const SFace& f) { return f.mark != 0; };
@@ -160,20 +161,20 @@ std::variant<Complex, Defect> complex_of(const ConvolutionFacets& facets, PlaneT
 
 SumOfRegions sum_of_regions(ConvolutionFacets& facets, const RoundedFacets& rounded,
                             const SurvivingIntervals& intervals, const SumMembership& membership,
-                            std::span<const SaddlePoint> saddles, unsigned threads,
+                            std::span<const SaddlePoint> saddles, unsigned threads, const Monitor& monitor,
                             const std::function<void(double)>& poll) {
   // Shares of the time are measured, for the bar only.
   const BoxTree tree(rounded.boxes());
-  FacetPyramids pyramids(facets, rounded, tree);
-  RegionVertices found = region_vertices(facets, tree, pyramids, intervals, membership, saddles, threads,
+  FacetPyramids pyramids(facets, rounded, tree, monitor);
+  RegionVertices found = region_vertices(facets, tree, pyramids, intervals, membership, saddles, threads, monitor,
                                          [&poll](double share) { poll(0.4 * share); });
-  Regions regions = joined_regions(facets, intervals, found);
-  const RegionsInside known = regions_inside(facets, pyramids, membership, found.vertices, regions, threads,
+  Regions regions = joined_regions(facets, intervals, found, monitor);
+  const RegionsInside known = regions_inside(facets, pyramids, membership, found.vertices, regions, threads, monitor,
                                              [&poll](double share) { poll(0.4 + 0.4 * share); });
   const std::size_t items = mark_boundary(
-      facets, pyramids, membership, regions, known.inside, threads, [&poll](double share) { poll(0.8 + 0.15 * share); },
-      found.vertices);
-  SumOfRegions result{complex_of(facets, facets.planes, found.vertices), found.points, known.tested + items};
+      facets, pyramids, membership, regions, known.inside, threads, monitor,
+      [&poll](double share) { poll(0.8 + 0.15 * share); }, found.vertices);
+  SumOfRegions result{complex_of(facets, facets.planes, found.vertices, monitor), found.points, known.tested + items};
   poll(1);
   return result;
 }

@@ -31,7 +31,7 @@ struct SumOfRegions {
 /// the share that is done and may throw.
 SumOfRegions sum_of_regions(ConvolutionFacets& facets, const RoundedFacets& rounded,
                             const SurvivingIntervals& intervals, const SumMembership& membership,
-                            std::span<const SaddlePoint> saddles, unsigned threads,
+                            std::span<const SaddlePoint> saddles, unsigned threads, const Monitor& monitor,
                             const std::function<void(double)>& poll);
 
 }  // namespace nef::minkowski

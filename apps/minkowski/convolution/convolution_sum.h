@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "nef/base/monitor.h"
 #include "nef/forward.h"
 
 namespace nef::minkowski {
@@ -32,6 +33,7 @@ struct ConvolutionOptions {
   bool only_if_fast = false;
   unsigned threads = 1;              ///< 0: as many as the machine has; the result does not depend on it
   std::function<void(double)> poll;  ///< called with the share that is done, 0 to 1; may throw
+  Monitor monitor = {};              ///< who watches; what it refers to must outlive the call
 };
 
 /// A + B for two such sets; nothing if the options ask for that, or if something went wrong that must not. The facets

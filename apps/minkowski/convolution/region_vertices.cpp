@@ -44,13 +44,15 @@ std::size_t main_axis(const FacetSegment& s) {
 class VertexFinder {
  public:
   VertexFinder(ConvolutionFacets& facets, const BoxTree& tree, FacetPyramids& pyramids,
-               const SurvivingIntervals& intervals, const SumMembership& membership, unsigned threads)
+               const SurvivingIntervals& intervals, const SumMembership& membership, unsigned threads,
+               const Monitor& monitor)
       : facets_(facets),
         intervals_(intervals),
         tree_(tree),
         pyramids_(pyramids),
         membership_(membership),
         threads_(threads),
+        monitor_(monitor),
         is_closed_(facets.marks == BoundaryMarks::kAll),
         meetings_(facets.planes, facets.points) {}
 
@@ -80,6 +82,7 @@ class VertexFinder {
   FacetPyramids& pyramids_;
   const SumMembership& membership_;
   unsigned threads_;
+  Monitor monitor_;
   bool is_closed_;
   bool among_passages_ = false;  // the points at hand are not ends of surviving intervals
   RegionVertices result_;        // its joints come last
@@ -129,8 +132,8 @@ void VertexFinder::add_point(PointId point) {
 void VertexFinder::draw_points() {
   constexpr std::size_t kChunk = 64;
   std::vector<std::optional<SphereMapBuffer>> maps(undrawn_.size());
-  parallel_for((undrawn_.size() + kChunk - 1) / kChunk, threads_, [&](std::size_t chunk) {
-    PyramidDrawer drawer(facets_, pyramids_);
+  parallel_for((undrawn_.size() + kChunk - 1) / kChunk, threads_, monitor_, [&](std::size_t chunk, const Monitor& own) {
+    PyramidDrawer drawer(facets_, pyramids_, own);
     for (std::size_t i = chunk * kChunk; i < std::min(undrawn_.size(), (chunk + 1) * kChunk); ++i) {
       SphereMapBuffer map = drawer.draw(undrawn_[i].facets, undrawn_[i].point);
       if (is_of_use(undrawn_[i].point, map)) maps[i] = std::move(map);
@@ -160,7 +163,7 @@ void VertexFinder::add_saddle_point(const SaddlePoint& saddle) {
   draw_points();
   KnownPoint& known = known_.at(point.index());
   if (known.vertex == kNone) {
-    SphereMapBuffer map = PyramidDrawer(facets_, pyramids_).draw(pyramids_.facets_at(point), point);
+    SphereMapBuffer map = PyramidDrawer(facets_, pyramids_, monitor_).draw(pyramids_.facets_at(point), point);
     mark_inside(map);
     known.vertex = static_cast<std::uint32_t>(result_.vertices.size());
     result_.vertices.push_back({point, std::move(map), true});
@@ -279,8 +282,8 @@ std::uint32_t VertexFinder::nearest(const FacetSegment& s, const SegmentCut& cut
     const std::vector<std::uint32_t>& here = known_.at(p).facets;
     if (!std::binary_search(here.begin(), here.end(), s.f) || !std::binary_search(here.begin(), here.end(), s.g))
       continue;
-    if (best == kNone ||
-        (compare_coordinate(facets_.points, point, PointId{best}, static_cast<int>(axis)) > 0) == (up == last)) {
+    if (best == kNone || (compare_coordinate(facets_.points, point, PointId{best}, static_cast<int>(axis), monitor_) >
+                          0) == (up == last)) {
       best = p;
     }
   }
@@ -322,9 +325,9 @@ RegionVertices VertexFinder::finish() {
 
 RegionVertices region_vertices(ConvolutionFacets& facets, const BoxTree& tree, FacetPyramids& pyramids,
                                const SurvivingIntervals& intervals, const SumMembership& membership,
-                               std::span<const SaddlePoint> saddles, unsigned threads,
+                               std::span<const SaddlePoint> saddles, unsigned threads, const Monitor& monitor,
                                const std::function<void(double)>& poll) {
-  VertexFinder finder(facets, tree, pyramids, intervals, membership, threads);
+  VertexFinder finder(facets, tree, pyramids, intervals, membership, threads, monitor);
   finder.add_points(saddles, poll);
   return finder.finish();
 }

@@ -23,7 +23,8 @@ Ring starting_at(const Ring& ring, std::uint32_t vertex) {
 
 class Merger {
  public:
-  Merger(const Complex& complex, std::vector<CellBody>& bodies) : c_(complex), bodies_(bodies) {}
+  Merger(const Complex& complex, std::vector<CellBody>& bodies, const Monitor& monitor)
+      : c_(complex), bodies_(bodies), monitor_(monitor) {}
 
   void run() {
     for (std::uint32_t b = 0; b < bodies_.size(); ++b) enter(b);
@@ -98,7 +99,7 @@ class Merger {
       }
       const Ring& ring = b.faces[of_b].ring;
       const auto w = std::find_if(ring.begin(), ring.end(), [u, v](std::uint32_t x) { return x != u && x != v; });
-      if (side_of_plane(c_.planes, a.faces[of_a].plane, c_.points, PointId(*w)) > 0) return std::nullopt;
+      if (side_of_plane(c_.planes, a.faces[of_a].plane, c_.points, PointId(*w), monitor_) > 0) return std::nullopt;
     }
     CellBody result;
     std::set<std::size_t> used = {g};
@@ -148,6 +149,7 @@ class Merger {
 
   const Complex& c_;
   std::vector<CellBody>& bodies_;
+  Monitor monitor_;
   std::map<Ring, std::vector<std::uint32_t>> holders_;  // sorted corners of a face -> bodies with that face
 };
 
@@ -172,9 +174,9 @@ ConvexCell to_cell(const Complex& complex, const CellBody& body) {
   return cell;
 }
 
-std::vector<CellBody> merged(const Complex& complex, std::vector<CellBody> bodies) {
+std::vector<CellBody> merged(const Complex& complex, std::vector<CellBody> bodies, const Monitor& monitor) {
   if (bodies.size() < 2) return bodies;
-  Merger(complex, bodies).run();
+  Merger(complex, bodies, monitor).run();
   std::erase_if(bodies, [](const CellBody& body) { return body.faces.empty(); });
   return bodies;
 }

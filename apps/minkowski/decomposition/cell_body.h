@@ -27,6 +27,6 @@ ConvexCell to_cell(const Complex& complex, const CellBody& body);
 /// Unites pairs of bodies that have a whole face in common and whose union is convex until there are none. The
 /// union of all stays the same, and so does whether their interiors are disjoint. The first body of each
 /// union keeps its place. O(n log n) for bodies with faces of bounded size.
-std::vector<CellBody> merged(const Complex& complex, std::vector<CellBody> bodies);
+std::vector<CellBody> merged(const Complex& complex, std::vector<CellBody> bodies, const Monitor& monitor);
 
 }  // namespace nef::minkowski

@@ -29,8 +29,9 @@ struct CellReader::Carriers {
   std::vector<Faces> of_facet, of_halfedge, of_vertex;
 };
 
-CellReader::CellReader(const Complex& complex)
+CellReader::CellReader(const Complex& complex, const Monitor& monitor)
     : complex_(complex),
+      monitor_(monitor),
       facets_of_volume_(complex.volume_count()),
       facet_taken_(complex.facet_count(), 0),
       halfedge_taken_(complex.svertex_count(), 0),
@@ -266,7 +267,7 @@ std::vector<ConvexCell> CellReader::solids() {
     }
   }
   std::vector<ConvexCell> cells;
-  for (const CellBody& body : merged(complex_, std::move(closed))) cells.push_back(to_cell(complex_, body));
+  for (const CellBody& body : merged(complex_, std::move(closed), monitor_)) cells.push_back(to_cell(complex_, body));
   std::move(others.begin(), others.end(), std::back_inserter(cells));
   return cells;
 }
@@ -279,7 +280,9 @@ std::vector<ConvexCell> CellReader::open_solids() {
     bodies.push_back(body());
   }
   std::vector<ConvexCell> cells;
-  for (const CellBody& body : merged(complex_, std::move(bodies))) cells.push_back(opened(to_cell(complex_, body)));
+  for (const CellBody& body : merged(complex_, std::move(bodies), monitor_)) {
+    cells.push_back(opened(to_cell(complex_, body)));
+  }
   return cells;
 }
 
@@ -287,7 +290,7 @@ std::vector<FacetId> CellReader::facets_to_cut() const {
   std::vector<FacetId> result;
   for (const FacetId f : complex_.facets.ids()) {
     if (facet_taken_[f] != 0 || !selected(complex_.facets[f].mark)) continue;
-    if (!reflex_corners(complex_, f).empty()) result.push_back(f);
+    if (!reflex_corners(complex_, f, monitor_).empty()) result.push_back(f);
   }
   return result;
 }
@@ -303,7 +306,7 @@ ConvexCell CellReader::polygon(FacetId facet) {
     const SVertex& forth = complex_.svertex(complex_.corner_halfedge(corners[k]));
     const SVertex& back = complex_.svertex(complex_.corner_back_halfedge(corners[k]));
     if (orientation_on_circle(complex_.planes, f.plane, Direction::cross(complex_.planes, forth.p, forth.q),
-                              Direction::cross(complex_.planes, back.p, back.q)) != 0) {
+                              Direction::cross(complex_.planes, back.p, back.q), monitor_) != 0) {
       extreme.push_back(k);
     }
   }

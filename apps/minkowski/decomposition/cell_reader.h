@@ -11,6 +11,7 @@
 
 #include "apps/minkowski/convex/convex_cell.h"
 #include "apps/minkowski/decomposition/cell_body.h"
+#include "nef/base/monitor.h"
 #include "nef/complex/complex.h"
 
 namespace nef::minkowski {
@@ -21,7 +22,7 @@ namespace nef::minkowski {
 class CellReader {
  public:
   /// The complex must outlive the reader.
-  explicit CellReader(const Complex& complex);
+  CellReader(const Complex& complex, const Monitor& monitor);
 
   /// The cells of dimension 3 with their marks; closed ones are merged where their union is convex. To be
   /// called first.
@@ -53,6 +54,7 @@ class CellReader {
   ConvexCell segment(HalfedgeId halfedge);
 
   const Complex& complex_;
+  Monitor monitor_;
   IndexedVector<VolumeId, std::vector<FacetId>> facets_of_volume_;
   IndexedVector<FacetId, std::uint8_t> facet_taken_;
   IndexedVector<HalfedgeId, std::uint8_t> halfedge_taken_;

@@ -22,16 +22,16 @@ void require_bounded(const Polyhedron& a, const char* what) {
                          "intersect it with a box first");
 }
 
-std::vector<ConvexCell> decompose(const Polyhedron& a) {
+std::vector<ConvexCell> decompose(const Polyhedron& a, const Monitor& monitor) {
   require_bounded(a, "the set to decompose");
-  return decompose_along(a, wall_axis(a.complex()));
+  return decompose_along(a, wall_axis(a.complex(), monitor), monitor);
 }
 
-std::vector<ConvexCell> decompose_along(const Polyhedron& a, std::size_t axis) {
+std::vector<ConvexCell> decompose_along(const Polyhedron& a, std::size_t axis, const Monitor& monitor) {
   require_bounded(a, "the set to decompose");
-  Polyhedron walled = erect_walls(a, axis);
+  Polyhedron walled = erect_walls(a, axis, monitor);
   {
-    CellReader reader(walled.complex());
+    CellReader reader(walled.complex(), monitor);
     std::vector<ConvexCell> cells = reader.solids();
     const std::vector<FacetId> to_cut = reader.facets_to_cut();
     if (to_cut.empty()) {
@@ -39,9 +39,9 @@ std::vector<ConvexCell> decompose_along(const Polyhedron& a, std::size_t axis) {
       std::move(flat.begin(), flat.end(), std::back_inserter(cells));
       return cells;
     }
-    walled = cut_facets(walled, to_cut);
+    walled = cut_facets(walled, to_cut, monitor);
   }
-  CellReader reader(walled.complex());
+  CellReader reader(walled.complex(), monitor);
   std::vector<ConvexCell> cells = reader.solids();
   NEF_ASSERT(reader.facets_to_cut().empty());
   std::vector<ConvexCell> flat = reader.flat_cells();
@@ -49,10 +49,10 @@ std::vector<ConvexCell> decompose_along(const Polyhedron& a, std::size_t axis) {
   return cells;
 }
 
-std::vector<ConvexCell> decompose_open(const Polyhedron& a) {
+std::vector<ConvexCell> decompose_open(const Polyhedron& a, const Monitor& monitor) {
   require_bounded(a, "the set to decompose");
-  const Polyhedron walled = erect_walls(a, wall_axis(a.complex()));
-  return CellReader(walled.complex()).open_solids();
+  const Polyhedron walled = erect_walls(a, wall_axis(a.complex(), monitor), monitor);
+  return CellReader(walled.complex(), monitor).open_solids();
 }
 
 bool is_full_dimensional(const Polyhedron& a) { return is_full_dimensional_set(a.complex()); }
@@ -63,8 +63,8 @@ bool is_point(const Polyhedron& a) {
          c.volumes[kOuterVolume].mark == 0;
 }
 
-Polyhedron negate(const Polyhedron& a) {
-  return transform(a, AffineMap::scale({Rational(-1), Rational(-1), Rational(-1)}));
+Polyhedron negate(const Polyhedron& a, const Monitor& monitor) {
+  return transform(a, AffineMap::scale({Rational(-1), Rational(-1), Rational(-1)}), monitor);
 }
 
 namespace {
@@ -72,13 +72,13 @@ namespace {
 // Convex iff the relative interior of the hull belongs to the set (its closure does not exceed the
 // hull) and what belongs to each facet of the hull is convex: of two points not in a common facet,
 // all between them is inside.
-bool is_convex_set(const Polyhedron& a) {
+bool is_convex_set(const Polyhedron& a, const Monitor& monitor) {
   const Complex& c = a.complex();
   std::vector<Rational3> points;
   for (const VertexId v : c.vertex_ids()) points.push_back(c.points.rational(point_of(v)));
   if (points.empty()) return true;
-  const ConvexCell hull = hull_cell(points);
-  if (!subtract(to_polyhedron(opened(hull)), a).is_empty()) return false;
+  const ConvexCell hull = hull_cell(points, monitor);
+  if (!subtract(to_polyhedron(opened(hull), monitor), a, 1, monitor).is_empty()) return false;
   if (hull.dimension < 2) return true;
   for (std::size_t f = 0; f < hull.mesh.face_count(); ++f) {
     const auto face = hull.mesh.face(f);
@@ -88,7 +88,7 @@ bool is_convex_set(const Polyhedron& a) {
       for (std::size_t i = 0; i < (hull.dimension == 3 ? face.size() : 2); ++i) {
         part.push_back(hull.mesh.vertices[face[(k + i) % face.size()]]);
       }
-      if (!is_convex_set(intersect(a, convex_hull(part)))) return false;
+      if (!is_convex_set(intersect(a, convex_hull(part, monitor), 1, monitor), monitor)) return false;
     }
   }
   return true;
@@ -96,11 +96,11 @@ bool is_convex_set(const Polyhedron& a) {
 
 }  // namespace
 
-bool is_convex(const Polyhedron& a) {
+bool is_convex(const Polyhedron& a, const Monitor& monitor) {
   require_bounded(a, "the set");
   if (a.is_empty() || is_point(a)) return true;
   // A closed set with reflex edges would be cut into several solids; asking is cheaper than cutting.
-  return is_convex_set(a);
+  return is_convex_set(a, monitor);
 }
 
 }  // namespace nef::minkowski

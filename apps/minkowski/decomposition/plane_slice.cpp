@@ -60,8 +60,9 @@ int compare_heights(const SliceSegment& a, const SliceSegment& b, const Rational
   return cmp(a.height(at), b.height(at));
 }
 
-PlaneSlicer::PlaneSlicer(const Complex& complex)
+PlaneSlicer::PlaneSlicer(const Complex& complex, const Monitor& monitor)
     : complex_(complex),
+      monitor_(monitor),
       convex_(complex.facet_count(), -1),
       points_(complex.vertex_count()),
       known_(complex.vertex_count(), 0),
@@ -86,7 +87,7 @@ bool PlaneSlicer::convex(FacetId facet) {
   if (convex_[facet] < 0) {
     const Facet& f = complex_.facets[facet];
     const bool triangle = f.cycle_count == 1 && f.isolated_count == 0 && complex_.corners_of(f).size() == 3;
-    convex_[facet] = triangle || reflex_corners(complex_, facet).empty() ? 1 : 0;
+    convex_[facet] = triangle || reflex_corners(complex_, facet, monitor_).empty() ? 1 : 0;
   }
   return convex_[facet] != 0;
 }
@@ -105,7 +106,8 @@ void PlaneSlicer::begin(const SliceFrame& frame) {
 int PlaneSlicer::side(VertexId vertex) {
   if (side_slice_[vertex] != slice_) {
     side_slice_[vertex] = slice_;
-    side_[vertex] = static_cast<std::int8_t>(side_of_plane(planes_, plane_, complex_.points, point_of(vertex)));
+    side_[vertex] =
+        static_cast<std::int8_t>(side_of_plane(planes_, plane_, complex_.points, point_of(vertex), monitor_));
   }
   return side_[vertex];
 }

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/complex/complex.h"
 #include "nef/geometry/box_tree.h"
 
@@ -47,7 +48,7 @@ struct SliceUpright {
 /// Cuts one complex, which must not change and must outlive it, with many planes.
 class PlaneSlicer {
  public:
-  explicit PlaneSlicer(const Complex& complex);
+  PlaneSlicer(const Complex& complex, const Monitor& monitor);
 
   /// Begins a new slice.
   void begin(const SliceFrame& frame);
@@ -73,6 +74,7 @@ class PlaneSlicer {
   bool convex(FacetId facet);
 
   const Complex& complex_;
+  Monitor monitor_;
   std::vector<Box> facet_boxes_;
   BoxTree facets_;
   IndexedVector<FacetId, std::int8_t> convex_;  // per facet: 1 yes, 0 no, -1 not asked yet

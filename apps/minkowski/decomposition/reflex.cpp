@@ -17,7 +17,7 @@ Direction axis_direction(std::size_t axis) {
 // takes more than a half-turn to `second`. The rest, from `second` on to `first`, is less than a
 // half-turn: it is where the form of second's plane is >= 0 and that of first's is <= 0.
 std::array<bool, 2> inside_wedge(const Complex& complex, const Direction& d, PlaneId first, PlaneId second,
-                                 std::size_t axis) {
+                                 std::size_t axis, const Monitor& monitor) {
   std::array<bool, 2> inside{true, true};
   for (int k = 0; k < 2; ++k) {
     const int way = k == 0 ? -1 : 1;
@@ -26,7 +26,8 @@ std::array<bool, 2> inside_wedge(const Complex& complex, const Direction& d, Pla
       inside[i] = way * oriented_sign(complex, second, axis) < 0 || way * oriented_sign(complex, first, axis) > 0;
     } else if (oriented_sign(complex, first, axis) == 0) {
       // One facet only, and parallel to the axis: it leaves the edge along n x d.
-      inside[i] = way * sign_of_determinant(axis_direction(axis), Direction::normal(complex.planes, first), d) < 0;
+      inside[i] =
+          way * sign_of_determinant(axis_direction(axis), Direction::normal(complex.planes, first), d, monitor) < 0;
     }
   }
   return inside;
@@ -53,7 +54,7 @@ std::size_t cross_axis(const Complex& complex, PlaneId plane, std::size_t axis) 
   return plane.valid() && complex.planes.coefficient(plane, y).sign() != 0 ? x : y;
 }
 
-std::vector<ReflexEdge> reflex_edges(const Complex& complex, std::size_t axis) {
+std::vector<ReflexEdge> reflex_edges(const Complex& complex, std::size_t axis, const Monitor& monitor) {
   std::vector<ReflexEdge> result;
   for (const HalfedgeId h : complex.halfedge_ids()) {
     if (complex.twin[h] < h) continue;
@@ -78,14 +79,14 @@ std::vector<ReflexEdge> reflex_edges(const Complex& complex, std::size_t axis) {
       const std::uint32_t next = map.next_around(e);
       const PlaneId first = map.shalfedges[e].plane;
       const PlaneId second = map.shalfedges[next].plane;
-      const int turn = orientation_around(complex.planes, d, first, second);
+      const int turn = orientation_around(complex.planes, d, first, second, monitor);
       const bool reflex = turn < 0 || (turn == 0 && e == next);
       if (reflex && selected(map.sfaces[map.shalfedges[e].sface].mark)) {
         edge.volume = complex.sface_volume(vertex.sfaces + map.shalfedges[e].sface);
         if (edge.vertical) {
           edge.cross_wall = {prolonging(complex, d, first, axis), prolonging(complex, d, second, axis)};
         } else {
-          edge.inside = inside_wedge(complex, d, first, second, axis);
+          edge.inside = inside_wedge(complex, d, first, second, axis, monitor);
         }
         result.push_back(edge);
       }
@@ -111,7 +112,7 @@ Direction cut_direction(const Complex& complex, PlaneId plane) {
   return g.is_zero() ? Direction::cross(n, axis_direction(1)) : g;
 }
 
-std::vector<ReflexCorner> reflex_corners(const Complex& complex, FacetId facet) {
+std::vector<ReflexCorner> reflex_corners(const Complex& complex, FacetId facet, const Monitor& monitor) {
   std::vector<ReflexCorner> result;
   const Facet& f = complex.facets[facet];
   const Direction g = cut_direction(complex, f.plane);
@@ -129,12 +130,12 @@ std::vector<ReflexCorner> reflex_corners(const Complex& complex, FacetId facet) 
     const Direction to = direction(back);
     ReflexCorner reflex{complex.shalfedge_vertex(corner), {true, true}};
     if (forth == back) {
-      for (std::size_t k = 0; k < 2; ++k) reflex.inside[k] = !same_direction(from, way[k]);
-    } else if (orientation_on_circle(complex.planes, f.plane, from, to) < 0) {
+      for (std::size_t k = 0; k < 2; ++k) reflex.inside[k] = !same_direction(from, way[k], monitor);
+    } else if (orientation_on_circle(complex.planes, f.plane, from, to, monitor) < 0) {
       for (std::size_t k = 0; k < 2; ++k) {
         // The rest of the turn, from `to` on to `from`, is less than a half-turn.
-        reflex.inside[k] = orientation_on_circle(complex.planes, f.plane, to, way[k]) < 0 ||
-                           orientation_on_circle(complex.planes, f.plane, way[k], from) < 0;
+        reflex.inside[k] = orientation_on_circle(complex.planes, f.plane, to, way[k], monitor) < 0 ||
+                           orientation_on_circle(complex.planes, f.plane, way[k], from, monitor) < 0;
       }
     } else {
       continue;

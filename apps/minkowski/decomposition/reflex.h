@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/complex/complex.h"
 
 namespace nef::minkowski {
@@ -35,7 +36,7 @@ struct ReflexEdge {
 std::size_t cross_axis(const Complex& complex, PlaneId plane, std::size_t axis);
 
 /// All reflex edges of volumes with a label for which (label & 1) is set, with regard to walls along `axis`. O(n).
-std::vector<ReflexEdge> reflex_edges(const Complex& complex, std::size_t axis);
+std::vector<ReflexEdge> reflex_edges(const Complex& complex, std::size_t axis, const Monitor& monitor);
 
 /// Vertices that are alone inside such a volume. O(n).
 std::vector<VertexId> lonely_vertices(const Complex& complex);
@@ -50,6 +51,6 @@ struct ReflexCorner {
 Direction cut_direction(const Complex& complex, PlaneId plane);
 
 /// All reflex corners of one facet; none iff the facet is convex. O(size of the facet).
-std::vector<ReflexCorner> reflex_corners(const Complex& complex, FacetId facet);
+std::vector<ReflexCorner> reflex_corners(const Complex& complex, FacetId facet, const Monitor& monitor);
 
 }  // namespace nef::minkowski

@@ -44,8 +44,8 @@ SliceFrame sight_frame(const Rational3& from, const Rational3& to, std::size_t a
 
 }  // namespace
 
-WallBuilder::WallBuilder(const Complex& complex, std::size_t axis)
-    : complex_(complex), axis_(axis), slicer_(complex), facets_of_volume_(complex.volume_count()) {
+WallBuilder::WallBuilder(const Complex& complex, std::size_t axis, const Monitor& monitor)
+    : complex_(complex), axis_(axis), slicer_(complex, monitor), facets_of_volume_(complex.volume_count()) {
   for (const FacetId f : complex.facets.ids()) {
     const Facet& facet = complex.facets[f];
     facets_of_volume_[facet.volume_above].push_back(f);

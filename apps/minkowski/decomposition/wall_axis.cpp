@@ -60,8 +60,9 @@ bool cross(const WallFoot& a, const WallFoot& b, std::size_t axis) {
 
 class CellEstimate {
  public:
-  CellEstimate(const Complex& complex, std::size_t axis) : c_(complex), axis_(axis) {
-    for (const ReflexEdge& edge : reflex_edges(complex, axis)) add(edge);
+  CellEstimate(const Complex& complex, std::size_t axis, const Monitor& monitor)
+      : c_(complex), axis_(axis), monitor_(monitor) {
+    for (const ReflexEdge& edge : reflex_edges(complex, axis, monitor)) add(edge);
   }
 
   [[nodiscard]] std::size_t cells() const { return 1 + vertical_ + walls_ - corners() + gaps() + crossings(); }
@@ -92,7 +93,7 @@ class CellEstimate {
   void add_end(const Corner& corner, const Direction& d) {
     const auto [at, is_new] = ends_.try_emplace(corner);
     if (is_new) {
-      const auto place = locate(c_.planes, c_.sphere_map(corner.first), along(axis_, corner.second));
+      const auto place = locate(c_.planes, c_.sphere_map(corner.first), along(axis_, corner.second), monitor_);
       at->second.inside = place.kind == SphereLocation::Kind::kSFace;
     }
     if (at->second.inside) at->second.walls.push_back(d);
@@ -112,7 +113,7 @@ class CellEstimate {
       for (std::size_t i = 0; i < ends.walls.size(); ++i) {
         bool gap = true;
         for (std::size_t j = 0; gap && j < ends.walls.size(); ++j) {
-          gap = j == i || sign_of_determinant(e, ends.walls[i], ends.walls[j]) < 0;
+          gap = j == i || sign_of_determinant(e, ends.walls[i], ends.walls[j], monitor_) < 0;
         }
         if (!gap) continue;
         ++count;
@@ -141,6 +142,7 @@ class CellEstimate {
 
   const Complex& c_;
   std::size_t axis_;
+  Monitor monitor_;
   std::size_t walls_ = 0;
   std::size_t vertical_ = 0;
   std::array<std::vector<WallFoot>, 2> feet_;  // of walls that go down, up
@@ -152,11 +154,11 @@ struct Choice {
   std::size_t cells = 0;
 };
 
-Choice best_choice(const Complex& complex) {
+Choice best_choice(const Complex& complex, const Monitor& monitor) {
   Choice best;
   std::size_t most_vertical = 0;
   for (const std::size_t axis : {2U, 0U, 1U}) {
-    const CellEstimate estimate(complex, axis);
+    const CellEstimate estimate(complex, axis, monitor);
     const std::size_t cells = estimate.cells();
     // Walls of vertical edges are often one wall.
     const bool better = cells < best.cells || (cells == best.cells && estimate.vertical_edges() > most_vertical);
@@ -170,8 +172,10 @@ Choice best_choice(const Complex& complex) {
 
 }  // namespace
 
-std::size_t wall_axis(const Complex& complex) { return best_choice(complex).axis; }
+std::size_t wall_axis(const Complex& complex, const Monitor& monitor) { return best_choice(complex, monitor).axis; }
 
-std::size_t estimated_cells(const Complex& complex) { return best_choice(complex).cells; }
+std::size_t estimated_cells(const Complex& complex, const Monitor& monitor) {
+  return best_choice(complex, monitor).cells;
+}
 
 }  // namespace nef::minkowski

@@ -26,7 +26,7 @@ namespace nef::minkowski {
 /// Erects walls in one complex, which must not change and must outlive it.
 class WallBuilder {
  public:
-  WallBuilder(const Complex& complex, std::size_t axis);
+  WallBuilder(const Complex& complex, std::size_t axis, const Monitor& monitor);
 
   /// Appends the sight walls of a reflex edge that is not vertical, one or two faces, to a mesh.
   /// O(k^2) for k facets and edges over or under the edge.

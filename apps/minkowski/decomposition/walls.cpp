@@ -19,11 +19,12 @@ namespace nef::minkowski {
 namespace {
 
 // Inside the set, what meets `parts` gets `bit`; nothing is added outside of it.
-Polyhedron insert(const Polyhedron& a, const Polyhedron& parts, LabelId bit) {
-  return overlay(a, parts, [bit](LabelId own, LabelId part) -> LabelId {
+Polyhedron insert(const Polyhedron& a, const Polyhedron& parts, LabelId bit, const Monitor& monitor) {
+  const auto with_bit = [bit](LabelId own, LabelId part) -> LabelId {
     if ((own & kSelected) == 0 || own == kOutside) return own;
     return part != 0 ? static_cast<LabelId>(own | bit) : own;
-  });
+  };
+  return overlay(a, parts, with_bit, 1, monitor);
 }
 
 // A missing point inside a volume gets the widest segment across the axis through it; walls over and under
@@ -73,12 +74,12 @@ void erect_cross_walls(const std::vector<ReflexEdge>& edges, WallBuilder& builde
 }
 
 // The walls of one phase; none if every selected volume is convex.
-Mesh next_walls(const Polyhedron& a, std::size_t axis) {
-  const std::vector<ReflexEdge> edges = reflex_edges(a.complex(), axis);
+Mesh next_walls(const Polyhedron& a, std::size_t axis, const Monitor& monitor) {
+  const std::vector<ReflexEdge> edges = reflex_edges(a.complex(), axis, monitor);
   const std::vector<VertexId> points = lonely_vertices(a.complex());
   Mesh walls;
   if (edges.empty() && points.empty()) return walls;
-  WallBuilder builder(a.complex(), axis);
+  WallBuilder builder(a.complex(), axis, monitor);
   for (const VertexId v : points) erect_for_point(a, v, axis, builder, walls);
   for (const ReflexEdge& e : edges) {
     if (!e.vertical) builder.erect(e, walls);
@@ -139,36 +140,38 @@ class FacetRays {
 
 }  // namespace
 
-Polyhedron erect_walls(const Polyhedron& a, std::size_t axis) {
+Polyhedron erect_walls(const Polyhedron& a, std::size_t axis, const Monitor& monitor) {
   Polyhedron result = a;
   // Two phases do for what has no missing points; the walls of a phase may meet those of another
   // kind at points that were missing, hence some slack. Each round removes reflex edges for good.
   for (int round = 0; round < 8; ++round) {
-    const Mesh walls = next_walls(result, axis);
+    const Mesh walls = next_walls(result, axis, monitor);
     if (walls.face_count() == 0) return result;
-    result = insert(result, from_mesh(walls, MeshOptions{.strict = true, .as_surface = true, .check = false}), kWall);
+    result = insert(
+        result, from_mesh(walls, MeshOptions{.strict = true, .as_surface = true, .check = false, .monitor = monitor}),
+        kWall, monitor);
   }
-  NEF_ASSERT(next_walls(result, axis).face_count() == 0);
+  NEF_ASSERT(next_walls(result, axis, monitor).face_count() == 0);
   return result;
 }
 
-Polyhedron cut_facets(const Polyhedron& a, std::span<const FacetId> facets) {
+Polyhedron cut_facets(const Polyhedron& a, std::span<const FacetId> facets, const Monitor& monitor) {
   const Complex& complex = a.complex();
   std::vector<Polyhedron> cuts;
   for (const FacetId f : facets) {
     const FacetRays rays(complex, f);
     const Integer3 d = cut_direction(complex, complex.facets[f].plane).integers();
-    for (const ReflexCorner& corner : reflex_corners(complex, f)) {
+    for (const ReflexCorner& corner : reflex_corners(complex, f, monitor)) {
       const Rational3 p = complex.points.rational(point_of(corner.vertex));
       for (std::size_t k = 0; k < 2; ++k) {
         if (!corner.inside[k]) continue;
         const int way = k == 0 ? -1 : 1;
         const Rational3 g = {Rational(way * d[0]), Rational(way * d[1]), Rational(way * d[2])};
-        cuts.push_back(make_segment(p, rays.first_hit(p, g)));
+        cuts.push_back(make_segment(p, rays.first_hit(p, g), monitor));
       }
     }
   }
-  return insert(a, unite_all(cuts), kCut);
+  return insert(a, unite_all(cuts, 1, monitor), kCut, monitor);
 }
 
 }  // namespace nef::minkowski

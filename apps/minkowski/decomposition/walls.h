@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <span>
 
+#include "nef/base/monitor.h"
 #include "nef/complex/ids.h"
 #include "nef/forward.h"
 
@@ -22,9 +23,9 @@ inline constexpr LabelId kCut = 4;
 /// above. First walls along the axis (0 to 2) for every reflex edge that is not parallel to it (which leaves volumes
 /// that each line along it meets in one piece), then upright walls for the vertical reflex edges that
 /// are left or were made. A set without reflex edges is returned as it is.
-Polyhedron erect_walls(const Polyhedron& a, std::size_t axis);
+Polyhedron erect_walls(const Polyhedron& a, std::size_t axis, const Monitor& monitor);
 
 /// The same set with cuts in the given facets, so that they become convex.
-Polyhedron cut_facets(const Polyhedron& a, std::span<const FacetId> facets);
+Polyhedron cut_facets(const Polyhedron& a, std::span<const FacetId> facets, const Monitor& monitor);
 
 }  // namespace nef::minkowski

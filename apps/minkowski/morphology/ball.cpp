@@ -48,8 +48,8 @@ Rational root_above(const Rational& x) {
 
 }  // namespace
 
-BallApproximation ball_approximation(const Rational& radius, int splits, Side side) {
-  BallApproximation result{ball(radius, splits), 0};
+BallApproximation ball_approximation(const Rational& radius, int splits, Side side, const Monitor& monitor) {
+  BallApproximation result{ball(radius, splits, monitor), 0};
   const Rational factor = root_above(Rational(radius * radius / least_squared_distance(result.cell.mesh)));
   if (side == Side::kInner) {
     // Facets are at least radius / factor away.
@@ -64,11 +64,12 @@ BallApproximation ball_approximation(const Rational& radius, int splits, Side si
   return result;
 }
 
-Polyhedron inner_ball(const Rational& radius, const Rational& splits) {
+Polyhedron inner_ball(const Rational& radius, const Rational& splits, const Monitor& monitor) {
   if (splits.get_den() != 1 || splits < 1 || splits > 64) {
     throw InputError("ball(r, n): n is a whole number from 1 to 64");
   }
-  return to_polyhedron(ball_approximation(radius, static_cast<int>(splits.get_num().get_si()), Side::kInner).cell);
+  return to_polyhedron(
+      ball_approximation(radius, static_cast<int>(splits.get_num().get_si()), Side::kInner, monitor).cell, monitor);
 }
 
 }  // namespace nef::minkowski

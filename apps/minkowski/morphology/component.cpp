@@ -138,7 +138,7 @@ Complex labelled(const Complex& original, const Connection& connection, const st
 
 }  // namespace
 
-Polyhedron component_of(const Polyhedron& a, const std::optional<Rational3>& point) {
+Polyhedron component_of(const Polyhedron& a, const std::optional<Rational3>& point, const Monitor& monitor) {
   const Complex& c = a.complex();
   Connection connection(c);
   const std::size_t items = c.vertex_count() + c.svertex_count() + c.facet_count() + c.volume_count();
@@ -160,8 +160,8 @@ Polyhedron component_of(const Polyhedron& a, const std::optional<Rational3>& poi
   if (!any) return {};
   std::vector<std::uint8_t> kept(items, 0);
   for (std::uint32_t item = 0; item < items; ++item) kept[item] = wanted[connection.component(item)];
-  return overlay(Polyhedron(labelled(c, connection, kept)), Polyhedron::everything(),
-                 [](LabelId own, LabelId) -> LabelId { return own == kElsewhere ? 0 : own; });
+  const auto without_others = [](LabelId own, LabelId) -> LabelId { return own == kElsewhere ? 0 : own; };
+  return overlay(Polyhedron(labelled(c, connection, kept)), Polyhedron::everything(), without_others, 1, monitor);
 }
 
 }  // namespace nef::minkowski

@@ -35,36 +35,38 @@ std::vector<std::vector<Rational3>> facets_of(const ConvexCell& cell) {
 }
 
 // The hull of a closed set need not be closed: that of a line and a point is an open strip, the line and the point.
-Polyhedron unbounded_hull(const Polyhedron& a) {
+Polyhedron unbounded_hull(const Polyhedron& a, const Monitor& monitor) {
   const SpannedSet span = hull_span(a);
-  std::vector<Polyhedron> parts = {to_polyhedron(span, false)};
-  for (const Polyhedron& plane : border_planes(span)) parts.push_back(hull(intersect(a, plane)));
-  return unite_all(parts);
+  std::vector<Polyhedron> parts = {to_polyhedron(span, false, monitor)};
+  for (const Polyhedron& plane : border_planes(span, monitor)) {
+    parts.push_back(hull(intersect(a, plane, 1, monitor), monitor));
+  }
+  return unite_all(parts, 1, monitor);
 }
 
 }  // namespace
 
 // The relative interior of the closure's hull belongs to the hull of the set. What belongs of a face F of the closure's
 // hull is the hull of what the set has in F.
-Polyhedron hull(const Polyhedron& a) {
+Polyhedron hull(const Polyhedron& a, const Monitor& monitor) {
   if (a.is_empty()) return a;
   if (is_cobounded(a)) return Polyhedron::everything();
-  if (!a.is_bounded()) return unbounded_hull(a);
+  if (!a.is_bounded()) return unbounded_hull(a, monitor);
   const std::vector<Rational3> points = vertices_of(a);
-  const ConvexCell cell = hull_cell(points);
-  if (cell.dimension == 0 || a.is_closed()) return to_polyhedron(cell);
-  if (cell.dimension == 3 && a.is_open()) return to_polyhedron(opened(cell));
-  std::vector<Polyhedron> parts = {to_polyhedron(opened(cell))};
+  const ConvexCell cell = hull_cell(points, monitor);
+  if (cell.dimension == 0 || a.is_closed()) return to_polyhedron(cell, monitor);
+  if (cell.dimension == 3 && a.is_open()) return to_polyhedron(opened(cell), monitor);
+  std::vector<Polyhedron> parts = {to_polyhedron(opened(cell), monitor)};
   for (const std::vector<Rational3>& facet : facets_of(cell)) {
-    parts.push_back(hull(intersect(a, convex_hull(facet))));
+    parts.push_back(hull(intersect(a, convex_hull(facet, monitor), 1, monitor), monitor));
   }
-  return unite_all(parts);
+  return unite_all(parts, 1, monitor);
 }
 
-std::optional<Rational> excess_of_hull(const Polyhedron& a) {
+std::optional<Rational> excess_of_hull(const Polyhedron& a, const Monitor& monitor) {
   if (!a.is_bounded() || a.is_empty()) return std::nullopt;
   const std::optional<Rational> own = volume(a);
-  const std::optional<Rational> of_hull = volume(to_polyhedron(hull_cell(vertices_of(a))));
+  const std::optional<Rational> of_hull = volume(to_polyhedron(hull_cell(vertices_of(a), monitor), monitor));
   if (!own || !of_hull || sgn(*of_hull) == 0) return std::nullopt;
   const Rational excess = (*of_hull - *own) / *of_hull;
   if (sgn(excess) == 0 || excess * 1000000000 > 1) return std::nullopt;

@@ -16,7 +16,7 @@ void require_tool(const Polyhedron& b) {
 }  // namespace
 
 Polyhedron erode(const Polyhedron& a, const Polyhedron& b, const MinkowskiOptions& options, MinkowskiReport* report) {
-  return complement(minkowski_sum(complement(a), negate(b), options, report));
+  return complement(minkowski_sum(complement(a), negate(b, options.monitor), options, report));
 }
 
 Polyhedron opening(const Polyhedron& a, const Polyhedron& b, const MinkowskiOptions& options, MinkowskiReport* report) {
@@ -35,23 +35,26 @@ Polyhedron offset(const Polyhedron& a, const Rational& radius, int splits, Side 
   // Eroding by more leaves less: the inner set of an erosion takes the outer ball.
   const bool grows = sgn(radius) > 0;
   const Side of_ball = grows == (side == Side::kInner) ? Side::kInner : Side::kOuter;
-  const Polyhedron ball = to_polyhedron(ball_approximation(abs(radius), splits, of_ball).cell);
+  const Polyhedron ball =
+      to_polyhedron(ball_approximation(abs(radius), splits, of_ball, options.monitor).cell, options.monitor);
   return grows ? minkowski_sum(a, ball, options, report) : erode(a, ball, options, report);
 }
 
 Polyhedron sweep(const Polyhedron& a, std::span<const Rational3> path, const MinkowskiOptions& options,
                  MinkowskiReport* report) {
   if (path.empty()) throw InputError("a sweep needs a path of at least one point");
-  std::vector<Polyhedron> way = {make_point(path[0])};
-  for (std::size_t k = 1; k < path.size(); ++k) way.push_back(make_segment(path[k - 1], path[k]));
-  return minkowski_sum(a, unite_all(way), options, report);
+  std::vector<Polyhedron> way = {make_point(path[0], options.monitor)};
+  for (std::size_t k = 1; k < path.size(); ++k) way.push_back(make_segment(path[k - 1], path[k], options.monitor));
+  return minkowski_sum(a, unite_all(way, 1, options.monitor), options, report);
 }
 
 Polyhedron no_fit_set(const Polyhedron& a, const Polyhedron& b, const MinkowskiOptions& options,
                       MinkowskiReport* report) {
-  const Polyhedron turned = negate(b);
-  const Polyhedron contact = minkowski_sum(closure(a), closure(turned), options, report);
-  return subtract(contact, minkowski_sum(interior(a), interior(turned), options, report));
+  const Monitor& monitor = options.monitor;
+  const Polyhedron turned = negate(b, monitor);
+  const Polyhedron contact = minkowski_sum(closure(a, monitor), closure(turned, monitor), options, report);
+  const Polyhedron overlap = minkowski_sum(interior(a, monitor), interior(turned, monitor), options, report);
+  return subtract(contact, overlap, 1, monitor);
 }
 
 }  // namespace nef::minkowski

@@ -67,9 +67,10 @@ Penetration penetration(const Polyhedron& a, const Polyhedron& b, const Minkowsk
   if (a.is_empty() || b.is_empty()) throw InputError("one of the two sets is empty: there is nothing to separate");
   require_bounded(a, "the first set");
   require_bounded(b, "the second set");
-  const Polyhedron turned = negate(b);
+  const Monitor& monitor = options.monitor;
+  const Polyhedron turned = negate(b, monitor);
   Penetration result;
-  const Polyhedron overlapping = minkowski_sum(interior(a), interior(turned), options, report);
+  const Polyhedron overlapping = minkowski_sum(interior(a, monitor), interior(turned, monitor), options, report);
   const Rational3 origin;
   if (contains(overlapping, origin)) {
     result.kind = Penetration::Kind::kOverlapping;
@@ -78,7 +79,7 @@ Penetration penetration(const Polyhedron& a, const Polyhedron& b, const Minkowsk
     result.squared_length = out.squared_length;
     return result;
   }
-  const Polyhedron contact = minkowski_sum(closure(a), closure(turned), options, report);
+  const Polyhedron contact = minkowski_sum(closure(a, monitor), closure(turned, monitor), options, report);
   if (contains(contact, origin)) {
     result.kind = Penetration::Kind::kTouching;
     return result;

@@ -16,11 +16,11 @@ Reach reach(const Polyhedron& tool, const Polyhedron& part, const std::optional<
                      to_string((*from)[2]) + "): give a free position");
   }
   Reach result;
-  result.positions = component_of(free, from);
-  const Polyhedron swept = minkowski_sum(result.positions, closure(tool), options, report);
-  const Polyhedron skin = boundary(part);
-  result.touched = intersect(skin, swept);
-  result.untouched = subtract(skin, swept);
+  result.positions = component_of(free, from, options.monitor);
+  const Polyhedron swept = minkowski_sum(result.positions, closure(tool, options.monitor), options, report);
+  const Polyhedron skin = boundary(part, options.monitor);
+  result.touched = intersect(skin, swept, 1, options.monitor);
+  result.untouched = subtract(skin, swept, 1, options.monitor);
   return result;
 }
 

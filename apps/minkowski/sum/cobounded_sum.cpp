@@ -33,7 +33,7 @@ Corners roomy(const Corners& box) {
 
 bool is_cobounded(const Polyhedron& a) { return a.complex().volumes[kOuterVolume].mark == 1; }
 
-NearHoles near_holes(const Polyhedron& a, const Polyhedron& b) {
+NearHoles near_holes(const Polyhedron& a, const Polyhedron& b, const Monitor& monitor) {
   const std::optional<Corners> holes = bounding_box(complement(a));
   const std::optional<Corners> reach = bounding_box(b);
   NEF_ASSERT(holes && reach);
@@ -51,8 +51,9 @@ NearHoles near_holes(const Polyhedron& a, const Polyhedron& b) {
   }
   near = roomy(near);
   // Open with open, closed with closed: the cut must not bring marks that the sum of two solids would have to look at.
-  const Polyhedron box = make_box(near[0], near[1]);
-  return {intersect(a, a.is_open() ? interior(box) : box), complement(make_box(missed[0], missed[1]))};
+  const Polyhedron box = make_box(near[0], near[1], monitor);
+  return {intersect(a, a.is_open() ? interior(box, monitor) : box, 1, monitor),
+          complement(make_box(missed[0], missed[1], monitor))};
 }
 
 }  // namespace nef::minkowski

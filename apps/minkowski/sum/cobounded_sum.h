@@ -4,6 +4,7 @@
 // complement(A) + -B.
 #pragma once
 
+#include "nef/base/monitor.h"
 #include "nef/polyhedron.h"
 
 namespace nef::minkowski {
@@ -19,6 +20,6 @@ struct NearHoles {
 
 /// Takes the part of A that matters: x is missing from A + B iff all of x - B lies in holes of A, so a sum inside a box
 /// around the holes will do, for the price of a bounded one. A is not all of space, B is not empty. O(n).
-NearHoles near_holes(const Polyhedron& a, const Polyhedron& b);
+NearHoles near_holes(const Polyhedron& a, const Polyhedron& b, const Monitor& monitor);
 
 }  // namespace nef::minkowski

@@ -15,6 +15,7 @@
 #include "apps/minkowski/sum/strategy_choice.h"
 #include "nef/base/error.h"
 #include "nef/base/timing/phase_timer.h"
+#include "nef/base/timing/stopwatch.h"
 #include "nef/construct/construct.h"
 #include "nef/polyhedron.h"
 
@@ -28,24 +29,26 @@ struct Forbidden {
   Operand obstacles_inner, robot_thin;   // obstacles without borders against the robot's lower-dimensional parts
 };
 
-std::vector<Polyhedron> closures(std::span<const Polyhedron> sets) {
+std::vector<Polyhedron> closures(std::span<const Polyhedron> sets, const Monitor& monitor) {
   std::vector<Polyhedron> result;
-  for (const Polyhedron& set : sets) result.push_back(closure(set));
+  for (const Polyhedron& set : sets) result.push_back(closure(set, monitor));
   return result;
 }
 
 // What a thin robot must not meet with more than its border: each obstacle without its border, and their union without
 // its border, which closes the seams where obstacles touch. (A stick in the rim of a sheet is nothing in the union.)
-Polyhedron inner_of(std::span<const Polyhedron> closed, unsigned threads) {
-  std::vector<Polyhedron> inner{without_border(unite_all(closed, threads))};
+Polyhedron inner_of(std::span<const Polyhedron> closed, unsigned threads, const Monitor& monitor) {
+  std::vector<Polyhedron> inner{without_border(unite_all(closed, threads, monitor))};
   for (const Polyhedron& obstacle : closed) {
     if (!is_full_dimensional(obstacle)) inner.push_back(without_border(obstacle));
   }
-  return unite_all(inner, threads);
+  return unite_all(inner, threads, monitor);
 }
 
 // The lower-dimensional parts of a closed robot without its border.
-Polyhedron thin_parts(const Polyhedron& closed) { return subtract(without_border(closed), interior(closed)); }
+Polyhedron thin_parts(const Polyhedron& closed, const Monitor& monitor) {
+  return subtract(without_border(closed), interior(closed, monitor), 1, monitor);
+}
 
 void append(std::vector<ConvexCell>& to, std::vector<ConvexCell> from) {
   std::move(from.begin(), from.end(), std::back_inserter(to));
@@ -79,15 +82,16 @@ WithoutCells sums_without_cells(const Polyhedron& robot, std::span<const Polyhed
   result.why_others = "obstacles are convex, have few cells, or are not solid";
   const bool insist = options.strategy == UnionStrategy::kConvolution;
   if (!insist && options.strategy != UnionStrategy::kAuto) return result;
-  const Polyhedron robot_inside = interior(negate(robot));
+  const Monitor& monitor = options.monitor;
+  const Polyhedron robot_inside = interior(negate(robot, monitor), monitor);
   if (robot_inside.is_empty()) return result;
-  const std::size_t robot_cells = insist ? 0 : estimated_cells(robot_inside.complex());
+  const std::size_t robot_cells = insist ? 0 : estimated_cells(robot_inside.complex(), monitor);
   for (std::size_t i = 0; i < obstacles.size(); ++i) {
-    const Polyhedron closed = closure(obstacles[i]);
+    const Polyhedron closed = closure(obstacles[i], monitor);
     if (!is_full_dimensional(closed)) continue;
     const std::size_t vertices = closed.complex().vertex_count() * robot_inside.complex().vertex_count();
     if (!insist && vertices < 4 * kFewPairs) continue;
-    const std::size_t cells = insist ? 0 : estimated_cells(closed.complex());
+    const std::size_t cells = insist ? 0 : estimated_cells(closed.complex(), monitor);
     if (!insist && (cells < 2 || cells * robot_cells < kFewPairs)) continue;
     std::string why;
     std::optional<Polyhedron> sum =
@@ -104,48 +108,52 @@ WithoutCells sums_without_cells(const Polyhedron& robot, std::span<const Polyhed
 }
 
 Forbidden decompose_all(const Polyhedron& robot, std::span<const Polyhedron> obstacles,
-                        const std::vector<char>& is_done, unsigned threads) {
+                        const std::vector<char>& is_done, unsigned threads, const Monitor& monitor) {
   Forbidden result;
-  const Polyhedron turned = negate(robot);
-  const Polyhedron robot_inside = interior(turned);
+  const Polyhedron turned = negate(robot, monitor);
+  const Polyhedron robot_inside = interior(turned, monitor);
   if (!robot_inside.is_empty()) {
     std::vector<ConvexCell> solid;
     std::vector<ConvexCell> flat;
     for (std::size_t i = 0; i < obstacles.size(); ++i) {
       if (is_done[i] != 0) continue;
-      const Polyhedron closed = closure(obstacles[i]);
+      const Polyhedron closed = closure(obstacles[i], monitor);
       if (is_full_dimensional(closed)) {
-        append(solid, decompose_open(closed));
+        append(solid, decompose_open(closed, monitor));
       } else {
-        append(flat, decompose(closed));
+        append(flat, decompose(closed, monitor));
       }
     }
     std::stable_sort(flat.begin(), flat.end(),
                      [](const ConvexCell& a, const ConvexCell& b) { return a.dimension > b.dimension; });
-    if (!solid.empty()) result.robot_open = Operand(decompose_open(robot_inside));
-    if (!flat.empty()) result.robot_marked = Operand(decompose(robot_inside));
+    if (!solid.empty()) result.robot_open = Operand(decompose_open(robot_inside, monitor));
+    if (!flat.empty()) result.robot_marked = Operand(decompose(robot_inside, monitor));
     result.obstacles_open = Operand(std::move(solid));
     result.obstacles_flat = Operand(std::move(flat));
   }
   if (!is_full_dimensional(turned)) {
-    result.obstacles_inner = Operand(decompose(inner_of(closures(obstacles), threads)));
-    result.robot_thin = Operand(decompose(thin_parts(closure(turned))));
+    result.obstacles_inner = Operand(decompose(inner_of(closures(obstacles, monitor), threads, monitor), monitor));
+    result.robot_thin = Operand(decompose(thin_parts(closure(turned, monitor), monitor), monitor));
   }
   return result;
 }
 
-Polyhedron outside_of(const Polyhedron& forbidden, const std::optional<std::array<Rational3, 2>>& box) {
-  return box ? subtract(make_box((*box)[0], (*box)[1]), forbidden) : complement(forbidden);
+Polyhedron outside_of(const Polyhedron& forbidden, const std::optional<std::array<Rational3, 2>>& box,
+                      const Monitor& monitor) {
+  return box ? subtract(make_box((*box)[0], (*box)[1], monitor), forbidden, 1, monitor) : complement(forbidden);
 }
 
 // The definition, step by step.
 Polyhedron forbidden_of_unbounded(const Polyhedron& robot, std::span<const Polyhedron> obstacles,
                                   const MinkowskiOptions& options, MinkowskiReport& report) {
-  const std::vector<Polyhedron> closed = closures(obstacles);
-  const Polyhedron turned = closure(negate(robot));
-  Polyhedron entered = minkowski_sum(unite_all(closed, options.threads), interior(turned), options, &report);
+  const Monitor& monitor = options.monitor;
+  const std::vector<Polyhedron> closed = closures(obstacles, monitor);
+  const Polyhedron turned = closure(negate(robot, monitor), monitor);
+  Polyhedron entered =
+      minkowski_sum(unite_all(closed, options.threads, monitor), interior(turned, monitor), options, &report);
   if (is_full_dimensional(turned)) return entered;
-  return unite(entered, minkowski_sum(inner_of(closed, options.threads), thin_parts(turned), options, &report));
+  const Polyhedron inner = inner_of(closed, options.threads, monitor);
+  return unite(entered, minkowski_sum(inner, thin_parts(turned, monitor), options, &report), 1, monitor);
 }
 
 }  // namespace
@@ -158,15 +166,14 @@ Polyhedron configuration_space(const Polyhedron& robot, std::span<const Polyhedr
   if (robot.is_empty()) throw InputError("the robot is the empty set: it has no reference point to move");
   const auto bounded = [](const Polyhedron& set) { return set.is_bounded(); };
   if (!robot.is_bounded() || !std::all_of(obstacles.begin(), obstacles.end(), bounded)) {
-    return outside_of(forbidden_of_unbounded(robot, obstacles, options, r), box);
+    return outside_of(forbidden_of_unbounded(robot, obstacles, options, r), box, options.monitor);
   }
-  PredicateCounts all;
-  const PhaseTimer total(r.seconds_total, all);
+  const Stopwatch watch;
   WithoutCells without_cells = sums_without_cells(robot, obstacles, options, r);
   Forbidden parts;
   {
-    const PhaseTimer timer(r.seconds_decomposition, r.predicates_decomposition);
-    parts = decompose_all(robot, obstacles, without_cells.is_done, options.threads);
+    const PhaseTimer phase(r.seconds_decomposition, r.predicates_decomposition, options.monitor);
+    parts = decompose_all(robot, obstacles, without_cells.is_done, options.threads, phase.monitor());
   }
   r.cells_a += parts.obstacles_open.size() + parts.obstacles_flat.size() + parts.obstacles_inner.size();
   r.cells_b += std::max(parts.robot_open.size(), parts.robot_marked.size()) + parts.robot_thin.size();
@@ -179,8 +186,13 @@ Polyhedron configuration_space(const Polyhedron& robot, std::span<const Polyhedr
     const MinkowskiOptions last = part_of(options, obstacles.size(), obstacles.size() + 1);
     without_cells.sums.push_back(union_of_pair_sums_for(std::move(without_cells.why_others), products, last, r));
   }
-  const PhaseTimer timer(r.seconds_union, r.predicates_union);
-  return outside_of(unite_all(without_cells.sums, options.threads), box);
+  Polyhedron free;
+  {
+    const PhaseTimer phase(r.seconds_union, r.predicates_union, options.monitor);
+    free = outside_of(unite_all(without_cells.sums, options.threads, phase.monitor()), box, phase.monitor());
+  }
+  r.seconds_total += watch.seconds();
+  return free;
 }
 
 }  // namespace nef::minkowski

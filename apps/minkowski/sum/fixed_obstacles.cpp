@@ -6,7 +6,6 @@
 
 #include "apps/minkowski/decomposition/decomposition.h"
 #include "apps/minkowski/union/union_builder.h"
-#include "nef/base/interruption.h"
 #include "nef/construct/construct.h"
 
 namespace nef::minkowski {
@@ -32,32 +31,33 @@ std::vector<ConvexCell> reflected(std::span<const Mesh> robot, bool open) {
 }
 
 // The inside of a union of closed solids, walls between them included.
-std::vector<ConvexCell> inside_of(const std::vector<ConvexCell>& open_solids) {
+std::vector<ConvexCell> inside_of(const std::vector<ConvexCell>& open_solids, const Monitor& monitor) {
   if (open_solids.size() < 2) return open_solids;
   std::vector<Polyhedron> parts;
-  for (const ConvexCell& cell : open_solids) parts.push_back(to_polyhedron(closed(cell)));
-  return decompose(interior(unite_all(parts)));
+  for (const ConvexCell& cell : open_solids) parts.push_back(to_polyhedron(closed(cell), monitor));
+  return decompose(interior(unite_all(parts, 1, monitor), monitor), monitor);
 }
 
 }  // namespace
 
 FixedObstacles::FixedObstacles(std::span<const Polyhedron> obstacles,
-                               const std::optional<std::array<Rational3, 2>>& box, bool may_touch)
+                               const std::optional<std::array<Rational3, 2>>& box, bool may_touch,
+                               const Monitor& monitor)
     : may_touch_(may_touch), all_(Polyhedron::everything()) {
   if (box) {
     box_ = {(*box)[0], (*box)[1]};
-    all_ = make_box((*box)[0], (*box)[1]);
+    all_ = make_box((*box)[0], (*box)[1], monitor);
   }
   std::vector<ConvexCell> solid;
   for (const Polyhedron& obstacle : obstacles) {
-    const Polyhedron all = closure(obstacle);
-    const Polyhedron thick = all.is_regular() ? all : regularize(all);
-    for (ConvexCell& cell : decompose_open(thick)) {
+    const Polyhedron all = closure(obstacle, monitor);
+    const Polyhedron thick = all.is_regular() ? all : regularize(all, monitor);
+    for (ConvexCell& cell : decompose_open(thick, monitor)) {
       solid_boxes_.push_back(box_of(cell.mesh));
       solid.push_back(may_touch ? std::move(cell) : closed(std::move(cell)));
     }
     if (all.is_regular()) continue;
-    for (ConvexCell& cell : decompose(subtract(all, thick))) {
+    for (ConvexCell& cell : decompose(subtract(all, thick, 1, monitor), monitor)) {
       flat_boxes_.push_back(box_of(cell.mesh));
       flat_.push_back(closed(std::move(cell)));
     }
@@ -84,30 +84,31 @@ bool FixedObstacles::matters(const Box& a, const Box& b) const {
   return true;
 }
 
-Polyhedron FixedObstacles::free_positions(std::span<const Mesh> robot) const {
-  UnionBuilder forbidden(UnionStrategy::kAuto, 1, 0, [](double) { check_interruption(); });
+Polyhedron FixedObstacles::free_positions(std::span<const Mesh> robot, const Monitor& monitor) const {
+  const auto poll = [&monitor](double) { monitor.check_interruption(); };
+  UnionBuilder forbidden(UnionStrategy::kAuto, 1, 0, poll, monitor);
   const Operand pieces(reflected(robot, may_touch_));
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const Box box = box_of(pieces.cell(i).mesh);
     for (std::size_t k = 0; k < solid_.size(); ++k) {
       if (!matters(box, solid_boxes_[k])) continue;
-      check_interruption();
-      forbidden.add(convex_sum(solid_.diagram(k), pieces.diagram(i)));
+      monitor.check_interruption();
+      forbidden.add(convex_sum(solid_.diagram(k), pieces.diagram(i), monitor));
     }
   }
   if (!flat_.empty()) {
     // What is flat may lie in a wall between pieces of the robot.
     const std::vector<ConvexCell> all = reflected(robot, may_touch_);
-    for (const ConvexCell& cell : may_touch_ ? inside_of(all) : all) {
+    for (const ConvexCell& cell : may_touch_ ? inside_of(all, monitor) : all) {
       const Box box = box_of(cell.mesh);
       for (std::size_t k = 0; k < flat_.size(); ++k) {
         if (!matters(box, flat_boxes_[k])) continue;
-        check_interruption();
-        forbidden.add(convex_sum(flat_[k], cell));
+        monitor.check_interruption();
+        forbidden.add(convex_sum(flat_[k], cell, monitor));
       }
     }
   }
-  return subtract(all_, forbidden.finish());
+  return subtract(all_, forbidden.finish(), 1, monitor);
 }
 
 }  // namespace nef::minkowski

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "apps/minkowski/sum/pair_sums.h"
+#include "nef/base/monitor.h"
 #include "nef/polyhedron.h"
 
 namespace nef::minkowski {
@@ -20,11 +21,11 @@ class FixedObstacles {
   /// The obstacles must be bounded; they are taken closed. If `may_touch`, contact is free, as for configuration_space,
   /// else any common point is a collision. The free positions are those within `box`, if there is one.
   FixedObstacles(std::span<const Polyhedron> obstacles, const std::optional<std::array<Rational3, 2>>& box,
-                 bool may_touch);
+                 bool may_touch, const Monitor& monitor);
 
   /// The free positions of the origin of a robot that is the union of closed convex solids; with none, everything is
-  /// free. Sums that cannot reach the box are left out. Throws Interrupted if the thread is to stop.
-  [[nodiscard]] Polyhedron free_positions(std::span<const Mesh> robot) const;
+  /// free. Sums that cannot reach the box are left out. Throws Interrupted if `monitor` says so.
+  [[nodiscard]] Polyhedron free_positions(std::span<const Mesh> robot, const Monitor& monitor) const;
 
  private:
   struct Box {

@@ -19,19 +19,20 @@
 #include "nef/base/error.h"
 #include "nef/base/threads/parallel.h"
 #include "nef/base/timing/phase_timer.h"
+#include "nef/base/timing/stopwatch.h"
 
 namespace nef::minkowski {
 namespace {
 
-Polyhedron moved_by_point(const Polyhedron& a, const Polyhedron& point) {
-  return transform(a, AffineMap::translate(point.complex().points.rational(PointId(0U))));
+Polyhedron moved_by_point(const Polyhedron& a, const Polyhedron& point, const Monitor& monitor) {
+  return transform(a, AffineMap::translate(point.complex().points.rational(PointId(0U))), monitor);
 }
 
 // Sums that need no decomposition.
-std::optional<Polyhedron> simple_sum(const Polyhedron& a, const Polyhedron& b) {
+std::optional<Polyhedron> simple_sum(const Polyhedron& a, const Polyhedron& b, const Monitor& monitor) {
   if (a.is_empty() || b.is_empty()) return Polyhedron();
-  if (is_point(b)) return moved_by_point(a, b);
-  if (is_point(a)) return moved_by_point(b, a);
+  if (is_point(b)) return moved_by_point(a, b, monitor);
+  if (is_point(a)) return moved_by_point(b, a, monitor);
   if (a.is_everything() || b.is_everything()) return Polyhedron::everything();
   return std::nullopt;
 }
@@ -42,12 +43,12 @@ struct Operands {
 
 Operands decompose_both(const Polyhedron& a, const Polyhedron& b, const MinkowskiOptions& options,
                         MinkowskiReport& report) {
-  const PhaseTimer timer(report.seconds_decomposition, report.predicates_decomposition);
+  const PhaseTimer phase(report.seconds_decomposition, report.predicates_decomposition, options.monitor);
   const bool only_open = (a.is_open() || b.is_open()) && is_full_dimensional(a) && is_full_dimensional(b);
   Operands result;
-  parallel_for(2, options.threads, [&](std::size_t k) {
+  parallel_for(2, options.threads, phase.monitor(), [&](std::size_t k, const Monitor& own) {
     const Polyhedron& operand = k == 0 ? a : b;
-    (k == 0 ? result.a : result.b) = Operand(only_open ? decompose_open(operand) : decompose(operand));
+    (k == 0 ? result.a : result.b) = Operand(only_open ? decompose_open(operand, own) : decompose(operand, own));
   });
   report.cells_a += result.a.size();
   report.cells_b += result.b.size();
@@ -74,14 +75,14 @@ Polyhedron cobounded_sum(const Polyhedron& a, const Polyhedron& b, const Minkows
     report.choices.push_back({"none", "one operand is unbounded and does not fit into the other's complement"});
     return Polyhedron::everything();
   }
-  const NearHoles near = near_holes(a, b);
+  const NearHoles near = near_holes(a, b, options.monitor);
   Polyhedron sum = bounded_sum(near.part, b, options, report);
   report.choices.back().why += "; within a box around the bounded complement of an operand";
-  return unite(sum, near.beyond);
+  return unite(sum, near.beyond, 1, options.monitor);
 }
 
 Polyhedron any_sum(const Polyhedron& a, const Polyhedron& b, const MinkowskiOptions& options, MinkowskiReport& report) {
-  if (std::optional<Polyhedron> sum = simple_sum(a, b)) {
+  if (std::optional<Polyhedron> sum = simple_sum(a, b, options.monitor)) {
     report.choices.push_back({"none", "an operand is empty, a single point, or everything"});
     return *std::move(sum);
   }
@@ -98,14 +99,9 @@ Polyhedron minkowski_sum(const Polyhedron& a, const Polyhedron& b, const Minkows
                          MinkowskiReport* report) {
   MinkowskiReport unused;
   MinkowskiReport& r = report != nullptr ? *report : unused;
-  double seconds = 0;
-  PredicateCounts all;
-  Polyhedron sum;
-  {
-    const PhaseTimer total(seconds, all);
-    sum = any_sum(a, b, options, r);
-  }
-  r.seconds_total += seconds;
+  const Stopwatch watch;
+  Polyhedron sum = any_sum(a, b, options, r);
+  r.seconds_total += watch.seconds();
   return sum;
 }
 

@@ -8,24 +8,26 @@
 #include "nef/base/error.h"
 #include "nef/base/threads/parallel.h"
 #include "nef/base/timing/phase_timer.h"
+#include "nef/base/timing/stopwatch.h"
 
 namespace nef::minkowski {
 namespace {
 
-ConvexCell sum_of_pair(const Product& product, std::size_t pair) {
+ConvexCell sum_of_pair(const Product& product, std::size_t pair, const Monitor& monitor) {
   const auto& [a, b] = product;
   const std::size_t i = pair / b.size();
   const std::size_t j = pair % b.size();
-  if (a.cell(i).dimension == 3 && b.cell(j).dimension == 3) return convex_sum(a.diagram(i), b.diagram(j));
-  return convex_sum(a.cell(i), b.cell(j));
+  if (a.cell(i).dimension == 3 && b.cell(j).dimension == 3) return convex_sum(a.diagram(i), b.diagram(j), monitor);
+  return convex_sum(a.cell(i), b.cell(j), monitor);
 }
 
 // The sums of the pairs first, first + 1, ..., on several threads.
 std::vector<ConvexCell> sums_of_pairs(const Product& product, std::size_t first, std::size_t count,
                                       const MinkowskiOptions& options, MinkowskiReport& report) {
-  const PhaseTimer timer(report.seconds_convex_sums, report.predicates_convex_sums);
+  const PhaseTimer phase(report.seconds_convex_sums, report.predicates_convex_sums, options.monitor);
   std::vector<ConvexCell> sums(count);
-  parallel_for(count, options.threads, [&](std::size_t k) { sums[k] = sum_of_pair(product, first + k); });
+  parallel_for(count, options.threads, phase.monitor(),
+               [&](std::size_t k, const Monitor& own) { sums[k] = sum_of_pair(product, first + k, own); });
   return sums;
 }
 
@@ -51,25 +53,30 @@ Polyhedron union_of_pair_sums(std::span<const Product> products, const Minkowski
   double united = 0;  // share
   // Measured: the union takes about four fifths of the time.
   const auto poll = [&] { progress(0.2 * static_cast<double>(summed) / static_cast<double>(all) + 0.8 * united); };
-  UnionBuilder builder(options.strategy, options.threads, all, [&](double share) {
+  const auto poll_union = [&](double share) {
     united = share;
     poll();
-  });
+  };
+  double seconds = 0;  // of the sums of pairs, too; seconds_union gets those of the union only
+  const PhaseTimer union_phase(seconds, report.predicates_union, options.monitor);
+  UnionBuilder builder(options.strategy, options.threads, all, poll_union, union_phase.monitor());
   for (const Product& product : products) {
     const std::size_t pairs = product.a.size() * product.b.size();
     for (std::size_t first = 0; first < pairs; first += kBlock) {
       std::vector<ConvexCell> sums = sums_of_pairs(product, first, std::min(kBlock, pairs - first), options, report);
-      const PhaseTimer timer(report.seconds_union, report.predicates_union);
+      const Stopwatch watch;
       for (ConvexCell& sum : sums) {  // in order, whoever made them
         builder.add(std::move(sum));
         ++summed;
         poll();
       }
+      report.seconds_union += watch.seconds();
     }
   }
-  const PhaseTimer timer(report.seconds_union, report.predicates_union);
+  const Stopwatch watch;
   Polyhedron result = builder.finish();
   progress(1);
+  report.seconds_union += watch.seconds();
   report.pairs_dropped += builder.dropped();
   report.united_at_once += builder.united_at_once();
   report.united_two_by_two += builder.united_two_by_two();

@@ -36,7 +36,7 @@ std::optional<Polyhedron> sum_by_convolution(const Polyhedron& a, const Polyhedr
   const bool insist = options.strategy == UnionStrategy::kConvolution;
   why = "asked for";
   if (!insist && options.strategy != UnionStrategy::kAuto) return std::nullopt;
-  const PhaseTimer timer(report.seconds_union, report.predicates_union);
+  const PhaseTimer phase(report.seconds_union, report.predicates_union, options.monitor);
   for (const Polyhedron* set : {&a, &b}) {
     if (has_convolution(*set)) continue;
     why = std::string(set == &a ? "A" : "B") + " has parts that are not solid";
@@ -46,6 +46,7 @@ std::optional<Polyhedron> sum_by_convolution(const Polyhedron& a, const Polyhedr
   how.only_if_fast = !insist;
   how.threads = options.threads;
   how.poll = WorkProgress(options);
+  how.monitor = phase.monitor();
   ConvolutionReport counts;
   std::optional<Polyhedron> sum = convolution_sum(a, b, how, counts);
   if (!sum || !insist) why = counts.why;

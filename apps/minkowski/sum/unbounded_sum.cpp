@@ -15,7 +15,6 @@
 #include "apps/minkowski/decomposition/walls.h"
 #include "apps/minkowski/sum/work_progress.h"
 #include "nef/base/error.h"
-#include "nef/base/threads/parallel.h"
 #include "nef/base/timing/phase_timer.h"
 #include "nef/construct/construct.h"
 #include "nef/polyhedron.h"
@@ -26,18 +25,18 @@ namespace {
 bool is_selected(LabelId label) { return (label & kSelected) != 0 && label != kOutside; }
 
 // Planes that divide every reflex edge and corner; each as the four coefficients of its form.
-std::set<std::array<Rational, 4>> dividing_planes(const Complex& c) {
+std::set<std::array<Rational, 4>> dividing_planes(const Complex& c, const Monitor& monitor) {
   std::set<std::array<Rational, 4>> result;
   const auto coefficients = [&](PlaneId plane) {
     std::array<Rational, 4> n;
     for (std::size_t i = 0; i < 4; ++i) n[i] = Rational(c.planes.oriented_coefficient(PlaneId(plane.row() * 2U), i));
     return n;
   };
-  for (const ReflexEdge& edge : reflex_edges(c, 2)) result.insert(coefficients(c.svertex(edge.halfedge).p));
+  for (const ReflexEdge& edge : reflex_edges(c, 2, monitor)) result.insert(coefficients(c.svertex(edge.halfedge).p));
   for (const VertexId v : lonely_vertices(c)) result.insert({1, 0, 0, Rational(-c.points.rational(point_of(v))[0])});
   for (const FacetId f : c.facets.ids()) {
     if (!is_selected(c.facets[f].mark) || c.planes.infimaximal(c.facets[f].plane)) continue;
-    for (const ReflexCorner& corner : reflex_corners(c, f)) {
+    for (const ReflexCorner& corner : reflex_corners(c, f, monitor)) {
       const std::array<Rational, 4> own = coefficients(c.facets[f].plane);
       const Integer3 g = cut_direction(c, c.facets[f].plane).integers();
       std::array<Rational, 4> n;
@@ -53,11 +52,11 @@ std::set<std::array<Rational, 4>> dividing_planes(const Complex& c) {
 }
 
 // Cuts the set by whole planes until every item is convex.
-Polyhedron cut_into_convex_items(const Polyhedron& a) {
+Polyhedron cut_into_convex_items(const Polyhedron& a, const Monitor& monitor) {
   constexpr std::size_t kMost = 48;
   Polyhedron result = a;
   for (std::size_t total = 0;;) {
-    const std::set<std::array<Rational, 4>> planes = dividing_planes(result.complex());
+    const std::set<std::array<Rational, 4>> planes = dividing_planes(result.complex(), monitor);
     if (planes.empty()) return result;
     total += planes.size();
     if (total > kMost) {
@@ -65,10 +64,13 @@ Polyhedron cut_into_convex_items(const Polyhedron& a) {
                              std::to_string(kMost) + " planes would cut it): intersect the operands with a box first");
     }
     std::vector<Polyhedron> walls;
-    for (const std::array<Rational, 4>& n : planes) walls.push_back(boundary(make_halfspace(n[0], n[1], n[2], n[3])));
-    result = overlay(result, unite_all(walls), [](LabelId own, LabelId wall) -> LabelId {
+    for (const std::array<Rational, 4>& n : planes) {
+      walls.push_back(boundary(make_halfspace(n[0], n[1], n[2], n[3], true, monitor), monitor));
+    }
+    const auto with_wall = [](LabelId own, LabelId wall) -> LabelId {
       return is_selected(own) && wall != 0 ? static_cast<LabelId>(own | kWall) : own;
-    });
+    };
+    result = overlay(result, unite_all(walls, 1, monitor), with_wall, 1, monitor);
   }
 }
 
@@ -188,8 +190,8 @@ class SpanReader {
 // Which cells are to be summed, and with which boundary; see minkowski_sum.cpp for why that is enough.
 enum class Parts : std::uint8_t { kClosedSolids, kOpenSolids, kAll };
 
-std::vector<SpannedSet> cells_of(const Polyhedron& a, Parts parts) {
-  const Polyhedron cut = cut_into_convex_items(a);
+std::vector<SpannedSet> cells_of(const Polyhedron& a, Parts parts, const Monitor& monitor) {
+  const Polyhedron cut = cut_into_convex_items(a, monitor);
   SpanReader reader(cut.complex());
   std::vector<SpannedSet> cells = reader.volumes();
   if (parts != Parts::kAll) return cells;
@@ -227,9 +229,9 @@ Polyhedron unbounded_sum(const Polyhedron& a, const Polyhedron& b, const Minkows
   std::vector<SpannedSet> cells_a;
   std::vector<SpannedSet> cells_b;
   {
-    const PhaseTimer timer(report.seconds_decomposition, report.predicates_decomposition);
-    cells_a = cells_of(a, parts);
-    cells_b = cells_of(b, parts);
+    const PhaseTimer phase(report.seconds_decomposition, report.predicates_decomposition, options.monitor);
+    cells_a = cells_of(a, parts, phase.monitor());
+    cells_b = cells_of(b, parts, phase.monitor());
   }
   report.cells_a += cells_a.size();
   report.cells_b += cells_b.size();
@@ -245,16 +247,16 @@ Polyhedron unbounded_sum(const Polyhedron& a, const Polyhedron& b, const Minkows
   const WorkProgress progress(options);
   std::size_t done = 0;
   {
-    const PhaseTimer timer(report.seconds_convex_sums, report.predicates_convex_sums);
+    const PhaseTimer phase(report.seconds_convex_sums, report.predicates_convex_sums, options.monitor);
     for (const SpannedSet& c : cells_a) {
       for (const SpannedSet& d : cells_b) {
-        sums[done++] = to_polyhedron(sum_of(c, d), parts == Parts::kClosedSolids);
+        sums[done++] = to_polyhedron(sum_of(c, d), parts == Parts::kClosedSolids, phase.monitor());
         progress(static_cast<double>(done) / static_cast<double>(2 * pairs));
       }
     }
   }
-  const PhaseTimer timer(report.seconds_union, report.predicates_union);
-  Polyhedron result = unite_all(sums, options.threads);
+  const PhaseTimer phase(report.seconds_union, report.predicates_union, options.monitor);
+  Polyhedron result = unite_all(sums, options.threads, phase.monitor());
   progress(1);
   return result;
 }

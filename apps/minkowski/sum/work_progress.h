@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "apps/minkowski/minkowski.h"
+#include "nef/base/interruption.h"
 
 namespace nef::minkowski {
 

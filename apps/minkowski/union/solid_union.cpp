@@ -33,10 +33,10 @@ class SolidUnion {
       : cells_(cells),
         rounded_(rounded),
         boxes_(rounded.boxes(), BoxSplit::kMedians),
-        vertices_(cells, rounded, boxes_),
+        vertices_(cells, rounded, boxes_, options.monitor),
         exact_(vertices_.exact()),
         cutter_(rounded, exact_),
-        visible_(visible_faces(cells, rounded, boxes_, exact_, options.threads)),
+        visible_(visible_faces(cells, rounded, boxes_, exact_, options.threads, options.monitor)),
         tree_(visible_.boxes, BoxSplit::kMedians),
         budget_(options.budget),
         poll_(options.poll) {
@@ -321,7 +321,7 @@ class SolidUnion {
 
 std::optional<Polyhedron> unite_different(std::span<const ConvexCell> cells, const RoundedCells& rounded,
                                           const SolidUnionOptions& options, std::size_t& dropped) {
-  if (cells.size() == 1) return to_polyhedron(cells[0]);
+  if (cells.size() == 1) return to_polyhedron(cells[0], options.monitor);
   SolidUnion search(cells, rounded, options);
   if (!search.search()) return std::nullopt;
   dropped += search.hidden_cells();
@@ -349,9 +349,11 @@ std::optional<Polyhedron> try_unite_solids(std::span<const ConvexCell> cells, co
   return result;
 }
 
-Polyhedron unite_solids(std::span<const ConvexCell> cells, std::size_t* dropped, unsigned threads) {
+Polyhedron unite_solids(std::span<const ConvexCell> cells, std::size_t* dropped, unsigned threads,
+                        const Monitor& monitor) {
   SolidUnionOptions options;
   options.threads = threads;
+  options.monitor = monitor;
   std::optional<Polyhedron> result = try_unite_solids(cells, options, dropped);
   NEF_ASSERT(result.has_value());
   return *std::move(result);

@@ -12,6 +12,7 @@
 #include <span>
 
 #include "apps/minkowski/convex/convex_cell.h"
+#include "nef/base/monitor.h"
 #include "nef/forward.h"
 
 namespace nef::minkowski {
@@ -23,6 +24,7 @@ struct SolidUnionOptions {
   /// not timed: the same for every run.
   std::uint64_t budget = std::numeric_limits<std::uint64_t>::max();
   std::function<void(double)> poll;  ///< if given, called for each face that is left, with the share done; may throw
+  Monitor monitor = {};              ///< who watches; what it refers to must outlive the call
 };
 
 /// The union of convex cells of dimension 3, with their marks; nothing if the budget did not suffice. Facets inside of
@@ -34,6 +36,7 @@ std::optional<Polyhedron> try_unite_solids(std::span<const ConvexCell> cells, co
                                            std::size_t* dropped = nullptr);
 
 /// The same without a budget.
-Polyhedron unite_solids(std::span<const ConvexCell> cells, std::size_t* dropped = nullptr, unsigned threads = 1);
+Polyhedron unite_solids(std::span<const ConvexCell> cells, std::size_t* dropped = nullptr, unsigned threads = 1,
+                        const Monitor& monitor = {});
 
 }  // namespace nef::minkowski

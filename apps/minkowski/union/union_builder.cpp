@@ -31,10 +31,11 @@ bool larger(const Polyhedron& a, const Polyhedron& b) {
 }  // namespace
 
 UnionBuilder::UnionBuilder(UnionStrategy strategy, unsigned threads, std::size_t expected,
-                           std::function<void(double)> poll)
+                           std::function<void(double)> poll, const Monitor& monitor)
     : strategy_(strategy),
       threads_(threads),
       poll_(std::move(poll)),
+      monitor_(monitor),
       expected_(std::max(1.0, static_cast<double>(expected))) {
   if (strategy == UnionStrategy::kQueue) merges_of_piece_ = std::max(1.0, std::log2(expected_));
 }
@@ -63,14 +64,14 @@ void UnionBuilder::add(ConvexCell cell) {
       add_to_batch(std::move(cell));
       return;
     case UnionStrategy::kTrivial:
-      result_ = unite(result_, to_polyhedron(cell));
+      result_ = unite(result_, to_polyhedron(cell, monitor_), 1, monitor_);
       settle((2 * static_cast<double>(two_by_two_) + 1) / expected_);  // of squares
       break;
     case UnionStrategy::kPriority:
-      add_ranked(to_polyhedron(cell));
+      add_ranked(to_polyhedron(cell, monitor_));
       break;
     case UnionStrategy::kQueue:
-      add_queued(to_polyhedron(cell));
+      add_queued(to_polyhedron(cell, monitor_));
       break;
   }
   ++two_by_two_;
@@ -86,14 +87,14 @@ void UnionBuilder::add_to_batch(ConvexCell cell) {
 void UnionBuilder::add_to_group(const ConvexCell& cell) {
   ++two_by_two_;
   group_vertices_ += cell.mesh.vertices.size();
-  group_.push_back(to_polyhedron(cell));
+  group_.push_back(to_polyhedron(cell, monitor_));
   if (group_.size() >= kGroupCells || group_vertices_ >= kGroupVertices) flush_group();
 }
 
 void UnionBuilder::flush_group() {
   if (group_.empty()) return;
   poll();
-  add_queued(unite_all(group_, threads_));
+  add_queued(unite_all(group_, threads_, monitor_));
   settle(static_cast<double>(group_.size()));
   group_.clear();
   group_vertices_ = 0;
@@ -104,7 +105,7 @@ void UnionBuilder::flush_group() {
 void UnionBuilder::add_queued(Polyhedron piece) {
   std::size_t level = 0;
   for (; level < levels_.size() && !levels_[level].is_empty(); ++level) {
-    piece = unite(levels_[level], piece);
+    piece = unite(levels_[level], piece, 1, monitor_);
     settle(strategy_ == UnionStrategy::kQueue ? std::ldexp(1, static_cast<int>(level) + 1) / merges_of_piece_ : 0);
     levels_[level] = Polyhedron();
   }
@@ -124,7 +125,7 @@ void UnionBuilder::merge_smallest() {
   const Polyhedron a = std::move(ranked_.back());
   ranked_.pop_back();
   std::pop_heap(ranked_.begin(), ranked_.end(), larger);
-  ranked_.back() = unite(a, ranked_.back());
+  ranked_.back() = unite(a, ranked_.back(), 1, monitor_);
   std::push_heap(ranked_.begin(), ranked_.end(), larger);
 }
 
@@ -136,11 +137,11 @@ void UnionBuilder::flush() {
     const std::vector<std::uint8_t> held = held_by_others(batch_);
     std::vector<Polyhedron> pieces;
     for (auto i = static_cast<std::size_t>(first_flat - batch_.begin()); i < batch_.size(); ++i) {
-      if (held[i] == 0) pieces.push_back(to_polyhedron(batch_[i]));
+      if (held[i] == 0) pieces.push_back(to_polyhedron(batch_[i], monitor_));
     }
     dropped_ += static_cast<std::size_t>(batch_.end() - first_flat) - pieces.size();
     two_by_two_ += pieces.size();
-    add_queued(unite_all(pieces, threads_));
+    add_queued(unite_all(pieces, threads_, monitor_));
     settle(static_cast<double>(batch_.end() - first_flat));
     batch_.erase(first_flat, batch_.end());
   }
@@ -152,6 +153,7 @@ void UnionBuilder::flush() {
 void UnionBuilder::unite_batch_of_solids() {
   SolidUnionOptions options;
   options.threads = threads_;
+  options.monitor = monitor_;
   const auto all = static_cast<double>(batch_.size());
   options.poll = [this, all](double share) { poll(share * all); };
   if (strategy_ != UnionStrategy::kNary) options.budget = kQueueWorkOfVertex * batch_vertices_;
@@ -171,9 +173,9 @@ Polyhedron UnionBuilder::finish() {
   flush_group();
   while (ranked_.size() > 1) merge_smallest();
   if (!ranked_.empty()) result_ = std::move(ranked_[0]);
-  if (result_.is_empty()) return unite_all(levels_, threads_);
+  if (result_.is_empty()) return unite_all(levels_, threads_, monitor_);
   // Oldest last: the sets at higher levels were there first.
-  for (const Polyhedron& level : levels_) result_ = unite(result_, level);
+  for (const Polyhedron& level : levels_) result_ = unite(result_, level, 1, monitor_);
   return std::move(result_);
 }
 

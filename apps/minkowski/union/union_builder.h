@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "apps/minkowski/minkowski.h"
+#include "nef/base/monitor.h"
 #include "nef/polyhedron.h"
 
 namespace nef::minkowski {
@@ -24,7 +25,7 @@ class UnionBuilder {
   /// Adds up to `expected` pieces. `poll`, if given, is called now and then while they are united, with the share of
   /// that work that is done, which is an estimate from how the strategy's cost grows. It may throw.
   explicit UnionBuilder(UnionStrategy strategy, unsigned threads = 1, std::size_t expected = 0,
-                        std::function<void(double)> poll = {});
+                        std::function<void(double)> poll = {}, const Monitor& monitor = {});
 
   void add(ConvexCell cell);
   /// The union of everything added. Call once.
@@ -51,6 +52,7 @@ class UnionBuilder {
   UnionStrategy strategy_;
   unsigned threads_;
   std::function<void(double)> poll_;
+  Monitor monitor_;
   double expected_ = 1;             // pieces
   double merges_of_piece_ = 1;      // queue: unions that each piece goes through
   double settled_ = 0;              // pieces by which the work is done

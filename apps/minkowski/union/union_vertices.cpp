@@ -6,10 +6,15 @@
 
 namespace nef::minkowski {
 
-UnionVertices::UnionVertices(std::span<const ConvexCell> cells, const RoundedCells& rounded, const BoxTree& boxes)
-    : cells_(cells), rounded_(rounded), boxes_(boxes), exact_(cells, rounded), or_(2, 2, [](LabelId a, LabelId b) {
-        return static_cast<LabelId>(a | b);
-      }) {}
+UnionVertices::UnionVertices(std::span<const ConvexCell> cells, const RoundedCells& rounded, const BoxTree& boxes,
+                             const Monitor& monitor)
+    : cells_(cells),
+      rounded_(rounded),
+      boxes_(boxes),
+      monitor_(monitor),
+      exact_(cells, rounded, monitor),
+      or_(2, 2, [](LabelId a, LabelId b) { return static_cast<LabelId>(a | b); }),
+      result_(exact_.planes, monitor) {}
 
 std::uint32_t UnionVertices::add_vertex(std::uint32_t cell, std::uint32_t vertex) {
   const PointId point = exact_.point(cell, vertex);
@@ -104,7 +109,7 @@ void UnionVertices::add_point(PointId point) {
   SphereMapBuffer* next = &maps_[1];
   for (std::size_t i = 1; i < touched.size(); ++i) {
     exact_.pyramid(touched[i], maps_[2]);
-    overlay_.overlay(exact_.planes, map->view(), maps_[2].view(), or_, *next);
+    overlay_.overlay(exact_.planes, map->view(), maps_[2].view(), or_, *next, monitor_);
     std::swap(map, next);
   }
   result_.add(exact_.points, point, map->view());

@@ -12,6 +12,7 @@
 
 #include "apps/minkowski/cells/exact_cells.h"
 #include "apps/minkowski/cells/meeting_points.h"
+#include "nef/base/monitor.h"
 #include "nef/geometry/box_tree.h"
 #include "nef/sphere_map/overlay.h"
 #include "nef/synthesis/complex_builder.h"
@@ -22,8 +23,9 @@ namespace nef::minkowski {
 /// cell has inside gets the overlay of the local pyramids of the cells that it touches.
 class UnionVertices {
  public:
-  /// All must outlive the object.
-  UnionVertices(std::span<const ConvexCell> cells, const RoundedCells& rounded, const BoxTree& boxes);
+  /// Cells, rounded cells and boxes must outlive the object.
+  UnionVertices(std::span<const ConvexCell> cells, const RoundedCells& rounded, const BoxTree& boxes,
+                const Monitor& monitor);
 
   ExactCells& exact() { return exact_; }
 
@@ -49,6 +51,7 @@ class UnionVertices {
   std::span<const ConvexCell> cells_;
   const RoundedCells& rounded_;
   const BoxTree& boxes_;
+  Monitor monitor_;
   ExactCells exact_;
   MeetingPoints meetings_{exact_.planes, exact_.points};
   std::unordered_set<std::uint32_t> located_;                               // vertices of cells among them
@@ -58,7 +61,7 @@ class UnionVertices {
   LabelFunction or_;
   CellLocation location_;
   std::array<SphereMapBuffer, 3> maps_;
-  ComplexBuilder result_{exact_.planes};
+  ComplexBuilder result_;
   std::uint64_t work_ = 0;
 };
 

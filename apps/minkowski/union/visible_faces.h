@@ -28,6 +28,6 @@ struct VisibleFaces {
 /// to `threads` threads. O(n k) for n faces of cells each of which k others overlap, and less where cells hide each
 /// other.
 VisibleFaces visible_faces(std::span<const ConvexCell> cells, const RoundedCells& rounded, const BoxTree& boxes,
-                           ExactCells& exact, unsigned threads);
+                           ExactCells& exact, unsigned threads, const Monitor& monitor);
 
 }  // namespace nef::minkowski

@@ -19,11 +19,11 @@ Integer3 opposite(const Integer3& v) { return {-v[0], -v[1], -v[2]}; }
 
 }  // namespace
 
-Blocking::Blocking(const std::vector<Polyhedron>& parts) {
+Blocking::Blocking(const std::vector<Polyhedron>& parts, const Monitor& monitor) : monitor_(monitor) {
   for (const Polyhedron& part : parts) {
     boxes_.push_back(*bounding_box(part));
     std::vector<std::vector<Rational3>>& pieces = pieces_.emplace_back();
-    for (const ConvexCell& cell : minkowski::decompose(part)) {
+    for (const ConvexCell& cell : minkowski::decompose(part, monitor_)) {
       if (cell.dimension == 3) pieces.push_back(cell.mesh.vertices);
     }
   }
@@ -56,7 +56,7 @@ const std::vector<Blocking::Body>& Blocking::bodies(std::size_t a, std::size_t b
       for (const Rational3& x : p) {
         for (const Rational3& y : q) differences.push_back(minus(y, x));
       }
-      const Mesh mesh = minkowski::hull_cell(differences).mesh;
+      const Mesh mesh = minkowski::hull_cell(differences, monitor_).mesh;
       Body& body = known->emplace_back();
       for (std::size_t f = 0; f < mesh.face_count(); ++f) {
         const auto ring = mesh.face(f);

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/polyhedron.h"
 
 namespace nef::planner {
@@ -19,7 +20,7 @@ namespace nef::planner {
 class Blocking {
  public:
   /// The parts must be bounded solids. O(parts) boxes and decompositions into convex pieces.
-  explicit Blocking(const std::vector<Polyhedron>& parts);
+  Blocking(const std::vector<Polyhedron>& parts, const Monitor& monitor);
 
   [[nodiscard]] std::size_t size() const { return boxes_.size(); }
   /// Two parts whose interiors meet where they are; nothing if there are none.
@@ -58,6 +59,7 @@ class Blocking {
   const std::vector<Body>& bodies(std::size_t a, std::size_t b);
   [[nodiscard]] Body box_body(std::size_t a, std::size_t b) const;
 
+  Monitor monitor_;
   std::vector<std::array<Rational3, 2>> boxes_;
   std::vector<std::vector<std::vector<Rational3>>> pieces_;  // of each part: the vertices of its convex pieces
   std::vector<Pair> pairs_;

@@ -27,8 +27,13 @@ Rational3 negative(const Rational3& d) { return {-d[0], -d[1], -d[2]}; }
 
 class TakingApart {
  public:
-  TakingApart(const Assembly& assembly, const DisassemblyProgress& progress, std::optional<unsigned> digits)
-      : assembly_(assembly), progress_(progress), digits_(digits), blocking_(assembly.parts) {
+  TakingApart(const Assembly& assembly, const DisassemblyProgress& progress, std::optional<unsigned> digits,
+              const Monitor& monitor)
+      : assembly_(assembly),
+        progress_(progress),
+        digits_(digits),
+        monitor_(monitor),
+        blocking_(assembly.parts, monitor) {
     for (const Polyhedron& part : assembly.parts) boxes_.push_back(*bounding_box(part));
   }
 
@@ -212,12 +217,14 @@ class TakingApart {
     Scene scene;
     std::vector<Polyhedron> robot;
     for (const std::size_t part : moving) robot.push_back(assembly_.parts[part]);
-    scene.robot = unite_all(robot);
+    scene.robot = unite_all(robot, 1, monitor_);
     for (const std::size_t part : stay) {
       scene.obstacles.push_back(assembly_.parts[part]);
       scene.obstacle_names.push_back(assembly_.names[part]);
     }
-    const FreeSpace free(free_positions(scene));
+    BuildOptions build;
+    build.monitor = monitor_;
+    const FreeSpace free(free_positions(scene, build));
     const CellId here = free.locate(ExactPoint(Rational3{}));
     NEF_ASSERT(free.is_free(here));
     if (free.components()[free.component(here)].bounded) return std::nullopt;
@@ -236,7 +243,7 @@ class TakingApart {
         PathOptions options;
         options.thorough = false;
         options.digits = digits_;
-        std::optional<ExactPath> path = find_path(free, Rational3{}, out, options);
+        std::optional<ExactPath> path = find_path(free, Rational3{}, out, options, monitor_);
         NEF_ASSERT(path.has_value());
         if (!best || path->length < best->length) best = std::move(path);
       }
@@ -247,6 +254,7 @@ class TakingApart {
   const Assembly& assembly_;
   const DisassemblyProgress& progress_;
   std::optional<unsigned> digits_;
+  Monitor monitor_;
   Blocking blocking_;
   std::vector<std::array<Rational3, 2>> boxes_;  // of the parts
   std::vector<Rational3> directions_;
@@ -256,8 +264,9 @@ class TakingApart {
 
 }  // namespace
 
-Disassembly take_apart(const Assembly& assembly, const DisassemblyProgress& progress, std::optional<unsigned> digits) {
-  return TakingApart(assembly, progress, digits).run();
+Disassembly take_apart(const Assembly& assembly, const DisassemblyProgress& progress, std::optional<unsigned> digits,
+                       const Monitor& monitor) {
+  return TakingApart(assembly, progress, digits, monitor).run();
 }
 
 }  // namespace nef::planner

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "apps/planner/assembly/parts.h"
+#include "nef/base/monitor.h"
 
 namespace nef::planner {
 
@@ -58,6 +59,6 @@ using DisassemblyProgress = std::function<void(std::size_t steps)>;
 ///
 /// With `digits`, way-points have at most so many decimals where that is free, ends always.
 Disassembly take_apart(const Assembly& assembly, const DisassemblyProgress& progress = {},
-                       std::optional<unsigned> digits = std::nullopt);
+                       std::optional<unsigned> digits = std::nullopt, const Monitor& monitor = {});
 
 }  // namespace nef::planner

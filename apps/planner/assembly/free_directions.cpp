@@ -8,19 +8,19 @@
 
 namespace nef::planner {
 
-FreeDirections free_directions(const Assembly& assembly, std::size_t part) {
-  const Polyhedron cube = make_box({-1, -1, -1}, {1, 1, 1});
+FreeDirections free_directions(const Assembly& assembly, std::size_t part, const Monitor& monitor) {
+  const Polyhedron cube = make_box({-1, -1, -1}, {1, 1, 1}, monitor);
   std::vector<Polyhedron> allowed{cube};
   // What one body forbids is the inside of a cone: the part may go where it leaves one of its faces alone.
-  for (const std::vector<Rational3>& normals : Blocking(assembly.parts).blocked_cones(part)) {
+  for (const std::vector<Rational3>& normals : Blocking(assembly.parts, monitor).blocked_cones(part)) {
     std::vector<Polyhedron> sides;
     for (const Rational3& n : normals)
-      sides.push_back(intersect(cube, make_halfspace(-n[0], -n[1], -n[2], Rational(0))));
-    allowed.push_back(unite_all(sides));
+      sides.push_back(intersect(cube, make_halfspace(-n[0], -n[1], -n[2], Rational(0), true, monitor), 1, monitor));
+    allowed.push_back(unite_all(sides, 1, monitor));
   }
   FreeDirections result;
   result.everything = allowed.size() == 1;
-  result.cone = intersect_all(allowed);
+  result.cone = intersect_all(allowed, 1, monitor);
   const Location apex = locate(result.cone, Rational3{});
   if (result.everything || apex.kind == Location::Kind::kVolume) {
     result.dimension = 3;

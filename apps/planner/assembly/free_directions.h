@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/planner/assembly/parts.h"
+#include "nef/base/monitor.h"
 
 namespace nef::planner {
 
@@ -19,6 +20,6 @@ struct FreeDirections {
 };
 
 /// The exact cone of a part. The parts must be bounded solids that do not overlap.
-FreeDirections free_directions(const Assembly& assembly, std::size_t part);
+FreeDirections free_directions(const Assembly& assembly, std::size_t part, const Monitor& monitor = {});
 
 }  // namespace nef::planner

@@ -10,7 +10,8 @@
 
 namespace nef::planner {
 
-Assembly parse_assembly(const std::string& text, const std::string& folder, const std::string& name) {
+Assembly parse_assembly(const std::string& text, const std::string& folder, const std::string& name,
+                        const Monitor& monitor) {
   const nlohmann::json root = parse_exact_json(text, name);
   if (!root.is_object() || !root.contains("parts") || !root["parts"].is_object()) {
     throw InputError(name + R"(: an assembly is {"parts": {"name": file or expression, ...}})");
@@ -25,7 +26,7 @@ Assembly parse_assembly(const std::string& text, const std::string& folder, cons
     if (!item.value().is_string()) throw InputError(what + ": expected a file name or an expression in quotes");
     Polyhedron part;
     try {
-      part = closure(shape_of_text(item.value().get<std::string>(), folder, &assembly.messages));
+      part = closure(shape_of_text(item.value().get<std::string>(), folder, &assembly.messages, monitor), monitor);
     } catch (const InputError& error) {
       throw InputError(what + ": " + error.what());
     }
@@ -39,8 +40,8 @@ Assembly parse_assembly(const std::string& text, const std::string& folder, cons
   return assembly;
 }
 
-Assembly read_assembly(const std::string& path) {
-  return parse_assembly(read_file(path), std::filesystem::path(path).parent_path().string(), path);
+Assembly read_assembly(const std::string& path, const Monitor& monitor) {
+  return parse_assembly(read_file(path), std::filesystem::path(path).parent_path().string(), path, monitor);
 }
 
 }  // namespace nef::planner

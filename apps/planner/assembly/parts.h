@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/construct/construct.h"
 #include "nef/polyhedron.h"
 
@@ -21,9 +22,10 @@ struct Assembly {
 
 /// Reads {"parts": {"name": SHAPE, ...}}, SHAPE being a file (relative to this one) or an expression, as in scenes
 /// (scene.h). The parts are in the order of their names. Throws InputError unless each is a bounded solid.
-Assembly read_assembly(const std::string& path);
+Assembly read_assembly(const std::string& path, const Monitor& monitor = {});
 
 /// The same from text; `folder` is where file names begin.
-Assembly parse_assembly(const std::string& text, const std::string& folder, const std::string& name);
+Assembly parse_assembly(const std::string& text, const std::string& folder, const std::string& name,
+                        const Monitor& monitor = {});
 
 }  // namespace nef::planner

@@ -6,9 +6,9 @@
 
 namespace nef::planner {
 
-Polyhedron around_ball(const Rational& radius) {
+Polyhedron around_ball(const Rational& radius, const Monitor& monitor) {
   // Half-spaces across the directions (1, 0, 0) and (2, 2, 1) / 3 in all orders and signs, which have rational lengths.
-  std::vector<Polyhedron> sides{make_box({-radius, -radius, -radius}, {radius, radius, radius})};
+  std::vector<Polyhedron> sides{make_box({-radius, -radius, -radius}, {radius, radius, radius}, monitor)};
   for (std::size_t one = 0; one < 3; ++one) {
     for (int signs = 0; signs < 8; ++signs) {
       Rational3 n{2, 2, 2};
@@ -16,15 +16,17 @@ Polyhedron around_ball(const Rational& radius) {
       for (std::size_t k = 0; k < 3; ++k) {
         if ((signs >> k & 1) != 0) n[k] = -n[k];
       }
-      sides.push_back(make_halfspace(n[0], n[1], n[2], -3 * radius));
+      sides.push_back(make_halfspace(n[0], n[1], n[2], -3 * radius, true, monitor));
     }
   }
-  return intersect_all(sides);
+  return intersect_all(sides, 1, monitor);
 }
 
-void keep_clear(Scene& scene, const Rational& distance) {
+void keep_clear(Scene& scene, const Rational& distance, const Monitor& monitor) {
   if (distance <= 0) throw InputError("--keep-clear: the distance must be positive");
-  scene.robot = minkowski::minkowski_sum(scene.robot, around_ball(distance));
+  minkowski::MinkowskiOptions options;
+  options.monitor = monitor;
+  scene.robot = minkowski::minkowski_sum(scene.robot, around_ball(distance, monitor), options);
   scene.messages.push_back("the robot is made larger by a polytope around the ball of radius " + to_string(distance) +
                            ": paths keep at least that distance; some that keep less than 1.2 times as much are lost");
 }

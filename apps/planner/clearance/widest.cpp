@@ -21,17 +21,19 @@ bool sees_all_from_origin(const Polyhedron& robot) {
 
 }  // namespace
 
-Polyhedron grown(const Polyhedron& robot, Growth growth, const Rational& size) {
+Polyhedron grown(const Polyhedron& robot, Growth growth, const Rational& size, const Monitor& monitor) {
   if (growth == Growth::kBox) {
     if (size == 0) return robot;
-    return minkowski::minkowski_sum(robot, make_box({-size, -size, -size}, {size, size, size}));
+    minkowski::MinkowskiOptions options;
+    options.monitor = monitor;
+    return minkowski::minkowski_sum(robot, make_box({-size, -size, -size}, {size, size, size}, monitor), options);
   }
   if (!robot.is_regular() || !sees_all_from_origin(robot)) {
     throw InputError(
         "--widest: the robot must be a solid that sees all of itself from its reference point, or a smaller factor "
         "need not be easier; move the reference, or use --widest-box");
   }
-  return transform(robot, AffineMap::scale({size, size, size}));
+  return transform(robot, AffineMap::scale({size, size, size}), monitor);
 }
 
 Widest find_widest(const Rational& first, const Rational& precision, bool down,

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "apps/planner/scene/scene.h"
+#include "nef/base/monitor.h"
 
 namespace nef::planner {
 
@@ -20,7 +21,7 @@ enum class Growth : std::uint8_t {
 /// The robot of a scene at a size: scaled by the factor, or summed with the cube. Size 1 (or 0) is the robot as it is.
 /// Throws InputError for a scaled robot that is not a solid, or not star-shaped about its reference point: then a
 /// smaller factor need not be easier. O(n), or one sum.
-Polyhedron grown(const Polyhedron& robot, Growth growth, const Rational& size);
+Polyhedron grown(const Polyhedron& robot, Growth growth, const Rational& size, const Monitor& monitor = {});
 
 /// What is known about one size.
 enum class Verdict : std::uint8_t { kPath, kNone, kUndecided };

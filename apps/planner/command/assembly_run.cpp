@@ -144,7 +144,7 @@ int tell_free_directions(const Arguments& a, const Assembly& assembly) {
   if (found == assembly.names.end()) {
     throw InputError("--free-directions " + a.free_directions + ": " + a.assembly + " has no such part");
   }
-  if (const auto overlap = Blocking(assembly.parts).overlapping()) {
+  if (const auto overlap = Blocking(assembly.parts, {}).overlapping()) {
     throw InputError(a.assembly + ": " + assembly.names[overlap->first] + " and " + assembly.names[overlap->second] +
                      " overlap");
   }

@@ -10,7 +10,6 @@
 
 #include "apps/planner/first_way/first_way.h"
 #include "apps/planner/first_way/grid_steps.h"
-#include "nef/base/interruption.h"
 #include "nef/construct/construct.h"
 
 namespace nef::planner {
@@ -64,11 +63,12 @@ class Rooms {
 class NarrowWay {
  public:
   NarrowWay(const FreeSpace& free, const CellFilter& filter, int min_dimension, const Rational3& start,
-            const Rational3& goal)
+            const Rational3& goal, const Monitor& monitor)
       : free_(free),
         filter_(filter),
         min_dimension_(min_dimension),
-        grid_(free.grid()),
+        monitor_(monitor),
+        grid_(free.grid(monitor)),
         rooms_(grid_),
         is_allowed_(rooms_.size(), kUnknown),
         is_closed_(grid_.size(), false),
@@ -206,7 +206,7 @@ class NarrowWay {
     for (const AStar::Node portal : from_.portals) offer(portal, AStar::kNone, 0);
     if (from_.portals.empty()) offer(from_.own, AStar::kNone, 0);
     while (const std::optional<AStar::Node> node = search.next()) {
-      check_interruption();
+      monitor_.check_interruption();
       if (is_goal(*node)) return search.way_to(*node);
       for (const GridStep& step : steps_) {
         const AStar::Node next = *node + step.offset;
@@ -240,7 +240,7 @@ class NarrowWay {
       i = std::max(next, i + 1);
     }
     if (points.back() == to_.point) return points;
-    const std::optional<Points> rest = wide_way(free_, filter_, points.back(), to_.point);
+    const std::optional<Points> rest = wide_way(free_, filter_, points.back(), to_.point, monitor_);
     if (!rest) return std::nullopt;
     points.insert(points.end(), rest->begin() + 1, rest->end());
     return points;
@@ -250,7 +250,7 @@ class NarrowWay {
   [[nodiscard]] std::optional<Points> way_through(std::span<const AStar::Node> cubes, const Rational3& a,
                                                   const Rational3& b) const {
     const std::array<Rational3, 2> box = box_around(cubes, a, b);
-    const FreeSpace part(intersect(free_.set(), make_box(box[0], box[1])));
+    const FreeSpace part(intersect(free_.set(), make_box(box[0], box[1], monitor_), 1, monitor_));
     if (part.cells().size() > std::max(kSmallPart, free_.cells().size() / 8)) return std::nullopt;
     CellFilter filter(part);
     for (CellId cell = 0; cell < part.cells().size(); ++cell) {
@@ -259,7 +259,7 @@ class NarrowWay {
     const CellId from = part.locate(ExactPoint(a));
     const CellId to = part.locate(ExactPoint(b));
     if (!filter(from) || !filter(to) || part.component(from) != part.component(to)) return std::nullopt;
-    std::optional<Points> points = roadmap_path(part, filter, a, b, false);
+    std::optional<Points> points = roadmap_path(part, filter, a, b, false, monitor_);
     for (std::size_t i = 0; points && i + 1 < points->size(); ++i) {
       if (!segment_allowed(free_, filter_, (*points)[i], (*points)[i + 1])) return std::nullopt;
     }
@@ -288,6 +288,7 @@ class NarrowWay {
   const FreeSpace& free_;
   const CellFilter& filter_;
   int min_dimension_;
+  Monitor monitor_;
   const EmptyGrid& grid_;
   Rooms rooms_;
   std::vector<std::int8_t> is_allowed_;  // of each room
@@ -300,9 +301,10 @@ class NarrowWay {
 }  // namespace
 
 std::optional<std::vector<Rational3>> narrow_way(const FreeSpace& free, const CellFilter& filter, int min_dimension,
-                                                 const Rational3& start, const Rational3& goal) {
-  if (free.grid().size() == 0) return std::nullopt;
-  return NarrowWay(free, filter, min_dimension, start, goal).run();
+                                                 const Rational3& start, const Rational3& goal,
+                                                 const Monitor& monitor) {
+  if (free.grid(monitor).size() == 0) return std::nullopt;
+  return NarrowWay(free, filter, min_dimension, start, goal, monitor).run();
 }
 
 }  // namespace nef::planner

@@ -103,7 +103,9 @@ class Search {
 }  // namespace
 
 std::optional<std::vector<Rational3>> roadmap_path(const FreeSpace& free, const CellFilter& filter,
-                                                   const Rational3& start, const Rational3& goal, bool clearance) {
+                                                   const Rational3& start, const Rational3& goal, bool clearance,
+                                                   const Monitor& monitor) {
+  free.build_roadmap(monitor);
   return Search(free, filter, start, goal, clearance).run();
 }
 

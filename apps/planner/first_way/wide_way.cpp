@@ -5,7 +5,6 @@
 
 #include "apps/planner/first_way/first_way.h"
 #include "apps/planner/first_way/grid_steps.h"
-#include "nef/base/interruption.h"
 
 namespace nef::planner {
 namespace {
@@ -16,10 +15,12 @@ constexpr double kHaste = 1.02;  // the estimates are exact in empty country: a 
 
 class WideWay {
  public:
-  WideWay(const FreeSpace& free, const CellFilter& filter, const Rational3& start, const Rational3& goal)
+  WideWay(const FreeSpace& free, const CellFilter& filter, const Rational3& start, const Rational3& goal,
+          const Monitor& monitor)
       : free_(free),
         filter_(filter),
-        grid_(free.grid()),
+        monitor_(monitor),
+        grid_(free.grid(monitor)),
         start_(start),
         goal_(goal),
         search_(grid_.size()),
@@ -40,7 +41,7 @@ class WideWay {
       offer(cube, grid_.index(cube), AStar::kNone, cost);
     }
     while (const std::optional<AStar::Node> node = search_.next()) {
-      check_interruption();
+      monitor_.check_interruption();
       if (std::find(ends.begin(), ends.end(), *node) != ends.end()) return extract(search_.way_to(*node));
       expand(*node);
     }
@@ -101,6 +102,7 @@ class WideWay {
 
   const FreeSpace& free_;
   const CellFilter& filter_;
+  Monitor monitor_;
   const EmptyGrid& grid_;
   const Rational3& start_;
   const Rational3& goal_;
@@ -112,10 +114,10 @@ class WideWay {
 }  // namespace
 
 std::optional<std::vector<Rational3>> wide_way(const FreeSpace& free, const CellFilter& filter, const Rational3& start,
-                                               const Rational3& goal) {
+                                               const Rational3& goal, const Monitor& monitor) {
   if (segment_allowed(free, filter, start, goal)) return std::vector<Rational3>{start, goal};
-  if (free.grid().size() == 0) return std::nullopt;
-  return WideWay(free, filter, start, goal).run();
+  if (free.grid(monitor).size() == 0) return std::nullopt;
+  return WideWay(free, filter, start, goal, monitor).run();
 }
 
 }  // namespace nef::planner

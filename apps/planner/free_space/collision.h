@@ -7,6 +7,7 @@
 #include <string>
 
 #include "apps/planner/scene/scene.h"
+#include "nef/base/monitor.h"
 
 namespace nef::planner {
 
@@ -18,7 +19,7 @@ struct Collision {
   Rational3 point;           ///< in the overlap, in the workspace
 };
 /// Nothing if the position is free after all.
-std::optional<Collision> find_collision(const Scene& scene, const Rational3& position);
+std::optional<Collision> find_collision(const Scene& scene, const Rational3& position, const Monitor& monitor = {});
 
 /// "obstacle 2 (wall.off), facet 3, at (1, 0, 1/2)".
 std::string describe(const Collision& collision, const Scene& scene);

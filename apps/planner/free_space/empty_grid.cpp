@@ -8,7 +8,6 @@
 #include <cmath>
 #include <span>
 
-#include "nef/base/interruption.h"
 #include "nef/complex/facet_plane.h"
 #include "nef/complex/item_boxes.h"
 
@@ -67,7 +66,7 @@ class FacetEdges {
 
 }  // namespace
 
-EmptyGrid::EmptyGrid(const Complex& complex) {
+EmptyGrid::EmptyGrid(const Complex& complex, const Monitor& monitor) {
   Box all;
   for (const VertexId v : complex.vertex_ids()) all.add_rounded(complex.points.approximate(point_of(v)));
   if (complex.vertex_count() == 0) return;
@@ -76,7 +75,7 @@ EmptyGrid::EmptyGrid(const Complex& complex) {
   if (entered_.empty()) return;
   enter_rim();
   for (const Facet& facet : complex.facets) {
-    check_interruption();
+    monitor.check_interruption();
     enter(complex, facet);
   }
   for (const HalfedgeId h : complex.halfedge_ids()) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "apps/planner/free_space/vectors.h"
+#include "nef/base/monitor.h"
 #include "nef/complex/complex.h"
 
 namespace nef::planner {
@@ -22,7 +23,7 @@ class EmptyGrid {
 
   /// As many cubes as the complex has items, some times over. Without vertices, or where doubles cannot hold the
   /// corners exactly, it has none.
-  explicit EmptyGrid(const Complex& complex);
+  EmptyGrid(const Complex& complex, const Monitor& monitor);
 
   [[nodiscard]] std::size_t size() const { return entered_.size(); }
   [[nodiscard]] const Cube& counts() const { return counts_; }

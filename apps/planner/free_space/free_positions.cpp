@@ -5,7 +5,7 @@
 
 #include "apps/minkowski/minkowski.h"
 #include "nef/base/error.h"
-#include "nef/base/interruption.h"
+#include "nef/base/monitor.h"
 #include "nef/complex/item_boxes.h"
 
 namespace nef::planner {
@@ -13,7 +13,7 @@ namespace {
 
 // An unbounded obstacle, cut to what a robot in the box can reach, with a margin so that the cuts
 // stay away from it.
-Polyhedron bounded_obstacle(const Polyhedron& obstacle, const Scene& scene, std::size_t index) {
+Polyhedron bounded_obstacle(const Polyhedron& obstacle, const Scene& scene, std::size_t index, const Monitor& monitor) {
   if (obstacle.is_bounded()) return obstacle;
   if (!scene.box) {
     throw InputError("obstacle " + std::to_string(index) + " (" + scene.obstacle_names[index] +
@@ -26,7 +26,7 @@ Polyhedron bounded_obstacle(const Polyhedron& obstacle, const Scene& scene, std:
     low[i] += robot[0][i] - 1;
     high[i] += robot[1][i] + 1;
   }
-  return intersect(obstacle, make_box(low, high));
+  return intersect(obstacle, make_box(low, high, monitor), 1, monitor);
 }
 
 bool all_regular(const Scene& scene, const std::vector<Polyhedron>& obstacles) {
@@ -37,13 +37,14 @@ bool all_regular(const Scene& scene, const std::vector<Polyhedron>& obstacles) {
   return true;
 }
 
-minkowski::MinkowskiOptions minkowski_options(const BuildOptions& build) {
+minkowski::MinkowskiOptions minkowski_options(const BuildOptions& build, const Monitor& monitor) {
   minkowski::MinkowskiOptions options;
   options.threads = build.threads;
   options.progress = [&build](std::size_t done, std::size_t total) {
     if (build.progress) build.progress("configuration space", done, total);
     return true;
   };
+  options.monitor = monitor;
   return options;
 }
 
@@ -88,17 +89,41 @@ std::vector<std::size_t> obstacles_near(const Scene& scene, std::size_t index) {
   return near;
 }
 
-// What only one obstacle forbids: free for those near it, not free for it; others do not matter there.
-Polyhedron forbidden_by_one(const Scene& scene, std::size_t index, const BuildOptions& options) {
-  return subtract(free_positions(with_only(scene, obstacles_near(scene, index)), options),
-                  free_positions(with_only(scene, {index}), options));
+// Asks nobody but the monitor whether to stop.
+Polyhedron watched_positions(const Scene& scene, const BuildOptions& build, const Monitor& monitor) {
+  std::vector<Polyhedron> obstacles;
+  for (std::size_t i = 0; i < scene.obstacles.size(); ++i) {
+    obstacles.push_back(bounded_obstacle(scene.obstacles[i], scene, i, monitor));
+  }
+  const minkowski::MinkowskiOptions options = minkowski_options(build, monitor);
+  if (scene.contact == ContactRule::kAllow) {
+    return minkowski::configuration_space(scene.robot, obstacles, scene.box, options);
+  }
+  Polyhedron free;
+  if (all_regular(scene, obstacles)) {
+    // closure(int O + -int R) = O + -R for closures of interiors, so the complement of the closed
+    // sum is the interior of the complement of the open one.
+    free = interior(minkowski::configuration_space(scene.robot, obstacles, std::nullopt, options), monitor);
+  } else {
+    free = complement(minkowski::minkowski_sum(unite_all(obstacles, build.threads, monitor),
+                                               minkowski::negate(scene.robot, monitor), options));
+  }
+  return scene.box ? intersect(free, make_box((*scene.box)[0], (*scene.box)[1], monitor), 1, monitor) : free;
 }
 
-Polyhedron free_of_one(const Scene& scene, const Polyhedron& obstacle, const BuildOptions& options) {
+// What only one obstacle forbids: free for those near it, not free for it; others do not matter there.
+Polyhedron forbidden_by_one(const Scene& scene, std::size_t index, const BuildOptions& options,
+                            const Monitor& monitor) {
+  return subtract(watched_positions(with_only(scene, obstacles_near(scene, index)), options, monitor),
+                  watched_positions(with_only(scene, {index}), options, monitor), 1, monitor);
+}
+
+Polyhedron free_of_one(const Scene& scene, const Polyhedron& obstacle, const BuildOptions& options,
+                       const Monitor& monitor) {
   Scene alone = with_only(scene, {});
   alone.obstacles.push_back(obstacle);
   alone.obstacle_names.emplace_back("new");
-  return free_positions(alone, options);
+  return watched_positions(alone, options, monitor);
 }
 
 }  // namespace
@@ -110,48 +135,32 @@ bool obstacles_are_independent(const Scene& scene) {
 Polyhedron with_obstacle(const Scene& scene, const Polyhedron& free, const Polyhedron& obstacle,
                          const BuildOptions& options) {
   NEF_ASSERT(obstacles_are_independent(scene));
-  const Interruptible interruptible(options.stop);
-  return intersect(free, free_of_one(scene, obstacle, options));
+  const StopQuestion question(options.stop, options.monitor);
+  return intersect(free, free_of_one(scene, obstacle, options, question.monitor()), 1, question.monitor());
 }
 
 Polyhedron without_obstacle(const Scene& scene, const Polyhedron& free, std::size_t index,
                             const BuildOptions& options) {
   NEF_ASSERT(obstacles_are_independent(scene));
-  const Interruptible interruptible(options.stop);
-  return unite(free, forbidden_by_one(scene, index, options));
+  const StopQuestion question(options.stop, options.monitor);
+  return unite(free, forbidden_by_one(scene, index, options, question.monitor()), 1, question.monitor());
 }
 
 // One operation with all of free space: what comes free is apart from it, what no longer is free a part of it.
 Polyhedron with_obstacle_moved(const Scene& scene, const Polyhedron& free, std::size_t index, const Polyhedron& moved,
                                const BuildOptions& options) {
   NEF_ASSERT(obstacles_are_independent(scene));
-  const Interruptible interruptible(options.stop);
-  const Polyhedron free_of_moved = free_of_one(scene, moved, options);
-  const Polyhedron gained = intersect(forbidden_by_one(scene, index, options), free_of_moved);
-  const Polyhedron lost = subtract(free, free_of_moved);
-  return symmetric_difference(free, unite(gained, lost));
+  const StopQuestion question(options.stop, options.monitor);
+  const Monitor& monitor = question.monitor();
+  const Polyhedron free_of_moved = free_of_one(scene, moved, options, monitor);
+  const Polyhedron gained = intersect(forbidden_by_one(scene, index, options, monitor), free_of_moved, 1, monitor);
+  const Polyhedron lost = subtract(free, free_of_moved, 1, monitor);
+  return symmetric_difference(free, unite(gained, lost, 1, monitor), 1, monitor);
 }
 
 Polyhedron free_positions(const Scene& scene, const BuildOptions& build) {
-  const Interruptible interruptible(build.stop);
-  std::vector<Polyhedron> obstacles;
-  for (std::size_t i = 0; i < scene.obstacles.size(); ++i) {
-    obstacles.push_back(bounded_obstacle(scene.obstacles[i], scene, i));
-  }
-  const minkowski::MinkowskiOptions options = minkowski_options(build);
-  if (scene.contact == ContactRule::kAllow) {
-    return minkowski::configuration_space(scene.robot, obstacles, scene.box, options);
-  }
-  Polyhedron free;
-  if (all_regular(scene, obstacles)) {
-    // closure(int O + -int R) = O + -R for closures of interiors, so the complement of the closed
-    // sum is the interior of the complement of the open one.
-    free = interior(minkowski::configuration_space(scene.robot, obstacles, std::nullopt, options));
-  } else {
-    free = complement(
-        minkowski::minkowski_sum(unite_all(obstacles, build.threads), minkowski::negate(scene.robot), options));
-  }
-  return scene.box ? intersect(free, make_box((*scene.box)[0], (*scene.box)[1])) : free;
+  const StopQuestion question(build.stop, build.monitor);
+  return watched_positions(scene, build, question.monitor());
 }
 
 }  // namespace nef::planner

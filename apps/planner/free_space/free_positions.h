@@ -7,6 +7,7 @@
 #include <string>
 
 #include "apps/planner/scene/scene.h"
+#include "nef/base/monitor.h"
 
 namespace nef::planner {
 
@@ -20,6 +21,7 @@ struct BuildOptions {
   Progress progress;     ///< may be empty
   /// If set, asked now and then; once it says true, free_positions throws Interrupted.
   std::function<bool()> stop;
+  Monitor monitor = {};  ///< who watches, too; what it refers to must outlive the call
 };
 
 /// The free positions of the robot's reference point. If contact is forbidden, an open set (but for the faces of the

@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "nef/base/error.h"
-#include "nef/base/interruption.h"
 #include "nef/base/union_find.h"
 
 namespace nef::planner {
@@ -22,17 +21,16 @@ FreeSpace::FreeSpace(Polyhedron free) : free_(std::move(free)), cells_(free_.com
   find_touching_rooms();
 }
 
-FreeSpace::Partition::Partition(const FreeSpace& free)
-    : tree(free.complex(), free.cells()),
-      zones(free.complex(), free.cells(), tree, [&free](CellId cell) { return free.is_free(cell); }),
+FreeSpace::Partition::Partition(const FreeSpace& free, const Monitor& monitor)
+    : tree(free.complex(), free.cells(), monitor),
+      zones(free.complex(), free.cells(), tree, monitor, [&free](CellId cell) { return free.is_free(cell); }),
       seconds(watch.seconds()) {}
 
-const FreeSpace::Partition& FreeSpace::partition(const std::function<bool()>& stop) const {
+const FreeSpace::Partition& FreeSpace::partition(const Monitor& monitor) const {
   if (const Partition* ready = ready_.load(std::memory_order_acquire)) return *ready;
   const std::lock_guard<std::mutex> lock(building_);
   if (!partition_) {
-    const Interruptible interruptible(stop);
-    partition_ = std::make_unique<const Partition>(*this);
+    partition_ = std::make_unique<const Partition>(*this, monitor);
     ready_.store(partition_.get(), std::memory_order_release);
   }
   return *partition_;
@@ -43,8 +41,8 @@ const ItemTree& FreeSpace::items() const {
   return *items_;
 }
 
-const EmptyGrid& FreeSpace::grid() const {
-  std::call_once(grid_once_, [this] { grid_ = std::make_unique<const EmptyGrid>(complex()); });
+const EmptyGrid& FreeSpace::grid(const Monitor& monitor) const {
+  std::call_once(grid_once_, [&] { grid_ = std::make_unique<const EmptyGrid>(complex(), monitor); });
   return *grid_;
 }
 

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <atomic>
-#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -19,6 +18,7 @@
 #include "apps/planner/partition/cells.h"
 #include "apps/planner/partition/space_tree.h"
 #include "apps/planner/partition/zones.h"
+#include "nef/base/monitor.h"
 #include "nef/base/timing/stopwatch.h"
 #include "nef/polyhedron.h"
 
@@ -77,21 +77,21 @@ class FreeSpace {
   [[nodiscard]] const Polyhedron& set() const { return free_; }
   [[nodiscard]] const Complex& complex() const { return free_.complex(); }
   [[nodiscard]] const CellNumbering& cells() const { return cells_; }
-  /// Makes the partition and the roadmap unless they are there. O(n log n) expected. `stop`, if given, is asked now and
-  /// then; once it says true, Interrupted is thrown, and nothing is kept.
-  void build_roadmap(const std::function<bool()>& stop = {}) const { static_cast<void>(partition(stop)); }
+  /// Makes the partition and the roadmap unless they are there. O(n log n) expected. If it is interrupted, nothing is
+  /// kept.
+  void build_roadmap(const Monitor& monitor = {}) const { static_cast<void>(partition(monitor)); }
   [[nodiscard]] bool has_roadmap() const { return ready_.load(std::memory_order_acquire) != nullptr; }
   /// What making it has taken; 0 without it.
   [[nodiscard]] double roadmap_seconds() const {
     const Partition* ready = ready_.load(std::memory_order_acquire);
     return ready == nullptr ? 0 : ready->seconds;
   }
-  [[nodiscard]] const SpaceTree& tree() const { return partition().tree; }
-  [[nodiscard]] const Zones& zones() const { return partition().zones; }
+  [[nodiscard]] const SpaceTree& tree() const { return partition({}).tree; }
+  [[nodiscard]] const Zones& zones() const { return partition({}).zones; }
   /// The boundary's items by where they are, made when first asked for: O(n log n), far cheaper than the partition.
   [[nodiscard]] const ItemTree& items() const;
   /// Cubes of space that no boundary enters, made when first asked for: O(n).
-  [[nodiscard]] const EmptyGrid& grid() const;
+  [[nodiscard]] const EmptyGrid& grid(const Monitor& monitor = {}) const;
 
   [[nodiscard]] bool is_free(CellId cell) const { return component_[cell] != kNoComponent; }
   /// Component of a free cell.
@@ -127,13 +127,13 @@ class FreeSpace {
   static constexpr std::uint32_t kNoComponent = 0xffffffffU;
 
   struct Partition {
-    explicit Partition(const FreeSpace& free);
+    Partition(const FreeSpace& free, const Monitor& monitor);
     Stopwatch watch;
     SpaceTree tree;
     Zones zones;
     double seconds;
   };
-  const Partition& partition(const std::function<bool()>& stop = {}) const;
+  const Partition& partition(const Monitor& monitor) const;
   void find_components(const std::vector<bool>& free_cells);
   void find_passages();
   void find_mouths(TightPassage& passage) const;

@@ -17,6 +17,7 @@
 #include "apps/planner/free_space/free_positions.h"
 #include "apps/planner/ompl/nef_validity.h"
 #include "nef/base/interruption.h"
+#include "nef/base/monitor.h"
 #include "nef/base/timing/stopwatch.h"
 
 namespace nef::planner {
@@ -165,8 +166,7 @@ bool TightPlanner::takeGoals(const ob::GoalSampleableRegion& region, const ob::P
 
 std::optional<ExactPath> TightPlanner::bestPath(std::size_t firstGoal, const ob::PlannerTerminationCondition& ptc,
                                                 bool& interrupted) {
-  const std::function<bool()> stop = [&ptc] { return ptc.eval(); };
-  const Interruptible interruptible(stop);
+  const StopQuestion question([&ptc] { return ptc.eval(); });
   std::optional<ExactPath> best;
   PathOptions options = options_;
   options.known = knownWay_;
@@ -178,7 +178,7 @@ std::optional<ExactPath> TightPlanner::bestPath(std::size_t firstGoal, const ob:
       if (interrupted) return best;
       std::optional<ExactPath> path;
       try {
-        path = find_path(*freeSpace_, start.position, goals_[i].position, options);
+        path = find_path(*freeSpace_, start.position, goals_[i].position, options, question.monitor());
       } catch (const Interrupted&) {
         interrupted = true;
         return best;

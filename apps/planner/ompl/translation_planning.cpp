@@ -17,6 +17,7 @@
 #include "apps/planner/scene/shapes.h"
 #include "nef/base/error.h"
 #include "nef/base/interruption.h"
+#include "nef/base/monitor.h"
 #include "nef/base/timing/stopwatch.h"
 
 namespace nef::planner {
@@ -301,11 +302,11 @@ bool TranslationPlanning::prepare(const std::function<bool()>& stop) {
   adoptBounds();
   if (!freeSpace_) {
     if (scene_.robot.is_empty()) throw ompl::Exception("TranslationPlanning", "no robot is set");
+    const StopQuestion question(stop);
     BuildOptions options;
-    options.stop = stop;
+    options.monitor = question.monitor();
     std::shared_ptr<const FreeSpace> freeSpace;
     try {
-      const Interruptible interruptible(stop);
       freeSpace = std::make_shared<const FreeSpace>(presentFreePositions(options));
     } catch (const Interrupted&) {
       return false;
@@ -324,8 +325,9 @@ bool TranslationPlanning::prepare(const std::function<bool()>& stop) {
 bool TranslationPlanning::buildRoadmap(const std::function<bool()>& stop) const {
   // TightPlanner makes it when it needs it; other planners ask for thousands of states.
   if (!planner_ || getTightPlanner() != nullptr) return true;
+  const StopQuestion question(stop);
   try {
-    freeSpace_->build_roadmap(stop);
+    freeSpace_->build_roadmap(question.monitor());
   } catch (const Interrupted&) {
     return false;
   }

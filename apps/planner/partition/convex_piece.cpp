@@ -121,7 +121,8 @@ SplitPiece split_polygon(ConvexPiece&& piece, const std::vector<int>& signs, Pla
 
 }  // namespace
 
-SplitPiece split(ConvexPiece&& piece, PlaneId plane, const PlaneTable& planes, PointTable& points) {
+SplitPiece split(ConvexPiece&& piece, PlaneId plane, const PlaneTable& planes, PointTable& points,
+                 const Monitor& monitor) {
   const PlaneId positive{plane.row() << 1U};
   SplitPiece result;
   if (piece.dimension > 0 && (piece.p.row() == plane.row() || (piece.dimension == 1 && piece.q.row() == plane.row()))) {
@@ -133,7 +134,7 @@ SplitPiece split(ConvexPiece&& piece, PlaneId plane, const PlaneTable& planes, P
   bool above = false;
   bool below = false;
   for (const PointId point : piece.points) {
-    signs.push_back(side_of_plane(planes, positive, points, point));
+    signs.push_back(side_of_plane(planes, positive, points, point, monitor));
     above = above || signs.back() > 0;
     below = below || signs.back() < 0;
   }

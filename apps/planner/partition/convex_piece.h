@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apps/planner/partition/cells.h"
+#include "nef/base/monitor.h"
 #include "nef/geometry/plane_table.h"
 #include "nef/geometry/point_table.h"
 
@@ -36,7 +37,8 @@ struct SplitPiece {
 
 /// Splits a piece by the unflipped plane. New points are appended to `points`. A polygon that only
 /// touches the plane has an `on` part where a seam lies in the plane; a segment wherever it touches.
-SplitPiece split(ConvexPiece&& piece, PlaneId plane, const PlaneTable& planes, PointTable& points);
+SplitPiece split(ConvexPiece&& piece, PlaneId plane, const PlaneTable& planes, PointTable& points,
+                 const Monitor& monitor);
 
 /// The part of a plane inside the box whose planes are given (low x, high x, low y, ...); without
 /// those of the plane's main axis, so it may stick out in that direction.

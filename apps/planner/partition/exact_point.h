@@ -37,7 +37,7 @@ class ExactPoint {
   [[nodiscard]] Integer exact_form(const PlaneTable& planes, PlaneId plane) const;
   /// The side of the unflipped plane: +1, 0, -1. Exact.
   [[nodiscard]] int side(const PlaneTable& planes, PlaneId plane) const {
-    return sign_by_ladder(form(planes, plane), [&] { return sgn(exact_form(planes, plane)); });
+    return sign_by_ladder(form(planes, plane), {}, [&] { return sgn(exact_form(planes, plane)); });
   }
 
  private:
@@ -96,13 +96,13 @@ class ExactSegment {
 inline int ExactSegment::side(const PlaneForms& forms, const SegmentParameter& t) const {
   if (!t.plane.valid()) {
     const Approximation& here = t.direction == 0 ? forms.at_a : forms.at_b;
-    return sign_by_ladder(here, [&] { return exact_side(forms.plane, t); });
+    return sign_by_ladder(here, {}, [&] { return exact_side(forms.plane, t); });
   }
   if (t.plane.row() == forms.plane.row()) return 0;
   // With q the form of t's plane and p that of the asked one: p at t is (q(a) p(b) - p(a) q(b)) / (q(a) - q(b)), and
   // the denominator has the sign of q(a).
   const Approximation numerator = t.at_a * forms.at_b - forms.at_a * t.at_b;
-  return sign_by_ladder(t.direction > 0 ? numerator : -numerator, [&] { return exact_side(forms.plane, t); });
+  return sign_by_ladder(t.direction > 0 ? numerator : -numerator, {}, [&] { return exact_side(forms.plane, t); });
 }
 
 }  // namespace nef::planner

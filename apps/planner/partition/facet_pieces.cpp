@@ -13,20 +13,20 @@ PlaneId side_plane(const Complex& complex, const Facet& facet, HalfedgeId halfed
 }
 
 // True if the facet's angle at the corner is at most a half-turn.
-bool convex_at(const Complex& complex, SHalfedgeId corner) {
+bool convex_at(const Complex& complex, SHalfedgeId corner, const Monitor& monitor) {
   const HalfedgeId out = complex.corner_halfedge(corner);
   const HalfedgeId back = complex.corner_back_halfedge(corner);
   if (out == back) return false;
   const Direction u = direction_of(complex.planes, complex.svertex(out));
   const Direction v = direction_of(complex.planes, complex.svertex(back));
-  const int turn = orientation_on_circle(complex.planes, complex.shalfedge_plane[corner], u, v);
-  return turn > 0 || (turn == 0 && !same_direction(u, v));
+  const int turn = orientation_on_circle(complex.planes, complex.shalfedge_plane[corner], u, v, monitor);
+  return turn > 0 || (turn == 0 && !same_direction(u, v, monitor));
 }
 
-bool is_convex(const Complex& complex, const Facet& facet) {
+bool is_convex(const Complex& complex, const Facet& facet, const Monitor& monitor) {
   if (facet.cycle_count != 1) return false;
   for (const SHalfedgeId corner : complex.corners_of(facet)) {
-    if (!convex_at(complex, corner)) return false;
+    if (!convex_at(complex, corner, monitor)) return false;
   }
   return true;
 }
@@ -34,8 +34,9 @@ bool is_convex(const Complex& complex, const Facet& facet) {
 // Cuts a polygon until no edge of the facet runs through it.
 class Cutter {
  public:
-  Cutter(const Complex& complex, FacetId f, const PlaneTable& planes, PointTable& points, std::vector<ConvexPiece>& out)
-      : complex_(complex), f_(f), planes_(planes), points_(points), out_(out) {}
+  Cutter(const Complex& complex, FacetId f, const PlaneTable& planes, PointTable& points, std::vector<ConvexPiece>& out,
+         const Monitor& monitor)
+      : complex_(complex), f_(f), planes_(planes), points_(points), out_(out), monitor_(monitor) {}
 
   void cut(ConvexPiece polygon, std::vector<ConvexPiece> edges) {
     if (edges.empty()) {
@@ -46,11 +47,11 @@ class Cutter {
     std::vector<ConvexPiece> below;
     std::vector<ConvexPiece> above;
     for (ConvexPiece& edge : edges) {
-      SplitPiece part = split(std::move(edge), plane, planes_, points_);
+      SplitPiece part = split(std::move(edge), plane, planes_, points_, monitor_);
       if (part.negative) below.push_back(std::move(*part.negative));
       if (part.positive) above.push_back(std::move(*part.positive));
     }
-    SplitPiece halves = split(std::move(polygon), plane, planes_, points_);
+    SplitPiece halves = split(std::move(polygon), plane, planes_, points_, monitor_);
     mark_seams(halves, plane);
     if (halves.negative) cut(std::move(*halves.negative), std::move(below));
     if (halves.positive) cut(std::move(*halves.positive), std::move(above));
@@ -72,14 +73,15 @@ class Cutter {
   const PlaneTable& planes_;
   PointTable& points_;
   std::vector<ConvexPiece>& out_;
+  Monitor monitor_;
 };
 
 }  // namespace
 
 void append_facet_pieces(const Complex& complex, FacetId f, CellId cell, const PlaneTable& planes, PointTable& points,
-                         const std::array<PlaneId, 6>& box, std::vector<ConvexPiece>& pieces) {
+                         const std::array<PlaneId, 6>& box, std::vector<ConvexPiece>& pieces, const Monitor& monitor) {
   const Facet& facet = complex.facets[f];
-  if (is_convex(complex, facet)) {
+  if (is_convex(complex, facet, monitor)) {
     ConvexPiece piece;
     piece.cell = cell;
     piece.dimension = 2;
@@ -104,7 +106,7 @@ void append_facet_pieces(const Complex& complex, FacetId f, CellId cell, const P
   }
   ConvexPiece whole = plane_in_box(facet.plane, box, planes, points);
   whole.cell = cell;
-  Cutter(complex, f, planes, points, pieces).cut(std::move(whole), std::move(edges));
+  Cutter(complex, f, planes, points, pieces, monitor).cut(std::move(whole), std::move(edges));
 }
 
 bool facet_contains(const Complex& complex, FacetId f, const Rational3& point) {

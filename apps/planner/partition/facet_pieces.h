@@ -4,6 +4,7 @@
 #pragma once
 
 #include "apps/planner/partition/convex_piece.h"
+#include "nef/base/monitor.h"
 
 namespace nef::planner {
 
@@ -12,7 +13,7 @@ namespace nef::planner {
 /// edges. New points are appended to `points`, which begins with the points of the complex; `planes`
 /// begins with its planes.
 void append_facet_pieces(const Complex& complex, FacetId f, CellId cell, const PlaneTable& planes, PointTable& points,
-                         const std::array<PlaneId, 6>& box, std::vector<ConvexPiece>& pieces);
+                         const std::array<PlaneId, 6>& box, std::vector<ConvexPiece>& pieces, const Monitor& monitor);
 
 /// True if the point of the facet's plane lies in the facet; it must not lie on its boundary. O(k).
 bool facet_contains(const Complex& complex, FacetId f, const Rational3& point);

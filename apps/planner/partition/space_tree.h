@@ -19,6 +19,7 @@
 #include "apps/planner/partition/cells.h"
 #include "apps/planner/partition/convex_piece.h"
 #include "apps/planner/partition/exact_point.h"
+#include "nef/base/monitor.h"
 
 namespace nef::planner {
 
@@ -56,9 +57,8 @@ class SpaceTree {
 
   /// Builds the tree (a binary space partition [Fuchs, Kedem, Naylor 1980], with a third child for what lies in
   /// the plane). The complex must outlive it. Expected O(n log n) to O(n^2) pieces for n
-  /// facets. Throws UnsupportedError for a complex with an infimaximal box, and Interrupted like
-  /// all long work of the core (nef/base/interruption.h).
-  SpaceTree(const Complex& complex, const CellNumbering& cells);
+  /// facets. Throws UnsupportedError for a complex with an infimaximal box.
+  SpaceTree(const Complex& complex, const CellNumbering& cells, const Monitor& monitor);
 
   [[nodiscard]] const PlaneTable& planes() const { return t_.planes; }
   [[nodiscard]] std::span<const Leaf> leaves() const { return t_.leaves; }

@@ -9,7 +9,6 @@
 #include "apps/planner/partition/facet_pieces.h"
 #include "apps/planner/partition/space_tree.h"
 #include "nef/base/error.h"
-#include "nef/base/interruption.h"
 #include "nef/geometry/predicates.h"
 
 namespace nef::planner {
@@ -28,7 +27,8 @@ bool same_plane(PlaneId a, PlaneId b) { return a.valid() && b.valid() && a.row()
 
 class SpaceTreeBuilder {
  public:
-  SpaceTreeBuilder(const Complex& complex, const CellNumbering& cells) : complex_(complex), cells_(cells) {}
+  SpaceTreeBuilder(const Complex& complex, const CellNumbering& cells, const Monitor& monitor)
+      : complex_(complex), cells_(cells), monitor_(monitor) {}
 
   SpaceTree::Parts build() {
     if (complex_.has_box()) {
@@ -49,7 +49,7 @@ class SpaceTreeBuilder {
       pieces.push_back(edge_piece(h));
     }
     for (const FacetId f : complex_.facets.ids()) {
-      append_facet_pieces(complex_, f, cells_.facet(f), tree_.planes, points_, tree_.box, pieces);
+      append_facet_pieces(complex_, f, cells_.facet(f), tree_.planes, points_, tree_.box, pieces, monitor_);
     }
     tree_.root = build(std::move(pieces), Region{});
     return std::move(tree_);
@@ -77,12 +77,12 @@ class SpaceTreeBuilder {
   }
 
   std::uint32_t build(Pieces pieces, const Region& region) {
-    check_interruption();
+    monitor_.check_interruption();
     const PlaneId plane = choose_plane(pieces, region);
     if (!plane.valid()) return make_leaf(pieces, region);
     std::array<Pieces, 3> parts;
     for (ConvexPiece& piece : pieces) {
-      SplitPiece split_piece = split(std::move(piece), plane, tree_.planes, points_);
+      SplitPiece split_piece = split(std::move(piece), plane, tree_.planes, points_, monitor_);
       if (split_piece.negative) parts[0].push_back(std::move(*split_piece.negative));
       if (split_piece.on) parts[1].push_back(std::move(*split_piece.on));
       if (split_piece.positive) parts[2].push_back(std::move(*split_piece.positive));
@@ -155,7 +155,7 @@ class SpaceTreeBuilder {
       bool above = false;
       bool below = false;
       for (const PointId point : piece.points) {
-        const int side = side_of_plane(tree_.planes, positive, points_, point);
+        const int side = side_of_plane(tree_.planes, positive, points_, point, monitor_);
         above = above || side > 0;
         below = below || side < 0;
         if (above && below) break;
@@ -202,13 +202,14 @@ class SpaceTreeBuilder {
 
   const Complex& complex_;
   const CellNumbering& cells_;
+  Monitor monitor_;
   SpaceTree::Parts tree_;
   PointTable points_;
 };
 
 }  // namespace
 
-SpaceTree::SpaceTree(const Complex& complex, const CellNumbering& cells)
-    : SpaceTree(SpaceTreeBuilder(complex, cells).build()) {}
+SpaceTree::SpaceTree(const Complex& complex, const CellNumbering& cells, const Monitor& monitor)
+    : SpaceTree(SpaceTreeBuilder(complex, cells, monitor).build()) {}
 
 }  // namespace nef::planner

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "nef/base/interruption.h"
 #include "nef/sphere_map/sphere_geometry.h"
 
 namespace nef::planner {
@@ -21,7 +20,7 @@ Zones::Stations StationMaker::make() {
 }
 
 void StationMaker::begin(Kind kind, std::uint32_t source, CellId cell, const std::array<double, 3>& approximate) {
-  check_interruption();
+  monitor_.check_interruption();
   Zones::Station station;
   station.kind = kind;
   station.source = source;

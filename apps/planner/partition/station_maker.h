@@ -5,6 +5,7 @@
 
 #include "apps/planner/partition/nudges.h"
 #include "apps/planner/partition/zones.h"
+#include "nef/base/monitor.h"
 
 namespace nef::planner {
 
@@ -12,10 +13,10 @@ namespace nef::planner {
 /// selected. Nudges tell which leaf begins at a vertex or edge in which direction.
 class StationMaker {
  public:
-  /// All arguments must outlive the object.
+  /// All arguments but the monitor must outlive the object.
   StationMaker(const Complex& complex, const CellNumbering& cells, const SpaceTree& tree, const Walls& walls,
-               const std::function<bool(CellId)>& selected)
-      : complex_(complex), cells_(cells), tree_(tree), walls_(walls), selected_(selected) {}
+               const std::function<bool(CellId)>& selected, const Monitor& monitor)
+      : complex_(complex), cells_(cells), tree_(tree), walls_(walls), selected_(selected), monitor_(monitor) {}
 
   /// O(items of the complex and walls) locations in the tree.
   Zones::Stations make();
@@ -44,6 +45,7 @@ class StationMaker {
   const SpaceTree& tree_;
   const Walls& walls_;
   const std::function<bool(CellId)>& selected_;
+  Monitor monitor_;
   Zones::Stations out_;
 };
 

@@ -5,7 +5,6 @@
 #include "apps/planner/partition/walls.h"
 
 #include "nef/base/error.h"
-#include "nef/base/interruption.h"
 #include "nef/base/union_find.h"
 
 namespace nef::planner {
@@ -14,8 +13,13 @@ namespace {
 class WallCollector {
  public:
   WallCollector(const Complex& complex, const CellNumbering& cells, const SpaceTree& tree,
-                const std::function<bool(CellId)>& wanted_facet)
-      : complex_(complex), cells_(cells), tree_(tree), planes_(tree.planes()), wanted_facet_(wanted_facet) {}
+                const std::function<bool(CellId)>& wanted_facet, const Monitor& monitor)
+      : complex_(complex),
+        cells_(cells),
+        tree_(tree),
+        planes_(tree.planes()),
+        wanted_facet_(wanted_facet),
+        monitor_(monitor) {}
 
   WallLists run() {
     collect(tree_.root());
@@ -27,16 +31,16 @@ class WallCollector {
 
   void collect(std::uint32_t at) {
     if (SpaceTree::is_leaf(at)) return;
-    check_interruption();
+    monitor_.check_interruption();
     const SpaceTree::Node& node = tree_.nodes()[at];
     std::optional<ConvexPiece> polygon = plane_in_box(node.plane, tree_.box(), planes_, out_.points);
     for (std::size_t i = 0; i < 6 && polygon; ++i) {
-      SplitPiece parts = split(std::move(*polygon), tree_.box()[i], planes_, out_.points);
+      SplitPiece parts = split(std::move(*polygon), tree_.box()[i], planes_, out_.points, monitor_);
       polygon = std::move(i % 2 == 0 ? parts.positive : parts.negative);
     }
     for (const auto& [plane, side] : ancestors_) {
       if (!polygon) break;
-      SplitPiece parts = split(std::move(*polygon), plane, planes_, out_.points);
+      SplitPiece parts = split(std::move(*polygon), plane, planes_, out_.points, monitor_);
       polygon = std::move(side < 0 ? parts.negative : parts.positive);
     }
     if (polygon) {
@@ -57,7 +61,7 @@ class WallCollector {
       return;
     }
     const SpaceTree::Node& node = tree_.nodes()[at];
-    SplitPiece parts = split(std::move(polygon), node.plane, planes_, out_.points);
+    SplitPiece parts = split(std::move(polygon), node.plane, planes_, out_.points, monitor_);
     if (parts.negative && parts.positive) {
       NEF_ASSERT(parts.on.has_value());
       down(node.child[1], std::move(*parts.on), 1,
@@ -83,7 +87,7 @@ class WallCollector {
       return;
     }
     const SpaceTree::Node& node = tree_.nodes()[at];
-    SplitPiece parts = split(std::move(piece), node.plane, planes_, out_.points);
+    SplitPiece parts = split(std::move(piece), node.plane, planes_, out_.points, monitor_);
     if (parts.negative) down(node.child[0], std::move(*parts.negative), dimension, visit);
     if (parts.positive) down(node.child[2], std::move(*parts.positive), dimension, visit);
     if (parts.on && parts.on->dimension == dimension) down(node.child[1], std::move(*parts.on), dimension, visit);
@@ -104,6 +108,7 @@ class WallCollector {
   const SpaceTree& tree_;
   const PlaneTable& planes_;
   const std::function<bool(CellId)>& wanted_facet_;
+  Monitor monitor_;
   WallLists out_;
   std::vector<std::pair<PlaneId, int>> ancestors_;
 };
@@ -131,9 +136,9 @@ void name_volumes(const Complex& complex, const CellNumbering& cells, const std:
 
 }  // namespace
 
-Walls::Walls(const Complex& complex, const CellNumbering& cells, SpaceTree& tree,
+Walls::Walls(const Complex& complex, const CellNumbering& cells, SpaceTree& tree, const Monitor& monitor,
              const std::function<bool(CellId)>& wanted_facet)
-    : Walls(WallCollector(complex, cells, tree, wanted_facet).run()) {
+    : Walls(WallCollector(complex, cells, tree, wanted_facet, monitor).run()) {
   name_volumes(complex, cells, w_.walls, tree);
 }
 

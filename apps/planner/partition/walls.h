@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/planner/partition/space_tree.h"
+#include "nef/base/monitor.h"
 
 namespace nef::planner {
 
@@ -35,7 +36,7 @@ class Walls {
   /// `wanted_facet` tells for which facets' cells the segments between their leaves are wanted.
   /// Finds out the volume of every 3-dimensional leaf and stores it in the tree: a wall in a facet
   /// knows the volumes beside it, and a wall in no facet has the same volume on both sides.
-  Walls(const Complex& complex, const CellNumbering& cells, SpaceTree& tree,
+  Walls(const Complex& complex, const CellNumbering& cells, SpaceTree& tree, const Monitor& monitor,
         const std::function<bool(CellId)>& wanted_facet);
 
   [[nodiscard]] const std::vector<Wall>& walls() const { return w_.walls; }

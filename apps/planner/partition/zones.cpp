@@ -26,13 +26,13 @@ void make_lists(std::size_t owners, std::vector<std::uint32_t>& begin, std::vect
 
 }  // namespace
 
-Zones::Zones(const Complex& complex, const CellNumbering& cells, SpaceTree& tree,
+Zones::Zones(const Complex& complex, const CellNumbering& cells, SpaceTree& tree, const Monitor& monitor,
              const std::function<bool(CellId)>& selected)
     : complex_(&complex),
       cells_(&cells),
       tree_(&tree),
-      walls_(complex, cells, tree, [&](CellId cell) { return cells.dimension(cell) == 2 && selected(cell); }) {
-  s_ = StationMaker(complex, cells, tree, walls_, selected).make();
+      walls_(complex, cells, tree, monitor, [&](CellId cell) { return cells.dimension(cell) == 2 && selected(cell); }) {
+  s_ = StationMaker(complex, cells, tree, walls_, selected, monitor).make();
   make_lists(tree.leaves().size() + cells.facet(FacetId{0}), zone_begin_, zone_stations_, [&](const auto& visit) {
     for (StationId s = 0; s < s_.stations.size(); ++s) {
       for (const ZoneId zone : zones_of(s)) visit(zone, s);

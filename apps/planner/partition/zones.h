@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "apps/planner/partition/walls.h"
+#include "nef/base/monitor.h"
 
 namespace nef::planner {
 
@@ -41,9 +42,8 @@ class Zones {
     std::vector<ZoneId> zones;
   };
 
-  /// `selected` tells which cells are free. The tree and the complex must outlive the result. May throw
-  /// Interrupted.
-  Zones(const Complex& complex, const CellNumbering& cells, SpaceTree& tree,
+  /// `selected` tells which cells are free. The tree and the complex must outlive the result.
+  Zones(const Complex& complex, const CellNumbering& cells, SpaceTree& tree, const Monitor& monitor,
         const std::function<bool(CellId)>& selected);
 
   [[nodiscard]] const Walls& walls() const { return walls_; }

@@ -15,7 +15,7 @@
 #include "apps/minkowski/union/union_builder.h"
 #include "apps/planner/free_space/vectors.h"
 #include "nef/base/error.h"
-#include "nef/base/interruption.h"
+#include "nef/base/monitor.h"
 #include "nef/base/timing/stopwatch.h"
 #include "nef/construct/construct.h"
 
@@ -80,12 +80,12 @@ struct SweptRobot {
   std::vector<minkowski::ConvexCell> inside;
 };
 
-SweptRobot swept_robot(const Polyhedron& robot, const std::vector<Vector3d>& directions) {
+SweptRobot swept_robot(const Polyhedron& robot, const std::vector<Vector3d>& directions, const Monitor& monitor) {
   SweptRobot result;
   const Complex& c = robot.complex();
   for (const VertexId v : c.vertex_ids()) result.corners.push_back(to_vector(c.points.approximate(point_of(v))));
   for (const Vector3d& direction : directions) result.extents.push_back(extent_along(direction, result.corners));
-  result.inside = minkowski::decompose(interior(minkowski::negate(robot)));
+  result.inside = minkowski::decompose(interior(minkowski::negate(robot, monitor), monitor), monitor);
   return result;
 }
 
@@ -112,10 +112,11 @@ Piece piece_of(minkowski::ConvexCell cell, const std::vector<Vector3d>& directio
   return piece;
 }
 
-std::vector<Piece> pieces_of(const std::vector<Polyhedron>& obstacles, const std::vector<Vector3d>& directions) {
+std::vector<Piece> pieces_of(const std::vector<Polyhedron>& obstacles, const std::vector<Vector3d>& directions,
+                             const Monitor& monitor) {
   std::vector<Piece> pieces;
   for (const Polyhedron& obstacle : obstacles) {
-    for (minkowski::ConvexCell& cell : minkowski::decompose(closure(obstacle))) {
+    for (minkowski::ConvexCell& cell : minkowski::decompose(closure(obstacle, monitor), monitor)) {
       pieces.push_back(piece_of(std::move(cell), directions));
     }
   }
@@ -124,14 +125,15 @@ std::vector<Piece> pieces_of(const std::vector<Polyhedron>& obstacles, const std
 
 class NearSearch {
  public:
-  NearSearch(const Scene& scene, const PathOptions& options, const BuildOptions& build)
+  NearSearch(const Scene& scene, const PathOptions& options, const BuildOptions& build, const Monitor& monitor)
       : scene_(scene),
         options_(options),
         build_(build),
+        monitor_(monitor),
         directions_(fixed_directions()),
-        robot_(swept_robot(scene.robot, directions_)),
+        robot_(swept_robot(scene.robot, directions_, monitor)),
         around_(kAround * size_of(robot_)),
-        pieces_(pieces_of(scene.obstacles, directions_)),
+        pieces_(pieces_of(scene.obstacles, directions_, monitor)),
         scale_(largest_coordinate(robot_.corners) +
                largest_coordinate({to_vector(*scene.start), to_vector(*scene.goal)})) {
     for (const Piece& piece : pieces_) scale_ = std::max(scale_, largest_coordinate(piece.corners));
@@ -139,9 +141,10 @@ class NearSearch {
 
   std::optional<WideAnswer> run() {
     Stopwatch watch;
-    Polyhedron positions = scene_.box ? make_box((*scene_.box)[0], (*scene_.box)[1]) : Polyhedron::everything();
+    Polyhedron positions =
+        scene_.box ? make_box((*scene_.box)[0], (*scene_.box)[1], monitor_) : Polyhedron::everything();
     for (int step = 0; step < kMostSteps; ++step) {
-      check_interruption();
+      monitor_.check_interruption();
       auto free = std::make_shared<const FreeSpace>(positions);
       std::optional<ExactPath> path;
       const std::optional<std::vector<std::size_t>> near = near_ways(*free, path);
@@ -151,7 +154,7 @@ class NearSearch {
         result.answer.phases["query"] = watch.lap();
         return result;
       }
-      positions = subtract(positions, forbidden_by(*near));
+      positions = subtract(positions, forbidden_by(*near), 1, monitor_);
     }
     return std::nullopt;
   }
@@ -160,10 +163,13 @@ class NearSearch {
   // The positions that some pieces forbid: those at which the inside of the robot meets one.
   [[nodiscard]] Polyhedron forbidden_by(const std::vector<std::size_t>& pieces) const {
     // Measured: pieces of a surface nearly coincide too often for one union of all.
-    minkowski::UnionBuilder forbidden(minkowski::UnionStrategy::kQueue, build_.threads, pieces.size(),
-                                      [](double) { check_interruption(); });
+    minkowski::UnionBuilder forbidden(
+        minkowski::UnionStrategy::kQueue, build_.threads, pieces.size(),
+        [this](double) { monitor_.check_interruption(); }, monitor_);
     for (const std::size_t i : pieces) {
-      for (const minkowski::ConvexCell& part : robot_.inside) forbidden.add(convex_sum(pieces_[i].cell, part));
+      for (const minkowski::ConvexCell& part : robot_.inside) {
+        forbidden.add(convex_sum(pieces_[i].cell, part, monitor_));
+      }
     }
     return forbidden.finish();
   }
@@ -178,7 +184,7 @@ class NearSearch {
     PathOptions inside = fast;
     inside.roomy = true;
     for (const PathOptions* options : std::array<const PathOptions*, 3>{&fast, &inside, &options_}) {
-      path = find_path(free, *scene_.start, *scene_.goal, *options);
+      path = find_path(free, *scene_.start, *scene_.goal, *options, monitor_);
       if (!path || path->thinness.piece < 3) return std::nullopt;
       if (options == &inside && path->thinness.junction < 3) return std::nullopt;
       std::vector<std::size_t> near = pieces_near(path->points);
@@ -240,6 +246,7 @@ class NearSearch {
   const Scene& scene_;
   const PathOptions& options_;
   const BuildOptions& build_;
+  Monitor monitor_;
   std::vector<Vector3d> directions_;
   SweptRobot robot_;
   double around_;  // how far from a way pieces are taken with it
@@ -264,8 +271,8 @@ bool may_have_near_answer(const Scene& scene) {
 
 std::optional<WideAnswer> near_answer(const Scene& scene, const PathOptions& options, const BuildOptions& build) {
   NEF_ASSERT(may_have_near_answer(scene));
-  const Interruptible interruptible(build.stop);
-  return NearSearch(scene, options, build).run();
+  const StopQuestion question(build.stop, build.monitor);
+  return NearSearch(scene, options, build, question.monitor()).run();
 }
 
 }  // namespace nef::planner

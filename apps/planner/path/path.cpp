@@ -31,13 +31,13 @@ constexpr std::size_t kPlacesForWayRound = 400;
 constexpr std::size_t kManyCells = 2000;
 
 std::optional<Waypoints> first_way(const FreeSpace& free, const CellFilter& filter, int min_dimension,
-                                   const Rational3& start, const Rational3& goal, const PathOptions& options) {
+                                   const Rational3& start, const Rational3& goal, const PathOptions& options,
+                                   const Monitor& monitor) {
   if (free.cells().size() >= kManyCells && !options.raw && !options.clearance) {
-    if (std::optional<Waypoints> way = wide_way(free, filter, start, goal)) return way;
-    if (std::optional<Waypoints> way = narrow_way(free, filter, min_dimension, start, goal)) return way;
+    if (std::optional<Waypoints> way = wide_way(free, filter, start, goal, monitor)) return way;
+    if (std::optional<Waypoints> way = narrow_way(free, filter, min_dimension, start, goal, monitor)) return way;
   }
-  free.build_roadmap();
-  return roadmap_path(free, filter, start, goal, options.clearance);
+  return roadmap_path(free, filter, start, goal, options.clearance, monitor);
 }
 
 // True if the known path, if any, is one from start to goal within the filter.
@@ -52,7 +52,7 @@ bool serves(const Waypoints& known, const Rational3& start, const Rational3& goa
 }  // namespace
 
 std::optional<ExactPath> find_path(const FreeSpace& free, const Rational3& start, const Rational3& goal,
-                                   const PathOptions& options) {
+                                   const PathOptions& options, const Monitor& monitor) {
   const CellId start_cell = free.locate(ExactPoint(start));
   const CellId goal_cell = free.locate(ExactPoint(goal));
   if (!free.is_free(start_cell) || !free.is_free(goal_cell)) return std::nullopt;
@@ -76,14 +76,14 @@ std::optional<ExactPath> find_path(const FreeSpace& free, const Rational3& start
     if (options.digits) path->unrounded = unrounded_points(path->points, *options.digits);
     return path;
   }
-  std::optional<Waypoints> points = first_way(free, filter, min_dimension, start, goal, options);
+  std::optional<Waypoints> points = first_way(free, filter, min_dimension, start, goal, options, monitor);
   // T and J need not be had by one and the same path; T counts first.
   if (!points && options.roomy) {
     PathOptions looser = options;
     looser.roomy = false;
     const std::optional<Thinness> best = free.thinness(start_cell, goal_cell);
     looser.min_dimension = std::max(options.min_dimension, best->piece);
-    return find_path(free, start, goal, looser);
+    return find_path(free, start, goal, looser, monitor);
   }
   if (!points) return std::nullopt;
   if (!options.raw) {

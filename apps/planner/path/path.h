@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/planner/free_space/segments.h"
+#include "nef/base/monitor.h"
 
 namespace nef::planner {
 
@@ -41,10 +42,9 @@ struct ExactPath {
 
 /// A path between two free points, or nothing if there is none within the options: a proof, since
 /// the roadmap is complete; it is made unless free space is large and a way is found without it. The points must be
-/// free. Start equal to goal gives a path of one point. May throw Interrupted (nef/base/interruption.h)
-/// until a first way is found.
+/// free. Start equal to goal gives a path of one point. Can be interrupted until a first way is found.
 std::optional<ExactPath> find_path(const FreeSpace& free, const Rational3& start, const Rational3& goal,
-                                   const PathOptions& options = {});
+                                   const PathOptions& options = {}, const Monitor& monitor = {});
 
 /// Describes given way-points; nothing if a segment leaves free space.
 std::optional<ExactPath> describe_path(const FreeSpace& free, std::vector<Rational3> points);

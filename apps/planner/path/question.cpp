@@ -14,13 +14,14 @@ Problem::Problem(Scene scene, const BuildOptions& options) : scene_(std::move(sc
   phases_["cells"] = watch.lap();
 }
 
-Answer Problem::solve(const PathOptions& options) const {
+Answer Problem::solve(const PathOptions& options, const Monitor& monitor) const {
   if (!scene_.start) throw InputError(scene_.name + ": the scene has no start: give it one, or use --start x,y,z");
   if (!scene_.goal) throw InputError(scene_.name + ": the scene has no goal: give it one, or use --goal x,y,z");
-  return solve(*scene_.start, *scene_.goal, options);
+  return solve(*scene_.start, *scene_.goal, options, monitor);
 }
 
-Answer Problem::solve(const Rational3& start, const Rational3& goal, const PathOptions& options) const {
+Answer Problem::solve(const Rational3& start, const Rational3& goal, const PathOptions& options,
+                      const Monitor& monitor) const {
   Stopwatch watch;
   Answer answer;
   answer.phases = phases_;
@@ -29,7 +30,7 @@ Answer Problem::solve(const Rational3& start, const Rational3& goal, const PathO
   if (!free_->is_free(start_cell) || !free_->is_free(goal_cell)) {
     const bool at_start = !free_->is_free(start_cell);
     answer.status = at_start ? Answer::Status::kInvalidStart : Answer::Status::kInvalidGoal;
-    answer.collision = find_collision(scene_, at_start ? start : goal);
+    answer.collision = find_collision(scene_, at_start ? start : goal, monitor);
     NEF_ASSERT(answer.collision.has_value());
     answer.phases["query"] = watch.lap();
     return answer;
@@ -38,7 +39,7 @@ Answer Problem::solve(const Rational3& start, const Rational3& goal, const PathO
   answer.goal_component = free_->component(goal_cell);
   answer.thinness = free_->thinness(start_cell, goal_cell);
   const double roadmap_before = free_->roadmap_seconds();
-  answer.path = find_path(*free_, start, goal, options);
+  answer.path = find_path(*free_, start, goal, options, monitor);
   answer.status = answer.path ? Answer::Status::kPath : Answer::Status::kInfeasible;
   const double roadmap = free_->roadmap_seconds() - roadmap_before;
   if (roadmap > 0) answer.phases["roadmap"] = roadmap;
@@ -46,7 +47,7 @@ Answer Problem::solve(const Rational3& start, const Rational3& goal, const PathO
   return answer;
 }
 
-Answer Problem::check(const std::vector<Rational3>& points) const {
+Answer Problem::check(const std::vector<Rational3>& points, const Monitor& monitor) const {
   Stopwatch watch;
   Answer answer;
   answer.phases = phases_;
@@ -57,7 +58,7 @@ Answer Problem::check(const std::vector<Rational3>& points) const {
     const std::optional<Rational3> hit = first_blocked_position(*free_, points[i], next);
     if (!hit) continue;
     answer.blocked_segment = i;
-    answer.collision = find_collision(scene_, *hit);
+    answer.collision = find_collision(scene_, *hit, monitor);
     break;
   }
   answer.phases["query"] = watch.lap();

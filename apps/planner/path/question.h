@@ -7,6 +7,7 @@
 
 #include "apps/planner/free_space/free_positions.h"
 #include "apps/planner/path/answer.h"
+#include "nef/base/monitor.h"
 
 namespace nef::planner {
 
@@ -22,12 +23,13 @@ class Problem {
 
   /// A path or a proof that there is none. Start and goal default to the scene's; throws InputError
   /// if one is missing.
-  [[nodiscard]] Answer solve(const PathOptions& options = {}) const;
-  [[nodiscard]] Answer solve(const Rational3& start, const Rational3& goal, const PathOptions& options) const;
+  [[nodiscard]] Answer solve(const PathOptions& options = {}, const Monitor& monitor = {}) const;
+  [[nodiscard]] Answer solve(const Rational3& start, const Rational3& goal, const PathOptions& options,
+                             const Monitor& monitor = {}) const;
 
   /// Checks a given path (at least one point): kPath with its description, or kBlocked with the first segment that
   /// leaves free space and what it hits there.
-  [[nodiscard]] Answer check(const std::vector<Rational3>& points) const;
+  [[nodiscard]] Answer check(const std::vector<Rational3>& points, const Monitor& monitor = {}) const;
 
   /// Seconds per phase of the construction.
   [[nodiscard]] const std::map<std::string, double>& phases() const { return phases_; }

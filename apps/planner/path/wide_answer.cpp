@@ -5,7 +5,7 @@
 
 #include "apps/minkowski/minkowski.h"
 #include "nef/base/error.h"
-#include "nef/base/interruption.h"
+#include "nef/base/monitor.h"
 #include "nef/base/timing/stopwatch.h"
 #include "nef/construct/construct.h"
 
@@ -19,20 +19,21 @@ bool is_bounded_solid(const Polyhedron& set) { return set.is_bounded() && set.is
 
 // The closure of the positions at which the robot is away from all obstacles. With int O + int -R the forbidden
 // positions, their closure is the union of the closed sums, so the inside of free space is the complement of that.
-Polyhedron wide_positions(const Scene& scene, const BuildOptions& build) {
+Polyhedron wide_positions(const Scene& scene, const BuildOptions& build, const Monitor& monitor) {
   minkowski::MinkowskiOptions options;
   options.threads = build.threads;
   options.progress = [&build](std::size_t done, std::size_t total) {
     if (build.progress) build.progress("configuration space", done, total);
     return true;
   };
-  const Polyhedron reflected = minkowski::negate(scene.robot);
+  options.monitor = monitor;
+  const Polyhedron reflected = minkowski::negate(scene.robot, monitor);
   std::vector<Polyhedron> sums;
   for (const Polyhedron& obstacle : scene.obstacles) {
     sums.push_back(minkowski::minkowski_sum(obstacle, reflected, options));
   }
-  const Polyhedron free = closure(complement(unite_all(sums, build.threads)));
-  return scene.box ? intersect(free, make_box((*scene.box)[0], (*scene.box)[1])) : free;
+  const Polyhedron free = closure(complement(unite_all(sums, build.threads, monitor)), monitor);
+  return scene.box ? intersect(free, make_box((*scene.box)[0], (*scene.box)[1], monitor), 1, monitor) : free;
 }
 
 }  // namespace
@@ -50,11 +51,12 @@ bool may_have_wide_answer(const Scene& scene) {
 
 std::optional<WideAnswer> wide_answer(const Scene& scene, const PathOptions& options, const BuildOptions& build) {
   NEF_ASSERT(can_have_wide_answer(scene));
-  const Interruptible interruptible(build.stop);
+  const StopQuestion question(build.stop, build.monitor);
+  const Monitor& monitor = question.monitor();
   Stopwatch watch;
   WideAnswer result;
   Answer& answer = result.answer;
-  Polyhedron positions = wide_positions(scene, build);
+  Polyhedron positions = wide_positions(scene, build, monitor);
   answer.phases["configuration_space"] = watch.lap();
   result.free = std::make_shared<const FreeSpace>(std::move(positions));
   answer.phases["cells"] = watch.lap();
@@ -64,7 +66,7 @@ std::optional<WideAnswer> wide_answer(const Scene& scene, const PathOptions& opt
   if (!free.is_free(start) || !free.is_free(goal)) return std::nullopt;
   answer.thinness = free.thinness(start, goal);
   if (!answer.thinness || answer.thinness->piece < 3 || answer.thinness->junction < 3) return std::nullopt;
-  answer.path = find_path(free, *scene.start, *scene.goal, options);
+  answer.path = find_path(free, *scene.start, *scene.goal, options, monitor);
   if (!answer.path) return std::nullopt;
   answer.status = Answer::Status::kPath;
   answer.start_component = free.component(start);

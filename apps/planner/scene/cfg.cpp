@@ -127,7 +127,7 @@ TwoRotations rotations_of(const ProblemKeys& keys, const std::string& path) {
 Rational degrees_of(const Rational& radians) { return exact_rational(nearest_double(radians) * 180 / M_PI); }
 
 // A rotation that both states share is applied to the robot once; else the scene is one of a robot that turns.
-void apply_rotations(const TwoRotations& rotations, const std::string& path, Scene& scene) {
+void apply_rotations(const TwoRotations& rotations, const std::string& path, Scene& scene, const Monitor& monitor) {
   if (rotations.start != rotations.goal) {
     scene.rotation.emplace();
     scene.rotation->axis = rotations.axis;
@@ -139,7 +139,7 @@ void apply_rotations(const TwoRotations& rotations, const std::string& path, Sce
   } else if (rotations.start != 0) {
     scene.messages.push_back(path + ": the robot is turned once by a rational rotation within 1e-9 degrees of theta");
     scene.robot =
-        transform(scene.robot, AffineMap::rotate(rotations.axis, nearest_double(degrees_of(rotations.start))));
+        transform(scene.robot, AffineMap::rotate(rotations.axis, nearest_double(degrees_of(rotations.start))), monitor);
   }
 }
 
@@ -149,22 +149,23 @@ std::string beside(const std::string& path, const std::string& file) {
 
 }  // namespace
 
-Scene read_cfg(const std::string& path) {
+Scene read_cfg(const std::string& path, const Monitor& monitor) {
   const ProblemKeys keys(path);
   Scene scene;
   scene.name = std::filesystem::path(path).stem().string();
   Rational3 mean;
-  scene.robot = closure(read_shape_file(beside(path, keys.text("robot")), &scene.messages, &mean));
+  scene.robot = closure(read_shape_file(beside(path, keys.text("robot")), &scene.messages, &mean, monitor), monitor);
   const std::string origin = keys.has("robot.origin") ? keys.text("robot.origin") : "vertex-mean";
   if (origin != "vertex-mean" && origin != "mesh") {
     throw InputError(path + ": robot.origin must be vertex-mean or mesh, not " + in_quotes(origin));
   }
   if (origin == "vertex-mean") {
     for (Rational& value : mean) value = -value;
-    scene.robot = transform(scene.robot, AffineMap::translate(mean));
+    scene.robot = transform(scene.robot, AffineMap::translate(mean), monitor);
   }
-  apply_rotations(rotations_of(keys, path), path, scene);
-  scene.obstacles.push_back(closure(read_shape_file(beside(path, keys.text("world")), &scene.messages)));
+  apply_rotations(rotations_of(keys, path), path, scene, monitor);
+  scene.obstacles.push_back(
+      closure(read_shape_file(beside(path, keys.text("world")), &scene.messages, nullptr, monitor), monitor));
   scene.obstacle_names.push_back(keys.text("world"));
   scene.start = keys.point("start");
   scene.goal = keys.point("goal");

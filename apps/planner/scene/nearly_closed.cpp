@@ -97,7 +97,7 @@ std::optional<IndexedVector<VolumeId, bool>> odd_volumes(const Complex& c) {
 }
 
 // The surface with its odd volumes filled; nothing if it has none or is ambiguous.
-std::optional<Polyhedron> filled(const Polyhedron& surface) {
+std::optional<Polyhedron> filled(const Polyhedron& surface, const Monitor& monitor) {
   const std::optional<IndexedVector<VolumeId, bool>> odd = odd_volumes(surface.complex());
   if (!odd || std::find(odd->begin(), odd->end(), true) == odd->end()) return std::nullopt;
   Complex c = surface.complex();
@@ -108,12 +108,13 @@ std::optional<Polyhedron> filled(const Polyhedron& surface) {
     }
   });
   for (const VolumeId v : c.volumes.ids()) c.volumes[v].mark = (*odd)[v] ? 1 : 0;
-  return closure(Polyhedron(std::move(c)));  // drops what is inside now
+  return closure(Polyhedron(std::move(c)), monitor);  // drops what is inside now
 }
 
-Polyhedron surface_of(const Mesh& mesh) {
+Polyhedron surface_of(const Mesh& mesh, const Monitor& monitor) {
   MeshOptions options;
   options.as_surface = true;
+  options.monitor = monitor;
   return from_mesh(mesh, options);
 }
 
@@ -137,11 +138,11 @@ Boxes compare(const std::array<Rational3, 2>& inner, const std::array<Rational3,
 }
 
 // Which parts touch others, and in how many each is nested.
-void find_nesting(std::vector<Part>& parts) {
+void find_nesting(std::vector<Part>& parts, const Monitor& monitor) {
   for (std::size_t i = 0; i < parts.size(); ++i) {
     for (std::size_t k = i + 1; k < parts.size(); ++k) {
       if (compare(parts[i].box, parts[k].box) == Boxes::kApart) continue;
-      if (!intersect(parts[i].surface, parts[k].surface).is_empty()) {
+      if (!intersect(parts[i].surface, parts[k].surface, 1, monitor).is_empty()) {
         parts[i].touched.push_back(k);
         parts[k].touched.push_back(i);
         continue;
@@ -179,8 +180,8 @@ bool reaches_into_cavity(const std::vector<Part>& parts, std::size_t i, std::siz
 }
 
 // From the outermost inward, so that what stands in a cavity is there again.
-Polyhedron combined(std::vector<Part>& parts) {
-  find_nesting(parts);
+Polyhedron combined(std::vector<Part>& parts, const Monitor& monitor) {
+  find_nesting(parts, monitor);
   std::map<std::size_t, std::vector<Polyhedron>> by_depth;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const std::size_t depth = parts[i].depth;
@@ -188,16 +189,16 @@ Polyhedron combined(std::vector<Part>& parts) {
   }
   Polyhedron result;
   for (auto& [depth, sets] : by_depth) {
-    const Polyhedron all = unite_all(sets);
+    const Polyhedron all = unite_all(sets, 1, monitor);
     if (depth % 2 == 0) {
-      result = unite(result, all);
+      result = unite(result, all, 1, monitor);
       continue;
     }
-    result = subtract(result, interior(all));
+    result = subtract(result, interior(all, monitor), 1, monitor);
     // What reaches in from outside is there, too.
     for (std::size_t i = 0; i < parts.size(); ++i) {
       if (parts[i].depth % 2 == 0 && reaches_into_cavity(parts, i, depth)) {
-        result = unite(result, parts[i].set);
+        result = unite(result, parts[i].set, 1, monitor);
       }
     }
   }
@@ -206,10 +207,12 @@ Polyhedron combined(std::vector<Part>& parts) {
 
 }  // namespace
 
-MeshMeaning meaning_of(const Mesh& mesh) {
+MeshMeaning meaning_of(const Mesh& mesh, const Monitor& monitor) {
   MeshMeaning meaning;
   const auto is_bad = [&](std::uint32_t v) { return v >= mesh.vertices.size(); };
-  if (std::any_of(mesh.corners.begin(), mesh.corners.end(), is_bad)) static_cast<void>(surface_of(mesh));  // complains
+  if (std::any_of(mesh.corners.begin(), mesh.corners.end(), is_bad)) {
+    static_cast<void>(surface_of(mesh, monitor));  // complains
+  }
   const Mesh clean = without_duplicates(mesh);
   meaning.duplicate_faces = mesh.face_count() - clean.face_count();
   std::vector<Part> parts;
@@ -221,8 +224,8 @@ MeshMeaning meaning_of(const Mesh& mesh) {
   std::size_t open_parts = 0;
   std::vector<Polyhedron> surfaces;
   for (const Mesh& part : connected_parts(clean)) {
-    const Polyhedron surface = surface_of(part);
-    if (const std::optional<Polyhedron> set = filled(surface)) {
+    const Polyhedron surface = surface_of(part, monitor);
+    if (const std::optional<Polyhedron> set = filled(surface, monitor)) {
       add_solid(*set, surface);
       continue;
     }
@@ -230,13 +233,13 @@ MeshMeaning meaning_of(const Mesh& mesh) {
     surfaces.push_back(surface);
   }
   // Parts that are open by themselves may close each other (walls and a floor that share no vertices).
-  const Polyhedron together = unite_all(surfaces);
-  if (const std::optional<Polyhedron> set = open_parts > 1 ? filled(together) : std::nullopt) {
+  const Polyhedron together = unite_all(surfaces, 1, monitor);
+  if (const std::optional<Polyhedron> set = open_parts > 1 ? filled(together, monitor) : std::nullopt) {
     add_solid(*set, together);
-    meaning.set = combined(parts);
+    meaning.set = combined(parts, monitor);
   } else {
     meaning.surface_parts += open_parts;
-    meaning.set = unite(combined(parts), together);
+    meaning.set = unite(combined(parts, monitor), together, 1, monitor);
   }
   return meaning;
 }

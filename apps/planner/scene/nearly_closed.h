@@ -5,6 +5,7 @@
 
 #include <cstddef>
 
+#include "nef/base/monitor.h"
 #include "nef/construct/construct.h"
 #include "nef/polyhedron.h"
 
@@ -29,6 +30,6 @@ struct MeshMeaning {
 ///    room in it. Of parts that touch each other there, the largest (by its box) is the room, and the others stand in
 ///    it; what reaches in from outside is there, too. All other parts are united.
 /// O(n log n + k) for n faces with k contacts; O(m^2) boxes are compared for m parts.
-MeshMeaning meaning_of(const Mesh& mesh);
+MeshMeaning meaning_of(const Mesh& mesh, const Monitor& monitor = {});
 
 }  // namespace nef::planner

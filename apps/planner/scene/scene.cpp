@@ -16,12 +16,13 @@ using nlohmann::json;
 // Shapes of one scene; errors say which key they come from.
 class ShapeReader {
  public:
-  ShapeReader(std::string folder, Messages& messages) : folder_(std::move(folder)), messages_(messages) {}
+  ShapeReader(std::string folder, Messages& messages, const Monitor& monitor)
+      : folder_(std::move(folder)), messages_(messages), monitor_(monitor) {}
 
   Polyhedron shape(const json& value, const std::string& what) {
     if (value.is_string()) {
       try {
-        return shape_of_text(value.get<std::string>(), folder_, &messages_);
+        return shape_of_text(value.get<std::string>(), folder_, &messages_, monitor_);
       } catch (const InputError& error) {
         throw InputError(what + ": " + error.what());
       }
@@ -32,6 +33,7 @@ class ShapeReader {
  private:
   std::string folder_;
   Messages& messages_;
+  Monitor monitor_;
 };
 
 const std::vector<std::string> kKeys{"robot", "obstacles", "reference", "box",     "start",
@@ -51,10 +53,11 @@ void check_keys(const json& root, const std::string& name) {
   }
 }
 
-void read_obstacles(const json& list, ShapeReader& shapes, const std::string& name, Scene& scene) {
+void read_obstacles(const json& list, ShapeReader& shapes, const std::string& name, Scene& scene,
+                    const Monitor& monitor) {
   if (!list.is_array()) throw InputError(name + ": 'obstacles' must be a list");
   for (std::size_t i = 0; i < list.size(); ++i) {
-    scene.obstacles.push_back(closure(shapes.shape(list[i], name + ": obstacle " + std::to_string(i))));
+    scene.obstacles.push_back(closure(shapes.shape(list[i], name + ": obstacle " + std::to_string(i)), monitor));
     const std::string spelled = list[i].is_string() ? list[i].get<std::string>() : std::string("a shape");
     scene.obstacle_names.push_back(spelled);
   }
@@ -105,21 +108,21 @@ Rational3 end_of(const json& value, Rational* angle, const std::string& what) {
 
 }  // namespace
 
-Scene parse_scene(const std::string& text, const std::string& folder, const std::string& name) {
+Scene parse_scene(const std::string& text, const std::string& folder, const std::string& name, const Monitor& monitor) {
   const json root = parse_exact_json(text, name);
   check_keys(root, name);
   Scene scene;
   scene.name = std::filesystem::path(name).stem().string();
-  ShapeReader shapes(folder, scene.messages);
-  scene.robot = closure(shapes.shape(root["robot"], name + ": robot"));
+  ShapeReader shapes(folder, scene.messages, monitor);
+  scene.robot = closure(shapes.shape(root["robot"], name + ": robot"), monitor);
   if (scene.robot.is_empty()) throw InputError(name + ": the robot is empty");
   if (!scene.robot.is_bounded()) throw InputError(name + ": the robot must be bounded");
   if (root.contains("reference")) {
     Rational3 reference = point_of(root["reference"], name + ": reference");
     for (Rational& value : reference) value = -value;
-    scene.robot = transform(scene.robot, AffineMap::translate(reference));
+    scene.robot = transform(scene.robot, AffineMap::translate(reference), monitor);
   }
-  read_obstacles(root["obstacles"], shapes, name, scene);
+  read_obstacles(root["obstacles"], shapes, name, scene, monitor);
   if (root.contains("box") && !root["box"].is_null()) {
     const json& box = root["box"];
     if (!box.is_array() || box.size() != 2) throw InputError(name + ": 'box' must be [low point, high point]");
@@ -144,9 +147,9 @@ Scene parse_scene(const std::string& text, const std::string& folder, const std:
   return scene;
 }
 
-Scene read_scene(const std::string& path) {
-  if (lower_extension(path) == "cfg") return read_cfg(path);
-  return parse_scene(read_file(path), std::filesystem::path(path).parent_path().string(), path);
+Scene read_scene(const std::string& path, const Monitor& monitor) {
+  if (lower_extension(path) == "cfg") return read_cfg(path, monitor);
+  return parse_scene(read_file(path), std::filesystem::path(path).parent_path().string(), path, monitor);
 }
 
 }  // namespace nef::planner

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/construct/construct.h"
 #include "nef/polyhedron.h"
 
@@ -55,16 +56,17 @@ struct Scene {
 /// nef file, relative to the scene, or else an expression of `nef eval` such as
 /// "box(0,0,0, 9,3,3) - box(1,1,1, 2,2,2)". With a rotation, start and goal have a fourth number: degrees. Throws
 /// InputError with one line for anything else.
-Scene read_scene(const std::string& path);
+Scene read_scene(const std::string& path, const Monitor& monitor = {});
 
 /// The same from text; `folder` is where file names begin.
-Scene parse_scene(const std::string& text, const std::string& folder, const std::string& name);
+Scene parse_scene(const std::string& text, const std::string& folder, const std::string& name,
+                  const Monitor& monitor = {});
 
 /// An OMPL.app problem: [problem] robot, world, start.*, goal.*, volume.*. If the rotations of start and goal are the
 /// same, that one is applied to the robot once; if they differ, they must be about one axis, and the robot may turn
 /// about that, by any angle. The robot's reference point (also the centre of rotation) is the mean of its vertices as
 /// OMPL.app computes it, unless `robot.origin = mesh`; our own keys are `contact` and exact numbers such as 1/3. A mesh
 /// that bounds no solid is what meaning_of (nearly_closed.h) says.
-Scene read_cfg(const std::string& path);
+Scene read_cfg(const std::string& path, const Monitor& monitor = {});
 
 }  // namespace nef::planner

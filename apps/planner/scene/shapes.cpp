@@ -23,12 +23,12 @@ std::string counted(std::size_t count, const char* one, const char* many) {
 }
 
 // As the solid that it bounds, else as what it means.
-Polyhedron from_any_mesh(const Mesh& mesh, const std::string& path, Messages* messages) {
+Polyhedron from_any_mesh(const Mesh& mesh, const std::string& path, Messages* messages, const Monitor& monitor) {
   if (mesh.face_count() == 0) throw InputError(path + ": the mesh has no faces");
-  std::variant<Polyhedron, MeshRefusal> made = try_from_mesh(mesh, {}, messages);
+  std::variant<Polyhedron, MeshRefusal> made = try_from_mesh(mesh, {.monitor = monitor}, messages);
   if (auto* solid = std::get_if<Polyhedron>(&made)) return std::move(*solid);
   const std::string& complaint = std::get<MeshRefusal>(made).text;
-  MeshMeaning meaning = meaning_of(mesh);
+  MeshMeaning meaning = meaning_of(mesh, monitor);
   if (messages != nullptr) {
     std::string text = path + ": the mesh bounds no solid as it is (" + complaint + "), ";
     if (meaning.duplicate_faces > 0) {
@@ -63,37 +63,43 @@ std::vector<Rational3> vertices_of(const Polyhedron& set) {
 
 }  // namespace
 
-Polyhedron read_shape_file(const std::string& path, Messages* messages, Rational3* mean) {
+Polyhedron read_shape_file(const std::string& path, Messages* messages, Rational3* mean, const Monitor& monitor) {
   if (std::filesystem::is_directory(path)) throw InputError(path + ": is a folder, not a file");
   if (!std::filesystem::is_regular_file(path)) throw InputError(path + ": no such file");
   const std::string extension = lower_extension(path);
   if (extension == "nef" || extension == "nef3") {
-    Polyhedron set = read_polyhedron(path, {}, messages);
+    Polyhedron set = read_polyhedron(path, {.monitor = monitor}, messages);
     if (mean != nullptr) *mean = mean_of(vertices_of(set));
     return set;
   }
   if (!is_mesh_extension(extension)) {
     const Mesh mesh = read_with_assimp(path, mean);
-    return from_any_mesh(mesh, path, messages);
+    return from_any_mesh(mesh, path, messages, monitor);
   }
   const Mesh mesh = read_mesh(path);
   if (mean != nullptr) *mean = mean_of(mesh.vertices);
-  return from_any_mesh(mesh, path, messages);
+  return from_any_mesh(mesh, path, messages, monitor);
 }
 
-Polyhedron shape_of_text(const std::string& text, const std::string& folder, Messages* messages) {
+Polyhedron shape_of_text(const std::string& text, const std::string& folder, Messages* messages,
+                         const Monitor& monitor) {
   const std::filesystem::path path = std::filesystem::path(folder) / text;
   std::error_code ignored;
   if (!text.empty() && std::filesystem::exists(path, ignored)) {
-    return read_shape_file(path.string(), messages);
+    return read_shape_file(path.string(), messages, nullptr, monitor);
   }
   ExpressionOptions options;
-  options.load = [&](const std::string& file) {
-    return read_shape_file((std::filesystem::path(folder) / file).string(), messages);
+  options.load = [&](const std::string& file, const Monitor& own) {
+    return read_shape_file((std::filesystem::path(folder) / file).string(), messages, nullptr, own);
   };
-  options.minkowski = [](const Polyhedron& a, const Polyhedron& b) { return minkowski::minkowski_sum(a, b); };
+  options.minkowski = [](const Polyhedron& a, const Polyhedron& b, const Monitor& own) {
+    minkowski::MinkowskiOptions sum;
+    sum.monitor = own;
+    return minkowski::minkowski_sum(a, b, sum);
+  };
   options.ball = minkowski::inner_ball;
   options.hull = minkowski::hull;
+  options.monitor = monitor;
   try {
     return evaluate_expression(text, options);
   } catch (const ExpressionError& error) {

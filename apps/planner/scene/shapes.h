@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "nef/base/monitor.h"
 #include "nef/construct/construct.h"
 #include "nef/forward.h"
 
@@ -13,10 +14,12 @@ namespace nef::planner {
 /// The set in a mesh or nef file, by extension; meshes of other formats are read through assimp.
 /// A mesh that bounds no solid becomes a surface, with a message. `mean`, if not null, receives the
 /// mean of the mesh's vertices (as assimp joins them). Throws InputError.
-Polyhedron read_shape_file(const std::string& path, Messages* messages, Rational3* mean = nullptr);
+Polyhedron read_shape_file(const std::string& path, Messages* messages, Rational3* mean = nullptr,
+                           const Monitor& monitor = {});
 
 /// What a string in a scene stands for: a file (relative to `folder`) or an expression of `nef eval`.
-Polyhedron shape_of_text(const std::string& text, const std::string& folder, Messages* messages);
+Polyhedron shape_of_text(const std::string& text, const std::string& folder, Messages* messages,
+                         const Monitor& monitor = {});
 
 /// A mesh file through assimp: all meshes of the scene with their transformations; faces that occur
 /// twice (double-sided models) are kept once, vertices at equal places are one.

@@ -21,23 +21,23 @@ using Complaint = std::optional<std::string>;
 
 // The convex pieces of a set by their vertices, if they are no more than the set; of a solid the solid ones. (The
 // inside of a solid without the walls between the pieces is dense in it, so it meets the same open sets.)
-std::optional<std::vector<Points>> pieces_of(const Polyhedron& set) {
+std::optional<std::vector<Points>> pieces_of(const Polyhedron& set, const Monitor& monitor) {
   std::vector<Points> pieces;
   std::vector<Polyhedron> hulls;
   const bool solid = set.is_regular();
-  for (const minkowski::ConvexCell& cell : minkowski::decompose(set)) {
+  for (const minkowski::ConvexCell& cell : minkowski::decompose(set, monitor)) {
     if (solid && cell.dimension < 3) continue;
     pieces.push_back(cell.mesh.vertices);
-    hulls.push_back(convex_hull(pieces.back()));
+    hulls.push_back(convex_hull(pieces.back(), monitor));
   }
-  if (!subtract(unite_all(hulls), set).is_empty()) return std::nullopt;
+  if (!subtract(unite_all(hulls, 1, monitor), set, 1, monitor).is_empty()) return std::nullopt;
   return pieces;
 }
 
 class ProofCheck {
  public:
-  ProofCheck(const TurningProof& proof, const Scene& scene, const TurningQuestion& question)
-      : proof_(proof), scene_(scene), q_(question) {}
+  ProofCheck(const TurningProof& proof, const Scene& scene, const TurningQuestion& question, const Monitor& monitor)
+      : proof_(proof), scene_(scene), q_(question), monitor_(monitor) {}
 
   Complaint run() {
     for (const auto check : {&ProofCheck::cut_up, &ProofCheck::check_breakpoints, &ProofCheck::check_inner_robots,
@@ -51,12 +51,13 @@ class ProofCheck {
   Complaint cut_up() {
     static const std::string kWrongPieces = "a set was cut into pieces that are not in it";
     if (!scene_.robot.is_bounded() || !scene_.robot.is_regular()) return "the robot is no bounded solid";
-    std::optional<std::vector<Points>> robot = pieces_of(scene_.robot);
+    std::optional<std::vector<Points>> robot = pieces_of(scene_.robot, monitor_);
     if (!robot) return kWrongPieces;
     robot_ = *std::move(robot);
-    for (const Points& piece : robot_) meshes_.push_back(convex_hull_mesh(piece));
+    for (const Points& piece : robot_) meshes_.push_back(convex_hull_mesh(piece, monitor_));
     for (const Polyhedron& obstacle : scene_.obstacles) {
-      std::optional<std::vector<Points>> pieces = pieces_of(closure(reachable_part(obstacle, scene_)));
+      std::optional<std::vector<Points>> pieces =
+          pieces_of(closure(reachable_part(obstacle, scene_, monitor_), monitor_), monitor_);
       if (!pieces) return kWrongPieces;
       std::move(pieces->begin(), pieces->end(), std::back_inserter(obstacles_));
     }
@@ -139,12 +140,14 @@ class ProofCheck {
         for (const Rational3& o : obstacle) {
           for (const Rational3& r : piece) differences.push_back(minus(o, r));
         }
-        const Polyhedron hull = convex_hull(differences);
-        forbidden.push_back(scene_.contact == ContactRule::kAllow ? interior(hull) : hull);
+        const Polyhedron hull = convex_hull(differences, monitor_);
+        forbidden.push_back(scene_.contact == ContactRule::kAllow ? interior(hull, monitor_) : hull);
       }
     }
-    const Polyhedron united = unite_all(forbidden);
-    return split(scene_.box ? subtract(make_box((*scene_.box)[0], (*scene_.box)[1]), united) : complement(united));
+    const Polyhedron united = unite_all(forbidden, 1, monitor_);
+    return split(scene_.box ? subtract(make_box((*scene_.box)[0], (*scene_.box)[1], monitor_), united, 1, monitor_)
+                            : complement(united),
+                 monitor_);
   }
 
   [[nodiscard]] std::vector<Points> robot_at(const Turn& turn) const {
@@ -168,7 +171,7 @@ class ProofCheck {
     for (std::size_t i = 0; i + 1 < layers_.size(); ++i) {
       for (std::size_t a = 0; a < layers_[i].components.size(); ++a) {
         for (std::size_t b = 0; b < layers_[i + 1].components.size(); ++b) {
-          if (intersect(layers_[i].components[a], layers_[i + 1].components[b]).is_empty()) continue;
+          if (intersect(layers_[i].components[a], layers_[i + 1].components[b], 1, monitor_).is_empty()) continue;
           joined_.unite(static_cast<std::uint32_t>(layers_[i].first + a),
                         static_cast<std::uint32_t>(layers_[i + 1].first + b));
         }
@@ -228,6 +231,7 @@ class ProofCheck {
   const TurningProof& proof_;
   const Scene& scene_;
   const TurningQuestion& q_;
+  Monitor monitor_;
   std::vector<Points> robot_;      // convex pieces ...
   std::vector<Mesh> meshes_;       // ... and their faces
   std::vector<Points> obstacles_;  // convex pieces of all obstacles
@@ -239,8 +243,8 @@ class ProofCheck {
 }  // namespace
 
 std::optional<std::string> complaint_about(const TurningProof& proof, const Scene& scene,
-                                           const TurningQuestion& question) {
-  return ProofCheck(proof, scene, question).run();
+                                           const TurningQuestion& question, const Monitor& monitor) {
+  return ProofCheck(proof, scene, question, monitor).run();
 }
 
 }  // namespace nef::planner

@@ -6,7 +6,7 @@
 
 namespace nef::planner {
 
-Polyhedron reachable_part(const Polyhedron& obstacle, const Scene& scene) {
+Polyhedron reachable_part(const Polyhedron& obstacle, const Scene& scene, const Monitor& monitor) {
   if (obstacle.is_bounded()) return obstacle;
   if (!scene.box) throw InputError("an obstacle is unbounded: give the scene a box");
   // No less than the distance of any point of the robot from its reference point.
@@ -21,7 +21,7 @@ Polyhedron reachable_part(const Polyhedron& obstacle, const Scene& scene) {
     low[k] -= reach;
     high[k] += reach;
   }
-  return intersect(obstacle, make_box(low, high));
+  return intersect(obstacle, make_box(low, high, monitor), 1, monitor);
 }
 
 }  // namespace nef::planner

@@ -9,17 +9,17 @@
 namespace nef::planner {
 namespace {
 
-minkowski::FixedObstacles fixed_obstacles(const Scene& scene) {
+minkowski::FixedObstacles fixed_obstacles(const Scene& scene, const Monitor& monitor) {
   std::vector<Polyhedron> obstacles;
-  for (const Polyhedron& obstacle : scene.obstacles) obstacles.push_back(reachable_part(obstacle, scene));
-  return {obstacles, scene.box, scene.contact == ContactRule::kAllow};
+  for (const Polyhedron& obstacle : scene.obstacles) obstacles.push_back(reachable_part(obstacle, scene, monitor));
+  return {obstacles, scene.box, scene.contact == ContactRule::kAllow, monitor};
 }
 
 // For each component of one free space the component of a larger one that holds it.
-std::vector<std::uint32_t> holders(const FreeSpace& small, const FreeSpace& large) {
+std::vector<std::uint32_t> holders(const FreeSpace& small, const FreeSpace& large, const Monitor& monitor) {
   std::vector<std::uint32_t> result;
   if (large.components().size() == 1) return std::vector<std::uint32_t>(small.components().size(), 0);
-  for (const Rational3& point : points_of_components(small)) {
+  for (const Rational3& point : points_of_components(small, monitor)) {
     const CellId cell = large.locate(ExactPoint(point));
     NEF_ASSERT(large.is_free(cell));
     result.push_back(large.component(cell));
@@ -47,7 +47,7 @@ bool has_point_in(const FreeSpace& of, std::uint32_t component, const FreeSpace&
 
 }  // namespace
 
-std::vector<Rational3> points_of_components(const FreeSpace& free) {
+std::vector<Rational3> points_of_components(const FreeSpace& free, const Monitor& monitor) {
   std::vector<Rational3> points(free.components().size());
   std::vector<bool> found(points.size(), false);
   // Vertices come first, so that only open components need the roadmap.
@@ -56,53 +56,58 @@ std::vector<Rational3> points_of_components(const FreeSpace& free) {
     found[free.component(cell)] = true;
     Rational3& point = points[free.component(cell)];
     if (free.complex().vertex_count() == 0) continue;  // all of space
-    point = free.cells().dimension(cell) == 0 ? free.vertices(cell).front()
-                                              : free.zones().interior_point(free.zones().zone_in(cell));
+    if (free.cells().dimension(cell) == 0) {
+      point = free.vertices(cell).front();
+    } else {
+      free.build_roadmap(monitor);
+      point = free.zones().interior_point(free.zones().zone_in(cell));
+    }
   }
   return points;
 }
 
-TurningCells::TurningCells(const Scene& scene, const TurningQuestion& question)
+TurningCells::TurningCells(const Scene& scene, const TurningQuestion& question, const Monitor& monitor)
     : q_(question),
-      robot_(scene.robot, question.axis),
-      obstacles_(fixed_obstacles(scene)),
-      without_robot_(free_space_of({})) {}
+      robot_(scene.robot, question.axis, monitor),
+      obstacles_(fixed_obstacles(scene, monitor)),
+      without_robot_(free_space_of({}, monitor)) {}
 
-std::shared_ptr<const FreeSpace> TurningCells::free_space_of(const std::vector<Mesh>& robot) const {
-  return std::make_shared<const FreeSpace>(obstacles_.free_positions(robot));
+std::shared_ptr<const FreeSpace> TurningCells::free_space_of(const std::vector<Mesh>& robot,
+                                                             const Monitor& monitor) const {
+  return std::make_shared<const FreeSpace>(obstacles_.free_positions(robot, monitor));
 }
 
-const TurningCells::Slice& TurningCells::slice_at(const Turn& turn) {
+const TurningCells::Slice& TurningCells::slice_at(const Turn& turn, const Monitor& monitor) {
   const auto [place, is_new] = slices_.try_emplace(q_.is_ring() && turn == q_.high ? q_.low : turn);
   Slice& slice = place->second;
   if (is_new) {
-    slice.free = free_space_of(robot_.pieces_at(turn));
+    slice.free = free_space_of(robot_.pieces_at(turn), monitor);
     slice.first_node = static_cast<Node>(places_.size());
     for (std::uint32_t i = 0; i < slice.free->components().size(); ++i) places_.push_back({slice.free.get(), i});
   }
   return slice;
 }
 
-Node TurningCells::node_of(const Pose& pose) {
-  const Slice& at = slice_at(pose.turn);
+Node TurningCells::node_of(const Pose& pose, const Monitor& monitor) {
+  const Slice& at = slice_at(pose.turn, monitor);
   const CellId cell = at.free->locate(ExactPoint(pose.position));
   return at.free->is_free(cell) ? at.first_node + at.free->component(cell) : kNoNode;
 }
 
-void TurningCells::find_holders(AngleCell& cell) {
-  cell.below = holders(slice(cell.low), *cell.inner);
-  cell.above = holders(slice(cell.high), *cell.inner);
+void TurningCells::find_holders(AngleCell& cell, const Monitor& monitor) {
+  cell.below = holders(slice(cell.low, monitor), *cell.inner, monitor);
+  cell.above = holders(slice(cell.high, monitor), *cell.inner, monitor);
 }
 
-void TurningCells::add(const Turn& low, const Turn& high) {
+void TurningCells::add(const Turn& low, const Turn& high, const Monitor& monitor) {
   ++looked_at_;
   AngleCell& cell = cells_[low];
   cell = {
       .low = low, .high = high, .inner = without_robot_, .inner_low = low, .inner_high = low, .below = {}, .above = {}};
-  find_holders(cell);
+  find_holders(cell, monitor);
 }
 
-void TurningCells::split(const Turn& low, const Turn& at) {
+void TurningCells::split(const Turn& low, const Turn& at, const Monitor& monitor) {
   AngleCell& below = cells_.at(low);
   AngleCell& above = cells_[at];
   above = below;
@@ -110,29 +115,29 @@ void TurningCells::split(const Turn& low, const Turn& at) {
   for (AngleCell* cell : {&below, &above}) {
     ++looked_at_;
     cell->has_own_inner = cell->has_bridges = false;
-    find_holders(*cell);
+    find_holders(*cell, monitor);
   }
 }
 
-void TurningCells::find_inner(const Turn& low) {
+void TurningCells::find_inner(const Turn& low, const Monitor& monitor) {
   AngleCell& cell = cells_.at(low);
-  cell.inner = free_space_of(robot_.inner_pieces(cell.low, cell.high));
+  cell.inner = free_space_of(robot_.inner_pieces(cell.low, cell.high), monitor);
   cell.inner_low = cell.low;
   cell.inner_high = cell.high;
   cell.has_own_inner = true;
-  find_holders(cell);
+  find_holders(cell, monitor);
 }
 
-void TurningCells::find_bridges(const Turn& low) {
+void TurningCells::find_bridges(const Turn& low, const Monitor& monitor) {
   AngleCell& cell = cells_.at(low);
   cell.has_bridges = true;
-  const auto outer = free_space_of(robot_.outer_pieces(cell.low, cell.high));
-  const std::vector<std::uint32_t> at_low = holders(*outer, slice(cell.low));
-  const std::vector<std::uint32_t> at_high = holders(*outer, slice(cell.high));
-  const std::vector<Rational3> points = points_of_components(*outer);
+  const auto outer = free_space_of(robot_.outer_pieces(cell.low, cell.high, monitor), monitor);
+  const std::vector<std::uint32_t> at_low = holders(*outer, slice(cell.low, monitor), monitor);
+  const std::vector<std::uint32_t> at_high = holders(*outer, slice(cell.high, monitor), monitor);
+  const std::vector<Rational3> points = points_of_components(*outer, monitor);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    bridges_.push_back(
-        {first_node(cell.low) + at_low[i], first_node(cell.high) + at_high[i], cell.low, cell.high, points[i], outer});
+    bridges_.push_back({first_node(cell.low, monitor) + at_low[i], first_node(cell.high, monitor) + at_high[i],
+                        cell.low, cell.high, points[i], outer});
   }
 }
 

@@ -12,6 +12,7 @@
 #include "apps/planner/free_space/free_space.h"
 #include "apps/planner/turning/turning_question.h"
 #include "apps/planner/turning/turning_robot.h"
+#include "nef/base/monitor.h"
 
 namespace nef::planner {
 
@@ -42,9 +43,9 @@ struct AngleCell {
 /// A range that is cut into cells of angles.
 class TurningCells {
  public:
-  /// Both must outlive the object. Throws InputError unless the robot is a bounded solid and the obstacles are bounded
-  /// or the scene has a box.
-  TurningCells(const Scene& scene, const TurningQuestion& question);
+  /// Scene and question must outlive the object. Throws InputError unless the robot is a bounded solid and the
+  /// obstacles are bounded or the scene has a box.
+  TurningCells(const Scene& scene, const TurningQuestion& question, const Monitor& monitor);
 
   [[nodiscard]] const TurningRobot& robot() const { return robot_; }
   /// By their lower ends.
@@ -55,21 +56,21 @@ class TurningCells {
   [[nodiscard]] std::size_t looked_at() const { return looked_at_; }
 
   /// The exact free space at an angle. The ends of a ring are one.
-  const FreeSpace& slice(const Turn& turn) { return *slice_at(turn).free; }
+  const FreeSpace& slice(const Turn& turn, const Monitor& monitor) { return *slice_at(turn, monitor).free; }
   /// The first node of the slice at an angle; those of its other components follow.
-  Node first_node(const Turn& turn) { return slice_at(turn).first_node; }
+  Node first_node(const Turn& turn, const Monitor& monitor) { return slice_at(turn, monitor).first_node; }
   /// The node of a pose; kNoNode if it is not free.
-  Node node_of(const Pose& pose);
+  Node node_of(const Pose& pose, const Monitor& monitor);
   [[nodiscard]] std::size_t node_count() const { return places_.size(); }
 
   /// Adds a cell about which nothing is known.
-  void add(const Turn& low, const Turn& high);
+  void add(const Turn& low, const Turn& high, const Monitor& monitor);
   /// Makes two cells of the one that begins at `low`; they have its inner free space.
-  void split(const Turn& low, const Turn& at);
+  void split(const Turn& low, const Turn& at, const Monitor& monitor);
   /// Gives a cell the inner free space of its own range.
-  void find_inner(const Turn& low);
+  void find_inner(const Turn& low, const Monitor& monitor);
   /// Finds the turns through all of a cell.
-  void find_bridges(const Turn& low);
+  void find_bridges(const Turn& low, const Monitor& monitor);
   /// True if two nodes of slices at different angles have a common position, as a few points of each show; then a cell
   /// between them joins them, whatever its inner robot is.
   [[nodiscard]] bool surely_meet(Node a, Node b) const;
@@ -84,10 +85,11 @@ class TurningCells {
     const FreeSpace* free = nullptr;
     std::uint32_t component = 0;
   };
-  const Slice& slice_at(const Turn& turn);
-  [[nodiscard]] std::shared_ptr<const FreeSpace> free_space_of(const std::vector<Mesh>& robot) const;
+  const Slice& slice_at(const Turn& turn, const Monitor& monitor);
+  [[nodiscard]] std::shared_ptr<const FreeSpace> free_space_of(const std::vector<Mesh>& robot,
+                                                               const Monitor& monitor) const;
   // The components of the cell's inner free space that hold those of the slices at its ends.
-  void find_holders(AngleCell& cell);
+  void find_holders(AngleCell& cell, const Monitor& monitor);
 
   const TurningQuestion& q_;
   TurningRobot robot_;
@@ -101,6 +103,6 @@ class TurningCells {
 };
 
 /// A point of each component.
-std::vector<Rational3> points_of_components(const FreeSpace& free);
+std::vector<Rational3> points_of_components(const FreeSpace& free, const Monitor& monitor);
 
 }  // namespace nef::planner

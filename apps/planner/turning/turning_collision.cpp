@@ -18,8 +18,8 @@ constexpr double kError = 2e-14;
 
 }  // namespace
 
-TurningCollision::TurningCollision(const Scene& scene, const TurningAxis& axis)
-    : robot_(scene.robot, axis), box_(scene.box), contact_(scene.contact) {
+TurningCollision::TurningCollision(const Scene& scene, const TurningAxis& axis, const Monitor& monitor)
+    : robot_(scene.robot, axis, monitor), box_(scene.box), contact_(scene.contact) {
   for (const TurningRobot::Piece& piece : robot_.pieces()) {
     Shape& shape = shapes_.emplace_back();
     for (const Rational3& v : piece.mesh.vertices) {
@@ -29,9 +29,9 @@ TurningCollision::TurningCollision(const Scene& scene, const TurningAxis& axis)
     for (const TurningRobot::Face& face : piece.faces) shape.normals.push_back(to_vector(face.normal));
   }
   for (const Polyhedron& obstacle : scene.obstacles) {
-    const Polyhedron bounded = reachable_part(obstacle, scene);
+    const Polyhedron bounded = reachable_part(obstacle, scene, monitor);
     const bool solid_everywhere = bounded.is_regular();
-    for (const minkowski::ConvexCell& cell : minkowski::decompose(closure(bounded))) {
+    for (const minkowski::ConvexCell& cell : minkowski::decompose(closure(bounded, monitor), monitor)) {
       if (cell.dimension < 3 && solid_everywhere) continue;  // walls between solid cells
       Solid& solid = obstacles_.emplace_back();
       solid.vertices = cell.mesh.vertices;

@@ -8,6 +8,7 @@
 #include "apps/planner/free_space/vectors.h"
 #include "apps/planner/turning/turning_question.h"
 #include "apps/planner/turning/turning_robot.h"
+#include "nef/base/monitor.h"
 
 namespace nef::planner {
 
@@ -17,7 +18,7 @@ namespace nef::planner {
 class TurningCollision {
  public:
   /// Throws InputError unless the robot is a bounded solid and the obstacles are bounded or the scene has a box.
-  TurningCollision(const Scene& scene, const TurningAxis& axis);
+  TurningCollision(const Scene& scene, const TurningAxis& axis, const Monitor& monitor = {});
 
   [[nodiscard]] const TurningAxis& axis() const { return robot_.axis(); }
   /// Exact.

@@ -9,6 +9,7 @@
 
 #include "apps/planner/scene/scene.h"
 #include "apps/planner/turning/turning_question.h"
+#include "nef/base/monitor.h"
 
 namespace nef::planner {
 
@@ -31,6 +32,6 @@ struct TurningProof {
 /// differences of convex pieces; components are split off as sets, and joined where their intersection is not empty.
 /// Costs several times as much as the search.
 std::optional<std::string> complaint_about(const TurningProof& proof, const Scene& scene,
-                                           const TurningQuestion& question);
+                                           const TurningQuestion& question, const Monitor& monitor = {});
 
 }  // namespace nef::planner

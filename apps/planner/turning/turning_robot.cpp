@@ -17,10 +17,10 @@ Mesh turned(Mesh mesh, const AffineMap& rotation) {
   return mesh;
 }
 
-Polyhedron united(const std::vector<Mesh>& pieces) {
+Polyhedron united(const std::vector<Mesh>& pieces, const Monitor& monitor) {
   std::vector<Polyhedron> parts;
-  for (const Mesh& piece : pieces) parts.push_back(convex_hull(piece.vertices));
-  return unite_all(parts);
+  for (const Mesh& piece : pieces) parts.push_back(convex_hull(piece.vertices, monitor));
+  return unite_all(parts, 1, monitor);
 }
 
 std::optional<Mesh> inner_of_piece(const TurningRobot::Piece& piece, const TurningAxis& axis, const Turn& a,
@@ -46,11 +46,12 @@ std::optional<Mesh> inner_of_piece(const TurningRobot::Piece& piece, const Turni
 
 }  // namespace
 
-TurningRobot::TurningRobot(const Polyhedron& robot, const TurningAxis& axis) : robot_(robot), axis_(axis) {
+TurningRobot::TurningRobot(const Polyhedron& robot, const TurningAxis& axis, const Monitor& monitor)
+    : robot_(robot), axis_(axis) {
   if (!robot.is_bounded() || robot.is_empty() || !robot.is_regular()) {
     throw InputError("a robot that turns must be a bounded solid without surfaces, curves or points sticking out");
   }
-  for (minkowski::ConvexCell& cell : minkowski::decompose(robot)) {
+  for (minkowski::ConvexCell& cell : minkowski::decompose(robot, monitor)) {
     if (cell.dimension < 3) continue;  // walls between solid cells
     Piece& piece = pieces_.emplace_back();
     piece.mesh = std::move(cell.mesh);
@@ -71,7 +72,7 @@ std::vector<Mesh> TurningRobot::pieces_at(const Turn& turn) const {
   return result;
 }
 
-std::vector<Mesh> TurningRobot::outer_pieces(const Turn& a, const Turn& b) const {
+std::vector<Mesh> TurningRobot::outer_pieces(const Turn& a, const Turn& b, const Monitor& monitor) const {
   const AffineMap at_a = axis_.rotation(a);
   const AffineMap at_b = axis_.rotation(b);
   const Rational tangent = axis_.half_tangent_between(a, b);
@@ -86,12 +87,14 @@ std::vector<Mesh> TurningRobot::outer_pieces(const Turn& a, const Turn& b) const
       points.push_back(corner);
       points.push_back(at_b(v));
     }
-    result.push_back(convex_hull_mesh(points));
+    result.push_back(convex_hull_mesh(points, monitor));
   }
   return result;
 }
 
-Polyhedron TurningRobot::outer(const Turn& a, const Turn& b) const { return united(outer_pieces(a, b)); }
+Polyhedron TurningRobot::outer(const Turn& a, const Turn& b, const Monitor& monitor) const {
+  return united(outer_pieces(a, b, monitor), monitor);
+}
 
 std::vector<Mesh> TurningRobot::inner_pieces(const Turn& a, const Turn& b) const {
   std::vector<Mesh> result;
@@ -101,6 +104,8 @@ std::vector<Mesh> TurningRobot::inner_pieces(const Turn& a, const Turn& b) const
   return result;
 }
 
-Polyhedron TurningRobot::inner(const Turn& a, const Turn& b) const { return united(inner_pieces(a, b)); }
+Polyhedron TurningRobot::inner(const Turn& a, const Turn& b, const Monitor& monitor) const {
+  return united(inner_pieces(a, b), monitor);
+}
 
 }  // namespace nef::planner

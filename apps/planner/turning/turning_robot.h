@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "apps/planner/turning/turn.h"
+#include "nef/base/monitor.h"
 #include "nef/mesh/mesh.h"
 
 namespace nef::planner {
@@ -25,13 +26,15 @@ class TurningRobot {
   };
 
   /// Cuts the robot into convex pieces. Throws InputError unless the robot is a bounded solid.
-  TurningRobot(const Polyhedron& robot, const TurningAxis& axis);
+  TurningRobot(const Polyhedron& robot, const TurningAxis& axis, const Monitor& monitor = {});
 
   [[nodiscard]] const TurningAxis& axis() const { return axis_; }
   /// Without common interior; their union is the robot.
   [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
   /// The robot turned.
-  [[nodiscard]] Polyhedron at(const Turn& turn) const { return transform(robot_, axis_.rotation(turn)); }
+  [[nodiscard]] Polyhedron at(const Turn& turn, const Monitor& monitor = {}) const {
+    return transform(robot_, axis_.rotation(turn), monitor);
+  }
 
   /// The convex pieces of the robot turned.
   [[nodiscard]] std::vector<Mesh> pieces_at(const Turn& turn) const;
@@ -39,9 +42,9 @@ class TurningRobot {
   /// Convex pieces that hold the robot at every angle from a to b, which are less than a half turn apart: for each
   /// piece of the robot the hull of its vertices at both ends and, for each vertex, the meeting point of the tangents
   /// to its arc there.
-  [[nodiscard]] std::vector<Mesh> outer_pieces(const Turn& a, const Turn& b) const;
+  [[nodiscard]] std::vector<Mesh> outer_pieces(const Turn& a, const Turn& b, const Monitor& monitor = {}) const;
   /// The union of these.
-  [[nodiscard]] Polyhedron outer(const Turn& a, const Turn& b) const;
+  [[nodiscard]] Polyhedron outer(const Turn& a, const Turn& b, const Monitor& monitor = {}) const;
 
   /// Lies in the robot at every angle from a to b: for each piece that leaves something, what its turned copies at both
   /// ends and, for each face n x <= c, the half-space of the chord have in common. With h the part of n across the
@@ -49,7 +52,7 @@ class TurningRobot {
   /// has its maximum over t inside the range, (h_a + h_b) x is at least 1 + cos d times that.
   [[nodiscard]] std::vector<Mesh> inner_pieces(const Turn& a, const Turn& b) const;
   /// The union of these. May be empty.
-  [[nodiscard]] Polyhedron inner(const Turn& a, const Turn& b) const;
+  [[nodiscard]] Polyhedron inner(const Turn& a, const Turn& b, const Monitor& monitor = {}) const;
 
  private:
   Polyhedron robot_;

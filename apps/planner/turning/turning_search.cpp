@@ -11,6 +11,7 @@
 #include "apps/planner/turning/turning_cells.h"
 #include "nef/base/error.h"
 #include "nef/base/interruption.h"
+#include "nef/base/monitor.h"
 #include "nef/base/union_find.h"
 #include "nef/geometry/vectors.h"
 #include "nef/number/floor.h"
@@ -33,11 +34,11 @@ class TurningSearch {
   TurningSearch(const Scene& scene, const TurningQuestion& question, const TurningLimits& limits)
       : q_(question),
         limits_(limits),
-        cells_(scene, question),
+        stop_(limits.stop, limits.monitor),
+        cells_(scene, question, limits.monitor),
         parallel_(turns_of_parallel_faces(scene, cells_.robot(), question)) {}
 
   TurningAnswer run() {
-    const Interruptible interruptible(limits_.stop);
     try {
       return answer();
     } catch (const Interrupted&) {
@@ -48,10 +49,12 @@ class TurningSearch {
   }
 
  private:
+  [[nodiscard]] const Monitor& monitor() const { return stop_.monitor(); }
+
   TurningAnswer answer() {
-    const Node start = cells_.node_of(q_.start);
+    const Node start = cells_.node_of(q_.start, monitor());
     if (start == kNoNode) return finished(TurningAnswer::Status::kInvalidStart);
-    const Node goal = cells_.node_of(q_.goal);
+    const Node goal = cells_.node_of(q_.goal, monitor());
     if (goal == kNoNode) return finished(TurningAnswer::Status::kInvalidGoal);
     make_first_cells();
     while (true) {
@@ -77,18 +80,18 @@ class TurningSearch {
     for (const Step& step : steps) {
       const AngleCell& cell = cells_.cells().at(step.cell);
       if (cell.has_own_inner || cells_.surely_meet(step.from, step.to)) continue;
-      cells_.find_inner(step.cell);
+      cells_.find_inner(step.cell, monitor());
       return true;
     }
     bool any = false;
     for (const Step& step : steps) {
       if (cells_.cells().at(step.cell).has_bridges) continue;
-      cells_.find_bridges(step.cell);
+      cells_.find_bridges(step.cell, monitor());
       any = true;
     }
     if (any) return true;
     if (cells_.cells().size() >= limits_.max_cells) return false;
-    for (const TurnRange& range : answer_.open_ranges) cells_.split(range.low, split_point(range));
+    for (const TurnRange& range : answer_.open_ranges) cells_.split(range.low, split_point(range), monitor());
     return true;
   }
 
@@ -105,7 +108,7 @@ class TurningSearch {
     std::set<Turn> points{q_.low, q_.high, q_.start.turn, q_.goal.turn};
     for (Integer quarter = ceiling_of(q_.low); Turn(quarter) < q_.high; ++quarter) points.insert(Turn(quarter));
     for (auto next = std::next(points.begin()); next != points.end(); ++next) {
-      cells_.add(*std::prev(next), *next);
+      cells_.add(*std::prev(next), *next, monitor());
     }
   }
 
@@ -131,7 +134,7 @@ class TurningSearch {
     std::vector<std::vector<Room>> rooms(cells_.node_count());
     for (const auto& [low, cell] : cells_.cells()) {
       for (const auto& [turn, holds] : {std::pair(&cell.low, &cell.below), std::pair(&cell.high, &cell.above)}) {
-        const Node first = cells_.first_node(*turn);
+        const Node first = cells_.first_node(*turn, monitor());
         for (std::uint32_t i = 0; i < holds->size(); ++i) {
           members[{low, (*holds)[i]}].push_back(first + i);
           rooms[first + i].emplace_back(low, (*holds)[i]);
@@ -223,7 +226,7 @@ class TurningSearch {
           entry.inner.push_back(std::move(piece.vertices));
         }
       }
-      const std::vector<Rational3> points = points_of_components(*cell.inner);
+      const std::vector<Rational3> points = points_of_components(*cell.inner, monitor());
       for (; room != start_side.end() && room->first == low; ++room) entry.start_side.push_back(points[room->second]);
     }
     proof.breakpoints.push_back(q_.high);
@@ -269,8 +272,8 @@ class TurningSearch {
     PathOptions options;
     options.digits = limits_.digits;
     const auto walk_to = [&](const Rational3& position) {
-      const FreeSpace& free = cells_.slice(here.turn - full_turns);
-      const std::optional<ExactPath> part = find_path(free, here.position, position, options);
+      const FreeSpace& free = cells_.slice(here.turn - full_turns, monitor());
+      const std::optional<ExactPath> part = find_path(free, here.position, position, options, monitor());
       NEF_ASSERT(part && describe_path(free, part->points));
       for (std::size_t i = 1; i < part->points.size(); ++i) path.push_back({part->points[i], here.turn});
       here.position = position;
@@ -292,6 +295,7 @@ class TurningSearch {
 
   const TurningQuestion& q_;
   const TurningLimits& limits_;
+  StopQuestion stop_;
   TurningCells cells_;
   std::set<Turn> parallel_;
   TurningAnswer answer_;

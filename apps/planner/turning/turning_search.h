@@ -9,6 +9,7 @@
 
 #include "apps/planner/turning/turning_proof.h"
 #include "apps/planner/turning/turning_question.h"
+#include "nef/base/monitor.h"
 
 namespace nef::planner {
 
@@ -17,6 +18,7 @@ struct TurningLimits {
   std::function<bool()> stop;    ///< asked now and then; true ends the search
   /// Round way-points to so many decimals where the motions stay free. (Turns have the digits that their cells have.)
   std::optional<unsigned> digits = {};
+  Monitor monitor = {};  ///< who watches, too; what it refers to must outlive the call
 };
 
 /// A closed range of angles.

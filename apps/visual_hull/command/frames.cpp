@@ -111,19 +111,19 @@ fs::path manifest_of(const NumberedPath& outputs) {
   return fs::path(outputs.with("manifest")).replace_extension(".jsonl");
 }
 
-json entry_of(const Result& result, const fs::path& output, const Arguments& a) {
+json entry_of(const Result& result, const fs::path& output, const Arguments& a, const nef::Monitor& monitor) {
   json entry;
   entry["state"] = result.vanished ? "vanished" : "done";
   if (result.vanished) {
     entry["message"] = nef::utf8(vanished_text(result));
   } else {
-    const std::optional<nef::DecimatedMesh> decimated = write_hull(output.string(), result, a, nullptr);
+    const std::optional<nef::DecimatedMesh> decimated = write_hull(output.string(), result, a, nullptr, monitor);
     if (decimated) entry["decimated"] = decimation_json(*decimated);
     const nef::Counts counts = nef::counts(result.hull);
     entry["output"] = nef::utf8(output.string());
     entry["vertices"] = counts.vertices;
     entry["facets"] = counts.facets;
-    entry["volume"] = nef::approximate_volume(result.hull).value;
+    entry["volume"] = nef::approximate_volume(result.hull, 1, monitor).value;
   }
   for (const Dropped& dropped : result.dropped) entry["dropped"].push_back(nef::utf8(dropped.view));
   if (a.verify && !result.vanished) {
@@ -186,12 +186,13 @@ FrameTasks::FrameTasks(const Arguments& a)
   stream_ = std::make_unique<const HullStream>(std::move(scene), options);
 }
 
-std::string FrameTasks::make(std::size_t task) const {
+std::string FrameTasks::make(std::size_t task, const nef::Monitor& monitor) const {
   const fs::path folder = this->folder(task);
   json entry{{"frame", frames_[task]}, {"images", nef::utf8(folder.string())}, {"images_state", state_of(folder)}};
   const nef::ThreadStopwatch watch;
   try {
-    entry.update(entry_of(stream_->frame(folder, std::nullopt), outputs_.of(frames_[task]), arguments_));
+    const Result result = stream_->frame(folder, std::nullopt, {}, monitor);
+    entry.update(entry_of(result, outputs_.of(frames_[task]), arguments_, monitor));
   } catch (const nef::Error& error) {
     entry.update(json{{"state", "failed"}, {"message", nef::utf8(error.what())}});
   }
@@ -295,9 +296,9 @@ int make_frames(const Arguments& a) {
     if (done) bar.show("frame", record.done(), tasks.size());
     return done;
   };
-  nef::parallel_for(tasks.size(), a.threads, [&](std::size_t i) {
+  nef::parallel_for(tasks.size(), a.threads, {}, [&](std::size_t i, const nef::Monitor& own) {
     if (recorded([&] { return record.keep(i); })) return;
-    const std::string line = tasks.make(i);
+    const std::string line = tasks.make(i, own);
     recorded([&] {
       record.add(line);
       return true;

@@ -50,7 +50,7 @@ class FrameTasks {
   [[nodiscard]] const std::string& understanding() const { return understanding_; }
 
   /// Makes the hull of a frame and writes it. Returns its line of the manifest; a frame that fails has one, too.
-  [[nodiscard]] std::string make(std::size_t task) const;
+  [[nodiscard]] std::string make(std::size_t task, const nef::Monitor& monitor) const;
 
  private:
   Arguments arguments_;

@@ -22,8 +22,9 @@ void need_mesh(const Arguments& a, const std::string& option, bool (*suits)(cons
   throw nef::InputError(option + ": " + a.output + " cannot hold that; " + formats + " can");
 }
 
-std::vector<Color> colors_of(const nef::Mesh& mesh, const Result& result, const Arguments& a, nef::Messages* messages) {
-  VertexColors found = vertex_colors(mesh, result.views, result.origin, a.threads);
+std::vector<Color> colors_of(const nef::Mesh& mesh, const Result& result, const Arguments& a, nef::Messages* messages,
+                             const nef::Monitor& monitor) {
+  VertexColors found = vertex_colors(mesh, result.views, result.origin, a.threads, monitor);
   if (found.unseen > 0 && messages != nullptr) {
     messages->push_back(fmt::format("{} of {} vertices are seen by no view: they have the colours of their neighbours",
                                     found.unseen, found.colors.size()));
@@ -51,7 +52,7 @@ void check_output(const Arguments& a) {
 }
 
 std::optional<nef::DecimatedMesh> write_hull(const std::string& path, const Result& result, const Arguments& a,
-                                             nef::Messages* messages) {
+                                             nef::Messages* messages, const nef::Monitor& monitor) {
   if (a.decimate == 0) {
     nef::PolyhedronWriteOptions format;
     format.exact = a.exact;
@@ -59,19 +60,21 @@ std::optional<nef::DecimatedMesh> write_hull(const std::string& path, const Resu
     format.text = a.text;
     format.manifold = a.manifold;
     format.threads = a.threads;
+    format.monitor = monitor;
     if (a.color) {
-      format.vertex_colors = [&](const nef::Mesh& mesh) { return colors_of(mesh, result, a, messages); };
+      format.vertex_colors = [&](const nef::Mesh& mesh) { return colors_of(mesh, result, a, messages, monitor); };
     }
     nef::write_polyhedron(path, result.hull, format, messages);
     return std::nullopt;
   }
-  nef::DecimatedMesh decimated = nef::decimate(result.hull, a.decimate);
+  nef::DecimatedMesh decimated = nef::decimate(result.hull, a.decimate, monitor);
   if (messages != nullptr) messages->insert(messages->end(), decimated.notes.begin(), decimated.notes.end());
   if (a.manifold) decimated.mesh = nef::separate_sheets(decimated.mesh).mesh;
   nef::MeshWriteOptions format;
   format.exact = a.exact;
   format.binary = a.binary;
-  if (a.color) format.vertex_colors = colors_of(decimated.mesh, result, a, messages);
+  format.monitor = monitor;
+  if (a.color) format.vertex_colors = colors_of(decimated.mesh, result, a, messages, monitor);
   nef::write_mesh(path, decimated.mesh, format, messages);
   return decimated;
 }

@@ -18,7 +18,7 @@ void check_output(const Arguments& arguments);
 /// Writes the hull as the arguments have it: whole, or with --decimate as a mesh of fewer triangles, which is returned.
 /// With --manifold and --color as these say. Notes go to `messages` if that is not null.
 std::optional<nef::DecimatedMesh> write_hull(const std::string& path, const Result& result, const Arguments& arguments,
-                                             nef::Messages* messages);
+                                             nef::Messages* messages, const nef::Monitor& monitor);
 
 /// For the report: `triangles`, `vertices`, and `distance` from the hull (bounds of Hausdorff's, `low` and `high`).
 nlohmann::ordered_json decimation_json(const nef::DecimatedMesh& decimated);

@@ -22,12 +22,12 @@ constexpr nef::view::Color kOutlineColor{200, 40, 40};
 constexpr std::uintmax_t kLargestFile = std::uintmax_t{512} << 10U;  // of an image that is embedded as it is
 constexpr int kLongestSide = 1024;                                   // pixels of others
 
-Layer hull_layer(const Result& result, bool indices) {
+Layer hull_layer(const Result& result, bool indices, const nef::Monitor& monitor) {
   Layer layer;
   layer.name = "hull";
   nef::view::SceneOptions options;
   options.indices = indices;
-  layer.scene = nef::view::build_scene(result.hull, options);
+  layer.scene = nef::view::build_scene(result.hull, options, monitor);
   return layer;
 }
 
@@ -138,13 +138,13 @@ void add_outline(Layer& layer, const ViewResult& view, const ImagePlane& plane) 
 
 }  // namespace
 
-void write_preview(const Result& result, const fs::path& folder) {
+void write_preview(const Result& result, const fs::path& folder, const nef::Monitor& monitor) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (!fs::is_directory(folder, error)) {
     throw nef::InputError("--preview: cannot make the directory " + folder.string());
   }
-  const std::vector<Layer> layers{hull_layer(result, false)};
+  const std::vector<Layer> layers{hull_layer(result, false, monitor)};
   const std::vector<std::pair<std::string, std::optional<Point>>> pictures{{"hull.png", std::nullopt},
                                                                            {"hull_front.png", Point{0, -1, 0}},
                                                                            {"hull_right.png", Point{1, 0, 0}},
@@ -156,8 +156,8 @@ void write_preview(const Result& result, const fs::path& folder) {
   }
 }
 
-std::vector<Layer> page_layers(const Result& result, PixelOrigin origin) {
-  std::vector<Layer> layers{hull_layer(result, true)};
+std::vector<Layer> page_layers(const Result& result, PixelOrigin origin, const nef::Monitor& monitor) {
+  std::vector<Layer> layers{hull_layer(result, true, monitor)};
   Layer cameras;
   cameras.name = "cameras";
   cameras.color = kCameraColor;
@@ -173,10 +173,10 @@ std::vector<Layer> page_layers(const Result& result, PixelOrigin origin) {
   return layers;
 }
 
-void write_page(const Result& result, PixelOrigin origin, const fs::path& file) {
+void write_page(const Result& result, PixelOrigin origin, const fs::path& file, const nef::Monitor& monitor) {
   nef::view::PageOptions options;
   options.title = "visual hull of " + std::to_string(result.views.size()) + " views";
-  nef::view::write_page(page_layers(result, origin), file.string(), options);
+  nef::view::write_page(page_layers(result, origin, monitor), file.string(), options);
 }
 
 }  // namespace visual_hull

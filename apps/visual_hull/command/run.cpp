@@ -108,16 +108,17 @@ struct Written {
 };
 
 // What is asked for, into files. A hull that vanished has pictures of its views only.
-void write_files(const Arguments& a, const Result& result, nef::ProgressBar& bar, Written& written) {
+void write_files(const Arguments& a, const Result& result, nef::ProgressBar& bar, Written& written,
+                 const nef::Monitor& monitor) {
   const auto step = [&](const std::string& target, bool solid, const std::function<void()>& write) {
     if (target.empty() || (solid && result.vanished)) return;
     bar.show("write " + target);
     write();
   };
-  step(a.output, true, [&] { written.decimated = write_hull(a.output, result, a, &written.messages); });
+  step(a.output, true, [&] { written.decimated = write_hull(a.output, result, a, &written.messages, monitor); });
   step(a.overlay, false, [&] { write_overlays(result, result.origin, a.overlay); });
-  step(a.preview, true, [&] { write_preview(result, a.preview); });
-  step(a.page, true, [&] { write_page(result, result.origin, a.page); });
+  step(a.preview, true, [&] { write_preview(result, a.preview, monitor); });
+  step(a.page, true, [&] { write_page(result, result.origin, a.page, monitor); });
 }
 
 void check_page_name(const std::string& page) {
@@ -140,7 +141,8 @@ int run(const Arguments& a) {
                           });
   Written written;
   if (const auto note = cut_note(result)) written.messages.push_back(*note);
-  timed(result.phases, Phase::kWrite, [&] { write_files(a, result, bar, written); });
+  timed(result.phases, Phase::kWrite, {},
+        [&](const nef::Monitor& monitor) { write_files(a, result, bar, written, monitor); });
   if (!a.report.empty() || a.json) {
     bar.show("write report");
     nlohmann::ordered_json report = make_report(result, written.messages, a.exact_volume);

@@ -7,7 +7,8 @@
 
 namespace visual_hull {
 
-nef::Polyhedron in_at_least(std::span<const nef::Polyhedron> cones, std::size_t least, const nef::Polyhedron& room) {
+nef::Polyhedron in_at_least(std::span<const nef::Polyhedron> cones, std::size_t least, const nef::Polyhedron& room,
+                            const nef::Monitor& monitor) {
   // The label of a point: in how many cones it is, up to `least`; kOut if it cannot be in enough any more.
   constexpr int kOut = -1;
   using Counted = nef::LabeledPolyhedron<int>;
@@ -19,13 +20,14 @@ nef::Polyhedron in_at_least(std::span<const nef::Polyhedron> cones, std::size_t 
   for (const nef::Polyhedron& cone : cones) {
     --left;
     const Counted held(cone, 0, 1);
-    counted = overlay(counted, held, [wanted, left](int count, int more) {
+    const auto add = [wanted, left](int count, int more) {
       if (count == kOut) return kOut;
       const int sum = std::min(count + more, wanted);
       return sum + left < wanted ? kOut : sum;
-    });
+    };
+    counted = overlay(counted, held, add, monitor);
   }
-  return counted.where([wanted](int count) { return count == wanted; });
+  return counted.where([wanted](int count) { return count == wanted; }, monitor);
 }
 
 }  // namespace visual_hull

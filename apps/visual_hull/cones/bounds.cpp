@@ -211,11 +211,13 @@ class ProvenOptimum {
 
 }  // namespace
 
-std::vector<HalfSpace> convex_cone(const Camera& camera, const Silhouette& silhouette) {
+std::vector<HalfSpace> convex_cone(const Camera& camera, const Silhouette& silhouette, const nef::Monitor& monitor) {
   Ring points;
   for (const Ring& ring : silhouette.rings) points.insert(points.end(), ring.begin(), ring.end());
   std::sort(points.begin(), points.end(), lexicographically_less);
-  const auto left_turn = [](const Point2& a, const Point2& b, const Point2& c) { return orientation(a, b, c) > 0; };
+  const auto left_turn = [&monitor](const Point2& a, const Point2& b, const Point2& c) {
+    return orientation(a, b, c, monitor) > 0;
+  };
   const Ring hull = nef::convex_hull_of_sorted(std::move(points), left_turn);
   std::vector<HalfSpace> result;
   const CameraPlanes planes(camera);

@@ -14,7 +14,8 @@ namespace visual_hull {
 using HalfSpace = RationalPlane;
 
 /// The planes of the convex hull of a cone: one per edge of the silhouette's convex hull.
-std::vector<HalfSpace> convex_cone(const Camera& camera, const Silhouette& silhouette);
+std::vector<HalfSpace> convex_cone(const Camera& camera, const Silhouette& silhouette,
+                                   const nef::Monitor& monitor = {});
 
 /// What is known of the intersection of half-spaces.
 struct Bounds {

@@ -46,7 +46,8 @@ struct RingEdge {
 
 class ConeBuilder {
  public:
-  ConeBuilder(const Camera& camera, const Silhouette& silhouette) : positive_(camera.handedness() > 0) {
+  ConeBuilder(const Camera& camera, const Silhouette& silhouette, const nef::Monitor& monitor)
+      : positive_(camera.handedness() > 0), monitor_(monitor), builder_(planes_, monitor) {
     collect(silhouette);
     const CameraPlanes planes(camera);
     for (RingEdge& edge : edges_) {
@@ -74,7 +75,7 @@ class ConeBuilder {
   enum class Cap { kNear, kFar };
 
   // Straight vertices matter only where another ring touches.
-  static std::vector<Ring> without_straight_vertices(const Silhouette& silhouette) {
+  [[nodiscard]] std::vector<Ring> without_straight_vertices(const Silhouette& silhouette) const {
     std::map<Point2, int, decltype(&lexicographically_less)> count(&lexicographically_less);
     for (const Ring& ring : silhouette.rings) {
       for (const Point2& p : ring) ++count[p];
@@ -84,7 +85,7 @@ class ConeBuilder {
       const std::size_t n = ring.size();
       Ring kept;
       for (std::size_t i = 0; i < n; ++i) {
-        const bool straight = orientation(ring[(i + n - 1) % n], ring[i], ring[(i + 1) % n]) == 0;
+        const bool straight = orientation(ring[(i + n - 1) % n], ring[i], ring[(i + 1) % n], monitor_) == 0;
         if (!straight || count[ring[i]] > 1) kept.push_back(ring[i]);
       }
       rings.push_back(std::move(kept));
@@ -188,10 +189,10 @@ class ConeBuilder {
     }
     if (spokes.size() > 2) {
       const Point2& centre = place.point;
-      std::sort(spokes.begin(), spokes.end(), [&centre](const Spoke& a, const Spoke& b) {
+      std::sort(spokes.begin(), spokes.end(), [this, &centre](const Spoke& a, const Spoke& b) {
         const bool a_upper = upper_half(centre, a.tip);
         const bool b_upper = upper_half(centre, b.tip);
-        return a_upper != b_upper ? a_upper : orientation(centre, a.tip, b.tip) > 0;
+        return a_upper != b_upper ? a_upper : orientation(centre, a.tip, b.tip, monitor_) > 0;
       });
     }
     // The region is to the left of an outgoing edge, up to the next spoke, which comes in.
@@ -217,11 +218,12 @@ class ConeBuilder {
   nef::Polyhedron finish() { return nef::Polyhedron(builder_.finish(0)); }
 
   bool positive_;
+  nef::Monitor monitor_;
   std::vector<RayPlace> places_;
   std::vector<RingEdge> edges_;
   std::vector<std::array<PlaneId, 2>> rays_;
   nef::PlaneTable planes_;
-  nef::ComplexBuilder builder_{planes_};
+  nef::ComplexBuilder builder_;
   nef::Arrangement map_;
 };
 
@@ -251,11 +253,12 @@ DepthRange depth_range(const Camera& camera, const WorldBox& box) {
   return range;
 }
 
-nef::Polyhedron make_cone(const Camera& camera, const Silhouette& silhouette, const WorldBox& box) {
+nef::Polyhedron make_cone(const Camera& camera, const Silhouette& silhouette, const WorldBox& box,
+                          const nef::Monitor& monitor) {
   const DepthRange range = depth_range(camera, box);
   // At depth 0 only the centre itself may be in the box: the apex alone, which is no solid.
   if (silhouette.empty() || sgn(range.farthest) < 0) return {};
-  ConeBuilder builder(camera, silhouette);
+  ConeBuilder builder(camera, silhouette, monitor);
   const Rational far = sgn(range.farthest) > 0 ? nearby(range.farthest, 1) : Rational(1);
   if (sgn(range.nearest) > 0) {
     const Rational near = nearby(range.nearest, -1);

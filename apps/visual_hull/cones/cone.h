@@ -21,6 +21,7 @@ DepthRange depth_range(const Camera& camera, const WorldBox& box);
 /// tunnels. Every plane through the apex comes straight from the matrix and two vertices, so
 /// equal lines in equal cameras are the same plane. Empty if the silhouette is empty or the whole
 /// box lies behind the camera. O(n log n) for n vertices.
-nef::Polyhedron make_cone(const Camera& camera, const Silhouette& silhouette, const WorldBox& box);
+nef::Polyhedron make_cone(const Camera& camera, const Silhouette& silhouette, const WorldBox& box,
+                          const nef::Monitor& monitor = {});
 
 }  // namespace visual_hull

@@ -22,11 +22,12 @@ struct Part {
 /// parts. Pairs of views that look in different directions meet first: their intersections are
 /// small. Pairs are worked on by up to `threads` threads (0: as many as the machine has). `progress`, if there
 /// is one, is told the number of intersections done and their total, by one thread at a time.
-nef::Polyhedron intersect_parts(std::vector<Part> parts, unsigned threads = 1,
+nef::Polyhedron intersect_parts(std::vector<Part> parts, unsigned threads = 1, const nef::Monitor& monitor = {},
                                 const std::function<void(std::size_t, std::size_t)>& progress = {});
 
 /// The first part at which the intersection of all up to it, in the order given and within `box`,
 /// is empty, or, with `solid`, has no interior any more. Nothing if that never happens.
-std::optional<std::size_t> vanishes_at(const std::vector<Part>& parts, const nef::Polyhedron& box, bool solid);
+std::optional<std::size_t> vanishes_at(const std::vector<Part>& parts, const nef::Polyhedron& box, bool solid,
+                                       const nef::Monitor& monitor);
 
 }  // namespace visual_hull

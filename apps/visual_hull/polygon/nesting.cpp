@@ -42,7 +42,7 @@ struct EdgeSoup {
 std::string describe(const Point2& p) { return "(" + nef::to_string(p.x()) + ", " + nef::to_string(p.y()) + ")"; }
 
 // Drops repeated and straight vertices until none is left (dropping one may reveal another).
-void clean(Ring& ring) {
+void clean(Ring& ring, const nef::Monitor& monitor) {
   bool changed = true;
   while (changed && ring.size() >= 3) {
     changed = false;
@@ -50,7 +50,7 @@ void clean(Ring& ring) {
     const std::size_t n = ring.size();
     for (std::size_t i = 0; i < n; ++i) {
       const Point2& before = kept.empty() ? ring[n - 1] : kept.back();
-      if (ring[i] == before || orientation(before, ring[i], ring[(i + 1) % n]) == 0) {
+      if (ring[i] == before || orientation(before, ring[i], ring[(i + 1) % n], monitor) == 0) {
         changed = true;
       } else {
         kept.push_back(ring[i]);
@@ -61,7 +61,7 @@ void clean(Ring& ring) {
 }
 
 // Splits edges at vertices (of any ring) that lie inside them.
-void split_at_touches(std::vector<Ring>& rings) {
+void split_at_touches(std::vector<Ring>& rings, const nef::Monitor& monitor) {
   const EdgeSoup soup(rings);
   std::vector<std::vector<std::vector<Point2>>> inserted(rings.size());
   for (std::size_t r = 0; r < rings.size(); ++r) inserted[r].resize(rings[r].size());
@@ -72,7 +72,7 @@ void split_at_touches(std::vector<Ring>& rings) {
         const Ring& other = rings[soup.edges[e].ring];
         const Point2& a = other[soup.edges[e].index];
         const Point2& b = other[(soup.edges[e].index + 1) % other.size()];
-        if (p == a || p == b || !on_segment(a, b, p)) return;
+        if (p == a || p == b || !on_segment(a, b, p, monitor)) return;
         auto& list = inserted[soup.edges[e].ring][soup.edges[e].index];
         if (std::find(list.begin(), list.end(), p) == list.end()) list.push_back(p);
         any = true;
@@ -98,7 +98,7 @@ void split_at_touches(std::vector<Ring>& rings) {
 }
 
 // The first pair of edges that meet in more than a common vertex, or a vertex twice in one ring.
-std::string find_crossing(const std::vector<Ring>& rings) {
+std::string find_crossing(const std::vector<Ring>& rings, const nef::Monitor& monitor) {
   const EdgeSoup soup(rings);
   std::string problem;
   for (std::uint32_t e = 0; e < soup.edges.size() && problem.empty(); ++e) {
@@ -110,7 +110,7 @@ std::string find_crossing(const std::vector<Ring>& rings) {
       const Ring& other = rings[soup.edges[f].ring];
       const Point2& c = other[soup.edges[f].index];
       const Point2& d = other[(soup.edges[f].index + 1) % other.size()];
-      if (!segments_meet(a, b, c, d)) return;
+      if (!segments_meet(a, b, c, d, monitor)) return;
       const bool same_ring = soup.edges[e].ring == soup.edges[f].ring;
       const auto crossing = [&](const char* what) {
         problem = (same_ring ? "polygon " + std::to_string(soup.edges[e].ring + 1) + what + "itself"
@@ -126,17 +126,18 @@ std::string find_crossing(const std::vector<Ring>& rings) {
       const Point2& pivot = (a == c || a == d) ? a : b;
       const Point2& end1 = pivot == a ? b : a;
       const Point2& end2 = pivot == c ? d : c;
-      if (shared == 2 || on_segment(c, d, end1) || on_segment(a, b, end2)) return crossing(" runs along ");
+      if (shared == 2 || on_segment(c, d, end1, monitor) || on_segment(a, b, end2, monitor))
+        return crossing(" runs along ");
       if (same_ring && !follows) crossing(" touches ");
     });
   }
   return problem;
 }
 
-bool contains_strictly(const Ring& outer, const Ring& inner) {
+bool contains_strictly(const Ring& outer, const Ring& inner, const nef::Monitor& monitor) {
   // Rings meet in vertices only and no edge is common, so the middle of an edge of one is not on the other, whereas
   // each vertex may be.
-  return locate(outer, midpoint(inner[0], inner[1])) == Side::kInside;
+  return locate(outer, midpoint(inner[0], inner[1]), monitor) == Side::kInside;
 }
 
 nef::Box ring_box(const Ring& ring) {
@@ -163,7 +164,7 @@ std::size_t Silhouette::hole_count() const {
   return static_cast<std::size_t>(std::count_if(depth.begin(), depth.end(), [](int d) { return d % 2 == 1; }));
 }
 
-Silhouette nest(std::vector<Ring> rings) {
+Silhouette nest(std::vector<Ring> rings, const nef::Monitor& monitor) {
   Silhouette result;
   const std::size_t n = rings.size();
   std::vector<nef::Box> boxes;
@@ -172,7 +173,8 @@ Silhouette nest(std::vector<Ring> rings) {
   std::vector<std::vector<std::size_t>> around(n);
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j < n; ++j) {
-      if (i != j && box_within(boxes[i], boxes[j]) && contains_strictly(rings[j], rings[i])) around[i].push_back(j);
+      if (i != j && box_within(boxes[i], boxes[j]) && contains_strictly(rings[j], rings[i], monitor))
+        around[i].push_back(j);
     }
   }
   result.parent.assign(n, -1);
@@ -183,43 +185,43 @@ Silhouette nest(std::vector<Ring> rings) {
       if (around[j].size() + 1 == around[i].size()) result.parent[i] = static_cast<int>(j);
     }
     const int wanted = result.depth[i] % 2 == 0 ? 1 : -1;
-    if (ring_orientation(rings[i]) != wanted) std::reverse(rings[i].begin(), rings[i].end());
+    if (ring_orientation(rings[i], monitor) != wanted) std::reverse(rings[i].begin(), rings[i].end());
   }
   result.rings = std::move(rings);
   return result;
 }
 
-Silhouette make_silhouette(std::vector<Ring> rings, const std::string& where) {
+Silhouette make_silhouette(std::vector<Ring> rings, const std::string& where, const nef::Monitor& monitor) {
   for (std::size_t r = 0; r < rings.size(); ++r) {
-    clean(rings[r]);
+    clean(rings[r], monitor);
     if (rings[r].size() < 3) {
       throw nef::InputError(where + ": polygon " + std::to_string(r + 1) + " has no area");
     }
   }
-  split_at_touches(rings);
-  const std::string crossing = find_crossing(rings);
+  split_at_touches(rings, monitor);
+  const std::string crossing = find_crossing(rings, monitor);
   if (!crossing.empty()) throw nef::InputError(where + ": " + crossing);
-  Silhouette result = nest(std::move(rings));
-  const std::string problem = check(result);
+  Silhouette result = nest(std::move(rings), monitor);
+  const std::string problem = check(result, monitor);
   if (!problem.empty()) throw nef::InputError(where + ": " + problem);
   return result;
 }
 
-std::string check(const Silhouette& silhouette) {
+std::string check(const Silhouette& silhouette, const nef::Monitor& monitor) {
   for (std::size_t r = 0; r < silhouette.rings.size(); ++r) {
     const Ring& ring = silhouette.rings[r];
     if (ring.size() < 3) return "polygon " + std::to_string(r + 1) + " has fewer than three vertices";
   }
-  std::string problem = find_crossing(silhouette.rings);
+  std::string problem = find_crossing(silhouette.rings, monitor);
   if (!problem.empty()) return problem;
   const auto same_side = [&](std::size_t inner, std::size_t outer) {
     // All of a ring lies on one side of another, or they cross in a common vertex.
     const Ring& ring = silhouette.rings[inner];
-    const bool first = contains_strictly(silhouette.rings[outer], ring);
+    const bool first = contains_strictly(silhouette.rings[outer], ring, monitor);
     for (std::size_t k = 0; k < ring.size(); ++k) {
       const Point2& a = ring[k];
       const Point2& b = ring[(k + 1) % ring.size()];
-      if ((locate(silhouette.rings[outer], midpoint(a, b)) == Side::kInside) != first) return false;
+      if ((locate(silhouette.rings[outer], midpoint(a, b), monitor) == Side::kInside) != first) return false;
     }
     return true;
   };
@@ -233,11 +235,11 @@ std::string check(const Silhouette& silhouette) {
       if (!same_side(i, j)) {
         problem = "polygon " + std::to_string(i + 1) + " crosses polygon " + std::to_string(j + 1) + " in a vertex";
       }
-      if (contains_strictly(silhouette.rings[j], silhouette.rings[i])) ++depth;
+      if (contains_strictly(silhouette.rings[j], silhouette.rings[i], monitor)) ++depth;
     });
     if (!problem.empty()) break;
     if (depth != silhouette.depth[i]) return "polygon " + std::to_string(i + 1) + " is not nested as its depth says";
-    if (ring_orientation(silhouette.rings[i]) != (depth % 2 == 0 ? 1 : -1)) {
+    if (ring_orientation(silhouette.rings[i], monitor) != (depth % 2 == 0 ? 1 : -1)) {
       return "polygon " + std::to_string(i + 1) + " is oriented against its depth";
     }
   }

@@ -68,7 +68,7 @@ Point2 midpoint(const Point2& a, const Point2& b) {
   return {(a.x() + b.x()) / 2, (a.y() + b.y()) / 2};
 }
 
-int orientation(const Point2& a, const Point2& b, const Point2& c) {
+int orientation(const Point2& a, const Point2& b, const Point2& c, const nef::Monitor& monitor) {
   const double bx = b.approximate[0] - a.approximate[0];
   const double by = b.approximate[1] - a.approximate[1];
   const double cx = c.approximate[0] - a.approximate[0];
@@ -86,7 +86,7 @@ int orientation(const Point2& a, const Point2& b, const Point2& c) {
     largest = std::max({largest, std::abs(p->approximate[0]), std::abs(p->approximate[1])});
   }
   const bool moderate = largest > 1e-140 && largest < 1e140;
-  return nef::sign_by_ladder({determinant, moderate ? 0x1p-46 * largest * largest : HUGE_VAL},
+  return nef::sign_by_ladder({determinant, moderate ? 0x1p-46 * largest * largest : HUGE_VAL}, monitor,
                              [&] { return exact_orientation(a, b, c); });
 }
 
@@ -102,27 +102,27 @@ bool in_rectangle(const Point2& a, const Point2& b, const Point2& p) {
 
 }  // namespace
 
-bool on_segment(const Point2& a, const Point2& b, const Point2& p) {
-  return in_rectangle(a, b, p) && orientation(a, b, p) == 0;
+bool on_segment(const Point2& a, const Point2& b, const Point2& p, const nef::Monitor& monitor) {
+  return in_rectangle(a, b, p) && orientation(a, b, p, monitor) == 0;
 }
 
-bool segments_meet(const Point2& a, const Point2& b, const Point2& c, const Point2& d) {
+bool segments_meet(const Point2& a, const Point2& b, const Point2& c, const Point2& d, const nef::Monitor& monitor) {
   for (std::size_t i = 0; i < 2; ++i) {  // monotone rounding: disjoint doubles are disjoint truths
     if (std::max(a.approximate[i], b.approximate[i]) < std::min(c.approximate[i], d.approximate[i])) return false;
     if (std::max(c.approximate[i], d.approximate[i]) < std::min(a.approximate[i], b.approximate[i])) return false;
   }
-  const int abc = orientation(a, b, c);
-  const int abd = orientation(a, b, d);
+  const int abc = orientation(a, b, c, monitor);
+  const int abd = orientation(a, b, d, monitor);
   if (abc * abd > 0) return false;
-  const int cda = orientation(c, d, a);
-  const int cdb = orientation(c, d, b);
+  const int cda = orientation(c, d, a, monitor);
+  const int cdb = orientation(c, d, b, monitor);
   if (cda * cdb > 0) return false;
   if (abc * abd < 0 && cda * cdb < 0) return true;
   return (abc == 0 && in_rectangle(a, b, c)) || (abd == 0 && in_rectangle(a, b, d)) ||
          (cda == 0 && in_rectangle(c, d, a)) || (cdb == 0 && in_rectangle(c, d, b));
 }
 
-int ring_orientation(const Ring& ring) {
+int ring_orientation(const Ring& ring, const nef::Monitor& monitor) {
   const std::size_t n = ring.size();
   if (n < 3) return 0;
   std::size_t lowest = 0;
@@ -130,7 +130,7 @@ int ring_orientation(const Ring& ring) {
     if (lexicographically_less(ring[i], ring[lowest])) lowest = i;
   }
   // At a lexicographic extreme the turn is the ring's, unless it is straight or a spike.
-  return orientation(ring[(lowest + n - 1) % n], ring[lowest], ring[(lowest + 1) % n]);
+  return orientation(ring[(lowest + n - 1) % n], ring[lowest], ring[(lowest + 1) % n], monitor);
 }
 
 double twice_area(const Ring& ring) {
@@ -143,7 +143,7 @@ double twice_area(const Ring& ring) {
   return sum;
 }
 
-Side locate(const Ring& ring, const Point2& point) {
+Side locate(const Ring& ring, const Point2& point, const nef::Monitor& monitor) {
   bool inside = false;
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const Point2& a = ring[i];
@@ -151,18 +151,18 @@ Side locate(const Ring& ring, const Point2& point) {
     const int ya = compare_coordinate(a, point, 1);
     const int yb = compare_coordinate(b, point, 1);
     if (ya * yb > 0) continue;
-    if (on_segment(a, b, point)) return Side::kBoundary;
+    if (on_segment(a, b, point, monitor)) return Side::kBoundary;
     if ((ya > 0) == (yb > 0)) continue;  // half-open rule: a vertex on the ray belongs to what is above
-    const int turn = orientation(a, b, point);
+    const int turn = orientation(a, b, point, monitor);
     if ((yb > 0) == (turn > 0)) inside = !inside;
   }
   return inside ? Side::kInside : Side::kOutside;
 }
 
-Side locate(const Silhouette& silhouette, const Point2& point) {
+Side locate(const Silhouette& silhouette, const Point2& point, const nef::Monitor& monitor) {
   bool inside = false;
   for (const Ring& ring : silhouette.rings) {
-    const Side side = locate(ring, point);
+    const Side side = locate(ring, point, monitor);
     if (side == Side::kBoundary) return side;
     if (side == Side::kInside) inside = !inside;
   }

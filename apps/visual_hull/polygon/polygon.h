@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/number/number.h"
 
 namespace visual_hull {
@@ -49,19 +50,19 @@ Point2 midpoint(const Point2& a, const Point2& b);
 
 /// sign((b - a) x (c - a)): +1 if c lies to the left of the ray from a through b in (u, v)
 /// algebra (on a screen, where v points down, that is clockwise). Exact; double filter first.
-int orientation(const Point2& a, const Point2& b, const Point2& c);
+int orientation(const Point2& a, const Point2& b, const Point2& c, const nef::Monitor& monitor = {});
 
 /// True if p lies on the closed segment ab. Exact.
-bool on_segment(const Point2& a, const Point2& b, const Point2& p);
+bool on_segment(const Point2& a, const Point2& b, const Point2& p, const nef::Monitor& monitor = {});
 
 /// True if the closed segments ab and cd have a point in common. Exact.
-bool segments_meet(const Point2& a, const Point2& b, const Point2& c, const Point2& d);
+bool segments_meet(const Point2& a, const Point2& b, const Point2& c, const Point2& d, const nef::Monitor& monitor);
 
 /// A cycle of vertices without repetition of the first.
 using Ring = std::vector<Point2>;
 
 /// The sign of the signed area of a simple ring: +1 if its inside is to the left. Exact.
-int ring_orientation(const Ring& ring);
+int ring_orientation(const Ring& ring, const nef::Monitor& monitor = {});
 
 /// Twice the signed area, in double precision: for sorting and reports, never for a decision.
 double twice_area(const Ring& ring);
@@ -69,7 +70,7 @@ double twice_area(const Ring& ring);
 enum class Side { kInside, kBoundary, kOutside };
 
 /// Where a point lies with respect to a simple ring (of either orientation). Exact, O(n).
-Side locate(const Ring& ring, const Point2& point);
+Side locate(const Ring& ring, const Point2& point, const nef::Monitor& monitor = {});
 
 /// A closed region: rings are simple, have at most vertices in common, and are oriented so that
 /// the region lies to their left; nested by parity (outer, hole, island in a hole, ...).
@@ -84,19 +85,19 @@ struct Silhouette {
 };
 
 /// Where a point lies with respect to the closed region. Exact, O(n).
-Side locate(const Silhouette& silhouette, const Point2& point);
+Side locate(const Silhouette& silhouette, const Point2& point, const nef::Monitor& monitor = {});
 
 /// Nests and orients rings that are known to be simple and to meet in vertices only.
 /// O(rings^2 + vertices * nesting depth).
-Silhouette nest(std::vector<Ring> rings);
+Silhouette nest(std::vector<Ring> rings, const nef::Monitor& monitor);
 
 /// The same for rings from outside, combined by parity: repeated and collinear vertices are
 /// dropped, an edge is split where a vertex of another ring touches it. Throws InputError, with
 /// `where` in front, if a ring has no area, crosses itself or another, or shares a piece of an edge.
-Silhouette make_silhouette(std::vector<Ring> rings, const std::string& where);
+Silhouette make_silhouette(std::vector<Ring> rings, const std::string& where, const nef::Monitor& monitor = {});
 
 /// The empty string if the silhouette holds what its type promises, otherwise the first thing
 /// that is wrong. O(n log n) on ordinary input.
-std::string check(const Silhouette& silhouette);
+std::string check(const Silhouette& silhouette, const nef::Monitor& monitor = {});
 
 }  // namespace visual_hull

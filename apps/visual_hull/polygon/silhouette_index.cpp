@@ -21,7 +21,7 @@ SilhouetteIndex::SilhouetteIndex(const Silhouette& silhouette) {
   tree_ = nef::BoxTree(boxes);
 }
 
-Side SilhouetteIndex::locate(const Point2& point) const {
+Side SilhouetteIndex::locate(const Point2& point, const nef::Monitor& monitor) const {
   // Only edges that the ray to the right from the point may meet.
   nef::Box query;
   query.add_rounded({point.approximate[0], point.approximate[1], 0});
@@ -34,9 +34,9 @@ Side SilhouetteIndex::locate(const Point2& point) const {
     const int ya = compare_coordinate(a, point, 1);
     const int yb = compare_coordinate(b, point, 1);
     if (ya * yb > 0) return;
-    if (on_segment(a, b, point)) boundary = true;
+    if (on_segment(a, b, point, monitor)) boundary = true;
     if ((ya > 0) == (yb > 0)) return;
-    if ((yb > 0) == (orientation(a, b, point) > 0)) inside = !inside;
+    if ((yb > 0) == (orientation(a, b, point, monitor) > 0)) inside = !inside;
   });
   if (boundary) return Side::kBoundary;
   return inside ? Side::kInside : Side::kOutside;

@@ -15,7 +15,7 @@ class SilhouetteIndex {
   explicit SilhouetteIndex(const Silhouette& silhouette);
 
   /// As locate(silhouette, point), but only with the edges at the height of the point.
-  [[nodiscard]] Side locate(const Point2& point) const;
+  [[nodiscard]] Side locate(const Point2& point, const nef::Monitor& monitor) const;
 
   /// Calls visit(from, to) for every edge whose box overlaps `box`.
   template <typename Visit>

@@ -192,9 +192,10 @@ class Tracer {
 
 }  // namespace
 
-Silhouette trace_contours(const cv::Mat& mask, PixelOrigin origin, DiagonalPixels diagonal) {
+Silhouette trace_contours(const cv::Mat& mask, PixelOrigin origin, DiagonalPixels diagonal,
+                          const nef::Monitor& monitor) {
   CV_Assert(mask.type() == CV_8UC1);
-  return nest(Tracer(mask, origin, diagonal).trace());
+  return nest(Tracer(mask, origin, diagonal).trace(), monitor);
 }
 
 bool touches_frame(const cv::Mat& mask) {

@@ -20,7 +20,8 @@ enum class DiagonalPixels : std::uint8_t {
 /// channel), along the edges of the pixels, as simple rings that meet in corners at most: where
 /// two pixels touch in a corner only, so do the rings, or with kJoin none do. Straight runs are one edge. Unlike
 /// contours through pixel centres this loses no half pixel on either side. O(pixels).
-Silhouette trace_contours(const cv::Mat& mask, PixelOrigin origin, DiagonalPixels diagonal = DiagonalPixels::kTouch);
+Silhouette trace_contours(const cv::Mat& mask, PixelOrigin origin, DiagonalPixels diagonal = DiagonalPixels::kTouch,
+                          const nef::Monitor& monitor = {});
 
 /// True if a pixel of the mask on the frame of the image is set.
 bool touches_frame(const cv::Mat& mask);

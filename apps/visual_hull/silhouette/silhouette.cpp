@@ -92,7 +92,7 @@ void undistort(cv::Mat& mask, const Distortion& distortion, PixelOrigin origin, 
 
 // Drops contours around less than `least`. What lies inside such a contour is smaller still, so parity stays right. A
 // silhouette that must not lose anything (`outer`) keeps its islands.
-Silhouette without_specks(Silhouette traced, double least, bool outer) {
+Silhouette without_specks(Silhouette traced, double least, bool outer, const nef::Monitor& monitor) {
   if (least <= 0) return traced;
   std::vector<bool> small;
   small.reserve(traced.rings.size());
@@ -104,30 +104,30 @@ Silhouette without_specks(Silhouette traced, double least, bool outer) {
     const bool in_filled_hole = hole >= 0 && small[static_cast<std::size_t>(hole)];
     if (!small[i] || (outer && island && !in_filled_hole)) kept.push_back(std::move(traced.rings[i]));
   }
-  return nest(std::move(kept));
+  return nest(std::move(kept), monitor);
 }
 
 // The silhouette with all that is not seen, on a frame that is one pixel larger; then what is
 // inside its outermost ring but not in it: the background that is seen for sure.
 Silhouette seen_background(const cv::Mat& mask, const cv::Mat& unseen, const SilhouetteOptions& options,
-                           ViewSilhouette& result) {
+                           ViewSilhouette& result, const nef::Monitor& monitor) {
   cv::Mat keep = mask.clone();
   if (!unseen.empty()) keep |= unseen;
   cv::Mat padded;
   cv::copyMakeBorder(keep, padded, 1, 1, 1, 1, cv::BORDER_CONSTANT, cv::Scalar(255));
   const PixelOrigin origin = options.origin;
-  Silhouette traced =
-      without_specks(trace_contours(padded, origin, options.diagonal), options.min_area, options.simplify.outer);
+  Silhouette traced = without_specks(trace_contours(padded, origin, options.diagonal, monitor), options.min_area,
+                                     options.simplify.outer, monitor);
   for (Ring& ring : traced.rings) {  // the frame has grown by one pixel to the left and above
     for (Point2& p : ring) p = Point2(p.x() - 1, p.y() - 1);
   }
   result.contour_vertices = traced.vertex_count();
-  Silhouette simple = simplify(traced, options.simplify);
+  Silhouette simple = simplify(traced, options.simplify, monitor);
   std::vector<Ring> rings;
   for (std::size_t i = 0; i < simple.rings.size(); ++i) {
     if (simple.depth[i] > 0) rings.push_back(std::move(simple.rings[i]));
   }
-  return nest(std::move(rings));
+  return nest(std::move(rings), monitor);
 }
 
 }  // namespace
@@ -215,12 +215,12 @@ void straighten(cv::Mat& mask, const View& view, const SilhouetteOptions& option
 }
 
 ViewSilhouette silhouette_of_mask(const cv::Mat& mask, const cv::Mat& unseen, const std::string& view,
-                                  const SilhouetteOptions& options) {
+                                  const SilhouetteOptions& options, const nef::Monitor& monitor) {
   if (cv::countNonZero(mask) == 0) throw nef::InputError("view " + view + ": the silhouette is empty");
   ViewSilhouette result;
   result.image_size = mask.size();
-  const Silhouette traced =
-      without_specks(trace_contours(mask, options.origin, options.diagonal), options.min_area, options.simplify.outer);
+  const Silhouette traced = without_specks(trace_contours(mask, options.origin, options.diagonal, monitor),
+                                           options.min_area, options.simplify.outer, monitor);
   if (traced.empty()) {
     throw nef::InputError("view " + view + ": the silhouette is empty without contours of less than " +
                           std::to_string(options.min_area) + " square pixels (--min-area)");
@@ -235,20 +235,20 @@ ViewSilhouette silhouette_of_mask(const cv::Mat& mask, const cv::Mat& unseen, co
     result.cut_by_frame = result.cut_by_frame || cv::countNonZero(grown & mask) > 0;
   }
   result.background = result.cut_by_frame && options.border == Border::kUnknown;
-  result.region =
-      result.background ? seen_background(mask, unseen, options, result) : simplify(traced, options.simplify);
+  result.region = result.background ? seen_background(mask, unseen, options, result, monitor)
+                                    : simplify(traced, options.simplify, monitor);
   return result;
 }
 
 ViewSilhouette silhouette_of_polygons(const std::vector<Ring>& polygons, const std::string& view,
-                                      const SilhouetteOptions& options) {
+                                      const SilhouetteOptions& options, const nef::Monitor& monitor) {
   if (polygons.empty()) throw nef::InputError("view " + view + ": the silhouette is empty");
   ViewSilhouette result;
-  const Silhouette nested = make_silhouette(polygons, "view " + view);
+  const Silhouette nested = make_silhouette(polygons, "view " + view, monitor);
   result.contours = nested.rings.size();
   result.holes = nested.hole_count();
   result.contour_vertices = nested.vertex_count();
-  result.region = simplify(nested, options.simplify);
+  result.region = simplify(nested, options.simplify, monitor);
   return result;
 }
 

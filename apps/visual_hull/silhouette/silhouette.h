@@ -60,10 +60,10 @@ void straighten(cv::Mat& mask, const View& view, const SilhouetteOptions& option
 
 /// Traces and simplifies a mask. Throws InputError naming the view if nothing is set.
 ViewSilhouette silhouette_of_mask(const cv::Mat& mask, const cv::Mat& unseen, const std::string& view,
-                                  const SilhouetteOptions& options);
+                                  const SilhouetteOptions& options, const nef::Monitor& monitor = {});
 
 /// The same for polygons in place of an image.
 ViewSilhouette silhouette_of_polygons(const std::vector<Ring>& polygons, const std::string& view,
-                                      const SilhouetteOptions& options);
+                                      const SilhouetteOptions& options, const nef::Monitor& monitor = {});
 
 }  // namespace visual_hull

@@ -91,7 +91,8 @@ std::vector<std::vector<bool>> shared_vertices(const Silhouette& silhouette) {
 
 // The vertices of the polygons of fewest vertices, each ring for itself; nothing if one is none, or if the rings get
 // into each other's way.
-std::optional<std::vector<std::vector<bool>>> fewest_together(const Silhouette& silhouette, double tolerance) {
+std::optional<std::vector<std::vector<bool>>> fewest_together(const Silhouette& silhouette, double tolerance,
+                                                              const nef::Monitor& monitor) {
   const std::vector<std::vector<bool>> pinned = shared_vertices(silhouette);
   std::vector<std::vector<bool>> keep;
   std::vector<Ring> simple;
@@ -105,8 +106,8 @@ std::optional<std::vector<std::vector<bool>>> fewest_together(const Silhouette& 
     if (kept.size() < 3) return std::nullopt;
     simple.push_back(std::move(kept));
   }
-  const Silhouette nested = nest(std::move(simple));
-  if (nested.parent != silhouette.parent || nested.depth != silhouette.depth || !check(nested).empty()) {
+  const Silhouette nested = nest(std::move(simple), monitor);
+  if (nested.parent != silhouette.parent || nested.depth != silhouette.depth || !check(nested, monitor).empty()) {
     return std::nullopt;
   }
   return keep;
@@ -115,11 +116,12 @@ std::optional<std::vector<std::vector<bool>>> fewest_together(const Silhouette& 
 class Simplifier {
  public:
   /// Begins with the vertices to be kept only, if they are told (ring by ring): they are known to be a silhouette.
-  Simplifier(const Silhouette& silhouette, const SimplifyOptions& options,
-             const std::vector<std::vector<bool>>* keep = nullptr)
+  Simplifier(const Silhouette& silhouette, const SimplifyOptions& options, const std::vector<std::vector<bool>>* keep,
+             const nef::Monitor& monitor)
       : original_(silhouette),
         outer_(options.outer),
         tolerance_(within(options.tolerance)),
+        monitor_(monitor),
         grid_(bounds_of(silhouette), keep != nullptr ? count(*keep) : silhouette.vertex_count()) {
     step_ = tolerance_ > 0 ? std::exp2(std::floor(std::log2(tolerance_ / 8))) : 0;
     build(keep);
@@ -233,7 +235,7 @@ class Simplifier {
   }
 
   int turn(std::uint32_t k) const {
-    return orientation(nodes_[nodes_[k].prev].point, nodes_[k].point, nodes_[nodes_[k].next].point);
+    return orientation(nodes_[nodes_[k].prev].point, nodes_[k].point, nodes_[nodes_[k].next].point, monitor_);
   }
 
   void push(std::uint32_t k) {
@@ -277,8 +279,8 @@ class Simplifier {
         const double distance = std::hypot(c[0] - x[0], c[1] - x[1]);
         if (distance >= nearest) continue;
         const Point2 point = Point2::from_doubles(c[0], c[1]);
-        if (orientation(a.point, p.point, point) > 0 || orientation(q.point, b.point, point) > 0 ||
-            orientation(p.point, q.point, point) >= 0) {
+        if (orientation(a.point, p.point, point, monitor_) > 0 || orientation(q.point, b.point, point, monitor_) > 0 ||
+            orientation(p.point, q.point, point, monitor_) >= 0) {
           continue;
         }
         nearest = distance;
@@ -321,26 +323,26 @@ class Simplifier {
   struct Triangle {
     std::array<const Point2*, 3> corner;
     // Exact; degenerate triangles are segments.
-    bool contains(const Point2& p) const {
-      const int s0 = orientation(*corner[0], *corner[1], p);
-      const int s1 = orientation(*corner[1], *corner[2], p);
-      const int s2 = orientation(*corner[2], *corner[0], p);
+    bool contains(const Point2& p, const nef::Monitor& monitor) const {
+      const int s0 = orientation(*corner[0], *corner[1], p, monitor);
+      const int s1 = orientation(*corner[1], *corner[2], p, monitor);
+      const int s2 = orientation(*corner[2], *corner[0], p, monitor);
       if ((s0 > 0 || s1 > 0 || s2 > 0) && (s0 < 0 || s1 < 0 || s2 < 0)) return false;
       if (s0 != 0 || s1 != 0 || s2 != 0) return s0 * s1 >= 0 && s1 * s2 >= 0 && s0 * s2 >= 0;
-      return on_segment(*corner[0], *corner[1], p) || on_segment(*corner[1], *corner[2], p) ||
-             on_segment(*corner[2], *corner[0], p);
+      return on_segment(*corner[0], *corner[1], p, monitor) || on_segment(*corner[1], *corner[2], p, monitor) ||
+             on_segment(*corner[2], *corner[0], p, monitor);
     }
   };
 
   // True if edge c-d meets the new segment a-b in more than a common end.
-  static bool conflicts(const Point2& a, const Point2& b, const Point2& c, const Point2& d) {
-    if (!segments_meet(a, b, c, d)) return false;
+  [[nodiscard]] bool conflicts(const Point2& a, const Point2& b, const Point2& c, const Point2& d) const {
+    if (!segments_meet(a, b, c, d, monitor_)) return false;
     const bool at_a = a == c || a == d;
     const bool at_b = b == c || b == d;
     if (at_a && at_b) return true;
     if (!at_a && !at_b) return true;
     const Point2& pivot = at_a ? a : b;
-    return on_segment(c, d, at_a ? b : a) || on_segment(a, b, pivot == c ? d : c);
+    return on_segment(c, d, at_a ? b : a, monitor_) || on_segment(a, b, pivot == c ? d : c, monitor_);
   }
 
   bool blocked(const std::vector<const Point2*>& path, const std::vector<Triangle>& swept, std::uint32_t first_old,
@@ -363,7 +365,7 @@ class Simplifier {
       bool on_old = e == last_old;
       for (std::uint32_t k = first_old; k != last_old; k = nodes_[k].next) on_old = on_old || k == e;
       if (!bad && !on_old && !(c == *path.front()) && !(c == *path.back())) {
-        for (const Triangle& t : swept) bad = bad || t.contains(c);
+        for (const Triangle& t : swept) bad = bad || t.contains(c, monitor_);
       }
       return !bad;
     });
@@ -457,6 +459,7 @@ class Simplifier {
   bool outer_;
   bool collapse_ = false;
   double tolerance_;
+  nef::Monitor monitor_;
   double step_ = 0;
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> size_;  // of each ring
@@ -466,17 +469,17 @@ class Simplifier {
 
 }  // namespace
 
-Silhouette simplify(const Silhouette& silhouette, const SimplifyOptions& options) {
+Silhouette simplify(const Silhouette& silhouette, const SimplifyOptions& options, const nef::Monitor& monitor) {
   if (!(options.tolerance >= 0) || std::isinf(options.tolerance)) {
     throw nef::InputError("--simplify: the tolerance must be a number that is not negative");
   }
   if (silhouette.empty() || options.tolerance == 0) return silhouette;
-  if (options.outer) return Simplifier(silhouette, options).run();
-  if (const auto keep = fewest_together(silhouette, within(options.tolerance))) {
-    return Simplifier(silhouette, options, &*keep).run();
+  if (options.outer) return Simplifier(silhouette, options, nullptr, monitor).run();
+  if (const auto keep = fewest_together(silhouette, within(options.tolerance), monitor)) {
+    return Simplifier(silhouette, options, &*keep, monitor).run();
   }
   for (std::vector<bool> greedy(silhouette.rings.size(), false);;) {
-    Simplifier simplifier(silhouette, options);
+    Simplifier simplifier(silhouette, options, nullptr, monitor);
     const std::vector<bool> failed = simplifier.remove_guided(greedy);
     bool any = false;
     for (std::size_t r = 0; r < failed.size(); ++r) {

@@ -20,6 +20,6 @@ struct SimplifyOptions {
 /// Vertices are original ones; with `outer` some are points beyond the original, on a grid of a
 /// power of two between tolerance/16 and tolerance/8. Greedy, cheapest vertex first;
 /// O(n log n) for n vertices of ordinary contours, with a chain of length O(tolerance) per vertex.
-Silhouette simplify(const Silhouette& silhouette, const SimplifyOptions& options);
+Silhouette simplify(const Silhouette& silhouette, const SimplifyOptions& options, const nef::Monitor& monitor = {});
 
 }  // namespace visual_hull

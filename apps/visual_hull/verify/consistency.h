@@ -42,11 +42,12 @@ struct Consistency {
 /// one by 0.4, and D comes from four lines of sight or more; with up to five views the score is that of D alone. `box`
 /// bounds the part of space that is looked at (grown to thrice its size). The answer does not depend on `threads`.
 /// O(views^2 (rays + vertices of a silhouette)).
-Consistency compare_views(const std::vector<ComparedView>& views, const WorldBox& box, unsigned threads);
+Consistency compare_views(const std::vector<ComparedView>& views, const WorldBox& box, unsigned threads,
+                          const nef::Monitor& monitor);
 
 /// Smallest sets of at most four views that have no point in common as far as the lines of sight tell: what remains is
 /// to confirm them exactly. At most `most` sets, all of the least size that there is; none if every four views meet.
 std::vector<std::vector<std::size_t>> disjoint_views(const std::vector<ComparedView>& views, const WorldBox& box,
-                                                     std::size_t most, unsigned threads);
+                                                     std::size_t most, unsigned threads, const nef::Monitor& monitor);
 
 }  // namespace visual_hull

@@ -142,9 +142,9 @@ std::vector<std::vector<std::vector<Vec>>> project_facets(const nef::Polyhedron&
 }
 
 Verification verify_view(const nef::Polyhedron& hull, const Camera& camera, const Silhouette& silhouette,
-                         int lines_per_pixel) {
+                         int lines_per_pixel, const nef::Monitor& monitor) {
   Verification result;
-  result.problem = why_outside(hull, camera, silhouette);
+  result.problem = why_outside(hull, camera, silhouette, monitor);
   result.inside = result.problem.empty();
 
   const auto facets = project_facets(hull, camera);

@@ -19,6 +19,9 @@ struct Verification {
   bool area_known = true;  ///< not where the view keeps space beyond its frame
 };
 
+/// Scan lines of verify_view.
+inline constexpr int kLinesPerPixel = 4;
+
 /// Verifies a bounded, closed hull against one view.
 /// `inside` is exact: (1) no vertex lies behind the camera, (2) no point of an edge's projection lies
 /// outside the silhouette, (3) no hole of the silhouette is covered by a facet, which after (2) is
@@ -27,7 +30,7 @@ struct Verification {
 /// The area is an integral over scan lines, `lines_per_pixel` of them, exact along each
 /// line but for rounding. O(edges log n) on ordinary input.
 Verification verify_view(const nef::Polyhedron& hull, const Camera& camera, const Silhouette& silhouette,
-                         int lines_per_pixel = 4);
+                         int lines_per_pixel = kLinesPerPixel, const nef::Monitor& monitor = {});
 
 /// The projection of the boundary cycles of each facet, for drawing: per facet its cycles of (u, v).
 /// Facets seen edge-on, and those with a vertex that is not in front of the camera, are left out.

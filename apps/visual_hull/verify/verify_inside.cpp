@@ -27,13 +27,15 @@ struct Projected {
 
 class InsideCheck {
  public:
-  InsideCheck(const nef::Polyhedron& hull, const Camera& camera, const Silhouette& silhouette)
+  InsideCheck(const nef::Polyhedron& hull, const Camera& camera, const Silhouette& silhouette,
+              const nef::Monitor& monitor)
       : hull_(hull),
         complex_(hull.complex()),
         camera_(camera),
         planes_(camera),
         silhouette_(silhouette),
-        index_(silhouette) {
+        index_(silhouette),
+        monitor_(monitor) {
     for (std::size_t i = 0; i < 3; ++i) {
       for (std::size_t j = 0; j < 4; ++j) matrix_[i][j] = nef::nearest_double(camera.matrix()[i][j]);
     }
@@ -49,7 +51,8 @@ class InsideCheck {
     }
     for (const nef::VertexId v : complex_.vertex_ids()) {
       const bool lonely = complex_.vertices[v].svertices == complex_.vertices[v.next()].svertices;
-      if (lonely && vertices_[v].state == Projected::State::kFront && index_.locate(exact(v)) == Side::kOutside) {
+      if (lonely && vertices_[v].state == Projected::State::kFront &&
+          index_.locate(exact(v), monitor_) == Side::kOutside) {
         return "vertex " + std::to_string(v.index()) + " projects out of the silhouette";
       }
     }
@@ -159,7 +162,7 @@ class InsideCheck {
     }
     if (!near_.empty()) return edge_inside_exactly(exact(va), exact(vb));
     // Nothing of the boundary is near: all of the edge is where one end is.
-    if (!a.known_inside && !b.known_inside && index_.locate(exact(va)) == Side::kOutside) return false;
+    if (!a.known_inside && !b.known_inside && index_.locate(exact(va), monitor_) == Side::kOutside) return false;
     a.known_inside = b.known_inside = true;
     return true;
   }
@@ -196,22 +199,22 @@ class InsideCheck {
     const double error = p.error + (std::abs(p.at[axis]) + std::abs(end.approximate[axis])) * 0x1p-51;
     if (std::abs(way) > 2 * error) return (way > 0) == (other.approximate[axis] > end.approximate[axis]) ? 1 : -1;
     const Point2 across = axis == 0 ? Point2(end.x(), end.y() + 1) : Point2(end.x() + 1, end.y());
-    return side(v, planes_.through(end, across)) * orientation(end, across, other);
+    return side(v, planes_.through(end, across)) * orientation(end, across, other, monitor_);
   }
 
   bool edge_inside_exactly(const Point2& a, const Point2& b) {
-    if (a == b) return index_.locate(a) != Side::kOutside;
+    if (a == b) return index_.locate(a, monitor_) != Side::kOutside;
     std::vector<const Point2*> stops{&a, &b};
     for (const auto& [c, d] : near_) {
-      const int sc = orientation(a, b, *c);
-      const int sd = orientation(a, b, *d);
+      const int sc = orientation(a, b, *c, monitor_);
+      const int sd = orientation(a, b, *d, monitor_);
       if (sc * sd > 0) continue;
-      const int sa = orientation(*c, *d, a);
-      const int sb = orientation(*c, *d, b);
+      const int sa = orientation(*c, *d, a, monitor_);
+      const int sb = orientation(*c, *d, b, monitor_);
       if (sa * sb > 0) continue;
       if (sc * sd < 0 && sa * sb < 0) return false;  // one side of each edge is background
-      if (sc == 0 && on_segment(a, b, *c)) stops.push_back(c);
-      if (sd == 0 && on_segment(a, b, *d)) stops.push_back(d);
+      if (sc == 0 && on_segment(a, b, *c, monitor_)) stops.push_back(c);
+      if (sd == 0 && on_segment(a, b, *d, monitor_)) stops.push_back(d);
     }
     const std::size_t axis = compare_coordinate(a, b, 0) != 0 ? 0 : 1;
     std::sort(stops.begin(), stops.end(),
@@ -220,7 +223,7 @@ class InsideCheck {
       const Point2& p = *stops[i];
       const Point2& q = *stops[i + 1];
       if (p == q) continue;
-      if (index_.locate(midpoint(p, q)) == Side::kOutside) return false;
+      if (index_.locate(midpoint(p, q), monitor_) == Side::kOutside) return false;
     }
     return true;
   }
@@ -230,7 +233,7 @@ class InsideCheck {
     const Ring& ring = silhouette_.rings[r];
     const auto in_child = [&](const Point2& p) {
       for (std::size_t k = 0; k < silhouette_.rings.size(); ++k) {
-        if (silhouette_.parent[k] == static_cast<int>(r) && locate(silhouette_.rings[k], p) != Side::kOutside)
+        if (silhouette_.parent[k] == static_cast<int>(r) && locate(silhouette_.rings[k], p, monitor_) != Side::kOutside)
           return true;
       }
       return false;
@@ -241,7 +244,7 @@ class InsideCheck {
       // The background is to the right of the edge: (dx, dy) turned to (dy, -dx).
       const Point2 p((ring[0].x() + ring[1].x()) / 2 + step * (ring[1].y() - ring[0].y()),
                      (ring[0].y() + ring[1].y()) / 2 - step * (ring[1].x() - ring[0].x()));
-      if (locate(ring, p) == Side::kInside && !in_child(p)) return p;
+      if (locate(ring, p, monitor_) == Side::kInside && !in_child(p)) return p;
     }
     return std::nullopt;
   }
@@ -264,6 +267,7 @@ class InsideCheck {
   const CameraPlanes planes_;
   const Silhouette& silhouette_;
   SilhouetteIndex index_;
+  nef::Monitor monitor_;
   std::array<std::array<double, 4>, 3> matrix_{};
   nef::IndexedVector<nef::VertexId, Projected> vertices_;
   nef::IndexedVector<nef::VertexId, std::optional<Point2>> exact_;
@@ -273,8 +277,9 @@ class InsideCheck {
 
 }  // namespace
 
-std::string why_outside(const nef::Polyhedron& hull, const Camera& camera, const Silhouette& silhouette) {
-  return InsideCheck(hull, camera, silhouette).run();
+std::string why_outside(const nef::Polyhedron& hull, const Camera& camera, const Silhouette& silhouette,
+                        const nef::Monitor& monitor) {
+  return InsideCheck(hull, camera, silhouette, monitor).run();
 }
 
 }  // namespace visual_hull

@@ -17,6 +17,6 @@ std::optional<std::uint32_t> corner_of(const SpotName& name, std::span<const Vie
 /// At a vertex where rings may touch: the one of the edges `incoming`, which all end there, at which the region to the
 /// left of an edge that starts there ends. Exact.
 std::uint32_t next_incoming(std::uint32_t out, std::span<const std::uint32_t> incoming,
-                            std::span<const ViewingEdge> edges);
+                            std::span<const ViewingEdge> edges, const nef::Monitor& monitor);
 
 }  // namespace visual_hull

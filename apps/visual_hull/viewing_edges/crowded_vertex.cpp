@@ -8,9 +8,10 @@
 namespace visual_hull {
 
 CrowdedPyramids::CrowdedPyramids(std::span<const ViewingEdge> edges, const nef::PlaneTable& planes,
-                                 std::function<nef::PlaneId(std::uint32_t)> plane)
+                                 const nef::Monitor& monitor, std::function<nef::PlaneId(std::uint32_t)> plane)
     : edges_(edges),
       planes_(planes),
+      monitor_(monitor),
       plane_(std::move(plane)),
       both_(2, 2, [](nef::LabelId a, nef::LabelId b) { return static_cast<nef::LabelId>(a & b); }),
       either_(2, 2, [](nef::LabelId a, nef::LabelId b) { return static_cast<nef::LabelId>(a | b); }) {}
@@ -47,14 +48,14 @@ void CrowdedPyramids::add_view(std::span<const std::uint32_t> edges, nef::Sphere
   result.assign_trivial(0);
   nef::SphereMapBuffer sector;
   for (const std::uint32_t out : outgoing) {
-    add_sector(next_incoming(out, incoming, edges_), out, sector);
+    add_sector(next_incoming(out, incoming, edges_, monitor_), out, sector);
     combine(result, sector, either_);
   }
 }
 
 void CrowdedPyramids::add_sector(std::uint32_t in, std::uint32_t out, nef::SphereMapBuffer& result) {
   result.assign_circle(plane_(out), 1, 1, 0);
-  const int turn = orientation(*edges_[in].from, *edges_[out].from, *edges_[out].to);
+  const int turn = orientation(*edges_[in].from, *edges_[out].from, *edges_[out].to, monitor_);
   if (turn == 0) return;
   nef::SphereMapBuffer other;
   other.assign_circle(plane_(in), 1, 1, 0);
@@ -63,7 +64,7 @@ void CrowdedPyramids::add_sector(std::uint32_t in, std::uint32_t out, nef::Spher
 
 void CrowdedPyramids::combine(nef::SphereMapBuffer& result, const nef::SphereMapBuffer& other,
                               const nef::LabelFunction& function) {
-  overlay_.overlay(planes_, result.view(), other.view(), function, scratch_);
+  overlay_.overlay(planes_, result.view(), other.view(), function, scratch_, monitor_);
   std::swap(result, scratch_);
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/visual_hull/viewing_edges/edge_view.h"
+#include "nef/base/monitor.h"
 #include "nef/sphere_map/overlay.h"
 
 namespace visual_hull {
@@ -22,7 +23,7 @@ struct CrowdedVertex {
 class CrowdedPyramids {
  public:
   /// `planes` is where plane(e) puts the plane of edge e, positive towards the region.
-  CrowdedPyramids(std::span<const ViewingEdge> edges, const nef::PlaneTable& planes,
+  CrowdedPyramids(std::span<const ViewingEdge> edges, const nef::PlaneTable& planes, const nef::Monitor& monitor,
                   std::function<nef::PlaneId(std::uint32_t)> plane);
 
   /// The sphere map, simplified; valid until the next call. O(n^2) for n edges.
@@ -35,6 +36,7 @@ class CrowdedPyramids {
 
   std::span<const ViewingEdge> edges_;
   const nef::PlaneTable& planes_;
+  nef::Monitor monitor_;
   std::function<nef::PlaneId(std::uint32_t)> plane_;
   nef::SphereOverlay overlay_;
   nef::LabelFunction both_;

@@ -24,6 +24,7 @@ struct DirectView {
 /// doubles whose errors are proven and integers where these do not decide. They are then written down as a complex
 /// (complex_of); a vertex on more planes is an overlay of sphere maps. About O(n log n) for n places where facets come
 /// near the surface of the hull. Uses up to `threads` threads; the result does not depend on their number.
-std::optional<nef::Polyhedron> direct_hull(const std::vector<DirectView>& views, const WorldBox& box, unsigned threads);
+std::optional<nef::Polyhedron> direct_hull(const std::vector<DirectView>& views, const WorldBox& box, unsigned threads,
+                                           const nef::Monitor& monitor);
 
 }  // namespace visual_hull

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "nef/base/timing/predicate_counts.h"
 #include "nef/number/approximation.h"
 
 namespace visual_hull {
@@ -40,11 +39,12 @@ std::optional<int> orient(const Seen& a, const Seen& b, const Seen& c) {
 // What exact location asks of a point of the image: on which side of a line it lies.
 class PointImage {
  public:
-  explicit PointImage(const Point2& point) : point_(point) {}
-  int side(const Point2& a, const Point2& b) const { return orientation(a, b, point_); }
+  PointImage(const Point2& point, const nef::Monitor& monitor) : point_(point), monitor_(monitor) {}
+  int side(const Point2& a, const Point2& b) const { return orientation(a, b, point_, monitor_); }
 
  private:
   const Point2& point_;
+  nef::Monitor monitor_;
 };
 
 // The same of the image of a point in front of the camera.
@@ -345,7 +345,7 @@ std::optional<bool> EdgeView::crosses(const Seen& p, const Seen& reference, std:
   return *side_c != *side_d;
 }
 
-std::optional<bool> EdgeView::inside(const Seen& p) const {
+std::optional<bool> EdgeView::inside(const Seen& p, const nef::Monitor& monitor) const {
   if (!(p.error < margin_)) return std::nullopt;
   const std::optional<Cell> cell = cell_at(p.u, p.v);
   if (!cell) return false;  // the grid is larger than the silhouette by more than the error
@@ -359,26 +359,26 @@ std::optional<bool> EdgeView::inside(const Seen& p) const {
     if (!crossed) return std::nullopt;
     if (*crossed) result = !result;
   }
-  nef::predicate_counts().filter += end - begin;
+  monitor.count_filter(end - begin);
   return result;
 }
 
-Side EdgeView::locate(const Point2& point) const {
+Side EdgeView::locate(const Point2& point, const nef::Monitor& monitor) const {
   const std::optional<Cell> cell = cell_at(point.approximate[0], point.approximate[1]);
-  return cell ? locate_in_cell(*cell, PointImage(point)) : Side::kOutside;
+  return cell ? locate_in_cell(*cell, PointImage(point, monitor), monitor) : Side::kOutside;
 }
 
-std::optional<Side> EdgeView::locate(const Seen& p, const ExactPoint& point) const {
+std::optional<Side> EdgeView::locate(const Seen& p, const ExactPoint& point, const nef::Monitor& monitor) const {
   if (!(p.error < margin_)) return std::nullopt;
   const std::optional<Cell> cell = cell_at(p.u, p.v);
-  return cell ? locate_in_cell(*cell, SpaceImage(planes_, point)) : Side::kOutside;
+  return cell ? locate_in_cell(*cell, SpaceImage(planes_, point), monitor) : Side::kOutside;
 }
 
 // By the crossings of the segment to the cell's reference point r. An end of an edge on the line through both counts as
 // on its left; r lies on no edge, so where the line separates the ends, r does not lie on the line through them.
 template <typename Image>
-Side EdgeView::locate_in_cell(const Cell& cell, const Image& image) const {
-  ++nef::predicate_counts().exact;
+Side EdgeView::locate_in_cell(const Cell& cell, const Image& image, const nef::Monitor& monitor) const {
+  monitor.count_exact();
   bool result = cell_inside_[cell.index];
   const auto [u, v] = reference(cell.column, cell.row);
   const Point2 r = Point2::from_doubles(u, v);
@@ -391,7 +391,7 @@ Side EdgeView::locate_in_cell(const Cell& cell, const Image& image) const {
       if (between_ends(image, e) != Side::kOutside) return Side::kBoundary;
       continue;
     }
-    if (side == orientation(c, d, r)) continue;
+    if (side == orientation(c, d, r, monitor)) continue;
     if ((image.side(r, c) >= 0) != (image.side(r, d) >= 0)) result = !result;
   }
   return result ? Side::kInside : Side::kOutside;
@@ -411,8 +411,8 @@ std::optional<bool> EdgeView::between(const Seen& p, std::uint32_t edge) const {
   return std::nullopt;
 }
 
-Side EdgeView::between(const ExactPoint& point, std::uint32_t edge) const {
-  ++nef::predicate_counts().exact;
+Side EdgeView::between(const ExactPoint& point, std::uint32_t edge, const nef::Monitor& monitor) const {
+  monitor.count_exact();
   return between_ends(SpaceImage(planes_, point), edge);
 }
 

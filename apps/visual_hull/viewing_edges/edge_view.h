@@ -81,17 +81,17 @@ class EdgeView {
   [[nodiscard]] std::optional<Window> window(const Double3& middle, const Double3& half) const;
 
   /// True if the point lies in the interior of the silhouette, false if outside; nothing if doubles do not decide.
-  [[nodiscard]] std::optional<bool> inside(const Seen& p) const;
+  [[nodiscard]] std::optional<bool> inside(const Seen& p, const nef::Monitor& monitor) const;
   /// The same for a point of the image, or the image of a point in front of the camera, which is about at `p`. Exact;
   /// nothing if `p` is too vague to be found in the grid.
-  [[nodiscard]] Side locate(const Point2& point) const;
-  [[nodiscard]] std::optional<Side> locate(const Seen& p, const ExactPoint& point) const;
+  [[nodiscard]] Side locate(const Point2& point, const nef::Monitor& monitor) const;
+  [[nodiscard]] std::optional<Side> locate(const Seen& p, const ExactPoint& point, const nef::Monitor& monitor) const;
 
   /// Of a point on the line of an edge: true if it lies between the ends, false if beyond one of them; nothing if
   /// doubles do not decide.
   [[nodiscard]] std::optional<bool> between(const Seen& p, std::uint32_t edge) const;
   /// The same of the image of a point. Exact.
-  [[nodiscard]] Side between(const ExactPoint& point, std::uint32_t edge) const;
+  [[nodiscard]] Side between(const ExactPoint& point, std::uint32_t edge, const nef::Monitor& monitor) const;
 
   /// Appends the edges, ends included, on which the image of a point lies that is about at `p`. Exact; false if `p` is
   /// too vague to be found in the grid.
@@ -116,7 +116,7 @@ class EdgeView {
   [[nodiscard]] std::optional<Cell> cell_at(double u, double v) const;
   [[nodiscard]] std::optional<bool> crosses(const Seen& p, const Seen& reference, std::uint32_t edge) const;
   template <typename Image>
-  [[nodiscard]] Side locate_in_cell(const Cell& cell, const Image& image) const;
+  [[nodiscard]] Side locate_in_cell(const Cell& cell, const Image& image, const nef::Monitor& monitor) const;
   template <typename Image>
   [[nodiscard]] Side between_ends(const Image& image, std::uint32_t edge) const;
   [[nodiscard]] std::array<std::int64_t, 2> rows(double low, double high) const;

@@ -35,7 +35,7 @@ class EdgePlanes {
  public:
   /// Of the edges that meet in the vertices.
   EdgePlanes(const HullVertices& vertices, const std::vector<ViewingEdge>& edges,
-             const std::vector<const Camera*>& cameras, unsigned threads)
+             const std::vector<const Camera*>& cameras, unsigned threads, const nef::Monitor& monitor)
       : ids_(edges.size()) {
     const std::vector<std::uint32_t> wanted = edges_at(vertices, edges);
     std::vector<CameraPlanes> views;
@@ -44,7 +44,7 @@ class EdgePlanes {
     const auto each = [&](std::size_t task, const auto& visit) {
       for (std::size_t i = task * kPlanes; i < std::min((task + 1) * kPlanes, wanted.size()); ++i) visit(wanted[i]);
     };
-    nef::parallel_for(tables.size(), threads, [&](std::size_t task) {
+    nef::parallel_for(tables.size(), threads, monitor, [&](std::size_t task, const nef::Monitor&) {
       each(task, [&](std::uint32_t e) {
         const auto [a, b, c, d] = views[edges[e].view].through(*edges[e].from, *edges[e].to);
         ids_[e] = tables[task].intern(a, b, c, d);
@@ -87,8 +87,8 @@ class EdgePlanes {
 /// Draws plain vertices, one after the other.
 class VertexWriter {
  public:
-  VertexWriter(const std::vector<ViewingEdge>& edges, EdgePlanes& planes)
-      : edges_(edges), planes_(planes), builder_(planes.table) {}
+  VertexWriter(const std::vector<ViewingEdge>& edges, EdgePlanes& planes, const nef::Monitor& monitor)
+      : edges_(edges), planes_(planes), monitor_(monitor), builder_(planes.table, monitor) {}
 
   /// False if a corner is straight, or planes share a line.
   [[nodiscard]] bool add(const SpotName& name) { return collect(name) && push_vertex(); }
@@ -111,7 +111,7 @@ class VertexWriter {
     for (std::uint32_t e = *first; e != UINT32_MAX; e = edges_[e].next_at_place) {
       const ViewingEdge& out = edges_[e];
       const ViewingEdge& in = edges_[out.previous];
-      const int turn = orientation(*in.from, *out.from, *out.to);
+      const int turn = orientation(*in.from, *out.from, *out.to, monitor_);
       if (turn == 0) return false;
       corners_.push_back({planes_.of(out.previous), planes_.of(e), turn < 0, out.previous, e});
     }
@@ -134,7 +134,7 @@ class VertexWriter {
     std::uint32_t ray = nef::kNone;
     bool turned = false;  // the same for all corners on a ray
     for (Corner& c : corners_) {
-      const int s = nef::side_of_circle(planes_.table, r, nef::Direction::cross(planes_.table, c.in, c.out));
+      const int s = nef::side_of_circle(planes_.table, r, nef::Direction::cross(planes_.table, c.in, c.out), monitor_);
       if (s == 0) return false;
       turned = (s > 0) == c.reflex;
       if (ray == nef::kNone) ray = s > 0 ? add_node(c.in, c.out) : add_node(c.out, c.in);
@@ -165,7 +165,7 @@ class VertexWriter {
   std::uint32_t next_in_node(std::uint32_t out) const {
     std::vector<std::uint32_t> incoming;
     for (const Corner& c : corners_) incoming.push_back(c.in_edge);
-    const std::uint32_t in = next_incoming(out, incoming, edges_);
+    const std::uint32_t in = next_incoming(out, incoming, edges_, monitor_);
     return std::find_if(corners_.begin(), corners_.end(), [in](const Corner& c) { return c.in_edge == in; })->in_node;
   }
 
@@ -184,6 +184,7 @@ class VertexWriter {
 
   const std::vector<ViewingEdge>& edges_;
   const EdgePlanes& planes_;
+  nef::Monitor monitor_;
   nef::ComplexBuilder builder_;
   std::vector<Corner> corners_;
   PlaneId across_;
@@ -191,8 +192,8 @@ class VertexWriter {
 };
 
 void add_crowded(const std::vector<CrowdedVertex>& vertices, const std::vector<ViewingEdge>& edges,
-                 const EdgePlanes& planes, nef::ComplexBuilder& builder) {
-  CrowdedPyramids pyramids(edges, planes.table, [&planes](std::uint32_t e) { return planes.of(e); });
+                 const EdgePlanes& planes, nef::ComplexBuilder& builder, const nef::Monitor& monitor) {
+  CrowdedPyramids pyramids(edges, planes.table, monitor, [&planes](std::uint32_t e) { return planes.of(e); });
   nef::PointTable points;
   for (const CrowdedVertex& vertex : vertices) {
     const nef::PointId point = points.push(vertex.point);
@@ -225,26 +226,27 @@ std::size_t limbs_of(const std::vector<nef::Complex>& parts) {
 }  // namespace
 
 std::optional<nef::Polyhedron> complex_of(const HullVertices& vertices, const std::vector<ViewingEdge>& edges,
-                                          const std::vector<const Camera*>& cameras, unsigned threads) {
-  EdgePlanes planes(vertices, edges, cameras, threads);
+                                          const std::vector<const Camera*>& cameras, unsigned threads,
+                                          const nef::Monitor& monitor) {
+  EdgePlanes planes(vertices, edges, cameras, threads, monitor);
   const std::vector<SpotName>& names = vertices.plain;
   std::vector<nef::Complex> parts((names.size() + kVertices - 1) / kVertices);
   std::atomic<bool> good = true;
-  nef::parallel_for(parts.size(), threads, [&](std::size_t task) {
-    VertexWriter writer(edges, planes);
+  nef::parallel_for(parts.size(), threads, monitor, [&](std::size_t task, const nef::Monitor& own) {
+    VertexWriter writer(edges, planes, own);
     for (std::size_t i = task * kVertices; i < std::min((task + 1) * kVertices, names.size()); ++i) {
       if (!writer.add(names[i])) good = false;
     }
     parts[task] = writer.take();
   });
   if (!good) return std::nullopt;
-  nef::ComplexBuilder builder(planes.table);
+  nef::ComplexBuilder builder(planes.table, monitor);
   builder.reserve(names.size() + vertices.crowded.size(), items_of(parts), limbs_of(parts));
   for (nef::Complex& part : parts) {
     builder.copy(part);
     part = {};
   }
-  add_crowded(vertices.crowded, edges, planes, builder);
+  add_crowded(vertices.crowded, edges, planes, builder, monitor);
   return nef::Polyhedron(builder.finish(0, threads));
 }
 

@@ -21,6 +21,7 @@ struct HullVertices {
 /// corner is straight. `cameras` are those of the views. O(n log n); planes and vertices on up to `threads` threads,
 /// whose number does not change the result.
 std::optional<nef::Polyhedron> complex_of(const HullVertices& vertices, const std::vector<ViewingEdge>& edges,
-                                          const std::vector<const Camera*>& cameras, unsigned threads);
+                                          const std::vector<const Camera*>& cameras, unsigned threads,
+                                          const nef::Monitor& monitor);
 
 }  // namespace visual_hull

@@ -212,7 +212,7 @@ PartVertices::Answer PartVertices::on_hull(std::span<const Shown> views, const S
     const std::optional<Seen> seen = view.project(spot);
     std::optional<bool> between = seen ? view.between(*seen, name[i]) : std::nullopt;
     if (!between && exact != nullptr) {
-      const Side side = view.between(*exact, name[i]);
+      const Side side = view.between(*exact, name[i], monitor_);
       if (side != Side::kBoundary) between = side == Side::kInside;
     }
     if (between == false) return Answer::kNo;
@@ -223,9 +223,9 @@ PartVertices::Answer PartVertices::on_hull(std::span<const Shown> views, const S
     const EdgeView& view = s_.views[shown.view];
     const std::optional<Seen> seen = view.project(spot);
     std::optional<bool> inside;
-    if (seen) inside = view.inside(*seen);
+    if (seen) inside = view.inside(*seen, monitor_);
     if (!inside && exact != nullptr && seen) {
-      const std::optional<Side> side = view.locate(*seen, *exact);
+      const std::optional<Side> side = view.locate(*seen, *exact, monitor_);
       if (side && *side != Side::kBoundary) inside = *side == Side::kInside;
     }
     if (inside == false) return Answer::kNo;

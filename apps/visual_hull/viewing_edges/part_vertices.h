@@ -7,6 +7,7 @@
 
 #include "apps/visual_hull/viewing_edges/edge_scene.h"
 #include "apps/visual_hull/viewing_edges/hull_complex.h"
+#include "nef/base/monitor.h"
 
 namespace visual_hull {
 
@@ -29,7 +30,7 @@ inline constexpr double kOverlap = 0x1p-16;
 /// Finds the vertices of the hull in small parts of space, one part after the other. For one thread.
 class PartVertices {
  public:
-  explicit PartVertices(const EdgeScene& scene) : s_(scene) {}
+  PartVertices(const EdgeScene& scene, const nef::Monitor& monitor) : s_(scene), monitor_(monitor) {}
 
   /// Adds the vertices in a part to `found`; those within kOverlap of its border may be missing. `views` are those that
   /// show edges in the part, each with all of them and perhaps some more; all other views show nothing but object.
@@ -71,6 +72,7 @@ class PartVertices {
   [[nodiscard]] bool in_crowd(const SpotName& name) const;
 
   const EdgeScene& s_;
+  nef::Monitor monitor_;
   PartBox box_;
   std::vector<Facet> facets_;
   std::vector<Double3> crosses_;  // of the normals of each two facets, row by row

@@ -45,8 +45,8 @@ struct Task {
 
 class Halving {
  public:
-  Halving(const EdgeScene& scene, const std::vector<PartFacet>& facets)
-      : s_(scene), facets_(facets), vertices_(scene) {}
+  Halving(const EdgeScene& scene, const std::vector<PartFacet>& facets, const nef::Monitor& monitor)
+      : s_(scene), facets_(facets), monitor_(monitor), vertices_(scene, monitor) {}
 
   /// Halves until `deepest`; parts that have come so far go to `rest`, or, without it, give their vertices. False if
   /// something remains undecided.
@@ -121,7 +121,7 @@ class Halving {
       if (shown.view != cut.view() && misses(cut, content, shown)) {
         const EdgeView& view = s_.views[shown.view];
         const std::optional<Seen> seen = view.project({cut.point(), 0});
-        const std::optional<bool> inside = seen ? view.inside(*seen) : std::nullopt;
+        const std::optional<bool> inside = seen ? view.inside(*seen, monitor_) : std::nullopt;
         if (inside == false) return false;
         if (inside == true) continue;
       }
@@ -192,10 +192,10 @@ class Halving {
   }
 
   // No edge comes near the window, so its middle tells of all of it.
-  static bool middle_inside(const EdgeView& view, const EdgeView::Window& window) {
+  bool middle_inside(const EdgeView& view, const EdgeView::Window& window) const {
     const auto [u, v] = window.middle;
-    if (const std::optional<bool> inside = view.inside({u, v, 0})) return *inside;
-    return view.locate(Point2::from_doubles(u, v)) != Side::kOutside;
+    if (const std::optional<bool> inside = view.inside({u, v, 0}, monitor_)) return *inside;
+    return view.locate(Point2::from_doubles(u, v), monitor_) != Side::kOutside;
   }
 
   static bool beside(const PartFacet& facet, const EdgeView::Window& window) {
@@ -208,6 +208,7 @@ class Halving {
 
   const EdgeScene& s_;
   const std::vector<PartFacet>& facets_;
+  nef::Monitor monitor_;
   PartVertices vertices_;
   std::vector<std::array<Half, 2>> halves_;  // by depth
   unsigned deepest_ = 0;
@@ -230,10 +231,12 @@ Task everything(const EdgeScene& scene) {
 }
 
 // Leaves the first one of equal names, and all names in their order.
-void drop_repeated(std::vector<SpotName>& names, unsigned threads) {
-  auto shares = nef::shared_out<SpotName>(
-      names.size(), threads, [&](std::size_t i, const auto& put) { put(names[i][0] % nef::kShares, names[i]); });
-  nef::parallel_for(nef::kShares, threads, [&shares](std::size_t s) { std::sort(shares[s].begin(), shares[s].end()); });
+void drop_repeated(std::vector<SpotName>& names, unsigned threads, const nef::Monitor& monitor) {
+  auto shares = nef::shared_out<SpotName>(names.size(), threads, monitor, [&](std::size_t i, const auto& put) {
+    put(names[i][0] % nef::kShares, names[i]);
+  });
+  nef::parallel_for(nef::kShares, threads, monitor,
+                    [&shares](std::size_t s, const nef::Monitor&) { std::sort(shares[s].begin(), shares[s].end()); });
   std::map<SpotName, bool> met;  // of the repeated ones, which are few
   for (const std::vector<SpotName>& sorted : shares) {
     for (auto at = sorted.begin(); (at = std::adjacent_find(at, sorted.end())) != sorted.end(); ++at) met[*at] = false;
@@ -246,13 +249,13 @@ void drop_repeated(std::vector<SpotName>& names, unsigned threads) {
 }
 
 // Parts overlap, and three of many planes may be asked for twice.
-HullVertices together(std::vector<HullVertices>& parts, unsigned threads) {
+HullVertices together(std::vector<HullVertices>& parts, unsigned threads, const nef::Monitor& monitor) {
   HullVertices all;
   for (HullVertices& part : parts) {
     all.plain.insert(all.plain.end(), part.plain.begin(), part.plain.end());
     std::move(part.crowded.begin(), part.crowded.end(), std::back_inserter(all.crowded));
   }
-  drop_repeated(all.plain, threads);
+  drop_repeated(all.plain, threads, monitor);
   std::sort(all.crowded.begin(), all.crowded.end(),
             [](const CrowdedVertex& a, const CrowdedVertex& b) { return a.point < b.point; });
   const auto same = [](const CrowdedVertex& a, const CrowdedVertex& b) { return a.point == b.point; };
@@ -262,7 +265,7 @@ HullVertices together(std::vector<HullVertices>& parts, unsigned threads) {
 
 }  // namespace
 
-std::optional<HullVertices> hull_vertices(const EdgeScene& scene, unsigned threads) {
+std::optional<HullVertices> hull_vertices(const EdgeScene& scene, unsigned threads, const nef::Monitor& monitor) {
   const std::vector<PartFacet> facets = facets_of(scene);
   std::vector<HullVertices> found;
   std::vector<Task> tasks{everything(scene)};
@@ -271,9 +274,9 @@ std::optional<HullVertices> hull_vertices(const EdgeScene& scene, unsigned threa
     const std::size_t first = found.size();
     found.resize(first + tasks.size());
     std::vector<std::vector<Task>> rest(tasks.size());
-    nef::parallel_for(tasks.size(), threads, [&](std::size_t k) {
+    nef::parallel_for(tasks.size(), threads, monitor, [&](std::size_t k, const nef::Monitor& own) {
       if (!decided.load(std::memory_order_relaxed)) return;
-      Halving halving(scene, facets);
+      Halving halving(scene, facets, own);
       std::vector<Task>* const left = depth == kDeepest ? nullptr : &rest[k];
       if (!halving.run(std::move(tasks[k]), depth, left)) decided.store(false, std::memory_order_relaxed);
       found[first + k] = std::move(halving.found());
@@ -282,7 +285,7 @@ std::optional<HullVertices> hull_vertices(const EdgeScene& scene, unsigned threa
     tasks.clear();
     for (std::vector<Task>& some : rest) std::move(some.begin(), some.end(), std::back_inserter(tasks));
   }
-  return together(found, threads);
+  return together(found, threads, monitor);
 }
 
 }  // namespace visual_hull

@@ -14,6 +14,6 @@ namespace visual_hull {
 /// not seen in a part are dropped there, and a part that few facets pass gives its vertices. About O(s log s) for s
 /// places where facets come near the surface of the hull, whatever the number of views is. Uses up to `threads`
 /// threads; the result does not depend on their number.
-std::optional<HullVertices> hull_vertices(const EdgeScene& scene, unsigned threads);
+std::optional<HullVertices> hull_vertices(const EdgeScene& scene, unsigned threads, const nef::Monitor& monitor);
 
 }  // namespace visual_hull

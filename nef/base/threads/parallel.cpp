@@ -10,10 +10,9 @@
 #endif
 
 #include <atomic>
-
-#ifdef NEF_THREAD_SANITIZER
 #include <thread>
-#else
+
+#ifndef NEF_THREAD_SANITIZER
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -26,25 +25,9 @@
 #include <utility>
 #include <vector>
 
-#include "nef/base/interruption.h"
-#include "nef/base/timing/predicate_counts.h"
-
 namespace nef {
 
 namespace {
-
-/// Books what is counted on this thread, until its end, on a sum of its own; also if an exception ends it.
-class Booking {
- public:
-  explicit Booking(PredicateCounts& sum) : sum_(sum), saved_(std::exchange(predicate_counts(), {})) {}
-  ~Booking() { sum_ = std::exchange(predicate_counts(), saved_); }
-  Booking(const Booking&) = delete;
-  Booking& operator=(const Booking&) = delete;
-
- private:
-  PredicateCounts& sum_;
-  PredicateCounts saved_;
-};
 
 /// What the first of the failed calls threw. Calls before it still run, so that the error a user reads does not depend
 /// on which thread was faster.
@@ -99,8 +82,8 @@ void run_on_threads(std::size_t count, unsigned threads, const std::function<voi
   tbb::task_arena arena(all ? cores : static_cast<int>(threads));
   arena.execute([&] {
     tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
-      // A thread that waits inside the body could take up another call of this loop, whose counts
-      // would then be added twice; isolation keeps it from that.
+      // A thread that waits inside the body could take up another call of this loop, and what stops or tells there
+      // would happen in the middle of this one; isolation keeps it from that.
       tbb::this_task_arena::isolate([&] { body(i); });
     });
   });
@@ -110,42 +93,43 @@ void run_on_threads(std::size_t count, unsigned threads, const std::function<voi
 
 }  // namespace
 
-void parallel_for(std::size_t count, unsigned threads, const std::function<void(std::size_t)>& body) {
+void parallel_for(std::size_t count, unsigned threads, const Monitor& monitor,
+                  const std::function<void(std::size_t, const Monitor&)>& body) {
   if (threads == 1 || count < 2) {
     for (std::size_t i = 0; i < count; ++i) {
-      check_interruption();
-      body(i);
+      monitor.check_interruption();
+      body(i, monitor);
     }
     return;
   }
-  // Every call is booked on a sum of its own, wherever it runs, the caller's thread included; all go to the caller,
-  // also if a call throws.
+  // Every call is booked on a sum of its own, wherever it runs; all go to the caller, also if a call throws.
   std::vector<PredicateCounts> sums(count);
   FirstFailure failure;
-  const std::atomic<bool>* const stop = Interruptible::current();
+  const std::thread::id here = std::this_thread::get_id();
   run_on_threads(count, threads, [&](std::size_t i) {
     if (failure.precedes(i)) return;
     try {
-      const Interruptible interruptible(stop);
-      check_interruption();
-      const Booking booking(sums[i]);
-      body(i);
+      const bool is_here = std::this_thread::get_id() == here;
+      const Monitor own = (is_here ? monitor : monitor.of_other_thread()).counting(sums[i]);
+      own.check_interruption();
+      body(i, own);
     } catch (...) {
       failure.record(i, std::current_exception());
     }
   });
-  for (const PredicateCounts& sum : sums) predicate_counts() += sum;
+  for (const PredicateCounts& sum : sums) monitor.count(sum);
   failure.rethrow();
 }
 
-void parallel_for_ranges(std::size_t count, std::size_t size, unsigned threads,
-                         const std::function<void(std::size_t, std::size_t)>& body) {
-  parallel_for((count + size - 1) / size, threads,
-               [&](std::size_t i) { body(i * size, std::min(count, (i + 1) * size)); });
+void parallel_for_ranges(std::size_t count, std::size_t size, unsigned threads, const Monitor& monitor,
+                         const std::function<void(std::size_t, std::size_t, const Monitor&)>& body) {
+  parallel_for((count + size - 1) / size, threads, monitor,
+               [&](std::size_t i, const Monitor& own) { body(i * size, std::min(count, (i + 1) * size), own); });
 }
 
-void parallel_calls(unsigned threads, std::initializer_list<std::function<void()>> calls) {
-  parallel_for(calls.size(), threads, [&](std::size_t i) { calls.begin()[i](); });
+void parallel_calls(unsigned threads, const Monitor& monitor,
+                    std::initializer_list<std::function<void(const Monitor&)>> calls) {
+  parallel_for(calls.size(), threads, monitor, [&](std::size_t i, const Monitor& own) { calls.begin()[i](own); });
 }
 
 }  // namespace nef

@@ -8,7 +8,7 @@
 namespace nef {
 
 /// Answers by stage: known from what made the operands, by a floating-point filter with a proven
-/// bound, by exact arithmetic.
+/// bound, by exact arithmetic. They feed reports, never an answer.
 struct PredicateCounts {
   std::uint64_t identity = 0;
   std::uint64_t filter = 0;
@@ -21,13 +21,5 @@ struct PredicateCounts {
     return *this;
   }
 };
-
-namespace detail {
-inline constinit thread_local PredicateCounts counts_of_thread;
-}  // namespace detail
-
-/// The counts of the calling thread since it started. Take the difference of two readings. They feed reports, never an
-/// answer. In a header, since a filter costs hardly more than a call.
-inline PredicateCounts& predicate_counts() { return detail::counts_of_thread; }
 
 }  // namespace nef

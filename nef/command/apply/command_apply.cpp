@@ -20,7 +20,9 @@ struct ApplyFlags {
 };
 
 StepSequence begin(const TileChoice& tiles, std::size_t steps, Session& session) {
-  if (tiles.use != TileUse::kAlways) return {session.load(session.input), steps, tiles.use, tiles.tiling};
+  if (tiles.use != TileUse::kAlways) {
+    return {session.load(session.input), steps, tiles.use, tiles.tiling, session.monitor};
+  }
   return StepSequence(load_tiled(session, session.input, tiles.tiling), steps);
 }
 
@@ -33,7 +35,7 @@ double apply_steps(StepSequence& sequence, const std::vector<BooleanStep>& steps
     session.show_phase("steps", report.size(), steps.size());
     const Polyhedron operand = operand_of(step, path, options);
     const Stopwatch watch;
-    sequence.apply(step.op, operand);
+    sequence.apply(step.op, operand, options.monitor);
     Json entry;
     entry["line"] = step.line;
     entry["operator"] = std::string(1, step.symbol);
@@ -71,22 +73,27 @@ void add_apply_command(CLI::App& app, Session& session, const CommandExtensions&
     const std::vector<BooleanStep> steps = parse_steps(read_file(flags->steps), flags->steps);
     const std::filesystem::path folder = std::filesystem::path(flags->steps).parent_path();
     ExpressionOptions options;
-    options.load = [&session, folder](const std::string& file) { return session.load((folder / file).string()); };
+    options.load = [&session, folder](const std::string& file, const Monitor& monitor) {
+      return session.load((folder / file).string(), monitor);
+    };
     options.minkowski = extensions.minkowski;
     options.ball = extensions.ball;
     options.hull = extensions.hull;
     options.threads = session.threads;
+    options.monitor = session.monitor;
     Json report;
     StepSequence sequence = begin(tiles, steps.size(), session);
     const bool to_tiles = names_tile_folder(session.output);
     if (to_tiles || tiles.tiling.store) {
       const double seconds = apply_steps(sequence, steps, flags->steps, session, options, report);
-      return finish_tiled(session, "apply", sequence.tiled(tiles.tiling), seconds, {{"steps", std::move(report)}});
+      const TiledPolyhedron set = sequence.tiled(tiles.tiling, session.monitor);
+      return finish_tiled(session, "apply", set, seconds, {{"steps", std::move(report)}});
     }
-    const Measured measured = measure(1, [&] {
+    const Measured measured = measure(1, session.monitor, [&](const Monitor& monitor) {
+      options.monitor = monitor;
       apply_steps(sequence, steps, flags->steps, session, options, report);
       session.show_phase("gluing");
-      return sequence.result();
+      return sequence.result(monitor);
     });
     finish(session, "apply", measured, {{"steps", std::move(report)}});
   });

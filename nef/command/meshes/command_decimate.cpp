@@ -20,11 +20,13 @@ void add_decimate_command(CLI::App& app, Session& session) {
   command->callback([&session, triangles] {
     const Polyhedron set = session.load(session.input);
     const Stopwatch watch;
-    const DecimatedMesh decimated = decimate(set, *triangles);
+    const DecimatedMesh decimated = decimate(set, *triangles, session.monitor);
     const double seconds = watch.seconds();
     for (const std::string& line : decimated.notes) session.note(line);
     Messages notes;
-    write_mesh(session.output, decimated.mesh, {session.exact, session.binary, session.format}, &notes);
+    const MeshWriteOptions written{
+        .exact = session.exact, .binary = session.binary, .format = session.format, .monitor = session.monitor};
+    write_mesh(session.output, decimated.mesh, written, &notes);
     for (const std::string& line : notes) session.note(line);
     const auto [low, high] = decimated.distance;
     session.say(std::to_string(decimated.mesh.face_count()) + " triangles; Hausdorff distance " + Json(low).dump() +

@@ -12,9 +12,9 @@ namespace nef {
 namespace {
 
 // A smoothed surface may cross itself; one with new vertices in its edges is the same surface.
-void require_legal(const Mesh& mesh) {
+void require_legal(const Mesh& mesh, const Monitor& monitor) {
   try {
-    from_mesh(mesh);
+    from_mesh(mesh, {.monitor = monitor});
   } catch (const InputError& error) {
     throw InputError(std::string("the smoothed surface bounds no solid (") + error.what() +
                      "): subdivide it by midpoints once before, or smooth it fewer times");
@@ -41,7 +41,7 @@ void add_subdivide_command(CLI::App& app, Session& session) {
   add_input_flags(command, session);
   add_output_flags(command, session)->required();
   command->callback([&session, flags] {
-    MeshExport whole = to_mesh(session.load(session.input));
+    MeshExport whole = to_mesh(session.load(session.input), {}, session.monitor);
     if (whole.mesh.face_count() == 0)
       throw InputError("the set has no bounded solid part, so there is no mesh to subdivide");
     for (const std::string& line : whole.lost) session.note(line);
@@ -49,10 +49,12 @@ void add_subdivide_command(CLI::App& app, Session& session) {
     const bool smooth = flags->scheme == "loop";
     const Mesh mesh =
         subdivide(whole.mesh, smooth ? SubdivisionScheme::kLoop : SubdivisionScheme::kMidpoint, flags->times);
-    if (smooth) require_legal(mesh);
+    if (smooth) require_legal(mesh, session.monitor);
     const double seconds = watch.seconds();
     Messages notes;
-    write_mesh(session.output, mesh, {session.exact, session.binary, session.format}, &notes);
+    const MeshWriteOptions written{
+        .exact = session.exact, .binary = session.binary, .format = session.format, .monitor = session.monitor};
+    write_mesh(session.output, mesh, written, &notes);
     for (const std::string& line : notes) session.note(line);
     session.say(std::to_string(mesh.face_count()) + " triangles");
     if (!session.json) return;

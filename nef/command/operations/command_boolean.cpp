@@ -20,7 +20,7 @@ struct Operation {
   std::string name;
   std::string description;
   int most;  // operands
-  Polyhedron (*compute)(std::span<const Polyhedron>, unsigned threads);
+  Polyhedron (*compute)(std::span<const Polyhedron>, unsigned threads, const Monitor& monitor);
   bool (*holds)(const InputSet& inputs, std::size_t count);  // whether a point in these inputs is in the result
   BooleanOperator step;                                      // that takes one operand after the other
 };
@@ -41,7 +41,7 @@ std::vector<std::string> short_names(const std::vector<std::string>& paths) {
 void finish_with_origins(Session& session, const Operation& operation, const std::vector<Polyhedron>& sets) {
   if (session.output.empty()) throw InputError("--origins writes a mesh: give it a name with -o");
   const Stopwatch watch;
-  const LabeledPolyhedron<InputSet> labeled = label_inputs(sets, session.threads);
+  const LabeledPolyhedron<InputSet> labeled = label_inputs(sets, session.threads, session.monitor);
   const double seconds = watch.seconds();
   const auto holds = [&](const InputSet& inputs) { return operation.holds(inputs, sets.size()); };
   const std::vector<std::string> names = short_names(session.inputs);
@@ -55,10 +55,10 @@ void finish_with_origins(Session& session, const Operation& operation, const std
     return text;
   };
   const std::map<std::string, std::size_t> faces = session.store_groups(labeled.polyhedron(), groups);
-  const Polyhedron result = labeled.where(holds);
+  const Polyhedron result = labeled.where(holds, session.monitor);
   if (session.json) {
     session.spent("op", seconds);
-    return session.print(operation.name, {{"origins", faces}, {"result", info_json(result)}});
+    return session.print(operation.name, {{"origins", faces}, {"result", info_json(result, session.monitor)}});
   }
   session.say(summary(result));
   for (const auto& [name, count] : faces) {
@@ -75,7 +75,7 @@ void run_in_tiles(Session& session, const Operation& operation, const TileChoice
     const auto apply = [&](const auto& operand) {
       const Stopwatch watch;
       session.show_phase("operands", i - 1, session.inputs.size() - 1);
-      sequence.apply(operation.step, operand);
+      sequence.apply(operation.step, operand, session.monitor);
       seconds += watch.seconds();
     };
     if (tiles.tiling.store != nullptr && names_tile_folder(session.inputs[i])) {
@@ -84,7 +84,7 @@ void run_in_tiles(Session& session, const Operation& operation, const TileChoice
       apply(session.load(session.inputs[i]));
     }
   }
-  finish_tiled(session, operation.name, sequence.tiled(tiles.tiling), seconds);
+  finish_tiled(session, operation.name, sequence.tiled(tiles.tiling, session.monitor), seconds);
 }
 
 // The operands that a run unites.
@@ -109,24 +109,30 @@ bool run_by_regions(Session& session, const Operation& operation, const TileChoi
   const bool held = tiles.tiling.store == nullptr;
   std::vector<Polyhedron> sets(held ? paths.size() : 0);
   std::vector<Messages> notes(paths.size());
-  const PieceSource first_time{.count = static_cast<std::uint32_t>(paths.size()), .set = [&](std::uint32_t i) {
-                                 Polyhedron set = read_file_or_tiles(paths[i], session.mesh, &notes[i]);
+  const auto read = [&](std::uint32_t i, Messages* messages, const Monitor& own) {
+    MeshOptions options = session.mesh;
+    options.monitor = own;
+    return read_file_or_tiles(paths[i], options, messages);
+  };
+  const PieceSource first_time{.count = static_cast<std::uint32_t>(paths.size()),
+                               .set = [&](std::uint32_t i, const Monitor& own) {
+                                 Polyhedron set = read(i, &notes[i], own);
                                  if (held) sets[i] = set;
                                  return set;
                                }};
-  const PieceSource pieces{.count = first_time.count, .set = [&](std::uint32_t i) {
-                             return held ? sets[i] : read_file_or_tiles(paths[i], session.mesh);
+  const PieceSource pieces{.count = first_time.count, .set = [&](std::uint32_t i, const Monitor& own) {
+                             return held ? sets[i] : read(i, nullptr, own);
                            }};
   session.show_phase("reading");
   const Stopwatch reading;
-  const RegionalUnion regions = divide_pieces(first_time, session.threads);
+  const RegionalUnion regions = divide_pieces(first_time, session.threads, kSetsOfARegion, session.monitor);
   if (!regions.is_spread()) return false;
   for (const Messages& some : notes) session.note_all(some);
   session.spent("read_operands", reading.seconds());
   const Stopwatch watch;
-  TiledPolyhedron result = union_in_tiles(pieces, regions, tiles.tiling);
+  TiledPolyhedron result = union_in_tiles(pieces, regions, tiles.tiling, session.monitor);
   if (operation.step == BooleanOperator::kDifference) {
-    result = subtract(load_tiled(session, session.inputs[0], tiles.tiling), result);
+    result = subtract(load_tiled(session, session.inputs[0], tiles.tiling), result, session.monitor);
   }
   finish_tiled(session, operation.name, result, watch.seconds());
   return true;
@@ -151,7 +157,9 @@ void add(CLI::App& app, Session& session, const Operation& operation) {
     if (!session.origins && tiles.use == TileUse::kAlways) return run_in_tiles(session, operation, tiles);
     const std::vector<Polyhedron> sets = session.load_all(session.inputs);
     if (session.origins) return finish_with_origins(session, operation, sets);
-    finish(session, operation.name, measure(session.repeat, [&] { return operation.compute(sets, session.threads); }));
+    finish(session, operation.name, measure(session.repeat, session.monitor, [&](const Monitor& monitor) {
+             return operation.compute(sets, session.threads, monitor);
+           }));
   });
 }
 
@@ -162,20 +170,24 @@ void add_boolean_commands(CLI::App& app, Session& session) {
   using Sets = std::span<const Polyhedron>;
   add(app, session,
       {"union", "The points of any of the sets", kMany,
-       [](Sets s, unsigned n) { return s.size() == 2 ? unite(s[0], s[1], n) : unite_all(s, n); },
+       [](Sets s, unsigned n, const Monitor& m) {
+         return s.size() == 2 ? unite(s[0], s[1], n, m) : unite_all(s, n, m);
+       },
        [](const InputSet& inputs, std::size_t) { return !inputs.empty(); }, BooleanOperator::kUnion});
   add(app, session,
       {"intersection", "The points of all of the sets", kMany,
-       [](Sets s, unsigned n) { return s.size() == 2 ? intersect(s[0], s[1], n) : intersect_all(s, n); },
+       [](Sets s, unsigned n, const Monitor& m) {
+         return s.size() == 2 ? intersect(s[0], s[1], n, m) : intersect_all(s, n, m);
+       },
        [](const InputSet& inputs, std::size_t count) { return inputs.size() == count; },
        BooleanOperator::kIntersection});
   add(app, session,
       {"difference", "The points of the first set that are in none of the others", kMany,
-       [](Sets s, unsigned n) { return subtract(s[0], unite_all(s.subspan(1), n), n); },
+       [](Sets s, unsigned n, const Monitor& m) { return subtract(s[0], unite_all(s.subspan(1), n, m), n, m); },
        [](const InputSet& inputs, std::size_t) { return inputs == InputSet{0}; }, BooleanOperator::kDifference});
   add(app, session,
       {"symdiff", "The points of exactly one of two sets", 2,
-       [](Sets s, unsigned n) { return symmetric_difference(s[0], s[1], n); },
+       [](Sets s, unsigned n, const Monitor& m) { return symmetric_difference(s[0], s[1], n, m); },
        [](const InputSet& inputs, std::size_t) { return inputs.size() == 1; }, BooleanOperator::kSymmetricDifference});
 }
 

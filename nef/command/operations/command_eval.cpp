@@ -20,7 +20,9 @@ struct EvalFlags {
 Polyhedron evaluate_file(const std::string& path, const std::string& text, bool openscad, Session& session,
                          ExpressionOptions options) {
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-  options.load = [&session, folder](const std::string& file) { return session.load((folder / file).string()); };
+  options.load = [&session, folder](const std::string& file, const Monitor& monitor) {
+    return session.load((folder / file).string(), monitor);
+  };
   try {
     return openscad ? evaluate_openscad(text, options) : evaluate_expression(text, options);
   } catch (const FileError&) {
@@ -60,7 +62,7 @@ void add_eval_command(CLI::App& app, Session& session, const CommandExtensions& 
       "  linear_extrude (no twist) rotate_extrude, import of meshes.");
   command->callback([&session, flags, extensions] {
     ExpressionOptions options;
-    options.load = [&session](const std::string& path) { return session.load(path); };
+    options.load = [&session](const std::string& path, const Monitor& monitor) { return session.load(path, monitor); };
     options.minkowski = extensions.minkowski;
     options.ball = extensions.ball;
     options.hull = extensions.hull;
@@ -72,7 +74,8 @@ void add_eval_command(CLI::App& app, Session& session, const CommandExtensions& 
     }
     const std::string text = path.empty() ? flags->text : read_file(path);
     session.show_phase("computing");
-    const Measured measured = measure(session.repeat, [&] {
+    const Measured measured = measure(session.repeat, session.monitor, [&](const Monitor& monitor) {
+      options.monitor = monitor;
       if (path.empty()) return evaluate_expression(text, options);
       return evaluate_file(path, text, lower_extension(path) == "csg", session, options);
     });

@@ -82,7 +82,8 @@ void add_transform_command(CLI::App& app, Session& session) {
       if (i < option->results().size()) map = found->second.first(option->results()[i]).after(map);
     }
     const Polyhedron set = session.load(session.input);
-    finish(session, "transform", measure(1, [&] { return transform(set, map); }));
+    finish(session, "transform",
+           measure(1, session.monitor, [&](const Monitor& monitor) { return transform(set, map, monitor); }));
   });
 }
 

@@ -6,7 +6,7 @@
 namespace nef {
 namespace {
 
-using UnaryOperation = Polyhedron (*)(const Polyhedron&);
+using UnaryOperation = Polyhedron (*)(const Polyhedron&, const Monitor&);
 
 void add(CLI::App& app, Session& session, const std::string& name, const std::string& description,
          UnaryOperation operation) {
@@ -18,14 +18,16 @@ void add(CLI::App& app, Session& session, const std::string& name, const std::st
       ->check(CLI::Range(1, 1000000));
   command->callback([&session, name, operation] {
     const Polyhedron set = session.load(session.input);
-    finish(session, name, measure(session.repeat, [&] { return operation(set); }));
+    finish(session, name,
+           measure(session.repeat, session.monitor, [&](const Monitor& monitor) { return operation(set, monitor); }));
   });
 }
 
 }  // namespace
 
 void add_unary_commands(CLI::App& app, Session& session) {
-  add(app, session, "complement", "The points that are not in the set", complement);
+  add(app, session, "complement", "The points that are not in the set",
+      [](const Polyhedron& set, const Monitor&) { return complement(set); });
   add(app, session, "interior", "The set without its boundary", interior);
   add(app, session, "closure", "The set with its boundary", closure);
   add(app, session, "boundary", "The topological boundary of the set", boundary);

@@ -25,7 +25,7 @@ Json plain_problem(const std::string& kind, const std::string& text, FileElement
           {"edges", Json::array()}, {"faces", faces}, {"text", text}};
 }
 
-Json check_mesh_file(const std::string& path, bool self_intersections) {
+Json check_mesh_file(const std::string& path, bool self_intersections, const Monitor& monitor) {
   Json problems = Json::array();
   Mesh mesh;
   try {
@@ -43,13 +43,13 @@ Json check_mesh_file(const std::string& path, bool self_intersections) {
   options.max_per_kind = 1000;
   options.self_intersections = self_intersections;
   bool good = mesh.face_count() > 0;
-  for (const MeshProblem& problem : check_mesh(mesh, options)) {
+  for (const MeshProblem& problem : check_mesh(mesh, options, monitor)) {
     problems.push_back(problem_json(problem));
     good = good && problem.legal;
   }
   if (!good || !self_intersections) return problems;
   // How components lie in each other is known only when the solid is made.
-  const std::variant<Polyhedron, MeshRefusal> made = try_from_mesh(mesh);
+  const std::variant<Polyhedron, MeshRefusal> made = try_from_mesh(mesh, {.monitor = monitor});
   if (const auto* refused = std::get_if<MeshRefusal>(&made)) {
     problems.push_back(plain_problem("inconsistent orientation", refused->text));
   }
@@ -58,7 +58,7 @@ Json check_mesh_file(const std::string& path, bool self_intersections) {
 
 Json check_complex_file(Session& session, const std::string& path) {
   Json problems = Json::array();
-  const std::string broken = validate(session.load(path).complex());
+  const std::string broken = validate(session.load(path).complex(), session.monitor);
   if (!broken.empty()) problems.push_back(plain_problem("broken invariant", broken));
   return problems;
 }
@@ -75,7 +75,8 @@ void add_check_command(CLI::App& app, Session& session) {
     const std::string& path = session.input;
     const std::string extension = lower_extension(path);
     const bool complex = extension == "nef" || extension == "nef3";
-    const Json problems = complex ? check_complex_file(session, path) : check_mesh_file(path, !session.no_check);
+    const Json problems =
+        complex ? check_complex_file(session, path) : check_mesh_file(path, !session.no_check, session.monitor);
     bool good = true;
     for (const Json& problem : problems) {
       good = good && problem["legal"].get<bool>();

@@ -38,7 +38,7 @@ Json tiled_info(Session& session, TileFlags flags) {
   if (flags.memory.empty()) flags.memory = "64M";
   const TiledPolyhedron set = load_tiled(session, session.input, choose_tiles(flags, session, session.input).tiling);
   Json info = {{"tiles", set.tile_count()}, {"vertices_in_tiles", set.vertex_count()}};
-  const auto [volume, box] = volume_and_bounding_box(set);
+  const auto [volume, box] = volume_and_bounding_box(set, session.monitor);
   add_volume(info, volume, {.exact = session.exact});
   add_box(info, box, {.exact = session.exact});
   return info;
@@ -65,8 +65,9 @@ void add_info(CLI::App& app, Session& session) {
   command->callback([&session, glued, flags] {
     const bool in_tiles = names_tile_folder(session.input) && !*glued;
     require_tiles_for_memory(*flags, in_tiles);
-    Json info = in_tiles ? tiled_info(session, *flags)
-                         : set_info(session.load(session.input), {.exact = session.exact, .moments = true});
+    Json info = in_tiles
+                    ? tiled_info(session, *flags)
+                    : set_info(session.load(session.input), {.exact = session.exact, .moments = true}, session.monitor);
     if (session.json) return session.print("info", {{"result", std::move(info)}});
     info["volume"] = volume_text(info);
     print_info(session, info);
@@ -88,7 +89,7 @@ void add_convert(CLI::App& app, Session& session) {
     const Polyhedron set = session.load(session.input);
     session.store(set);
     if (!session.json) return session.say(summary(set));
-    session.print("convert", {{"result", info_json(set)}});
+    session.print("convert", {{"result", info_json(set, session.monitor)}});
   });
 }
 
@@ -96,18 +97,19 @@ void add_convert(CLI::App& app, Session& session) {
 bool equal_files(Session& session, const std::string& first, const std::string& second, const TileFlags& flags) {
   const bool any_in_tiles = names_tile_folder(first) || names_tile_folder(second);
   require_tiles_for_memory(flags, any_in_tiles);
-  if (!any_in_tiles) return equal(session.load(first), session.load(second));
+  if (!any_in_tiles) return equal(session.load(first), session.load(second), session.monitor);
   // One store for both.
   const Tiling tiling = choose_tiles(flags, session, names_tile_folder(first) ? first : second).tiling;
   const auto in_tiles = [&](const std::string& path) -> std::optional<TiledPolyhedron> {
     if (names_tile_folder(path)) return load_tiled(session, path, tiling);
     const Polyhedron set = session.load(path);
     if (set.complex().label_count > 2) return std::nullopt;
-    return TiledPolyhedron(set, tiling);
+    return TiledPolyhedron(set, tiling, session.monitor);
   };
   const std::optional<TiledPolyhedron> a = in_tiles(first);
   const std::optional<TiledPolyhedron> b = in_tiles(second);
-  return a && b ? equal(*a, *b) : equal(session.load(first), session.load(second));
+  if (a && b) return equal(*a, *b, session.monitor);
+  return equal(session.load(first), session.load(second), session.monitor);
 }
 
 void add_equal(CLI::App& app, Session& session) {

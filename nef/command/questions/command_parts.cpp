@@ -48,7 +48,7 @@ void add_section(CLI::App& app, Session& session) {
     const Rational3 normal{n[0], n[1], n[2]};
     const Polyhedron set = session.load(session.input);
     const Stopwatch watch;
-    const Section cut = section(set, normal, n[3]);
+    const Section cut = section(set, normal, n[3], session.monitor);
     const double section_s = watch.seconds();
     if (!session.output.empty()) write_section(session, cut, normal);
     if (session.json) {
@@ -82,7 +82,8 @@ void add_split(CLI::App& app, Session& session) {
   command->callback([&session, flags] {
     const Polyhedron set = session.load(session.input);
     const Stopwatch watch;
-    const std::vector<Polyhedron> parts = flags->volumes ? split_volumes(set) : split(set);
+    const std::vector<Polyhedron> parts =
+        flags->volumes ? split_volumes(set, session.monitor) : split(set, session.monitor);
     const double split_s = watch.seconds();
     const std::filesystem::path folder = session.output;
     std::error_code error;
@@ -112,7 +113,7 @@ void add_distance(CLI::App& app, Session& session) {
     const Polyhedron a = session.load(session.inputs[0]);
     const Polyhedron b = session.load(session.inputs[1]);
     const Stopwatch watch;
-    const std::optional<Distance> found = distance(a, b);
+    const std::optional<Distance> found = distance(a, b, session.monitor);
     if (!found) throw InputError("one of the sets is empty: there is no distance");
     if (session.json) {
       session.spent("op", watch.seconds());

@@ -24,7 +24,7 @@ std::vector<view::Layer> load_layers(Session& session, view::SceneOptions option
   for (std::size_t i = 0; i < sets.size(); ++i) {
     view::Layer& layer = layers.emplace_back();
     layer.name = std::filesystem::path(session.inputs[i]).filename().string();
-    layer.scene = view::build_scene(sets[i], options);
+    layer.scene = view::build_scene(sets[i], options, session.monitor);
   }
   return layers;
 }

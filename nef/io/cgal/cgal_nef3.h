@@ -12,6 +12,7 @@
 #include <string>
 #include <string_view>
 
+#include "nef/base/monitor.h"
 #include "nef/construct/construct.h"
 #include "nef/forward.h"
 
@@ -24,6 +25,6 @@ std::string nef3_text(const Polyhedron& polyhedron, Messages* messages = nullptr
 /// Reads that text; `path` is for error messages only. Vertices, directions, circles and marks are taken from the file,
 /// simplified and synthesized anew; the result is checked by nef::validate. Throws FileError, also for
 /// the format of an extended kernel.
-Polyhedron read_nef3(std::string_view text, const std::string& path);
+Polyhedron read_nef3(std::string_view text, const std::string& path, const Monitor& monitor = {});
 
 }  // namespace nef

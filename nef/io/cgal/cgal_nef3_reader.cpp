@@ -244,7 +244,7 @@ class Nef3File {
 // Draws the sphere map of each vertex anew from directions, circles and marks.
 class Builder {
  public:
-  explicit Builder(const Nef3File& file) : file_(file) {}
+  Builder(const Nef3File& file, const Monitor& monitor) : file_(file), builder_(planes_, monitor) {}
 
   std::variant<Complex, Defect> run() {
     // Directions keep a pointer to the planes: these are all interned before the first drawing.
@@ -356,7 +356,7 @@ class Builder {
 
   const Nef3File& file_;
   PlaneTable planes_;
-  ComplexBuilder builder_{planes_};
+  ComplexBuilder builder_;
   std::vector<PlaneId> arc_planes_;  // in the order of vertices
   std::vector<PlaneId> loop_planes_;
   std::vector<std::pair<PlaneId, PlaneId>> line_planes_;
@@ -366,15 +366,15 @@ class Builder {
 
 }  // namespace
 
-Polyhedron read_nef3(std::string_view text, const std::string& path) {
+Polyhedron read_nef3(std::string_view text, const std::string& path, const Monitor& monitor) {
   const Nef3File file(text, path);
-  std::variant<Complex, Defect> made = Builder(file).run();
+  std::variant<Complex, Defect> made = Builder(file, monitor).run();
   if (const Defect* defect = std::get_if<Defect>(&made)) {
     file.fail(FileProblem::kSyntax,
               "the file is no valid polyhedron: its vertices do not fit together: " + defect->text());
   }
   Complex& complex = std::get<Complex>(made);
-  if (const std::string broken = validate(complex); !broken.empty()) {
+  if (const std::string broken = validate(complex, monitor); !broken.empty()) {
     file.fail(FileProblem::kSyntax, "the file is no valid polyhedron: " + broken);
   }
   return Polyhedron(std::move(complex));

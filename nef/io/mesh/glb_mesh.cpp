@@ -327,8 +327,8 @@ void append_groups(nlohmann::ordered_json& document, std::string& binary, const 
 Mesh read_glb(std::string_view bytes, const std::string& path) { return GlbReader(bytes, path).read(); }
 
 std::string glb_bytes(const Mesh& mesh, const FaceGroups& groups,
-                      const std::vector<std::array<std::uint8_t, 3>>& vertex_colors) {
-  const MeshSurface surface(mesh);
+                      const std::vector<std::array<std::uint8_t, 3>>& vertex_colors, const Monitor& monitor) {
+  const MeshSurface surface(mesh, monitor);
   std::string binary;
   std::array<float, 3> low{};
   std::array<float, 3> high{};

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/construct/construct.h"
 #include "nef/io/mesh/face_groups.h"
 
@@ -23,6 +24,6 @@ Mesh read_glb(std::string_view bytes, const std::string& path);
 /// the nearest floats. Each group of faces is a primitive with a material of its name. `vertex_colors`: in sRGB, of
 /// every vertex, or none.
 std::string glb_bytes(const Mesh& mesh, const FaceGroups& groups = {},
-                      const std::vector<std::array<std::uint8_t, 3>>& vertex_colors = {});
+                      const std::vector<std::array<std::uint8_t, 3>>& vertex_colors = {}, const Monitor& monitor = {});
 
 }  // namespace nef

@@ -42,15 +42,15 @@ struct Finding {
   std::vector<std::uint32_t> degenerate;  // faces without area
 };
 
-Finding examine(const Mesh& mesh) {
+Finding examine(const Mesh& mesh, const Monitor& monitor) {
   Finding found;
   bool contact = false;
   const auto note = [&](const std::string& text) {
     if (found.legal) found.text = text;
     found.legal = false;
   };
-  const MeshSurface surface(mesh);
-  for (const MeshProblem& problem : check_mesh(mesh, surface, {})) {
+  const MeshSurface surface(mesh, monitor);
+  for (const MeshProblem& problem : check_mesh(mesh, surface, {}, monitor)) {
     if (problem.kind == MeshProblemKind::kInsideOut) note(problem.text);
     contact = contact || problem.kind == MeshProblemKind::kTouching || problem.kind == MeshProblemKind::kDuplicateFace;
     if (problem.legal && problem.kind == MeshProblemKind::kDegenerateFace) {
@@ -62,9 +62,10 @@ Finding examine(const Mesh& mesh) {
   }
   // How components lie to each other, and what contacts mean, is known when the solid is made.
   const bool clean = !contact && found.degenerate.empty();
-  if (!found.legal || (clean && surely_one_solid(surface))) return found;
+  if (!found.legal || (clean && surely_one_solid(surface, monitor))) return found;
   MeshOptions options;
   options.check = !clean;
+  options.monitor = monitor;
   const std::variant<Polyhedron, MeshRefusal> made = try_from_mesh(mesh, options);
   if (const auto* refused = std::get_if<MeshRefusal>(&made)) note(refused->text);
   return found;
@@ -72,8 +73,8 @@ Finding examine(const Mesh& mesh) {
 
 class Mender {
  public:
-  Mender(const Mesh& exact, const Rounding& rounding, unsigned threads)
-      : exact_(exact), rounding_(rounding), threads_(threads), random_(1) {}
+  Mender(const Mesh& exact, const Rounding& rounding, unsigned threads, const Monitor& monitor)
+      : exact_(exact), rounding_(rounding), threads_(threads), monitor_(monitor), random_(1) {}
 
   MendedMesh run() {
     for (const Rational3& p : exact_.vertices) {
@@ -117,9 +118,9 @@ class Mender {
   Finding examine_readings(Make make) const {
     std::vector<Finding> found(rounding_.readings.size());
     bool go_on = true;
-    parallel_for(found.size(), threads_, [&](std::size_t i) {
+    parallel_for(found.size(), threads_, monitor_, [&](std::size_t i, const Monitor& own) {
       if (threads_ == 1 && !go_on) return;
-      found[i] = examine(make(rounding_.readings[i]));
+      found[i] = examine(make(rounding_.readings[i]), own);
       if (threads_ == 1) go_on = found[i].legal;
     });
     for (Finding& one : found) {
@@ -151,7 +152,7 @@ class Mender {
   }
 
   void cut_into_triangles() {
-    const MeshSurface surface(exact_);
+    const MeshSurface surface(exact_, monitor_);
     triangles_ = surface.triangles;
     face_of_ = surface.face_of;
   }
@@ -312,6 +313,7 @@ class Mender {
   const Mesh& exact_;
   const Rounding& rounding_;
   unsigned threads_;
+  Monitor monitor_;
   std::mt19937 random_;  // the same for the same mesh
   std::vector<Point> points_;
   std::vector<Point> nearest_;
@@ -346,8 +348,8 @@ Rounding rounding_to_binary_floats() {
   return {[](const Rational& x) { return static_cast<double>(nearest_float(x)); }, next_float, {exact_rational}};
 }
 
-MendedMesh round_mesh(const Mesh& exact, const Rounding& rounding, unsigned threads) {
-  return Mender(exact, rounding, threads).run();
+MendedMesh round_mesh(const Mesh& exact, const Rounding& rounding, unsigned threads, const Monitor& monitor) {
+  return Mender(exact, rounding, threads, monitor).run();
 }
 
 }  // namespace nef

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/construct/construct.h"
 
 namespace nef {
@@ -43,6 +44,6 @@ struct MendedMesh {
 /// triangles. What it returns as legal was checked exactly. The cost is that of check_mesh for each reading and round;
 /// the readings are checked side by side on up to `threads` threads (0: as many as the machine has), of which the
 /// result is independent.
-MendedMesh round_mesh(const Mesh& exact, const Rounding& rounding, unsigned threads = 1);
+MendedMesh round_mesh(const Mesh& exact, const Rounding& rounding, unsigned threads = 1, const Monitor& monitor = {});
 
 }  // namespace nef

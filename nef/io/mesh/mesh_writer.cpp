@@ -178,7 +178,7 @@ std::string obj_bytes(const Mesh& mesh, const MeshWriteOptions& options) {
 }
 
 std::string stl_bytes(const Mesh& mesh, const MeshWriteOptions& options) {
-  const MeshSurface surface(mesh);
+  const MeshSurface surface(mesh, options.monitor);
   return options.binary ? binary_stl(mesh, surface) : text_stl(mesh, surface);
 }
 
@@ -304,9 +304,9 @@ void write_mesh(const std::string& path, const Mesh& mesh, const MeshWriteOption
   } else if (extension == "ply") {
     bytes = ply_bytes(mesh, options);
   } else if (extension == "glb") {
-    bytes = glb_bytes(mesh, options.groups, options.vertex_colors);
+    bytes = glb_bytes(mesh, options.groups, options.vertex_colors, options.monitor);
   } else if (extension == "3mf") {
-    bytes = threemf_bytes(mesh);
+    bytes = threemf_bytes(mesh, options.monitor);
   } else {
     refuse_format(path, "the extension names no mesh format; use off, obj, stl, ply, glb or 3mf");
   }

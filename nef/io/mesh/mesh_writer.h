@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/construct/construct.h"
 #include "nef/io/mesh/face_groups.h"
 
@@ -29,6 +30,8 @@ struct MeshWriteOptions {
   FaceGroups groups = {};
   /// Red, green and blue (sRGB) of every vertex, or none; PLY and GLB only.
   std::vector<std::array<std::uint8_t, 3>> vertex_colors = {};
+  /// Who watches; what it refers to must outlive the call.
+  Monitor monitor = {};
 };
 
 /// Writes a mesh in the format that the extension names (off, obj, stl, ply, glb, 3mf), beside the target first and

@@ -247,8 +247,8 @@ class ModelReader {
 
 Mesh read_3mf(std::string_view bytes, const std::string& path) { return ModelReader(bytes, path).read(); }
 
-std::string threemf_bytes(const Mesh& mesh) {
-  const MeshSurface surface(mesh);
+std::string threemf_bytes(const Mesh& mesh, const Monitor& monitor) {
+  const MeshSurface surface(mesh, monitor);
   std::string model = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<model unit=\"millimeter\" xml:lang=\"en\" xmlns=\"";
   model += kCore;
   model += "\">\n <metadata name=\"Application\">nef</metadata>\n <resources>\n";

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "nef/base/monitor.h"
 #include "nef/construct/construct.h"
 
 namespace nef {
@@ -19,6 +20,6 @@ namespace nef {
 Mesh read_3mf(std::string_view bytes, const std::string& path);
 
 /// One object with the mesh's triangles, in the fewest decimals that tell the nearest doubles.
-std::string threemf_bytes(const Mesh& mesh);
+std::string threemf_bytes(const Mesh& mesh, const Monitor& monitor = {});
 
 }  // namespace nef

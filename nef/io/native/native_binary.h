@@ -31,6 +31,7 @@
 #include <string>
 #include <string_view>
 
+#include "nef/base/monitor.h"
 #include "nef/forward.h"
 
 namespace nef {
@@ -54,6 +55,6 @@ bool is_native_binary(std::string_view bytes);
 /// One that somebody has made up is refused if an index or a link is wrong, so that no operation on the result leaves
 /// its arrays; that its planes and points fit together is asked by nef::validate only. Throws FileError. O(n).
 Polyhedron read_native_binary(std::string_view bytes, const std::string& path,
-                              NativeContents contents = NativeContents::kSet);
+                              NativeContents contents = NativeContents::kSet, const Monitor& monitor = {});
 
 }  // namespace nef

@@ -17,7 +17,8 @@ namespace {
 
 class BinaryReader {
  public:
-  BinaryReader(std::string_view bytes, const std::string& path) : file_(bytes, path) {}
+  BinaryReader(std::string_view bytes, const std::string& path, const Monitor& monitor)
+      : file_(bytes, path), monitor_(monitor) {}
 
   Polyhedron run(NativeContents contents) {
     planes();
@@ -345,7 +346,7 @@ class BinaryReader {
     file_.demand(n_.shells == 0 ? n_.volumes == 1 : volume_of[0] == 0 && volume_of[n_.shells - 1] + 1 == n_.volumes,
                  "a volume has no boundary");
     fill_shells(shell_of);
-    name_sides_of_facets(c_);
+    name_sides_of_facets(c_, 1, monitor_);
     for (std::uint32_t i = 0; i < c_.patterns.size(); ++i) {
       const SphereMapView map = c_.patterns.view(PatternId{i});
       file_.demand(map.mark != kOutside, "only the outer volume is outside");
@@ -372,6 +373,7 @@ class BinaryReader {
   }
 
   BinaryFile file_;
+  Monitor monitor_;
   const BinaryFile::Counts n_ = file_.counts();
   std::vector<LabelId> mark_;  // of vertices
   VertexKeys keys_;
@@ -384,8 +386,9 @@ class BinaryReader {
 
 bool is_native_binary(std::string_view bytes) { return bytes.starts_with(kNativeMagic); }
 
-Polyhedron read_native_binary(std::string_view bytes, const std::string& path, NativeContents contents) {
-  return BinaryReader(bytes, path).run(contents);
+Polyhedron read_native_binary(std::string_view bytes, const std::string& path, NativeContents contents,
+                              const Monitor& monitor) {
+  return BinaryReader(bytes, path, monitor).run(contents);
 }
 
 }  // namespace nef

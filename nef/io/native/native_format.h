@@ -28,6 +28,7 @@
 #include <string>
 #include <string_view>
 
+#include "nef/base/monitor.h"
 #include "nef/forward.h"
 
 namespace nef {
@@ -38,6 +39,6 @@ std::string native_text(const Polyhedron& polyhedron);
 /// Reads either form; `path` is for error messages only. Text is synthesized and checked by nef::validate, so that a
 /// corrupt file cannot make an object that breaks its promises; binary files are known to be whole by their checksum.
 /// Throws FileError.
-Polyhedron read_native(std::string_view bytes, const std::string& path);
+Polyhedron read_native(std::string_view bytes, const std::string& path, const Monitor& monitor = {});
 
 }  // namespace nef

@@ -11,7 +11,8 @@ namespace {
 
 class Reader {
  public:
-  Reader(std::string_view text, const std::string& path) : cursor_(text, path) {}
+  Reader(std::string_view text, const std::string& path, const Monitor& monitor)
+      : cursor_(text, path), monitor_(monitor) {}
 
   Polyhedron run() {
     const LabelId outer = header();
@@ -26,7 +27,7 @@ class Reader {
     Complex& complex = std::get<Complex>(made);
     if (complex.volumes[kOuterVolume].mark != outer)
       corrupt("its outer volume is marked otherwise than its vertices say");
-    if (const std::string broken = detail::validate_links(complex); !broken.empty()) corrupt(broken);
+    if (const std::string broken = detail::validate_links(complex, monitor_); !broken.empty()) corrupt(broken);
     return Polyhedron(std::move(complex));
   }
 
@@ -140,7 +141,7 @@ class Reader {
     map_.mark = mark();
     sphere_map();
     // Before synthesis: it may rely on all of this.
-    if (const std::string broken = validate(table_, map_.view()); !broken.empty()) {
+    if (const std::string broken = validate(table_, map_.view(), monitor_); !broken.empty()) {
       corrupt("vertex " + std::to_string(v) + ": " + broken);
     }
     check_planes(point, v);
@@ -150,7 +151,7 @@ class Reader {
 
   void check_planes(PointId point, std::size_t v) const {
     const auto check = [&](PlaneId plane) {
-      if (side_of_plane(table_, plane, point_, point) == 0) return;
+      if (side_of_plane(table_, plane, point_, point, monitor_) == 0) return;
       corrupt("vertex " + std::to_string(v) + " does not lie on its planes");
     };
     for (const SVertex& s : map_.svertices) {
@@ -219,19 +220,21 @@ class Reader {
   }
 
   TextCursor cursor_;
+  Monitor monitor_;
   std::size_t plane_count_ = 0;
   std::size_t vertices_ = 0;
   std::vector<PlaneId> planes_;  // as numbered in the file
   SphereMapBuffer map_;
   PlaneTable table_;
   PointTable point_;  // the one at hand
-  ComplexBuilder builder_{table_};
+  ComplexBuilder builder_{table_, monitor_};
 };
 
 }  // namespace
 
-Polyhedron read_native(std::string_view bytes, const std::string& path) {
-  return is_native_binary(bytes) ? read_native_binary(bytes, path) : Reader(bytes, path).run();
+Polyhedron read_native(std::string_view bytes, const std::string& path, const Monitor& monitor) {
+  return is_native_binary(bytes) ? read_native_binary(bytes, path, NativeContents::kSet, monitor)
+                                 : Reader(bytes, path, monitor).run();
 }
 
 }  // namespace nef

@@ -49,10 +49,10 @@ void ProjectedCorners::assign(std::span<const std::uint32_t> corners, std::size_
 
 int ProjectedCorners::unsure_turn(std::uint32_t i, std::uint32_t j, std::uint32_t k) const {
   if (bound_ == 0) {  // all was computed exactly, so it is 0
-    ++predicate_counts().filter;
+    monitor_.count_filter();
     return 0;
   }
-  return sign_ * points_.orientation_along(point(i), point(j), point(k), axis_);
+  return sign_ * points_.orientation_along(point(i), point(j), point(k), axis_, monitor_);
 }
 
 bool ProjectedCorners::before_exact(const Corner& a, const Corner& b) const {

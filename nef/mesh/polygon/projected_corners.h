@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "nef/base/timing/predicate_counts.h"
+#include "nef/base/monitor.h"
 #include "nef/mesh/mesh_points.h"
 
 namespace nef {
@@ -27,7 +27,7 @@ class ProjectedCorners {
   };
 
   /// `points` must outlive the corners.
-  explicit ProjectedCorners(const MeshPoints& points) : points_(points) {}
+  ProjectedCorners(const MeshPoints& points, const Monitor& monitor) : points_(points), monitor_(monitor) {}
 
   /// Takes the corners of another polygon: the numbers of their points, the axis along which its plane projects one to
   /// one, and +1 if it turns counterclockwise there as MeshPoints::orientation_along sees it, else -1. O(n).
@@ -41,7 +41,7 @@ class ProjectedCorners {
   [[nodiscard]] int turn(std::uint32_t i, std::uint32_t j, std::uint32_t k) const {
     const double value = rough_turn(corners_[i], corners_[j], corners_[k]);
     if (value > bound_ || value < -bound_) {
-      ++predicate_counts().filter;
+      monitor_.count_filter();
       return value > 0 ? 1 : -1;
     }
     return unsure_turn(i, j, k);
@@ -51,7 +51,7 @@ class ProjectedCorners {
   [[nodiscard]] bool turns_left(std::uint32_t i, std::uint32_t j, std::uint32_t k) const {
     const double value = rough_turn(corners_[i], corners_[j], corners_[k]);
     if (value > bound_ || value < -bound_) {
-      ++predicate_counts().filter;
+      monitor_.count_filter();
       return value > 0;
     }
     return unsure_turn(i, j, k) > 0;
@@ -67,7 +67,7 @@ class ProjectedCorners {
     [[nodiscard]] bool holds(std::uint32_t corner) const {
       const Corner& p = all_[corner];
       if (is_right_of(c_, a_, p) || is_right_of(a_, b_, p) || is_right_of(b_, c_, p)) {
-        ++predicate_counts().filter;
+        all_.monitor_.count_filter();
         return false;
       }
       if (p.point == a_.point || p.point == b_.point || p.point == c_.point) return false;
@@ -119,6 +119,7 @@ class ProjectedCorners {
   [[nodiscard]] bool before_exact(const Corner& a, const Corner& b) const;
 
   const MeshPoints& points_;
+  Monitor monitor_;
   std::size_t axis_ = 2;
   int sign_ = 1;
   std::array<std::size_t, 2> axes_{0, 1};

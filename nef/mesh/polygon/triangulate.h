@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/mesh/mesh_points.h"
 #include "nef/mesh/polygon/ear_clipping.h"
 #include "nef/mesh/polygon/projected_corners.h"
@@ -29,7 +30,7 @@ class Triangulator {
   using Triangle = std::array<std::uint32_t, 3>;
 
   /// `points` must outlive the triangulator.
-  explicit Triangulator(const MeshPoints& points) : projected_(points) {}
+  Triangulator(const MeshPoints& points, const Monitor& monitor) : projected_(points, monitor) {}
 
   /// Cuts a polygon into triangles between its own vertices, oriented like it, and appends them to `out`. The corners
   /// are given ring after ring, each ring ending before the corner that ring_end says. The first ring is the outer one;

@@ -25,14 +25,14 @@ bool is_one_convex_piece(const MeshSurface& surface, std::uint32_t face) {
          begin < end && surface.pieces[begin] == surface.pieces[end - 1];
 }
 
-bool is_below(const MeshSurface& surface, std::uint32_t face, std::uint32_t vertex) {
+bool is_below(const MeshSurface& surface, std::uint32_t face, std::uint32_t vertex, const Monitor& monitor) {
   const std::array<std::uint32_t, 3>& plane = surface.triangles[surface.triangle_begin[face]];
-  return surface.points.orientation(plane[0], plane[1], plane[2], vertex) < 0;
+  return surface.points.orientation(plane[0], plane[1], plane[2], vertex, monitor) < 0;
 }
 
 }  // namespace
 
-bool bounds_small_convex_solid(const Mesh& mesh, const MeshSurface& surface) {
+bool bounds_small_convex_solid(const Mesh& mesh, const MeshSurface& surface, const Monitor& monitor) {
   const std::size_t count = mesh.vertices.size();
   if (count < 4 || count > kMostVertices || mesh.face_count() > 2 * count) return false;
   std::array<VertexSet, kMostVertices> next{};  // of each vertex: the ends of edges that faces run through from there
@@ -47,7 +47,7 @@ bool bounds_small_convex_solid(const Mesh& mesh, const MeshSurface& surface) {
       corners |= end;
     }
     for (std::uint32_t v = 0; v < count; ++v) {
-      if ((corners & only(v)) == 0 && !is_below(surface, f, v)) return false;
+      if ((corners & only(v)) == 0 && !is_below(surface, f, v, monitor)) return false;
     }
   }
   for (std::uint32_t v = 0; v < count; ++v) {

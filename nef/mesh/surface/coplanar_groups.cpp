@@ -23,8 +23,8 @@ struct PolygonSide {
 
 class Grouper {
  public:
-  Grouper(const MeshPoints& points, const std::vector<std::span<const std::uint32_t>>& polygons)
-      : points_(points), polygons_(polygons), joined_(polygons.size()) {}
+  Grouper(const MeshPoints& points, const std::vector<std::span<const std::uint32_t>>& polygons, const Monitor& monitor)
+      : points_(points), polygons_(polygons), monitor_(monitor), joined_(polygons.size()) {}
 
   std::vector<CoplanarGroup> run() {
     list_sides();
@@ -63,9 +63,11 @@ class Grouper {
     if (a.from != b.to) return;
     const std::uint32_t p = corner_beside(a);
     const std::uint32_t q = corner_beside(b);
-    if (points_.orientation(a.from, a.to, p, q) != 0) return;
-    const std::size_t axis = points_.projection_axis(a.from, a.to, p);
-    if (points_.orientation_along(a.from, a.to, p, axis) == points_.orientation_along(a.from, a.to, q, axis)) return;
+    if (points_.orientation(a.from, a.to, p, q, monitor_) != 0) return;
+    const std::size_t axis = points_.projection_axis(a.from, a.to, p, monitor_);
+    if (points_.orientation_along(a.from, a.to, p, axis, monitor_) ==
+        points_.orientation_along(a.from, a.to, q, axis, monitor_))
+      return;
     a.inner = b.inner = true;
     joined_.unite(a.polygon, b.polygon);
   }
@@ -126,15 +128,15 @@ class Grouper {
   // members: a plane set's border has one outer cycle for each of its parts, and the other cycles run the other way.
   bool simple(const CoplanarGroup& group) const {
     const std::span<const std::uint32_t> first = polygons_[group.members[0]];
-    const std::size_t axis = points_.projection_axis(first[0], first[1], first[2]);
-    const int turn = points_.orientation_along(first[0], first[1], first[2], axis);
+    const std::size_t axis = points_.projection_axis(first[0], first[1], first[2], monitor_);
+    const int turn = points_.orientation_along(first[0], first[1], first[2], axis, monitor_);
     const auto n = static_cast<std::uint32_t>(group.cycles.size());
     std::vector<std::uint32_t> next(n);
     std::size_t outer = 0;
     for (std::uint32_t begin = 0; const std::uint32_t end : group.cycle_end) {
       for (std::uint32_t i = begin; i < end; ++i) next[i] = i + 1 == end ? begin : i + 1;
       const std::vector<std::uint32_t> ring(group.cycles.begin() + begin, group.cycles.begin() + end);
-      if (ring_orientation(points_, ring, axis) == turn) ++outer;
+      if (ring_orientation(points_, ring, axis, monitor_) == turn) ++outer;
       begin = end;
     }
     if (outer != 1) return false;
@@ -147,7 +149,7 @@ class Grouper {
       const std::uint32_t p = group.cycles[i];
       const std::uint32_t q = group.cycles[next[i]];
       const std::uint32_t r = group.cycles[next[next[i]]];
-      return points_.orientation_along(p, q, r, axis) == 0 &&
+      return points_.orientation_along(p, q, r, axis, monitor_) == 0 &&
              (points_.compare(p, q) < 0) == (points_.compare(r, q) < 0);
     };
     bool meet = false;
@@ -157,7 +159,7 @@ class Grouper {
         meet = runs_back(next[i] == j ? i : j);
       } else {
         meet = segments_meet(points_, group.cycles[i], group.cycles[next[i]], group.cycles[j], group.cycles[next[j]],
-                             axis);
+                             axis, monitor_);
       }
     });
     return !meet;
@@ -165,6 +167,7 @@ class Grouper {
 
   const MeshPoints& points_;
   const std::vector<std::span<const std::uint32_t>>& polygons_;
+  Monitor monitor_;
   UnionFind joined_;
   std::vector<PolygonSide> sides_;
 };
@@ -172,8 +175,9 @@ class Grouper {
 }  // namespace
 
 std::vector<CoplanarGroup> coplanar_groups(const MeshPoints& points,
-                                           const std::vector<std::span<const std::uint32_t>>& polygons) {
-  return Grouper(points, polygons).run();
+                                           const std::vector<std::span<const std::uint32_t>>& polygons,
+                                           const Monitor& monitor) {
+  return Grouper(points, polygons, monitor).run();
 }
 
 }  // namespace nef

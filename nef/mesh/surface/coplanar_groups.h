@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/mesh/mesh_points.h"
 
 namespace nef {
@@ -24,6 +25,7 @@ struct CoplanarGroup {
 /// which winds around no point twice. What fails that test is in no group, nor are single polygons. A polygon without
 /// corners stands for one that belongs to no group. O(n log n) unless many boxes of sides overlap.
 std::vector<CoplanarGroup> coplanar_groups(const MeshPoints& points,
-                                           const std::vector<std::span<const std::uint32_t>>& polygons);
+                                           const std::vector<std::span<const std::uint32_t>>& polygons,
+                                           const Monitor& monitor);
 
 }  // namespace nef

@@ -50,19 +50,20 @@ void drop_spikes(std::vector<std::uint32_t>& ring) {
   ring.assign(kept.begin() + static_cast<std::ptrdiff_t>(first), kept.begin() + static_cast<std::ptrdiff_t>(last));
 }
 
-bool on_one_line(const MeshPoints& points, const std::vector<std::uint32_t>& ring) {
+bool on_one_line(const MeshPoints& points, const std::vector<std::uint32_t>& ring, const Monitor& monitor) {
   for (std::size_t i = 2; i < ring.size(); ++i) {
-    if (!points.collinear(ring[0], ring[1], ring[i])) return false;
+    if (!points.collinear(ring[0], ring[1], ring[i], monitor)) return false;
   }
   return true;
 }
 
 // The turn that all corners of the ring make along the axis; 0 if they do not make the same.
-int common_turn(const MeshPoints& points, const std::vector<std::uint32_t>& ring, std::size_t axis) {
+int common_turn(const MeshPoints& points, const std::vector<std::uint32_t>& ring, std::size_t axis,
+                const Monitor& monitor) {
   const std::size_t n = ring.size();
-  const int turn = points.orientation_along(ring[n - 1], ring[0], ring[1], axis);
+  const int turn = points.orientation_along(ring[n - 1], ring[0], ring[1], axis, monitor);
   for (std::size_t i = 1; i < n && turn != 0; ++i) {
-    if (points.orientation_along(ring[i - 1], ring[i], ring[i + 1 == n ? 0 : i + 1], axis) != turn) return 0;
+    if (points.orientation_along(ring[i - 1], ring[i], ring[i + 1 == n ? 0 : i + 1], axis, monitor) != turn) return 0;
   }
   return turn;
 }
@@ -84,23 +85,24 @@ bool goes_around_once(const MeshPoints& points, const std::vector<std::uint32_t>
 
 // Planar, or without area. The ring has no corner twice in a row, and if it is convex, none on a line with the next
 // two.
-bool is_planar(const MeshPoints& points, const std::vector<std::uint32_t>& ring, bool is_convex) {
+bool is_planar(const MeshPoints& points, const std::vector<std::uint32_t>& ring, bool is_convex,
+               const Monitor& monitor) {
   std::size_t k = 2;
-  while (!is_convex && k < ring.size() && points.collinear(ring[0], ring[1], ring[k])) ++k;
+  while (!is_convex && k < ring.size() && points.collinear(ring[0], ring[1], ring[k], monitor)) ++k;
   return k + 1 >= ring.size() || points.coplanar(ring[0], ring[1], ring[k], std::span(ring).subspan(k + 1));
 }
 
 // Polygons are cut along the best axis that shows them as simple polygons.
 enum class Cut : std::uint8_t { kFailed, kDone, kConvex };
 Cut cut(const MeshPoints& points, Triangulator& triangulator, const std::vector<std::uint32_t>& ring,
-        std::vector<std::array<std::uint32_t, 3>>& out) {
+        std::vector<std::array<std::uint32_t, 3>>& out, const Monitor& monitor) {
   for (const std::size_t axis : projection_axes(points, ring)) {
     // A ring that is convex there has its triangles over disjoint triangles there, planar or not.
-    if (common_turn(points, ring, axis) != 0 && goes_around_once(points, ring, axis)) {
+    if (common_turn(points, ring, axis, monitor) != 0 && goes_around_once(points, ring, axis)) {
       triangulator.cut_convex(ring, out);
       return Cut::kConvex;
     }
-    const int sign = ring_orientation(points, ring, axis);
+    const int sign = ring_orientation(points, ring, axis, monitor);
     if (sign != 0 && triangulator.triangulate(ring, axis, sign, out)) return Cut::kDone;
   }
   return Cut::kFailed;
@@ -126,7 +128,8 @@ std::array<std::size_t, 3> projection_axes(const MeshPoints& points, const std::
   return order;
 }
 
-int ring_orientation(const MeshPoints& points, const std::vector<std::uint32_t>& ring, std::size_t axis) {
+int ring_orientation(const MeshPoints& points, const std::vector<std::uint32_t>& ring, std::size_t axis,
+                     const Monitor& monitor) {
   const std::size_t u = (axis + 1) % 3;
   const std::size_t v = (axis + 2) % 3;
   std::size_t best = 0;
@@ -135,14 +138,14 @@ int ring_orientation(const MeshPoints& points, const std::vector<std::uint32_t>&
     if (order < 0 || (order == 0 && points.compare(ring[i], ring[best], v) < 0)) best = i;
   }
   const std::size_t n = ring.size();
-  return points.orientation_along(ring[(best + n - 1) % n], ring[best], ring[(best + 1) % n], axis);
+  return points.orientation_along(ring[(best + n - 1) % n], ring[best], ring[(best + 1) % n], axis, monitor);
 }
 
-MeshSurface::MeshSurface(const Mesh& mesh)
+MeshSurface::MeshSurface(const Mesh& mesh, const Monitor& monitor)
     : points(mesh.vertices),
       place(points.are_integers() ? merge_equal(points.approximate()) : merge_equal(mesh.vertices)),
       defects(mesh.face_count(), FaceDefect::kNone) {
-  Triangulator triangulator(points);
+  Triangulator triangulator(points, monitor);
   std::vector<std::uint32_t> ring;
   // A ring of n corners becomes n - 2 triangles.
   const std::size_t count = mesh.corners.size() - std::min(mesh.corners.size(), 2 * mesh.face_count());
@@ -172,19 +175,19 @@ MeshSurface::MeshSurface(const Mesh& mesh)
     } else if (ring.size() < 3) {
       defects[f] = FaceDefect::kNoArea;
     } else if (ring.size() == 3) {
-      if (points.collinear(ring[0], ring[1], ring[2])) {
+      if (points.collinear(ring[0], ring[1], ring[2], monitor)) {
         defects[f] = FaceDefect::kNoArea;
       } else {
         triangles.push_back({ring[0], ring[1], ring[2]});
       }
     } else {
-      const Cut done = cut(points, triangulator, ring, triangles);
+      const Cut done = cut(points, triangulator, ring, triangles, monitor);
       if (done == Cut::kFailed) {
-        defects[f] = on_one_line(points, ring) ? FaceDefect::kNoArea : FaceDefect::kCrossesItself;
+        defects[f] = on_one_line(points, ring, monitor) ? FaceDefect::kNoArea : FaceDefect::kCrossesItself;
       }
       in_one_piece = done == Cut::kConvex;
     }
-    planar.push_back(bad || ring.size() < 4 || is_planar(points, ring, in_one_piece));
+    planar.push_back(bad || ring.size() < 4 || is_planar(points, ring, in_one_piece, monitor));
     if (defects[f] == FaceDefect::kNone && planar[f] && !irregular[f] && ring.size() > 3) {
       rings.insert(rings.end(), ring.begin(), ring.end());
     }

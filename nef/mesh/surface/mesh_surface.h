@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/mesh/mesh.h"
 #include "nef/mesh/mesh_points.h"
 
@@ -20,7 +21,7 @@ enum class FaceDefect : std::uint8_t { kNone, kBadIndex, kTooFewCorners, kNoArea
 /// The triangulated surface of a mesh. A face may come to a vertex twice, as one with a hole that is joined to the
 /// outer ring by a bridge does; sides that are walked out and back at once do not count.
 struct MeshSurface {
-  explicit MeshSurface(const Mesh& mesh);
+  MeshSurface(const Mesh& mesh, const Monitor& monitor);
 
   MeshPoints points;                                    ///< of all vertices of the mesh
   std::vector<std::uint32_t> place;                     ///< of each vertex: the smallest vertex at the same point
@@ -59,6 +60,7 @@ std::array<std::size_t, 3> projection_axes(const MeshPoints& points, const std::
 
 /// +1 if a ring of at least three points turns counterclockwise in the projection along `axis`, -1 if clockwise, 0 if
 /// its farthest corner there is flat (the projection, or the ring, is no simple polygon). Exact. O(n).
-int ring_orientation(const MeshPoints& points, const std::vector<std::uint32_t>& ring, std::size_t axis);
+int ring_orientation(const MeshPoints& points, const std::vector<std::uint32_t>& ring, std::size_t axis,
+                     const Monitor& monitor);
 
 }  // namespace nef

@@ -80,8 +80,8 @@ std::vector<Component> measured_components(const MeshSurface& surface, std::vect
 // Rays from the ends of components along the axes.
 class Rays {
  public:
-  Rays(const MeshSurface& surface, std::span<const std::uint32_t> component_of)
-      : surface_(surface), component_of_(component_of) {
+  Rays(const MeshSurface& surface, std::span<const std::uint32_t> component_of, const Monitor& monitor)
+      : surface_(surface), component_of_(component_of), monitor_(monitor) {
     std::vector<Box> boxes(surface.triangles.size());
     for (std::size_t t = 0; t < boxes.size(); ++t) {
       for (const std::uint32_t v : surface.triangles[t]) surface.points.extend(boxes[t], v);
@@ -123,13 +123,13 @@ class Rays {
                                            const std::array<std::uint32_t, 3>& t) const {
     const MeshPoints& points = surface_.points;
     std::array<int, 3> signs{};
-    for (std::size_t i = 0; i < 3; ++i) signs[i] = points.orientation_along(t[i], t[(i + 1) % 3], from, axis);
+    for (std::size_t i = 0; i < 3; ++i) signs[i] = points.orientation_along(t[i], t[(i + 1) % 3], from, axis, monitor_);
     const auto [least, most] = std::minmax({signs[0], signs[1], signs[2]});
     if (least < 0 && most > 0) return 0;
     if (least == 0 || most == 0) return std::nullopt;
     // The normal points along the axis iff the corners turn left as seen from its far end; then what is above the
     // triangle is in front of it.
-    const int side = points.orientation(t[0], t[1], t[2], from);
+    const int side = points.orientation(t[0], t[1], t[2], from, monitor_);
     if (side == 0) return std::nullopt;
     const bool above = side == least;
     if (above == up) return 0;
@@ -138,12 +138,13 @@ class Rays {
 
   const MeshSurface& surface_;
   std::span<const std::uint32_t> component_of_;
+  Monitor monitor_;
   BoxTree tree_;
 };
 
 }  // namespace
 
-bool surely_one_solid(const MeshSurface& surface) {
+bool surely_one_solid(const MeshSurface& surface, const Monitor& monitor) {
   if (!surface.points.moderate()) return false;
   std::vector<std::uint32_t> component_of;
   const std::vector<Component> components = measured_components(surface, component_of);
@@ -153,7 +154,7 @@ bool surely_one_solid(const MeshSurface& surface) {
     if (!(std::abs(component.volume) > rounding * component.error)) return false;
   }
   if (components.size() == 1) return components[0].volume > 0;
-  const Rays rays(surface, component_of);
+  const Rays rays(surface, component_of, monitor);
   for (std::uint32_t c = 0; c < components.size(); ++c) {
     const std::optional<int> winding = rays.winding_around(c, components[c]);
     if (!winding || *winding != (components[c].volume > 0 ? 0 : 1)) return false;

@@ -3,6 +3,7 @@
 // Whether the components of a closed surface fit together to the border of one solid, told without making it.
 #pragma once
 
+#include "nef/base/monitor.h"
 #include "nef/mesh/surface/mesh_surface.h"
 
 namespace nef {
@@ -12,6 +13,6 @@ namespace nef {
 /// is not, which proves nothing: volumes that doubles can not tell from zero, say. The surface must be closed, and its
 /// triangles may have nothing in common but vertices and edges, around which they separate inside from outside.
 /// O(n log n) for few components.
-bool surely_one_solid(const MeshSurface& surface);
+bool surely_one_solid(const MeshSurface& surface, const Monitor& monitor);
 
 }  // namespace nef

@@ -166,8 +166,12 @@ Interval make_interval(const Triangle& t, const Signs& s, bool first) {
 
 }  // namespace
 
-SurfaceContacts::SurfaceContacts(const MeshSurface& surface)
-    : points_(surface.points), triangles_(surface.triangles), face_of_(surface.face_of), patches_(surface) {}
+SurfaceContacts::SurfaceContacts(const MeshSurface& surface, const Monitor& monitor)
+    : points_(surface.points),
+      triangles_(surface.triangles),
+      face_of_(surface.face_of),
+      patches_(surface, monitor),
+      monitor_(monitor) {}
 
 // Most meshes meet in nothing but shared edges of two faces, and need no list of them.
 const std::vector<SurfaceContacts::HalfEdge>& SurfaceContacts::half_edges() const {
@@ -191,7 +195,7 @@ const std::vector<SurfaceContacts::HalfEdge>& SurfaceContacts::half_edges() cons
 int SurfaceContacts::side(std::uint32_t triangle, std::uint32_t place) const {
   if (patches_.on_plane(triangle, place)) return 0;
   const Triangle& t = triangles_[triangle];
-  return points_.orientation(t[0], t[1], t[2], place);
+  return points_.orientation(t[0], t[1], t[2], place, monitor_);
 }
 
 std::span<const SurfaceContacts::HalfEdge> SurfaceContacts::around(std::uint32_t u, std::uint32_t v) const {
@@ -205,12 +209,15 @@ SurfaceContacts::Around SurfaceContacts::around_segment(std::uint32_t u, std::ui
                                                         std::span<const Wing> wings) const {
   if (wings.size() == 2) return {wings[0].direction != wings[1].direction, false};
   const std::uint32_t base = wings[0].apex;
-  const std::size_t axis = points_.projection_axis(u, v, base);
+  const std::size_t axis = points_.projection_axis(u, v, base, monitor_);
   // 0: with the first wing, 1: less than a half-turn after it, 2: opposite, 3: more.
   const auto sector = [&](std::uint32_t apex) {
-    const int turn = apex == base ? 0 : points_.orientation(u, v, base, apex);
+    const int turn = apex == base ? 0 : points_.orientation(u, v, base, apex, monitor_);
     if (turn != 0) return turn > 0 ? 1 : 3;
-    return points_.orientation_along(u, v, base, axis) == points_.orientation_along(u, v, apex, axis) ? 0 : 2;
+    return points_.orientation_along(u, v, base, axis, monitor_) ==
+                   points_.orientation_along(u, v, apex, axis, monitor_)
+               ? 0
+               : 2;
   };
   struct Sorted {
     int sector = 0;
@@ -220,7 +227,7 @@ SurfaceContacts::Around SurfaceContacts::around_segment(std::uint32_t u, std::ui
   for (const Wing& wing : wings) sorted.push_back({sector(wing.apex), wing});
   const auto order = [&](const Sorted& a, const Sorted& b) {
     if (a.sector != b.sector) return a.sector < b.sector ? 1 : -1;
-    return a.sector % 2 == 0 ? 0 : points_.orientation(u, v, a.wing.apex, b.wing.apex);
+    return a.sector % 2 == 0 ? 0 : points_.orientation(u, v, a.wing.apex, b.wing.apex, monitor_);
   };
   std::stable_sort(sorted.begin(), sorted.end(), [&](const Sorted& a, const Sorted& b) { return order(a, b) > 0; });
   int level = 0;  // how often the space after the wings so far is wound around, but for a constant
@@ -299,12 +306,12 @@ bool SurfaceContacts::add_wings(std::uint32_t triangle, Edge own, Edge along, bo
   }
   // Corners on either side of the segment, and whether the triangle turns like (u, v, corner).
   const Triangle& t = triangles_[triangle];
-  const std::size_t axis = points_.projection_axis(t[0], t[1], t[2]);
-  const int orientation = points_.orientation_along(t[0], t[1], t[2], axis);
+  const std::size_t axis = points_.projection_axis(t[0], t[1], t[2], monitor_);
+  const int orientation = points_.orientation_along(t[0], t[1], t[2], axis, monitor_);
   bool left = false;
   bool right = false;
   for (const std::uint32_t corner : t) {
-    const int turn = points_.orientation_along(along.u, along.v, corner, axis);
+    const int turn = points_.orientation_along(along.u, along.v, corner, axis, monitor_);
     bool& done = turn > 0 ? left : right;
     if (turn == 0 || done) continue;
     done = true;
@@ -365,7 +372,7 @@ SurfaceContacts::Kind SurfaceContacts::classify_general(std::uint32_t t, std::ui
   // Positive if the end on edge (b.apex, y) comes after the end on (a.apex, x).
   const auto order = [&](std::uint32_t x, std::uint32_t y) {
     if (x == y) return 0;  // a shared vertex on the line
-    return points_.orientation(ia.apex, x, ib.apex, y) * ia.side * ib.side;
+    return points_.orientation(ia.apex, x, ib.apex, y, monitor_) * ia.side * ib.side;
   };
   const int low_high = order(ia.low, ib.high);
   const int high_low = order(ia.high, ib.low);
@@ -379,23 +386,24 @@ SurfaceContacts::Kind SurfaceContacts::classify_general(std::uint32_t t, std::ui
 
 // True if two triangles in one plane turn the same way.
 bool SurfaceContacts::turned_alike(const Triangle& a, const Triangle& b) const {
-  const std::size_t axis = points_.projection_axis(a[0], a[1], a[2]);
-  return points_.orientation_along(a[0], a[1], a[2], axis) == points_.orientation_along(b[0], b[1], b[2], axis);
+  const std::size_t axis = points_.projection_axis(a[0], a[1], a[2], monitor_);
+  return points_.orientation_along(a[0], a[1], a[2], axis, monitor_) ==
+         points_.orientation_along(b[0], b[1], b[2], axis, monitor_);
 }
 
 SurfaceContacts::Kind SurfaceContacts::classify_coplanar(std::uint32_t t, std::uint32_t u, int shared) const {
   const Triangle& a = triangles_[t];
   const Triangle& b = triangles_[u];
-  const std::size_t axis = points_.projection_axis(a[0], a[1], a[2]);
+  const std::size_t axis = points_.projection_axis(a[0], a[1], a[2], monitor_);
   // Two convex sets have disjoint interiors iff an edge line of one separates them.
   bool apart = false;
   bool interiors_apart = false;
   const auto separate = [&](const Triangle& x, const Triangle& y) {
-    const int inside = points_.orientation_along(x[0], x[1], x[2], axis);
+    const int inside = points_.orientation_along(x[0], x[1], x[2], axis, monitor_);
     for (std::size_t i = 0; i < 3; ++i) {
       int largest = -1;
       for (const std::uint32_t p : y) {
-        largest = std::max(largest, inside * points_.orientation_along(x[i], x[(i + 1) % 3], p, axis));
+        largest = std::max(largest, inside * points_.orientation_along(x[i], x[(i + 1) % 3], p, axis, monitor_));
       }
       apart = apart || largest < 0;
       interiors_apart = interiors_apart || largest <= 0;
@@ -410,7 +418,8 @@ SurfaceContacts::Kind SurfaceContacts::classify_coplanar(std::uint32_t t, std::u
       const Edge e{a[i], a[(i + 1) % 3], true};
       const Edge f{b[j], b[(j + 1) % 3], true};
       if ((e.u == f.u && e.v == f.v) || (e.u == f.v && e.v == f.u)) continue;
-      if (points_.orientation_along(e.u, e.v, f.u, axis) != 0 || points_.orientation_along(e.u, e.v, f.v, axis) != 0) {
+      if (points_.orientation_along(e.u, e.v, f.u, axis, monitor_) != 0 ||
+          points_.orientation_along(e.u, e.v, f.v, axis, monitor_) != 0) {
         continue;
       }
       const bool e_up = points_.compare(e.u, e.v) < 0;
@@ -454,9 +463,9 @@ SurfaceContacts::Kind SurfaceContacts::classify_neighbours(std::uint32_t t, std:
   if (!cut && surely_obtuse(points_, p, q, a[t_free], b[u_free])) return Kind::kNone;
   if (side(t, b[u_free]) == 0) {
     // Coplanar neighbours overlap if they lie on one side of their edge.
-    const std::size_t axis = points_.projection_axis(a[0], a[1], a[2]);
-    const bool same_side =
-        points_.orientation_along(p, q, a[t_free], axis) == points_.orientation_along(p, q, b[u_free], axis);
+    const std::size_t axis = points_.projection_axis(a[0], a[1], a[2], monitor_);
+    const bool same_side = points_.orientation_along(p, q, a[t_free], axis, monitor_) ==
+                           points_.orientation_along(p, q, b[u_free], axis, monitor_);
     if (!same_side) return Kind::kNone;
     return turned_alike(a, b) ? Kind::kOverlap : Kind::kCover;
   }

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/mesh/surface/mesh_surface.h"
 #include "nef/mesh/surface/surface_patches.h"
 
@@ -30,7 +31,7 @@ class SurfaceContacts {
   enum class Kind : std::uint8_t { kNone, kTouch, kCover, kCross, kOverlap };
 
   /// The surface must outlive this object.
-  explicit SurfaceContacts(const MeshSurface& surface);
+  SurfaceContacts(const MeshSurface& surface, const Monitor& monitor);
 
   /// Of the triangles of the surface.
   [[nodiscard]] const VertexStars& stars() const { return patches_.stars(); }
@@ -90,6 +91,7 @@ class SurfaceContacts {
   std::span<const Triangle> triangles_;
   std::span<const std::uint32_t> face_of_;
   SurfacePatches patches_;
+  Monitor monitor_;
   mutable std::once_flag half_edges_once_;
   mutable std::vector<HalfEdge> half_edges_;  // sorted by key; made when first asked for
 };

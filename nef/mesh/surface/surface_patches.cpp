@@ -22,8 +22,9 @@ bool adjacent(std::span<const std::uint32_t> next, std::uint32_t i, std::uint32_
 
 }  // namespace
 
-SurfacePatches::SurfacePatches(const MeshSurface& surface)
+SurfacePatches::SurfacePatches(const MeshSurface& surface, const Monitor& monitor)
     : surface_(surface),
+      monitor_(monitor),
       stars_(surface.points, surface.triangles),
       patch_of_face_(surface.defects.size(), 0),
       faces_(planar_faces()) {
@@ -62,7 +63,7 @@ SurfacePatches::Layout SurfacePatches::united() const {
   for (const Patch& patch : faces_.patches) {
     polygons.push_back(patch.proper ? corners(faces_, patch) : std::span<const std::uint32_t>());
   }
-  const std::vector<CoplanarGroup> groups = coplanar_groups(surface_.points, polygons);
+  const std::vector<CoplanarGroup> groups = coplanar_groups(surface_.points, polygons, monitor_);
   std::vector<bool> grouped(faces_.patches.size(), false);
   Layout layout;
   const auto push = [&](std::span<const std::uint32_t> members, std::span<const std::uint32_t> cycles,
@@ -166,7 +167,7 @@ bool SurfacePatches::apart(const Layout& layout, std::uint32_t p, std::uint32_t 
       in_q[shared++] = i;
       continue;
     }
-    const int sign = surface_.points.orientation(plane[0], plane[1], plane[2], ring[i]);
+    const int sign = surface_.points.orientation(plane[0], plane[1], plane[2], ring[i], monitor_);
     if (sign == 0 || sign * side < 0) return false;
     side = sign;
   }

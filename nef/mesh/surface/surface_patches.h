@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/geometry/box_tree.h"
 #include "nef/mesh/surface/mesh_surface.h"
 #include "nef/mesh/surface/vertex_stars.h"
@@ -21,7 +22,7 @@ namespace nef {
 class SurfacePatches {
  public:
   /// The surface must outlive this object. O(n).
-  explicit SurfacePatches(const MeshSurface& surface);
+  SurfacePatches(const MeshSurface& surface, const Monitor& monitor);
 
   /// Calls visit(t, u) in no particular order for pairs of triangles, among them all that have in common more than
   /// shared vertices and edges. O(n log n + k) for k pairs of patches with overlapping boxes (of united patches, if k
@@ -79,6 +80,7 @@ class SurfacePatches {
   void visit_pair(const Layout& layout, std::uint32_t p, std::uint32_t q, const Visit& visit) const;
 
   const MeshSurface& surface_;
+  Monitor monitor_;
   VertexStars stars_;
   std::vector<std::uint32_t> patch_of_face_;  // the last one of each face
   Layout faces_;

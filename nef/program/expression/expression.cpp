@@ -33,10 +33,12 @@ class ExpressionEvaluator {
                             node.offset);
     }
     try {
-      if (node.term == Term::kMinkowski) return options_.minkowski(sets[0], sets[1]);
+      if (node.term == Term::kMinkowski) return options_.minkowski(sets[0], sets[1], options_.monitor);
       if (node.term == Term::kErode) return erode(sets[0], sets[1]);
-      if (node.term == Term::kBall) return options_.ball(node.numbers[0], node.numbers[1]);
-      if (node.term == Term::kHullOfSets && options_.hull && !all_bounded(sets)) return options_.hull(united(sets));
+      if (node.term == Term::kBall) return options_.ball(node.numbers[0], node.numbers[1], options_.monitor);
+      if (node.term == Term::kHullOfSets && options_.hull && !all_bounded(sets)) {
+        return options_.hull(united(sets), options_.monitor);
+      }
       return make(node, sets);
     } catch (const InputError& error) {
       throw ExpressionError(place_in_text(text_, node.offset) + ": " + error.what(), node.offset);
@@ -46,26 +48,31 @@ class ExpressionEvaluator {
  private:
   // What of A stays when -B moves over what is not in A.
   [[nodiscard]] Polyhedron erode(const Polyhedron& a, const Polyhedron& b) const {
-    return complement(options_.minkowski(complement(a), transform(b, AffineMap::scale({-1, -1, -1}))));
+    const Polyhedron mirrored = transform(b, AffineMap::scale({-1, -1, -1}), options_.monitor);
+    return complement(options_.minkowski(complement(a), mirrored, options_.monitor));
   }
 
   static bool all_bounded(std::span<const Polyhedron> sets) {
     return std::all_of(sets.begin(), sets.end(), [](const Polyhedron& set) { return set.is_bounded(); });
   }
 
-  [[nodiscard]] Polyhedron united(std::span<const Polyhedron> sets) const { return unite_all(sets, options_.threads); }
+  [[nodiscard]] Polyhedron united(std::span<const Polyhedron> sets) const {
+    return unite_all(sets, options_.threads, options_.monitor);
+  }
 
-  static Polyhedron polyline(std::span<const Rational3> points) {
+  [[nodiscard]] Polyhedron polyline(std::span<const Rational3> points) const {
     std::vector<Polyhedron> segments;
-    for (std::size_t i = 0; i + 1 < points.size(); ++i) segments.push_back(make_segment(points[i], points[i + 1]));
-    return unite_all(segments);
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+      segments.push_back(make_segment(points[i], points[i + 1], options_.monitor));
+    }
+    return unite_all(segments, 1, options_.monitor);
   }
 
   [[nodiscard]] Polyhedron file(const SyntaxNode& node) const {
     if (!options_.load) {
       throw ExpressionError(place_in_text(text_, node.offset) + ": files cannot be read here", node.offset);
     }
-    return options_.load(node.path);
+    return options_.load(node.path, options_.monitor);
   }
 
   [[nodiscard]] Polyhedron make(const SyntaxNode& node, std::span<const Polyhedron> sets) const {
@@ -77,30 +84,30 @@ class ExpressionEvaluator {
       case Term::kEverything:
         return Polyhedron::everything();
       case Term::kBox:
-        return make_box({n[0], n[1], n[2]}, {n[3], n[4], n[5]});
+        return make_box({n[0], n[1], n[2]}, {n[3], n[4], n[5]}, options_.monitor);
       case Term::kHalfspace:
-        return make_halfspace(n[0], n[1], n[2], n[3]);
+        return make_halfspace(n[0], n[1], n[2], n[3], true, options_.monitor);
       case Term::kPoint:
-        return make_point(node.rings[0][0]);
+        return make_point(node.rings[0][0], options_.monitor);
       case Term::kSegment:
-        return make_segment(node.rings[0][0], node.rings[0][1]);
+        return make_segment(node.rings[0][0], node.rings[0][1], options_.monitor);
       case Term::kPolyline:
         return polyline(node.rings[0]);
       case Term::kHull:
-        return convex_hull(node.rings[0]);
+        return convex_hull(node.rings[0], options_.monitor);
       case Term::kHullOfSets:
-        return convex_hull_of_sets(sets);
+        return convex_hull_of_sets(sets, options_.monitor);
       case Term::kSphere:
-        return make_sphere(n[0], corners_of(n, 1));
+        return make_sphere(n[0], corners_of(n, 1), options_.monitor);
       case Term::kCylinder:
-        return make_cylinder(n[0], n[1], n.size() > 2 ? n[2] : n[1], corners_of(n, 3));
+        return make_cylinder(n[0], n[1], n.size() > 2 ? n[2] : n[1], corners_of(n, 3), options_.monitor);
       case Term::kPolygon:
-        return make_polygon(node.rings);
+        return make_polygon(node.rings, options_.monitor);
       case Term::kTranslate:
       case Term::kScale:
       case Term::kRotate:
       case Term::kTransform:
-        return transform(sets[0], map_of(node));
+        return transform(sets[0], map_of(node), options_.monitor);
       case Term::kChain:
         return chain(node.operators, sets);
       default:
@@ -150,7 +157,7 @@ class ExpressionEvaluator {
       while (last < operators.size() && operators[last] == operators[first]) ++last;
       const std::span<const Polyhedron> run = sets.subspan(first + 1, last - first);
       if (operators[first] == Term::kIntersection) {
-        steps.push_back({BooleanOperator::kIntersection, intersect_all(run, options_.threads)});
+        steps.push_back({BooleanOperator::kIntersection, intersect_all(run, options_.threads, options_.monitor)});
       } else {
         steps.push_back(
             {operators[first] == Term::kUnion ? BooleanOperator::kUnion : BooleanOperator::kDifference, united(run)});
@@ -160,9 +167,10 @@ class ExpressionEvaluator {
         std::any_of(sets.begin(), sets.end(), [](const Polyhedron& set) { return set.complex().label_count > 2; });
     Tiling tiling;
     tiling.threads = options_.threads;
-    StepSequence sequence(sets[0], steps.size(), labeled ? TileUse::kNever : TileUse::kWherePays, tiling);
-    for (const Step& step : steps) sequence.apply(step.op, step.set);
-    return sequence.result_in_any_order();
+    StepSequence sequence(sets[0], steps.size(), labeled ? TileUse::kNever : TileUse::kWherePays, tiling,
+                          options_.monitor);
+    for (const Step& step : steps) sequence.apply(step.op, step.set, options_.monitor);
+    return sequence.result_in_any_order(options_.monitor);
   }
 
   [[nodiscard]] Polyhedron combine(Term term, std::span<const Polyhedron> sets) const {
@@ -170,21 +178,21 @@ class ExpressionEvaluator {
       case Term::kUnion:
         return united(sets);
       case Term::kIntersection:
-        return intersect_all(sets, options_.threads);
+        return intersect_all(sets, options_.threads, options_.monitor);
       case Term::kDifference:
-        return subtract(sets[0], united(sets.subspan(1)), options_.threads);
+        return subtract(sets[0], united(sets.subspan(1)), options_.threads, options_.monitor);
       case Term::kSymmetricDifference:
         return chain(std::vector<Term>(sets.size() - 1, term), sets);
       case Term::kInterior:
-        return interior(sets[0]);
+        return interior(sets[0], options_.monitor);
       case Term::kClosure:
-        return closure(sets[0]);
+        return closure(sets[0], options_.monitor);
       case Term::kBoundary:
-        return boundary(sets[0]);
+        return boundary(sets[0], options_.monitor);
       case Term::kExterior:
-        return exterior(sets[0]);
+        return exterior(sets[0], options_.monitor);
       case Term::kRegularize:
-        return regularize(sets[0]);
+        return regularize(sets[0], options_.monitor);
       default:
         return complement(sets[0]);
     }
@@ -201,14 +209,14 @@ Polyhedron evaluate_expression(std::string_view text, const ExpressionOptions& o
   return ExpressionEvaluator(text, options)(parse_expression(text));
 }
 
-Polyhedron convex_hull_of_sets(std::span<const Polyhedron> sets) {
+Polyhedron convex_hull_of_sets(std::span<const Polyhedron> sets, const Monitor& monitor) {
   std::vector<Rational3> points;
   for (const Polyhedron& set : sets) {
     if (!set.is_bounded()) throw InputError("the hull of an unbounded set is not computed");
     const Complex& c = set.complex();
     for (const VertexId v : c.vertex_ids()) points.push_back(c.points.rational(point_of(v)));
   }
-  return convex_hull(points);
+  return convex_hull(points, monitor);
 }
 
 AffineMap affine_map_of(std::span<const Rational> n) {

@@ -34,6 +34,7 @@
 #include <string_view>
 
 #include "nef/base/error.h"
+#include "nef/base/monitor.h"
 #include "nef/construct/construct.h"
 #include "nef/polyhedron.h"
 
@@ -52,16 +53,18 @@ class ExpressionError : public InputError {
 };
 
 struct ExpressionOptions {
+  // Each of these is given `monitor`.
   /// Makes the set of `file("path")`. Without it, files are refused.
-  std::function<Polyhedron(const std::string& path)> load;
+  std::function<Polyhedron(const std::string& path, const Monitor& monitor)> load;
   /// Makes minkowski(A, B), and erode(A, B) by it. Without it, both are refused.
-  std::function<Polyhedron(const Polyhedron& a, const Polyhedron& b)> minkowski = {};
+  std::function<Polyhedron(const Polyhedron& a, const Polyhedron& b, const Monitor& monitor)> minkowski = {};
   /// Makes ball(r, n). Without it, balls are refused.
-  std::function<Polyhedron(const Rational& radius, const Rational& splits)> ball = {};
+  std::function<Polyhedron(const Rational& radius, const Rational& splits, const Monitor& monitor)> ball = {};
   /// Makes the hull of a set that is not bounded. Without it, such hulls are refused.
-  std::function<Polyhedron(const Polyhedron& unbounded)> hull = {};
+  std::function<Polyhedron(const Polyhedron& unbounded, const Monitor& monitor)> hull = {};
   /// For Booleans (0: as many as the machine has); the set is the same for any number.
   unsigned threads = 1;
+  Monitor monitor = {};  ///< who watches; what it refers to must outlive the call
 };
 
 /// The set that `text` describes. The whole text is parsed before anything is computed. Throws
@@ -70,7 +73,7 @@ struct ExpressionOptions {
 Polyhedron evaluate_expression(std::string_view text, const ExpressionOptions& options = {});
 
 /// The closed convex hull of the union of sets. Throws InputError if one is unbounded. O(n log n) expected.
-Polyhedron convex_hull_of_sets(std::span<const Polyhedron> sets);
+Polyhedron convex_hull_of_sets(std::span<const Polyhedron> sets, const Monitor& monitor = {});
 
 /// The affine map given by 12 or 16 numbers, the rows of a 3x4 or 4x4 matrix. A 4x4 matrix must
 /// have the last row 0,0,0,w with w other than 0. Throws InputError.

@@ -57,13 +57,16 @@ class ModelEvaluator {
     if (name == "hull") return hull(node);
     if (name == "minkowski") return minkowski(node);
     if (name == "cube") return cube(node);
-    if (name == "sphere") return {3, make_sphere(number(node, "r", 0, 1), corners(node, number(node, "r", 0, 1)))};
+    if (name == "sphere") {
+      const Rational r = number(node, "r", 0, 1);
+      return {3, make_sphere(r, corners(node, r), options_.monitor)};
+    }
     if (name == "cylinder") return cylinder(node);
     if (name == "polyhedron") return polyhedron(node);
     if (name == "square") return square(node);
     if (name == "circle") {
       const Rational r = number(node, "r", 0, 1);
-      return {2, make_cylinder(1, r, r, corners(node, r))};
+      return {2, make_cylinder(1, r, r, corners(node, r), options_.monitor)};
     }
     if (name == "polygon") return polygon(node);
     if (name == "linear_extrude") return linear_extrude(node);
@@ -168,26 +171,27 @@ class ModelEvaluator {
   [[nodiscard]] Shape united(const OpenScadNode& node) const {
     const std::vector<Shape> shapes = children(node);
     if (shapes.size() == 1) return shapes[0];
-    return {dimension_of(shapes), unite_all(sets_of(shapes), options_.threads)};
+    return {dimension_of(shapes), unite_all(sets_of(shapes), options_.threads, options_.monitor)};
   }
 
   [[nodiscard]] Shape difference(const OpenScadNode& node) const {
     const std::vector<Shape> shapes = children(node);
     if (shapes.empty() || shapes[0].dimension == 0) return {};
     const std::vector<Polyhedron> sets = sets_of(shapes);
-    return {shapes[0].dimension,
-            regularize(subtract(sets[0], unite_all(std::span(sets).subspan(1), options_.threads)))};
+    const Polyhedron rest = unite_all(std::span(sets).subspan(1), options_.threads, options_.monitor);
+    return {shapes[0].dimension, regularize(subtract(sets[0], rest, 1, options_.monitor), options_.monitor)};
   }
 
   [[nodiscard]] Shape intersection(const OpenScadNode& node) const {
     const std::vector<Shape> shapes = children(node);
     if (shapes.empty()) return {};
-    return {dimension_of(shapes), regularize(intersect_all(sets_of(shapes), options_.threads))};
+    const Polyhedron common = intersect_all(sets_of(shapes), options_.threads, options_.monitor);
+    return {dimension_of(shapes), regularize(common, options_.monitor)};
   }
 
   [[nodiscard]] Shape hull(const OpenScadNode& node) const {
     const std::vector<Shape> shapes = children(node);
-    return {dimension_of(shapes), convex_hull_of_sets(sets_of(shapes))};
+    return {dimension_of(shapes), convex_hull_of_sets(sets_of(shapes), options_.monitor)};
   }
 
   [[nodiscard]] Shape minkowski(const OpenScadNode& node) const {
@@ -197,8 +201,10 @@ class ModelEvaluator {
     if (shapes.empty()) return {};
     Shape result = shapes[0];
     for (std::size_t i = 1; i < shapes.size(); ++i) {
-      result.set = regularize(options_.minkowski(result.set, shapes[i].set));
-      if (result.dimension == 2) result.set = transform(result.set, AffineMap::scale({1, 1, Rational(1, 2)}));
+      const Polyhedron sum = options_.minkowski(result.set, shapes[i].set, options_.monitor);
+      result.set = regularize(sum, options_.monitor);
+      if (result.dimension != 2) continue;
+      result.set = transform(result.set, AffineMap::scale({1, 1, Rational(1, 2)}), options_.monitor);
     }
     return result;
   }
@@ -215,30 +221,30 @@ class ModelEvaluator {
       map.linear[2] = {0, 0, 1};
       map.linear[0][2] = map.linear[1][2] = map.translation[2] = 0;
     }
-    return {shape.dimension, transform(shape.set, map)};
+    return {shape.dimension, transform(shape.set, map, options_.monitor)};
   }
 
   // Solids.
 
-  static Shape cube(const OpenScadNode& node) {
+  [[nodiscard]] Shape cube(const OpenScadNode& node) const {
     const std::vector<Rational> s = sizes(node, 3);
     if (s[0] <= 0 || s[1] <= 0 || s[2] <= 0) return {};
-    const Polyhedron box = make_box({0, 0, 0}, {s[0], s[1], s[2]});
+    const Polyhedron box = make_box({0, 0, 0}, {s[0], s[1], s[2]}, options_.monitor);
     if (!flag(node, "center", 1)) return {3, box};
-    return {3, transform(box, AffineMap::translate({-s[0] / 2, -s[1] / 2, -s[2] / 2}))};
+    return {3, transform(box, AffineMap::translate({-s[0] / 2, -s[1] / 2, -s[2] / 2}), options_.monitor)};
   }
 
-  static Shape cylinder(const OpenScadNode& node) {
+  [[nodiscard]] Shape cylinder(const OpenScadNode& node) const {
     const Rational height = number(node, "h", 0, 1);
     const Rational both = number(node, "r", static_cast<std::size_t>(-1), 1);
     const Rational bottom = number(node, "r1", 1, both);
     const Rational top = number(node, "r2", 2, both);
-    const Polyhedron set = make_cylinder(height, bottom, top, corners(node, std::max(bottom, top)));
+    const Polyhedron set = make_cylinder(height, bottom, top, corners(node, std::max(bottom, top)), options_.monitor);
     if (!flag(node, "center", 3)) return {3, set};
-    return {3, transform(set, AffineMap::translate({0, 0, -height / 2}))};
+    return {3, transform(set, AffineMap::translate({0, 0, -height / 2}), options_.monitor)};
   }
 
-  static Shape polyhedron(const OpenScadNode& node) {
+  [[nodiscard]] Shape polyhedron(const OpenScadNode& node) const {
     Mesh mesh;
     for (const OpenScadValue& point : list(node, "points", 0)) {
       const std::vector<Rational> p = numbers(point, 3);
@@ -250,7 +256,7 @@ class ModelEvaluator {
       if (corners.size() >= 3) mesh.push_face(corners);
     }
     if (mesh.face_count() == 0) return {};
-    return {3, from_mesh(mesh)};
+    return {3, from_mesh(mesh, {.monitor = options_.monitor})};
   }
 
   [[nodiscard]] Shape import(const OpenScadNode& node) const {
@@ -258,20 +264,20 @@ class ModelEvaluator {
     const std::string* path = file == nullptr ? nullptr : std::get_if<std::string>(&file->is);
     if (path == nullptr || path->empty()) throw InputError("the name of the file is missing");
     if (!options_.load) throw InputError("files cannot be read here");
-    return {3, options_.load(*path)};
+    return {3, options_.load(*path, options_.monitor)};
   }
 
   // What is flat.
 
-  static Shape square(const OpenScadNode& node) {
+  [[nodiscard]] Shape square(const OpenScadNode& node) const {
     const std::vector<Rational> s = sizes(node, 2);
     if (s[0] <= 0 || s[1] <= 0) return {};
-    const Polyhedron box = make_box({0, 0, 0}, {s[0], s[1], 1});
+    const Polyhedron box = make_box({0, 0, 0}, {s[0], s[1], 1}, options_.monitor);
     if (!flag(node, "center", 1)) return {2, box};
-    return {2, transform(box, AffineMap::translate({-s[0] / 2, -s[1] / 2, 0}))};
+    return {2, transform(box, AffineMap::translate({-s[0] / 2, -s[1] / 2, 0}), options_.monitor)};
   }
 
-  static Polyhedron prism(const std::vector<Point2>& ring) {
+  [[nodiscard]] Polyhedron prism(const std::vector<Point2>& ring) const {
     Mesh mesh;
     const auto n = static_cast<std::uint32_t>(ring.size());
     std::vector<std::uint32_t> bottom;
@@ -286,10 +292,11 @@ class ModelEvaluator {
     }
     mesh.push_face(bottom);
     mesh.push_face(top);
-    return from_mesh(mesh);  // inside out if the ring runs clockwise, which is mended
+    // Inside out if the ring runs clockwise, which is mended.
+    return from_mesh(mesh, {.monitor = options_.monitor});
   }
 
-  static Shape polygon(const OpenScadNode& node) {
+  [[nodiscard]] Shape polygon(const OpenScadNode& node) const {
     std::vector<Point2> points;
     for (const OpenScadValue& point : list(node, "points", 0)) {
       const std::vector<Rational> p = numbers(point, 2);
@@ -306,16 +313,16 @@ class ModelEvaluator {
     }
     Polyhedron region;
     for (const std::vector<Point2>& ring : rings) {
-      if (ring.size() >= 3) region = symmetric_difference(region, prism(ring));
+      if (ring.size() >= 3) region = symmetric_difference(region, prism(ring), 1, options_.monitor);
     }
-    return {2, regularize(region)};
+    return {2, regularize(region, options_.monitor)};
   }
 
   // The triangles of a flat shape.
-  static std::vector<std::array<Point2, 3>> triangles(const Polyhedron& set) {
+  [[nodiscard]] std::vector<std::array<Point2, 3>> triangles(const Polyhedron& set) const {
     MeshExportOptions options;
     options.keep_polygons = false;
-    const Mesh mesh = to_mesh(set, options).mesh;
+    const Mesh mesh = to_mesh(set, options, options_.monitor).mesh;
     std::vector<std::array<Point2, 3>> result;
     for (std::size_t f = 0; f < mesh.face_count(); ++f) {
       const auto face = mesh.face(f);
@@ -347,7 +354,7 @@ class ModelEvaluator {
     if (height <= 0 || scale < 0 || flat.is_empty()) return {};
     Polyhedron set;
     if (scale == 1) {
-      set = transform(flat, AffineMap::scale({1, 1, height}));
+      set = transform(flat, AffineMap::scale({1, 1, height}), options_.monitor);
     } else {
       std::vector<Polyhedron> pieces;
       for (const auto& triangle : triangles(flat)) {
@@ -356,12 +363,12 @@ class ModelEvaluator {
           points.push_back({p[0], p[1], 0});
           points.push_back({p[0] * scale, p[1] * scale, height});
         }
-        pieces.push_back(convex_hull(points));
+        pieces.push_back(convex_hull(points, options_.monitor));
       }
-      set = unite_all(pieces, options_.threads);
+      set = unite_all(pieces, options_.threads, options_.monitor);
     }
     if (!flag(node, "center", static_cast<std::size_t>(-1))) return {3, set};
-    return {3, transform(set, AffineMap::translate({0, 0, -height / 2}))};
+    return {3, transform(set, AffineMap::translate({0, 0, -height / 2}), options_.monitor)};
   }
 
   // The polygon's x goes around the z axis, its y becomes z. A whole turn begins in the direction of -x, a part of one
@@ -388,10 +395,10 @@ class ModelEvaluator {
         for (const auto& [cosine, sine] : {directions[i], directions[i + 1]}) {
           for (const Point2& p : triangle) points.push_back({p[0] * cosine, p[0] * sine, p[1]});
         }
-        wedges.push_back(convex_hull(points));
+        wedges.push_back(convex_hull(points, options_.monitor));
       }
     }
-    return {3, unite_all(wedges, options_.threads)};
+    return {3, unite_all(wedges, options_.threads, options_.monitor)};
   }
 
   static std::vector<std::array<Rational, 2>> directions_around(const Rational& angle, unsigned fragments) {
@@ -418,7 +425,8 @@ class ModelEvaluator {
 
 Polyhedron evaluate_openscad(std::string_view text, const ExpressionOptions& options) {
   const Shape shape = ModelEvaluator(options)(parse_openscad(text));
-  return shape.dimension == 2 ? intersect(shape.set, make_halfspace(0, 0, 1, 0)) : shape.set;
+  if (shape.dimension != 2) return shape.set;
+  return intersect(shape.set, make_halfspace(0, 0, 1, 0, true, options.monitor), 1, options.monitor);
 }
 
 }  // namespace nef

@@ -114,10 +114,10 @@ constexpr std::size_t kFacets = 4096;  // of a task
 
 // over(facets) for all facets, some thousands at a time: the sums do not depend on the threads.
 template <typename Over>
-Sums summed(const Complex& c, unsigned threads, const Over& over) {
+Sums summed(const Complex& c, unsigned threads, const Monitor& monitor, const Over& over) {
   const std::size_t facets = c.facets.size();
   std::vector<Sums> sums((facets + kFacets - 1) / kFacets);
-  parallel_for(sums.size(), threads, [&](std::size_t task) {
+  parallel_for(sums.size(), threads, monitor, [&](std::size_t task, const Monitor&) {
     const std::size_t first = task * kFacets;
     sums[task] = over(IdRange(FacetId{first}, FacetId{std::min(first + kFacets, facets)}));
   });
@@ -130,20 +130,20 @@ Sums summed(const Complex& c, unsigned threads, const Over& over) {
 
 }  // namespace
 
-MeasuredVolume approximate_volume(const Polyhedron& bounded, unsigned threads) {
+MeasuredVolume approximate_volume(const Polyhedron& bounded, unsigned threads, const Monitor& monitor) {
   const Complex& c = bounded.complex();
   if (c.vertex_count() == 0) return {};
   // Relative to a point of the set: little is lost by cancellation.
   const Double3 origin = c.points.approximate(PointId(0U));
   const double e = error_of_differences(c);
-  const Sums sums = summed(c, threads, [&](IdRange<FacetId> some) { return sums_over(c, some, origin, e); });
+  const Sums sums = summed(c, threads, monitor, [&](IdRange<FacetId> some) { return sums_over(c, some, origin, e); });
   return {sums.value / 6, sums.error / 6};
 }
 
-MeasuredArea approximate_area(const Polyhedron& bounded, unsigned threads) {
+MeasuredArea approximate_area(const Polyhedron& bounded, unsigned threads, const Monitor& monitor) {
   const Complex& c = bounded.complex();
   const double e = error_of_differences(c);
-  const Sums sums = summed(c, threads, [&](IdRange<FacetId> some) { return areas_over(c, some, e); });
+  const Sums sums = summed(c, threads, monitor, [&](IdRange<FacetId> some) { return areas_over(c, some, e); });
   return {sums.value, sums.error};
 }
 

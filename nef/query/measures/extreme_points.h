@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 
+#include "nef/base/monitor.h"
 #include "nef/geometry/point_table.h"
 #include "nef/geometry/predicates.h"
 
@@ -13,7 +14,7 @@ namespace nef {
 class ExtremePoints {
  public:
   /// The table must outlive it.
-  explicit ExtremePoints(const PointTable& points) : points_(points) {}
+  ExtremePoints(const PointTable& points, const Monitor& monitor) : points_(points), monitor_(monitor) {}
 
   /// A finite point.
   void add(PointId point) {
@@ -21,7 +22,9 @@ class ExtremePoints {
       for (std::size_t end = 0; end < 2; ++end) {
         PointId& best = extreme_[end][axis];
         const int wanted = end == 0 ? -1 : 1;
-        if (!best.valid() || compare_coordinate(points_, point, best, static_cast<int>(axis)) == wanted) best = point;
+        if (!best.valid() || compare_coordinate(points_, point, best, static_cast<int>(axis), monitor_) == wanted) {
+          best = point;
+        }
       }
     }
   }
@@ -38,6 +41,7 @@ class ExtremePoints {
 
  private:
   const PointTable& points_;
+  Monitor monitor_;
   std::array<std::array<PointId, 3>, 2> extreme_;  // the points with the least coordinates, and with the greatest
 };
 

@@ -5,7 +5,6 @@
 #include <thread>
 
 #include "nef/base/error.h"
-#include "nef/base/interruption.h"
 #include "nef/base/threads/parallel.h"
 #include "nef/complex/local_pyramid.h"
 #include "nef/complex/owners.h"
@@ -46,11 +45,12 @@ PlaneTable own_planes(const PlaneTable& all, Complex& piece, std::vector<std::ui
 // cross it.
 class Cutter::Halves {
  public:
-  Halves(const Complex& piece, PlaneTable& planes, PlaneId plane, SphereOverlay& overlay)
+  Halves(const Complex& piece, PlaneTable& planes, PlaneId plane, SphereOverlay& overlay, const Monitor& monitor)
       : c_(piece),
         planes_(planes),
         plane_(plane),
         overlay_(overlay),
+        monitor_(monitor),
         side_(piece.vertex_count()),
         shift_(piece.vertex_count(), 0) {
     beyond_[0].assign_circle(plane, 0, kOutside, 0);
@@ -59,7 +59,7 @@ class Cutter::Halves {
 
   Sides<Complex> run() {
     for (const VertexId v : side_.ids())
-      side_[v] = static_cast<std::int8_t>(side_of_plane(planes_, plane_, c_.points, point_of(v)));
+      side_[v] = static_cast<std::int8_t>(side_of_plane(planes_, plane_, c_.points, point_of(v), monitor_));
     for (VertexId v{0}; v < side_.end_id();) {
       VertexId end = v.next();
       while (end < side_.end_id() && side_[end] == side_[v]) ++end;
@@ -67,7 +67,7 @@ class Cutter::Halves {
       v = end;
     }
     for (std::size_t x = 0; x < 2; ++x) {
-      builder_[x].copy(copies_[x], 1);
+      builder_[x].copy(copies_[x], 1, monitor_);
       copies_[x] = {};
     }
     for (const VertexId v : side_.ids()) {
@@ -101,7 +101,7 @@ class Cutter::Halves {
 
   void add_both(const PointTable& points, PointId point, const SphereMapView& map) {
     for (std::size_t x = 0; x < 2; ++x) {
-      overlay_.overlay(planes_, map, beyond_[x].view(), keep_, half_);
+      overlay_.overlay(planes_, map, beyond_[x].view(), keep_, half_, monitor_);
       if (builder_[x].add(points, point, half_.view())) runs_[x].push_back({false, VertexId(), 1});
     }
   }
@@ -153,7 +153,7 @@ class Cutter::Halves {
       known.twin[halfedge] = end.svertex;
     }
     std::swap(half.planes, planes_);
-    link_edges(half, known);
+    link_edges(half, known, monitor_);
     std::swap(half.planes, planes_);
     return half;
   }
@@ -180,6 +180,7 @@ class Cutter::Halves {
   PlaneTable& planes_;
   PlaneId plane_;
   SphereOverlay& overlay_;
+  Monitor monitor_;
   LabelFunction keep_{kMarks, 1, [](LabelId mark, LabelId) { return mark; }};
   Sides<SphereMapBuffer> beyond_;                 // kOutside there
   IndexedVector<VertexId, std::int8_t> side_;     // of each vertex
@@ -190,17 +191,17 @@ class Cutter::Halves {
   Sides<std::vector<End>> ends_;
   IndexedVector<VertexId, std::uint8_t> unlinked_;  // ends of edges that cross the plane and are in no list of ends
   PointTable crossing_;                             // one
-  Sides<ComplexBuilder> builder_{ComplexBuilder{planes_}, ComplexBuilder{planes_}};
+  Sides<ComplexBuilder> builder_{ComplexBuilder{planes_, monitor_}, ComplexBuilder{planes_, monitor_}};
   SphereMapBuffer half_;
   SphereMapBuffer pyramid_;
 };
 
 Complex Cutter::loose(const Complex& complex) {
-  ComplexBuilder builder(planes_);
+  ComplexBuilder builder(planes_, monitor_);
   builder.copy(complex);
   IndexedVector<HalfedgeId, HalfedgeId> twin = complex.twin;
   if (!complex.has_box()) {
-    const Complex corners = infimaximal_corners(complex.volumes[kOuterVolume].mark);
+    const Complex corners = infimaximal_corners(complex.volumes[kOuterVolume].mark, monitor_);
     std::vector<std::uint32_t> rows;
     for (std::uint32_t row = 0; row < corners.planes.size(); ++row) {
       rows.push_back(planes_.intern_from(corners.planes, PlaneId{row << 1U}).row());
@@ -216,8 +217,8 @@ Complex Cutter::loose(const Complex& complex) {
 }
 
 std::array<Complex, 2> Cutter::cut(const Complex& piece, const AxisPlane& plane) {
-  check_interruption();
-  return Halves(piece, planes_, plane.intern(planes_), overlay_).run();
+  monitor_.check_interruption();
+  return Halves(piece, planes_, plane.intern(planes_), overlay_, monitor_).run();
 }
 
 Complex Cutter::restricted(Complex&& piece, const Region& region) {
@@ -232,7 +233,7 @@ Complex Cutter::linked(Complex&& piece) {
   PlaneTable planes = own_planes(planes_, piece, row_);
   KnownLinks known;
   known.twin = std::move(piece.twin);
-  ComplexBuilder builder(planes);
+  ComplexBuilder builder(planes, monitor_);
   builder.take_vertices(std::move(piece));
   return builder.finish(kOutside, std::move(known));
 }
@@ -296,15 +297,16 @@ std::vector<Part> first_parts(Cutter& cutter, Complex&& piece, std::size_t enoug
   return parts;
 }
 
-TileRef subdivided_in_parallel(Cutter& cutter, Complex&& piece, const Tiling& tiling, unsigned threads) {
+TileRef subdivided_in_parallel(Cutter& cutter, Complex&& piece, const Tiling& tiling, unsigned threads,
+                               const Monitor& monitor) {
   constexpr std::size_t kPartsPerThread = 4;
   const std::size_t workers = threads == 0 ? std::max(1U, std::thread::hardware_concurrency()) : threads;
   std::vector<Part> parts = first_parts(cutter, std::move(piece), kPartsPerThread * workers);
-  parallel_for(parts.size(), threads, [&](std::size_t i) {
+  parallel_for(parts.size(), threads, monitor, [&](std::size_t i, const Monitor& own) {
     if (parts[i].halved) return;
     std::vector<std::uint32_t> row;
-    Cutter own(own_planes(cutter.planes(), parts[i].piece, row), tiling);
-    parts[i].tree = own.subdivide(std::move(parts[i].piece));
+    Cutter of_part(own_planes(cutter.planes(), parts[i].piece, row), tiling, own);
+    parts[i].tree = of_part.subdivide(std::move(parts[i].piece));
   });
   for (std::size_t i = parts.size(); i-- > 0;) {
     Part& part = parts[i];
@@ -315,33 +317,34 @@ TileRef subdivided_in_parallel(Cutter& cutter, Complex&& piece, const Tiling& ti
 
 }  // namespace
 
-TileRef subdivided(const Polyhedron& set, const Tiling& tiling, unsigned threads) {
+TileRef subdivided(const Polyhedron& set, const Tiling& tiling, unsigned threads, const Monitor& monitor) {
   const Complex& complex = set.complex();
   if (complex.vertex_count() <= tiling.limit) return tile_leaf(set, tiling.store);
-  Cutter cutter(complex.planes, tiling);
+  Cutter cutter(complex.planes, tiling, monitor);
   Complex piece = cutter.loose(complex);
   TileRef tree = threads == 1 ? cutter.subdivide(std::move(piece))
-                              : subdivided_in_parallel(cutter, std::move(piece), tiling, threads);
+                              : subdivided_in_parallel(cutter, std::move(piece), tiling, threads, monitor);
   return tree.node->kind == TileNode::Kind::kTile ? tile_leaf(set, tiling.store) : tree;
 }
 
-TileRef fully_cut(const TileRef& tree, const Tiling& tiling) {
+TileRef fully_cut(const TileRef& tree, const Tiling& tiling, const Monitor& monitor) {
   TileRef result = tree;
   if (tree.node->kind == TileNode::Kind::kTile && tree.node->uncut) {
-    result = subdivided(tree.node->set(), tiling, tiling.threads);
+    result = subdivided(tree.node->set(), tiling, tiling.threads, monitor);
     if (tree.complemented) result = result.complement();
   } else if (tree.node->kind == TileNode::Kind::kCut) {
     const std::array<TileRef, 2> old = children(tree);
-    const std::array<TileRef, 2> cut{fully_cut(old[0], tiling), fully_cut(old[1], tiling)};
+    const std::array<TileRef, 2> cut{fully_cut(old[0], tiling, monitor), fully_cut(old[1], tiling, monitor)};
     if (cut != old) result = cut_node(tree.node->plane, cut[0], cut[1]);
   }
   return result;
 }
 
-std::array<TileRef, 2> cut_leaf(const TileRef& leaf, const AxisPlane& plane, const Tiling& tiling) {
+std::array<TileRef, 2> cut_leaf(const TileRef& leaf, const AxisPlane& plane, const Tiling& tiling,
+                                const Monitor& monitor) {
   const Polyhedron set = leaf.node->set();
   const Complex& complex = set.complex();
-  Cutter cutter(complex.planes, tiling);
+  Cutter cutter(complex.planes, tiling, monitor);
   std::array<Complex, 2> halves = cutter.cut(cutter.loose(complex), plane);
   std::array<TileRef, 2> result;
   for (std::size_t x = 0; x < 2; ++x) {

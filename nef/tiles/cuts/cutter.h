@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/sphere_map/overlay.h"
 #include "nef/tiles/tile_tree.h"
 #include "nef/tiles/tiling.h"
@@ -20,7 +21,8 @@ class Cutter {
   static constexpr LabelId kMarks = 3;  ///< those of oriented surfaces
 
   /// A tile of more vertices than the limit is cut further.
-  Cutter(PlaneTable planes, const Tiling& tiling) : planes_(std::move(planes)), tiling_(tiling) {}
+  Cutter(PlaneTable planes, const Tiling& tiling, const Monitor& monitor)
+      : planes_(std::move(planes)), tiling_(tiling), monitor_(monitor) {}
 
   [[nodiscard]] const PlaneTable& planes() const { return planes_; }
 
@@ -55,18 +57,20 @@ class Cutter {
 
   PlaneTable planes_;
   const Tiling& tiling_;
+  Monitor monitor_;
   SphereOverlay overlay_;
   std::vector<std::uint32_t> row_;  // scratch of linked()
 };
 
 /// A set in its region as a tree of tiles of at most tiling.limit vertices, where planes can separate them, on up to
 /// `threads` threads. O(n log n).
-TileRef subdivided(const Polyhedron& set, const Tiling& tiling, unsigned threads = 1);
+TileRef subdivided(const Polyhedron& set, const Tiling& tiling, unsigned threads, const Monitor& monitor);
 
 /// A tree with its uncut leaves cut as subdivided() does.
-TileRef fully_cut(const TileRef& tree, const Tiling& tiling);
+TileRef fully_cut(const TileRef& tree, const Tiling& tiling, const Monitor& monitor);
 
 /// The parts of a leaf that is no uniform one on both sides of a plane through its region.
-std::array<TileRef, 2> cut_leaf(const TileRef& leaf, const AxisPlane& plane, const Tiling& tiling);
+std::array<TileRef, 2> cut_leaf(const TileRef& leaf, const AxisPlane& plane, const Tiling& tiling,
+                                const Monitor& monitor);
 
 }  // namespace nef

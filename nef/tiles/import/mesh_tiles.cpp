@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "nef/base/error.h"
-#include "nef/base/progress.h"
 #include "nef/base/threads/parallel.h"
 #include "nef/import/mesh_faces.h"
 #include "nef/mesh/mesh_check.h"
@@ -33,18 +32,18 @@ class MeshTiler {
   }
 
   // Nothing if the triangles contradict each other.
-  std::optional<TileRef> run(std::size_t most) {
+  std::optional<TileRef> run(std::size_t most, const Monitor& monitor) {
     RegionDivision division(
         static_cast<std::uint32_t>(triangles_.size()),
         [this](std::uint32_t t, std::size_t axis) { return extent(t, axis); }, most);
     std::vector<TileRef> trees(division.parts().size());
     std::atomic<std::size_t> done = 0;
-    parallel_for(trees.size(), tiling_.threads, [&](std::size_t i) {
+    parallel_for(trees.size(), tiling_.threads, monitor, [&](std::size_t i, const Monitor& own) {
       const Mesh faces = part(division.take_items(i));
       const Region& region = division.parts()[i].region;
       trees[i] =
-          solid_in_region(faces, region, tiling_, [&] { return inside(inner_point(region)); }).value_or(TileRef{});
-      tell_progress("pieces of the mesh", ++done, trees.size());
+          solid_in_region(faces, region, tiling_, own, [&] { return inside(inner_point(region)); }).value_or(TileRef{});
+      own.tell_progress("pieces of the mesh", ++done, trees.size());
     });
     const bool whole = std::all_of(trees.begin(), trees.end(), [](const TileRef& t) { return t.node != nullptr; });
     return whole ? std::optional(division.tree(trees)) : std::nullopt;
@@ -135,9 +134,10 @@ class MeshTiler {
 };
 
 // What is wrong with the mesh, but for what tiles can be made in spite of; each kind once.
-bool is_plain(const Mesh& mesh, const MeshSurface& surface, bool& inside_out) {
-  tell_progress("self-intersections", 0, 0);
-  for (const MeshProblem& problem : check_mesh(mesh, surface, {.max_per_kind = 1, .self_intersections = true})) {
+bool is_plain(const Mesh& mesh, const MeshSurface& surface, bool& inside_out, const Monitor& monitor) {
+  monitor.tell_progress("self-intersections", 0, 0);
+  for (const MeshProblem& problem :
+       check_mesh(mesh, surface, {.max_per_kind = 1, .self_intersections = true}, monitor)) {
     inside_out = inside_out || problem.kind == MeshProblemKind::kInsideOut;
     switch (problem.kind) {
       case MeshProblemKind::kNonPlanarFace:
@@ -163,14 +163,14 @@ void note_triangulated(const Mesh& mesh, const MeshSurface& surface, Messages& n
 
 TiledPolyhedron tiles_from_mesh(const Mesh& mesh, const MeshOptions& options, const Tiling& tiling, Messages* messages,
                                 std::size_t piece) {
-  const auto whole = [&] { return TiledPolyhedron(from_mesh(mesh, options, messages), tiling); };
+  const auto whole = [&] { return TiledPolyhedron(from_mesh(mesh, options, messages), tiling, options.monitor); };
   if (mesh.face_count() < piece || options.as_surface || options.strict) return whole();
   Messages notes;
   std::vector<Triangle> triangles;
   bool inside_out = false;
   {
-    const MeshSurface surface(mesh);
-    if (!is_plain(mesh, surface, inside_out)) return whole();
+    const MeshSurface surface(mesh, options.monitor);
+    if (!is_plain(mesh, surface, inside_out, options.monitor)) return whole();
     note_triangulated(mesh, surface, notes);
     triangles = surface.triangles;
   }
@@ -178,7 +178,7 @@ TiledPolyhedron tiles_from_mesh(const Mesh& mesh, const MeshOptions& options, co
     for (Triangle& t : triangles) std::swap(t[1], t[2]);
     notes.emplace_back(kTurnedOver);
   }
-  const std::optional<TileRef> tree = MeshTiler(mesh, std::move(triangles), tiling).run(piece);
+  const std::optional<TileRef> tree = MeshTiler(mesh, std::move(triangles), tiling).run(piece, options.monitor);
   if (!tree) return whole();  // which tells what is wrong
   if (messages != nullptr) messages->insert(messages->end(), notes.begin(), notes.end());
   return {*tree, tiling};

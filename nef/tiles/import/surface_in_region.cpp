@@ -24,7 +24,9 @@ constexpr LabelId kTurnedUp = 1;
 
 class RegionFiller {
  public:
-  explicit RegionFiller(Complex&& complex) : c_(std::move(complex)) { everything_.assign_trivial(0); }
+  RegionFiller(Complex&& complex, const Monitor& monitor) : c_(std::move(complex)), monitor_(monitor) {
+    everything_.assign_trivial(0);
+  }
 
   // Finds which volumes are inside; false if facets contradict each other. A region that facets divide has one beside
   // each volume; what only touches its walls does not divide it.
@@ -114,7 +116,7 @@ class RegionFiller {
       if (!in_wall) continue;
       const SphereMapView simple = simplified(map);
       if (simple.svertices.size() != map.svertices.size() || simple.shalfedges.size() != map.shalfedges.size() ||
-          simple.sloops.size() != map.sloops.size() || !is_vertex(c_.planes, simple)) {
+          simple.sloops.size() != map.sloops.size() || !is_vertex(c_.planes, simple, monitor_)) {
         return true;
       }
     }
@@ -123,13 +125,13 @@ class RegionFiller {
 
   // Valid until the next call.
   SphereMapView simplified(const SphereMapView& map) {
-    overlay_.overlay(c_.planes, map, everything_.view(), keep_, simple_);
+    overlay_.overlay(c_.planes, map, everything_.view(), keep_, simple_, monitor_);
     return simple_.view();
   }
 
   Complex simplified() {
     PlaneTable planes = c_.planes;
-    ComplexBuilder builder(planes);
+    ComplexBuilder builder(planes, monitor_);
     for (const VertexId v : c_.vertex_ids()) {
       builder.add(c_.points, point_of(v), simplified(c_.sphere_map(v)));
     }
@@ -137,6 +139,7 @@ class RegionFiller {
   }
 
   Complex c_;
+  Monitor monitor_;
   IndexedVector<VolumeId, LabelId> inside_;
   SphereOverlay overlay_;
   LabelFunction keep_{2, 1, [](LabelId x, LabelId) { return x; }};
@@ -147,16 +150,16 @@ class RegionFiller {
 }  // namespace
 
 std::optional<TileRef> solid_in_region(const Mesh& faces, const Region& region, const Tiling& tiling,
-                                       const std::function<bool()>& inside) {
+                                       const Monitor& monitor, const std::function<bool()>& inside) {
   if (faces.face_count() == 0) return uniform_leaf(inside() ? 1 : 0);
-  const MeshSurface surface(faces);
-  Complex whole = MeshFaces(faces, surface, {}, nullptr).oriented_surface();
-  Cutter cutter(whole.planes, tiling);
+  const MeshSurface surface(faces, monitor);
+  Complex whole = MeshFaces(faces, surface, {.monitor = monitor}, nullptr).oriented_surface();
+  Cutter cutter(whole.planes, tiling, monitor);
   Complex piece = cutter.loose(whole);
   whole = Complex();
-  RegionFiller filler(cutter.linked(cutter.restricted(std::move(piece), region)));
+  RegionFiller filler(cutter.linked(cutter.restricted(std::move(piece), region)), monitor);
   if (!filler.find_sides(inside)) return std::nullopt;
-  return subdivided(Polyhedron(filler.fill()), tiling);
+  return subdivided(Polyhedron(filler.fill()), tiling, 1, monitor);
 }
 
 }  // namespace nef

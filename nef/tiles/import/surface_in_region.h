@@ -15,6 +15,6 @@ namespace nef {
 /// interior of the region is in the solid; it is asked if no face divides it. Nothing if the faces do not separate
 /// inside from outside. O(n log n).
 std::optional<TileRef> solid_in_region(const Mesh& faces, const Region& region, const Tiling& tiling,
-                                       const std::function<bool()>& inside);
+                                       const Monitor& monitor, const std::function<bool()>& inside);
 
 }  // namespace nef

@@ -6,7 +6,6 @@
 #include <limits>
 #include <utility>
 
-#include "nef/base/progress.h"
 #include "nef/base/threads/parallel.h"
 #include "nef/tiles/cuts/cutter.h"
 
@@ -39,12 +38,13 @@ RegionalUnion::RegionalUnion(std::vector<Box> boxes, std::size_t most)
           static_cast<std::uint32_t>(boxes_.size()),
           [this](std::uint32_t piece, std::size_t axis) { return extent(boxes_[piece], axis); }, most) {}
 
-TileRef RegionalUnion::unite_in(std::size_t region, std::vector<Polyhedron>&& sets, const Tiling& tiling) const {
-  const Polyhedron all = in_two_marks(unite_all(std::exchange(sets, {})));
+TileRef RegionalUnion::unite_in(std::size_t region, std::vector<Polyhedron>&& sets, const Tiling& tiling,
+                                const Monitor& monitor) const {
+  const Polyhedron all = in_two_marks(unite_all(std::exchange(sets, {}), 1, monitor), monitor);
   const Region& where = division_.parts()[region].region;
-  if (where.unbounded()) return subdivided(all, tiling);
+  if (where.unbounded()) return subdivided(all, tiling, 1, monitor);
   if (all.is_empty() || all.is_everything()) return uniform_leaf(all.is_empty() ? 0 : 1);
-  Cutter cutter(all.complex().planes, tiling);
+  Cutter cutter(all.complex().planes, tiling, monitor);
   return cutter.subdivide(cutter.restricted(cutter.loose(all.complex()), where));
 }
 
@@ -54,28 +54,30 @@ bool RegionalUnion::is_spread() const {
   return met <= 2 * boxes_.size();
 }
 
-RegionalUnion divide_pieces(const PieceSource& pieces, unsigned threads, std::size_t most) {
+RegionalUnion divide_pieces(const PieceSource& pieces, unsigned threads, std::size_t most, const Monitor& monitor) {
   std::vector<Box> boxes(pieces.count);
   std::atomic<std::uint32_t> measured = 0;
-  parallel_for(pieces.count, threads, [&](std::size_t i) {
-    boxes[i] = region_box(union_operand(pieces.set(static_cast<std::uint32_t>(i))));
-    tell_progress_of_item("boxes of the pieces", measured++, pieces.count);
+  parallel_for(pieces.count, threads, monitor, [&](std::size_t i, const Monitor& own) {
+    boxes[i] = region_box(union_operand(pieces.set(static_cast<std::uint32_t>(i), own)));
+    own.tell_progress_of_item("boxes of the pieces", measured++, pieces.count);
   });
   return {std::move(boxes), most};
 }
 
-TiledPolyhedron union_in_tiles(const PieceSource& pieces, const Tiling& tiling, std::size_t most) {
-  return union_in_tiles(pieces, divide_pieces(pieces, tiling.threads, most), tiling);
+TiledPolyhedron union_in_tiles(const PieceSource& pieces, const Tiling& tiling, std::size_t most,
+                               const Monitor& monitor) {
+  return union_in_tiles(pieces, divide_pieces(pieces, tiling.threads, most, monitor), tiling, monitor);
 }
 
-TiledPolyhedron union_in_tiles(const PieceSource& pieces, const RegionalUnion& regions, const Tiling& tiling) {
+TiledPolyhedron union_in_tiles(const PieceSource& pieces, const RegionalUnion& regions, const Tiling& tiling,
+                               const Monitor& monitor) {
   std::vector<TileRef> trees(regions.region_count());
   std::atomic<std::size_t> done = 0;
-  parallel_for(trees.size(), tiling.threads, [&](std::size_t r) {
+  parallel_for(trees.size(), tiling.threads, monitor, [&](std::size_t r, const Monitor& own) {
     std::vector<Polyhedron> sets;
-    for (const std::uint32_t piece : regions.pieces_of(r)) sets.push_back(pieces.set(piece));
-    trees[r] = regions.unite_in(r, std::move(sets), tiling);
-    tell_progress("regions", ++done, trees.size());
+    for (const std::uint32_t piece : regions.pieces_of(r)) sets.push_back(pieces.set(piece, own));
+    trees[r] = regions.unite_in(r, std::move(sets), tiling, own);
+    own.tell_progress("regions", ++done, trees.size());
   });
   return {regions.tree(trees), tiling};
 }

@@ -7,6 +7,7 @@
 #include <functional>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/boolean/union_order.h"
 #include "nef/tiles/cuts/region_division.h"
 #include "nef/tiles/tiled_polyhedron.h"
@@ -19,10 +20,11 @@ inline constexpr std::size_t kSetsForRegions = 1000;
 /// How many sets a region has, if nothing else is said.
 inline constexpr std::size_t kSetsOfARegion = 400;
 
-/// Sets that are made when they are needed, each maybe several times. `set` may be called by several threads at once.
+/// Sets that are made when they are needed, each maybe several times. `set` may be called by several threads at once,
+/// each with a monitor of its own.
 struct PieceSource {
   std::uint32_t count = 0;
-  std::function<Polyhedron(std::uint32_t piece)> set;
+  std::function<Polyhedron(std::uint32_t piece, const Monitor& own)> set;
 };
 
 /// The union of many sets, as work on regions that do not depend on each other.
@@ -42,7 +44,8 @@ class RegionalUnion {
   [[nodiscard]] bool is_spread() const;
 
   /// The union of some sets, among them all of a region, in this region.
-  [[nodiscard]] TileRef unite_in(std::size_t region, std::vector<Polyhedron>&& sets, const Tiling& tiling) const;
+  [[nodiscard]] TileRef unite_in(std::size_t region, std::vector<Polyhedron>&& sets, const Tiling& tiling,
+                                 const Monitor& monitor) const;
 
   /// The whole from its parts, in the order of the regions.
   [[nodiscard]] TileRef tree(std::span<const TileRef> of_regions) const { return division_.tree(of_regions); }
@@ -56,14 +59,16 @@ class RegionalUnion {
 Box region_box(const UnionOperand& piece);
 
 /// The regions for some pieces, each of which is made once, on up to `threads` threads.
-RegionalUnion divide_pieces(const PieceSource& pieces, unsigned threads, std::size_t most = kSetsOfARegion);
+RegionalUnion divide_pieces(const PieceSource& pieces, unsigned threads, std::size_t most = kSetsOfARegion,
+                            const Monitor& monitor = {});
 
 /// The union of all pieces. Regions of at most `most` pieces are made on up to tiling.threads threads; what is in
 /// memory are the pieces of as many regions, and the tiles (see Tiling::store). O(n log n) for pieces that meet few
 /// others.
 TiledPolyhedron union_in_tiles(const PieceSource& pieces, const Tiling& tiling = {.limit = kVerticesOfTileInFile},
-                               std::size_t most = kSetsOfARegion);
+                               std::size_t most = kSetsOfARegion, const Monitor& monitor = {});
 /// The same for pieces that have been divided already.
-TiledPolyhedron union_in_tiles(const PieceSource& pieces, const RegionalUnion& regions, const Tiling& tiling);
+TiledPolyhedron union_in_tiles(const PieceSource& pieces, const RegionalUnion& regions, const Tiling& tiling,
+                               const Monitor& monitor = {});
 
 }  // namespace nef

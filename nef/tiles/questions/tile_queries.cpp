@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "nef/base/interruption.h"
 #include "nef/base/threads/parallel.h"
 #include "nef/complex/local_pyramid.h"
 #include "nef/query/measures/extreme_points.h"
@@ -59,10 +58,10 @@ bool bounded(const Region& region) {
 
 Location PyramidInTiles::location() const {
   const SphereMapView view = map.view();
-  const auto kind = is_vertex(planes, view)   ? Location::Kind::kVertex
-                    : !view.svertices.empty() ? Location::Kind::kEdge
-                    : !view.sloops.empty()    ? Location::Kind::kFacet
-                                              : Location::Kind::kVolume;
+  const auto kind = is_vertex(planes, view, {}) ? Location::Kind::kVertex
+                    : !view.svertices.empty()   ? Location::Kind::kEdge
+                    : !view.sloops.empty()      ? Location::Kind::kFacet
+                                                : Location::Kind::kVolume;
   return {kind, 0, map.mark};
 }
 
@@ -72,11 +71,11 @@ PyramidInTiles pyramid_in_tiles(const TileRef& tree, const Rational3& point) {
   const LabelFunction whichever{LabelFunction::WhicheverIsInside{}};
   result.map.assign_trivial(kOutside);
   for_each_leaf_at(tree, Region{}, point, [&](const TileRef& leaf, const Region& region) {
-    const Polyhedron set = leaf_set(leaf, region);
+    const Polyhedron set = leaf_set(leaf, region, {});
     SphereMapBuffer map = local_pyramid(set, point);
     intern_planes(set.complex().planes, result.planes, map);
     SphereMapBuffer joined;
-    overlay.overlay(result.planes, result.map.view(), map.view(), whichever, joined);
+    overlay.overlay(result.planes, result.map.view(), map.view(), whichever, joined, {});
     result.map = std::move(joined);
   });
   return result;
@@ -116,8 +115,8 @@ std::optional<Rational> volume_of_leaf(const TileRef& leaf, const Polyhedron& se
 }
 
 // Nothing if a vertex lies at infinity.
-std::optional<Corners> box_of_tile(const Complex& c) {
-  ExtremePoints extreme(c.points);
+std::optional<Corners> box_of_tile(const Complex& c, const Monitor& monitor) {
+  ExtremePoints extreme(c.points, monitor);
   BoundaryVertices has_boundary_at(c);
   for (const VertexId v : c.vertex_ids()) {
     if (!has_boundary_at(v)) continue;
@@ -139,7 +138,8 @@ Rational sum_of(std::vector<Rational> parts) {
 
 }  // namespace
 
-ExtentOfTiles extent_of_tiles(const TileRef& tree, bool with_volume, bool with_box, unsigned threads) {
+ExtentOfTiles extent_of_tiles(const TileRef& tree, bool with_volume, bool with_box, unsigned threads,
+                              const Monitor& monitor) {
   std::vector<std::pair<TileRef, Region>> leaves;
   for_each_leaf(tree, Region{},
                 [&leaves](const TileRef& leaf, const Region& region) { leaves.emplace_back(leaf, region); });
@@ -151,8 +151,8 @@ ExtentOfTiles extent_of_tiles(const TileRef& tree, bool with_volume, bool with_b
     std::optional<Corners> box;
   };
   std::vector<Part> parts((leaves.size() + kChunk - 1) / kChunk);
-  parallel_for(parts.size(), threads, [&](std::size_t chunk) {
-    check_interruption();
+  parallel_for(parts.size(), threads, monitor, [&](std::size_t chunk, const Monitor& own) {
+    own.check_interruption();
     Part& part = parts[chunk];
     for (std::size_t i = chunk * kChunk; i < std::min(leaves.size(), (chunk + 1) * kChunk); ++i) {
       const auto& [leaf, region] = leaves[i];
@@ -163,7 +163,7 @@ ExtentOfTiles extent_of_tiles(const TileRef& tree, bool with_volume, bool with_b
         if (!volume) finite = false;
       }
       if (with_box && bounded && leaf.node->kind != Kind::kUniform) {
-        const std::optional<Corners> box = box_of_tile(set.complex());
+        const std::optional<Corners> box = box_of_tile(set.complex(), own);
         if (box) enclose(part.box, *box);
         if (!box) bounded = false;
       }

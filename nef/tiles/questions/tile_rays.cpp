@@ -26,7 +26,7 @@ class RayThroughTiles {
   // The first hit in the region of a subtree.
   std::optional<RayHit> first(const TileRef& at, const Region& region, const Rational3& origin) {
     if (at.node->kind == Kind::kUniform) return std::nullopt;
-    if (at.node->kind == Kind::kTile) return in_tile(leaf_set(at, region), origin);
+    if (at.node->kind == Kind::kTile) return in_tile(leaf_set(at, region, {}), origin);
     const AxisPlane& plane = at.node->plane;
     const auto [low, high] = children(at);
     const int side = cmp(origin[plane.axis], plane.at);

@@ -53,7 +53,7 @@ void HalfRings::turn_around(Path& path) {
 }
 
 bool HalfRings::join(const PlaneTable& planes, std::uint32_t wall, const SphereMapView& one, const SphereMapView& other,
-                     SphereMapBuffer& out) {
+                     SphereMapBuffer& out, const Monitor& monitor) {
   if (!read(one, wall, paths_[0]) || !read(other, wall, paths_[1])) return false;
   if (paths_[1].left != paths_[0].left) turn_around(paths_[1]);
   if (paths_[1].left != paths_[0].left || paths_[1].right != paths_[0].right || one.mark != other.mark) return false;
@@ -73,7 +73,7 @@ bool HalfRings::join(const PlaneTable& planes, std::uint32_t wall, const SphereM
           continue;  // the last arc of the other path goes on as this one
         }
         const int sign = sign_of_dot(Direction::cross(planes, source.p, source.q),
-                                     Direction::cross(planes, arriving.plane, half.plane));
+                                     Direction::cross(planes, arriving.plane, half.plane), monitor);
         source.p = arriving.plane;
         source.q = sign > 0 ? half.plane : half.plane.opposite();
       }

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/sphere_map/sphere_map.h"
 
 namespace nef {
@@ -22,7 +23,7 @@ class HalfRings {
   /// left goes up and one where such a path comes down. O(size of the maps), and the sign of a product where an edge
   /// lies in the wall.
   bool join(const PlaneTable& planes, std::uint32_t wall, const SphereMapView& one, const SphereMapView& other,
-            SphereMapBuffer& out);
+            SphereMapBuffer& out, const Monitor& monitor);
 
  private:
   // The arcs of a path, by shalfedges from its first svertex on, which is in the wall, as is the last one.

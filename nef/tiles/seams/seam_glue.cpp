@@ -13,7 +13,6 @@
 #include <bit>
 
 #include "nef/base/error.h"
-#include "nef/base/interruption.h"
 #include "nef/base/threads/parallel.h"
 #include "nef/complex/facet_plane.h"
 #include "nef/complex/local_pyramid.h"
@@ -31,23 +30,26 @@ namespace {
 
 class SeamGlue {
  public:
-  SeamGlue(const TileRef& tree, const Region& region, unsigned threads) : threads_(threads) {
+  SeamGlue(const TileRef& tree, const Region& region, unsigned threads, const Monitor& monitor)
+      : threads_(threads), monitor_(monitor) {
     root_ = add(tree, region, Walls{});
   }
 
   // Fills what the functions below return.
   void run() {
-    check_interruption();
-    parallel_for(leaves_.size(), threads_,
-                 [this](std::size_t i) { leaves_[i].set = leaf_set(leaves_[i].tree, leaves_[i].region); });
-    name_planes();
-    parallel_for_ranges(leaves_.size(), kTogether, threads_, [this](std::size_t first, std::size_t last) {
-      SeamReader reader;
-      for (std::size_t i = first; i < last; ++i) {
-        Leaf& leaf = leaves_[i];
-        reader.read(leaf.set.complex(), leaf.rows, rows_of_walls(leaf), leaf);
-      }
+    monitor_.check_interruption();
+    parallel_for(leaves_.size(), threads_, monitor_, [this](std::size_t i, const Monitor& own) {
+      leaves_[i].set = leaf_set(leaves_[i].tree, leaves_[i].region, own);
     });
+    name_planes();
+    parallel_for_ranges(leaves_.size(), kTogether, threads_, monitor_,
+                        [this](std::size_t first, std::size_t last, const Monitor&) {
+                          SeamReader reader;
+                          for (std::size_t i = first; i < last; ++i) {
+                            Leaf& leaf = leaves_[i];
+                            reader.read(leaf.set.complex(), leaf.rows, rows_of_walls(leaf), leaf);
+                          }
+                        });
     number_straight_edges();
     number_points();
     find_crossings();
@@ -176,7 +178,7 @@ class SeamGlue {
   // are no other leaves: the edge goes on, and the whole has no vertex there. The point gets a number, as an end of
   // edges in the wall, without a look at its coordinates: kStraight and its place in straight_.
   void number_straight_edges() {
-    check_interruption();
+    monitor_.check_interruption();
     struct End {
       std::uint64_t planes;  // both
       std::uint32_t leaf;
@@ -197,7 +199,7 @@ class SeamGlue {
     std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
     for_each_end([&](std::uint32_t spot, const End& end) { ends[next[spot]++] = end; });
     for (Leaf& leaf : leaves_) leaf.cut_edges = {};
-    parallel_for(spots_.size(), threads_, [&](std::size_t spot) {
+    parallel_for(spots_.size(), threads_, monitor_, [&](std::size_t spot, const Monitor&) {
       std::sort(ends.begin() + begin[spot], ends.begin() + begin[spot + 1U],
                 [](const End& a, const End& b) { return a.planes < b.planes; });
     });
@@ -224,7 +226,7 @@ class SeamGlue {
   }
 
   void number_points() {
-    check_interruption();
+    monitor_.check_interruption();
     PointTable one;
     Integer divisor;
     for (Leaf& leaf : leaves_) {
@@ -261,13 +263,13 @@ class SeamGlue {
       leaf.edges = {};
     }
     std::vector<std::vector<PlaneTriple>> crossings(spots_.size());
-    parallel_for(spots_.size(), threads_, [&](std::size_t spot) {
+    parallel_for(spots_.size(), threads_, monitor_, [&](std::size_t spot, const Monitor& own) {
       const PlaneId cut = spots_[spot].plane;
       if (!cut.valid()) return;
       crossings[spot] = wall_crossings(
-          planes_, cut, std::span(edges).subspan(begin[spot], begin[spot + 1U] - begin[spot]),
+          planes_, cut, std::span(edges).subspan(begin[spot], begin[spot + 1U] - begin[spot]), own,
           [this](std::uint32_t number) { return point(number); },
-          [&](const WallEdge& edge) { return other_plane(cut, edge); });
+          [&](const WallEdge& edge) { return other_plane(cut, edge, own); });
     });
     crossing_.assign(points_.table().size(), false);
     for (const std::vector<PlaneTriple>& some : crossings) {
@@ -285,12 +287,12 @@ class SeamGlue {
   }
 
   // The plane other than that of the wall that holds the edge.
-  [[nodiscard]] PlaneId other_plane(PlaneId wall, const WallEdge& edge) const {
+  [[nodiscard]] PlaneId other_plane(PlaneId wall, const WallEdge& edge, const Monitor& own) const {
     const Leaf& leaf = leaves_[edge.leaf];
     SVertex svertex = leaf.set.complex().svertex(edge.halfedge);
     svertex.p = renamed(leaf, svertex.p);
     svertex.q = renamed(leaf, svertex.q);
-    return edge_side(planes_, wall, svertex).other;
+    return edge_side(planes_, wall, svertex, own).other;
   }
 
   static PlaneId renamed(const Leaf& leaf, PlaneId plane) {
@@ -316,9 +318,9 @@ class SeamGlue {
     }
     constexpr std::uint32_t kChunk = 1024;
     std::vector<Complex> joined((count + kChunk - 1) / kChunk);
-    check_interruption();
-    parallel_for(joined.size(), threads_, [&](std::size_t chunk) {
-      Joiner joiner(*this);
+    monitor_.check_interruption();
+    parallel_for(joined.size(), threads_, monitor_, [&](std::size_t chunk, const Monitor& own) {
+      Joiner joiner(*this, own);
       const auto first = static_cast<std::uint32_t>(chunk * kChunk);
       for (std::uint32_t point = first; point < std::min(count, first + kChunk); ++point) {
         const std::uint32_t size = begin[point + 1U] - begin[point];
@@ -326,7 +328,7 @@ class SeamGlue {
       }
       joined[chunk] = joiner.take();
     });
-    ComplexBuilder builder(planes_);
+    ComplexBuilder builder(planes_, monitor_);
     for (const Complex& some : joined) builder.copy(some);
     of_seams_ = builder.take_so_far();
   }
@@ -334,7 +336,7 @@ class SeamGlue {
   // Writes the vertices of the whole at points of seams. One for each thread.
   class Joiner {
    public:
-    explicit Joiner(SeamGlue& glue) : glue_(glue), builder_(glue.planes_) {}
+    Joiner(SeamGlue& glue, const Monitor& monitor) : glue_(glue), monitor_(monitor), builder_(glue.planes_, monitor) {}
 
     void join(PointId point, std::span<const Member> members) {
       if (!glue_.crossing_[point.index()] && inside_facet(members)) return;
@@ -349,7 +351,7 @@ class SeamGlue {
         load(leaf, point, member == members.end() ? VertexId() : glue_.leaves_[leaf].seam[member->seam].vertex,
              first ? joined_ : next_);
         if (!first) {
-          overlay_.overlay(glue_.planes_, joined_.view(), next_.view(), whichever_, result_);
+          overlay_.overlay(glue_.planes_, joined_.view(), next_.view(), whichever_, result_, monitor_);
           std::swap(joined_, result_);
         }
         first = false;
@@ -376,7 +378,7 @@ class SeamGlue {
         load(members[k].leaf, point, vertex, k == 0 ? joined_ : next_);
       }
       const std::uint32_t wall = glue_.spots_[spot[0]].plane.row();
-      if (!half_rings_.join(glue_.planes_, wall, joined_.view(), next_.view(), result_)) return false;
+      if (!half_rings_.join(glue_.planes_, wall, joined_.view(), next_.view(), result_, monitor_)) return false;
       builder_.add(glue_.points_.table(), point, result_.view());
       return true;
     }
@@ -405,7 +407,7 @@ class SeamGlue {
         holding_.push_back(at.leaf);
         return;
       }
-      const int side = side_of_plane(glue_.planes_, at.plane, glue_.points_.table(), point);
+      const int side = side_of_plane(glue_.planes_, at.plane, glue_.points_.table(), point, monitor_);
       if (side <= 0) find_leaves(point, at.low);
       if (side >= 0) find_leaves(point, at.high);
     }
@@ -415,7 +417,7 @@ class SeamGlue {
       const Leaf& leaf = glue_.leaves_[index];
       const Complex& c = leaf.set.complex();
       if (!vertex.valid()) {
-        const auto hit = leaf.set.queries().item_at(c, {&glue_.points_.table(), point});
+        const auto hit = leaf.set.queries().item_at(c, {&glue_.points_.table(), point}, monitor_);
         NEF_ASSERT(hit.has_value());  // a wall if nothing else
         if (hit->kind == ComplexHit::Kind::kVertex) {
           out.assign(c.sphere_map(hit->vertex()));
@@ -434,6 +436,7 @@ class SeamGlue {
     }
 
     const SeamGlue& glue_;
+    Monitor monitor_;
     ComplexBuilder builder_;
     std::vector<std::uint32_t> holding_;
     HalfRings half_rings_;
@@ -446,6 +449,7 @@ class SeamGlue {
   static constexpr std::uint32_t kStraight = 0x80000000U;  // in the number of a point where an edge goes on
 
   unsigned threads_;
+  Monitor monitor_;
   std::vector<Spot> spots_;
   std::vector<Leaf> leaves_;
   std::uint32_t root_ = 0;
@@ -458,11 +462,11 @@ class SeamGlue {
 
 }  // namespace
 
-Polyhedron glue_tiles(const TileRef& tree, const Region& region) {
-  if (tree.node->kind != TileNode::Kind::kCut) return leaf_set(tree, region);
-  SeamGlue glue(tree, region, 1);
+Polyhedron glue_tiles(const TileRef& tree, const Region& region, const Monitor& monitor) {
+  if (tree.node->kind != TileNode::Kind::kCut) return leaf_set(tree, region, monitor);
+  SeamGlue glue(tree, region, 1, monitor);
   glue.run();
-  ComplexBuilder builder(glue.planes());
+  ComplexBuilder builder(glue.planes(), monitor);
   for (std::uint32_t i = 0; i < glue.leaf_count(); ++i) {
     glue.for_each_run(i, [&](const Complex& c, VertexId first, std::uint32_t count, const auto& rows) {
       builder.copy(c, first, count, rows);
@@ -472,11 +476,12 @@ Polyhedron glue_tiles(const TileRef& tree, const Region& region) {
   return Polyhedron(builder.finish(kOutside));
 }
 
-Polyhedron glue_all_tiles(const TileRef& tree, unsigned threads) {
-  if (tree.node->kind != TileNode::Kind::kCut) return in_canonical_order(leaf_set(tree, Region{}));
-  SeamGlue glue(tree, Region{}, threads);
+Polyhedron glue_all_tiles(const TileRef& tree, unsigned threads, const Monitor& monitor) {
+  if (tree.node->kind != TileNode::Kind::kCut) return in_canonical_order(leaf_set(tree, Region{}, monitor), monitor);
+  SeamGlue glue(tree, Region{}, threads, monitor);
   glue.run();
-  return Polyhedron(canonical_complex(std::move(glue.planes()), glue.parts(), glue.vertices(), kOutside, threads));
+  return Polyhedron(
+      canonical_complex(std::move(glue.planes()), glue.parts(), glue.vertices(), kOutside, threads, monitor));
 }
 
 }  // namespace nef

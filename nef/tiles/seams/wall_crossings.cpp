@@ -43,13 +43,14 @@ Box box_of(const PointRef& from, const PointRef& to) {
 }  // namespace
 
 std::vector<PlaneTriple> wall_crossings(const PlaneTable& planes, PlaneId cut, std::span<const WallEdge> edges,
-                                        const std::function<PointRef(std::uint32_t)>& point,
+                                        const Monitor& monitor, const std::function<PointRef(std::uint32_t)>& point,
                                         const std::function<PlaneId(const WallEdge&)>& other_plane) {
   std::vector<PlaneTriple> crossings;
   const auto [below, above] = of_one_side(edges);
   if (below.empty() || above.empty()) return crossings;
   const auto separates = [&](PlaneId plane, const WallEdge& edge) {
-    return side_of_plane(planes, plane, point(edge.points[0])) * side_of_plane(planes, plane, point(edge.points[1])) <
+    return side_of_plane(planes, plane, point(edge.points[0]), monitor) *
+               side_of_plane(planes, plane, point(edge.points[1]), monitor) <
            0;
   };
   const auto box = [&](const WallEdge& edge) { return box_of(point(edge.points[0]), point(edge.points[1])); };

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/complex/ids.h"
 #include "nef/geometry/plane_table.h"
 #include "nef/location/compare.h"
@@ -29,7 +30,7 @@ using PlaneTriple = std::array<PlaneId, 3>;
 /// one, `other_plane` a plane that holds an edge, other than that of the cut. O(n log n) expected for n edges that
 /// cross few others.
 std::vector<PlaneTriple> wall_crossings(const PlaneTable& planes, PlaneId cut, std::span<const WallEdge> edges,
-                                        const std::function<PointRef(std::uint32_t)>& point,
+                                        const Monitor& monitor, const std::function<PointRef(std::uint32_t)>& point,
                                         const std::function<PlaneId(const WallEdge&)>& other_plane);
 
 }  // namespace nef

@@ -120,12 +120,13 @@ class FolderWriter {
 
 class FolderReader {
  public:
-  FolderReader(fs::path folder, Tiling tiling)
+  FolderReader(fs::path folder, Tiling tiling, const Monitor& monitor)
       : folder_(std::move(folder)),
         path_((folder_ / kIndex).string()),
         bytes_(read_file(path_)),
         cursor_(bytes_, path_),
-        tiling_(std::move(tiling)) {}
+        tiling_(std::move(tiling)),
+        monitor_(monitor) {}
 
   TiledPolyhedron read() {
     check_hash();
@@ -204,7 +205,7 @@ class FolderReader {
     if (tiling_.store) {
       node.stored = tiling_.store->keep_file(file);
     } else {
-      node.in_memory = read_tile(file);
+      node.in_memory = read_tile(file, monitor_);
     }
     return {std::make_shared<const TileNode>(std::move(node)), false};
   }
@@ -238,6 +239,7 @@ class FolderReader {
   std::string bytes_;
   TextCursor cursor_;
   Tiling tiling_;
+  Monitor monitor_;
 };
 
 }  // namespace
@@ -249,12 +251,14 @@ bool names_tile_folder(const std::string& path) {
 
 void write_tiles(const std::string& folder, const TiledPolyhedron& set) { FolderWriter(folder).write(set); }
 
-TiledPolyhedron read_tiles(const std::string& folder, std::shared_ptr<TileStore> store, unsigned threads) {
-  return FolderReader(folder, {.threads = threads, .store = std::move(store)}).read();
+TiledPolyhedron read_tiles(const std::string& folder, std::shared_ptr<TileStore> store, unsigned threads,
+                           const Monitor& monitor) {
+  return FolderReader(folder, {.threads = threads, .store = std::move(store)}, monitor).read();
 }
 
 Polyhedron read_file_or_tiles(const std::string& path, const MeshOptions& options, Messages* messages) {
-  return names_tile_folder(path) ? read_tiles(path).polyhedron() : read_polyhedron(path, options, messages);
+  if (!names_tile_folder(path)) return read_polyhedron(path, options, messages);
+  return read_tiles(path, nullptr, 1, options.monitor).polyhedron(options.monitor);
 }
 
 }  // namespace nef

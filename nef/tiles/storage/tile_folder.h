@@ -17,6 +17,7 @@
 
 #include <string>
 
+#include "nef/base/monitor.h"
 #include "nef/construct/construct.h"
 #include "nef/tiles/tiled_polyhedron.h"
 
@@ -37,7 +38,8 @@ void write_tiles(const std::string& folder, const TiledPolyhedron& set);
 /// Reads a set from a folder; operations on it use the limit of the folder, the store and the threads. With a store,
 /// tiles are read when they are needed; without, all at once. Throws FileError for what is damaged, and so does any
 /// operation that needs a damaged tile. That the tiles fit together is taken on trust.
-TiledPolyhedron read_tiles(const std::string& folder, std::shared_ptr<TileStore> store = nullptr, unsigned threads = 1);
+TiledPolyhedron read_tiles(const std::string& folder, std::shared_ptr<TileStore> store = nullptr, unsigned threads = 1,
+                           const Monitor& monitor = {});
 
 /// A set from a file of any kind (nef/io/polyhedron_file.h) or from a folder of tiles, which it glues.
 Polyhedron read_file_or_tiles(const std::string& path, const MeshOptions& options, Messages* messages = nullptr);

@@ -64,14 +64,14 @@ std::string tile_file_name(std::string_view bytes) {
   return std::string(digits.data()) + kExtension;
 }
 
-Polyhedron read_tile(const fs::path& path) {
+Polyhedron read_tile(const fs::path& path, const Monitor& monitor) {
   const std::string bytes = read_file(path.string());
   if (tile_file_name(bytes) != hash_part(path) + kExtension) {
     throw FileError(FileProblem::kSyntax, path.string() +
                                               ": the tile is not the one that its name tells; it was damaged or "
                                               "replaced: write the set anew from its source");
   }
-  return read_native_binary(bytes, path.string(), NativeContents::kTile);
+  return read_native_binary(bytes, path.string(), NativeContents::kTile, monitor);
 }
 
 class TileStore::Tile final : public StoredTile, public std::enable_shared_from_this<Tile> {
@@ -140,7 +140,7 @@ Polyhedron TileStore::load(const Tile& tile) {
     }
     file = tile.known_file;
   }
-  Polyhedron set = read_tile(file->path());
+  Polyhedron set = read_tile(file->path(), {});
   {
     const Lock lock(mutex_);
     ++counts_.read;

@@ -11,6 +11,7 @@
 #include <string>
 #include <unordered_map>
 
+#include "nef/base/monitor.h"
 #include "nef/polyhedron.h"
 
 namespace nef {
@@ -37,7 +38,7 @@ class TileFile {
 std::string tile_file_name(std::string_view bytes);
 
 /// Reads one. Throws FileError if its bytes are not those of its name.
-Polyhedron read_tile(const std::filesystem::path& path);
+Polyhedron read_tile(const std::filesystem::path& path, const Monitor& monitor);
 
 /// A set that a store keeps: in memory while it is used, in a file when memory runs short. It keeps its store alive.
 /// May be used by several threads at once.

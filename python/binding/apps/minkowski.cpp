@@ -14,13 +14,14 @@
 namespace nef::python {
 namespace {
 
-minkowski::MinkowskiOptions options_of(unsigned threads, const ProgressFunction& progress) {
+minkowski::MinkowskiOptions options_of(unsigned threads, const ProgressFunction& progress, const Monitor& monitor) {
   minkowski::MinkowskiOptions options;
   options.threads = threads;
-  options.progress = [progress](std::size_t done, std::size_t total) {
-    progress(done, total);
+  options.progress = [progress, monitor](std::size_t done, std::size_t total) {
+    progress(monitor, done, total);
     return true;
   };
+  options.monitor = monitor;
   return options;
 }
 
@@ -30,8 +31,9 @@ using Binary = Polyhedron (*)(const Polyhedron&, const Polyhedron&, const minkow
 // Each cell of one operand is combined with each of the other, so small ones may take long.
 auto binary(Binary operation) {
   return [operation](const Polyhedron& a, const Polyhedron& b, unsigned threads, const py::object& progress) {
-    const auto options = options_of(threads, ProgressFunction(progress));
-    return call(kSmallCall, [=] { return operation(a, b, options, nullptr); });
+    const ProgressFunction told(progress);
+    return call(kSmallCall,
+                [=](const Monitor& monitor) { return operation(a, b, options_of(threads, told, monitor), nullptr); });
   };
 }
 
@@ -45,8 +47,10 @@ Polyhedron offset(const Polyhedron& a, py::handle radius, int detail, const std:
                   const py::object& progress) {
   const Rational r = to_rational(radius);
   const minkowski::Side kind = side_of(side);
-  const auto options = options_of(threads, ProgressFunction(progress));
-  return call(kSmallCall, [=] { return minkowski::offset(a, r, detail, kind, options); });
+  const ProgressFunction told(progress);
+  return call(kSmallCall, [=](const Monitor& monitor) {
+    return minkowski::offset(a, r, detail, kind, options_of(threads, told, monitor));
+  });
 }
 
 Polyhedron ball(py::handle radius, int detail, const std::string& side) {
@@ -65,19 +69,24 @@ Polyhedron configuration_space(const Polyhedron& robot, const std::vector<Polyhe
     if (corners.size() != 2) throw py::value_error("a box needs two corners");
     bounds = {to_triple(corners[0], "a corner"), to_triple(corners[1], "a corner")};
   }
-  const auto options = options_of(threads, ProgressFunction(progress));
-  return call(kSmallCall, [=] { return minkowski::configuration_space(robot, obstacles, bounds, options); });
+  const ProgressFunction told(progress);
+  return call(kSmallCall, [=](const Monitor& monitor) {
+    return minkowski::configuration_space(robot, obstacles, bounds, options_of(threads, told, monitor));
+  });
 }
 
 Polyhedron sweep(const Polyhedron& a, py::handle path, unsigned threads, const py::object& progress) {
   const std::vector<Rational3> points = to_points(path, "a path");
-  const auto options = options_of(threads, ProgressFunction(progress));
-  return call(kSmallCall, [=] { return minkowski::sweep(a, points, options); });
+  const ProgressFunction told(progress);
+  return call(kSmallCall,
+              [=](const Monitor& monitor) { return minkowski::sweep(a, points, options_of(threads, told, monitor)); });
 }
 
 py::object penetration(const Polyhedron& a, const Polyhedron& b, unsigned threads, const py::object& progress) {
-  const auto options = options_of(threads, ProgressFunction(progress));
-  const minkowski::Penetration found = call(kSmallCall, [=] { return minkowski::penetration(a, b, options); });
+  const ProgressFunction told(progress);
+  const minkowski::Penetration found = call(kSmallCall, [=](const Monitor& monitor) {
+    return minkowski::penetration(a, b, options_of(threads, told, monitor));
+  });
   return result_of("Penetration", py::make_tuple(contact_name(found.kind), from_triple(found.translation),
                                                  to_fraction(found.squared_length)));
 }
@@ -86,23 +95,25 @@ py::object reach(const Polyhedron& tool, const Polyhedron& part, const py::objec
                  const py::object& progress) {
   std::optional<Rational3> from;
   if (!start.is_none()) from = to_triple(start, "a start");
-  const auto options = options_of(threads, ProgressFunction(progress));
-  const minkowski::Reach found = call(kSmallCall, [=] { return minkowski::reach(tool, part, from, options); });
+  const ProgressFunction told(progress);
+  const minkowski::Reach found = call(kSmallCall, [=](const Monitor& monitor) {
+    return minkowski::reach(tool, part, from, options_of(threads, told, monitor));
+  });
   return result_of("Reach", py::make_tuple(found.positions, found.touched, found.untouched));
 }
 
 Polyhedron component(const Polyhedron& a, const py::object& point) {
   std::optional<Rational3> inside;
   if (!point.is_none()) inside = to_triple(point, "a point");
-  return call(items(a), [=] { return minkowski::component_of(a, inside); });
+  return call(items(a), [=](const Monitor& monitor) { return minkowski::component_of(a, inside, monitor); });
 }
 
 std::vector<Polyhedron> decompose(const Polyhedron& a) {
-  return call(kSmallCall, [a] {
+  return call(kSmallCall, [a](const Monitor& monitor) {
     std::vector<Polyhedron> cells;
-    for (const minkowski::ConvexCell& cell : minkowski::decompose(a)) {
-      check_interruption();
-      cells.push_back(minkowski::to_polyhedron(cell));
+    for (const minkowski::ConvexCell& cell : minkowski::decompose(a, monitor)) {
+      monitor.check_interruption();
+      cells.push_back(minkowski::to_polyhedron(cell, monitor));
     }
     return cells;
   });
@@ -175,7 +186,10 @@ for sum. Raises InputError if the tool is empty or the start is not free.)");
 
 Without a point: what reaches infinity. Connected means by paths within the set, passages of dimension 1 and 0 included.)");
   m.def(
-      "hull", [](const nef::Polyhedron& a) { return call(items(a), [a] { return nef::minkowski::hull(a); }); },
+      "hull",
+      [](const nef::Polyhedron& a) {
+        return call(items(a), [a](const nef::Monitor& monitor) { return nef::minkowski::hull(a, monitor); });
+      },
       py::arg("a"),
       R"(The convex hull of a set, open where the set is: the hull of an open set is open. nef.hull takes points.)");
   m.def("configuration_space", &configuration_space, py::arg("robot"), py::arg("obstacles"),
@@ -190,10 +204,15 @@ is free, so passages as narrow as the robot remain, as facets, edges and vertice
 Those of dimension 3 come first; their interiors are disjoint. Raises UnsupportedError for an unbounded set.)");
   m.def(
       "is_convex",
-      [](const nef::Polyhedron& a) { return call(items(a), [a] { return nef::minkowski::is_convex(a); }); },
+      [](const nef::Polyhedron& a) {
+        return call(items(a), [a](const nef::Monitor& monitor) { return nef::minkowski::is_convex(a, monitor); });
+      },
       py::arg("a"), "True if a bounded set is convex: a box without one point of an edge is not.");
   m.def(
-      "negate", [](const nef::Polyhedron& a) { return call(items(a), [a] { return nef::minkowski::negate(a); }); },
+      "negate",
+      [](const nef::Polyhedron& a) {
+        return call(items(a), [a](const nef::Monitor& monitor) { return nef::minkowski::negate(a, monitor); });
+      },
       py::arg("a"), "The set of all -x with x in a.");
 }
 

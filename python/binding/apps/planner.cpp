@@ -37,14 +37,13 @@ class Space {
  public:
   Space(plan::Scene scene, unsigned threads, const py::object& progress) {
     const ProgressFunction told(progress);
-    problem_ = call(kSmallCall, [scene = std::move(scene), threads, told] {
+    problem_ = call(kSmallCall, [scene = std::move(scene), threads, told](const Monitor& monitor) {
       plan::BuildOptions options;
       options.threads = threads;
-      options.progress = [told](const std::string& phase, std::size_t done, std::size_t total) {
-        told(phase, done, total);
+      options.progress = [&](const std::string& phase, std::size_t done, std::size_t total) {
+        told(monitor, phase, done, total);
       };
-      const std::atomic<bool>* const stop = Interruptible::current();
-      if (stop != nullptr) options.stop = [stop] { return stop->load(); };
+      options.monitor = monitor;
       return std::make_shared<const plan::Problem>(scene, options);
     });
   }
@@ -53,14 +52,14 @@ class Space {
     const Rational3 from = to_triple(start, "a start");
     const Rational3 to = to_triple(goal, "a goal");
     const auto problem = problem_;
-    return told(call(kSmallCall, [=] { return problem->solve(from, to, options); }));
+    return told(call(kSmallCall, [=](const Monitor& monitor) { return problem->solve(from, to, options, monitor); }));
   }
 
   py::dict check(py::handle points) const {
     const std::vector<Rational3> path = to_points(points, "way-points");
     if (path.empty()) throw py::value_error("a path needs a point");
     const auto problem = problem_;
-    return told(call(kSmallCall, [=] { return problem->check(path); }));
+    return told(call(kSmallCall, [=](const Monitor& monitor) { return problem->check(path, monitor); }));
   }
 
   [[nodiscard]] Polyhedron free() const { return problem_->free_space().set(); }
@@ -157,7 +156,9 @@ void define_module(py::module_& m) {
       .def_readonly("messages", &plan::Scene::messages)
       .def_property_readonly("start", [](const plan::Scene& s) { return optional_triple(s.start); })
       .def_property_readonly("goal", [](const plan::Scene& s) { return optional_triple(s.goal); });
-  m.def("read", [](const std::string& path) { return call(kSmallCall, [path] { return plan::read_scene(path); }); });
+  m.def("read", [](const std::string& path) {
+    return call(kSmallCall, [path](const Monitor& monitor) { return plan::read_scene(path, monitor); });
+  });
   py::class_<Space>(m, "Space")
       .def(py::init<plan::Scene, unsigned, const py::object&>())
       .def("solve", &Space::solve)

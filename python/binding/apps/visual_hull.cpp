@@ -78,12 +78,15 @@ py::tuple view_tuple(const visual_hull::ViewResult& view) {
 py::dict compute(const visual_hull::Scene& scene, const std::string& folder, const visual_hull::Options& options,
                  const py::object& progress) {
   const ProgressFunction told(progress);
-  const visual_hull::Progress forward = [told](visual_hull::Phase phase, const std::string& name, std::size_t done,
-                                               std::size_t total) {
-    told(std::string(visual_hull::phase_name(phase)), name, done, total);
-  };
-  const visual_hull::Result made =
-      call(kSmallCall, [=] { return visual_hull::compute(scene, folder, options, forward); });
+  const visual_hull::Result made = call(kSmallCall, [=](const Monitor& monitor) {
+    const visual_hull::Progress forward = [&](visual_hull::Phase phase, const std::string& name, std::size_t done,
+                                              std::size_t total) {
+      told(monitor, std::string(visual_hull::phase_name(phase)), name, done, total);
+    };
+    visual_hull::Options watched = options;
+    watched.monitor = monitor;
+    return visual_hull::compute(scene, folder, watched, forward);
+  });
   py::dict result;
   result["hull"] = made.hull;
   result["box"] = py::make_tuple(from_triple(made.box.low), from_triple(made.box.high));

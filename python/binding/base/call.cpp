@@ -42,15 +42,25 @@ ProgressFunction::ProgressFunction(const py::object& function) {
   });
 }
 
-ProgressFunction& progress_of_thread() {
-  thread_local ProgressFunction current;
-  return current;
+py::object progress_variable() {
+  // Guarded by the interpreter's lock. Never released, as the interpreter may be gone before static objects are.
+  static PyObject* variable = nullptr;
+  if (variable == nullptr) variable = PyContextVar_New("nef.progress", Py_None);
+  if (variable == nullptr) throw py::error_already_set();
+  return py::reinterpret_borrow<py::object>(variable);
 }
 
-ToldProgress::ToldProgress(const ProgressFunction& told)
-    : told_(told ? nef::ProgressFunction(
-                       [told](const char* phase, std::size_t done, std::size_t total) { told(phase, done, total); })
-                 : nef::ProgressFunction()),
-      listener_(told_) {}
+ProgressFunction progress_of_context() {
+  PyObject* function = nullptr;
+  if (PyContextVar_Get(progress_variable().ptr(), nullptr, &function) != 0) throw py::error_already_set();
+  return ProgressFunction(py::reinterpret_steal<py::object>(function));
+}
+
+nef::ProgressFunction told_by(const ProgressFunction& progress, const Monitor& monitor) {
+  if (!progress) return {};
+  return [progress, monitor](const char* phase, std::size_t done, std::size_t total) {
+    progress(monitor, phase, done, total);
+  };
+}
 
 }  // namespace nef::python

@@ -4,7 +4,7 @@
 //
 // Signals reach Python in its main thread only. A call from there runs in a thread of its own while the main one waits
 // for it and looks for signals every few milliseconds. If a handler raises, KeyboardInterrupt usually, the call is told
-// to stop (nef/base/interruption.h) and its result is thrown away, whenever it comes; the exception goes on at once.
+// to stop (nef/base/monitor.h) and its result is thrown away, whenever it comes; the exception goes on at once.
 // Operands are immutable and are held by the call, so nothing that Python sees is ever half done. Calls from other
 // threads, and small ones, which are over sooner than anybody could interrupt them, run where they are.
 #pragma once
@@ -23,8 +23,7 @@
 #include <thread>
 #include <utility>
 
-#include "nef/base/interruption.h"
-#include "nef/base/progress.h"
+#include "nef/base/monitor.h"
 
 namespace nef::python {
 
@@ -47,17 +46,14 @@ void wait_for_abandoned_calls();
 /// on to the caller.
 class ProgressFunction {
  public:
-  ProgressFunction() = default;
   /// None for no progress.
   explicit ProgressFunction(const py::object& function);
 
   explicit operator bool() const { return function_ != nullptr; }
-  /// The function, or None. Needs the interpreter's lock.
-  [[nodiscard]] py::object function() const { return function_ ? *function_ : py::none(); }
-  /// Throws Interrupted if the call was abandoned meanwhile.
+  /// Calls the function for a call that is watched by `monitor`; throws Interrupted if that was abandoned meanwhile.
   template <typename... Arguments>
-  void operator()(const Arguments&... arguments) const {
-    check_interruption();
+  void operator()(const Monitor& monitor, const Arguments&... arguments) const {
+    monitor.check_interruption();
     if (!function_) return;
     const py::gil_scoped_acquire locked;
     (*function_)(arguments...);
@@ -67,18 +63,15 @@ class ProgressFunction {
   std::shared_ptr<py::object> function_;
 };
 
-/// What the calling thread's Booleans are to tell of their progress, from `with nef.progress(...)`; empty outside.
-ProgressFunction& progress_of_thread();
+/// The contextvars.ContextVar that holds what calls are to tell of their progress, from `with nef.progress(...)`; each
+/// extension module has one of its own. Needs the interpreter's lock.
+py::object progress_variable();
 
-/// Calls `told` as long as it lives for what this thread computes; for an empty one nothing is called.
-class ToldProgress {
- public:
-  explicit ToldProgress(const ProgressFunction& told);
+/// What it holds in the current context; empty outside of such blocks. Needs the interpreter's lock.
+ProgressFunction progress_of_context();
 
- private:
-  nef::ProgressFunction told_;
-  ProgressListener listener_;
-};
+/// Tells `progress` of a call that `monitor` watches, as long as that lasts; empty if `progress` is.
+nef::ProgressFunction told_by(const ProgressFunction& progress, const Monitor& monitor);
 
 namespace detail {
 
@@ -94,31 +87,33 @@ struct Job {
 
 }  // namespace detail
 
-/// The value of work(), which must not touch anything of Python unless it takes the lock, and must own what it needs.
-/// `items` is about the size of the operands.
+/// The value of work(monitor), which must not touch anything of Python unless it takes the lock, and must own what it
+/// needs. `items` is about the size of the operands.
 template <typename Work>
-auto call(std::size_t items, Work work) -> decltype(work()) {
-  using Result = decltype(work());
+auto call(std::size_t items, Work work) -> decltype(work(Monitor())) {
+  using Result = decltype(work(Monitor()));
   using Job = detail::Job<Result>;
+  ProgressFunction progress = progress_of_context();
   if (items < kSmallCall || !in_main_thread()) {
     const py::gil_scoped_release unlocked;
-    const ToldProgress told(progress_of_thread());
-    return work();
+    const nef::ProgressFunction told = told_by(progress, {});
+    return work(Monitor().telling(told));
   }
   const auto job = std::make_shared<Job>();
-  std::thread worker([job, work = std::move(work), progress = progress_of_thread()]() mutable {
+  std::thread worker([job, work = std::move(work), progress = std::move(progress)]() mutable {
     std::optional<Result> result;
     std::exception_ptr failure;
     try {
-      const Interruptible interruptible(&job->stop);
-      const ToldProgress told(progress);
-      result.emplace(work());
+      const Monitor stopped = Monitor().stopped_by(&job->stop);
+      const nef::ProgressFunction told = told_by(progress, stopped);
+      result.emplace(work(stopped.telling(told)));
     } catch (...) {
       failure = std::current_exception();
     }
     {
       // What the work held goes before anybody hears that it is done.
       const Work ended(std::move(work));
+      const ProgressFunction silent(std::move(progress));
     }
     const std::scoped_lock lock(job->mutex);
     job->result = std::move(result);

@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/base/threads/parallel.h"
 #include "tests/support/literals.h"
 
@@ -18,17 +19,14 @@ TEST_CASE("what is stopped throws, and the operands are whole") {
   const Polyhedron a = test::set("box(0,0,0,2,2,2)");
   const Polyhedron b = test::set("box(1,1,1,3,3,3)");
   const std::atomic<bool> stop{true};
-  {
-    const Interruptible interruptible(&stop);
-    CHECK_THROWS_AS(unite(a, b), Interrupted);
-    CHECK_THROWS_AS(interior(a), Interrupted);
-    CHECK_THROWS_AS(convex_hull(std::vector<Rational3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}), Interrupted);
-    {
-      const Interruptible never(nullptr);
-      CHECK_FALSE(unite(a, b).is_empty());
-    }
-    CHECK_THROWS_AS(unite(a, b), Interrupted);
-  }
+  const Monitor monitor = Monitor().stopped_by(&stop);
+  CHECK_THROWS_AS(unite(a, b, 1, monitor), Interrupted);
+  CHECK_THROWS_AS(interior(a, monitor), Interrupted);
+  CHECK_THROWS_AS(convex_hull(std::vector<Rational3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, monitor),
+                  Interrupted);
+  CHECK_FALSE(unite(a, b, 1, Monitor().stopped_by(nullptr)).is_empty());
+  // Null changes nothing.
+  CHECK_THROWS_AS(unite(a, b, 1, monitor.stopped_by(nullptr)), Interrupted);
   CHECK(validate(a.complex()).empty());
   CHECK(volume(unite(a, b)) == Rational(15));
 }
@@ -37,30 +35,71 @@ TEST_CASE("threads are stopped with the one that they work for", "[threads]") {
   for (const unsigned threads : {1U, 2U, 0U}) {
     std::atomic<bool> stop{false};
     std::atomic<int> begun{0};
-    const Interruptible interruptible(&stop);
-    CHECK_THROWS_AS(parallel_for(100000, threads,
-                                 [&](std::size_t) {
-                                   if (++begun == 10) stop = true;
-                                   check_interruption();
-                                 }),
-                    Interrupted);
+    const Monitor monitor = Monitor().stopped_by(&stop);
+    const auto stop_soon = [&](std::size_t, const Monitor& own) {
+      if (++begun == 10) stop = true;
+      own.check_interruption();
+    };
+    CHECK_THROWS_AS(parallel_for(100000, threads, monitor, stop_soon), Interrupted);
     CHECK(begun < 100000);
     stop = false;
-    CHECK_NOTHROW(parallel_for(100, threads, [](std::size_t) { check_interruption(); }));
+    CHECK_NOTHROW(
+        parallel_for(100, threads, monitor, [](std::size_t, const Monitor& own) { own.check_interruption(); }));
   }
-  // Another thread is none of that.
-  const std::atomic<bool> stop{true};
-  const Interruptible interruptible(&stop);
-  bool thrown = false;
-  std::thread other([&thrown] {
-    try {
-      check_interruption();
-    } catch (const Interrupted&) {
-      thrown = true;
-    }
+}
+
+TEST_CASE("the monitor of another thread neither asks nor tells, but is stopped with its own", "[threads]") {
+  int questions = 0;
+  int told = 0;
+  bool stops = false;
+  const StopQuestion question([&] {
+    ++questions;
+    return stops;
   });
-  other.join();
-  CHECK_FALSE(thrown);
+  const ProgressFunction tell = [&told](const char*, std::size_t, std::size_t) { ++told; };
+  const Monitor monitor = question.monitor().telling(tell);
+  const Monitor other = monitor.of_other_thread();
+  for (int i = 0; i < 100; ++i) {
+    CHECK_NOTHROW(other.check_interruption());
+    other.tell_progress("phase", 0, 1);
+  }
+  CHECK(questions == 0);
+  CHECK(told == 0);
+  stops = true;
+  const auto ask = [](const Monitor& own) {
+    for (int i = 0; i < 100; ++i) own.check_interruption();
+  };
+  CHECK_NOTHROW(ask(other));
+  CHECK_THROWS_AS(ask(monitor), Interrupted);
+  CHECK(questions == 1);
+  CHECK_THROWS_AS(other.check_interruption(), Interrupted);
+}
+
+TEST_CASE("what is done on other threads of a loop asks and tells in the thread of its caller only", "[threads]") {
+  const std::thread::id here = std::this_thread::get_id();
+  for (const unsigned threads : {1U, 2U, 0U}) {
+    std::atomic<bool> here_only{true};
+    std::atomic<int> told{0};
+    std::atomic<int> done_here{0};
+    const auto note = [&] {
+      if (std::this_thread::get_id() != here) here_only = false;
+    };
+    const StopQuestion question([&] {
+      note();
+      return false;
+    });
+    const ProgressFunction tell = [&](const char*, std::size_t, std::size_t) {
+      note();
+      ++told;
+    };
+    parallel_for(1000, threads, question.monitor().telling(tell), [&](std::size_t, const Monitor& own) {
+      if (std::this_thread::get_id() == here) ++done_here;
+      own.check_interruption();
+      own.tell_progress("phase", 0, 0);
+    });
+    CHECK(here_only);
+    CHECK(told == done_here);
+  }
 }
 
 TEST_CASE("a function that is asked stops what goes on inside one operation", "[threads]") {
@@ -81,34 +120,35 @@ TEST_CASE("a function that is asked stops what goes on inside one operation", "[
     return ++questions > 10;
   };
   {
-    const Interruptible interruptible(ask);
-    CHECK_THROWS_AS(unite(a, b), Interrupted);
-    CHECK_THROWS_AS(unite(a, b), Interrupted);
+    const StopQuestion question(ask);
+    CHECK_THROWS_AS(unite(a, b, 1, question.monitor()), Interrupted);
+    CHECK_THROWS_AS(unite(a, b, 1, question.monitor()), Interrupted);
   }
   CHECK(questions == 11);
   CHECK(volume(unite(a, b)) == Rational(6 * 21 * 2 - 36));
   for (const unsigned threads : {1U, 2U, 0U}) {
     questions = 0;
-    const Interruptible interruptible(ask);
+    const StopQuestion question(ask);
     const std::atomic<bool> never{false};
-    const auto body = [](std::size_t) { check_interruption(); };
-    CHECK_THROWS_AS(parallel_for(100000, threads, body), Interrupted);
-    CHECK_NOTHROW([&] {
-      const Interruptible other(&never);
-      parallel_for(1000, threads, body);
-    }());
+    const auto body = [](std::size_t, const Monitor& own) { own.check_interruption(); };
+    CHECK_THROWS_AS(parallel_for(100000, threads, question.monitor(), body), Interrupted);
+    CHECK_NOTHROW(parallel_for(1000, threads, question.monitor().stopped_by(&never), body));
   }
   CHECK_FALSE(others_asked);
-  // What stops the thread anyway goes on doing so under a function that has no objection, and under none.
+  // What stops the computation anyway goes on doing so under a function that has no objection, and under none.
   std::atomic<bool> stop{false};
-  const std::function<bool()> agree = [] { return false; };
-  const std::function<bool()> nothing;
-  const Interruptible outer(&stop);
-  const Interruptible inner(agree);
-  const Interruptible innermost(nothing);
-  CHECK_NOTHROW(unite(a, b));
+  const StopQuestion inner([] { return false; }, Monitor().stopped_by(&stop));
+  const StopQuestion innermost({}, inner.monitor());
+  CHECK_NOTHROW(unite(a, b, 1, innermost.monitor()));
   stop = true;
-  CHECK_THROWS_AS(unite(a, b), Interrupted);
+  CHECK_THROWS_AS(unite(a, b, 1, innermost.monitor()), Interrupted);
+  // Questions inside each other are all asked.
+  bool outer_stops = false;
+  const StopQuestion outer([&outer_stops] { return outer_stops; });
+  const StopQuestion within([] { return false; }, outer.monitor());
+  CHECK_NOTHROW(unite(a, b, 1, within.monitor()));
+  outer_stops = true;
+  CHECK_THROWS_AS(unite(a, b, 1, within.monitor()), Interrupted);
 }
 
 }  // namespace nef

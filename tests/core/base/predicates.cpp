@@ -9,6 +9,7 @@
 #include <random>
 
 #include "nef/base/error.h"
+#include "nef/base/monitor.h"
 #include "nef/geometry/ray_filter.h"
 
 namespace nef::test {
@@ -64,16 +65,17 @@ TEST_CASE("side of plane: far by the filter, on it exactly, beside it exactly") 
   const PointId above = points.push({Rational(1, 3), Rational(1, 3), Rational(1, 3) + tiny});
   const PointId below = points.push({Rational(1, 3), Rational(1, 3), Rational(1, 3) - tiny});
   const PointId far = points.push({5, 6, 7});
-  const PredicateCounts before = predicate_counts();
-  CHECK(side_of_plane(planes, plane, points, far) == 1);
-  CHECK(predicate_counts().filter == before.filter + 1);
-  CHECK(predicate_counts().exact == before.exact);
-  CHECK(side_of_plane(planes, plane, points, on) == 0);
-  CHECK(side_of_plane(planes, plane, points, above) == 1);
-  CHECK(side_of_plane(planes, plane, points, below) == -1);
-  CHECK(side_of_plane(planes, plane.opposite(), points, above) == -1);
-  CHECK(predicate_counts().filter == before.filter + 1);
-  CHECK(predicate_counts().exact == before.exact + 4);
+  PredicateCounts counts;
+  const Monitor monitor = Monitor().counting(counts);
+  CHECK(side_of_plane(planes, plane, points, far, monitor) == 1);
+  CHECK(counts.filter == 1);
+  CHECK(counts.exact == 0);
+  CHECK(side_of_plane(planes, plane, points, on, monitor) == 0);
+  CHECK(side_of_plane(planes, plane, points, above, monitor) == 1);
+  CHECK(side_of_plane(planes, plane, points, below, monitor) == -1);
+  CHECK(side_of_plane(planes, plane.opposite(), points, above, monitor) == -1);
+  CHECK(counts.filter == 1);
+  CHECK(counts.exact == 4);
 }
 
 TEST_CASE(
@@ -82,9 +84,9 @@ TEST_CASE(
   PointTable points;
   const Integer far = power(2, 680);
   const PlaneId plane = planes.intern(far, power(2, 1080), 1, 0);
-  CHECK(side_of_plane(planes, plane, points, points.push({1, 0, Rational(-far)})) == 0);
-  CHECK(side_of_plane(planes, plane, points, points.push({1, 0, Rational(-far - 1)})) == -1);
-  CHECK(side_of_plane(planes, plane.opposite(), points, points.push({1, 0, Rational(-far - 1)})) == 1);
+  CHECK(side_of_plane(planes, plane, points, points.push({1, 0, Rational(-far)}), {}) == 0);
+  CHECK(side_of_plane(planes, plane, points, points.push({1, 0, Rational(-far - 1)}), {}) == -1);
+  CHECK(side_of_plane(planes, plane.opposite(), points, points.push({1, 0, Rational(-far - 1)}), {}) == 1);
 
   Box origin;
   origin.add_rounded({0, 0, 0});
@@ -110,15 +112,15 @@ TEST_CASE("coordinates beyond the range of doubles are compared exactly") {
   const PointId b = points.push({Rational(huge) + 1, 0, 0});
   const PointId c = points.push({Rational(Integer(1), huge), 0, 0});
   const PointId zero = points.push({0, 0, 0});
-  CHECK(compare_coordinate(points, a, b, 0) == -1);
-  CHECK(compare_coordinate(points, b, a, 0) == 1);
-  CHECK(compare_coordinate(points, c, zero, 0) == 1);
-  CHECK(compare_lexicographic(points, a, a) == 0);
-  CHECK(compare_lexicographic(points, zero, c) == -1);
+  CHECK(compare_coordinate(points, a, b, 0, {}) == -1);
+  CHECK(compare_coordinate(points, b, a, 0, {}) == 1);
+  CHECK(compare_coordinate(points, c, zero, 0, {}) == 1);
+  CHECK(compare_lexicographic(points, a, a, {}) == 0);
+  CHECK(compare_lexicographic(points, zero, c, {}) == -1);
   const PlaneId plane = planes.intern(1, 0, 0, Integer(-huge));
-  CHECK(side_of_plane(planes, plane, points, a) == 0);
-  CHECK(side_of_plane(planes, plane, points, b) == 1);
-  CHECK(side_of_plane(planes, plane, points, c) == -1);
+  CHECK(side_of_plane(planes, plane, points, a, {}) == 0);
+  CHECK(side_of_plane(planes, plane, points, b, {}) == 1);
+  CHECK(side_of_plane(planes, plane, points, c, {}) == -1);
 }
 
 TEST_CASE("three planes meet in a point that lies on them") {
@@ -129,7 +131,7 @@ TEST_CASE("three planes meet in a point that lies on them") {
   const PlaneId r = planes.intern(1, 1, -9, 17);
   const std::optional<PointId> point = points.push_intersection(planes, p, q.opposite(), r);
   REQUIRE(point);
-  for (const PlaneId plane : {p, q, r}) CHECK(side_of_plane(planes, plane, points, *point) == 0);
+  for (const PlaneId plane : {p, q, r}) CHECK(side_of_plane(planes, plane, points, *point, {}) == 0);
   const PlaneId parallel = planes.intern(3, 5, 7, 12);
   CHECK_FALSE(points.push_intersection(planes, p, parallel, r));
   const PlaneId through_line = planes.intern(5, 4, 11, 24);  // p + q
@@ -173,7 +175,7 @@ TEST_CASE("points of planes and of fractions are the same however wide their int
       CHECK(points.rational(*point) == reduced);
       CHECK(sgn(Integer(points.coordinate(*point, 3))) > 0);
       const PointId again = points.push(reduced);
-      CHECK(compare_lexicographic(points, *point, again) == 0);
+      CHECK(compare_lexicographic(points, *point, again, {}) == 0);
       for (std::size_t i = 0; i < 3; ++i) {
         const double truth = nearest_double(reduced[i]);
         CHECK(std::abs(points.approximate(*point)[i] - truth) <= std::abs(truth) * 0x1p-50);
@@ -211,16 +213,17 @@ TEST_CASE("signs of sums that all but vanish are exact, however wide the integer
       const PlaneId plane = planes.intern(n[0], n[1], n[2], d);
       const Rational3 at{fraction(x[0], w), fraction(x[1], w), on + beside};
       const Rational sum = n[0] * at[0] + n[1] * at[1] + n[2] * at[2] + d;
-      CHECK(side_of_plane(planes, plane, points, points.push(at)) == sgn(sum));
+      CHECK(side_of_plane(planes, plane, points, points.push(at), {}) == sgn(sum));
       // Of one denominator and of two: that of a plane x = constant, and the order of neighbours.
       const std::array<Rational, 2> values{
           fraction(x[0], w), random() % 2 == 0 ? fraction(x[0] * 2, w * 2) : fraction(x[0] * 2 + 1, w * 2)};
       const PointId a = points.push({values[0], 0, 0});
       const PointId b = points.push({values[1], 0, 0});
-      CHECK(compare_coordinate(points, a, b, 0) == sgn(Rational(values[0] - values[1])));
+      CHECK(compare_coordinate(points, a, b, 0, {}) == sgn(Rational(values[0] - values[1])));
       const PlaneId wall = planes.intern(values[0].get_den(), 0, 0, Integer(-values[0].get_num()));
-      CHECK(side_of_plane(planes, wall, points, a) == 0);
-      CHECK(side_of_plane(planes, wall, points, b) == (wall.flipped() ? -1 : 1) * sgn(Rational(values[1] - values[0])));
+      CHECK(side_of_plane(planes, wall, points, a, {}) == 0);
+      CHECK(side_of_plane(planes, wall, points, b, {}) ==
+            (wall.flipped() ? -1 : 1) * sgn(Rational(values[1] - values[0])));
     }
   }
 }
@@ -234,14 +237,14 @@ TEST_CASE("infimaximal points and planes: R is greater than every number") {
   const std::optional<PointId> at_wall = points.push_intersection(planes, wall, y, z);
   REQUIRE(at_wall);
   CHECK_FALSE(points.finite(*at_wall));
-  CHECK(side_of_plane(planes, wall, points, *at_wall) == 0);
-  CHECK(side_of_plane(planes, y, points, *at_wall) == 0);
+  CHECK(side_of_plane(planes, wall, points, *at_wall, {}) == 0);
+  CHECK(side_of_plane(planes, y, points, *at_wall, {}) == 0);
   const PointId far = points.push({Rational(power(10, 100)), 5, 0});
-  CHECK(side_of_plane(planes, wall, points, far) == -1);
-  CHECK(compare_coordinate(points, *at_wall, far, 0) == 1);
-  CHECK(compare_coordinate(points, *at_wall, far, 1) == 0);
+  CHECK(side_of_plane(planes, wall, points, far, {}) == -1);
+  CHECK(compare_coordinate(points, *at_wall, far, 0, {}) == 1);
+  CHECK(compare_coordinate(points, *at_wall, far, 1, {}) == 0);
   const PlaneId x = planes.intern(1, 0, 0, Integer(-power(10, 100)));
-  CHECK(side_of_plane(planes, x, points, *at_wall) == 1);
+  CHECK(side_of_plane(planes, x, points, *at_wall, {}) == 1);
 }
 
 TEST_CASE("directions: equality by identity, by filter, exactly") {
@@ -250,20 +253,20 @@ TEST_CASE("directions: equality by identity, by filter, exactly") {
   const PlaneId q = planes.intern(3, -1, 2, 0);
   const PlaneId r = planes.intern(4, 1, 5, 0);  // p + q: through the same line
   const Direction d = Direction::cross(planes, p, q);
-  PredicateCounts before = predicate_counts();
-  CHECK(same_direction(d, Direction::cross(planes, p, q)));
-  CHECK(predicate_counts().identity == before.identity + 1);
-  before = predicate_counts();
-  CHECK(same_direction(d, Direction::cross(planes, p, r)));
-  CHECK(predicate_counts().exact > before.exact);
-  CHECK_FALSE(same_direction(d, Direction::cross(planes, r, p)));
-  CHECK(same_direction(d.negated(), Direction::cross(planes, q, p)));
-  CHECK(same_direction(d.negated(), Direction::cross(planes, p.opposite(), q)));
-  before = predicate_counts();
-  CHECK_FALSE(same_direction(d, Direction::exact(1, 0, 0)));
-  CHECK(predicate_counts().filter == before.filter + 1);
-  CHECK(side_of_circle(planes, p, d) == 0);
-  CHECK(side_of_circle(planes, r, d) == 0);
+  PredicateCounts counts;
+  const Monitor monitor = Monitor().counting(counts);
+  CHECK(same_direction(d, Direction::cross(planes, p, q), monitor));
+  CHECK(counts.identity == 1);
+  CHECK(same_direction(d, Direction::cross(planes, p, r), monitor));
+  CHECK(counts.exact > 0);
+  CHECK_FALSE(same_direction(d, Direction::cross(planes, r, p), monitor));
+  CHECK(same_direction(d.negated(), Direction::cross(planes, q, p), monitor));
+  CHECK(same_direction(d.negated(), Direction::cross(planes, p.opposite(), q), monitor));
+  const PredicateCounts before = counts;
+  CHECK_FALSE(same_direction(d, Direction::exact(1, 0, 0), monitor));
+  CHECK(counts.filter == before.filter + 1);
+  CHECK(side_of_circle(planes, p, d, monitor) == 0);
+  CHECK(side_of_circle(planes, r, d, monitor) == 0);
 }
 
 TEST_CASE("directions of nearly parallel planes are told apart") {
@@ -275,10 +278,10 @@ TEST_CASE("directions of nearly parallel planes are told apart") {
   const Direction pq = Direction::cross(planes, p, q);
   const Direction ps = Direction::cross(planes, p, s);
   CHECK_FALSE(pq.is_zero());
-  CHECK_FALSE(same_direction(pq, ps));
-  CHECK(sign_of_dot(Direction::normal(planes, p), pq) == 0);
-  CHECK(sign_of_dot(Direction::normal(planes, s), pq) != 0);
-  CHECK(sign_of_determinant(Direction::normal(planes, p), Direction::normal(planes, q), pq) > 0);
+  CHECK_FALSE(same_direction(pq, ps, {}));
+  CHECK(sign_of_dot(Direction::normal(planes, p), pq, {}) == 0);
+  CHECK(sign_of_dot(Direction::normal(planes, s), pq, {}) != 0);
+  CHECK(sign_of_determinant(Direction::normal(planes, p), Direction::normal(planes, q), pq, {}) > 0);
 }
 
 // The filters against the integers, on small vectors where zeros are common.
@@ -302,11 +305,11 @@ TEST_CASE("signs of determinants agree with integer arithmetic") {
                      v[0][1] * (v[1][0] * v[2][2] - v[1][2] * v[2][0]) +
                      v[0][2] * (v[1][0] * v[2][1] - v[1][1] * v[2][0]);
     const long dot = v[0][0] * v[1][0] + v[0][1] * v[1][1] + v[0][2] * v[1][2];
-    REQUIRE(sign_of_determinant(a, b, c) == (det > 0) - (det < 0));
-    REQUIRE(sign_of_dot(a, b) == (dot > 0) - (dot < 0));
+    REQUIRE(sign_of_determinant(a, b, c, {}) == (det > 0) - (det < 0));
+    REQUIRE(sign_of_dot(a, b, {}) == (dot > 0) - (dot < 0));
     const bool parallel = v[0][1] * v[1][2] == v[0][2] * v[1][1] && v[0][2] * v[1][0] == v[0][0] * v[1][2] &&
                           v[0][0] * v[1][1] == v[0][1] * v[1][0];
-    REQUIRE(same_direction(a, b) == (parallel && dot > 0));
+    REQUIRE(same_direction(a, b, {}) == (parallel && dot > 0));
   }
 }
 

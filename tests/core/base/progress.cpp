@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/polyhedron.h"
 #include "tests/support/literals.h"
 
@@ -44,20 +45,16 @@ TEST_CASE("a Boolean tells its phases, and only while somebody listens") {
   const Polyhedron b = test::set("box(1,1,1,3,3,3)");
   Told told;
   const ProgressFunction function = told.function();
-  {
-    const ProgressListener listener(function);
-    CHECK(volume(unite(a, b)) == Rational(15));
-    CHECK(told.calls.at("edges through facets") == 2);
-    CHECK(told.calls.at("sphere maps") == 1);
-    CHECK(told.calls.at("synthesis") == 4);
-    CHECK(told.last == 3);
-    const ProgressFunction nobody;
-    const ProgressListener quiet(nobody);
-    const auto before = told.calls;
-    unite(a, b);
-    CHECK(told.calls == before);
-  }
+  const Monitor monitor = Monitor().telling(function);
+  CHECK(volume(unite(a, b, 1, monitor)) == Rational(15));
+  CHECK(told.calls.at("edges through facets") == 2);
+  CHECK(told.calls.at("sphere maps") == 1);
+  CHECK(told.calls.at("synthesis") == 4);
+  CHECK(told.last == 3);
   const auto before = told.calls;
+  unite(a, b, 1, monitor.quiet());
+  const ProgressFunction nobody;
+  unite(a, b, 1, monitor.telling(nobody));
   unite(a, b);
   CHECK(told.calls == before);
   CHECK(told.in_order);
@@ -69,8 +66,7 @@ TEST_CASE("many sets are counted as they are combined, by the thread that waits"
   for (const unsigned threads : {1U, 2U, 0U}) {
     Told told;
     const ProgressFunction function = told.function();
-    const ProgressListener listener(function);
-    CHECK(volume(unite_all(sets, threads)) == Rational(40));
+    CHECK(volume(unite_all(sets, threads, Monitor().telling(function))) == Rational(40));
     CHECK(told.calls.size() == 1);
     CHECK(told.calls.count("sets") == 1);
     CHECK(told.in_this_thread);
@@ -87,10 +83,10 @@ TEST_CASE("what a listener throws ends the computation and leaves the operands w
   const Polyhedron b = test::set("box(1,1,1,3,3,3)");
   for (const unsigned threads : {1U, 2U}) {
     const ProgressFunction refuse = [](const char*, std::size_t, std::size_t) { throw std::runtime_error("enough"); };
-    const ProgressListener listener(refuse);
-    CHECK_THROWS_WITH(unite(a, b), "enough");
-    CHECK_THROWS_WITH(interior(a), "enough");
-    CHECK_THROWS_WITH(unite_all(std::vector<Polyhedron>{a, b}, threads), "enough");
+    const Monitor monitor = Monitor().telling(refuse);
+    CHECK_THROWS_WITH(unite(a, b, 1, monitor), "enough");
+    CHECK_THROWS_WITH(interior(a, monitor), "enough");
+    CHECK_THROWS_WITH(unite_all(std::vector<Polyhedron>{a, b}, threads, monitor), "enough");
   }
   CHECK(volume(unite(a, b)) == Rational(15));
 }

@@ -82,7 +82,7 @@ SolidFaces boxes(std::initializer_list<std::pair<int, bool>> sizes) {
 
 TEST_CASE("An edge without its other end is a defect") {
   BuilderPlanes planes;
-  ComplexBuilder builder(planes.table);
+  ComplexBuilder builder(planes.table, {});
   Arrangement drawing = end_of_edge(planes);
   CHECK(builder.add({0, 0, 0}, drawing));
   CHECK(defect_of(builder) == "an edge has two ends, halfedge 0");
@@ -90,7 +90,7 @@ TEST_CASE("An edge without its other end is a defect") {
 
 TEST_CASE("Where nobody's data may be wrong a defect is a bug, and no error of the user's") {
   BuilderPlanes planes;
-  ComplexBuilder builder(planes.table);
+  ComplexBuilder builder(planes.table, {});
   Arrangement drawing = end_of_edge(planes);
   builder.add({0, 0, 0}, drawing);
   CHECK_THROWS_WITH(builder.finish(0), Catch::Contains("internal error"));
@@ -100,7 +100,7 @@ TEST_CASE("Where nobody's data may be wrong a defect is a bug, and no error of t
 // This used to be read from outside of the arrays.
 TEST_CASE("An edge with a facet at one end only is a defect") {
   BuilderPlanes planes;
-  ComplexBuilder builder(planes.table);
+  ComplexBuilder builder(planes.table, {});
   Arrangement bare = end_of_edge(planes);
   Arrangement corner = corner_of_polygon(planes);
   CHECK(builder.add({0, 0, 0}, bare));
@@ -110,7 +110,7 @@ TEST_CASE("An edge with a facet at one end only is a defect") {
 
 TEST_CASE("An edge from a vertex to itself is a defect") {
   BuilderPlanes planes;
-  ComplexBuilder builder(planes.table);
+  ComplexBuilder builder(planes.table, {});
   Arrangement drawing = end_of_edge(planes);
   drawing.nodes.push_back(planes.toward(planes.z, planes.y));
   drawing.centre = 0;
@@ -120,7 +120,7 @@ TEST_CASE("An edge from a vertex to itself is a defect") {
 
 TEST_CASE("Two directions of one line that do not meet are a defect") {
   BuilderPlanes planes;
-  ComplexBuilder builder(planes.table);
+  ComplexBuilder builder(planes.table, {});
   for (const int at : {0, 1, 2}) {
     Arrangement drawing = end_of_edge(planes);
     builder.add({at, 0, 0}, drawing);
@@ -130,7 +130,7 @@ TEST_CASE("Two directions of one line that do not meet are a defect") {
 
 TEST_CASE("Boxes in a box that are turned the wrong way contradict it") {
   const auto kind = [](SolidFaces faces) -> std::optional<Defect::Kind> {
-    const std::variant<Complex, Defect> made = try_make_solid(std::move(faces), {1, 1, 0});
+    const std::variant<Complex, Defect> made = try_make_solid(std::move(faces), {1, 1, 0}, {});
     if (const Defect* defect = std::get_if<Defect>(&made)) return defect->kind;
     CHECK(validate(std::get<Complex>(made)) == "");
     return std::nullopt;
@@ -138,12 +138,12 @@ TEST_CASE("Boxes in a box that are turned the wrong way contradict it") {
   CHECK(kind(boxes({{3, false}, {2, true}, {1, false}})) == std::nullopt);
   CHECK(kind(boxes({{3, false}, {2, false}})) == Defect::Kind::kMarks);
   CHECK(kind(boxes({{3, false}, {2, true}, {1, true}})) == Defect::Kind::kMarks);
-  CHECK_THROWS_AS(make_solid(boxes({{3, false}, {2, false}}), {1, 1, 0}), detail::BrokenInvariant);
+  CHECK_THROWS_AS(make_solid(boxes({{3, false}, {2, false}}), {1, 1, 0}, {}), detail::BrokenInvariant);
 }
 
 TEST_CASE("A point that is no vertex is not added") {
   BuilderPlanes planes;
-  ComplexBuilder builder(planes.table);
+  ComplexBuilder builder(planes.table, {});
   Arrangement inside_edge = end_of_edge(planes);
   inside_edge.nodes.push_back(planes.toward(planes.z, planes.y));
   CHECK_FALSE(builder.add({0, 0, 0}, inside_edge));
@@ -155,7 +155,7 @@ TEST_CASE("A point that is no vertex is not added") {
 
 TEST_CASE("What is wrong first is told") {
   BuilderPlanes planes;
-  ComplexBuilder builder(planes.table);
+  ComplexBuilder builder(planes.table, {});
   Arrangement contradictory;  // a great circle of two halves with different marks on one side
   contradictory.nodes.push_back(planes.toward(planes.y, planes.z));
   contradictory.nodes.push_back(planes.toward(planes.z, planes.y));

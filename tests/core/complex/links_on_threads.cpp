@@ -50,7 +50,7 @@ Polyhedron many_cells(int along) {
 
 Complex linked_anew(const Complex& c, unsigned threads) {
   PlaneTable planes = c.planes;
-  ComplexBuilder builder(planes);
+  ComplexBuilder builder(planes, {});
   builder.copy(c);
   return builder.finish(0, threads);
 }
@@ -134,8 +134,8 @@ TEST_CASE("A structure for some rays finds on them what the one for all finds") 
     const QueryStructure all(c);
     const QueryStructure some(c, BoxTree(rays));
     for (const VertexId v : asked) {
-      const std::optional<ComplexHit> expected = all.first_hit_minus_x(c, v);
-      const std::optional<ComplexHit> found = some.first_hit_minus_x(c, v);
+      const std::optional<ComplexHit> expected = all.first_hit_minus_x(c, v, {});
+      const std::optional<ComplexHit> found = some.first_hit_minus_x(c, v, {});
       REQUIRE(found.has_value() == expected.has_value());
       if (!found) continue;
       CHECK(found->kind == expected->kind);

@@ -22,14 +22,14 @@ struct Planes {
 
 SphereMapBuffer assemble(Arrangement& drawing, const PlaneTable& planes) {
   SphereMapBuffer map;
-  drawing.sort_around_nodes(planes);
-  drawing.simplify_and_assemble(planes, map);
+  drawing.sort_around_nodes(planes, {});
+  drawing.simplify_and_assemble(planes, map, {});
   REQUIRE(validate(planes, map.view()) == "");
   return map;
 }
 
 LabelId mark_of(const PlaneTable& planes, const SphereMapBuffer& map, int x, int y, int z) {
-  return mark_at(map.view(), locate(planes, map.view(), Direction::exact(x, y, z)));
+  return mark_at(map.view(), locate(planes, map.view(), Direction::exact(x, y, z), {}));
 }
 
 // The closed octant x, y, z >= 0: three nodes, three quarter circles.
@@ -144,7 +144,7 @@ TEST_CASE("components of a sphere map bound the sfaces that they lie in") {
   static_cast<void>(a);
   Arrangement::Node inside;
   inside.direction = Direction::cross(planes, diagonal, other);
-  if (sign_of_dot(inside.direction, Direction::exact(1, 1, 1)) < 0) inside.direction = inside.direction.negated();
+  if (sign_of_dot(inside.direction, Direction::exact(1, 1, 1), {}) < 0) inside.direction = inside.direction.negated();
   inside.mark = 0;
   inside.around = 1;
   drawing.nodes.push_back(inside);

@@ -16,7 +16,7 @@ Polyhedron combined(const Polyhedron& a, const Polyhedron& b, unsigned table, un
                         [table](LabelId x, LabelId y) { return static_cast<LabelId>(table >> (2U * x + y) & 1U); });
   std::optional<Complex> made = overlay_complexes(
       a.complex(), b.complex(), f, [&]() -> const QueryStructure& { return a.queries(); },
-      [&]() -> const QueryStructure& { return b.queries(); }, threads);
+      [&]() -> const QueryStructure& { return b.queries(); }, threads, {});
   return made ? Polyhedron(std::move(*made)) : a;
 }
 

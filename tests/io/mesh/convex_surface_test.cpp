@@ -14,7 +14,7 @@
 namespace nef {
 namespace {
 
-bool is_convex(const Mesh& mesh) { return bounds_small_convex_solid(mesh, MeshSurface(mesh)); }
+bool is_convex(const Mesh& mesh) { return bounds_small_convex_solid(mesh, MeshSurface(mesh, {}), {}); }
 
 Mesh box() {
   Mesh mesh;

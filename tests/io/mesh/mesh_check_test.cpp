@@ -60,7 +60,7 @@ std::optional<MeshProblem> first_self_intersection(const Mesh& mesh) {
   return std::nullopt;
 }
 
-bool planar(const Mesh& mesh, std::size_t face) { return MeshSurface(mesh).planar[face]; }
+bool planar(const Mesh& mesh, std::size_t face) { return MeshSurface(mesh, {}).planar[face]; }
 
 bool legal(const Mesh& mesh) {
   const auto problems = check_mesh(mesh);
@@ -411,7 +411,7 @@ TEST_CASE("Polygons meet where the triangles that they are cut into meet") {
       add_prism(mesh, bases[static_cast<std::size_t>(below(4))], {below(4), below(4), below(4)}, 1 + below(3),
                 static_cast<std::size_t>(below(3)), oblique);
     }
-    const MeshSurface surface(mesh);
+    const MeshSurface surface(mesh, {});
     Mesh cut;
     cut.vertices = mesh.vertices;
     for (const auto& t : surface.triangles) cut.push_face(t);

@@ -7,7 +7,7 @@
 #include <map>
 #include <set>
 
-#include "nef/base/timing/predicate_counts.h"
+#include "nef/base/monitor.h"
 #include "nef/mesh/polygon/triangulate.h"
 
 namespace nef::test {
@@ -86,7 +86,7 @@ std::string fault(const Polygon& polygon) {
       }
       const MeshPoints mesh_points{std::span<const Rational3>(placed)};
       std::vector<Triangulator::Triangle> triangles;
-      if (!Triangulator(mesh_points).triangulate(polygon.rings, axis, sign, triangles)) return "refused";
+      if (!Triangulator(mesh_points, {}).triangulate(polygon.rings, axis, sign, triangles)) return "refused";
       if (std::string text = fault(polygon, triangles); !text.empty()) return text;
     }
   }
@@ -302,9 +302,9 @@ Polygon plate(int n, const Rational& reach) {
 std::uint64_t predicates_for(const Polygon& polygon) {
   const MeshPoints points{std::span<const Rational3>(polygon.points)};
   std::vector<Triangulator::Triangle> triangles;
-  const PredicateCounts before = predicate_counts();
-  REQUIRE(Triangulator(points).triangulate(polygon.rings, 2, 1, triangles));
-  return predicate_counts().filter + predicate_counts().exact - before.filter - before.exact;
+  PredicateCounts counts;
+  REQUIRE(Triangulator(points, Monitor().counting(counts)).triangulate(polygon.rings, 2, 1, triangles));
+  return counts.filter + counts.exact;
 }
 
 }  // namespace
@@ -426,7 +426,7 @@ TEST_CASE("Rings that are no polygon are refused or covered as often as they go 
     }
     const MeshPoints points{std::span<const Rational3>(polygon.points)};
     std::vector<Triangulator::Triangle> triangles;
-    if (!Triangulator(points).triangulate(polygon.rings, 2, 1, triangles)) {
+    if (!Triangulator(points, {}).triangulate(polygon.rings, 2, 1, triangles)) {
       RC_ASSERT(triangles.empty());
       return;
     }

@@ -149,7 +149,7 @@ void check_ring(const std::vector<Rational3>& corners) {
   }
   REQUIRE(twice_area > 0);
   std::vector<Triangulator::Triangle> triangles;
-  REQUIRE(Triangulator(points).triangulate(ring, 2, 1, triangles));
+  REQUIRE(Triangulator(points, {}).triangulate(ring, 2, 1, triangles));
   CHECK(triangles.size() == corners.size() - 2);
   Rational sum = 0;
   for (const auto& t : triangles) {
@@ -194,7 +194,7 @@ TEST_CASE("Rings that cross themselves are refused") {
   const MeshPoints points(corners);
   const std::vector<std::uint32_t> ring{0, 1, 2, 3};
   std::vector<Triangulator::Triangle> triangles;
-  CHECK_FALSE(Triangulator(points).triangulate(ring, 2, 1, triangles));
+  CHECK_FALSE(Triangulator(points, {}).triangulate(ring, 2, 1, triangles));
   CHECK(triangles.empty());
 }
 
@@ -205,7 +205,7 @@ TEST_CASE("Holes that touch, and dangling edges") {
   const MeshPoints points(p);
   const std::vector<std::vector<std::uint32_t>> rings{{0, 1, 2, 3}, {4, 5, 6, 8, 9, 10, 6, 7}, {11, 12}};
   std::vector<Triangulator::Triangle> triangles;
-  REQUIRE(Triangulator(points).triangulate(rings, 2, 1, triangles));
+  REQUIRE(Triangulator(points, {}).triangulate(rings, 2, 1, triangles));
   Rational sum = 0;
   for (const auto& t : triangles) {
     const Rational area =

@@ -25,7 +25,7 @@ Rational doubled_area(const std::vector<Rational3>& points, std::span<const std:
 
 void check_triangulation(const std::vector<Rational3>& points, const std::vector<Ring>& rings) {
   const MeshPoints mesh_points{std::span<const Rational3>(points)};
-  Triangulator triangulator(mesh_points);
+  Triangulator triangulator(mesh_points, {});
   std::vector<Triangulator::Triangle> triangles;
   REQUIRE(triangulator.triangulate(rings, 2, 1, triangles));
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> sides;
@@ -170,10 +170,10 @@ TEST_CASE("Chosen points of a table answer as the points themselves") {
           const std::size_t k = (i + 2) % 3;
           const Rational minor = (points[b][j] - points[a][j]) * (points[c][k] - points[a][k]) -
                                  (points[c][j] - points[a][j]) * (points[b][k] - points[a][k]);
-          RC_ASSERT(other.orientation_along(a, b, c, i) == sgn(minor));
+          RC_ASSERT(other.orientation_along(a, b, c, i, {}) == sgn(minor));
           determinant += minor * (points[d][i] - points[a][i]);
         }
-        RC_ASSERT(other.orientation(a, b, c, d) == sgn(determinant));
+        RC_ASSERT(other.orientation(a, b, c, d, {}) == sgn(determinant));
       }
     }
   }));
@@ -216,8 +216,8 @@ TEST_CASE("Points that may not be asked about do not matter") {
         const std::uint32_t c = (a + 2 * b + 1) % count;
         RC_ASSERT(borrowed.compare(asked[a], asked[b]) == (of_asked[a] > of_asked[b]) - (of_asked[a] < of_asked[b]));
         for (std::size_t axis = 0; axis < 3; ++axis) {
-          RC_ASSERT(borrowed.orientation_along(asked[a], asked[b], asked[c], axis) ==
-                    own.orientation_along(a, b, c, axis));
+          RC_ASSERT(borrowed.orientation_along(asked[a], asked[b], asked[c], axis, {}) ==
+                    own.orientation_along(a, b, c, axis, {}));
         }
       }
     }

@@ -18,7 +18,7 @@ namespace {
 using Triangle = VertexStars::Triangle;
 
 bool degenerate(const MeshPoints& points, const Triangle& t) {
-  return t[0] == t[1] || t[1] == t[2] || t[2] == t[0] || points.collinear(t[0], t[1], t[2]);
+  return t[0] == t[1] || t[1] == t[2] || t[2] == t[0] || points.collinear(t[0], t[1], t[2], {});
 }
 
 Polyhedron hull_of(const std::vector<Rational3>& places, std::span<const std::uint32_t> corners) {

@@ -356,10 +356,10 @@ TEST_CASE("Bricks beside and in each other are told to be one solid iff they are
     for (Rational3& p : mesh.vertices) {
       p = {p[0] + p[1] / 1000 + p[2] / 1700, p[1] - p[0] / 1300 + p[2] / 1100, p[2] + p[0] / 900 - p[1] / 1500};
     }
-    CHECK(surely_one_solid(MeshSurface(mesh)) == one_solid);
+    CHECK(surely_one_solid(MeshSurface(mesh, {}), {}) == one_solid);
     if (one_solid) CHECK(refusal(mesh).empty());
     // As they are, sides may hide one from another.
-    if (!one_solid) CHECK_FALSE(surely_one_solid(MeshSurface(mesh_of(bricks))));
+    if (!one_solid) CHECK_FALSE(surely_one_solid(MeshSurface(mesh_of(bricks), {}), {}));
   }
 }
 

@@ -84,7 +84,7 @@ TEST_CASE("cubes of the grid that count as empty hold nothing of the boundary") 
   for (unsigned seed = 0; seed < 12; ++seed) {
     INFO("seed " << seed);
     const Polyhedron set = random_set(seed);
-    const EmptyGrid grid(set.complex());
+    const EmptyGrid grid(set.complex(), {});
     REQUIRE(grid.size() > 0);
     const Polyhedron surface = boundary(set);
     const Rational half = exact_rational(grid.side()) / 2;
@@ -108,10 +108,10 @@ TEST_CASE("cubes of the grid that count as empty hold nothing of the boundary") 
 }
 
 TEST_CASE("there is no grid where there is nothing, or where doubles cannot hold it") {
-  CHECK(EmptyGrid(Polyhedron().complex()).size() == 0);
-  CHECK(EmptyGrid(make_point({1, 2, 3}).complex()).size() == 0);
+  CHECK(EmptyGrid(Polyhedron().complex(), {}).size() == 0);
+  CHECK(EmptyGrid(make_point({1, 2, 3}).complex(), {}).size() == 0);
   const Rational far(Integer("1000000000000000000000000000000"));
-  CHECK(EmptyGrid(make_box({far, 0, 0}, {far + 1, 1, 1}).complex()).size() == 0);
+  CHECK(EmptyGrid(make_box({far, 0, 0}, {far + 1, 1, 1}).complex(), {}).size() == 0);
 }
 
 // Many small boxes, and a wall across with one hole.
@@ -153,7 +153,7 @@ TEST_CASE("a way through roadmaps of parts of free space, in random sets with ma
       const CellId from = free.locate(ExactPoint(a));
       const CellId to = free.locate(ExactPoint(b));
       if (!free.is_free(from) || !free.is_free(to)) continue;
-      const std::optional<std::vector<Rational3>> way = narrow_way(free, filter, 0, a, b);
+      const std::optional<std::vector<Rational3>> way = narrow_way(free, filter, 0, a, b, {});
       if (free.component(from) != free.component(to)) {
         CHECK_FALSE(way.has_value());
         continue;
@@ -230,7 +230,7 @@ TEST_CASE("from a room with a tight door to another one, among many boxes, witho
   const FreeSpace free(free_positions(scene));
   REQUIRE(free.cells().size() >= 2000);
   const CellFilter filter(free);
-  CHECK_FALSE(wide_way(free, filter, start, goal).has_value());
+  CHECK_FALSE(wide_way(free, filter, start, goal, {}).has_value());
   for (const auto& [a, b] : {std::pair(start, goal), std::pair(goal, start)}) {
     const std::optional<ExactPath> path = find_path(free, a, b);
     REQUIRE(path.has_value());

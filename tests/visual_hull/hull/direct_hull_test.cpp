@@ -34,7 +34,7 @@ std::optional<WorldBox> enclosing_box(const std::vector<TestView>& views) {
 std::optional<nef::Polyhedron> directly(const std::vector<TestView>& views, const WorldBox& box) {
   std::vector<DirectView> inputs;
   for (const TestView& view : views) inputs.push_back({&view.camera, &view.silhouette});
-  return direct_hull(inputs, box, 1);
+  return direct_hull(inputs, box, 1, {});
 }
 
 nef::Polyhedron by_cones(const std::vector<TestView>& views, const WorldBox& box) {

@@ -44,11 +44,11 @@ bool FacetPyramids::locate(std::uint32_t facet, PointId point, FacetAtPoint& res
     if (inside < -doubt) return false;
     if (!(inside > doubt)) doubtful |= std::uint64_t{1} << std::min<std::size_t>(i, 63);
   }
-  if (side_of_plane(facets_.planes, facets_.plane[facet], facets_.points, point) != 0) return false;
+  if (side_of_plane(facets_.planes, facets_.plane[facet], facets_.points, point, monitor_) != 0) return false;
   for (std::uint32_t i = 0; i < sides.size(); ++i) {
     if ((doubtful >> std::min(i, 63U) & 1U) == 0) continue;
     const PlaneId side = side_plane(facet, i);
-    const int sign = side_of_plane(facets_.planes, side, facets_.points, point);
+    const int sign = side_of_plane(facets_.planes, side, facets_.points, point, monitor_);
     if (sign < 0) return false;
     if (sign > 0 || side == result.sides[0] || side == result.sides[1]) continue;
     result.sides[result.sides[0].valid() ? 1 : 0] = side;
@@ -69,9 +69,10 @@ const std::vector<FacetAtPoint>& FacetPyramids::facets_at(PointId point) {
 
 bool FacetPyramids::goes_on(const FacetAtPoint& at, const Direction& direction) const {
   const PlaneTable& planes = facets_.planes;
-  if (side_of_circle(planes, facets_.plane[at.facet], direction) != 0) return false;
-  return std::all_of(at.sides.begin(), at.sides.end(),
-                     [&](PlaneId side) { return !side.valid() || side_of_circle(planes, side, direction) >= 0; });
+  if (side_of_circle(planes, facets_.plane[at.facet], direction, monitor_) != 0) return false;
+  return std::all_of(at.sides.begin(), at.sides.end(), [&](PlaneId side) {
+    return !side.valid() || side_of_circle(planes, side, direction, monitor_) >= 0;
+  });
 }
 
 bool FacetPyramids::holds(std::uint32_t facet, PointId point) {
@@ -121,11 +122,13 @@ bool FacetPyramids::sees(PointId from, PointId to, const std::vector<FacetAtPoin
   tree_.for_each_overlap(box, [&](std::uint32_t f) {
     if (!clear || std::any_of(except.begin(), except.end(), [f](const FacetAtPoint& e) { return e.facet == f; }))
       return;
-    const int side = side_of_plane(planes, facets_.plane[f], points, from);
-    if (side != 0 && side_of_plane(planes, facets_.plane[f], points, to) == side) return;
+    const int side = side_of_plane(planes, facets_.plane[f], points, from, monitor_);
+    if (side != 0 && side_of_plane(planes, facets_.plane[f], points, to, monitor_) == side) return;
     for (std::uint32_t i = 0; i < facets_.ring(f).size(); ++i) {
       const PlaneId across = side_plane(f, i);
-      if (side_of_plane(planes, across, points, from) < 0 && side_of_plane(planes, across, points, to) < 0) return;
+      if (side_of_plane(planes, across, points, from, monitor_) < 0 &&
+          side_of_plane(planes, across, points, to, monitor_) < 0)
+        return;
     }
     clear = false;
   });

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apps/minkowski/convolution/facets/rounded_facets.h"
+#include "nef/base/monitor.h"
 #include "nef/geometry/box_tree.h"
 #include "nef/geometry/predicates.h"
 
@@ -23,8 +24,8 @@ struct FacetAtPoint {
 class FacetPyramids {
  public:
   /// All must outlive the object. `tree` is over the boxes of the facets.
-  FacetPyramids(ConvolutionFacets& facets, const RoundedFacets& rounded, const BoxTree& tree)
-      : facets_(facets), rounded_(rounded), tree_(tree), side_plane_(facets.corners.size()) {}
+  FacetPyramids(ConvolutionFacets& facets, const RoundedFacets& rounded, const BoxTree& tree, const Monitor& monitor)
+      : facets_(facets), rounded_(rounded), tree_(tree), monitor_(monitor), side_plane_(facets.corners.size()) {}
 
   /// All facets that hold a point of their table. O(log n + k) for k boxes around it.
   const std::vector<FacetAtPoint>& facets_at(PointId point);
@@ -53,6 +54,7 @@ class FacetPyramids {
   ConvolutionFacets& facets_;
   const RoundedFacets& rounded_;
   const BoxTree& tree_;
+  Monitor monitor_;
   std::vector<PlaneId> side_plane_;  // per corner, invalid until asked for
   std::vector<FacetAtPoint> found_;
 };

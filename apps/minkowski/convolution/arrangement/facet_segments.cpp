@@ -68,7 +68,7 @@ bool SegmentFinder::find_chord(std::uint32_t facet, std::uint32_t other, Chord& 
     const double value = plane.value(facets_.rounded[c]);
     int sign = value > plane.slack ? 1 : value < -plane.slack ? -1 : 0;
     if (sign == 0 && std::find(others.begin(), others.end(), c) == others.end()) {
-      sign = side_of_plane(facets_.planes, facets_.plane[other], facets_.points, PointId{c});
+      sign = side_of_plane(facets_.planes, facets_.plane[other], facets_.points, PointId{c}, monitor_);
     }
     values_.push_back(value);
     signs_.push_back(sign);

@@ -9,6 +9,7 @@
 
 #include "apps/minkowski/cells/segment.h"
 #include "apps/minkowski/convolution/facets/rounded_facets.h"
+#include "nef/base/monitor.h"
 
 namespace nef::minkowski {
 
@@ -36,8 +37,9 @@ struct FacetSegment : Segment {  // f and g are the facets
 /// Finds the segments. Not to be shared between threads.
 class SegmentFinder {
  public:
-  /// Both must outlive the object.
-  SegmentFinder(const ConvolutionFacets& facets, const RoundedFacets& rounded) : facets_(facets), rounded_(rounded) {}
+  /// Facets of both kinds must outlive the object.
+  SegmentFinder(const ConvolutionFacets& facets, const RoundedFacets& rounded, const Monitor& monitor)
+      : facets_(facets), rounded_(rounded), monitor_(monitor) {}
 
   /// Nothing if the facets are in one plane or surely have less than a segment in common.
   std::optional<FacetSegment> find(std::uint32_t f, std::uint32_t g);
@@ -63,6 +65,7 @@ class SegmentFinder {
 
   const ConvolutionFacets& facets_;
   const RoundedFacets& rounded_;
+  Monitor monitor_;
   std::vector<int> signs_;
   std::vector<double> values_;
   std::vector<ChordEnd> found_;

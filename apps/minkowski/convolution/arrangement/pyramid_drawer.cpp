@@ -23,7 +23,7 @@ PyramidDrawer::BorderLabels PyramidDrawer::border_labels(std::uint32_t facet, Po
   const auto ring = facets_.ring(facet);
   const std::uint32_t begin = facets_.begin[facet];
   const auto order = [&](std::uint32_t corner, int axis) {
-    return compare_coordinate(facets_.points, point, PointId{ring[corner]}, axis);
+    return compare_coordinate(facets_.points, point, PointId{ring[corner]}, axis, monitor_);
   };
   for (std::uint32_t i = 0; i < ring.size(); ++i) {
     if (order(i, 0) != 0 || order(i, 1) != 0 || order(i, 2) != 0) continue;
@@ -46,7 +46,7 @@ PyramidDrawer::BorderLabels PyramidDrawer::border_labels(std::uint32_t facet, Po
 
 bool PyramidDrawer::is_on_side(std::uint32_t facet, std::uint32_t side, PointId point) const {
   const PlaneId plane = pyramids_.known_side_plane(facet, side);
-  return plane.valid() && side_of_plane(facets_.planes, plane, facets_.points, point) == 0;
+  return plane.valid() && side_of_plane(facets_.planes, plane, facets_.points, point, monitor_) == 0;
 }
 
 bool PyramidDrawer::is_void(std::uint32_t facet) const {
@@ -74,7 +74,7 @@ void PyramidDrawer::draw_facet(const FacetAtPoint& at, PointId point, SphereMapB
   PlaneId leaving = at.sides[0];
   PlaneId arriving = at.sides[1].valid() ? at.sides[1] : leaving;
   if (at.sides[1].valid() && orientation_on_circle(planes, plane, Direction::cross(planes, arriving, plane),
-                                                   Direction::cross(planes, leaving, plane)) < 0) {
+                                                   Direction::cross(planes, leaving, plane), monitor_) < 0) {
     std::swap(leaving, arriving);
   }
   const BorderLabels border = border_labels(at.facet, point);
@@ -86,8 +86,8 @@ void PyramidDrawer::draw_facet(const FacetAtPoint& at, PointId point, SphereMapB
   drawing_.nodes[1].direction = Direction::cross(planes, plane, arriving);
   drawing_.nodes[1].mark = bits | border.arriving;
   drawing_.arcs.push_back({plane, 0, 1, mark, 0, 0});
-  drawing_.sort_around_nodes(planes);
-  drawing_.simplify_and_assemble(planes, out);
+  drawing_.sort_around_nodes(planes, monitor_);
+  drawing_.simplify_and_assemble(planes, out, monitor_);
 }
 
 SphereMapBuffer PyramidDrawer::draw(const std::vector<FacetAtPoint>& at, PointId point) {
@@ -114,7 +114,7 @@ SphereMapBuffer PyramidDrawer::draw(const std::vector<FacetAtPoint>& at, PointId
     if (first) {
       std::swap(*map, maps_[2]);
     } else {
-      overlay_.overlay(facets_.planes, map->view(), maps_[2].view(), or_, *next);
+      overlay_.overlay(facets_.planes, map->view(), maps_[2].view(), or_, *next, monitor_);
       std::swap(map, next);
     }
     first = false;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apps/minkowski/convolution/arrangement/facet_pyramids.h"
+#include "nef/base/monitor.h"
 #include "nef/sphere_map/overlay.h"
 
 namespace nef::minkowski {
@@ -22,9 +23,9 @@ inline constexpr LabelId kInSum = 4;
 /// these for anything else.
 class PyramidDrawer {
  public:
-  /// Both must outlive the object.
-  PyramidDrawer(const ConvolutionFacets& facets, const FacetPyramids& pyramids)
-      : facets_(facets), pyramids_(pyramids) {}
+  /// Facets and pyramids must outlive the object.
+  PyramidDrawer(const ConvolutionFacets& facets, const FacetPyramids& pyramids, const Monitor& monitor)
+      : facets_(facets), pyramids_(pyramids), monitor_(monitor) {}
 
   /// The arrangement of facets on a small sphere around a point that they hold (FacetPyramids::facets_at): arcs, nodes
   /// and the centre marked with the bits above, and regions marked 0. Without any facet all is one region.
@@ -42,6 +43,7 @@ class PyramidDrawer {
 
   const ConvolutionFacets& facets_;
   const FacetPyramids& pyramids_;
+  Monitor monitor_;
   SphereOverlay overlay_;
   LabelFunction or_{8, 8, [](LabelId a, LabelId b) { return static_cast<LabelId>(a | b); }};
   Arrangement drawing_;

@@ -355,8 +355,8 @@ void add_segments_of(std::span<const FacetPair> pairs, const ConvolutionFacets& 
                      const IntervalOptions& options, FoundSegments& result) {
   constexpr std::size_t kChunk = 2048;
   std::vector<FoundSegments> found((pairs.size() + kChunk - 1) / kChunk);
-  parallel_for(found.size(), options.threads, [&](std::size_t chunk) {
-    SegmentFinder finder(facets, rounded);
+  parallel_for(found.size(), options.threads, options.monitor, [&](std::size_t chunk, const Monitor& own) {
+    SegmentFinder finder(facets, rounded, own);
     for (const auto& [f, g] : pairs.subspan(chunk * kChunk, std::min(kChunk, pairs.size() - chunk * kChunk))) {
       if (std::optional<FacetSegment> s = finder.find(f, g)) found[chunk].segments.push_back(*s);
     }
@@ -406,7 +406,7 @@ CutSegments cut_segments(const ConvolutionFacets& facets, const RoundedFacets& r
     options.poll(static_cast<double>(block) / static_cast<double>(segments.size()));
     const std::size_t end = std::min(segments.size(), block + kBlock);
     std::vector<CutSegments> parts((end - block + kChunk - 1) / kChunk);
-    parallel_for(parts.size(), options.threads, [&](std::size_t chunk) {
+    parallel_for(parts.size(), options.threads, options.monitor, [&](std::size_t chunk, const Monitor&) {
       const std::size_t first = block + chunk * kChunk;
       parts[chunk] = SegmentCutter(facets, rounded, segments, at_side, meeting, options.passages)
                          .run(first, std::min(end, first + kChunk));

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "apps/minkowski/convolution/arrangement/facet_segments.h"
+#include "nef/base/monitor.h"
 
 namespace nef::minkowski {
 
@@ -47,6 +48,7 @@ struct IntervalOptions {
   bool passages = false;             ///< find doubtful cuts and touching corners, too
   unsigned threads = 1;              ///< 0: as many as the machine has; the result does not depend on it
   std::function<void(double)> poll;  ///< called with the share that is done; may throw; not empty
+  Monitor monitor = {};              ///< who watches; what it refers to must outlive the call
 };
 
 /// All segments, cut where they meet other facets, without intervals at which surely nothing is to be seen but the

@@ -10,7 +10,7 @@ namespace nef::minkowski {
 
 // Or goes straight on; not back, as where a facet goes around an edge that ends inside of it.
 bool ConvexPieces::turns_left(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
-  const int turn = sign_ * points_.orientation_along(a, b, c, axis_);
+  const int turn = sign_ * points_.orientation_along(a, b, c, axis_, monitor_);
   return turn > 0 || (turn == 0 && points_.compare(a, b) == points_.compare(b, c));
 }
 

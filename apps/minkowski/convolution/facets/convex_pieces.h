@@ -5,6 +5,7 @@
 #include <unordered_set>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/complex/complex.h"
 #include "nef/mesh/polygon/triangulate.h"
 
@@ -14,7 +15,8 @@ namespace nef::minkowski {
 class ConvexPieces {
  public:
   /// The complex must outlive the object; its points must be finite.
-  explicit ConvexPieces(const Complex& complex) : c_(complex), points_(complex.points), triangulator_(points_) {}
+  ConvexPieces(const Complex& complex, const Monitor& monitor)
+      : c_(complex), monitor_(monitor), points_(complex.points), triangulator_(points_, monitor) {}
 
   /// Polygons of vertices of the complex, counterclockwise about the facet's (unflipped) plane. Triangles of a
   /// triangulation are merged as long as what comes of it is convex [Hertel, Mehlhorn 1983], but not across edges:
@@ -30,6 +32,7 @@ class ConvexPieces {
   [[nodiscard]] bool merge(Ring& ring, const Ring& other) const;
 
   const Complex& c_;
+  Monitor monitor_;
   MeshPoints points_;
   Triangulator triangulator_;
   std::unordered_set<std::uint64_t> sides_;  // of the facet at hand, from vertex to vertex

@@ -5,7 +5,6 @@
 
 #include "apps/minkowski/cells/exact_cells.h"
 #include "apps/minkowski/convolution/facets/polygon_sum.h"
-#include "nef/base/interruption.h"
 #include "nef/base/threads/parallel.h"
 #include "nef/mesh/edge_order.h"
 
@@ -25,7 +24,8 @@ BoundaryMarks marks_of_sum(BoundaryMarks a, BoundaryMarks b) {
 
 class Convolution {
  public:
-  Convolution(const SolidFeatures& a, const SolidFeatures& b, unsigned threads) : a_(a), b_(b), threads_(threads) {
+  Convolution(const SolidFeatures& a, const SolidFeatures& b, unsigned threads, const Monitor& monitor)
+      : a_(a), b_(b), threads_(threads), monitor_(monitor) {
     result_.marks = marks_of_sum(a.marks(), b.marks());
   }
 
@@ -34,7 +34,7 @@ class Convolution {
     touch_facets(b_, a_, true);
     for (const SolidFacet& f : a_.facets()) {
       for (const SolidFacet& g : b_.facets()) {
-        if (same_direction(f.normal, g.normal)) add_parallel_facets(f, g);
+        if (same_direction(f.normal, g.normal, monitor_)) add_parallel_facets(f, g);
       }
     }
     cross_edges();
@@ -49,14 +49,14 @@ class Convolution {
     std::vector<std::uint32_t> peaks, edges;
   };
 
-  static Touched touched_by(const SolidFacet& facet, const SolidFeatures& theirs) {
+  static Touched touched_by(const SolidFacet& facet, const SolidFeatures& theirs, const Monitor& own) {
     Touched result;
     for (std::uint32_t v = 0; v < theirs.points().size(); ++v) {
-      if (theirs.is_peak(v, facet.normal)) result.peaks.push_back(v);
+      if (theirs.is_peak(v, facet.normal, own)) result.peaks.push_back(v);
     }
     for (std::uint32_t e = 0; e < theirs.edges().size(); ++e) {
       const ConvexEdge& edge = theirs.edges()[e];
-      if (sign_of_dot(edge.line, facet.normal) == 0 && edge.touches(facet.normal)) result.edges.push_back(e);
+      if (sign_of_dot(edge.line, facet.normal, own) == 0 && edge.touches(facet.normal, own)) result.edges.push_back(e);
     }
     return result;
   }
@@ -64,9 +64,10 @@ class Convolution {
   // Facets of one solid with edges and vertices of the other one.
   void touch_facets(const SolidFeatures& ours, const SolidFeatures& theirs, bool swapped) {
     std::vector<Touched> touched(ours.facets().size());
-    parallel_for(touched.size(), threads_, [&](std::size_t f) { touched[f] = touched_by(ours.facets()[f], theirs); });
+    parallel_for(touched.size(), threads_, monitor_,
+                 [&](std::size_t f, const Monitor& own) { touched[f] = touched_by(ours.facets()[f], theirs, own); });
     for (std::size_t f = 0; f < touched.size(); ++f) {
-      check_interruption();
+      monitor_.check_interruption();
       const SolidFacet& facet = ours.facets()[f];
       for (const std::uint32_t v : touched[f].peaks) {
         for (const FacetPiece& piece : facet.pieces) add_moved(ours, piece, theirs, v, swapped, facet.normal);
@@ -94,18 +95,18 @@ class Convolution {
       int side = 0;
     };
     std::vector<std::vector<Crossing>> crossings(a_.edges().size());
-    parallel_for(crossings.size(), threads_, [&](std::size_t i) {
+    parallel_for(crossings.size(), threads_, monitor_, [&](std::size_t i, const Monitor& own) {
       const ConvexEdge& a = a_.edges()[i];
       for (std::uint32_t j = 0; j < b_.edges().size(); ++j) {
         const ConvexEdge& b = b_.edges()[j];
-        const int of_a = sign_of_dot(b.line, a.last);
-        if (of_a == 0 || sign_of_dot(b.line, a.first) != -of_a) continue;
-        const int of_b = sign_of_dot(a.line, b.last);
-        if (of_b == -of_a && sign_of_dot(a.line, b.first) == of_a) crossings[i].push_back({j, of_a});
+        const int of_a = sign_of_dot(b.line, a.last, own);
+        if (of_a == 0 || sign_of_dot(b.line, a.first, own) != -of_a) continue;
+        const int of_b = sign_of_dot(a.line, b.last, own);
+        if (of_b == -of_a && sign_of_dot(a.line, b.first, own) == of_a) crossings[i].push_back({j, of_a});
       }
     });
     for (std::size_t i = 0; i < crossings.size(); ++i) {
-      check_interruption();
+      monitor_.check_interruption();
       const ConvexEdge& a = a_.edges()[i];
       for (const Crossing& crossing : crossings[i]) {
         const ConvexEdge& b = b_.edges()[crossing.b];
@@ -215,14 +216,16 @@ class Convolution {
   const SolidFeatures& a_;
   const SolidFeatures& b_;
   unsigned threads_;
+  Monitor monitor_;
   ConvolutionFacets result_;
   std::unordered_map<std::uint64_t, std::uint32_t> number_;
 };
 
 }  // namespace
 
-ConvolutionFacets reduced_convolution(const SolidFeatures& a, const SolidFeatures& b, unsigned threads) {
-  return Convolution(a, b, threads).run();
+ConvolutionFacets reduced_convolution(const SolidFeatures& a, const SolidFeatures& b, unsigned threads,
+                                      const Monitor& monitor) {
+  return Convolution(a, b, threads, monitor).run();
 }
 
 }  // namespace nef::minkowski

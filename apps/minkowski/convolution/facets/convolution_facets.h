@@ -49,6 +49,7 @@ struct ConvolutionFacets {
 /// cone is on one side of its plane (it touches that plane in a point, an edge or a facet), or both are edges, and K_a
 /// + K_b, which does not change along either, is a half-space. O(n m) signs for n and m features, most of which are
 /// doubles, on up to `threads` threads (0: as many as the machine has).
-ConvolutionFacets reduced_convolution(const SolidFeatures& a, const SolidFeatures& b, unsigned threads);
+ConvolutionFacets reduced_convolution(const SolidFeatures& a, const SolidFeatures& b, unsigned threads,
+                                      const Monitor& monitor);
 
 }  // namespace nef::minkowski

@@ -10,21 +10,21 @@
 
 namespace nef::minkowski {
 
-bool ConvexEdge::touches(const Direction& normal) const {
-  return sign_of_determinant(line, first, normal) > 0 && sign_of_determinant(line, normal, last) > 0;
+bool ConvexEdge::touches(const Direction& normal, const Monitor& monitor) const {
+  return sign_of_determinant(line, first, normal, monitor) > 0 && sign_of_determinant(line, normal, last, monitor) > 0;
 }
 
-SolidFeatures::SolidFeatures(const Polyhedron& solid) : c_(solid.complex()) {
+SolidFeatures::SolidFeatures(const Polyhedron& solid, const Monitor& monitor) : c_(solid.complex()) {
   points_.reserve(c_.vertex_count());
   for (const VertexId v : c_.vertex_ids()) points_.push_back(c_.points.rational(point_of(v)));
   find_marks();
   directions_.reserve(c_.svertex_count());
   for (const HalfedgeId h : c_.halfedge_ids()) directions_.push_back(direction_of(c_.planes, c_.svertex(h)));
-  add_facets();
+  add_facets(monitor);
   for (const VertexId v : c_.vertex_ids()) {
     const IdRange<HalfedgeId> halfedges = c_.halfedges(v);
     for (const HalfedgeId h : halfedges) {
-      if (h < c_.twin[h]) add_edge(v, halfedges.position(h));
+      if (h < c_.twin[h]) add_edge(v, halfedges.position(h), monitor);
     }
   }
   know_integers();
@@ -76,8 +76,8 @@ void SolidFeatures::mark_sides(FacetPiece& piece) const {
   }
 }
 
-void SolidFeatures::add_facets() {
-  ConvexPieces pieces(c_);
+void SolidFeatures::add_facets(const Monitor& monitor) {
+  ConvexPieces pieces(c_, monitor);
   for (const FacetId f : c_.facets.ids()) {
     const Facet& facet = c_.facets[f];
     const bool solid_above = c_.volumes[facet.volume_above].mark != 0;
@@ -94,7 +94,7 @@ void SolidFeatures::add_facets() {
 }
 
 // At most one wedge around an edge is free and larger than a half-turn.
-void SolidFeatures::add_edge(VertexId vertex, std::uint32_t svertex) {
+void SolidFeatures::add_edge(VertexId vertex, std::uint32_t svertex, const Monitor& monitor) {
   const SphereMapView map = c_.sphere_map(vertex);
   const HalfedgeId halfedge = c_.halfedges(vertex)[svertex];
   const Direction& line = directions_[halfedge];
@@ -110,7 +110,8 @@ void SolidFeatures::add_edge(VertexId vertex, std::uint32_t svertex) {
     const std::uint32_t next = map.next_around(e);
     const PlaneId first = map.shalfedges[e].plane;
     const PlaneId last = map.shalfedges[next].plane;
-    if (map.sfaces[map.shalfedges[e].sface].mark == 0 && orientation_around(c_.planes, line, first, last) < 0) {
+    if (map.sfaces[map.shalfedges[e].sface].mark == 0 &&
+        orientation_around(c_.planes, line, first, last, monitor) < 0) {
       edges_.push_back({vertex.index(), c_.target(halfedge).index(), line, Direction::normal(c_.planes, first),
                         Direction::normal(c_.planes, last.opposite()),
                         static_cast<std::uint8_t>(map.svertices[svertex].mark != 0 ? 1 : 0)});
@@ -120,15 +121,15 @@ void SolidFeatures::add_edge(VertexId vertex, std::uint32_t svertex) {
   } while (e != out);
 }
 
-bool SolidFeatures::is_peak(std::uint32_t number, const Direction& up) const {
+bool SolidFeatures::is_peak(std::uint32_t number, const Direction& up, const Monitor& monitor) const {
   const VertexId vertex{number};
   if (c_.vertices[vertex].svertices == c_.vertices[vertex.next()].svertices) return false;  // inside a facet
   for (const HalfedgeId h : c_.halfedges(vertex)) {
-    if (sign_of_dot(directions_[h], up) >= 0) return false;
+    if (sign_of_dot(directions_[h], up, monitor) >= 0) return false;
   }
   // All edges go down, so the open upper half-sphere is in one sface.
   const SphereMapView map = c_.sphere_map(vertex);
-  return mark_at(map, locate(c_.planes, map, up)) == 0;
+  return mark_at(map, locate(c_.planes, map, up, monitor)) == 0;
 }
 
 }  // namespace nef::minkowski

@@ -36,7 +36,7 @@ struct ConvexEdge {
   std::uint8_t mark = 1;
 
   /// True if a direction that is normal to the edge lies in the inside of the arc.
-  [[nodiscard]] bool touches(const Direction& normal) const;
+  [[nodiscard]] bool touches(const Direction& normal, const Monitor& monitor) const;
 };
 
 /// Which points of a boundary belong to the set.
@@ -47,7 +47,7 @@ enum class BoundaryMarks : std::uint8_t { kAll, kNone, kMixed };
 class SolidFeatures {
  public:
   /// The solid must outlive the object. O(n), and for facets that are not convex what a triangulation takes.
-  explicit SolidFeatures(const Polyhedron& solid);
+  SolidFeatures(const Polyhedron& solid, const Monitor& monitor);
 
   [[nodiscard]] BoundaryMarks marks() const { return marks_; }
   [[nodiscard]] std::uint8_t mark(std::uint32_t vertex) const { return c_.mark(VertexId{vertex}) != 0 ? 1 : 0; }
@@ -61,13 +61,13 @@ class SolidFeatures {
   [[nodiscard]] const std::vector<Rational3>& points() const { return points_; }
 
   /// True if the solid near the vertex lies below it in the direction: strictly, but for the vertex itself. O(degree).
-  [[nodiscard]] bool is_peak(std::uint32_t vertex, const Direction& up) const;
+  [[nodiscard]] bool is_peak(std::uint32_t vertex, const Direction& up, const Monitor& monitor) const;
 
  private:
   void find_marks();
-  void add_facets();
+  void add_facets(const Monitor& monitor);
   void mark_sides(FacetPiece& piece) const;
-  void add_edge(VertexId vertex, std::uint32_t svertex);
+  void add_edge(VertexId vertex, std::uint32_t svertex, const Monitor& monitor);
   void know_integers() const;
 
   const Complex& c_;

@@ -128,7 +128,8 @@ void BoundaryMarker::mark(PointId point, bool is_saddle_point, SphereMapBuffer& 
     LabelId& mark = map.shalfedges[e].mark;
     LabelId& twin = map.shalfedges[e + 1].mark;
     mark = twin = enclosed ? 1 : told(half.mark);
-    if (enclosed && is_behind_and_before(half)) ask_towards(direction_on_arc(facets_.planes, view, e), mark, twin);
+    if (enclosed && is_behind_and_before(half))
+      ask_towards(direction_on_arc(facets_.planes, view, e, monitor_), mark, twin);
   }
   for (std::uint32_t l = 0; l < view.sloops.size(); l += 2) {
     const SLoop& half = view.sloops[l];
@@ -162,10 +163,11 @@ void BoundaryMarker::answer(const SumMembership& membership, unsigned threads,
   constexpr std::size_t kBlock = 256;
   for (std::size_t first = 0; first < questions_.size(); first += kBlock) {
     poll(static_cast<double>(first) / static_cast<double>(questions_.size()));
-    parallel_for(std::min(kBlock, questions_.size() - first), threads, [&](std::size_t k) {
-      const Question& q = questions_[first + k];
-      *q.mark = *q.twin = membership.in_sum(q.point) ? 1 : 0;
-    });
+    parallel_for(std::min(kBlock, questions_.size() - first), threads, monitor_,
+                 [&](std::size_t k, const Monitor& own) {
+                   const Question& q = questions_[first + k];
+                   *q.mark = *q.twin = membership.in_sum(q.point, own) ? 1 : 0;
+                 });
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include "apps/minkowski/convolution/arrangement/pyramid_drawer.h"
 #include "apps/minkowski/convolution/marks/sum_membership.h"
+#include "nef/base/monitor.h"
 
 namespace nef::minkowski {
 
@@ -30,8 +31,9 @@ namespace nef::minkowski {
 /// D without an inside: see interlock.h.
 class BoundaryMarker {
  public:
-  /// Both must outlive the object.
-  BoundaryMarker(FacetPyramids& pyramids, const ConvolutionFacets& facets) : pyramids_(pyramids), facets_(facets) {}
+  /// Pyramids and facets must outlive the object.
+  BoundaryMarker(FacetPyramids& pyramids, const ConvolutionFacets& facets, const Monitor& monitor)
+      : pyramids_(pyramids), facets_(facets), monitor_(monitor) {}
 
   /// False if no item around a point can be a passage, going by the drawing around it alone.
   static bool may_have_passages(const SphereMapView& map);
@@ -59,6 +61,7 @@ class BoundaryMarker {
 
   FacetPyramids& pyramids_;
   const ConvolutionFacets& facets_;
+  Monitor monitor_;
   std::vector<Question> questions_;
 };
 

@@ -27,11 +27,12 @@ Integer3 mean(const Integer3& u, const Integer3& v, std::size_t ratio) {
 }
 
 // A direction inside an arc.
-Integer3 inside_arc(const PlaneTable& planes, const SphereMapView& map, std::uint32_t shalfedge) {
+Integer3 inside_arc(const PlaneTable& planes, const SphereMapView& map, std::uint32_t shalfedge,
+                    const Monitor& monitor) {
   const PlaneId plane = map.shalfedges[shalfedge].plane;
   const Direction from = direction_of(planes, map.svertices[map.shalfedges[shalfedge].source]);
   const Direction to = direction_of(planes, map.svertices[map.target(shalfedge)]);
-  if (orientation_on_circle(planes, plane, from, to) > 0) return mean(from.integers(), to.integers(), 0);
+  if (orientation_on_circle(planes, plane, from, to, monitor) > 0) return mean(from.integers(), to.integers(), 0);
   return Direction::cross(Direction::normal(planes, plane), from).integers();  // a quarter-turn on, of a half or more
 }
 
@@ -44,33 +45,36 @@ Integer3 inside_circle(const PlaneTable& planes, PlaneId plane) {
 
 // Off the arc or circle of a plane to its left, less and less.
 Direction beside(const PlaneTable& planes, const SphereMapView& map, std::uint32_t sface, PlaneId plane,
-                 const Integer3& on_side) {
+                 const Integer3& on_side, const Monitor& monitor) {
   const Integer3 normal = Direction::normal(planes, plane).integers();
   for (std::size_t ratio = 1;; ratio += ratio) {
     Direction candidate = direction(mean(on_side, normal, ratio));
-    const SphereLocation at = locate(planes, map, candidate);
+    const SphereLocation at = locate(planes, map, candidate, monitor);
     if (at.kind == SphereLocation::Kind::kSFace && at.index == sface) return candidate;
   }
 }
 
 }  // namespace
 
-Direction direction_into(const PlaneTable& planes, const SphereMapView& map, std::uint32_t sface) {
+Direction direction_into(const PlaneTable& planes, const SphereMapView& map, std::uint32_t sface,
+                         const Monitor& monitor) {
   NEF_ASSERT(map.sfaces[sface].entry_count > 0);
   const SFaceEntry& entry = map.entries[map.sfaces[sface].entries];
   NEF_ASSERT(entry.kind != SFaceEntry::Kind::kIsolatedVertex);  // drawings of arcs have none
-  if (entry.kind == SFaceEntry::Kind::kCycle) return direction_into(planes, map, sface, entry.index);
+  if (entry.kind == SFaceEntry::Kind::kCycle) return direction_into(planes, map, sface, entry.index, monitor);
   const PlaneId plane = map.sloops[entry.index].plane;
-  return beside(planes, map, sface, plane, inside_circle(planes, plane));
+  return beside(planes, map, sface, plane, inside_circle(planes, plane), monitor);
 }
 
 Direction direction_into(const PlaneTable& planes, const SphereMapView& map, std::uint32_t sface,
-                         std::uint32_t shalfedge) {
-  return beside(planes, map, sface, map.shalfedges[shalfedge].plane, inside_arc(planes, map, shalfedge));
+                         std::uint32_t shalfedge, const Monitor& monitor) {
+  return beside(planes, map, sface, map.shalfedges[shalfedge].plane, inside_arc(planes, map, shalfedge, monitor),
+                monitor);
 }
 
-Direction direction_on_arc(const PlaneTable& planes, const SphereMapView& map, std::uint32_t shalfedge) {
-  return direction(inside_arc(planes, map, shalfedge));
+Direction direction_on_arc(const PlaneTable& planes, const SphereMapView& map, std::uint32_t shalfedge,
+                           const Monitor& monitor) {
+  return direction(inside_arc(planes, map, shalfedge, monitor));
 }
 
 Direction direction_on_circle(const PlaneTable& planes, PlaneId plane) {

@@ -26,6 +26,7 @@ struct SaddlePoint {
   Rational3 point;
   std::uint8_t mark = 0;  ///< both vertices belong to their sets
 };
-std::vector<SaddlePoint> saddle_points(const Polyhedron& a, const Polyhedron& b, const SumMembership& membership);
+std::vector<SaddlePoint> saddle_points(const Polyhedron& a, const Polyhedron& b, const SumMembership& membership,
+                                       const Monitor& monitor);
 
 }  // namespace nef::minkowski

@@ -25,10 +25,12 @@ int reach(const Polyhedron& a, const Polyhedron& b, const Rational3& x) {
 
 }  // namespace
 
-SumMembership::SumMembership(const Polyhedron& a, const Polyhedron& b) : a_(a), b_(b), sets_{a, negate(b)} {}
+SumMembership::SumMembership(const Polyhedron& a, const Polyhedron& b, const Monitor& monitor)
+    : a_(a), b_(b), sets_{a, negate(b, monitor)} {}
 
-bool SumMembership::meet(const Operands& operands, const Rational3& x) {
-  return !intersect(operands.a, transform(operands.turned_b, AffineMap::translate(x))).is_empty();
+bool SumMembership::meet(const Operands& operands, const Rational3& x, const Monitor& monitor) {
+  const Polyhedron moved_b = transform(operands.turned_b, AffineMap::translate(x), monitor);
+  return !intersect(operands.a, moved_b, 1, monitor).is_empty();
 }
 
 // A vertex of B is in its closure, so near it there is the inside of B; and so with A and B exchanged.
@@ -36,22 +38,22 @@ bool SumMembership::surely_in_inside(const Rational3& x) const {
   return reach(a_, b_, x) == 2 || reach(b_, a_, x) == 2;
 }
 
-bool SumMembership::in_sum(const Rational3& x) const {
-  return reach(a_, b_, x) > 0 || reach(b_, a_, x) > 0 || meet(sets_, x);
+bool SumMembership::in_sum(const Rational3& x, const Monitor& monitor) const {
+  return reach(a_, b_, x) > 0 || reach(b_, a_, x) > 0 || meet(sets_, x, monitor);
 }
 
-bool SumMembership::in_closure(const Rational3& x) const {
+bool SumMembership::in_closure(const Rational3& x, const Monitor& monitor) const {
   if (reach(a_, b_, x) > 0 || reach(b_, a_, x) > 0) return true;
   std::call_once(closures_once_, [this] { closures_ = Operands{closure(a_), closure(sets_.turned_b)}; });
-  return meet(*closures_, x);
+  return meet(*closures_, x, monitor);
 }
 
-bool SumMembership::in_inside(const Rational3& x) const {
+bool SumMembership::in_inside(const Rational3& x, const Monitor& monitor) const {
   if (surely_in_inside(x)) return true;
   std::call_once(insides_once_, [this] {
     insides_ = Operands{interior(regularize(a_)), interior(regularize(sets_.turned_b))};
   });
-  return meet(*insides_, x);
+  return meet(*insides_, x, monitor);
 }
 
 }  // namespace nef::minkowski

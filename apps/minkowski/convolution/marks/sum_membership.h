@@ -4,6 +4,7 @@
 #include <mutex>
 #include <optional>
 
+#include "nef/base/monitor.h"
 #include "nef/polyhedron.h"
 
 namespace nef::minkowski {
@@ -13,14 +14,14 @@ namespace nef::minkowski {
 class SumMembership {
  public:
   /// Two sets that lie in the closures of their interiors. Both must outlive the object.
-  SumMembership(const Polyhedron& a, const Polyhedron& b);
+  SumMembership(const Polyhedron& a, const Polyhedron& b, const Monitor& monitor);
 
   /// True for a point of the closure of the sum.
-  [[nodiscard]] bool in_closure(const Rational3& x) const;
+  [[nodiscard]] bool in_closure(const Rational3& x, const Monitor& monitor) const;
   /// True for a point of the sum.
-  [[nodiscard]] bool in_sum(const Rational3& x) const;
+  [[nodiscard]] bool in_sum(const Rational3& x, const Monitor& monitor) const;
   /// True for a point of the sum of the interiors of the closures; also where single points of the sets are missing.
-  [[nodiscard]] bool in_inside(const Rational3& x) const;
+  [[nodiscard]] bool in_inside(const Rational3& x, const Monitor& monitor) const;
   /// The same, if that is easily seen.
   [[nodiscard]] bool surely_in_inside(const Rational3& x) const;
 
@@ -28,7 +29,7 @@ class SumMembership {
   struct Operands {
     Polyhedron a, turned_b;
   };
-  [[nodiscard]] static bool meet(const Operands& operands, const Rational3& x);
+  [[nodiscard]] static bool meet(const Operands& operands, const Rational3& x, const Monitor& monitor);
 
   const Polyhedron& a_;
   const Polyhedron& b_;

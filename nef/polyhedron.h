@@ -123,11 +123,11 @@ struct Location {
 };
 
 /// Exact point location. O(log n) expected after the structure is built.
-Location locate(const Polyhedron& a, const Rational3& point);
-bool contains(const Polyhedron& a, const Rational3& point);
+Location locate(const Polyhedron& a, const Rational3& point, const Monitor& monitor = {});
+bool contains(const Polyhedron& a, const Rational3& point, const Monitor& monitor = {});
 
 /// The local pyramid of the set at any point of space, in the planes of a.complex().
-SphereMapBuffer local_pyramid(const Polyhedron& a, const Rational3& point);
+SphereMapBuffer local_pyramid(const Polyhedron& a, const Rational3& point, const Monitor& monitor = {});
 
 /// What an open ray meets first. `location` never is a volume.
 struct RayHit {
@@ -137,7 +137,7 @@ struct RayHit {
 /// The first vertex, edge or facet on the ray from `origin` (excluded) in `direction` (not zero)
 /// that `accept` takes; all are if it is empty.
 std::optional<RayHit> shoot_ray(const Polyhedron& a, const Rational3& origin, const Rational3& direction,
-                                const std::function<bool(const Location&)>& accept = {});
+                                const std::function<bool(const Location&)>& accept = {}, const Monitor& monitor = {});
 
 /// Volume of the set, if finite.
 std::optional<Rational> volume(const Polyhedron& a);
@@ -146,7 +146,7 @@ std::optional<Rational> volume(const Polyhedron& a);
 double surface_area(const Polyhedron& a);
 /// Smallest and largest coordinates of the vertices; nothing for a set without finite vertices.
 /// The box of infimaximal vertices is ignored.
-std::optional<std::array<Rational3, 2>> bounding_box(const Polyhedron& a);
+std::optional<std::array<Rational3, 2>> bounding_box(const Polyhedron& a, const Monitor& monitor = {});
 /// V - E + F of each shell, in the order of complex().shells (a facet with h holes and i
 /// isolated vertices counts 1 - h - i).
 std::vector<long> euler_numbers(const Polyhedron& a);

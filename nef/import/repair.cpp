@@ -303,7 +303,7 @@ class Repairer {
       auto* solid = std::get_if<Polyhedron>(&made);
       if (solid == nullptr) continue;
       component.solid = std::move(*solid);
-      component.box = bounding_box(*component.solid).value();
+      component.box = bounding_box(*component.solid, monitor_).value();
       component.inward = signed_volume(component) < 0;
     }
     std::size_t turned = 0;
@@ -332,7 +332,7 @@ class Repairer {
     for (const std::uint32_t f : inner.faces) {
       for (const std::uint32_t v : rings_[f]) {
         if (!in_box(vertices_[v], outer.box)) return false;
-        const Location where = locate(*outer.solid, vertices_[v]);
+        const Location where = locate(*outer.solid, vertices_[v], monitor_);
         if (where.kind == Location::Kind::kVolume) return where.mark != 0;
       }
     }

@@ -109,7 +109,7 @@ Json set_info(const Polyhedron& set, const SetInfoOptions& options, const Monito
   add_volume(info, options.volume ? volume(set) : std::nullopt, options);
   if (!options.volume && set.is_bounded()) add_approximate_volume(info, set, monitor);
   add_area(info, set, options, monitor);
-  add_box(info, bounding_box(set), options);
+  add_box(info, bounding_box(set, monitor), options);
   info["euler_numbers"] = euler_numbers(set);
   info["genus"] = Json::array();
   for (const std::optional<long>& genus : genera(set.complex())) {

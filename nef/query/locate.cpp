@@ -25,22 +25,25 @@ Location location_of(const Complex& complex, const ComplexHit& hit) {
 
 }  // namespace
 
-Location locate(const Polyhedron& a, const Rational3& point) {
+Location locate(const Polyhedron& a, const Rational3& point, const Monitor& monitor) {
   const Complex& complex = a.complex();
   if (complex.vertex_count() == 0) return {Location::Kind::kVolume, 0, complex.volumes[kOuterVolume].mark};
   PointTable table;
   const PointRef query{&table, table.push(point)};
   const QueryStructure& structure = a.queries();
-  if (const std::optional<ComplexHit> hit = structure.item_at(complex, query, {})) return location_of(complex, *hit);
-  const VolumeId volume = structure.volume_at(complex, query, {});
+  if (const std::optional<ComplexHit> hit = structure.item_at(complex, query, monitor))
+    return location_of(complex, *hit);
+  const VolumeId volume = structure.volume_at(complex, query, monitor);
   return {Location::Kind::kVolume, volume.index(), complex.volumes[volume].mark};
 }
 
-bool contains(const Polyhedron& a, const Rational3& point) { return locate(a, point).mark != 0; }
+bool contains(const Polyhedron& a, const Rational3& point, const Monitor& monitor) {
+  return locate(a, point, monitor).mark != 0;
+}
 
-SphereMapBuffer local_pyramid(const Polyhedron& a, const Rational3& point) {
+SphereMapBuffer local_pyramid(const Polyhedron& a, const Rational3& point, const Monitor& monitor) {
   const Complex& complex = a.complex();
-  const Location where = locate(a, point);
+  const Location where = locate(a, point, monitor);
   SphereMapBuffer result;
   switch (where.kind) {
     case Location::Kind::kVertex: {
@@ -65,7 +68,7 @@ SphereMapBuffer local_pyramid(const Polyhedron& a, const Rational3& point) {
 }
 
 std::optional<RayHit> shoot_ray(const Polyhedron& a, const Rational3& origin, const Rational3& direction,
-                                const std::function<bool(const Location&)>& accept) {
+                                const std::function<bool(const Location&)>& accept, const Monitor& monitor) {
   if (direction[0] == 0 && direction[1] == 0 && direction[2] == 0) {
     throw InputError("a ray needs a direction other than 0,0,0");
   }
@@ -85,7 +88,7 @@ std::optional<RayHit> shoot_ray(const Polyhedron& a, const Rational3& origin, co
     return !at_infinity && (!accept || accept(location_of(complex, hit)));
   };
   RayHit result;
-  const std::optional<ComplexHit> hit = a.queries().first_hit(complex, ray, takes, &result.point, {});
+  const std::optional<ComplexHit> hit = a.queries().first_hit(complex, ray, takes, &result.point, monitor);
   if (!hit) return std::nullopt;
   result.location = location_of(complex, *hit);
   return result;

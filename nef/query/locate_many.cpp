@@ -49,13 +49,13 @@ class CellGrid {
     find_regions();
   }
 
-  [[nodiscard]] LabelId mark(const Polyhedron& a, const std::array<double, 3>& p) {
+  [[nodiscard]] LabelId mark(const Polyhedron& a, const std::array<double, 3>& p, const Monitor& own) {
     const std::uint32_t region = cells_[number(index(0, p[0]), index(1, p[1]), index(2, p[2]))];
     if (region != kEntered) {
       const std::uint32_t known = region_marks_[region].load(std::memory_order_relaxed);
       if (known != kUnknown) return static_cast<LabelId>(known);
     }
-    const LabelId mark = locate(a, {Rational(p[0]), Rational(p[1]), Rational(p[2])}).mark;
+    const LabelId mark = locate(a, {Rational(p[0]), Rational(p[1]), Rational(p[2])}, own).mark;
     if (region != kEntered) region_marks_[region].store(mark, std::memory_order_relaxed);
     return mark;
   }
@@ -190,9 +190,9 @@ std::vector<LabelId> locate_many(const Polyhedron& a, std::span<const std::array
   static_cast<void>(a.queries());
   CellGrid grid(complex, points.size());
   constexpr std::size_t kChunk = 4096;
-  parallel_for((points.size() + kChunk - 1) / kChunk, threads, monitor, [&](std::size_t chunk, const Monitor&) {
+  parallel_for((points.size() + kChunk - 1) / kChunk, threads, monitor, [&](std::size_t chunk, const Monitor& own) {
     const std::size_t end = std::min(points.size(), (chunk + 1) * kChunk);
-    for (std::size_t i = chunk * kChunk; i < end; ++i) marks[i] = grid.mark(a, points[i]);
+    for (std::size_t i = chunk * kChunk; i < end; ++i) marks[i] = grid.mark(a, points[i], own);
   });
   return marks;
 }

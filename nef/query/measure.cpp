@@ -174,8 +174,8 @@ double surface_area(const Complex& c) {
   return area;
 }
 
-std::optional<std::array<Rational3, 2>> bounding_box(const Complex& c) {
-  ExtremePoints extreme(c.points, {});
+std::optional<std::array<Rational3, 2>> bounding_box(const Complex& c, const Monitor& monitor) {
+  ExtremePoints extreme(c.points, monitor);
   for (const VertexId v : c.vertex_ids()) {
     if (!is_box_vertex(c, v)) extreme.add(point_of(v));
   }
@@ -184,6 +184,8 @@ std::optional<std::array<Rational3, 2>> bounding_box(const Complex& c) {
 
 std::optional<Rational> volume(const Polyhedron& a) { return volume(a.complex()); }
 double surface_area(const Polyhedron& a) { return surface_area(a.complex()); }
-std::optional<std::array<Rational3, 2>> bounding_box(const Polyhedron& a) { return bounding_box(a.complex()); }
+std::optional<std::array<Rational3, 2>> bounding_box(const Polyhedron& a, const Monitor& monitor) {
+  return bounding_box(a.complex(), monitor);
+}
 
 }  // namespace nef

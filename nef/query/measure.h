@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/complex/complex.h"
 #include "nef/number/number.h"
 
@@ -23,7 +24,7 @@ std::optional<Rational> volume(const Complex& complex);
 double surface_area(const Complex& complex);
 
 /// Smallest and largest coordinates of the finite vertices; nothing if there are none.
-std::optional<std::array<Rational3, 2>> bounding_box(const Complex& complex);
+std::optional<std::array<Rational3, 2>> bounding_box(const Complex& complex, const Monitor& monitor);
 
 /// V - E + F of each shell as a point set, in the order of complex.shells: each vertex, edge and
 /// facet counts once however often the shell passes it, and a facet with h holes and i isolated

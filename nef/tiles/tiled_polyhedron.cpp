@@ -151,14 +151,18 @@ bool equal(const TiledPolyhedron& a, const TiledPolyhedron& b, const Monitor& mo
   return symmetric_difference(a, b, monitor).is_empty();
 }
 
-Location locate(const TiledPolyhedron& a, const Rational3& point) { return locate_in_tiles(a.tree(), point); }
+Location locate(const TiledPolyhedron& a, const Rational3& point, const Monitor& monitor) {
+  return locate_in_tiles(a.tree(), point, monitor);
+}
 
-bool contains(const TiledPolyhedron& a, const Rational3& point) { return locate(a, point).mark != 0; }
+bool contains(const TiledPolyhedron& a, const Rational3& point, const Monitor& monitor) {
+  return locate(a, point, monitor).mark != 0;
+}
 
 std::optional<RayHit> shoot_ray(const TiledPolyhedron& a, const Rational3& origin, const Rational3& direction,
-                                const std::function<bool(const Location&)>& accept) {
+                                const std::function<bool(const Location&)>& accept, const Monitor& monitor) {
   if (is_zero(direction)) throw InputError("a ray needs a direction other than 0,0,0");
-  return first_hit_in_tiles(a.tree(), origin, direction, accept);
+  return first_hit_in_tiles(a.tree(), origin, direction, accept, monitor);
 }
 
 std::optional<Rational> volume(const TiledPolyhedron& a, const Monitor& monitor) {
@@ -167,12 +171,12 @@ std::optional<Rational> volume(const TiledPolyhedron& a, const Monitor& monitor)
 
 std::optional<std::array<Rational3, 2>> bounding_box(const TiledPolyhedron& a, const Monitor& monitor) {
   const ExtentOfTiles extent = extent_of_tiles(a.tree(), false, true, a.tiling().threads, monitor);
-  return extent.bounded ? extent.box : bounding_box(a.polyhedron(monitor));
+  return extent.bounded ? extent.box : bounding_box(a.polyhedron(monitor), monitor);
 }
 
 VolumeAndBox volume_and_bounding_box(const TiledPolyhedron& a, const Monitor& monitor) {
   const ExtentOfTiles extent = extent_of_tiles(a.tree(), true, true, a.tiling().threads, monitor);
-  return {extent.volume, extent.bounded ? extent.box : bounding_box(a.polyhedron(monitor))};
+  return {extent.volume, extent.bounded ? extent.box : bounding_box(a.polyhedron(monitor), monitor)};
 }
 
 }  // namespace nef

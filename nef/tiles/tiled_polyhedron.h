@@ -85,14 +85,14 @@ bool equal(const TiledPolyhedron& a, const TiledPolyhedron& b, const Monitor& mo
 
 /// Exact point location in the tiles that hold the point; O(log n) expected after their structures are built. The kind
 /// of item is that of the whole set, whatever the tiles; its index means nothing and is 0.
-Location locate(const TiledPolyhedron& a, const Rational3& point);
-bool contains(const TiledPolyhedron& a, const Rational3& point);
+Location locate(const TiledPolyhedron& a, const Rational3& point, const Monitor& monitor = {});
+bool contains(const TiledPolyhedron& a, const Rational3& point, const Monitor& monitor = {});
 
 /// The first vertex, edge or facet of the whole set on the ray from `origin` (excluded) in `direction` (not zero) that
 /// `accept` takes, as of a Polyhedron; indices are 0. Only tiles along the ray are looked at. Throws InputError for no
 /// direction.
 std::optional<RayHit> shoot_ray(const TiledPolyhedron& a, const Rational3& origin, const Rational3& direction,
-                                const std::function<bool(const Location&)>& accept = {});
+                                const std::function<bool(const Location&)>& accept = {}, const Monitor& monitor = {});
 
 /// Volume of the set, if finite: the sum over the tiles.
 std::optional<Rational> volume(const TiledPolyhedron& a, const Monitor& monitor = {});

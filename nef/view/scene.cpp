@@ -184,7 +184,7 @@ Scene build_scene(const Polyhedron& polyhedron, const SceneOptions& options, con
   if (box || options.section) {
     find_origins(drawn.complex(), cutting_planes(box, options), box.has_value(), scene, monitor);
     if (options.indices) {
-      find_items(drawn.complex(), scene);
+      find_items(drawn.complex(), scene, monitor);
     } else {
       forget_items(scene);
     }

@@ -84,7 +84,7 @@ py::object labels_at(const Polyhedron& a, py::handle points, unsigned threads) {
 py::object ray(const Polyhedron& a, py::handle origin, py::handle direction) {
   const Rational3 from = to_triple(origin, "an origin");
   const Rational3 towards = to_triple(direction, "a direction");
-  const auto hit = call(items(a), [=](const Monitor&) { return shoot_ray(a, from, towards); });
+  const auto hit = call(items(a), [=](const Monitor& monitor) { return shoot_ray(a, from, towards, {}, monitor); });
   if (!hit) return py::none();
   return result_of("RayHit", py::make_tuple(from_triple(hit->point), location_of(hit->location)));
 }

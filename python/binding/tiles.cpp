@@ -99,20 +99,20 @@ py::object tiled_location(const Location& location) {
 
 py::object locate_in_tiles(const TiledPolyhedron& a, py::handle point) {
   const Rational3 p = to_triple(point, "a point");
-  return tiled_location(call(items(a), [=](const Monitor&) { return locate(a, p); }));
+  return tiled_location(call(items(a), [=](const Monitor& monitor) { return locate(a, p, monitor); }));
 }
 
 py::object contained(const TiledPolyhedron& a, py::handle points) {
   if (is_one_point(points)) {
     const Rational3 p = to_triple(points, "a point");
-    return py::bool_(call(items(a), [=](const Monitor&) { return contains(a, p); }));
+    return py::bool_(call(items(a), [=](const Monitor& monitor) { return contains(a, p, monitor); }));
   }
   const auto all = std::make_shared<const std::vector<Rational3>>(to_points(points, "points"));
   const std::vector<bool> in = call(items(a) + all->size(), [=](const Monitor& monitor) {
     std::vector<bool> result;
     for (const Rational3& p : *all) {
       monitor.check_interruption();
-      result.push_back(contains(a, p));
+      result.push_back(contains(a, p, monitor));
     }
     return result;
   });
@@ -124,7 +124,7 @@ py::object contained(const TiledPolyhedron& a, py::handle points) {
 py::object ray_in_tiles(const TiledPolyhedron& a, py::handle origin, py::handle direction) {
   const Rational3 from = to_triple(origin, "an origin");
   const Rational3 towards = to_triple(direction, "a direction");
-  const auto hit = call(items(a), [=](const Monitor&) { return shoot_ray(a, from, towards); });
+  const auto hit = call(items(a), [=](const Monitor& monitor) { return shoot_ray(a, from, towards, {}, monitor); });
   if (!hit) return py::none();
   return result_of("RayHit", py::make_tuple(from_triple(hit->point), tiled_location(hit->location)));
 }

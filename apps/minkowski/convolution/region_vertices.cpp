@@ -74,7 +74,7 @@ class VertexFinder {
   void add_passages();
   void add_changes_of_marks();
   void add_crossings(std::uint32_t f, std::uint32_t g);
-  [[nodiscard]] bool is_of_use(PointId point, SphereMapBuffer& map) const;
+  [[nodiscard]] bool is_of_use(PointId point, SphereMapBuffer& map, const Monitor& own) const;
 
   ConvolutionFacets& facets_;
   const SurvivingIntervals& intervals_;
@@ -136,7 +136,7 @@ void VertexFinder::draw_points() {
     PyramidDrawer drawer(facets_, pyramids_, own);
     for (std::size_t i = chunk * kChunk; i < std::min(undrawn_.size(), (chunk + 1) * kChunk); ++i) {
       SphereMapBuffer map = drawer.draw(undrawn_[i].facets, undrawn_[i].point);
-      if (is_of_use(undrawn_[i].point, map)) maps[i] = std::move(map);
+      if (is_of_use(undrawn_[i].point, map, own)) maps[i] = std::move(map);
     }
   });
   for (std::size_t i = 0; i < undrawn_.size(); ++i) {
@@ -148,11 +148,11 @@ void VertexFinder::draw_points() {
 }
 
 // True if the sum may have a vertex at a point. Marks regions that are inside.
-bool VertexFinder::is_of_use(PointId point, SphereMapBuffer& map) const {
+bool VertexFinder::is_of_use(PointId point, SphereMapBuffer& map, const Monitor& own) const {
   const bool open = mark_inside(map);
   if (is_closed_ || (open && !among_passages_)) return open;
   if (!open && !BoundaryMarker::may_have_passages(map.view())) return false;
-  return !membership_.surely_in_inside(facets_.points.rational(point));
+  return !membership_.surely_in_inside(facets_.points.rational(point), own);
 }
 
 // Before all others but ends of intervals. Whether the sum has a vertex there is not to be seen from facets.

@@ -29,13 +29,14 @@ Polyhedron insert(const Polyhedron& a, const Polyhedron& parts, LabelId bit, con
 
 // A missing point inside a volume gets the widest segment across the axis through it; walls over and under
 // that segment then put the point on their boundary.
-void erect_for_point(const Polyhedron& a, VertexId vertex, std::size_t axis, WallBuilder& builder, Mesh& walls) {
+void erect_for_point(const Polyhedron& a, VertexId vertex, std::size_t axis, WallBuilder& builder, Mesh& walls,
+                     const Monitor& monitor) {
   const Rational3 p = a.complex().points.rational(point_of(vertex));
   Rational3 way;
   way[(axis + 1) % 3] = 1;
-  const std::optional<RayHit> right = shoot_ray(a, p, way);
+  const std::optional<RayHit> right = shoot_ray(a, p, way, {}, monitor);
   way[(axis + 1) % 3] = -1;
-  const std::optional<RayHit> left = shoot_ray(a, p, way);
+  const std::optional<RayHit> left = shoot_ray(a, p, way, {}, monitor);
   NEF_ASSERT(left && right);  // the volume is bounded
   builder.erect(left->point, right->point, walls);
 }
@@ -80,7 +81,7 @@ Mesh next_walls(const Polyhedron& a, std::size_t axis, const Monitor& monitor) {
   Mesh walls;
   if (edges.empty() && points.empty()) return walls;
   WallBuilder builder(a.complex(), axis, monitor);
-  for (const VertexId v : points) erect_for_point(a, v, axis, builder, walls);
+  for (const VertexId v : points) erect_for_point(a, v, axis, builder, walls, monitor);
   for (const ReflexEdge& e : edges) {
     if (!e.vertical) builder.erect(e, walls);
   }

@@ -90,8 +90,9 @@ class Connection {
   UnionFind sets_;
 };
 
-std::uint32_t item_at(const Polyhedron& a, const Connection& connection, const Rational3& point) {
-  const Location at = locate(a, point);
+std::uint32_t item_at(const Polyhedron& a, const Connection& connection, const Rational3& point,
+                      const Monitor& monitor) {
+  const Location at = locate(a, point, monitor);
   switch (at.kind) {
     case Location::Kind::kVertex:
       return connection.of_vertex(at.vertex());
@@ -150,7 +151,7 @@ Polyhedron component_of(const Polyhedron& a, const std::optional<Rational3>& poi
     any = true;
   };
   if (point) {
-    want(item_at(a, connection, *point));
+    want(item_at(a, connection, *point, monitor));
   } else {
     want(connection.of_volume(kOuterVolume));
     for (const VertexId v : c.vertex_ids()) {

@@ -50,12 +50,12 @@ std::vector<Candidate> candidates(const Complex& c) {
 }
 
 // The shortest candidate inside (or outside) of a set.
-Candidate shortest(const Polyhedron& set, bool inside) {
+Candidate shortest(const Polyhedron& set, bool inside, const Monitor& monitor) {
   std::vector<Candidate> all = candidates(set.complex());
   std::sort(all.begin(), all.end(),
             [](const Candidate& a, const Candidate& b) { return a.squared_length < b.squared_length; });
-  const auto found =
-      std::find_if(all.begin(), all.end(), [&](const Candidate& c) { return contains(set, c.point) == inside; });
+  const auto found = std::find_if(all.begin(), all.end(),
+                                  [&](const Candidate& c) { return contains(set, c.point, monitor) == inside; });
   NEF_ASSERT(found != all.end());  // a vertex of a bounded set that is closed, or open
   return *found;
 }
@@ -72,19 +72,19 @@ Penetration penetration(const Polyhedron& a, const Polyhedron& b, const Minkowsk
   Penetration result;
   const Polyhedron overlapping = minkowski_sum(interior(a, monitor), interior(turned, monitor), options, report);
   const Rational3 origin;
-  if (contains(overlapping, origin)) {
+  if (contains(overlapping, origin, monitor)) {
     result.kind = Penetration::Kind::kOverlapping;
-    const Candidate out = shortest(overlapping, false);
+    const Candidate out = shortest(overlapping, false, monitor);
     result.translation = out.point;
     result.squared_length = out.squared_length;
     return result;
   }
   const Polyhedron contact = minkowski_sum(closure(a, monitor), closure(turned, monitor), options, report);
-  if (contains(contact, origin)) {
+  if (contains(contact, origin, monitor)) {
     result.kind = Penetration::Kind::kTouching;
     return result;
   }
-  const Candidate way = shortest(contact, true);
+  const Candidate way = shortest(contact, true, monitor);
   result.translation = way.point;
   result.squared_length = way.squared_length;
   return result;

@@ -11,7 +11,7 @@ Reach reach(const Polyhedron& tool, const Polyhedron& part, const std::optional<
   require_bounded(tool, "the tool");
   require_bounded(part, "the part");
   const Polyhedron free = configuration_space(tool, {&part, 1}, std::nullopt, options, report);
-  if (from && !contains(free, *from)) {
+  if (from && !contains(free, *from, options.monitor)) {
     throw InputError("the tool overlaps the part at (" + to_string((*from)[0]) + ", " + to_string((*from)[1]) + ", " +
                      to_string((*from)[2]) + "): give a free position");
   }

@@ -34,8 +34,8 @@ Corners roomy(const Corners& box) {
 bool is_cobounded(const Polyhedron& a) { return a.complex().volumes[kOuterVolume].mark == 1; }
 
 NearHoles near_holes(const Polyhedron& a, const Polyhedron& b, const Monitor& monitor) {
-  const std::optional<Corners> holes = bounding_box(complement(a));
-  const std::optional<Corners> reach = bounding_box(b);
+  const std::optional<Corners> holes = bounding_box(complement(a), monitor);
+  const std::optional<Corners> reach = bounding_box(b, monitor);
   NEF_ASSERT(holes && reach);
   // What the sum misses lies within holes + b for each point b of B. Around that, everything belongs to it.
   Corners missed;

@@ -254,7 +254,7 @@ class InsideCheck {
       if (silhouette_.depth[r] % 2 == 0) continue;
       const std::optional<Point2> point = point_of_hole(r);
       if (!point) continue;  // 200 halvings do not fail on a ring with area
-      if (nef::shoot_ray(hull_, camera_.centre(), camera_.ray(*point))) {
+      if (nef::shoot_ray(hull_, camera_.centre(), camera_.ray(*point), {}, monitor_)) {
         return "hole " + std::to_string(r + 1) + " of the silhouette is covered by the hull";
       }
     }

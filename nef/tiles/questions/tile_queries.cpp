@@ -56,38 +56,38 @@ bool bounded(const Region& region) {
 
 }  // namespace
 
-Location PyramidInTiles::location() const {
+Location PyramidInTiles::location(const Monitor& monitor) const {
   const SphereMapView view = map.view();
-  const auto kind = is_vertex(planes, view, {}) ? Location::Kind::kVertex
-                    : !view.svertices.empty()   ? Location::Kind::kEdge
-                    : !view.sloops.empty()      ? Location::Kind::kFacet
-                                                : Location::Kind::kVolume;
+  const auto kind = is_vertex(planes, view, monitor) ? Location::Kind::kVertex
+                    : !view.svertices.empty()        ? Location::Kind::kEdge
+                    : !view.sloops.empty()           ? Location::Kind::kFacet
+                                                     : Location::Kind::kVolume;
   return {kind, 0, map.mark};
 }
 
-PyramidInTiles pyramid_in_tiles(const TileRef& tree, const Rational3& point) {
+PyramidInTiles pyramid_in_tiles(const TileRef& tree, const Rational3& point, const Monitor& monitor) {
   PyramidInTiles result;
   SphereOverlay overlay;
   const LabelFunction whichever{LabelFunction::WhicheverIsInside{}};
   result.map.assign_trivial(kOutside);
   for_each_leaf_at(tree, Region{}, point, [&](const TileRef& leaf, const Region& region) {
-    const Polyhedron set = leaf_set(leaf, region, {});
-    SphereMapBuffer map = local_pyramid(set, point);
+    const Polyhedron set = leaf_set(leaf, region, monitor);
+    SphereMapBuffer map = local_pyramid(set, point, monitor);
     intern_planes(set.complex().planes, result.planes, map);
     SphereMapBuffer joined;
-    overlay.overlay(result.planes, result.map.view(), map.view(), whichever, joined, {});
+    overlay.overlay(result.planes, result.map.view(), map.view(), whichever, joined, monitor);
     result.map = std::move(joined);
   });
   return result;
 }
 
-Location locate_in_tiles(const TileRef& tree, const Rational3& point) {
+Location locate_in_tiles(const TileRef& tree, const Rational3& point, const Monitor& monitor) {
   std::vector<TileRef> leaves;
   for_each_leaf_at(tree, Region{}, point, [&](const TileRef& leaf, const Region&) { leaves.push_back(leaf); });
-  if (leaves.size() > 1) return pyramid_in_tiles(tree, point).location();
+  if (leaves.size() > 1) return pyramid_in_tiles(tree, point, monitor).location(monitor);
   const TileRef& only = leaves.front();
   if (only.node->kind == Kind::kUniform) return {Location::Kind::kVolume, 0, only.node->mark};
-  const Location there = locate(only.node->set(), point);
+  const Location there = locate(only.node->set(), point, monitor);
   return {there.kind, 0, static_cast<LabelId>((there.mark != 0) != only.complemented ? 1 : 0)};
 }
 

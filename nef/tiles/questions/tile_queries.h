@@ -13,12 +13,12 @@ struct PyramidInTiles {
   SphereMapBuffer map;
 
   /// The item of the whole set there; its index is 0.
-  [[nodiscard]] Location location() const;
+  [[nodiscard]] Location location(const Monitor& monitor) const;
 };
-PyramidInTiles pyramid_in_tiles(const TileRef& tree, const Rational3& point);
+PyramidInTiles pyramid_in_tiles(const TileRef& tree, const Rational3& point, const Monitor& monitor);
 
 /// What nef/tiles/tiled_polyhedron.h says of the function of this name.
-Location locate_in_tiles(const TileRef& tree, const Rational3& point);
+Location locate_in_tiles(const TileRef& tree, const Rational3& point, const Monitor& monitor);
 
 /// What is found out of tiles one by one.
 struct ExtentOfTiles {

@@ -18,15 +18,16 @@ using Kind = TileNode::Kind;
 
 class RayThroughTiles {
  public:
-  RayThroughTiles(const TileRef& tree, const Rational3& direction, const std::function<bool(const Location&)>& accept)
-      : tree_(tree), direction_(direction), accept_(accept) {
+  RayThroughTiles(const TileRef& tree, const Rational3& direction, const std::function<bool(const Location&)>& accept,
+                  const Monitor& monitor)
+      : tree_(tree), direction_(direction), accept_(accept), monitor_(monitor) {
     while (direction_[axis_] == 0) ++axis_;
   }
 
   // The first hit in the region of a subtree.
   std::optional<RayHit> first(const TileRef& at, const Region& region, const Rational3& origin) {
     if (at.node->kind == Kind::kUniform) return std::nullopt;
-    if (at.node->kind == Kind::kTile) return in_tile(leaf_set(at, region, {}), origin);
+    if (at.node->kind == Kind::kTile) return in_tile(leaf_set(at, region, monitor_), origin);
     const AxisPlane& plane = at.node->plane;
     const auto [low, high] = children(at);
     const int side = cmp(origin[plane.axis], plane.at);
@@ -52,7 +53,7 @@ class RayThroughTiles {
   }
 
   [[nodiscard]] std::optional<RayHit> in_tile(const Polyhedron& set, Rational3 from) const {
-    while (std::optional<RayHit> hit = shoot_ray(set, from, direction_)) {
+    while (std::optional<RayHit> hit = shoot_ray(set, from, direction_, {}, monitor_)) {
       if (const std::optional<Location> met = item_met(hit->point)) return RayHit{*met, hit->point};
       from = std::move(hit->point);
     }
@@ -60,8 +61,8 @@ class RayThroughTiles {
   }
 
   [[nodiscard]] std::optional<Location> item_met(const Rational3& point) const {
-    const PyramidInTiles there = pyramid_in_tiles(tree_, point);
-    const Location location = there.location();
+    const PyramidInTiles there = pyramid_in_tiles(tree_, point, monitor_);
+    const Location location = there.location(monitor_);
     if (location.kind == Location::Kind::kVolume || runs_in(there, location.kind)) return std::nullopt;
     if (accept_ && !accept_(location)) return std::nullopt;
     return location;
@@ -83,14 +84,15 @@ class RayThroughTiles {
   const TileRef& tree_;
   const Rational3& direction_;
   const std::function<bool(const Location&)>& accept_;
+  Monitor monitor_;
   std::size_t axis_ = 0;  // along which the ray goes
 };
 
 }  // namespace
 
 std::optional<RayHit> first_hit_in_tiles(const TileRef& tree, const Rational3& origin, const Rational3& direction,
-                                         const std::function<bool(const Location&)>& accept) {
-  return RayThroughTiles(tree, direction, accept).first(tree, Region{}, origin);
+                                         const std::function<bool(const Location&)>& accept, const Monitor& monitor) {
+  return RayThroughTiles(tree, direction, accept, monitor).first(tree, Region{}, origin);
 }
 
 }  // namespace nef

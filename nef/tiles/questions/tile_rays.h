@@ -9,6 +9,6 @@ namespace nef {
 
 /// What shoot_ray of nef/tiles/tiled_polyhedron.h says.
 std::optional<RayHit> first_hit_in_tiles(const TileRef& tree, const Rational3& origin, const Rational3& direction,
-                                         const std::function<bool(const Location&)>& accept);
+                                         const std::function<bool(const Location&)>& accept, const Monitor& monitor);
 
 }  // namespace nef

@@ -22,22 +22,22 @@ std::uint32_t index_if(const Location& found, Location::Kind kind) {
 
 }  // namespace
 
-void find_items(const Complex& drawn, Scene& scene) {
+void find_items(const Complex& drawn, Scene& scene, const Monitor& monitor) {
   const Complex& source = scene.source.complex();
   std::vector<Rational3> points;
   for (SceneVertex& vertex : scene.vertices) {
     points.push_back(drawn.points.rational(PointId{vertex.index}));
-    vertex.index = index_if(locate(scene.source, points.back()), Location::Kind::kVertex);
+    vertex.index = index_if(locate(scene.source, points.back(), monitor), Location::Kind::kVertex);
   }
   for (SceneEdge& edge : scene.edges) {
-    const Location found = locate(scene.source, mean({&points[edge.from], &points[edge.to]}));
+    const Location found = locate(scene.source, mean({&points[edge.from], &points[edge.to]}), monitor);
     edge.index = index_if(found, Location::Kind::kEdge);
     if (edge.index != kArtificial) edge.index = source.edge(HalfedgeId{edge.index}).index();
   }
   for (SceneVolume& volume : scene.volumes) volume.index = kArtificial;
   for (SceneFacet& facet : scene.facets) {
     const auto& [a, b, c] = scene.triangles[facet.first_triangle];
-    const Location found = locate(scene.source, mean({&points[a], &points[b], &points[c]}));
+    const Location found = locate(scene.source, mean({&points[a], &points[b], &points[c]}), monitor);
     facet.index = index_if(found, Location::Kind::kFacet);
     if (found.kind == Location::Kind::kFacet) {
       // Both complexes see the facet from the same side of the same plane.

@@ -203,7 +203,7 @@ std::vector<SaddlePoint> saddle_points(const Polyhedron& a, const Polyhedron& b,
       const Rational3 p = of_a.points.rational(point_of(s.vertex));
       const Rational3 q = of_b.points.rational(point_of(t.vertex));
       const Rational3 x = {p[0] + q[0], p[1] + q[1], p[2] + q[2]};
-      if (membership.surely_in_inside(x)) continue;
+      if (membership.surely_in_inside(x, monitor)) continue;
       const bool marked = of_a.mark(s.vertex) != 0 && of_b.mark(t.vertex) != 0;
       result.push_back({x, static_cast<std::uint8_t>(marked ? 1 : 0)});
     }

@@ -23,7 +23,7 @@ class SumMembership {
   /// True for a point of the sum of the interiors of the closures; also where single points of the sets are missing.
   [[nodiscard]] bool in_inside(const Rational3& x, const Monitor& monitor) const;
   /// The same, if that is easily seen.
-  [[nodiscard]] bool surely_in_inside(const Rational3& x) const;
+  [[nodiscard]] bool surely_in_inside(const Rational3& x, const Monitor& monitor) const;
 
  private:
   struct Operands {

@@ -114,6 +114,12 @@ struct Complex {
     return {vertices.sfaces(vertex), vertices.sfaces(vertex.next())};
   }
 
+  /// The planes of the even shalfedges of a vertex.
+  [[nodiscard]] std::span<const PlaneId> planes_of_pairs(VertexId vertex) const {
+    const std::uint32_t first = pair_of(vertices.shalfedges(vertex));
+    return std::span(shalfedge_plane.pairs()).subspan(first, pair_of(vertices.shalfedges(vertex.next())) - first);
+  }
+
   /// The sphere map of a vertex.
   [[nodiscard]] SphereMapView sphere_map(VertexId vertex) const {
     const VertexRecord record = vertices[vertex];

@@ -57,9 +57,7 @@ class IntegerRows {
 
   /// Entry `column` of row `row`.
   [[nodiscard]] IntegerView at(std::uint32_t row, std::size_t column) const {
-    const std::size_t first = first_together(row) * width_;
-    const std::size_t i = row * width_ + column;
-    return {limbs_.data() + begin_[row / kTogether] + limbs_between(first, i), size(i)};
+    return {limbs_.data() + begin(row, column), size(row * width_ + column)};
   }
 
   /// The first `count` entries of a row; cheaper than one after another.
@@ -115,8 +113,7 @@ class IntegerRows {
   }
 
   [[nodiscard]] bool is_one(std::uint32_t row, std::size_t column) const {
-    const std::size_t i = row * width_ + column;
-    return size(i) == 1 && limbs_[begin_[row / kTogether] + limbs_between(first_together(row) * width_, i)] == 1;
+    return size(row * width_ + column) == 1 && limbs_[begin(row, column)] == 1;
   }
 
   /// True if the integers of a row are doubles: at most 2^53 in magnitude.
@@ -163,9 +160,9 @@ class IntegerRows {
 
   [[nodiscard]] static std::size_t first_together(std::size_t row) { return row - row % kTogether; }
 
-  // Where the limbs of a row begin; those of the row after the last one, where they end.
-  [[nodiscard]] std::size_t begin(std::size_t row) const {
-    return begin_[row / kTogether] + limbs_between(first_together(row) * width_, row * width_);
+  // Where the limbs of an entry begin, and so those of a row; those of the row after the last one, where they end.
+  [[nodiscard]] std::size_t begin(std::size_t row, std::size_t column = 0) const {
+    return begin_[row / kTogether] + limbs_between(first_together(row) * width_, row * width_ + column);
   }
 
   // The limbs of a row.

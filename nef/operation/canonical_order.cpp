@@ -65,10 +65,7 @@ class Canonical {
   }
   // Those of its even shalfedges.
   [[nodiscard]] std::span<const PlaneId> planes_of_pairs(std::uint32_t i) const {
-    const Complex& c = complex(i);
-    const std::uint32_t first = pair_of(c.vertices.shalfedges(vertices_[i].vertex));
-    const std::uint32_t end = pair_of(c.vertices.shalfedges(vertices_[i].vertex.next()));
-    return std::span(c.shalfedge_plane.pairs()).subspan(first, end - first);
+    return complex(i).planes_of_pairs(vertices_[i].vertex);
   }
   [[nodiscard]] std::span<const SLoop> sloops(std::uint32_t i) const {
     const Complex& c = complex(i);

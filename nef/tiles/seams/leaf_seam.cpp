@@ -116,7 +116,7 @@ class SeamReader::State {
     leaf.seam.reserve(c.vertex_count());
     for (const VertexId v : c.vertex_ids()) {
       std::uint8_t walls = 0;
-      for (const PlaneId plane : planes_of_pairs(c, v)) walls |= walls_of_plane_[plane.row()];
+      for (const PlaneId plane : c.planes_of_pairs(v)) walls |= walls_of_plane_[plane.row()];
       const VertexRecord& begin = c.vertices[v];
       const VertexRecord& end = c.vertices[v.next()];
       for (std::uint32_t l = begin.sloops; l < end.sloops; ++l) walls |= walls_of_plane_[c.sloops[l].plane.row()];
@@ -145,7 +145,7 @@ class SeamReader::State {
 
   // The pairs of shalfedges of a vertex that lie in walls, a bit for each; none if there are many.
   [[nodiscard]] std::uint64_t pairs_in_walls(const Complex& c, VertexId v) const {
-    const std::span<const PlaneId> planes = planes_of_pairs(c, v);
+    const std::span<const PlaneId> planes = c.planes_of_pairs(v);
     if (planes.size() > 64) return 0;
     std::uint64_t in_wall = 0;
     for (std::size_t i = 0; i < planes.size(); ++i) {
@@ -157,7 +157,7 @@ class SeamReader::State {
   // The two smallest planes of some pairs of a vertex, if there are two.
   [[nodiscard]] std::optional<std::array<std::uint32_t, 2>> two_planes(const Complex& c, VertexId v,
                                                                        std::uint64_t pairs) const {
-    const std::span<const PlaneId> planes = planes_of_pairs(c, v);
+    const std::span<const PlaneId> planes = c.planes_of_pairs(v);
     std::array<std::uint32_t, 2> smallest{kNone, kNone};
     for (; pairs != 0; pairs &= pairs - 1) {
       const std::uint32_t row = rows_[planes[static_cast<std::size_t>(std::countr_zero(pairs))].row()];
@@ -172,7 +172,7 @@ class SeamReader::State {
   }
 
   [[nodiscard]] FacetInside inside(const Complex& c, VertexId v, const CutFacet& facet) const {
-    const PlaneId plane = planes_of_pairs(c, v)[facet.shalfedge / 2];
+    const PlaneId plane = c.planes_of_pairs(v)[facet.shalfedge / 2];
     const std::uint32_t row = rows_[plane.row()];
     if (plane.flipped() != (facet.shalfedge % 2 != 0)) return {row, facet.mark, facet.right, facet.left};
     return {row, facet.mark, facet.left, facet.right};

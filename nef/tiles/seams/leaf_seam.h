@@ -56,12 +56,6 @@ struct LeafSeam {
   std::vector<FacetInside> facets;  ///< that several walls cut
 };
 
-/// The planes of the even shalfedges of a vertex.
-inline std::span<const PlaneId> planes_of_pairs(const Complex& c, VertexId v) {
-  const std::uint32_t first = pair_of(c.vertices.shalfedges(v));
-  return std::span(c.shalfedge_plane.pairs()).subspan(first, pair_of(c.vertices.shalfedges(v.next())) - first);
-}
-
 /// Reads leaves, one after the other. Keeps scratch: one for each thread.
 class SeamReader {
  public:

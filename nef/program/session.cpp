@@ -80,6 +80,10 @@ PolyhedronWriteOptions Session::write_options() const {
   return options;
 }
 
+MeshWriteOptions Session::mesh_write_options() const {
+  return {.exact = exact, .binary = binary, .format = format, .monitor = monitor};
+}
+
 void Session::show_phase(const std::string& phase, std::size_t done, std::size_t total) {
   if (!bar_) bar_ = std::make_unique<ProgressBar>(!quiet);
   bar_->show(phase, done, total);

@@ -12,6 +12,7 @@
 
 #include "nef/base/monitor.h"
 #include "nef/construct/construct.h"
+#include "nef/io/mesh/mesh_writer.h"
 #include "nef/io/polyhedron_file.h"
 #include "nef/program/progress_bar.h"
 #include "nef/program/run_report.h"
@@ -56,6 +57,8 @@ class Session {
   Polyhedron load(const std::string& path, const Monitor& monitor);
   /// Writes a set to `output`, if there is one; "-" is standard output, which then holds nothing else.
   void store(const Polyhedron& set);
+  /// How the flags ask for a mesh to be written.
+  [[nodiscard]] MeshWriteOptions mesh_write_options() const;
   /// Writes a set with labels to `output`, its faces in groups (see write_groups); returns how many each has.
   std::map<std::string, std::size_t> store_groups(const Polyhedron& labeled, const BoundaryGroups& groups);
 

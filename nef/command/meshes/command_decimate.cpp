@@ -24,9 +24,7 @@ void add_decimate_command(CLI::App& app, Session& session) {
     const double seconds = watch.seconds();
     for (const std::string& line : decimated.notes) session.note(line);
     Messages notes;
-    const MeshWriteOptions written{
-        .exact = session.exact, .binary = session.binary, .format = session.format, .monitor = session.monitor};
-    write_mesh(session.output, decimated.mesh, written, &notes);
+    write_mesh(session.output, decimated.mesh, session.mesh_write_options(), &notes);
     for (const std::string& line : notes) session.note(line);
     const auto [low, high] = decimated.distance;
     session.say(std::to_string(decimated.mesh.face_count()) + " triangles; Hausdorff distance " + Json(low).dump() +

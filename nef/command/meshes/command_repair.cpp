@@ -19,9 +19,7 @@ void add_repair_command(CLI::App& app, Session& session) {
   command->callback([&session, options] {
     const RepairedMesh repaired = repair_mesh(read_mesh(session.input), *options, session.monitor);
     Messages notes;
-    const MeshWriteOptions written{
-        .exact = session.exact, .binary = session.binary, .format = session.format, .monitor = session.monitor};
-    write_mesh(session.output, repaired.mesh, written, &notes);
+    write_mesh(session.output, repaired.mesh, session.mesh_write_options(), &notes);
     for (const std::string& line : repaired.done) session.say(line);
     for (const std::string& line : notes) session.say("note: " + line);
     session.say(repaired.problem.empty() ? (repaired.done.empty() ? "nothing to repair" : "the mesh bounds a solid now")

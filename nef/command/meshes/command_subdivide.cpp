@@ -52,9 +52,7 @@ void add_subdivide_command(CLI::App& app, Session& session) {
     if (smooth) require_legal(mesh, session.monitor);
     const double seconds = watch.seconds();
     Messages notes;
-    const MeshWriteOptions written{
-        .exact = session.exact, .binary = session.binary, .format = session.format, .monitor = session.monitor};
-    write_mesh(session.output, mesh, written, &notes);
+    write_mesh(session.output, mesh, session.mesh_write_options(), &notes);
     for (const std::string& line : notes) session.note(line);
     session.say(std::to_string(mesh.face_count()) + " triangles");
     if (!session.json) return;

@@ -4,6 +4,7 @@
 #include "nef/number/simplest_between.h"
 
 #include "nef/base/error.h"
+#include "nef/number/brief_text.h"
 #include "nef/number/floor.h"
 
 namespace nef {
@@ -20,7 +21,7 @@ Rational simplest_positive(const Rational& low, const Rational& high) {
 }  // namespace
 
 Rational simplest_between(const Rational& low, const Rational& high) {
-  if (low > high) throw InputError("no rational lies between " + to_string(low) + " and " + to_string(high));
+  if (low > high) throw InputError("no rational lies between " + brief_text(low) + " and " + brief_text(high));
   if (sgn(low) <= 0 && sgn(high) >= 0) return 0;
   if (sgn(high) < 0) return -simplest_positive(-high, -low);
   return simplest_positive(low, high);

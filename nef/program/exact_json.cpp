@@ -26,12 +26,6 @@ std::string tail(const std::string& text) {
   return text.size() <= kLength ? text : "..." + text.substr(text.size() - kLength);
 }
 
-// The beginning of a value, for messages.
-std::string brief(const std::string& text) {
-  constexpr std::size_t kLength = 40;
-  return text.size() <= kLength ? text : text.substr(0, kLength) + "...";
-}
-
 // Builds a value from parser events; floats keep their spelling.
 class KeepText : public nlohmann::json_sax<json> {
  public:
@@ -130,7 +124,7 @@ Rational rational_of(const json& value, const std::string& what) {
   } else if (value.is_object() && value.contains(kNumber)) {
     text = value[kNumber].get<std::string>();
   } else {
-    throw InputError(what + ": expected a number or a string such as \"1/3\", not " + brief(spelled(value)));
+    throw InputError(what + ": expected a number or a string such as \"1/3\", not " + in_quotes(spelled(value)));
   }
   try {
     return parse_rational(text);
@@ -141,7 +135,7 @@ Rational rational_of(const json& value, const std::string& what) {
 
 std::vector<Rational> rationals_of(const json& value, const std::string& what) {
   std::vector<Rational> numbers;
-  if (!value.is_array()) throw InputError(what + ": expected a list of numbers, not " + brief(spelled(value)));
+  if (!value.is_array()) throw InputError(what + ": expected a list of numbers, not " + in_quotes(spelled(value)));
   for (const json& item : value) {
     if (item.is_array()) {
       const std::vector<Rational> inner = rationals_of(item, what);

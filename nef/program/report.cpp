@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "nef/base/timing/phase_timer.h"
+#include "nef/number/brief_text.h"
 #include "nef/polyhedron.h"
 #include "nef/program/set_info.h"
 
@@ -24,7 +25,7 @@ std::string summary(const Polyhedron& set) {
 }
 
 std::string point_text(const Rational3& point) {
-  return to_string(point[0]) + "," + to_string(point[1]) + "," + to_string(point[2]);
+  return brief_text(point[0]) + "," + brief_text(point[1]) + "," + brief_text(point[2]);
 }
 
 Json point_json(const Rational3& point) {

@@ -17,7 +17,8 @@ Json info_json(const Polyhedron& set, const Monitor& monitor = {});
 /// "8 vertices, 12 edges, 6 facets, 2 volumes, 2 shells"
 std::string summary(const Polyhedron& set);
 
-/// A point as three exact numbers: "x,y,z", and as a JSON array of strings.
+/// A point as three numbers: "x,y,z", those of many digits shortened (see brief_text), and as a JSON array of exact
+/// strings.
 std::string point_text(const Rational3& point);
 Json point_json(const Rational3& point);
 

@@ -15,6 +15,7 @@
 #include "nef/base/timing/stopwatch.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/polyhedron_file.h"
+#include "nef/number/brief_text.h"
 #include "nef/polyhedron.h"
 #include "nef/program/numbers.h"
 #include "nef/program/progress_bar.h"
@@ -105,7 +106,7 @@ class Run {
 
   static int splits(const Rational& n, const std::string& option) {
     if (n.get_den() != 1 || n < 1 || n > 64) {
-      throw InputError(option + " R,N: N is a whole number from 1 to 64, not " + to_string(n));
+      throw InputError(option + " R,N: N is a whole number from 1 to 64, not " + brief_text(n));
     }
     return static_cast<int>(n.get_num().get_si());
   }
@@ -284,7 +285,8 @@ class Run {
       const Rational3 high{n[3], n[4], n[5]};
       for (std::size_t i = 0; i < 3; ++i) {
         if (low[i] <= high[i]) continue;
-        throw InputError("--box: give the lower corner first; " + to_string(low[i]) + " exceeds " + to_string(high[i]));
+        throw InputError("--box: give the lower corner first; " + brief_text(low[i]) + " exceeds " +
+                         brief_text(high[i]));
       }
       box = {low, high};
     }

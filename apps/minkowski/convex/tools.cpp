@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "nef/base/error.h"
+#include "nef/number/brief_text.h"
 
 namespace nef::minkowski {
 namespace {
@@ -35,7 +36,7 @@ Rational3 on_sphere(double x, double y, double z) {
 }  // namespace
 
 ConvexCell ball(const Rational& radius, int splits, const Monitor& monitor) {
-  if (sgn(radius) <= 0) throw InputError("the radius of a ball must be positive, not " + to_string(radius));
+  if (sgn(radius) <= 0) throw InputError("the radius of a ball must be positive, not " + brief_text(radius));
   if (splits < 1 || splits > 64) {
     throw InputError("a ball has 1 to 64 splits an edge, not " + std::to_string(splits) + " (4 N^2 + 2 vertices)");
   }
@@ -60,7 +61,7 @@ ConvexCell box_tool(const Rational3& extents, const Monitor& monitor) {
   for (int signs = 0; signs < 8; ++signs) {
     Rational3 p;
     for (std::size_t a = 0; a < 3; ++a) {
-      if (sgn(extents[a]) < 0) throw InputError("an extent of a box must not be negative: " + to_string(extents[a]));
+      if (sgn(extents[a]) < 0) throw InputError("an extent of a box must not be negative: " + brief_text(extents[a]));
       p[a] = (signs >> a & 1) != 0 ? Rational(-extents[a] / 2) : Rational(extents[a] / 2);
     }
     points.push_back(p);

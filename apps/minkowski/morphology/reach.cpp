@@ -2,6 +2,7 @@
 #include "apps/minkowski/decomposition/decomposition.h"
 #include "apps/minkowski/morphology.h"
 #include "nef/base/error.h"
+#include "nef/number/brief_text.h"
 #include "nef/polyhedron.h"
 
 namespace nef::minkowski {
@@ -12,8 +13,7 @@ Reach reach(const Polyhedron& tool, const Polyhedron& part, const std::optional<
   require_bounded(part, "the part");
   const Polyhedron free = configuration_space(tool, {&part, 1}, std::nullopt, options, report);
   if (from && !contains(free, *from, options.monitor)) {
-    throw InputError("the tool overlaps the part at (" + to_string((*from)[0]) + ", " + to_string((*from)[1]) + ", " +
-                     to_string((*from)[2]) + "): give a free position");
+    throw InputError("the tool overlaps the part at " + brief_text(*from) + ": give a free position");
   }
   Reach result;
   result.positions = component_of(free, from, options.monitor);

@@ -3,6 +3,7 @@
 
 #include "apps/minkowski/minkowski.h"
 #include "nef/base/error.h"
+#include "nef/number/brief_text.h"
 
 namespace nef::planner {
 
@@ -27,7 +28,7 @@ void keep_clear(Scene& scene, const Rational& distance, const Monitor& monitor) 
   minkowski::MinkowskiOptions options;
   options.monitor = monitor;
   scene.robot = minkowski::minkowski_sum(scene.robot, around_ball(distance, monitor), options);
-  scene.messages.push_back("the robot is made larger by a polytope around the ball of radius " + to_string(distance) +
+  scene.messages.push_back("the robot is made larger by a polytope around the ball of radius " + brief_text(distance) +
                            ": paths keep at least that distance; some that keep less than 1.2 times as much are lost");
 }
 

@@ -12,6 +12,7 @@
 #include "nef/base/timing/stopwatch.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/polyhedron_file.h"
+#include "nef/number/brief_text.h"
 #include "nef/program/exact_json.h"
 #include "nef/program/progress_bar.h"
 #include "nef/program/run_report.h"
@@ -120,7 +121,7 @@ void print(const Disassembly& answer, const Assembly& assembly) {
   for (const DisassemblyStep& step : answer.steps) {
     std::cout << list_of(step.parts, assembly) << (step.straight ? ": straight" : ": by a path of")
               << (step.straight ? "" : " " + std::to_string(step.path.size()) + " way-points") << ", to";
-    for (const Rational& x : step.path.back()) std::cout << ' ' << to_string(x);
+    for (const Rational& x : step.path.back()) std::cout << ' ' << brief_text(x);
     std::cout << '\n';
     if (!step.unrounded.empty()) std::cout << unrounded_text(step.unrounded);
   }

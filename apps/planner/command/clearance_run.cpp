@@ -11,6 +11,7 @@
 #include "apps/planner/free_space/free_space.h"
 #include "nef/base/error.h"
 #include "nef/base/timing/stopwatch.h"
+#include "nef/number/brief_text.h"
 
 namespace nef::planner {
 namespace {
@@ -84,7 +85,8 @@ nlohmann::json make_widest(const Arguments& a, Scene& scene) {
 std::string widest_text(const nlohmann::json& widest) {
   std::ostringstream out;
   const auto put = [&](const char* key) {
-    out << widest[key].get<std::string>() << " (" << widest[std::string(key) + "_double"].get<double>() << ")";
+    out << brief_text(parse_rational(widest[key].get<std::string>())) << " ("
+        << widest[std::string(key) + "_double"].get<double>() << ")";
   };
   out << "widest: ";
   if (widest.contains("low")) {

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "nef/base/error.h"
+#include "nef/number/brief_text.h"
 #include "nef/program/exact_json.h"
 
 namespace nef::planner {
@@ -161,7 +162,7 @@ std::string passages_text(const FreeSpace& free) {
   const auto list = [&](const char* before, CellId cell) {
     out << before << free.name(cell) << ':';
     for (const Rational3& v : free.vertices(cell)) {
-      out << " (" << to_string(v[0]) << ", " << to_string(v[1]) << ", " << to_string(v[2]) << ')';
+      out << ' ' << brief_text(v);
     }
     out << '\n';
   };

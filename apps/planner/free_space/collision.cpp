@@ -4,6 +4,8 @@
 #include "apps/minkowski/minkowski.h"
 #include "apps/planner/free_space/free_space.h"
 #include "nef/base/error.h"
+#include "nef/base/in_quotes.h"
+#include "nef/number/brief_text.h"
 
 namespace nef::planner {
 namespace {
@@ -69,12 +71,12 @@ std::optional<Collision> find_collision(const Scene& scene, const Rational3& pos
 
 std::string describe(const Collision& collision, const Scene& scene) {
   static constexpr std::array<const char*, 4> kKinds{"vertex", "edge", "facet", "volume"};
-  const std::string at = "(" + to_string(collision.point[0]) + ", " + to_string(collision.point[1]) + ", " +
-                         to_string(collision.point[2]) + ")";
+  const std::string at = brief_text(collision.point);
   if (collision.outside_box) return "outside the box at " + at;
-  return "overlaps obstacle " + std::to_string(collision.obstacle) + " (" + scene.obstacle_names[collision.obstacle] +
-         "), " + kKinds[static_cast<std::size_t>(collision.cell.kind)] + " " + std::to_string(collision.cell.index) +
-         ", at " + at;
+  return "overlaps obstacle " + std::to_string(collision.obstacle) + " (" +
+         in_quotes(scene.obstacle_names[collision.obstacle]) + "), " +
+         kKinds[static_cast<std::size_t>(collision.cell.kind)] + " " + std::to_string(collision.cell.index) + ", at " +
+         at;
 }
 
 }  // namespace nef::planner

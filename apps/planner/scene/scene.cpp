@@ -5,6 +5,7 @@
 
 #include "apps/planner/scene/shapes.h"
 #include "nef/base/error.h"
+#include "nef/base/in_quotes.h"
 #include "nef/io/file_bytes.h"
 #include "nef/program/exact_json.h"
 
@@ -27,7 +28,7 @@ class ShapeReader {
         throw InputError(what + ": " + error.what());
       }
     }
-    throw InputError(what + ": expected a file name or an expression in quotes, not " + spelled(value));
+    throw InputError(what + ": expected a file name or an expression in quotes, not " + in_quotes(spelled(value)));
   }
 
  private:
@@ -140,7 +141,7 @@ Scene parse_scene(const std::string& text, const std::string& folder, const std:
   if (root.contains("contact")) {
     const json& contact = root["contact"];
     if (contact != "allow" && contact != "forbid") {
-      throw InputError(name + R"(: 'contact' must be "allow" or "forbid", not )" + spelled(contact));
+      throw InputError(name + R"(: 'contact' must be "allow" or "forbid", not )" + in_quotes(spelled(contact)));
     }
     scene.contact = contact == "allow" ? ContactRule::kAllow : ContactRule::kForbid;
   }

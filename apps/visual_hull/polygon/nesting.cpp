@@ -7,6 +7,7 @@
 #include "apps/visual_hull/polygon/polygon.h"
 #include "nef/base/error.h"
 #include "nef/geometry/box_tree.h"
+#include "nef/number/brief_text.h"
 
 namespace visual_hull {
 namespace {
@@ -39,7 +40,7 @@ struct EdgeSoup {
   }
 };
 
-std::string describe(const Point2& p) { return "(" + nef::to_string(p.x()) + ", " + nef::to_string(p.y()) + ")"; }
+std::string describe(const Point2& p) { return "(" + nef::brief_text(p.x()) + ", " + nef::brief_text(p.y()) + ")"; }
 
 // Drops repeated and straight vertices until none is left (dropping one may reveal another).
 void clean(Ring& ring, const nef::Monitor& monitor) {

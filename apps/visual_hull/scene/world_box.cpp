@@ -3,6 +3,7 @@
 
 #include "apps/visual_hull/scene/scene_number.h"
 #include "nef/base/error.h"
+#include "nef/number/brief_text.h"
 #include "nef/program/numbers.h"
 
 namespace visual_hull {
@@ -13,7 +14,7 @@ void check_box(const WorldBox& box, const std::string& where) {
   for (std::size_t i = 0; i < 3; ++i) {
     if (box.low[i] >= box.high[i]) {
       throw nef::InputError(where + ": the box is empty or flat along " + std::string(1, "xyz"[i]) + " (" +
-                            nef::to_string(box.low[i]) + " to " + nef::to_string(box.high[i]) + ")");
+                            nef::brief_text(box.low[i]) + " to " + nef::brief_text(box.high[i]) + ")");
     }
   }
 }

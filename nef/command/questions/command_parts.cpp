@@ -9,6 +9,7 @@
 #include "nef/distance/distance.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/polyhedron_file.h"
+#include "nef/number/brief_text.h"
 #include "nef/parts/section.h"
 #include "nef/parts/split.h"
 #include "nef/program/numbers.h"
@@ -128,7 +129,7 @@ void add_distance(CLI::App& app, Session& session) {
                 (found->contact == Contact::kTouching && !found->common_point ? ", without a common point" : ""));
     if (found->contact == Contact::kOverlapping) return;
     if (found->contact == Contact::kDisjoint) {
-      session.say("distance: " + Json(found->value()).dump() + ", the square root of " + to_string(found->squared));
+      session.say("distance: " + Json(found->value()).dump() + ", the square root of " + brief_text(found->squared));
       session.say("nearest: " + point_text(found->on_a) + " and " + point_text(found->on_b));
     } else {
       session.say("at: " + point_text(found->on_a));

@@ -69,7 +69,6 @@ struct MinkowskiReport {
   std::size_t pairs_dropped = 0;          ///< sums that lie inside another one, found before the union
   std::size_t united_at_once = 0;         ///< sums that went into unions of many at once
   std::size_t united_two_by_two = 0;      ///< sums that went into unions of two sets
-  std::size_t convolution_defects = 0;    ///< sums without cells that were no valid sets: a bug; cells took their place
   std::size_t convolution_facets = 0;     ///< of the reduced convolution, if there was one
   std::size_t convolution_intervals = 0;  ///< parts of the meetings of its facets where the boundary may be
   std::size_t convolution_points = 0;     ///< points of it that were located exactly

@@ -3,8 +3,6 @@
 
 #include <cmath>
 
-#include "nef/boolean/piercing_filter.h"
-
 namespace nef {
 
 void FacetLocator::expect(std::span<const FacetId> facets) {
@@ -23,22 +21,6 @@ const BoxTree& FacetLocator::tree(FacetId facet) const {
     entry.tree = BoxTree(boxes);
   });
   return entry.tree;
-}
-
-bool FacetLocator::surely_misses(FacetId facet, const Box& box) const {
-  const PlaneAxes axes(tables_.planes, operand_.facet_plane(facet));
-  Box ray = box;
-  ray.low[static_cast<std::size_t>(axes.first)] = -HUGE_VAL;
-  const auto third = static_cast<std::size_t>(3 - axes.first - axes.second);
-  ray.low[third] = -HUGE_VAL;
-  ray.high[third] = HUGE_VAL;
-  RoughParity parity(box, axes.first, axes.second);
-  for_each_edge(facet, ray, [&](HalfedgeId halfedge) {
-    if (!parity.certain()) return;
-    parity.add(tables_.points.approximate(operand_.point(operand_.source(halfedge))),
-               tables_.points.approximate(operand_.point(operand_.target(halfedge))));
-  });
-  return parity.surely_outside();
 }
 
 Item FacetLocator::locate(FacetId facet, PointId point, const Monitor& monitor) const {

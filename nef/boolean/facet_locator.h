@@ -23,10 +23,6 @@ class FacetLocator {
   /// a vertex of its boundary or an isolated vertex inside; kNone if the point lies outside.
   [[nodiscard]] Item locate(FacetId facet, PointId point, const Monitor& monitor) const;
 
-  /// True only if a point of the facet's plane that lies in `box` is not in the closed facet. In double
-  /// precision, with proven bounds.
-  [[nodiscard]] bool surely_misses(FacetId facet, const Box& box) const;
-
   /// The boundary edges of the facet (as halfedges of its corners) whose boxes meet `box`.
   template <typename Visit>
   void for_each_edge(FacetId facet, const Box& box, Visit&& visit) const {

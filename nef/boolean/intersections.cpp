@@ -10,7 +10,6 @@
 #include "nef/base/error.h"
 #include "nef/base/threads/parallel.h"
 #include "nef/boolean/facet_locator.h"
-#include "nef/boolean/piercing_filter.h"
 #include "nef/geometry/occupancy_grid.h"
 
 namespace nef {
@@ -257,8 +256,7 @@ class IntersectionFinder {
         const PlaneId plane = other.facet_plane(facet);
         const int side_a = side(plane, a, monitor);
         const int side_b = side(plane, b, monitor);
-        const bool may_meet = side_a * side_b < 0 ? may_pierce(x, a, b, facet, monitor) : side_a == 0 && side_b == 0;
-        if (may_meet) pairs.push_back({e, facet});
+        if (side_a * side_b < 0 || (side_a == 0 && side_b == 0)) pairs.push_back({e, facet});
       });
     };
     find_and_use<HalfedgeId>(edges.size(), "edges through facets", find, [&](const Pair<HalfedgeId>& pair) {
@@ -271,14 +269,6 @@ class IntersectionFinder {
       locators_[1 - x].for_each_edge(pair.facet, own.edge_box(e),
                                      [&](HalfedgeId f) { cross_in_plane(x, e, other.edge(f), plane); });
     });
-  }
-
-  // False only if the segment from a to b, which passes through the plane of a facet, misses the facet.
-  [[nodiscard]] bool may_pierce(std::size_t x, PointId a, PointId b, FacetId facet, const Monitor& monitor) const {
-    const Box rough = piercing_box(tables_.planes, operands_[1 - x].facet_plane(facet), tables_.points, a, b);
-    const bool misses = locators_[1 - x].surely_misses(facet, rough);
-    if (misses) monitor.count_filter();
-    return !misses;
   }
 
   // Edge e of operand x passes through the plane of a facet of the other.

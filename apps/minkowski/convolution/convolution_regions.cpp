@@ -143,8 +143,8 @@ std::size_t mark_boundary(const ConvolutionFacets& facets, FacetPyramids& pyrami
   return marker.tested();
 }
 
-std::variant<Complex, Defect> complex_of(const ConvolutionFacets& facets, PlaneTable& planes,
-                                         const std::vector<RegionVertex>& vertices, const Monitor& monitor) {
+Complex complex_of(const ConvolutionFacets& facets, PlaneTable& planes, const std::vector<RegionVertex>& vertices,
+                   const Monitor& monitor) {
   const bool is_closed = facets.marks == BoundaryMarks::kAll;
   ComplexBuilder builder(planes, monitor);
   Arrangement drawing;
@@ -154,7 +154,7 @@ std::variant<Complex, Defect> complex_of(const ConvolutionFacets& facets, PlaneT
     drawing.load(planes, v.map.view());
     builder.add(facets.points, v.point, drawing);
   }
-  return builder.try_finish(0);
+  return builder.finish(0);
 }
 
 }  // namespace

@@ -6,20 +6,17 @@
 #include <cstddef>
 #include <functional>
 #include <span>
-#include <variant>
 
 #include "apps/minkowski/convolution/arrangement/surviving_intervals.h"
 #include "apps/minkowski/convolution/marks/interlock.h"
 #include "apps/minkowski/convolution/marks/sum_membership.h"
-#include "nef/base/defect.h"
-#include "nef/forward.h"
+#include "nef/complex/complex.h"
 
 namespace nef::minkowski {
 
-/// What came of an arrangement of facets: the sum, or a defect, which would be a bug; and counts for people who
-/// measure.
+/// What came of an arrangement of facets, and counts for people who measure.
 struct SumOfRegions {
-  std::variant<Complex, Defect> sum;
+  Complex sum;
   std::size_t points = 0;  ///< located exactly
   std::size_t tested = 0;  ///< regions and boundary items that only an intersection could tell
 };

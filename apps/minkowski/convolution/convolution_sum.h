@@ -16,7 +16,6 @@ namespace nef::minkowski {
 /// How much there was to do.
 struct ConvolutionReport {
   std::string why;            ///< the sum was made so, or was not, in words
-  bool has_defect = false;    ///< what was made is no valid set and was thrown away: a bug
   std::size_t facets = 0;     ///< of the reduced convolution
   std::size_t segments = 0;   ///< pairs of facets that meet in one
   std::size_t intervals = 0;  ///< parts of segments at which the boundary may be
@@ -28,15 +27,16 @@ struct ConvolutionReport {
 bool has_convolution(const Polyhedron& a);
 
 struct ConvolutionOptions {
-  /// Sets of which cells are likely to be faster are left alone: where both are convex, and where very many facets of
-  /// the convolution lie in one plane upon each other, as the caps of extrusions do.
+  /// Sets of which cells are likely to be faster are left alone: where both are convex, and where so many facets of
+  /// the convolution lie in one plane upon each other, as the caps of extrusions do, that they cost more than the
+  /// pairs of cells that there are likely to be. The report has both estimates.
   bool only_if_fast = false;
   unsigned threads = 1;              ///< 0: as many as the machine has; the result does not depend on it
   std::function<void(double)> poll;  ///< called with the share that is done, 0 to 1; may throw
   Monitor monitor = {};              ///< who watches; what it refers to must outlive the call
 };
 
-/// A + B for two such sets; nothing if the options ask for that, or if something went wrong that must not. The facets
+/// A + B for two such sets; nothing if the options ask for that. The facets
 /// of the reduced convolution are arranged, without what is surely inside; what regions they leave is inside if it is
 /// just behind a facet, and the others are tested: x is in A + B iff A meets x - B. If A or B lacks something of its
 /// boundary, so may the sum, and passages as narrow as what passes (BoundaryMarker). Nothing also for these, all rare,

@@ -50,7 +50,6 @@ std::optional<Polyhedron> sum_by_convolution(const Polyhedron& a, const Polyhedr
   ConvolutionReport counts;
   std::optional<Polyhedron> sum = convolution_sum(a, b, how, counts);
   if (!sum || !insist) why = counts.why;
-  report.convolution_defects += counts.has_defect ? 1 : 0;
   report.convolution_facets += counts.facets;
   report.convolution_intervals += counts.intervals;
   report.convolution_points += counts.points;

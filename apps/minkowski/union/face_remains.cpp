@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The polygon is cut along the faces of a cell; the part inside of all of them goes. A cell counts only as far as its
-// faces, moved inwards to where the value is inside_, go. Both halves of a cut share the cutting point, so the pieces
-// always make up the polygon but for the drift of these points from its edges: a mean of two points of the extent is
-// within 2^-50 of the extent, pieces are cut at most 64 times by each face of a cell, so for cells of fewer than 2^14
-// faces all of it is below 2^-30 of the extent. inside_ allows for that and, twice over, for the error of the values
-// that the cut was computed from.
+// faces, moved inwards to where the value is inside_, go.
+//
+// Pieces are closed polygons of rounded points that are neither plane nor convex to the last bit. A cut at which the
+// values along the polygon change sign exactly twice makes two polygons which share the cut, run through once in each
+// direction: as chains of edges they add up to the one that was cut, so a point that the polygon goes around, in a
+// projection along its normal, is gone around by a piece, and lies in the hull of that piece's corners. With more
+// changes this is not so; nearly coplanar faces give them by rounding. Then it is not known what the cell takes away,
+// and nothing is.
+//
+// What is left is the drift of cutting points from the edges they are on: a mean of two points of the extent is
+// within 2^-50 of the extent, and a piece is cut at most kCuts = 2^16 times, so all of it is below 2^-30 of the extent.
+// inside_ allows for that and, twice over, for the error of the values that the cut was computed from.
 #include "apps/minkowski/union/face_remains.h"
 
 #include <algorithm>
@@ -83,7 +90,28 @@ std::uint32_t FaceRemains::cell_around(const Double3& x) {
   return kNone;
 }
 
-// Leaves in outside_ what is not in the cell; false if the cell takes nothing away.
+// Cuts a polygon by the plane at which values_ are zero; false if that is not one cut from border to border.
+bool FaceRemains::cut(const Polygon& polygon, Polygon& inside, Polygon& beyond) const {
+  std::size_t changes = 0;
+  for (std::size_t k = 0; k < polygon.size; ++k) {
+    changes += (values_[k] < 0) != (values_[k + 1 < polygon.size ? k + 1 : 0] < 0) ? 1 : 0;
+  }
+  if (changes != 2) return false;
+  inside.size = beyond.size = 0;
+  for (std::size_t k = 0; k < polygon.size; ++k) {
+    const std::size_t next = k + 1 < polygon.size ? k + 1 : 0;
+    Polygon& here = values_[k] < 0 ? inside : beyond;
+    if (!here.push(polygon.v[k])) return false;
+    if ((values_[k] < 0) == (values_[next] < 0)) continue;
+    const double t = values_[k] / (values_[k] - values_[next]);
+    Double3 x{};
+    for (std::size_t i = 0; i < 3; ++i) x[i] = polygon.v[k][i] + t * (polygon.v[next][i] - polygon.v[k][i]);
+    if (!inside.push(x) || !beyond.push(x)) return false;
+  }
+  return true;
+}
+
+// Leaves in outside_ what is not in the cell; false if the cell takes nothing away, or it is not known what.
 bool FaceRemains::subtract(const Polygon& polygon, std::uint32_t cell) {
   outside_.clear();
   Polygon rest = polygon;
@@ -97,21 +125,9 @@ bool FaceRemains::subtract(const Polygon& polygon, std::uint32_t cell) {
       (values_.back() < 0 ? in : out) = true;
     }
     if (!out || flush_.may_miss(h, face_)) continue;
-    if (!in) return false;
-    if (rest.size + 2 > kCorners) return false;
     Polygon inside;
     Polygon beyond;
-    for (std::size_t k = 0; k < rest.size; ++k) {
-      const std::size_t next = k + 1 < rest.size ? k + 1 : 0;
-      Polygon& here = values_[k] < 0 ? inside : beyond;
-      here.v[here.size++] = rest.v[k];
-      if ((values_[k] < 0) == (values_[next] < 0)) continue;
-      const double t = values_[k] / (values_[k] - values_[next]);
-      Double3 x{};
-      for (std::size_t i = 0; i < 3; ++i) x[i] = rest.v[k][i] + t * (rest.v[next][i] - rest.v[k][i]);
-      inside.v[inside.size++] = x;
-      beyond.v[beyond.size++] = x;
-    }
+    if (!in || ++cuts_ > kCuts || !cut(rest, inside, beyond)) return false;
     outside_.push_back(beyond);
     rest = inside;
   }
@@ -120,6 +136,7 @@ bool FaceRemains::subtract(const Polygon& polygon, std::uint32_t cell) {
 
 Box FaceRemains::box_of_rest(std::uint32_t face, std::span<const Double3> ring) {
   face_ = face;
+  cuts_ = 0;
   Box box;
   const double drift = cells_.extent() * 0x1p-30;
   const auto keep = [&](std::span<const Double3> polygon) {

@@ -29,6 +29,7 @@ class FaceRemains {
 
  private:
   static constexpr std::size_t kCorners = 24;
+  static constexpr std::size_t kCuts = 0x10000;  // of the pieces of a face
   // Copies are made of the corners that there are, which mostly are a few of the room.
   struct Polygon {
     std::array<Double3, kCorners> v;
@@ -42,10 +43,17 @@ class FaceRemains {
     }
     ~Polygon() = default;
     [[nodiscard]] Double3 centre() const;
+    // False if there is no room.
+    [[nodiscard]] bool push(const Double3& corner) {
+      if (size == kCorners) return false;
+      v[size++] = corner;
+      return true;
+    }
   };
   // Whether a cell whose box holds a point has it inside.
   [[nodiscard]] bool has_inside(std::uint32_t cell, const Double3& x);
   std::uint32_t cell_around(const Double3& x);
+  bool cut(const Polygon& polygon, Polygon& inside, Polygon& beyond) const;
   bool subtract(const Polygon& polygon, std::uint32_t cell);
 
   const RoundedCells& cells_;
@@ -57,6 +65,7 @@ class FaceRemains {
   std::vector<std::uint32_t> neighbours_;  // of the cell whose box is neighbours_of_
   std::uint32_t neighbours_of_ = kNone;
   std::uint32_t face_ = 0;  // the one at hand
+  std::size_t cuts_ = 0;    // of its pieces
   std::vector<Polygon> todo_, outside_;
   std::vector<double> values_;
 };

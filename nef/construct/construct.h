@@ -15,7 +15,7 @@
 namespace nef {
 
 /// The closed box [low, high]. A box that is flat in some directions is a facet, segment or
-/// point; low > high in one gives the empty set.
+/// point. Throws InputError if low > high in one of them.
 Polyhedron make_box(const Rational3& low, const Rational3& high, const Monitor& monitor = {});
 
 /// a x + b y + c z + d <= 0 (or < 0, if not closed). The normal must not be zero.

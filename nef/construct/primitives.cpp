@@ -4,6 +4,7 @@
 #include "nef/base/error.h"
 #include "nef/construct/construct.h"
 #include "nef/construct/solid.h"
+#include "nef/number/brief_text.h"
 #include "nef/polyhedron.h"
 
 namespace nef {
@@ -11,7 +12,10 @@ namespace nef {
 Polyhedron make_box(const Rational3& low, const Rational3& high, const Monitor& monitor) {
   int extent = 0;
   for (std::size_t i = 0; i < 3; ++i) {
-    if (low[i] > high[i]) return {};
+    if (low[i] > high[i]) {
+      throw InputError("a box needs its lower corner first: its " + std::string(1, "xyz"[i]) + " goes from " +
+                       brief_text(low[i]) + " to " + brief_text(high[i]));
+    }
     if (low[i] < high[i]) ++extent;
   }
   if (extent < 3) {

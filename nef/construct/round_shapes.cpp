@@ -6,6 +6,7 @@
 
 #include "nef/base/error.h"
 #include "nef/construct/construct.h"
+#include "nef/number/brief_text.h"
 #include "nef/polyhedron.h"
 
 namespace nef {
@@ -59,7 +60,7 @@ std::vector<std::array<Rational, 2>> unit_circle(unsigned fragments) {
 
 Polyhedron make_sphere(const Rational& radius, unsigned fragments, const Monitor& monitor) {
   require_fragments(fragments);
-  if (radius <= 0) return Polyhedron();
+  if (radius <= 0) throw InputError("the radius of a sphere must be positive, not " + brief_text(radius));
   const std::vector<std::array<Rational, 2>> circle = unit_circle(fragments);
   const unsigned rings = (fragments + 1) / 2;
   std::vector<Rational3> points;
@@ -73,7 +74,11 @@ Polyhedron make_sphere(const Rational& radius, unsigned fragments, const Monitor
 Polyhedron make_cylinder(const Rational& height, const Rational& bottom, const Rational& top, unsigned fragments,
                          const Monitor& monitor) {
   require_fragments(fragments);
-  if (height <= 0 || bottom < 0 || top < 0 || (bottom == 0 && top == 0)) return Polyhedron();
+  if (height <= 0) throw InputError("the height of a cylinder must be positive, not " + brief_text(height));
+  for (const Rational& radius : {bottom, top}) {
+    if (radius < 0) throw InputError("the radius of a cylinder must not be negative: " + brief_text(radius));
+  }
+  if (bottom == 0 && top == 0) throw InputError("one radius of a cylinder must be positive");
   const std::vector<std::array<Rational, 2>> circle = unit_circle(fragments);
   std::vector<Rational3> points;
   add_ring(points, circle, bottom, 0);

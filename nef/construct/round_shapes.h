@@ -13,12 +13,13 @@ namespace nef {
 
 /// A ball about the origin: rings of `fragments` (at least 3) corners on the sphere, (fragments + 1) / 2 of them, half
 /// a step from the poles, so that it is a bit shorter than the ball. Sines and cosines are rounded to doubles; what is
-/// made of them is exact, so that the faces between two rings are planar. Empty if the radius is not positive.
+/// made of them is exact, so that the faces between two rings are planar. Throws InputError if the radius is not
+/// positive.
 Polyhedron make_sphere(const Rational& radius, unsigned fragments, const Monitor& monitor = {});
 
 /// A cylinder or a piece of a cone about the z axis, from z = 0 with the radius `bottom` to `height` with the radius
-/// `top`, one of which may be 0: polygons of `fragments` (at least 3) corners, the first in the direction of x. Empty
-/// if there is nothing inside.
+/// `top`, one of which may be 0: polygons of `fragments` (at least 3) corners, the first in the direction of x.
+/// Throws InputError if the height is not positive, a radius is negative, or both are 0.
 Polyhedron make_cylinder(const Rational& height, const Rational& bottom, const Rational& top, unsigned fragments,
                          const Monitor& monitor = {});
 

@@ -10,14 +10,38 @@
 
 namespace nef {
 
-std::vector<long> euler_numbers(const Complex& c) {
-  std::vector<long> result(c.shells.size(), 0);
+namespace {
+
+// All shells but those of the volume beyond an infimaximal box and those made of nothing but items of the box.
+std::vector<ShellId> shells_in_space(const Complex& c) {
+  std::vector<ShellId> result;
   ShellWalk walk(c);
   for (const ShellId s : c.shells.ids()) {
-    long& euler = result[s.index()];
+    bool in_space = !c.has_box();
+    if (!in_space && c.shells[s].volume != kOuterVolume) {
+      walk.visit(
+          s, [&](VertexId v) { in_space = in_space || !is_box_vertex(c, v); },
+          [&](HalfedgeId h) { in_space = in_space || !is_box_edge(c, h); },
+          [&](FacetId f) { in_space = in_space || !is_box_facet(c, f); });
+    }
+    if (in_space) result.push_back(s);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<long> euler_numbers(const Complex& c) {
+  std::vector<long> result;
+  ShellWalk walk(c);
+  const bool has_box = c.has_box();
+  for (const ShellId s : shells_in_space(c)) {
+    long& euler = result.emplace_back();
     walk.visit(
-        s, [&](VertexId) { ++euler; }, [&](HalfedgeId) { --euler; },
+        s, [&](VertexId v) { euler += has_box && is_box_vertex(c, v) ? 0 : 1; },
+        [&](HalfedgeId h) { euler -= has_box && is_box_edge(c, h) ? 0 : 1; },
         [&](FacetId f) {
+          if (has_box && is_box_facet(c, f)) return;
           const Facet& facet = c.facets[f];
           euler += 1 - (static_cast<long>(facet.cycle_count) - 1) - static_cast<long>(facet.isolated_count);
         });
@@ -43,16 +67,17 @@ bool is_manifold_vertex(const Complex& c, VertexId vertex) {
 
 std::vector<std::optional<long>> genera(const Complex& c) {
   const std::vector<long> euler = euler_numbers(c);
-  std::vector<std::optional<long>> result(c.shells.size());
+  std::vector<std::optional<long>> result;
   ShellWalk walk(c);
   const auto nothing = [](auto) {};
-  for (const ShellId s : c.shells.ids()) {
+  for (const ShellId s : shells_in_space(c)) {
     bool manifold = true;
     walk.visit(
         s,
         [&](VertexId v) { manifold = manifold && !(c.has_box() && is_box_vertex(c, v)) && is_manifold_vertex(c, v); },
         nothing, nothing);
-    if (manifold) result[s.index()] = (2 - euler[s.index()]) / 2;
+    const long number = euler[result.size()];
+    result.push_back(manifold ? std::optional<long>((2 - number) / 2) : std::nullopt);
   }
   return result;
 }
@@ -66,15 +91,7 @@ Counts counts(const Complex& c) {
   }
   for (const FacetId f : c.facets.ids()) result.facets += is_box_facet(c, f) ? 0 : 1;
   result.volumes = c.volume_count() - 1;
-  ShellWalk walk(c);
-  for (const ShellId s : c.shells.ids()) {
-    bool in_space = false;
-    walk.visit(
-        s, [&](VertexId v) { in_space = in_space || !is_box_vertex(c, v); },
-        [&](HalfedgeId h) { in_space = in_space || !is_box_edge(c, h); },
-        [&](FacetId f) { in_space = in_space || !is_box_facet(c, f); });
-    result.shells += in_space && c.shells[s].volume != kOuterVolume ? 1 : 0;
-  }
+  result.shells = shells_in_space(c).size();
   return result;
 }
 

@@ -26,13 +26,13 @@ double surface_area(const Complex& complex);
 /// Smallest and largest coordinates of the finite vertices; nothing if there are none.
 std::optional<std::array<Rational3, 2>> bounding_box(const Complex& complex, const Monitor& monitor);
 
-/// V - E + F of each shell as a point set, in the order of complex.shells: each vertex, edge and
-/// facet counts once however often the shell passes it, and a facet with h holes and i isolated
-/// vertices counts 1 - h - i.
+/// V - E + F of each shell that counts() counts, as a point set, in the order of complex.shells: each vertex, edge and
+/// facet counts once however often the shell passes it, and a facet with h holes and i isolated vertices counts
+/// 1 - h - i. Items of an infimaximal box do not count: a half-space has two shells, of 1 each.
 std::vector<long> euler_numbers(const Complex& complex);
 
-/// The genus of each shell that is a closed surface, manifold at each of its vertices (the number of its handles), in
-/// the order of complex.shells; nothing for other shells and for those on an infimaximal box.
+/// The genus of each of these shells that is a closed surface, manifold at each of its vertices (the number of its
+/// handles), in the same order; nothing for other shells and for those that reach an infimaximal box.
 std::vector<std::optional<long>> genera(const Complex& complex);
 
 /// How many items there are, without those of an infimaximal box: vertices, edges and facets on

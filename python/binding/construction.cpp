@@ -98,8 +98,8 @@ void bind_construction(py::module_& m) {
   m.def("box", &box, py::arg("low"), py::arg("high"),
         R"(The closed box between two corners.
 
-low, high: three numbers each. A box that is flat in some directions is a facet, a segment or a point; low > high in one
-of them gives the empty set.)");
+low, high: three numbers each. A box that is flat in some directions is a facet, a segment or a point. Raises InputError
+if low > high in one of them.)");
   m.def("halfspace", &halfspace, py::arg("a"), py::arg("b"), py::arg("c"), py::arg("d"), py::arg("closed") = true,
         "The points with a x + b y + c z + d <= 0 (< 0 if not closed). Raises InputError if a, b and c are 0.");
   m.def("hull", &hull, py::arg("points"),

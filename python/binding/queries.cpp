@@ -211,7 +211,7 @@ the interiors do not) or 'overlapping'; `common_point` tells whether a point is 
       .def(
           "euler_numbers",
           [](const Polyhedron& a) { return call(items(a), [a](const Monitor&) { return euler_numbers(a); }); },
-          "V - E + F of each shell.")
+          "V - E + F of each shell, as many as counts() tells; what is at infinity does not count.")
       .def("labels", &labels_of, "The labels that points of space carry, increasing; 0 and 1 in an ordinary set.")
       .def(
           "validate",

@@ -148,7 +148,15 @@ TEST_CASE("round shapes, hulls of sets, Minkowski sums") {
   CHECK(nearest_double(*volume(eval("cylinder(2, 3, 0, 12)"))) == Approx(2 * 27 / 3.0).epsilon(1e-14));
   CHECK(counts(eval("cylinder(1, 1)")).facets == 34);
   CHECK(counts(eval("sphere(1, 6)")).vertices == 18);
-  CHECK(eval("sphere(0)").is_empty());
+  CHECK(refusal("nothing + box(1,1,1,0,0,0)") ==
+        "column 11: a box needs its lower corner first: its x goes from 1 to 0");
+  CHECK(refusal("box(0,0,0,1,1,-1/3)") == "column 1: a box needs its lower corner first: its z goes from 0 to -1/3");
+  CHECK(refusal("sphere(-1)") == "column 1: the radius of a sphere must be positive, not -1");
+  CHECK(refusal("sphere(0)") == "column 1: the radius of a sphere must be positive, not 0");
+  CHECK(refusal("cylinder(1,0,0)") == "column 1: one radius of a cylinder must be positive");
+  CHECK(refusal("cylinder(0,1)") == "column 1: the height of a cylinder must be positive, not 0");
+  CHECK(refusal("cylinder(1,1,-2)") == "column 1: the radius of a cylinder must not be negative: -2");
+  CHECK(same("box(0,0,0,0,0,1)", "segment(0,0,0,0,0,1)"));
   CHECK(refusal("sphere(1, 2.5)").find("number of corners") != std::string::npos);
   CHECK(same("hull(box(0,0,0,1,1,1), box(3,0,0,4,1,1) + point(2,0,0))", "box(0,0,0,4,1,1)"));
   CHECK(same("hull(interior(box(0,0,0,1,1,1)))", "box(0,0,0,1,1,1)"));

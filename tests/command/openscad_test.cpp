@@ -31,6 +31,33 @@ double polygon_area(unsigned corners, double radius) {
 
 }  // namespace
 
+TEST_CASE("OpenSCAD's shapes of no size are empty, as there, and a warning says so") {
+  const auto warnings_of = [](const std::string& text) {
+    std::vector<std::string> warnings;
+    ExpressionOptions options;
+    options.warn = [&](const std::string& warning) { warnings.push_back(warning); };
+    CHECK(equal(evaluate_openscad("cube(1);\n" + text, options), make_box({0, 0, 0}, {1, 1, 1})));
+    return warnings;
+  };
+  using Warnings = std::vector<std::string>;
+  CHECK(warnings_of("cube([0, 1, 1]);") == Warnings{"line 2: cube: one of its sizes is 0, so it is empty"});
+  CHECK(warnings_of("cube(-2);") == Warnings{"line 2: cube: one of its sizes is -2, so it is empty"});
+  CHECK(warnings_of("sphere(r = 0);") == Warnings{"line 2: sphere: its radius is 0, so it is empty"});
+  CHECK(warnings_of("cylinder(h = -1, r1 = 1, r2 = 1);") ==
+        Warnings{"line 2: cylinder: its height is -1, so it is empty"});
+  CHECK(warnings_of("cylinder(h = 1, r1 = -1, r2 = 1);") ==
+        Warnings{"line 2: cylinder: one of its radii is -1, so it is empty"});
+  CHECK(warnings_of("cylinder(h = 1, r1 = 0, r2 = 0);") ==
+        Warnings{"line 2: cylinder: both its radii are 0, so it is empty"});
+  CHECK(warnings_of("linear_extrude(height = 0) { square(1); }") ==
+        Warnings{"line 2: linear_extrude: its height is 0, so it is empty"});
+  CHECK(warnings_of("linear_extrude(height = 1) { square([1, 0]); }") ==
+        Warnings{"line 2: square: one of its sizes is 0, so it is empty"});
+  CHECK(warnings_of("linear_extrude(height = 1) { circle(r = -1); }") ==
+        Warnings{"line 2: circle: its radius is -1, so it is empty"});
+  CHECK(warnings_of("cube(1);").empty());
+}
+
 TEST_CASE("OpenSCAD: cubes, lists, comments and modifiers", "[openscad]") {
   CHECK(equal(eval_openscad("cube(size = [1, 2, 3], center = false);"), make_box({0, 0, 0}, {1, 2, 3})));
   CHECK(equal(eval_openscad("cube(size=0.2,center=true); // a tenth each side\n"),
@@ -39,7 +66,7 @@ TEST_CASE("OpenSCAD: cubes, lists, comments and modifiers", "[openscad]") {
   CHECK(equal(eval_openscad("/* a\nb */ %cube([9,9,9]); *cube(7); #group() { cube(1); }"),
               make_box({0, 0, 0}, {1, 1, 1})));
   CHECK(eval_openscad("").is_empty());
-  CHECK(eval_openscad("cube([0, 1, 1]); group();").is_empty());
+  CHECK(eval_openscad("group();").is_empty());
   CHECK(equal(eval_openscad("multmatrix([[0,-1,0,1.5],[1,0,0,0],[0,0,1,1e-1],[0,0,0,1]]) { cube([1,2,3]); }"),
               make_box({Rational(-1, 2), 0, Rational(1, 10)}, {Rational(3, 2), 1, Rational(31, 10)})));
 }

@@ -145,6 +145,18 @@ TEST_CASE("Euler numbers of shells") {
   CHECK(counts(hollow).volumes == 3);
   // An edge and a point alone: one shell each in the outer volume.
   CHECK(euler_numbers(make_point({1, 1, 1})) == std::vector<long>{1});
+  // What is at infinity does not count: a plane has one facet, an octant's border a vertex, three edges and three
+  // facets.
+  const Polyhedron half_space = make_halfspace(0, 0, 1, 0, true);
+  CHECK(euler_numbers(half_space) == std::vector<long>{1, 1});
+  CHECK(genera(half_space.complex()) == std::vector<std::optional<long>>(2));
+  const Polyhedron octant =
+      intersect(intersect(half_space, make_halfspace(1, 0, 0, 0, true)), make_halfspace(0, 1, 0, 0, true));
+  CHECK(euler_numbers(octant) == std::vector<long>{1, 1});
+  const Polyhedron around = complement(make_box({0, 0, 0}, {1, 1, 1}));
+  CHECK(euler_numbers(around) == std::vector<long>{2, 2});
+  CHECK(genera(around.complex()) == std::vector<std::optional<long>>{0, 0});
+  CHECK(counts(around).shells == 2);
   CHECK(euler_numbers(make_segment({0, 0, 0}, {1, 1, 1})) == std::vector<long>{1});
   // A plate with a square hole: a ring.
   const std::vector<std::vector<Rational3>> rings{{{0, 0, 0}, {3, 0, 0}, {3, 3, 0}, {0, 3, 0}},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // nef eval
+#include <algorithm>
 #include <filesystem>
 
 #include "nef/command/commands.h"
@@ -22,6 +23,13 @@ Polyhedron evaluate_file(const std::string& path, const std::string& text, bool 
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   options.load = [&session, folder](const std::string& file, const Monitor& monitor) {
     return session.load((folder / file).string(), monitor);
+  };
+  options.warn = [&session, &path](const std::string& warning) {
+    // Once, however often the computation is repeated.
+    const std::string line = path + ": " + warning;
+    if (std::find(session.messages.begin(), session.messages.end(), line) == session.messages.end()) {
+      session.note(line);
+    }
   };
   try {
     return openscad ? evaluate_openscad(text, options) : evaluate_expression(text, options);

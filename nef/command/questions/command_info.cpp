@@ -61,7 +61,9 @@ void add_info(CLI::App& app, Session& session) {
   add_memory_flag(command, *flags);
   command->footer(
       "Centroid, inertia tensor (about the centroid, density 1), principal moments and their axes are those of the\n"
-      "solid parts. genus: of each shell that is a closed manifold surface.");
+      "solid parts. shells: the surfaces around volumes; a closed surface is one of each of its two sides. "
+      "euler_numbers:\n"
+      "vertices - edges + facets of each shell. genus: of each shell that is a closed manifold surface.");
   command->callback([&session, glued, flags] {
     const bool in_tiles = names_tile_folder(session.input) && !*glued;
     require_tiles_for_memory(*flags, in_tiles);

@@ -65,6 +65,8 @@ struct ExpressionOptions {
   /// For Booleans (0: as many as the machine has); the set is the same for any number.
   unsigned threads = 1;
   Monitor monitor = {};  ///< who watches; what it refers to must outlive the call
+  /// Is told what is legal but likely a mistake (sizes of OpenSCAD's shapes that make nothing), a line each.
+  std::function<void(const std::string& warning)> warn = {};
 };
 
 /// The set that `text` describes. The whole text is parsed before anything is computed. Throws

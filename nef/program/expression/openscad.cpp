@@ -7,6 +7,7 @@
 #include "nef/base/error.h"
 #include "nef/construct/round_shapes.h"
 #include "nef/export/to_mesh.h"
+#include "nef/number/brief_text.h"
 #include "nef/polyhedron.h"
 #include "nef/program/expression/openscad_text.h"
 
@@ -59,6 +60,7 @@ class ModelEvaluator {
     if (name == "cube") return cube(node);
     if (name == "sphere") {
       const Rational r = number(node, "r", 0, 1);
+      if (r <= 0) return nothing(node, "its radius is " + brief_text(r));
       return {3, make_sphere(r, corners(node, r), options_.monitor)};
     }
     if (name == "cylinder") return cylinder(node);
@@ -66,6 +68,7 @@ class ModelEvaluator {
     if (name == "square") return square(node);
     if (name == "circle") {
       const Rational r = number(node, "r", 0, 1);
+      if (r <= 0) return nothing(node, "its radius is " + brief_text(r));
       return {2, make_cylinder(1, r, r, corners(node, r), options_.monitor)};
     }
     if (name == "polygon") return polygon(node);
@@ -73,6 +76,14 @@ class ModelEvaluator {
     if (name == "rotate_extrude") return rotate_extrude(node);
     if (name == "import") return import(node);
     throw InputError("this is not supported (nef eval --help lists what is)");
+  }
+
+  // A shape that OpenSCAD takes for empty, with a warning: it does the same.
+  [[nodiscard]] Shape nothing(const OpenScadNode& node, const std::string& why) const {
+    if (options_.warn) {
+      options_.warn("line " + std::to_string(node.line) + ": " + node.name + ": " + why + ", so it is empty");
+    }
+    return {};
   }
 
   // Arguments.
@@ -228,7 +239,9 @@ class ModelEvaluator {
 
   [[nodiscard]] Shape cube(const OpenScadNode& node) const {
     const std::vector<Rational> s = sizes(node, 3);
-    if (s[0] <= 0 || s[1] <= 0 || s[2] <= 0) return {};
+    if (const Rational least = std::min({s[0], s[1], s[2]}); least <= 0) {
+      return nothing(node, "one of its sizes is " + brief_text(least));
+    }
     const Polyhedron box = make_box({0, 0, 0}, {s[0], s[1], s[2]}, options_.monitor);
     if (!flag(node, "center", 1)) return {3, box};
     return {3, transform(box, AffineMap::translate({-s[0] / 2, -s[1] / 2, -s[2] / 2}), options_.monitor)};
@@ -239,6 +252,11 @@ class ModelEvaluator {
     const Rational both = number(node, "r", static_cast<std::size_t>(-1), 1);
     const Rational bottom = number(node, "r1", 1, both);
     const Rational top = number(node, "r2", 2, both);
+    if (height <= 0) return nothing(node, "its height is " + brief_text(height));
+    if (const Rational least = std::min(bottom, top); least < 0) {
+      return nothing(node, "one of its radii is " + brief_text(least));
+    }
+    if (bottom == 0 && top == 0) return nothing(node, "both its radii are 0");
     const Polyhedron set = make_cylinder(height, bottom, top, corners(node, std::max(bottom, top)), options_.monitor);
     if (!flag(node, "center", 3)) return {3, set};
     return {3, transform(set, AffineMap::translate({0, 0, -height / 2}), options_.monitor)};
@@ -271,7 +289,9 @@ class ModelEvaluator {
 
   [[nodiscard]] Shape square(const OpenScadNode& node) const {
     const std::vector<Rational> s = sizes(node, 2);
-    if (s[0] <= 0 || s[1] <= 0) return {};
+    if (const Rational least = std::min(s[0], s[1]); least <= 0) {
+      return nothing(node, "one of its sizes is " + brief_text(least));
+    }
     const Polyhedron box = make_box({0, 0, 0}, {s[0], s[1], 1}, options_.monitor);
     if (!flag(node, "center", 1)) return {2, box};
     return {2, transform(box, AffineMap::translate({-s[0] / 2, -s[1] / 2, 0}), options_.monitor)};
@@ -351,7 +371,9 @@ class ModelEvaluator {
       if (s[0] != s[1]) throw InputError("different scales in x and y are not supported");
       scale = s[0];
     }
-    if (height <= 0 || scale < 0 || flat.is_empty()) return {};
+    if (height <= 0) return nothing(node, "its height is " + brief_text(height));
+    if (scale < 0) return nothing(node, "its scale is " + brief_text(scale));
+    if (flat.is_empty()) return {};
     Polyhedron set;
     if (scale == 1) {
       set = transform(flat, AffineMap::scale({1, 1, height}), options_.monitor);

@@ -267,7 +267,6 @@ class MeshCase {
     case_.tell(off_bytes(mesh_, options));
   }
 
-  // On two threads, the solid is made before it is known whether the faces bound one.
   [[nodiscard]] MeshOptions options() const { return MeshOptions{.threads = 1 + case_.choices().below(2)}; }
 
   // A face left out or turned: every edge of it is run through once too often or too seldom.

@@ -41,7 +41,9 @@ Polyhedron make_polygon(std::span<const std::vector<Rational3>> rings, const Mon
 struct MeshOptions {
   bool strict = false;      ///< refuse faces that are not exactly planar instead of triangulating them
   bool as_surface = false;  ///< the union of the faces as a two-dimensional set; any mesh will do
-  bool check = true;        ///< look for contacts of faces (a mesh without any may skip it; with some, it may go wrong)
+  bool check = true;        ///< look for faces that meet otherwise than in common vertices and edges. Precondition of
+                            ///< false: there are none. All else is checked; where such faces keep vertices from
+                            ///< fitting together they are looked for nevertheless (InputError), others go unseen
   unsigned threads = 1;     ///< to use at most; 0: as many as the machine has. The result does not depend on them
   Monitor monitor = {};     ///< who watches; what it refers to must outlive the call
 };
@@ -51,8 +53,9 @@ using Messages = std::vector<std::string>;
 
 /// The closed solid bounded by a closed orientable mesh: any number of components and planar
 /// polygons of any shape, nested cavities by orientation. Vertices at equal coordinates are one.
-/// A mesh that touches itself is legal. Throws InputError for a mesh that is open, inconsistently
-/// oriented or crosses itself, naming the first guilty elements.
+/// A mesh that touches itself is legal. A mesh without vertices and faces bounds the empty set, which is noted.
+/// Throws InputError for a mesh that is open, inconsistently oriented or crosses itself, or has vertices but no faces,
+/// naming the first guilty elements.
 Polyhedron from_mesh(const Mesh& mesh, const MeshOptions& options = {}, Messages* messages = nullptr);
 
 }  // namespace nef

@@ -16,7 +16,6 @@ struct FaceCorner {
   std::uint32_t face;
   std::uint32_t next;  ///< points
   std::uint32_t previous;
-  std::uint32_t at;  ///< among the corners of all faces
 };
 
 /// Reads the sphere maps of ordinary vertices of a closed surface off their faces, without drawing them: those around
@@ -32,10 +31,7 @@ class PlainRing {
   /// is a long one, or if doubles can not tell the directions of its edges. O(n^2) for the few corners of a vertex.
   [[nodiscard]] bool read(std::uint32_t point, std::span<const FaceCorner> corners);
 
-  /// The corners of the vertex that was read, in the order of the ring: each leaves along its edge to `next`.
-  [[nodiscard]] std::span<const FaceCorner> corners() const { return ring_; }
-
-  /// Their planes.
+  /// The planes of the corners of the vertex that was read, in the order of the ring.
   [[nodiscard]] std::span<const PlaneId> planes() const { return planes_; }
 
   /// The sphere map of the vertex that was read, as drawing it would make it; false if the marks hide a part of it.

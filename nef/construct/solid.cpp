@@ -8,7 +8,6 @@
 #include "nef/base/error.h"
 #include "nef/boolean/overlay_complexes.h"
 #include "nef/construct/plain_ring.h"
-#include "nef/construct/solid_links.h"
 #include "nef/location/query_structure.h"
 #include "nef/sphere_map/arrangement.h"
 #include "nef/synthesis/complex_builder.h"
@@ -34,16 +33,21 @@ Direction vector_between(const PointTable& points, PointId from, PointId to) {
 
 class SolidBuilder {
  public:
-  SolidBuilder(SolidFaces&& faces, const SolidMarks& marks, const Monitor& monitor)
-      : f_(std::move(faces)), marks_(marks), monitor_(monitor) {}
+  SolidBuilder(SolidFaces&& faces, const SolidMarks& marks, const Monitor& monitor, SphereMaps maps = SphereMaps::kRead)
+      : f_(std::move(faces)), marks_(marks), maps_(maps), monitor_(monitor) {}
 
   std::variant<Complex, Defect> run() {
     ComplexBuilder result(f_.planes, monitor_);
-    std::optional<KnownLinks> known = add_vertices(result);
+    add_vertices(result);
+    // Links need room.
+    f_.points = PointTable();
+    f_.names = {};
     f_.plane = {};
     f_.begin = {};
     f_.corners = {};
-    return known ? result.try_finish(marks_.outside, std::move(*known)) : result.try_finish(marks_.outside);
+    corners_ = {};
+    first_ = {};
+    return result.try_finish(marks_.outside);
   }
 
  private:
@@ -55,25 +59,20 @@ class SolidBuilder {
     LabelId mark = kOutside;  // none yet
   };
 
-  // And the links between them that the faces tell.
-  std::optional<KnownLinks> add_vertices(ComplexBuilder& result) {
+  void add_vertices(ComplexBuilder& result) {
     collect_corners();
     reserve(result);
-    SolidLinks links(f_);
     PlainRing ring(f_);
     for (std::uint32_t v = 0; v < f_.points.size(); ++v) {
       const std::span<const FaceCorner> corners = std::span(corners_).subspan(first_[v], first_[v + 1] - first_[v]);
       if (corners.empty()) continue;
-      if (ring.read(v, corners)) {
+      if (maps_ == SphereMaps::kRead && ring.read(v, corners)) {
         if (const VertexId like = ring.like(); like.valid()) {
-          if (result.append_like(f_.points, PointId{v}, like, ring.planes())) {
-            links.note_ring(result.so_far(), v, ring.corners());
-          }
+          result.append_like(f_.points, PointId{v}, like, ring.planes());
           continue;
         }
         if (ring.write(marks_, map_)) {
           if (result.add(f_.points, PointId{v}, map_.view())) {
-            links.note_ring(result.so_far(), v, ring.corners());
             ring.learn(VertexId{result.so_far().vertex_count() - 1});
           }
           continue;
@@ -82,15 +81,8 @@ class SolidBuilder {
       draw(v, corners);
       drawing_.sort_around_nodes(f_.planes, monitor_);
       check_sides(v);
-      if (result.add_sorted(f_.points, PointId{v}, drawing_)) {
-        links.note(result.so_far(), v, drawing_, ends_, ring_);
-      }
+      result.add_sorted(f_.points, PointId{v}, drawing_);
     }
-    // Links need room: what is done with goes first.
-    corners_ = {};
-    first_ = {};
-    f_.points = PointTable();
-    return links.finish(result.so_far());
   }
 
   // As for faces that are all facets, which is as much as there can be of each.
@@ -117,7 +109,7 @@ class SolidBuilder {
       for (std::uint32_t i = 0; i < size; ++i) {
         const std::uint32_t v = f_.corners[begin + i];
         corners_[at[v]++] = {face, f_.corners[begin + (i + 1 == size ? 0 : i + 1)],
-                             f_.corners[begin + (i == 0 ? size - 1 : i - 1)], begin + i};
+                             f_.corners[begin + (i == 0 ? size - 1 : i - 1)]};
       }
     }
   }
@@ -187,10 +179,7 @@ class SolidBuilder {
   void draw(std::uint32_t v, std::span<const FaceCorner> corners) {
     drawing_.clear();
     spokes_.clear();
-    ends_.clear();
-    ring_.clear();
     for (const FaceCorner& corner : corners) {
-      ring_.push_back(corner.at);
       const std::uint32_t source = node_toward(corner.next, f_.plane[corner.face]);
       const std::uint32_t target = node_toward(corner.previous, f_.plane[corner.face]);
       const LabelId mark = f_.plane[corner.face].flipped() ? marks_.flipped_boundary : marks_.boundary;
@@ -200,7 +189,6 @@ class SolidBuilder {
     }
     drawing_.nodes.resize(spokes_.size());
     for (std::size_t n = 0; n < spokes_.size(); ++n) {
-      ends_.push_back(spokes_[n].to);
       if (spokes_[n].arcs == 1) spokes_[n].second = plane_across(v, spokes_[n]);
       drawing_.nodes[n].direction = direction_along(v, spokes_[n]);
       drawing_.nodes[n].mark = spokes_[n].mark;
@@ -229,12 +217,11 @@ class SolidBuilder {
 
   SolidFaces f_;
   SolidMarks marks_;
+  SphereMaps maps_;
   Monitor monitor_;
   std::vector<std::uint32_t> first_;
   std::vector<FaceCorner> corners_;
   std::vector<Spoke> spokes_;
-  std::vector<std::uint32_t> ends_;  // of the spokes
-  std::vector<std::uint32_t> ring_;  // the corners around the vertex, in f_.corners
   Arrangement drawing_;
   SphereMapBuffer map_;  // of the vertex at hand, where it need not be drawn
 };
@@ -275,8 +262,9 @@ Complex make_solid(SolidFaces&& faces, const SolidMarks& marks, const Monitor& m
   return complex_of(try_make_solid(std::move(faces), marks, monitor));
 }
 
-std::variant<Complex, Defect> try_make_solid(SolidFaces&& faces, const SolidMarks& marks, const Monitor& monitor) {
-  return SolidBuilder(std::move(faces), marks, monitor).run();
+std::variant<Complex, Defect> try_make_solid(SolidFaces&& faces, const SolidMarks& marks, const Monitor& monitor,
+                                             SphereMaps maps) {
+  return SolidBuilder(std::move(faces), marks, monitor, maps).run();
 }
 
 Complex make_surface(SolidFaces&& faces, LabelId mark, const Monitor& monitor) {

@@ -35,9 +35,16 @@ struct SolidMarks {
 /// O(n log n).
 Complex make_solid(SolidFaces&& faces, const SolidMarks& marks, const Monitor& monitor);
 
+/// How a solid's sphere maps are made of its faces; the complex is the same, item for item.
+enum class SphereMaps {
+  kRead,   ///< those of ordinary vertices are read off their faces (PlainRing), which takes a fifth off an import
+  kDrawn,  ///< all are drawn: the way of vertices where doubles cannot tell, and what the other way is compared with
+};
+
 /// The same for faces that may cross, or whose components may have the inside on different sides: then it may return
 /// what does not fit together.
-std::variant<Complex, Defect> try_make_solid(SolidFaces&& faces, const SolidMarks& marks, const Monitor& monitor);
+std::variant<Complex, Defect> try_make_solid(SolidFaces&& faces, const SolidMarks& marks, const Monitor& monitor,
+                                             SphereMaps maps = SphereMaps::kRead);
 
 /// The union of the faces as a two-dimensional set of the given mark, 0 around it. The faces may have borders and may
 /// meet in any number around an edge, but nowhere else than in common vertices and edges. O(n log n).

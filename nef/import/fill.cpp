@@ -25,14 +25,14 @@ class WindingFiller {
       : c_(faces.complex()), mesh_(mesh), surface_(surface), monitor_(monitor) {}
 
   Polyhedron run(Messages* messages) {
-    if (c_.facet_count() == 0) throw InputError("the faces of the mesh enclose nothing");
+    if (c_.facet_count() == 0) throw InputError(kEnclosesNothing);
     count_coverings();
     find_windings();
     const auto [low, high] = std::minmax_element(winding_.begin(), winding_.end());
     if (*low < 0 && *high > 0) refuse([](int w) { return w < 0; });
     if (*high > 1) refuse([](int w) { return w > 1; });
     if (*low < -1) refuse([](int w) { return w < -1; });
-    if (*low == 0 && *high == 0) throw InputError("the faces of the mesh enclose nothing");
+    if (*low == 0 && *high == 0) throw InputError(kEnclosesNothing);
     if (*low < 0 && messages != nullptr) {
       messages->push_back(kTurnedOver);
     }

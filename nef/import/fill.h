@@ -7,6 +7,9 @@
 
 namespace nef {
 
+/// Why a mesh is refused whose faces cancel each other.
+inline constexpr const char* kEnclosesNothing = "the faces of the mesh enclose nothing";
+
 /// The solid that a closed mesh encloses once, given the union of its faces as a two-dimensional set: faces may touch
 /// and cover each other in any way. Each volume of the surface has a winding number; it changes at a facet by the
 /// number of faces that cover it one way less those that cover it the other way. The numbers have to be 0 and 1, or 0

@@ -141,7 +141,7 @@ Polyhedron from_surface(const Mesh& mesh, const MeshSurface& surface, SurfaceUse
   MeshFaces faces(mesh, surface, options, messages);
   for (const std::vector<std::uint32_t>& group : groups.proper) parts.emplace_back(faces.surface(group));
   for (const std::uint32_t f : groups.single) add_single(mesh, surface, f, parts, options.monitor);
-  return unite_all(parts, 1, options.monitor);
+  return unite_all(parts, options.threads, options.monitor);
 }
 
 }  // namespace nef

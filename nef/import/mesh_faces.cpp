@@ -24,6 +24,12 @@ SolidFaces MeshFaces::take(bool reverse) && {
   return std::move(f_);
 }
 
+SolidFaces solid_faces(const CheckedSurface& checked, const MeshOptions& options, Messages* messages) {
+  SolidFaces faces = MeshFaces(checked.mesh(), checked.surface(), options, messages).take(checked.inside_out());
+  if (checked.inside_out() && messages != nullptr) messages->emplace_back(kTurnedOver);
+  return faces;
+}
+
 Complex MeshFaces::surface(std::span<const std::uint32_t> faces) {
   return make_surface(collect(faces), 1, options_.monitor);
 }
@@ -95,14 +101,13 @@ PointId MeshFaces::push_small_point(std::uint32_t vertex) {
 
 void MeshFaces::add_face(std::uint32_t face) {
   if (surface_.defects[face] == FaceDefect::kNoArea) return;
+  NEF_ASSERT(surface_.defects[face] == FaceDefect::kNone);
   ring_.clear();
   for (const std::uint32_t v : mesh_.face(face)) ring_.push_back(point_of_[v]);
   if (reverse_) std::reverse(ring_.begin(), ring_.end());
   if (ring_.size() == 3 && !surface_.irregular[face]) {
     const PlaneId plane = plane_of_triangle(ring_);
     if (plane.valid()) push(ring_, plane);
-  } else if (surface_.defects[face] != FaceDefect::kNone) {
-    if (!add_defective_ring()) add_triangles(face);
   } else if (!surface_.planar[face]) {
     add_triangles(face);
   } else if (surface_.irregular[face]) {
@@ -120,18 +125,6 @@ std::array<std::uint32_t, 3> MeshFaces::corners_of(std::uint32_t triangle) const
   for (std::uint32_t& v : t) v = point_of_[v];
   if (reverse_) std::swap(t[1], t[2]);
   return t;
-}
-
-// A ring that was not cut, since it crosses itself. False if it is not planar.
-bool MeshFaces::add_defective_ring() {
-  const Integer3 area = vector_area();
-  if (area[0] == 0 && area[1] == 0 && area[2] == 0) return true;
-  const PlaneId plane = plane_through(area, ring_[0]);
-  for (const std::uint32_t p : ring_) {
-    if (side_of_plane(f_.planes, plane, f_.points, PointId{p}, options_.monitor) != 0) return false;
-  }
-  push(ring_, plane);
-  return true;
 }
 
 void MeshFaces::push(std::span<const std::uint32_t> ring, PlaneId plane) {
@@ -225,55 +218,11 @@ PlaneId MeshFaces::plane_of_triangle(std::span<const std::uint32_t> t) {
   return f_.planes.intern_primitive({n_[0].get_mpz_t(), n_[1].get_mpz_t(), n_[2].get_mpz_t(), offset});
 }
 
-// The plane of a normal through a point.
-PlaneId MeshFaces::plane_through(const Integer3& normal, std::uint32_t p) {
-  Integer offset;
-  Integer3 n = normal;
-  for (std::size_t i = 0; i < 3; ++i) {
-    mpz_submul(offset.get_mpz_t(), normal[i].get_mpz_t(), f_.points.coordinate(PointId{p}, i));
-    mpz_mul(n[i].get_mpz_t(), n[i].get_mpz_t(), f_.points.coordinate(PointId{p}, 3));
-  }
-  return f_.planes.intern(n[0], n[1], n[2], offset);
-}
-
-// The vector area of the ring up to a positive factor: the same denominator for all corners.
-Integer3 MeshFaces::vector_area() const {
-  Integer common = 1;
-  for (const std::uint32_t p : ring_) {
-    mpz_lcm(common.get_mpz_t(), common.get_mpz_t(), f_.points.coordinate(PointId{p}, 3));
-  }
-  Integer factor;
-  const auto scaled = [&](std::uint32_t p, Integer3& out) {
-    mpz_divexact(factor.get_mpz_t(), common.get_mpz_t(), f_.points.coordinate(PointId{p}, 3));
-    for (std::size_t k = 0; k < 3; ++k) {
-      mpz_mul(out[k].get_mpz_t(), f_.points.coordinate(PointId{p}, k), factor.get_mpz_t());
-    }
-  };
-  Integer3 origin;
-  Integer3 u;
-  Integer3 v;
-  Integer3 area;
-  scaled(ring_[0], origin);
-  for (std::size_t i = 1; i < ring_.size(); ++i) {
-    scaled(ring_[i], v);
-    for (std::size_t k = 0; k < 3; ++k) v[k] -= origin[k];
-    for (std::size_t k = 0; k < 3 && i > 1; ++k) {
-      mpz_addmul(area[k].get_mpz_t(), u[(k + 1) % 3].get_mpz_t(), v[(k + 2) % 3].get_mpz_t());
-      mpz_submul(area[k].get_mpz_t(), u[(k + 2) % 3].get_mpz_t(), v[(k + 1) % 3].get_mpz_t());
-    }
-    std::swap(u, v);
-  }
-  return area;
-}
-
 // A face that is not planar, as the check has cut it.
 void MeshFaces::add_triangles(std::uint32_t face) {
   const std::string name = not_planar_text(mesh_, face);
   if (options_.strict) throw InputError(name + "; triangulate it, or read the mesh without --strict");
-  if (surface_.defects[face] != FaceDefect::kNone) {
-    throw InputError(name + " and crosses itself when projected, so it cannot be triangulated; split it");
-  }
-  if (messages_ != nullptr && !reverse_) messages_->push_back(name + " and was triangulated");
+  if (messages_ != nullptr) messages_->push_back(name + " and was triangulated");
   push_triangles(face);
 }
 

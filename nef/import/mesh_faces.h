@@ -11,6 +11,7 @@
 
 #include "nef/construct/construct.h"
 #include "nef/construct/solid.h"
+#include "nef/import/checked_surface.h"
 #include "nef/mesh/surface/mesh_surface.h"
 
 namespace nef {
@@ -22,12 +23,8 @@ inline constexpr const char* kTurnedOver = "the faces were oriented inward and h
 /// are strict) and builds complexes from any selection of faces. Faces without area are left out.
 class MeshFaces {
  public:
-  /// All arguments must outlive this object; `messages` may be null. All indices in faces must be good.
+  /// All arguments must outlive this object; `messages` may be null. All faces must be good or without area.
   MeshFaces(const Mesh& mesh, const MeshSurface& surface, const MeshOptions& options, Messages* messages);
-
-  /// All faces, with `reverse` turned over, for try_make_solid. Takes the tables out of this object, which is of no use
-  /// any more. O(n log n).
-  SolidFaces take(bool reverse) &&;
 
   /// The union of the faces as a two-dimensional set. They must meet in common vertices and edges only. O(n log n).
   Complex surface(std::span<const std::uint32_t> faces);
@@ -35,20 +32,20 @@ class MeshFaces {
   /// The same of all faces, with marks that tell how they are turned (make_oriented_surface).
   Complex oriented_surface();
 
+  friend SolidFaces solid_faces(const CheckedSurface& checked, const MeshOptions& options, Messages* messages);
+
  private:
+  SolidFaces take(bool reverse) &&;                          // all, out of this object, which is of no use any more
   SolidFaces collect(std::span<const std::uint32_t> faces);  // all if empty
   void add_faces(std::span<const std::uint32_t> faces);
   void number_points();
   PointId push_small_point(std::uint32_t vertex);
   [[nodiscard]] std::vector<std::uint32_t> in_order_of_points(std::span<const std::uint32_t> faces) const;
   void add_face(std::uint32_t face);
-  bool add_defective_ring();
   [[nodiscard]] std::array<std::uint32_t, 3> corners_of(std::uint32_t triangle) const;
   void push(std::span<const std::uint32_t> ring, PlaneId plane);
   PlaneId plane_of_triangle(std::span<const std::uint32_t> t);
   std::optional<PlaneId> plane_of_small_triangle(std::span<const std::uint32_t> t);
-  PlaneId plane_through(const Integer3& normal, std::uint32_t p);
-  [[nodiscard]] Integer3 vector_area() const;
   void add_triangles(std::uint32_t face);
   void push_triangles(std::uint32_t face);
 
@@ -65,5 +62,8 @@ class MeshFaces {
   Integer3 u_, v_, n_;
   Integer offset_;
 };
+
+/// All faces for try_make_solid, turned over (which is noted) if they enclose a negative volume. O(n log n).
+SolidFaces solid_faces(const CheckedSurface& checked, const MeshOptions& options, Messages* messages);
 
 }  // namespace nef

@@ -76,7 +76,7 @@ class Repairer {
     RepairedMesh result;
     result.mesh = mesh_of(vertices_, rings_);
     result.done = std::move(done_);
-    result.problem = refusal(result.mesh, monitor_);
+    result.problem = rings_.empty() ? "no face is left of the mesh" : refusal(result.mesh, monitor_);
     return result;
   }
 

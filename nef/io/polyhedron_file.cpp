@@ -140,8 +140,6 @@ Mesh mesh_of(std::string&& bytes, const std::string& path) {
 Polyhedron set_of_mesh_file(std::string&& bytes, const std::string& path, const MeshOptions& options,
                             Messages* messages) {
   const Mesh mesh = mesh_of(std::move(bytes), path);
-  // What write_polyhedron makes of the empty set.
-  if (mesh.vertices.empty() && mesh.face_count() == 0) return Polyhedron();
   try {
     return from_mesh(mesh, options, messages);
   } catch (const InputError& error) {

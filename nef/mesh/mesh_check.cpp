@@ -39,6 +39,7 @@ class Report {
 
   // False once the kind is full.
   bool add(MeshProblem problem) {
+    is_legal_ = is_legal_ && problem.legal;
     std::size_t& count = counts_[2 * static_cast<std::size_t>(problem.kind) + (problem.legal ? 1 : 0)];
     if (count < limit_) {
       ++count;
@@ -46,6 +47,9 @@ class Report {
     }
     return count < limit_;
   }
+
+  /// False once something was added that no solid has.
+  [[nodiscard]] bool is_legal() const { return is_legal_; }
 
   std::vector<MeshProblem> take() {
     std::stable_sort(problems_.begin(), problems_.end(),
@@ -55,6 +59,7 @@ class Report {
 
  private:
   std::size_t limit_;
+  bool is_legal_ = true;
   std::array<std::size_t, 32> counts_{};
   std::vector<MeshProblem> problems_;
 };
@@ -404,7 +409,8 @@ std::vector<MeshProblem> check_mesh(const Mesh& mesh, const MeshSurface& surface
     check_duplicates(mesh, surface, report);
     closed = check_edges(mesh, surface, contacts, report);
   }
-  if (options.self_intersections) check_contacts(surface, contacts, report);
+  const bool decided = options.only_verdict && !report.is_legal();
+  if (options.self_intersections && !decided) check_contacts(surface, contacts, report);
   check_planarity(mesh, surface, report);
   check_vertices(mesh, surface, report);
   if (closed && !surface.triangles.empty() && volume_sign(mesh, surface) < 0) {

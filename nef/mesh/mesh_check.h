@@ -47,6 +47,7 @@ struct MeshCheckOptions {
   /// Report no more than these of each kind, legal and illegal ones counted apart.
   std::size_t max_per_kind = std::numeric_limits<std::size_t>::max();
   bool self_intersections = true;  ///< the expensive part
+  bool only_verdict = false;       ///< leave that part out, too, where something before it is illegal already
 };
 
 /// Everything that is wrong with a mesh, in the order of MeshProblemKind and of the elements; empty for a clean mesh.

@@ -250,7 +250,10 @@ void Arrangement::build_incidences(const PlaneTable& planes, SphereMapBuffer& ou
 void Arrangement::choose_planes(const PlaneTable& planes, std::uint32_t node, SVertex& v,
                                 const Monitor& monitor) const {
   const std::span<const std::uint32_t> ring = around(node);
-  if (ring.size() < 2) return;
+  const auto require_planes = [&v, node] {
+    detail::require(v.p.valid() && v.q.valid(), "an svertex is where two planes meet", {{"node", node}});
+  };
+  if (ring.size() < 2) return require_planes();
   PlaneId first = plane(ring[0]);
   PlaneId second;
   for (const std::uint32_t half : ring) {
@@ -261,7 +264,7 @@ void Arrangement::choose_planes(const PlaneTable& planes, std::uint32_t node, SV
     const PlaneId candidate = plane(half);
     if (candidate.row() != first.row() && (!second.valid() || candidate.row() < second.row())) second = candidate;
   }
-  if (!second.valid()) return;
+  if (!second.valid()) return require_planes();  // an edge within one plane, whose faces do not go on from each other
   first = PlaneId{first.row() << 1U};
   second = PlaneId{second.row() << 1U};
   if (v.p == first && v.q == second) return;

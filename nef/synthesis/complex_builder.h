@@ -99,7 +99,6 @@ class ComplexBuilder {
 
   /// What finish() returns, or what is wrong with the sphere maps.
   [[nodiscard]] std::variant<Complex, Defect> try_finish(LabelId outer);
-  [[nodiscard]] std::variant<Complex, Defect> try_finish(LabelId outer, KnownLinks&& known);
 
   /// The same with the box and the planes as they are.
   [[nodiscard]] std::variant<Complex, Defect> try_finish_unreduced(LabelId outer);

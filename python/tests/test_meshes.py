@@ -73,6 +73,26 @@ def test_guilty_elements():
         nef.from_mesh(object())
 
 
+@pytest.mark.parametrize("check", [True, False])
+def test_folded_surfaces(check):
+    """Faces that lie on each other, turned against each other, enclose nothing; beside a solid they add nothing."""
+    square = numpy.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
+    for vertices, faces in ((square[:3], [[0, 1, 2], [0, 2, 1]]), (square, [[0, 1, 2, 3], [3, 2, 1, 0]]),
+                            (square, [[0, 1, 2, 3], [2, 1, 0], [3, 2, 0]])):
+        with pytest.raises(nef.InputError, match="enclose nothing"):
+            nef.from_mesh(vertices, faces, check=check)
+    assert nef.from_mesh(VERTICES, [*FACES.tolist(), [0, 1, 2], [0, 2, 1]], check=check) == TETRAHEDRON
+
+
+def test_meshes_without_faces():
+    """The empty set, as files hold it; vertices alone are no set."""
+    for vertices, faces in (([], []), (numpy.zeros((0, 3)), numpy.zeros((0, 3), int))):
+        with pytest.warns(UserWarning, match="empty set"):
+            assert nef.from_mesh(vertices, faces).is_empty()
+    with pytest.raises(nef.InputError, match="no faces"):
+        nef.from_mesh(VERTICES, numpy.zeros((0, 3), int))
+
+
 @pytest.mark.parametrize("extension", ["off", "obj", "stl", "ply", "nef", "nef3"])
 def test_files(tmp_path, extension):
     path = tmp_path / f"set.{extension}"

@@ -45,6 +45,56 @@ TEST_CASE("malformed files are refused in one line") {
   }
 }
 
+TEST_CASE("folded surfaces are refused in the same words on any number of threads") {
+  const Workplace here;
+  here.write("good.off", cube_off(0, 2));
+  here.write("triangle.off", "OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 2 1\n");
+  here.write("square.off", "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n4 3 2 1 0\n");
+  here.write("open.off", "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n");
+  for (const std::string threads : {" --threads 1", " --threads 2", " --threads 4"}) {
+    for (const std::string file : {"triangle.off", "square.off"}) {
+      CAPTURE(file, threads);
+      const std::string complaint = file + ": the faces of the mesh enclose nothing";
+      check_refused(here.nef("info " + file + threads), complaint);
+      check_refused(here.nef("union good.off " + file + threads + " -o out.off"), complaint);
+      const Outcome checked = here.nef("check " + file + threads);
+      CHECK(checked.code == 1);
+      CHECK(checked.out.find("no volume: the faces of the mesh enclose nothing") != std::string::npos);
+    }
+    for (const std::string file : {"triangle.off", "square.off", "open.off"}) {
+      CAPTURE(file, threads);
+      for (const std::string fill : {"", " --fill-holes"}) {
+        const Outcome repaired = here.nef("repair " + file + fill + threads + " -o out.off");
+        CHECK(repaired.code == 1);
+        CHECK(repaired.out.find("the mesh bounds no solid still: ") != std::string::npos);
+      }
+    }
+  }
+}
+
+TEST_CASE("a mesh without vertices and faces is the empty set everywhere, and is said to be") {
+  const Workplace here;
+  here.write("empty.off", "OFF\n0 0 0\n");
+  here.write("empty.stl", "solid none\nendsolid none\n");
+  here.write("cloud.off", "OFF\n2 0 0\n0 0 0\n1 0 0\n");
+  for (const std::string file : {"empty.off", "empty.stl"}) {
+    for (const std::string command : {"info " + file, "check " + file, "convert " + file + " -o out.nef",
+                                      "union " + file + " " + file + " -o out.nef"}) {
+      CAPTURE(command);
+      const Outcome outcome = here.nef(command);
+      CHECK(outcome.code == 0);
+      CHECK((outcome.out + outcome.err).find("has no faces: it is the empty set") != std::string::npos);
+    }
+  }
+  CHECK(here.nef("repair empty.off -o out.off").code == 0);
+  for (const std::string command : {"info cloud.off", "convert cloud.off -o out.nef", "info cloud.off --as-surface"}) {
+    CAPTURE(command);
+    check_refused(here.nef(command), "cloud.off: the mesh has 2 vertices but no faces");
+  }
+  CHECK(here.nef("check cloud.off").code == 1);
+  CHECK(here.nef("repair cloud.off -o out.off").code != 0);
+}
+
 TEST_CASE("what a message quotes from a file can not fool a terminal") {
   const Workplace here;
   here.write("escape.off", with_line(4, "\x1b[2J\x07 0 0"));
@@ -120,7 +170,9 @@ TEST_CASE("check names what is wrong") {
   CHECK(first_problem(with_line(4, "nan 0 0")) == "not a number");
   CHECK(here.nef("check bad.off --json").json()["problems"][0]["vertices"] == nlohmann::json::array({1}));
   CHECK(first_problem(with_line(11, "4 1 3 2 0")) == "inconsistent orientation");
-  CHECK(first_problem("OFF 0 0 0\n") == "no faces");
+  CHECK(first_problem("OFF 2 0 0\n0 0 0\n1 0 0\n") == "no faces");
+  CHECK(first_problem("OFF 3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 2 1\n") == "duplicate face");
+  CHECK(here.nef("check bad.off --json").json()["problems"].back()["name"] == "no volume");
   check_refused(here.nef("check missing.off"), "missing.off");
   // A face that is only bent is no obstacle.
   here.write("bent.off", with_line(10, "2 2 2.001"));

@@ -2,6 +2,7 @@
 //
 // nef check: what is wrong with a mesh, by name; or whether a native file holds a valid complex.
 #include "nef/command/commands.h"
+#include "nef/import/fill.h"
 #include "nef/import/try_from_mesh.h"
 #include "nef/io/mesh/mesh_reader.h"
 #include "nef/io/polyhedron_file.h"
@@ -16,12 +17,12 @@ Json problem_json(const MeshProblem& problem) {
 }
 
 // A finding outside of the mesh: the file itself is at fault (perhaps in one element), or the complex in it.
-Json plain_problem(const std::string& kind, const std::string& text, FileElement element = {}) {
+Json plain_problem(const std::string& kind, const std::string& text, FileElement element = {}, bool legal = false) {
   Json vertices = Json::array();
   Json faces = Json::array();
   if (element.kind == FileElement::Kind::kVertex) vertices.push_back(element.index);
   if (element.kind == FileElement::Kind::kFace) faces.push_back(element.index);
-  return {{"name", kind},           {"legal", false}, {"vertices", vertices},
+  return {{"name", kind},           {"legal", legal}, {"vertices", vertices},
           {"edges", Json::array()}, {"faces", faces}, {"text", text}};
 }
 
@@ -37,12 +38,18 @@ Json check_mesh_file(const std::string& path, bool self_intersections, const Mon
     problems.push_back(plain_problem(name(error.problem()), error.what(), error.element()));
     return problems;
   }
-  if (mesh.face_count() == 0)
-    problems.push_back(plain_problem("no faces", "the mesh has no faces, so it bounds no solid"));
+  if (mesh.face_count() == 0) {
+    Messages notes;
+    const std::variant<Polyhedron, MeshRefusal> made = try_from_mesh(mesh, {.monitor = monitor}, &notes);
+    const auto* refused = std::get_if<MeshRefusal>(&made);
+    problems.push_back(
+        plain_problem("no faces", refused != nullptr ? refused->text : notes.at(0), {}, refused == nullptr));
+    return problems;
+  }
   MeshCheckOptions options;
   options.max_per_kind = 1000;
   options.self_intersections = self_intersections;
-  bool good = mesh.face_count() > 0;
+  bool good = true;
   for (const MeshProblem& problem : check_mesh(mesh, options, monitor)) {
     problems.push_back(problem_json(problem));
     good = good && problem.legal;
@@ -51,7 +58,8 @@ Json check_mesh_file(const std::string& path, bool self_intersections, const Mon
   // How components lie in each other is known only when the solid is made.
   const std::variant<Polyhedron, MeshRefusal> made = try_from_mesh(mesh, {.monitor = monitor});
   if (const auto* refused = std::get_if<MeshRefusal>(&made)) {
-    problems.push_back(plain_problem("inconsistent orientation", refused->text));
+    const bool cancel = refused->text == kEnclosesNothing;
+    problems.push_back(plain_problem(cancel ? "no volume" : "inconsistent orientation", refused->text));
   }
   return problems;
 }

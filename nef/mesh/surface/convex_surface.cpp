@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// If all vertices but its corners lie strictly below the plane of a face, and its ring is a strictly convex polygon,
-// the face is a facet of the hull of all vertices. Two faces are different facets unless they run through the same
-// edges in the same direction; facets meet in edges and vertices that both have. If each edge is run through once in
-// either direction, the neighbour of each facet is there, so all are.
+// If all vertices but its corners lie strictly below the plane of a face, at least one does, and its ring is a strictly
+// convex polygon, the face is a facet of the hull of all vertices, which spans space. Two faces are different facets
+// unless they run through the same edges in the same direction; facets meet in edges and vertices that both have. If
+// each edge is run through once in either direction, the neighbour of each facet is there, so all are.
 #include "nef/mesh/surface/convex_surface.h"
 
 #include <algorithm>
 #include <array>
+#include <bit>
 
 namespace nef {
 namespace {
@@ -46,6 +47,7 @@ bool bounds_small_convex_solid(const Mesh& mesh, const MeshSurface& surface, con
       next[ring[i]] |= end;
       corners |= end;
     }
+    if (static_cast<std::size_t>(std::popcount(corners)) == count) return false;  // both sides of a polygon, say
     for (std::uint32_t v = 0; v < count; ++v) {
       if ((corners & only(v)) == 0 && !is_below(surface, f, v, monitor)) return false;
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A mesh becomes the same solid, with the same notes or the same refusal, on any number of threads: there the solid is
-// made while the faces are checked, also where they turn out to be wrong.
+// A mesh becomes the same solid, with the same notes or the same refusal, on any number of threads: it is checked
+// before anything is made of it.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <random>
@@ -84,6 +84,57 @@ TEST_CASE("what is wrong in the middle of a mesh is told, checked or not", "[thr
       CHECK_THROWS_AS(from_mesh(mesh, MeshOptions{.check = check, .threads = threads}), InputError);
     }
   }
+}
+
+// Faces that lie on each other, turned against each other: every vertex is a corner of both, an edge has both its faces
+// in one plane, on one side of it.
+TEST_CASE("folded surfaces enclose nothing, checked or not", "[threads]") {
+  const auto mesh_of = [](std::vector<Rational3> vertices, const std::vector<std::vector<std::uint32_t>>& faces) {
+    Mesh mesh;
+    mesh.vertices = std::move(vertices);
+    for (const std::vector<std::uint32_t>& face : faces) mesh.push_face(face);
+    return mesh;
+  };
+  const std::vector<Rational3> square{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  const std::vector<Rational3> far{{0, 0, 0}, {3, 0, 0}, {0, 3, 0}, {0, 0, 3}, {1, -5, -5}, {2, -6, -6}, {2, -5, -7}};
+  const std::vector<Mesh> folded{
+      mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 1}}),
+      mesh_of(square, {{0, 1, 2, 3}, {3, 2, 1, 0}}),
+      mesh_of(square, {{0, 1, 2, 3}, {2, 1, 0}, {3, 2, 0}}),
+      mesh_of(square, {{0, 1, 2}, {0, 2, 3}, {3, 2, 1}, {3, 1, 0}}),
+  };
+  for (const Mesh& mesh : folded) {
+    same_on_any_number(mesh);
+    for (const bool check : {true, false}) {
+      for (const unsigned threads : {1U, 2U, 4U}) {
+        CHECK_THROWS_WITH(from_mesh(mesh, MeshOptions{.check = check, .threads = threads}),
+                          "the faces of the mesh enclose nothing");
+      }
+    }
+  }
+  // Beside a solid, and hanging on an edge of it, a fold adds nothing.
+  const std::vector<std::vector<std::uint32_t>> faces{{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  const Polyhedron alone = from_mesh(mesh_of(far, faces));
+  for (const std::array<std::uint32_t, 3>& fold :
+       {std::array<std::uint32_t, 3>{4, 5, 6}, {0, 1, 4}, {0, 5, 6}, {0, 1, 2}}) {
+    auto more = faces;
+    more.push_back({fold[0], fold[1], fold[2]});
+    more.push_back({fold[0], fold[2], fold[1]});
+    const Mesh mesh = mesh_of(far, more);
+    same_on_any_number(mesh);
+    for (const bool check : {true, false}) CHECK(equal(from_mesh(mesh, MeshOptions{.check = check}), alone));
+  }
+}
+
+TEST_CASE("a mesh without vertices and faces is the empty set, and one with vertices only is none") {
+  Messages notes;
+  for (const bool surface : {false, true}) {
+    CHECK(from_mesh(Mesh(), MeshOptions{.as_surface = surface}, &notes).is_empty());
+    Mesh cloud;
+    cloud.vertices = {{0, 0, 0}, {1, 0, 0}};
+    CHECK_THROWS_WITH(from_mesh(cloud, MeshOptions{.as_surface = surface}), Catch::Contains("2 vertices but no faces"));
+  }
+  CHECK(notes == Messages(2, "the mesh has no faces: it is the empty set"));
 }
 
 TEST_CASE("meshes that somebody has damaged become the same, or are refused alike, on several threads", "[threads]") {

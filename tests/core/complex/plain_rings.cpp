@@ -6,8 +6,13 @@
 #include <map>
 #include <random>
 #include <tuple>
+#include <variant>
 
 #include "nef/construct/construct.h"
+#include "nef/construct/solid.h"
+#include "nef/import/checked_surface.h"
+#include "nef/import/mesh_faces.h"
+#include "nef/io/native/native_binary.h"
 #include "nef/polyhedron.h"
 
 namespace nef::test {
@@ -70,6 +75,21 @@ TEST_CASE("Rings that are read off the faces are those that would be drawn") {
     const Counts a = counts(read);
     const Counts b = counts(drawn);
     CHECK(std::tuple(a.vertices, a.edges, a.facets, a.volumes) == std::tuple(b.vertices, b.edges, b.facets, b.volumes));
+  }
+}
+
+// All that is drawn is drawn by one way only, so the bytes are the same.
+TEST_CASE("Solids with rings that are read are those with rings that are drawn, item for item") {
+  std::mt19937 random(4);
+  for (int round = 0; round < 40; ++round) {
+    const Mesh mesh = star(random);
+    const CheckedSurface checked(mesh, CheckedSurface::Extent::kAll, {});
+    REQUIRE_FALSE(checked.in_contact());
+    const auto bytes = [&](SphereMaps maps) {
+      std::variant<Complex, Defect> made = try_make_solid(solid_faces(checked, {}, nullptr), {1, 1, 0}, {}, maps);
+      return native_binary(Polyhedron(std::get<Complex>(std::move(made))));
+    };
+    CHECK(bytes(SphereMaps::kRead) == bytes(SphereMaps::kDrawn));
   }
 }
 

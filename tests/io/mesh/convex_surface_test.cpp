@@ -82,6 +82,12 @@ TEST_CASE("what is no boundary of a convex solid is told from it") {
   const Mesh whole = box();
   CHECK_FALSE(is_convex(with_faces(whole, {0, 1, 2, 3, 4})));
   CHECK_FALSE(is_convex(with_faces(whole, {0, 1, 2, 3, 4, 5, 0})));
+  Mesh both_sides;  // of a square: no vertex is beside a face
+  both_sides.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  both_sides.push_face(std::array<std::uint32_t, 4>{0, 1, 2, 3});
+  both_sides.push_face(std::array<std::uint32_t, 4>{3, 2, 1, 0});
+  CHECK_FALSE(is_convex(both_sides));
+  CHECK_FALSE(check_mesh(both_sides).empty());
   Mesh inside_out = whole;
   for (std::size_t f = 0; f < 6; ++f)
     std::reverse(inside_out.corners.begin() + 4 * f, inside_out.corners.begin() + 4 * f + 4);

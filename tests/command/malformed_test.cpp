@@ -78,8 +78,8 @@ TEST_CASE("a mesh without vertices and faces is the empty set everywhere, and is
   here.write("empty.stl", "solid none\nendsolid none\n");
   here.write("cloud.off", "OFF\n2 0 0\n0 0 0\n1 0 0\n");
   for (const std::string file : {"empty.off", "empty.stl"}) {
-    for (const std::string command : {"info " + file, "check " + file, "convert " + file + " -o out.nef",
-                                      "union " + file + " " + file + " -o out.nef"}) {
+    for (const std::string& command : {"info " + file, "check " + file, "convert " + file + " -o out.nef",
+                                       "union " + file + " " + file + " -o out.nef"}) {
       CAPTURE(command);
       const Outcome outcome = here.nef(command);
       CHECK(outcome.code == 0);

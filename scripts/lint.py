@@ -5,8 +5,8 @@ Usage: lint.py BUILD_DIRECTORY [--seconds N] [PART...]
 
 The build tree is best one of NEF_COMPILE_TOGETHER: what headers cost is paid once for some forty sources, so that all of
 them are looked at in the time that a tenth would take one by one. With PARTs, only translation units whose paths have
-one of them. With --seconds, as many units as take about so much of CPU together: those first that changes concern (see
-ci_selection.py), then others in turn; what is left out is printed. Exits 1 if there are findings, and where clang-tidy
+one of them. With --seconds, as many units as take about so much of CPU together: those first that runs have left out (see
+ci_selection.py), then those that changes concern, then others; what is left out is printed. Exits 1 if there are findings, and where clang-tidy
 did not come to its end.
 """
 import argparse
@@ -61,16 +61,12 @@ def concerned(every: dict[str, list[str]], files: list[str]) -> set[str]:
 def of_today(every: dict[str, list[str]], seconds: int) -> dict[str, list[str]]:
     """As many units as there is time for, and a line for each that is left out."""
     first = concerned(every, ci_selection.changed())
-    order = ci_selection.rotated(sorted(first)) + ci_selection.rotated(sorted(set(every) - first))
-    chosen = {}
-    left = seconds / SECONDS_PER_SOURCE
-    for unit in order:
-        if len(every[unit]) <= left:
-            left -= len(every[unit])
-            chosen[unit] = every[unit]
-        else:
-            print(f"left out today{', though changed' if unit in first else ''}: {unit}, {len(every[unit])} sources")
-    return chosen
+    costs = {unit: len(sources) for unit, sources in every.items()}
+    # Known by their sources: units are cut anew where one is added.
+    chosen = set(ci_selection.choose(costs, first, seconds / SECONDS_PER_SOURCE, every))
+    for unit in sorted(set(every) - chosen):
+        print(f"left out today{', though changed' if unit in first else ''}: {unit}, {len(every[unit])} sources")
+    return {unit: sources for unit, sources in every.items() if unit in chosen}
 
 
 def stand_in_for_made_sources(chosen: dict[str, list[str]]) -> None:
@@ -103,6 +99,7 @@ def main() -> int:
 
     places = set()
     broken = 0
+    done: list[str] = []
     largest_first = sorted(chosen, key=lambda unit: -len(chosen[unit]))
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         for unit, result, seconds in pool.map(check, largest_first):
@@ -119,6 +116,10 @@ def main() -> int:
             if result.returncode != 0 and not starts:
                 broken += 1
                 print(f"clang-tidy ended with {result.returncode} at {unit}\n{result.stderr[-2000:]}", flush=True)
+            else:
+                done += chosen[unit]
+    if arguments.seconds is not None:
+        ci_selection.seen(done)
     count = sum(len(sources) for sources in chosen.values())
     print(f"clang-tidy: {count} sources in {len(chosen)} units, {len(places)} findings")
     return 1 if places or broken else 0

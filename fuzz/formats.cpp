@@ -3,20 +3,26 @@
 
 #include <array>
 
+#include "apps/planner/path/path_file.h"
 #include "apps/planner/scene/scene.h"
 #include "apps/visual_hull/formats/scene_json.h"
 #include "apps/visual_hull/formats/scene_text.h"
 #include "apps/visual_hull/formats/vsh.h"
 #include "fuzz/fuzzer.h"
+#include "fuzz/scratch_folder.h"
 #include "nef/construct/construct.h"
 #include "nef/export/to_mesh.h"
 #include "nef/io/cgal/cgal_nef3.h"
+#include "nef/io/file_bytes.h"
+#include "nef/io/mesh/glb_mesh.h"
 #include "nef/io/mesh/mesh_reader.h"
 #include "nef/io/mesh/mesh_writer.h"
+#include "nef/io/mesh/threemf_mesh.h"
 #include "nef/io/native/native_binary.h"
 #include "nef/io/native/native_format.h"
 #include "nef/mesh/mesh_check.h"
 #include "nef/program/expression/expression.h"
+#include "nef/program/expression/openscad.h"
 
 namespace nef::fuzz {
 namespace {
@@ -109,6 +115,55 @@ std::string expression(const Polyhedron& /*set*/, const std::string& text) {
          "1,0,0,0,0,1,0,0,0,0,1,2))";
 }
 
+std::string openscad_model(const Polyhedron& /*set*/, const std::string& /*text*/) {
+  return R"(group() { // all objects
+ multmatrix([[1, 0, 0, 0.5], [0, 1, 0, 0], [0, 0, 1, -1e0], [0, 0, 0, 1]]) {
+  difference() { cube(size = [2, 3, 1], center = true); cylinder($fn = 5, $fa = 12, $fs = 2, h = 4, r1 = 1, r2 = 0.5); }
+ }
+ color([1, 0, 0, 1]) { intersection() { sphere($fn = 6, r = 2); cube(size = 1); } }
+ hull() { polyhedron(points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]],
+   faces = [[0, 1, 2], [0, 3, 1], [1, 3, 2], [2, 3, 0]], convexity = 1); cube(size = [1, 1, 1]); }
+ linear_extrude(height = 2, center = true, slices = 1, $fn = 0) { union() { square(size = [2, 1], center = false);
+   circle($fn = 5, r = 1); polygon(points = [[0, 0], [3, 0], [0, 3]], paths = [[0, 1, 2]]); } }
+ rotate_extrude(angle = 90, $fn = 8) { multmatrix([[1, 0, 0, 2], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]) { square(size = 1); } }
+ %render(convexity = 2) { /* left out */ cube(size = undef); }
+})";
+}
+
+void read_openscad_model(const std::string& text) {
+  ExpressionOptions options;
+  options.load = [](const std::string&, const Monitor&) { return make_box({0, 0, 0}, {1, 1, 1}); };
+  check_set(evaluate_openscad(text, options));
+}
+
+std::string ompl_problem(const Polyhedron& /*set*/, const std::string& /*text*/) {
+  return "[problem]\nname = a\nrobot = cube.nef\nworld = cube.nef\nrobot.origin = mesh # or vertex-mean\n"
+         "start.x = 2\nstart.y = -1.5\nstart.z = 1e1\nstart.theta = 0.5\nstart.axis.x = 1\nstart.axis.y = 0\n"
+         "start.axis.z = 0\ngoal.x = 7\ngoal.y = 1.5\ngoal.z = -1/2\ngoal.theta = 0.5\ngoal.axis.x = 1\n"
+         "goal.axis.y = 0\ngoal.axis.z = 0\nvolume.min.x = 0\nvolume.min.y = -8\nvolume.min.z = -8\n"
+         "volume.max.x = 9\nvolume.max.y = 8\nvolume.max.z = 12\n\n[planner]\nrrtconnect=\n";
+}
+
+// The meshes that it names lie beside it.
+void read_ompl_problem(const std::string& text) {
+  const ScratchFolder folder;
+  write_file(folder / "cube.nef", native_binary(make_box({0, 0, 0}, {1, 1, 1})));
+  write_file(folder / "problem.cfg", text);
+  const planner::Scene scene = planner::read_scene(folder / "problem.cfg");
+  check_set(scene.robot);
+  for (const Polyhedron& obstacle : scene.obstacles) check_set(obstacle);
+}
+
+std::string waypoints(const Polyhedron& /*set*/, const std::string& /*text*/) {
+  return R"({"path": [[0, 0, 0], ["1/3", 0.5, 1e1], [-1, 2, 3]], "status": "path"})";
+}
+
+void read_waypoints_file(const std::string& text) {
+  const ScratchFolder folder;
+  write_file(folder / "path.json", text);
+  static_cast<void>(planner::read_waypoints(folder / "path.json"));
+}
+
 constexpr std::array kFormats{
     Format{"off", mesh_bytes<off_bytes, false>, read_mesh_bytes<read_off>},
     Format{"obj", mesh_bytes<obj_bytes, false>, read_mesh_bytes<read_obj>},
@@ -116,6 +171,10 @@ constexpr std::array kFormats{
     Format{"binary-stl", mesh_bytes<stl_bytes, true>, read_mesh_bytes<read_stl>},
     Format{"ply", mesh_bytes<ply_bytes, false>, read_mesh_bytes<read_ply>},
     Format{"binary-ply", mesh_bytes<ply_bytes, true>, read_mesh_bytes<read_ply>},
+    Format{"glb", [](const Polyhedron& set, const std::string& /*text*/) { return glb_bytes(solid_mesh(set)); },
+           read_mesh_bytes<read_glb>},
+    Format{"3mf", [](const Polyhedron& set, const std::string& /*text*/) { return threemf_bytes(solid_mesh(set), {}); },
+           read_mesh_bytes<read_3mf>},
     Format{"nef", [](const Polyhedron& set, const std::string& /*text*/) { return native_text(set); },
            [](const std::string& text) { check_set(read_native(text, "file")); }},
     Format{"binary-nef",
@@ -131,7 +190,10 @@ constexpr std::array kFormats{
     Format{"nef3", [](const Polyhedron& set, const std::string& /*text*/) { return nef3_text(set); },
            [](const std::string& text) { check_set(read_nef3(text, "file")); }},
     Format{"expression", expression, [](const std::string& text) { check_set(evaluate_expression(text)); }},
+    Format{"csg", openscad_model, read_openscad_model},
     Format{"planner-scene", planner_scene, read_planner_scene},
+    Format{"cfg", ompl_problem, read_ompl_problem},
+    Format{"waypoints", waypoints, read_waypoints_file},
     Format{"hull-scene", hull_scene,
            [](const std::string& text) {
              static_cast<void>(visual_hull::read_json_scene(text, "/nonexistent/scene.json"));

@@ -130,6 +130,18 @@ class Run {
            std::to_string(session_.mesh.as_surface ? 1 : 0) + " " + flags_.tiles + "\n";
   }
 
+  [[nodiscard]] std::string sum_job() const {
+    return job("minkowski " + std::to_string(part_)) + file_identity(session_.inputs[0]) +
+           file_identity(session_.inputs[1]);
+  }
+
+  // Tasks read their files at different times; a set of old and new ones would be wrong.
+  void require_same(const std::string& job_now) const {
+    if (job_now != job_text_) {
+      throw InputError("an input was changed while it was being read, so nothing is written; run again");
+    }
+  }
+
   // Regions of pieces that meet many of them would repeat each other's work; what bounds memory are regions, though.
   TiledPolyhedron united(const WorkFolder& work, const PieceSource& source) {
     const Tiling tiling = this->tiling();
@@ -156,13 +168,15 @@ class Run {
     on_first([&] {
       pieces.emplace(session_.inputs, list_, session_.mesh);
       if (pieces->size() == 0) throw InputError("there are no pieces: name files, or give a --list");
-      work.prepare(job("union") + pieces->text());
+      job_text_ = job("union") + pieces->identity();
+      work.prepare(job_text_);
     });
     if (!pieces) pieces.emplace(session_.inputs, list_, session_.mesh);
     const PieceSource source{.count = pieces->size(),
                              .set = [&](std::uint32_t i, const Monitor& own) { return pieces->set(i, own); }};
     const Stopwatch watch;
     const TiledPolyhedron set = united(work, source);
+    on_first([&] { require_same(job("union") + pieces->identity()); });
     return finish("union", work, set, watch.seconds());
   }
 
@@ -174,14 +188,15 @@ class Run {
       if (!sets[0].is_bounded()) {
         throw InputError(session_.inputs[0] + ": unbounded; only bounded sets are cut into parts");
       }
-      work.prepare(job("minkowski " + std::to_string(part_)) + file_state(session_.inputs[0]) +
-                   file_state(session_.inputs[1]));
+      job_text_ = sum_job();
+      work.prepare(job_text_);
     });
     if (sets.empty()) {
       for (const std::string& path : session_.inputs) sets.push_back(read_file_or_tiles(path, session_.mesh));
     }
     const Stopwatch watch;
     const TiledPolyhedron set = united(work, sums_of_parts(mpi_, work, sets[0], sets[1], part_, watcher()));
+    on_first([&] { require_same(sum_job()); });
     return finish("minkowski", work, set, watch.seconds());
   }
 
@@ -225,6 +240,7 @@ class Run {
   std::string times_;
   std::string times_text_;
   visual_hull::Arguments hull_;
+  std::string job_text_;  // on rank 0
   std::function<int()> job_;
 };
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/nef_mpi/work_folder.h"
 
+#include "nef/io/content_hash.h"
 #include "nef/io/file_bytes.h"
+#include "nef/tiles/storage/tile_folder.h"
 
 namespace nef::mpi {
 namespace fs = std::filesystem;
@@ -44,12 +46,10 @@ void WorkFolder::remove() const {
   fs::remove_all(path_, ignored);
 }
 
-std::string file_state(const std::string& path) {
-  std::error_code error;
-  const auto written = fs::last_write_time(path, error);
-  if (error) throw FileError(FileProblem::kUnreadable, path + ": no such file; check the path");
-  const auto size = fs::is_regular_file(path) ? fs::file_size(path, error) : 0;
-  return path + " " + std::to_string(size) + " " + std::to_string(written.time_since_epoch().count()) + "\n";
+std::string file_identity(const std::string& path) {
+  // The index of a folder of tiles names each of them by a hash of its bytes.
+  const std::string bytes_in = names_tile_folder(path) ? (fs::path(path) / kTileFolderIndex).string() : path;
+  return path + " " + content_hash_of_file(bytes_in) + "\n";
 }
 
 }  // namespace nef::mpi

@@ -28,7 +28,8 @@ class WorkFolder {
   std::filesystem::path path_;
 };
 
-/// A file as part of a job's text: its path, size and time of writing. Throws FileError if it is not there.
-std::string file_state(const std::string& path);
+/// A file, or a folder of tiles, as part of a job's text: its path and a hash of what it holds, so that one that was
+/// replaced makes another job, whatever its time says. Throws FileError if it is not there. O(bytes).
+std::string file_identity(const std::string& path);
 
 }  // namespace nef::mpi

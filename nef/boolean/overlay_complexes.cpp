@@ -29,6 +29,8 @@ class ComplexOverlay {
   // Nothing if the result is operand 0.
   std::optional<Complex> run(const std::function<const QueryStructure&()>& queries_a,
                              const std::function<const QueryStructure&()>& queries_b) {
+    // Whoever listens hears of every overlay, also of one where no boundaries meet and nothing is made.
+    monitor_.tell_progress("edges through facets", 0, 0);
     Intersections found = intersect_boundaries(operands_, tables_, threads_, monitor_);
     collect(found, queries_a, queries_b);
     return finished(std::move(found));

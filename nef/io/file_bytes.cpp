@@ -3,6 +3,8 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -10,7 +12,6 @@
 #include <cerrno>
 #include <cstdio>
 #include <filesystem>
-#include <memory>
 #include <system_error>
 #include <utility>
 
@@ -24,11 +25,6 @@ namespace fs = std::filesystem;
 }
 
 std::string last_error() { return std::generic_category().message(errno); }
-
-struct FileCloser {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-using File = std::unique_ptr<std::FILE, FileCloser>;
 
 // An open file that is closed, and gives up its locks, with the object.
 class Descriptor {
@@ -48,6 +44,67 @@ class Descriptor {
  private:
   int value_;
 };
+
+[[noreturn]] void refuse_kind(const std::string& path) {
+  refuse(path, "is a device or a pipe, which may never end; name a regular file, or use standard input ('-')");
+}
+
+[[noreturn]] void refuse_size(const std::string& path) {
+  refuse(path, "is larger than a quarter of the memory of this machine (" + std::to_string(most_bytes_read() >> 20U) +
+                   " MB), which is the most that is read; use a machine with more, or a smaller file");
+}
+
+// Standard input may be a pipe, a socket or a terminal; of other devices (/dev/zero) nobody wants to read all.
+bool is_wanted_as_input(const struct stat& about, int descriptor) {
+  return !S_ISCHR(about.st_mode) || isatty(descriptor) != 0 || about.st_rdev == makedev(1, 3);  // /dev/null
+}
+
+Descriptor open_standard_input(const std::string& path) {
+  struct stat about {};
+  if (fstat(STDIN_FILENO, &about) != 0) refuse(path, "standard input is closed; name a file");
+  if (S_ISDIR(about.st_mode)) refuse(path, "standard input is a directory; name a file in it");
+  if (!is_wanted_as_input(about, STDIN_FILENO)) refuse_kind(path);
+  return Descriptor(fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 0));
+}
+
+// Whether a path names what is open as standard input, as /dev/stdin and /proc/self/fd/0 do.
+bool names_standard_input(const struct stat& about) {
+  struct stat input {};
+  return !S_ISREG(about.st_mode) && fstat(STDIN_FILENO, &input) == 0 && input.st_dev == about.st_dev &&
+         input.st_ino == about.st_ino;
+}
+
+// A file that may be read; what else there is is not even opened, since that may wait for ever.
+Descriptor open_for_reading(const std::string& path) {
+  if (path == "-") return open_standard_input(path);
+  struct stat about {};
+  if (stat(path.c_str(), &about) != 0) {
+    refuse(path, errno == ENOENT ? "no such file; check the path" : "cannot be opened (" + last_error() + ")");
+  }
+  if (S_ISDIR(about.st_mode)) refuse(path, "is a directory; name a file in it");
+  if (names_standard_input(about)) return open_standard_input(path);
+  if (!S_ISREG(about.st_mode)) refuse_kind(path);
+  Descriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));  // it may have become a pipe meanwhile
+  if (!file) refuse(path, "cannot be opened (" + last_error() + ")");
+  if (fstat(file.get(), &about) != 0 || !S_ISREG(about.st_mode)) refuse_kind(path);
+  if (static_cast<std::uintmax_t>(about.st_size) > most_bytes_read()) refuse_size(path);
+  return file;
+}
+
+// Fills the block unless the file ends; returns how many bytes there were.
+std::size_t read_some(int descriptor, char* block, std::size_t size, const std::string& path) {
+  std::size_t count = 0;
+  while (count < size) {
+    const ssize_t got = ::read(descriptor, block + count, size - count);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) refuse(path, "cannot be read (" + last_error() + ")");
+    if (got == 0) break;
+    count += static_cast<std::size_t>(got);
+  }
+  return count;
+}
+
+constexpr std::size_t kBlock = std::size_t{1} << 16U;
 
 void write_all(int descriptor, std::string_view bytes, const std::string& path) {
   while (!bytes.empty()) {
@@ -86,6 +143,7 @@ class Replacement {
     const bool unnamed = static_cast<bool>(file);
     if (!unnamed) file = create_named();
     try {
+      keep_permissions(file.get());
       write_all(file.get(), bytes, path_);
       if (unnamed && link(file.get(), target_)) return;
       if (unnamed) name_it(file.get());
@@ -103,6 +161,18 @@ class Replacement {
   void drop_partial_of_dead() const {
     const Descriptor left(open(partial_.c_str(), O_WRONLY | O_CLOEXEC | O_NOFOLLOW));
     if (left && flock(left.get(), LOCK_EX | LOCK_NB) == 0) unlink(partial_.c_str());
+  }
+
+  // Those of the file that is replaced: what only its owner may read stays so. Before anything is written.
+  void keep_permissions(int descriptor) const {
+    struct stat old {};
+    struct stat fresh {};
+    constexpr mode_t kPermissions = 0777;
+    if (stat(target_.c_str(), &old) != 0 || fstat(descriptor, &fresh) != 0) return;
+    if (((old.st_mode ^ fresh.st_mode) & kPermissions) == 0) return;  // where a file system knows only one kind, too
+    if (fchmod(descriptor, old.st_mode & kPermissions) != 0) {
+      refuse(path_, "cannot be given the permissions of the file that it replaces (" + last_error() + ")");
+    }
   }
 
   static bool link(int descriptor, const fs::path& to) {
@@ -178,31 +248,46 @@ std::string lower_extension(const std::string& path) {
   return extension;
 }
 
+void require_readable_file(const std::string& path) { static_cast<void>(open_for_reading(path)); }
+
+std::size_t most_bytes_read() {
+  const long pages = sysconf(_SC_PHYS_PAGES);
+  const long page = sysconf(_SC_PAGESIZE);
+  constexpr std::size_t kUnknown = std::size_t{1} << 33U;
+  return pages <= 0 || page <= 0 ? kUnknown : static_cast<std::size_t>(pages) * static_cast<std::size_t>(page) / 4;
+}
+
 std::string read_file(const std::string& path) {
-  std::error_code ignored;
-  if (fs::is_directory(path, ignored)) refuse(path, "is a directory; name a file in it");
-  const File file(path == "-" ? fdopen(dup(STDIN_FILENO), "rb") : std::fopen(path.c_str(), "rb"));
-  if (!file) {
-    refuse(path, errno == ENOENT ? "no such file; check the path" : "cannot be opened (" + last_error() + ")");
-  }
+  const Descriptor file = open_for_reading(path);
   std::string bytes;
-  const auto size = fs::file_size(path, ignored);
-  if (!ignored) bytes.reserve(static_cast<std::size_t>(size) + 1);
-  ignored.clear();
-  constexpr std::size_t kBlock = std::size_t{1} << 16U;
+  struct stat about {};
+  if (fstat(file.get(), &about) == 0 && S_ISREG(about.st_mode)) {
+    bytes.reserve(static_cast<std::size_t>(about.st_size) + 1);
+  }
+  const std::size_t most = most_bytes_read();
   for (;;) {
     const std::size_t old = bytes.size();
+    if (old > most) refuse_size(path);
     const std::size_t want = std::max(kBlock, bytes.capacity() - old);
     bytes.resize(old + want);
-    const std::size_t got = std::fread(bytes.data() + old, 1, want, file.get());
+    const std::size_t got = read_some(file.get(), bytes.data() + old, want, path);
     bytes.resize(old + got);
     if (got < want) break;
   }
-  if (std::ferror(file.get()) != 0) refuse(path, "cannot be read (" + last_error() + ")");
   if (bytes.find_first_not_of(" \t\r\n") == std::string::npos) {
     throw FileError(FileProblem::kEmpty, path + ": the file is empty");
   }
   return bytes;
+}
+
+void read_blocks(const std::string& path, const std::function<void(std::string_view)>& sink) {
+  const Descriptor file = open_for_reading(path);
+  std::string block(kBlock, '\0');
+  for (;;) {
+    const std::size_t got = read_some(file.get(), block.data(), block.size(), path);
+    sink(std::string_view(block).substr(0, got));
+    if (got < block.size()) return;
+  }
 }
 
 void write_file(const std::string& path, std::string_view bytes) {

@@ -50,17 +50,29 @@ class FileError : public InputError {
   FileElement element_;
 };
 
-/// All bytes of a file, or of standard input for "-". Throws FileError (kUnreadable, kEmpty).
+/// Throws FileError (kUnreadable) unless the path names a regular file that may be read (most_bytes_read), or what is
+/// open as standard input, as /dev/stdin does: reading devices and named pipes may never end. For code that has another
+/// library read the file; the functions below ask it themselves.
+void require_readable_file(const std::string& path);
+
+/// The most bytes that are read from a file or from standard input: a quarter of the memory of the machine.
+std::size_t most_bytes_read();
+
+/// All bytes of a regular file, or of standard input for "-" and for what names it, such as /dev/stdin. Throws
+/// FileError (kUnreadable, kEmpty), also for files of more than most_bytes_read().
 std::string read_file(const std::string& path);
+
+/// The same bytes, block after block in order, without keeping them; an empty file is none.
+void read_blocks(const std::string& path, const std::function<void(std::string_view block)>& sink);
 
 /// The extension of a path in lower case without the dot; empty if there is none.
 std::string lower_extension(const std::string& path);
 
 /// Writes `bytes` to a new file beside `path` that gets its name when it is whole, so that readers see the old file or
 /// the whole new one. The new file has no name while it is written, where the file system can do that (O_TMPFILE);
-/// elsewhere it is called .NAME.partial, and what a killed run left under that name is used again. A symbolic link
-/// stays and its target is written; a device such as /dev/stdout is written directly, and "-" is standard output.
-/// Throws FileError (kUnreadable).
+/// elsewhere it is called .NAME.partial, and what a killed run left under that name is used again. It keeps the
+/// permissions of the file that it replaces. A symbolic link stays and its target is written; a device such as
+/// /dev/stdout is written directly, and "-" is standard output. Throws FileError (kUnreadable).
 void write_file(const std::string& path, std::string_view bytes);
 
 }  // namespace nef

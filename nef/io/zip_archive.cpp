@@ -44,6 +44,12 @@ bool ZipArchive::contains(const std::string& name) const {
 
 void ZipArchive::read(const std::string& name, const std::function<void(std::string_view)>& sink) {
   const std::string file = "the file " + in_quotes(name) + " in it ";
+  zip_stat_t about;
+  const bool known = zip_stat(handle_->zip, name.c_str(), ZIP_FL_NOCASE, &about) == 0;
+  // Others may take gigabytes to unpack a few bytes.
+  if (known && about.comp_method != ZIP_CM_STORE && about.comp_method != ZIP_CM_DEFLATE) {
+    handle_->fail(FileProblem::kUnsupported, file + "is packed in an unusual way; unpack and repack it with deflate");
+  }
   const std::unique_ptr<zip_file_t, int (*)(zip_file_t*)> stream(zip_fopen(handle_->zip, name.c_str(), ZIP_FL_NOCASE),
                                                                  zip_fclose);
   if (!stream) handle_->fail(FileProblem::kSyntax, file + "cannot be read: " + zip_strerror(handle_->zip));

@@ -24,8 +24,9 @@ class ZipArchive {
   [[nodiscard]] bool contains(const std::string& name) const;
 
   /// Gives the file of this name to `sink`, piece after piece in order. Throws FileError if there is none, if it is
-  /// damaged (its checksum differs) or encrypted, or if all that was read from this archive is more than
-  /// kMostGrowth times the archive, 64 MiB at least: such archives are made to exhaust memory.
+  /// damaged (its checksum differs), encrypted, or packed by another method than deflate, or if all that was read from
+  /// this archive is more than kMostGrowth times the archive, 64 MiB at least: such archives are made to exhaust
+  /// memory.
   void read(const std::string& name, const std::function<void(std::string_view piece)>& sink);
 
   static constexpr std::size_t kMostGrowth = 200;

@@ -4,19 +4,31 @@
 #include <iostream>
 #include <new>
 #include <string_view>
+#include <system_error>
 
 #include "nef/base/error.h"
 #include "nef/number/memory.h"
+#include "nef/program/stack.h"
 
 namespace nef {
 namespace {
 
 constexpr int kBadExit = 2;
 
+// What holds for the readers of all programs.
+constexpr const char* kInputLimits =
+    "Input: regular files, and standard input (-), of at most a quarter of the machine's memory; other devices and "
+    "named\n"
+    "pipes are refused, and so are files that unfold to very many copies or unpack to more than 200 times their size.";
+
 // What an exception says to a user; broken invariants say so themselves.
 std::string text_of(const std::exception& error) {
   if (dynamic_cast<const Error*>(&error) != nullptr) return error.what();
   if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr) return "out of memory";
+  if (dynamic_cast<const std::system_error*>(&error) != nullptr) {
+    return std::string("the system has no room for another thread or file (") + error.what() +
+           "); end other work, or raise its limits (ulimit -u, -n, -v)";
+  }
   const std::string what = error.what();
   return what.rfind("internal error", 0) == 0 ? what : "internal error: " + what;
 }
@@ -29,6 +41,8 @@ namespace {
 // it was meant for.
 std::string usage_error(const CLI::App& app, const CLI::ParseError& error) {
   for (const std::string& left : app.remaining(true)) {
+    // What stands behind "--" is none, whatever it looks like.
+    if (left == "--") break;
     if (left.size() > 1 && left.front() == '-') return "there is no option '" + left + "'";
   }
   return error.what();
@@ -67,6 +81,9 @@ int run_program(CLI::App& app, int argc, char** argv, const std::function<int()>
   };
   let_gmp_throw_bad_alloc();
   try {
+    require_stack();
+    const std::string footer = app.get_footer();
+    app.footer(footer + (footer.empty() ? "" : "\n") + kInputLimits);
     app.parse(argc, argv);
     const int code = body();
     std::cout.flush();

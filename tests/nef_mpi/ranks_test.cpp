@@ -46,6 +46,14 @@ class Place : public TemporaryFolder {
                  std::to_string(count) + " '" + program_folder() + "/nef_mpi' " + arguments);
   }
   [[nodiscard]] std::string read(const std::string& name) const { return slurp(file(name)); }
+  // Runs a job that does all of its work and then cannot write its output, so that the work is left.
+  void stop_at_output(const std::string& job, const std::string& output) const {
+    fs::remove(path() / output);
+    fs::create_directory(path() / output);
+    CHECK(ranks(1, job + " -o " + output).code == 2);
+    REQUIRE(fs::exists(path() / (output + ".work") / "job"));
+    fs::remove(path() / output);
+  }
 
  private:
   [[nodiscard]] Outcome shell(const std::string& command) const {
@@ -172,6 +180,7 @@ TEST_CASE("a rank that is lost ends the run, and the next one goes on from what 
 TEST_CASE("a task that fails is tried again and named; the others are kept") {
   const Place here;
   std::string pieces = tetrahedra(600, 3);
+  static_cast<void>(here.write("later.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n"));  // cut off
   static_cast<void>(here.write("pieces.txt", pieces + "file(\"later.off\")\n"));
   const Outcome run = here.ranks(2, "union --list pieces.txt -o u.nef");
   CHECK(run.code == 2);
@@ -186,6 +195,10 @@ TEST_CASE("a task that fails is tried again and named; the others are kept") {
   CHECK(bad.code == 2);
   CHECK(bad.err.find("nef_mpi: ") == bad.err.rfind("nef_mpi: "));
   CHECK_THAT(here.ranks(2, "union none.off -o u.nef").err, Contains("none.off: no such file"));
+  static_cast<void>(here.write("pieces.txt", "box(0,0,0, 1,1,1)  # \" here\n  # none\nfile(\"none.off\")\n"));
+  CHECK_THAT(here.ranks(2, "union --list pieces.txt -o u.nef").err, Contains("pieces.txt:3: none.off: no such file"));
+  static_cast<void>(here.write("pieces.txt", "\nbox(0,0,0, 1,1\n"));
+  CHECK_THAT(here.ranks(2, "union --list pieces.txt -o u.nef").err, Contains("pieces.txt:2: column "));
   CHECK_THAT(here.ranks(2, "union -o u.nef").err, Contains("there are no pieces"));
 }
 
@@ -265,9 +278,12 @@ TEST_CASE("a rank that is lost inside the tree of unions ends the run, and the n
 
 TEST_CASE("a union that fails is named, those that need it are left out, and the others are kept") {
   const Place here;
-  static_cast<void>(here.write("bars.txt", bars() + "file(\"later.nef\")\n"));
-  CHECK(here.ranks(2, "union --list bars.txt -o u.nef").code == 2);  // there is no later.nef
   static_cast<void>(here.run("nef", "eval 'box(0,0,0, 1,1,1)' -o later.nef"));
+  static_cast<void>(here.write("bars.txt", bars() + "file(\"later.nef\")\n"));
+  here.stop_at_output("union --list bars.txt", "u.nef");
+  for (const auto& entry : fs::directory_iterator(here.path() / "u.nef.work")) {
+    if (entry.path().filename() != "job") fs::remove(entry.path());
+  }
   // What cannot be read where the result of a task is expected.
   const fs::path work = here.path() / "u.nef.work";
   fs::create_directories(work / "union-3.nef" / "in the way");
@@ -284,6 +300,44 @@ TEST_CASE("a union that fails is named, those that need it are left out, and the
   static_cast<void>(here.write("bars.txt", bars()));
   REQUIRE(here.ranks(1, "union --list bars.txt later.nef -o again.nef").code == 0);
   CHECK(here.read("u.nef") == here.read("again.nef"));
+}
+
+// Replaced files keep their time and size, which is what copies and archives do.
+TEST_CASE("a run goes on only from work that was made of the same inputs, whatever their times say") {
+  const Place here;
+  const auto replace = [&here](const std::string& name, const std::string& expression) {
+    const fs::path file = here.path() / name;
+    const bool old = fs::exists(file);
+    const auto time = old ? fs::last_write_time(file) : fs::file_time_type();
+    REQUIRE(here.run("nef", "eval '" + expression + "' --text -o '" + name + "'").code == 0);
+    if (old) fs::last_write_time(file, time);
+  };
+  const std::string before = "translate(box(0,0,0, 1,1,1), 0,0,-3)";
+  const std::string after = "translate(box(0,0,0, 1,1,1), 0,0,-4)";
+  static_cast<void>(
+      here.write("bars.txt", bars() + "box(-9,0,0, 1,1,1) + file(\"a#b.nef\")  # its name has a \"#\"\n"));
+  const auto check = [&](const std::string& job, const std::string& changed) {
+    CAPTURE(job, changed);
+    replace("part.nef", before);
+    replace("a#b.nef", before);
+    here.stop_at_output(job, "u.nef");
+    replace(changed, after);
+    REQUIRE(here.ranks(2, job + " -o u.nef").code == 0);
+    REQUIRE(here.ranks(1, job + " -o fresh.nef").code == 0);
+    CHECK(here.read("u.nef") == here.read("fresh.nef"));
+  };
+  check("union part.nef --list bars.txt", "a#b.nef");
+  check("union part.nef --list bars.txt", "part.nef");
+  check("minkowski part.nef a#b.nef", "a#b.nef");
+  // A folder of tiles is named, too.
+  replace("part.nef", before);
+  REQUIRE(here.run("nef", "convert part.nef -o part.tiles").code == 0);
+  here.stop_at_output("union part.tiles --list bars.txt", "u.nef");
+  replace("part.nef", after);
+  REQUIRE(here.run("nef", "convert part.nef -o part.tiles").code == 0);
+  REQUIRE(here.ranks(2, "union part.tiles --list bars.txt -o u.nef").code == 0);
+  REQUIRE(here.ranks(1, "union part.nef --list bars.txt -o fresh.nef").code == 0);
+  CHECK(here.read("u.nef") == here.read("fresh.nef"));
 }
 
 TEST_CASE("sums part by part are sums") {

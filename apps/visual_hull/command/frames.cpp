@@ -19,6 +19,7 @@
 #include "nef/base/in_quotes.h"
 #include "nef/base/threads/parallel.h"
 #include "nef/base/timing/stopwatch.h"
+#include "nef/io/content_hash.h"
 #include "nef/io/file_bytes.h"
 #include "nef/program/progress_bar.h"
 #include "nef/program/run_program.h"
@@ -31,30 +32,25 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-// Of the files of a folder and its subfolders: how many and when the last one was written. Other images make it
-// another value.
-std::string state_of(const fs::path& folder) {
-  std::size_t files = 0;
-  fs::file_time_type newest = fs::file_time_type::min();
-  std::error_code error;
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder, error)) {
-    if (!entry.is_regular_file(error)) continue;
-    ++files;
-    newest = std::max(newest, entry.last_write_time(error));
+// What tells the images of a folder, or other files, from those that stood there before: a hash of all that is in them.
+std::string state_of(const fs::path& path) {
+  try {
+    return nef::content_hash_of_file(path.string());
+  } catch (const nef::Error&) {
+    return "unreadable";
   }
-  return fmt::format("{} files, {}", files, newest.time_since_epoch().count());
 }
 
 // All that a hull depends on but its images.
 json settings_of(const Arguments& a) {
-  std::error_code error;
   const fs::path scene = fs::absolute(a.scene);
-  const auto written = fs::last_write_time(scene, error);
   json polygons = json::array();
-  for (const std::string& file : a.silhouettes) polygons.push_back(nef::utf8(file));
+  for (const std::string& argument : a.silhouettes) {
+    polygons.push_back({nef::utf8(argument), state_of(argument.substr(argument.find('=') + 1))});
+  }
   return {{"version", NEF_VERSION},
           {"scene", nef::utf8(scene.string())},
-          {"scene_written", error ? 0 : written.time_since_epoch().count()},
+          {"scene_content", state_of(scene)},
           {"simplify", a.simplify},
           {"outer", a.outer},
           {"manifold", a.manifold},

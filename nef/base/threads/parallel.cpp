@@ -22,8 +22,12 @@
 #include <exception>
 #include <limits>
 #include <mutex>
+#include <new>
+#include <string>
 #include <utility>
 #include <vector>
+
+#include "nef/base/error.h"
 
 namespace nef {
 
@@ -80,13 +84,21 @@ void run_on_threads(std::size_t count, unsigned threads, const std::function<voi
   const int cores = tbb::info::default_concurrency();
   const bool all = threads == 0 || threads > static_cast<unsigned>(cores);
   tbb::task_arena arena(all ? cores : static_cast<int>(threads));
-  arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
-      // A thread that waits inside the body could take up another call of this loop, and what stops or tells there
-      // would happen in the middle of this one; isolation keeps it from that.
-      tbb::this_task_arena::isolate([&] { body(i); });
+  try {
+    arena.execute([&] {
+      tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+        // A thread that waits inside the body could take up another call of this loop, and what stops or tells there
+        // would happen in the middle of this one; isolation keeps it from that.
+        tbb::this_task_arena::isolate([&] { body(i); });
+      });
     });
-  });
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& failure) {
+    // The body throws nothing, so this comes from oneTBB.
+    throw Error(std::string("threads could not be started (") + failure.what() +
+                "); use one (--threads 1), or raise the limits of processes and memory (ulimit -u, -v)");
+  }
 }
 
 #endif

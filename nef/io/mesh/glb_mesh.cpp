@@ -6,11 +6,13 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <set>
 
 #include "nef/base/in_quotes.h"
 #include "nef/export/nearest_float.h"
 #include "nef/io/binary_cursor.h"
 #include "nef/io/file_bytes.h"
+#include "nef/io/mesh/unfolding.h"
 #include "nef/io/number_text.h"
 #include "nef/mesh/surface/mesh_surface.h"
 #include "nef/mesh/vertex_merger.h"
@@ -25,7 +27,7 @@ constexpr std::uint32_t kMagic = 0x46546c67;  // "glTF"
 constexpr std::uint32_t kJsonChunk = 0x4e4f534a;
 constexpr std::uint32_t kBinaryChunk = 0x004e4942;
 enum ComponentType : int { kUint8 = 5121, kUint16 = 5123, kUint32 = 5125, kFloat = 5126 };
-enum PrimitiveMode : int { kTriangles = 4, kTriangleStrip = 5, kTriangleFan = 6 };
+enum PrimitiveMode : std::size_t { kTriangles = 4, kTriangleStrip = 5, kTriangleFan = 6 };
 
 class GlbReader {
  public:
@@ -33,23 +35,13 @@ class GlbReader {
     BinaryCursor header(bytes, path, 0, std::endian::little);
     if (header.take<std::uint32_t>("header") != kMagic) fail(FileProblem::kSyntax, "this is no binary glTF");
     if (header.take<std::uint32_t>("header") != 2) fail(FileProblem::kUnsupported, "only version 2 of glTF is read");
-    std::size_t position = 12;  // after the length of the file
-    while (position + 8 <= bytes.size()) {
-      BinaryCursor cursor(bytes, path, position, std::endian::little);
-      const auto length = cursor.take<std::uint32_t>("chunk");
-      const auto type = cursor.take<std::uint32_t>("chunk");
-      position += 8;
-      if (cursor.left() < length)
-        fail(FileProblem::kTruncated, "the file ends in the middle of a chunk; it is cut off");
-      const std::string_view chunk = bytes.substr(position, length);
-      if (type == kJsonChunk && document_.is_null()) {
-        document_ = Json::parse(chunk, nullptr, false);
-        if (document_.is_discarded()) fail(FileProblem::kSyntax, "the JSON in it is not valid");
-      } else if (type == kBinaryChunk && binary_.empty()) {
-        binary_ = chunk;
-      }
-      position += length;
+    const auto size = header.take<std::uint32_t>("header");
+    if (size != bytes.size()) {
+      fail(size > bytes.size() ? FileProblem::kTruncated : FileProblem::kWrongCount,
+           "its header says that it has " + std::to_string(size) + " bytes, but it has " +
+               std::to_string(bytes.size()) + "; it is cut off or damaged");
     }
+    for (std::size_t position = 12; position < bytes.size();) position += read_chunk(bytes, position);
     if (!document_.is_object()) fail(FileProblem::kSyntax, "there is no JSON in it");
   }
 
@@ -67,6 +59,53 @@ class GlbReader {
     throw FileError(problem, path_ + ": " + what);
   }
 
+  // Returns the bytes of the chunk that begins there.
+  std::size_t read_chunk(std::string_view bytes, std::size_t position) {
+    constexpr std::size_t kHead = 8;
+    BinaryCursor cursor(bytes, path_, position, std::endian::little);
+    const auto length = cursor.take<std::uint32_t>("chunk");
+    const auto type = cursor.take<std::uint32_t>("chunk");
+    if (cursor.left() < length) fail(FileProblem::kTruncated, "the file ends in the middle of a chunk; it is cut off");
+    const std::string_view chunk = bytes.substr(position + kHead, length);
+    if (type == kJsonChunk && document_.is_null()) {
+      document_ = Json::parse(chunk, nullptr, false);
+      if (document_.is_discarded()) fail(FileProblem::kSyntax, "the JSON in it is not valid");
+    } else if (type == kBinaryChunk && binary_.empty()) {
+      binary_ = chunk;
+    }
+    return kHead + length;
+  }
+
+  // Integers are spelled without a point or an exponent; conversions of the library round, wrap around or do as if
+  // true were 1.
+  [[nodiscard]] std::size_t integer(const Json& value, const char* what) const {
+    if (!value.is_number_unsigned()) {
+      fail(FileProblem::kSyntax, std::string("a '") + what + "' in its JSON is no integer from 0 on; it is damaged");
+    }
+    return value.get<std::size_t>();
+  }
+  [[nodiscard]] std::size_t integer_in(const Json& object, const char* key) const {
+    return integer(object.at(key), key);
+  }
+  [[nodiscard]] std::size_t integer_in(const Json& object, const char* key, std::size_t usual) const {
+    return object.contains(key) ? integer(object[key], key) : usual;
+  }
+
+  // An array, of so many values if that is said.
+  [[nodiscard]] const Json& array_of(const Json& value, const char* what, std::size_t count = 0) const {
+    if (!value.is_array() || (count != 0 && value.size() != count)) {
+      fail(FileProblem::kSyntax, std::string("'") + what + "' in its JSON is no list" +
+                                     (count == 0 ? "" : " of " + std::to_string(count) + " numbers") +
+                                     "; it is damaged");
+    }
+    return value;
+  }
+  // The empty array if there is none.
+  [[nodiscard]] const Json& array_in(const Json& object, const char* key) const {
+    static const Json kNone = Json::array();
+    return object.contains(key) ? array_of(object[key], key) : kNone;
+  }
+
   [[nodiscard]] const Json& item(const char* list, std::size_t index) const {
     const auto found = document_.find(list);
     if (found == document_.end() || !found->is_array() || index >= found->size()) {
@@ -77,7 +116,7 @@ class GlbReader {
   }
 
   void walk_all() {
-    for (const Json& extension : document_.value("extensionsRequired", Json::array())) {
+    for (const Json& extension : array_in(document_, "extensionsRequired")) {
       fail(FileProblem::kUnsupported, "it needs the extension " + in_quotes(extension.get<std::string>()));
     }
     // z up here, y up there.
@@ -86,24 +125,31 @@ class GlbReader {
     upright.linear[1][2] = -1;
     upright.linear[2][1] = 1;
     if (document_.contains("scenes")) {
-      const Json& scene = item("scenes", document_.value("scene", std::size_t{0}));
-      for (const Json& node : scene.value("nodes", Json::array())) walk(node.get<std::size_t>(), upright, 0);
+      placed_nodes_.resize(array_in(document_, "nodes").size(), false);
+      const Json& scene = item("scenes", integer_in(document_, "scene", 0));
+      for (const Json& node : array_in(scene, "nodes")) walk(integer(node, "node"), upright, 0);
       return;
     }
-    for (std::size_t m = 0; m < document_.value("meshes", Json::array()).size(); ++m) add_mesh(m, upright);
+    for (std::size_t m = 0; m < array_in(document_, "meshes").size(); ++m) add_mesh(m, upright);
   }
 
+  // Nodes are trees: those of one scene are placed once each.
   void walk(std::size_t index, const AffineMap& above, int depth) {
     constexpr int kDeepest = 200;
     if (depth > kDeepest) fail(FileProblem::kUnsupported, "its nodes are nested too deeply");
     const Json& node = item("nodes", index);
+    if (placed_nodes_[index]) {
+      fail(FileProblem::kSyntax, "node " + std::to_string(index) +
+                                     " is named twice in the tree of nodes, where glTF allows one parent; copy it");
+    }
+    placed_nodes_[index] = true;
     const AffineMap here = above.after(placement(node));
-    if (node.contains("mesh")) add_mesh(node["mesh"].get<std::size_t>(), here);
-    for (const Json& child : node.value("children", Json::array())) walk(child.get<std::size_t>(), here, depth + 1);
+    if (node.contains("mesh")) add_mesh(integer_in(node, "mesh"), here);
+    for (const Json& child : array_in(node, "children")) walk(integer(child, "child"), here, depth + 1);
   }
 
   [[nodiscard]] Rational number(const Json& value) const {
-    const double x = value.get<double>();
+    const double x = value.is_number() ? value.get<double>() : std::nan("");
     if (!std::isfinite(x)) fail(FileProblem::kNotANumber, "a transformation has a number that is not finite");
     return exact_rational(x);
   }
@@ -111,22 +157,24 @@ class GlbReader {
   [[nodiscard]] AffineMap placement(const Json& node) const {
     AffineMap p = AffineMap::identity();
     if (node.contains("matrix")) {
-      const Json& m = node["matrix"];  // column by column
+      const Json& m = array_of(node["matrix"], "matrix", 16);  // column by column
       for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t k = 0; k < 3; ++k) p.linear[i][k] = number(m.at(4 * k + i));
         p.translation[i] = number(m.at(12 + i));
       }
       return p;
     }
-    if (node.contains("rotation")) p.linear = rotation(node["rotation"]);
+    if (node.contains("rotation")) p.linear = rotation(array_of(node["rotation"], "rotation", 4));
     if (node.contains("scale")) {
+      const Json& scale = array_of(node["scale"], "scale", 3);
       for (std::size_t k = 0; k < 3; ++k) {
-        const Rational factor = number(node["scale"].at(k));
+        const Rational factor = number(scale[k]);
         for (std::size_t i = 0; i < 3; ++i) p.linear[i][k] *= factor;
       }
     }
     if (node.contains("translation")) {
-      for (std::size_t i = 0; i < 3; ++i) p.translation[i] = number(node["translation"].at(i));
+      const Json& translation = array_of(node["translation"], "translation", 3);
+      for (std::size_t i = 0; i < 3; ++i) p.translation[i] = number(translation[i]);
     }
     return p;
   }
@@ -159,6 +207,27 @@ class GlbReader {
     int type = 0;
   };
 
+  [[nodiscard]] int component_type(const Json& accessor) const {
+    for (const int known : {kUint8, kUint16, kUint32, kFloat}) {
+      if (integer_in(accessor, "componentType") == static_cast<std::size_t>(known)) return known;
+    }
+    fail(FileProblem::kUnsupported, "its numbers are neither floats nor unsigned integers");
+  }
+
+  // The bytes of the buffer of a view: the binary chunk but for what fills it up.
+  [[nodiscard]] std::size_t buffer_size(const Json& view) const {
+    const Json& buffer = item("buffers", integer_in(view, "buffer"));
+    if (integer_in(view, "buffer") != 0 || buffer.contains("uri")) {
+      fail(FileProblem::kUnsupported, "its numbers are in another file");
+    }
+    const std::size_t size = integer_in(buffer, "byteLength");
+    if (size > binary_.size()) {
+      fail(FileProblem::kWrongCount, "its buffer is said to have " + std::to_string(size) + " bytes, but there are " +
+                                         std::to_string(binary_.size()) + "; it is damaged");
+    }
+    return size;
+  }
+
   // Its elements have `components` numbers of at most four bytes.
   [[nodiscard]] Accessor accessor(std::size_t index, const char* type, std::size_t components) const {
     const Json& json = item("accessors", index);
@@ -166,21 +235,18 @@ class GlbReader {
       fail(FileProblem::kUnsupported, "accessor " + std::to_string(index) + " is sparse, empty or of an unusual type");
     }
     Accessor result;
-    result.type = json.at("componentType").get<int>();
-    result.count = json.at("count").get<std::size_t>();
+    result.type = component_type(json);
+    result.count = integer_in(json, "count");
     const std::size_t size = components * (result.type == kUint8 ? 1 : result.type == kUint16 ? 2 : 4);
-    const Json& view = item("bufferViews", json.at("bufferView").get<std::size_t>());
-    const std::size_t buffer = view.at("buffer").get<std::size_t>();
-    if (buffer != 0 || item("buffers", buffer).contains("uri")) {
-      fail(FileProblem::kUnsupported, "its numbers are in another file");
-    }
-    result.stride = view.value("byteStride", size);
-    const std::size_t first = json.value("byteOffset", std::size_t{0});
-    const std::size_t view_first = view.value("byteOffset", std::size_t{0});
-    const std::size_t view_size = view.at("byteLength").get<std::size_t>();
+    const Json& view = item("bufferViews", integer_in(json, "bufferView"));
+    const std::size_t buffer = buffer_size(view);
+    result.stride = integer_in(view, "byteStride", size);
+    const std::size_t first = integer_in(json, "byteOffset", 0);
+    const std::size_t view_first = integer_in(view, "byteOffset", 0);
+    const std::size_t view_size = integer_in(view, "byteLength");
     constexpr std::size_t kMost = std::size_t{1} << 32U;  // a file holds no more, and sums do not overflow
-    const bool fits = result.count < kMost && result.stride < 256 && first < kMost && view_first < kMost &&
-                      view_size < kMost && view_first + view_size <= binary_.size() &&
+    const bool fits = result.count < kMost && result.stride >= size && result.stride < 256 && first < kMost &&
+                      view_first < kMost && view_size < kMost && view_first + view_size <= buffer &&
                       (result.count == 0 || first + (result.count - 1) * result.stride + size <= view_size);
     if (!fits) fail(FileProblem::kTruncated, "accessor " + std::to_string(index) + " reaches beyond its buffer");
     result.bytes = binary_.substr(view_first + first);
@@ -193,13 +259,15 @@ class GlbReader {
     return cursor.take<T>("number");
   }
 
-  [[nodiscard]] std::vector<std::uint32_t> indices(const Json& primitive, std::size_t vertices) const {
+  [[nodiscard]] std::vector<std::uint32_t> indices(const Json& primitive, std::size_t vertices) {
     std::vector<std::uint32_t> result;
     if (!primitive.contains("indices")) {
       for (std::uint32_t i = 0; i < vertices; ++i) result.push_back(i);
       return result;
     }
-    const Accessor list = accessor(primitive["indices"].get<std::size_t>(), "SCALAR", 1);
+    const Accessor list = accessor(integer_in(primitive, "indices"), "SCALAR", 1);
+    if (list.type == kFloat) fail(FileProblem::kUnsupported, "its indices are floats");
+    place(integer_in(primitive, "indices"), list.count);
     for (std::size_t i = 0; i < list.count; ++i) {
       const std::uint32_t index = list.type == kUint8    ? value<std::uint8_t>(list, i, 0)
                                   : list.type == kUint16 ? value<std::uint16_t>(list, i, 0)
@@ -214,16 +282,24 @@ class GlbReader {
   }
 
   void add_mesh(std::size_t index, const AffineMap& placement) {
-    for (const Json& primitive : item("meshes", index).at("primitives")) {
-      const int mode = primitive.value("mode", int{kTriangles});
+    for (const Json& primitive : array_of(item("meshes", index).at("primitives"), "primitives")) {
+      const std::size_t mode = integer_in(primitive, "mode", kTriangles);
       if (mode != kTriangles && mode != kTriangleStrip && mode != kTriangleFan) continue;  // points and lines
       add_primitive(primitive, mode, placement);
     }
   }
 
-  void add_primitive(const Json& primitive, int mode, const AffineMap& placement) {
-    const Accessor positions = accessor(primitive.at("attributes").at("POSITION").get<std::size_t>(), "VEC3", 3);
+  // Takes note that the elements of an accessor are read, maybe once more.
+  void place(std::size_t index, std::size_t count) {
+    if (known_accessors_.insert(index).second) unfolding_.add_stored(count);
+    unfolding_.add_placed(count);
+  }
+
+  void add_primitive(const Json& primitive, std::size_t mode, const AffineMap& placement) {
+    const Json& attributes = primitive.at("attributes");
+    const Accessor positions = accessor(integer_in(attributes, "POSITION"), "VEC3", 3);
     if (positions.type != kFloat) fail(FileProblem::kUnsupported, "its positions are no floats");
+    place(integer_in(attributes, "POSITION"), positions.count);
     std::vector<std::uint32_t> vertex;
     for (std::size_t v = 0; v < positions.count; ++v) {
       Rational3 point;
@@ -248,6 +324,9 @@ class GlbReader {
   const std::string& path_;
   Json document_;
   std::string_view binary_;
+  std::vector<bool> placed_nodes_;
+  std::set<std::size_t> known_accessors_;
+  Unfolding unfolding_{path_};
   Mesh mesh_;
   VertexMerger merger_{mesh_.vertices};
 };

@@ -9,6 +9,7 @@
 
 #include "nef/base/in_quotes.h"
 #include "nef/io/file_bytes.h"
+#include "nef/io/mesh/unfolding.h"
 #include "nef/io/mesh/xml_events.h"
 #include "nef/io/number_text.h"
 #include "nef/io/text_cursor.h"
@@ -192,19 +193,11 @@ class ModelReader {
     const auto found = parts_.find(name);
     if (found != parts_.end()) return found->second;
     const ArchivePart& result = parts_.emplace(name, PartReader(archive_, path_, name).take()).first->second;
-    for (const auto& [id, object] : result.objects) stored_ += object.triangles.size();
+    for (const auto& [id, object] : result.objects) unfolding_.add_stored(items_in(object));
     return result;
   }
 
-  // Components nest, so few objects can mean a great many.
-  void count(std::size_t triangles) {
-    constexpr std::size_t kAlways = 1000000;
-    constexpr std::size_t kMostCopies = 1000;
-    placed_ += triangles + 1;
-    if (placed_ > kAlways && placed_ > kMostCopies * stored_) {
-      fail(FileProblem::kUnsupported, "its components unfold to more than a thousand copies of everything in it");
-    }
-  }
+  static std::size_t items_in(const Object& object) { return object.vertices.size() + object.triangles.size(); }
 
   void place(const Use& use, const AffineMap& outer, int depth) {
     constexpr int kDeepest = 100;
@@ -216,7 +209,7 @@ class ModelReader {
     }
     const Object& object = found->second;
     if (!object.counts) return;
-    count(object.triangles.size());
+    unfolding_.add_placed(items_in(object));
     const AffineMap placement = outer.after(use.placement);
     add(object, placement);
     for (const Use& component : object.components) place(component, placement, depth + 1);
@@ -237,8 +230,7 @@ class ModelReader {
   const std::string& path_;
   ZipArchive archive_;
   std::map<std::string, ArchivePart> parts_;  // by name with a slash in front
-  std::size_t stored_ = 0;                    // triangles in all parts read
-  std::size_t placed_ = 0;                    // triangles and objects placed
+  Unfolding unfolding_{path_};
   Mesh mesh_;
   VertexMerger merger_{mesh_.vertices};
 };

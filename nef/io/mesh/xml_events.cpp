@@ -12,6 +12,9 @@ namespace nef {
 namespace {
 
 constexpr char kSeparator = '|';
+// Bytes of one tag, comment or the like. Expat looks at an unfinished one from its beginning whenever a piece is added,
+// so long ones would take quadratic time.
+constexpr std::size_t kLongestToken = std::size_t{1} << 20U;
 
 std::string local_name(const char* name) {
   const std::string text = name;
@@ -30,6 +33,7 @@ struct XmlEvents::State {
   std::map<std::string, std::string> uris;  // of prefixes, whatever their scope
   std::exception_ptr thrown;                // by a function; no exception may go through the C code of expat
   bool document_type = false;
+  std::size_t parsed = 0;  // bytes
 
   template <typename Function>
   void guard(Function&& function) {
@@ -97,6 +101,11 @@ void XmlEvents::parse(std::string_view piece, bool last) {
   if (status == XML_STATUS_ERROR) {
     throw FileError(FileProblem::kSyntax,
                     place() + ": this is no XML: " + XML_ErrorString(XML_GetErrorCode(state_->parser)));
+  }
+  state_->parsed += piece.size();
+  const XML_Index token = XML_GetCurrentByteIndex(state_->parser);
+  if (token >= 0 && state_->parsed - static_cast<std::size_t>(token) > kLongestToken) {
+    throw FileError(FileProblem::kUnsupported, place() + ": a tag, an attribute or a comment of more than 1 MiB");
   }
 }
 

@@ -21,7 +21,8 @@ struct XmlElement {
   [[nodiscard]] const std::string* find(std::string_view attribute) const;
 };
 
-/// Parses a document that comes in pieces. Documents with a document type, which may define entities, are refused.
+/// Parses a document that comes in pieces. Refuses documents with a document type, which may define entities, and those
+/// with a tag or a comment of more than 1 MiB.
 class XmlEvents {
  public:
   using Open = std::function<void(const XmlElement&)>;

@@ -98,9 +98,10 @@ class ExpressionEvaluator {
       case Term::kHullOfSets:
         return convex_hull_of_sets(sets, options_.monitor);
       case Term::kSphere:
-        return make_sphere(n[0], corners_of(n, 1), options_.monitor);
+        return make_sphere(n[0], corners_of(n, 1, kMostCornersOfBall), options_.monitor);
       case Term::kCylinder:
-        return make_cylinder(n[0], n[1], n.size() > 2 ? n[2] : n[1], corners_of(n, 3), options_.monitor);
+        return make_cylinder(n[0], n[1], n.size() > 2 ? n[2] : n[1], corners_of(n, 3, kMostCornersOfCircle),
+                             options_.monitor);
       case Term::kPolygon:
         return make_polygon(node.rings, options_.monitor);
       case Term::kTranslate:
@@ -116,11 +117,13 @@ class ExpressionEvaluator {
   }
 
   // The number of corners of a round shape, if it is given.
-  static unsigned corners_of(std::span<const Rational> numbers, std::size_t at) {
+  static unsigned corners_of(std::span<const Rational> numbers, std::size_t at, unsigned most) {
     constexpr unsigned kUsual = 32;
     if (numbers.size() <= at) return kUsual;
     const Rational& n = numbers[at];
-    if (n.get_den() != 1 || n < 3 || n > 100000) throw InputError("the number of corners is one from 3 to 100000");
+    if (n.get_den() != 1 || n < 3 || n > most) {
+      throw InputError("the number of corners is one from 3 to " + std::to_string(most));
+    }
     return static_cast<unsigned>(n.get_num().get_ui());
   }
 
@@ -203,11 +206,24 @@ class ExpressionEvaluator {
   std::vector<Polyhedron> variables_;
 };
 
+void collect_files(const SyntaxNode& node, std::vector<std::string>& files) {
+  if (node.term == Term::kFile) files.push_back(node.path);
+  for (const SyntaxNode& child : node.sets) collect_files(child, files);
+}
+
 }  // namespace
 
 Polyhedron evaluate_expression(std::string_view text, const ExpressionOptions& options) {
   return ExpressionEvaluator(text, options)(parse_expression(text));
 }
+
+std::vector<std::string> files_of_expression(std::string_view text) {
+  std::vector<std::string> files;
+  collect_files(parse_expression(text), files);
+  return files;
+}
+
+bool is_blank_expression(std::string_view text) { return ExpressionScanner(text).peek() == '\0'; }
 
 Polyhedron convex_hull_of_sets(std::span<const Polyhedron> sets, const Monitor& monitor) {
   std::vector<Rational3> points;

@@ -22,16 +22,15 @@
 //   number   := product (('+' | '-') product)*           with '*', '/', parentheses, '-' in front, and variables
 //
 // Numbers are exact: 3, -0.1 (a tenth), 1e-3, 22/7. Wherever numbers are listed, some may stand in brackets: [x,y,z].
-// Round shapes have 32 corners around if nothing is said. The hull of bounded sets is closed; that of others
-// has their marks.
-// Operators of one line associate to the left.
-// Rings after ';' in a polygon are holes (or further pieces) by parity. '#' begins a comment that
-// ends with its line.
+// Round shapes have 32 corners around if nothing is said, a sphere at most 4000, others 100000. The hull of bounded
+// sets is closed; that of others has their marks. Operators of one line associate to the left. Rings after ';' in a
+// polygon are holes (or further pieces) by parity. '#' begins a comment that ends with its line.
 #pragma once
 
 #include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "nef/base/error.h"
 #include "nef/base/monitor.h"
@@ -39,6 +38,10 @@
 #include "nef/polyhedron.h"
 
 namespace nef {
+
+/// The most corners around that texts may ask for: balls have their square, other shapes as many vertices.
+inline constexpr unsigned kMostCornersOfBall = 4000;
+inline constexpr unsigned kMostCornersOfCircle = 100000;
 
 /// What is wrong with an expression, and where. what() is "column C: ..." ("line L, column C: ..."
 /// from the second line on).
@@ -73,6 +76,13 @@ struct ExpressionOptions {
 /// ExpressionError for a wrong expression and for arguments that make no set (a polygon that is
 /// not planar, say); errors of `load` pass through.
 Polyhedron evaluate_expression(std::string_view text, const ExpressionOptions& options = {});
+
+/// The paths of the files that an expression names, as they stand in it, in their order; one path may occur often.
+/// Throws ExpressionError for a wrong expression.
+std::vector<std::string> files_of_expression(std::string_view text);
+
+/// Whether a text has nothing but white space and comments.
+bool is_blank_expression(std::string_view text);
 
 /// The closed convex hull of the union of sets. Throws InputError if one is unbounded. O(n log n) expected.
 Polyhedron convex_hull_of_sets(std::span<const Polyhedron> sets, const Monitor& monitor = {});

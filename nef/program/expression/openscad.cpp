@@ -61,7 +61,7 @@ class ModelEvaluator {
     if (name == "sphere") {
       const Rational r = number(node, "r", 0, 1);
       if (r <= 0) return nothing(node, "its radius is " + brief_text(r));
-      return {3, make_sphere(r, corners(node, r), options_.monitor)};
+      return {3, make_sphere(r, corners(node, r, kMostCornersOfBall), options_.monitor)};
     }
     if (name == "cylinder") return cylinder(node);
     if (name == "polyhedron") return polyhedron(node);
@@ -144,12 +144,17 @@ class ModelEvaluator {
     return result;
   }
 
-  // How many corners a circle of this radius has.
-  static unsigned corners(const OpenScadNode& node, const Rational& radius) {
+  // How many corners a circle of this radius has. A few characters can ask for more than any memory holds.
+  static unsigned corners(const OpenScadNode& node, const Rational& radius, unsigned most = kMostCornersOfCircle) {
     constexpr std::size_t kNowhere = static_cast<std::size_t>(-1);  // these have names always
-    return openscad_fragments(nearest_double(radius), nearest_double(number(node, "$fn", kNowhere, 0)),
-                              nearest_double(number(node, "$fa", kNowhere, 12)),
-                              nearest_double(number(node, "$fs", kNowhere, 2)));
+    const unsigned count = openscad_fragments(nearest_double(radius), nearest_double(number(node, "$fn", kNowhere, 0)),
+                                              nearest_double(number(node, "$fa", kNowhere, 12)),
+                                              nearest_double(number(node, "$fs", kNowhere, 2)));
+    if (count > most) {
+      throw InputError(std::to_string(count) + " corners around ($fn, $fa, $fs) are more than the " +
+                       std::to_string(most) + " that are made");
+    }
+    return count;
   }
 
   // Combinations.
@@ -408,8 +413,8 @@ class ModelEvaluator {
       }
     }
     if (left && right) throw InputError("all points must have the same sign of x");
-    const std::vector<std::array<Rational, 2>> directions =
-        directions_around(number(node, "angle", static_cast<std::size_t>(-1), 360), corners(node, widest));
+    const std::vector<std::array<Rational, 2>> directions = directions_around(
+        number(node, "angle", static_cast<std::size_t>(-1), 360), corners(node, widest, kMostCornersOfBall));
     std::vector<Polyhedron> wedges;
     for (std::size_t i = 0; i + 1 < directions.size(); ++i) {
       for (const auto& triangle : flat) {

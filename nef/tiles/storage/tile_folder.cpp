@@ -25,7 +25,6 @@ namespace {
 namespace fs = std::filesystem;
 using Kind = TileNode::Kind;
 
-constexpr const char* kIndex = "index";
 constexpr std::int64_t kVersion = 1;
 constexpr std::string_view kAxes = "xyz";
 
@@ -56,7 +55,7 @@ class FolderWriter {
     index_ = "nef-tiles " + std::to_string(kVersion) + "\nlimit " + std::to_string(set.tiling().limit) + "\n";
     add(set.tree());
     index_ += "end " + hash_of(index_) + "\n";
-    write_file((folder_ / kIndex).string(), index_);
+    write_file((folder_ / kTileFolderIndex).string(), index_);
     remove_others(set.tiling().store.get());
   }
 
@@ -122,7 +121,7 @@ class FolderReader {
  public:
   FolderReader(fs::path folder, Tiling tiling, const Monitor& monitor)
       : folder_(std::move(folder)),
-        path_((folder_ / kIndex).string()),
+        path_((folder_ / kTileFolderIndex).string()),
         bytes_(read_file(path_)),
         cursor_(bytes_, path_),
         tiling_(std::move(tiling)),

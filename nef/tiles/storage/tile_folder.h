@@ -25,6 +25,8 @@ namespace nef {
 
 /// The extension of such folders, without a dot.
 inline constexpr const char* kTileFolderExtension = "tiles";
+/// The file in such a folder that names all others by their content.
+inline constexpr const char* kTileFolderIndex = "index";
 
 /// True if the path has that extension.
 bool names_tile_folder(const std::string& path);

@@ -4,13 +4,10 @@
 #include <fcntl.h>
 #include <sys/file.h>
 #include <unistd.h>
-#define XXH_INLINE_ALL
-#include <xxhash.h>
 
-#include <array>
-#include <cstdio>
 #include <utility>
 
+#include "nef/io/content_hash.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/native/native_binary.h"
 
@@ -56,13 +53,7 @@ TileFile::~TileFile() {
 
 std::string TileFile::name() const { return hash_part(path_) + kExtension; }
 
-std::string tile_file_name(std::string_view bytes) {
-  const XXH128_hash_t hash = XXH3_128bits(bytes.data(), bytes.size());
-  std::array<char, kDigits + 1> digits{};
-  std::snprintf(digits.data(), digits.size(), "%016llx%016llx", static_cast<unsigned long long>(hash.high64),
-                static_cast<unsigned long long>(hash.low64));
-  return std::string(digits.data()) + kExtension;
-}
+std::string tile_file_name(std::string_view bytes) { return content_hash(bytes) + kExtension; }
 
 Polyhedron read_tile(const fs::path& path, const Monitor& monitor) {
   const std::string bytes = read_file(path.string());

@@ -151,6 +151,11 @@ TEST_CASE("3MF: damaged and malicious files are refused", "[threemf]") {
 
 TEST_CASE("3MF: archives and components that explode are refused", "[threemf]") {
   check_refused(archive("<model>" + std::string(std::size_t{70} << 20U, ' ') + "</model>"), "suspiciously large");
+  // An attribute that takes quadratic time.
+  const std::string many(std::size_t{8} << 20U, '1');
+  check_refused(archive(model(object("1", kTetrahedron, "name='" + many + "'"), "<item objectid='1'/>")),
+                "more than 1 MiB");
+  check_refused(archive("<model><!--" + many + "--></model>"), "more than 1 MiB");
   // Ten to the power of twenty tetrahedra.
   std::string objects = object("0", kTetrahedron);
   for (int i = 1; i <= 20; ++i) {

@@ -24,7 +24,7 @@ using Ring = std::vector<std::uint32_t>;
 
 class DirtyMesh {
  public:
-  explicit DirtyMesh(const Case& the_case) : case_(the_case), choices_(the_case.choices()) {}
+  explicit DirtyMesh(Choices& choices) : choices_(choices) {}
 
   Mesh make() {
     for (std::uint32_t parts = 1 + choices_.below(2); parts > 0; --parts) add_part();
@@ -229,7 +229,6 @@ class DirtyMesh {
     for (Rational3& v : vertices_) v = {(v[0] + shear * v[2]) * by, v[1] * by, v[2] * by};
   }
 
-  const Case& case_;
   Choices& choices_;
   std::vector<Rational3> vertices_;
   std::vector<Ring> rings_;
@@ -415,7 +414,7 @@ class DirtyCase {
 }  // namespace
 
 void fuzz_dirty(const Case& the_case) {
-  Mesh mesh = DirtyMesh(the_case).make();
+  Mesh mesh = DirtyMesh(the_case.choices()).make();
   MeshWriteOptions exact;
   exact.exact = true;
   const bool stl = the_case.choices().one_in(4);

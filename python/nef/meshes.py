@@ -6,7 +6,6 @@ import numpy
 
 from . import _nef
 from ._nef import Polyhedron
-from .errors import InputError
 
 
 def _arrays_of(mesh):
@@ -71,7 +70,8 @@ def from_mesh(vertices: Any, faces: Any = None, *, strict: bool = False, surface
       together they are looked for nevertheless; others may go unseen and give a set that means nothing
 
     A mesh that touches itself is legal; one without vertices and faces is the empty set (which a warning tells). Raises
-    InputError for one that is open, inconsistently oriented or crosses itself, or has vertices but no faces; its `vertices`, `edges` and `faces` hold the guilty elements.
+    InputError for one that is open, inconsistently oriented or crosses itself, or has vertices but no faces; its
+    `vertices`, `edges` and `faces` hold the guilty elements.
     """
     if faces is None:
         vertices, faces = _arrays_of(vertices)

@@ -3,7 +3,6 @@
 // Meshes to solids, in three steps of which each takes what the one before has made: mesh -> checked surface -> solid.
 // The check merges equal vertices and cuts faces into triangles; a clean surface becomes a solid by drawing each
 // vertex's sphere map from the corners of the faces around it, one in contact by winding numbers.
-#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <deque>
 
+#include "nef/base/fast_path.h"
 #include "nef/base/threads/parallel.h"
 #include "nef/boolean/pyramid_overlay.h"
 #include "nef/boolean/result_assembly.h"
@@ -93,7 +94,7 @@ class ComplexOverlay {
     overlaid_.reset();
     if ((a.has_box() || b.has_box()) && builder.has_idle_box()) return builder.finish(outer, threads_);
     std::optional<KnownLinks> known;
-    if (result_.is_mostly_copies()) {
+    if (kFastPaths && result_.is_mostly_copies()) {
       known = copied_links(builder.so_far(), result_.origins(), {&a, &b}, found.contacts, threads_, monitor_);
     }
     found = {};

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "nef/base/error.h"
+#include "nef/base/fast_path.h"
 #include "nef/boolean/overlay_complexes.h"
 #include "nef/construct/plain_ring.h"
 #include "nef/location/query_structure.h"
@@ -66,7 +67,7 @@ class SolidBuilder {
     for (std::uint32_t v = 0; v < f_.points.size(); ++v) {
       const std::span<const FaceCorner> corners = std::span(corners_).subspan(first_[v], first_[v + 1] - first_[v]);
       if (corners.empty()) continue;
-      if (maps_ == SphereMaps::kRead && ring.read(v, corners)) {
+      if (kFastPaths && maps_ == SphereMaps::kRead && ring.read(v, corners)) {
         if (const VertexId like = ring.like(); like.valid()) {
           result.append_like(f_.points, PointId{v}, like, ring.planes());
           continue;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "nef/geometry/occupancy_grid.h"
+#include "nef/base/fast_path.h"
 
 #include <cmath>
 
@@ -55,6 +56,7 @@ void OccupancyGrid::mark(const CellRange& box) {
 }
 
 bool OccupancyGrid::touches(const CellRange& box) const {
+  if (!kFastPaths) return true;
   const std::uint64_t cells = bits(box);
   const std::size_t width = last_[1] + 1U;
   for (std::size_t z = box.first[2] - 1U; z < box.last[2]; ++z) {

@@ -7,6 +7,7 @@
 
 #include "nef/base/capacity.h"
 #include "nef/base/error.h"
+#include "nef/base/fast_path.h"
 #include "nef/number/int128.h"
 
 namespace nef {
@@ -40,6 +41,7 @@ bool small_fractions(const Rational3& point, std::array<std::int64_t, 4>& h) {
 bool small_coefficients(const PlaneTable& planes, const std::array<PlaneId, 3>& plane,
                         std::array<std::array<std::int64_t, 4>, 3>& out) {
   constexpr std::int64_t kLimit = std::int64_t{1} << 40U;
+  if (!kFastPaths) return false;
   for (std::size_t i = 0; i < 3; ++i) {
     std::array<std::int64_t, 5> n{};
     if (!planes.small_coefficients(plane[i], n) || n[4] != 0) return false;

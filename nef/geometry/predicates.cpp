@@ -11,6 +11,8 @@
 #include <utility>
 
 #include "nef/base/error.h"
+#include "nef/geometry/direction_error.h"
+#include "nef/number/filter.h"
 #include "nef/number/int128.h"
 
 namespace nef {
@@ -27,7 +29,7 @@ int sign_with_infimaximal(mpz_srcptr constant, mpz_srcptr factor) {
 int side_of_plane_exact(const PlaneTable& planes, PlaneId plane, const PointTable& points, PointId point) {
   std::array<std::int64_t, 5> n{};
   std::array<std::int64_t, 7> x{};
-  if (planes.small_coefficients(plane, n) && points.small_coordinates(point, x)) {
+  if (kFastPaths && planes.small_coefficients(plane, n) && points.small_coordinates(point, x)) {
     // Four products below 2^124.
     Int128 constant = static_cast<Int128>(n[3]) * x[3];
     Int128 factor = static_cast<Int128>(n[4]) * x[3];
@@ -70,7 +72,7 @@ int compare_coordinate_exact(const PointTable& points, PointId p, PointId q, int
   const auto k = static_cast<std::size_t>(axis);
   std::array<std::int64_t, 7> a{};
   std::array<std::int64_t, 7> b{};
-  if (points.small_coordinates(p, a) && points.small_coordinates(q, b)) {
+  if (kFastPaths && points.small_coordinates(p, a) && points.small_coordinates(q, b)) {
     const auto difference = [&](std::size_t i) {
       return static_cast<Int128>(a[i]) * b[3] - static_cast<Int128>(b[i]) * a[3];
     };
@@ -88,15 +90,15 @@ int compare_coordinate_exact(const PointTable& points, PointId p, PointId q, int
 
 int side_of_plane(const PlaneTable& planes, PlaneId plane, const PointTable& points, PointId point,
                   const Monitor& monitor) {
-  const int sign = sign_by_ladder(approximate_form(planes.approximate(plane), points.approximate(point)), monitor,
-                                  [&] { return side_of_plane_exact(planes, plane, points, point); });
+  const int sign = sign_by_ladder(filtered(approximate_form(planes.approximate(plane), points.approximate(point))),
+                                  monitor, [&] { return side_of_plane_exact(planes, plane, points, point); });
   return plane.flipped() ? -sign : sign;
 }
 
 int compare_coordinate(const PointTable& points, PointId p, PointId q, int axis, const Monitor& monitor) {
   if (p == q) return 0;
   const auto k = static_cast<std::size_t>(axis);
-  return sign_by_ladder(approximate_difference(points.approximate(p)[k], points.approximate(q)[k]), monitor,
+  return sign_by_ladder(filtered(approximate_difference(points.approximate(p)[k], points.approximate(q)[k])), monitor,
                         [&] { return compare_coordinate_exact(points, p, q, axis); });
 }
 
@@ -133,13 +135,12 @@ Direction Direction::cross(const PlaneTable& planes, PlaneId p, PlaneId q) {
     result.approximate[i] = a[j] * b[k] - a[k] * b[j];
     largest = std::max(largest, std::fabs(result.approximate[i]));
   }
-  // Entries are below 1 in magnitude, so each of the two products is within 10u and their
-  // difference within 21u; 24u is safe. Where that is not small beside the vector itself (planes
-  // that are nearly parallel), the integers are worth their cost at once.
-  if (largest > 0x1p-20) {
+  // Where the error is not small beside the vector itself (planes that are nearly parallel), the integers are worth
+  // their cost at once.
+  if (largest > kLeastCross) {
     const double scale = (result.negative_ ? -1.0 : 1.0) / largest;
     for (double& value : result.approximate) value *= scale;
-    result.error = 26 * kUnit / largest;
+    result.error = (kCrossError + 2 * kUnit) / largest;
     return result;
   }
   static_cast<void>(result.integers());
@@ -236,7 +237,7 @@ int sign_of_dot(const Direction& u, const Direction& v, const Monitor& monitor) 
       u.approximate[0] * v.approximate[0] + u.approximate[1] * v.approximate[1] + u.approximate[2] * v.approximate[2];
   // Components are at most 1: a component's error e moves the sum by at most 3e (both at once by
   // the product of errors, far below), rounding by 3 products and 2 sums, under 8u.
-  return sign_by_ladder({value, 3.1 * (u.error + v.error) + 16 * kUnit}, monitor, [&] {
+  return sign_by_ladder(filtered({value, 3.1 * (u.error + v.error) + 16 * kUnit}), monitor, [&] {
     Integer sum;
     mpz_ptr s = sum.get_mpz_t();
     mpz_mul(s, at(u, 0), at(v, 0));
@@ -254,7 +255,7 @@ int sign_of_determinant(const Direction& u, const Direction& v, const Direction&
       a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
   // Components are at most 1, cofactors at most 2: an error e in one vector moves the value by at
   // most 6e; rounding: 6 terms of 3 operations and 5 sums, under 40u.
-  return sign_by_ladder({value, 6.2 * (u.error + v.error + w.error) + 64 * kUnit}, monitor, [&] {
+  return sign_by_ladder(filtered({value, 6.2 * (u.error + v.error + w.error) + 64 * kUnit}), monitor, [&] {
     Integer sum;
     Integer component;
     mpz_ptr s = sum.get_mpz_t();
@@ -283,7 +284,7 @@ bool same_direction(const Direction& u, const Direction& v, const Monitor& monit
   for (std::size_t i = 0; i < 3; ++i) {
     // Each side is within (error of component + error of the norm, relative) of its truth.
     const double difference = u.approximate[i] / lu - v.approximate[i] / lv;
-    if (std::fabs(difference) > 2.1 * (u.error / lu + v.error / lv) + 16 * kUnit) {
+    if (kFastPaths && std::fabs(difference) > 2.1 * (u.error / lu + v.error / lv) + 16 * kUnit) {
       monitor.count_filter();
       return false;
     }

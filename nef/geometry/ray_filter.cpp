@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "nef/geometry/ray_filter.h"
+#include "nef/base/fast_path.h"
 
 #include <cmath>
 #include <limits>
@@ -34,7 +35,7 @@ void RayFilter::cut(const Box& point) {
 
 bool RayFilter::may_meet(const Box& box) const {
   if (!box.overlaps(reach_)) return false;
-  if (axis_parallel_) return true;
+  if (!kFastPaths || axis_parallel_) return true;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3;
     if (sign_[i] != 0 && sign_[j] != 0 && !may_meet_projected(box, i, j)) return false;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "nef/base/fast_path.h"
 #include "nef/number/int128.h"
 
 namespace nef {
@@ -43,7 +44,7 @@ std::int64_t reduced_denominator(const PointTable& points, PointId point, std::s
 // from `first` on, as many as there is room for (of two, the second may be the first axis).
 void MeshPoints::difference(std::uint32_t a, std::uint32_t b, std::span<Integer> out, std::size_t first) const {
   if (Homogeneous from{}, to{};
-      source().small_coordinates(place(a), from) && source().small_coordinates(place(b), to)) {
+      kFastPaths && source().small_coordinates(place(a), from) && source().small_coordinates(place(b), to)) {
     for (std::size_t k = 0; k < out.size(); ++k) assign(out[k], short_difference(from, to, (first + k) % 3));
     return;
   }
@@ -231,7 +232,7 @@ void MeshPoints::find_margins(std::span<const std::uint32_t> asked) {
     for (std::size_t axis = 0; axis < 3; ++axis) largest[axis] = std::max(largest[axis], std::abs(p[axis]));
   }
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (!(largest[axis] < 1e100)) filter_ = false;
+    if (!kFastPaths || !(largest[axis] < 1e100)) filter_ = false;
     margin_[axis] = are_integers_ ? 0.0 : largest[axis] * 0x1p-50 + 1e-290;
   }
 }
@@ -355,8 +356,8 @@ int MeshPoints::orientation_along_exact(std::uint32_t a, std::uint32_t b, std::u
     const std::array<std::int64_t, 3> r = integers(c);
     return sign_of(static_cast<Int128>(q[i] - p[i]) * (r[j] - p[j]) - static_cast<Int128>(r[i] - p[i]) * (q[j] - p[j]));
   }
-  if (Homogeneous p{}, q{}, r{}; source().small_coordinates(place(a), p) && source().small_coordinates(place(b), q) &&
-                                 source().small_coordinates(place(c), r)) {
+  if (Homogeneous p{}, q{}, r{}; kFastPaths && source().small_coordinates(place(a), p) &&
+                                 source().small_coordinates(place(b), q) && source().small_coordinates(place(c), r)) {
     return compare_products(short_difference(p, q, i), short_difference(p, r, j), short_difference(p, r, i),
                             short_difference(p, q, j));
   }
@@ -405,7 +406,8 @@ int MeshPoints::compare(std::uint32_t a, std::uint32_t b, std::size_t axis) cons
 }
 
 int MeshPoints::compare_exact(std::uint32_t a, std::uint32_t b, std::size_t axis) const {
-  if (Homogeneous p{}, q{}; source().small_coordinates(place(a), p) && source().small_coordinates(place(b), q)) {
+  if (Homogeneous p{}, q{};
+      kFastPaths && source().small_coordinates(place(a), p) && source().small_coordinates(place(b), q)) {
     return sign_of(short_difference(q, p, axis));
   }
   Integer gap;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "nef/base/error.h"
+#include "nef/base/fast_path.h"
 #include "nef/base/threads/parallel.h"
 #include "nef/geometry/spatial_order.h"
 #include "nef/location/compare.h"
@@ -20,7 +21,7 @@ namespace {
 // A total order of the planes of one table.
 bool coefficients_less(const PlaneTable& planes, std::uint32_t a, std::uint32_t b) {
   if (std::array<std::int64_t, 5> p{}, q{};
-      planes.small_coefficients(PlaneId{a << 1U}, p) && planes.small_coefficients(PlaneId{b << 1U}, q)) {
+      kFastPaths && planes.small_coefficients(PlaneId{a << 1U}, p) && planes.small_coefficients(PlaneId{b << 1U}, q)) {
     return p < q;
   }
   for (std::size_t i = 0; i < 5; ++i) {
@@ -181,7 +182,8 @@ class Canonical {
     for_each_chunk([&](std::uint32_t first, std::uint32_t last, std::size_t chunk, const Monitor&) {
       std::vector<std::array<std::uint32_t, 2>> rows;  // that arrive at each svertex
       for (std::uint32_t i = first; i < last; ++i) {
-        if (const RingOfPattern* ring = this->ring(i); ring != nullptr && ring->names_lines(planes_of_pairs(i)))
+        if (const RingOfPattern* ring = kFastPaths ? this->ring(i) : nullptr;
+            ring != nullptr && ring->names_lines(planes_of_pairs(i)))
           continue;
         const SphereMapView map = this->map(i);
         rows.assign(map.svertices.size(), {kNone, kNone});
@@ -317,7 +319,7 @@ class Canonical {
         const std::span<HalfedgeId> numbers = numbers_of(v.part);
         const std::uint32_t old = complex(i).vertices.svertices(v.vertex).index();
         const PointRef p = point(i);
-        const RingOfPattern* ring = this->ring(i);
+        const RingOfPattern* ring = kFastPaths ? this->ring(i) : nullptr;
         if (ring != nullptr && !rings.read(*ring, planes_of_pairs(i), rows_of(v.part))) ring = nullptr;
         if (const CanonicalRings::Written* like = ring == nullptr ? nullptr : rings.known()) {
           part.append_like(*p.table, p.id, like->vertex, rings.planes());

@@ -15,6 +15,7 @@
 
 #include "nef/base/error.h"
 #include "nef/geometry/box_tree.h"
+#include "nef/geometry/direction_error.h"
 #include "nef/sphere_map/sphere_geometry.h"
 
 namespace nef {
@@ -29,8 +30,14 @@ std::array<double, 3> unit(const Direction& d) {
   return {d.approximate[0] / length, d.approximate[1] / length, d.approximate[2] / length};
 }
 
-// Direction errors are below 2^-30 (Direction::cross goes exact before), so this encloses them.
-constexpr double kSlack = 1e-8;
+// How far a box must reach beyond the double that stands for a direction. Let d be the vector of a direction's doubles,
+// t the true vector, both with a largest component of about 1, so of length 1 at least. Each component of d - t is at
+// most e = kMostDirectionError, and |d / |d| - t / |t|| <= 2 |d - t| / (|d| + |t|) (Dunkl and Williams), which is at
+// most sqrt(3) e for each point. The box of an arc is around the middle of a chord, off by sqrt(3) e, with half of the
+// chord's length, off by as much again: 2 sqrt(3) e in all, and a few roundings of 2^-53. (Directions from integers
+// have a largest component from 1/2 on, and errors of 2^-51.)
+constexpr double kSlack = 0x1p-26;
+static_assert(2 * 1.7321 * kMostDirectionError + 0x1p-48 < kSlack);
 
 Box box_around(const std::array<double, 3>& p, double radius) {
   Box box;

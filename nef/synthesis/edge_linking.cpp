@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "nef/base/defect.h"
+#include "nef/base/fast_path.h"
 #include "nef/base/threads/parallel.h"
 #include "nef/base/threads/shared_out.h"
 #include "nef/number/int128.h"
@@ -61,7 +62,7 @@ class LineTable {
     constexpr std::int64_t kLimit = std::int64_t{1} << 31U;
     std::array<std::int64_t, 5> a{};
     std::array<std::int64_t, 5> b{};
-    if (!planes.small_coefficients(p, a) || !planes.small_coefficients(q, b)) return false;
+    if (!kFastPaths || !planes.small_coefficients(p, a) || !planes.small_coefficients(q, b)) return false;
     const auto is_large = [](std::int64_t value) { return value >= kLimit || value <= -kLimit; };
     if (std::any_of(a.begin(), a.end(), is_large) || std::any_of(b.begin(), b.end(), is_large)) return false;
     std::array<std::int64_t, 9> line{};

@@ -8,6 +8,7 @@
 
 #include "nef/base/error.h"
 #include "nef/number/approximation.h"
+#include "nef/number/filter.h"
 
 namespace visual_hull {
 namespace {
@@ -76,7 +77,7 @@ int orientation(const Point2& a, const Point2& b, const Point2& c, const nef::Mo
   const double left = bx * cy;
   const double right = by * cx;
   const double determinant = left - right;
-  if (a.lattice && b.lattice && c.lattice) return determinant > 0 ? 1 : (determinant < 0 ? -1 : 0);
+  if (nef::kFastPaths && a.lattice && b.lattice && c.lattice) return determinant > 0 ? 1 : (determinant < 0 ? -1 : 0);
   // Every coordinate is off by at most u|x| (u = 2^-53), so a difference of two by at most
   // 3u(|x| + |y|) with its own rounding. With m the largest |coordinate| that is 6um, and each
   // factor is at most 2m(1 + 2u): a product is off by at most 2 * 6um * 2m + u * 4m^2 < 29um^2,
@@ -86,7 +87,7 @@ int orientation(const Point2& a, const Point2& b, const Point2& c, const nef::Mo
     largest = std::max({largest, std::abs(p->approximate[0]), std::abs(p->approximate[1])});
   }
   const bool moderate = largest > 1e-140 && largest < 1e140;
-  return nef::sign_by_ladder({determinant, moderate ? 0x1p-46 * largest * largest : HUGE_VAL}, monitor,
+  return nef::sign_by_ladder(nef::filtered({determinant, moderate ? 0x1p-46 * largest * largest : HUGE_VAL}), monitor,
                              [&] { return exact_orientation(a, b, c); });
 }
 

@@ -14,7 +14,8 @@
 
 namespace visual_hull {
 
-/// The relative error that a few roundings of doubles have, with room.
+/// What sums of at most four products of doubles lose, as a part of the sum of magnitudes: at most 5 roundings of
+/// 2^-53, and room for those of the bounds.
 inline constexpr double kRounding = 0x1p-50;
 
 inline SpotName sorted_name(std::uint32_t a, std::uint32_t b, std::uint32_t c) {

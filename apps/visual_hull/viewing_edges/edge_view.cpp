@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Errors of sums are bounded by 2^-50 times the sum of magnitudes: a few roundings of 2^-53 each, with room.
+// Bounds of errors. u = 2^-53 is the unit roundoff; doubles of points and matrices are the nearest ones, off by u.
 #include "apps/visual_hull/viewing_edges/edge_view.h"
 
 #include <algorithm>
@@ -12,7 +12,9 @@
 namespace visual_hull {
 namespace {
 
-constexpr double kUnit = 0x1p-50;
+// What sums of at most four products lose, as a part of the sum of magnitudes: u for the matrix, u for a product, at
+// most 3u for the sums: 5u. The rest of 8u leaves room for the roundings of the bounds.
+constexpr double kSumRounding = 8 * nef::kRoundingUnit;
 
 Seen seen(const Point2& point) {
   const auto& p = point.approximate;
@@ -27,10 +29,11 @@ std::optional<int> orient(const Seen& a, const Seen& b, const Seen& c) {
   const double cv = c.v - a.v;
   const double left = bu * cv;
   const double right = bv * cu;
-  // A difference is off by 2e and its rounding, a product of two by at most 2e(|x| + |y|) + 4e^2 and roundings.
+  // A difference is off by 2e and its rounding u, a product of two by 2e(|x| + |y|) + 4e^2, 2u for the differences' and
+  // u for its own rounding; that of the two products adds u: 2e and 4u where 3e and 8u stand.
   const double e = std::max({a.error, b.error, c.error});
   const double sum = std::abs(bu) + std::abs(bv) + std::abs(cu) + std::abs(cv);
-  const double bound = 3 * e * sum + 9 * e * e + (std::abs(left) + std::abs(right)) * kUnit;
+  const double bound = 3 * e * sum + 9 * e * e + (std::abs(left) + std::abs(right)) * kSumRounding;
   const double value = left - right;
   // Never 0, even where nothing is off: what lies on a line is for exact location.
   return nef::Approximation{value, bound + 1e-300}.sign();
@@ -84,7 +87,7 @@ EdgeView::EdgeView(const Camera& camera, std::uint32_t first, const Double3& rea
       size += std::abs(matrix_[i][j]) * reach[j];
       slope += std::abs(matrix_[i][j]);
     }
-    rounding_[i] = size * kUnit;
+    rounding_[i] = size * kSumRounding;
     slope_[i] = slope * 1.0001;
   }
 }
@@ -133,13 +136,17 @@ void EdgeView::prepare_edge(ViewingEdge& edge) const {
   const auto& b = edge.to->approximate;
   const double largest = std::max({std::abs(a[0]), std::abs(a[1]), std::abs(b[0]), std::abs(b[1])});
   const std::array<double, 3> line{a[1] - b[1], b[0] - a[0], a[0] * b[1] - a[1] * b[0]};
-  const std::array<double, 3> line_error{largest * kUnit, largest * kUnit, 2 * largest * largest * kUnit};
+  // L is the largest coordinate. A difference of two is off by 2uL and its rounding, 2uL; a product of two by 2u L^2
+  // and its rounding, u L^2, and the difference of two products by 6u L^2 and its rounding, 2u L^2.
+  const double difference_error = 8 * nef::kRoundingUnit * largest;
+  const std::array<double, 3> line_error{difference_error, difference_error,
+                                         16 * nef::kRoundingUnit * largest * largest};
   std::array<double, 4> plane{};
   std::array<double, 4> error{};
   for (std::size_t j = 0; j < 4; ++j) {
     for (std::size_t i = 0; i < 3; ++i) {
       plane[j] += line[i] * matrix_[i][j];
-      error[j] += std::abs(line[i] * matrix_[i][j]) * kUnit + std::abs(matrix_[i][j]) * line_error[i];
+      error[j] += std::abs(line[i] * matrix_[i][j]) * kSumRounding + std::abs(matrix_[i][j]) * line_error[i];
     }
   }
   edge.normal.at = {plane[0], plane[1], plane[2]};
@@ -182,7 +189,8 @@ std::optional<EdgeView::Window> EdgeView::window(const Double3& middle, const Do
     double spread = 0;
     for (std::size_t j = 0; j < 3; ++j) spread += std::abs(matrix_[i][j] - result.middle[i] * matrix_[2][j]) * half[j];
     // Of the middle, of the quotients and of the sums: far below the margin, or the window tells nothing.
-    const double error = 4 * (rounding_[i] + rounding_[2] * std::abs(result.middle[i]) + spread * kUnit) * per_nearest;
+    const double error =
+        4 * (rounding_[i] + rounding_[2] * std::abs(result.middle[i]) + spread * kSumRounding) * per_nearest;
     if (!(error < margin_)) return std::nullopt;
     result.half[i] = spread * per_nearest + 2 * margin_;
   }

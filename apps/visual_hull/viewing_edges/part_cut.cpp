@@ -10,7 +10,16 @@
 namespace visual_hull {
 namespace {
 
-// Far above the roundings of the sums here and in halving, far below the size of a part.
+// What sums here and in halving may lose, as a part of the sum S of the magnitudes in them. u = 2^-53.
+// - The height of a point: a product rounds once, three sums at most three times: 4u.
+// - positive(), where S is that of f and l times that of g: two heights 4u, two slopes u, l times a height and the
+//   difference 2u, the differences of slopes 2u, and three more differences of at most 2S each 6u: 15u. Any l will do,
+//   so its own rounding does not count.
+// - runs_across(): differences u each, product and sum 2u, and the ends are off by u themselves: (m - a) d is off by
+//   |m - a| u (|a| + |b|) for that. The plane passes the part, so m is no farther from the line than the window's half
+//   diagonal; where the answer is yes, that is below the edge's length |d|, and |m - a| below 3 |d|: 3u (|a| + |b|)
+//   |d|.
+// Each is below 2^-48; much more costs nothing, as it is still far below the size of a part.
 constexpr double kSlack = 1e-10;
 
 // Whether a segment passes all of a window in which its line is seen.

@@ -18,7 +18,10 @@ namespace {
 using nef::cross;
 using nef::dot;
 
-// Of sums of products of three values, as a part of the product of their sizes; far above what doubles round.
+// Of sums of products of three values, as a part of the product of their sizes. u = 2^-53. A component of a cross
+// product of two normals is off by 2u of the two products and u for their difference: 3u of the product of sizes. Times
+// a third value and summed with two more such terms: u for the products, 2u for the sums: 6u of each of three terms,
+// whose magnitudes sum up to 6 products of sizes at most: 36u. 512u also leaves room for the roundings of the bounds.
 constexpr double kProductRounding = 0x1p-44;
 
 Spot nearest_spot(const ExactPoint& x) {

@@ -8,6 +8,7 @@
 #include "apps/minkowski/minkowski.h"
 #include "fuzz/fuzzer.h"
 #include "nef/construct/construct.h"
+#include "nef/distance/intersects.h"
 
 namespace nef::fuzz {
 namespace {
@@ -104,12 +105,14 @@ void fuzz_convolutions(const Case& the_case) {
   if (regular) Case::require(report.cells_a == 0, "cells: the convolution was given up");
   the_case.count(report.cells_a == 0 ? "by convolution" : "by cells");
   const Polyhedron turned = minkowski::negate(second);
+  const IntersectionQuery query(first, turned);
   for (std::uint32_t v = 0; v < sum.complex().vertex_count(); v += 1 + choices.below(4)) {
     Rational3 x = sum.complex().points.rational(PointId{v});
     for (const int k : {0, 1}) {  // on the boundary and beside it
       x[v % 3] += Rational(k, 5);
       const bool meets = !intersect(first, transform(turned, AffineMap::translate(x))).is_empty();
       the_case.count("points");
+      Case::require(query.meet(x) == meets, "intersects: not what the intersection says");
       if (contains(sum, x) == meets) continue;
       Case::require(false, "membership: of point(" + to_string(x[0]) + "," + to_string(x[1]) + "," + to_string(x[2]) +
                                "), want " + (meets ? "inside" : "outside"));

@@ -14,8 +14,8 @@
 #include <cmath>
 
 #include "nef/base/error.h"
-#include "nef/complex/item_boxes.h"
 #include "nef/construct/construct.h"
+#include "nef/distance/intersects.h"
 #include "nef/distance/nearest_features.h"
 #include "nef/polyhedron.h"
 #include "nef/query/predicates_of_sets.h"
@@ -93,16 +93,13 @@ std::optional<Distance> distance(const Polyhedron& a, const Polyhedron& b, const
   Polyhedron closed_b = b.is_closed() ? b : closure(b, monitor);
   Distance result;
   const bool bounded = closed_a.is_bounded() && closed_b.is_bounded();
-  if (!bounded || vertices_box(closed_a.complex()).overlaps(vertices_box(closed_b.complex()))) {
-    const Polyhedron common = intersect(closed_a, closed_b, 1, monitor);
-    if (!common.is_empty()) {
-      result.contact = intersect(interior(a, monitor), interior(b, monitor), 1, monitor).is_empty()
-                           ? Contact::kTouching
-                           : Contact::kOverlapping;
-      result.common_point = result.contact == Contact::kOverlapping || !intersect(a, b, 1, monitor).is_empty();
-      result.on_a = result.on_b = some_point(common, monitor);
-      return result;
-    }
+  const Rational3 unmoved;
+  if (intersects(closed_a, closed_b, unmoved, monitor)) {
+    result.contact = intersects(interior(a, monitor), interior(b, monitor), unmoved, monitor) ? Contact::kOverlapping
+                                                                                              : Contact::kTouching;
+    result.common_point = result.contact == Contact::kOverlapping || intersects(a, b, unmoved, monitor);
+    result.on_a = result.on_b = some_point(intersect(closed_a, closed_b, 1, monitor), monitor);
+    return result;
   }
   if (!bounded) {
     const Polyhedron cube = wide_enough(closed_a.complex(), closed_b.complex(), monitor);

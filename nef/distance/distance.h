@@ -38,8 +38,7 @@ struct Distance {
 };
 
 /// The distance of two sets, bounded or not; nothing if one of them is empty. Of several nearest pairs the same one is
-/// found each time. O(n log n) for well-shaped sets; where the boxes around the sets overlap, up to three Boolean
-/// operations more.
+/// found each time. O(n log n) for well-shaped sets; where the sets meet, one Boolean operation more.
 std::optional<Distance> distance(const Polyhedron& a, const Polyhedron& b, const Monitor& monitor = {});
 
 }  // namespace nef

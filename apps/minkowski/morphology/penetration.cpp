@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "apps/minkowski/decomposition/decomposition.h"
 #include "apps/minkowski/morphology.h"
 #include "nef/base/error.h"
+#include "nef/distance/distance.h"
+#include "nef/distance/intersects.h"
 #include "nef/geometry/vectors.h"
 #include "nef/polyhedron.h"
 
@@ -49,14 +52,14 @@ std::vector<Candidate> candidates(const Complex& c) {
   return result;
 }
 
-// The shortest candidate inside (or outside) of a set.
-Candidate shortest(const Polyhedron& set, bool inside, const Monitor& monitor) {
+// The shortest candidate that is not in an open bounded set.
+Candidate shortest(const Polyhedron& set, const Monitor& monitor) {
   std::vector<Candidate> all = candidates(set.complex());
   std::sort(all.begin(), all.end(),
             [](const Candidate& a, const Candidate& b) { return a.squared_length < b.squared_length; });
-  const auto found = std::find_if(all.begin(), all.end(),
-                                  [&](const Candidate& c) { return contains(set, c.point, monitor) == inside; });
-  NEF_ASSERT(found != all.end());  // a vertex of a bounded set that is closed, or open
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const Candidate& c) { return !contains(set, c.point, monitor); });
+  NEF_ASSERT(found != all.end());  // a vertex
   return *found;
 }
 
@@ -68,25 +71,29 @@ Penetration penetration(const Polyhedron& a, const Polyhedron& b, const Minkowsk
   require_bounded(a, "the first set");
   require_bounded(b, "the second set");
   const Monitor& monitor = options.monitor;
-  const Polyhedron turned = negate(b, monitor);
+  MinkowskiReport unused;
+  MinkowskiReport& r = report != nullptr ? *report : unused;
   Penetration result;
-  const Polyhedron overlapping = minkowski_sum(interior(a, monitor), interior(turned, monitor), options, report);
   const Rational3 origin;
-  if (contains(overlapping, origin, monitor)) {
+  const Polyhedron inside_a = interior(a, monitor);
+  const Polyhedron inside_b = interior(b, monitor);
+  if (intersects(inside_a, inside_b, origin, monitor)) {
+    const Polyhedron overlapping = minkowski_sum(inside_a, negate(inside_b, monitor), options, &r);
     result.kind = Penetration::Kind::kOverlapping;
-    const Candidate out = shortest(overlapping, false, monitor);
+    const Candidate out = shortest(overlapping, monitor);
     result.translation = out.point;
     result.squared_length = out.squared_length;
     return result;
   }
-  const Polyhedron contact = minkowski_sum(closure(a, monitor), closure(turned, monitor), options, report);
-  if (contains(contact, origin, monitor)) {
+  r.choices.push_back({"none", "the sets do not overlap: their distance tells all"});
+  const std::optional<Distance> apart = distance(a, b, monitor);
+  NEF_ASSERT(apart.has_value());  // neither set is empty
+  if (apart->contact != Contact::kDisjoint) {
     result.kind = Penetration::Kind::kTouching;
     return result;
   }
-  const Candidate way = shortest(contact, true, monitor);
-  result.translation = way.point;
-  result.squared_length = way.squared_length;
+  result.translation = minus(apart->on_a, apart->on_b);
+  result.squared_length = apart->squared;
   return result;
 }
 

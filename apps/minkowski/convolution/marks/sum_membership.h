@@ -5,12 +5,13 @@
 #include <optional>
 
 #include "nef/base/monitor.h"
+#include "nef/distance/intersects.h"
 #include "nef/polyhedron.h"
 
 namespace nef::minkowski {
 
-/// Answers by the definition: x is in A + B iff A meets x - B. Mostly a look at single points of x - B settles it, for
-/// a hundredth of the price of an intersection.
+/// Answers by the definition: x is in A + B iff A meets x - B. Queries are made when they are needed, and answer for
+/// all points. May be asked from several threads at once.
 class SumMembership {
  public:
   /// Two sets that lie in the closures of their interiors. Both must outlive the object.
@@ -26,17 +27,12 @@ class SumMembership {
   [[nodiscard]] bool surely_in_inside(const Rational3& x, const Monitor& monitor) const;
 
  private:
-  struct Operands {
-    Polyhedron a, turned_b;
-  };
-  [[nodiscard]] static bool meet(const Operands& operands, const Rational3& x, const Monitor& monitor);
-
   const Polyhedron& a_;
   const Polyhedron& b_;
-  Operands sets_;
+  Polyhedron turned_b_;
   // Made when they are needed.
-  mutable std::once_flag closures_once_, insides_once_;
-  mutable std::optional<Operands> closures_, insides_;
+  mutable std::once_flag sets_once_, closures_once_, insides_once_;
+  mutable std::optional<IntersectionQuery> sets_, closures_, insides_;
 };
 
 }  // namespace nef::minkowski

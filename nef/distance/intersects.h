@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Whether two sets have a common point, one of them moved by a translation, without making their intersection.
+#pragma once
+
+#include <memory>
+
+#include "nef/base/monitor.h"
+#include "nef/forward.h"
+#include "nef/number/number.h"
+
+namespace nef {
+
+/// Answers for many translations of the same two sets. Both are put into trees of boxes once; a question moves points
+/// of B where the sets are near each other, and stops at the first common point. May be asked from several threads at
+/// once.
+class IntersectionQuery {
+ public:
+  /// Keeps copies of both sets (which are O(1)). O(n log n) for bounded sets.
+  IntersectionQuery(const Polyhedron& a, const Polyhedron& b);
+
+  /// True if some point of A is also in B + translation. Openness counts: a closed and an open set that touch have no
+  /// common point. Bounded sets: O(k log n) for k pairs of an edge and a facet whose boxes meet, and one point location
+  /// for each connected part of a boundary that touches nothing; otherwise one Boolean operation.
+  [[nodiscard]] bool meet(const Rational3& translation, const Monitor& monitor = {}) const;
+
+ private:
+  struct Body;
+  std::shared_ptr<const Body> body_;
+};
+
+/// IntersectionQuery(a, b).meet(translation), for one question: true if A and B + translation have a common point.
+bool intersects(const Polyhedron& a, const Polyhedron& b, const Rational3& translation = {},
+                const Monitor& monitor = {});
+
+}  // namespace nef

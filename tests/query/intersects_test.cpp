@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Whether two sets meet, against their intersection: sets on a grid, open, closed and of any dimension, moved so that
+// they touch in every way, or by a little less or more.
+#include "nef/distance/intersects.h"
+
+#include <rapidcheck.h>
+
+#include <catch2/catch.hpp>
+
+#include "nef/construct/construct.h"
+#include "tests/support/fixed_cases.h"
+#include "tests/support/random_polyhedra.h"
+
+namespace {
+
+using nef::AffineMap;
+using nef::Polyhedron;
+using nef::Rational;
+using nef::Rational3;
+using nef::test::check;
+using nef::test::recipes;
+using nef::test::set;
+
+bool by_intersection(const Polyhedron& a, const Polyhedron& b, const Rational3& by) {
+  return !nef::intersect(a, nef::transform(b, AffineMap::translate(by))).is_empty();
+}
+
+TEST_CASE("intersects: as the intersection says, for sets on a grid") {
+  check("grid", 500, [] {
+    const Polyhedron a = (*recipes(true, 4)).make();
+    const Polyhedron b = (*recipes(true, 3, 2)).make();
+    const nef::IntersectionQuery query(a, b);
+    for (int k = 0; k < 4; ++k) {
+      Rational3 by;
+      for (Rational& x : by) x = Rational(*rc::gen::inRange(-3, 5));
+      if (k % 2 == 1) by[static_cast<std::size_t>(k / 2)] += Rational(1, 3);
+      RC_ASSERT(query.meet(by) == by_intersection(a, b, by));
+    }
+  });
+}
+
+TEST_CASE("intersects: sets of edges and points only") {
+  const char* const sets[] = {"hull(0,0,0, 2,0,0)",
+                              "hull(0,0,0, 2,0,0) - point(1,0,0)",
+                              "hull(0,0,0, 2,0,0) + hull(1,0,0, 1,2,0) + point(0,1,0)",
+                              "hull(0,0,0, 2,0,0, 0,2,0) - hull(0,0,0, 2,0,0)",
+                              "hull(0,0,0, 2,0,0, 0,2,0) - point(1/2,1/2,0)",
+                              "interior(box(0,0,0, 2,2,2)) + point(0,0,0)",
+                              "box(0,0,0, 2,2,2) - hull(0,0,0, 2,0,0)",
+                              "point(1,1,0)",
+                              "interior(box(0,0,0, 3,3,3)) - box(1,1,1, 2,2,2)"};
+  for (const char* const first : sets) {
+    for (const char* const second : sets) {
+      const Polyhedron a = set(first);
+      const Polyhedron b = set(second);
+      const nef::IntersectionQuery query(a, b);
+      for (int x = -2; x <= 2; ++x) {
+        for (int y = -2; y <= 2; ++y) {
+          for (int z = -1; z <= 1; ++z) {
+            const Rational3 by = {Rational(x), Rational(y), Rational(z)};
+            INFO(first << " and " << second << " by " << x << "," << y << "," << z);
+            CHECK(query.meet(by) == by_intersection(a, b, by));
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("intersects: empty and unbounded sets, cavities, and far translations") {
+  const Polyhedron cube = set("box(0,0,0, 1,1,1)");
+  CHECK_FALSE(nef::intersects(cube, set("nothing")));
+  CHECK_FALSE(nef::intersects(set("nothing"), cube));
+  CHECK(nef::intersects(cube, set("halfspace(1,0,0,0)")));
+  CHECK_FALSE(nef::intersects(cube, set("interior(halfspace(1,0,0,0))")));
+  CHECK(nef::intersects(set("!box(0,0,0, 2,2,2)"), cube, {Rational(3, 2), Rational(0), Rational(0)}));
+  const Polyhedron hollow = set("box(0,0,0, 9,9,9) - box(1,1,1, 8,8,8)");
+  CHECK_FALSE(nef::intersects(hollow, cube, {Rational(4), Rational(4), Rational(4)}));
+  CHECK_FALSE(nef::intersects(cube, hollow, {Rational(-4), Rational(-4), Rational(-4)}));
+  CHECK_FALSE(nef::intersects(hollow, cube, {Rational(1), Rational(4), Rational(4)}));
+  CHECK(nef::intersects(hollow, cube, {Rational(999, 1000), Rational(4), Rational(4)}));
+  const Rational far(nef::Integer(1) << 80U);
+  CHECK_FALSE(nef::intersects(cube, cube, {far, Rational(0), Rational(0)}));
+  CHECK(nef::intersects(cube, set("box(0,0,0, 1,1,1)"), {Rational(1), Rational(1), Rational(1)}));
+}
+
+}  // namespace

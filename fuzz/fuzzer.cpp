@@ -23,6 +23,7 @@ std::span<const Fuzzer> fuzzers() {
              fuzz_dirty},
       Fuzzer{"files", "damaged files of every format", fuzz_files},
       Fuzzer{"planning", "robots and obstacles of all dimensions on a grid, by breadth-first search", fuzz_planning},
+      Fuzzer{"assemblies", "assemblies of unit cubes, by a search over all sets of parts", fuzz_assemblies},
       Fuzzer{"turning", "flat robots that turn in a plane anywhere in space, by a fine grid of poses", fuzz_turning},
       Fuzzer{"visibility", "convex prisms among convex prisms, by an exact visibility graph", fuzz_visibility},
       Fuzzer{"wide", "solids among meshes: paths with room, swept piece by piece and against the complete way",

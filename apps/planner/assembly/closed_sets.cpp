@@ -2,10 +2,7 @@
 #include "apps/planner/assembly/closed_sets.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <limits>
-
-#include "nef/base/error.h"
 
 namespace nef::planner {
 namespace {
@@ -74,26 +71,6 @@ class Components {
 
 std::vector<std::vector<std::size_t>> minimal_closed_sets(const BlockingGraph& graph) {
   return Components(graph).sinks();
-}
-
-void for_each_closed_set(const BlockingGraph& graph,
-                         const std::function<void(const std::vector<std::size_t>&)>& visit) {
-  NEF_ASSERT(graph.size() <= 20);
-  std::vector<std::uint32_t> blockers(graph.size(), 0);
-  for (std::size_t node = 0; node < graph.size(); ++node) {
-    for (const std::size_t next : graph[node]) blockers[node] |= 1U << next;
-  }
-  const std::uint32_t all = (1U << graph.size()) - 1;
-  for (std::uint32_t set = 1; set < all; ++set) {
-    std::vector<std::size_t> members;
-    std::uint32_t needed = 0;
-    for (std::size_t node = 0; node < graph.size(); ++node) {
-      if ((set >> node & 1U) == 0) continue;
-      members.push_back(node);
-      needed |= blockers[node];
-    }
-    if ((needed & ~set) == 0) visit(members);
-  }
 }
 
 }  // namespace nef::planner

@@ -2,20 +2,21 @@
 #include "apps/planner/assembly/disassembly.h"
 
 #include <algorithm>
-#include <set>
+#include <array>
+#include <map>
 
+#include "apps/minkowski/minkowski.h"
 #include "apps/planner/assembly/blocking.h"
 #include "apps/planner/assembly/closed_sets.h"
-#include "apps/planner/free_space/free_positions.h"
+#include "apps/planner/free_space/free_space.h"
 #include "apps/planner/path/path.h"
 #include "apps/planner/path/simple_points.h"
 #include "nef/base/error.h"
+#include "nef/base/interruption.h"
 #include "nef/geometry/integer_vector.h"
 
 namespace nef::planner {
 namespace {
-
-constexpr std::size_t kAllSubsets = 8;
 
 PartSet without(const PartSet& all, const PartSet& some) {
   PartSet rest;
@@ -27,13 +28,14 @@ Rational3 negative(const Rational3& d) { return {-d[0], -d[1], -d[2]}; }
 
 class TakingApart {
  public:
-  TakingApart(const Assembly& assembly, const DisassemblyProgress& progress, std::optional<unsigned> digits,
-              const Monitor& monitor)
+  TakingApart(const Assembly& assembly, const DisassemblyOptions& options)
       : assembly_(assembly),
-        progress_(progress),
-        digits_(digits),
-        monitor_(monitor),
-        blocking_(assembly.parts, monitor) {
+        progress_(options.progress),
+        digits_(options.digits),
+        outer_(options.monitor),
+        stop_(options.stop, options.monitor),
+        monitor_(stop_.monitor()),
+        blocking_(assembly.parts, options.monitor) {
     for (const Polyhedron& part : assembly.parts) boxes_.push_back(*bounding_box(part));
   }
 
@@ -53,7 +55,7 @@ class TakingApart {
       if (progress_) progress_(result_.steps.size());
       std::optional<DisassemblyStep> step = straight_step(parts);
       if (!step) step = planned_step(parts);
-      if (!step) continue;
+      if (!step) continue;              // stuck, or undecided
       together.push_back(step->parts);  // comes after the rest
       together.push_back(step->stay);
       result_.steps.push_back(std::move(*step));
@@ -162,72 +164,95 @@ class TakingApart {
     return {t * d[0], t * d[1], t * d[2]};
   }
 
-  // Sets that the complete planner is asked for, smallest first, each not larger than what stays.
-  std::vector<PartSet> candidates(const PartSet& parts, Inseparable& stuck) {
-    std::set<std::pair<std::size_t, PartSet>> found;
-    const auto add = [&](PartSet set) {
-      if (set.empty() || set.size() == parts.size()) return;
-      if (2 * set.size() > parts.size()) set = without(parts, set);
-      const std::size_t size = set.size();
-      found.emplace(size, std::move(set));
-    };
-    stuck.nothing_moves = tells_all_;
-    for (const Rational3& d : directions_) {
-      const BlockingGraph blocked =
-          graph(parts, [&](std::size_t a, std::size_t b) { return blocking_.blocks_at_once(a, b, d); });
-      const std::vector<std::vector<std::size_t>> minimal = minimal_closed_sets(blocked);
-      if (minimal.size() > 1 || minimal.front().size() < parts.size()) stuck.nothing_moves = false;
-      if (parts.size() <= kAllSubsets && tells_all_) {
-        for_each_closed_set(blocked, [&](const std::vector<std::size_t>& set) { add(named(parts, set)); });
-      } else {
-        for (const std::vector<std::size_t>& set : minimal) add(named(parts, set));
-      }
-    }
-    stuck.all_subassemblies = stuck.nothing_moves || (parts.size() <= kAllSubsets && tells_all_);
-    if (!stuck.all_subassemblies) {
-      for (const std::size_t part : parts) add({part});
-    }
-    std::vector<PartSet> result;
-    for (const auto& [size, set] : found) result.push_back(set);
-    return result;
+  // True if some of the parts can begin to move, the others at rest. The directions must tell all.
+  bool may_begin(const PartSet& moving, const PartSet& stay) {
+    return std::any_of(directions_.begin(), directions_.end(), [&](const Rational3& d) {
+      return std::none_of(moving.begin(), moving.end(), [&](std::size_t a) {
+        return std::any_of(stay.begin(), stay.end(), [&](std::size_t b) { return blocking_.blocks_at_once(a, b, d); });
+      });
+    });
+  }
+
+  // True if in every direction all parts are tied together at once.
+  bool nothing_moves(const PartSet& parts) {
+    return tells_all_ && std::all_of(directions_.begin(), directions_.end(), [&](const Rational3& d) {
+             const auto blocks = [&](std::size_t a, std::size_t b) { return blocking_.blocks_at_once(a, b, d); };
+             return minimal_closed_sets(graph(parts, blocks)).front().size() == parts.size();
+           });
   }
 
   std::optional<DisassemblyStep> planned_step(const PartSet& parts) {
-    Inseparable stuck;
-    stuck.parts = parts;
-    for (const PartSet& moving : candidates(parts, stuck)) {
-      const PartSet stay = without(parts, moving);
-      std::optional<ExactPath> way = way_out(moving, stay);
-      if (way) return DisassemblyStep{moving, stay, std::move(way->points), false, std::move(way->unrounded)};
+    std::vector<Separates> tests;
+    if (tells_all_) {
+      tests.emplace_back([this](const PartSet& moving, const PartSet& stay) { return may_begin(moving, stay); });
     }
+    tests.emplace_back([this](const PartSet& moving, const PartSet& stay) {
+      monitor_.check_interruption();
+      return leads_out(FreeSpace(free_of(moving, stay)));
+    });
+    if (nothing_moves(parts)) return stuck(parts, true);
+    SeparationSearch search(parts, tests);
+    try {
+      const std::optional<PartSet> moving = search.run();
+      if (!moving) return stuck(parts, false);
+      const PartSet stay = without(parts, *moving);
+      ExactPath way = way_out(*moving, stay);
+      return DisassemblyStep{*moving, stay, std::move(way.points), false, std::move(way.unrounded)};
+    } catch (const Interrupted&) {
+      outer_.check_interruption();  // the caller stops everything
+      result_.undecided.push_back({parts, search.proved_below()});
+      return std::nullopt;
+    }
+  }
+
+  std::nullopt_t stuck(const PartSet& parts, bool nothing_moves) {
+    Inseparable result{parts, nothing_moves, {}};
     for (const std::size_t a : parts) {
       for (const std::size_t b : parts) {
         if (a == b) continue;
         const bool in_the_way = std::any_of(directions_.begin(), directions_.end(),
                                             [&](const Rational3& d) { return blocking_.blocks(a, b, d); });
-        if (in_the_way) stuck.blocked_by.emplace_back(a, b);
+        if (in_the_way) result.blocked_by.emplace_back(a, b);
       }
     }
-    result_.inseparable.push_back(std::move(stuck));
+    result_.inseparable.push_back(std::move(result));
     return std::nullopt;
   }
 
-  // A path out of the way of the others; nothing if there is none.
-  [[nodiscard]] std::optional<ExactPath> way_out(const PartSet& moving, const PartSet& stay) const {
-    Scene scene;
-    std::vector<Polyhedron> robot;
-    for (const std::size_t part : moving) robot.push_back(assembly_.parts[part]);
-    scene.robot = unite_all(robot, 1, monitor_);
-    for (const std::size_t part : stay) {
-      scene.obstacles.push_back(assembly_.parts[part]);
-      scene.obstacle_names.push_back(assembly_.names[part]);
+  // Where a may be while b rests. (b, while a rests, may be at the opposite vectors.)
+  const Polyhedron& free_of_pair(std::size_t a, std::size_t b) {
+    std::optional<Polyhedron>& known = free_of_pairs_[{a, b}];
+    if (known) return *known;
+    const auto other = free_of_pairs_.find({b, a});
+    if (other != free_of_pairs_.end() && other->second) {
+      known = minkowski::negate(*other->second, monitor_);
+    } else {
+      minkowski::MinkowskiOptions options;
+      options.monitor = monitor_;
+      known = minkowski::configuration_space(assembly_.parts[a], std::array{assembly_.parts[b]}, std::nullopt, options);
     }
-    BuildOptions build;
-    build.monitor = monitor_;
-    const FreeSpace free(free_positions(scene, build));
+    return *known;
+  }
+
+  // Where some parts may be while others rest. Solids overlap iff two of their parts do.
+  Polyhedron free_of(const PartSet& moving, const PartSet& stay) {
+    std::vector<Polyhedron> sets;
+    for (const std::size_t a : moving) {
+      for (const std::size_t b : stay) sets.push_back(free_of_pair(a, b));
+    }
+    return intersect_all(sets, 1, monitor_);
+  }
+
+  // True if there is a way from where the parts are to infinity.
+  static bool leads_out(const FreeSpace& free) {
     const CellId here = free.locate(ExactPoint(Rational3{}));
     NEF_ASSERT(free.is_free(here));
-    if (free.components()[free.component(here)].bounded) return std::nullopt;
+    return !free.components()[free.component(here)].bounded;
+  }
+
+  // A path out of the way of the others, which there must be.
+  ExactPath way_out(const PartSet& moving, const PartSet& stay) {
+    const FreeSpace free(free_of(moving, stay));
     // All of the boundary is inside these bounds, so whoever is on them or beyond is out.
     const std::array<Rational3, 2> bounds = free.bounds();
     const auto out_of = [&](std::size_t side, std::size_t i) {
@@ -248,25 +273,27 @@ class TakingApart {
         if (!best || path->length < best->length) best = std::move(path);
       }
     }
-    return best;
+    return std::move(*best);
   }
 
   const Assembly& assembly_;
-  const DisassemblyProgress& progress_;
+  const std::function<void(std::size_t)>& progress_;
   std::optional<unsigned> digits_;
-  Monitor monitor_;
+  Monitor outer_;
+  StopQuestion stop_;
+  Monitor monitor_;  // stopped by the options, too
   Blocking blocking_;
   std::vector<std::array<Rational3, 2>> boxes_;  // of the parts
   std::vector<Rational3> directions_;
-  bool tells_all_ = false;  // the directions are enough for proofs
+  bool tells_all_ = false;  // if nothing begins to move in these directions, then in no other one
+  std::map<std::pair<std::size_t, std::size_t>, std::optional<Polyhedron>> free_of_pairs_;
   Disassembly result_;
 };
 
 }  // namespace
 
-Disassembly take_apart(const Assembly& assembly, const DisassemblyProgress& progress, std::optional<unsigned> digits,
-                       const Monitor& monitor) {
-  return TakingApart(assembly, progress, digits, monitor).run();
+Disassembly take_apart(const Assembly& assembly, const DisassemblyOptions& options) {
+  return TakingApart(assembly, options).run();
 }
 
 }  // namespace nef::planner

@@ -3,20 +3,17 @@
 // Taking an assembly apart by translations, or proving that nothing of it can leave.
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <functional>
 #include <optional>
-#include <string>
 #include <utility>
 #include <vector>
 
 #include "apps/planner/assembly/parts.h"
+#include "apps/planner/assembly/separation.h"
 #include "nef/base/monitor.h"
 
 namespace nef::planner {
-
-/// Indices of parts, ascending.
-using PartSet = std::vector<std::size_t>;
 
 /// Some parts leave those that stay, moving as one.
 struct DisassemblyStep {
@@ -28,37 +25,47 @@ struct DisassemblyStep {
   std::vector<std::size_t> unrounded;  ///< way-points with more decimals than were asked for
 };
 
-/// Parts that do not come apart.
+/// Parts of which no set can leave the others, which is proved for all of their sets.
 struct Inseparable {
   PartSet parts;
-  /// True if the proof covers all subassemblies; else single parts and what the blocking graphs tie together.
-  bool all_subassemblies = false;
-  bool nothing_moves = false;  ///< no part of it can begin to move at all
+  bool nothing_moves = false;  ///< no set of them can begin to move at all
   /// (a, b): b is in the way of a in some direction of those tried.
   std::vector<std::pair<std::size_t, std::size_t>> blocked_by;
 };
 
+/// Parts about which the search was stopped.
+struct Undecided {
+  PartSet parts;
+  std::size_t proved_below = 1;  ///< no set of fewer parts than this can leave the others
+};
+
 struct Disassembly {
   std::vector<DisassemblyStep> steps;    ///< in order, also those before something stuck
-  std::vector<Inseparable> inseparable;  ///< none: all parts are apart at the end
+  std::vector<Inseparable> inseparable;  ///< none, and none undecided: all parts are apart at the end
+  std::vector<Undecided> undecided;      ///< only if the search was stopped
   std::optional<std::pair<std::size_t, std::size_t>>
       overlap;  ///< two parts that overlap at the beginning: nothing done
 };
 
-/// How it goes on: called before each step with the number of steps so far.
-using DisassemblyProgress = std::function<void(std::size_t steps)>;
+struct DisassemblyOptions {
+  /// Called before each step with the number of steps so far.
+  std::function<void(std::size_t steps)> progress;
+  /// Way-points have at most so many decimals where that is free, ends always.
+  std::optional<unsigned> digits;
+  /// Asked now and then; once it is true, what is not decided by then stays undecided.
+  std::function<bool()> stop;
+  Monitor monitor;
+};
 
 /// Takes parts or subassemblies away, one after the other, until all are apart or what remains is stuck. What is taken
-/// away together comes apart afterwards. Contact is allowed everywhere.
+/// away together comes apart afterwards. Contact is allowed everywhere. Nothing is lost by the order: what can leave a
+/// set of parts can leave each of its subsets, so a step that is possible stays possible.
 ///
 /// A step first looks for a straight motion to infinity: in each of a finite number of directions (blocking.h) whatever
-/// the graph of who blocks whom does not tie together can leave [Wilson, Latombe 1994]. If there is none, the complete
-/// planner is asked: of a set of up to 8 parts for every subset that can begin to move, of a larger one for single
-/// parts and for what the graphs of who blocks whom at once do not tie together. If in every direction those graphs
-/// tie all parts together, nothing can begin to move, which is a proof for every subset.
-///
-/// With `digits`, way-points have at most so many decimals where that is free, ends always.
-Disassembly take_apart(const Assembly& assembly, const DisassemblyProgress& progress = {},
-                       std::optional<unsigned> digits = std::nullopt, const Monitor& monitor = {});
+/// the graph of who blocks whom does not tie together can leave [Wilson, Latombe 1994]. If there is none, sets of parts
+/// are looked for by who has to come along (separation.h), where a set may leave if it can begin to move, and if the
+/// component of its exact free space is unbounded. The free positions of a set are those that all pairs of one moving
+/// and one resting part have in common, so there is one sum for each pair of parts however many sets are asked about.
+Disassembly take_apart(const Assembly& assembly, const DisassemblyOptions& options = {});
 
 }  // namespace nef::planner

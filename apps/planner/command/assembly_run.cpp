@@ -6,6 +6,7 @@
 
 #include "apps/planner/assembly/blocking.h"
 #include "apps/planner/assembly/free_directions.h"
+#include "apps/planner/command/notes.h"
 #include "apps/planner/command/report.h"
 #include "apps/planner/command/scene_view.h"
 #include "nef/base/error.h"
@@ -23,14 +24,20 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* kAllCovered = "all subassemblies";
-constexpr const char* kSomeCovered = "single parts and what the blocking graph ties together";
+
+// What is known of parts about which the search was stopped.
+std::string covered_text(const Undecided& open) {
+  if (open.proved_below <= 1) return "nothing";
+  return "sets of fewer than " + std::to_string(open.proved_below) + " parts";
+}
 
 void check_assembly_options(const Arguments& a) {
   const bool other = !a.scene.empty() || !a.start.empty() || !a.goal.empty() || !a.contact.empty() || a.tight ||
                      !a.given_path.empty() || !a.queries.empty() || !a.ompl.empty() || !a.benchmark.empty() ||
                      a.widest || a.widest_box || !a.keep_clear.empty() || a.limits.speed > 0 || a.prefer != "short" ||
-                     a.path.clearance || a.path.raw || a.path.min_dimension > 0 || a.se3;
-  if (other) throw InputError("--assembly knows --digits, --json, --quiet, --page and -o only, and no scene");
+                     a.path.clearance || a.path.raw || !a.path.thorough || a.path.min_dimension > 0 || a.se3 ||
+                     !a.check_proof.empty();
+  if (other) throw InputError("--assembly knows --digits, --time, --json, --quiet, --page and -o only, and no scene");
   if (!a.free_directions.empty() && a.path.digits) {
     throw InputError("--free-directions has no way-points: --digits does not go with it");
   }
@@ -47,7 +54,8 @@ void check_assembly_options(const Arguments& a) {
 
 const char* status_of(const Disassembly& answer) {
   if (answer.overlap) return "overlap";
-  return answer.inseparable.empty() ? "sequence" : "inseparable";
+  if (!answer.inseparable.empty()) return "inseparable";
+  return answer.undecided.empty() ? "sequence" : "undecided";
 }
 
 json names_of(const PartSet& parts, const Assembly& assembly) {
@@ -66,7 +74,7 @@ json stuck_json(const Inseparable& stuck, const Assembly& assembly) {
   json blocked = json::object();
   for (const auto& [a, b] : stuck.blocked_by) blocked[assembly.names[a]].push_back(assembly.names[b]);
   return {{"parts", names_of(stuck.parts, assembly)},
-          {"covered", stuck.all_subassemblies ? kAllCovered : kSomeCovered},
+          {"covered", kAllCovered},
           {"nothing_moves", stuck.nothing_moves},
           {"blocked_by", std::move(blocked)}};
 }
@@ -112,7 +120,6 @@ std::vector<view::Layer> layers_of(const Disassembly& answer, const Assembly& as
 }
 
 void print(const Disassembly& answer, const Assembly& assembly) {
-  for (const std::string& message : assembly.messages) std::cout << "note: " << message << '\n';
   std::cout << status_of(answer);
   if (answer.overlap) {
     std::cout << ": " << assembly.names[answer.overlap->first] << " and " << assembly.names[answer.overlap->second];
@@ -127,8 +134,8 @@ void print(const Disassembly& answer, const Assembly& assembly) {
   }
   for (const Inseparable& stuck : answer.inseparable) {
     std::cout << "inseparable: " << list_of(stuck.parts, assembly)
-              << (stuck.nothing_moves ? "; nothing of it can move" : "; nothing of it can leave") << " ("
-              << (stuck.all_subassemblies ? kAllCovered : kSomeCovered) << ")\n";
+              << (stuck.nothing_moves ? "; nothing of it can move" : "; nothing of it can leave") << " (" << kAllCovered
+              << ")\n";
     for (const std::size_t part : stuck.parts) {
       PartSet by;
       for (const auto& [a, b] : stuck.blocked_by) {
@@ -136,6 +143,10 @@ void print(const Disassembly& answer, const Assembly& assembly) {
       }
       std::cout << "  " << assembly.names[part] << " is blocked by " << list_of(by, assembly) << '\n';
     }
+  }
+  for (const Undecided& open : answer.undecided) {
+    std::cout << "undecided: " << list_of(open.parts, assembly) << " (covered: " << covered_text(open)
+              << "; try a longer --time)\n";
   }
 }
 
@@ -182,7 +193,8 @@ int tell_free_directions(const Arguments& a, const Assembly& assembly) {
 }  // namespace
 
 json assembly_json(const Disassembly& answer, const Assembly& assembly) {
-  json result{{"assembly", assembly.name}, {"status", status_of(answer)}, {"steps", json::array()}};
+  json result{
+      {"assembly", assembly.name}, {"status", status_of(answer)}, {"motions", kTranslation}, {"steps", json::array()}};
   for (const DisassemblyStep& step : answer.steps) {
     json exact = json::array();
     json doubles = json::array();
@@ -200,6 +212,9 @@ json assembly_json(const Disassembly& answer, const Assembly& assembly) {
   for (const Inseparable& stuck : answer.inseparable) {
     result["inseparable"].push_back(stuck_json(stuck, assembly));
   }
+  for (const Undecided& open : answer.undecided) {
+    result["undecided"].push_back({{"parts", names_of(open.parts, assembly)}, {"covered", covered_text(open)}});
+  }
   if (answer.overlap)
     result["overlap"] = {assembly.names[answer.overlap->first], assembly.names[answer.overlap->second]};
   return result;
@@ -209,10 +224,14 @@ int run_assembly(const Arguments& a) {
   check_assembly_options(a);
   const Stopwatch watch;
   const Assembly assembly = read_assembly(a.assembly);
+  print_notes(a, assembly.messages);
   if (!a.free_directions.empty()) return tell_free_directions(a, assembly);
   ProgressBar bar(!a.quiet && !a.json);
-  const Disassembly answer = take_apart(
-      assembly, [&](std::size_t steps) { bar.show("taking apart", steps, assembly.parts.size() - 1); }, a.path.digits);
+  DisassemblyOptions options;
+  options.progress = [&](std::size_t steps) { bar.show("taking apart", steps, assembly.parts.size() - 1); };
+  options.digits = a.path.digits;
+  if (a.time_given) options.stop = [&] { return watch.seconds() >= a.seconds; };
+  const Disassembly answer = take_apart(assembly, options);
   bar.clear();
   const std::string text = report_text(
       run_report("assembly", assembly_json(answer, assembly), {{"op", watch.seconds(), {}}}, assembly.messages));
@@ -224,7 +243,9 @@ int run_assembly(const Arguments& a) {
   } else if (!a.quiet) {
     print(answer, assembly);
   }
-  return answer.overlap ? 3 : answer.inseparable.empty() ? 0 : 1;
+  if (answer.overlap) return 3;
+  if (!answer.inseparable.empty()) return 1;
+  return answer.undecided.empty() ? 0 : 5;
 }
 
 }  // namespace nef::planner

@@ -2,7 +2,8 @@
 //
 // Robots and obstacles of all dimensions on a grid. What collides is counted: cells of the robot and of an obstacle
 // that are not on their borders. A breadth-first search over the free cells of positions tells components and
-// reachability, and an exact walk along a path what it meets.
+// reachability, and an exact walk along a path what it meets. Paths are asked for with every option, and the box may be
+// flat in some directions.
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -84,10 +85,11 @@ void add(GridSet& to, const GridSet& from) {
 // The position as a cell is free or not as a whole.
 class Positions {
  public:
-  Positions(const GridSet& forbidden, int low, int high) : forbidden_(forbidden), low_(low), high_(high) {
-    for (int x = low; x <= high; ++x) {
-      for (int y = low; y <= high; ++y) {
-        for (int z = low; z <= high; ++z) {
+  Positions(const GridSet& forbidden, const GridCell& low, const GridCell& high)
+      : forbidden_(forbidden), low_(low), high_(high) {
+    for (int x = low[0]; x <= high[0]; ++x) {
+      for (int y = low[1]; y <= high[1]; ++y) {
+        for (int z = low[2]; z <= high[2]; ++z) {
           if (is_free({x, y, z}) && component({x, y, z}) < 0) flood({x, y, z});
         }
       }
@@ -138,8 +140,8 @@ class Positions {
     std::vector<GridCell> queue{seed};
     number_[seed] = count_;
     const auto visit = [&](const GridCell& c) {
-      for (const int x : c) {
-        if (x < low_ || x > high_) return;
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (c[k] < low_[k] || c[k] > high_[k]) return;
       }
       if (is_free(c) && number_.try_emplace(c, count_).second) queue.push_back(c);
     };
@@ -156,7 +158,7 @@ class Positions {
 
   const GridSet& forbidden_;
   std::map<GridCell, int> number_;
-  int low_, high_;
+  GridCell low_, high_;
   int count_ = 0;
 };
 
@@ -172,13 +174,16 @@ class PlanningCase {
     make_scene();
     const GridSet forbidden = forbidden_positions();
     // Everything that can be forbidden, and a layer of free cells around it, or the box.
-    low_ = forbidden.low() - 1;
-    high_ = forbidden.high() + 1;
+    low_.fill(forbidden.low() - 1);
+    high_.fill(forbidden.high() + 1);
     if (bounded_) {
-      low_ = 2 * (-1);
-      high_ = 2 * 4;
-      scene_.box = {Rational3{-1, -1, -1}, Rational3{4, 4, 4}};
-      case_.tell("box -1,-1,-1, 4,4,4");
+      low_.fill(2 * (-1));
+      high_.fill(2 * 4);
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (case_.choices().one_in(5)) low_[k] = high_[k] = 2 * case_.choices().between(-1, 4);
+      }
+      scene_.box = {point_of(low_), point_of(high_)};
+      case_.tell("box " + tuple_text(point_of(low_)) + " " + tuple_text(point_of(high_)));
     }
     const Positions truth(forbidden, low_, high_);
     const planner::Problem problem(scene_);
@@ -223,9 +228,9 @@ class PlanningCase {
                   "components: " + std::to_string(free.components().size()) + ", want " +
                       std::to_string(truth.component_count()));
     std::map<int, std::uint32_t> same;
-    for (int x = low_; x <= high_; ++x) {
-      for (int y = low_; y <= high_; ++y) {
-        for (int z = low_; z <= high_; ++z) {
+    for (int x = low_[0]; x <= high_[0]; ++x) {
+      for (int y = low_[1]; y <= high_[1]; ++y) {
+        for (int z = low_[2]; z <= high_[2]; ++z) {
           const GridCell c{x, y, z};
           const planner::CellId cell = free.locate(planner::ExactPoint(point_of(c)));
           Case::require(free.is_free(cell) == truth.is_free(c), "free: position " + tuple_text(point_of(c)) +
@@ -236,23 +241,36 @@ class PlanningCase {
         }
       }
     }
-    const std::uint64_t side = static_cast<std::uint64_t>(high_ - low_) + 1;
-    case_.count("positions", side * side * side);
+    std::uint64_t positions = 1;
+    for (std::size_t k = 0; k < 3; ++k) positions *= static_cast<std::uint64_t>(high_[k] - low_[k]) + 1;
+    case_.count("positions", positions);
   }
 
   void ask(const planner::Problem& problem, const Positions& truth) {
     Choices& choices = case_.choices();
     const auto random_cell = [&] {
-      return GridCell{choices.between(low_, high_), choices.between(low_, high_), choices.between(low_, high_)};
+      GridCell c{};
+      for (std::size_t k = 0; k < 3; ++k) c[k] = choices.between(low_[k], high_[k]);
+      return c;
     };
     const GridCell start = random_cell();
     const GridCell goal = random_cell();
     if (!truth.is_free(start) || !truth.is_free(goal)) return;
     planner::PathOptions options;
     options.thorough = choices.one_in(4);
+    options.clearance = choices.one_in(3);
+    options.raw = choices.one_in(4);
+    options.roomy = choices.one_in(4);
+    if (choices.one_in(4)) options.digits = 2;
+    if (choices.one_in(8)) options.min_dimension = choices.between(1, 3);
+    case_.tell(std::string("options:") + (options.thorough ? " thorough" : "") +
+               (options.clearance ? " clearance" : "") + (options.raw ? " raw" : "") + (options.roomy ? " roomy" : "") +
+               (options.digits ? " digits" : "") + " dimension " + std::to_string(options.min_dimension));
     const planner::Answer answer = problem.solve(point_of(start), point_of(goal), options);
     const bool reachable = truth.component(start) == truth.component(goal);
-    Case::require((answer.status == planner::Answer::Status::kPath) == reachable,
+    const bool found = answer.status == planner::Answer::Status::kPath;
+    // In thicker parts of free space there may be none.
+    Case::require(found == reachable || (options.min_dimension > 0 && !found),
                   "reachable: from " + tuple_text(point_of(start)) + " to " + tuple_text(point_of(goal)) + ", want " +
                       (reachable ? "a path" : "none"));
     case_.count(reachable ? "paths" : "proofs");
@@ -280,8 +298,8 @@ class PlanningCase {
   std::vector<GridPolyhedron> obstacles_;
   planner::Scene scene_;
   bool bounded_ = false;
-  int low_ = 0;
-  int high_ = 0;
+  GridCell low_{};
+  GridCell high_{};
 };
 
 }  // namespace

@@ -61,8 +61,7 @@ class Search {
     }
   }
 
-  // The way-points of a chain of stations. Between two points in the closure of one zone the
-  // straight segment may run along the boundary; a point inside the zone mends that.
+  // The way-points of a chain of stations.
   std::vector<Rational3> extract(const std::vector<StationId>& chain) {
     std::vector<Rational3> points{start_};
     if (near_start_ != start_) points.push_back(near_start_);
@@ -72,15 +71,13 @@ class Search {
     return points;
   }
 
+  // Both ends lie in the closure of one zone, which is convex. The segment between them may run along its boundary,
+  // which need not be free; one through a point inside the zone does not.
   void append(std::vector<Rational3>& points, const Rational3& next, ZoneId zone) {
     if (points.back() == next) return;
-    if (clearance_) {
-      if (zone < free_.tree().leaves().size() && free_.tree().leaves()[zone].dimension == 3) {
-        const Rational3 inside = zones_.interior_point(zone);
-        if (inside != next && inside != points.back()) points.push_back(inside);
-      }
-    } else if (!segment_allowed(free_, filter_, points.back(), next)) {
-      points.push_back(zones_.interior_point(zone));
+    if (clearance_ || !segment_allowed(free_, filter_, points.back(), next)) {
+      const Rational3 inside = zones_.interior_point(zone);
+      if (inside != next && inside != points.back()) points.push_back(inside);
     }
     NEF_ASSERT(segment_allowed(free_, filter_, points.back(), next));
     points.push_back(next);

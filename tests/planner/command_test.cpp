@@ -45,6 +45,56 @@ TEST_CASE("exit codes and the JSON report") {
   CHECK(planner(folder, scene("s1_tight_hole") + " --contact forbid").code == 1);
 }
 
+TEST_CASE("an end that is not free is told before any free space is made") {
+  const Folder folder;
+  const std::string bad = scene("s1_tight_hole") + " --start 3.5,1,0.5";
+  const auto report = nlohmann::json::parse(planner(folder, bad + " --json").out);
+  CHECK(report["status"] == "invalid_start");
+  CHECK_FALSE(report["phases"].contains("configuration_space_s"));
+  for (const char* key : {"components", "tight", "touching"}) CHECK(report[key].is_null());
+  nef::test::check_report_shape(report, "plan");
+  // What is asked about free space needs it all the same, and says the same about the start.
+  const Run all = planner(folder, bad + " --json --page " + folder.file("page.html"));
+  CHECK(all.code == 3);
+  const auto whole = nlohmann::json::parse(all.out);
+  CHECK(whole["phases"].contains("configuration_space_s"));
+  CHECK(whole["collision"] == report["collision"]);
+  CHECK(planner(folder, bad).out == planner(folder, bad + " --page " + folder.file("page.html")).out);
+  // A robot that turns, too: before its range is cut.
+  const Run turned = planner(folder, scene("corner") + " --start 0,5,0,0 --json");
+  CHECK(turned.code == 3);
+  CHECK(nlohmann::json::parse(turned.out)["cells"] == 0);
+}
+
+TEST_CASE("notes about the input are printed on stderr, whatever is asked") {
+  const Folder folder;
+  // A cube whose faces all occur twice.
+  std::string off = "OFF\n8 12 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n";
+  for (int twice = 0; twice < 2; ++twice) {
+    off += "4 3 2 1 0\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n";
+  }
+  static_cast<void>(folder.write("twice.off", off));
+  const std::string plain = folder.write("noted.json", R"J({"robot": "twice.off", "obstacles": ["box(4,0,0, 5,9,9)"],
+    "box": [[0,0,0], [8,12,8]], "start": [1,1,1], "goal": [6,1,1]})J");
+  const std::string queries = folder.write("queries.txt", "1 1 1 6 1 1\n");
+  const std::string path = folder.write("path.txt", "1 1 1\n1 2 1\n");
+  const std::string parts = folder.write("parts.json", R"J({"parts": {"a": "twice.off", "b": "box(3,0,0, 4,1,1)"}})J");
+  for (const std::string& arguments :
+       {plain, plain + " --tight", plain + " --queries " + queries, plain + " --path " + path,
+        plain + " --widest --precision 1", "--assembly " + parts, "--assembly " + parts + " --free-directions a"}) {
+    INFO(arguments);
+    const Run run = planner(folder, arguments);
+    CHECK(run.code < 2);
+    CHECK_THAT(run.err, Catch::StartsWith("planner: note: ") && Catch::Contains("occur twice"));
+    CHECK(std::count(run.err.begin(), run.err.end(), '\n') == 1);
+    CHECK(run.out.find("note:") == std::string::npos);
+    CHECK(planner(folder, arguments + " --quiet").err.empty());
+    const Run report = planner(folder, arguments + " --json");
+    CHECK(report.err.empty());
+    CHECK_THAT(nlohmann::json::parse(report.out)["messages"][0].get<std::string>(), Catch::Contains("occur twice"));
+  }
+}
+
 TEST_CASE("paths in all formats, and reading them back with their passages") {
   const Folder folder;
   const std::string outputs =

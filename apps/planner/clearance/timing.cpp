@@ -18,4 +18,16 @@ std::vector<double> times_of(const std::vector<double>& lengths, const MotionLim
   return times;
 }
 
+std::vector<std::size_t> distinct_times(const std::vector<double>& times) {
+  std::vector<std::size_t> result;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    if (result.empty() || times[i] > times[result.back()]) {
+      result.push_back(i);
+    } else if (i + 1 == times.size() && result.size() > 1) {
+      result.back() = i;
+    }
+  }
+  return result;
+}
+
 }  // namespace nef::planner

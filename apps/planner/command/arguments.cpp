@@ -17,7 +17,7 @@ An assembly is {"parts": {"name": SHAPE, ...}}, each part at its assembled place
 
 Exit codes: 0 a path; 1 proved that there is none (with --path: the given path leaves free space);
 2 bad input or usage; 3 start or goal not free; 4 (--ompl only) no answer within the time; 5 (rotation only) undecided.
-With --assembly: 0 a sequence, 1 inseparable, 3 parts overlap.
+With --assembly: 0 a sequence, 1 inseparable, 3 parts overlap, 5 undecided within the --time.
 --tight without -o only lists: it exits with 0 whatever the answer. --queries exits with the largest code of all.
 
 Examples:
@@ -34,7 +34,8 @@ Examples:
 
 void declare_ompl(CLI::App& app, Arguments& a) {
   app.add_option("--ompl", a.ompl, "Use this planner of OMPL on the exact free space");
-  app.add_option("--time", a.seconds, "Seconds for each run of an OMPL planner, or for a robot that turns")
+  app.add_option("--time", a.seconds,
+                 "Seconds for each run of an OMPL planner, for a robot that turns, or for an assembly")
       ->check(CLI::Range(1e-3, 1e6))
       ->each([&a](const std::string&) { a.time_given = true; });
   app.add_option("--runs", a.runs, "Runs of each OMPL planner")->check(CLI::Range(1U, 1000000U));

@@ -130,7 +130,7 @@ json free_space_json(const Scene& scene, const FreeSpace& free) {
     components.push_back(
         {{"dimension", component.dimension}, {"bounded", component.bounded}, {"cells", component.cells}});
   }
-  json result{{"scene", scene.name}};
+  json result{{"scene", scene.name}, {"motions", kTranslation}};
   result["components"] = std::move(components);
   result["tight"] = passages_json(free);
   result["touching"] = touching_json(free);

@@ -19,6 +19,10 @@ int exit_code(const Answer& answer);
 /// "path", "infeasible", "invalid_start", "invalid_goal", "free_space", "blocked".
 std::string status_name(Answer::Status status);
 
+/// What an answer is about, key `motions` of reports: translations at one orientation, or turns about an axis, too.
+inline constexpr const char* kTranslation = "translation";
+inline constexpr const char* kTranslationAndTurning = "translation and turning";
+
 /// A line that names way-points which could not be rounded.
 std::string unrounded_text(const std::vector<std::size_t>& waypoints);
 

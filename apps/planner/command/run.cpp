@@ -9,6 +9,7 @@
 #include "apps/planner/command/arguments.h"
 #include "apps/planner/command/assembly_run.h"
 #include "apps/planner/command/clearance_run.h"
+#include "apps/planner/command/notes.h"
 #include "apps/planner/command/ompl_runs.h"
 #include "apps/planner/command/scene_view.h"
 #include "apps/planner/command/turning_run.h"
@@ -94,7 +95,7 @@ std::string report_of(const Arguments& a, const Answer& answer, const Asked& ask
 std::string timed_text(const ExactPath& path, const MotionLimits& limits) {
   const std::vector<double> times = times_along(path, limits);
   std::string out = "t,x,y,z\n";
-  for (std::size_t i = 0; i < times.size(); ++i) {
+  for (const std::size_t i : distinct_times(times)) {
     append_number(out, times[i]);
     for (const Rational& x : path.points[i]) append_number(out += ',', nearest_double(x));
     out += '\n';
@@ -142,8 +143,8 @@ void print(const Arguments& a, const Answer& answer, const Asked& asked, const n
   }
   if (a.quiet) return;
   if (!widest.is_null()) std::cout << widest_text(widest);
-  for (const std::string& message : asked.scene.messages) std::cout << "note: " << message << '\n';
   std::cout << status_name(answer.status);
+  if (answer.status == Answer::Status::kInfeasible) std::cout << " by translation at this orientation";
   if (answer.blocked_segment) std::cout << ": segment " << *answer.blocked_segment << " leaves free space";
   if (answer.collision) std::cout << ": " << describe(*answer.collision, asked.scene);
   if (answer.status == Answer::Status::kInfeasible) {
@@ -232,6 +233,20 @@ bool asks_for_a_path_only(const Arguments& a) {
          a.benchmark.empty() && std::none_of(a.outputs.begin(), a.outputs.end(), is_view_file);
 }
 
+// Asks whether start and goal are free before any free space is made; nothing if they are.
+std::optional<int> answer_invalid_end(const Arguments& a, const Scene& scene, const nlohmann::json& widest,
+                                      ProgressBar& bar) {
+  if (!asks_for_a_path_only(a) || !scene.start || !scene.goal) return std::nullopt;
+  const std::optional<Answer> answer = Problem::invalid_end(scene, *scene.start, *scene.goal);
+  if (!answer) return std::nullopt;
+  bar.clear();
+  const FreeSpace not_made{Polyhedron()};
+  const Asked asked(scene, not_made);
+  write_answer(a, *answer, asked, widest);
+  print(a, *answer, asked, widest);
+  return exit_code(*answer);
+}
+
 // Looks for a path without cells and tight passages; nothing if there is none like that.
 std::optional<int> answer_without_tight_passages(const Arguments& a, const Scene& scene, const BuildOptions& build,
                                                  const nlohmann::json& widest, ProgressBar& bar) {
@@ -248,6 +263,7 @@ std::optional<int> answer_without_tight_passages(const Arguments& a, const Scene
   bar.clear();
   Scene told = scene;
   told.messages.emplace_back("tight passages were not looked for, since there is a path with room; --tight lists them");
+  print_notes(a, {told.messages.back()});
   const Asked asked(told, *found->free);
   write_answer(a, found->answer, asked, widest);
   print(a, found->answer, asked, widest);
@@ -268,6 +284,8 @@ int run(const Arguments& a) {
   bar.show("reading " + a.scene, 0, 0);
   Scene scene = scene_of(a);
   if (!a.keep_clear.empty()) keep_clear(scene, parse_rational(a.keep_clear));
+  bar.clear();
+  print_notes(a, scene.messages);
   nlohmann::json widest;
   if (a.widest || a.widest_box) widest = make_widest(a, scene);
   if (scene.rotation) {
@@ -275,6 +293,7 @@ int run(const Arguments& a) {
     return run_turning(a, scene, widest);
   }
   if (!a.check_proof.empty()) throw InputError("--check-proof is about robots that turn; the scene has no rotation");
+  if (const std::optional<int> code = answer_invalid_end(a, scene, widest, bar)) return *code;
   if (const std::optional<int> code = answer_without_tight_passages(a, scene, build, widest, bar)) return *code;
   const Problem problem(std::move(scene), build);
   bar.clear();

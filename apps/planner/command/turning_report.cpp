@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/planner/command/turning_report.h"
 
+#include "apps/planner/clearance/timing.h"
+#include "apps/planner/command/report.h"
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/number_text.h"
@@ -102,6 +104,7 @@ int exit_code_of(Status status) {
 json turning_json(const TurningAnswer& answer, const Scene& scene, const TurningAxis& axis) {
   json result{{"scene", scene.name},
               {"status", name_of(answer.status)},
+              {"motions", kTranslationAndTurning},
               {"cells", answer.cells},
               {"cells_looked_at", answer.looked_at},
               {"axis", axis_json(scene.rotation->axis)},
@@ -134,7 +137,7 @@ std::string turning_text(const TurningAnswer& answer, const TurningAxis& axis) {
 
 std::string turning_csv(const TurningAnswer& answer, const TurningAxis& axis, const std::vector<double>& times) {
   std::string out = "t,x,y,z,degrees\n";
-  for (std::size_t i = 0; i < answer.path.size(); ++i) {
+  for (const std::size_t i : distinct_times(times)) {
     append_number(out, times[i]);
     for (const Rational& x : answer.path[i].position) append_number(out += ',', nearest_double(x));
     append_number(out += ',', axis.degrees_of(answer.path[i].turn));

@@ -19,7 +19,8 @@ namespace {
 
 void check_turning_options(const Arguments& a) {
   const bool other = a.tight || !a.given_path.empty() || !a.queries.empty() || !a.benchmark.empty() ||
-                     a.path.min_dimension > 0 || a.path.clearance || a.se3;
+                     a.path.min_dimension > 0 || a.path.clearance || a.path.raw || !a.path.thorough ||
+                     a.prefer != "short" || a.se3;
   if (other) {
     throw InputError(
         "a scene with a rotation knows --json, --quiet, --page, -o, --max-cells, --time, --digits, --ompl and "
@@ -37,8 +38,7 @@ void check_turning_options(const Arguments& a) {
   }
 }
 
-void print(const Arguments& a, const TurningAnswer& answer, const Scene& scene, const TurningAxis& axis) {
-  for (const std::string& message : scene.messages) std::cout << "note: " << message << '\n';
+void print(const Arguments& a, const TurningAnswer& answer, const TurningAxis& axis) {
   std::cout << name_of(answer.status);
   if (a.ompl.empty()) std::cout << ", " << answer.cells << " cells of angles";
   if (answer.status == TurningAnswer::Status::kUndecided) {
@@ -99,7 +99,7 @@ int run_turning(const Arguments& a, const Scene& scene, const nlohmann::json& wi
     std::cout << text;
   } else if (!a.quiet) {
     if (!widest.is_null()) std::cout << widest_text(widest);
-    print(a, answer, scene, question.axis);
+    print(a, answer, question.axis);
   }
   const bool no_answer = !a.ompl.empty() && answer.status == TurningAnswer::Status::kUndecided;
   return no_answer ? 4 : exit_code_of(answer.status);

@@ -91,6 +91,7 @@ std::vector<std::size_t> obstacles_near(const Scene& scene, std::size_t index) {
 
 // Asks nobody but the monitor whether to stop.
 Polyhedron watched_positions(const Scene& scene, const BuildOptions& build, const Monitor& monitor) {
+  require_no_rotation(scene);
   std::vector<Polyhedron> obstacles;
   for (std::size_t i = 0; i < scene.obstacles.size(); ++i) {
     obstacles.push_back(bounded_obstacle(scene.obstacles[i], scene, i, monitor));

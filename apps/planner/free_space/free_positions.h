@@ -26,7 +26,8 @@ struct BuildOptions {
 
 /// The free positions of the robot's reference point. If contact is forbidden, an open set (but for the faces of the
 /// box). If it is allowed, a closed one where robot or obstacles are solid; a surface, curve or point may touch another
-/// one with its border only, and there the set is neither. Robot and obstacles are taken closed.
+/// one with its border only, and there the set is neither. Robot and obstacles are taken closed. Throws InputError for
+/// a robot that turns, as all functions here do: reset the rotation of a copy to ask about one orientation.
 Polyhedron free_positions(const Scene& scene, const BuildOptions& options = {});
 
 /// True if an obstacle may come or go by the functions below: each obstacle forbids what it forbids alone. (A thin

@@ -288,6 +288,7 @@ void TightPlanner::getPlannerData(ob::PlannerData& data) const {
 }
 
 TightPlanner::FreeSpaceBuilder free_space_builder(const Scene& scene) {
+  require_no_rotation(scene);
   return [&scene](const std::function<bool()>& stop) -> std::shared_ptr<const FreeSpace> {
     BuildOptions options;
     options.stop = stop;

@@ -137,7 +137,8 @@ class TightPlanner : public ompl::base::Planner {
   mutable std::vector<ompl::base::State*> dataStates_;
 };
 
-/** \brief A builder for a scene, which must outlive it. */
+/** \brief A builder for a scene, which must outlive it. Throws InputError if the robot turns: TurningPlanning is for
+    these. */
 TightPlanner::FreeSpaceBuilder free_space_builder(const Scene& scene);
 
 /** \brief The exact path as an OMPL path whose states keep their rationals. */

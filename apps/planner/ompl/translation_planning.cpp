@@ -172,9 +172,14 @@ void TranslationPlanning::setContact(ContactRule contact) {
   changed();
 }
 
-void TranslationPlanning::setEnvironmentBounds(const Rational3& low, const Rational3& high) {
+void TranslationPlanning::setBox(const Rational3& low, const Rational3& high) {
   scene_.box = {low, high};
   changed();
+}
+
+void TranslationPlanning::setEnvironmentBounds(const Rational3& low, const Rational3& high) {
+  setBox(low, high);
+  inferEnvironmentBounds();  // what was set on the state space before counts no more
 }
 
 void TranslationPlanning::changed() {
@@ -194,7 +199,7 @@ void TranslationPlanning::setExactStartAndGoal(const Rational3& start, const Rat
   static_cast<ExactTranslationSpace::StateType*>(from.get())->setExact(start);
   static_cast<ExactTranslationSpace::StateType*>(to.get())->setExact(goal);
   setStartAndGoalStates(from, to);
-  if (freeSpace_) inferEnvironmentBounds();
+  if (freeSpace_ && !hasBoundsOfUser()) inferEnvironmentBounds();
 }
 
 std::vector<const ob::State*> TranslationPlanning::endStates() const {
@@ -240,9 +245,14 @@ void TranslationPlanning::setStateBounds(const ob::RealVectorBounds& bounds) {
   boundsOfUser_ = false;
 }
 
-void TranslationPlanning::adoptBounds() {
+bool TranslationPlanning::boundsAreKnown() const {
   const ob::RealVectorBounds& present = space().getBounds();
-  if (bounds_ && bounds_->low == present.low && bounds_->high == present.high) return;
+  return bounds_ && bounds_->low == present.low && bounds_->high == present.high;
+}
+
+void TranslationPlanning::adoptBounds() {
+  const ob::RealVectorBounds present = space().getBounds();
+  if (boundsAreKnown()) return;
   Rational3 low;
   Rational3 high;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -252,7 +262,7 @@ void TranslationPlanning::adoptBounds() {
     low[i] = exact_rational(present.low[i]);
     high[i] = exact_rational(present.high[i]);
   }
-  setEnvironmentBounds(low, high);
+  setBox(low, high);
   bounds_ = present;
   boundsOfUser_ = true;
 }

@@ -84,6 +84,11 @@ class TranslationPlanning : public ompl::geometric::SimpleSetup {
   bool readMesh(const std::string& file, Polyhedron& into, bool add);
   void useFreeSpace(std::shared_ptr<const FreeSpace> freeSpace);
   void setStateBounds(const ompl::base::RealVectorBounds& bounds);
+  void setBox(const Rational3& low, const Rational3& high);
+  // True unless something has set bounds on the state space since last time.
+  bool boundsAreKnown() const;
+  // True if the bounds of the state space are the user's, adopted or not yet.
+  bool hasBoundsOfUser() const { return boundsOfUser_ || !boundsAreKnown(); }
   // What the user has set on the state space and the space information since last time.
   void adoptBounds();
   bool noteCheckers();

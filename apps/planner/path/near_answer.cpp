@@ -257,7 +257,7 @@ class NearSearch {
 }  // namespace
 
 bool may_have_near_answer(const Scene& scene) {
-  if (scene.contact != ContactRule::kAllow || !scene.start || !scene.goal) return false;
+  if (scene.rotation || scene.contact != ContactRule::kAllow || !scene.start || !scene.goal) return false;
   if (!scene.robot.is_bounded() || !scene.robot.is_regular()) return false;
   bool any = false;
   for (const Polyhedron& obstacle : scene.obstacles) {

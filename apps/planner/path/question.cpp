@@ -5,6 +5,7 @@
 #include "nef/base/timing/stopwatch.h"
 
 namespace nef::planner {
+
 Problem::Problem(Scene scene, const BuildOptions& options) : scene_(std::move(scene)) {
   Stopwatch watch;
   Polyhedron free = free_positions(scene_, options);
@@ -45,6 +46,22 @@ Answer Problem::solve(const Rational3& start, const Rational3& goal, const PathO
   if (roadmap > 0) answer.phases["roadmap"] = roadmap;
   answer.phases["query"] = watch.lap() - roadmap;
   return answer;
+}
+
+std::optional<Answer> Problem::invalid_end(const Scene& scene, const Rational3& start, const Rational3& goal,
+                                           const Monitor& monitor) {
+  require_no_rotation(scene);
+  Stopwatch watch;
+  Answer answer;
+  for (const auto& [position, status] :
+       {std::pair(&start, Answer::Status::kInvalidStart), std::pair(&goal, Answer::Status::kInvalidGoal)}) {
+    answer.collision = find_collision(scene, *position, monitor);
+    if (!answer.collision) continue;
+    answer.status = status;
+    answer.phases["query"] = watch.lap();
+    return answer;
+  }
+  return std::nullopt;
 }
 
 Answer Problem::check(const std::vector<Rational3>& points, const Monitor& monitor) const {

@@ -27,6 +27,11 @@ class Problem {
   [[nodiscard]] Answer solve(const Rational3& start, const Rational3& goal, const PathOptions& options,
                              const Monitor& monitor = {}) const;
 
+  /// The answer that start or goal is not free, found without any free space; nothing if both are free. Says what a
+  /// Problem of the scene would say about them.
+  static std::optional<Answer> invalid_end(const Scene& scene, const Rational3& start, const Rational3& goal,
+                                           const Monitor& monitor = {});
+
   /// Checks a given path (at least one point): kPath with its description, or kBlocked with the first segment that
   /// leaves free space and what it hits there.
   [[nodiscard]] Answer check(const std::vector<Rational3>& points, const Monitor& monitor = {}) const;

@@ -39,8 +39,8 @@ Polyhedron wide_positions(const Scene& scene, const BuildOptions& build, const M
 }  // namespace
 
 bool can_have_wide_answer(const Scene& scene) {
-  return scene.contact == ContactRule::kAllow && scene.start && scene.goal && is_bounded_solid(scene.robot) &&
-         std::all_of(scene.obstacles.begin(), scene.obstacles.end(), is_bounded_solid);
+  return !scene.rotation && scene.contact == ContactRule::kAllow && scene.start && scene.goal &&
+         is_bounded_solid(scene.robot) && std::all_of(scene.obstacles.begin(), scene.obstacles.end(), is_bounded_solid);
 }
 
 bool may_have_wide_answer(const Scene& scene) {

@@ -169,6 +169,10 @@ Scene read_cfg(const std::string& path, const Monitor& monitor) {
   scene.obstacle_names.push_back(keys.text("world"));
   scene.start = keys.point("start");
   scene.goal = keys.point("goal");
+  scene.messages.push_back(path +
+                           (scene.rotation ? ": answers hold for a robot that translates and turns about one axis"
+                                           : ": answers hold for a robot that translates and keeps its orientation") +
+                           "; OMPL.app's robots turn freely");
   if (keys.has_any("volume.")) {
     scene.box = {keys.point("volume.min"), keys.point("volume.max")};
     for (std::size_t i = 0; i < 3; ++i) {

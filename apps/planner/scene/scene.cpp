@@ -109,6 +109,13 @@ Rational3 end_of(const json& value, Rational* angle, const std::string& what) {
 
 }  // namespace
 
+void require_no_rotation(const Scene& scene) {
+  if (!scene.rotation) return;
+  throw InputError(scene.name +
+                   ": the robot turns (rotation), and this is about translations only: ask for a path, or leave the "
+                   "rotation out");
+}
+
 Scene parse_scene(const std::string& text, const std::string& folder, const std::string& name, const Monitor& monitor) {
   const json root = parse_exact_json(text, name);
   check_keys(root, name);

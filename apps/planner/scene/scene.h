@@ -44,6 +44,10 @@ struct Scene {
   Messages messages;  ///< what was done to the input
 };
 
+/// Throws InputError if the robot of the scene may turn: for what knows translations only, so that no answer about one
+/// orientation passes for an answer about all.
+void require_no_rotation(const Scene& scene);
+
 /// Reads a scene. `.cfg` files are OMPL.app problems, everything else is JSON:
 ///
 ///     { "robot": SHAPE, "obstacles": [SHAPE, ...],
@@ -63,10 +67,11 @@ Scene parse_scene(const std::string& text, const std::string& folder, const std:
                   const Monitor& monitor = {});
 
 /// An OMPL.app problem: [problem] robot, world, start.*, goal.*, volume.*. If the rotations of start and goal are the
-/// same, that one is applied to the robot once; if they differ, they must be about one axis, and the robot may turn
-/// about that, by any angle. The robot's reference point (also the centre of rotation) is the mean of its vertices as
-/// OMPL.app computes it, unless `robot.origin = mesh`; our own keys are `contact` and exact numbers such as 1/3. A mesh
-/// that bounds no solid is what meaning_of (nearly_closed.h) says.
+/// same, that one is applied to the robot once, and answers hold for translations at that orientation, as a message
+/// says; if they differ, they must be about one axis, and the robot may turn about that, by any angle. The robot's
+/// reference point (also the centre of rotation) is the mean of its vertices as OMPL.app computes it, unless
+/// `robot.origin = mesh`; our own keys are `contact` and exact numbers such as 1/3. A mesh that bounds no solid is what
+/// meaning_of (nearly_closed.h) says.
 Scene read_cfg(const std::string& path, const Monitor& monitor = {});
 
 }  // namespace nef::planner

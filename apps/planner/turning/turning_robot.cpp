@@ -46,11 +46,15 @@ std::optional<Mesh> inner_of_piece(const TurningRobot::Piece& piece, const Turni
 
 }  // namespace
 
-TurningRobot::TurningRobot(const Polyhedron& robot, const TurningAxis& axis, const Monitor& monitor)
-    : robot_(robot), axis_(axis) {
+void require_turning_robot(const Polyhedron& robot) {
   if (!robot.is_bounded() || robot.is_empty() || !robot.is_regular()) {
     throw InputError("a robot that turns must be a bounded solid without surfaces, curves or points sticking out");
   }
+}
+
+TurningRobot::TurningRobot(const Polyhedron& robot, const TurningAxis& axis, const Monitor& monitor)
+    : robot_(robot), axis_(axis) {
+  require_turning_robot(robot);
   for (minkowski::ConvexCell& cell : minkowski::decompose(robot, monitor)) {
     if (cell.dimension < 3) continue;  // walls between solid cells
     Piece& piece = pieces_.emplace_back();

@@ -11,6 +11,9 @@
 
 namespace nef::planner {
 
+/// Throws InputError unless a robot is a bounded solid, as one that turns must be.
+void require_turning_robot(const Polyhedron& robot);
+
 /// A solid robot that turns about an axis through its reference point, the origin.
 class TurningRobot {
  public:
@@ -25,7 +28,7 @@ class TurningRobot {
     std::vector<Face> faces;
   };
 
-  /// Cuts the robot into convex pieces. Throws InputError unless the robot is a bounded solid.
+  /// Cuts the robot into convex pieces. Throws as require_turning_robot.
   TurningRobot(const Polyhedron& robot, const TurningAxis& axis, const Monitor& monitor = {});
 
   [[nodiscard]] const TurningAxis& axis() const { return axis_; }

@@ -5,6 +5,7 @@
 #include <deque>
 #include <set>
 
+#include "apps/planner/free_space/collision.h"
 #include "apps/planner/path/path.h"
 #include "apps/planner/path/simple_points.h"
 #include "apps/planner/turning/parallel_faces.h"
@@ -301,6 +302,21 @@ class TurningSearch {
   TurningAnswer answer_;
 };
 
+// The answer that start or goal is not free, which needs no search.
+std::optional<TurningAnswer> invalid_end(const Scene& scene, const TurningQuestion& question, const Monitor& monitor) {
+  require_turning_robot(scene.robot);
+  for (const auto& [pose, status] : {std::pair(&question.start, TurningAnswer::Status::kInvalidStart),
+                                     std::pair(&question.goal, TurningAnswer::Status::kInvalidGoal)}) {
+    Scene there = scene;
+    there.robot = transform(scene.robot, question.axis.rotation(pose->turn), monitor);
+    if (!find_collision(there, pose->position, monitor)) continue;
+    TurningAnswer answer;
+    answer.status = status;
+    return answer;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 TurningAnswer find_turning_path(const Scene& scene, const TurningQuestion& question, const TurningLimits& limits) {
@@ -312,6 +328,7 @@ TurningAnswer find_turning_path(const Scene& scene, const TurningQuestion& quest
   if (!(question.low < question.high) || question.high - question.low > 4) {
     throw InputError("the range of angles must have an extent, and no more than a full circle");
   }
+  if (const std::optional<TurningAnswer> invalid = invalid_end(scene, question, limits.monitor)) return *invalid;
   return TurningSearch(scene, question, limits).run();
 }
 

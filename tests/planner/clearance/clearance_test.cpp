@@ -19,6 +19,17 @@
 namespace nef::planner::test {
 namespace {
 
+TEST_CASE("lists with time stamps have one line for each time") {
+  using Numbers = std::vector<std::size_t>;
+  CHECK(distinct_times({0}) == Numbers{0});
+  CHECK(distinct_times({0, 1, 2}) == Numbers{0, 1, 2});
+  CHECK(distinct_times({0, 0, 1, 1, 2, 2}) == Numbers{0, 2, 5});
+  CHECK(distinct_times({0, 0}) == Numbers{0});
+  // A turn of next to nothing after a long way.
+  const std::vector<double> times = times_of({1e6, 1e-13, 1}, {.speed = 1});
+  CHECK(distinct_times(times) == Numbers{0, 1, 3});
+}
+
 TEST_CASE("bisection: simple critical sizes are met, others are between; what is undecided is said") {
   for (const Rational& critical : {ratio(3, 2), ratio(1, 7), ratio(100, 3), Rational(1)}) {
     const Widest found = find_widest(1, ratio(1, 1000), true, [&](const Rational& size) {

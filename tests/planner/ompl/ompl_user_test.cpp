@@ -51,6 +51,43 @@ TEST_CASE("bounds that the user sets on the state space bound the free space") {
   CHECK(bounded.solve(30.0) == ob::PlannerStatus::EXACT_SOLUTION);
 }
 
+TEST_CASE("bounds that the user sets between questions stay, whatever is set after them") {
+  const auto low_bound = [](const TranslationPlanning& setup) {
+    return setup.getStateSpace()->as<ob::RealVectorStateSpace>()->getBounds().low[0];
+  };
+  TranslationPlanning setup;
+  make_wall(setup);
+  CHECK(setup.solve(30.0) == ob::PlannerStatus::EXACT_SOLUTION);
+  setup.clear();
+  set_bounds(setup, cube(-5, 10));
+  setup.setExactStartAndGoal({0, 0, 0}, {8, 0, 0});
+  CHECK(low_bound(setup) == -5);
+  CHECK_FALSE(setup.solve(30.0));
+  CHECK(setup.getProblemDefinition()->hasSolutionNonExistenceProof());
+  CHECK(low_bound(setup) == -5);
+  // A new question within the same bounds.
+  setup.clear();
+  setup.setExactStartAndGoal({0, 0, 0}, {8, 1, 0});
+  CHECK_FALSE(setup.solve(30.0));
+  CHECK(low_bound(setup) == -5);
+  // What is said last counts, on whichever way.
+  setup.clear();
+  setup.setEnvironmentBounds({-50, -50, -50}, {50, 50, 50});
+  CHECK(setup.solve(30.0) == ob::PlannerStatus::EXACT_SOLUTION);
+  CHECK(low_bound(setup) < -49);
+  set_bounds(setup, cube(-50, 50));
+  setup.setEnvironmentBounds({-5, -5, -5}, {10, 10, 10});
+  CHECK_FALSE(setup.solve(30.0));
+  // Without bounds of the user they follow start and goal.
+  TranslationPlanning open;
+  make_wall(open);
+  CHECK(open.solve(30.0) == ob::PlannerStatus::EXACT_SOLUTION);
+  open.clear();
+  open.setExactStartAndGoal({-100, 0, 0}, {8, 0, 0});
+  CHECK(low_bound(open) < -100);
+  CHECK(open.solve(30.0) == ob::PlannerStatus::EXACT_SOLUTION);
+}
+
 TEST_CASE("a validity checker of the user's is asked as well") {
   TranslationPlanning setup;
   make_wall(setup);

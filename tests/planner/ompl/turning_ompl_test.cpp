@@ -87,6 +87,7 @@ TEST_CASE("poses and motions among random boxes are judged as free space says") 
       for (int i = 0; i < 3; ++i) {
         const Turn turn = ratio(static_cast<long>(random() % 16), 4);
         Scene slice = scene;
+        slice.rotation.reset();
         slice.robot = robot.at(turn);
         const FreeSpace free(free_positions(slice));
         for (int k = 0; k < 30; ++k) {

@@ -39,14 +39,24 @@ TEST_CASE("one rotation for start and goal turns the robot once; two let it turn
   const Scene turned = read_scene(problem("wall_turned.cfg"));
   CHECK(volume(turned.robot) == Rational(1));
   CHECK(nearest_double((*bounding_box(turned.robot))[1][0]) == Approx((std::cos(0.3) + std::sin(0.3)) / 2));
-  CHECK(turned.messages.size() == 1);
+  REQUIRE(turned.messages.size() == 2);
+  CHECK_THAT(turned.messages[1], Catch::Contains("keeps its orientation"));
   CHECK(Problem(turned).solve().status == Answer::Status::kInfeasible);
   const Folder folder;
+  // Turned upright the robot would fit: the answer says what it is about.
+  const Run no = planner(folder, problem("wall_turned.cfg"));
+  CHECK(no.code == 1);
+  CHECK_THAT(no.out, Catch::StartsWith("infeasible by translation at this orientation: start is in component "));
+  CHECK_THAT(no.err, Catch::Contains("planner: note: ") && Catch::Contains("OMPL.app's robots turn freely"));
+  const Run no_report = planner(folder, problem("wall_turned.cfg") + " --json");
+  CHECK(nlohmann::json::parse(no_report.out)["motions"] == "translation");
+  CHECK(no_report.err.empty());
   const Run run = planner(folder, problem("wall_rotating.cfg") + " --json");
   CHECK(run.code == 0);
   const nlohmann::json report = nlohmann::json::parse(run.out);
   CHECK(report["path"].back()["turn"]["degrees"].get<double>() == Approx(1.5 * 180 / M_PI));
   CHECK(report["axis"] == "z");
+  CHECK(report["motions"] == "translation and turning");
   CHECK(planner(folder, problem("wall.cfg") + " --json").code == 0);
 }
 

@@ -293,6 +293,7 @@ TEST_CASE("random boxes in the plane against a fine grid of poses") {
       };
       for (int t = 0; t < kTurns; ++t) {
         Scene slice = scene;
+        slice.rotation.reset();
         slice.robot = robot.at(ratio(t, 16));
         const FreeSpace space(free_positions(slice));
         for (int i = 0; i < kSteps; ++i) {

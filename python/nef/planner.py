@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Exact planning for a robot that translates among obstacles: a path, or a proof that there is none.
+"""Exact planning for a robot that translates among obstacles, and may turn about an axis: a path, or a proof that there
+is none.
 
     >>> import nef
     >>> from nef import planner
@@ -11,7 +12,7 @@
     ('path', 1)
 """
 from fractions import Fraction
-from typing import Any, Callable, List, NamedTuple, Optional, Sequence, Tuple
+from typing import Any, Callable, List, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy
 
@@ -21,7 +22,7 @@ from .errors import Error, InputError
 
 Exact3 = Tuple[Fraction, Fraction, Fraction]
 
-__all__ = ["Cell", "Component", "Plan", "Proof", "Scene", "Thinness", "TightPassage", "read"]
+__all__ = ["Cell", "Component", "Plan", "Proof", "Rotation", "Scene", "Thinness", "TightPassage", "TurningProof", "read"]
 
 
 class Cell(NamedTuple):
@@ -73,28 +74,67 @@ class Proof(NamedTuple):
     goal_component: int
 
 
+class Rotation(NamedTuple):
+    """How a robot may turn about its reference point."""
+
+    #: "x", "y", "z" or a direction of three numbers
+    axis: Any = "z"
+    #: the range of angles, in degrees; one of 360 degrees is the full circle, closed
+    low: Any = 0
+    high: Any = 360
+
+
+class TurningProof:
+    """Why there is no path of a robot that turns, whatever it does within its range of angles."""
+
+    def __init__(self, proof):
+        self._proof = proof
+
+    @property
+    def cells(self) -> int:
+        """How many cells the range of angles is cut into."""
+        return self._proof.cells
+
+    def complaint(self) -> Optional[str]:
+        """What is wrong with the proof, found by other means than the search; None if it holds."""
+        return self._proof.complaint()
+
+
 class Plan:
     """What came out of a question. True if it is a path.
 
-    - status: 'path', 'infeasible', 'invalid_start', 'invalid_goal' or 'blocked' (a given path leaves free space)
+    - status: 'path', 'infeasible', 'invalid_start', 'invalid_goal', 'blocked' (a given path leaves free space) or
+      'undecided' (only of a robot that turns: more cells of angles, or more time, may decide)
+    - motions: what the answer is about: 'translation' (at the orientation of the robot) or 'translation and turning'
     - waypoints: the path, a list of three Fractions each; None if there is none
-    - length: of the path, a float
+    - turns: of a robot that turns, for each way-point the quaternion w, x, y, z of its rotation, of any length; else None
+    - degrees: the same as floats; else None
+    - open_ranges: undecided: the ranges of degrees in question
+    - unrounded: numbers of way-points between the ends with more decimals than `digits`
+    - length: of the path, a float; None for a robot that turns
     - segment_dimensions: for each segment, the smallest dimension of the cells that it runs along
     - passages: numbers in Scene.passages(), in the order of their use
     - thinness: of the best path there is
-    - proof: a Proof if the problem is infeasible
+    - proof: a Proof (or a TurningProof) if the problem is infeasible
     - collision: what an invalid start or goal, or a blocked path, hits: a line for people
     - blocked_segment: of a given path, the first segment that leaves free space
     """
 
-    def __init__(self, answer):
+    def __init__(self, answer, motions="translation"):
         self.status = answer["status"]
+        self.motions = motions
         self.waypoints = answer.get("points")
+        self.turns = answer.get("turns")
+        self.degrees = answer.get("degrees")
+        self.open_ranges = answer.get("open_ranges", [])
+        self.unrounded = answer.get("unrounded", [])
         self.length = answer.get("length")
         self.segment_dimensions = answer.get("segment_dimensions")
         self.passages = answer.get("passages")
         self.thinness = Thinness(*answer["thinness"]) if "thinness" in answer else None
-        self.proof = Proof(*answer["components"]) if "components" in answer else None
+        self.proof: Union[Proof, TurningProof, None] = Proof(*answer["components"]) if "components" in answer else None
+        if "proof" in answer:
+            self.proof = TurningProof(answer["proof"])
         self.collision = answer.get("collision")
         self.blocked_segment = answer.get("blocked_segment")
 
@@ -102,35 +142,49 @@ class Plan:
         return self.status == "path"
 
     def __array__(self, dtype=None):
-        """The way-points as an array of shape (N, 3) of the nearest floats."""
+        """The way-points as an array of shape (N, 3) of the nearest floats; (N, 4) with degrees for a robot that turns."""
         if self.waypoints is None:
             raise Error(f"there is no path: {self.status}")
-        return numpy.array([[float(x) for x in point] for point in self.waypoints], dtype=dtype or float)
+        rows = [[float(x) for x in point] for point in self.waypoints]
+        if self.degrees is not None:
+            rows = [row + [degrees] for row, degrees in zip(rows, self.degrees)]
+        return numpy.array(rows, dtype=dtype or float)
 
     def __repr__(self):
         if self:
-            return f"<nef.planner.Plan: a path of {len(self.waypoints)} way-points, length {self.length:.6g}>"
+            length = "" if self.length is None else f", length {self.length:.6g}"
+            return f"<nef.planner.Plan: a path of {len(self.waypoints)} way-points{length}>"
         return f"<nef.planner.Plan: {self.status}{', ' + self.collision if self.collision else ''}>"
 
 
 class Scene:
-    """A robot that translates among obstacles.
+    """A robot that translates among obstacles, and may turn about an axis.
 
     - robot: a Polyhedron, its reference point at the origin
     - obstacles: a list of Polyhedron
     - box: two corners that bound the reference point; or None
     - contact: whether the robot may touch obstacles; then passages as narrow as the robot are free
     - names: of the obstacles, for messages
+    - rotation: a Rotation if the robot may turn; then it must be a bounded solid. plan() answers for all angles of the
+      range; free_space(), components(), passages() and check() are about translations and raise InputError
     """
 
     def __init__(self, robot: Polyhedron, obstacles: Sequence[Polyhedron], box: Any = None, contact: bool = True,
-                 names: Optional[Sequence[str]] = None):
+                 names: Optional[Sequence[str]] = None, rotation: Optional[Rotation] = None):
         obstacles = list(obstacles)
         if names is None:
             names = [f"obstacle {i}" for i in range(len(obstacles))]
         if len(names) != len(obstacles):
             raise ValueError(f"{len(obstacles)} obstacles need as many names, not {len(names)}")
-        self._scene = _planner.Scene(robot, obstacles, list(names), box, contact)
+        turns = None
+        if rotation is not None:
+            axis, low, high = rotation
+            if isinstance(axis, str):
+                if axis not in ("x", "y", "z"):
+                    raise InputError(f"axis must be 'x', 'y', 'z' or a direction, not {axis!r}")
+                axis = [int(axis == name) for name in "xyz"]
+            turns = (axis, low, high, 0, 0)
+        self._scene = _planner.Scene(robot, obstacles, list(names), box, contact, turns)
         self._space = None
 
     @property
@@ -142,14 +196,51 @@ class Scene:
         return self._scene.obstacles
 
     @property
-    def start(self) -> Optional[Exact3]:
-        """The start that a file gives, or None."""
-        return self._scene.start
+    def start(self) -> Optional[Tuple[Fraction, ...]]:
+        """The start that a file gives, or None; with a fourth number, degrees, if the robot turns."""
+        return self._end(self._scene.start, 3)
 
     @property
-    def goal(self) -> Optional[Exact3]:
-        """The goal that a file gives, or None."""
-        return self._scene.goal
+    def goal(self) -> Optional[Tuple[Fraction, ...]]:
+        """The goal that a file gives, or None; with a fourth number, degrees, if the robot turns."""
+        return self._end(self._scene.goal, 4)
+
+    def _end(self, position, angle):
+        rotation = self._scene.rotation
+        return position if position is None or rotation is None else position + (rotation[angle],)
+
+    @property
+    def names(self) -> List[str]:
+        """Of the obstacles, for messages."""
+        return self._scene.names
+
+    @property
+    def box(self) -> Optional[Tuple[Exact3, Exact3]]:
+        """Two corners that bound the reference point; or None."""
+        return self._scene.box
+
+    @property
+    def contact(self) -> bool:
+        """Whether the robot may touch obstacles."""
+        return self._scene.contact
+
+    @property
+    def rotation(self) -> Optional[Rotation]:
+        """How the robot may turn; None if it only translates."""
+        return None if self._scene.rotation is None else Rotation(*self._scene.rotation[:3])
+
+    @property
+    def messages(self) -> List[str]:
+        """What was done to the input: a line each."""
+        return self._scene.messages
+
+    def keep_clear(self, distance: Any) -> "Scene":
+        """The scene of a robot made larger by a polytope around the ball of this radius: what is free there keeps at
+        least that distance from all obstacles, and all that keeps 1.2 times as much is free."""
+        scene = Scene.__new__(Scene)
+        scene._scene = self._scene.kept_clear(distance)
+        scene._space = None
+        return scene
 
     def build(self, threads: int = 1, progress: Optional[Callable[[str, int, int], object]] = None) -> "Scene":
         """Computes the free space, which the first question does otherwise.
@@ -174,24 +265,42 @@ class Scene:
                 for dimension, component, cells, mouths in self.build()._space.passages()]
 
     def plan(self, start: Any = None, goal: Any = None, *, raw: bool = False, clearance: bool = False, roomy: bool = False,
-             min_dimension: int = 0) -> Plan:
+             min_dimension: int = 0, quick: bool = False, digits: Optional[int] = None, max_cells: Optional[int] = None,
+             seconds: Optional[float] = None) -> Plan:
         """A path from start to goal, or a proof that there is none.
 
-        - start, goal: three numbers each; those of the scene's file if None
+        - start, goal: three numbers each, and a fourth, degrees, if the robot turns (that of the scene if it is left out);
+          those of the scene's file if None
         - raw: without shortcuts
         - clearance: way-points off the obstacles where there is a choice
         - roomy: the roomiest way first, then short (else just short)
         - min_dimension: only where free space is locally at least this thick
+        - quick: the first way found, pulled a few times, rather than the shortest of several ways round
+        - digits: round way-points to so many decimals where the motions stay free
+        - max_cells, seconds: only of a robot that turns: the range of angles is cut into so many cells at most (2000), and
+          the search ends after so long; what is not decided by then is 'undecided'
         """
-        start = self.start if start is None else start
-        goal = self.goal if goal is None else goal
-        if start is None or goal is None:
+        scene = self._scene.with_ends(start, goal)
+        if scene.start is None or scene.goal is None:
             raise InputError("a plan needs a start and a goal")
-        options = _planner.PathOptions(raw, clearance, roomy, min_dimension)
-        return Plan(self.build()._space.solve(start, goal, options))
+        if digits is not None and not 0 <= digits <= 300:
+            raise InputError(f"digits must be from 0 to 300, not {digits}")
+        if scene.rotation is not None:
+            if raw or clearance or roomy or quick or min_dimension:
+                raise InputError("a plan of a robot that turns knows digits, max_cells and seconds only")
+            answer = _planner.solve_turning(scene, 2000 if max_cells is None else max_cells, seconds, digits)
+            return Plan(answer, "translation and turning")
+        if max_cells is not None or seconds is not None:
+            raise InputError("max_cells and seconds are for a robot that turns; the scene has no rotation")
+        if self._space is None:
+            invalid = scene.invalid_end(scene.start, scene.goal)
+            if invalid is not None:
+                return Plan(invalid)
+        options = _planner.PathOptions(raw, clearance, roomy, min_dimension, quick, digits)
+        return Plan(self.build()._space.solve(scene.start, scene.goal, options))
 
     def check(self, waypoints: Any) -> Plan:
-        """Whether a path stays in free space, exactly: a Plan, 'path' or 'blocked'."""
+        """Whether a path stays in free space, exactly: a Plan, 'path' or 'blocked'. Of a robot that only translates."""
         return Plan(self.build()._space.check(waypoints))
 
 

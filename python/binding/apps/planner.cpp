@@ -3,23 +3,45 @@
 // The extension module nef._planner.
 #include <pybind11/stl.h>
 
+#include "apps/planner/clearance/keep_clear.h"
 #include "apps/planner/path/question.h"
 #include "apps/planner/scene/scene.h"
+#include "apps/planner/turning/turning_search.h"
 #include "binding/base/bindings.h"
+#include "nef/base/timing/stopwatch.h"
 
 namespace nef::python {
 namespace {
 
 namespace plan = nef::planner;
 
+// (axis, low, high, start, goal), angles in degrees.
+plan::AxisRotation rotation_of(const py::tuple& values) {
+  plan::AxisRotation rotation;
+  rotation.axis = to_triple(values[0], "an axis");
+  rotation.low = to_rational(values[1]);
+  rotation.high = to_rational(values[2]);
+  rotation.start = to_rational(values[3]);
+  rotation.goal = to_rational(values[4]);
+  return rotation;
+}
+
+py::object told(const std::optional<plan::AxisRotation>& rotation) {
+  if (!rotation) return py::none();
+  return py::make_tuple(from_triple(rotation->axis), to_fraction(rotation->low), to_fraction(rotation->high),
+                        to_fraction(rotation->start), to_fraction(rotation->goal));
+}
+
 plan::Scene scene_of(const Polyhedron& robot, const std::vector<Polyhedron>& obstacles,
-                     const std::vector<std::string>& names, const py::object& box, bool contact) {
+                     const std::vector<std::string>& names, const py::object& box, bool contact,
+                     const py::object& rotation) {
   plan::Scene scene;
   scene.name = "scene";
   scene.robot = robot;
   scene.obstacles = obstacles;
   scene.obstacle_names = names;
   scene.contact = contact ? plan::ContactRule::kAllow : plan::ContactRule::kForbid;
+  if (!rotation.is_none()) scene.rotation = rotation_of(rotation);
   if (!box.is_none()) {
     const py::sequence corners = box;
     if (corners.size() != 2) throw py::value_error("a box needs two corners");
@@ -30,6 +52,119 @@ plan::Scene scene_of(const Polyhedron& robot, const std::vector<Polyhedron>& obs
 
 py::object optional_triple(const std::optional<Rational3>& point) {
   return point ? py::object(from_triple(*point)) : py::none();
+}
+
+// What a start or goal that is not free hits; None if both are free. Without any free space.
+py::object invalid_end(const plan::Scene& scene, py::handle start, py::handle goal) {
+  const Rational3 from = to_triple(start, "a start");
+  const Rational3 to = to_triple(goal, "a goal");
+  const std::optional<plan::Answer> answer =
+      call(kSmallCall, [=](const Monitor& monitor) { return plan::Problem::invalid_end(scene, from, to, monitor); });
+  if (!answer) return py::none();
+  py::dict result;
+  result["status"] = answer->status == plan::Answer::Status::kInvalidStart ? "invalid_start" : "invalid_goal";
+  result["collision"] = plan::describe(*answer->collision, scene);
+  return result;
+}
+
+const char* status_text(plan::TurningAnswer::Status status) {
+  switch (status) {
+    case plan::TurningAnswer::Status::kPath:
+      return "path";
+    case plan::TurningAnswer::Status::kInfeasible:
+      return "infeasible";
+    case plan::TurningAnswer::Status::kInvalidStart:
+      return "invalid_start";
+    case plan::TurningAnswer::Status::kInvalidGoal:
+      return "invalid_goal";
+    case plan::TurningAnswer::Status::kUndecided:
+      break;
+  }
+  return "undecided";
+}
+
+// A proof about a robot that turns, with what it is about.
+struct TurningProofOfScene {
+  plan::Scene scene;
+  plan::TurningQuestion question;
+  plan::TurningProof proof;
+
+  [[nodiscard]] py::object complaint() const {
+    const std::optional<std::string> found = call(kSmallCall, [self = *this](const Monitor& monitor) {
+      return plan::complaint_about(self.proof, self.scene, self.question, monitor);
+    });
+    return found ? py::object(py::str(*found)) : py::none();
+  }
+  [[nodiscard]] std::size_t cells() const { return proof.cells.size(); }
+};
+
+// A question about a robot that turns; the scene says where it starts and how it is turned there.
+py::dict solve_turning(const plan::Scene& scene, std::size_t max_cells, const py::object& seconds,
+                       const py::object& digits) {
+  plan::TurningLimits limits;
+  limits.max_cells = max_cells;
+  if (!digits.is_none()) limits.digits = digits.cast<unsigned>();
+  if (!seconds.is_none()) {
+    limits.stop = [watch = Stopwatch(), most = seconds.cast<double>()] { return watch.seconds() >= most; };
+  }
+  const plan::TurningQuestion question = plan::question_of(scene);
+  plan::TurningAnswer answer = call(kSmallCall, [=](const Monitor& monitor) mutable {
+    limits.monitor = monitor;
+    return plan::find_turning_path(scene, question, limits);
+  });
+  py::dict result;
+  result["status"] = status_text(answer.status);
+  py::list points;
+  py::list turns;
+  py::list degrees;
+  for (const plan::Pose& pose : answer.path) {
+    points.append(from_triple(pose.position));
+    py::list quaternion;
+    for (const Rational& x : question.axis.quaternion(pose.turn)) quaternion.append(to_fraction(x));
+    turns.append(py::tuple(quaternion));
+    degrees.append(question.axis.degrees_of(pose.turn));
+  }
+  if (!answer.path.empty()) {
+    result["points"] = points;
+    result["turns"] = turns;
+    result["degrees"] = degrees;
+    result["unrounded"] = answer.unrounded;
+  }
+  py::list open;
+  for (const plan::TurnRange& range : answer.open_ranges) {
+    open.append(py::make_tuple(question.axis.degrees_of(range.low), question.axis.degrees_of(range.high)));
+  }
+  result["open_ranges"] = open;
+  if (answer.proof) result["proof"] = TurningProofOfScene{scene, question, std::move(*answer.proof)};
+  return result;
+}
+
+// The scene with another start and goal: three numbers, or four if the robot turns.
+plan::Scene with_ends(const plan::Scene& scene, const py::object& start, const py::object& goal) {
+  plan::Scene result = scene;
+  const auto take = [&](const py::object& end, const char* what, std::optional<Rational3>& position,
+                        Rational* degrees) {
+    if (end.is_none()) return;
+    const py::list numbers(end);
+    if (degrees != nullptr && numbers.size() == 4) *degrees = to_rational(numbers[3]);
+    position = to_triple(degrees != nullptr && numbers.size() == 4
+                             ? py::object(py::make_tuple(numbers[0], numbers[1], numbers[2]))
+                             : end,
+                         what);
+  };
+  Rational* const no_angle = nullptr;
+  take(start, "a start", result.start, result.rotation ? &result.rotation->start : no_angle);
+  take(goal, "a goal", result.goal, result.rotation ? &result.rotation->goal : no_angle);
+  return result;
+}
+
+// The scene of a larger robot (planner --keep-clear).
+plan::Scene kept_clear(const plan::Scene& scene, py::handle distance) {
+  const Rational d = to_rational(distance);
+  return call(kSmallCall, [scene = scene, d](const Monitor& monitor) mutable {
+    plan::keep_clear(scene, d, monitor);
+    return scene;
+  });
 }
 
 // A problem whose free space is computed.
@@ -102,6 +237,7 @@ class Space {
       result["points"] = points;
       result["segment_dimensions"] = answer.path->segment_dimensions;
       result["passages"] = answer.path->passages;
+      result["unrounded"] = answer.path->unrounded;
       result["length"] = answer.path->length;
     }
     if (answer.thinness) result["thinness"] = py::make_tuple(answer.thinness->piece, answer.thinness->junction);
@@ -135,12 +271,15 @@ class Space {
   std::shared_ptr<const plan::Problem> problem_;
 };
 
-plan::PathOptions path_options(bool raw, bool clearance, bool roomy, int min_dimension) {
+plan::PathOptions path_options(bool raw, bool clearance, bool roomy, int min_dimension, bool quick,
+                               const py::object& digits) {
   plan::PathOptions options;
   options.raw = raw;
   options.clearance = clearance;
   options.roomy = roomy;
   options.min_dimension = min_dimension;
+  options.thorough = !quick;
+  if (!digits.is_none()) options.digits = digits.cast<unsigned>();
   return options;
 }
 
@@ -154,11 +293,25 @@ void define_module(py::module_& m) {
       .def_readonly("obstacles", &plan::Scene::obstacles)
       .def_readonly("names", &plan::Scene::obstacle_names)
       .def_readonly("messages", &plan::Scene::messages)
+      .def_property_readonly("contact", [](const plan::Scene& s) { return s.contact == plan::ContactRule::kAllow; })
+      .def_property_readonly("box",
+                             [](const plan::Scene& s) -> py::object {
+                               if (!s.box) return py::none();
+                               return py::make_tuple(from_triple((*s.box)[0]), from_triple((*s.box)[1]));
+                             })
+      .def_property_readonly("rotation", [](const plan::Scene& s) { return told(s.rotation); })
+      .def("with_ends", &with_ends)
+      .def("kept_clear", &kept_clear)
+      .def("invalid_end", &invalid_end)
       .def_property_readonly("start", [](const plan::Scene& s) { return optional_triple(s.start); })
       .def_property_readonly("goal", [](const plan::Scene& s) { return optional_triple(s.goal); });
   m.def("read", [](const std::string& path) {
     return call(kSmallCall, [path](const Monitor& monitor) { return plan::read_scene(path, monitor); });
   });
+  py::class_<TurningProofOfScene>(m, "TurningProof")
+      .def("complaint", &TurningProofOfScene::complaint)
+      .def_property_readonly("cells", &TurningProofOfScene::cells);
+  m.def("solve_turning", &solve_turning);
   py::class_<Space>(m, "Space")
       .def(py::init<plan::Scene, unsigned, const py::object&>())
       .def("solve", &Space::solve)

@@ -13,6 +13,7 @@
 #include "nef/base/error.h"
 #include "nef/base/union_find.h"
 #include "nef/geometry/vectors.h"
+#include "nef/import/doubled_faces.h"
 #include "nef/import/try_from_mesh.h"
 #include "nef/mesh/edge_order.h"
 #include "nef/mesh/surface/mesh_surface.h"
@@ -86,13 +87,8 @@ class Repairer {
   }
 
   void drop_duplicates() {
-    std::set<Ring> seen;
     const std::size_t before = rings_.size();
-    std::erase_if(rings_, [&](const Ring& ring) {
-      Ring sorted = ring;
-      std::sort(sorted.begin(), sorted.end());
-      return !seen.insert(std::move(sorted)).second;
-    });
+    rings_ = without_copies(std::move(rings_));
     note(before - rings_.size(), "face", "faces", "with the corners of another dropped");
   }
 
@@ -177,9 +173,10 @@ class Repairer {
   };
   using Uses = std::unordered_map<std::uint64_t, std::vector<Use>>;
 
-  [[nodiscard]] Uses uses_of_sides() const {
+  [[nodiscard]] Uses uses_of_sides(const std::vector<bool>& left_out = {}) const {
     Uses uses;
     for (std::uint32_t f = 0; f < rings_.size(); ++f) {
+      if (!left_out.empty() && left_out[f]) continue;
       const Ring& ring = rings_[f];
       for (std::size_t i = 0; i < ring.size(); ++i) {
         const std::uint32_t u = ring[i];
@@ -191,13 +188,15 @@ class Repairer {
   }
 
   // Breadth first over sides of two faces; the larger part of a component keeps its direction.
+  // A wall between two solids has both directions, and the faces beside it are each other's neighbours.
   void turn_to_neighbours() {
-    const Uses uses = uses_of_sides();
+    const std::vector<bool> is_wall = doubled(rings_);
+    const Uses uses = uses_of_sides(is_wall);
     enum class State : std::uint8_t { kUnknown, kKept, kTurned };
     std::vector<State> state(rings_.size(), State::kUnknown);
     std::size_t turned = 0;
     for (std::uint32_t first = 0; first < rings_.size(); ++first) {
-      if (state[first] != State::kUnknown) continue;
+      if (state[first] != State::kUnknown || is_wall[first]) continue;
       std::vector<std::uint32_t> part{first};
       std::size_t count = 0;
       state[first] = State::kKept;

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/import/doubled_faces.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <unordered_map>
+#include <utility>
+
+#include "nef/base/union_find.h"
+#include "nef/mesh/edge_order.h"
+
+namespace nef {
+namespace {
+
+using Ring = std::vector<std::uint32_t>;
+
+// The ring from its smallest corner on; the smallest of all starts if a corner is named more than once.
+Ring rotated(const Ring& ring) {
+  if (ring.empty()) return ring;
+  const std::uint32_t least = *std::min_element(ring.begin(), ring.end());
+  Ring best;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    if (ring[i] != least) continue;
+    Ring candidate(ring.begin() + static_cast<std::ptrdiff_t>(i), ring.end());
+    candidate.insert(candidate.end(), ring.begin(), ring.begin() + static_cast<std::ptrdiff_t>(i));
+    if (best.empty() || candidate < best) best = std::move(candidate);
+  }
+  return best;
+}
+
+class Copies {
+ public:
+  explicit Copies(std::vector<Ring> rings) : rings_(std::move(rings)) {}
+
+  std::vector<Ring> drop() {
+    find_places();
+    if (places_.size() == rings_.size()) return std::move(rings_);
+    find_sides();
+    decide();
+    std::vector<Ring> kept;
+    for (std::uint32_t f = 0; f < rings_.size(); ++f) {
+      const std::uint32_t p = place_of_[f];
+      Place& place = places_[p];
+      if (place.kept == (is_wall(p) ? 2U : 1U)) continue;
+      if (place.kept == 1 && forward_[f] == place.first_forward) std::reverse(rings_[f].begin(), rings_[f].end());
+      if (place.kept++ == 0) place.first_forward = forward_[f];
+      kept.push_back(std::move(rings_[f]));
+    }
+    return kept;
+  }
+
+  std::vector<bool> doubled() {
+    find_places();
+    std::vector<bool> result;
+    for (const std::uint32_t p : place_of_) result.push_back(places_[p].faces > 1);
+    return result;
+  }
+
+ private:
+  // Where faces have the same ring, turned either way.
+  struct Place {
+    std::uint32_t faces = 0;
+    std::uint32_t kept = 0;
+    bool first_forward = false;
+  };
+  struct Side {
+    std::uint32_t single = 0;            // faces that stand alone in their place
+    std::vector<std::uint32_t> doubled;  // places of several faces
+  };
+  enum class Kind : std::uint8_t { kUnknown, kWall, kCopy };
+  // What the sides of places that are decided together say.
+  struct Votes {
+    std::uint32_t wall = 0;
+    std::uint32_t copy = 0;
+  };
+
+  void find_places() {
+    std::map<Ring, std::uint32_t> number;
+    for (const Ring& ring : rings_) {
+      Ring there = rotated(ring);
+      Ring back = rotated(Ring(ring.rbegin(), ring.rend()));
+      forward_.push_back(there <= back);
+      const auto [at, is_new] =
+          number.emplace(std::min(std::move(there), std::move(back)), static_cast<std::uint32_t>(places_.size()));
+      if (is_new) places_.emplace_back();
+      ++places_[at->second].faces;
+      place_of_.push_back(at->second);
+    }
+  }
+
+  void find_sides() {
+    std::vector<bool> seen(places_.size(), false);
+    for (std::uint32_t f = 0; f < rings_.size(); ++f) {
+      const std::uint32_t p = place_of_[f];
+      if (seen[p]) continue;
+      seen[p] = true;
+      const Ring& ring = rings_[f];
+      for (std::size_t i = 0; i < ring.size(); ++i) {
+        const std::uint32_t u = ring[i];
+        const std::uint32_t v = ring[(i + 1) % ring.size()];
+        Side& side = sides_[pair_key(std::min(u, v), std::max(u, v))];
+        if (places_[p].faces == 1) {
+          ++side.single;
+        } else {
+          side.doubled.push_back(p);
+        }
+      }
+    }
+  }
+
+  // How a side is asked for votes: one with a single undecided place tells for certain, others what is likely.
+  enum class Asked : std::uint8_t { kCertain, kLikely, kWallsOnly };
+
+  void decide() {
+    together_.reset(places_.size());
+    for (const auto& [key, side] : sides_) {
+      if (side.single == 0 && side.doubled.size() == 2) together_.unite(side.doubled[0], side.doubled[1]);
+    }
+    together_.flatten();
+    kind_.assign(places_.size(), Kind::kUnknown);
+    constexpr std::array kOrder{Asked::kCertain, Asked::kLikely, Asked::kWallsOnly};
+    for (std::size_t i = 0; i < kOrder.size();) i = decide_some(kOrder[i]) ? 0 : i + 1;
+  }
+
+  // Returns whether there was something to decide.
+  bool decide_some(Asked asked) {
+    std::vector<Votes> votes(places_.size());
+    for (const auto& [key, side] : sides_) vote(side, asked, votes);
+    bool changed = false;
+    for (std::uint32_t p = 0; p < places_.size(); ++p) {
+      if (votes[p].wall + votes[p].copy == 0) continue;
+      kind_[p] = votes[p].wall > votes[p].copy ? Kind::kWall : Kind::kCopy;
+      changed = true;
+    }
+    return changed;
+  }
+
+  void vote(const Side& side, Asked asked, std::vector<Votes>& votes) const {
+    std::uint32_t single = side.single;
+    std::uint32_t walls = 0;
+    std::uint32_t unknown = 0;
+    for (const std::uint32_t p : side.doubled) {
+      const Kind kind = kind_[together_.root(p)];
+      single += kind == Kind::kCopy ? 1 : 0;
+      walls += kind == Kind::kWall ? 1 : 0;
+      unknown += kind == Kind::kUnknown ? 1 : 0;
+    }
+    if (unknown == 0 || (asked == Asked::kCertain && unknown > 1)) return;
+    // Inside of a block of solids walls meet walls only.
+    if (single == 0 && (asked != Asked::kWallsOnly || walls == 0)) return;
+    for (const std::uint32_t p : side.doubled) {
+      if (kind_[together_.root(p)] != Kind::kUnknown) continue;
+      Votes& of = votes[together_.root(p)];
+      ++(single % 2 == 0 ? of.wall : of.copy);
+    }
+  }
+
+  [[nodiscard]] bool is_wall(std::uint32_t place) const { return kind_[together_.root(place)] == Kind::kWall; }
+
+  std::vector<Ring> rings_;
+  std::vector<std::uint32_t> place_of_;  // of each face
+  std::vector<bool> forward_;            // of each face: turned like the key of its place
+  std::vector<Place> places_;
+  std::unordered_map<std::uint64_t, Side> sides_;
+  UnionFind together_;
+  std::vector<Kind> kind_;  // of the representatives of places that are decided together
+};
+
+}  // namespace
+
+std::vector<Ring> without_copies(std::vector<Ring> rings) { return Copies(std::move(rings)).drop(); }
+
+std::vector<bool> doubled(std::vector<Ring> rings) { return Copies(std::move(rings)).doubled(); }
+
+}  // namespace nef

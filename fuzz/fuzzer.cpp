@@ -21,6 +21,7 @@ std::span<const Fuzzer> fuzzers() {
       Fuzzer{"dirty",
              "meshes with folds, slits, faces doubled, turned and missing, on 1, 2 and 4 threads, by volumes and rays",
              fuzz_dirty},
+      Fuzzer{"stars", "cones of very many sides with an apex in common, point by point", fuzz_stars},
       Fuzzer{"files", "damaged files of every format", fuzz_files},
       Fuzzer{"planning", "robots and obstacles of all dimensions on a grid, by breadth-first search", fuzz_planning},
       Fuzzer{"assemblies", "assemblies of unit cubes, by a search over all sets of parts", fuzz_assemblies},

@@ -65,6 +65,7 @@ std::span<const Fuzzer> fuzzers();
 void fuzz_arrangement(const Case& the_case);
 void fuzz_nested(const Case& the_case);
 void fuzz_voxels(const Case& the_case);
+void fuzz_stars(const Case& the_case);
 void fuzz_files(const Case& the_case);
 void fuzz_dirty(const Case& the_case);
 void fuzz_sums(const Case& the_case);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Facets of one operand are put into a tree of boxes; vertices and edges of the other ask it.
+// Facets of one operand are put into a tree of boxes; vertices and edges of the other ask it. Facets around vertices of
+// high degree are told apart by their directions from there (WideFans).
 // "Bare" edges and vertices, which bound no facet, are invisible to facets and ask each other.
 #include "nef/boolean/intersections.h"
 
@@ -10,6 +11,7 @@
 #include "nef/base/error.h"
 #include "nef/base/threads/parallel.h"
 #include "nef/boolean/facet_locator.h"
+#include "nef/boolean/wide_fans.h"
 #include "nef/geometry/occupancy_grid.h"
 
 namespace nef {
@@ -47,6 +49,7 @@ class IntersectionFinder {
   struct Near {
     std::vector<FacetId> facets;
     BoxTree facet_tree;
+    WideFans wide_fans;  // of the facets
     std::vector<VertexId> vertices;
     std::vector<HalfedgeId> edges;
     std::vector<HalfedgeId> bare_edges;
@@ -144,6 +147,7 @@ class IntersectionFinder {
     const auto edge_box = [&](HalfedgeId e) { return operand.edge_box(e); };
     const auto vertex_box = [&](VertexId v) { return operand.vertex_box(v); };
     near.facets = keep(found.facets, other, facet_box, near.facet_tree);
+    near.wide_fans = WideFans(operand, near.facets);
     locators_[x].expect(near.facets);
     near.bare_edges = keep(found.bare_edges, other, edge_box, near.bare_edge_tree);
     near.bare_vertices = keep(found.bare_vertices, other, vertex_box, near.bare_vertex_tree);
@@ -206,8 +210,7 @@ class IntersectionFinder {
     const auto find = [&](std::size_t k, std::vector<Pair<VertexId>>& pairs, const Monitor& monitor) {
       const VertexId v = vertices[k];
       if (placed(v)) return;
-      near_[1 - x].facet_tree.for_each_overlap(operands_[x].vertex_box(v), [&](std::uint32_t i) {
-        const FacetId facet = near_[1 - x].facets[i];
+      for_each_facet_near(x, v, [&](FacetId facet) {
         if (side(other.facet_plane(facet), operands_[x].point(v), monitor) == 0) pairs.push_back({v, facet});
       });
     };
@@ -251,8 +254,7 @@ class IntersectionFinder {
       const HalfedgeId e = edges[k];
       const PointId a = own.point(own.source(e));
       const PointId b = own.point(own.target(e));
-      near_[1 - x].facet_tree.for_each_overlap(own.edge_box(e), [&](std::uint32_t i) {
-        const FacetId facet = near_[1 - x].facets[i];
+      for_each_facet_near(x, e, [&](FacetId facet) {
         const PlaneId plane = other.facet_plane(facet);
         const int side_a = side(plane, a, monitor);
         const int side_b = side(plane, b, monitor);
@@ -269,6 +271,46 @@ class IntersectionFinder {
       locators_[1 - x].for_each_edge(pair.facet, own.edge_box(e),
                                      [&](HalfedgeId f) { cross_in_plane(x, e, other.edge(f), plane); });
     });
+  }
+
+  // The facets of the other operand, where it has vertices of high degree, that may meet the segment between two
+  // vertices of operand x, or one vertex.
+  template <typename Visit>
+  void visit_wide(std::size_t x, std::span<const VertexId> vertices, const Box& box, const Visit& visit) const {
+    std::vector<Double3> ends;
+    std::vector<VertexId> end_at;
+    for (const VertexId v : vertices) {
+      ends.push_back(tables_.points.approximate(operands_[x].point(v)));
+      const Item& item = result_.vertex_item[x][v];
+      end_at.push_back(item.kind == Item::Kind::kVertex ? item.vertex() : VertexId());
+    }
+    std::vector<std::uint32_t> places;
+    near_[1 - x].wide_fans.find(ends, end_at, box, places);
+    for (const std::uint32_t place : places) visit(near_[1 - x].facets[place]);
+  }
+
+  template <typename Visit>
+  void for_each_facet_near(std::size_t x, VertexId v, const Visit& visit) const {
+    const Near& near = near_[1 - x];
+    if (near.wide_fans.empty()) {
+      near.facet_tree.for_each_overlap(operands_[x].vertex_box(v), [&](std::uint32_t i) { visit(near.facets[i]); });
+    } else {
+      visit_wide(x, std::array{v}, operands_[x].vertex_box(v), visit);
+    }
+  }
+
+  // The facets of the other operand that may have more than an end in common with edge e of operand x. Where a vertex
+  // of the other operand lies is known by now.
+  template <typename Visit>
+  void for_each_facet_near(std::size_t x, HalfedgeId e, const Visit& visit) const {
+    const Operand& own = operands_[x];
+    const Near& near = near_[1 - x];
+    if (near.wide_fans.empty()) {
+      near.facet_tree.for_each_overlap(own.edge_box(e), [&](std::uint32_t i) { visit(near.facets[i]); });
+      return;
+    }
+    const std::array vertices{own.source(e), own.target(e)};
+    visit_wide(x, vertices, own.edge_box(e), visit);
   }
 
   // Edge e of operand x passes through the plane of a facet of the other.

@@ -35,15 +35,16 @@ class UntouchedMarks {
     for (const VertexId v : marks_.ids()) {
       if (!touched(v) && !own_.vertex_box(v).overlaps(other_.bounds())) settle(v, outer);
     }
-    seed_from_touched_ends();
     spread();
+    // Each answer spreads before the next one is looked for: at a vertex of high degree one costs as much as it has
+    // edges. Contacts inside facets, which are most, cost least, so they come first.
     for (std::size_t i = 0; i < contacts_.size();) {
       std::size_t j = i;
       while (j < contacts_.size() && contacts_[j].edge == contacts_[i].edge) ++j;
       seed_from_contacts(std::span(contacts_).subspan(i, j - i));
       i = j;
     }
-    spread();
+    seed_from_touched_ends();
     for (const VertexId v : marks_.ids()) {
       if (touched(v) || known_[v]) continue;
       const VolumeId volume =
@@ -82,6 +83,7 @@ class UntouchedMarks {
         const VertexId w = own_.target(h);
         if (touched(w) || known_[w] || crossed_[h]) continue;
         settle(w, mark_toward(items_[v], h, w));
+        spread();
       }
     }
   }
@@ -118,10 +120,12 @@ class UntouchedMarks {
     if (want_source) {
       const auto nearest = std::min_element(contacts.begin(), contacts.end(), before);
       settle(source, mark_toward(nearest->other, own_.complex().twin[h], source));
+      spread();
     }
-    if (want_target) {
+    if (want_target && !known_[target]) {
       const auto nearest = std::max_element(contacts.begin(), contacts.end(), before);
       settle(target, mark_toward(nearest->other, h, target));
+      spread();
     }
   }
 

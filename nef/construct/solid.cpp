@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <unordered_map>
 
 #include "nef/base/error.h"
 #include "nef/base/fast_path.h"
@@ -115,10 +116,24 @@ class SolidBuilder {
     }
   }
 
+  // Of the edge to w among the spokes; their number if it is a new one, which then is added.
+  std::uint32_t place_of_spoke(std::uint32_t w) {
+    constexpr std::size_t kFew = 64;  // spokes that are looked through faster than a table is asked
+    if (spokes_.size() < kFew) {
+      std::uint32_t n = 0;
+      while (n < spokes_.size() && spokes_[n].to != w) ++n;
+      return n;
+    }
+    if (spokes_.size() == kFew) {
+      spoke_at_.clear();
+      for (std::uint32_t n = 0; n < kFew; ++n) spoke_at_.emplace(spokes_[n].to, n);
+    }
+    return spoke_at_.emplace(w, static_cast<std::uint32_t>(spokes_.size())).first->second;
+  }
+
   // The node of the edge from v to w, and one more plane around it.
   std::uint32_t node_toward(std::uint32_t w, PlaneId plane) {
-    std::uint32_t n = 0;
-    while (n < spokes_.size() && spokes_[n].to != w) ++n;
+    const std::uint32_t n = place_of_spoke(w);
     if (n == spokes_.size()) {
       spokes_.push_back({w, plane, PlaneId()});
     } else if (!spokes_[n].second.valid() && spokes_[n].first.row() != plane.row()) {
@@ -223,6 +238,7 @@ class SolidBuilder {
   std::vector<std::uint32_t> first_;
   std::vector<FaceCorner> corners_;
   std::vector<Spoke> spokes_;
+  std::unordered_map<std::uint32_t, std::uint32_t> spoke_at_;  // by where they lead, if there are many
   Arrangement drawing_;
   SphereMapBuffer map_;  // of the vertex at hand, where it need not be drawn
 };

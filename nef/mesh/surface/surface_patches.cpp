@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 
+#include "nef/geometry/direction_tree.h"
 #include "nef/mesh/surface/coplanar_groups.h"
 
 namespace nef {
@@ -243,38 +244,144 @@ void SurfacePatches::visit_pair(const Layout& layout, std::uint32_t i, std::uint
   }
 }
 
-// True if so many patches meet in single corners that their pairs are too many to look at.
-bool SurfacePatches::has_wide_fans() const {
+// The number of patches around each place.
+std::vector<std::uint32_t> SurfacePatches::degrees(const Layout& layout) const {
   std::vector<std::uint32_t> degree(surface_.points.size(), 0);
-  for (const Patch& patch : faces_.patches) {
-    for (const std::uint32_t place : corners(faces_, patch)) ++degree[place];
+  for (const Patch& patch : layout.patches) {
+    for (const std::uint32_t place : corners(layout, patch)) ++degree[place];
   }
-  std::size_t pairs = 0;
-  for (const std::size_t d : degree) pairs += d * d / 2;
-  return pairs > kManyPairs * faces_.patches.size() + 1000;
+  return degree;
 }
+
+// Pairs of patches with overlapping boxes, but for many that have nothing in common besides a vertex of high degree.
+class WideStars {
+ public:
+  WideStars(const SurfacePatches& patches, const SurfacePatches::Layout& layout)
+      : patches_(patches), layout_(layout), star_of_(layout.patches.size(), kNone) {
+    const std::vector<std::uint32_t> degree = patches.degrees(layout);
+    if (std::none_of(degree.begin(), degree.end(), [](std::uint32_t d) { return d >= kWide; })) return;
+    const MeshPoints& points = patches.surface_.points;
+    for (std::size_t i = 0; i < 3; ++i) margin_ = std::max(margin_, points.margin(i));
+    boxes_.reserve(layout.patches.size());
+    for (const auto& patch : layout.patches) boxes_.push_back(patches.box(patches.corners(layout, patch)));
+    std::vector<std::uint32_t> star_at(degree.size(), kNone);
+    for (std::uint32_t p = 0; p < layout.patches.size(); ++p) {
+      std::uint32_t centre = kNone;
+      for (const std::uint32_t v : patches.corners(layout, layout.patches[p])) {
+        if (degree[v] >= kWide && (centre == kNone || degree[v] > degree[centre])) centre = v;
+      }
+      if (centre == kNone) continue;
+      if (star_at[centre] == kNone) {
+        star_at[centre] = static_cast<std::uint32_t>(stars_.size());
+        stars_.push_back({centre, {}, {}, DirectionTree(points.approximate(centre), margin_)});
+      }
+      join(p, star_at[centre]);
+    }
+    for (Star& star : stars_) star.directions.build();
+  }
+
+  // Calls visit(i, j) at least once for each pair of patches that may have something in common beyond shared corners.
+  template <typename Visit>
+  void for_each_pair(const Visit& visit) const {
+    if (stars_.empty()) {
+      patches_.tree(layout_).for_each_pair(visit);
+      return;
+    }
+    std::vector<std::uint32_t> plain;
+    std::vector<Box> plain_boxes;
+    for (std::uint32_t p = 0; p < boxes_.size(); ++p) {
+      if (star_of_[p] != kNone) continue;
+      plain.push_back(p);
+      plain_boxes.push_back(boxes_[p]);
+    }
+    BoxTree(plain_boxes).for_each_pair([&](std::uint32_t i, std::uint32_t j) { visit(plain[i], plain[j]); });
+    const BoxTree all(boxes_);
+    for (std::uint32_t s = 0; s < stars_.size(); ++s) {
+      all.for_each_overlap(stars_[s].box, [&](std::uint32_t p) {
+        // Of a pair in one star the larger asks, of pairs in two, who is of the later one.
+        if (star_of_[p] == kNone || star_of_[p] >= s) ask(s, p, visit);
+      });
+    }
+  }
+
+ private:
+  static constexpr std::uint32_t kNone = 0xffffffffU;
+  static constexpr std::uint32_t kWide = 64;  // patches around a vertex, whose pairs take longer than a tree
+
+  struct Star {
+    std::uint32_t centre = 0;
+    Box box;
+    std::vector<std::uint32_t> members;
+    DirectionTree directions;
+  };
+
+  // Calls visit(polygon) for the triangles of a patch, without the corner `centre`, while it returns true.
+  template <typename Visit>
+  bool each_seen(std::uint32_t p, std::uint32_t centre, const Visit& visit) const {
+    const auto& patch = layout_.patches[p];
+    for (std::uint32_t i = patch.first; i < patch.last; ++i) {
+      std::array<Double3, 3> polygon;
+      std::size_t count = 0;
+      for (const std::uint32_t v : patches_.surface_.triangles[layout_.triangle(i)]) {
+        if (v != centre) polygon[count++] = patches_.surface_.points.approximate(v);
+      }
+      if (!visit(std::span<const Double3>(polygon).first(count))) return false;
+    }
+    return true;
+  }
+
+  void join(std::uint32_t p, std::uint32_t s) {
+    Star& star = stars_[s];
+    const auto sees = [&](std::span<const Double3> polygon) { return star.directions.sees(polygon); };
+    if (!each_seen(p, star.centre, sees)) return;
+    each_seen(p, star.centre, [&](std::span<const Double3> polygon) { return star.directions.add(p, polygon); });
+    star_of_[p] = s;
+    star.members.push_back(p);
+    star.box.add(boxes_[p]);
+  }
+
+  template <typename Visit>
+  void ask(std::uint32_t s, std::uint32_t p, const Visit& visit) const {
+    const Star& star = stars_[s];
+    std::vector<std::uint32_t> found;
+    const bool told = each_seen(p, star.centre,
+                                [&](std::span<const Double3> polygon) { return star.directions.find(polygon, found); });
+    if (!told) found = star.members;
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+    for (const std::uint32_t q : found) {
+      if ((star_of_[p] != s || q < p) && boxes_[p].overlaps(boxes_[q])) visit(std::min(p, q), std::max(p, q));
+    }
+  }
+
+  const SurfacePatches& patches_;
+  const SurfacePatches::Layout& layout_;
+  double margin_ = 0;
+  std::vector<Box> boxes_;              // of the patches
+  std::vector<std::uint32_t> star_of_;  // of each patch; kNone if it is told apart by its box
+  std::vector<Star> stars_;
+};
 
 void SurfacePatches::for_each_candidate(const Visit& visit) const {
   const Visit ordered = [&visit](std::uint32_t t, std::uint32_t u) { visit(std::min(t, u), std::max(t, u)); };
   for (const Patch& patch : faces_.patches) {
     if (!patch.proper) within(faces_, patch, ordered);
   }
-  if (!has_wide_fans()) {
-    std::vector<std::array<std::uint32_t, 2>> pairs;
-    const std::size_t limit = kManyPairs * faces_.patches.size() + 1000;
-    const auto settled = [&](const Patch& p, const Patch& q) {
-      return p.size() == 1 && q.size() == 1 && stars_.settle(surface_.triangles[p.first], surface_.triangles[q.first]);
-    };
-    tree(faces_).for_each_pair([&](std::uint32_t i, std::uint32_t j) {
-      if (pairs.size() < limit && !settled(faces_.patches[i], faces_.patches[j])) pairs.push_back({i, j});
-    });
-    if (pairs.size() < limit) {
-      for (const auto& [i, j] : pairs) visit_pair(faces_, i, j, ordered);
-      return;
-    }
+  std::vector<std::array<std::uint32_t, 2>> pairs;
+  const std::size_t limit = kManyPairs * faces_.patches.size() + 1000;
+  const auto settled = [&](const Patch& p, const Patch& q) {
+    return p.size() == 1 && q.size() == 1 && stars_.settle(surface_.triangles[p.first], surface_.triangles[q.first]);
+  };
+  WideStars(*this, faces_).for_each_pair([&](std::uint32_t i, std::uint32_t j) {
+    if (pairs.size() < limit && !settled(faces_.patches[i], faces_.patches[j])) pairs.push_back({i, j});
+  });
+  if (pairs.size() < limit) {
+    for (const auto& [i, j] : pairs) visit_pair(faces_, i, j, ordered);
+    return;
   }
+  pairs = {};
   const Layout layout = united();
-  tree(layout).for_each_pair([&](std::uint32_t i, std::uint32_t j) { visit_pair(layout, i, j, ordered); });
+  WideStars(*this, layout).for_each_pair([&](std::uint32_t i, std::uint32_t j) { visit_pair(layout, i, j, ordered); });
 }
 
 }  // namespace nef

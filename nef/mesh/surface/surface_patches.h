@@ -18,15 +18,17 @@ namespace nef {
 
 /// The planar pieces of a triangulated surface: whole planar faces, and single triangles of all others. Two patches
 /// are told apart by the plane of one of them at the cost of one sign for each corner of the other, however many
-/// triangles they have. Where very many boxes overlap, as in a fan, coplanar neighbours are united to larger patches.
+/// triangles they have. Where very many boxes overlap, as in a fan, coplanar neighbours are united to larger patches,
+/// and the patches around a vertex of high degree are told apart by the directions in which they are seen from there.
 class SurfacePatches {
  public:
   /// The surface must outlive this object. O(n).
   SurfacePatches(const MeshSurface& surface, const Monitor& monitor);
 
   /// Calls visit(t, u) in no particular order for pairs of triangles, among them all that have in common more than
-  /// shared vertices and edges. O(n log n + k) for k pairs of patches with overlapping boxes (of united patches, if k
-  /// is large); patches that can not be told apart add the pairs of their triangles with overlapping boxes.
+  /// shared vertices and edges. O(n log n + k) for k pairs of patches with overlapping boxes, around a vertex of high
+  /// degree of patches that are seen in the same direction from there, and of united patches if k is large; patches
+  /// that can not be told apart add the pairs of their triangles with overlapping boxes.
   void for_each_candidate(const std::function<void(std::uint32_t, std::uint32_t)>& visit) const;
 
   /// Of the triangles.
@@ -40,6 +42,7 @@ class SurfacePatches {
 
  private:
   using Visit = std::function<void(std::uint32_t, std::uint32_t)>;
+  friend class WideStars;
 
   struct Patch {
     std::uint32_t first = 0, last = 0;               // triangles, in the order of the layout
@@ -74,7 +77,7 @@ class SurfacePatches {
   [[nodiscard]] Box box(std::span<const std::uint32_t> places) const;
   [[nodiscard]] std::vector<Box> triangle_boxes(const Layout& layout, const Patch& patch) const;
   [[nodiscard]] BoxTree tree(const Layout& layout) const;
-  [[nodiscard]] bool has_wide_fans() const;
+  [[nodiscard]] std::vector<std::uint32_t> degrees(const Layout& layout) const;
   void within(const Layout& layout, const Patch& patch, const Visit& visit) const;
   void between(const Layout& layout, std::uint32_t p, std::uint32_t q, const Visit& visit) const;
   void visit_pair(const Layout& layout, std::uint32_t p, std::uint32_t q, const Visit& visit) const;

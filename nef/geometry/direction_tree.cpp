@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A face of the cube is seen through the pyramid |x_b|, |x_c| <= s x_a, where a is its axis and s its side, and a point
+// in it at (x_b, x_c) / (s x_a). Coordinates are relative to the centre. Let m be the largest one of a polygon's
+// corners, and e <= 2^-34 m a bound of their errors, the rounding of the differences included.
+//
+// Clipping by a plane computes the distances of two corners from it, off by 3 e + 2^-50 m, and a point between them
+// that is off by e + 2^-50 m across the segment. How far it is off along the segment does not matter: what is cut off
+// has distances below 4 e + 2^-48 m < 2^-31 m, and each plane is moved out by more than that. First the polygon is cut
+// to the cube |x| <= 2^-11 m. If nothing is left, no point has all coordinates within 2^-12 m. So a point in a pyramid
+// has s x_a > 2^-12 m, and its distances from the planes s x_a (1 + 2^-16) >= |x_b|, |x_c| are above 2^-28 m: it is
+// not cut off. What is left has s x_a > 2^-13 m; its coordinates, after five cuts at most, are off by
+// 5 (e + 2^-50 m) < 2^-31 m, and the quotients, which are below 1 + 2^-15, by 2^-17 at most. kSlack is twice that.
+#include "nef/geometry/direction_tree.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nef {
+namespace {
+
+constexpr double kSlack = 0x1p-16;
+
+// A convex polygon that is cut by half-spaces. Each adds a corner at most, to three; where rounding makes it more, and
+// there is no room, it overflows.
+struct Cut {
+  std::array<Double3, 12> corners{};
+  std::size_t count = 0;
+  bool overflows = false;
+
+  void push(const Double3& p) {
+    if (count == corners.size()) {
+      overflows = true;
+    } else {
+      corners[count++] = p;
+    }
+  }
+
+  // Keeps where n.x + d >= 0.
+  void by(const Double3& n, double d) {
+    Cut kept;
+    kept.overflows = overflows;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Double3& p = corners[i];
+      const Double3& q = corners[i + 1 == count ? 0 : i + 1];
+      const double of_p = dot(n, p) + d;
+      const double of_q = dot(n, q) + d;
+      if (of_p >= 0) kept.push(p);
+      // The two ends of a segment are walked between twice.
+      if ((of_p < 0) == (of_q < 0) || count == 1 || (count == 2 && i == 1)) continue;
+      const double t = of_p / (of_p - of_q);
+      kept.push({p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1]), p[2] + t * (q[2] - p[2])});
+    }
+    *this = kept;
+  }
+};
+
+bool near_centre(Cut cut, double size) {
+  for (std::size_t axis = 0; axis < 3 && cut.count > 0; ++axis) {
+    for (const double sign : {1.0, -1.0}) {
+      Double3 n{};
+      n[axis] = sign;
+      cut.by(n, 0x1p-11 * size);
+    }
+  }
+  return cut.count > 0 || cut.overflows;
+}
+
+using Corner = std::array<double, 2>;
+
+// True if a line along a side of the first polygon surely has the two on either side. Corners are off by half of
+// kSlack, and what the products round by, 2^-50 of the side, is much less than the other half.
+bool separates_side(std::span<const Corner> first, std::span<const Corner> second) {
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    const Corner& p = first[i];
+    const Corner& q = first[i + 1 == first.size() ? 0 : i + 1];
+    const Corner n{p[1] - q[1], q[0] - p[0]};
+    std::array<double, 2> low{HUGE_VAL, HUGE_VAL};
+    std::array<double, 2> high{-HUGE_VAL, -HUGE_VAL};
+    for (std::size_t k = 0; k < 2; ++k) {
+      for (const Corner& corner : k == 0 ? first : second) {
+        const double at = n[0] * (corner[0] - p[0]) + n[1] * (corner[1] - p[1]);
+        low[k] = std::min(low[k], at);
+        high[k] = std::max(high[k], at);
+      }
+    }
+    const double slack = 2 * kSlack * (std::fabs(n[0]) + std::fabs(n[1]));
+    if (low[0] > high[1] + slack || low[1] > high[0] + slack) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::optional<DirectionTree::Seen> DirectionTree::seen(std::span<const Double3> polygon) const {
+  Cut whole;
+  double size = 0;
+  double largest = 0;
+  for (const Double3& p : polygon) {
+    whole.push(minus(p, centre_));
+    for (std::size_t i = 0; i < 3; ++i) {
+      size = std::max(size, std::fabs(whole.corners[whole.count - 1][i]));
+      largest = std::max({largest, std::fabs(p[i]), std::fabs(centre_[i])});
+    }
+  }
+  const double error = 2 * margin_ + 0x1p-48 * largest;
+  // Far or huge polygons, whose products may leave the range of doubles, are not told apart.
+  if (!(error <= 0x1p-34 * size) || size < 1e-100 || size > 1e100 || near_centre(whole, size)) return std::nullopt;
+  Seen seen;
+  for (std::size_t face = 0; face < 6; ++face) {
+    const std::size_t a = face / 2;
+    const std::size_t b = (a + 1) % 3;
+    const std::size_t c = (a + 2) % 3;
+    const double s = face % 2 == 0 ? 1.0 : -1.0;
+    Cut cut = whole;
+    for (const std::size_t other : {b, c}) {
+      for (const double sign : {1.0, -1.0}) {
+        Double3 n{};
+        n[a] = s * (1 + 0x1p-16);
+        n[other] = sign;
+        cut.by(n, 0);
+      }
+    }
+    if (cut.overflows) return std::nullopt;
+    for (std::size_t i = 0; i < cut.count; ++i) {
+      const Double3& p = cut.corners[i];
+      seen[face].add({p[b] / (s * p[a]), p[c] / (s * p[a])});
+    }
+  }
+  return seen;
+}
+
+void DirectionTree::Shape::add(const std::array<double, 2>& corner) {
+  corners[count++] = corner;
+  for (std::size_t k = 0; k < 2; ++k) {
+    box.low[k] = std::min(box.low[k], corner[k] - kSlack);
+    box.high[k] = std::max(box.high[k], corner[k] + kSlack);
+  }
+  box.low[2] = box.high[2] = 0;
+}
+
+bool DirectionTree::add(std::uint32_t item, std::span<const Double3> polygon) {
+  const std::optional<Seen> seen = this->seen(polygon);
+  if (!seen) return false;
+  for (std::size_t i = 0; i < 6; ++i) {
+    const Shape& shape = (*seen)[i];
+    Face& face = faces_[i];
+    if (shape.count == 0) continue;
+    face.boxes.push_back(shape.box);
+    face.item_of.push_back(item);
+    face.corners.insert(face.corners.end(), shape.polygon().begin(), shape.polygon().end());
+    face.corner_begin.push_back(static_cast<std::uint32_t>(face.corners.size()));
+  }
+  return true;
+}
+
+void DirectionTree::build() {
+  for (Face& face : faces_) face.tree = BoxTree(face.boxes, BoxSplit::kMedians);
+}
+
+bool DirectionTree::find(std::span<const Double3> polygon, std::vector<std::uint32_t>& items) const {
+  const std::optional<Seen> seen = this->seen(polygon);
+  if (!seen) return false;
+  for (std::size_t k = 0; k < 6; ++k) {
+    const Shape& shape = (*seen)[k];
+    const Face& face = faces_[k];
+    if (shape.count == 0) continue;
+    const auto meets = [&shape](const Box& box) {
+      const std::array<Corner, 4> corners{Corner{box.low[0], box.low[1]}, Corner{box.high[0], box.low[1]},
+                                          Corner{box.high[0], box.high[1]}, Corner{box.low[0], box.high[1]}};
+      return shape.box.overlaps(box) && !separates_side(shape.polygon(), corners);
+    };
+    face.tree.for_each_if(meets, [&](std::uint32_t i) {
+      const std::span<const Corner> other =
+          std::span(face.corners).subspan(face.corner_begin[i], face.corner_begin[i + 1] - face.corner_begin[i]);
+      if (!separates_side(shape.polygon(), other) && !separates_side(other, shape.polygon())) {
+        items.push_back(face.item_of[i]);
+      }
+    });
+  }
+  return true;
+}
+
+}  // namespace nef

@@ -68,6 +68,7 @@ void fuzz_voxels(const Case& the_case);
 void fuzz_stars(const Case& the_case);
 void fuzz_files(const Case& the_case);
 void fuzz_dirty(const Case& the_case);
+void fuzz_written(const Case& the_case);
 void fuzz_sums(const Case& the_case);
 void fuzz_convolutions(const Case& the_case);
 void fuzz_assemblies(const Case& the_case);

@@ -175,13 +175,14 @@ class Exporter {
     for (const VertexId v : points_) number_[v] = 0;
     corner_vertices_.reserve(complex_.corners.size());
     for (const FacetId f : boundary_) {
-      const std::span<const SHalfedgeId> corners = complex_.corners_of(f);
+      const Facet& facet = complex_.facets[f];
+      const std::span<const SHalfedgeId> corners = complex_.corners_of(facet);
       for (const SHalfedgeId corner : corners) {
         const VertexId v = complex_.shalfedge_vertex(corner);
         number_[v] = 0;
         corner_vertices_.push_back(v);
       }
-      if (!is_triangle(corners)) polygon_corners_ += corners.size();
+      if (!is_triangle(facet)) polygon_corners_ += corners.size() + facet.isolated_count;
     }
     for (const VertexId v : number_.ids()) {
       if (number_[v] == kUnused) continue;
@@ -201,6 +202,12 @@ class Exporter {
     }
     rings_.resize(size);
     for (std::uint32_t i = 0; i < size; ++i) rings_[i] = number_[corners[i]];
+    // Where another part of the boundary touches the facet in a point, triangles end, too.
+    for (const VertexId v : complex_.isolated_vertices_of(facet)) {
+      if (number_[v] == kUnused) continue;
+      rings_.push_back(number_[v]);
+      ring_end_.push_back(static_cast<std::uint32_t>(rings_.size()));
+    }
   }
 
   // A ring that meets itself is no polygon for most readers.
@@ -224,12 +231,12 @@ class Exporter {
   [[nodiscard]] MeshPoints points_of_polygons(std::span<const std::array<double, 3>> doubles) const {
     if (polygon_corners_ == 0) return MeshPoints(PointTable());
     std::vector<std::uint32_t> asked;  // all, unless these are much fewer
-    if (polygon_corners_ < places_.size() / 2) {
+    if (polygon_corners_ < places_.size() / 2 && complex_.isolated_vertices.empty()) {
       asked.reserve(polygon_corners_);
       const VertexId* corners = corner_vertices_.data();
       for (const FacetId f : boundary_) {
         const std::span<const SHalfedgeId> of_facet = complex_.corners_of(f);
-        if (!is_triangle(of_facet)) {
+        if (of_facet.size() != 3) {
           for (std::size_t i = 0; i < of_facet.size(); ++i) asked.push_back(number_[corners[i]]);
         }
         corners += of_facet.size();
@@ -252,7 +259,9 @@ class Exporter {
   }
 
   // The outer cycle has three corners at least.
-  static bool is_triangle(std::span<const SHalfedgeId> corners) { return corners.size() == 3; }
+  [[nodiscard]] bool is_triangle(const Facet& facet) const {
+    return facet.isolated_count == 0 && complex_.corners_of(facet).size() == 3;
+  }
 
   // As many as there are if none stays a polygon: a facet of n corners in c cycles is n + 2 c - 4 triangles.
   void reserve_faces() {
@@ -277,14 +286,14 @@ class Exporter {
       // Cycles turn counterclockwise as seen from above, which is outside if the solid lies below.
       const bool flip = volumes_[facet.volume_above].selected;
       note_marks(facet, flip);
-      if (is_triangle(complex_.corners_of(facet))) {
+      if (is_triangle(facet)) {
         const std::array<std::uint32_t, 3> v{number_[corners[0]], number_[corners[1]], number_[corners[2]]};
         corners += 3;
         push_triangle(v, flip);
         continue;
       }
       collect_rings(facet, corners);
-      corners += rings_.size();
+      corners += complex_.corners_of(facet).size();
       const ProjectionAxis projection = projection_axis(complex_.planes, facet.plane);
       if (options_.keep_polygons && ring_end_.size() == 1 &&
           (!options_.only_convex || strictly_convex(points, rings_, projection.axis)) && may_stay_polygon(rings_)) {

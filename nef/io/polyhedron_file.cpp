@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 
 #include "nef/base/freed_memory.h"
 #include "nef/export/to_mesh.h"
+#include "nef/geometry/vectors.h"
 #include "nef/io/cgal/cgal_nef3.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/mesh/mend_rounded.h"
@@ -15,6 +17,7 @@
 #include "nef/io/native/native_format.h"
 #include "nef/io/number_text.h"
 #include "nef/mesh/separate_sheets.h"
+#include "nef/number/floor.h"
 #include "nef/polyhedron.h"
 
 namespace nef {
@@ -31,8 +34,8 @@ void report_wires(const MeshExport& result, Messages& notes) {
   add(result.points.size(), "point is", "points are");
 }
 
-std::string mending_text(const MendedMesh& rounded) {
-  std::string text = "rounding made the mesh cross itself; it was mended:";
+std::string repair_text(const MendedMesh& rounded) {
+  std::string text = "rounding made the mesh cross or touch itself; it was repaired:";
   if (rounded.moved > 0) text += " " + std::to_string(rounded.moved) + " vertices went to other numbers nearby";
   if (rounded.moved > 0 && rounded.dropped > 0) text += ",";
   if (rounded.dropped > 0) text += " " + std::to_string(rounded.dropped) + " slivers were dropped";
@@ -41,42 +44,136 @@ std::string mending_text(const MendedMesh& rounded) {
   return text + "); --exact or .nef keep everything";
 }
 
-// Replaces a mesh whose rounding is not legal by one that is, or tells that this can't be done.
-void round_and_mend(Mesh& mesh, const std::string& extension, unsigned threads, MeshWriteOptions& options,
-                    Messages& notes) {
-  const auto survives = [&](const Rational3& p) { return survives_writing(p, extension, options); };
-  if (std::all_of(mesh.vertices.begin(), mesh.vertices.end(), survives)) return;
-  refuse_infinite(mesh, extension, options);
-  const bool single = is_single_precision(extension, options);
-  const Rounding rounding = single           ? rounding_to_binary_floats()
-                            : options.binary ? rounding_to_binary_doubles()
-                                             : rounding_to_decimals();
-  MendedMesh rounded = round_mesh(mesh, rounding, threads, options.monitor);
-  if (!rounded.legal) {
-    notes.push_back("rounded to " + std::string(single ? "single" : "double") +
-                    " precision the mesh is no border of a solid any more, and could not be mended (" +
-                    rounded.problem + "); write it with --exact to OFF, OBJ or PLY, or write .nef");
-    return;
+// The mesh of one file on its way from exact coordinates to those that are written.
+class BoundaryWriter {
+ public:
+  BoundaryWriter(std::string path, const PolyhedronWriteOptions& options, Messages& notes)
+      : path_(std::move(path)),
+        extension_(options.format.empty() ? lower_extension(path_) : options.format),
+        options_(options),
+        notes_(notes) {
+    file_.exact = options.exact;
+    file_.binary = options.binary;
+    file_.format = extension_;
+    file_.monitor = options.monitor;
+    single_ = is_single_precision(extension_, file_);
+    rounding_ = single_          ? rounding_to_binary_floats()
+                : options.binary ? rounding_to_binary_doubles()
+                                 : rounding_to_decimals();
   }
-  if (rounded.moved > 0 || rounded.dropped > 0) notes.push_back(mending_text(rounded));
-  mesh = std::move(rounded.mesh);
-  if (options.groups.none() || rounded.face_of.empty()) return;
-  std::vector<std::uint32_t> groups;
-  for (const std::uint32_t face : rounded.face_of) groups.push_back(options.groups.of_face[face]);
-  options.groups.of_face = std::move(groups);
-}
 
-void separate(Mesh& mesh, const std::string& extension, Messages& notes) {
-  if (extension == "stl") {
-    throw UnsupportedError(
-        "STL names no vertices, so sheets that touch can not be told apart in it; write OFF, OBJ, PLY, GLB or 3MF");
+  /// What the options for the bytes say so far.
+  [[nodiscard]] MeshWriteOptions& file() { return file_; }
+  [[nodiscard]] const std::string& extension() const { return extension_; }
+
+  /// Moves the mesh to the origin, by a multiple of a power of two that is about as large as it: few digits.
+  void recenter(Mesh& mesh) {
+    if (mesh.vertices.empty()) return;
+    Rational3 low = mesh.vertices.front();
+    Rational3 high = low;
+    Rational size = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (const Rational3& p : mesh.vertices) {
+        if (p[i] < low[i]) low[i] = p[i];
+        if (p[i] > high[i]) high[i] = p[i];
+      }
+      size = std::max(size, Rational(high[i] - low[i]));
+    }
+    Rational step = 1;
+    while (step < size) step *= 2;
+    while (size > 0 && step / 2 >= size) step /= 2;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Rational steps = (low[i] + high[i]) / (2 * step) + Rational(1, 2);
+      const double rounded = nearest_double(step * Rational(floor_of(steps)));
+      if (std::isfinite(rounded)) file_.offset[i] = exact_rational(rounded);
+    }
+    for (Rational3& p : mesh.vertices) p = minus(p, file_.offset);
   }
-  SeparatedSheets separated = separate_sheets(mesh);
-  mesh = std::move(separated.mesh);
-  if (separated.copies == 0) return;
-  notes.push_back("the solid touches itself, in " + std::to_string(separated.edges) +
-                  " edges: " + std::to_string(separated.copies) + " vertices are in the file once more");
-}
+
+  /// Rounds, repairs and separates the closed surface of a solid. Throws where that is impossible, unless lenient.
+  void settle(Mesh& mesh, bool is_strict) {
+    if (options_.manifold && extension_ == "stl") {
+      throw UnsupportedError(
+          "STL names no vertices, so sheets that touch can not be told apart in it; write OFF, OBJ, PLY, GLB or 3MF");
+    }
+    if (options_.manifold && !file_.groups.none()) {
+      throw UnsupportedError("--manifold cuts faces, so they can have no groups; leave one of the two out");
+    }
+    std::string problem;
+    if (!is_strict && options_.exact) {
+      problem = strict_problem(mesh, options_.monitor);
+    } else if (!options_.exact && !(is_strict && all_kept(mesh))) {
+      problem = round(mesh);
+    }
+    if (problem.empty() && options_.manifold) problem = separate(mesh);
+    if (problem.empty()) return;
+    const std::string how = options_.exact
+                                ? "the mesh"
+                                : "rounded to " + std::string(single_ ? "single" : "double") + " precision the mesh";
+    written_.problem = path_ + ": " + how + " is not legal (" + problem + ")";
+    if (options_.lenient) return;
+    throw UnsupportedError(written_.problem +
+                           " and could not be repaired, so no file is written; write .nef, or OFF, OBJ or PLY with "
+                           "--exact, or move it to the origin (--recenter); --lenient writes it as it is");
+  }
+
+  /// Gives the vertices the colours that the options have for them.
+  void color(const Mesh& mesh) {
+    if (!options_.vertex_colors) return;
+    Mesh in_place = mesh;
+    for (Rational3& p : in_place.vertices) {
+      for (std::size_t i = 0; i < 3; ++i) p[i] += file_.offset[i];
+    }
+    file_.vertex_colors = options_.vertex_colors(in_place);
+  }
+
+  WrittenFile write(const Mesh& mesh) {
+    write_mesh(path_, mesh, file_, &notes_);
+    written_.offset = file_.offset;
+    return written_;
+  }
+
+ private:
+  [[nodiscard]] bool all_kept(const Mesh& mesh) const {
+    return std::all_of(mesh.vertices.begin(), mesh.vertices.end(), [&](const Rational3& p) {
+      return std::all_of(p.begin(), p.end(), [&](const Rational& x) { return is_kept(x, rounding_); });
+    });
+  }
+
+  // Replaces the mesh by one of the numbers that are written, and returns why there is none.
+  std::string round(Mesh& mesh) {
+    refuse_infinite(mesh, extension_, file_);
+    MendedMesh rounded = round_mesh(mesh, rounding_, options_.threads, options_.monitor);
+    if (!rounded.legal) return rounded.problem;
+    if (rounded.moved > 0 || rounded.dropped > 0) notes_.push_back(repair_text(rounded));
+    mesh = std::move(rounded.mesh);
+    if (file_.groups.none() || rounded.face_of.empty()) return "";
+    std::vector<std::uint32_t> groups;
+    for (const std::uint32_t face : rounded.face_of) groups.push_back(file_.groups.of_face[face]);
+    file_.groups.of_face = std::move(groups);
+    return "";
+  }
+
+  // The middles of edges that this adds are rounded with the file, so they are checked.
+  std::string separate(Mesh& mesh) {
+    SeparatedSheets separated = separate_sheets(mesh);
+    mesh = std::move(separated.mesh);
+    if (separated.copies == 0) return "";
+    notes_.push_back("the solid touches itself, in " + std::to_string(separated.edges) +
+                     " edges: " + std::to_string(separated.copies) + " vertices are in the file once more");
+    if (options_.exact || all_kept(mesh)) return "";
+    return rounded_problem(mesh, rounding_, options_.threads, options_.monitor);
+  }
+
+  std::string path_;
+  std::string extension_;
+  const PolyhedronWriteOptions& options_;
+  Messages& notes_;
+  MeshWriteOptions file_;
+  Rounding rounding_;
+  bool single_ = false;
+  WrittenFile written_;
+};
 
 // The faces' groups, numbered by name.
 FaceGroups groups_of(const MeshExport& result, const BoundaryGroups& groups) {
@@ -95,40 +192,57 @@ FaceGroups groups_of(const MeshExport& result, const BoundaryGroups& groups) {
   return out;
 }
 
-// Writes a mesh format. Returns the groups as written.
-FaceGroups write_boundary(const std::string& path, const std::string& extension, const Polyhedron& polyhedron,
-                          const PolyhedronWriteOptions& options, const BoundaryGroups* groups, Messages* messages) {
+struct WrittenBoundary {
+  WrittenFile file;
+  FaceGroups groups;  // as written
+};
+
+MeshExport exported(const Polyhedron& polyhedron, const PolyhedronWriteOptions& options, const BoundaryGroups* groups,
+                    BoundaryWriter& writer) {
+  const std::string& extension = writer.extension();
   MeshExportOptions export_options;
   export_options.keep_polygons = extension != "stl" && extension != "glb" && extension != "3mf";
   export_options.only_convex = !options.polygons;
   export_options.lower_dimensional = true;
-  MeshWriteOptions write_options{
-      .exact = options.exact, .binary = options.binary, .format = extension, .monitor = options.monitor};
+  // Where the mesh is moved, its polygons stay planar only if all else of it is written as it is, too.
+  if (options.recenter) export_options.keep_polygons = export_options.keep_polygons && options.exact;
   export_options.polygon_corner = [&](const Rational3& point) {
-    return survives_writing(point, extension, write_options);
+    return survives_writing(point, extension, writer.file());
   };
   if (groups != nullptr) {
     export_options.selected = groups->selected;
     export_options.face_marks = true;
   }
-  MeshExport result = to_mesh(polyhedron, export_options, options.monitor);
-  Messages notes = result.lost;
-  if (groups != nullptr) write_options.groups = groups_of(result, *groups);
-  if (extension == "obj") {
-    write_options.lines = result.lines;
-    write_options.points = result.points;
+  return to_mesh(polyhedron, export_options, options.monitor);
+}
+
+// Writes a mesh format.
+WrittenBoundary write_boundary(const std::string& path, const Polyhedron& polyhedron,
+                               const PolyhedronWriteOptions& options, const BoundaryGroups* groups,
+                               Messages* messages) {
+  Messages notes;
+  BoundaryWriter writer(path, options, notes);
+  MeshExport result = exported(polyhedron, options, groups, writer);
+  notes = result.lost;
+  MeshWriteOptions& file = writer.file();
+  if (groups != nullptr) file.groups = groups_of(result, *groups);
+  if (writer.extension() == "obj") {
+    file.lines = result.lines;
+    file.points = result.points;
   } else {
     report_wires(result, notes);
   }
-  if (result.closed && options.check) round_and_mend(result.mesh, extension, options.threads, write_options, notes);
-  if (options.manifold && result.closed && groups == nullptr) separate(result.mesh, extension, notes);
-  if (options.vertex_colors) write_options.vertex_colors = options.vertex_colors(result.mesh);
-  if (groups != nullptr && !has_groups(extension)) {
+  if (options.recenter) writer.recenter(result.mesh);
+  if (result.closed) writer.settle(result.mesh, true);
+  writer.color(result.mesh);
+  if (groups != nullptr && !has_groups(writer.extension())) {
     notes.push_back("groups of faces are not in the file: the format has none; write OBJ, OFF, PLY or GLB");
   }
-  write_mesh(path, result.mesh, write_options, &notes);
+  WrittenBoundary written;
+  written.file = writer.write(result.mesh);
   if (messages != nullptr) messages->insert(messages->end(), notes.begin(), notes.end());
-  return std::move(write_options.groups);
+  written.groups = std::move(file.groups);
+  return written;
 }
 
 // The bytes go once they are read.
@@ -168,35 +282,54 @@ Polyhedron read_polyhedron(const std::string& path, const MeshOptions& options, 
   return set;
 }
 
-void write_polyhedron(const std::string& path, const Polyhedron& polyhedron, const PolyhedronWriteOptions& options,
-                      Messages* messages) {
+std::string offset_note(const std::string& path, const Rational3& offset) {
+  std::string text = "the mesh in " + path + " is about the origin; subtracted from its coordinates:";
+  for (const Rational& x : offset) text += " " + x.get_str();
+  return text;
+}
+
+WrittenFile write_polyhedron(const std::string& path, const Polyhedron& polyhedron,
+                             const PolyhedronWriteOptions& options, Messages* messages) {
   const std::string extension = options.format.empty() ? lower_extension(path) : options.format;
   if (extension == "nef") {
     write_file(path, options.text ? native_text(polyhedron) : native_binary(polyhedron));
-    return;
+    return {};
   }
   if (extension == "nef3") {
     write_file(path, nef3_text(polyhedron, messages));
-    return;
+    return {};
   }
   if (!is_mesh_extension(extension)) {
     throw FileError(FileProblem::kUnreadable,
                     path + ": the extension names no format; use nef, nef3, off, obj, stl, ply, glb or 3mf");
   }
-  write_boundary(path, extension, polyhedron, options, nullptr, messages);
+  return write_boundary(path, polyhedron, options, nullptr, messages).file;
+}
+
+WrittenFile write_solid_mesh(const std::string& path, Mesh mesh, bool is_strict, const PolyhedronWriteOptions& options,
+                             Messages* messages) {
+  Messages notes;
+  BoundaryWriter writer(path, options, notes);
+  if (options.recenter) writer.recenter(mesh);
+  if (is_mesh_extension(writer.extension()) && mesh.face_count() > 0) writer.settle(mesh, is_strict);
+  writer.color(mesh);
+  WrittenFile written = writer.write(mesh);
+  if (messages != nullptr) messages->insert(messages->end(), notes.begin(), notes.end());
+  return written;
 }
 
 std::map<std::string, std::size_t> write_groups(const std::string& path, const Polyhedron& labeled,
                                                 const BoundaryGroups& groups, const PolyhedronWriteOptions& options,
-                                                Messages* messages) {
+                                                Messages* messages, WrittenFile* written) {
   const std::string extension = options.format.empty() ? lower_extension(path) : options.format;
   if (!is_mesh_extension(extension)) {
     throw FileError(FileProblem::kUnreadable, path + ": groups of faces need a mesh format: off, obj, ply or glb");
   }
-  const FaceGroups written = write_boundary(path, extension, labeled, options, &groups, messages);
+  const WrittenBoundary boundary = write_boundary(path, labeled, options, &groups, messages);
+  if (written != nullptr) *written = boundary.file;
   std::map<std::string, std::size_t> count;
-  for (const std::string& name : written.names) count.emplace(name, 0);
-  for (const std::uint32_t group : written.of_face) ++count.at(written.names[group]);
+  for (const std::string& name : boundary.groups.names) count.emplace(name, 0);
+  for (const std::uint32_t group : boundary.groups.of_face) ++count.at(boundary.groups.names[group]);
   return count;
 }
 

@@ -28,9 +28,10 @@ struct PolyhedronWriteOptions {
   bool binary = false;    ///< binary STL or PLY
   bool text = false;      ///< .nef as text; it is binary otherwise
   bool polygons = false;  ///< faces that are not convex stay polygons, too, in OFF, OBJ, PLY
-  bool check = true;      ///< check what was rounded, and mend it
   bool manifold = false;  ///< in mesh files each edge has two faces (separate_sheets; not in STL, and
                           ///< not together with groups)
+  bool lenient = false;   ///< write a mesh even if it is known not to be strictly legal
+  bool recenter = false;  ///< subtract the middle of the mesh from its coordinates, so that few digits are lost
   unsigned threads = 1;   ///< that check; 0: as many as the machine has. The file does not depend on it
   /// Red, green and blue for the vertices of the mesh that goes to a file; PLY and GLB only.
   std::function<std::vector<std::array<std::uint8_t, 3>>(const Mesh&)> vertex_colors = {};
@@ -38,15 +39,34 @@ struct PolyhedronWriteOptions {
   Monitor monitor = {};     ///< who watches; what it refers to must outlive the call
 };
 
+/// What is to be known of a file that was written.
+struct WrittenFile {
+  /// Why its mesh is not strictly legal (is_strictly_legal); empty if it is, or the format is not one of meshes. Only
+  /// if the options are lenient.
+  std::string problem = {};
+  /// What was subtracted from all coordinates; zero unless the options say to recenter. GLB and 3MF put it back when
+  /// they are read, other formats note it in a comment.
+  Rational3 offset = {};
+};
+
+/// A note that the coordinates in a file are not those of the set.
+std::string offset_note(const std::string& path, const Rational3& offset);
+
 /// Writes a polyhedron; the file gets its name when it is whole. "-" is standard output. Mesh formats hold the boundary
 /// of the bounded solid parts: convex faces as they are where rounding leaves them planar, all others as triangles.
-/// Coordinates are rounded to the nearest numbers of the format; if what comes of it is no legal mesh any more, it is
-/// mended by going to other numbers nearby. Sets without solid parts are written as surfaces, and to OBJ as lines and
-/// points. `messages` gets a line for what was mended or cannot be, and for everything that the file does not hold.
-/// Throws FileError for an unknown extension or a file that cannot be written, and UnsupportedError for an unbounded
-/// set in .nef3.
-void write_polyhedron(const std::string& path, const Polyhedron& polyhedron, const PolyhedronWriteOptions& options = {},
-                      Messages* messages = nullptr);
+/// Coordinates are rounded to the nearest numbers of the format; if the result is not strictly legal
+/// (is_strictly_legal) it is repaired by going to other numbers nearby. Sets without solid parts are written as
+/// surfaces, and to OBJ as lines and points. `messages` gets a line for what was repaired and for everything that the
+/// file does not hold. Throws FileError for an unknown extension or a file that cannot be written, and UnsupportedError
+/// for an unbounded set in .nef3 or a mesh that cannot be repaired, unless the options are lenient; then no file is
+/// written.
+WrittenFile write_polyhedron(const std::string& path, const Polyhedron& polyhedron,
+                             const PolyhedronWriteOptions& options = {}, Messages* messages = nullptr);
+
+/// Writes the closed surface of a solid to a mesh format, as write_polyhedron writes that of a set. `is_strict`: the
+/// mesh is strictly legal as it is, so only what rounding does is checked.
+WrittenFile write_solid_mesh(const std::string& path, Mesh mesh, bool is_strict,
+                             const PolyhedronWriteOptions& options = {}, Messages* messages = nullptr);
 
 /// How the faces of a set with labels are put into groups.
 struct BoundaryGroups {
@@ -58,10 +78,10 @@ struct BoundaryGroups {
 
 /// Writes the points with selected marks like write_polyhedron, to a mesh format, and tells from face to face which
 /// group it belongs to (see MeshWriteOptions; a message where the format has no groups). Groups are numbered in the
-/// order of their names. Returns how many faces each has, by name.
+/// order of their names. Returns how many faces each has, by name. `written`: what write_polyhedron would return.
 std::map<std::string, std::size_t> write_groups(const std::string& path, const Polyhedron& labeled,
                                                 const BoundaryGroups& groups,
                                                 const PolyhedronWriteOptions& options = {},
-                                                Messages* messages = nullptr);
+                                                Messages* messages = nullptr, WrittenFile* written = nullptr);
 
 }  // namespace nef

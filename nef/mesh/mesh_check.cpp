@@ -395,6 +395,17 @@ const char* name(MeshProblemKind kind) {
   return "unknown problem";
 }
 
+bool is_strictly_legal(const MeshProblem& problem) {
+  switch (problem.kind) {
+    case MeshProblemKind::kNonManifoldEdge:
+    case MeshProblemKind::kNonPlanarFace:
+    case MeshProblemKind::kIsolatedVertex:
+      return problem.legal;
+    default:
+      return false;
+  }
+}
+
 std::vector<MeshProblem> check_mesh(const Mesh& mesh, const MeshCheckOptions& options, const Monitor& monitor) {
   return check_mesh(mesh, MeshSurface(mesh, monitor), options, monitor);
 }

@@ -43,6 +43,12 @@ struct MeshProblem {
   std::string text;                                 ///< one line for people
 };
 
+/// True unless the problem keeps a mesh from being strictly legal. A mesh is strictly legal if it is closed and
+/// outward, no face is degenerate, and any two of the triangles into which its faces are cut have nothing in common but
+/// a vertex or an edge that both name. So every reader finds the same solid in it, whatever it does with contacts.
+/// Solids may touch in whole edges (of four or more faces) and in vertices; vertices that no face names do not count.
+bool is_strictly_legal(const MeshProblem& problem);
+
 struct MeshCheckOptions {
   /// Report no more than these of each kind, legal and illegal ones counted apart.
   std::size_t max_per_kind = std::numeric_limits<std::size_t>::max();

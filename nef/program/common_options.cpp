@@ -37,6 +37,22 @@ void add_mesh_input_options(CLI::App& app, bool& strict, bool& as_surface) {
   app.add_flag("--as-surface", as_surface, "Take meshes as two-dimensional sets; they may be open");
 }
 
+void add_manifold_option(CLI::App& app, bool& manifold) {
+  app.add_flag(
+      "--manifold", manifold,
+      "Write a mesh whose edges have two faces each, also where the solid touches itself: vertices there are in "
+      "the file several times (not in STL)");
+}
+
+void add_mesh_file_options(CLI::App& app, MeshFileFlags& flags) {
+  app.add_flag("--recenter", flags.recenter,
+               "Subtract the middle of the mesh from its coordinates, which keeps more digits far from the origin; the "
+               "offset is in the report and the file");
+  app.add_flag("--lenient", flags.lenient,
+               "Write a mesh even if rounding made it illegal and it could not be repaired; without this flag, that is "
+               "an error");
+}
+
 void add_file_output_options(CLI::App& app, bool& exact, bool& binary, bool& text) {
   app.add_flag("--exact", exact, "Exact coordinates (p/q) in OFF, OBJ and PLY");
   app.add_flag("--binary", binary, "Binary STL or PLY");

@@ -20,6 +20,19 @@ void add_run_options(CLI::App& app, bool& json, bool& quiet, unsigned& threads);
 /// --strict and --as-surface: how meshes are read.
 void add_mesh_input_options(CLI::App& app, bool& strict, bool& as_surface);
 
+/// How meshes are written, whatever the format (see PolyhedronWriteOptions).
+struct MeshFileFlags {
+  bool manifold = false;
+  bool lenient = false;
+  bool recenter = false;
+};
+
+/// --manifold: solids that touch themselves get vertices of their own on each sheet.
+void add_manifold_option(CLI::App& app, bool& manifold);
+
+/// --lenient and --recenter.
+void add_mesh_file_options(CLI::App& app, MeshFileFlags& flags);
+
 /// --exact, --binary and --text: how sets are written.
 void add_file_output_options(CLI::App& app, bool& exact, bool& binary, bool& text);
 

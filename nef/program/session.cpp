@@ -7,6 +7,7 @@
 #include "nef/base/error.h"
 #include "nef/base/threads/parallel.h"
 #include "nef/base/timing/stopwatch.h"
+#include "nef/geometry/vectors.h"
 #include "nef/io/polyhedron_file.h"
 #include "nef/program/common_options.h"
 #include "nef/program/run_program.h"
@@ -46,15 +47,38 @@ void Session::store(const Polyhedron& set) {
   show_phase("writing " + output);
   const Stopwatch watch;
   const std::size_t first = messages.size();
+  WrittenFile written;
   if (names_tile_folder(output)) {
     if (set.complex().label_count > 2) messages.emplace_back("tiles hold a set: all marks but 0 have become 1");
     const Tiling tiling{.limit = kVerticesOfTileInFile, .threads = threads};
     write_tiles(output, TiledPolyhedron(set, tiling, monitor));
   } else {
-    write_polyhedron(output, set, write_options(), &messages);
+    written = write_polyhedron(output, set, write_options(), &messages);
   }
   write_s_ += watch.seconds();
   show_messages(first);
+  tell_written(written);
+}
+
+void Session::store_mesh(Mesh surface, bool is_strict) {
+  if (output == "-" && json) throw InputError("--json and -o - both want standard output; name a file");
+  show_phase("writing " + output);
+  const Stopwatch watch;
+  const std::size_t first = messages.size();
+  const WrittenFile written = write_solid_mesh(output, std::move(surface), is_strict, write_options(), &messages);
+  write_s_ += watch.seconds();
+  show_messages(first);
+  tell_written(written);
+}
+
+// What is wrong with a file is told to those who want to be told of nothing else, too.
+void Session::tell_written(const WrittenFile& written) {
+  if (!written.problem.empty()) {
+    messages.push_back(written.problem);
+    complain("warning: " + written.problem);
+  }
+  offset_ = written.offset;
+  if (!is_zero(offset_)) note(offset_note(output, offset_));
 }
 
 std::map<std::string, std::size_t> Session::store_groups(const Polyhedron& labeled, const BoundaryGroups& groups) {
@@ -62,9 +86,12 @@ std::map<std::string, std::size_t> Session::store_groups(const Polyhedron& label
   show_phase("writing " + output);
   const Stopwatch watch;
   const std::size_t first = messages.size();
-  std::map<std::string, std::size_t> faces = write_groups(output, labeled, groups, write_options(), &messages);
+  WrittenFile written;
+  std::map<std::string, std::size_t> faces =
+      write_groups(output, labeled, groups, write_options(), &messages, &written);
   write_s_ += watch.seconds();
   show_messages(first);
+  tell_written(written);
   return faces;
 }
 
@@ -74,6 +101,9 @@ PolyhedronWriteOptions Session::write_options() const {
   options.binary = binary;
   options.text = text;
   options.polygons = polygons;
+  options.manifold = mesh_file.manifold;
+  options.lenient = mesh_file.lenient;
+  options.recenter = mesh_file.recenter;
   options.threads = threads;
   options.monitor = monitor;
   options.format = output == "-" && format.empty() ? "nef" : format;
@@ -111,7 +141,11 @@ void Session::print(const std::string& command, const Json& found) {
   std::vector<ReportPhase> phases{{"load", load_s_, {}}};
   phases.insert(phases.end(), phases_.begin(), phases_.end());
   if (!output.empty()) phases.push_back({"write", write_s_, {}});
-  out_ << report_text(run_report(command, found, phases, messages));
+  Json with_offset = found;
+  if (!is_zero(offset_)) {
+    with_offset["offset"] = Json::array({to_string(offset_[0]), to_string(offset_[1]), to_string(offset_[2])});
+  }
+  out_ << report_text(run_report(command, with_offset, phases, messages));
 }
 
 void Session::complain(const std::string& line) {
@@ -143,6 +177,8 @@ void add_input_flags(CLI::App* command, Session& session) {
 
 CLI::Option* add_output_flags(CLI::App* command, Session& session) {
   add_file_output_options(*command, session.exact, session.binary, session.text);
+  add_manifold_option(*command, session.mesh_file.manifold);
+  add_mesh_file_options(*command, session.mesh_file);
   command->add_flag("--polygons", session.polygons,
                     "Write faces that are not convex as polygons, too, instead of cutting them into triangles");
   command->add_option("--format", session.format, "Format to write, whatever the name of the file; nef for -o -")

@@ -14,6 +14,7 @@
 #include "nef/construct/construct.h"
 #include "nef/io/mesh/mesh_writer.h"
 #include "nef/io/polyhedron_file.h"
+#include "nef/program/common_options.h"
 #include "nef/program/progress_bar.h"
 #include "nef/program/run_report.h"
 
@@ -35,6 +36,7 @@ class Session {
   bool binary = false;
   bool text = false;
   bool polygons = false;
+  MeshFileFlags mesh_file;  ///< of meshes that are written
   bool no_check = false;
   bool origins = false;
   std::string format;  ///< of the output, instead of its extension
@@ -57,8 +59,12 @@ class Session {
   Polyhedron load(const std::string& path, const Monitor& monitor);
   /// Writes a set to `output`, if there is one; "-" is standard output, which then holds nothing else.
   void store(const Polyhedron& set);
-  /// How the flags ask for a mesh to be written.
+  /// Writes the closed surface of a solid to `output` (see write_solid_mesh).
+  void store_mesh(Mesh surface, bool is_strict);
+  /// How the flags ask for a mesh to be written as it is.
   [[nodiscard]] MeshWriteOptions mesh_write_options() const;
+  /// How the flags ask for a set to be written.
+  [[nodiscard]] PolyhedronWriteOptions write_options() const;
   /// Writes a set with labels to `output`, its faces in groups (see write_groups); returns how many each has.
   std::map<std::string, std::size_t> store_groups(const Polyhedron& labeled, const BoundaryGroups& groups);
 
@@ -81,9 +87,10 @@ class Session {
  private:
   std::vector<Polyhedron> load_all(const std::vector<std::string>& paths, const Monitor& monitor);
   void show_messages(std::size_t first);
-  PolyhedronWriteOptions write_options() const;
+  void tell_written(const WrittenFile& written);
 
   std::string program_;
+  Rational3 offset_{};  // of the output
   double load_s_ = 0;
   double write_s_ = 0;
   std::vector<ReportPhase> phases_;  // between reading and writing
@@ -96,7 +103,7 @@ class Session {
 void add_run_flags(CLI::App* command, Session& session);
 /// Flags about reading meshes: --strict, --as-surface, --no-check.
 void add_input_flags(CLI::App* command, Session& session);
-/// -o and flags about writing: --format, --exact, --binary, --text, --polygons.
+/// -o and flags about writing: --format, --exact, --binary, --text, --polygons, --manifold, --recenter, --lenient.
 CLI::Option* add_output_flags(CLI::App* command, Session& session);
 
 }  // namespace nef

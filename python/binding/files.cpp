@@ -9,7 +9,6 @@
 #include "binding/base/errors.h"
 #include "binding/meshes.h"
 #include "nef/export/to_mesh.h"
-#include "nef/io/native/native_binary.h"
 #include "nef/io/native/native_format.h"
 #include "nef/io/polyhedron_file.h"
 #include "nef/polyhedron.h"
@@ -38,19 +37,30 @@ Polyhedron read(py::handle path, bool strict, bool surface) {
   return made.first;
 }
 
-void write(const Polyhedron& a, py::handle path, bool exact, bool binary, bool polygons) {
+py::object write(const Polyhedron& a, py::handle path, bool exact, bool binary, bool polygons, bool manifold,
+                 bool recenter, bool lenient) {
+  using Made = std::pair<WrittenFile, Messages>;
   const std::string file = path_text(path);
   PolyhedronWriteOptions options;
   options.exact = exact;
   options.binary = binary;
   options.polygons = polygons;
+  options.manifold = manifold;
+  options.recenter = recenter;
+  options.lenient = lenient;
   // A file that is being written is finished, or never there: it is renamed into its place at the end.
-  warn(call(items(a), [=](const Monitor& monitor) mutable {
+  Made made = call(items(a), [=](const Monitor& monitor) mutable -> Made {
     Messages messages;
     options.monitor = monitor;
-    write_polyhedron(file, a, options, &messages);
-    return messages;
-  }));
+    WrittenFile written = write_polyhedron(file, a, options, &messages);
+    return {std::move(written), std::move(messages)};
+  });
+  if (!made.first.problem.empty()) made.second.push_back(made.first.problem);
+  warn(made.second);
+  if (!recenter) return py::none();
+  py::tuple offset(3);
+  for (std::size_t i = 0; i < 3; ++i) offset[i] = nearest_double(made.first.offset[i]);
+  return offset;
 }
 
 py::tuple mesh_of(const Polyhedron& a, bool polygons, bool exact) {
@@ -69,20 +79,19 @@ py::tuple mesh_of(const Polyhedron& a, bool polygons, bool exact) {
 // CPU seconds of from_mesh and to_rounded_mesh without Python: what bench/python sets its own times against.
 py::tuple core_times(py::handle vertices, py::handle faces) {
   const Mesh mesh = mesh_from_arrays(vertices, faces);
-  const LockReleased unlocked;
+  const py::gil_scoped_release unlocked;
   const std::clock_t begin = std::clock();
   const Polyhedron set = from_mesh(mesh);
   const std::clock_t made = std::clock();
   static_cast<void>(to_rounded_mesh(set));
   const std::clock_t end = std::clock();
-  const LockHeld locked;
+  const py::gil_scoped_acquire locked;
   return py::make_tuple(static_cast<double>(made - begin) / CLOCKS_PER_SEC,
                         static_cast<double>(end - made) / CLOCKS_PER_SEC);
 }
 
-// With a checksum, so that damaged bytes are refused instead of being another set.
 py::bytes bytes_of(const Polyhedron& a) {
-  return call(items(a), [a](const Monitor&) { return native_binary(a); });
+  return call(items(a), [a](const Monitor&) { return native_text(a); });
 }
 
 Polyhedron from_bytes(const std::string& bytes) {
@@ -98,22 +107,25 @@ void bind_files(py::module_& m, PolyhedronClass& c) {
 
 strict: refuse faces of meshes that are not exactly planar instead of triangulating them. surface: take a mesh as the
 union of its faces. What was done to the input is told by warnings; InputError names file, line and cause.)");
-  m.def("from_bytes", &from_bytes, py::arg("bytes"),
-        "The set that Polyhedron.to_bytes wrote, of this or an earlier version. Raises InputError for damaged bytes.");
+  m.def("from_bytes", &from_bytes, py::arg("bytes"), "The set that Polyhedron.to_bytes wrote.");
   m.def("_core_times", &core_times, py::arg("vertices"), py::arg("faces"));
   c.def("write", &write, py::arg("path"), py::arg("exact") = false, py::arg("binary") = false,
-        py::arg("polygons") = true,
+        py::arg("polygons") = true, py::arg("manifold") = false, py::arg("recenter") = false,
+        py::arg("lenient") = false,
         R"(Writes the set to a file, whose format its extension tells.
 
 exact: exact coordinates in meshes (not STL). binary: binary STL or PLY. polygons: faces without holes stay polygons where
-rounding leaves them planar. What a mesh cannot hold is told by warnings.)")
+rounding leaves them planar. manifold: where the solid touches itself, each sheet has vertices of its own (not in STL).
+recenter: subtract the middle of the mesh from its coordinates, and return it (three floats, exact); GLB and 3MF files put
+it back when they are read. lenient: write a mesh even if rounding made it illegal and it could not be repaired, and
+warn; otherwise that is an UnsupportedError. What a mesh cannot hold is told by warnings.)")
       .def("to_mesh", &mesh_of, py::arg("polygons") = false, py::arg("exact") = false,
            R"(The boundary of the set's volumes as a closed mesh: (vertices, faces).
 
 vertices: array of shape (N, 3) of floats, the nearest to the exact coordinates; of Fractions if `exact`. faces: int64
 array of shape (M, 3), counterclockwise as seen from outside; or, with `polygons`, a list of M arrays. What a mesh cannot
 hold (open boundaries, walls, wires, unbounded volumes) is told by warnings.)")
-      .def("to_bytes", &bytes_of, "The set in the binary native format, exact and with a checksum.")
+      .def("to_bytes", &bytes_of, "The set in the native format, exact.")
       .def(py::pickle([](const Polyhedron& a) { return bytes_of(a); },
                       [](const py::bytes& bytes) { return from_bytes(std::string(bytes)); }));
 }

@@ -53,19 +53,19 @@ def main() -> int:
     for name in ("eight/eight.json", "elk/elk.json"):
         results.append(os.path.join(work, "visual_" + os.path.basename(name) + ".nef"))
         run(programs, "visual_hull", os.path.join(data, "visual_hull", name), "--simplify", "1", "-o", results[-1], "-q")
-    refused = mended = 0
+    refused = repaired = 0
     for result in results:
         for name in FORMATS:
             path = os.path.join(work, name)
             binary = ["--binary"] if name.startswith("binary") else []
             report = json.loads(run(programs, "nef", "convert", result, "-o", path, "--json", *binary))
-            mended += any("mended" in line for line in report.get("messages", []))
+            repaired += any("was repaired" in line for line in report.get("messages", []))
             done = subprocess.run([os.path.join(programs, "nef"), "check", path], stdout=subprocess.PIPE,
                                   stderr=subprocess.STDOUT, check=False, text=True)
             if done.returncode != 0:
                 refused += 1
                 print(f"{os.path.basename(result)} as {name}: {done.stdout}{report.get('messages')}")
-    print(f"{len(results)} sets in {len(FORMATS)} formats: {mended} mended, {refused} refused")
+    print(f"{len(results)} sets in {len(FORMATS)} formats: {repaired} repaired, {refused} refused")
     return 1 if refused else 0
 
 

@@ -169,6 +169,8 @@ void declare(CLI::App& app, Arguments& a) {
   declare_tasks(app, a);
   add_mesh_input_options(app, a.strict, a.as_surface);
   add_file_output_options(app, a.exact, a.binary, a.text);
+  add_manifold_option(app, a.mesh_file.manifold);
+  add_mesh_file_options(app, a.mesh_file);
   app.add_option("--report", a.report, "Write a JSON report: cells, pairs, times, predicates, memory, result")
       ->type_name("FILE");
   app.add_flag("--exact-volume", a.exact_volume,

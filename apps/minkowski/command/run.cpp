@@ -13,6 +13,7 @@
 #include "apps/minkowski/convex/tools.h"
 #include "apps/minkowski/morphology.h"
 #include "nef/base/timing/stopwatch.h"
+#include "nef/geometry/vectors.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/polyhedron_file.h"
 #include "nef/number/brief_text.h"
@@ -63,7 +64,7 @@ class Run {
   void show(const Messages& messages) {
     for (const std::string& line : messages) {
       messages_.push_back(line);
-      if (!a_.quiet) std::cerr << "minkowski: " << line << "\n";
+      if (!a_.quiet) std::cerr << "minkowski: note: " << one_line(line) << "\n";
     }
   }
 
@@ -71,9 +72,24 @@ class Run {
     const Stopwatch watch;
     const SignalsHeld held;
     Messages messages;
-    write_polyhedron(path, result, {.exact = a_.exact, .binary = a_.binary, .text = a_.text}, &messages);
+    const WrittenFile written = write_polyhedron(path, result,
+                                                 {.exact = a_.exact,
+                                                  .binary = a_.binary,
+                                                  .text = a_.text,
+                                                  .manifold = a_.mesh_file.manifold,
+                                                  .lenient = a_.mesh_file.lenient,
+                                                  .recenter = a_.mesh_file.recenter,
+                                                  .threads = a_.threads},
+                                                 &messages);
     write_s_ += watch.seconds();
     show(messages);
+    if (!written.problem.empty()) {
+      messages_.push_back(written.problem);
+      std::cerr << "minkowski: warning: " << one_line(written.problem) << "\n";
+    }
+    if (is_zero(written.offset)) return;
+    details_["offset"] = {to_string(written.offset[0]), to_string(written.offset[1]), to_string(written.offset[2])};
+    show({offset_note(path, written.offset)});
   }
 
   void preview(const Polyhedron& result) {

@@ -88,6 +88,7 @@ void add_input_options(CLI::App& app, Arguments& a) {
 void add_output_options(CLI::App& app, Arguments& a) {
   app.add_option("-o,--output", a.output, "Write the hull (format by extension)")->type_name("FILE");
   nef::add_file_output_options(app, a.exact, a.binary, a.text);
+  nef::add_mesh_file_options(app, a.mesh_file);
   app.add_option("--decimate", a.decimate, "Write a mesh of about N triangles, and tell how far it is from the hull")
       ->check(nef::positive())
       ->type_name("N");

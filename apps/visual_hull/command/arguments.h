@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "apps/visual_hull/visual_hull.h"
+#include "nef/program/common_options.h"
 
 namespace visual_hull {
 
@@ -19,7 +20,8 @@ struct Arguments {
   bool exact = false;
   bool binary = false;
   bool text = false;
-  std::size_t decimate = 0;  ///< triangles; 0: not
+  nef::MeshFileFlags mesh_file;  ///< --lenient and --recenter; --manifold is below
+  std::size_t decimate = 0;      ///< triangles; 0: not
   double min_area = 0;
   double simplify = 0;
   bool outer = false;

@@ -19,6 +19,7 @@
 #include "nef/base/in_quotes.h"
 #include "nef/base/threads/parallel.h"
 #include "nef/base/timing/stopwatch.h"
+#include "nef/geometry/vectors.h"
 #include "nef/io/content_hash.h"
 #include "nef/io/file_bytes.h"
 #include "nef/program/progress_bar.h"
@@ -54,6 +55,8 @@ json settings_of(const Arguments& a) {
           {"simplify", a.simplify},
           {"outer", a.outer},
           {"manifold", a.manifold},
+          {"lenient", a.mesh_file.lenient},
+          {"recenter", a.mesh_file.recenter},
           {"color", a.color},
           {"min_area", a.min_area},
           {"border", a.border},
@@ -113,8 +116,9 @@ json entry_of(const Result& result, const fs::path& output, const Arguments& a, 
   if (result.vanished) {
     entry["message"] = nef::utf8(vanished_text(result));
   } else {
-    const std::optional<nef::DecimatedMesh> decimated = write_hull(output.string(), result, a, nullptr, monitor);
-    if (decimated) entry["decimated"] = decimation_json(*decimated);
+    const WrittenHull written = write_hull(output.string(), result, a, nullptr, monitor);
+    if (written.decimated) entry["decimated"] = decimation_json(*written.decimated);
+    if (!nef::is_zero(written.file.offset)) entry["offset"] = offset_json(written.file);
     const nef::Counts counts = nef::counts(result.hull);
     entry["output"] = nef::utf8(output.string());
     entry["vertices"] = counts.vertices;

@@ -4,13 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iostream>
 
 #include "apps/visual_hull/color/vertex_colors.h"
 #include "nef/base/error.h"
+#include "nef/geometry/vectors.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/mesh/mesh_writer.h"
 #include "nef/io/polyhedron_file.h"
-#include "nef/mesh/separate_sheets.h"
+#include "nef/program/run_program.h"
 
 namespace visual_hull {
 
@@ -51,32 +53,39 @@ void check_output(const Arguments& a) {
   if (a.color) need_mesh(a, "--color", nef::has_vertex_colors, "PLY and GLB");
 }
 
-std::optional<nef::DecimatedMesh> write_hull(const std::string& path, const Result& result, const Arguments& a,
-                                             nef::Messages* messages, const nef::Monitor& monitor) {
-  if (a.decimate == 0) {
-    nef::PolyhedronWriteOptions format;
-    format.exact = a.exact;
-    format.binary = a.binary;
-    format.text = a.text;
-    format.manifold = a.manifold;
-    format.threads = a.threads;
-    format.monitor = monitor;
-    if (a.color) {
-      format.vertex_colors = [&](const nef::Mesh& mesh) { return colors_of(mesh, result, a, messages, monitor); };
-    }
-    nef::write_polyhedron(path, result.hull, format, messages);
-    return std::nullopt;
-  }
-  nef::DecimatedMesh decimated = nef::decimate(result.hull, a.decimate, monitor);
-  if (messages != nullptr) messages->insert(messages->end(), decimated.notes.begin(), decimated.notes.end());
-  if (a.manifold) decimated.mesh = nef::separate_sheets(decimated.mesh).mesh;
-  nef::MeshWriteOptions format;
+WrittenHull write_hull(const std::string& path, const Result& result, const Arguments& a, nef::Messages* messages,
+                       const nef::Monitor& monitor) {
+  nef::PolyhedronWriteOptions format;
   format.exact = a.exact;
   format.binary = a.binary;
+  format.text = a.text;
+  format.manifold = a.manifold;
+  format.lenient = a.mesh_file.lenient;
+  format.recenter = a.mesh_file.recenter;
+  format.threads = a.threads;
   format.monitor = monitor;
-  if (a.color) format.vertex_colors = colors_of(decimated.mesh, result, a, messages, monitor);
-  nef::write_mesh(path, decimated.mesh, format, messages);
-  return decimated;
+  if (a.color) {
+    format.vertex_colors = [&](const nef::Mesh& mesh) { return colors_of(mesh, result, a, messages, monitor); };
+  }
+  WrittenHull written;
+  if (a.decimate == 0) {
+    written.file = nef::write_polyhedron(path, result.hull, format, messages);
+  } else {
+    written.decimated = nef::decimate(result.hull, a.decimate, monitor);
+    const nef::Messages& notes = written.decimated->notes;
+    if (messages != nullptr) messages->insert(messages->end(), notes.begin(), notes.end());
+    written.file = nef::write_solid_mesh(path, written.decimated->mesh, false, format, messages);
+  }
+  if (!written.file.problem.empty())
+    std::cerr << "visual_hull: warning: " << nef::one_line(written.file.problem) << "\n";
+  if (messages == nullptr) return written;
+  if (!written.file.problem.empty()) messages->push_back(written.file.problem);
+  if (!nef::is_zero(written.file.offset)) messages->push_back(nef::offset_note(path, written.file.offset));
+  return written;
+}
+
+nlohmann::ordered_json offset_json(const nef::WrittenFile& file) {
+  return {nef::to_string(file.offset[0]), nef::to_string(file.offset[1]), nef::to_string(file.offset[2])};
 }
 
 nlohmann::ordered_json decimation_json(const nef::DecimatedMesh& decimated) {

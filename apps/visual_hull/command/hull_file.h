@@ -8,6 +8,7 @@
 #include <string>
 
 #include "apps/visual_hull/command/arguments.h"
+#include "nef/io/polyhedron_file.h"
 #include "nef/remeshing/decimate.h"
 
 namespace visual_hull {
@@ -15,10 +16,20 @@ namespace visual_hull {
 /// Throws nef::InputError if what is asked of the output cannot be had.
 void check_output(const Arguments& arguments);
 
-/// Writes the hull as the arguments have it: whole, or with --decimate as a mesh of fewer triangles, which is returned.
-/// With --manifold and --color as these say. Notes go to `messages` if that is not null.
-std::optional<nef::DecimatedMesh> write_hull(const std::string& path, const Result& result, const Arguments& arguments,
-                                             nef::Messages* messages, const nef::Monitor& monitor);
+/// What was written: the file, and its mesh if that has been decimated.
+struct WrittenHull {
+  nef::WrittenFile file;
+  std::optional<nef::DecimatedMesh> decimated;
+};
+
+/// Writes the hull as the arguments have it: whole, or with --decimate as a mesh of fewer triangles. With --manifold,
+/// --color, --lenient and --recenter as these say. Notes go to `messages` if that is not null; a warning that the mesh
+/// is not legal goes to stderr in any case.
+WrittenHull write_hull(const std::string& path, const Result& result, const Arguments& arguments,
+                       nef::Messages* messages, const nef::Monitor& monitor);
+
+/// What was subtracted from the coordinates of the mesh, for the report.
+nlohmann::ordered_json offset_json(const nef::WrittenFile& file);
 
 /// For the report: `triangles`, `vertices`, and `distance` from the hull (bounds of Hausdorff's, `low` and `high`).
 nlohmann::ordered_json decimation_json(const nef::DecimatedMesh& decimated);

@@ -14,6 +14,7 @@
 #include "apps/visual_hull/command/report.h"
 #include "apps/visual_hull/scene/understanding.h"
 #include "nef/base/error.h"
+#include "nef/geometry/vectors.h"
 #include "nef/io/file_bytes.h"
 #include "nef/program/progress_bar.h"
 #include "nef/program/run_program.h"
@@ -104,7 +105,7 @@ int conclude(const Arguments& a, const Scene& scene, const Result& result) {
 
 struct Written {
   nef::Messages messages;
-  std::optional<nef::DecimatedMesh> decimated;
+  WrittenHull hull;
 };
 
 // What is asked for, into files. A hull that vanished has pictures of its views only.
@@ -115,7 +116,7 @@ void write_files(const Arguments& a, const Result& result, nef::ProgressBar& bar
     bar.show("write " + target);
     write();
   };
-  step(a.output, true, [&] { written.decimated = write_hull(a.output, result, a, &written.messages, monitor); });
+  step(a.output, true, [&] { written.hull = write_hull(a.output, result, a, &written.messages, monitor); });
   step(a.overlay, false, [&] { write_overlays(result, result.origin, a.overlay); });
   step(a.preview, true, [&] { write_preview(result, a.preview, monitor); });
   step(a.page, true, [&] { write_page(result, result.origin, a.page, monitor); });
@@ -146,7 +147,8 @@ int run(const Arguments& a) {
   if (!a.report.empty() || a.json) {
     bar.show("write report");
     nlohmann::ordered_json report = make_report(result, written.messages, a.exact_volume);
-    if (written.decimated) report["decimated"] = decimation_json(*written.decimated);
+    if (written.hull.decimated) report["decimated"] = decimation_json(*written.hull.decimated);
+    if (!nef::is_zero(written.hull.file.offset)) report["offset"] = offset_json(written.hull.file);
     const std::string text = nef::report_text(report);
     bar.clear();
     if (!a.report.empty()) write_text(a.report, text);
@@ -155,7 +157,9 @@ int run(const Arguments& a) {
   bar.clear();
   if (!a.quiet && !a.json) {
     for (const std::string& message : written.messages) complain("note: " + message);
-    if (written.decimated) (a.report == "-" ? std::cerr : std::cout) << decimation_text(*written.decimated) << "\n";
+    if (written.hull.decimated) {
+      (a.report == "-" ? std::cerr : std::cout) << decimation_text(*written.hull.decimated) << "\n";
+    }
   }
   return conclude(a, scene, result);
 }

@@ -3,7 +3,6 @@
 // nef decimate
 #include "nef/base/timing/stopwatch.h"
 #include "nef/command/commands.h"
-#include "nef/io/mesh/mesh_writer.h"
 #include "nef/program/common_options.h"
 #include "nef/remeshing/decimate.h"
 
@@ -23,9 +22,7 @@ void add_decimate_command(CLI::App& app, Session& session) {
     const DecimatedMesh decimated = decimate(set, *triangles, session.monitor);
     const double seconds = watch.seconds();
     for (const std::string& line : decimated.notes) session.note(line);
-    Messages notes;
-    write_mesh(session.output, decimated.mesh, session.mesh_write_options(), &notes);
-    for (const std::string& line : notes) session.note(line);
+    session.store_mesh(decimated.mesh, false);
     const auto [low, high] = decimated.distance;
     session.say(std::to_string(decimated.mesh.face_count()) + " triangles; Hausdorff distance " + Json(low).dump() +
                 " to " + Json(high).dump());

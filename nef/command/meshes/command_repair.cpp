@@ -18,10 +18,14 @@ void add_repair_command(CLI::App& app, Session& session) {
   add_output_flags(command, session)->required();
   command->callback([&session, options] {
     const RepairedMesh repaired = repair_mesh(read_mesh(session.input), *options, session.monitor);
-    Messages notes;
-    write_mesh(session.output, repaired.mesh, session.mesh_write_options(), &notes);
+    if (repaired.problem.empty()) {
+      session.store_mesh(repaired.mesh, true);  // what rounding does is checked
+    } else {
+      Messages notes;
+      write_mesh(session.output, repaired.mesh, session.mesh_write_options(), &notes);
+      session.note_all(notes);
+    }
     for (const std::string& line : repaired.done) session.say(line);
-    for (const std::string& line : notes) session.say("note: " + line);
     session.say(repaired.problem.empty() ? (repaired.done.empty() ? "nothing to repair" : "the mesh bounds a solid now")
                                          : "the mesh bounds no solid still: " + repaired.problem);
     session.exit_code = repaired.problem.empty() ? kYes : kNo;

@@ -5,7 +5,6 @@
 #include "nef/base/timing/stopwatch.h"
 #include "nef/command/commands.h"
 #include "nef/export/to_mesh.h"
-#include "nef/io/mesh/mesh_writer.h"
 #include "nef/remeshing/subdivide.h"
 
 namespace nef {
@@ -51,9 +50,7 @@ void add_subdivide_command(CLI::App& app, Session& session) {
         subdivide(whole.mesh, smooth ? SubdivisionScheme::kLoop : SubdivisionScheme::kMidpoint, flags->times);
     if (smooth) require_legal(mesh, session.monitor);
     const double seconds = watch.seconds();
-    Messages notes;
-    write_mesh(session.output, mesh, session.mesh_write_options(), &notes);
-    for (const std::string& line : notes) session.note(line);
+    session.store_mesh(mesh, !smooth);
     session.say(std::to_string(mesh.face_count()) + " triangles");
     if (!session.json) return;
     session.spent("op", seconds);

@@ -26,8 +26,10 @@ Json plain_problem(const std::string& kind, const std::string& text, FileElement
           {"edges", Json::array()}, {"faces", faces}, {"text", text}};
 }
 
-Json check_mesh_file(const std::string& path, bool self_intersections, const Monitor& monitor) {
+// `strict`: whether the mesh is strictly legal.
+Json check_mesh_file(const std::string& path, bool self_intersections, bool& strict, const Monitor& monitor) {
   Json problems = Json::array();
+  strict = false;
   Mesh mesh;
   try {
     mesh = read_mesh(path);
@@ -44,20 +46,24 @@ Json check_mesh_file(const std::string& path, bool self_intersections, const Mon
     const auto* refused = std::get_if<MeshRefusal>(&made);
     problems.push_back(
         plain_problem("no faces", refused != nullptr ? refused->text : notes.at(0), {}, refused == nullptr));
+    strict = refused == nullptr;
     return problems;
   }
   MeshCheckOptions options;
   options.max_per_kind = 1000;
   options.self_intersections = self_intersections;
   bool good = true;
+  strict = true;
   for (const MeshProblem& problem : check_mesh(mesh, options, monitor)) {
     problems.push_back(problem_json(problem));
     good = good && problem.legal;
+    strict = strict && is_strictly_legal(problem);
   }
   if (!good || !self_intersections) return problems;
   // How components lie in each other is known only when the solid is made.
   const std::variant<Polyhedron, MeshRefusal> made = try_from_mesh(mesh, {.monitor = monitor});
   if (const auto* refused = std::get_if<MeshRefusal>(&made)) {
+    strict = false;
     const bool cancel = refused->text == kEnclosesNothing;
     problems.push_back(plain_problem(cancel ? "no volume" : "inconsistent orientation", refused->text));
   }
@@ -79,13 +85,18 @@ void add_check_command(CLI::App& app, Session& session) {
   command->add_option("input", session.input, "The mesh, as a file")->required();
   command->add_flag("--no-check", session.no_check,
                     "Do not look for self-intersections and components that contradict each other");
-  command->callback([&session] {
+  const auto need_strict = std::make_shared<bool>(false);
+  command->add_flag("--strict", *need_strict,
+                    "Exit code 1 also for a mesh that bounds a solid and is not strictly legal: triangles meet in more "
+                    "than the vertices and edges that they share");
+  command->callback([&session, need_strict] {
     const std::string& path = session.input;
     const std::string extension = lower_extension(path);
     const bool complex = extension == "nef" || extension == "nef3";
+    bool strict = false;
     const Json problems =
-        complex ? check_complex_file(session, path) : check_mesh_file(path, !session.no_check, session.monitor);
-    bool good = true;
+        complex ? check_complex_file(session, path) : check_mesh_file(path, !session.no_check, strict, session.monitor);
+    bool good = complex || strict || !*need_strict;
     for (const Json& problem : problems) {
       good = good && problem["legal"].get<bool>();
       session.say((problem["legal"].get<bool>() ? "note: " : "") + problem["name"].get<std::string>() + ": " +
@@ -93,7 +104,9 @@ void add_check_command(CLI::App& app, Session& session) {
     }
     session.exit_code = good ? kYes : kNo;
     if (session.json) {
-      session.print("check", {{"ok", good}, {"problems", problems}});
+      Json found{{"ok", good}, {"problems", problems}};
+      if (!complex) found["strictly_legal"] = strict && !session.no_check;
+      session.print("check", found);
     } else if (problems.empty()) {
       session.say("no problems");
     }

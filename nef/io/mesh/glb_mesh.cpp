@@ -406,7 +406,8 @@ void append_groups(nlohmann::ordered_json& document, std::string& binary, const 
 Mesh read_glb(std::string_view bytes, const std::string& path) { return GlbReader(bytes, path).read(); }
 
 std::string glb_bytes(const Mesh& mesh, const FaceGroups& groups,
-                      const std::vector<std::array<std::uint8_t, 3>>& vertex_colors, const Monitor& monitor) {
+                      const std::vector<std::array<std::uint8_t, 3>>& vertex_colors, const Rational3& offset,
+                      const Monitor& monitor) {
   const MeshSurface surface(mesh, monitor);
   std::string binary;
   std::array<float, 3> low{};
@@ -420,10 +421,14 @@ std::string glb_bytes(const Mesh& mesh, const FaceGroups& groups,
     }
   }
   nlohmann::ordered_json document{{"asset", {{"version", "2.0"}, {"generator", "nef"}}}, {"scene", 0}};
-  document["scenes"] = {{{"nodes", nlohmann::json::array()}}};
+  // The format knows no empty lists.
+  document["scenes"] = nlohmann::ordered_json::array({nlohmann::ordered_json::object()});
   if (!surface.triangles.empty()) {
-    document["scenes"][0]["nodes"].push_back(0);
-    document["nodes"] = {{{"mesh", 0}, {"matrix", {1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1}}}};
+    document["scenes"][0]["nodes"] = nlohmann::ordered_json::array({0});
+    const double x = nearest_double(offset[0]);
+    const double y = nearest_double(offset[1]);
+    const double z = nearest_double(offset[2]);
+    document["nodes"] = {{{"mesh", 0}, {"matrix", {1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, x, z, 0 - y, 1}}}};
     document["meshes"] = {{{"primitives", nlohmann::json::array()}}};
     document["accessors"] = {{{"bufferView", 0},
                               {"componentType", int{kFloat}},

@@ -22,8 +22,9 @@ Mesh read_glb(std::string_view bytes, const std::string& path);
 
 /// One node with the mesh's triangles; its matrix turns z up to y up, so that the numbers are the mesh's, rounded to
 /// the nearest floats. Each group of faces is a primitive with a material of its name. `vertex_colors`: in sRGB, of
-/// every vertex, or none.
+/// every vertex, or none. `offset`: the node moves the mesh by it.
 std::string glb_bytes(const Mesh& mesh, const FaceGroups& groups = {},
-                      const std::vector<std::array<std::uint8_t, 3>>& vertex_colors = {}, const Monitor& monitor = {});
+                      const std::vector<std::array<std::uint8_t, 3>>& vertex_colors = {}, const Rational3& offset = {},
+                      const Monitor& monitor = {});
 
 }  // namespace nef

@@ -38,35 +38,30 @@ constexpr int kRounds = 24;
 struct Finding {
   bool legal = true;
   std::string text;                       // of the first problem
-  std::set<std::uint32_t> guilty;         // faces of illegal problems
+  std::set<std::uint32_t> guilty;         // faces of problems, without those of the next
   std::vector<std::uint32_t> degenerate;  // faces without area
 };
 
+// Whether a mesh is strictly legal (is_strictly_legal) and its components fit together.
 Finding examine(const Mesh& mesh, const Monitor& monitor) {
   Finding found;
-  bool contact = false;
   const auto note = [&](const std::string& text) {
     if (found.legal) found.text = text;
     found.legal = false;
   };
   const MeshSurface surface(mesh, monitor);
   for (const MeshProblem& problem : check_mesh(mesh, surface, {}, monitor)) {
-    if (problem.kind == MeshProblemKind::kInsideOut) note(problem.text);
-    contact = contact || problem.kind == MeshProblemKind::kTouching || problem.kind == MeshProblemKind::kDuplicateFace;
-    if (problem.legal && problem.kind == MeshProblemKind::kDegenerateFace) {
-      found.degenerate.insert(found.degenerate.end(), problem.faces.begin(), problem.faces.end());
-    }
-    if (problem.legal) continue;
+    if (is_strictly_legal(problem)) continue;
     note(problem.text);
-    found.guilty.insert(problem.faces.begin(), problem.faces.end());
+    if (problem.kind == MeshProblemKind::kDegenerateFace) {
+      found.degenerate.insert(found.degenerate.end(), problem.faces.begin(), problem.faces.end());
+    } else {
+      found.guilty.insert(problem.faces.begin(), problem.faces.end());
+    }
   }
-  // How components lie to each other, and what contacts mean, is known when the solid is made.
-  const bool clean = !contact && found.degenerate.empty();
-  if (!found.legal || (clean && surely_one_solid(surface, monitor))) return found;
-  MeshOptions options;
-  options.check = !clean;
-  options.monitor = monitor;
-  const std::variant<Polyhedron, MeshRefusal> made = try_from_mesh(mesh, options);
+  // How components lie to each other is known when the solid is made.
+  if (!found.legal || surely_one_solid(surface, monitor)) return found;
+  const std::variant<Polyhedron, MeshRefusal> made = try_from_mesh(mesh, {.monitor = monitor});
   if (const auto* refused = std::get_if<MeshRefusal>(&made)) note(refused->text);
   return found;
 }
@@ -76,14 +71,17 @@ class Mender {
   Mender(const Mesh& exact, const Rounding& rounding, unsigned threads, const Monitor& monitor)
       : exact_(exact), rounding_(rounding), threads_(threads), monitor_(monitor), random_(1) {}
 
+  std::string problem() {
+    round();
+    return examine_exact_faces().text;
+  }
+
   MendedMesh run() {
-    for (const Rational3& p : exact_.vertices) {
-      points_.push_back({rounding_.nearest(p[0]), rounding_.nearest(p[1]), rounding_.nearest(p[2])});
-    }
+    round();
     nearest_ = points_;
     MendedMesh result;
-    Finding found = examine_readings([&](const auto& reading) { return with_faces_of(exact_, reading); });
-    if (found.legal && found.degenerate.empty()) {
+    Finding found = examine_exact_faces();
+    if (found.legal) {
       result.mesh = with_faces_of(exact_, exact_rational);
       return measured(std::move(result));
     }
@@ -93,7 +91,7 @@ class Mender {
       clean_up();
       if (triangles_.empty()) return lost();
       found = examine_readings([&](const auto& reading) { return mesh_of_triangles(reading); });
-      if (found.legal && (found.degenerate.empty() || round >= kRounds / 2)) break;
+      if (found.legal) break;
       mend(found, round);
     }
     result.legal = found.legal;
@@ -106,6 +104,16 @@ class Mender {
   }
 
  private:
+  void round() {
+    for (const Rational3& p : exact_.vertices) {
+      points_.push_back({rounding_.nearest(p[0]), rounding_.nearest(p[1]), rounding_.nearest(p[2])});
+    }
+  }
+
+  [[nodiscard]] Finding examine_exact_faces() const {
+    return examine_readings([&](const auto& reading) { return with_faces_of(exact_, reading); });
+  }
+
   [[nodiscard]] static MendedMesh lost() {
     MendedMesh result;
     result.legal = false;
@@ -125,7 +133,6 @@ class Mender {
     });
     for (Finding& one : found) {
       if (!one.legal) return std::move(one);
-      if (found[0].degenerate.empty()) found[0].degenerate = std::move(one.degenerate);
     }
     return std::move(found[0]);
   }
@@ -346,6 +353,18 @@ Rounding rounding_to_decimals() { return {nearest_double, next_double, {shortest
 
 Rounding rounding_to_binary_floats() {
   return {[](const Rational& x) { return static_cast<double>(nearest_float(x)); }, next_float, {exact_rational}};
+}
+
+std::string strict_problem(const Mesh& mesh, const Monitor& monitor) { return examine(mesh, monitor).text; }
+
+std::string rounded_problem(const Mesh& exact, const Rounding& rounding, unsigned threads, const Monitor& monitor) {
+  return Mender(exact, rounding, threads, monitor).problem();
+}
+
+bool is_kept(const Rational& value, const Rounding& rounding) {
+  const double rounded = rounding.nearest(value);
+  return std::isfinite(rounded) && std::all_of(rounding.readings.begin(), rounding.readings.end(),
+                                               [&](const auto& reading) { return reading(rounded) == value; });
 }
 
 MendedMesh round_mesh(const Mesh& exact, const Rounding& rounding, unsigned threads, const Monitor& monitor) {

@@ -30,7 +30,7 @@ Rounding rounding_to_binary_floats();
 /// A mesh that was rounded.
 struct MendedMesh {
   Mesh mesh;                ///< its coordinates are numbers of the format
-  bool legal = true;        ///< it bounds a solid in every reading
+  bool legal = true;        ///< it is strictly legal in every reading, and bounds a solid
   std::string problem;      ///< the first problem if it is not legal
   std::size_t moved = 0;    ///< vertices that are not at the nearest numbers, so that it is legal
   std::size_t dropped = 0;  ///< slivers that are gone
@@ -39,7 +39,18 @@ struct MendedMesh {
   std::vector<std::uint32_t> face_of;
 };
 
-/// Rounds the vertices of a legal closed mesh of convex faces. Where the result is not legal any more, vertices go to
+/// Why a mesh is not strictly legal (is_strictly_legal), or bounds no solid though it is; empty if it does. The cost is
+/// that of check_mesh.
+std::string strict_problem(const Mesh& mesh, const Monitor& monitor = {});
+
+/// The same for the mesh with rounded coordinates, in the first reading that has a problem.
+std::string rounded_problem(const Mesh& exact, const Rounding& rounding, unsigned threads = 1,
+                            const Monitor& monitor = {});
+
+/// True if a number is the same in every reading after rounding: nothing happens to it in a file.
+bool is_kept(const Rational& value, const Rounding& rounding);
+
+/// Rounds the vertices of a legal closed mesh of convex faces. Where the result is not strictly legal, vertices go to
 /// other numbers nearby and slivers are flipped or contracted, as long as that takes few rounds; then all faces are
 /// triangles. What it returns as legal was checked exactly. The cost is that of check_mesh for each reading and round;
 /// the readings are checked side by side on up to `threads` threads (0: as many as the machine has), of which the

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "nef/export/nearest_float.h"
+#include "nef/geometry/vectors.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/mesh/glb_mesh.h"
 #include "nef/io/mesh/threemf_mesh.h"
@@ -57,7 +58,18 @@ std::array<double, 3> unit_normal(const std::array<std::array<double, 3>, 3>& t)
   return n;
 }
 
-std::string text_stl(const Mesh& mesh, const MeshSurface& surface) {
+// "offset x y z" behind `before`, for comments; nothing if there is no offset.
+std::string offset_text(const char* before, const Rational3& offset, const char* after) {
+  if (is_zero(offset)) return "";
+  std::string text = std::string(before) + "offset";
+  for (const Rational& x : offset) {
+    text += ' ';
+    append_number(text, nearest_double(x));
+  }
+  return text + after;
+}
+
+std::string text_stl(const Mesh& mesh, const MeshSurface& surface, const Rational3& offset) {
   std::vector<std::array<double, 3>> points;
   for (const Rational3& p : mesh.vertices) {
     points.push_back({nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2])});
@@ -69,7 +81,7 @@ std::string text_stl(const Mesh& mesh, const MeshSurface& surface) {
     }
     text += '\n';
   };
-  std::string text = "solid nef\n";
+  std::string text = "solid nef" + offset_text(" ", offset, "") + "\n";
   for (const auto& t : surface.triangles) {
     text += " facet normal";
     append(text, unit_normal({points[t[0]], points[t[1]], points[t[2]]}));
@@ -83,13 +95,16 @@ std::string text_stl(const Mesh& mesh, const MeshSurface& surface) {
   return text + "endsolid nef\n";
 }
 
-std::string binary_stl(const Mesh& mesh, const MeshSurface& surface) {
+std::string binary_stl(const Mesh& mesh, const MeshSurface& surface, const Rational3& offset) {
   std::vector<std::array<float, 3>> points;
   for (const Rational3& p : mesh.vertices) {
     points.push_back({nearest_float(p[0]), nearest_float(p[1]), nearest_float(p[2])});
   }
   std::string bytes = "binary STL";  // not "solid", which would look like text
-  bytes.resize(80, ' ');
+  constexpr std::size_t kHeader = 80;
+  const std::string note = offset_text(", ", offset, "");
+  if (bytes.size() + note.size() <= kHeader) bytes += note;
+  bytes.resize(kHeader, ' ');
   append_little_endian(bytes, static_cast<std::uint32_t>(surface.triangles.size()));
   for (const auto& t : surface.triangles) {
     std::array<std::array<double, 3>, 3> corners;
@@ -144,12 +159,13 @@ std::string off_bytes(const Mesh& mesh, const MeshWriteOptions& options) {
     if (!options.groups.none()) append_color(text, group_color(options.groups.of_face[f]));
     text += '\n';
   }
-  return text;
+  return text + offset_text("# ", options.offset, "\n");
 }
 
 std::string obj_bytes(const Mesh& mesh, const MeshWriteOptions& options) {
   std::string text =
       "# " + std::to_string(mesh.vertices.size()) + " vertices, " + std::to_string(mesh.face_count()) + " faces\n";
+  text += offset_text("# ", options.offset, "\n");
   for (const Rational3& p : mesh.vertices) {
     text += "v ";
     append_point(text, p, options.exact);
@@ -179,13 +195,13 @@ std::string obj_bytes(const Mesh& mesh, const MeshWriteOptions& options) {
 
 std::string stl_bytes(const Mesh& mesh, const MeshWriteOptions& options) {
   const MeshSurface surface(mesh, options.monitor);
-  return options.binary ? binary_stl(mesh, surface) : text_stl(mesh, surface);
+  return options.binary ? binary_stl(mesh, surface, options.offset) : text_stl(mesh, surface, options.offset);
 }
 
 std::string ply_bytes(const Mesh& mesh, const MeshWriteOptions& options) {
   std::string bytes = "ply\nformat ";
   bytes += options.binary ? "binary_little_endian" : "ascii";
-  bytes += " 1.0\n";
+  bytes += " 1.0\n" + offset_text("comment ", options.offset, "\n");
   const FaceGroups& groups = options.groups;
   for (std::size_t g = 0; g < groups.names.size(); ++g) {
     bytes += "comment group " + std::to_string(g) + " " + group_word(groups.names[g]) + "\n";
@@ -304,9 +320,9 @@ void write_mesh(const std::string& path, const Mesh& mesh, const MeshWriteOption
   } else if (extension == "ply") {
     bytes = ply_bytes(mesh, options);
   } else if (extension == "glb") {
-    bytes = glb_bytes(mesh, options.groups, options.vertex_colors, options.monitor);
+    bytes = glb_bytes(mesh, options.groups, options.vertex_colors, options.offset, options.monitor);
   } else if (extension == "3mf") {
-    bytes = threemf_bytes(mesh, options.monitor);
+    bytes = threemf_bytes(mesh, options.offset, options.monitor);
   } else {
     refuse_format(path, "the extension names no mesh format; use off, obj, stl, ply, glb or 3mf");
   }

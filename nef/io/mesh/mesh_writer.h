@@ -30,6 +30,9 @@ struct MeshWriteOptions {
   FaceGroups groups = {};
   /// Red, green and blue (sRGB) of every vertex, or none; PLY and GLB only.
   std::vector<std::array<std::uint8_t, 3>> vertex_colors = {};
+  /// What was subtracted from all coordinates of the mesh, which are written as they are: GLB and 3MF place the mesh
+  /// there, so readers put it back; OFF, OBJ, PLY and STL note it in a comment or in the header. Dyadic.
+  Rational3 offset = {};
   /// Who watches; what it refers to must outlive the call.
   Monitor monitor = {};
 };

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "nef/base/in_quotes.h"
+#include "nef/geometry/vectors.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/mesh/unfolding.h"
 #include "nef/io/mesh/xml_events.h"
@@ -239,7 +240,7 @@ class ModelReader {
 
 Mesh read_3mf(std::string_view bytes, const std::string& path) { return ModelReader(bytes, path).read(); }
 
-std::string threemf_bytes(const Mesh& mesh, const Monitor& monitor) {
+std::string threemf_bytes(const Mesh& mesh, const Rational3& offset, const Monitor& monitor) {
   const MeshSurface surface(mesh, monitor);
   std::string model = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<model unit=\"millimeter\" xml:lang=\"en\" xmlns=\"";
   model += kCore;
@@ -266,7 +267,18 @@ std::string threemf_bytes(const Mesh& mesh, const Monitor& monitor) {
     model += "   </triangles>\n  </mesh></object>\n";
   }
   model += " </resources>\n <build>";
-  if (!surface.triangles.empty()) model += "<item objectid=\"1\"/>";
+  if (!surface.triangles.empty()) {
+    model += "<item objectid=\"1\"";
+    if (!is_zero(offset)) {
+      model += " transform=\"1 0 0 0 1 0 0 0 1";
+      for (const Rational& x : offset) {
+        model += ' ';
+        append_number(model, nearest_double(x));
+      }
+      model += '"';
+    }
+    model += "/>";
+  }
   model += "</build>\n</model>\n";
   return zip_bytes(
       {{"[Content_Types].xml",

@@ -19,7 +19,8 @@ namespace nef {
 /// grow beyond all measure when they are unpacked.
 Mesh read_3mf(std::string_view bytes, const std::string& path);
 
-/// One object with the mesh's triangles, in the fewest decimals that tell the nearest doubles.
-std::string threemf_bytes(const Mesh& mesh, const Monitor& monitor = {});
+/// One object with the mesh's triangles, in the fewest decimals that tell the nearest doubles, moved by `offset` where
+/// it is built.
+std::string threemf_bytes(const Mesh& mesh, const Rational3& offset = {}, const Monitor& monitor = {});
 
 }  // namespace nef

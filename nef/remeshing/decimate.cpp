@@ -159,9 +159,8 @@ class Step {
 
 std::string stay_text(std::size_t triangles, bool restrained) {
   const std::string stay = std::to_string(triangles) + " triangles stay: ";
-  if (restrained)
-    return stay + "where there are more than were asked for, with fewer the mesh would touch or cross itself";
-  return stay + "no other edge can be collapsed without turning a face over, or a border away";
+  if (!restrained) return stay + "no other edge can be collapsed without turning a face over, or a border away";
+  return stay + "with fewer the mesh would touch or cross itself in places, or be much coarser in others";
 }
 
 }  // namespace

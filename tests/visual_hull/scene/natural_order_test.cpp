@@ -131,6 +131,13 @@ TEST_CASE("Camera files of a folder, and numbered matrices, are views by number"
   for (const View& view : read_scene(s.folder() / "pa").views) names.push_back(view.name);
   CHECK(names == std::vector<std::string>{"v2", "v9", "v10"});
 
+  fs::create_directories(s.folder() / "model");
+  s.write("model/cameras.txt", "1 PINHOLE 200 100 100 100 100 50\n");
+  s.write("model/images.txt", "1 1 0 0 0 0 0 5 1 f10.png\n\n2 1 0 0 0 0 0 5 1 f9.png\n\n3 1 0 0 0 0 0 5 1 f1.png\n\n");
+  names.clear();
+  for (const View& view : read_scene(s.folder() / "model").views) names.push_back(view.name);
+  CHECK(names == std::vector<std::string>{"f1.png", "f9.png", "f10.png"});
+
   const std::string matrix = ": [[1., 0., 0., 0.], [0., 1., 0., 0.], [0., 0., 1., 5.]]\n";
   std::string text = "%YAML:1.0\n---\n";
   for (const char* name : {"m10", "m2", "m01"}) text += name + matrix;

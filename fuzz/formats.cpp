@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fuzz/formats.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <filesystem>
 
 #include "apps/planner/path/path_file.h"
 #include "apps/planner/scene/scene.h"
@@ -144,34 +141,12 @@ std::string colmap_model(const Polyhedron& /*set*/, const std::string& /*text*/)
          std::string(kNextFile) + "1 1 0 0 0 0 0 5 1 a.png\n1 2 3\n2 0 1 0 0 0 0 5 2 b.png\n\n";
 }
 
-// A folder for one scene, which goes away.
-class SceneFolder {
- public:
-  SceneFolder() : path_(std::filesystem::temp_directory_path() / ("fuzz_scene_" + std::to_string(getpid()))) {
-    std::filesystem::create_directories(path_);
-  }
-  SceneFolder(const SceneFolder&) = delete;
-  SceneFolder& operator=(const SceneFolder&) = delete;
-  ~SceneFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  [[nodiscard]] std::filesystem::path write(const std::string& name, const std::string& bytes) const {
-    write_file((path_ / name).string(), bytes);
-    return path_ / name;
-  }
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
 void read_colmap_model(const std::string& text) {
-  const SceneFolder folder;
+  const ScratchFolder folder;
   const std::size_t end = std::min(text.find(kNextFile), text.size());
-  folder.write("cameras.txt", text.substr(0, end));
-  folder.write("images.txt", text.substr(std::min(end + kNextFile.size(), text.size())));
-  static_cast<void>(visual_hull::read_colmap(folder.path()));
+  write_file(folder / "cameras.txt", text.substr(0, end));
+  write_file(folder / "images.txt", text.substr(std::min(end + kNextFile.size(), text.size())));
+  static_cast<void>(visual_hull::read_colmap(folder / ""));
 }
 
 void append(std::string& bytes, std::uint32_t value) {
@@ -306,8 +281,9 @@ constexpr std::array kFormats{
            }},
     Format{"matlab", matlab_file,
            [](const std::string& bytes) {
-             const SceneFolder folder;
-             static_cast<void>(visual_hull::read_matlab(folder.write("scene.mat", bytes), ""));
+             const ScratchFolder folder;
+             write_file(folder / "scene.mat", bytes);
+             static_cast<void>(visual_hull::read_matlab(folder / "scene.mat", ""));
            }},
     Format{"transforms", transforms_scene,
            [](const std::string& text) {

@@ -2,17 +2,16 @@
 //
 // Folders of images with numbers in their names, in any spelling: views get them in the order of the numbers. The
 // oracle knows the numbers, since it made the names of them.
-#include <unistd.h>
-
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "apps/visual_hull/scene/images.h"
 #include "fuzz/fuzzer.h"
+#include "fuzz/scratch_folder.h"
+#include "nef/io/file_bytes.h"
 
 namespace nef::fuzz {
 namespace {
@@ -31,25 +30,6 @@ struct ImageName {
     }
     return result;
   }
-};
-
-// A folder that goes away.
-class Folder {
- public:
-  Folder() : path_(fs::temp_directory_path() / ("fuzz_image_names_" + std::to_string(getpid()))) {
-    fs::remove_all(path_);
-    fs::create_directories(path_);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  ~Folder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  [[nodiscard]] const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
 };
 
 }  // namespace
@@ -73,18 +53,18 @@ void fuzz_image_names(const Case& the_case) {
     }
     by_numbers.emplace(name.numbers, name.text(words) + ".png");
   }
-  const Folder folder;
+  const ScratchFolder folder;
   std::vector<std::string> wanted;
   for (const auto& [key, name] : by_numbers) {
     wanted.push_back(name);
     the_case.tell(name);
-    std::ofstream(folder.path() / name) << 'x';
+    write_file(folder / name, "x");
   }
   visual_hull::Scene scene;
   scene.views.resize(wanted.size());
   Messages notes;
   std::vector<std::string> got;
-  for (const fs::path& file : visual_hull::images_of(scene, folder.path(), std::nullopt, &notes)) {
+  for (const fs::path& file : visual_hull::images_of(scene, folder / "", std::nullopt, &notes)) {
     got.push_back(file.filename().string());
   }
   Case::require(got == wanted, "order: images are not paired by number");

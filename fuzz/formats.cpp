@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fuzz/formats.h"
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
 
 #include "apps/planner/path/path_file.h"
 #include "apps/planner/scene/scene.h"
+#include "apps/visual_hull/formats/colmap.h"
+#include "apps/visual_hull/formats/matlab.h"
+#include "apps/visual_hull/formats/opencv_storage.h"
 #include "apps/visual_hull/formats/scene_json.h"
 #include "apps/visual_hull/formats/scene_text.h"
 #include "apps/visual_hull/formats/vsh.h"
@@ -108,6 +113,68 @@ std::string middlebury_scene(const Polyhedron& /*set*/, const std::string& /*tex
   return "2\na.png 1 0 0 0 1 0 0 0 1 1 0 0 0 1 0 0 0 1 0 0 5\nb.png 2 0 0 0 2 0 0 0 1 0 1 0 0 0 1 1 0 0 0 0 7\n";
 }
 
+std::string opencv_yaml(const Polyhedron& /*set*/, const std::string& /*text*/) {
+  return "%YAML:1.0\n---\nimage_width: 200\ncamera_matrix: [[100., 0., 99.5], [0., 100., 49.5], [0., 0., 1.]]\n"
+         "dist_coeffs: [0.1, 0., 0., 0.]\nR0: [[1., 0., 0.], [0., 1., 0.], [0., 0., 1.]]\nt0: [0., 0., 5.]\n"
+         "rvec1: [0., 1., 0.]\ntvec1: [0., 0., 5.]\n"
+         "P2: !!opencv-matrix\n   rows: 3\n   cols: 4\n   dt: d\n   data: [1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 1., "
+         "5.]\n";
+}
+
+std::string opencv_xml(const Polyhedron& /*set*/, const std::string& /*text*/) {
+  return "<?xml version=\"1.0\"?>\n<opencv_storage>\n<P0 type_id=\"opencv-matrix\">\n  <rows>3</rows>\n  "
+         "<cols>4</cols>\n  <dt>d</dt>\n  <data>1. 0. 0. 0. 0. 1. 0. 0. 0. 0. 1. 5.</data></P0>\n<views><_><name>a"
+         "</name><K>1. 0. 0. 0. 1. 0. 0. 0. 1.</K></_></views>\n</opencv_storage>\n";
+}
+
+std::string transforms_scene(const Polyhedron& /*set*/, const std::string& /*text*/) {
+  return R"({"camera_model": "OPENCV", "fl_x": 100, "cx": 100, "cy": 50, "w": 200, "h": 100, "k1": 0.1, "frames": [
+  {"file_path": "images/a", "transform_matrix": [[1,0,0,0],[0,1,0,0],[0,0,1,5],[0,0,0,1]]},
+  {"file_path": "b.png", "fl_x": 90, "transform_matrix": [[1,0,0,0],[0,0,1,0],[0,-1,0,5],[0,0,0,1]]}]})";
+}
+
+// The files of a model, one after the other.
+constexpr std::string_view kNextFile = "-- images --\n";
+
+std::string colmap_model(const Polyhedron& /*set*/, const std::string& /*text*/) {
+  return "# cameras\n1 PINHOLE 200 100 100 100 100 50\n2 OPENCV 200 100 100 100 100 50 0.1 0 0 0\n" +
+         std::string(kNextFile) + "1 1 0 0 0 0 0 5 1 a.png\n1 2 3\n2 0 1 0 0 0 0 5 2 b.png\n\n";
+}
+
+void read_colmap_model(const std::string& text) {
+  const ScratchFolder folder;
+  const std::size_t end = std::min(text.find(kNextFile), text.size());
+  write_file(folder / "cameras.txt", text.substr(0, end));
+  write_file(folder / "images.txt", text.substr(std::min(end + kNextFile.size(), text.size())));
+  static_cast<void>(visual_hull::read_colmap(folder / ""));
+}
+
+void append(std::string& bytes, std::uint32_t value) {
+  for (unsigned shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(value >> shift & 255U);
+}
+
+// An element of a MATLAB file: type, size, bytes, padded to eight.
+std::string mat_element(std::uint32_t type, const std::string& data) {
+  std::string bytes;
+  append(bytes, type);
+  append(bytes, static_cast<std::uint32_t>(data.size()));
+  return bytes + data + std::string((8 - data.size() % 8) % 8, '\0');
+}
+
+std::string matlab_file(const Polyhedron& /*set*/, const std::string& /*text*/) {
+  std::string bytes = "MATLAB 5.0 MAT-file, by hand";
+  bytes.append(124 - bytes.size(), ' ');
+  append(bytes, 0x4d490100);
+  std::string flags;
+  append(flags, 6);  // doubles
+  append(flags, 0);
+  std::string sizes;
+  append(sizes, 3);
+  append(sizes, 4);
+  return bytes + mat_element(14, mat_element(6, flags) + mat_element(5, sizes) + mat_element(1, "P") +
+                                     mat_element(9, std::string(96, '\x3f')));
+}
+
 std::string expression(const Polyhedron& /*set*/, const std::string& text) {
   return "union(" + text +
          ", rotate(box(0,0,0,1,1,1), z, 30), hull(0,0,0,1,0,0,0,1,0,0,0,1)) ^ !halfspace(1,2,-1/3,1e-1) * "
@@ -204,6 +271,25 @@ constexpr std::array kFormats{
            [](const std::string& text) {
              static_cast<void>(visual_hull::read_text_scene(text, "/nonexistent/scene.txt"));
            }},
+    Format{"opencv-yaml", opencv_yaml,
+           [](const std::string& text) {
+             static_cast<void>(visual_hull::read_opencv_storage(text, "/nonexistent/scene.yml", ""));
+           }},
+    Format{"opencv-xml", opencv_xml,
+           [](const std::string& text) {
+             static_cast<void>(visual_hull::read_opencv_storage(text, "/nonexistent/scene.xml", ""));
+           }},
+    Format{"matlab", matlab_file,
+           [](const std::string& bytes) {
+             const ScratchFolder folder;
+             write_file(folder / "scene.mat", bytes);
+             static_cast<void>(visual_hull::read_matlab(folder / "scene.mat", ""));
+           }},
+    Format{"transforms", transforms_scene,
+           [](const std::string& text) {
+             static_cast<void>(visual_hull::read_json_scene(text, "/nonexistent/transforms.json"));
+           }},
+    Format{"colmap", colmap_model, read_colmap_model},
     Format{"middlebury", middlebury_scene,
            [](const std::string& text) {
              static_cast<void>(visual_hull::read_text_scene(text, "/nonexistent/scene.txt"));

@@ -34,6 +34,7 @@ std::span<const Fuzzer> fuzzers() {
              fuzz_wide},
       Fuzzer{"silhouettes", "visual hulls of random cameras and polygons, point by point", fuzz_silhouettes},
       Fuzzer{"jobs", "work that was left behind, after files were replaced, touched or renamed", fuzz_jobs},
+      Fuzzer{"image-names", "folders of images with numbers in their names, by the numbers", fuzz_image_names},
       Fuzzer{"tiles", "sets in tiles under steps, with awkward cuts, point by point", fuzz_tiles},
       Fuzzer{"sums", "Minkowski sums of open, closed and mixed sets on a grid", fuzz_sums},
       Fuzzer{"convolutions", "Minkowski sums of solids without cells, by intersections and by cells",

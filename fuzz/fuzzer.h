@@ -79,5 +79,6 @@ void fuzz_wide(const Case& the_case);
 void fuzz_tiles(const Case& the_case);
 void fuzz_silhouettes(const Case& the_case);
 void fuzz_jobs(const Case& the_case);
+void fuzz_image_names(const Case& the_case);
 
 }  // namespace nef::fuzz

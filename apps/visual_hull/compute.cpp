@@ -69,11 +69,6 @@ SilhouetteOptions silhouette_options(const Scene& scene, const Options& options)
   return result;
 }
 
-struct LoadedMask {
-  cv::Mat mask;
-  cv::Mat unseen;
-};
-
 void check_size_of(const cv::Mat& mask, const View& view, const std::string& what) {
   if (!view.size || (view.size->width == mask.cols && view.size->height == mask.rows)) return;
   throw nef::InputError("view " + view.name + ": " + what + " has " + std::to_string(mask.cols) + " x " +
@@ -82,12 +77,11 @@ void check_size_of(const cv::Mat& mask, const View& view, const std::string& wha
                         ": scale the image or the intrinsics");
 }
 
-LoadedMask load_mask(const ViewResult& entry, const View& view, const SilhouetteOptions& options) {
-  LoadedMask loaded;
-  if (entry.image.empty()) return loaded;
-  loaded.mask = read_mask(entry.image, view, options, &loaded.unseen);
-  check_size_of(loaded.mask, view, entry.image.string());
-  return loaded;
+cv::Mat load_mask(const ViewResult& entry, const View& view, const SilhouetteOptions& options) {
+  if (entry.image.empty()) return {};
+  cv::Mat mask = read_mask(entry.image, view.name, options);
+  check_size_of(mask, view, entry.image.string());
+  return mask;
 }
 
 /// The views of a scene before any image is seen.
@@ -102,11 +96,11 @@ Views views_of(const Scene& scene) {
 }
 
 /// Scene -> Masks.
-std::vector<LoadedMask> masks_of(const Run& run, const Scene& scene, const std::filesystem::path& folder,
-                                 const SilhouetteOptions& options, Result& result, const nef::Monitor& monitor) {
-  std::vector<LoadedMask> masks(result.views.size());
+std::vector<cv::Mat> masks_of(const Run& run, const Scene& scene, const std::filesystem::path& folder,
+                              const SilhouetteOptions& options, Result& result, const nef::Monitor& monitor) {
+  std::vector<cv::Mat> masks(result.views.size());
   timed(result.phases, Phase::kLoad, monitor, [&](const nef::Monitor& watching) {
-    const std::vector<std::filesystem::path> images = images_of(scene, folder, run.options.images);
+    const std::vector<std::filesystem::path> images = images_of(scene, folder, run.options.images, &result.notes);
     for (std::size_t i = 0; i < masks.size(); ++i) {
       if (!scene.views[i].polygons) result.views[i].image = images[i];
     }
@@ -118,15 +112,15 @@ std::vector<LoadedMask> masks_of(const Run& run, const Scene& scene, const std::
 }
 
 /// Masks -> Silhouettes.
-void add_silhouettes(const Run& run, const Scene& scene, std::vector<LoadedMask> masks,
-                     const SilhouetteOptions& options, Result& result, const nef::Monitor& monitor) {
+void add_silhouettes(const Run& run, const Scene& scene, std::vector<cv::Mat> masks, const SilhouetteOptions& options,
+                     Result& result, const nef::Monitor& monitor) {
   timed(result.phases, Phase::kContours, monitor, [&](const nef::Monitor& watching) {
     run.each_view(Phase::kContours, result.views, watching, [&](std::size_t i, const nef::Monitor& own) {
       const View& view = scene.views[i];
       result.views[i].silhouette = view.polygons
                                        ? silhouette_of_polygons(*view.polygons, view.name, options, own)
-                                       : silhouette_of_mask(masks[i].mask, masks[i].unseen, view.name, options, own);
-      masks[i] = {};
+                                       : silhouette_of_mask(masks[i], view.distortion, view.name, options, own);
+      masks[i].release();
     });
   });
 }
@@ -185,20 +179,18 @@ Room room_of(const Scene& scene, const Options& options, const Views& views, con
     if (options.way == Way::kCones || options.at_least) return room;
     if (options.way == Way::kBest && !worth_direct(views)) return room;
   }
-  std::vector<HalfSpace> half_spaces;
+  std::vector<std::vector<HalfSpace>> cones(views.size());  // none for views that keep what they do not see
   for (std::size_t i = 0; i < views.size(); ++i) {
     if (views[i].silhouette.background) continue;
-    const std::vector<HalfSpace> cone = convex_cone(place.cameras[i], views[i].silhouette.region, monitor);
-    half_spaces.insert(half_spaces.end(), cone.begin(), cone.end());
+    cones[i] = convex_cone(place.cameras[i], views[i].silhouette.region, monitor);
   }
-  const Bounds bounds = bounds_of(half_spaces);
+  const Bounds bounds = bounds_of_at_least(cones, std::min(options.at_least.value_or(views.size()), views.size()));
   if (bounds.kind == Bounds::Kind::kBox) room.enclosing = loosen(bounds.box);
   if (given) return room;
-  if (options.at_least) {
-    throw nef::InputError("--at-least needs a box: fewer cones may not bound the scene; give --box x0,y0,z0,x1,y1,z1");
-  }
   if (bounds.kind == Bounds::Kind::kUnbounded) {
-    throw nef::InputError("the cones of the views do not bound the scene: give a box with --box x0,y0,z0,x1,y1,z1");
+    throw nef::InputError(
+        std::string(options.at_least ? "the cones of fewer views than all" : "the cones of the views") +
+        " do not bound the scene: give a box with --box x0,y0,z0,x1,y1,z1");
   }
   room.found = true;
   room.empty = bounds.kind == Bounds::Kind::kEmpty;
@@ -480,7 +472,7 @@ Result HullStream::frame(const std::vector<cv::Mat>& masks, const Progress& prog
   Result result;
   result.origin = s.silhouettes.origin;
   result.views = s.views;
-  std::vector<LoadedMask> loaded(masks.size());
+  std::vector<cv::Mat> loaded(masks.size());
   timed(result.phases, Phase::kLoad, monitor, [&](const nef::Monitor& watching) {
     run.each_view(Phase::kLoad, result.views, watching, [&](std::size_t i, const nef::Monitor&) {
       const View& view = s.scene.views[i];
@@ -488,9 +480,8 @@ Result HullStream::frame(const std::vector<cv::Mat>& masks, const Progress& prog
       if (masks[i].type() != CV_8UC1 || masks[i].empty()) {
         throw nef::InputError("view " + view.name + ": a mask has one channel of 8 bits and at least one pixel");
       }
-      loaded[i].mask = masks[i];
-      straighten(loaded[i].mask, view, s.silhouettes, &loaded[i].unseen);
-      check_size_of(loaded[i].mask, view, "the mask");
+      loaded[i] = masks[i];
+      check_size_of(loaded[i], view, "the mask");
     });
   });
   add_silhouettes(run, s.scene, std::move(loaded), s.silhouettes, result, monitor);

@@ -22,6 +22,7 @@
 #include "apps/visual_hull/verify/consistency.h"
 #include "apps/visual_hull/verify/verify.h"
 #include "nef/base/monitor.h"
+#include "nef/construct/construct.h"
 #include "nef/geometry/predicates.h"
 #include "nef/polyhedron.h"
 
@@ -102,6 +103,7 @@ struct Result {
   std::optional<Consistency> consistency;  ///< of `views`, if they were compared
   std::vector<Dropped> dropped;            ///< views that were left out
   std::optional<Vanished> vanished;        ///< set if the hull has no interior
+  nef::Messages notes;                     ///< what a user may want to know about how images were paired with views
   PhaseReports phases;
 };
 

@@ -66,7 +66,7 @@ void measure(const std::string& file, const Settings& settings) {
   SilhouetteOptions reading;
   reading.origin = result.origin;
   for (std::size_t i = 0; i < result.views.size(); ++i) {
-    masks.push_back(read_mask(result.views[i].image, scene.views[i], reading, nullptr));
+    masks.push_back(read_mask(result.views[i].image, scene.views[i].name, reading));
   }
   const HullStream stream(scene, options);
   std::vector<double> frames;

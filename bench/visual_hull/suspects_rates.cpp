@@ -55,17 +55,19 @@ Set load(const std::string& file) {
   options.origin = set.origin;
   const auto images = images_of(set.scene, scene_folder(file), std::nullopt);
   for (std::size_t i = 0; i < images.size(); ++i) {
-    set.masks.push_back(read_mask(images[i], set.scene.views[i], options, nullptr));
+    set.masks.push_back(read_mask(images[i], set.scene.views[i].name, options));
   }
   return set;
 }
 
 std::optional<Seen> seen(const Set& set, const Camera& camera, const cv::Mat& mask) {
   if (cv::countNonZero(mask) == 0) return std::nullopt;
+  const auto view = std::find_if(set.scene.views.begin(), set.scene.views.end(),
+                                 [&](const View& v) { return v.name == camera.name(); });
   SilhouetteOptions options;
   options.origin = set.origin;
   options.simplify.tolerance = 1;
-  return Seen{camera, silhouette_of_mask(mask, {}, camera.name(), options, {}).region};
+  return Seen{camera, silhouette_of_mask(mask, view->distortion, view->name, options, {}).region};
 }
 
 WorldBox box_of(const std::vector<Seen>& views, const WorldBox& otherwise) {

@@ -53,10 +53,13 @@ class Hull(NamedTuple):
     box: tuple
     #: (view, reason) if nothing is left of the hull at that view; else None
     vanished: Optional[Tuple[str, str]]
+    #: lines on how images were paired with views, where that was not obvious
+    notes: Sequence[str] = ()
 
 
 def _hull(answer):
-    return Hull(answer["hull"], [View(*view) for view in answer["views"]], answer["box"], answer["vanished"])
+    return Hull(answer["hull"], [View(*view) for view in answer["views"]], answer["box"], answer["vanished"],
+                answer["notes"])
 
 
 def _told(error, names):

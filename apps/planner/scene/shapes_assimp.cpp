@@ -16,9 +16,9 @@
 #include <set>
 #include <span>
 
-#include "apps/planner/scene/bounded_process.h"
 #include "apps/planner/scene/shapes.h"
 #include "nef/base/error.h"
+#include "nef/io/bounded_process.h"
 
 namespace nef::planner {
 namespace {

@@ -48,7 +48,10 @@ void add_input_options(CLI::App& app, Arguments& a) {
   app.add_option("--radius", a.radius, "Of the turntable: from its axis (z) to the camera")->needs(turntable);
   app.add_option("--height", a.height, "Of the turntable: of the camera above the origin, which it looks at")
       ->needs(turntable);
-  app.add_option("--images", a.images, "Directory whose images, by name, are those of the views in order")
+  app.add_option(
+         "--images", a.images,
+         "Directory with an image for each view: of the names that the scene gives its images, else in the order of "
+         "the numbers in their names")
       ->type_name("DIR");
   app.add_option(
          "--frames", a.frames,

@@ -125,6 +125,7 @@ json entry_of(const Result& result, const fs::path& output, const Arguments& a, 
     entry["facets"] = counts.facets;
     entry["volume"] = nef::approximate_volume(result.hull, 1, monitor).value;
   }
+  for (const std::string& note : result.notes) entry["notes"].push_back(nef::utf8(note));
   for (const Dropped& dropped : result.dropped) entry["dropped"].push_back(nef::utf8(dropped.view));
   if (a.verify && !result.vanished) {
     entry["inside"] = std::all_of(result.views.begin(), result.views.end(), [](const ViewResult& view) {
@@ -272,6 +273,15 @@ void FrameRecord::add(const std::string& line) {
   json entry = parse(line);
   ++done_;
   code_ = std::max(code_, code_of(entry));
+  if (!quiet_ && !noted_ && entry.contains("notes")) {  // all frames have the same names, as a rule
+    noted_ = true;
+    for (const auto& note : entry["notes"]) {
+      std::cerr << "visual_hull: note: "
+                << nef::one_line(
+                       fmt::format("frame {}: {}", entry["frame"].get<std::size_t>(), note.get<std::string>()))
+                << "\n";
+    }
+  }
   manifest_->add(std::move(entry));
 }
 

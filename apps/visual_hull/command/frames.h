@@ -90,6 +90,7 @@ class FrameRecord {
   std::unique_ptr<Manifest> manifest_;
   std::size_t done_ = 0;
   std::size_t kept_ = 0;
+  bool noted_ = false;
   int code_ = 0;
 };
 

@@ -64,14 +64,18 @@ void tell_suspects(const Arguments& a, const Result& result, std::ostream& say) 
 int check_scene(const Arguments& a, const Scene& scene) {
   std::vector<fs::path> images;
   std::string missing;
+  nef::Messages notes;
   try {
-    images =
-        images_of(scene, scene_folder(a.scene), a.images.empty() ? std::nullopt : std::optional<fs::path>(a.images));
+    images = images_of(scene, scene_folder(a.scene),
+                       a.images.empty() ? std::nullopt : std::optional<fs::path>(a.images), &notes);
   } catch (const nef::Error& error) {
     missing = error.what();
   }
   std::cout << understood(scene) << "\n";
   for (const std::string& line : view_lines(scene, images)) std::cout << line << "\n";
+  if (!a.quiet) {
+    for (const std::string& note : notes) complain("note: " + note);
+  }
   if (missing.empty()) return kDone;
   complain(missing);
   return kBad;
@@ -141,6 +145,7 @@ int run(const Arguments& a) {
                             bar.show(std::string(phase_name(phase)) + " " + view, done, total);
                           });
   Written written;
+  written.messages = result.notes;
   if (const auto note = cut_note(result)) written.messages.push_back(*note);
   timed(result.phases, Phase::kWrite, {},
         [&](const nef::Monitor& monitor) { write_files(a, result, bar, written, monitor); });

@@ -2,6 +2,8 @@
 #include "apps/visual_hull/cones/at_least.h"
 
 #include <algorithm>
+#include <functional>
+#include <optional>
 
 #include "nef/labeled_polyhedron.h"
 
@@ -28,6 +30,45 @@ nef::Polyhedron in_at_least(std::span<const nef::Polyhedron> cones, std::size_t 
     counted = overlay(counted, held, add, monitor);
   }
   return counted.where([wanted](int count) { return count == wanted; }, monitor);
+}
+
+namespace {
+
+// The box around those of groups, of which `group_of` names the one of a cone.
+Bounds around_groups(std::span<const std::vector<HalfSpace>> cones, std::size_t groups,
+                     const std::function<std::size_t(std::size_t)>& group_of) {
+  std::vector<std::vector<HalfSpace>> half_spaces(groups);
+  for (std::size_t i = 0; i < cones.size(); ++i) {
+    std::vector<HalfSpace>& group = half_spaces[group_of(i)];
+    group.insert(group.end(), cones[i].begin(), cones[i].end());
+  }
+  Bounds all;
+  all.kind = Bounds::Kind::kEmpty;
+  for (const std::vector<HalfSpace>& group : half_spaces) {
+    const Bounds bounds = bounds_of(group);
+    if (bounds.kind == Bounds::Kind::kUnbounded) return bounds;
+    if (bounds.kind == Bounds::Kind::kEmpty) continue;
+    if (all.kind == Bounds::Kind::kEmpty) {
+      all = bounds;
+      continue;
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+      all.box.low[i] = std::min(all.box.low[i], bounds.box.low[i]);
+      all.box.high[i] = std::max(all.box.high[i], bounds.box.high[i]);
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
+Bounds bounds_of_at_least(std::span<const std::vector<HalfSpace>> cones, std::size_t least) {
+  const std::size_t groups = cones.size() - least + 1;
+  // Neighbours of a sequence look in similar directions, so each group takes views from all of it; where the sequence
+  // repeats itself, runs of it do better.
+  const Bounds spread = around_groups(cones, groups, [groups](std::size_t i) { return i % groups; });
+  if (spread.kind != Bounds::Kind::kUnbounded) return spread;
+  return around_groups(cones, groups, [&](std::size_t i) { return i * groups / cones.size(); });
 }
 
 }  // namespace visual_hull

@@ -10,6 +10,7 @@
 #include <map>
 #include <sstream>
 
+#include "apps/visual_hull/scene/natural_order.h"
 #include "apps/visual_hull/scene/pose.h"
 #include "apps/visual_hull/scene/scene_number.h"
 #include "nef/base/error.h"
@@ -237,7 +238,8 @@ Scene read_colmap(const fs::path& model_folder) {
     read_images_binary(model_folder / "images.bin", model);
   }
   if (model.images.empty()) throw nef::InputError(model_folder.string() + ": the COLMAP model has no images");
-  std::sort(model.images.begin(), model.images.end(), [](const Image& a, const Image& b) { return a.name < b.name; });
+  std::sort(model.images.begin(), model.images.end(),
+            [](const Image& a, const Image& b) { return naturally_before(a.name, b.name); });
   Scene scene;
   scene.format = fmt::format("COLMAP model, {} (world to camera, y down)", text ? "text" : "binary");
   scene.origin = PixelOrigin::kCorner;

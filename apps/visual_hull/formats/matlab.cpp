@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <memory>
 
+#include "apps/visual_hull/formats/foreign_parser.h"
+#include "apps/visual_hull/scene/natural_order.h"
 #include "apps/visual_hull/scene/pose.h"
 #include "nef/base/error.h"
 
@@ -92,12 +94,7 @@ std::vector<Variable> read_variables(const std::string& file, std::string& all_n
   return variables;
 }
 
-}  // namespace
-
-bool is_matlab_file(const std::string& bytes) { return bytes.rfind("MATLAB 5.0 MAT-file", 0) == 0; }
-
-Scene read_matlab(const std::filesystem::path& path, const std::string& variable) {
-  const std::string file = path.string();
+Scene scene_in(const std::string& file, const std::string& variable) {
   std::string names;
   std::vector<Variable> variables = read_variables(file, names);
   if (!variable.empty()) {
@@ -118,9 +115,8 @@ Scene read_matlab(const std::filesystem::path& path, const std::string& variable
     throw nef::InputError(file + ": several variables hold 3x4 matrices (" + found + "): name one with --matrices");
   }
   // P9 before P10.
-  std::stable_sort(variables.begin(), variables.end(), [](const Variable& a, const Variable& b) {
-    return a.name.size() != b.name.size() ? a.name.size() < b.name.size() : a.name < b.name;
-  });
+  std::stable_sort(variables.begin(), variables.end(),
+                   [](const Variable& a, const Variable& b) { return naturally_before(a.name, b.name); });
   Scene scene;
   scene.format = "MATLAB file, " + (variables.size() > 1 ? "a variable a view" : "variable " + variables[0].name);
   for (const Variable& v : variables) {
@@ -129,6 +125,16 @@ Scene read_matlab(const std::filesystem::path& path, const std::string& variable
     }
   }
   return scene;
+}
+
+}  // namespace
+
+bool is_matlab_file(const std::string& bytes) { return bytes.rfind("MATLAB 5.0 MAT-file", 0) == 0; }
+
+Scene read_matlab(const std::filesystem::path& file, const std::string& variable) {
+  std::error_code ignored;
+  const std::uintmax_t size = std::filesystem::file_size(file, ignored);
+  return read_with_limits(file, "libmatio", ignored ? 0 : size, [&] { return scene_in(file.string(), variable); });
 }
 
 }  // namespace visual_hull

@@ -9,6 +9,8 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core.hpp>
 
+#include "apps/visual_hull/formats/foreign_parser.h"
+#include "apps/visual_hull/scene/natural_order.h"
 #include "apps/visual_hull/scene/pose.h"
 #include "nef/base/error.h"
 #include "nef/base/in_quotes.h"
@@ -107,10 +109,10 @@ using Parts = std::map<std::string, cv::FileNode>;
 
 class StorageReader {
  public:
-  StorageReader(const std::filesystem::path& file, std::string matrices)
+  StorageReader(const std::string& content, const std::filesystem::path& file, std::string matrices)
       : file_(file.string()), matrices_(std::move(matrices)) {
     try {
-      storage_.open(file_, cv::FileStorage::READ);
+      storage_.open(content, cv::FileStorage::READ | cv::FileStorage::MEMORY);
     } catch (const cv::Exception& error) {
       throw nef::InputError(file_ + ": not a file of OpenCV's FileStorage (" + error.err + ")");
     }
@@ -145,6 +147,19 @@ class StorageReader {
         nef::in_quotes(name)));
   }
 
+  // R1 and R01 are of one view, so one of them would be lost.
+  void refuse_equal_numbers(const std::string& earlier, const std::string& name, std::size_t digits) const {
+    if (earlier.empty() || earlier.find_last_not_of("0123456789") != digits - 1) return;
+    if (plain(earlier.substr(0, digits)) != plain(name.substr(0, digits))) return;
+    throw nef::InputError(fmt::format("{}: {} and {} have the same number: rename one of them", file_,
+                                      nef::in_quotes(earlier), nef::in_quotes(name)));
+  }
+
+  // Digits without leading zeros.
+  static std::string number_of(const std::string& digits) {
+    return digits.substr(std::min(digits.find_first_not_of('0'), digits.size() - 1));
+  }
+
   void sort_nodes(const cv::FileNode& root) {
     for (const cv::FileNode& node : root) {
       const std::string name = node.name();
@@ -155,9 +170,11 @@ class StorageReader {
       std::size_t digits = name.size();
       while (digits > 0 && std::isdigit(static_cast<unsigned char>(name[digits - 1])) != 0) --digits;
       const std::string what = meaning(name.substr(0, digits));
-      const bool numbered = digits != name.size() && digits != 0 && name.size() - digits <= 7;
+      const bool numbered = digits != name.size() && digits != 0;
       if (numbered && !what.empty() && what != "list") {
-        numbered_[std::stoul(name.substr(digits))][what] = node;
+        cv::FileNode& part = numbered_[number_of(name.substr(digits))][what];
+        refuse_equal_numbers(part.empty() ? "" : part.name(), name, digits);
+        part = node;
       } else {
         refuse_other_distortion(name);
       }
@@ -180,7 +197,7 @@ class StorageReader {
     } else if (!numbered_.empty()) {
       for (const auto& [number, parts] : numbered_) {
         const bool camera = parts.count("P") != 0 || parts.count("R") != 0 || parts.count("t") != 0;
-        if (camera) add_view(parts, std::to_string(number));
+        if (camera) add_view(parts, number);
       }
     } else if (common_.count("P") != 0 || common_.count("R") != 0) {
       add_view({}, std::filesystem::path(file_).stem().string());
@@ -303,9 +320,8 @@ class StorageReader {
       found.push_back({star == std::string::npos ? name : name.substr(before.size(), middle), m});
     }
     // Numbers in their order: 10 after 9.
-    std::stable_sort(found.begin(), found.end(), [](const Found& a, const Found& b) {
-      return a.key.size() != b.key.size() ? a.key.size() < b.key.size() : a.key < b.key;
-    });
+    std::stable_sort(found.begin(), found.end(),
+                     [](const Found& a, const Found& b) { return naturally_before(a.key, b.key); });
     for (const Found& f : found) scene_.views.push_back(make_view(f.key, first_rows(f.matrix)));
   }
 
@@ -313,7 +329,7 @@ class StorageReader {
   std::string matrices_;
   cv::FileStorage storage_;
   Parts common_;
-  std::map<unsigned long, Parts> numbered_;
+  std::map<std::string, Parts, decltype(&naturally_before)> numbered_{&naturally_before};  // by number_of
   Scene scene_;
 };
 
@@ -323,12 +339,14 @@ bool is_opencv_storage(const std::string& text) {
   return text.rfind("%YAML", 0) == 0 || text.substr(0, 400).find("<opencv_storage>") != std::string::npos;
 }
 
-Scene read_opencv_storage(const std::filesystem::path& file, const std::string& matrices) {
-  try {
-    return StorageReader(file, matrices).read();
-  } catch (const cv::Exception& error) {
-    throw nef::InputError(file.string() + ": " + error.err);
-  }
+Scene read_opencv_storage(const std::string& text, const std::filesystem::path& file, const std::string& matrices) {
+  return read_with_limits(file, "OpenCV", text.size(), [&] {
+    try {
+      return StorageReader(text, file, matrices).read();
+    } catch (const cv::Exception& error) {
+      throw nef::InputError(file.string() + ": " + error.err);
+    }
+  });
 }
 
 }  // namespace visual_hull

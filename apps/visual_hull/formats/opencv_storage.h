@@ -19,7 +19,7 @@ bool is_opencv_storage(const std::string& text);
 ///  - one camera in the file itself;
 ///  - with `matrices`, a name with one `*` for a number or a name: all 3x4 or 4x4 matrices of such names.
 /// World to camera, x right, y down, z ahead; whole image coordinates are centres of pixels, as everywhere in
-/// OpenCV. Throws InputError.
-Scene read_opencv_storage(const std::filesystem::path& file, const std::string& matrices);
+/// OpenCV. OpenCV parses the text under limits (foreign_parser.h). `file` is what messages call it. Throws InputError.
+Scene read_opencv_storage(const std::string& text, const std::filesystem::path& file, const std::string& matrices);
 
 }  // namespace visual_hull

@@ -51,7 +51,7 @@ Scene read_scene(const fs::path& file, const ReadOptions& options) {
   }
   const std::string text = nef::read_file(file.string());
   if (is_matlab_file(text)) return read_matlab(file, options.matrices);
-  if (is_opencv_storage(text)) return read_opencv_storage(file, options.matrices);
+  if (is_opencv_storage(text)) return read_opencv_storage(text, file, options.matrices);
   refuse_matrices(file, options);
   if (text[text.find_first_not_of(" \t\r\n")] == '{') return read_json_scene(text, file);
   if (nef::lower_extension(file.string()) == "vsh") return read_vsh(text, file);

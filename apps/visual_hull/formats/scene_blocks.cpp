@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "apps/visual_hull/formats/scene_text.h"
+#include "apps/visual_hull/scene/natural_order.h"
 #include "apps/visual_hull/scene/scene_number.h"
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
@@ -101,14 +102,16 @@ class BlockReader {
   Scene scene_;
 };
 
-// In the order of their names.
+// In the order of their names, by number.
 std::vector<fs::path> files_with(const fs::path& folder, const std::string& extension) {
   std::vector<fs::path> files;
   std::error_code error;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
     if (entry.is_regular_file(error) && entry.path().extension() == extension) files.push_back(entry.path());
   }
-  std::sort(files.begin(), files.end());
+  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
+    return naturally_before(a.filename().string(), b.filename().string());
+  });
   return files;
 }
 

@@ -98,8 +98,9 @@ void split_at_touches(std::vector<Ring>& rings, const nef::Monitor& monitor) {
   }
 }
 
-// The first pair of edges that meet in more than a common vertex, or a vertex twice in one ring.
-std::string find_crossing(const std::vector<Ring>& rings, const nef::Monitor& monitor) {
+}  // namespace
+
+std::string first_crossing(const std::vector<Ring>& rings, const nef::Monitor& monitor) {
   const EdgeSoup soup(rings);
   std::string problem;
   for (std::uint32_t e = 0; e < soup.edges.size() && problem.empty(); ++e) {
@@ -134,6 +135,8 @@ std::string find_crossing(const std::vector<Ring>& rings, const nef::Monitor& mo
   }
   return problem;
 }
+
+namespace {
 
 bool contains_strictly(const Ring& outer, const Ring& inner, const nef::Monitor& monitor) {
   // Rings meet in vertices only and no edge is common, so the middle of an edge of one is not on the other, whereas
@@ -200,7 +203,7 @@ Silhouette make_silhouette(std::vector<Ring> rings, const std::string& where, co
     }
   }
   split_at_touches(rings, monitor);
-  const std::string crossing = find_crossing(rings, monitor);
+  const std::string crossing = first_crossing(rings, monitor);
   if (!crossing.empty()) throw nef::InputError(where + ": " + crossing);
   Silhouette result = nest(std::move(rings), monitor);
   const std::string problem = check(result, monitor);
@@ -213,7 +216,7 @@ std::string check(const Silhouette& silhouette, const nef::Monitor& monitor) {
     const Ring& ring = silhouette.rings[r];
     if (ring.size() < 3) return "polygon " + std::to_string(r + 1) + " has fewer than three vertices";
   }
-  std::string problem = find_crossing(silhouette.rings, monitor);
+  std::string problem = first_crossing(silhouette.rings, monitor);
   if (!problem.empty()) return problem;
   const auto same_side = [&](std::size_t inner, std::size_t outer) {
     // All of a ring lies on one side of another, or they cross in a common vertex.

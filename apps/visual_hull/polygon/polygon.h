@@ -96,6 +96,10 @@ Silhouette nest(std::vector<Ring> rings, const nef::Monitor& monitor);
 /// `where` in front, if a ring has no area, crosses itself or another, or shares a piece of an edge.
 Silhouette make_silhouette(std::vector<Ring> rings, const std::string& where, const nef::Monitor& monitor = {});
 
+/// The first pair of edges that meet in more than a common vertex, or vertex that a ring comes to twice, in words;
+/// empty if there is none. Exact. O(n log n) on ordinary input.
+std::string first_crossing(const std::vector<Ring>& rings, const nef::Monitor& monitor);
+
 /// The empty string if the silhouette holds what its type promises, otherwise the first thing
 /// that is wrong. O(n log n) on ordinary input.
 std::string check(const Silhouette& silhouette, const nef::Monitor& monitor = {});

@@ -8,17 +8,22 @@
 #include <bit>
 #include <csetjmp>
 #include <cstdio>
+#include <cstring>
 #include <memory>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "nef/base/error.h"
+#include "nef/io/bounded_process.h"
 
 namespace visual_hull {
 namespace {
 
-constexpr std::size_t kMostPixels = std::size_t{1} << 30U;  // OpenCV's limit, too
+constexpr std::size_t kMostBytes = std::size_t{2} << 30U;  // of pixels: far more than any camera gives
+constexpr unsigned kMostSeconds = 120;                     // for other decoders, of processor time
 
 using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
@@ -86,7 +91,9 @@ bool is_png(std::FILE* file) {
 
 cv::Mat read_png(std::FILE* file, bool eight_bits) {
   PngReader reader;
-  if (!reader.read_header(file, eight_bits) || reader.width() > kMostPixels / reader.height()) return {};
+  if (!reader.read_header(file, eight_bits)) return {};
+  const std::size_t row_bytes = reader.width() * CV_ELEM_SIZE(reader.type());
+  if (row_bytes > kMostBytes / reader.height()) return {};
   cv::Mat image(static_cast<int>(reader.height()), static_cast<int>(reader.width()), reader.type());
   std::vector<png_bytep> rows;
   for (int y = 0; y < image.rows; ++y) rows.push_back(image.ptr<png_byte>(y));
@@ -104,9 +111,43 @@ Imread load_imread() {
   throw nef::Error(std::string("images other than PNG need OpenCV's image formats: ") + dlerror());
 }
 
+// Rows, columns and type, then the pixels.
+struct PixelHeader {
+  int rows = 0;
+  int columns = 0;
+  int type = 0;
+};
+
+std::string to_bytes(const cv::Mat& image) {
+  if (image.empty() || image.total() * image.elemSize() > kMostBytes) return {};
+  const PixelHeader header{image.rows, image.cols, image.type()};
+  const std::size_t row_bytes = static_cast<std::size_t>(image.cols) * image.elemSize();
+  std::string bytes(reinterpret_cast<const char*>(&header), sizeof header);
+  bytes.reserve(bytes.size() + row_bytes * static_cast<std::size_t>(image.rows));
+  for (int y = 0; y < image.rows; ++y) bytes.append(image.ptr<char>(y), row_bytes);
+  return bytes;
+}
+
+cv::Mat image_of(const std::string& bytes) {
+  PixelHeader header;
+  if (bytes.size() < sizeof header) return {};
+  std::memcpy(&header, bytes.data(), sizeof header);
+  cv::Mat image(header.rows, header.columns, header.type);
+  std::memcpy(image.data, bytes.data() + sizeof header, bytes.size() - sizeof header);
+  return image;
+}
+
 cv::Mat read_other(const std::filesystem::path& file, int flags) {
   static const Imread imread = load_imread();
-  return imread(file.string(), flags);
+  // Decoders keep a few copies of the pixels.
+  const std::optional<std::string> bytes = nef::run_bounded(3 * kMostBytes, kMostSeconds, [&]() -> std::string {
+    try {
+      return to_bytes(imread(file.string(), flags));
+    } catch (const cv::Exception&) {
+      return {};
+    }
+  });
+  return bytes ? image_of(*bytes) : cv::Mat();
 }
 
 }  // namespace

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 
 #include "apps/visual_hull/scene/image_file.h"
+#include "apps/visual_hull/scene/natural_order.h"
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
 
@@ -41,6 +43,39 @@ std::optional<fs::path> with_some_extension(const fs::path& base) {
     if (is_file(other)) return other;
   }
   return std::nullopt;
+}
+
+std::string filename_of(const fs::path& file) { return file.filename().string(); }
+
+// The images that have the names of the views' images, extensions aside; nothing unless all views and all images have
+// such partners, each one.
+std::optional<std::vector<fs::path>> pair_by_names(const std::vector<View>& views, const std::vector<fs::path>& files) {
+  std::map<std::string, fs::path> by_stem;
+  for (const fs::path& file : files) by_stem.emplace(file.stem().string(), file);
+  std::vector<fs::path> paired;
+  for (const View& view : views) {
+    const auto found = by_stem.find(view.image.stem().string());
+    if (found == by_stem.end()) return std::nullopt;
+    paired.push_back(std::move(found->second));
+    by_stem.erase(found);
+  }
+  return by_stem.empty() ? std::optional(std::move(paired)) : std::nullopt;
+}
+
+// The images of a folder for the views, as many as these are.
+std::vector<fs::path> pair_images(const std::vector<View>& views, const fs::path& folder, std::vector<fs::path> files,
+                                  nef::Messages* notes) {
+  if (auto paired = pair_by_names(views, files)) return *std::move(paired);
+  const auto text_order = [](const fs::path& a, const fs::path& b) { return filename_of(a) < filename_of(b); };
+  if (notes != nullptr && !std::is_sorted(files.begin(), files.end(), text_order)) {
+    const auto turned = std::adjacent_find(files.begin(), files.end(),
+                                           [&](const fs::path& a, const fs::path& b) { return text_order(b, a); });
+    notes->push_back(fmt::format(
+        "the images of {} are paired with the views in the order of the numbers in their names ({} before {}); if that "
+        "is wrong, name the image of each view in the scene",
+        folder.string(), filename_of(*turned), filename_of(*std::next(turned))));
+  }
+  return files;
 }
 
 }  // namespace
@@ -79,11 +114,13 @@ std::vector<fs::path> list_images(const fs::path& folder) {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     if (entry.is_regular_file() && has_image_extension(entry.path())) images.push_back(entry.path());
   }
-  std::sort(images.begin(), images.end());
+  std::sort(images.begin(), images.end(),
+            [](const fs::path& a, const fs::path& b) { return naturally_before(filename_of(a), filename_of(b)); });
   return images;
 }
 
-std::vector<fs::path> images_of(const Scene& scene, const fs::path& folder, const std::optional<fs::path>& images) {
+std::vector<fs::path> images_of(const Scene& scene, const fs::path& folder, const std::optional<fs::path>& images,
+                                nef::Messages* notes) {
   const std::size_t count = scene.views.size();
   if (images) {
     std::vector<fs::path> files = list_images(*images);
@@ -91,7 +128,7 @@ std::vector<fs::path> images_of(const Scene& scene, const fs::path& folder, cons
       throw nef::InputError(
           fmt::format("{} holds {} images, but the scene has {} views", images->string(), files.size(), count));
     }
-    return files;
+    return pair_images(scene.views, *images, std::move(files), notes);
   }
   const bool any_named =
       std::any_of(scene.views.begin(), scene.views.end(), [](const View& v) { return v.polygons || !v.image.empty(); });
@@ -101,7 +138,7 @@ std::vector<fs::path> images_of(const Scene& scene, const fs::path& folder, cons
       const fs::path place = *sub == '\0' ? folder : folder / sub;
       if (!fs::is_directory(place, error)) continue;
       std::vector<fs::path> files = list_images(place);
-      if (files.size() == count) return files;
+      if (files.size() == count) return pair_images(scene.views, place, std::move(files), notes);
     }
   }
   std::vector<fs::path> folders{folder};
@@ -123,13 +160,9 @@ std::optional<ImageSize> size_of_image(const fs::path& folder, const std::string
   if (name.empty()) return std::nullopt;
   const auto file = look_up_image({folder}, name);
   if (!file) return std::nullopt;
-  try {
-    const cv::Mat image = read_pixels(*file);
-    if (!image.empty()) return ImageSize{image.cols, image.rows};
-  } catch (const cv::Exception&) {
-    // Whoever reads the pixels says what is wrong with them.
-  }
-  return std::nullopt;
+  const cv::Mat image = read_pixels(*file);
+  if (image.empty()) return std::nullopt;  // whoever needs the pixels says what is wrong with them
+  return ImageSize{image.cols, image.rows};
 }
 
 }  // namespace visual_hull

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "apps/visual_hull/scene/scene.h"
+#include "nef/construct/construct.h"
 
 namespace visual_hull {
 
@@ -25,15 +26,18 @@ std::optional<std::filesystem::path> look_up_image(const std::vector<std::filesy
 /// The same in one folder. Throws InputError if there is none.
 std::filesystem::path find_image(const std::filesystem::path& folder, const std::string& name);
 
-/// The images of a folder in the order of their names. Throws InputError if it is none.
+/// The images of a folder in the order of their names, where numbers are compared as such (natural_order.h). Throws
+/// InputError if it is none.
 std::vector<std::filesystem::path> list_images(const std::filesystem::path& folder);
 
-/// An image file for each view that has no polygons, an empty path for others: the i-th of `images` (a folder) for the
-/// i-th view, else what the scene names, else, if it names none, the images of the first of `folder` and its subfolders
-/// masks, silhouettes and images that holds as many as there are views. Throws InputError naming the view or the
-/// folder.
+/// An image file for each view that has no polygons, an empty path for others: those of `images` (a folder), else what
+/// the scene names, else, if it names none, the images of the first of `folder` and its subfolders masks, silhouettes
+/// and images that holds as many as there are views. Images of a folder belong to the views whose images have the same
+/// names without extensions if all have such partners, else the i-th in the order of list_images to the i-th view;
+/// `notes` gets a line if that is not the order of the names as text. Throws InputError naming the view or the folder.
 std::vector<std::filesystem::path> images_of(const Scene& scene, const std::filesystem::path& folder,
-                                             const std::optional<std::filesystem::path>& images);
+                                             const std::optional<std::filesystem::path>& images,
+                                             nef::Messages* notes = nullptr);
 
 /// The size of an image that a scene calls `name`, if it is there and can be read.
 std::optional<ImageSize> size_of_image(const std::filesystem::path& folder, const std::string& name);

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/visual_hull/silhouette/silhouette.h"
 
+#include <algorithm>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
+#include <optional>
+#include <sstream>
 
 #include "apps/visual_hull/scene/image_file.h"
+#include "apps/visual_hull/silhouette/lens.h"
 #include "nef/base/error.h"
 
 namespace visual_hull {
@@ -75,21 +79,6 @@ cv::Mat otsu_mask(cv::Mat gray) {
   return mask;
 }
 
-// Undoes the lens on a mask. Pixels that come from beyond the image are not set.
-void undistort(cv::Mat& mask, const Distortion& distortion, PixelOrigin origin, cv::Mat* unseen) {
-  const cv::Mat k = opencv_intrinsics(distortion, origin);
-  cv::Mat map_x;
-  cv::Mat map_y;
-  cv::initUndistortRectifyMap(k, distortion.coefficients, cv::noArray(), k, mask.size(), CV_32FC1, map_x, map_y);
-  const cv::Mat everywhere(mask.size(), CV_8U, cv::Scalar(255));
-  cv::Mat straight;
-  cv::Mat seen;
-  cv::remap(mask, straight, map_x, map_y, cv::INTER_LINEAR, cv::BORDER_CONSTANT, cv::Scalar(0));
-  cv::remap(everywhere, seen, map_x, map_y, cv::INTER_LINEAR, cv::BORDER_CONSTANT, cv::Scalar(0));
-  mask = straight > 127;
-  if (unseen != nullptr) *unseen = seen <= 127;
-}
-
 // Drops contours around less than `least`. What lies inside such a contour is smaller still, so parity stays right. A
 // silhouette that must not lose anything (`outer`) keeps its islands.
 Silhouette without_specks(Silhouette traced, double least, bool outer, const nef::Monitor& monitor) {
@@ -109,12 +98,10 @@ Silhouette without_specks(Silhouette traced, double least, bool outer, const nef
 
 // The silhouette with all that is not seen, on a frame that is one pixel larger; then what is
 // inside its outermost ring but not in it: the background that is seen for sure.
-Silhouette seen_background(const cv::Mat& mask, const cv::Mat& unseen, const SilhouetteOptions& options,
-                           ViewSilhouette& result, const nef::Monitor& monitor) {
-  cv::Mat keep = mask.clone();
-  if (!unseen.empty()) keep |= unseen;
+Silhouette seen_background(const cv::Mat& mask, const Distortion& lens, const std::string& view,
+                           const SilhouetteOptions& options, ViewSilhouette& result, const nef::Monitor& monitor) {
   cv::Mat padded;
-  cv::copyMakeBorder(keep, padded, 1, 1, 1, 1, cv::BORDER_CONSTANT, cv::Scalar(255));
+  cv::copyMakeBorder(mask, padded, 1, 1, 1, 1, cv::BORDER_CONSTANT, cv::Scalar(255));
   const PixelOrigin origin = options.origin;
   Silhouette traced = without_specks(trace_contours(padded, origin, options.diagonal, monitor), options.min_area,
                                      options.simplify.outer, monitor);
@@ -122,6 +109,10 @@ Silhouette seen_background(const cv::Mat& mask, const cv::Mat& unseen, const Sil
     for (Point2& p : ring) p = Point2(p.x() - 1, p.y() - 1);
   }
   result.contour_vertices = traced.vertex_count();
+  if (!lens.coefficients.empty()) {
+    const auto frame = std::find(traced.depth.begin(), traced.depth.end(), 0) - traced.depth.begin();
+    traced = straighten(traced, lens, view, static_cast<std::size_t>(frame), monitor);
+  }
   Silhouette simple = simplify(traced, options.simplify, monitor);
   std::vector<Ring> rings;
   for (std::size_t i = 0; i < simple.rings.size(); ++i) {
@@ -172,23 +163,17 @@ cv::Mat make_mask(const cv::Mat& image, const ThresholdOptions& options) {
   return mask;
 }
 
-cv::Mat read_mask(const std::filesystem::path& image, const View& view, const SilhouetteOptions& options,
-                  cv::Mat* unseen) {
-  cv::Mat pixels;
-  try {
-    pixels = read_pixels(image);
-  } catch (const cv::Exception& error) {
-    throw nef::InputError("view " + view.name + ": cannot read the image " + image.string() + " (" + error.err + ")");
-  }
+cv::Mat read_mask(const std::filesystem::path& image, const std::string& view, const SilhouetteOptions& options) {
+  const cv::Mat pixels = read_pixels(image);
   if (pixels.empty()) {
-    throw nef::InputError("view " + view.name + ": cannot read the image " + image.string() +
-                          ": it is damaged, cut off, or of no format that is known");
+    throw nef::InputError("view " + view + ": cannot read the image " + image.string() +
+                          ": it is damaged, cut off, too large, or of no format that is known");
   }
   cv::Mat mask;
   try {
     mask = make_mask(pixels, options.threshold);
   } catch (const nef::InputError& error) {
-    throw nef::InputError("view " + view.name + ": " + image.string() + ": " + error.what());
+    throw nef::InputError("view " + view + ": " + image.string() + ": " + error.what());
   }
   if (cv::countNonZero(mask) == 0) {
     double low = 0;
@@ -196,31 +181,19 @@ cv::Mat read_mask(const std::filesystem::path& image, const View& view, const Si
     cv::minMaxLoc(pick_channel(pixels, options.threshold.channel), &low, &high);
     std::ostringstream range;
     range << low << " to " << high;
-    throw nef::InputError("view " + view.name + ": the silhouette is empty (values of " + image.string() + " go from " +
+    throw nef::InputError("view " + view + ": the silhouette is empty (values of " + image.string() + " go from " +
                           range.str() + "; see --threshold, --channel and --invert)");
   }
-  straighten(mask, view, options, unseen);
   return mask;
 }
 
-void straighten(cv::Mat& mask, const View& view, const SilhouetteOptions& options, cv::Mat* unseen) {
-  if (view.distortion.coefficients.empty()) return;
-  const bool shown = cv::countNonZero(mask) > 0;
-  undistort(mask, view.distortion, options.origin, unseen);
-  if (shown && cv::countNonZero(mask) == 0) {
-    throw nef::InputError("view " + view.name +
-                          ": nothing of the silhouette is left where its lens distortion is undone; check its "
-                          "coefficients and their order (k1, k2, p1, p2, k3, ...)");
-  }
-}
-
-ViewSilhouette silhouette_of_mask(const cv::Mat& mask, const cv::Mat& unseen, const std::string& view,
+ViewSilhouette silhouette_of_mask(const cv::Mat& mask, const Distortion& lens, const std::string& view,
                                   const SilhouetteOptions& options, const nef::Monitor& monitor) {
   if (cv::countNonZero(mask) == 0) throw nef::InputError("view " + view + ": the silhouette is empty");
   ViewSilhouette result;
   result.image_size = mask.size();
-  const Silhouette traced = without_specks(trace_contours(mask, options.origin, options.diagonal, monitor),
-                                           options.min_area, options.simplify.outer, monitor);
+  Silhouette traced = without_specks(trace_contours(mask, options.origin, options.diagonal, monitor), options.min_area,
+                                     options.simplify.outer, monitor);
   if (traced.empty()) {
     throw nef::InputError("view " + view + ": the silhouette is empty without contours of less than " +
                           std::to_string(options.min_area) + " square pixels (--min-area)");
@@ -229,14 +202,13 @@ ViewSilhouette silhouette_of_mask(const cv::Mat& mask, const cv::Mat& unseen, co
   result.holes = traced.hole_count();
   result.contour_vertices = traced.vertex_count();
   result.cut_by_frame = touches_frame(mask);
-  if (!unseen.empty()) {  // what lies beyond the distorted image is beyond the frame, too
-    cv::Mat grown;
-    cv::dilate(unseen, grown, cv::Mat());
-    result.cut_by_frame = result.cut_by_frame || cv::countNonZero(grown & mask) > 0;
-  }
   result.background = result.cut_by_frame && options.border == Border::kUnknown;
-  result.region = result.background ? seen_background(mask, unseen, options, result, monitor)
-                                    : simplify(traced, options.simplify, monitor);
+  if (result.background) {
+    result.region = seen_background(mask, lens, view, options, result, monitor);
+    return result;
+  }
+  if (!lens.coefficients.empty()) traced = straighten(traced, lens, view, std::nullopt, monitor);
+  result.region = simplify(traced, options.simplify, monitor);
   return result;
 }
 

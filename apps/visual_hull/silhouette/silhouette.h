@@ -35,15 +35,13 @@ struct ViewSilhouette {
   std::size_t contour_vertices = 0;  ///< before simplification
   Silhouette region;                 ///< the simplified silhouette, or the background if `background`
   bool background = false;           ///< the view keeps what is not inside `region` (a cut silhouette, kUnknown)
-  bool cut_by_frame = false;
-  cv::Size image_size;  ///< empty for polygons
+  bool cut_by_frame = false;         ///< by that of the image as it was taken
+  cv::Size image_size;               ///< empty for polygons
 };
 
-/// 255 where the image shows the object, 0 elsewhere. `unseen` gets 255 where lens distortion
-/// leaves the pixel without an image. The image may have 1, 3 or 4 channels of any depth: see
-/// ThresholdOptions. Throws InputError naming the view if the image cannot be read.
-cv::Mat read_mask(const std::filesystem::path& image, const View& view, const SilhouetteOptions& options,
-                  cv::Mat* unseen);
+/// 255 where the image shows the object, 0 elsewhere, as the lens has it. The image may have 1, 3 or 4 channels of any
+/// depth: see ThresholdOptions. Throws InputError naming the view if the image cannot be read.
+cv::Mat read_mask(const std::filesystem::path& image, const std::string& view, const SilhouetteOptions& options);
 
 /// The intrinsics as OpenCV wants them, whose whole image coordinates are centres of pixels: 3x3, double.
 cv::Mat opencv_intrinsics(const Distortion& distortion, PixelOrigin origin);
@@ -54,12 +52,9 @@ cv::Mat read_photograph(const std::filesystem::path& image, const Distortion& di
 /// The mask of an image that is loaded already. Throws InputError if it has no such channel.
 cv::Mat make_mask(const cv::Mat& image, const ThresholdOptions& options);
 
-/// Undoes the lens of a view on its mask, if it has one; `mask` is replaced, its pixels are not written to. `unseen` as
-/// above.
-void straighten(cv::Mat& mask, const View& view, const SilhouetteOptions& options, cv::Mat* unseen);
-
-/// Traces and simplifies a mask. Throws InputError naming the view if nothing is set.
-ViewSilhouette silhouette_of_mask(const cv::Mat& mask, const cv::Mat& unseen, const std::string& view,
+/// Traces a mask, undoes the distortion of its lens on the contours (lens.h), and simplifies them. Throws InputError
+/// naming the view if nothing is set, or if the distortion cannot be undone.
+ViewSilhouette silhouette_of_mask(const cv::Mat& mask, const Distortion& lens, const std::string& view,
                                   const SilhouetteOptions& options, const nef::Monitor& monitor = {});
 
 /// The same for polygons in place of an image.

@@ -95,6 +95,7 @@ py::dict compute(const visual_hull::Scene& scene, const std::string& folder, con
   py::list views;
   for (const visual_hull::ViewResult& view : made.views) views.append(view_tuple(view));
   result["views"] = views;
+  result["notes"] = made.notes;
   return result;
 }
 

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Problems and meshes as OMPL.app has them: .cfg files, COLLADA through assimp.
-#include <atomic>
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "apps/planner/scene/bounded_process.h"
 #include "apps/planner/scene/shapes.h"
 #include "apps/planner/turning/turning_search.h"
 #include "nef/base/error.h"
@@ -173,20 +171,6 @@ TEST_CASE("a COLLADA file that assimp never finishes is refused in one line") {
     CHECK(std::string(error.what()).find("bad.dae: ") != std::string::npos);
     CHECK(std::string(error.what()).find('\n') == std::string::npos);
   }
-}
-
-TEST_CASE("work in a process of its own: results, errors and bounds") {
-  std::string text(300000, 'x');
-  CHECK(run_bounded(std::size_t{1} << 28U, 5, [&] { return text; }) == text);
-  CHECK_THROWS_AS(run_bounded(std::size_t{1} << 28U, 5, []() -> std::string { throw InputError("no"); }), InputError);
-  CHECK_FALSE(run_bounded(std::size_t{1} << 26U, 5, [] {
-    std::string grows = "x";
-    while (true) grows += grows;
-    return grows;
-  }));
-  CHECK_FALSE(run_bounded(std::size_t{1} << 28U, 1, []() -> std::string {
-    for (std::atomic<unsigned> turns = 0;;) ++turns;
-  }));
 }
 
 }  // namespace

@@ -239,5 +239,37 @@ TEST_CASE("Points in at least so many silhouettes") {
   CHECK_THROWS_AS(compute(scene, {}, options), nef::InputError);
 }
 
+TEST_CASE("Points in at least so many silhouettes need no box where groups of views have one") {
+  testing::property("the same set as in a large box", [] {
+    std::vector<std::pair<Camera, std::vector<Ring>>> views;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      for (const int direction : {1, -1}) {
+        Rational3 centre{*rc::gen::inRange(-1, 2), *rc::gen::inRange(-1, 2), *rc::gen::inRange(-1, 2)};
+        centre[axis] = -10 * direction;
+        const double x = *rc::gen::inRange(-3, 2) / 8.0;
+        const double y = *rc::gen::inRange(-3, 2) / 8.0;
+        const double size = *rc::gen::inRange(1, 4) / 8.0;
+        views.emplace_back(axis_camera(centre, axis, direction, std::to_string(views.size())),
+                           std::vector<Ring>{rectangle(x, y, x + size, y + size)});
+      }
+    }
+    Scene scene = scene_of(views, cube(60));
+    Options options;
+    options.at_least = *rc::gen::inRange<std::size_t>(5, 7);
+    const Result boxed = compute(scene, {}, options);
+    scene.box.reset();
+    const Result found = compute(scene, {}, options);
+    RC_ASSERT(found.box_found);
+    RC_ASSERT(nef::equal(found.hull, boxed.hull));
+  });
+  // Groups that are too small to have a box.
+  Options options;
+  options.at_least = 2;
+  const Camera z = axis_camera({0, 0, -10}, 2, 1, "z");
+  Scene scene = scene_of({{z, {rectangle(0, 0, 1, 1)}}, {z, {rectangle(0, 0, 2, 1)}}}, cube(1));
+  scene.box.reset();
+  CHECK_THROWS_WITH(compute(scene, {}, options), Catch::Contains("do not bound the scene: give a box"));
+}
+
 }  // namespace
 }  // namespace visual_hull

@@ -85,49 +85,13 @@ TEST_CASE("Specks go by their area; an outer silhouette keeps its islands") {
 
 TEST_CASE("Images that cannot be used name their view") {
   const Scratch scratch;
-  View view;
-  view.name = "seventh";
+
   const auto broken = scratch.write("broken.png", "this is no image");
-  CHECK_THROWS_WITH(read_mask(broken, view, {}, nullptr), Catch::Contains("view seventh: cannot read the image"));
+  CHECK_THROWS_WITH(read_mask(broken, "seventh", {}), Catch::Contains("view seventh: cannot read the image"));
   const std::string black = (scratch.folder() / "black.png").string();
   cv::imwrite(black, cv::Mat(3, 3, CV_8U, cv::Scalar(1)));
-  CHECK_THROWS_WITH(read_mask(black, view, {}, nullptr),
+  CHECK_THROWS_WITH(read_mask(black, "seventh", {}),
                     Catch::Contains("view seventh: the silhouette is empty") && Catch::Contains("from 1 to 1"));
-}
-
-TEST_CASE("Lens distortion is undone before the contour is taken") {
-  // What the lens makes of the rectangle 40.5..159.5 x 30.5..119.5: each pixel of the distorted image looks up where it
-  // comes from.
-  const cv::Size size(200, 150);
-  const cv::Matx33d k(180, 0, 100, 0, 180, 75, 0, 0, 1);
-  const std::vector<double> lens{-0.25, 0.05, 0.001, 0.002};
-  std::vector<cv::Point2d> pixels;
-  for (int y = 0; y < size.height; ++y) {
-    for (int x = 0; x < size.width; ++x) pixels.emplace_back(x, y);
-  }
-  std::vector<cv::Point2d> straight;
-  cv::undistortPoints(pixels, straight, k, lens, cv::noArray(), k);
-  cv::Mat distorted(size, CV_8U, cv::Scalar(0));
-  for (std::size_t i = 0; i < pixels.size(); ++i) {
-    const bool in = straight[i].x > 40.5 && straight[i].x < 159.5 && straight[i].y > 30.5 && straight[i].y < 119.5;
-    distorted.at<std::uint8_t>(pixels[i]) = in ? 255 : 0;
-  }
-  const Scratch scratch;
-  const std::string file = (scratch.folder() / "d.png").string();
-  cv::imwrite(file, distorted);
-  View view;
-  view.distortion.coefficients = lens;
-  view.distortion.intrinsics = {{{180, 0, 100}, {0, 180, 75}, {0, 0, 1}}};
-  cv::Mat unseen;
-  const cv::Mat mask = read_mask(file, view, {}, &unseen);
-  cv::Mat wanted(size, CV_8U, cv::Scalar(0));
-  wanted(cv::Rect(41, 31, 119, 89)).setTo(255);
-  cv::Mat before;
-  cv::bitwise_xor(distorted, wanted, before);
-  cv::Mat after;
-  cv::bitwise_xor(mask, wanted, after);
-  CHECK(cv::countNonZero(before) > 300);  // the lens does something
-  CHECK(cv::countNonZero(after) < 60);    // of 416 pixels along the edge
 }
 
 // A disc-free scene: the object fills the lower half of a 20 x 20 image and is cut by three sides of the frame.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/planner/scene/bounded_process.h"
+#include "nef/io/bounded_process.h"
 
 #include <fcntl.h>
 #include <sys/resource.h>
@@ -15,7 +15,7 @@
 
 #include "nef/base/error.h"
 
-namespace nef::planner {
+namespace nef {
 namespace {
 
 // What the child sends: one of these, then text.
@@ -105,4 +105,4 @@ std::optional<std::string> run_bounded(std::size_t bytes, unsigned seconds, cons
   return text.substr(1);
 }
 
-}  // namespace nef::planner
+}  // namespace nef

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Parsers of other libraries, under limits of time and memory.
 #pragma once
 
 #include <cstddef>
@@ -6,7 +8,7 @@
 #include <optional>
 #include <string>
 
-namespace nef::planner {
+namespace nef {
 
 /// Calls `work` in a process of its own that may use `seconds` of processor time and `bytes` more memory than this one
 /// does now, and returns its result: for code of others that may run or grow for ever on damaged input. Nothing if it
@@ -15,4 +17,4 @@ namespace nef::planner {
 /// bounded where an address sanitizer runs.
 std::optional<std::string> run_bounded(std::size_t bytes, unsigned seconds, const std::function<std::string()>& work);
 
-}  // namespace nef::planner
+}  // namespace nef

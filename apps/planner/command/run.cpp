@@ -8,6 +8,7 @@
 #include "apps/planner/clearance/keep_clear.h"
 #include "apps/planner/command/arguments.h"
 #include "apps/planner/command/assembly_run.h"
+#include "apps/planner/command/certify_run.h"
 #include "apps/planner/command/clearance_run.h"
 #include "apps/planner/command/ompl_runs.h"
 #include "apps/planner/command/scene_view.h"
@@ -18,6 +19,7 @@
 #include "apps/planner/path/queries.h"
 #include "apps/planner/path/question.h"
 #include "apps/planner/path/wide_answer.h"
+#include "apps/planner/rigid/pose_file.h"
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/number_text.h"
@@ -268,6 +270,12 @@ int run(const Arguments& a) {
   bar.show("reading " + a.scene, 0, 0);
   Scene scene = scene_of(a);
   if (!a.keep_clear.empty()) keep_clear(scene, parse_rational(a.keep_clear));
+  if (!a.given_path.empty()) {
+    if (const auto poses = read_poses(a.given_path)) {
+      bar.clear();
+      return run_certify(a, scene, *poses);
+    }
+  }
   nlohmann::json widest;
   if (a.widest || a.widest_box) widest = make_widest(a, scene);
   if (scene.rotation) {

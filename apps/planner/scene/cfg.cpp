@@ -138,8 +138,8 @@ void apply_rotations(const TwoRotations& rotations, const std::string& path, Sce
                              "of theta at start and goal");
   } else if (rotations.start != 0) {
     scene.messages.push_back(path + ": the robot is turned once by a rational rotation within 1e-9 degrees of theta");
-    scene.robot =
-        transform(scene.robot, AffineMap::rotate(rotations.axis, nearest_double(degrees_of(rotations.start))), monitor);
+    scene.robot_rotation = AffineMap::rotate(rotations.axis, nearest_double(degrees_of(rotations.start)));
+    scene.robot = transform(scene.robot, scene.robot_rotation, monitor);
   }
 }
 

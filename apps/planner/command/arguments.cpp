@@ -70,7 +70,9 @@ void declare(CLI::App& app, Arguments& a) {
       ->type_name("FILE");
   app.add_option("--page", a.page, "Write a page (.html) in which the robot moves along the path")->type_name("FILE");
   app.add_flag("--tight", a.tight, "List every tight passage; with --path those that a given path uses");
-  app.add_option("--path", a.given_path, "Check this path (a report or lines of numbers) instead of looking for one")
+  app.add_option("--path", a.given_path,
+                 "Check this path (a report or lines of numbers) instead of looking for one; lines x y z qx qy qz qw "
+                 "turn the robot")
       ->type_name("FILE");
   app.add_option("--queries", a.queries, "Answer many questions: six numbers a line, start and goal (or JSON)")
       ->type_name("FILE");

@@ -8,6 +8,7 @@
 #include "apps/planner/clearance/keep_clear.h"
 #include "apps/planner/command/arguments.h"
 #include "apps/planner/command/assembly_run.h"
+#include "apps/planner/command/certify_run.h"
 #include "apps/planner/command/clearance_run.h"
 #include "apps/planner/command/notes.h"
 #include "apps/planner/command/ompl_runs.h"
@@ -19,6 +20,7 @@
 #include "apps/planner/path/queries.h"
 #include "apps/planner/path/question.h"
 #include "apps/planner/path/wide_answer.h"
+#include "apps/planner/rigid/pose_file.h"
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/number_text.h"
@@ -286,6 +288,9 @@ int run(const Arguments& a) {
   if (!a.keep_clear.empty()) keep_clear(scene, parse_rational(a.keep_clear));
   bar.clear();
   print_notes(a, scene.messages);
+  if (!a.given_path.empty()) {
+    if (const auto poses = read_poses(a.given_path)) return run_certify(a, scene, *poses);
+  }
   nlohmann::json widest;
   if (a.widest || a.widest_box) widest = make_widest(a, scene);
   if (scene.rotation) {

@@ -26,6 +26,8 @@ std::vector<Rational3> points_of_lines(const std::string& text, const std::strin
       throw InputError(where + ": expected x y z, or x y z qx qy qz qw, not " + std::to_string(values.size()) +
                        " numbers");
     }
+    const bool turned = values.size() == 7 && (values[3] != 0 || values[4] != 0 || values[5] != 0);
+    if (turned) throw InputError(where + ": the robot is turned here, and this is about paths of translations");
     points.push_back({values[0], values[1], values[2]});
   }
   return points;

@@ -138,8 +138,8 @@ void apply_rotations(const TwoRotations& rotations, const std::string& path, Sce
                              "of theta at start and goal");
   } else if (rotations.start != 0) {
     scene.messages.push_back(path + ": the robot is turned once by a rational rotation within 1e-9 degrees of theta");
-    scene.robot =
-        transform(scene.robot, AffineMap::rotate(rotations.axis, nearest_double(degrees_of(rotations.start))), monitor);
+    scene.robot_rotation = AffineMap::rotate(rotations.axis, nearest_double(degrees_of(rotations.start)));
+    scene.robot = transform(scene.robot, scene.robot_rotation, monitor);
   }
 }
 
@@ -170,8 +170,9 @@ Scene read_cfg(const std::string& path, const Monitor& monitor) {
   scene.start = keys.point("start");
   scene.goal = keys.point("goal");
   scene.messages.push_back(path +
-                           (scene.rotation ? ": answers hold for a robot that translates and turns about one axis"
-                                           : ": answers hold for a robot that translates and keeps its orientation") +
+                           (scene.rotation
+                                ? ": paths are searched for a robot that translates and turns about one axis"
+                                : ": paths are searched for a robot that translates and keeps its orientation") +
                            "; OMPL.app's robots turn freely");
   if (keys.has_any("volume.")) {
     scene.box = {keys.point("volume.min"), keys.point("volume.max")};

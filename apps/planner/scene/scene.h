@@ -34,6 +34,8 @@ struct AxisRotation {
 struct Scene {
   std::string name;  ///< the file's name without folders
   Polyhedron robot;  ///< with its reference point at the origin
+  /// The rotation that was applied to the robot of a .cfg file, whose start and goal are turned alike.
+  AffineMap robot_rotation = AffineMap::identity();
   std::vector<Polyhedron> obstacles;
   std::vector<std::string> obstacle_names;
   std::optional<std::array<Rational3, 2>> box;  ///< bounds of the reference point

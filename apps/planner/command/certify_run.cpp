@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/planner/command/certify_run.h"
+
+#include <filesystem>
+#include <iostream>
+
+#include "apps/planner/rigid/certified_path.h"
+#include "nef/base/error.h"
+#include "nef/base/timing/stopwatch.h"
+#include "nef/io/file_bytes.h"
+#include "nef/program/exact_json.h"
+#include "nef/program/run_report.h"
+
+namespace nef::planner {
+namespace {
+
+using nlohmann::json;
+using Status = MotionVerdict::Status;
+
+void check_certify_options(const Arguments& a) {
+  if (a.tight || !a.queries.empty() || !a.page.empty() || a.widest || a.widest_box) {
+    throw InputError("a path with rotations is certified only: leave out --tight, --queries, --page and --widest");
+  }
+  for (const std::string& file : a.outputs) {
+    if (std::filesystem::path(file).extension() != ".json") {
+      throw InputError("-o " + file + ": a path with rotations has a report only, so the extension must be .json");
+    }
+  }
+}
+
+const char* status_text(Status status) {
+  switch (status) {
+    case Status::kFree:
+      return "path";
+    case Status::kCollides:
+      return "blocked";
+    case Status::kUndecided:
+      break;
+  }
+  return "undecided";
+}
+
+json pose_json(const RigidPose& pose) {
+  json quaternion = json::array();
+  for (const Rational& x : pose.quaternion) quaternion.push_back(to_string(x));
+  return {{"position", exact_json(pose.position)}, {"quaternion", std::move(quaternion)}};
+}
+
+json motion_json(const MotionVerdict& verdict) {
+  json result{{"status", status_text(verdict.status)}, {"touches", verdict.touches}, {"parts", verdict.cells}};
+  if (verdict.pose) {
+    result["collision"] = pose_json(*verdict.pose);
+    result["collision"]["parameter"] = verdict.parameter;
+  }
+  if (verdict.status == Status::kUndecided) {
+    for (const auto& part : verdict.undecided) result["undecided"].push_back({part[0], part[1]});
+  }
+  return result;
+}
+
+json certified_json(const CertifiedPath& path, const std::vector<RigidPose>& poses, const Scene& scene) {
+  json result{{"scene", scene.name}, {"status", status_text(path.status)}, {"motions", "rigid"}};
+  for (const RigidPose& pose : poses) result["path"].push_back(pose_json(pose));
+  for (const MotionVerdict& verdict : path.motions) result["verdicts"].push_back(motion_json(verdict));
+  if (path.blocked) result["blocked_segment"] = *path.blocked;
+  return result;
+}
+
+void print(const CertifiedPath& path) {
+  std::cout << status_text(path.status);
+  if (path.status == Status::kFree) {
+    std::cout << ": all " << path.motions.size() << " motions are free";
+  } else if (path.blocked) {
+    const MotionVerdict& verdict = path.motions[*path.blocked];
+    std::cout << ": motion " << *path.blocked << " collides at position";
+    for (const Rational& x : verdict.pose->position) std::cout << ' ' << nearest_double(x);
+    std::cout << ", quaternion";
+    for (const Rational& x : verdict.pose->quaternion) std::cout << ' ' << nearest_double(x);
+  } else {
+    std::cout << ": motions";
+    for (std::size_t i = 0; i < path.motions.size(); ++i) {
+      if (path.motions[i].status == Status::kUndecided) std::cout << ' ' << i;
+    }
+    std::cout << " come too close to obstacles to be decided";
+  }
+  std::cout << '\n';
+}
+
+}  // namespace
+
+int run_certify(const Arguments& a, const Scene& scene, const std::vector<RigidPose>& poses) {
+  check_certify_options(a);
+  const Stopwatch watch;
+  const Scene unturned = with_robot_as_in_its_file(scene);
+  const MotionChecker checker = MotionChecker::of_scene(unturned);
+  const double setup_s = watch.seconds();
+  const CertifiedPath path = certify(checker, poses);
+  const std::string text =
+      report_text(run_report("certify", certified_json(path, poses, scene),
+                             {{"setup", setup_s, {}}, {"op", watch.seconds() - setup_s, {}}}, scene.messages));
+  for (const std::string& file : a.outputs) write_file(file, text);
+  if (a.json) {
+    std::cout << text;
+  } else if (!a.quiet) {
+    print(path);
+  }
+  if (path.status == Status::kFree) return 0;
+  return path.status == Status::kCollides ? 1 : 5;
+}
+
+}  // namespace nef::planner

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Certified collision checks of rigid bodies: whole motions instead of samples on them.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "apps/planner/rigid/motion_cell.h"
+#include "apps/planner/rigid/rigid_body.h"
+#include "apps/planner/rigid/rigid_motion.h"
+#include "apps/planner/scene/scene.h"
+#include "nef/base/monitor.h"
+
+namespace nef::planner {
+
+/// What is known of a motion.
+struct MotionVerdict {
+  enum class Status : std::uint8_t {
+    kFree,      ///< proved: no pose of the motion collides
+    kCollides,  ///< a pose of the motion collides, exactly
+    kUndecided  ///< neither was proved within the limits; contact that is kept while turning is the usual cause
+  };
+  Status status = Status::kFree;
+  /// kFree: bodies touch, so the motion is free only because contact is allowed. Only contact that rounding cannot
+  /// tell from a gap is looked at, so false means that there is a gap.
+  bool touches = false;
+  /// kCollides: a colliding pose, the parameter of the motion at which it is, and the pieces that overlap there.
+  std::optional<RigidPose> pose;
+  double parameter = 0;
+  std::uint32_t robot_piece = 0;
+  std::uint32_t obstacle_piece = 0;
+  /// Parts of the motion that are not decided, in order.
+  std::vector<std::array<double, 2>> undecided;
+  /// The motion is proved free up to this parameter. Meaningful if it was asked for (CheckLimits::in_order).
+  double free_until = 1;
+  std::size_t cells = 0;  ///< parts of the motion that were looked at
+};
+
+/// How long a motion is examined.
+struct CheckLimits {
+  unsigned depth = 20;           ///< parts are halved so many times at most, at most 40
+  std::size_t max_cells = 4096;  ///< parts that are looked at
+  std::size_t max_exact = 64;    ///< exact tests, of about a millisecond each
+  /// Examine parts in the order of time and stop at the first one that is not free, so that free_until is meaningful.
+  /// The default order finds collisions sooner.
+  bool in_order = false;
+};
+
+/// Answers whether poses and motions of a rigid robot among rigid obstacles collide. Contact rule: with kAllow two
+/// solids collide where their interiors overlap, with kForbid where they have a common point. A surface, and whatever
+/// else has no inside, collides with everything that it touches, under either rule. Positions must lie in the box, if
+/// there is one.
+///
+/// A motion is cut into parts until in each of them trees of boxes, and then planes between the hulls that enclose what
+/// pieces sweep (motion_cell.h), keep robot and obstacles apart; pairs that are not apart are handed down to both
+/// halves. Doubles decide with proven bounds, and exact numbers decide contact. The cost grows with the number of pairs
+/// that come close, and with the inverse of the clearance.
+///
+/// Const and safe to share between threads.
+class MotionChecker {
+ public:
+  MotionChecker(RigidBody robot, RigidBody obstacles, ContactRule contact = ContactRule::kAllow,
+                std::optional<std::array<Rational3, 2>> box = std::nullopt);
+
+  /// The robot and the obstacles of a scene, without its rotation, start and goal. Obstacles may be unbounded if the
+  /// scene has a box. Throws InputError as RigidBody::of_set does.
+  static MotionChecker of_scene(const Scene& scene, const Monitor& monitor = {});
+
+  /// Exact. For a collision the verdict says where; it is never kUndecided.
+  [[nodiscard]] MotionVerdict check(const RigidPose& pose) const;
+  /// Never wrong; kUndecided if the limits are reached. Both ends are checked first.
+  [[nodiscard]] MotionVerdict check(const RigidMotion& motion, const CheckLimits& limits = {}) const;
+
+  [[nodiscard]] const RigidBody& robot() const { return robot_; }
+  [[nodiscard]] const RigidBody& obstacles() const { return obstacles_; }
+
+ private:
+  friend class MotionExamination;
+  [[nodiscard]] bool in_box(const Rational3& position) const;
+  [[nodiscard]] bool closed(const RigidBody::Piece& a, const RigidBody::Piece& b) const {
+    return contact_ == ContactRule::kForbid || a.flat || b.flat;
+  }
+
+  RigidBody robot_;
+  RigidBody obstacles_;
+  ContactRule contact_;
+  std::optional<std::array<Rational3, 2>> box_;
+};
+
+}  // namespace nef::planner

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/planner/rigid/rigid_body.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "apps/minkowski/minkowski.h"
+#include "nef/base/error.h"
+#include "nef/geometry/vectors.h"
+#include "nef/polyhedron.h"
+
+namespace nef::planner {
+namespace {
+
+// The direction of an exact normal. It is scaled first, so that those of huge and tiny faces are doubles, too.
+Vector3d direction_of(const Rational3& normal) {
+  Rational largest = 0;
+  for (const Rational& x : normal) largest = std::max(largest, Rational(abs(x)));
+  return to_vector(Rational3{normal[0] / largest, normal[1] / largest, normal[2] / largest}).normalized();
+}
+
+RigidBody::Piece piece_of(const Mesh& mesh, bool flat) {
+  RigidBody::Piece piece;
+  piece.flat = flat;
+  piece.mesh.vertices = mesh.vertices;
+  for (const Rational3& v : mesh.vertices) {
+    piece.points.push_back(to_vector(v));
+    // A few roundings: the coordinates, two sums.
+    piece.reach = std::max(piece.reach, piece.points.back().lpNorm<1>() * (1 + 0x1p-50));
+  }
+  Vector3d low = piece.points.front();
+  Vector3d high = low;
+  for (const Vector3d& p : piece.points) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  piece.diameter = (high - low).norm() + 0x1p-48 * piece.reach;
+  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+    std::vector<Rational3> corners;
+    for (const std::uint32_t corner : mesh.face(f)) corners.push_back(mesh.vertices[corner]);
+    const Rational3 normal = normal_of(std::span<const Rational3>(corners));
+    if (is_zero(normal)) continue;  // a triangle that is a segment: its vertices say all
+    piece.mesh.push_face(mesh.face(f));
+    piece.normals.push_back(direction_of(normal));
+  }
+  return piece;
+}
+
+}  // namespace
+
+RigidBody RigidBody::of_set(const Polyhedron& set, const Monitor& monitor) {
+  if (set.is_empty() || !set.is_bounded()) throw InputError("a rigid body must be bounded and not empty");
+  // Walls between the cells of a solid are no surfaces.
+  const Polyhedron solid = set.is_regular() ? set : regularize(set, monitor);
+  std::vector<Piece> pieces;
+  for (const minkowski::ConvexCell& cell : minkowski::decompose(solid, monitor)) {
+    if (cell.dimension == 3) pieces.push_back(piece_of(cell.mesh, false));
+  }
+  if (!set.is_regular()) {
+    for (const minkowski::ConvexCell& cell : minkowski::decompose(closure(subtract(set, solid, 1, monitor)), monitor)) {
+      pieces.push_back(piece_of(cell.mesh, true));
+    }
+  }
+  return RigidBody(std::move(pieces));
+}
+
+RigidBody RigidBody::of_surface(const Mesh& mesh) {
+  std::vector<Piece> pieces;
+  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+    Mesh one;
+    std::vector<std::uint32_t> ring;
+    for (const std::uint32_t corner : mesh.face(f)) {
+      ring.push_back(static_cast<std::uint32_t>(one.vertices.size()));
+      one.vertices.push_back(mesh.vertices[corner]);
+    }
+    one.push_face(ring);
+    pieces.push_back(piece_of(one, true));
+  }
+  if (pieces.empty()) throw InputError("a rigid body must have faces");
+  return RigidBody(std::move(pieces));
+}
+
+RigidBody RigidBody::together(std::span<const RigidBody> bodies) {
+  std::vector<Piece> pieces;
+  for (const RigidBody& body : bodies) pieces.insert(pieces.end(), body.pieces_.begin(), body.pieces_.end());
+  return RigidBody(std::move(pieces));
+}
+
+RigidBody::RigidBody(std::vector<Piece> pieces) : pieces_(std::move(pieces)) {
+  if (pieces_.empty()) return;
+  std::vector<std::uint32_t> order(pieces_.size());
+  std::iota(order.begin(), order.end(), 0U);
+  nodes_.reserve(2 * pieces_.size());
+  nodes_.emplace_back();
+  build(0, order);
+}
+
+void RigidBody::build(std::uint32_t node, std::span<std::uint32_t> members) {
+  Vector3d low = Vector3d::Constant(HUGE_VAL);
+  Vector3d high = Vector3d::Constant(-HUGE_VAL);
+  for (const std::uint32_t member : members) {
+    for (const Vector3d& p : pieces_[member].points) {
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
+    }
+  }
+  Node made;
+  made.centre = (low + high) / 2;
+  // The halves of the extent, and what rounding of the corners, the centre and these themselves may take from them.
+  const Vector3d largest = low.cwiseAbs().cwiseMax(high.cwiseAbs());
+  made.half = (high - low) / 2 + 0x1p-50 * largest;
+  made.reach = largest.lpNorm<1>() * (1 + 0x1p-48);
+  made.radius = made.half.norm();
+  made.leaf = members.size() == 1;
+  made.first = made.leaf ? members.front() : static_cast<std::uint32_t>(nodes_.size());
+  nodes_[node] = made;
+  if (made.leaf) return;
+  Eigen::Index axis = 0;
+  made.half.maxCoeff(&axis);
+  const auto place = [&](std::uint32_t member) {
+    double low_end = HUGE_VAL;
+    double high_end = -HUGE_VAL;
+    for (const Vector3d& p : pieces_[member].points) {
+      low_end = std::min(low_end, p[axis]);
+      high_end = std::max(high_end, p[axis]);
+    }
+    return low_end + high_end;
+  };
+  const std::size_t half = members.size() / 2;
+  std::nth_element(members.begin(), members.begin() + static_cast<std::ptrdiff_t>(half), members.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return std::pair(place(a), a) < std::pair(place(b), b); });
+  nodes_.resize(nodes_.size() + 2);
+  const std::uint32_t first = made.first;
+  build(first, members.subspan(0, half));
+  build(first + 1, members.subspan(half));
+}
+
+}  // namespace nef::planner

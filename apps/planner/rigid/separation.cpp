@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// plane_between tries the coordinate axes and the normals of faces, which separate most pairs that are apart, and then
+// follows Gilbert's algorithm: a point of the set of differences near the origin gives a direction, the farthest
+// difference in the opposite one a better point. Only verified planes count, so the search may stop anywhere.
+//
+// overlap knows three generic ways in which convex polytopes meet: a vertex of one inside the other, or an edge of one
+// through a face of the other. Pairs that are not generic are left to exactly_apart.
+#include "apps/planner/rigid/separation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "nef/construct/construct.h"
+#include "nef/geometry/vectors.h"
+#include "nef/polyhedron.h"
+
+namespace nef::planner {
+namespace {
+
+// A product n p of a direction in doubles, which counts as exact, and a point is off by kImageError |n|_1 reach and
+// three roundings, 2^-51 of the same: together and for two points less than twice kImageError.
+constexpr double kPlaneError = 2 * MotionCell::kImageError;
+
+// Turned normals of length 1 are off by 256 roundings in each coordinate; differences to a point of the face are at
+// most 2 reach long.
+constexpr double kSideError = 8 * MotionCell::kImageError;
+
+// Whatever stands in the way of a plane with normal n most, seen from each side.
+struct Supports {
+  Vector3d of_a;
+  Vector3d of_b;
+  double gap = 0;  // what lies between, in multiples of n
+};
+
+Supports supports(const RoughPolytope& a, const RoughPolytope& b, const Vector3d& n) {
+  Supports result;
+  double most = -HUGE_VAL;
+  double least = HUGE_VAL;
+  for (const Vector3d& p : a.points) {
+    const double at = n.dot(p);
+    if (at > most) {
+      most = at;
+      result.of_a = p;
+    }
+  }
+  for (const Vector3d& p : b.points) {
+    const double at = n.dot(p);
+    if (at < least) {
+      least = at;
+      result.of_b = p;
+    }
+  }
+  result.gap = least - most;
+  return result;
+}
+
+// Signed distances of points to the plane of a face, as signs; 0 is not known.
+int sign_beyond(double value, double bound) {
+  if (value > bound) return 1;
+  if (value < -bound) return -1;
+  return 0;
+}
+
+// One of two pieces where it is, with what bounds its errors.
+struct Placed {
+  const Mesh& mesh;
+  const std::vector<Vector3d>& points;
+  const std::vector<Vector3d>& normals;
+  bool flat;
+};
+
+// The segment from p to q meets the inside of a face.
+bool pierces(const Vector3d& p, const Vector3d& q, const Placed& body, std::size_t face, double bound) {
+  const auto ring = body.mesh.face(face);
+  int turn = 0;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Vector3d from = body.points[ring[i]] - p;
+    const Vector3d to = body.points[ring[(i + 1) % ring.size()]] - p;
+    const int sign = sign_beyond((q - p).dot(from.cross(to)), bound);
+    if (sign == 0 || (turn != 0 && sign != turn)) return false;
+    turn = sign;
+  }
+  return true;
+}
+
+// A vertex of a inside b, or an edge of a through a face of b; with errors of distances and of volumes.
+bool enters(const Placed& a, const Placed& b, double distance_error, double volume_error) {
+  const std::size_t n = a.points.size();
+  std::vector<int> inside(n, b.flat || b.normals.empty() ? 0 : -1);
+  std::vector<int> sides(n);
+  for (std::size_t f = 0; f < b.normals.size(); ++f) {
+    const Vector3d& corner = b.points[b.mesh.face(f)[0]];
+    for (std::size_t i = 0; i < n; ++i) {
+      sides[i] = sign_beyond(b.normals[f].dot(a.points[i] - corner), distance_error);
+      if (sides[i] >= 0) inside[i] = 0;
+    }
+    for (std::size_t g = 0; g < a.mesh.face_count(); ++g) {
+      const auto ring = a.mesh.face(g);
+      for (std::size_t i = 0; i < ring.size(); ++i) {
+        const std::uint32_t from = ring[i];
+        const std::uint32_t to = ring[(i + 1) % ring.size()];
+        if (sides[from] * sides[to] >= 0) continue;
+        if (pierces(a.points[from], a.points[to], b, f, volume_error)) return true;
+      }
+    }
+    // A stick has no faces.
+    if (a.mesh.face_count() == 0 && n == 2 && sides[0] * sides[1] < 0 &&
+        pierces(a.points[0], a.points[1], b, f, volume_error)) {
+      return true;
+    }
+  }
+  return std::any_of(inside.begin(), inside.end(), [](int sign) { return sign < 0; });
+}
+
+}  // namespace
+
+Separation plane_between(const RoughPolytope& a, const RoughPolytope& b) {
+  const double reach = a.reach + b.reach;
+  bool perhaps = false;
+  Supports last;
+  const auto separates = [&](const Vector3d& n) {
+    last = supports(a, b, n);
+    const double error = kPlaneError * reach * n.lpNorm<1>();
+    perhaps = perhaps || last.gap >= -error;
+    return last.gap > error;
+  };
+  for (const Vector3d& n : b.normals) {
+    if (separates(-n)) return Separation::kApart;
+  }
+  for (const Vector3d& n : a.normals) {
+    if (separates(n)) return Separation::kApart;
+  }
+  // The point of the set of differences b - a nearest to the origin so far.
+  Vector3d nearest = b.points.front() - a.points.front();
+  constexpr int kRounds = 24;
+  for (int round = 0; round < kRounds; ++round) {
+    const double length = nearest.norm();
+    if (!(length > kPlaneError * reach)) break;
+    if (separates(nearest / length)) return Separation::kApart;
+    // The nearest point of the segment to the difference that lies least far along it.
+    const Vector3d step = (last.of_b - last.of_a) - nearest;
+    const double square = step.squaredNorm();
+    if (!(square > 0)) break;
+    nearest += std::clamp(-nearest.dot(step) / square, 0.0, 1.0) * step;
+  }
+  return perhaps ? Separation::kPerhaps : Separation::kUnknown;
+}
+
+// Errors: a point is off by kImageError reach in each coordinate, and by the slack as a whole. A distance to a plane is
+// off by sqrt(3) times that and by kSideError for the normal. A volume (q - p) x y of vectors no longer than L is off
+// by 3 L^2 times the error of a difference, which is less than 4 kImageError reach + slack; its own roundings are far
+// less.
+Separation overlap(const RigidBody::Piece& piece_a, const RoughPolytope& a, const RigidBody::Piece& piece_b,
+                   double slack) {
+  const double reach = a.reach + piece_b.reach;
+  const double distance_error = kSideError * reach + slack;
+  const Placed placed_a{piece_a.mesh, a.points, a.normals, piece_a.flat};
+  const Placed placed_b{piece_b.mesh, piece_b.points, piece_b.normals, piece_b.flat};
+  // The boxes of pieces that are asked about overlap: no two vertices are farther apart than both diameters together.
+  const double length = 2 * (piece_a.diameter + piece_b.diameter) + distance_error;
+  const double volume_error = 4 * length * length * (4 * MotionCell::kImageError * reach + slack);
+  if (enters(placed_a, placed_b, distance_error, volume_error) ||
+      enters(placed_b, placed_a, distance_error, volume_error)) {
+    return Separation::kOverlapping;
+  }
+  return Separation::kUnknown;
+}
+
+bool exactly_apart(std::span<const Rational3> a, std::span<const Rational3> b, bool closed) {
+  std::vector<Rational3> differences;
+  for (const Rational3& p : a) {
+    for (const Rational3& q : b) differences.push_back(minus(p, q));
+  }
+  const Polyhedron hull = convex_hull(differences);
+  const Rational3 origin{0, 0, 0};
+  return closed ? !contains(hull, origin) : !contains(interior(hull), origin);
+}
+
+}  // namespace nef::planner

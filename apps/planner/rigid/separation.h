@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Are two convex polytopes apart, do they overlap? In doubles with proven bounds, then exactly.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "apps/planner/free_space/vectors.h"
+#include "apps/planner/rigid/motion_cell.h"
+#include "apps/planner/rigid/rigid_body.h"
+
+namespace nef::planner {
+
+/// What doubles know of two polytopes.
+enum class Separation : std::uint8_t {
+  kApart,        ///< a plane lies between them, neither touches it
+  kOverlapping,  ///< they have a point in common, and those with an inside one that is in it
+  kPerhaps,      ///< a plane lies between them or touches them, as far as doubles can tell
+  kUnknown       ///< no such plane was found
+};
+
+/// One of two polytopes in doubles: points whose coordinates are off by kImageError reach at most, and directions in
+/// which a separating plane is looked for first.
+struct RoughPolytope {
+  std::vector<Vector3d> points;
+  std::vector<Vector3d> normals;
+  double reach = 0;
+  void clear() {
+    points.clear();
+    normals.clear();
+  }
+};
+
+/// Looks for a plane between two polytopes: kApart, kPerhaps or kUnknown.
+Separation plane_between(const RoughPolytope& a, const RoughPolytope& b);
+
+/// Do two pieces overlap, the first one moved? Its points are given as `a`, its normals turned with it. kOverlapping
+/// only if they do wherever the first one is moved by `slack` or less; otherwise kUnknown.
+Separation overlap(const RigidBody::Piece& piece_a, const RoughPolytope& a, const RigidBody::Piece& piece_b,
+                   double slack);
+
+/// Exact. With `closed`, do the hulls of two sets of points have no point in common; else, do their interiors (of
+/// hulls of dimension 3).
+bool exactly_apart(std::span<const Rational3> a, std::span<const Rational3> b, bool closed);
+
+}  // namespace nef::planner

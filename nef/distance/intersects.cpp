@@ -29,7 +29,8 @@
 #include "nef/sphere_map/overlay.h"
 
 namespace nef {
-namespace {
+// Not anonymous: IntersectionQuery::Body has members of these types.
+namespace meeting {
 
 struct EdgeEnds {
   HalfedgeId halfedge{0};
@@ -155,24 +156,24 @@ int turn(const Rational3& p, const Rational3& q, const Rational3& r, std::size_t
   return sgn(Rational((q[x] - p[x]) * (r[y] - p[y]) - (q[y] - p[y]) * (r[x] - p[x])));
 }
 
-}  // namespace
+}  // namespace meeting
 
 struct IntersectionQuery::Body {
   Body(const Polyhedron& of_a, const Polyhedron& of_b) : sets{of_a, of_b} {
     if (of_a.is_empty() || of_b.is_empty() || !of_a.is_bounded() || !of_b.is_bounded()) return;
     for (const Polyhedron& set : sets) {
-      sides.push_back(std::make_unique<Side>(set));
-      normals.push_back(intern_normals(set.complex().planes, planes));
+      sides.push_back(std::make_unique<meeting::Side>(set));
+      normals.push_back(meeting::intern_normals(set.complex().planes, planes));
     }
   }
 
   std::array<Polyhedron, 2> sets;
-  std::vector<std::unique_ptr<const Side>> sides;  // none if a set is empty or unbounded
-  PlaneTable planes;                               // through the origin
-  std::vector<std::vector<PlaneId>> normals;       // of each side's planes
+  std::vector<std::unique_ptr<const meeting::Side>> sides;  // none if a set is empty or unbounded
+  PlaneTable planes;                                        // through the origin
+  std::vector<std::vector<PlaneId>> normals;                // of each side's planes
 };
 
-namespace {
+namespace meeting {
 
 // One question.
 template <typename Body>
@@ -387,7 +388,7 @@ class MeetingSearch {
   bool found_ = false;
 };
 
-}  // namespace
+}  // namespace meeting
 
 IntersectionQuery::IntersectionQuery(const Polyhedron& a, const Polyhedron& b)
     : body_(std::make_shared<const Body>(a, b)) {}
@@ -398,7 +399,7 @@ bool IntersectionQuery::meet(const Rational3& translation, const Monitor& monito
   if (body_->sides.empty()) {
     return !intersect(a, transform(b, AffineMap::translate(translation), monitor), 1, monitor).is_empty();
   }
-  return MeetingSearch<Body>(*body_, translation, monitor).run();
+  return meeting::MeetingSearch<Body>(*body_, translation, monitor).run();
 }
 
 bool intersects(const Polyhedron& a, const Polyhedron& b, const Rational3& translation, const Monitor& monitor) {

@@ -39,28 +39,31 @@ Json exact_or_null(const Rational3& point, const SetInfoOptions& options) {
   return result;
 }
 
-// Of what is bounded, without the exact volume.
 void add_approximate_volume(Json& info, const Polyhedron& set, const Monitor& monitor) {
   const MeasuredVolume measured = approximate_volume(set, 1, monitor);
+  for (const char* key : {"volume", "volume_double", "volume_digits"}) info[key] = nullptr;
   info["volume_double"] = number_or_null(measured.value);
-  info["volume_error"] = number_or_null(measured.error);
+  info["volume_error"] = std::isfinite(measured.value) ? number_or_null(measured.error) : Json(nullptr);
 }
 
-// As exact as the volume, which is where the time goes.
-void add_area(Json& info, const Polyhedron& set, const SetInfoOptions& options, const Monitor& monitor) {
-  if (options.volume || !set.is_bounded()) {
-    info["area"] = number_or_null(surface_area(set));
-    return;
-  }
+void add_approximate_area(Json& info, const Polyhedron& set, const Monitor& monitor) {
   const MeasuredArea measured = approximate_area(set, 1, monitor);
   info["area"] = number_or_null(measured.value);
-  info["area_error"] = number_or_null(measured.error);
+  info["area_error"] = std::isfinite(measured.value) ? number_or_null(measured.error) : Json(nullptr);
 }
 
-void add_moments(Json& info, const Polyhedron& set, const SetInfoOptions& options) {
-  for (const char* key : {"centroid", "centroid_exact", "inertia", "principal_moments", "principal_axes"}) {
-    info[key] = nullptr;
-  }
+Json doubles_json(const std::array<double, 3>& point) {
+  Json result = Json::array();
+  for (const double x : point) result.push_back(number_or_null(x));
+  return result;
+}
+
+void add_principal_axes(Json& info, const PrincipalInertia& principal) {
+  info["principal_moments"] = principal.moments;
+  info["principal_axes"] = principal.axes;
+}
+
+void add_exact_moments(Json& info, const Polyhedron& set, const SetInfoOptions& options) {
   const std::optional<Moments> found = moments(set);
   if (!found || found->volume == 0) return;
   const Rational3 centre = *found->centroid();
@@ -68,9 +71,20 @@ void add_moments(Json& info, const Polyhedron& set, const SetInfoOptions& option
   info["centroid_exact"] = exact_or_null(centre, options);
   info["inertia"] = Json::array();
   for (const Rational3& row : found->inertia(centre)) info["inertia"].push_back(doubles_json(row));
-  const PrincipalInertia principal = principal_inertia(*found);
-  info["principal_moments"] = principal.moments;
-  info["principal_axes"] = principal.axes;
+  add_principal_axes(info, principal_inertia(*found));
+}
+
+void add_approximate_moments(Json& info, const Polyhedron& set, const Monitor& monitor) {
+  const std::optional<MeasuredMoments> found = approximate_moments(set, monitor);
+  info["centroid_error"] = nullptr;
+  info["inertia_error"] = nullptr;
+  if (!found) return;
+  info["centroid"] = doubles_json(found->centroid);
+  info["centroid_error"] = number_or_null(found->centroid_error);
+  info["inertia"] = Json::array();
+  for (const std::array<double, 3>& row : found->inertia) info["inertia"].push_back(doubles_json(row));
+  info["inertia_error"] = number_or_null(found->inertia_error);
+  add_principal_axes(info, found->principal);
 }
 
 }  // namespace
@@ -94,6 +108,19 @@ void add_box(Json& info, const std::optional<std::array<Rational3, 2>>& box, con
   if (!low.is_null() && !high.is_null()) info["bbox_exact"] = {low, high};
 }
 
+bool has_short_measures(const Polyhedron& set) {
+  constexpr std::size_t kFewCorners = 4096;
+  constexpr std::size_t kShortBits = 128;
+  const Complex& c = set.complex();
+  if (c.shalfedge_count() > kFewCorners) return false;
+  Integer common = 1;
+  for (const VertexId v : c.vertex_ids()) {
+    mpz_lcm(common.get_mpz_t(), common.get_mpz_t(), c.points.coordinate(point_of(v), 3));
+    if (mpz_sizeinbase(common.get_mpz_t(), 2) > kShortBits) return false;
+  }
+  return true;
+}
+
 Json set_info(const Polyhedron& set, const SetInfoOptions& options, const Monitor& monitor) {
   const Counts count = counts(set);
   Json info;
@@ -106,16 +133,29 @@ Json set_info(const Polyhedron& set, const SetInfoOptions& options, const Monito
   info["open"] = set.is_open();
   info["closed"] = set.is_closed();
   info["regular"] = set.is_regular();
-  add_volume(info, options.volume ? volume(set) : std::nullopt, options);
-  if (!options.volume && set.is_bounded()) add_approximate_volume(info, set, monitor);
-  add_area(info, set, options, monitor);
+  const bool exact = options.exact || (!options.bounds && has_short_measures(set));
+  if (exact) {
+    add_volume(info, volume(set), options);
+    info["area"] = number_or_null(surface_area(set));
+  } else {
+    add_approximate_volume(info, set, monitor);
+    add_approximate_area(info, set, monitor);
+  }
   add_box(info, bounding_box(set, monitor), options);
   info["euler_numbers"] = euler_numbers(set);
   info["genus"] = Json::array();
   for (const std::optional<long>& genus : genera(set.complex())) {
     info["genus"].push_back(genus ? Json(*genus) : Json(nullptr));
   }
-  if (options.moments) add_moments(info, set, options);
+  if (!options.moments) return info;
+  for (const char* key : {"centroid", "centroid_exact", "inertia", "principal_moments", "principal_axes"}) {
+    info[key] = nullptr;
+  }
+  if (exact) {
+    add_exact_moments(info, set, options);
+  } else {
+    add_approximate_moments(info, set, monitor);
+  }
   return info;
 }
 

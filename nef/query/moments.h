@@ -40,5 +40,7 @@ struct PrincipalInertia {
 
 /// Throws InputError if the volume is zero.
 PrincipalInertia principal_inertia(const Moments& moments);
+/// The same of an inertia tensor in doubles.
+PrincipalInertia principal_inertia(const std::array<std::array<double, 3>, 3>& tensor);
 
 }  // namespace nef

@@ -6,7 +6,9 @@
 #include <cmath>
 
 #include "nef/base/error.h"
+#include "nef/query/measures/approximate_volume.h"
 #include "tests/laws/laws.h"
+#include "tests/support/oblique_rotation.h"
 
 namespace nef {
 namespace {
@@ -127,6 +129,39 @@ TEST_CASE("moments in closed form") {
   CHECK_THROWS_AS(principal_inertia(*moments(Polyhedron())), InputError);
   CHECK_FALSE(moments(set("halfspace(0,0,1,0)")));
   CHECK_FALSE(moments(set("!box(0,0,0,1,1,1)")));
+}
+
+TEST_CASE("Measures in doubles are off by no more than they say") {
+  const AffineMap away = AffineMap::translate({Rational(100001, 3), Rational(200003, 7), Rational(-50, 11)});
+  const Polyhedron parts =
+      unite(subtract(make_box({0, 0, 0}, {7, 5, 3}), make_box({1, 1, 1}, {2, 2, 9})), make_box({8, 0, 0}, {9, 1, 1}));
+  for (const Polyhedron& some : {parts, transform(parts, test::oblique_rotation()),
+                                 transform(parts, away.after(test::oblique_rotation())), boundary(parts)}) {
+    const MeasuredVolume content = approximate_volume(some);
+    CHECK(abs(*volume(some) - exact_rational(content.value)) <= exact_rational(content.error));
+    CHECK(content.error < 1e-6);
+    const std::optional<MeasuredMoments> measured = approximate_moments(some);
+    const Moments truth = *moments(some);
+    REQUIRE(measured.has_value() == (truth.volume != 0));
+    if (!measured) continue;
+    const Rational3 centre = *truth.centroid();
+    const Rational3x3 inertia = truth.inertia(centre);
+    for (std::size_t i = 0; i < 3; ++i) {
+      CHECK(abs(centre[i] - exact_rational(measured->centroid[i])) <= exact_rational(measured->centroid_error));
+      for (std::size_t j = 0; j < 3; ++j) {
+        CHECK(abs(inertia[i][j] - exact_rational(measured->inertia[i][j])) <= exact_rational(measured->inertia_error));
+      }
+    }
+    CHECK(measured->centroid_error < 1e-6);
+    CHECK(measured->inertia_error < 1e-3);
+  }
+  CHECK(std::isinf(approximate_volume(complement(parts)).value));
+  CHECK_FALSE(approximate_moments(complement(parts)).has_value());
+  // A plane is unbounded, and the rest is not.
+  const Polyhedron with_plane = unite(parts, boundary(make_halfspace(0, 0, 1, 20, true)));
+  const MeasuredVolume content = approximate_volume(with_plane);
+  CHECK(abs(*volume(parts) - exact_rational(content.value)) <= exact_rational(content.error));
+  CHECK(std::isinf(approximate_area(with_plane).value));
 }
 
 }  // namespace nef

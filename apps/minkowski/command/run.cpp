@@ -337,7 +337,7 @@ class Run {
 
   [[nodiscard]] Json report(const Polyhedron& result) const {
     Json object = base_report();
-    object["result"] = set_info(result, {.volume = a_.exact_volume, .exact = a_.exact_volume});
+    object["result"] = set_info(result, {.exact = a_.exact_volume, .bounds = true});
     return object;
   }
 

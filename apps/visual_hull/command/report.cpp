@@ -83,7 +83,7 @@ nlohmann::ordered_json make_report(const Result& result, const nef::Messages& me
   report["direct"] = result.direct;
   bool verified = false;
   for (const ViewResult& view : result.views) verified = verified || view.verification.has_value();
-  report["result"] = nef::set_info(result.hull, {.volume = exact_volume, .exact = exact_volume});
+  report["result"] = nef::set_info(result.hull, {.exact = exact_volume, .bounds = true});
   if (result.vanished) {
     report["vanished"] = {
         {"view", result.vanished->view}, {"reason", result.vanished->reason}, {"sets", result.vanished->sets}};

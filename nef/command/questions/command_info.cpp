@@ -16,15 +16,18 @@ namespace {
 void print_info(Session& session, const Json& info) {
   const auto text = [](const Json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); };
   for (const auto& [key, value] : info.items()) {
-    if (value.is_null() || key == "volume_double" || key == "volume_digits") continue;
+    if (value.is_null() || key == "volume_double" || key == "volume_digits" || key == "volume_error") continue;
     session.say(key + ": " + text(value));
   }
 }
 
-// The volume in one line: exact if it is short or wanted, a double with the number of its digits otherwise.
+// The volume in one line: exact if it was found and is short or wanted, a double and what is known of it otherwise.
 std::string volume_text(const Json& info) {
   const Json& approximate = info["volume_double"];
-  if (info["volume_digits"].is_null()) return "infinite";
+  if (approximate.is_null()) return "infinite";
+  if (info.contains("volume_error")) {
+    return approximate.dump() + " (off by at most " + info["volume_error"].dump() + ", see --exact)";
+  }
   if (info["volume"].is_null()) {
     return approximate.dump() + " (exactly a fraction of " + info["volume_digits"].dump() + " digits, see --exact)";
   }
@@ -51,10 +54,10 @@ void require_tiles_for_memory(const TileFlags& flags, bool in_tiles) {
 }
 
 void add_info(CLI::App& app, Session& session) {
-  CLI::App* command = add_subcommand(app, session, "info", "Counts, properties and exact measures of a set");
+  CLI::App* command = add_subcommand(app, session, "info", "Counts, properties and measures of a set");
   command->add_option("input", session.input, "The set, as a file")->required();
   add_input_flags(command, session);
-  command->add_flag("--exact", session.exact, "Print exact numbers however long they are");
+  command->add_flag("--exact", session.exact, "Print exact numbers however long they are, and however long they take");
   const auto glued = std::make_shared<bool>(false);
   command->add_flag("--glued", *glued, "Of a set in tiles all that is told of others, for which it is glued");
   const auto flags = std::make_shared<TileFlags>();

@@ -14,7 +14,8 @@ Polyhedron Case::valid(Polyhedron set, std::string_view what) const {
 
 std::span<const Fuzzer> fuzzers() {
   static constexpr std::array kAll{
-      Fuzzer{"arrangement", "sets from open and closed half-spaces, at a point of every cell of their planes",
+      Fuzzer{"arrangement",
+             "sets from open and closed half-spaces, small and huge, at a point of every cell of their planes",
              fuzz_arrangement},
       Fuzzer{"nested", "coplanar pieces nested in each other: slits, loops, holes, islands, points", fuzz_nested},
       Fuzzer{"voxels", "meshes that touch, nest, overlap or contradict each other, by winding numbers", fuzz_voxels},

@@ -1,149 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Sets from half-spaces. The planes cut space into cells of dimension 0 to 3, each given by its signs (on the negative
-// side of, on, or on the positive side of every plane); a set made from the half-spaces holds a cell whole or not at
-// all. So a set is a bit for each cell, Boolean operations are bitwise, and a cell lies in the closure of another one
-// iff its signs are those of the other with some replaced by zero.
+// Sets from half-spaces. A set made from them holds a cell of the planes' arrangement whole or not at all, so it is a
+// bit for each cell, Boolean operations are bitwise, and a cell lies in the closure of another one iff its signs are
+// those of the other with some replaced by zero. What kinds of items it has, and how many, follows from the bits around
+// each cell.
 #include <algorithm>
-#include <map>
+#include <array>
+#include <optional>
 #include <sstream>
 
 #include "fuzz/fuzzer.h"
+#include "fuzz/fuzzers/plane_cells.h"
+#include "fuzz/fuzzers/plane_items.h"
 #include "nef/construct/construct.h"
 #include "nef/geometry/vectors.h"
 #include "nef/io/native/native_format.h"
 
 namespace nef::fuzz {
 namespace {
-
-Rational3 moved(const Rational3& p, const Rational& t, const Rational3& d) {
-  return {p[0] + t * d[0], p[1] + t * d[1], p[2] + t * d[2]};
-}
-
-struct Plane {
-  Rational3 normal;
-  Rational offset;
-  [[nodiscard]] Rational at(const Rational3& p) const { return dot(normal, p) + offset; }
-  [[nodiscard]] std::string text() const {
-    return to_string(normal[0]) + "," + to_string(normal[1]) + "," + to_string(normal[2]) + "," + to_string(offset);
-  }
-};
-
-using Signs = std::vector<signed char>;
-
-// All cells of the planes, a point for each.
-class Cells {
- public:
-  explicit Cells(std::vector<Plane> planes) : planes_(std::move(planes)) {
-    for (std::size_t i = 0; i < planes_.size(); ++i) add_plane(i);
-    for (const auto& [signs, point] : found_) {
-      signs_.push_back(signs);
-      points_.push_back(point);
-    }
-    faces_.resize(signs_.size());
-    for (std::size_t d = 0; d < signs_.size(); ++d) {
-      for (std::size_t c = 0; c < signs_.size(); ++c) {
-        if (is_face(signs_[c], signs_[d])) faces_[d].push_back(c);
-      }
-    }
-  }
-
-  [[nodiscard]] std::size_t size() const { return points_.size(); }
-  [[nodiscard]] const Rational3& point(std::size_t cell) const { return points_[cell]; }
-  [[nodiscard]] const Plane& plane(std::size_t i) const { return planes_[i]; }
-  [[nodiscard]] int sign(std::size_t cell, std::size_t plane) const { return signs_[cell][plane]; }
-  /// The cells in the closure of a cell, itself included.
-  [[nodiscard]] const std::vector<std::size_t>& faces(std::size_t cell) const { return faces_[cell]; }
-
- private:
-  static bool is_face(const Signs& c, const Signs& d) {
-    for (std::size_t i = 0; i < c.size(); ++i) {
-      if (c[i] != 0 && c[i] != d[i]) return false;
-    }
-    return true;
-  }
-
-  void add(const Rational3& p) {
-    Signs signs;
-    for (const Plane& plane : planes_) signs.push_back(static_cast<signed char>(sgn(plane.at(p))));
-    found_.try_emplace(signs, p);
-  }
-
-  // Where a line meets the planes that do not hold it, in order.
-  [[nodiscard]] std::vector<Rational> crossings(const Rational3& p, const Rational3& direction) const {
-    std::vector<Rational> result;
-    for (const Plane& plane : planes_) {
-      const Rational speed = dot(plane.normal, direction);
-      if (speed != 0) result.push_back(-plane.at(p) / speed);
-    }
-    std::sort(result.begin(), result.end());
-    result.erase(std::unique(result.begin(), result.end()), result.end());
-    return result;
-  }
-
-  // A point beyond p in that direction, before anything else is met.
-  [[nodiscard]] Rational3 just_beside(const Rational3& p, const Rational3& direction) const {
-    Rational t = 1;
-    for (const Rational& crossing : crossings(p, direction)) {
-      if (crossing > 0) {
-        t = crossing / 2;
-        break;
-      }
-    }
-    return moved(p, t, direction);
-  }
-
-  // A point of every cell in plane i, and of every cell beside its two-dimensional ones.
-  void add_plane(std::size_t i) {
-    const Plane& plane = planes_[i];
-    bool lines = false;
-    for (std::size_t j = 0; j < planes_.size(); ++j) {
-      const Rational3 direction = cross(plane.normal, planes_[j].normal);
-      if (is_zero(direction)) continue;
-      lines = true;
-      add_line(plane, planes_[j], direction);
-    }
-    if (!lines) add_both_sides(plane, moved({0, 0, 0}, -plane.offset / dot(plane.normal, plane.normal), plane.normal));
-  }
-
-  void add_line(const Plane& a, const Plane& b, const Rational3& direction) {
-    // The point of the line nearest to the origin: a combination of the two normals.
-    const Rational aa = dot(a.normal, a.normal);
-    const Rational ab = dot(a.normal, b.normal);
-    const Rational bb = dot(b.normal, b.normal);
-    const Rational det = aa * bb - ab * ab;
-    const Rational s = (ab * b.offset - bb * a.offset) / det;
-    const Rational t = (ab * a.offset - aa * b.offset) / det;
-    const Rational3 origin = moved(moved({0, 0, 0}, s, a.normal), t, b.normal);
-    const std::vector<Rational> stops = crossings(origin, direction);
-    for (const Rational& stop : stops) add(moved(origin, stop, direction));
-    std::vector<Rational> between;
-    for (std::size_t k = 0; k + 1 < stops.size(); ++k) between.push_back((stops[k] + stops[k + 1]) / 2);
-    between.push_back(stops.empty() ? Rational(0) : Rational(stops.front() - 1));
-    if (!stops.empty()) between.push_back(stops.back() + 1);
-    const Rational3 aside = cross(a.normal, direction);
-    for (const Rational& place : between) {
-      const Rational3 p = moved(origin, place, direction);
-      add(p);
-      add_both_sides(a, just_beside(p, aside));
-      add_both_sides(a, just_beside(p, {-aside[0], -aside[1], -aside[2]}));
-    }
-  }
-
-  void add_both_sides(const Plane& plane, const Rational3& p) {
-    add(p);
-    add(just_beside(p, plane.normal));
-    add(just_beside(p, {-plane.normal[0], -plane.normal[1], -plane.normal[2]}));
-  }
-
-  std::vector<Plane> planes_;
-  std::map<Signs, Rational3> found_;
-  std::vector<Signs> signs_;
-  std::vector<Rational3> points_;
-  std::vector<std::vector<std::size_t>> faces_;
-};
-
-using Bits = std::vector<bool>;
 
 Bits closure_of(const Cells& cells, const Bits& bits) {
   Bits result(bits.size(), false);
@@ -290,6 +164,33 @@ class Builder {
   std::size_t planes_;
 };
 
+// Next to where integers cease to be doubles, words, two words, and doubles at all.
+Integer landmark(Choices& choices) {
+  Integer result;
+  const std::size_t which = choices.below(4);
+  constexpr std::array<unsigned long, 3> kBits{53, 62, 127};
+  if (which == 3) {
+    mpz_ui_pow_ui(result.get_mpz_t(), 10, 400);
+  } else {
+    mpz_ui_pow_ui(result.get_mpz_t(), 2, kBits[which]);
+  }
+  return result + choices.between(-2, 2);
+}
+
+// Moves planes far away or makes them nearly parallel, by numbers next to a landmark.
+void enlarge(std::vector<Plane>& planes, Choices& choices) {
+  const Integer size = landmark(choices);
+  const std::size_t how = choices.below(3);
+  for (Plane& plane : planes) {
+    if (how == 0) plane.offset = plane.offset * size + choices.between(-1, 1);
+    if (how == 1) plane.offset /= size;
+    if (how == 2) {
+      for (Rational& x : plane.normal) x = x * size + choices.between(-1, 1);
+      if (is_zero(plane.normal)) plane.normal[choices.below(3)] = 1;
+    }
+  }
+}
+
 std::vector<Plane> random_planes(Choices& choices) {
   std::vector<Plane> planes(static_cast<std::size_t>(choices.between(1, 6)));
   const int slope = choices.between(1, 3);
@@ -299,6 +200,7 @@ std::vector<Plane> random_planes(Choices& choices) {
     if (is_zero(plane.normal)) plane.normal[choices.below(3)] = 1;
     plane.offset = choices.between(-shift, shift);
   }
+  if (choices.one_in(3)) enlarge(planes, choices);
   return planes;
 }
 
@@ -325,6 +227,48 @@ void check_predicates(const Cells& cells, const Polyhedron& set, const Bits& bit
   Case::require(set.is_regular() == (closure_of(cells, inside) == bits), "predicate: is_regular");
 }
 
+const char* name_of(Location::Kind kind) {
+  constexpr std::array<const char*, 4> kNames{"a vertex", "an edge", "a facet", "a volume"};
+  return kNames[static_cast<std::size_t>(kind)];
+}
+
+void check_items(const Case& the_case, const Cells& cells, const Polyhedron& set, const Bits& bits) {
+  const PlaneItems items(cells, bits);
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    const Location::Kind kind = locate(set, cells.point(c)).kind;
+    if (kind == items.kind(c)) continue;
+    Case::require(false, "locations: point(" + show(cells.point(c)) + ") is in " + name_of(kind) + ", want " +
+                             name_of(items.kind(c)));
+  }
+  const Counts count = counts(set);
+  Case::require(count.vertices == items.count(Location::Kind::kVertex), "counts: vertices");
+  Case::require(count.edges == items.count(Location::Kind::kEdge), "counts: edges");
+  Case::require(count.facets == items.count(Location::Kind::kFacet), "counts: facets");
+  Case::require(count.volumes == items.count(Location::Kind::kVolume), "counts: volumes");
+  Case::require(euler_numbers(set).size() == count.shells, "counts: an Euler number for each shell");
+  Case::require(volume(set) == items.volume(), "measures: volume");
+  the_case.count("kinds of locations", cells.size());
+}
+
+void check_rays(const Case& the_case, const Cells& cells, const Polyhedron& set, const Bits& bits) {
+  Choices& choices = the_case.choices();
+  const PlaneItems items(cells, bits);
+  for (int i = 0; i < 4; ++i) {
+    const Rational3& origin = cells.point(choices.below(cells.size()));
+    Rational3 direction = minus(cells.point(choices.below(cells.size())), origin);
+    if (is_zero(direction)) direction = {1, choices.between(-1, 1), choices.between(-1, 1)};
+    const std::optional<Rational> first = items.first_hit(origin, direction);
+    if (first && *first == 0) continue;  // it begins in a facet or an edge
+    const std::optional<RayHit> hit = shoot_ray(set, origin, direction);
+    const std::string ray = "point(" + show(origin) + "), direction " + show(direction);
+    Case::require(hit.has_value() == first.has_value(), "rays: whether something is hit from " + ray);
+    if (!hit) continue;
+    Case::require(hit->point == moved(origin, *first, direction), "rays: where something is hit from " + ray);
+    Case::require(hit->location.kind == items.kind(cells.at(hit->point)), "rays: what is hit from " + ray);
+  }
+  the_case.count("rays", 4);
+}
+
 AffineMap random_map(Choices& choices) {
   AffineMap map = AffineMap::identity();
   for (std::size_t i = 0; i < 3; ++i) {
@@ -347,6 +291,8 @@ void fuzz_arrangement(const Case& the_case) {
   the_case.tell(a.text);
   check_points(the_case, cells, a.set, a.bits, AffineMap::identity());
   check_predicates(cells, a.set, a.bits);
+  check_items(the_case, cells, a.set, a.bits);
+  check_rays(the_case, cells, a.set, a.bits);
   Case::require(equal(a.set, a.other), "equality: a set and the same by other operations differ");
 
   const Value b = builder.build(2);

@@ -10,6 +10,7 @@
 #include "apps/visual_hull/formats/colmap.h"
 #include "apps/visual_hull/formats/matlab.h"
 #include "apps/visual_hull/formats/opencv_storage.h"
+#include "apps/visual_hull/formats/scene_blocks.h"
 #include "apps/visual_hull/formats/scene_json.h"
 #include "apps/visual_hull/formats/scene_text.h"
 #include "apps/visual_hull/formats/vsh.h"
@@ -125,6 +126,11 @@ std::string opencv_xml(const Polyhedron& /*set*/, const std::string& /*text*/) {
   return "<?xml version=\"1.0\"?>\n<opencv_storage>\n<P0 type_id=\"opencv-matrix\">\n  <rows>3</rows>\n  "
          "<cols>4</cols>\n  <dt>d</dt>\n  <data>1. 0. 0. 0. 0. 1. 0. 0. 0. 0. 1. 5.</data></P0>\n<views><_><name>a"
          "</name><K>1. 0. 0. 0. 1. 0. 0. 0. 1.</K></_></views>\n</opencv_storage>\n";
+}
+
+std::string parameter_blocks(const Polyhedron& /*set*/, const std::string& /*text*/) {
+  return "#Intrinsic parameter\n2 0 10\n0 3 20\n0 0 1\n\n#Extrinsic parameter for a.bmp\n1 0 0 0.5\n0 1 0 0\n0 0 1 4\n"
+         "# extrinsic\n\n1 0 0 1\n0 1 0 2\n0 0 1 3\n";
 }
 
 std::string transforms_scene(const Polyhedron& /*set*/, const std::string& /*text*/) {
@@ -284,6 +290,10 @@ constexpr std::array kFormats{
              const ScratchFolder folder;
              write_file(folder / "scene.mat", bytes);
              static_cast<void>(visual_hull::read_matlab(folder / "scene.mat", ""));
+           }},
+    Format{"parameter-blocks", parameter_blocks,
+           [](const std::string& text) {
+             static_cast<void>(visual_hull::read_parameter_blocks(text, "/nonexistent/scene.txt"));
            }},
     Format{"transforms", transforms_scene,
            [](const std::string& text) {

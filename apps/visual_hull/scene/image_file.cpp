@@ -18,6 +18,7 @@
 
 #include "nef/base/error.h"
 #include "nef/io/bounded_process.h"
+#include "nef/io/file_bytes.h"
 
 namespace visual_hull {
 namespace {
@@ -150,17 +151,23 @@ cv::Mat read_other(const std::filesystem::path& file, int flags) {
   return bytes ? image_of(*bytes) : cv::Mat();
 }
 
+// Null if there is no such file. Throws for devices and named pipes, which may never end.
+File open_image(const std::filesystem::path& file) {
+  if (std::filesystem::exists(file)) nef::require_readable_file(file.string());
+  return {std::fopen(file.c_str(), "rb"), &std::fclose};
+}
+
 }  // namespace
 
 cv::Mat read_pixels(const std::filesystem::path& file) {
-  const File stream(std::fopen(file.c_str(), "rb"), &std::fclose);
+  const File stream = open_image(file);
   if (!stream) return {};
   if (is_png(stream.get())) return read_png(stream.get(), false);
   return read_other(file, cv::IMREAD_UNCHANGED);
 }
 
 cv::Mat read_colors(const std::filesystem::path& file) {
-  const File stream(std::fopen(file.c_str(), "rb"), &std::fclose);
+  const File stream = open_image(file);
   if (!stream) return {};
   if (!is_png(stream.get())) return read_other(file, cv::IMREAD_COLOR);
   cv::Mat image = read_png(stream.get(), true);

@@ -9,6 +9,7 @@
 #include "binding/base/errors.h"
 #include "binding/meshes.h"
 #include "nef/export/to_mesh.h"
+#include "nef/io/native/native_binary.h"
 #include "nef/io/native/native_format.h"
 #include "nef/io/polyhedron_file.h"
 #include "nef/polyhedron.h"
@@ -79,19 +80,20 @@ py::tuple mesh_of(const Polyhedron& a, bool polygons, bool exact) {
 // CPU seconds of from_mesh and to_rounded_mesh without Python: what bench/python sets its own times against.
 py::tuple core_times(py::handle vertices, py::handle faces) {
   const Mesh mesh = mesh_from_arrays(vertices, faces);
-  const py::gil_scoped_release unlocked;
+  const LockReleased unlocked;
   const std::clock_t begin = std::clock();
   const Polyhedron set = from_mesh(mesh);
   const std::clock_t made = std::clock();
   static_cast<void>(to_rounded_mesh(set));
   const std::clock_t end = std::clock();
-  const py::gil_scoped_acquire locked;
+  const LockHeld locked;
   return py::make_tuple(static_cast<double>(made - begin) / CLOCKS_PER_SEC,
                         static_cast<double>(end - made) / CLOCKS_PER_SEC);
 }
 
+// With a checksum, so that damaged bytes are refused instead of being another set.
 py::bytes bytes_of(const Polyhedron& a) {
-  return call(items(a), [a](const Monitor&) { return native_text(a); });
+  return call(items(a), [a](const Monitor&) { return native_binary(a); });
 }
 
 Polyhedron from_bytes(const std::string& bytes) {
@@ -107,7 +109,8 @@ void bind_files(py::module_& m, PolyhedronClass& c) {
 
 strict: refuse faces of meshes that are not exactly planar instead of triangulating them. surface: take a mesh as the
 union of its faces. What was done to the input is told by warnings; InputError names file, line and cause.)");
-  m.def("from_bytes", &from_bytes, py::arg("bytes"), "The set that Polyhedron.to_bytes wrote.");
+  m.def("from_bytes", &from_bytes, py::arg("bytes"),
+        "The set that Polyhedron.to_bytes wrote, of this or an earlier version. Raises InputError for damaged bytes.");
   m.def("_core_times", &core_times, py::arg("vertices"), py::arg("faces"));
   c.def("write", &write, py::arg("path"), py::arg("exact") = false, py::arg("binary") = false,
         py::arg("polygons") = true, py::arg("manifold") = false, py::arg("recenter") = false,
@@ -125,7 +128,7 @@ warn; otherwise that is an UnsupportedError. What a mesh cannot hold is told by 
 vertices: array of shape (N, 3) of floats, the nearest to the exact coordinates; of Fractions if `exact`. faces: int64
 array of shape (M, 3), counterclockwise as seen from outside; or, with `polygons`, a list of M arrays. What a mesh cannot
 hold (open boundaries, walls, wires, unbounded volumes) is told by warnings.)")
-      .def("to_bytes", &bytes_of, "The set in the native format, exact.")
+      .def("to_bytes", &bytes_of, "The set in the binary native format, exact and with a checksum.")
       .def(py::pickle([](const Polyhedron& a) { return bytes_of(a); },
                       [](const py::bytes& bytes) { return from_bytes(std::string(bytes)); }));
 }

@@ -61,9 +61,9 @@ std::vector<LabelId> marks_at(const Polyhedron& a, py::handle points, unsigned t
 py::object contains_points(const Polyhedron& a, py::handle points, unsigned threads) {
   if (is_one_point(points)) {
     const Rational3 p = to_triple(points, "a point");
-    const py::gil_scoped_release unlocked;
+    const LockReleased unlocked;
     const bool in = contains(a, p);
-    const py::gil_scoped_acquire locked;
+    const LockHeld locked;
     return py::bool_(in);
   }
   const std::vector<LabelId> marks = marks_at(a, points, threads);

@@ -192,3 +192,36 @@ def test_progress_of_tasks():
         asyncio.run(both(first, second))
         assert first and first == second
         assert before
+
+
+def test_progress_in_a_thread_of_its_own():
+    """Of calls that are large enough to run beside the main thread."""
+    a, b = ball(4000), ball(4000, seed=1)
+    far, within = a.translate((100, 0, 0)), b.scale("1/2")
+    for other in (b, far, within):
+        told = []
+        with nef.progress(lambda *what: told.append(what)):
+            a | other
+        assert told
+
+
+DAEMON = """
+import sys, threading, time
+import nef
+a, b = nef.box((0, 0, 0), (1, 1, 1)), nef.box((0, 0, 0), (2, 1, 1))
+def work():
+    with nef.progress({progress}):
+        while True:
+            a | b
+            a.contains((0, 0, 0))
+for _ in range(3):
+    threading.Thread(target=work, daemon=True).start()
+time.sleep(0.2)
+"""
+
+
+@pytest.mark.parametrize("progress", ["None", "lambda *what: None"])
+def test_daemon_threads_do_not_harm_the_end_of_python(progress):
+    for _ in range(5):
+        done = subprocess.run([sys.executable, "-c", DAEMON.format(progress=progress)], stderr=subprocess.PIPE, timeout=60)
+        assert (done.returncode, done.stderr) == (0, b"")

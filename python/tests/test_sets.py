@@ -82,6 +82,27 @@ def test_copies_and_pickles():
         assert nef.from_bytes(a.to_bytes()) == a
 
 
+def test_damaged_bytes_are_refused():
+    a = nef.box((0, 0, 0), (1, "1/3", 0.1)).interior() | nef.halfspace(1, 2, 3, 4)
+    good = a.to_bytes()
+    for at in range(len(good)):
+        bad = bytearray(good)
+        bad[at] ^= 1 << at % 8
+        with pytest.raises(nef.InputError):
+            nef.from_bytes(bytes(bad))
+
+
+def test_text_of_earlier_versions_is_read():
+    """What to_bytes and pickles held before they had a checksum."""
+    text = """nef 1
+planes 0 vertices 1 outer 0
+vertex 3 6 1 3 0 0 0 1 0 0 0 1
+ 0 0
+end
+"""
+    assert nef.from_bytes(text.encode()) == nef.point((1, 2, "1/3"))
+
+
 def test_topology():
     a = nef.box((0, 0, 0), (2, 2, 2))
     assert a.is_closed() and not a.is_open() and a.is_regular() and a.is_bounded()

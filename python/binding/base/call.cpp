@@ -15,10 +15,12 @@ void wait_at_exit() {
 }  // namespace
 
 bool in_main_thread() {
-  wait_at_exit();
-  // The main thread never changes while the interpreter lives (after a fork it is the one that forked).
-  const py::module_ threading = py::module_::import("threading");
-  return PyThread_get_thread_ident() == py::cast<unsigned long>(threading.attr("main_thread")().attr("ident"));
+  return outliving_python([] {
+    wait_at_exit();
+    // The main thread never changes while the interpreter lives (after a fork it is the one that forked).
+    const py::module_ threading = py::module_::import("threading");
+    return PyThread_get_thread_ident() == py::cast<unsigned long>(threading.attr("main_thread")().attr("ident"));
+  });
 }
 
 std::atomic<int>& abandoned_calls() {
@@ -29,7 +31,7 @@ std::atomic<int>& abandoned_calls() {
 void wait_for_abandoned_calls() {
   constexpr std::chrono::milliseconds kStep{10};
   constexpr int kSteps = 500;
-  const py::gil_scoped_release unlocked;
+  const LockReleased unlocked;
   for (int i = 0; i < kSteps && abandoned_calls() > 0; ++i) std::this_thread::sleep_for(kStep);
 }
 
@@ -37,7 +39,7 @@ ProgressFunction::ProgressFunction(const py::object& function) {
   if (function.is_none()) return;
   if (PyCallable_Check(function.ptr()) == 0) throw py::type_error("progress must be a function or None");
   function_ = std::shared_ptr<py::object>(new py::object(function), [](py::object* held) {
-    const py::gil_scoped_acquire locked;
+    const LockHeld locked;
     delete held;
   });
 }

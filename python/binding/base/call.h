@@ -20,9 +20,13 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
+#include <system_error>
 #include <thread>
 #include <utility>
 
+#include "binding/base/interpreter_lock.h"
+#include "nef/base/error.h"
 #include "nef/base/monitor.h"
 
 namespace nef::python {
@@ -55,8 +59,8 @@ class ProgressFunction {
   void operator()(const Monitor& monitor, const Arguments&... arguments) const {
     monitor.check_interruption();
     if (!function_) return;
-    const py::gil_scoped_acquire locked;
-    (*function_)(arguments...);
+    const LockHeld locked;
+    outliving_python([&] { (*function_)(arguments...); });
   }
 
  private:
@@ -87,6 +91,17 @@ struct Job {
 
 }  // namespace detail
 
+/// A thread that calls a function. Throws Error where the system has no room for one.
+template <typename Function>
+std::thread started(Function function) {
+  try {
+    return std::thread(std::move(function));
+  } catch (const std::system_error& failure) {
+    throw Error(std::string("no thread could be started (") + failure.what() +
+                "); end other work, or raise the limits of processes and memory (ulimit -u, -v)");
+  }
+}
+
 /// The value of work(monitor), which must not touch anything of Python unless it takes the lock, and must own what it
 /// needs. `items` is about the size of the operands.
 template <typename Work>
@@ -95,12 +110,12 @@ auto call(std::size_t items, Work work) -> decltype(work(Monitor())) {
   using Job = detail::Job<Result>;
   ProgressFunction progress = progress_of_context();
   if (items < kSmallCall || !in_main_thread()) {
-    const py::gil_scoped_release unlocked;
+    const LockReleased unlocked;
     const nef::ProgressFunction told = told_by(progress, {});
     return work(Monitor().telling(told));
   }
   const auto job = std::make_shared<Job>();
-  std::thread worker([job, work = std::move(work), progress = std::move(progress)]() mutable {
+  std::thread worker = started([job, work = std::move(work), progress = std::move(progress)]() mutable {
     std::optional<Result> result;
     std::exception_ptr failure;
     try {
@@ -125,7 +140,7 @@ auto call(std::size_t items, Work work) -> decltype(work(Monitor())) {
   constexpr std::chrono::milliseconds kPatience{20};
   for (;;) {
     {
-      const py::gil_scoped_release unlocked;
+      const LockReleased unlocked;
       std::unique_lock lock(job->mutex);
       if (job->changed.wait_for(lock, kPatience, [&] { return job->done; })) break;
     }
@@ -137,7 +152,7 @@ auto call(std::size_t items, Work work) -> decltype(work(Monitor())) {
     throw py::error_already_set();
   }
   {
-    const py::gil_scoped_release unlocked;
+    const LockReleased unlocked;
     worker.join();
   }
   if (job->failure) std::rethrow_exception(job->failure);

@@ -18,16 +18,6 @@
 namespace nef::planner {
 namespace {
 
-using Pair = std::array<std::uint32_t, 2>;  // nodes of the robot's tree and of the obstacles'
-
-// A part of the motion that is still to be looked at.
-struct Part {
-  double from = 0;
-  double to = 1;
-  unsigned depth = 0;
-  std::vector<Pair> pairs;
-};
-
 // As in separation.cpp: two images, and the sums and products around them.
 constexpr double kBoxError = 2 * MotionCell::kImageError;
 
@@ -72,6 +62,16 @@ class MotionExamination {
   MotionVerdict take() { return std::move(verdict_); }
 
  private:
+  using Pair = std::array<std::uint32_t, 2>;  // nodes of the robot's tree and of the obstacles'
+
+  // A part of the motion that is still to be looked at.
+  struct Part {
+    double from = 0;
+    double to = 1;
+    unsigned depth = 0;
+    std::vector<Pair> pairs;
+  };
+
   [[nodiscard]] std::vector<Pair> root() const {
     const bool nothing = checker_.robot_.nodes().empty() || checker_.obstacles_.nodes().empty();
     return nothing ? std::vector<Pair>{} : std::vector<Pair>{{0, 0}};

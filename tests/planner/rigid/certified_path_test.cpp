@@ -18,7 +18,7 @@
 #include "tests/planner/scene_helpers.h"
 #include "tests/support/temporary_folder.h"
 
-namespace nef::planner::test {
+namespace nef::planner::test::certified_path {
 namespace {
 
 namespace ob = ompl::base;
@@ -160,4 +160,4 @@ TEST_CASE("The last valid state of a motion on SE(2) is before the first collisi
 }
 
 }  // namespace
-}  // namespace nef::planner::test
+}  // namespace nef::planner::test::certified_path

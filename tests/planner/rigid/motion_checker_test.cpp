@@ -13,7 +13,7 @@
 #include "nef/construct/construct.h"
 #include "tests/planner/scene_helpers.h"
 
-namespace nef::planner::test {
+namespace nef::planner::test::motion_checker {
 namespace {
 
 using Status = MotionVerdict::Status;
@@ -168,4 +168,4 @@ TEST_CASE("Verdicts on random motions agree with Booleans at exact poses", "[rig
 }
 
 }  // namespace
-}  // namespace nef::planner::test
+}  // namespace nef::planner::test::motion_checker

@@ -10,7 +10,7 @@
 #include "apps/planner/rigid/motion_cell.h"
 #include "nef/base/error.h"
 
-namespace nef::planner::test {
+namespace nef::planner::test::rigid_motion {
 namespace {
 
 Quaternion random_quaternion(int largest) {
@@ -151,4 +151,4 @@ TEST_CASE("Images in doubles are within their bound of the exact ones", "[rigid]
   CHECK(worst > 1e-4);  // the bound is not absurd
 }
 
-}  // namespace nef::planner::test
+}  // namespace nef::planner::test::rigid_motion

@@ -22,7 +22,7 @@ Quaternion scaled(const Quaternion& q) {
   Rational largest = 0;
   for (const Rational& x : q) largest = std::max(largest, Rational(abs(x)));
   if (largest == 0) throw InputError("a rotation's quaternion must not be zero");
-  const Rational square = dot(q, q);
+  const Rational square = scalar_product(q, q);
   if (square > Rational(1) - Rational(1, 1 << 20) && square < Rational(1) + Rational(1, 1 << 20)) return q;
   Quaternion result;
   for (std::size_t k = 0; k < 4; ++k) result[k] = q[k] / largest;
@@ -51,7 +51,9 @@ bool same_rotation(const Quaternion& p, const Quaternion& q) {
 
 }  // namespace
 
-Rational dot(const Quaternion& p, const Quaternion& q) { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2] + p[3] * q[3]; }
+Rational scalar_product(const Quaternion& p, const Quaternion& q) {
+  return p[0] * q[0] + p[1] * q[1] + p[2] * q[2] + p[3] * q[3];
+}
 
 Matrix3 rotation_between(const Quaternion& p, const Quaternion& q) {
   // The polarized quadratic form of the rotation matrix: each product x y of components becomes their mixed product.
@@ -78,7 +80,7 @@ RigidMotion::RigidMotion(RigidPose from, RigidPose to, MotionTiming timing)
   turns_ = !same_rotation(from_.quaternion, to_.quaternion);
   if (!turns_) {
     to_.quaternion = from_.quaternion;
-  } else if (dot(from_.quaternion, to_.quaternion) < 0) {
+  } else if (scalar_product(from_.quaternion, to_.quaternion) < 0) {
     for (Rational& x : to_.quaternion) x = -x;
   }
   const Double4 p = rounded(from_.quaternion);

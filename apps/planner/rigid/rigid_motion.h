@@ -25,7 +25,7 @@ using Matrix3 = std::array<Rational3, 3>;
 Matrix3 rotation_between(const Quaternion& p, const Quaternion& q);
 
 /// The scalar product of two quaternions.
-Rational dot(const Quaternion& p, const Quaternion& q);
+Rational scalar_product(const Quaternion& p, const Quaternion& q);
 
 /// Where a body is: a point v of it is at R(quaternion) v + position.
 struct RigidPose {

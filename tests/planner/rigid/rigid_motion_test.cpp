@@ -41,7 +41,7 @@ Rational3 rotated(const Quaternion& q, const Rational3& v) {
         a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1], a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0]};
   };
   const Quaternion turned = product(product(q, {0, v[0], v[1], v[2]}), {q[0], -q[1], -q[2], -q[3]});
-  const Rational square = dot(q, q);
+  const Rational square = scalar_product(q, q);
   return {turned[1] / square, turned[2] / square, turned[3] / square};
 }
 
@@ -59,8 +59,8 @@ TEST_CASE("Rotations of an arc are convex combinations of three matrices", "[rig
   CHECK(rc::check([] {
     const Quaternion p = random_quaternion(9);
     Quaternion q = random_quaternion(9);
-    RC_PRE(dot(p, q) != 0);
-    if (dot(p, q) < 0) {
+    RC_PRE(scalar_product(p, q) != 0);
+    if (scalar_product(p, q) < 0) {
       for (Rational& x : q) x = -x;
     }
     const Rational s = Rational(*rc::gen::inRange(0, 33)) / 32;
@@ -68,8 +68,8 @@ TEST_CASE("Rotations of an arc are convex combinations of three matrices", "[rig
     Quaternion at;
     for (std::size_t k = 0; k < 4; ++k) at[k] = (1 - s) * p[k] + s * q[k];
     // The Bernstein weights, which are not negative.
-    const std::array<Rational, 3> weights{(1 - s) * (1 - s) * dot(p, p), 2 * s * (1 - s) * dot(p, q),
-                                          s * s * dot(q, q)};
+    const std::array<Rational, 3> weights{(1 - s) * (1 - s) * scalar_product(p, p),
+                                          2 * s * (1 - s) * scalar_product(p, q), s * s * scalar_product(q, q)};
     const std::array<Rational3, 3> corners{times(rotation_between(p, p), v), times(rotation_between(p, q), v),
                                            times(rotation_between(q, q), v)};
     const Rational whole = weights[0] + weights[1] + weights[2];
@@ -84,7 +84,7 @@ TEST_CASE("Rotations of an arc are convex combinations of three matrices", "[rig
 TEST_CASE("A motion takes the shorter arc and keeps its ends", "[rigid]") {
   const RigidMotion motion({{0, 0, 0}, {1, 0, 0, 0}}, {{4, 0, 0}, {-3, 0, 0, -3}});
   CHECK(motion.turns());
-  CHECK(dot(motion.from().quaternion, motion.to().quaternion) > 0);
+  CHECK(scalar_product(motion.from().quaternion, motion.to().quaternion) > 0);
   CHECK(rotated(motion.to().quaternion, {1, 0, 0}) == Rational3{0, 1, 0});
   CHECK(motion.at(0.5).position == Rational3{2, 0, 0});
   CHECK_FALSE(RigidMotion({{0, 0, 0}, {1, 1, 0, 0}}, {{1, 0, 0}, {-2, -2, 0, 0}}).turns());
@@ -99,7 +99,7 @@ TEST_CASE("The time of a slerp is that of its angle", "[rigid]") {
     if (close) {
       for (std::size_t k = 0; k < 4; ++k) q[k] = p[k] + q[k] / (1 << *rc::gen::inRange(4, 40));
     }
-    RC_PRE(dot(p, q) != 0 && q != Quaternion{});
+    RC_PRE(scalar_product(p, q) != 0 && q != Quaternion{});
     const RigidMotion motion({{0, 0, 0}, p}, {{1, 0, 0}, q}, MotionTiming::kSlerp);
     RC_PRE(motion.turns());
     const double s = *rc::gen::inRange(0, 1025) / 1024.0;
@@ -115,7 +115,7 @@ TEST_CASE("The time of a slerp is that of its angle", "[rigid]") {
         }
       }
       return std::atan2(std::sqrt(static_cast<long double>(nearest_double(square))),
-                        static_cast<long double>(nearest_double(dot(from, at))));
+                        static_cast<long double>(nearest_double(scalar_product(from, at))));
     };
     const long double truth = angle_to(motion.quaternion(exact_rational(s))) / angle_to(motion.to().quaternion);
     RC_ASSERT(std::fabs(static_cast<double>(truth) - motion.time_of(s)) <= RigidMotion::kTimeError);

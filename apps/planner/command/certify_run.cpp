@@ -15,7 +15,6 @@ namespace nef::planner {
 namespace {
 
 using nlohmann::json;
-using Verdict = MotionVerdict::Status;
 
 void check_certify_options(const Arguments& a) {
   if (a.tight || !a.queries.empty() || !a.page.empty() || a.widest || a.widest_box) {
@@ -28,13 +27,13 @@ void check_certify_options(const Arguments& a) {
   }
 }
 
-const char* status_text(Verdict status) {
+const char* status_text(MotionVerdict::Status status) {
   switch (status) {
-    case Verdict::kFree:
+    case MotionVerdict::Status::kFree:
       return "path";
-    case Verdict::kCollides:
+    case MotionVerdict::Status::kCollides:
       return "blocked";
-    case Verdict::kUndecided:
+    case MotionVerdict::Status::kUndecided:
       break;
   }
   return "undecided";
@@ -52,7 +51,7 @@ json motion_json(const MotionVerdict& verdict) {
     result["collision"] = pose_json(*verdict.pose);
     result["collision"]["parameter"] = verdict.parameter;
   }
-  if (verdict.status == Verdict::kUndecided) {
+  if (verdict.status == MotionVerdict::Status::kUndecided) {
     for (const auto& part : verdict.undecided) result["undecided"].push_back({part[0], part[1]});
   }
   return result;
@@ -68,7 +67,7 @@ json certified_json(const CertifiedPath& path, const std::vector<RigidPose>& pos
 
 void print(const CertifiedPath& path) {
   std::cout << status_text(path.status);
-  if (path.status == Verdict::kFree) {
+  if (path.status == MotionVerdict::Status::kFree) {
     std::cout << ": all " << path.motions.size() << " motions are free";
   } else if (path.blocked) {
     const MotionVerdict& verdict = path.motions[*path.blocked];
@@ -79,7 +78,7 @@ void print(const CertifiedPath& path) {
   } else {
     std::cout << ": motions";
     for (std::size_t i = 0; i < path.motions.size(); ++i) {
-      if (path.motions[i].status == Verdict::kUndecided) std::cout << ' ' << i;
+      if (path.motions[i].status == MotionVerdict::Status::kUndecided) std::cout << ' ' << i;
     }
     std::cout << " come too close to obstacles to be decided";
   }
@@ -104,8 +103,8 @@ int run_certify(const Arguments& a, const Scene& scene, const std::vector<RigidP
   } else if (!a.quiet) {
     print(path);
   }
-  if (path.status == Verdict::kFree) return 0;
-  return path.status == Verdict::kCollides ? 1 : 5;
+  if (path.status == MotionVerdict::Status::kFree) return 0;
+  return path.status == MotionVerdict::Status::kCollides ? 1 : 5;
 }
 
 }  // namespace nef::planner

@@ -14,7 +14,7 @@
 namespace nef::test {
 namespace {
 
-constexpr const char* kTetrahedron =
+constexpr const char* kTetrahedronModel =
     "<mesh><vertices><vertex x='0' y='0' z='0'/><vertex x='0.1' y='0' z='0'/><vertex x='0' y='1e0' z='0'/>"
     "<vertex x='0' y='0' z='1'/></vertices><triangles><triangle v1='0' v2='2' v3='1'/><triangle v1='0' v2='1' v3='3'/>"
     "<triangle v1='1' v2='2' v3='3'/><triangle v1='2' v2='0' v3='3'/></triangles></mesh>";
@@ -75,7 +75,7 @@ TEST_CASE("3MF: what is written is read, doubles and all", "[threemf]") {
 }
 
 TEST_CASE("3MF: components are placed exactly, mirrored ones turned over", "[threemf]") {
-  const std::string tetrahedron_object = object("1", kTetrahedron);
+  const std::string tetrahedron_object = object("1", kTetrahedronModel);
   CHECK(equal(read(archive(model(tetrahedron_object, "<item objectid='1'/>"))), tetrahedron()));
   // Twice: moved by a component in a component, and mirrored and stretched in x by the build.
   const std::string nested =
@@ -90,11 +90,11 @@ TEST_CASE("3MF: components are placed exactly, mirrored ones turned over", "[thr
                                  "<item objectid='3'/><item objectid='1' transform='-3 0 0 0 1 0 0 0 1 0 0 0'/>"))),
               unite(transform(tetrahedron(), turn.after(move)), transform(tetrahedron(), mirror))));
   // Objects in another part of the archive; supports and what is not built do not count.
-  const std::string root = model(object("1", kTetrahedron, "type='support'") +
+  const std::string root = model(object("1", kTetrahedronModel, "type='support'") +
                                      object("2",
                                             "<components><component p:path='/3D/other.model' objectid='1'/>"
                                             "<component objectid='1'/></components>") +
-                                     object("9", kTetrahedron),
+                                     object("9", kTetrahedronModel),
                                  "<item objectid='2'/>", "requiredextensions='p'");
   CHECK(equal(read(zip_bytes({{"3D/3dmodel.model", root}, {"3D/other.model", model(tetrahedron_object, "")}})),
               tetrahedron()));
@@ -107,7 +107,7 @@ TEST_CASE("3MF: components are placed exactly, mirrored ones turned over", "[thr
 }
 
 TEST_CASE("3MF: damaged and malicious files are refused", "[threemf]") {
-  const std::string good = archive(model(object("1", kTetrahedron), "<item objectid='1'/>"));
+  const std::string good = archive(model(object("1", kTetrahedronModel), "<item objectid='1'/>"));
   for (std::size_t size = 1; size < good.size(); size += 7) {
     const TemporaryFolder folder;
     CHECK_THROWS_AS(read_mesh(folder.write("a.3mf", good.substr(0, size))), FileError);
@@ -133,7 +133,7 @@ TEST_CASE("3MF: damaged and malicious files are refused", "[threemf]") {
   check_refused(archive("<model><resources>"), "no XML");
   check_refused(archive("<!DOCTYPE model [<!ENTITY a \"aaaa\">]><model>&a;</model>"), "document type");
   const auto with = [](const std::string& from, const std::string& to) {
-    std::string text = model(object("1", kTetrahedron), "<item objectid='1'/>");
+    std::string text = model(object("1", kTetrahedronModel), "<item objectid='1'/>");
     text.replace(text.find(from), from.size(), to);
     return archive(text);
   };
@@ -142,7 +142,7 @@ TEST_CASE("3MF: damaged and malicious files are refused", "[threemf]") {
   check_refused(with("x='0.1'", "x='nan'"), "no number");
   check_refused(with("x='0.1'", ""), "lacks the attribute 'x'");
   check_refused(with("item objectid='1'", "item objectid='7'"), "no object '7'");
-  check_refused(archive(model(object("1", kTetrahedron), "<item objectid='1' transform='1 0 0'/>")), "3 numbers");
+  check_refused(archive(model(object("1", kTetrahedronModel), "<item objectid='1' transform='1 0 0'/>")), "3 numbers");
   check_refused(archive(model("", "", "requiredextensions='b' xmlns:b='urn:beams'")), "urn:beams");
   check_refused(
       archive(model(object("1", "<components><component objectid='1'/></components>"), "<item objectid='1'/>")),
@@ -153,11 +153,11 @@ TEST_CASE("3MF: archives and components that explode are refused", "[threemf]") 
   check_refused(archive("<model>" + std::string(std::size_t{70} << 20U, ' ') + "</model>"), "suspiciously large");
   // An attribute that takes quadratic time.
   const std::string many(std::size_t{8} << 20U, '1');
-  check_refused(archive(model(object("1", kTetrahedron, "name='" + many + "'"), "<item objectid='1'/>")),
+  check_refused(archive(model(object("1", kTetrahedronModel, "name='" + many + "'"), "<item objectid='1'/>")),
                 "more than 1 MiB");
   check_refused(archive("<model><!--" + many + "--></model>"), "more than 1 MiB");
   // Ten to the power of twenty tetrahedra.
-  std::string objects = object("0", kTetrahedron);
+  std::string objects = object("0", kTetrahedronModel);
   for (int i = 1; i <= 20; ++i) {
     std::string components;
     for (int k = 0; k < 10; ++k) components += "<component objectid='" + std::to_string(i - 1) + "'/>";

@@ -28,7 +28,7 @@ const Distortion& wide_lens() {
   static const Distortion kLens = lens_of(280, 320, 320, {-0.28, 0.06, 0, 0});
   return kLens;
 }
-const cv::Size kSize(640, 640);
+const cv::Size kImageSize(640, 640);
 
 // The oracle: the radius whose image is `distorted`, by bisection of the polynomial. In focal lengths.
 double straight_radius(double distorted, double k1, double k2) {
@@ -44,9 +44,9 @@ double straight_radius(double distorted, double k1, double k2) {
 // What the wide lens shows of a region of the straight image, pixel by pixel.
 template <typename Inside>
 cv::Mat seen_through_wide_lens(const Inside& inside) {
-  cv::Mat mask(kSize, CV_8U, cv::Scalar(0));
-  for (int y = 0; y < kSize.height; ++y) {
-    for (int x = 0; x < kSize.width; ++x) {
+  cv::Mat mask(kImageSize, CV_8U, cv::Scalar(0));
+  for (int y = 0; y < kImageSize.height; ++y) {
+    for (int x = 0; x < kImageSize.width; ++x) {
       const double u = (x - 320) / 280.0;
       const double v = (y - 320) / 280.0;
       const double r = std::hypot(u, v);
@@ -146,7 +146,7 @@ TEST_CASE("Straightened contours are simple and nested as they were, whatever th
 }
 
 TEST_CASE("A lens that folds the image at the silhouette is refused by name") {
-  cv::Mat mask(kSize, CV_8U, cv::Scalar(255));
+  cv::Mat mask(kImageSize, CV_8U, cv::Scalar(255));
   const Distortion folding = lens_of(280, 320, 320, {-1, 0, 0, 0});
   CHECK_THROWS_WITH(silhouette_of_mask(mask, folding, "seventh", {}),
                     Contains("view seventh: the lens distortion cannot be undone at (") && Contains("coefficients"));

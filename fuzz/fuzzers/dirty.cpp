@@ -20,7 +20,7 @@
 namespace nef::fuzz {
 namespace {
 
-using Ring = std::vector<std::uint32_t>;
+using FaceRing = std::vector<std::uint32_t>;
 
 class DirtyMesh {
  public:
@@ -32,7 +32,7 @@ class DirtyMesh {
     if (choices_.one_in(4)) scale();
     Mesh mesh;
     mesh.vertices = vertices_;
-    for (const Ring& ring : rings_) {
+    for (const FaceRing& ring : rings_) {
       if (!ring.empty()) mesh.push_face(ring);
     }
     return mesh;
@@ -104,8 +104,8 @@ class DirtyMesh {
     for (const int z : {0, 2}) {
       for (std::uint32_t i = 0; i < n; ++i) push(kCorners[i][0], kCorners[i][1], z);
     }
-    Ring top;
-    Ring bottom;
+    FaceRing top;
+    FaceRing bottom;
     for (std::uint32_t i = 0; i < n; ++i) {
       const std::uint32_t next = (i + 1) % n;
       rings_.push_back({v + i, v + next, v + n + next, v + n + i});
@@ -119,7 +119,7 @@ class DirtyMesh {
   // From both sides.
   void add_polygon(std::uint32_t n) {
     static constexpr std::array<std::array<int, 2>, 5> kCorners{{{0, 0}, {2, 0}, {2, 2}, {1, 1}, {0, 2}}};
-    Ring ring;
+    FaceRing ring;
     for (std::uint32_t i = 0; i < n; ++i) ring.push_back(push(kCorners[i][0], kCorners[i][1], 0));
     rings_.push_back(ring);
     std::reverse(ring.begin(), ring.end());
@@ -144,12 +144,12 @@ class DirtyMesh {
     }
   }
 
-  Ring& any_ring() { return rings_[choices_.below(static_cast<std::uint32_t>(rings_.size()))]; }
+  FaceRing& any_ring() { return rings_[choices_.below(static_cast<std::uint32_t>(rings_.size()))]; }
   std::uint32_t any_vertex() { return choices_.below(static_cast<std::uint32_t>(vertices_.size())); }
 
   void change() {
     if (rings_.empty()) return;
-    Ring& ring = any_ring();
+    FaceRing& ring = any_ring();
     const auto size = static_cast<std::uint32_t>(ring.size());
     if (size < 2) return;
     const std::uint32_t at = choices_.below(size);
@@ -159,7 +159,7 @@ class DirtyMesh {
         std::reverse(ring.begin(), ring.end());
         break;
       case 1:
-        rings_.push_back(Ring(ring));
+        rings_.push_back(FaceRing(ring));
         break;
       case 2:
         rings_.emplace_back(ring.rbegin(), ring.rend());
@@ -207,10 +207,10 @@ class DirtyMesh {
   }
 
   void cut(std::uint32_t at) {
-    Ring& ring = any_ring();
+    FaceRing& ring = any_ring();
     if (ring.size() < 4) return;
     std::rotate(ring.begin(), ring.begin() + at % ring.size(), ring.end());
-    Ring rest(ring.begin() + 2, ring.end());
+    FaceRing rest(ring.begin() + 2, ring.end());
     rest.push_back(ring[0]);
     ring.resize(3);
     rings_.push_back(std::move(rest));
@@ -231,7 +231,7 @@ class DirtyMesh {
 
   Choices& choices_;
   std::vector<Rational3> vertices_;
-  std::vector<Ring> rings_;
+  std::vector<FaceRing> rings_;
 };
 
 // The bytes and notes of a set, or why there is none.

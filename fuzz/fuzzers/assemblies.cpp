@@ -20,10 +20,10 @@ namespace {
 using planner::PartSet;
 using Cube = std::array<int, 3>;
 using Cubes = std::set<Cube>;
-using Bits = unsigned;  // a set of parts
+using PartSet = unsigned;  // a set of parts
 
-Bits bits_of(const PartSet& set) {
-  Bits bits = 0;
+PartSet bits_of(const PartSet& set) {
+  PartSet bits = 0;
   for (const std::size_t part : set) bits |= 1U << part;
   return bits;
 }
@@ -41,14 +41,14 @@ class LatticeTruth {
 
   /// The largest sets that stay together, whatever is done: of two sets none of which can leave one is no part of the
   /// other, and the order of steps makes no difference.
-  [[nodiscard]] std::set<Bits> stuck() const {
-    std::set<Bits> result;
+  [[nodiscard]] std::set<PartSet> stuck() const {
+    std::set<PartSet> result;
     find_stuck((1U << parts_.size()) - 1, result);
     return result;
   }
 
   /// True if what is not in `moving` stays clear of its insides along the path.
-  [[nodiscard]] bool is_free(Bits moving, Bits stay, const std::vector<Rational3>& path) const {
+  [[nodiscard]] bool is_free(PartSet moving, PartSet stay, const std::vector<Rational3>& path) const {
     for (std::size_t i = 0; i + 1 < path.size(); ++i) {
       for (const Cube& a : cubes_of(moving)) {
         for (const Cube& b : cubes_of(stay)) {
@@ -60,7 +60,7 @@ class LatticeTruth {
   }
 
  private:
-  [[nodiscard]] Cubes cubes_of(Bits set) const {
+  [[nodiscard]] Cubes cubes_of(PartSet set) const {
     Cubes result;
     for (std::size_t i = 0; i < parts_.size(); ++i) {
       if ((set >> i & 1U) != 0) result.insert(parts_[i].begin(), parts_[i].end());
@@ -92,7 +92,7 @@ class LatticeTruth {
   }
 
   // The side of fewer cubes moves.
-  [[nodiscard]] bool leaves(Bits one, Bits other) const {
+  [[nodiscard]] bool leaves(PartSet one, PartSet other) const {
     Cubes moving = cubes_of(one);
     Cubes stay = cubes_of(other);
     if (moving.size() > stay.size()) std::swap(moving, stay);
@@ -121,10 +121,10 @@ class LatticeTruth {
     return false;
   }
 
-  void find_stuck(Bits set, std::set<Bits>& result) const {
+  void find_stuck(PartSet set, std::set<PartSet>& result) const {
     if ((set & (set - 1)) == 0) return;
-    const Bits first = set & ~(set - 1);  // it stays
-    for (Bits moving = (set - 1) & set; moving != 0; moving = (moving - 1) & set) {
+    const PartSet first = set & ~(set - 1);  // it stays
+    for (PartSet moving = (set - 1) & set; moving != 0; moving = (moving - 1) & set) {
       if ((moving & first) != 0 || !leaves(moving, set & ~moving)) continue;
       find_stuck(moving, result);
       find_stuck(set & ~moving, result);
@@ -244,18 +244,18 @@ std::string text_of(const Cubes& cubes) {
 
 // The steps part what is together, along free ways; what is stuck is what the truth says.
 void compare_steps(const planner::Disassembly& answer, const LatticeTruth& truth, std::size_t count) {
-  std::set<Bits> together{(1U << count) - 1};
+  std::set<PartSet> together{(1U << count) - 1};
   for (const planner::DisassemblyStep& step : answer.steps) {
-    const Bits moving = bits_of(step.parts);
-    const Bits stay = bits_of(step.stay);
+    const PartSet moving = bits_of(step.parts);
+    const PartSet stay = bits_of(step.stay);
     Case::require(together.erase(moving | stay) == 1, "steps: of what is not together");
     together.insert(moving);
     together.insert(stay);
     Case::require(truth.is_free(moving, stay, step.path), "steps: a way that is not free");
   }
-  std::set<Bits> stuck;
+  std::set<PartSet> stuck;
   for (const planner::Inseparable& parts : answer.inseparable) stuck.insert(bits_of(parts.parts));
-  for (const Bits set : together) {
+  for (const PartSet set : together) {
     Case::require((set & (set - 1)) == 0 || stuck.contains(set), "steps: something is left together");
   }
   Case::require(stuck == truth.stuck(), "inseparable: not what a search over all sets says");

@@ -17,13 +17,13 @@
 namespace nef::fuzz {
 namespace {
 
-using planner::PartBits;
+using planner::PartSet;
 using Cube = std::array<int, 3>;
 using Cubes = std::set<Cube>;
-using PartBits = unsigned;  // a set of parts
+using PartMask = unsigned;  // a set of parts
 
-PartBits bits_of(const PartBits& set) {
-  PartBits bits = 0;
+PartMask bits_of(const PartSet& set) {
+  PartMask bits = 0;
   for (const std::size_t part : set) bits |= 1U << part;
   return bits;
 }
@@ -41,14 +41,14 @@ class LatticeTruth {
 
   /// The largest sets that stay together, whatever is done: of two sets none of which can leave one is no part of the
   /// other, and the order of steps makes no difference.
-  [[nodiscard]] std::set<PartBits> stuck() const {
-    std::set<PartBits> result;
+  [[nodiscard]] std::set<PartMask> stuck() const {
+    std::set<PartMask> result;
     find_stuck((1U << parts_.size()) - 1, result);
     return result;
   }
 
   /// True if what is not in `moving` stays clear of its insides along the path.
-  [[nodiscard]] bool is_free(PartBits moving, PartBits stay, const std::vector<Rational3>& path) const {
+  [[nodiscard]] bool is_free(PartMask moving, PartMask stay, const std::vector<Rational3>& path) const {
     for (std::size_t i = 0; i + 1 < path.size(); ++i) {
       for (const Cube& a : cubes_of(moving)) {
         for (const Cube& b : cubes_of(stay)) {
@@ -60,7 +60,7 @@ class LatticeTruth {
   }
 
  private:
-  [[nodiscard]] Cubes cubes_of(PartBits set) const {
+  [[nodiscard]] Cubes cubes_of(PartMask set) const {
     Cubes result;
     for (std::size_t i = 0; i < parts_.size(); ++i) {
       if ((set >> i & 1U) != 0) result.insert(parts_[i].begin(), parts_[i].end());
@@ -92,7 +92,7 @@ class LatticeTruth {
   }
 
   // The side of fewer cubes moves.
-  [[nodiscard]] bool leaves(PartBits one, PartBits other) const {
+  [[nodiscard]] bool leaves(PartMask one, PartMask other) const {
     Cubes moving = cubes_of(one);
     Cubes stay = cubes_of(other);
     if (moving.size() > stay.size()) std::swap(moving, stay);
@@ -121,10 +121,10 @@ class LatticeTruth {
     return false;
   }
 
-  void find_stuck(PartBits set, std::set<PartBits>& result) const {
+  void find_stuck(PartMask set, std::set<PartMask>& result) const {
     if ((set & (set - 1)) == 0) return;
-    const PartBits first = set & ~(set - 1);  // it stays
-    for (PartBits moving = (set - 1) & set; moving != 0; moving = (moving - 1) & set) {
+    const PartMask first = set & ~(set - 1);  // it stays
+    for (PartMask moving = (set - 1) & set; moving != 0; moving = (moving - 1) & set) {
       if ((moving & first) != 0 || !leaves(moving, set & ~moving)) continue;
       find_stuck(moving, result);
       find_stuck(set & ~moving, result);
@@ -244,18 +244,18 @@ std::string text_of(const Cubes& cubes) {
 
 // The steps part what is together, along free ways; what is stuck is what the truth says.
 void compare_steps(const planner::Disassembly& answer, const LatticeTruth& truth, std::size_t count) {
-  std::set<PartBits> together{(1U << count) - 1};
+  std::set<PartMask> together{(1U << count) - 1};
   for (const planner::DisassemblyStep& step : answer.steps) {
-    const PartBits moving = bits_of(step.parts);
-    const PartBits stay = bits_of(step.stay);
+    const PartMask moving = bits_of(step.parts);
+    const PartMask stay = bits_of(step.stay);
     Case::require(together.erase(moving | stay) == 1, "steps: of what is not together");
     together.insert(moving);
     together.insert(stay);
     Case::require(truth.is_free(moving, stay, step.path), "steps: a way that is not free");
   }
-  std::set<PartBits> stuck;
+  std::set<PartMask> stuck;
   for (const planner::Inseparable& parts : answer.inseparable) stuck.insert(bits_of(parts.parts));
-  for (const PartBits set : together) {
+  for (const PartMask set : together) {
     Case::require((set & (set - 1)) == 0 || stuck.contains(set), "steps: something is left together");
   }
   Case::require(stuck == truth.stuck(), "inseparable: not what a search over all sets says");

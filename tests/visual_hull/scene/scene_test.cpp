@@ -174,7 +174,7 @@ TEST_CASE("Malformed scenes are refused in one line that says where") {
   CHECK_THAT(refusal_of_scene(s, "p.json", R"({"cameras": [{"image": "a", "P": [1, 2]}]})"),
              Contains("12 numbers are needed, not 2"));
   CHECK_THAT(refusal_of_scene(s, "x.json", R"({"cameras": [{"P": [1,0,0,0,0,1,0,0,0,0,1,true]}]})"),
-             Contains("not true"));
+             Contains("not 'true'"));
   CHECK_THAT(refusal_of_scene(s, "d.json", R"({"cameras": [{"P": [1,0,0,0,0,1,0,0,0,0,1,0], "distortion": [1]}]})"),
              Contains("needs the intrinsics"));
   const std::string camera = R"({"cameras": [{"K": [1,0,0,0,1,0,0,0,1], "R": [1,0,0,0,1,0,0,0,1], "t": [0,0,1])";

@@ -80,9 +80,10 @@ class Copies {
     for (const Ring& ring : rings_) {
       Ring there = rotated(ring);
       Ring back = rotated(Ring(ring.rbegin(), ring.rend()));
-      forward_.push_back(there <= back);
+      const bool forward = there <= back;
+      forward_.push_back(forward);
       const auto [at, is_new] =
-          number.emplace(std::min(std::move(there), std::move(back)), static_cast<std::uint32_t>(places_.size()));
+          number.emplace(std::move(forward ? there : back), static_cast<std::uint32_t>(places_.size()));
       if (is_new) places_.emplace_back();
       ++places_[at->second].faces;
       place_of_.push_back(at->second);

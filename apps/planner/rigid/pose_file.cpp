@@ -64,7 +64,7 @@ std::optional<std::vector<RigidPose>> read_poses(const std::string& file) {
   const std::string text = read_file(file);
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   if (first == std::string::npos) return std::nullopt;
-  const auto poses = text[first] == '{' ? poses_of_json(text, file) : poses_of_lines(text, file);
+  auto poses = text[first] == '{' ? poses_of_json(text, file) : poses_of_lines(text, file);
   if (!poses || std::none_of(poses->begin(), poses->end(), is_turned)) return std::nullopt;
   return poses;
 }

@@ -45,7 +45,7 @@ Bounds around_groups(std::span<const std::vector<HalfSpace>> cones, std::size_t 
   Bounds all;
   all.kind = Bounds::Kind::kEmpty;
   for (const std::vector<HalfSpace>& group : half_spaces) {
-    const Bounds bounds = bounds_of(group);
+    Bounds bounds = bounds_of(group);
     if (bounds.kind == Bounds::Kind::kUnbounded) return bounds;
     if (bounds.kind == Bounds::Kind::kEmpty) continue;
     if (all.kind == Bounds::Kind::kEmpty) {
@@ -66,7 +66,7 @@ Bounds bounds_of_at_least(std::span<const std::vector<HalfSpace>> cones, std::si
   const std::size_t groups = cones.size() - least + 1;
   // Neighbours of a sequence look in similar directions, so each group takes views from all of it; where the sequence
   // repeats itself, runs of it do better.
-  const Bounds spread = around_groups(cones, groups, [groups](std::size_t i) { return i % groups; });
+  Bounds spread = around_groups(cones, groups, [groups](std::size_t i) { return i % groups; });
   if (spread.kind != Bounds::Kind::kUnbounded) return spread;
   return around_groups(cones, groups, [&](std::size_t i) { return i * groups / cones.size(); });
 }

@@ -68,7 +68,11 @@ json certified_json(const CertifiedPath& path, const std::vector<RigidPose>& pos
 void print(const CertifiedPath& path) {
   std::cout << status_text(path.status);
   if (path.status == MotionVerdict::Status::kFree) {
-    std::cout << ": all " << path.motions.size() << " motions are free";
+    if (path.motions.size() == 1) {
+      std::cout << ": the motion is free";
+    } else {
+      std::cout << ": all " << path.motions.size() << " motions are free";
+    }
   } else if (path.blocked) {
     const MotionVerdict& verdict = path.motions[*path.blocked];
     std::cout << ": motion " << *path.blocked << " collides at position";

@@ -88,6 +88,17 @@ TEST_CASE("planner --path certifies poses that are turned", "[rigid]") {
   CHECK_THAT(refused.err, Catch::Contains("leave out --tight"));
 }
 
+TEST_CASE("Paths of .cfg scenes are those of the robot in its own file", "[rigid]") {
+  const Folder folder;
+  // Start and goal of the scene are turned by .3 about z; turned back, the cube fits the hole exactly.
+  const std::string scene = source_folder() + "/data/planner/omplapp/wall_turned.cfg --path ";
+  const std::string fits =
+      folder.write("fits.path", "2 1.5 -1.5 0 0 0.15 0.99\n2 1.5 -1.5 0 0 0 1\n7 1.5 -1.5 0 0 0 1\n");
+  CHECK(planner(folder, scene + fits).code == 0);
+  const std::string turned = folder.write("turned.path", "2 1.5 -1.5 0 0 0.15 0.99\n7 1.5 -1.5 0 0 0.15 0.99\n");
+  CHECK(planner(folder, scene + turned).code == 1);
+}
+
 // The plate and a bar in the plane z = 0 for the stock spaces.
 template <typename Space>
 og::SimpleSetup setup_with(const std::shared_ptr<Space>& space, const std::shared_ptr<const MotionChecker>& checker,

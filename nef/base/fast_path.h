@@ -5,8 +5,8 @@
 
 namespace nef {
 
-/// False in a build with the option NEF_SLOW_PATHS: every computation takes the slow twin of its fast paths. Such a
-/// build gives the same bytes in more time, which CI compares.
+/// False in a build with the option NEF_SLOW_PATHS: computations take the slow twins of their fast paths, which give
+/// the same bytes in more time.
 #ifdef NEF_SLOW_PATHS
 inline constexpr bool kFastPaths = false;
 #else

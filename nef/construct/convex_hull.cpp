@@ -16,7 +16,6 @@
 #include "nef/construct/planar_hull.h"
 #include "nef/geometry/predicates.h"
 #include "nef/geometry/vectors.h"
-#include "nef/number/filter.h"
 #include "nef/polyhedron.h"
 
 namespace nef {
@@ -116,7 +115,7 @@ PlaneId Quickhull::plane_of(HullTriangle& t) {
 bool Quickhull::above(HullTriangle& t, std::uint32_t point, double& height) {
   const Approximation rough = orient(t, point);
   height = rough.value;
-  return sign_by_ladder(filtered(rough), monitor_,
+  return sign_by_ladder(rough, monitor_,
                         [&] { return side_of_plane(planes_, plane_of(t), table_, PointId(point), monitor_); }) > 0;
 }
 

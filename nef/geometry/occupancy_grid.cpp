@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "nef/geometry/occupancy_grid.h"
-#include "nef/base/fast_path.h"
 
 #include <cmath>
+
+#include "nef/base/fast_path.h"
 
 namespace nef {
 

@@ -11,8 +11,8 @@
 #include <utility>
 
 #include "nef/base/error.h"
+#include "nef/base/fast_path.h"
 #include "nef/geometry/direction_error.h"
-#include "nef/number/filter.h"
 #include "nef/number/int128.h"
 
 namespace nef {
@@ -90,15 +90,15 @@ int compare_coordinate_exact(const PointTable& points, PointId p, PointId q, int
 
 int side_of_plane(const PlaneTable& planes, PlaneId plane, const PointTable& points, PointId point,
                   const Monitor& monitor) {
-  const int sign = sign_by_ladder(filtered(approximate_form(planes.approximate(plane), points.approximate(point))),
-                                  monitor, [&] { return side_of_plane_exact(planes, plane, points, point); });
+  const int sign = sign_by_ladder(approximate_form(planes.approximate(plane), points.approximate(point)), monitor,
+                                  [&] { return side_of_plane_exact(planes, plane, points, point); });
   return plane.flipped() ? -sign : sign;
 }
 
 int compare_coordinate(const PointTable& points, PointId p, PointId q, int axis, const Monitor& monitor) {
   if (p == q) return 0;
   const auto k = static_cast<std::size_t>(axis);
-  return sign_by_ladder(filtered(approximate_difference(points.approximate(p)[k], points.approximate(q)[k])), monitor,
+  return sign_by_ladder(approximate_difference(points.approximate(p)[k], points.approximate(q)[k]), monitor,
                         [&] { return compare_coordinate_exact(points, p, q, axis); });
 }
 
@@ -237,7 +237,7 @@ int sign_of_dot(const Direction& u, const Direction& v, const Monitor& monitor) 
       u.approximate[0] * v.approximate[0] + u.approximate[1] * v.approximate[1] + u.approximate[2] * v.approximate[2];
   // Components are at most 1: a component's error e moves the sum by at most 3e (both at once by
   // the product of errors, far below), rounding by 3 products and 2 sums, under 8u.
-  return sign_by_ladder(filtered({value, 3.1 * (u.error + v.error) + 16 * kUnit}), monitor, [&] {
+  return sign_by_ladder({value, 3.1 * (u.error + v.error) + 16 * kUnit}, monitor, [&] {
     Integer sum;
     mpz_ptr s = sum.get_mpz_t();
     mpz_mul(s, at(u, 0), at(v, 0));
@@ -255,7 +255,7 @@ int sign_of_determinant(const Direction& u, const Direction& v, const Direction&
       a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
   // Components are at most 1, cofactors at most 2: an error e in one vector moves the value by at
   // most 6e; rounding: 6 terms of 3 operations and 5 sums, under 40u.
-  return sign_by_ladder(filtered({value, 6.2 * (u.error + v.error + w.error) + 64 * kUnit}), monitor, [&] {
+  return sign_by_ladder({value, 6.2 * (u.error + v.error + w.error) + 64 * kUnit}, monitor, [&] {
     Integer sum;
     Integer component;
     mpz_ptr s = sum.get_mpz_t();

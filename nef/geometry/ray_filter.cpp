@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "nef/geometry/ray_filter.h"
-#include "nef/base/fast_path.h"
 
 #include <cmath>
 #include <limits>
+
+#include "nef/base/fast_path.h"
 
 namespace nef {
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "nef/location/compare.h"
-#include "nef/number/filter.h"
 
 namespace nef {
 namespace {
@@ -24,7 +23,7 @@ int compare_exact(const PointRef& p, const PointRef& q, std::size_t axis) {
 int compare_coordinate(const PointRef& p, const PointRef& q, int axis, const Monitor& monitor) {
   if (p.table == q.table) return compare_coordinate(*p.table, p.id, q.id, axis, monitor);
   const auto k = static_cast<std::size_t>(axis);
-  return sign_by_ladder(filtered(approximate_difference(p.approximate()[k], q.approximate()[k])), monitor,
+  return sign_by_ladder(approximate_difference(p.approximate()[k], q.approximate()[k]), monitor,
                         [&] { return compare_exact(p, q, k); });
 }
 

@@ -16,7 +16,6 @@
 
 #include "nef/complex/facet_plane.h"
 #include "nef/complex/item_boxes.h"
-#include "nef/number/filter.h"
 
 namespace nef {
 namespace {
@@ -24,8 +23,7 @@ namespace {
 // Sign of component k of n_g x n_f.
 int sign_of_cross_component(const PlaneTable& planes, PlaneId g, PlaneId f, std::size_t k, const Monitor& monitor) {
   const Direction cross = Direction::cross(planes, g, f);
-  return sign_by_ladder(filtered({cross.approximate[k], cross.error}), monitor,
-                        [&] { return sgn(cross.integers()[k]); });
+  return sign_by_ladder({cross.approximate[k], cross.error}, monitor, [&] { return sgn(cross.integers()[k]); });
 }
 
 class ParityCount {

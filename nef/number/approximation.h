@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "nef/base/fast_path.h"
 #include "nef/base/monitor.h"
 
 namespace nef {
@@ -63,10 +64,11 @@ inline Approximation operator/(const Approximation& a, const Approximation& b) {
   return {value, (moved + std::fabs(value) * kRoundingUnit) * (1 + 0x1p-48) + 1e-300};
 }
 
-/// The sign of a number: what its approximation tells, else what `exact()` says. Counts which of the two it was.
+/// The sign of a number: what its approximation tells (if fast paths are on), else what `exact()` says. Counts which of
+/// the two it was.
 template <typename Exact>
 int sign_by_ladder(const Approximation& rough, const Monitor& monitor, Exact&& exact) {
-  if (const std::optional<int> sign = rough.sign()) {
+  if (const std::optional<int> sign = kFastPaths ? rough.sign() : std::nullopt) {
     monitor.count_filter();
     return *sign;
   }

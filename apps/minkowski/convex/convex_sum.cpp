@@ -15,7 +15,6 @@
 #include "apps/minkowski/convex/normal_diagram.h"
 #include "nef/base/error.h"
 #include "nef/base/id.h"
-#include "nef/number/filter.h"
 
 namespace nef::minkowski {
 namespace {
@@ -221,7 +220,7 @@ int compare_turn(const NormalDiagram& q, std::uint32_t c, std::uint32_t d, const
   // A dot product is at most 3 and within 3.1 (e + e') + 16u (see sign_of_dot); each of the two
   // products of them is then within 6.2 times that, rounding included.
   const double error = 3.1 * (std::max(u.error, v.error) + std::max(n1.error, n2.error)) + 0x1p-49;
-  const int sign = sign_by_ladder(filtered({value, 14 * error}), monitor, [&] {
+  const int sign = sign_by_ladder({value, 14 * error}, monitor, [&] {
     return sign_of_dot(Direction::cross(u, v), Direction::cross(n1, n2), monitor);
   });
   return -q.sign_of(c) * q.sign_of(d) * sign;

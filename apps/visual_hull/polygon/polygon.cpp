@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "nef/base/error.h"
+#include "nef/base/fast_path.h"
 #include "nef/number/approximation.h"
-#include "nef/number/filter.h"
 
 namespace visual_hull {
 namespace {
@@ -87,7 +87,7 @@ int orientation(const Point2& a, const Point2& b, const Point2& c, const nef::Mo
     largest = std::max({largest, std::abs(p->approximate[0]), std::abs(p->approximate[1])});
   }
   const bool moderate = largest > 1e-140 && largest < 1e140;
-  return nef::sign_by_ladder(nef::filtered({determinant, moderate ? 0x1p-46 * largest * largest : HUGE_VAL}), monitor,
+  return nef::sign_by_ladder({determinant, moderate ? 0x1p-46 * largest * largest : HUGE_VAL}, monitor,
                              [&] { return exact_orientation(a, b, c); });
 }
 

@@ -62,6 +62,7 @@ MotionCell MotionCells::part(double a, double b) const {
     const double pq = scalar(p, q);
     const double qq = scalar(q, q);
     cell.wide = pq * pq < pp * qq / 2;
+    if (cell.wide) return cell;
     cell.turn_count = 3;
     cell.turns = {matrix_between(p, p, pp), matrix_between(p, q, pq), matrix_between(q, q, qq)};
     cell.turn_spread = (cell.turns[2] - cell.turns[0]).norm();

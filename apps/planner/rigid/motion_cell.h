@@ -30,10 +30,10 @@ struct MotionCell {
   std::size_t turn_count = 1;  ///< 1 if the rotation stays, else 3
   std::array<Vector3d, 2> positions;
   std::size_t position_count = 1;  ///< 1 if the position stays, else 2
-  bool wide = false;               ///< the rotation goes too far (over 90 degrees) for a useful hull; turns are not set
-  double position_reach = 0;       ///< no |x| + |y| + |z| of a position is larger
-  double turn_spread = 0;          ///< about how far the rotation takes a point at distance 1
-  double position_spread = 0;      ///< about how far the position goes
+  bool wide = false;           ///< the rotation goes too far (over 90 degrees): there are no images, turns are not set
+  double position_reach = 0;   ///< no |x| + |y| + |z| of a position is larger
+  double turn_spread = 0;      ///< about how far the rotation takes a point at distance 1
+  double position_spread = 0;  ///< about how far the position goes
 
   /// The images of a point.
   template <typename Visit>

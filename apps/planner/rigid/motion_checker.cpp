@@ -11,6 +11,7 @@
 #include <deque>
 #include <utility>
 
+#include "apps/planner/free_space/hulls_apart.h"
 #include "apps/planner/rigid/separation.h"
 #include "apps/planner/turning/reachable_part.h"
 #include "nef/base/error.h"
@@ -90,11 +91,11 @@ class MotionExamination {
     ++verdict_.cells;
     const MotionCell cell = cells_.part(part.from, part.to);
     const bool last = part.depth >= limits_.depth || verdict_.cells >= limits_.max_cells;
-    std::vector<Pair> rest = cell.wide && !last ? part.pairs : not_apart(part, cell, last);
+    std::vector<Pair> rest = cell.wide ? part.pairs : not_apart(part, cell, last);
     if (rest.empty()) return true;
     const double middle = (part.from + part.to) / 2;
     if (!limits_.in_order || last) {
-      if (collides_at(middle, rest, last)) {
+      if (collides_at(middle, rest, last && exact_tests_ < limits_.max_exact)) {
         verdict_.free_until = part.from;
         return false;
       }
@@ -201,12 +202,12 @@ class MotionExamination {
     place(b);
     const Separation separation = plane_between(rough_robot_, rough_obstacle_);
     if (separation == Separation::kApart) return true;
-    if (separation != Separation::kPerhaps || cell.wide || exact_tests_ >= limits_.max_exact) return false;
+    if (separation != Separation::kPerhaps || exact_tests_ >= limits_.max_exact) return false;
     // What touches in the closed sense is no case for smaller parts, but for the pose at which it does.
     if (checker_.closed(a, b)) return false;
     ++exact_tests_;
     const std::vector<Rational3> swept = cells_.exact_images(part.from, part.to, a.mesh.vertices);
-    if (!exactly_apart(swept, b.mesh.vertices, false)) return false;
+    if (!hulls_are_apart(swept, b.mesh.vertices, false)) return false;
     verdict_.touches = true;
     return true;
   }
@@ -249,8 +250,9 @@ class MotionExamination {
     if (overlap(a, rough_robot_, b, slack) == Separation::kOverlapping) return true;
     // Where the position is not known exactly, neither is contact.
     if (!exact || slack > 0) return false;
+    if (between) ++exact_tests_;
     const std::vector<Rational3> placed = cells_.exact_images(s, s, a.mesh.vertices);
-    return !exactly_apart(placed, b.mesh.vertices, checker_.closed(a, b));
+    return !hulls_are_apart(placed, b.mesh.vertices, checker_.closed(a, b));
   }
 
   const MotionChecker& checker_;

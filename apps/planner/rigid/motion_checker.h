@@ -25,8 +25,8 @@ struct MotionVerdict {
     kUndecided  ///< neither was proved within the limits; contact that is kept while turning is the usual cause
   };
   Status status = Status::kFree;
-  /// kFree: bodies touch, so the motion is free only because contact is allowed. Only contact that rounding cannot
-  /// tell from a gap is looked at, so false means that there is a gap.
+  /// kFree: bodies touch, or come closer than doubles can tell, so the motion may be free only because contact is
+  /// allowed. False means that there is a gap everywhere.
   bool touches = false;
   /// kCollides: a colliding pose, the parameter of the motion at which it is, and the pieces that overlap there.
   std::optional<RigidPose> pose;
@@ -44,7 +44,7 @@ struct MotionVerdict {
 struct CheckLimits {
   unsigned depth = 20;           ///< parts are halved so many times at most, at most 40
   std::size_t max_cells = 4096;  ///< parts that are looked at
-  std::size_t max_exact = 64;    ///< exact tests, of about a millisecond each
+  std::size_t max_exact = 64;    ///< exact tests of about a millisecond each, beside those of the ends
   /// Examine parts in the order of time and stop at the first one that is not free, so that free_until is meaningful.
   /// The default order finds collisions sooner.
   bool in_order = false;

@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// plane_between tries the coordinate axes and the normals of faces, which separate most pairs that are apart, and then
-// follows Gilbert's algorithm: a point of the set of differences near the origin gives a direction, the farthest
+// plane_between tries the normals of faces, which separate most pairs that are apart, and then follows Gilbert's
+// algorithm: a point of the set of differences near the origin gives a direction, the farthest
 // difference in the opposite one a better point. Only verified planes count, so the search may stop anywhere.
 //
-// overlap knows three generic ways in which convex polytopes meet: a vertex of one inside the other, or an edge of one
-// through a face of the other. Pairs that are not generic are left to exactly_apart.
+// overlap knows the generic ways in which convex polytopes meet: a vertex of one is inside the other, or an edge of one
+// goes through a face of the other. Pairs that are not generic are left to hulls_are_apart.
 #include "apps/planner/rigid/separation.h"
 
 #include <algorithm>
 #include <cmath>
-
-#include "nef/construct/construct.h"
-#include "nef/geometry/vectors.h"
-#include "nef/polyhedron.h"
 
 namespace nef::planner {
 namespace {
@@ -165,16 +161,6 @@ Separation overlap(const RigidBody::Piece& piece_a, const RoughPolytope& a, cons
     return Separation::kOverlapping;
   }
   return Separation::kUnknown;
-}
-
-bool exactly_apart(std::span<const Rational3> a, std::span<const Rational3> b, bool closed) {
-  std::vector<Rational3> differences;
-  for (const Rational3& p : a) {
-    for (const Rational3& q : b) differences.push_back(minus(p, q));
-  }
-  const Polyhedron hull = convex_hull(differences);
-  const Rational3 origin{0, 0, 0};
-  return closed ? !contains(hull, origin) : !contains(interior(hull), origin);
 }
 
 }  // namespace nef::planner

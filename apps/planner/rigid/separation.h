@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Are two convex polytopes apart, do they overlap? In doubles with proven bounds, then exactly.
+// Are two convex polytopes apart, do they overlap? In doubles with proven bounds; what these leave open is for
+// hulls_apart.h.
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "apps/planner/free_space/vectors.h"
@@ -40,9 +40,5 @@ Separation plane_between(const RoughPolytope& a, const RoughPolytope& b);
 /// only if they do wherever the first one is moved by `slack` or less; otherwise kUnknown.
 Separation overlap(const RigidBody::Piece& piece_a, const RoughPolytope& a, const RigidBody::Piece& piece_b,
                    double slack);
-
-/// Exact. With `closed`, do the hulls of two sets of points have no point in common; else, do their interiors (of
-/// hulls of dimension 3).
-bool exactly_apart(std::span<const Rational3> a, std::span<const Rational3> b, bool closed);
 
 }  // namespace nef::planner

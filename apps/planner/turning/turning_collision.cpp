@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "apps/minkowski/minkowski.h"
+#include "apps/planner/free_space/hulls_apart.h"
 #include "apps/planner/turning/reachable_part.h"
 #include "nef/base/error.h"
 #include "nef/construct/construct.h"
@@ -157,21 +158,8 @@ bool TurningCollision::surely_hits(std::size_t piece, const Swept& way, const So
   return false;
 }
 
-// Two convex sets, one of them open, are disjoint iff a plane lies between them: iff no difference of points of the
-// open sets is zero. For closed ones the same with the closed hull.
 bool TurningCollision::exactly_apart(const std::vector<Rational3>& a, const std::vector<Rational3>& b) const {
-  std::vector<Rational3> differences;
-  for (const Rational3& p : a) {
-    for (const Rational3& q : b) differences.push_back(minus(p, q));
-  }
-  const Mesh hull = convex_hull_mesh(differences);
-  for (std::size_t f = 0; f < hull.face_count(); ++f) {
-    const auto ring = hull.face(f);
-    const Rational3& p = hull.vertices[ring[0]];
-    const Rational beyond = -nef::dot(cross(minus(hull.vertices[ring[1]], p), minus(hull.vertices[ring[2]], p)), p);
-    if (beyond > 0 || (beyond == 0 && contact_ == ContactRule::kAllow)) return true;
-  }
-  return false;
+  return hulls_are_apart(a, b, contact_ == ContactRule::kForbid);
 }
 
 std::vector<Rational3> TurningCollision::exactly_swept(const TurningRobot::Piece& piece, const Pose& from,

@@ -102,6 +102,21 @@ TEST_CASE("Surfaces collide with what they touch", "[rigid]") {
   CHECK(seam.check(RigidPose{{0, 0, 0}}).status == Status::kCollides);
 }
 
+TEST_CASE("A half turn is no free motion, however few parts are looked at", "[rigid]") {
+  // The bar is free at 0, 90 and 180 degrees, and hits the post at 45.
+  const MotionChecker checker = MotionChecker::of_scene(
+      scene_of(R"J({"robot": "box(-3,-1/10,0, 3,1/10,1)", "obstacles": ["box(8/5,8/5,-1, 2,2,2)"]})J"));
+  for (const MotionTiming timing : {MotionTiming::kRational, MotionTiming::kSlerp}) {
+    const RigidMotion half({{0, 0, 0}}, {{0, 0, 0}, {0, 0, 0, 1}}, timing);
+    for (const unsigned depth : {0U, 1U, 2U, 20U}) {
+      CheckLimits limits;
+      limits.depth = depth;
+      CHECK(checker.check(half, limits).status != Status::kFree);
+    }
+    CHECK(checker.check(half).status == Status::kCollides);
+  }
+}
+
 TEST_CASE("Positions out of the box collide", "[rigid]") {
   const Scene scene = scene_of(R"J({"robot": "box(0,0,0, 1,1,1)", "obstacles": [], "box": [[0,0,0],[5,5,5]]})J");
   const MotionChecker checker = MotionChecker::of_scene(scene);

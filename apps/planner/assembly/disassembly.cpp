@@ -18,12 +18,6 @@
 namespace nef::planner {
 namespace {
 
-PartSet without(const PartSet& all, const PartSet& some) {
-  PartSet rest;
-  std::set_difference(all.begin(), all.end(), some.begin(), some.end(), std::back_inserter(rest));
-  return rest;
-}
-
 Rational3 negative(const Rational3& d) { return {-d[0], -d[1], -d[2]}; }
 
 class TakingApart {

@@ -11,12 +11,6 @@
 namespace nef::planner {
 namespace {
 
-PartSet difference(const PartSet& all, const PartSet& some) {
-  PartSet rest;
-  std::set_difference(all.begin(), all.end(), some.begin(), some.end(), std::back_inserter(rest));
-  return rest;
-}
-
 PartSet with(PartSet set, std::size_t part) {
   set.insert(std::upper_bound(set.begin(), set.end(), part), part);
   return set;
@@ -60,6 +54,12 @@ struct Branch {
 
 }  // namespace
 
+PartSet without(const PartSet& all, const PartSet& some) {
+  PartSet rest;
+  std::set_difference(all.begin(), all.end(), some.begin(), some.end(), std::back_inserter(rest));
+  return rest;
+}
+
 bool SeparationSearch::ask(const Separates& test, const PartSet& moving, const PartSet& stay) {
   ++questions_;
   return test(moving, stay);
@@ -73,7 +73,7 @@ void SeparationSearch::learn(const Separates& test, PartSet moving, PartSet stay
 }
 
 bool SeparationSearch::separates(const PartSet& moving) {
-  const PartSet stay = difference(parts_, moving);
+  const PartSet stay = without(parts_, moving);
   for (const Separates& test : tests_) {
     if (ask(test, moving, stay)) continue;
     learn(test, moving, stay);
@@ -88,7 +88,7 @@ std::optional<PartSet> SeparationSearch::parts_wanted(const PartSet& moving, con
   std::optional<PartSet> fewest;
   for (const Core& core : cores_) {
     if (!holds_all(moving, core.moving) || holds_any(moving, core.stay)) continue;
-    PartSet wanted = difference(core.stay, fixed);
+    PartSet wanted = without(core.stay, fixed);
     if (!fewest || wanted.size() < fewest->size()) fewest = std::move(wanted);
   }
   return fewest;

@@ -14,6 +14,9 @@ namespace nef::planner {
 /// Indices of parts, ascending.
 using PartSet = std::vector<std::size_t>;
 
+/// The parts of `all` that are not in `some`.
+PartSet without(const PartSet& all, const PartSet& some);
+
 /// Whether `moving` can move away from `stay` when all other parts are left out. Must be symmetric in its arguments,
 /// and what is true for some parts must be true for fewer of them.
 using Separates = std::function<bool(const PartSet& moving, const PartSet& stay)>;

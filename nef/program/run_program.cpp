@@ -25,7 +25,9 @@ constexpr const char* kInputLimits =
 std::string text_of(const std::exception& error) {
   if (dynamic_cast<const Error*>(&error) != nullptr) return error.what();
   if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr) return "out of memory";
-  if (dynamic_cast<const std::system_error*>(&error) != nullptr) {
+  const auto* system = dynamic_cast<const std::system_error*>(&error);
+  const auto is = [system](std::errc code) { return system != nullptr && system->code() == code; };
+  if (is(std::errc::resource_unavailable_try_again) || is(std::errc::too_many_files_open)) {
     return std::string("the system has no room for another thread or file (") + error.what() +
            "); end other work, or raise its limits (ulimit -u, -n, -v)";
   }
@@ -67,6 +69,19 @@ std::string one_line(const std::string& text) {
   }
   while (!line.empty() && line.back() == ' ') line.pop_back();
   return line;
+}
+
+std::vector<std::string> printed_notes(std::span<const std::string> notes) {
+  // A mesh of thousands of bent faces has a note for each.
+  constexpr std::size_t kMost = 10;
+  constexpr std::size_t kShown = 5;
+  const std::size_t shown = notes.size() > kMost ? kShown : notes.size();
+  std::vector<std::string> lines;
+  for (const std::string& note : notes.first(shown)) lines.push_back("note: " + one_line(note));
+  if (shown < notes.size()) {
+    lines.push_back("note: and " + std::to_string(notes.size() - shown) + " more of them (--json lists all)");
+  }
+  return lines;
 }
 
 int run_program(CLI::App& app, int argc, char** argv, const std::function<int()>& body,

@@ -155,13 +155,7 @@ void Session::complain(const std::string& line) {
 
 void Session::show_messages(std::size_t first) {
   if (quiet) return;
-  // A mesh of thousands of bent faces has a note for each.
-  constexpr std::size_t kMost = 10;
-  constexpr std::size_t kShown = 5;
-  const std::size_t count = messages.size() - first;
-  const std::size_t shown = count > kMost ? kShown : count;
-  for (std::size_t i = first; i < first + shown; ++i) complain("note: " + messages[i]);
-  if (shown < count) complain("note: and " + std::to_string(count - shown) + " more of them (--json lists all)");
+  for (const std::string& line : printed_notes(std::span(messages).subspan(first))) complain(line);
 }
 
 void add_run_flags(CLI::App* command, Session& session) {

@@ -15,7 +15,6 @@
 #include "apps/visual_hull/formats/scene_text.h"
 #include "apps/visual_hull/formats/vsh.h"
 #include "fuzz/fuzzer.h"
-#include "fuzz/scratch_folder.h"
 #include "nef/construct/construct.h"
 #include "nef/export/to_mesh.h"
 #include "nef/io/cgal/cgal_nef3.h"
@@ -29,6 +28,7 @@
 #include "nef/mesh/mesh_check.h"
 #include "nef/program/expression/expression.h"
 #include "nef/program/expression/openscad.h"
+#include "tests/support/temporary_folder.h"
 
 namespace nef::fuzz {
 namespace {
@@ -148,11 +148,11 @@ std::string colmap_model(const Polyhedron& /*set*/, const std::string& /*text*/)
 }
 
 void read_colmap_model(const std::string& text) {
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   const std::size_t end = std::min(text.find(kNextFile), text.size());
-  write_file(folder / "cameras.txt", text.substr(0, end));
-  write_file(folder / "images.txt", text.substr(std::min(end + kNextFile.size(), text.size())));
-  static_cast<void>(visual_hull::read_colmap(folder / ""));
+  write_file(folder.file("cameras.txt"), text.substr(0, end));
+  write_file(folder.file("images.txt"), text.substr(std::min(end + kNextFile.size(), text.size())));
+  static_cast<void>(visual_hull::read_colmap(folder.file("")));
 }
 
 void append(std::string& bytes, std::uint32_t value) {
@@ -219,10 +219,10 @@ std::string ompl_problem(const Polyhedron& /*set*/, const std::string& /*text*/)
 
 // The meshes that it names lie beside it.
 void read_ompl_problem(const std::string& text) {
-  const ScratchFolder folder;
-  write_file(folder / "cube.nef", native_binary(make_box({0, 0, 0}, {1, 1, 1})));
-  write_file(folder / "problem.cfg", text);
-  const planner::Scene scene = planner::read_scene(folder / "problem.cfg");
+  const test::TemporaryFolder folder;
+  write_file(folder.file("cube.nef"), native_binary(make_box({0, 0, 0}, {1, 1, 1})));
+  write_file(folder.file("problem.cfg"), text);
+  const planner::Scene scene = planner::read_scene(folder.file("problem.cfg"));
   check_set(scene.robot);
   for (const Polyhedron& obstacle : scene.obstacles) check_set(obstacle);
 }
@@ -232,9 +232,9 @@ std::string waypoints(const Polyhedron& /*set*/, const std::string& /*text*/) {
 }
 
 void read_waypoints_file(const std::string& text) {
-  const ScratchFolder folder;
-  write_file(folder / "path.json", text);
-  static_cast<void>(planner::read_waypoints(folder / "path.json"));
+  const test::TemporaryFolder folder;
+  write_file(folder.file("path.json"), text);
+  static_cast<void>(planner::read_waypoints(folder.file("path.json")));
 }
 
 constexpr std::array kFormats{
@@ -287,9 +287,9 @@ constexpr std::array kFormats{
            }},
     Format{"matlab", matlab_file,
            [](const std::string& bytes) {
-             const ScratchFolder folder;
-             write_file(folder / "scene.mat", bytes);
-             static_cast<void>(visual_hull::read_matlab(folder / "scene.mat", ""));
+             const test::TemporaryFolder folder;
+             write_file(folder.file("scene.mat"), bytes);
+             static_cast<void>(visual_hull::read_matlab(folder.file("scene.mat"), ""));
            }},
     Format{"parameter-blocks", parameter_blocks,
            [](const std::string& text) {

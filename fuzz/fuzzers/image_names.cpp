@@ -10,8 +10,8 @@
 
 #include "apps/visual_hull/scene/images.h"
 #include "fuzz/fuzzer.h"
-#include "fuzz/scratch_folder.h"
 #include "nef/io/file_bytes.h"
+#include "tests/support/temporary_folder.h"
 
 namespace nef::fuzz {
 namespace {
@@ -53,18 +53,18 @@ void fuzz_image_names(const Case& the_case) {
     }
     by_numbers.emplace(name.numbers, name.text(words) + ".png");
   }
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   std::vector<std::string> wanted;
   for (const auto& [key, name] : by_numbers) {
     wanted.push_back(name);
     the_case.tell(name);
-    write_file(folder / name, "x");
+    write_file(folder.file(name), "x");
   }
   visual_hull::Scene scene;
   scene.views.resize(wanted.size());
   Messages notes;
   std::vector<std::string> got;
-  for (const fs::path& file : visual_hull::images_of(scene, folder / "", std::nullopt, &notes)) {
+  for (const fs::path& file : visual_hull::images_of(scene, folder.file(""), std::nullopt, &notes)) {
     got.push_back(file.filename().string());
   }
   Case::require(got == wanted, "order: images are not paired by number");

@@ -13,8 +13,8 @@
 #include "apps/nef_mpi/piece_list.h"
 #include "apps/nef_mpi/work_folder.h"
 #include "fuzz/fuzzer.h"
-#include "fuzz/scratch_folder.h"
 #include "nef/io/file_bytes.h"
+#include "tests/support/temporary_folder.h"
 
 namespace nef::fuzz {
 namespace {
@@ -37,7 +37,7 @@ std::string box_at(std::uint32_t x) {
 class JobCase {
  public:
   explicit JobCase(const Case& the_case) : case_(the_case), choices_(the_case.choices()) {
-    fs::create_directory(folder_ / "sub");
+    fs::create_directory(folder_.file("sub"));
     for (const char* name : kNames) write(name, box_at(0));
     write_list();
   }
@@ -52,7 +52,7 @@ class JobCase {
       case_.tell(what);
       prepare();
       const bool same = before == read_bytes() && expressions_before == expressions_;
-      const bool kept = fs::exists(folder_ / "out.nef.work/region-0");
+      const bool kept = fs::exists(folder_.file("out.nef.work/region-0"));
       case_.count(same ? "same" : "changed");
       Case::require(kept || !same, "resume: finished work was thrown away after " + what);
       Case::require(!kept || same, "resume: stale work was kept after " + what);
@@ -61,7 +61,7 @@ class JobCase {
 
  private:
   void write(const std::string& name, const std::string& bytes) {
-    write_file(folder_ / name, bytes);
+    write_file(folder_.file(name), bytes);
     bytes_[name] = bytes;
   }
 
@@ -104,7 +104,7 @@ class JobCase {
     }
     list_ += named() + "\n";
     expressions_ += in_list_.back();
-    write_file(folder_ / "list.txt", list_);
+    write_file(folder_.file("list.txt"), list_);
     case_.tell("list: " + list_);
   }
 
@@ -117,17 +117,17 @@ class JobCase {
 
   // The beginning of a run of nef_mpi.
   void prepare() const {
-    const mpi::PieceList pieces({folder_ / kNames[0]}, folder_ / "list.txt", {});
-    const mpi::WorkFolder work(folder_ / "out.nef");
+    const mpi::PieceList pieces({folder_.file(kNames[0])}, folder_.file("list.txt"), {});
+    const mpi::WorkFolder work(folder_.file("out.nef"));
     work.prepare(pieces.identity());
     for (std::uint32_t i = 0; i < pieces.size(); ++i) static_cast<void>(pieces.set(i, {}));
   }
 
-  void leave_work() const { write_file(folder_ / "out.nef.work/region-0", "finished"); }
+  void leave_work() const { write_file(folder_.file("out.nef.work/region-0"), "finished"); }
 
   std::string change() {
     const std::string name = choices_.element(kNames);
-    const fs::path path = folder_ / name;
+    const fs::path path = folder_.file(name);
     const fs::file_time_type time = fs::last_write_time(path);
     switch (choices_.below(5)) {
       case 0:
@@ -155,7 +155,7 @@ class JobCase {
 
   const Case& case_;
   Choices& choices_;
-  ScratchFolder folder_;
+  test::TemporaryFolder folder_;
   std::map<std::string, std::string> bytes_;  // of all files
   std::string list_;
   std::string expressions_;  // of the list, without lines that are comments

@@ -36,7 +36,7 @@ struct SolidMarks {
 Complex make_solid(SolidFaces&& faces, const SolidMarks& marks, const Monitor& monitor);
 
 /// How a solid's sphere maps are made of its faces; the complex is the same, item for item.
-enum class SphereMaps {
+enum class SphereMaps : std::uint8_t {
   kRead,   ///< those of ordinary vertices are read off their faces (PlainRing), which takes a fifth off an import
   kDrawn,  ///< all are drawn: the way of vertices where doubles cannot tell, and what the other way is compared with
 };

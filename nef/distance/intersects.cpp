@@ -403,6 +403,12 @@ bool IntersectionQuery::meet(const Rational3& translation, const Monitor& monito
 }
 
 bool intersects(const Polyhedron& a, const Polyhedron& b, const Rational3& translation, const Monitor& monitor) {
+  // One question of sets that are far from each other takes no trees.
+  if (a.is_bounded() && b.is_bounded()) {
+    std::array<double, 3> by{};
+    for (std::size_t i = 0; i < 3; ++i) by[i] = nearest_double(translation[i]);
+    if (!meeting::shifted(vertices_box(b.complex()), by).overlaps(vertices_box(a.complex()))) return false;
+  }
   return IntersectionQuery(a, b).meet(translation, monitor);
 }
 

@@ -97,7 +97,7 @@ TEST_CASE("The time of a slerp is that of its angle", "[rigid]") {
     Quaternion q = random_quaternion(100);
     const bool close = *rc::gen::arbitrary<bool>();
     if (close) {
-      for (std::size_t k = 0; k < 4; ++k) q[k] = p[k] + q[k] / (1 << *rc::gen::inRange(4, 40));
+      for (std::size_t k = 0; k < 4; ++k) q[k] = p[k] + q[k] / (std::int64_t{1} << *rc::gen::inRange(4, 40));
     }
     RC_PRE(scalar_product(p, q) != 0 && q != Quaternion{});
     const RigidMotion motion({{0, 0, 0}, p}, {{1, 0, 0}, q}, MotionTiming::kSlerp);

@@ -9,7 +9,7 @@
 #include <iostream>
 #include <random>
 
-#include "apps/planner/first_way/a_star.h"
+#include "apps/planner/search/a_star.h"
 #include "nef/base/timing/stopwatch.h"
 
 namespace {

@@ -8,8 +8,8 @@
 #include <map>
 #include <optional>
 
-#include "apps/planner/first_way/first_way.h"
 #include "apps/planner/path/question.h"
+#include "apps/planner/search/search.h"
 #include "fuzz/grid.h"
 
 namespace nef::fuzz {
@@ -277,9 +277,9 @@ class PlanningCase {
     if (answer.path) check(answer.path->points, start, goal, truth, "path");
     const planner::FreeSpace fresh(problem.free_space().set());
     const planner::CellFilter filter(fresh);
-    if (const auto way = planner::narrow_way(fresh, filter, 0, point_of(start), point_of(goal), {})) {
-      check(*way, start, goal, truth, "narrow way");
-      case_.count("narrow ways");
+    if (const auto way = planner::corridor_path(fresh, filter, 0, point_of(start), point_of(goal), {})) {
+      check(*way, start, goal, truth, "corridor");
+      case_.count("corridors");
     }
   }
 

@@ -90,11 +90,23 @@ EmptyGrid::EmptyGrid(const Complex& complex, const Monitor& monitor) {
   }
 }
 
+bool EmptyGrid::is_rim(std::uint32_t index) const {
+  const Cube at = cube(index);
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (at[k] == 0 || at[k] + 1 == counts_[k]) return true;
+  }
+  return false;
+}
+
+// Row by row: whole ones at the rim of the rows, and both ends of the others.
 void EmptyGrid::enter_rim() {
-  for (std::uint32_t i = 0; i < entered_.size(); ++i) {
-    const Cube at = cube(i);
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (at[k] == 0 || at[k] + 1 == counts_[k]) entered_[i] = 1;
+  for (std::uint32_t z = 0; z < counts_[2]; ++z) {
+    for (std::uint32_t y = 0; y < counts_[1]; ++y) {
+      const auto row = entered_.begin() + static_cast<std::ptrdiff_t>(index({0, y, z}));
+      if (y == 0 || y + 1 == counts_[1] || z == 0 || z + 1 == counts_[2]) {
+        std::fill_n(row, counts_[0], std::uint8_t{1});
+      }
+      row[0] = row[counts_[0] - 1] = 1;
     }
   }
 }

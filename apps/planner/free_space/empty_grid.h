@@ -37,6 +37,9 @@ class EmptyGrid {
   /// at corners included.
   [[nodiscard]] bool is_empty(std::uint32_t index) const { return entered_[index] == 0; }
 
+  /// True if the cube is one of the outermost.
+  [[nodiscard]] bool is_rim(std::uint32_t index) const;
+
   /// The nearest cube. There must be one.
   [[nodiscard]] Cube nearest(const Vector3d& point) const;
   /// The exact centre of a cube.

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "apps/planner/first_way/first_way.h"
 #include "apps/planner/path/shorten.h"
 #include "apps/planner/path/simple_points.h"
+#include "apps/planner/search/search.h"
 #include "nef/base/error.h"
 
 namespace nef::planner {
@@ -30,12 +30,11 @@ constexpr std::size_t kPlacesForWayRound = 400;
 // way without it.
 constexpr std::size_t kManyCells = 2000;
 
-std::optional<Waypoints> first_way(const FreeSpace& free, const CellFilter& filter, int min_dimension,
-                                   const Rational3& start, const Rational3& goal, const PathOptions& options,
-                                   const Monitor& monitor) {
+std::optional<Waypoints> first_path(const FreeSpace& free, const CellFilter& filter, int min_dimension,
+                                    const Rational3& start, const Rational3& goal, const PathOptions& options,
+                                    const Monitor& monitor) {
   if (free.cells().size() >= kManyCells && !options.raw && !options.clearance) {
-    if (std::optional<Waypoints> way = wide_way(free, filter, start, goal, monitor)) return way;
-    if (std::optional<Waypoints> way = narrow_way(free, filter, min_dimension, start, goal, monitor)) return way;
+    if (std::optional<Waypoints> way = corridor_path(free, filter, min_dimension, start, goal, monitor)) return way;
   }
   return roadmap_path(free, filter, start, goal, options.clearance, monitor);
 }
@@ -76,7 +75,7 @@ std::optional<ExactPath> find_path(const FreeSpace& free, const Rational3& start
     if (options.digits) path->unrounded = unrounded_points(path->points, *options.digits);
     return path;
   }
-  std::optional<Waypoints> points = first_way(free, filter, min_dimension, start, goal, options, monitor);
+  std::optional<Waypoints> points = first_path(free, filter, min_dimension, start, goal, options, monitor);
   // T and J need not be had by one and the same path; T counts first.
   if (!points && options.roomy) {
     PathOptions looser = options;

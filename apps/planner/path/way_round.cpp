@@ -6,9 +6,9 @@
 // the optimum as wanted; here a few must do, since tightening follows).
 #include <algorithm>
 
-#include "apps/planner/first_way/a_star.h"
 #include "apps/planner/free_space/vectors.h"
 #include "apps/planner/path/shorten.h"
+#include "apps/planner/search/a_star.h"
 
 namespace nef::planner {
 namespace {

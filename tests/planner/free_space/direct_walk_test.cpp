@@ -7,8 +7,8 @@
 #include <random>
 
 #include "apps/minkowski/minkowski.h"
-#include "apps/planner/first_way/first_way.h"
 #include "apps/planner/free_space/free_positions.h"
+#include "apps/planner/search/search.h"
 #include "tests/planner/scene_helpers.h"
 
 namespace nef::planner::test {
@@ -153,7 +153,7 @@ TEST_CASE("a way through roadmaps of parts of free space, in random sets with ma
       const CellId from = free.locate(ExactPoint(a));
       const CellId to = free.locate(ExactPoint(b));
       if (!free.is_free(from) || !free.is_free(to)) continue;
-      const std::optional<std::vector<Rational3>> way = narrow_way(free, filter, 0, a, b, {});
+      const std::optional<std::vector<Rational3>> way = corridor_path(free, filter, 0, a, b, {});
       if (free.component(from) != free.component(to)) {
         CHECK_FALSE(way.has_value());
         continue;
@@ -230,7 +230,7 @@ TEST_CASE("from a room with a tight door to another one, among many boxes, witho
   const FreeSpace free(free_positions(scene));
   REQUIRE(free.cells().size() >= 2000);
   const CellFilter filter(free);
-  CHECK_FALSE(wide_way(free, filter, start, goal, {}).has_value());
+  CHECK(corridor_path(free, filter, 0, start, goal, {}).has_value());
   for (const auto& [a, b] : {std::pair(start, goal), std::pair(goal, start)}) {
     const std::optional<ExactPath> path = find_path(free, a, b);
     REQUIRE(path.has_value());

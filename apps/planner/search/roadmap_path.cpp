@@ -3,9 +3,9 @@
 // A* over the stations of the zones.
 #include <algorithm>
 
-#include "apps/planner/first_way/a_star.h"
-#include "apps/planner/first_way/first_way.h"
 #include "apps/planner/free_space/vectors.h"
+#include "apps/planner/search/a_star.h"
+#include "apps/planner/search/search.h"
 #include "nef/base/error.h"
 
 namespace nef::planner {

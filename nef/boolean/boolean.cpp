@@ -108,17 +108,4 @@ Polyhedron intersect_all(std::span<const Polyhedron> sets, unsigned threads, con
   return left.front();
 }
 
-bool equal(const Polyhedron& a, const Polyhedron& b, const Monitor& monitor) {
-  const Complex& ca = a.complex();
-  const Complex& cb = b.complex();
-  // The representation is unique: different counts settle it without geometry.
-  if (ca.vertex_count() != cb.vertex_count() || ca.edge_count() != cb.edge_count() ||
-      ca.facet_count() != cb.facet_count() || ca.volume_count() != cb.volume_count() ||
-      ca.volumes[kOuterVolume].mark != cb.volumes[kOuterVolume].mark) {
-    return false;
-  }
-  const auto differ = [](LabelId x, LabelId y) { return static_cast<LabelId>(x != y); };
-  return overlay(a, b, differ, 1, monitor).is_empty();
-}
-
 }  // namespace nef

@@ -42,12 +42,7 @@ class Canonical {
         monitor_(monitor) {}
 
   Complex run(LabelId outer) {
-    read_points();
-    drop_idle_box(outer);
-    reduce_points();
-    put_in_order();
-    find_rings();
-    choose_lines();
+    arrange(outer);
     PlaneTable planes = ordered_planes();
     ComplexBuilder builder(planes, monitor_);
     write(planes, builder);
@@ -56,7 +51,27 @@ class Canonical {
     return builder.finish(outer, std::move(known), threads_);
   }
 
+  CanonicalVertices run_unlinked(LabelId outer) {
+    arrange(outer);
+    PlaneTable planes = ordered_planes();
+    ComplexBuilder builder(planes, monitor_);
+    write(planes, builder);
+    CanonicalVertices result{builder.take_so_far(), outer};
+    result.unlinked.planes = std::move(planes);
+    return result;
+  }
+
  private:
+  // Finds the order of the vertices, and the planes that they will name.
+  void arrange(LabelId& outer) {
+    read_points();
+    drop_idle_box(outer);
+    reduce_points();
+    put_in_order();
+    find_rings();
+    choose_lines();
+  }
+
   [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(vertices_.size()); }
   [[nodiscard]] const Complex& complex(std::uint32_t i) const { return *parts_[vertices_[i].part].complex; }
   [[nodiscard]] SphereMapView map(std::uint32_t i) const { return complex(i).sphere_map(vertices_[i].vertex); }
@@ -406,6 +421,12 @@ class Canonical {
   std::vector<HalfedgeId> numbers_;        // in the result, of the svertices of parts that have twins
 };
 
+std::vector<CanonicalVertex> all_vertices(const Complex& complex) {
+  std::vector<CanonicalVertex> vertices(complex.vertex_count());
+  for (const VertexId v : complex.vertex_ids()) vertices[v.index()].vertex = v;
+  return vertices;
+}
+
 }  // namespace
 
 Complex canonical_complex(PlaneTable&& planes, std::span<const CanonicalPart> parts,
@@ -416,11 +437,16 @@ Complex canonical_complex(PlaneTable&& planes, std::span<const CanonicalPart> pa
 
 Polyhedron in_canonical_order(const Polyhedron& set, const Monitor& monitor) {
   const Complex& c = set.complex();
-  std::vector<CanonicalVertex> vertices(c.vertex_count());
-  for (const VertexId v : c.vertex_ids()) vertices[v.index()].vertex = v;
   const CanonicalPart part{&c, {}};
-  return Polyhedron(canonical_complex(PlaneTable(c.planes), {&part, 1}, std::move(vertices),
-                                      c.volumes[kOuterVolume].mark, 1, monitor));
+  return Polyhedron(
+      canonical_complex(PlaneTable(c.planes), {&part, 1}, all_vertices(c), c.volumes[kOuterVolume].mark, 1, monitor));
+}
+
+CanonicalVertices canonical_vertices(const Polyhedron& set, const Monitor& monitor) {
+  const Complex& c = set.complex();
+  const CanonicalPart part{&c, {}};
+  return Canonical(PlaneTable(c.planes), {&part, 1}, all_vertices(c), 1, monitor)
+      .run_unlinked(c.volumes[kOuterVolume].mark);
 }
 
 }  // namespace nef

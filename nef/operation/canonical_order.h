@@ -14,6 +14,16 @@ namespace nef {
 /// Vertices come along a curve through space, planes as vertices use them. O(n log n), about half a Boolean operation.
 Polyhedron in_canonical_order(const Polyhedron& set, const Monitor& monitor = {});
 
+/// The vertices of a set in canonical order.
+struct CanonicalVertices {
+  Complex unlinked;   ///< planes, points, and vertices with their sphere maps; no links
+  LabelId outer = 0;  ///< the mark of all of space if there are no vertices, else of the outer volume
+};
+
+/// The vertices that in_canonical_order() gives, without linking them. All links follow from them, so two sets are
+/// equal if and only if these are. O(n log n).
+CanonicalVertices canonical_vertices(const Polyhedron& set, const Monitor& monitor = {});
+
 /// Where vertices of a complex that is to be written come from.
 struct CanonicalPart {
   const Complex* complex = nullptr;     ///< their sphere maps and, unless there are none, twins

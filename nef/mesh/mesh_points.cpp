@@ -224,6 +224,7 @@ bool MeshPoints::make_integers(std::span<const Rational3> points) {
 }
 
 // PointTable promises doubles within 2^-51 relative. Beyond 1e100 products of three may overflow: no filter then.
+// Beyond 1e300 nothing is known of boxes either.
 void MeshPoints::find_margins(std::span<const std::uint32_t> asked) {
   std::array<double, 3> largest{};
   const std::size_t count = asked.empty() ? approximate_.size() : asked.size();
@@ -234,16 +235,17 @@ void MeshPoints::find_margins(std::span<const std::uint32_t> asked) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (!kFastPaths || !(largest[axis] < 1e100)) filter_ = false;
     margin_[axis] = are_integers_ ? 0.0 : largest[axis] * 0x1p-50 + 1e-290;
+    if (!(largest[axis] < 1e300)) margin_[axis] = HUGE_VAL;
   }
 }
 
 void MeshPoints::extend(Box& box, std::uint32_t p) const {
-  if (!filter_) {
-    box.low.fill(-HUGE_VAL);
-    box.high.fill(HUGE_VAL);
-    return;
-  }
   for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (margin_[axis] == HUGE_VAL) {
+      box.low[axis] = -HUGE_VAL;
+      box.high[axis] = HUGE_VAL;
+      continue;
+    }
     box.low[axis] = std::min(box.low[axis], approximate_[p][axis] - margin_[axis]);
     box.high[axis] = std::max(box.high[axis], approximate_[p][axis] + margin_[axis]);
   }
@@ -400,9 +402,10 @@ std::size_t MeshPoints::projection_axis(std::uint32_t a, std::uint32_t b, std::u
 
 int MeshPoints::compare(std::uint32_t a, std::uint32_t b, std::size_t axis) const {
   const double gap = approximate_[a][axis] - approximate_[b][axis];
-  // The margins are far above the rounding of this difference unless they are zero, when the doubles are exact.
+  if (are_integers_) return (gap > 0) - (gap < 0);
+  // The margins are far above the rounding of this difference.
   if (filter_ && std::abs(gap) > 4 * margin_[axis]) return gap > 0 ? 1 : -1;
-  return are_integers_ ? 0 : compare_exact(a, b, axis);
+  return compare_exact(a, b, axis);
 }
 
 int MeshPoints::compare_exact(std::uint32_t a, std::uint32_t b, std::size_t axis) const {

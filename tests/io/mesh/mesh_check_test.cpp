@@ -72,6 +72,19 @@ TEST_CASE("A box is clean, also with a cavity and beside others") {
   CHECK(check_mesh(boxes({{0, 0, 0, 9, 9, 9}, {1, 1, 1, 2, 2, 2}, {11, 0, 0, 12, 1, 1}})).empty());
 }
 
+TEST_CASE("Of coordinates beyond those that filters take, faces far from each other are not compared either") {
+  const auto signs = [](const char* scale) {
+    const Integer by(scale);
+    Mesh mesh;
+    for (int i = 0; i < 100; ++i) add_box(mesh, {3 * i * by, 0, 0}, {(3 * i + 2) * by, 2 * by, by});
+    PredicateCounts counts;
+    CHECK(check_mesh(mesh, {}, Monitor().counting(counts)).empty());
+    return counts.identity + counts.filter + counts.exact;
+  };
+  const std::string huge = "1" + std::string(150, '0');
+  CHECK(signs(huge.c_str()) < 20 * signs("1"));
+}
+
 TEST_CASE("Solids that share a corner, an edge or a part of an edge are legal") {
   const Mesh corner = boxes({{0, 0, 0, 1, 1, 1}, {1, 1, 1, 2, 2, 2}});
   CHECK(check_mesh(corner).empty());

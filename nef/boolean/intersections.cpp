@@ -181,7 +181,8 @@ class IntersectionFinder {
   };
 
   // Finds pairs for `count` items of one operand on several threads, many items at a time, and uses them on this one,
-  // in the order of the items: finding only looks, and rules out nearly all pairs; using may add points and results.
+  // in the order of the items and of their facets, which no tree decides: finding only looks, and rules out nearly all
+  // pairs; using may add points and results.
   template <typename I, typename Find, typename Use>
   void find_and_use(std::size_t count, const char* phase, const Find& find, const Use& use) {
     constexpr std::size_t kTogether = 1024;
@@ -195,7 +196,12 @@ class IntersectionFinder {
                           [&](std::size_t first, std::size_t last, const Monitor& own) {
                             std::vector<Pair<I>>& pairs = found[first / kTogether];
                             pairs.clear();
-                            for (std::size_t k = begin + first; k < begin + last; ++k) find(k, pairs, own);
+                            for (std::size_t k = begin + first; k < begin + last; ++k) {
+                              const auto of_before = static_cast<std::ptrdiff_t>(pairs.size());
+                              find(k, pairs, own);
+                              std::sort(pairs.begin() + of_before, pairs.end(),
+                                        [](const Pair<I>& a, const Pair<I>& b) { return a.facet < b.facet; });
+                            }
                           });
       for (std::size_t part = 0; part * kTogether < end - begin; ++part) {
         for (const Pair<I>& pair : found[part]) use(pair);
@@ -363,10 +369,14 @@ class IntersectionFinder {
   void bare_edges() {
     const Operand& a = operands_[0];
     const Operand& b = operands_[1];
+    std::vector<HalfedgeId> others;
     for (const HalfedgeId e : near_[0].bare_edges) {
       const SVertex line = a.svertex(e);
-      near_[1].bare_edge_tree.for_each_overlap(a.edge_box(e), [&](std::uint32_t i) {
-        const HalfedgeId f = near_[1].bare_edges[i];
+      others.clear();
+      near_[1].bare_edge_tree.for_each_overlap(a.edge_box(e),
+                                               [&](std::uint32_t i) { others.push_back(near_[1].bare_edges[i]); });
+      std::sort(others.begin(), others.end());
+      for (const HalfedgeId f : others) {
         const SVertex other = b.svertex(f);
         // The lines meet in a point iff it lies on all four planes; three of them that are
         // independent give it.
@@ -376,9 +386,9 @@ class IntersectionFinder {
           const bool on_both = side(other.p, *point, monitor_) == 0 && side(other.q, *point, monitor_) == 0 &&
                                inside(a, e, *point) && inside(b, f, *point);
           if (!on_both || !add_crossing(0, e, Item(f), *point)) tables_.points.pop();
-          return;
+          break;
         }
-      });
+      }
     }
   }
 

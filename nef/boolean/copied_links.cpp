@@ -1,4 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// First each vertex of an operand notes where its copy is and whether the other operand crosses one of its edges. Then
+// four tasks, which write to different places, copy the twins of the first and of the second half of the vertices, and
+// the facets of each operand. Last, the facets of both operands are merged in the order of their planes; planes with
+// facets of both are listed, since the order of facets in one plane is not known from the operands. What could not be
+// copied is listed as loose, and synthesis finds it.
 #include "nef/boolean/copied_links.h"
 
 #include <algorithm>

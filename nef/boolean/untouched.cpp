@@ -1,4 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// A search from seeds: a vertex whose mark is known gives it to its neighbours along uncrossed edges. The seeds, from
+// cheap to dear: vertices outside of the other operand's box; the contacts of an edge that are next to its ends;
+// touched neighbours, whose local pyramid in the other operand shows what the edge leads into; and a point location for
+// one vertex of a component that has none of these. The stages run one after another, and each seed spreads before the
+// next one is looked for, so that each vertex is settled once: O(items) and one point location for each untouched
+// component.
 #include "nef/boolean/untouched.h"
 
 #include <algorithm>

@@ -1,4 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// The faces are sorted to their corners (a counting sort by vertex), and then each vertex makes its own sphere map: an
+// edge of a face is a node, the corner of a face an arc between two nodes, with the inside on one side. Ordinary
+// vertices, around which the faces form one ring, need no drawing: `PlainRing` reads their map off the planes. The
+// others are drawn, sorted around each node and checked: inside and outside must alternate around every edge. The
+// writer simplifies the maps, so coplanar neighbours become one facet, and links them.
+//
+// The infimaximal box and half-spaces are such solids, with corners at R (thesis 3.3).
 #include "nef/construct/solid.h"
 
 #include <algorithm>

@@ -1,4 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Branch and bound. A pair of vertices that alternating nearest-neighbour steps in doubles find gives a first bound.
+// Then each edge of A meets the edges of B whose boxes are not farther than the best pair so far, found in a tree of
+// boxes, and each vertex of either set meets the facets of the other in the same way. The square of the distance of
+// boxes is rounded down, the bound is rounded up, so no pair is left out wrongly; pairs that remain are computed in
+// rationals. Two edges: the minimum of a quadratic form over a square. A vertex and a facet: the foot of the
+// perpendicular, if it lies in the facet; if not, an edge of the facet is at least as near. O(n log n) for sets that
+// are near each other in few places; O(n m) if many pairs are equally near.
 #include "nef/distance/nearest_features.h"
 
 #include <cmath>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A bounding volume hierarchy over boxes of doubles. The boxes must enclose what they stand for
-// (outward-rounded), so that a miss is a proof.
+// A bounding volume hierarchy over boxes of doubles. The boxes must enclose what they stand for (outward-rounded), so
+// that a miss is a proof. Nodes stand in one array, the two children of a node beside each other, and the boxes in the
+// order of the leaves, so that a query reads memory mostly forwards.
 #pragma once
 
 #include <algorithm>

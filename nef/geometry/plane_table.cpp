@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Coefficients are divided by their common factor and made positive in the first non-zero component of the normal, so
+// equal planes have equal rows; a hash table with open addressing, at most half full, finds them. It is filled when the
+// first plane is looked for, since most finished tables are only read. Tables are compared in bulk: hashes of the
+// smaller table are put into slots, on several threads, and the rows of the larger one are looked up.
 #include "nef/geometry/plane_table.h"
 
 #include <algorithm>

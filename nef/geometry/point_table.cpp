@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// The point where three planes meet is found by Cramer's rule: in integers of 128 bits if all coefficients are below
+// 2^40, which bounds each determinant by 2^123, else in GMP integers that are kept for the next point. Coordinates are
+// not reduced to lowest terms unless `push_reduced` asks for it, since the common factor costs more than it saves.
 #include "nef/geometry/point_table.h"
 
 #include <cmath>

@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Facets, edges without facets, and vertices that bound no facet stand in one tree of boxes. A query asks the tree for
+// the boxes that overlap the point (or, in ray_shooting.cpp, the ray) and decides each candidate by exact predicates. A
+// facet with many corners gets a tree of its edges at the first query that needs it. A point in no item lies in the
+// volume that a ray in direction -x comes through before it meets something.
 #include "nef/location/query_structure.h"
 
 #include <algorithm>

@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// The limbs of all integers stand one after another, and each integer has a signed count of its limbs in one byte (in
+// four once a number needs more than 127). Where a row begins is noted for every fourth row; the counts between lead to
+// the others, eight at a time by arithmetic on bytes. So an integer of one limb takes nine bytes and a zero takes one.
 #include "nef/number/integer_rows.h"
 
 #include <algorithm>

@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Four steps, each of which sorts items by names that the steps before have made: svertices by the two smallest planes
+// that arrive at them, arcs by their plane and svertices, cycles by their smallest arc, sfaces by their cycles. All
+// names come from the canonical order of planes, so the result does not depend on how the map was stored. Lists are
+// short, so they are sorted by insertion.
 #include "nef/operation/canonical_map.h"
 
 #include <algorithm>

@@ -1,4 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// 1. Points are reduced to lowest terms, and an infimaximal box that nothing reaches is dropped. 2. Vertices are sorted
+// along a space-filling curve (`spatial_order`), lexicographically within its cells. 3. The line of an svertex where
+// facets of fewer than two planes arrive is named by planes parallel to the axes. 4. Planes are sorted by the first
+// vertex that uses them, and by their coefficients at one vertex. 5. Sphere maps are written in canonical form:
+// vertices whose map is one ring by `CanonicalRings`, which learns one map for each pattern, the others by
+// `CanonicalMapWriter`. 6. Twins are renamed, and synthesis finds facets, shells and volumes. Steps 1, 3, 4 and 5 work
+// on chunks of vertices, several at once.
 #include "nef/operation/canonical_order.h"
 
 #include <algorithm>

@@ -1,4 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Sorting: the halves at a node are put into buckets by counting, and sorted by angle around the direction of the node.
+//
+// Simplification (thesis 4.4): arcs with one mark on both sides and in between are dropped; nodes at which two arcs of
+// one circle with the node's mark meet are passed; isolated nodes that differ from nothing disappear. What remains are
+// chains of arcs between essential nodes, and circles without any, which become an sloop. Each chain becomes a pair of
+// shalfedges. Assembly links them around the nodes, traces the cycles, and puts cycles of different components that
+// bound one sface together (`join_cycles`, only if Euler's formula says that there are several components). A ring in
+// which nothing is redundant, the usual corner of a solid, is written in one walk. O(k log k) for k arcs, plus the
+// joining.
 #include "nef/sphere_map/arrangement.h"
 
 #include <algorithm>

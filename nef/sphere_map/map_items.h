@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The items of sphere maps, and ranges of them.
+// The items of sphere maps, and ranges of them. Items name planes by their rows, or, in patterns, by their places among
+// the planes of a vertex: then `LocalPlanes` leads from a place to the plane, and `MapItems` makes items with planes as
+// they are read.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// All is done by what 3D sets use: sets are drawn as an `Arrangement`, Booleans are `SphereOverlay`, topological
+// operations change marks and simplify again. The centre of the map has no meaning here and keeps the mark 0. Planes
+// are interned with offset 0, so that parallel planes are one.
 #include "nef/sphere_map/spherical_polyhedron.h"
 
 #include "nef/base/error.h"

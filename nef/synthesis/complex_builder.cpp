@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Vertices are appended to the arrays of a complex: the pattern of the sphere map is interned, its planes follow those
+// of the vertex before. Copies of runs append whole ranges of each array, renamed if need be; each pattern of the
+// source is interned once. Finishing drops an infimaximal box whose walls hold nothing but its corners (thesis 3.3) and
+// planes that nothing uses, and calls `synthesize`.
 #include "nef/synthesis/complex_builder.h"
 
 #include <algorithm>

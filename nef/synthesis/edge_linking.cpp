@@ -1,4 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Each svertex gets a name for its line: the rows of the two smallest planes of facets around it. If fewer than two
+// planes arrive there, it is the number of the line among exact lines (Pluecker coordinates, made unique). A hash table
+// groups svertices by this name. A group of two is an edge; a larger group holds several edges of one line, so it is
+// sorted along the line, where edges that begin and edges that end must alternate. With several threads, names are
+// first distributed by hash, and each share is grouped by itself.
 #include "nef/synthesis/edge_linking.h"
 
 #include <algorithm>

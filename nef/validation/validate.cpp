@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The validator: vertices and edges here, sphere maps, facets and volumes in the files beside.
+// The validator: arrays, owners, vertices, edges and marks here, sphere maps, facets and volumes in the files beside.
+// The order matters: each check relies on those before it, and the first broken invariant ends the search. Geometry is
+// compared exactly and, where that is possible, in another way than synthesis has used. O(n log n), plus O(k^2) for a
+// sphere map of k items.
 #include <algorithm>
 #include <numeric>
 #include <vector>

@@ -1,4 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// A map is copied with each plane replaced by its place among the planes of this vertex; two vertices have the same
+// pattern if these copies are equal. The copy is looked up in a hash table with open addressing, at most half full,
+// whose slots are numbers of patterns. Most of the time goes into the places of the planes that svertices name: those
+// of the two arcs with the svertex's own number come first, then all planes one by one if they are few, else a sorted
+// list.
 #include "nef/complex/patterns/pattern_interner.h"
 
 #include <algorithm>

@@ -1,4 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// 1. Volumes are sorted into selected (bounded), unselected, and those that no mesh holds. The boundary is the facets
+// between a selected volume and any other. 2. The vertices of these facets get numbers, in their order. 3. A triangle
+// is written as it is. Other facets are kept as polygons if the options allow it, and triangulated if not; vertices
+// inside a facet become holes of one point, so that triangles end there. 4. All items are looked at for what the mesh
+// does not say of the set. A vertex with the same pattern that sees the same volumes as the last one has the same
+// losses, which makes this a few comparisons a vertex.
 #include "nef/export/to_mesh.h"
 
 #include <algorithm>

@@ -1,4 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Reading: a path is looked at before it is opened, since opening a named pipe may wait for ever, and again afterwards,
+// since it may have been replaced meanwhile. Standard input is whatever has its device and inode, whatever its name.
+//
+// Writing: the new file has no name (O_TMPFILE) until it is whole. A link gives it the target's name if there is no
+// such file yet; links replace nothing, so an existing file is replaced by a link to .NAME.partial and a rename. A
+// writer holds a lock on its partial file, so an unlocked one belongs to a run that was killed, and is removed.
 #include "nef/io/file_bytes.h"
 
 #include <fcntl.h>

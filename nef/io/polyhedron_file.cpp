@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Reading: mesh formats are known by the extension, the others also by their first words. Writing a mesh format:
+// `to_mesh` exports the boundary, `BoundaryWriter` settles it (recenter, round and repair, separate touching sheets),
+// and `write_mesh` makes the bytes. Each step adds what it changed or lost to the messages.
 #include "nef/io/polyhedron_file.h"
 
 #include <algorithm>

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// A decimal of up to 18 digits fits into 64 bits: its fraction is reduced by shifting out twos and dividing out fives,
+// because ten has no other factors, and no GMP division is needed. All other numbers are left to `try_parse_rational`.
 #include "nef/io/text_cursor.h"
 
 #include <array>

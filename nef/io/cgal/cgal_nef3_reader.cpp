@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Only the local pyramids are taken from the file: points, directions, circles and marks. The planes of all vertices
+// are interned first, then the sphere map of each vertex is drawn anew, and synthesis finds facets, shells and volumes.
+// So whatever a file says of these cannot contradict the set; what is read is checked like any other complex. O(n log
+// n).
 #include <map>
 #include <optional>
 

@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// All links are indices, so one pass over the items, kind by kind, writes the file once two things are known: the
+// neighbours of each shalfedge along its facet's boundary, which follow from our cycles of corners, and the first sface
+// of each shell. CGAL's shalfedges belong to the facet's other side than ours, hence the opposite halffacets.
 #include "nef/base/error.h"
 #include "nef/complex/shell_sfaces.h"
 #include "nef/io/cgal/cgal_nef3.h"

@@ -1,4 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// A GLB file is a chunk of JSON and one of bytes. Reading walks the tree of nodes with exact affine maps, resolves each
+// accessor to a checked range of the binary chunk, and merges equal points. Everything that the JSON says is checked
+// before it is used, as any of it may be wrong: types, ranges, depth, nodes with two parents, and how much more is
+// placed than is stored. Writing appends positions, then the indices of each group of faces, and describes them in the
+// JSON.
 #include "nef/io/mesh/glb_mesh.h"
 
 #include <algorithm>

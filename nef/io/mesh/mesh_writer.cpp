@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Each text format is one function from a mesh to bytes, and `write_mesh` chooses among them; GLB and 3MF have files of
+// their own. Before, it refuses what the format cannot hold: exact or binary numbers, colours, and coordinates beyond
+// the range of its numbers.
 #include "nef/io/mesh/mesh_writer.h"
 
 #include <cmath>

@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// A 3MF file is a zip archive; its relationships name the part with the model, whose XML is parsed while it is
+// unpacked. A part becomes objects (a mesh or placed components) and the items that are built. Items are unfolded
+// recursively with exact affine maps, parts are read at the first use, and equal points are merged. `Unfolding` stops
+// files whose components multiply beyond measure.
 #include "nef/io/mesh/threemf_mesh.h"
 
 #include <array>

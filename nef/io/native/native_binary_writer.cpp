@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// The layout is described in native_binary.h. Columns that lie in memory as they are written are copied whole; the
+// others are written item by item, one pass over all sphere maps for each column. Numbers that are local to a sphere
+// map take one, two or four bytes, by the largest one of the whole set.
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 

@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Reads the text form, which native_format.h describes, word by word. Each map is validated and checked to lie at its
+// vertex before it is given to synthesis, which relies on that; what synthesis cannot link is a defect, which is
+// reported with the path.
 #include "nef/io/native/native_binary.h"
 #include "nef/io/native/native_format.h"
 #include "nef/io/text_cursor.h"

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// The public operations, in terms of trees: Booleans are `overlay_trees`, a complement is a flag at the root, maps that
+// take axes to axes are applied tile by tile, and topological operations glue the set and cut it again.
 #include "nef/tiles/tiled_polyhedron.h"
 
 #include <utility>

@@ -1,4 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// A recursion over both trees at once. A region is done without looking at tiles if one of the sets is uniform there or
+// both share the node. If either tree is cut there, both are cut by that plane and the sides are done separately; a
+// small second operand is handed on uncut, since a tile drops what lies beyond its walls. Two leaves are overlaid by a
+// Boolean operation of complexes. Afterwards a node whose sides are unchanged is the old node, and two leaves that have
+// become small are glued. A leaf that has not been cut yet is halved only where the second operand is, so a small step
+// does not pay for cutting all of it. On several threads, the first 256 nodes are split on one thread and their
+// subtrees are distributed.
 #include "nef/tiles/tree_overlay.h"
 
 #include <algorithm>

@@ -1,4 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// One pass makes both halves: vertices beside the plane are copied in runs, the local pyramid of a vertex in the plane
+// is overlaid with the half-space of each half, and an edge that crosses the plane gets a new end in both. Ends of
+// edges between copies are known, so that synthesis has only those at the plane to find; facets and volumes are linked
+// when a piece becomes a leaf. Subdivision halves a piece at the median of its vertices, trying the next axis if that
+// separates little, until it is within the limit. With several threads, the first pieces are made on one thread and the
+// rest of the work is distributed.
 #include "nef/tiles/cuts/cutter.h"
 
 #include <algorithm>

@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// The mesh is checked as a whole; a mesh with anything that needs repair is imported whole and cut afterwards.
+// Otherwise space is divided until a part meets at most `piece` faces, and the faces of each part become a solid in its
+// region, several at once (`solid_in_region`). A part without faces is inside or outside as a whole: an upward ray from
+// a point of it counts how often it leaves the solid, exactly and with a symbolic perturbation.
 #include "nef/tiles/import/mesh_tiles.h"
 
 #include <algorithm>

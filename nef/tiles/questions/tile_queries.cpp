@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// A point that lies in one region is located in that tile. On walls between tiles, the local pyramids of the tiles that
+// meet there are overlaid, each of which says nothing (kOutside) beyond its region, so together they are the local
+// pyramid of the whole. Volumes are summed over tiles in chunks, in pairs, so that few sums have the denominators of
+// many; boxes enclose the vertices at which the set has boundary.
 #include "nef/tiles/questions/tile_queries.h"
 
 #include <algorithm>

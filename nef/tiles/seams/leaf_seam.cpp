@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// A vertex lies in a wall if one of its planes is the wall's, since what is beyond a wall is marked kOutside. What the
+// seam needs of such a vertex depends on its pattern and on which of its planes are walls, so it is found once for each
+// pattern and kept while the mask stays the same. O(n), with a few comparisons for each vertex.
 #include "nef/tiles/seams/leaf_seam.h"
 
 #include <algorithm>

@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Writing: each tile goes to a file that is named by its content, so a tile that is there is not written again (a file
+// of the store is linked); then the index is written and renamed into place; then files that it does not name are
+// removed. Reading checks the hash of the index, builds the tree by recursion, and leaves tiles to the store.
 #include "nef/tiles/storage/tile_folder.h"
 
 #include <unistd.h>

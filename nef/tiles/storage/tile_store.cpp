@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// A list of the tiles in memory, the last used first, under one lock. When they take more than the bound, the last one
+// is written to a file and dropped. Files are written and read without the lock: a tile that is being written keeps its
+// set for those that ask meanwhile. The folder of a run is locked (flock) while the run is alive, so that folders that
+// killed runs left can be told and removed.
 #include "nef/tiles/storage/tile_store.h"
 
 #include <fcntl.h>

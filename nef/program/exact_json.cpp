@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// nlohmann's parser reports events; the handler here builds the value from them, so that it sees the text of a number
+// before the library rounds it. A number with a fraction or exponent is stored as an object with one reserved key,
+// which no input may use itself.
 #include "nef/program/exact_json.h"
 
 #include <algorithm>

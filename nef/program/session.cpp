@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Each function does one thing that all commands do alike: it shows a phase, times the call, collects its messages, and
+// prints those that are new. Reports of --json get the same phases and messages.
 #include "nef/program/session.h"
 
 #include <atomic>

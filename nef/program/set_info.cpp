@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Measures of a set with few corners and short coordinates are exact; for others, exact numbers would be long and slow,
+// so they are doubles with proven bounds. Whether coordinates are short is decided by their common denominator, which
+// bounds the length of exact sums.
 #include "nef/program/set_info.h"
 
 #include <algorithm>

@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// The rules by which --tiles, --memory and the names of input and output choose between one complex and tiles: a .tiles
+// folder or a bound on memory asks for tiles from the beginning, a number sets their size, and `auto` leaves the choice
+// to the operation.
 #include "nef/program/tile_flags.h"
 
 #include <charconv>

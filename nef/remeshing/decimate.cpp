@@ -1,4 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// The target is approached in steps, each of which keeps at least a quarter of the triangles of the step before, so
+// that mistakes are found on small meshes. A step collapses edges by quadric errors [Garland, Heckbert 1997], checks
+// the result exactly, and, where faces touch or cross, lowers the error that vertices there may reach (in the end to
+// nothing) and repeats from the step's own mesh. Sheets that touch are separated for OpenMesh, which has manifolds
+// only, and get their common vertices back afterwards.
 #include "nef/remeshing/decimate.h"
 
 #include <algorithm>

@@ -1,4 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Branch and bound, in each direction. The distance from a triangle to the other surface is at most the largest
+// distance of its corners to any one triangle there, since the distance to a convex set is a convex function, and at
+// least the distance of any of its points. The part with the largest upper bound is halved until the bounds agree to a
+// hundredth or the splits are used up. Nearest triangles are found in a tree of boxes, beginning with the triangle that
+// was nearest to the parent. Rounding errors are bounded once by `slack_` and added to the bounds.
 #include "nef/remeshing/hausdorff.h"
 
 #include <Eigen/Core>

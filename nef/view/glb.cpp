@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// All vertices of a layer are one accessor of positions; volumes, flat parts, edges and isolated vertices are
+// primitives that index it. A layer that turns gets two nodes, since glTF turns about a node's origin: the outer one at
+// the pivot, the inner one moves its content back. Animations sample translation and rotation at the same times.
 #include "nef/view/glb.h"
 
 #include <algorithm>

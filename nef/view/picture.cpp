@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// The painter's input is collected first: triangles of facets, lines for edges and dots for vertices, all projected,
+// each line and dot with the list of facets whose planes hold it, which never hide it. Then bands of rows are painted
+// and averaged, so that memory is bounded whatever the size of the picture. Shading depends on how a facet is turned to
+// a fixed light at the camera. All in doubles: a picture decides nothing.
 #include "nef/view/picture.h"
 
 #include <algorithm>

@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// An unbounded set is intersected with a visible box, and a section is an intersection with a half-space, so what is
+// drawn is exact. Then vertices, edges and triangulated facets become flat arrays. Which items the cuts have made is
+// found by planes: a bit for each cutting plane that a vertex lies on exactly; an edge or facet lies on the planes that
+// all its vertices have in common.
 #include "nef/view/scene.h"
 
 #include <algorithm>

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// nef union | intersection | difference | symdiff
+// The commands `nef union`, `intersection`, `difference` and `symdiff`. They are rows of one table: a name, the
+// function that computes the result, the test that tells from the operands of a point whether it belongs to the result
+// (for --origins), and the operator that takes one operand after another (for tiles). A run takes one of four ways:
+// with origins, in tiles one operand after another, in tiles region by region (unions of very many sets), or in memory.
 #include <algorithm>
 #include <filesystem>
 #include <set>

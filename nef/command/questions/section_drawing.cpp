@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Points are projected to two unit vectors across the normal, in doubles: this is output, and nothing is decided by it.
+// Areas are half the length of the vector area of a ring, summed relative to its first corner so that far away sections
+// lose no digits.
 #include "nef/command/questions/section_drawing.h"
 
 #include <Eigen/Core>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Evaluates syntax trees.
+// Evaluates syntax trees bottom-up: first the sets that a node is made of, then the node. Errors get the place of their
+// node in the text. A chain of different operators (A - B + C * D) is evaluated from left to right in runs of one
+// operator, since a run can be computed in any order; `StepSequence` decides whether the runs work in tiles.
 #include "nef/program/expression/expression.h"
 
 #include <algorithm>

@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// One function for each kind of node, each from its evaluated children. Two-dimensional models are prisms of height 1
+// while they are evaluated, so that Booleans, hulls and sums need no second implementation; the result is cut with the
+// plane z = 0 at the end. Extrusions with a scale, and rotations, cut the polygon into triangles and unite a convex
+// hull for each.
 #include "nef/program/expression/openscad.h"
 
 #include <algorithm>

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// A recursive descent parser for statements, argument lists and values. It keeps the number of its line for messages,
+// and bounds the depth of nesting so that no text exhausts the stack.
 #include "nef/program/expression/openscad_text.h"
 
 #include <algorithm>

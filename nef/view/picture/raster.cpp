@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// A triangle is filled row by row between the crossings of the row with its sides, which are computed in the same way
+// for both neighbours of a side, so that no cracks open. The depth buffer holds inverse depths, which are linear on the
+// picture. See-through triangles leave fragments, which are sorted by depth and blended at the end. Lines and dots
+// compare with a small allowance of depth and ignore the facets that hold them.
 #include "nef/view/picture/raster.h"
 
 #include <algorithm>

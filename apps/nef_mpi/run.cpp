@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Each subcommand registers a job when it is parsed; `run` does it on every rank. Rank 0 alone reads what decides the
+// tasks and prepares the folder of work (`on_first`, which shares its errors with all), the ranks do the tasks, and
+// rank 0 writes the result. A job is named by all that decides its tasks, inputs included: an interrupted run goes on
+// only if that is unchanged, and inputs that change during the run are refused.
 #include "apps/nef_mpi/run.h"
 
 #include <algorithm>

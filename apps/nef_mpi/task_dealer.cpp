@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Rank 0 keeps the queue. Its first thread answers the other ranks, and a second one works on tasks as they do, because
+// MPI is initialized for calls from one thread only (MPI_THREAD_FUNNELED). A rank sends its result and thereby asks for
+// the next task. All waiting is polling with short sleeps, as blocking calls of MPI keep a core busy. A task whose
+// needs are not done waits outside the queue, and enters it at the front when the last of them is done.
 #include "apps/nef_mpi/task_dealer.h"
 
 #include <mpi.h>

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The pipeline: Scene -> Silhouettes -> Box -> Cones -> Hull.
+// The pipeline: Scene -> Silhouettes -> Box -> Cones -> Hull. The box is the smallest one around the convex hulls of
+// the cones, found by linear programs (cones/bounds.h), unless one is given. The hull comes from one of two ways with
+// the same result: vertex by vertex (viewing_edges/), which is faster for detailed outlines but covers fewer cases, or
+// by intersecting cones as Nef polyhedra in a balanced tree (cones/). The first one returns nothing for what it does
+// not cover, and then the second one follows. If the hull has no volume, the last part finds out which views have no
+// point in common.
 #include <algorithm>
 #include <cmath>
 #include <memory>

@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// For each view: draw the mesh into a depth map, look up the pixel of each vertex that the view sees, and add its
+// colour to the sums of the vertex. Views are processed in parallel; colours are whole numbers, so the order of the
+// sums does not matter. Vertices without a colour take the mean of their neighbours in rounds, breadth first.
 #include "apps/visual_hull/color/vertex_colors.h"
 
 #include <cmath>

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// The options are declared in two groups, input and output, and their values go to `Arguments` as they are;
+// `to_options` and `scene_of` turn these into what the library takes, and refuse combinations that mean nothing.
 #include "apps/visual_hull/command/arguments.h"
 
 #include "apps/visual_hull/formats/scene_json.h"

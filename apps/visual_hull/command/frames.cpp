@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Frames are independent tasks, one for each thread. The manifest makes a run resumable: a line is appended and flushed
+// when a frame is done, so a killed run loses the frames in progress only. A frame is skipped if its line has the same
+// settings, the same hash of its images, and its output exists; the manifest is sorted when the run ends.
 #include "apps/visual_hull/command/frames.h"
 
 #include <fmt/format.h>

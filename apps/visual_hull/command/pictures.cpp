@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// An image hangs on a plane across its camera's axis, halfway between camera and hull, with its corners on the rays of
+// the frame's corners. Rays are exact and rounded for display. Images that a browser shows as they are (small,
+// undistorted JPEG or PNG) are embedded as files; others are decoded, scaled and encoded as PNG.
 #include "apps/visual_hull/command/pictures.h"
 
 #include <algorithm>

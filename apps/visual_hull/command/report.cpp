@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Everything that is printed of a result: the JSON report, the summary, the verdict on views, and why a hull vanished.
+// No geometry is computed here but the volume and the counts.
 #include "apps/visual_hull/command/report.h"
 
 #include <fmt/format.h>

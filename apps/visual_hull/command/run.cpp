@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// One run: parse, read the scene, compute, write the files, print the report, and conclude with the exit code. Output
+// for people goes to standard output, and to stderr if the report is to have standard output for itself.
 #include "apps/visual_hull/command/run.h"
 
 #include <cstdio>

@@ -1,4 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Each side of the box is the optimum of a linear program in three unknowns. Seidel's incremental algorithm [Seidel
+// 1991] solves it in doubles; then the few constraints that are nearly tight at its answer are tried three by three in
+// rationals: their common point is the optimum if the objective is a combination of their normals with factors that are
+// not negative (duality) and all other constraints allow the point. If no triple passes, the program is solved in
+// rationals. Every unknown is bounded by a limit far beyond the numbers of a scene; an optimum near that limit means
+// that the scene is unbounded.
 #include "apps/visual_hull/cones/bounds.h"
 
 #include <algorithm>

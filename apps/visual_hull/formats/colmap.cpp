@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Text and binary models are read into the same lists of lenses and images, and these become views. Binary counts are
+// compared with the bytes that are left before anything is allocated. Camera models without a known lens are listed
+// with their number of parameters, so that the binary file can be read past them for a clear message.
 #include "apps/visual_hull/formats/colmap.h"
 
 #include <fmt/format.h>

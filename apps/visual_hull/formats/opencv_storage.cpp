@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// OpenCV parses the file; this reader finds the cameras in it. Names are reduced to plain spelling and mapped to a
+// meaning (K, D, R, t, P, ...), with a number at the end for the view. Nodes without a number are common to all views.
+// What looks like a lens under an unknown name is refused, since a lens that is left out makes the hull slightly wrong
+// without a sign.
 #include "apps/visual_hull/formats/opencv_storage.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Cameras as calibration programs leave them: blocks under comments, and one file for each image.
+// Cameras as calibration programs leave them: blocks under comments, and one file for each image. A comment line says
+// what the following rows are; matrices are rows of numbers, read as the rationals that they spell. A folder is read
+// file by file with `read_text_scene`, which knows PMVS's files, too.
 #include "apps/visual_hull/formats/scene_blocks.h"
 
 #include <algorithm>

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// The document is parsed with exact numbers, then read key by key; each message names the file, the camera and the key.
+// Unknown keys are collected for a note, except those that may mean a lens, which are refused.
 #include "apps/visual_hull/formats/scene_json.h"
 
 #include <set>

@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Lines are split into words first; comments, calls of functions in other languages and the punctuation of matrices are
+// dropped. Then the number of words in a line tells what begins there: 12 or 21 numbers, with or without a name, are a
+// camera, and rows of four numbers are read three at a time.
 #include "apps/visual_hull/formats/scene_text.h"
 
 #include <algorithm>

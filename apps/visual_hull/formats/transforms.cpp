@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// A value is looked up in the frame first and then in the document, whose values are those of all frames. Numbers are
+// read exactly and rounded once to doubles, as lens models are made of doubles. Poses are turned from OpenGL's axes to
+// those of this program (`from_opengl`).
 #include "apps/visual_hull/formats/transforms.h"
 
 #include <fmt/format.h>

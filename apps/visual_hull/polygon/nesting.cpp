@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// From loose rings to a silhouette: cleaning, checks, nesting by parity.
+// From loose rings to a silhouette: cleaning, checks, nesting by parity. Repeated and straight vertices are dropped;
+// edges are split where a vertex touches them, so that afterwards rings have at most vertices in common; the first pair
+// of edges that meet otherwise, found in a tree of boxes, is an error. Then the rings around a ring are those that
+// contain the middle of one of its edges, and their number is its depth.
 #include <algorithm>
 #include <numeric>
 

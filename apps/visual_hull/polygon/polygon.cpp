@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Exact predicates on points, segments and rings of an image plane.
+// Exact predicates on points, segments and rings of an image plane. Pixel coordinates are short enough that
+// determinants of doubles are exact (`lattice`); for other points, doubles decide if the value exceeds a proven bound
+// of its error, and rationals if not. Where rounding to the nearest double keeps order, comparisons of doubles that
+// differ decide.
 #include "apps/visual_hull/polygon/polygon.h"
 
 #include <algorithm>

@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// A file that begins with PNG's signature goes to libpng. For other formats, OpenCV's `imread` is found by its mangled
+// name in the library of image formats, once for the process, and called in a child process with limits
+// (`run_bounded`), which returns the pixels behind a small header.
 #include "apps/visual_hull/scene/image_file.h"
 
 #include <dlfcn.h>

@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Looking up an image is a product of folders, subfolders and extensions, tried in a fixed order. Images of a folder
+// are paired with views by name without extension if every image and every view has exactly one partner, and otherwise
+// by natural order, with a note.
 #include "apps/visual_hull/scene/images.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// What a camera matrix says is read off its rows: the third row is the optical axis, and the parts of the first two
+// rows across it are the focal lengths. The common point of all axes solves a linear system of least squares; an
+// eigenvalue that is nearly zero means that the axes are parallel.
 #include "apps/visual_hull/scene/understanding.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Image -> mask -> contours -> silhouette. The mask compares a channel with a threshold (half of the range, a number,
+// or Otsu's). Its contours are traced along pixel borders, small ones are dropped, the distortion of the lens is undone
+// on the contours, and they are simplified. If a silhouette that the frame cuts may go on beyond it, the background is
+// taken instead: the mask is padded by one pixel of object, so that what the outermost ring contains and the silhouette
+// does not is the background that is seen for sure.
 #include "apps/visual_hull/silhouette/silhouette.h"
 
 #include <algorithm>

@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// All lines through the centre of one camera are seen by another camera as lines through one point of its image, the
+// epipole. So the sides of an outline are sorted by the angle at which they are seen from there, into 1024 bins of half
+// a turn, and a line meets only the sides in its bin [Matusik, Buehler, McMillan 2001].
 #include "apps/visual_hull/verify/sight_lines.h"
 
 #include <Eigen/Dense>

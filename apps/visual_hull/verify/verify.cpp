@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The measured part of the verification: areas by scan lines.
+// The measured part of the verification: areas by scan lines. The outline and each projected facet become intervals on
+// the same horizontal lines; intervals are united on each line, and the area is the sum of their lengths times the
+// distance of the lines. Whether the hull is inside is decided exactly, in verify_inside.cpp.
 #include "apps/visual_hull/verify/verify.h"
 
 #include <algorithm>

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Bounds of errors. u = 2^-53 is the unit roundoff; doubles of points and matrices are the nearest ones, off by u.
+// The grid has about 48 cells for each edge of the silhouette. A cell lists the edges that come near it and knows
+// whether its reference point is inside; a point is inside if the segment to the reference point of its cell crosses an
+// even number of these edges, or an odd number if the reference point is outside. Each step exists twice: in doubles
+// with error bounds, which may leave the answer open, and exactly.
 #include "apps/visual_hull/viewing_edges/edge_view.h"
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What makes sets out of sets.
+// What makes sets out of sets: operators, topological operations, maps and pieces. Each is a call of the function of
+// nef/polyhedron.h through `call`, which releases Python's lock for all but small sets and watches for interrupts.
 #include <pybind11/operators.h>
 #include <pybind11/stl.h>
 

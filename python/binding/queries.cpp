@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What is asked about sets.
+// What is asked about sets: properties, point location for one point or for arrays, rays, sections, distances and
+// measures. Arrays of doubles take the fast path (`locate_many`); other numbers are converted to rationals one by one.
+// Exact results become Fractions, records become the named tuples of python/nef/results.py.
 #include <pybind11/stl.h>
 
 #include <set>

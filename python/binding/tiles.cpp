@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Sets in tiles (docs/tiles.md).
+// Sets in tiles (docs/tiles.md): the class TiledPolyhedron with operators that also take a Polyhedron, and the
+// functions that make, read and write such sets. Items of the whole have no numbers while it is in tiles, so locations
+// have the index None.
 #include <pybind11/operators.h>
 #include <pybind11/stl.h>
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The extension module nef._minkowski.
+// The extension module nef._minkowski: the functions of apps/minkowski with their docstrings, which the package
+// nef.minkowski re-exports. Arguments are converted while Python's lock is held, and computed with after it is released
+// (`call`).
 #include "apps/minkowski/minkowski.h"
 
 #include <pybind11/stl.h>

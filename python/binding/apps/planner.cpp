@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The extension module nef._planner.
+// The extension module nef._planner. It gives the package nef.planner tuples and dictionaries, which make the public
+// classes in Python; so scenes, problems and proofs are bound here with as little as that package needs.
 #include <pybind11/stl.h>
 
 #include "apps/planner/clearance/keep_clear.h"

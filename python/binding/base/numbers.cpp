@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Integers of up to a word are converted directly and longer ones by hexadecimal text, which takes linear time. Numbers
+// with a numerator and a denominator become quotients, Decimal and numpy's floats by `as_integer_ratio`. Arrays of
+// doubles or integers are read as blocks of memory.
 #include "binding/base/numbers.h"
 
 #include <cmath>

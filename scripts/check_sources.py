@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Whether the pages name files that exist: every path in backticks that begins with a folder of the repository, and every
-relative link. Prints what does not hold; exits 1 if anything does not.
+"""Whether long sources open with what they do, and whether the pages name files that exist: every path in backticks that
+begins with a folder of the repository, and every relative link. Prints what does not hold; exits 1 if anything does not.
 
 Usage: scripts/check_sources.py
 """
@@ -15,8 +15,13 @@ PATH = re.compile(rf"`((?:{'|'.join(FOLDERS)})/[\w./*-]+)`")
 LINK = re.compile(r"\]\(([\w./-]+)(?:#[\w-]*)?\)")
 CODE = re.compile(r"^```.*?^```|^ {4}.*?$", re.MULTILINE | re.DOTALL)
 
+# A source of more lines than this opens with a comment of at least so many words, below the line of its licence.
+LONG = 150
+WORDS = 12
+SOURCES = ["nef", "apps", "python"]
+
 # Paths that stand for others.
-PLACEHOLDERS = {"tests/NAME"}
+PLACEHOLDERS = {"tests/NAME", "nef/FOLDER/NAME.cpp"}
 
 
 def pages() -> list[pathlib.Path]:
@@ -31,8 +36,28 @@ def dead_paths(page: pathlib.Path) -> list[str]:
     return [f"{page.relative_to(ROOT)} names {name}, which does not exist" for name in dead]
 
 
+def opening(lines: list[str]) -> str:
+    words = []
+    for line in lines[1:]:
+        if not line.startswith("//"):
+            break
+        words.append(line.lstrip("/ "))
+    return " ".join(words)
+
+
+def silent_sources() -> list[str]:
+    complaints = []
+    for path in (path for folder in SOURCES for path in sorted((ROOT / folder).rglob("*"))):
+        if path.suffix not in (".cpp", ".h"):
+            continue
+        lines = path.read_text(encoding="utf-8").splitlines()
+        if len(lines) > LONG and len(opening(lines).split()) < WORDS:
+            complaints.append(f"{path.relative_to(ROOT)} has {len(lines)} lines and does not begin with what it does and how")
+    return complaints
+
+
 def main() -> int:
-    complaints = [line for page in pages() for line in dead_paths(page)]
+    complaints = silent_sources() + [line for page in pages() for line in dead_paths(page)]
     print("\n".join(complaints), end="\n" if complaints else "")
     return 1 if complaints else 0
 

@@ -1,4 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Faces in the same place have the same ring from its smallest corner on, forwards or backwards; a sorted map of rings
+// finds them. Places that share a side of no other faces are decided together (union-find). Then sides vote: a side
+// with an even number of other faces says that a doubled face there is a wall, one with an odd number that it is a
+// copy. Sides with a single undecided place are certain and vote first; when these say no more, all sides vote, and
+// last those inside of blocks, where only walls meet. Each decision makes others certain, so the votes begin again
+// after it.
 #include "nef/import/doubled_faces.h"
 
 #include <algorithm>

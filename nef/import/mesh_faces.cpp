@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Vertices become points along a space-filling curve, and faces follow by their first point, so that planes are in
+// spatial order, too. The plane of a face comes from one of its triangles, whose orientation is that of the face: in
+// machine integers if the points have a small common denominator, else in GMP integers. Either way common factors are
+// divided out while the numbers are short, so that the plane is primitive without a division of the long result.
 #include "nef/import/mesh_faces.h"
 
 #include <algorithm>

@@ -1,4 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// A sequence of steps on rings of vertices, each of which keeps what the steps before have done: merge equal vertices,
+// drop copies, drop faces without area, make corners where a vertex of the border lies in an open side, turn faces to
+// fit their neighbours (breadth first; the larger part of a component keeps its direction), fill planar holes, turn
+// components by how many others contain them. The result is imported once to say whether it bounds a solid. No vertex
+// is moved or made.
 #include "nef/import/repair.h"
 
 #include <algorithm>

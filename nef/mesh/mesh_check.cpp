@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Faces, duplicates, edges, contacts, planarity, vertices and orientation are checked one after another, and each
+// finding is one record with its elements. Edges and duplicates are found by sorting keys, contacts by
+// `SurfaceContacts`. If all faces are triangles whose stars are closed, edges and duplicates need no search. The sign
+// of the enclosed volume is summed in doubles with a bound, and exactly if that does not tell.
 #include "nef/mesh/mesh_check.h"
 
 #include <algorithm>

@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// On construction the least common denominator of all coordinates is sought; if all points become integers below 2^40
+// with it, doubles hold them exactly and determinants fit into 128 bits. For other points, the doubles have a margin
+// for each axis, and a predicate takes the sign of the value in doubles if it exceeds the error bound that is derived
+// beside it, and an exact determinant if not.
 #include "nef/mesh/mesh_points.h"
 
 #include <algorithm>

@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// The usual loop over a linked ring: cut the corner if it is convex and no blunt corner lies in its triangle, and go on
+// with the corner after the next. Small rings are kept in arrays of bytes and a bit mask of blunt corners. Large rings
+// keep their blunt corners sorted along both axes of the projection, so that an ear is compared only with those beside
+// it on the axis with fewer; the rows are sorted again after enough changes. [Meisters 1975]
 #include "nef/mesh/polygon/ear_clipping.h"
 
 #include <algorithm>

@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Sides are sorted by their two corners; a side of exactly two polygons joins them (union-find) if the second one lies
+// in the plane of the first, on the other side of the common edge. The border of a group is strung together from the
+// sides that are not inner ones, and tested: one cycle turns like the members, and no two sides meet other than in a
+// corner between neighbours, which a tree of boxes finds.
 #include "nef/mesh/surface/coplanar_groups.h"
 
 #include <algorithm>

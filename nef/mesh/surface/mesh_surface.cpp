@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Vertices at equal points are merged; then each face is cut along the coordinate axis along which it looks largest, or
+// along another one if its projection there is no simple polygon. A convex ring is cut as a fan, others by the
+// `Triangulator`. Whether a face is planar is tested exactly, by the plane of three corners that are not on one line.
 #include "nef/mesh/surface/mesh_surface.h"
 
 #include <algorithm>

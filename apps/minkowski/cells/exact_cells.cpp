@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Planes and points are made when they are asked for first, since the rounded cells answer nearly all questions. To
+// locate a point, faces that it is surely in front of end the search, faces that it is surely behind are passed over,
+// and the others are asked exactly. A local pyramid on the boundary is that of a face, an edge or a vertex, told by the
+// number of faces that hold the point.
 #include "apps/minkowski/cells/exact_cells.h"
 
 #include <algorithm>

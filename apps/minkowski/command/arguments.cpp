@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// All options are declared here. A task is named by one option, or is the sum; `check` refuses every combination that
+// does not mean anything with a message that says why.
 #include "apps/minkowski/command/arguments.h"
 
 #include <algorithm>

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// One run: load the operands, change them as the flags say, call the function of the task with progress, then write the
+// result, pictures and the report. Signals are held while files are written, so that each is whole or not there.
 #include "apps/minkowski/command/run.h"
 
 #include <array>

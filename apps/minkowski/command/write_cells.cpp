@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Cells are written one after another into the lists of vertices and faces of one file, with indices shifted by the
+// vertices before, or each to a file of its own. Colours are hues a golden angle apart, so that cells with near numbers
+// differ.
 #include "apps/minkowski/command/write_cells.h"
 
 #include <algorithm>

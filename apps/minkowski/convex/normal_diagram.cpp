@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Directed edges are matched with their opposites in a hash table; that gives all adjacencies. Normals and directions
+// of edges are integers without a common factor: from differences of vertices if these have a short common denominator,
+// else from the planes, whose numbers are shorter then. The vertex that is extreme in a direction is found by climbing
+// along edges, which ends in it because the solid is convex.
 #include "apps/minkowski/convex/normal_diagram.h"
 
 #include <unordered_map>

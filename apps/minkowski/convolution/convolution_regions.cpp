@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// The regions around all candidate points are joined by union-find over the intervals that lead from one to another.
+// Regions just behind a facet are inside; one point of each region that is left is tested by the definition, in blocks,
+// on several threads. Then the boundary gets its marks, if the sum need not be closed (`BoundaryMarker`), and the
+// points become vertices of a complex.
 #include "apps/minkowski/convolution/convolution_regions.h"
 
 #include <algorithm>

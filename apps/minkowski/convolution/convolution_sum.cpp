@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Operands with missing points, edges or facets inside are filled first, which changes no sum. If only fast sums are
+// wanted, a cost model compares the pairs of convolution facets that lie in one plane with the pairs of convex cells.
+// Then the reduced convolution is arranged (`surviving_intervals`), and the regions are found and put together
+// (`sum_of_regions`). What the method does not cover is declined with its reason, and the caller sums cells instead.
 #include "apps/minkowski/convolution/convolution_sum.h"
 
 #include <algorithm>

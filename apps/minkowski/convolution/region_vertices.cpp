@@ -1,4 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Each end of an interval is a corner of a facet, a crossing of a side with a facet, or a point where three facets
+// meet; which of these it is may be unsure, and then all of them are candidates. Candidates are found exactly and known
+// by their number, so that each is drawn once, in batches on several threads: all facets that hold it, as an
+// arrangement on a sphere, with the regions behind them marked. Points at which every region is inside are dropped.
+// Sums that need not be closed also look at saddle points and at places where facets are not in general position.
 #include "apps/minkowski/convolution/region_vertices.h"
 
 #include <algorithm>

@@ -1,4 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// A map from the sorted vertices of a face to the bodies that have it finds neighbours with a whole face in common.
+// Each body in turn absorbs neighbours as long as the union is convex, which is a test at each edge of the common face:
+// the two faces that meet there lie in one plane, or the angle between them is less than a half-turn. Faces in one
+// plane are joined along their edge, and vertices that are left in fewer than three planes disappear. Greedy: the
+// number of bodies depends on their order.
 #include "apps/minkowski/decomposition/cell_body.h"
 
 #include <algorithm>

@@ -1,4 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// For each selected volume, the facets, edges and vertices of its boundary are gathered. Facets in one plane form one
+// face of the cell; its corners are the vertices at which three planes of the volume meet. Marks belong to the faces of
+// the cell rather than to the items: each item is named by the set of faces that contain it (one for a facet, two for
+// an edge, more for a vertex), and a face belongs to the cell if all items with its name are selected and all larger
+// faces belong, too. These are visited by the size of the name. What is selected and in no solid cell becomes polygons,
+// segments and points.
 #include "apps/minkowski/decomposition/cell_reader.h"
 
 #include <algorithm>

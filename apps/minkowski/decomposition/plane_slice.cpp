@@ -1,4 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// The sign of each vertex against the plane is computed once per slice. A facet with vertices on both sides is cut at
+// those of its edges that cross the plane; the points are sorted along the line of intersection. A convex facet gives
+// one segment between the first and the last; otherwise the middle of each gap is tested by the parity of crossings of
+// a ray. Coordinates are exact. Heights of segments are compared in doubles with a bound on their error, and exactly
+// where these do not decide.
 #include "apps/minkowski/decomposition/plane_slice.h"
 
 #include <algorithm>

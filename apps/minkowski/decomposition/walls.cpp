@@ -1,4 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Rounds of two kinds (thesis 10.2.2): while there are reflex edges that are not parallel to the axis, each gets its
+// sight walls; afterwards the vertical ones get cross walls. All walls of a round are one surface, which a single
+// overlay inserts. Among cross walls the plane that serves most edges comes first (a greedy cover), since one wall
+// often does for several edges.
+//
+// Facets are cut in the same way: a segment from each reflex corner, in both directions, to the next point of the
+// facet's boundary.
 #include "apps/minkowski/decomposition/walls.h"
 
 #include <array>

@@ -1,4 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Cells are collected in batches, each united at once by `try_unite_solids` within a budget of work; if it exceeds the
+// budget, this batch and all later cells go through the queue. The queue of [Hachenberger 2009] is a binary counter:
+// level i is empty or has the union of 2^i pieces, and a new piece is carried upward, so neighbours are united in a
+// balanced tree and only O(log n) unions are held. The priority strategy holds a heap, and unites the two smallest
+// sets.
 #include "apps/minkowski/union/union_builder.h"
 
 #include <algorithm>

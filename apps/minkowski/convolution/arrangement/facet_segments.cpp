@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// The chord of a facet is what it has in common with the plane of the other one; the segment is what the two chords
+// have in common. The signs of corners come from doubles with a bound, and exactly if that does not tell; where a side
+// crosses a plane is computed in doubles with its error, and an end is called unsure if several candidates are within
+// their errors of each other.
 #include "apps/minkowski/convolution/arrangement/facet_segments.h"
 
 #include <algorithm>

@@ -1,4 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// 1. A tree of boxes gives pairs of facets, and `SegmentFinder` their segments.
+// 2. Each segment is cut where a facet meets both of its facets; cuts that are not surely apart are one cut.
+// 3. At a cut, the part of the segment that a facet has behind it is gone.
+// 4. Three facets that cross link the intervals in front of all three; a queue removes those that are linked to a gone
+//    one (`peel`).
+//
+// Steps 1 and 2 work on blocks of pairs and segments, on several threads, and results are put together in order.
 #include "apps/minkowski/convolution/arrangement/surviving_intervals.h"
 
 #include <algorithm>

@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Three kinds of sums, each found by exact signs: a facet with the peaks and parallel edges that it touches, two
+// parallel facets (their convex pieces are added as polygons), and two convex edges whose arcs of normals cross on the
+// sphere (a parallelogram). Signs are found on several threads, facets are added on one, in the order of the features,
+// so that the result does not depend on the threads.
 #include "apps/minkowski/convolution/facets/convolution_facets.h"
 
 #include <algorithm>

@@ -1,4 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// The drawing around a point gives a graph: its regions, with a step from the back of each facet to its front. The
+// point may be a passage unless all ways through this graph can be continued to one region (the header has the proof);
+// the same test, on the sectors around an svertex, decides for edges. An arc or loop may be one if facets look to both
+// of its sides.
+//
+// Items that may be passages become questions, which hold pointers to the marks. `answer` puts them to the definition,
+// in blocks, on several threads; every other mark is already final.
 #include "apps/minkowski/convolution/marks/boundary_marker.h"
 
 #include <algorithm>

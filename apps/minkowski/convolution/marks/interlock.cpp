@@ -1,4 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// A vertex is a saddle if neither the solid nor its complement is convex there: several solid or free sfaces, or both
+// convex and reflex edges. For each pair of saddles, tests that are cheap and one-sided rule out most candidates. Both
+// solids overlap if a direction into one, turned about the vertex, leads into the other one, or if arcs of their
+// boundaries cross. They can be moved apart if the convex hull of one, turned, does not enter the other one. What
+// passes all tests becomes a candidate, unless the definition says that the point is inside the sum.
 #include "apps/minkowski/convolution/marks/interlock.h"
 
 #include <algorithm>

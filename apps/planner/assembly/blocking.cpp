@@ -1,4 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// A body is the hull of the differences of vertices of two convex pieces, as half-spaces. A ray from the origin meets
+// its inside iff an interval of parameters, one bound for each face, is not empty; a motion begins inside iff the
+// origin is behind every face, or on it where the direction leads behind it. The sum of two boxes answers first, so
+// bodies are made only for pairs whose boxes meet. Candidate directions are the cross products of the normals of all
+// faces through the origin, plus the coordinate axes: O(k^2) for k normals, at most 120 of them. All numbers are
+// rational.
 #include "apps/planner/assembly/blocking.h"
 
 #include <algorithm>

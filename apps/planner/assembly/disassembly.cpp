@@ -1,4 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// A stack holds sets of parts that are still together. For each set, `straight_step` goes through the candidate
+// directions; the minimal closed sets of the blocking graph are what can leave along a ray, and the one of fewest parts
+// and smallest box is taken. Otherwise `planned_step` asks SeparationSearch, with two tests: some direction lets the
+// moving parts begin, and the component of free space that contains the origin is unbounded. That free space is the
+// intersection of those of pairs, each computed once. The path then leads to the nearest of six points on the bounds of
+// the free space's boundary. What leaves and what stays are pushed back on the stack.
 #include "apps/planner/assembly/disassembly.h"
 
 #include <algorithm>

@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// One run: check the options, read the parts, take them apart, write files, print. The report, the text and the layers
+// of pages are made from the same Disassembly. In a page each step takes an equal share of the time, and each part
+// moves along its path at constant speed.
 #include "apps/planner/command/assembly_run.h"
 
 #include <filesystem>

@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// TranslationPlanning and TurningPlanning give the planner exact validity checks. Whatever OMPL returns is checked once
+// more here, exactly (`describe_path`, or the path's own check for robots that turn), and only counts if that succeeds.
+// Of several runs the shortest path is reported. A benchmark adds TightPlanner, which has to build its free space in
+// each run, and columns for T, J and proofs.
 #include "apps/planner/command/ompl_runs.h"
 
 #include <ompl/tools/benchmark/Benchmark.h>

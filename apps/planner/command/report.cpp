@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Each function turns one kind of answer into JSON or text; `answer_report` joins them with the phases and messages of
+// the run. Exact coordinates are strings, and each has a double beside it.
 #include "apps/planner/command/report.h"
 
 #include <sstream>

@@ -1,4 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// `run` dispatches, cheapest first. After the usage check and reading come the questions that need no free space (a
+// given path with rotations, a robot that turns, an end that is not free). Then, if only a path is asked for, a search
+// for a path with room (`wide_answer`, `near_answer`). Otherwise a Problem computes the whole free space, and queries,
+// a given path, OMPL's planners or the scene's own question are answered from it. Each branch writes its files, prints,
+// and returns the exit code.
 #include "apps/planner/command/run.h"
 
 #include <algorithm>

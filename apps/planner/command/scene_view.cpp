@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Parts (robot, obstacles, tight passages, free space, ends) become layers of one page or glTF file. All are cut by one
+// box, which is chosen from the parts that are visible at first, since free space is often unbounded. Tight passages
+// are F minus the closure of its interior; their edges are drawn as lines, too. The robot's motion has times
+// proportional to the length of the path.
 #include "apps/planner/command/scene_view.h"
 
 #include <filesystem>

@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// A turn is written as whole quarters and a half-tangent (exact), a quaternion, and degrees for people. A proof is
+// written with exact breakpoints and vertices, so that `read_turning_proof` restores exactly what the search found; the
+// reader checks the shape of the JSON and leaves the truth to `complaint_about`.
 #include "apps/planner/command/turning_report.h"
 
 #include "apps/planner/clearance/timing.h"

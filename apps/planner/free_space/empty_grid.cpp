@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The corners of cubes are multiples of a side that is a small number times a power of two, so doubles hold them
-// exactly.
+// Corners of cubes are multiples of a side that is a small number times a power of two, so doubles represent them
+// exactly. The number of cubes is proportional to the number of items. Edges enter cubes slab by slab along their
+// longest axis. A facet enters the cubes of its edges; of the other cubes in its box, those that its plane crosses are
+// decided by one point of the plane in the cube, by parity among the edges. Every comparison has a margin above its
+// rounding errors, towards "entered".
 #include "apps/planner/free_space/empty_grid.h"
 
 #include <algorithm>

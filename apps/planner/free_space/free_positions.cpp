@@ -1,4 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Where contact is allowed, free positions are the complement of the sum of obstacles and reflected robot, both without
+// their borders (`configuration_space`). Where it is forbidden, they are the interior of that for closed solids, and
+// the complement of the closed sum otherwise.
+//
+// An obstacle that comes or goes costs one sum and one Boolean operation with all of free space. For one that goes,
+// what only it forbids is computed from the obstacles near it alone: those whose boxes are closer than the robot's
+// extent.
 #include "apps/planner/free_space/free_positions.h"
 
 #include <cmath>

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Components are those of the graph of incidences.
+// The constructor numbers the cells, finds which of them touch, and takes connected components of this graph by
+// union-find. T and J between two cells are the largest k for which a search over cells of local dimension k or more,
+// or of dimension k or more, still connects them: at most six searches. The partition, the tree of items and the grid
+// are made when first asked for, once, behind a lock.
 #include "apps/planner/free_space/free_space.h"
 
 #include <algorithm>

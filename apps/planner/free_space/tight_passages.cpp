@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where free space is thin: tight passages, their mouths and bottlenecks, and rooms that only touch.
+// Tight passages, their mouths and bottlenecks, and rooms that only touch. A passage is a connected set of free cells
+// that no free volume touches. Its bottleneck is found by searching it from room to room with cells of local dimension
+// (T) or dimension (J) k or more, for k = 2 and 1. Touching rooms are connected sets of edges and vertices with two
+// volumes around each. Linear in the incidences, times the logarithm of sorting.
 #include <algorithm>
 
 #include "apps/planner/free_space/free_space.h"

@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// A state has a pointer to three rationals beside its doubles, only where the doubles are not the position themselves.
+// Rationals are valid as long as each rounds to the double beside it, which is tested whenever they are read. A
+// serialized state reserves 32 bytes for each numerator and denominator, a length with the sign before the digits; a
+// denominator of 0 says that there are none.
 #include "apps/planner/ompl/exact_translation_space.h"
 
 #include <ompl/base/spaces/RealVectorStateProjections.h>

@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// `solve` makes the free space if need be, takes the start states, and then goals in groups of up to 64; each new goal
+// is tried against each start, and the shortest path is the solution. Two goals in one cell are tried once, if the
+// first is out of reach. When the region has no more goals and none is in reach, the components of all starts and goals
+// are the proof. If the user's own checks reject the exact path, RRTConnect searches for another one.
 #include "apps/planner/ompl/tight_planner.h"
 
 #include <ompl/base/goals/GoalLazySamples.h>

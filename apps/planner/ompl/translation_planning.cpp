@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Setters change the scene and discard the free space; up to eight changes of obstacles since it was made are
+// remembered, and each is applied to it by one Boolean operation. Before solving, `prepare` compares bounds, state
+// checker and motion validator with what it installed last: whatever differs comes from the user and is adopted (bounds
+// become the scene's box, checkers are asked as well).
 #include "apps/planner/ompl/translation_planning.h"
 
 #include <ompl/base/goals/GoalState.h>

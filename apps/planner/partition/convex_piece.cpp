@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// A polygon is split in one walk around it: vertices go to the half of their sign, and an edge whose ends differ in
+// sign contributes the point in which its two planes and the cutting plane meet. Convexity leaves exactly two points in
+// the cut. O(n) signs for n vertices.
 #include "apps/planner/partition/convex_piece.h"
 
 #include <algorithm>

@@ -1,4 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// `tighten` alternates three changes until none helps: the string pulled around the edges in a corner's triangle
+// (triangle_pull.h), way-points slid along their edges, and shortcuts. The best place on an edge has a closed form, by
+// unfolding both sides about the edge. A new place is taken as the simplest rational near the double, halved towards
+// the old one if the motion is not free. Tests that failed are remembered by their rounded points. In the end
+// way-points move to simpler numbers nearby, where this costs less than doubles can tell.
 #include "apps/planner/path/shorten.h"
 
 #include <algorithm>

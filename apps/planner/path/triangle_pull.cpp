@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Coordinates (u, v) in the plane of the triangle put the two neighbours at (0, 0) and (1, 0) and the way-point at (0,
+// 1). The edges near the triangle (a search in the tree of items) are intersected with it; the upper hull of these
+// points is the taut string. Doubles drop points that are surely below a hull of all; only the rest is computed
+// exactly.
 #include "apps/planner/path/triangle_pull.h"
 
 #include <algorithm>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// OMPL.app's problem files. Not read: [benchmark] and [planner], which concern OMPL's own programs.
+// OMPL.app's problem files: lines `key = value` of section [problem], all others ignored ([benchmark] and [planner]
+// concern OMPL's own programs). The rotations of start and goal decide what the scene is: equal ones are applied to the
+// robot once, different ones about one axis make a robot that turns.
 #include <cmath>
 #include <filesystem>
 #include <map>

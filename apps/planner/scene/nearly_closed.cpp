@@ -1,4 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// 1. Equal vertices are merged, and repeated faces dropped.
+// 2. Each connected part becomes a surface. A breadth-first search from its outer volume across facets gives each
+//    volume a parity; if no two ways disagree, the odd volumes are filled.
+// 3. Parts with nothing odd are tried once more together, as walls and a floor close each other.
+// 4. The number of other parts that contain a part (one vertex tells, where surfaces do not meet) is its depth. Depths
+//    are combined from the outermost inward: even ones are added, odd ones that are cavities removed.
 #include "apps/planner/scene/nearly_closed.h"
 
 #include <algorithm>

@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Checks the keys, reads the shapes in order (each closed, the robot moved so that its reference point is the origin),
+// and then the points. Numbers are parsed from their spelling, so 0.1 is one tenth. Every error names the file and the
+// key.
 #include "apps/planner/scene/scene.h"
 
 #include <filesystem>

@@ -1,4 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// 1. Robot and obstacles are cut into convex pieces, whose union must lie in the set.
+// 2. The breakpoints must be ascending, cover the range, and include start and goal.
+// 3. All vertices of an inner piece must stay in one piece of the robot over the cell. A face of that piece turns
+//    furthest over the point where its normal points along the point's arm; this and both ends are tested, by squares
+//    instead of roots.
+// 4. For each breakpoint and each cell, the free positions are the box without the hulls of differences of pieces,
+//    split into components. Components of neighbours that intersect are joined.
+// 5. The goal's component must not be joined to the start's, and the positions that the proof names must be exactly
+//    those on the side of the start.
 #include <algorithm>
 #include <iterator>
 

@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Components of slices are nodes, numbered as slices are made. An inner free space contains the slices at both ends of
+// its cell, so one point of each component finds the component around it; an outer one is contained in both slices, and
+// each of its components is a bridge between two nodes. A split cell passes its inner free space on to both halves,
+// which stays valid for narrower ranges.
 #include "apps/planner/turning/turning_cells.h"
 
 #include <algorithm>

@@ -1,4 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// For each pair of a robot's piece and an obstacle's, both swept over the motion: a separating plane is searched in
+// doubles among the faces' normals and by a few steps towards a common normal; the bound on rounding errors stands
+// beside `kError`. If it is found, the two are apart. If none comes close, a point inside both, by a margin, proves a
+// collision. Otherwise the exact hull of differences decides. A motion that turns encloses the arc of each vertex by
+// three corners, and is halved until every part is surely free or the depth is used up.
 #include "apps/planner/turning/turning_collision.h"
 
 #include <algorithm>

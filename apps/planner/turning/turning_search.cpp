@@ -1,4 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// A graph has the components of slices as nodes. Bridges (turns that are proved free) are edges of cost 0; two nodes in
+// one component of an inner free space are joined at cost 1, as a turn that may be possible. A search in order of cost
+// (a double-ended queue) gives a way with the fewest open steps. No way is a proof; a way without open steps is a path.
+// Otherwise open cells get their own inner robot, then their bridges, and are split in the end, at an angle of parallel
+// faces if there is one.
 #include "apps/planner/turning/turning_search.h"
 
 #include <algorithm>

@@ -94,7 +94,7 @@ TEST_CASE("Where nobody's data may be wrong a defect is a bug, and no error of t
   Arrangement drawing = end_of_edge(planes);
   builder.add({0, 0, 0}, drawing);
   CHECK_THROWS_WITH(builder.finish(0), Catch::Contains("internal error"));
-  static_assert(!std::is_base_of_v<Error, detail::BrokenInvariant>);
+  static_assert(!std::is_base_of_v<Error, nef::detail::BrokenInvariant>);
 }
 
 // This used to be read from outside of the arrays.
@@ -138,7 +138,7 @@ TEST_CASE("Boxes in a box that are turned the wrong way contradict it") {
   CHECK(kind(boxes({{3, false}, {2, true}, {1, false}})) == std::nullopt);
   CHECK(kind(boxes({{3, false}, {2, false}})) == Defect::Kind::kMarks);
   CHECK(kind(boxes({{3, false}, {2, true}, {1, true}})) == Defect::Kind::kMarks);
-  CHECK_THROWS_AS(make_solid(boxes({{3, false}, {2, false}}), {1, 1, 0}, {}), detail::BrokenInvariant);
+  CHECK_THROWS_AS(make_solid(boxes({{3, false}, {2, false}}), {1, 1, 0}, {}), nef::detail::BrokenInvariant);
 }
 
 TEST_CASE("A point that is no vertex is not added") {

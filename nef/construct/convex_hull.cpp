@@ -80,7 +80,9 @@ class Quickhull {
 // u = 2^-53. A coordinate is within 4u of the truth, relatively, so a difference of two has an
 // absolute error of at most e = 10uM, M the largest coordinate, rounding included. For differences
 // of at most D the determinant's six products of three change by less than 6 * 3 D^2 e (1 + 1/32)
-// if e <= D/64, and evaluating it rounds by less than 6 * 8u D^3. Hence 20 D^2 e + 64u D^3.
+// if e <= D/64, and evaluating it rounds by less than 6 * 8u D^3. Hence 20 D^2 e + 64u D^3. Below 1e100 no product
+// overflows. What underflows, in coordinates or in products of two, is off by 2^-1074 and is multiplied by D^2 or D: up
+// to D = 1 that is far below the last term, beyond far below the others.
 Approximation Quickhull::orient(const HullTriangle& t, std::uint32_t point) const {
   const std::array<double, 3>& o = approximate(t.vertex[0]);
   std::array<std::array<double, 3>, 3> d{};
@@ -93,7 +95,7 @@ Approximation Quickhull::orient(const HullTriangle& t, std::uint32_t point) cons
   }
   constexpr double kUnit = kRoundingUnit;
   const double error = 10 * kUnit * largest_;
-  const double bound = error * 64 <= extent
+  const double bound = error * 64 <= extent && extent < 1e100
                            ? 20 * extent * extent * error + 64 * kUnit * extent * extent * extent + 1e-290
                            : std::numeric_limits<double>::infinity();
   const double value = d[2][0] * (d[0][1] * d[1][2] - d[0][2] * d[1][1]) +

@@ -86,7 +86,9 @@ bool PlainRing::order(std::span<const FaceCorner> corners) {
 //
 // Components of normals are at most 1 and within 2^-52, so those of the product are within 2^-49. Coordinates are
 // within 2^-51 of themselves, so differences are within 2^-50 of the sum of their sizes. What the sum of products is
-// off by is doubled, which covers that it is itself rounded. Nothing is so small that it could have vanished.
+// off by is doubled, which covers that it is itself rounded. An error above kTiny is far above what could have
+// vanished, 2^-1074 each time; one below kHuge says that the differences are below 2^49 times that, so the sum of their
+// products does not overflow.
 std::optional<int> PlainRing::direction(std::uint32_t from, std::uint32_t to, PlaneId first, PlaneId second) const {
   const std::array<double, 4>& n = faces_.planes.approximate(first);
   const std::array<double, 4>& m = faces_.planes.approximate(second);
@@ -104,7 +106,8 @@ std::optional<int> PlainRing::direction(std::uint32_t from, std::uint32_t to, Pl
     error += (std::fabs(difference) + off) * 0x1p-49 + std::fabs(product) * (off + std::fabs(difference) * 0x1p-51);
   }
   constexpr double kTiny = 1e-280;
-  if (!(error > kTiny)) return std::nullopt;
+  constexpr double kHuge = 1e280;
+  if (!(error > kTiny && error < kHuge)) return std::nullopt;
   return Approximation{dot, 2 * error}.sign();
 }
 

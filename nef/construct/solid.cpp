@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <unordered_map>
 
 #include "nef/base/error.h"
@@ -185,10 +184,10 @@ class SolidBuilder {
       length = std::max(length, std::fabs(b[i] - a[i]));
       magnitude = std::max({magnitude, std::fabs(a[i]), std::fabs(b[i])});
     }
-    // Coordinates are within 2^-51 relative, so where the difference is over 2^-40 of them it is
-    // right to a thousandth, and so is d (its error is below 2^-30): parallel vectors then have a
+    // Coordinates are within 2^-51 relative, and within 2^-1074 below 2^-1022, so where the difference is over 2^-40 of
+    // them, and not tiny, it is right to a thousandth, and so is d (kMostDirectionError): parallel vectors then have a
     // product of at least half their lengths' product.
-    const bool reliable = length > 0x1p-40 * magnitude && magnitude < std::numeric_limits<double>::infinity();
+    const bool reliable = length > 0x1p-40 * magnitude && length > 1e-290 && magnitude < 1e300;
     const int sign = reliable ? (dot > 0 ? 1 : -1)
                               : sign_of_dot(d, vector_between(f_.points, PointId{v}, PointId{spoke.to}), monitor_);
     return sign > 0 ? std::move(d) : Direction::cross(f_.planes, spoke.second, spoke.first);

@@ -355,8 +355,12 @@ int volume_sign(const Mesh& mesh, const MeshSurface& surface) {
             std::abs(a[1]) * (std::abs(b[2] * c[0]) + std::abs(b[0] * c[2])) +
             std::abs(a[2]) * (std::abs(b[0] * c[1]) + std::abs(b[1] * c[0]));
   }
-  // Each term is off by less than 2^-45 of its size, the sum by n 2^-53 more.
-  if (std::abs(sum) > size * (0x1p-44 + 0x1p-52 * static_cast<double>(surface.triangles.size()))) {
+  // u = 2^-53. Each of the three coordinates of a term is off by 4u (PointTable), three products and differences round
+  // by u each: 15u of its size, 2^-49. The n sums, and those of x, y and z, add (n + 2)u of all sizes, of which `size`
+  // is n u off itself: less than 2^-44 + n 2^-52 in all. What underflows, in coordinates or in products, is off by
+  // 2^-1074 and is multiplied by two coordinates at most, which are moderate: far below 1e-150.
+  const auto n = static_cast<double>(surface.triangles.size());
+  if (surface.points.moderate() && std::abs(sum) > size * (0x1p-44 + 0x1p-52 * n) + 1e-150 * n) {
     return sum > 0 ? 1 : -1;
   }
   Rational exact = 0;

@@ -16,6 +16,9 @@
 namespace nef {
 namespace {
 
+// See find_margins.
+constexpr double kModerate = 1e75;
+
 // Coordinates below 2^40 give differences below 2^41, minors below 2^83 and determinants below 2^126.
 constexpr std::int64_t kIntegerLimit = std::int64_t{1} << 40U;
 
@@ -228,8 +231,10 @@ bool MeshPoints::make_integers(std::span<const Rational3> points) {
   return true;
 }
 
-// PointTable promises doubles within 2^-51 relative. Beyond 1e100 products of three may overflow: no filter then.
-// Beyond 1e300 nothing is known of boxes either.
+// PointTable promises doubles within 2^-51 relative, and within 2^-1074 below 2^-1022; the margin is twice the first
+// and far above the second. Filters of meshes multiply up to four differences and add up to 48 such products: below
+// 1e75 these are below 48 (2e75)^4 < 1e304, so nothing overflows. Beyond, no filter is asked; beyond 1e300 nothing is
+// known of boxes either.
 void MeshPoints::find_margins(std::span<const std::uint32_t> asked) {
   std::array<double, 3> largest{};
   const std::size_t count = asked.empty() ? approximate_.size() : asked.size();
@@ -238,7 +243,7 @@ void MeshPoints::find_margins(std::span<const std::uint32_t> asked) {
     for (std::size_t axis = 0; axis < 3; ++axis) largest[axis] = std::max(largest[axis], std::abs(p[axis]));
   }
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (!kFastPaths || !(largest[axis] < 1e100)) filter_ = false;
+    if (!kFastPaths || !(largest[axis] < kModerate)) filter_ = false;
     margin_[axis] = are_integers_ ? 0.0 : largest[axis] * 0x1p-50 + 1e-290;
     if (!(largest[axis] < 1e300)) margin_[axis] = HUGE_VAL;
   }
@@ -260,8 +265,8 @@ void MeshPoints::extend(Box& box, std::uint32_t p) const {
 // computed difference is off by at most e = 2m + u s', s' = s + 2m + u s' being a bound on the true and the
 // computed one. The determinant is a sum of six products x y z of differences, so the inexact inputs change it by at
 // most 6 (ex sy sz + sx ey sz + sx sy ez) up to terms of second order, for which 7 instead of 6 is more than enough;
-// its own evaluation rounds each product at most eight times: 48 u sx sy sz. Underflow adds less than 1e-200
-// while all coordinates are below 1e100.
+// its own evaluation rounds each product at most eight times: 48 u sx sy sz. A product of two that underflows is off by
+// 2^-1075 and is multiplied by less than 2e75, so underflow adds less than 1e-240.
 Approximation MeshPoints::determinant(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const {
   if (!filter_) return {0, HUGE_VAL};
   const auto& p = approximate_[a];

@@ -92,7 +92,7 @@ class MeshPoints {
   [[nodiscard]] std::span<const std::array<double, 3>> approximate() const { return approximate_; }
   [[nodiscard]] double margin(std::size_t axis) const { return margin_[axis]; }
 
-  /// True if these are below 1e100, so that products of three do not overflow.
+  /// True if these are below 1e75, so that sums of products of four do not overflow, and fast paths are on.
   [[nodiscard]] bool moderate() const { return filter_; }
 
   /// Encloses the point, in the same scaled space.

@@ -26,7 +26,10 @@ bool one_sided(const Signs& s) {
 int zeros(const Signs& s) { return (s[0] == 0 ? 1 : 0) + (s[1] == 0 ? 1 : 0) + (s[2] == 0 ? 1 : 0); }
 
 // What separating vectors are tried with. For each point the product with a vector d is off by at most |d| times the
-// margin of the points and 4 u |d| |p|, for each coordinate; bound(d) is what the products of two points are off by.
+// margin of the points and 4 u |d| |p|, for each coordinate; the bound is what the products of two points are off by.
+// What vanishes in a product is below 2^-1074, in all of it far below 1e-300. The points are moderate and d is of order
+// three at most in their differences, so nothing overflows; a d that is infinite or no number, which a side of length 0
+// makes, has a bound that is, and separates nothing.
 class Separation {
  public:
   Separation(const MeshPoints& points, const Triangle& a, const Triangle& b) : points_(points) {
@@ -46,7 +49,7 @@ class Separation {
     for (const std::uint32_t v : first) high = std::max(high, dot(d, points_.approximate(v)));
     for (const std::uint32_t v : second) low = std::min(low, dot(d, points_.approximate(v)));
     const double bound = 2 * (std::abs(d[0]) * reach_[0] + std::abs(d[1]) * reach_[1] + std::abs(d[2]) * reach_[2]);
-    return low - high > bound;
+    return low - high > bound + 1e-300;
   }
 
  private:
@@ -57,6 +60,7 @@ class Separation {
 // Any vector proves two triangles disjoint if their images on it are disjoint, however the vector was come by. Tried
 // are the first triangle's normal, and in its plane and the other's those across their edges.
 bool surely_apart(const MeshPoints& points, const Triangle& a, const Triangle& b) {
+  if (!points.moderate()) return false;
   const Separation separation(points, a, b);
   const auto separates = [&](const Double3& d) { return separation.below(d, a, b) || separation.below(d, b, a); };
   for (const Triangle* t : {&a, &b}) {
@@ -76,6 +80,7 @@ bool surely_apart(const MeshPoints& points, const Triangle& a, const Triangle& b
 // The same of triangles with one common corner: if a plane through it has all else of each on its own side, the corner
 // is all that they share. Tried are, for triangles in about one plane, those between two of their sides.
 bool surely_apart_but_for(const MeshPoints& points, std::uint32_t corner, const Triangle& a, const Triangle& b) {
+  if (!points.moderate()) return false;
   const Separation separation(points, a, b);
   const std::array<std::uint32_t, 1> common{corner};
   std::array<std::array<std::uint32_t, 2>, 2> others{};  // of a and b

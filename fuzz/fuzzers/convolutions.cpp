@@ -109,7 +109,7 @@ void fuzz_convolutions(const Case& the_case) {
   for (std::uint32_t v = 0; v < sum.complex().vertex_count(); v += 1 + choices.below(4)) {
     Rational3 x = sum.complex().points.rational(PointId{v});
     for (const int k : {0, 1}) {  // on the boundary and beside it
-      x[v % 3] += Rational(k, 5);
+      x[v % 3] += Rational(k) / 5;
       const bool meets = !intersect(first, transform(turned, AffineMap::translate(x))).is_empty();
       the_case.count("points");
       Case::require(query.meet(x) == meets, "intersects: not what the intersection says");

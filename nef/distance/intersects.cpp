@@ -298,12 +298,20 @@ class MeetingSearch {
       case FacetPlace::Kind::kOutside:
         return;
       case FacetPlace::Kind::kInside:
-        return contact(x, own, {Location::Kind::kFacet, f.index()});
+        return contact(x, own, inside_of(other.c, f, point));
       case FacetPlace::Kind::kEdge:
         return contact(x, own, edge_of(other.c, place.halfedge()));
       case FacetPlace::Kind::kVertex:
         return contact(x, own, at_vertex(place.vertex()));
     }
+  }
+
+  // The facet itself, or the vertex in its inside at this point: one that is no corner of it.
+  [[nodiscard]] Place inside_of(const Complex& c, FacetId f, const PointRef& point) const {
+    for (const VertexId v : c.isolated_vertices_of(c.facets[f])) {
+      if (same_point({&c.points, point_of(v)}, point, monitor_)) return at_vertex(v);
+    }
+    return {Location::Kind::kFacet, f.index()};
   }
 
   static Place edge_of(const Complex& c, HalfedgeId h) { return at_edge(std::min(h, c.twin[h])); }

@@ -68,6 +68,32 @@ TEST_CASE("intersects: sets of edges and points only") {
   }
 }
 
+TEST_CASE("intersects: where a vertex is in the inside of a facet") {
+  // The corner of a box, the end of a segment or a point on a facet: the pyramid there is not the facet's.
+  const char* const sets[] = {"hull(0,0,0, 4,0,0, 0,4,0, 0,0,-4, 4,4,-1) + hull(1,1,0, 0,1,2, 2,1,2, 1,2,2)",
+                              "hull(0,0,0, 4,0,0, 0,4,0, 0,0,-4, 4,4,-1) + hull(1,1,0, 1,1,2)",
+                              "hull(0,0,0, 4,0,0, 0,4,0, 0,0,-4, 4,4,-1) - hull(1,1,0, 1,1,-1)",
+                              "hull(0,0,0, 4,0,0, 0,4,0, 0,0,-4, 4,4,-1) - point(1,1,0)",
+                              "interior(hull(0,0,0, 4,0,0, 0,4,0, 0,0,-4, 4,4,-1)) + point(1,1,0)",
+                              "hull(0,0,0, 2,0,0, 2,2,0, 0,2,0) - hull(1,1,0, 1,1,1)"};
+  const char* const others[] = {"interior(hull(1,1,0, 0,0,1, 2,0,1, 1,2,1))",
+                                "hull(1,1,0, 0,0,1, 2,0,1, 1,2,1)",
+                                "hull(1,1,0, 1,1,1)",
+                                "hull(0,1,0, 2,1,0)",
+                                "hull(0,1,0, 2,1,0) - point(1,1,0)",
+                                "interior(hull(0,0,0, 2,0,0, 2,2,0, 0,2,0, 1,1,1, 1,1,-1))",
+                                "point(1,1,0)"};
+  for (const char* const one : sets) {
+    for (const char* const other : others) {
+      for (const Rational3& by : {Rational3{0, 0, 0}, Rational3{0, 0, Rational(1, 2)}, Rational3{1, 0, 0}}) {
+        INFO(one << " and " << other << " moved by " << by[0] << " " << by[1] << " " << by[2]);
+        CHECK(nef::intersects(set(one), set(other), by) == by_intersection(set(one), set(other), by));
+        CHECK(nef::intersects(set(other), set(one), by) == by_intersection(set(other), set(one), by));
+      }
+    }
+  }
+}
+
 TEST_CASE("intersects: empty and unbounded sets, cavities, and far translations") {
   const Polyhedron cube = set("box(0,0,0, 1,1,1)");
   CHECK_FALSE(nef::intersects(cube, set("nothing")));

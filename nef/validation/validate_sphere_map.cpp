@@ -47,8 +47,8 @@ class SphereMapChecker {
       const SVertex& v = map_.svertices[i];
       require(plane_ok(v.p) && plane_ok(v.q), "planes of an svertex exist", {{"svertex", i}});
       require(v.p.row() != v.q.row(), "planes of an svertex differ", {{"svertex", i}});
-      require(v.out == kNone ? v.sface < sfaces : v.out < arcs, "svertex has a shalfedge or an sface",
-              {{"svertex", i}});
+      require(v.out == kNone ? v.sface < sfaces : v.out < arcs && v.sface == kNone,
+              "svertex has either a shalfedge or an sface", {{"svertex", i}});
     }
     for (std::size_t i = 0; i < arcs; ++i) {
       const SHalfedge& e = map_.shalfedges[i];

@@ -13,10 +13,8 @@
 #include <set>
 #include <tuple>
 
-#include "nef/base/fast_path.h"
 #include "nef/mesh/area_vector.h"
 #include "nef/mesh/edge_order.h"
-#include "nef/mesh/surface/convex_surface.h"
 #include "nef/mesh/surface/mesh_surface.h"
 #include "nef/mesh/surface/surface_contacts.h"
 
@@ -421,7 +419,6 @@ std::vector<MeshProblem> check_mesh(const Mesh& mesh, const MeshCheckOptions& op
 
 std::vector<MeshProblem> check_mesh(const Mesh& mesh, const MeshSurface& surface, const MeshCheckOptions& options,
                                     const Monitor& monitor) {
-  if (kFastPaths && bounds_small_convex_solid(mesh, surface, monitor)) return {};
   Report report(options.max_per_kind);
   const SurfaceContacts contacts(surface, monitor);
   check_faces(mesh, surface, report);

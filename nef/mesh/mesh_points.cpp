@@ -419,10 +419,6 @@ int MeshPoints::compare(std::uint32_t a, std::uint32_t b, std::size_t axis) cons
 }
 
 int MeshPoints::compare_exact(std::uint32_t a, std::uint32_t b, std::size_t axis) const {
-  if (Homogeneous p{}, q{};
-      kFastPaths && source().small_coordinates(place(a), p) && source().small_coordinates(place(b), q)) {
-    return sign_of(short_difference(q, p, axis));
-  }
   Integer gap;
   difference(b, a, std::span(&gap, 1), axis);
   return sgn(gap);

@@ -28,10 +28,6 @@ namespace {
 
 // A total order of the planes of one table.
 bool coefficients_less(const PlaneTable& planes, std::uint32_t a, std::uint32_t b) {
-  if (std::array<std::int64_t, 5> p{}, q{};
-      kFastPaths && planes.small_coefficients(PlaneId{a << 1U}, p) && planes.small_coefficients(PlaneId{b << 1U}, q)) {
-    return p < q;
-  }
   for (std::size_t i = 0; i < 5; ++i) {
     const int order = mpz_cmp(planes.coefficient(PlaneId{a << 1U}, i), planes.coefficient(PlaneId{b << 1U}, i));
     if (order != 0) return order < 0;

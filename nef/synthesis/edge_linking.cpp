@@ -9,15 +9,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <span>
 #include <unordered_map>
 
 #include "nef/base/defect.h"
-#include "nef/base/fast_path.h"
 #include "nef/base/threads/parallel.h"
 #include "nef/base/threads/shared_out.h"
-#include "nef/number/int128.h"
 
 namespace nef {
 namespace {
@@ -40,7 +37,6 @@ class LineTable {
   LineTable() : rows_(9) {}
 
   std::uint32_t number(const PlaneTable& planes, PlaneId p, PlaneId q) {
-    if (std::array<Int128, 9> small{}; small_line(planes, p, q, small)) return number(rows_.push(small));
     std::array<Integer, 9> v;
     const auto n = [&](PlaneId plane, std::size_t i) { return planes.coefficient(plane, i); };
     for (std::size_t i = 0; i < 3; ++i) {
@@ -63,29 +59,6 @@ class LineTable {
   }
 
  private:
-  // The same of planes whose coefficients are below 2^31, so that all that comes up is below 2^63.
-  static bool small_line(const PlaneTable& planes, PlaneId p, PlaneId q, std::array<Int128, 9>& v) {
-    constexpr std::int64_t kLimit = std::int64_t{1} << 31U;
-    std::array<std::int64_t, 5> a{};
-    std::array<std::int64_t, 5> b{};
-    if (!kFastPaths || !planes.small_coefficients(p, a) || !planes.small_coefficients(q, b)) return false;
-    const auto is_large = [](std::int64_t value) { return value >= kLimit || value <= -kLimit; };
-    if (std::any_of(a.begin(), a.end(), is_large) || std::any_of(b.begin(), b.end(), is_large)) return false;
-    std::array<std::int64_t, 9> line{};
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::size_t j = (i + 1) % 3;
-      const std::size_t k = (i + 2) % 3;
-      line[i] = a[j] * b[k] - a[k] * b[j];
-      line[3 + i] = b[3] * a[i] - a[3] * b[i];
-      line[6 + i] = b[4] * a[i] - a[4] * b[i];
-    }
-    std::int64_t divisor = 0;
-    for (const std::int64_t value : line) divisor = std::gcd(divisor, value);
-    if (*std::find_if(line.begin(), line.end(), [](std::int64_t value) { return value != 0; }) < 0) divisor = -divisor;
-    for (std::size_t i = 0; i < 9; ++i) v[i] = line[i] / divisor;
-    return true;
-  }
-
   // The last row; it is taken off again if it was there before.
   std::uint32_t number(std::uint32_t candidate) {
     const auto [first, last] = by_hash_.equal_range(rows_.hash(candidate));

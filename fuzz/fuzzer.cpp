@@ -40,6 +40,7 @@ std::span<const Fuzzer> fuzzers() {
       Fuzzer{"sums", "Minkowski sums of open, closed and mixed sets on a grid", fuzz_sums},
       Fuzzer{"convolutions", "Minkowski sums of solids without cells, by intersections and by cells",
              fuzz_convolutions},
+      Fuzzer{"parts", "Minkowski sums of turned, extruded and drilled parts, two strategies and Booleans", fuzz_parts},
   };
   return kAll;
 }

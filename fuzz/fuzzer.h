@@ -71,6 +71,7 @@ void fuzz_dirty(const Case& the_case);
 void fuzz_written(const Case& the_case);
 void fuzz_sums(const Case& the_case);
 void fuzz_convolutions(const Case& the_case);
+void fuzz_parts(const Case& the_case);
 void fuzz_assemblies(const Case& the_case);
 void fuzz_planning(const Case& the_case);
 void fuzz_turning(const Case& the_case);

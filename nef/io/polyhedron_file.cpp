@@ -19,9 +19,8 @@
 #include "nef/io/mesh/mesh_reader.h"
 #include "nef/io/native/native_binary.h"
 #include "nef/io/native/native_format.h"
-#include "nef/io/number_text.h"
+#include "nef/mesh/recenter.h"
 #include "nef/mesh/separate_sheets.h"
-#include "nef/number/floor.h"
 #include "nef/polyhedron.h"
 
 namespace nef {
@@ -36,16 +35,6 @@ void report_wires(const MeshExport& result, Messages& notes) {
   };
   add(result.lines.size(), "line is", "lines are");
   add(result.points.size(), "point is", "points are");
-}
-
-std::string repair_text(const MendedMesh& rounded) {
-  std::string text = "rounding made the mesh cross or touch itself; it was repaired:";
-  if (rounded.moved > 0) text += " " + std::to_string(rounded.moved) + " vertices went to other numbers nearby";
-  if (rounded.moved > 0 && rounded.dropped > 0) text += ",";
-  if (rounded.dropped > 0) text += " " + std::to_string(rounded.dropped) + " slivers were dropped";
-  text += " (off by at most ";
-  append_number(text, rounded.largest_move);
-  return text + "); --exact or .nef keep everything";
 }
 
 // The mesh of one file on its way from exact coordinates to those that are written.
@@ -70,29 +59,8 @@ class BoundaryWriter {
   [[nodiscard]] MeshWriteOptions& file() { return file_; }
   [[nodiscard]] const std::string& extension() const { return extension_; }
 
-  /// Moves the mesh to the origin, by a multiple of a power of two that is about as large as it: few digits.
-  void recenter(Mesh& mesh) {
-    if (mesh.vertices.empty()) return;
-    Rational3 low = mesh.vertices.front();
-    Rational3 high = low;
-    Rational size = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      for (const Rational3& p : mesh.vertices) {
-        if (p[i] < low[i]) low[i] = p[i];
-        if (p[i] > high[i]) high[i] = p[i];
-      }
-      size = std::max(size, Rational(high[i] - low[i]));
-    }
-    Rational step = 1;
-    while (step < size) step *= 2;
-    while (size > 0 && step / 2 >= size) step /= 2;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Rational steps = (low[i] + high[i]) / (2 * step) + Rational(1, 2);
-      const double rounded = nearest_double(step * Rational(floor_of(steps)));
-      if (std::isfinite(rounded)) file_.offset[i] = exact_rational(rounded);
-    }
-    for (Rational3& p : mesh.vertices) p = minus(p, file_.offset);
-  }
+  /// Moves the mesh to the origin.
+  void recenter(Mesh& mesh) { file_.offset = nef::recenter(mesh); }
 
   /// Rounds, repairs and separates the closed surface of a solid. Throws where that is impossible, unless lenient.
   void settle(Mesh& mesh, bool is_strict) {
@@ -149,7 +117,7 @@ class BoundaryWriter {
     refuse_infinite(mesh, extension_, file_);
     MendedMesh rounded = round_mesh(mesh, rounding_, options_.threads, options_.monitor);
     if (!rounded.legal) return rounded.problem;
-    if (rounded.moved > 0 || rounded.dropped > 0) notes_.push_back(repair_text(rounded));
+    if (const std::string done = repair_text(rounded); !done.empty()) notes_.push_back(done);
     mesh = std::move(rounded.mesh);
     if (file_.groups.none() || rounded.face_of.empty()) return "";
     std::vector<std::uint32_t> groups;
@@ -265,6 +233,13 @@ Polyhedron set_of_mesh_file(std::string&& bytes, const std::string& path, const 
   }
 }
 
+// What only meshes can have is refused where it would do nothing.
+void require_no_mesh_options(const std::string& path, const PolyhedronWriteOptions& options) {
+  if (!options.manifold && !options.recenter) return;
+  throw UnsupportedError(path + ": " + (options.manifold ? "--manifold" : "--recenter") +
+                         " is for meshes, and this format holds the set as it is; write OFF, OBJ, PLY, GLB or 3MF");
+}
+
 }  // namespace
 
 Polyhedron read_polyhedron(const std::string& path, const MeshOptions& options, Messages* messages) {
@@ -295,6 +270,7 @@ std::string offset_note(const std::string& path, const Rational3& offset) {
 WrittenFile write_polyhedron(const std::string& path, const Polyhedron& polyhedron,
                              const PolyhedronWriteOptions& options, Messages* messages) {
   const std::string extension = options.format.empty() ? lower_extension(path) : options.format;
+  if (extension == "nef" || extension == "nef3") require_no_mesh_options(path, options);
   if (extension == "nef") {
     write_file(path, options.text ? native_text(polyhedron) : native_binary(polyhedron));
     return {};

@@ -3,6 +3,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "nef/base/error.h"
+
 namespace nef {
 
 namespace {
@@ -51,6 +53,12 @@ void add_mesh_file_options(CLI::App& app, MeshFileFlags& flags) {
   app.add_flag("--lenient", flags.lenient,
                "Write a mesh even if rounding made it illegal and it could not be repaired; without this flag, that is "
                "an error");
+}
+
+void require_no_mesh_flags(const std::string& path, const MeshFileFlags& flags) {
+  if (!flags.manifold && !flags.recenter) return;
+  throw UnsupportedError(path + ": " + (flags.manifold ? "--manifold" : "--recenter") +
+                         " is for files of meshes; write OFF, OBJ, PLY, GLB or 3MF");
 }
 
 void add_file_output_options(CLI::App& app, bool& exact, bool& binary, bool& text) {

@@ -3,6 +3,8 @@
 // Options that all programs have, in the same words.
 #pragma once
 
+#include <string>
+
 namespace CLI {
 class App;
 class Validator;
@@ -26,6 +28,9 @@ struct MeshFileFlags {
   bool lenient = false;
   bool recenter = false;
 };
+
+/// Throws UnsupportedError if the flags ask for what only files of meshes can have, of `path`, which is none.
+void require_no_mesh_flags(const std::string& path, const MeshFileFlags& flags);
 
 /// --manifold: solids that touch themselves get vertices of their own on each sheet.
 void add_manifold_option(CLI::App& app, bool& manifold);

@@ -25,7 +25,6 @@ std::vector<Polyhedron> Session::load_all(const std::vector<std::string>& paths)
 
 std::vector<Polyhedron> Session::load_all(const std::vector<std::string>& paths, const Monitor& monitor) {
   const Stopwatch watch;
-  const std::size_t first = messages.size();
   std::vector<Polyhedron> sets(paths.size());
   std::vector<Messages> notes(paths.size());
   std::atomic<std::size_t> done = 0;
@@ -37,64 +36,51 @@ std::vector<Polyhedron> Session::load_all(const std::vector<std::string>& paths,
     sets[i] = read_file_or_tiles(paths[i], options, &notes[i]);
     show_phase("reading", ++done, paths.size());
   });
-  for (const Messages& some : notes) messages.insert(messages.end(), some.begin(), some.end());
   load_s_ += watch.seconds();
-  show_messages(first);
+  Messages all;
+  for (const Messages& some : notes) all.insert(all.end(), some.begin(), some.end());
+  note_all(all);
   show_phase("computing");
   return sets;
 }
 
-void Session::store(const Polyhedron& set) {
-  if (output.empty()) return;
+void Session::write_timed(const std::function<WrittenFile(Messages& notes)>& write) {
   if (output == "-" && json) throw InputError("--json and -o - both want standard output; name a file");
   show_phase("writing " + output);
   const Stopwatch watch;
-  const std::size_t first = messages.size();
-  WrittenFile written;
-  if (names_tile_folder(output)) {
-    if (set.complex().label_count > 2) messages.emplace_back("tiles hold a set: all marks but 0 have become 1");
+  Messages notes;
+  const WrittenFile written = write(notes);
+  write_s_ += watch.seconds();
+  note_all(notes);
+  if (bar_) bar_->clear();
+  notes_.wrote(output, written);
+}
+
+void Session::store(const Polyhedron& set) {
+  if (output.empty()) return;
+  write_timed([&](Messages& notes) -> WrittenFile {
+    if (!names_tile_folder(output)) return write_polyhedron(output, set, write_options(), &notes);
+    require_no_mesh_flags(output, mesh_file);
+    if (set.complex().label_count > 2) notes.emplace_back("tiles hold a set: all marks but 0 have become 1");
     const Tiling tiling{.limit = kVerticesOfTileInFile, .threads = threads};
     write_tiles(output, TiledPolyhedron(set, tiling, monitor));
-  } else {
-    written = write_polyhedron(output, set, write_options(), &messages);
-  }
-  write_s_ += watch.seconds();
-  show_messages(first);
-  tell_written(written);
+    return {};
+  });
 }
 
 void Session::store_mesh(Mesh surface, bool is_strict) {
-  if (output == "-" && json) throw InputError("--json and -o - both want standard output; name a file");
-  show_phase("writing " + output);
-  const Stopwatch watch;
-  const std::size_t first = messages.size();
-  const WrittenFile written = write_solid_mesh(output, std::move(surface), is_strict, write_options(), &messages);
-  write_s_ += watch.seconds();
-  show_messages(first);
-  tell_written(written);
-}
-
-// What is wrong with a file is told to those who want to be told of nothing else, too.
-void Session::tell_written(const WrittenFile& written) {
-  if (!written.problem.empty()) {
-    messages.push_back(written.problem);
-    complain("warning: " + written.problem);
-  }
-  offset_ = written.offset;
-  if (!is_zero(offset_)) note(offset_note(output, offset_));
+  write_timed([&](Messages& notes) {
+    return write_solid_mesh(output, std::move(surface), is_strict, write_options(), &notes);
+  });
 }
 
 std::map<std::string, std::size_t> Session::store_groups(const Polyhedron& labeled, const BoundaryGroups& groups) {
-  if (output == "-" && json) throw InputError("--json and -o - both want standard output; name a file");
-  show_phase("writing " + output);
-  const Stopwatch watch;
-  const std::size_t first = messages.size();
-  WrittenFile written;
-  std::map<std::string, std::size_t> faces =
-      write_groups(output, labeled, groups, write_options(), &messages, &written);
-  write_s_ += watch.seconds();
-  show_messages(first);
-  tell_written(written);
+  std::map<std::string, std::size_t> faces;
+  write_timed([&](Messages& notes) {
+    WrittenFile written;
+    faces = write_groups(output, labeled, groups, write_options(), &notes, &written);
+    return written;
+  });
   return faces;
 }
 
@@ -113,10 +99,6 @@ PolyhedronWriteOptions Session::write_options() const {
   return options;
 }
 
-MeshWriteOptions Session::mesh_write_options() const {
-  return {.exact = exact, .binary = binary, .format = format, .monitor = monitor};
-}
-
 void Session::show_phase(const std::string& phase, std::size_t done, std::size_t total) {
   if (!bar_) bar_ = std::make_unique<ProgressBar>(!quiet);
   bar_->show(phase, done, total);
@@ -125,9 +107,8 @@ void Session::show_phase(const std::string& phase, std::size_t done, std::size_t
 void Session::note(const std::string& text) { note_all({text}); }
 
 void Session::note_all(const Messages& notes) {
-  const std::size_t first = messages.size();
-  messages.insert(messages.end(), notes.begin(), notes.end());
-  show_messages(first);
+  if (bar_ && !notes.empty()) bar_->clear();
+  notes_.note(notes);
 }
 
 void Session::say(const std::string& line) {
@@ -144,21 +125,14 @@ void Session::print(const std::string& command, const Json& found) {
   std::vector<ReportPhase> phases{{"load", load_s_, {}}};
   phases.insert(phases.end(), phases_.begin(), phases_.end());
   if (!output.empty()) phases.push_back({"write", write_s_, {}});
-  Json with_offset = found;
-  if (!is_zero(offset_)) {
-    with_offset["offset"] = Json::array({to_string(offset_[0]), to_string(offset_[1]), to_string(offset_[2])});
-  }
-  out_ << report_text(run_report(command, with_offset, phases, messages));
+  Json all = found;
+  notes_.add_offsets(all);
+  out_ << report_text(run_report(command, all, phases, notes()));
 }
 
 void Session::complain(const std::string& line) {
   if (bar_) bar_->clear();
   err_ << program_ << ": " << one_line(line) << '\n';
-}
-
-void Session::show_messages(std::size_t first) {
-  if (quiet) return;
-  for (const std::string& line : printed_notes(std::span(messages).subspan(first))) complain(line);
 }
 
 void add_run_flags(CLI::App* command, Session& session) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <functional>
 #include <iosfwd>
 #include <map>
 #include <memory>
@@ -15,6 +16,7 @@
 #include "nef/io/mesh/mesh_writer.h"
 #include "nef/io/polyhedron_file.h"
 #include "nef/program/common_options.h"
+#include "nef/program/notes.h"
 #include "nef/program/progress_bar.h"
 #include "nef/program/run_report.h"
 
@@ -27,7 +29,7 @@ enum ExitCode : int { kYes = 0, kNo = 1, kBad = 2 };
 class Session {
  public:
   Session(std::string program, std::ostream& out, std::ostream& err)
-      : program_(std::move(program)), out_(out), err_(err) {}
+      : program_(std::move(program)), out_(out), err_(err), notes_(program_, err, quiet) {}
 
   // Set by the parser.
   bool json = false;
@@ -49,7 +51,6 @@ class Session {
 
   Monitor monitor;  ///< who watches the run
   int exit_code = kYes;
-  Messages messages;  ///< notes about what was done to inputs and what an output does not hold
 
   /// Reads a set; its time is added to the phase "load", notes go to stderr unless quiet.
   Polyhedron load(const std::string& path);
@@ -61,8 +62,6 @@ class Session {
   void store(const Polyhedron& set);
   /// Writes the closed surface of a solid to `output` (see write_solid_mesh).
   void store_mesh(Mesh surface, bool is_strict);
-  /// How the flags ask for a mesh to be written as it is.
-  [[nodiscard]] MeshWriteOptions mesh_write_options() const;
   /// How the flags ask for a set to be written.
   [[nodiscard]] PolyhedronWriteOptions write_options() const;
   /// Writes a set with labels to `output`, its faces in groups (see write_groups); returns how many each has.
@@ -71,10 +70,12 @@ class Session {
   /// Shows what is being done, to somebody at a terminal who wants to see it, until something else is printed.
   void show_phase(const std::string& phase, std::size_t done = 0, std::size_t total = 0);
 
-  /// Keeps a note and shows it.
+  /// Keeps a note and shows it (see Notes).
   void note(const std::string& text);
   /// The same for many, of which some are shown.
   void note_all(const Messages& notes);
+  /// All notes and warnings so far: what was done to inputs, and what an output does not hold.
+  [[nodiscard]] const Messages& notes() const { return notes_.list(); }
   /// Prints a line for people; nothing if quiet or --json.
   void say(const std::string& line);
   /// Tells the report what a phase between reading and writing took.
@@ -86,16 +87,16 @@ class Session {
 
  private:
   std::vector<Polyhedron> load_all(const std::vector<std::string>& paths, const Monitor& monitor);
-  void show_messages(std::size_t first);
-  void tell_written(const WrittenFile& written);
+  // Writes `output` by `write`, whose notes are shown.
+  void write_timed(const std::function<WrittenFile(Messages& notes)>& write);
 
   std::string program_;
-  Rational3 offset_{};  // of the output
   double load_s_ = 0;
   double write_s_ = 0;
   std::vector<ReportPhase> phases_;  // between reading and writing
   std::ostream& out_;
   std::ostream& err_;
+  Notes notes_;
   std::unique_ptr<ProgressBar> bar_;  // made when first needed: the flags are known then
 };
 

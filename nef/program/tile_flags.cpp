@@ -142,6 +142,7 @@ void finish_tiled(Session& session, const std::string& command, const TiledPolyh
     glued.seconds = seconds;
     return finish(session, command, glued, more);
   }
+  require_no_mesh_flags(session.output, session.mesh_file);
   session.show_phase("writing " + session.output);
   const Stopwatch watch;
   write_tiles(session.output, set);

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Functions that make sets.
+// Functions that make sets: from arrays, text and other sets. They copy what Python holds, compute without the
+// interpreter's lock (`call`), and warn of what the library noted when they have the lock again.
 #include <pybind11/stl.h>
+
+#include <mutex>
 
 #include "binding/base/bindings.h"
 #include "binding/base/errors.h"
@@ -54,15 +57,29 @@ Polyhedron solid_from_mesh(py::handle vertices, py::handle faces, bool strict, b
 }
 
 Polyhedron evaluate(const std::string& text) {
+  using Made = std::pair<Polyhedron, Messages>;
   // An expression may stand for any amount of work.
-  return call(kSmallCall, [text](const Monitor& monitor) {
+  const Made made = call(kSmallCall, [text](const Monitor& monitor) -> Made {
+    std::mutex noting;
+    Messages notes;
     ExpressionOptions options;
-    options.load = [](const std::string& path, const Monitor& watching) {
-      return read_polyhedron(path, {.monitor = watching});
+    options.load = [&](const std::string& path, const Monitor& watching) {
+      Messages of_file;
+      Polyhedron set = read_polyhedron(path, {.monitor = watching}, &of_file);
+      const std::lock_guard<std::mutex> lock(noting);
+      notes.insert(notes.end(), of_file.begin(), of_file.end());
+      return set;
+    };
+    options.warn = [&](const std::string& note) {
+      const std::lock_guard<std::mutex> lock(noting);
+      notes.push_back(note);
     };
     options.monitor = monitor;
-    return evaluate_expression(text, options);
+    Polyhedron set = evaluate_expression(text, options);
+    return {std::move(set), std::move(notes)};
   });
+  warn(made.second);
+  return made.first;
 }
 
 Polyhedron many(const std::vector<Polyhedron>& sets, unsigned threads, bool unite) {

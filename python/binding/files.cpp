@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Files, bytes, meshes.
+// Files, bytes, meshes. Each function copies its arguments, works without the interpreter's lock (`call`), and warns of
+// what the library noted when it has the lock again. Arrays of plain meshes are the library's memory; those that were
+// moved, repaired or separated come from exact coordinates.
 #include <pybind11/stl.h>
 
 #include <ctime>
@@ -12,6 +14,7 @@
 #include "nef/io/native/native_binary.h"
 #include "nef/io/native/native_format.h"
 #include "nef/io/polyhedron_file.h"
+#include "nef/io/solid_mesh.h"
 #include "nef/polyhedron.h"
 
 namespace nef::python {
@@ -38,6 +41,10 @@ Polyhedron read(py::handle path, bool strict, bool surface) {
   return made.first;
 }
 
+py::tuple floats_of(const Rational3& point) {
+  return py::make_tuple(nearest_double(point[0]), nearest_double(point[1]), nearest_double(point[2]));
+}
+
 py::object write(const Polyhedron& a, py::handle path, bool exact, bool binary, bool polygons, bool manifold,
                  bool recenter, bool lenient) {
   using Made = std::pair<WrittenFile, Messages>;
@@ -59,12 +66,32 @@ py::object write(const Polyhedron& a, py::handle path, bool exact, bool binary, 
   if (!made.first.problem.empty()) made.second.push_back(made.first.problem);
   warn(made.second);
   if (!recenter) return py::none();
-  py::tuple offset(3);
-  for (std::size_t i = 0; i < 3; ++i) offset[i] = nearest_double(made.first.offset[i]);
-  return offset;
+  return floats_of(made.first.offset);
 }
 
-py::tuple mesh_of(const Polyhedron& a, bool polygons, bool exact) {
+RoundedMesh nearest(const Mesh& mesh) {
+  RoundedMesh result;
+  for (const Rational3& p : mesh.vertices) {
+    result.vertices.push_back({nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2])});
+  }
+  result.face_begin = mesh.face_begin;
+  result.corners = mesh.corners;
+  return result;
+}
+
+py::tuple mesh_of(const Polyhedron& a, bool polygons, bool exact, bool manifold, bool recenter, bool repair) {
+  if (exact && repair) throw py::value_error("exact coordinates are not rounded, so there is nothing to repair");
+  if (manifold || recenter || repair) {
+    const SolidMesh made = call(items(a), [=](const Monitor& monitor) {
+      return solid_mesh(
+          a, {.polygons = polygons, .manifold = manifold, .recenter = recenter, .repair = repair, .monitor = monitor});
+    });
+    warn(made.notes);
+    const py::tuple arrays =
+        exact ? mesh_to_arrays(made.mesh, !polygons) : mesh_to_arrays(nearest(made.mesh), !polygons);
+    if (!recenter) return arrays;
+    return py::make_tuple(arrays[0], arrays[1], exact ? from_triple(made.offset) : floats_of(made.offset));
+  }
   MeshExportOptions options;
   options.keep_polygons = polygons;
   if (exact) {
@@ -122,12 +149,17 @@ rounding leaves them planar. manifold: where the solid touches itself, each shee
 recenter: subtract the middle of the mesh from its coordinates, and return it (three floats, exact); GLB and 3MF files put
 it back when they are read. lenient: write a mesh even if rounding made it illegal and it could not be repaired, and
 warn; otherwise that is an UnsupportedError. What a mesh cannot hold is told by warnings.)")
-      .def("to_mesh", &mesh_of, py::arg("polygons") = false, py::arg("exact") = false,
+      .def("to_mesh", &mesh_of, py::arg("polygons") = false, py::arg("exact") = false, py::kw_only(),
+           py::arg("manifold") = false, py::arg("recenter") = false, py::arg("repair") = false,
            R"(The boundary of the set's volumes as a closed mesh: (vertices, faces).
 
 vertices: array of shape (N, 3) of floats, the nearest to the exact coordinates; of Fractions if `exact`. faces: int64
-array of shape (M, 3), counterclockwise as seen from outside; or, with `polygons`, a list of M arrays. What a mesh cannot
-hold (open boundaries, walls, wires, unbounded volumes) is told by warnings.)")
+array of shape (M, 3), counterclockwise as seen from outside; or, with `polygons`, a list of M arrays.
+manifold: where the solid touches itself, each sheet gets vertices of its own. recenter: subtract the middle of the mesh
+from the vertices, and return it as a third value (floats that are exact; Fractions if `exact`). repair: move vertices to
+other floats nearby until no two triangles have anything in common but vertices and edges that they share, as `write`
+does; UnsupportedError if that fails. Without it rounding may turn slivers over. What a mesh cannot hold (open
+boundaries, walls, wires, unbounded volumes) is told by warnings.)")
       .def("to_bytes", &bytes_of, "The set in the binary native format, exact and with a checksum.")
       .def(py::pickle([](const Polyhedron& a) { return bytes_of(a); },
                       [](const py::bytes& bytes) { return from_bytes(std::string(bytes)); }));

@@ -82,40 +82,53 @@ def from_mesh(vertices: Any, faces: Any = None, *, strict: bool = False, surface
     return _nef._from_mesh(vertices, faces, strict, surface, check)
 
 
-def to_trimesh(self, **options):
-    """The boundary as a trimesh.Trimesh; vertices are left as they are (process=False). Needs trimesh."""
+def _with_offset(mesh, offset):
+    return (mesh, *offset) if offset else mesh
+
+
+def to_trimesh(self, manifold=False, recenter=False, repair=False, **options):
+    """The boundary as a trimesh.Trimesh; vertices are left as they are (process=False). Needs trimesh.
+
+    - manifold, recenter, repair: as in `to_mesh`; with `recenter` the result is the mesh and what was subtracted
+    - options: for trimesh.Trimesh
+    """
     import trimesh
 
-    vertices, faces = self.to_mesh()
-    return trimesh.Trimesh(vertices=vertices, faces=faces, **{"process": False, **options})
+    vertices, faces, *offset = self.to_mesh(manifold=manifold, recenter=recenter, repair=repair)
+    return _with_offset(trimesh.Trimesh(vertices=vertices, faces=faces, **{"process": False, **options}), offset)
 
 
-def to_open3d(self):
-    """The boundary as an open3d.geometry.TriangleMesh. Needs Open3D."""
+def to_open3d(self, manifold=False, recenter=False, repair=False):
+    """The boundary as an open3d.geometry.TriangleMesh; arguments as for `to_trimesh`. Needs Open3D."""
     import open3d
 
-    vertices, faces = self.to_mesh()
-    return open3d.geometry.TriangleMesh(open3d.utility.Vector3dVector(vertices),
+    vertices, faces, *offset = self.to_mesh(manifold=manifold, recenter=recenter, repair=repair)
+    mesh = open3d.geometry.TriangleMesh(open3d.utility.Vector3dVector(vertices),
                                         open3d.utility.Vector3iVector(faces.astype(numpy.int32)))
+    return _with_offset(mesh, offset)
 
 
-def to_meshio(self, polygons=False):
-    """The boundary as a meshio.Mesh of triangles; with `polygons`, facets without holes stay whole. Needs meshio."""
+def to_meshio(self, polygons=False, manifold=False, recenter=False, repair=False):
+    """The boundary as a meshio.Mesh of triangles; with `polygons`, facets without holes stay whole. Needs meshio.
+
+    Other arguments as for `to_trimesh`.
+    """
     import meshio
 
-    vertices, faces = self.to_mesh(polygons=polygons)
+    vertices, faces, *offset = self.to_mesh(polygons=polygons, manifold=manifold, recenter=recenter, repair=repair)
     if not polygons:
-        return meshio.Mesh(vertices, [("triangle", faces)])
+        return _with_offset(meshio.Mesh(vertices, [("triangle", faces)]), offset)
     names = {3: "triangle", 4: "quad"}
     blocks = []
     for size in sorted({len(face) for face in faces}):
         blocks.append((names.get(size, "polygon"), numpy.array([face for face in faces if len(face) == size])))
-    return meshio.Mesh(vertices, blocks)
+    return _with_offset(meshio.Mesh(vertices, blocks), offset)
 
 
-def to_pyvista(self):
-    """The boundary as a pyvista.PolyData. Needs pyvista."""
+def to_pyvista(self, manifold=False, recenter=False, repair=False):
+    """The boundary as a pyvista.PolyData; arguments as for `to_trimesh`. Needs pyvista."""
     import pyvista
 
-    vertices, faces = self.to_mesh()
-    return pyvista.PolyData(vertices, numpy.column_stack([numpy.full(len(faces), 3), faces]).ravel())
+    vertices, faces, *offset = self.to_mesh(manifold=manifold, recenter=recenter, repair=repair)
+    table = numpy.column_stack([numpy.full(len(faces), 3), faces]).ravel()
+    return _with_offset(pyvista.PolyData(vertices, table), offset)

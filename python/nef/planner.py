@@ -11,6 +11,7 @@ is none.
     >>> plan.status, plan.thinness.piece                      # through a passage without any room beside it
     ('path', 1)
 """
+import warnings
 from fractions import Fraction
 from typing import Any, Callable, List, NamedTuple, Optional, Sequence, Tuple, Union
 
@@ -305,10 +306,12 @@ class Scene:
 
 
 def read(path: Any) -> Scene:
-    """The scene of a file: JSON, or an OMPL.app problem (.cfg)."""
+    """The scene of a file: JSON, or an OMPL.app problem (.cfg). What was done to its meshes is told by warnings."""
     import os
 
     scene = Scene.__new__(Scene)
     scene._scene = _planner.read(os.fspath(path))
     scene._space = None
+    for message in scene.messages:
+        warnings.warn(message, stacklevel=2)
     return scene

@@ -6,6 +6,7 @@
 """
 import os
 import tempfile
+import warnings
 from typing import Any, Callable, List, NamedTuple, Optional, Sequence, Tuple
 
 import numpy
@@ -53,11 +54,13 @@ class Hull(NamedTuple):
     box: tuple
     #: (view, reason) if nothing is left of the hull at that view; else None
     vanished: Optional[Tuple[str, str]]
-    #: lines on how images were paired with views, where that was not obvious
+    #: lines on how images were paired with views, where that was not obvious; they are warnings, too
     notes: Sequence[str] = ()
 
 
 def _hull(answer):
+    for note in answer["notes"]:
+        warnings.warn(note, stacklevel=3)
     return Hull(answer["hull"], [View(*view) for view in answer["views"]], answer["box"], answer["vanished"],
                 answer["notes"])
 

@@ -48,6 +48,64 @@ def test_arrays_out():
         (TETRAHEDRON | nef.segment((5, 5, 5), (6, 6, 6))).to_mesh()
 
 
+def edge_uses(faces):
+    """How many faces have each edge, by its two vertices."""
+    uses = {}
+    for face in faces:
+        for a, b in zip(face, numpy.roll(face, -1)):
+            uses[frozenset((int(a), int(b)))] = uses.get(frozenset((int(a), int(b))), 0) + 1
+    return uses
+
+
+def test_manifold_meshes():
+    """Two boxes with one edge in common: four faces share it, or each box has it for itself."""
+    touching = nef.box((0, 0, 0), (1, 1, 1)) | nef.box((1, 1, 0), (2, 2, 1))
+    assert 4 in edge_uses(touching.to_mesh()[1]).values()
+    for polygons in (False, True):
+        vertices, faces = touching.to_mesh(polygons=polygons, manifold=True)
+        assert set(edge_uses(faces).values()) == {2} and len(vertices) == 16
+        assert nef.from_mesh(vertices, faces) == touching
+
+
+def test_recentered_meshes():
+    far = nef.box((1000, 0, -3), (1001, 1, -2)).translate(("1/3", 0, 0))
+    for exact in (False, True):
+        vertices, faces, offset = far.to_mesh(exact=exact, recenter=True)
+        assert abs(vertices).max() <= 2 and offset[0] != 0
+        back = nef.from_mesh(vertices, faces).translate(offset)
+        assert back == far if exact else abs(back.volume() - 1) < 1e-12
+
+
+def test_repaired_meshes():
+    """A speck far out has no volume in floats, so that its mesh needs another place."""
+    speck = nef.hull([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]).scale("1/1000000000").translate(
+        ("100000000/3", "100000000/7", "100000000/9"))
+    with pytest.raises(nef.InputError):
+        nef.from_mesh(*speck.to_mesh())
+    with pytest.raises(nef.UnsupportedError, match="recenter"):
+        speck.to_mesh(repair=True)
+    vertices, faces, offset = speck.to_mesh(repair=True, recenter=True)
+    assert len(faces) == 4 and offset[0] != 0
+    assert abs(nef.from_mesh(vertices, faces).volume() * 6 * 10**27 - 1) < 1e-6
+    with pytest.raises(ValueError, match="exact"):
+        speck.to_mesh(exact=True, repair=True)
+
+
+def test_warnings_of_files(tmp_path):
+    """Whoever reads a file with a bent face hears of it: read, expressions, scenes of the planner."""
+    rows = [*CORNERS[:-1], [1, 1, 2]]
+    off = f"OFF\n{len(rows)} {len(SQUARES)} 0\n" + "".join(" ".join(map(str, row)) + "\n" for row in rows)
+    (tmp_path / "bent.off").write_text(off + "".join("4 " + " ".join(map(str, face)) + "\n" for face in SQUARES))
+    with pytest.warns(UserWarning, match="is not planar"):
+        bent = nef.read(tmp_path / "bent.off")
+    with pytest.warns(UserWarning, match="is not planar"):
+        assert nef.eval(f'file("{tmp_path}/bent.off") + box(0,0,0, 1,1,1)') == bent | nef.box((0, 0, 0), (1, 1, 1))
+    planner = pytest.importorskip("nef.planner")
+    (tmp_path / "scene.json").write_text('{"robot": "bent.off", "obstacles": ["box(9,9,9, 10,10,10)"]}')
+    with pytest.warns(UserWarning, match="is not planar"):
+        planner.read(tmp_path / "scene.json")
+
+
 def test_guilty_elements():
     with pytest.raises(nef.InputError) as caught:
         nef.from_mesh(VERTICES, FACES[:3])
@@ -125,6 +183,8 @@ def test_stand_ins_of_trimesh_and_pyvista(monkeypatch):
     TETRAHEDRON.to_pyvista()
     assert nef.from_mesh(made[0]["vertices"], made[0]["faces"]) == TETRAHEDRON and made[0]["process"] is False
     assert nef.from_mesh(types.SimpleNamespace(points=made[1][0], faces=made[1][1])) == TETRAHEDRON
+    _, offset = TETRAHEDRON.translate((100, 0, 0)).to_trimesh(recenter=True, manifold=True, repair=True)
+    assert nef.from_mesh(made[2]["vertices"], made[2]["faces"]).translate(offset) == TETRAHEDRON.translate((100, 0, 0))
 
 
 def test_meshio(tmp_path):

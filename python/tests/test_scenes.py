@@ -6,6 +6,7 @@ import os
 import pathlib
 import random
 import subprocess
+import warnings
 from fractions import Fraction
 
 import pytest
@@ -28,6 +29,15 @@ TRANSLATION = [
     ("--min-dimension 3", {"min_dimension": 3}),
 ]
 TURNING = [("", {}), ("--digits 2", {"digits": 2}), ("--max-cells 4", {"max_cells": 4})]
+
+
+def read(planner, path):
+    """A scene; its messages are its warnings."""
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        scene = planner.read(path)
+    assert [str(warning.message) for warning in told] == scene.messages
+    return scene
 
 
 def program():
@@ -106,7 +116,7 @@ def without_contact(planner, scene):
 
 
 def compare_scene(planner, path):
-    scene = planner.read(path)
+    scene = read(planner, path)
     ends = (scene.start, scene.goal)
     found = []
     for option, arguments in TRANSLATION if scene.rotation is None else TURNING:
@@ -128,7 +138,7 @@ def test_shipped_scene(path, needs):
 
 def test_every_kind_of_scene_is_shipped(needs):
     planner = needs("planner")
-    kinds = {(planner.read(path).rotation is not None, path.suffix) for path in SCENES}
+    kinds = {(read(planner, path).rotation is not None, path.suffix) for path in SCENES}
     assert kinds == set(itertools.product((False, True), (".json", ".cfg")))
 
 
@@ -172,7 +182,7 @@ def test_random_scenes(needs, tmp_path):
 def test_a_robot_that_turns(needs):
     planner = needs("planner")
     path = ROOT / "data" / "planner" / "corner.json"
-    scene = planner.read(path)
+    scene = read(planner, path)
     assert scene.rotation is not None and len(scene.start) == 4
     plan = scene.plan()
     assert plan.status == "path" and plan.motions == "translation and turning"

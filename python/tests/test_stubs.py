@@ -19,7 +19,7 @@ def stubbed(path):
             if isinstance(node, ast.ClassDef):
                 visit(node.body, node.name + ".")
             elif isinstance(node, ast.FunctionDef):
-                names = [argument.arg for argument in node.args.args]
+                names = [argument.arg for argument in node.args.args + node.args.kwonlyargs]
                 found[prefix + node.name] = names[1:] if prefix else names
 
     visit(ast.parse(path.read_text()).body, "")

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // nef section, split, distance, repair; standard input and output; what nef info prints.
+#include <filesystem>
+
 #include "command/process.h"
+#include "nef/io/mesh/mesh_reader.h"
+#include "nef/io/polyhedron_file.h"
+#include "nef/polyhedron.h"
 #include "support/report_shape.h"
 #include "tests/support/paths.h"
 
@@ -90,9 +95,45 @@ TEST_CASE("repair says what it did, and whether that was enough") {
   open.replace(open.find("8 6 0"), 5, "8 5 0");
   open.erase(open.find("4 0 2 3 1"), 10);
   here.write("open.off", open);
-  CHECK(here.nef("repair open.off -o c.off").code == 1);
+  const Outcome hopeless = here.nef("repair open.off -o c.off");
+  CHECK(hopeless.code == 1);
+  CHECK(hopeless.out.find("no file is written") != std::string::npos);
+  CHECK_FALSE(std::filesystem::exists(here.file("c.off")));
+  const Outcome lenient = here.nef("repair open.off -o c.off --lenient -q");
+  CHECK(lenient.code == 1);
+  CHECK(lenient.err.find("nef: warning: c.off: ") == 0);
+  CHECK(read_mesh(here.file("c.off")).face_count() == 5);
   CHECK(here.nef("repair open.off -o c.off --fill-holes").code == 0);
   CHECK(here.nef("info c.off --json").json()["result"]["volume"] == "8");
+}
+
+TEST_CASE("offsets of all files that are written are in the report, and formats without offsets are refused") {
+  const Workplace here;
+  const std::string far = "\"box(1000,0,0, 1001,1,1) + box(0,1000,0, 1,1002,1)\"";
+  CHECK(here.nef("eval " + far + " -o two.nef").code == 0);
+  const Outcome split = here.nef("split two.nef -o parts --recenter --json");
+  CHECK(split.code == 0);
+  const auto offsets = split.json()["offsets"];
+  REQUIRE(offsets.size() == 2);
+  // What is read, moved by the offset, is the set: by volumes of what both have.
+  Polyhedron whole;
+  for (const auto& [path, offset] : offsets.items()) {
+    const Polyhedron part = read_polyhedron(here.file(path));
+    const std::array<Rational3, 2> box = *bounding_box(part);
+    for (std::size_t i = 0; i < 3; ++i) CHECK(abs(box[0][i]) <= 2);
+    whole = unite(whole, transform(part, AffineMap::translate({Rational(offset[0].get<std::string>()),
+                                                               Rational(offset[1].get<std::string>()),
+                                                               Rational(offset[2].get<std::string>())})));
+  }
+  CHECK(equal(whole, read_polyhedron(here.file("two.nef"))));
+  for (const char* option : {"--recenter", "--manifold"}) {
+    for (const char* file : {"x.nef", "x.nef3", "x.tiles"}) {
+      const Outcome refused = here.nef(std::string("convert two.nef -o ") + file + " " + option);
+      CHECK(refused.code == 2);
+      CHECK(refused.err.find(option) != std::string::npos);
+      CHECK_FALSE(std::filesystem::exists(here.file(file)));
+    }
+  }
 }
 
 TEST_CASE("subdivided meshes are files, and what cannot be subdivided is one line") {

@@ -151,6 +151,22 @@ TEST_CASE("command: cells of a decomposition to a coloured file and into a direc
   // Two hulls of 8 vertices and 6 faces, one edge.
   const std::string off = place.read("cells.off");
   CHECK(off.rfind("OFF\n18 13 0\n", 0) == 0);
+  // A cell's place in the file and the offset are its place in space.
+  place.write("far.nef", "box(100,0,0,103,1,1) + box(100,0,0,101,3,1)");
+  CHECK(place.run("--decompose far.nef -o there.off --exact").code == 0);
+  const Outcome moved = place.run("--decompose far.nef -o moved.off --recenter --exact --json");
+  CHECK(moved.code == 0);
+  const json offset = json::parse(moved.out)["offsets"]["moved.off"];
+  const nef::Mesh there = nef::read_mesh(place / "there.off");
+  const nef::Mesh here = nef::read_mesh(place / "moved.off");
+  CHECK(offset[0] != "0");
+  REQUIRE(here.vertices.size() == there.vertices.size());
+  for (std::size_t v = 0; v < here.vertices.size(); ++v) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      CHECK(here.vertices[v][i] + nef::Rational(offset[i].get<std::string>()) == there.vertices[v][i]);
+    }
+  }
+  CHECK(place.run("--decompose a.nef -o moved --format nef --recenter").code == 2);
   const Outcome ply = place.run("--decompose a.nef -o cells.ply");
   CHECK(ply.code == 0);
   CHECK(ply.err.find("1 of the cells are segments or points") != std::string::npos);
@@ -218,6 +234,18 @@ TEST_CASE("command: what a tool can touch, as labels of the part's faces") {
   // The undercut's floor, ceiling, end and sides.
   CHECK(json::parse(undercut.out)["untouched_area"].get<double>() == Approx(6 + 6 + 3 + 2 * 2));
   CHECK(place.read("labels.ply").find("comment group 1 untouched") != std::string::npos);
+  // Offsets stand beside each file; that of the task has a key of its own.
+  const Outcome moved =
+      place.run("tool.nef part.nef --reach -o positions.nef --labels labels.glb --recenter --manifold --json");
+  REQUIRE(moved.code == 0);
+  const json offsets = json::parse(moved.out)["offsets"];
+  CHECK(offsets == json{{"labels.glb", {"8", "8", "0"}}});
+  CHECK(nef::equal(nef::read_polyhedron(place / "labels.glb"), nef::read_polyhedron(place / "part.nef")));
+  place.write("far.nef", "box(100,0,0,101,1,1)");
+  const Outcome grown = place.run("far.nef --offset 1 --recenter -o grown.ply --json");
+  REQUIRE(grown.code == 0);
+  CHECK(json::parse(grown.out)["offset"]["radius"] == "1");
+  CHECK(json::parse(grown.out)["offsets"].contains("grown.ply"));
   const Outcome refused = place.run("tool.nef part.nef --reach -o positions.nef --labels labels.nef");
   CHECK(refused.code == 2);
   CHECK(refused.err.find("labels.nef") != std::string::npos);

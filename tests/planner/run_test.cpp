@@ -5,6 +5,9 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include "nef/construct/construct.h"
+#include "nef/io/polyhedron_file.h"
+#include "nef/polyhedron.h"
 #include "nef/program/exact_json.h"
 #include "tests/planner/command_helpers.h"
 #include "tests/planner/scene_helpers.h"
@@ -90,9 +93,29 @@ TEST_CASE("notes about the input are printed on stderr, whatever is asked") {
     CHECK(run.out.find("note:") == std::string::npos);
     CHECK(planner(folder, arguments + " --quiet").err.empty());
     const Run report = planner(folder, arguments + " --json");
-    CHECK(report.err.empty());
+    CHECK(report.err == run.err);
     CHECK_THAT(nlohmann::json::parse(report.out)["messages"][0].get<std::string>(), Catch::Contains("occur twice"));
   }
+}
+
+TEST_CASE("the cone of free directions is a mesh like those of other programs") {
+  const Folder folder;
+  const std::string parts =
+      folder.write("parts.json", R"J({"parts": {"a": "box(0,0,0, 1,1,1)", "b": "box(1,0,0, 2,1,1)"}})J");
+  const std::string cone = folder.file("cone.off");
+  const std::string question = "--assembly " + parts + " --free-directions a -o " + cone;
+  const Run plain = planner(folder, question + " --json");
+  CHECK(plain.code == 0);
+  CHECK_FALSE(nlohmann::json::parse(plain.out).contains("offsets"));
+  // The half of the cube from -1 to 1 with x <= 0; its middle is at x = -1/2, and its longest side is 2.
+  const Polyhedron half = make_box({-1, -1, -1}, {0, 1, 1});
+  CHECK(equal(read_polyhedron(cone), half));
+  const Run moved = planner(folder, question + " --recenter --manifold --json");
+  CHECK(moved.code == 0);
+  CHECK(nlohmann::json::parse(moved.out).value("offsets", nlohmann::json::object()).size() <= 1);
+  const Run far = planner(folder, scene("s1_tight_hole") + " --recenter");
+  CHECK(far.code == 2);
+  CHECK_THAT(far.err, Catch::Contains("--free-directions"));
 }
 
 TEST_CASE("paths in all formats, and reading them back with their passages") {

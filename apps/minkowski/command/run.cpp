@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <iostream>
 
 #include "apps/minkowski/command/arguments.h"
@@ -16,11 +17,12 @@
 #include "apps/minkowski/convex/tools.h"
 #include "apps/minkowski/morphology.h"
 #include "nef/base/timing/stopwatch.h"
-#include "nef/geometry/vectors.h"
 #include "nef/io/file_bytes.h"
+#include "nef/io/mesh/mesh_reader.h"
 #include "nef/io/polyhedron_file.h"
 #include "nef/number/brief_text.h"
 #include "nef/polyhedron.h"
+#include "nef/program/notes.h"
 #include "nef/program/numbers.h"
 #include "nef/program/progress_bar.h"
 #include "nef/program/report.h"
@@ -32,7 +34,8 @@ namespace {
 
 class Run {
  public:
-  Run(const Arguments& arguments, Task task) : a_(arguments), task_(task) {
+  Run(const Arguments& arguments, Task task)
+      : a_(arguments), task_(task), notes_("minkowski", std::cerr, arguments.quiet) {
     options_.threads = a_.threads;
     options_.strategy = strategy(a_);
   }
@@ -60,39 +63,36 @@ class Run {
     options.as_surface = a_.as_surface;
     Polyhedron set = read_polyhedron(path, options, &messages);
     load_s_ += watch.seconds();
-    show(messages);
+    notes_.note(messages);
     return set;
   }
 
-  void show(const Messages& messages) {
-    for (const std::string& line : messages) {
-      messages_.push_back(line);
-      if (!a_.quiet) std::cerr << "minkowski: note: " << one_line(line) << "\n";
-    }
+  [[nodiscard]] PolyhedronWriteOptions write_options() const {
+    return {.exact = a_.exact,
+            .binary = a_.binary,
+            .text = a_.text,
+            .manifold = a_.mesh_file.manifold,
+            .lenient = a_.mesh_file.lenient,
+            .recenter = a_.mesh_file.recenter,
+            .threads = a_.threads};
+  }
+
+  // Writes a file by `write`, whose notes are shown.
+  void write_timed(const std::string& path, const std::function<WrittenFile(Messages& notes)>& write) {
+    const Stopwatch watch;
+    const SignalsHeld held;
+    Messages notes;
+    const WrittenFile written = write(notes);
+    write_s_ += watch.seconds();
+    notes_.note(notes);
+    notes_.wrote(path, written);
   }
 
   void store(const std::string& path, const Polyhedron& result) {
-    const Stopwatch watch;
-    const SignalsHeld held;
-    Messages messages;
-    const WrittenFile written = write_polyhedron(path, result,
-                                                 {.exact = a_.exact,
-                                                  .binary = a_.binary,
-                                                  .text = a_.text,
-                                                  .manifold = a_.mesh_file.manifold,
-                                                  .lenient = a_.mesh_file.lenient,
-                                                  .recenter = a_.mesh_file.recenter,
-                                                  .threads = a_.threads},
-                                                 &messages);
-    write_s_ += watch.seconds();
-    show(messages);
-    if (!written.problem.empty()) {
-      messages_.push_back(written.problem);
-      std::cerr << "minkowski: warning: " << one_line(written.problem) << "\n";
-    }
-    if (is_zero(written.offset)) return;
-    details_["offset"] = {to_string(written.offset[0]), to_string(written.offset[1]), to_string(written.offset[2])};
-    show({offset_note(path, written.offset)});
+    PolyhedronWriteOptions options = write_options();
+    const bool one_of_many = !(a_.touched.empty() && a_.untouched.empty() && a_.labels.empty());
+    if (one_of_many && !is_mesh_extension(lower_extension(path))) options.manifold = options.recenter = false;
+    write_timed(path, [&](Messages& notes) { return write_polyhedron(path, result, options, &notes); });
   }
 
   void preview(const Polyhedron& result) {
@@ -209,7 +209,8 @@ class Run {
   void offer_hull(const Polyhedron& b) {
     const std::optional<Rational> excess = excess_of_hull(b);
     if (!excess) return;
-    show({"B is convex but for " + scientific(*excess) + " of its volume: --hull-b takes its hull, which holds B"});
+    notes_.note(
+        {"B is convex but for " + scientific(*excess) + " of its volume: --hull-b takes its hull, which holds B"});
   }
 
   Polyhedron combined(const Polyhedron& a, const Polyhedron& b) {
@@ -274,8 +275,6 @@ class Run {
 
   // The part's boundary, face by face with what the tool can do there.
   void store_labels(const Polyhedron& part, const Reach& found) {
-    const Stopwatch watch;
-    const SignalsHeld held;
     enum : LabelId { kBody = 1, kTouched = 2 };
     const Polyhedron labeled = overlay(closure(part), found.touched, [](LabelId body, LabelId touched) -> LabelId {
       return touched != 0 ? LabelId{kTouched} : body;
@@ -283,12 +282,13 @@ class Run {
     BoundaryGroups groups;
     groups.selected = [](LabelId mark) { return mark == kBody || mark == kTouched; };
     groups.name = [](LabelId, LabelId, LabelId facet) { return facet == kTouched ? "touched" : "untouched"; };
-    Messages messages;
-    const PolyhedronWriteOptions options{
-        .exact = a_.exact, .binary = a_.binary, .text = a_.text, .threads = a_.threads};
-    details_["faces"] = write_groups(a_.labels, labeled, groups, options, &messages);
-    write_s_ += watch.seconds();
-    show(messages);
+    PolyhedronWriteOptions options = write_options();
+    options.manifold = false;  // which cuts faces, so that they can have no groups
+    write_timed(a_.labels, [&](Messages& notes) {
+      WrittenFile written;
+      details_["faces"] = write_groups(a_.labels, labeled, groups, options, &notes, &written);
+      return written;
+    });
   }
 
   Polyhedron free_space() {
@@ -318,17 +318,15 @@ class Run {
     const std::vector<ConvexCell> cells = decompose(a);
     report_.seconds_decomposition = report_.seconds_total = watch.seconds();
     report_.cells_a = cells.size();
-    {
-      const Stopwatch writing;
+    write_timed(a_.output, [&](Messages& notes) {
+      const CellFiles files{
+          .format = a_.format.empty() ? "off" : a_.format, .exact = a_.exact, .recenter = a_.mesh_file.recenter};
+      return WrittenFile{.offset = write_cells(a_.output, cells, files, notes)};
+    });
+    if (!a_.preview.empty()) {
       const SignalsHeld held;
-      Messages messages;
-      write_cells(a_.output, cells, a_.format.empty() ? "off" : a_.format, a_.exact, messages);
-      write_s_ = writing.seconds();
-      show(messages);
-      if (!a_.preview.empty()) {
-        write_previews(a_.preview, {{"a", a}});
-        write_cell_preview(a_.preview, cells);
-      }
+      write_previews(a_.preview, {{"a", a}});
+      write_cell_preview(a_.preview, cells);
     }
     Json object = report(a);
     std::array<std::size_t, 4> count{};
@@ -361,6 +359,7 @@ class Run {
                                {"regions_tested", report_.convolution_regions}};
     }
     for (const auto& [key, value] : details_.items()) object[key] = value;
+    notes_.add_offsets(object);
     return object;
   }
 
@@ -372,7 +371,7 @@ class Run {
         {"union", report_.seconds_union, report_.predicates_union},
         {"op", report_.seconds_total, {}},
         {"write", write_s_, {}}};
-    const std::string text = report_text(run_report(name(task_), found, phases, messages_));
+    const std::string text = report_text(run_report(name(task_), found, phases, notes_.list()));
     if (a_.json) std::cout << text;
     if (a_.report.empty()) return;
     const SignalsHeld held;
@@ -385,7 +384,7 @@ class Run {
   MinkowskiReport report_;
   Json details_ = Json::object();                          // of the task, for the report
   std::vector<std::pair<std::string, Polyhedron>> shown_;  // for the preview
-  Messages messages_;                                      // what was done to inputs, and what an output does not hold
+  Notes notes_;                                            // what was done to inputs, and what an output does not hold
   double load_s_ = 0;
   double write_s_ = 0;
 };

@@ -12,8 +12,10 @@
 #include <filesystem>
 #include <set>
 
+#include "nef/geometry/vectors.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/polyhedron_file.h"
+#include "nef/mesh/recenter.h"
 #include "nef/polyhedron.h"
 
 namespace nef::minkowski {
@@ -60,15 +62,24 @@ struct Bodies {
   std::size_t point_count = 0, face_count = 0;
 };
 
+// How coordinates are written.
+struct Coordinates {
+  bool exact = false;
+  Rational3 offset = {};  // is subtracted
+};
+
 // The vertices and faces of all cells that `format` holds, in its notation.
-Bodies bodies(std::span<const ConvexCell> cells, std::size_t first, const std::string& format, bool exact) {
+Bodies bodies(std::span<const ConvexCell> cells, std::size_t first, const std::string& format,
+              const Coordinates& coordinates) {
   Bodies b;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     if (format == "ply" && cells[i].dimension < 2) continue;
     const Colour colour = colour_of(first + i);
     const std::string rgb =
         std::to_string(colour[0]) + " " + std::to_string(colour[1]) + " " + std::to_string(colour[2]);
-    for (const Rational3& p : cells[i].mesh.vertices) b.points += (format == "obj" ? "v " : "") + point_line(p, exact);
+    for (const Rational3& p : cells[i].mesh.vertices) {
+      b.points += (format == "obj" ? "v " : "") + point_line(minus(p, coordinates.offset), coordinates.exact);
+    }
     if (format == "obj") b.faces += "g cell_" + std::to_string(first + i + 1) + "\n";
     for (const std::vector<std::uint32_t>& face : faces_of(cells[i])) {
       b.faces += format != "obj" ? std::to_string(face.size()) : face.size() > 2 ? "f" : face.size() == 2 ? "l" : "p";
@@ -84,8 +95,8 @@ Bodies bodies(std::span<const ConvexCell> cells, std::size_t first, const std::s
 }
 
 void write_mesh_file(const std::string& path, std::span<const ConvexCell> cells, std::size_t first,
-                     const std::string& format, bool exact) {
-  const Bodies b = bodies(cells, first, format, exact);
+                     const std::string& format, const Coordinates& coordinates) {
+  const Bodies b = bodies(cells, first, format, coordinates);
   std::string head;
   if (format == "off") {
     head = "OFF\n" + std::to_string(b.point_count) + " " + std::to_string(b.face_count) + " 0\n";
@@ -98,6 +109,14 @@ void write_mesh_file(const std::string& path, std::span<const ConvexCell> cells,
     throw InputError(path + ": cells go to off, ply or obj, or into a directory (a path without extension)");
   }
   write_file(path, head + b.points + b.faces);
+}
+
+Rational3 middle_of(std::span<const ConvexCell> cells) {
+  std::vector<Rational3> points;
+  for (const ConvexCell& cell : cells) {
+    points.insert(points.end(), cell.mesh.vertices.begin(), cell.mesh.vertices.end());
+  }
+  return middle_of_few_digits(points);
 }
 
 std::string cell_path(const std::string& directory, std::size_t cell, const std::string& format) {
@@ -123,18 +142,23 @@ std::string stale_cell(const std::string& directory, std::size_t cells, const st
 
 }  // namespace
 
-void write_cells(const std::string& path, std::span<const ConvexCell> cells, const std::string& format, bool exact,
-                 Messages& messages) {
+Rational3 write_cells(const std::string& path, std::span<const ConvexCell> cells, const CellFiles& files,
+                      Messages& messages) {
   const bool is_directory = std::filesystem::is_directory(path);
   const std::string extension = is_directory ? "" : lower_extension(path);
+  const std::string format = extension.empty() ? files.format : extension;
+  if (files.recenter && format == "nef") {
+    throw UnsupportedError("--recenter is for files of meshes; cells as .nef are where they are");
+  }
   const auto thin = std::count_if(cells.begin(), cells.end(), [](const ConvexCell& c) { return c.dimension < 2; });
-  if (thin > 0 && (extension.empty() ? format : extension) == "ply") {
+  if (thin > 0 && format == "ply") {
     messages.push_back(path + ": " + std::to_string(thin) +
                        " of the cells are segments or points, which PLY leaves out");
   }
+  const Coordinates coordinates{.exact = files.exact, .offset = files.recenter ? middle_of(cells) : Rational3{}};
   if (!extension.empty()) {
-    write_mesh_file(path, cells, 0, extension, exact);
-    return;
+    write_mesh_file(path, cells, 0, extension, coordinates);
+    return coordinates.offset;
   }
   std::error_code error;
   std::filesystem::create_directories(path, error);
@@ -147,9 +171,10 @@ void write_cells(const std::string& path, std::span<const ConvexCell> cells, con
     if (format == "nef") {
       write_polyhedron(file, to_polyhedron(cells[i]));
     } else if (format != "ply" || cells[i].dimension >= 2) {
-      write_mesh_file(file, cells.subspan(i, 1), i, format, exact);
+      write_mesh_file(file, cells.subspan(i, 1), i, format, coordinates);
     }
   }
+  return coordinates.offset;
 }
 
 }  // namespace nef::minkowski

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/planner/command/arguments.h"
 
+#include "nef/base/error.h"
 #include "nef/program/common_options.h"
 
 namespace nef::planner {
@@ -18,6 +19,8 @@ An assembly is {"parts": {"name": SHAPE, ...}}, each part at its assembled place
 Exit codes: 0 a path; 1 proved that there is none (with --path: the given path leaves free space);
 2 bad input or usage; 3 start or goal not free; 4 (--ompl only) no answer within the time; 5 (rotation only) undecided.
 With --assembly: 0 a sequence, 1 inseparable, 3 parts overlap, 5 undecided within the --time.
+--manifold, --recenter and --lenient are for the meshes that --free-directions writes; .glb scenes and animations are always
+placed about their middle.
 --tight without -o only lists: it exits with 0 whatever the answer. --queries exits with the largest code of all.
 
 Examples:
@@ -56,6 +59,12 @@ void declare_clearance(CLI::App& app, Arguments& a) {
 }
 
 }  // namespace
+
+void check_mesh_flags(const Arguments& a) {
+  if (!a.free_directions.empty()) return;
+  if (!a.mesh_file.manifold && !a.mesh_file.recenter && !a.mesh_file.lenient) return;
+  throw InputError("--manifold, --recenter and --lenient are for the meshes that --free-directions writes");
+}
 
 void declare(CLI::App& app, Arguments& a) {
   app.add_option("scene", a.scene, "Scene (.json, or OMPL.app .cfg)")->type_name("FILE");
@@ -97,6 +106,8 @@ void declare(CLI::App& app, Arguments& a) {
       ->type_name("FILE");
   declare_clearance(app, a);
   declare_ompl(app, a);
+  add_manifold_option(app, a.mesh_file.manifold);
+  add_mesh_file_options(app, a.mesh_file);
   add_run_options(app, a.json, a.quiet, a.threads);
   app.footer(kFooter);
 }

@@ -9,6 +9,7 @@
 
 #include "apps/planner/clearance/timing.h"
 #include "apps/planner/path/path.h"
+#include "nef/program/common_options.h"
 
 namespace nef::planner {
 
@@ -44,7 +45,11 @@ struct Arguments {
   bool json = false;
   bool se3 = false;
   bool quiet = false;
+  MeshFileFlags mesh_file;
 };
+
+/// Throws InputError if flags of mesh files are given and no such file is written.
+void check_mesh_flags(const Arguments& arguments);
 
 /// Declares all options; parsing fills `arguments`, which must live until then.
 void declare(CLI::App& app, Arguments& arguments);

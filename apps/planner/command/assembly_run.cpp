@@ -19,6 +19,7 @@
 #include "nef/io/polyhedron_file.h"
 #include "nef/number/brief_text.h"
 #include "nef/program/exact_json.h"
+#include "nef/program/notes.h"
 #include "nef/program/progress_bar.h"
 #include "nef/program/run_report.h"
 
@@ -42,6 +43,7 @@ void check_assembly_options(const Arguments& a) {
                      a.path.clearance || a.path.raw || !a.path.thorough || a.path.min_dimension > 0 || a.se3 ||
                      !a.check_proof.empty();
   if (other) throw InputError("--assembly knows --digits, --time, --json, --quiet, --page and -o only, and no scene");
+  check_mesh_flags(a);
   if (!a.free_directions.empty() && a.path.digits) {
     throw InputError("--free-directions has no way-points: --digits does not go with it");
   }
@@ -170,20 +172,31 @@ int tell_free_directions(const Arguments& a, const Assembly& assembly) {
   for (const Integer3& ray : free.rays) {
     rays.push_back({ray[0].get_str(), ray[1].get_str(), ray[2].get_str()});
   }
-  const json report{{"assembly", assembly.name},
-                    {"part", a.free_directions},
-                    {"dimension", free.dimension},
-                    {"everything", free.everything},
-                    {"rays", rays}};
-  const std::string text =
-      report_text(run_report("free_directions", report, {{"op", watch.seconds(), {}}}, assembly.messages));
+  Json report{{"assembly", assembly.name},
+              {"part", a.free_directions},
+              {"dimension", free.dimension},
+              {"everything", free.everything},
+              {"rays", rays}};
+  // Sets first: reports say what is to be known of their files.
+  Notes notes("planner", std::cerr, a.quiet);
+  const auto is_report = [](const std::string& file) { return std::filesystem::path(file).extension() == ".json"; };
   for (const std::string& file : a.outputs) {
-    const bool as_json = std::filesystem::path(file).extension() == ".json";
-    if (as_json) {
-      write_file(file, text);
-    } else {
-      write_polyhedron(file, free.cone);
-    }
+    if (is_report(file)) continue;
+    const PolyhedronWriteOptions options{.manifold = a.mesh_file.manifold,
+                                         .lenient = a.mesh_file.lenient,
+                                         .recenter = a.mesh_file.recenter,
+                                         .threads = a.threads};
+    Messages about;
+    const WrittenFile written = write_polyhedron(file, free.cone, options, &about);
+    notes.note(about);
+    notes.wrote(file, written);
+  }
+  notes.add_offsets(report);
+  Messages messages = assembly.messages;
+  messages.insert(messages.end(), notes.list().begin(), notes.list().end());
+  const std::string text = report_text(run_report("free_directions", report, {{"op", watch.seconds(), {}}}, messages));
+  for (const std::string& file : a.outputs) {
+    if (is_report(file)) write_file(file, text);
   }
   if (a.json) {
     std::cout << text;

@@ -3,14 +3,12 @@
 
 #include <iostream>
 
-#include "nef/program/run_program.h"
+#include "nef/program/notes.h"
 
 namespace nef::planner {
 
 void print_notes(const Arguments& a, const Messages& messages) {
-  const bool in_report = a.json && a.benchmark.empty();
-  if (a.quiet || in_report) return;
-  for (const std::string& line : printed_notes(messages)) std::cerr << "planner: " << line << '\n';
+  if (!a.quiet) nef::print_notes(std::cerr, "planner", messages);
 }
 
 }  // namespace nef::planner

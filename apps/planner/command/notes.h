@@ -8,8 +8,7 @@
 
 namespace nef::planner {
 
-/// Prints each message as a line "planner: note: ..." on stderr, the first few of very many; nothing with --quiet, or
-/// with --json, whose report has all of them.
+/// Prints each message as a line "planner: note: ..." on stderr, the first few of very many; nothing with --quiet.
 void print_notes(const Arguments& a, const Messages& messages);
 
 }  // namespace nef::planner

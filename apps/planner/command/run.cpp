@@ -60,6 +60,7 @@ Scene scene_of(const Arguments& a) {
 
 // Found out before any work is done.
 void check_usage(const Arguments& a) {
+  check_mesh_flags(a);
   if (!a.page.empty() && std::filesystem::path(a.page).extension() != ".html") {
     throw InputError("--page " + a.page + ": the extension must be .html");
   }

@@ -26,6 +26,7 @@
 #include "nef/geometry/vectors.h"
 #include "nef/io/content_hash.h"
 #include "nef/io/file_bytes.h"
+#include "nef/program/notes.h"
 #include "nef/program/progress_bar.h"
 #include "nef/program/run_program.h"
 #include "nef/query/measures/approximate_volume.h"
@@ -98,15 +99,20 @@ const Arguments& checked(const Arguments& a) {
 // What a line of the manifest says.
 json parse(const std::string& line) { return json::parse(line, nullptr, false); }
 
+std::string of_frame(const json& entry, const std::string& text) {
+  return fmt::format("frame {}: {}", entry["frame"].get<std::size_t>(), text);
+}
+
 // What the exit code is for a frame, which is complained of unless it is good.
 int code_of(const json& entry) {
+  const auto complain = [&entry](const std::string& word, const std::string& text) {
+    std::cerr << "visual_hull: " << word << nef::one_line(of_frame(entry, text)) << "\n";
+  };
+  if (entry.contains("warning")) complain("warning: ", entry["warning"]);
   const bool failed = entry["state"] == "failed";
   const bool empty = entry["state"] == "vanished" || !entry.value("inside", true);
   if (!failed && !empty) return 0;
-  std::cerr << "visual_hull: "
-            << nef::one_line(fmt::format("frame {}: {}", entry["frame"].get<std::size_t>(),
-                                         entry.value("message", "not inside its views")))
-            << "\n";
+  complain("", entry.value("message", "not inside its views"));
   return failed ? 2 : 1;
 }
 
@@ -116,20 +122,24 @@ fs::path manifest_of(const NumberedPath& outputs) {
 
 json entry_of(const Result& result, const fs::path& output, const Arguments& a, const nef::Monitor& monitor) {
   json entry;
+  nef::Messages notes = result.notes;
   entry["state"] = result.vanished ? "vanished" : "done";
   if (result.vanished) {
     entry["message"] = nef::utf8(vanished_text(result));
   } else {
-    const WrittenHull written = write_hull(output.string(), result, a, nullptr, monitor);
+    const WrittenHull written = write_hull(output.string(), result, a, notes, monitor);
     if (written.decimated) entry["decimated"] = decimation_json(*written.decimated);
-    if (!nef::is_zero(written.file.offset)) entry["offset"] = offset_json(written.file);
+    if (!written.file.problem.empty()) entry["warning"] = nef::utf8(written.file.problem);
+    if (!nef::is_zero(written.file.offset)) {
+      for (const Rational& x : written.file.offset) entry["offset"].push_back(nef::to_string(x));
+    }
     const nef::Counts counts = nef::counts(result.hull);
     entry["output"] = nef::utf8(output.string());
     entry["vertices"] = counts.vertices;
     entry["facets"] = counts.facets;
     entry["volume"] = nef::approximate_volume(result.hull, 1, monitor).value;
   }
-  for (const std::string& note : result.notes) entry["notes"].push_back(nef::utf8(note));
+  for (const std::string& note : notes) entry["notes"].push_back(nef::utf8(note));
   for (const Dropped& dropped : result.dropped) entry["dropped"].push_back(nef::utf8(dropped.view));
   if (a.verify && !result.vanished) {
     entry["inside"] = std::all_of(result.views.begin(), result.views.end(), [](const ViewResult& view) {
@@ -279,12 +289,9 @@ void FrameRecord::add(const std::string& line) {
   code_ = std::max(code_, code_of(entry));
   if (!quiet_ && !noted_ && entry.contains("notes")) {  // all frames have the same names, as a rule
     noted_ = true;
-    for (const auto& note : entry["notes"]) {
-      std::cerr << "visual_hull: note: "
-                << nef::one_line(
-                       fmt::format("frame {}: {}", entry["frame"].get<std::size_t>(), note.get<std::string>()))
-                << "\n";
-    }
+    nef::Messages notes;
+    for (const auto& note : entry["notes"]) notes.push_back(of_frame(entry, note));
+    nef::print_notes(std::cerr, "visual_hull", notes);
   }
   manifest_->add(std::move(entry));
 }

@@ -4,15 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iostream>
 
 #include "apps/visual_hull/color/vertex_colors.h"
 #include "nef/base/error.h"
-#include "nef/geometry/vectors.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/mesh/mesh_writer.h"
 #include "nef/io/polyhedron_file.h"
-#include "nef/program/run_program.h"
 
 namespace visual_hull {
 
@@ -24,19 +21,19 @@ void need_mesh(const Arguments& a, const std::string& option, bool (*suits)(cons
   throw nef::InputError(option + ": " + a.output + " cannot hold that; " + formats + " can");
 }
 
-std::vector<Color> colors_of(const nef::Mesh& mesh, const Result& result, const Arguments& a, nef::Messages* messages,
+std::vector<Color> colors_of(const nef::Mesh& mesh, const Result& result, const Arguments& a, nef::Messages& messages,
                              const nef::Monitor& monitor) {
   VertexColors found = vertex_colors(mesh, result.views, result.origin, a.threads, monitor);
-  if (found.unseen > 0 && messages != nullptr) {
-    messages->push_back(fmt::format("{} of {} vertices are seen by no view: they have the colours of their neighbours",
-                                    found.unseen, found.colors.size()));
+  if (found.unseen > 0) {
+    messages.push_back(fmt::format("{} of {} vertices are seen by no view: they have the colours of their neighbours",
+                                   found.unseen, found.colors.size()));
   }
   const bool masks = std::all_of(result.views.begin(), result.views.end(), [](const ViewResult& view) {
     const std::string folder = view.image.parent_path().filename().string();
     return (folder == "masks" || folder == "silhouettes") && photograph_of(view.image) == view.image;
   });
-  if (masks && messages != nullptr) {
-    messages->push_back("the colours are those of the masks: no photographs of their names are in images/ beside them");
+  if (masks) {
+    messages.push_back("the colours are those of the masks: no photographs of their names are in images/ beside them");
   }
   return std::move(found.colors);
 }
@@ -53,7 +50,7 @@ void check_output(const Arguments& a) {
   if (a.color) need_mesh(a, "--color", nef::has_vertex_colors, "PLY and GLB");
 }
 
-WrittenHull write_hull(const std::string& path, const Result& result, const Arguments& a, nef::Messages* messages,
+WrittenHull write_hull(const std::string& path, const Result& result, const Arguments& a, nef::Messages& messages,
                        const nef::Monitor& monitor) {
   nef::PolyhedronWriteOptions format;
   format.exact = a.exact;
@@ -69,23 +66,14 @@ WrittenHull write_hull(const std::string& path, const Result& result, const Argu
   }
   WrittenHull written;
   if (a.decimate == 0) {
-    written.file = nef::write_polyhedron(path, result.hull, format, messages);
+    written.file = nef::write_polyhedron(path, result.hull, format, &messages);
   } else {
     written.decimated = nef::decimate(result.hull, a.decimate, monitor);
     const nef::Messages& notes = written.decimated->notes;
-    if (messages != nullptr) messages->insert(messages->end(), notes.begin(), notes.end());
-    written.file = nef::write_solid_mesh(path, written.decimated->mesh, false, format, messages);
+    messages.insert(messages.end(), notes.begin(), notes.end());
+    written.file = nef::write_solid_mesh(path, written.decimated->mesh, false, format, &messages);
   }
-  if (!written.file.problem.empty())
-    std::cerr << "visual_hull: warning: " << nef::one_line(written.file.problem) << "\n";
-  if (messages == nullptr) return written;
-  if (!written.file.problem.empty()) messages->push_back(written.file.problem);
-  if (!nef::is_zero(written.file.offset)) messages->push_back(nef::offset_note(path, written.file.offset));
   return written;
-}
-
-nlohmann::ordered_json offset_json(const nef::WrittenFile& file) {
-  return {nef::to_string(file.offset[0]), nef::to_string(file.offset[1]), nef::to_string(file.offset[2])};
 }
 
 nlohmann::ordered_json decimation_json(const nef::DecimatedMesh& decimated) {

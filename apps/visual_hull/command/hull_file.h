@@ -23,13 +23,9 @@ struct WrittenHull {
 };
 
 /// Writes the hull as the arguments have it: whole, or with --decimate as a mesh of fewer triangles. With --manifold,
-/// --color, --lenient and --recenter as these say. Notes go to `messages` if that is not null; a warning that the mesh
-/// is not legal goes to stderr in any case.
+/// --color, --lenient and --recenter as these say. Notes about what was done are added to `messages`.
 WrittenHull write_hull(const std::string& path, const Result& result, const Arguments& arguments,
-                       nef::Messages* messages, const nef::Monitor& monitor);
-
-/// What was subtracted from the coordinates of the mesh, for the report.
-nlohmann::ordered_json offset_json(const nef::WrittenFile& file);
+                       nef::Messages& messages, const nef::Monitor& monitor);
 
 /// For the report: `triangles`, `vertices`, and `distance` from the hull (bounds of Hausdorff's, `low` and `high`).
 nlohmann::ordered_json decimation_json(const nef::DecimatedMesh& decimated);

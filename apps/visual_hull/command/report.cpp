@@ -133,7 +133,7 @@ std::vector<std::string> verdict_lines(const Result& result) {
   const std::vector<std::size_t> order = found.ranked();
   std::vector<std::string> first;
   for (std::size_t i = 0; i < std::min<std::size_t>(3, order.size()); ++i) first.push_back(result.views[order[i]].name);
-  lines.push_back(fmt::format("note: no view clearly disagrees with the others; most do {}", fmt::join(first, ", ")));
+  lines.push_back(fmt::format("no view clearly disagrees with the others; most do {}", fmt::join(first, ", ")));
   return lines;
 }
 

@@ -21,7 +21,7 @@ nlohmann::ordered_json make_report(const Result& result, const nef::Messages& me
 /// Why there is no hull, as one line.
 std::string vanished_text(const Result& result);
 
-/// What the comparison of the views has come to, for stderr: the guilty view and those that were left out, or the first
+/// What the comparison of the views has come to, as notes: the guilty view and those that were left out, or the first
 /// three without a verdict. Nothing if the views were not compared or have no inconsistency.
 std::vector<std::string> verdict_lines(const Result& result);
 

@@ -17,8 +17,8 @@
 #include "apps/visual_hull/command/report.h"
 #include "apps/visual_hull/scene/understanding.h"
 #include "nef/base/error.h"
-#include "nef/geometry/vectors.h"
 #include "nef/io/file_bytes.h"
+#include "nef/program/notes.h"
 #include "nef/program/progress_bar.h"
 #include "nef/program/run_program.h"
 #include "nef/program/run_report.h"
@@ -56,9 +56,7 @@ std::string box_text(const WorldBox& box) {
 
 // Which view disagrees with the others; without a clear one the first three, without a verdict.
 void tell_suspects(const Arguments& a, const Result& result, std::ostream& say) {
-  if (!a.quiet) {
-    for (const std::string& line : verdict_lines(result)) complain(line);
-  }
+  if (!a.quiet) nef::print_notes(std::cerr, "visual_hull", verdict_lines(result));
   if (a.quiet || a.json || !result.consistency) return;
   for (const std::string& line : suspects_table(result)) say << line << "\n";
 }
@@ -76,9 +74,7 @@ int check_scene(const Arguments& a, const Scene& scene) {
   }
   std::cout << understood(scene) << "\n";
   for (const std::string& line : view_lines(scene, images)) std::cout << line << "\n";
-  if (!a.quiet) {
-    for (const std::string& note : notes) complain("note: " + note);
-  }
+  if (!a.quiet) nef::print_notes(std::cerr, "visual_hull", notes);
   if (missing.empty()) return kDone;
   complain(missing);
   return kBad;
@@ -110,23 +106,21 @@ int conclude(const Arguments& a, const Scene& scene, const Result& result) {
   return inside ? kDone : kNo;
 }
 
-struct Written {
-  nef::Messages messages;
-  WrittenHull hull;
-};
-
-// What is asked for, into files. A hull that vanished has pictures of its views only.
-void write_files(const Arguments& a, const Result& result, nef::ProgressBar& bar, Written& written,
-                 const nef::Monitor& monitor) {
+// What is asked for, into files; returns what is to be known of that of the hull. A hull that vanished has pictures of
+// its views only.
+WrittenHull write_files(const Arguments& a, const Result& result, nef::ProgressBar& bar, nef::Messages& notes,
+                        const nef::Monitor& monitor) {
+  WrittenHull written;
   const auto step = [&](const std::string& target, bool solid, const std::function<void()>& write) {
     if (target.empty() || (solid && result.vanished)) return;
     bar.show("write " + target);
     write();
   };
-  step(a.output, true, [&] { written.hull = write_hull(a.output, result, a, &written.messages, monitor); });
+  step(a.output, true, [&] { written = write_hull(a.output, result, a, notes, monitor); });
   step(a.overlay, false, [&] { write_overlays(result, result.origin, a.overlay); });
   step(a.preview, true, [&] { write_preview(result, a.preview, monitor); });
   step(a.page, true, [&] { write_page(result, result.origin, a.page, monitor); });
+  return written;
 }
 
 void check_page_name(const std::string& page) {
@@ -147,27 +141,28 @@ int run(const Arguments& a) {
                           [&bar](Phase phase, const std::string& view, std::size_t done, std::size_t total) {
                             bar.show(std::string(phase_name(phase)) + " " + view, done, total);
                           });
-  Written written;
-  written.messages = result.notes;
-  if (const auto note = cut_note(result)) written.messages.push_back(*note);
+  nef::Messages about = result.notes;
+  if (const auto note = cut_note(result)) about.push_back(*note);
+  WrittenHull written;
   timed(result.phases, Phase::kWrite, {},
-        [&](const nef::Monitor& monitor) { write_files(a, result, bar, written, monitor); });
+        [&](const nef::Monitor& monitor) { written = write_files(a, result, bar, about, monitor); });
+  bar.clear();
+  nef::Notes notes("visual_hull", std::cerr, a.quiet);
+  notes.note(about);
+  notes.wrote(a.output, written.file);
   if (!a.report.empty() || a.json) {
     bar.show("write report");
-    nlohmann::ordered_json report = make_report(result, written.messages, a.exact_volume);
-    if (written.hull.decimated) report["decimated"] = decimation_json(*written.hull.decimated);
-    if (!nef::is_zero(written.hull.file.offset)) report["offset"] = offset_json(written.hull.file);
+    nlohmann::ordered_json report = make_report(result, notes.list(), a.exact_volume);
+    if (written.decimated) report["decimated"] = decimation_json(*written.decimated);
+    notes.add_offsets(report);
     const std::string text = nef::report_text(report);
     bar.clear();
     if (!a.report.empty()) write_text(a.report, text);
     if (a.json && a.report != "-") write_text("-", text);
   }
   bar.clear();
-  if (!a.quiet && !a.json) {
-    for (const std::string& message : written.messages) complain("note: " + message);
-    if (written.hull.decimated) {
-      (a.report == "-" ? std::cerr : std::cout) << decimation_text(*written.hull.decimated) << "\n";
-    }
+  if (!a.quiet && !a.json && written.decimated) {
+    (a.report == "-" ? std::cerr : std::cout) << decimation_text(*written.decimated) << "\n";
   }
   return conclude(a, scene, result);
 }

@@ -27,7 +27,7 @@ Polyhedron evaluate_file(const std::string& path, const std::string& text, bool 
   options.warn = [&session, &path](const std::string& warning) {
     // Once, however often the computation is repeated.
     const std::string line = path + ": " + warning;
-    if (std::find(session.messages.begin(), session.messages.end(), line) == session.messages.end()) {
+    if (std::find(session.notes().begin(), session.notes().end(), line) == session.notes().end()) {
       session.note(line);
     }
   };

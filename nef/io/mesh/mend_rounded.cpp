@@ -355,6 +355,17 @@ Rounding rounding_to_binary_floats() {
   return {[](const Rational& x) { return static_cast<double>(nearest_float(x)); }, next_float, {exact_rational}};
 }
 
+std::string repair_text(const MendedMesh& rounded) {
+  if (rounded.moved == 0 && rounded.dropped == 0) return "";
+  std::string text = "rounding made the mesh cross or touch itself; it was repaired:";
+  if (rounded.moved > 0) text += " " + std::to_string(rounded.moved) + " vertices went to other numbers nearby";
+  if (rounded.moved > 0 && rounded.dropped > 0) text += ",";
+  if (rounded.dropped > 0) text += " " + std::to_string(rounded.dropped) + " slivers were dropped";
+  text += " (off by at most ";
+  append_number(text, rounded.largest_move);
+  return text + "); --exact or .nef keep everything";
+}
+
 std::string strict_problem(const Mesh& mesh, const Monitor& monitor) { return examine(mesh, monitor).text; }
 
 std::string rounded_problem(const Mesh& exact, const Rounding& rounding, unsigned threads, const Monitor& monitor) {

@@ -39,6 +39,9 @@ struct MendedMesh {
   std::vector<std::uint32_t> face_of;
 };
 
+/// What was moved and dropped, as a note; empty if nothing was.
+std::string repair_text(const MendedMesh& rounded);
+
 /// Why a mesh is not strictly legal (is_strictly_legal), or bounds no solid though it is; empty if it does. The cost is
 /// that of check_mesh.
 std::string strict_problem(const Mesh& mesh, const Monitor& monitor = {});

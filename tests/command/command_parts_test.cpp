@@ -2,6 +2,7 @@
 //
 // nef section, split, distance, repair; standard input and output; what nef info prints.
 #include <filesystem>
+#include <sstream>
 
 #include "command/process.h"
 #include "nef/io/mesh/mesh_reader.h"
@@ -105,6 +106,26 @@ TEST_CASE("repair says what it did, and whether that was enough") {
   CHECK(read_mesh(here.file("c.off")).face_count() == 5);
   CHECK(here.nef("repair open.off -o c.off --fill-holes").code == 0);
   CHECK(here.nef("info c.off --json").json()["result"]["volume"] == "8");
+}
+
+TEST_CASE("drawings and STL files of nothing are such that other programs read them") {
+  const Workplace here;
+  REQUIRE(here.nef("eval nothing -o none.nef").code == 0);
+  CHECK(here.nef("section none.nef --plane 0,0,1,0 -o none.svg").code == 0);
+  const std::string svg = here.read("none.svg");
+  const std::string box = "viewBox=\"";
+  std::istringstream numbers(svg.substr(svg.find(box) + box.size()));
+  double left = 0;
+  double top = 0;
+  float width = 0;  // as some readers have it
+  float height = 0;
+  numbers >> left >> top >> width >> height;
+  CHECK(width > 0);
+  CHECK(height > 0);
+  CHECK(here.nef("convert none.nef -o none.stl").code == 0);
+  // The binary form begins with 80 bytes and a number of four.
+  CHECK(here.read("none.stl").size() >= 84);
+  CHECK(here.nef("info none.stl").out.find("vertices: 0") != std::string::npos);
 }
 
 TEST_CASE("offsets of all files that are written are in the report, and formats without offsets are refused") {

@@ -144,7 +144,8 @@ std::string section_svg(const Section& section, const Rational3& normal) {
   const Bounds bounds = bounds_of(section, frame);
   const double width = bounds.high[0] - bounds.low[0];
   const double height = bounds.high[1] - bounds.low[1];
-  const double size = std::max({width, height, 1e-300});
+  // A drawing of nothing, or of one point, is one unit wide: readers with floats know no box of less than 1e-38.
+  const double size = std::max(width, height) > 0 ? std::max({width, height, 1e-30}) : 1;
   const double margin = size / 50;
   std::string text = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"";
   for (const double x : {bounds.low[0] - margin, -bounds.high[1] - margin, width + 2 * margin}) {

@@ -85,6 +85,11 @@ std::string text_stl(const Mesh& mesh, const MeshSurface& surface, const Rationa
     }
     text += '\n';
   };
+  // Some readers look at byte 80 before they know whether a file is text, so that without facets is not shorter.
+  if (surface.triangles.empty()) {
+    const std::string name = "solid nef: the empty set, a solid without any facets";
+    return name + "\nend" + name + "\n";
+  }
   std::string text = "solid nef" + offset_text(" ", offset, "") + "\n";
   for (const auto& t : surface.triangles) {
     text += " facet normal";

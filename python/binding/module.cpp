@@ -14,6 +14,7 @@ by operations. Operators are those of Python's sets: ``|``, ``&``, ``-``, ``^``,
 (subset), ``in``; a set is true if it is not empty.)");
   nef::python::bind_operations(polyhedron);
   nef::python::bind_queries(module, polyhedron);
+  nef::python::bind_measures(module, polyhedron);
   nef::python::bind_files(module, polyhedron);
   nef::python::bind_construction(module);
   nef::python::bind_view(module);

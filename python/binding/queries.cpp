@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What is asked about sets: properties, point location for one point or for arrays, rays, sections, distances and
-// measures. Arrays of doubles take the fast path (`locate_many`); other numbers are converted to rationals one by one.
+// What is asked about sets: properties, point location for one point or for arrays, rays, sections and
+// distances. Arrays of doubles take the fast path (`locate_many`); other numbers are converted to rationals one by one.
 // Exact results become Fractions, records become the named tuples of python/nef/results.py.
 #include <pybind11/stl.h>
 
@@ -13,7 +13,6 @@
 #include "nef/parts/section.h"
 #include "nef/query/locate_many.h"
 #include "nef/query/location_name.h"
-#include "nef/query/moments.h"
 
 namespace nef::python {
 bool is_one_point(py::handle points) {
@@ -30,12 +29,6 @@ namespace {
 
 py::object location_of(const Location& location) {
   return result_of("Location", py::make_tuple(location_name(location.kind), location.index, location.mark));
-}
-
-py::object optional_fraction(const std::optional<Rational>& value) { return value ? to_fraction(*value) : py::none(); }
-
-py::tuple from_matrix(const Rational3x3& matrix) {
-  return py::make_tuple(from_triple(matrix[0]), from_triple(matrix[1]), from_triple(matrix[2]));
 }
 
 std::vector<LabelId> marks_at(const Polyhedron& a, py::handle points, unsigned threads) {
@@ -118,25 +111,6 @@ py::object distance_of(const Polyhedron& a, const Polyhedron& b) {
                                   to_fraction(found->squared), from_triple(found->on_a), from_triple(found->on_b)));
 }
 
-py::object moments_of(const Polyhedron& a) {
-  const std::optional<Moments> found = call(items(a), [a](const Monitor&) { return moments(a); });
-  if (!found) return py::none();
-  const std::optional<Rational3> centre = found->centroid();
-  py::object centroid = py::none();
-  py::object inertia = py::none();
-  py::object principal = py::none();
-  py::object axes = py::none();
-  if (centre) {
-    centroid = from_triple(*centre);
-    inertia = from_matrix(found->inertia(*centre));
-    const PrincipalInertia frame = principal_inertia(*found);
-    principal = py::array_t<double>(3, frame.moments.data());
-    axes = py::array_t<double>({3, 3}, frame.axes[0].data());
-  }
-  return result_of("Moments", py::make_tuple(to_fraction(found->volume), centroid, from_triple(found->first),
-                                             from_matrix(found->second), inertia, principal, axes));
-}
-
 py::object counts_of(const Polyhedron& a) {
   const Counts n = call(items(a), [a](const Monitor&) { return counts(a); });
   return result_of("Counts", py::make_tuple(n.vertices, n.edges, n.facets, n.volumes, n.shells));
@@ -148,12 +122,6 @@ std::vector<LabelId> labels_of(const Polyhedron& a) {
     if (mark != kOutside) labels.insert(mark);
   });
   return {labels.begin(), labels.end()};
-}
-
-py::object box_of(const Polyhedron& a) {
-  const auto box = call(items(a), [a](const Monitor&) { return bounding_box(a); });
-  if (!box) return py::none();
-  return py::make_tuple(from_triple((*box)[0]), from_triple((*box)[1]));
 }
 
 }  // namespace
@@ -193,22 +161,6 @@ InputError if the normal is zero.)")
 
 Its `squared` is exact (a Fraction), as are the nearest points; `contact` is 'disjoint', 'touching' (the closures meet,
 the interiors do not) or 'overlapping'; `common_point` tells whether a point is in both sets themselves.)")
-      .def(
-          "volume",
-          [](const Polyhedron& a) {
-            return optional_fraction(call(items(a), [a](const Monitor&) { return volume(a); }));
-          },
-          "The volume, a Fraction; None if it is infinite.")
-      .def(
-          "surface_area",
-          [](const Polyhedron& a) { return call(items(a), [a](const Monitor&) { return surface_area(a); }); },
-          "The area of the facets, each once, as a float; infinite if one is unbounded.")
-      .def("bounding_box", &box_of,
-           "Smallest and largest coordinates of the vertices, as two tuples of Fractions; None if there are no "
-           "vertices.")
-      .def("moments", &moments_of,
-           "Exact volume, centroid and inertia of the solid of density one: nef.Moments; None if the volume is "
-           "infinite.")
       .def("counts", &counts_of, "nef.Counts(vertices, edges, facets, volumes, shells), the outer volume included.")
       .def(
           "euler_numbers",

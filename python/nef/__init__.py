@@ -29,11 +29,12 @@ from ._nef import (Polyhedron, TiledPolyhedron, box, eval, everything, from_byte
 from .errors import Error, InputError, UnsupportedError
 from .meshes import from_mesh
 from .notebook import show
-from .results import Counts, Distance, Location, Moments, Penetration, Polygon, RayHit, Reach, Section
+from .results import (ApproximateMoments, Counts, Distance, Location, Measured, Moments, Penetration, Polygon, RayHit, Reach,
+                      Section)
 from . import meshes as _meshes, notebook as _notebook
 
 __all__ = [
-    "Counts", "Distance", "Error", "InputError", "Location", "Moments", "Penetration", "Polygon", "Polyhedron",
+    "ApproximateMoments", "Counts", "Distance", "Error", "InputError", "Location", "Measured", "Moments", "Penetration", "Polygon", "Polyhedron",
     "RayHit", "Reach", "Section", "TiledPolyhedron", "UnsupportedError", "box", "empty", "eval", "everything", "from_bytes", "from_mesh", "halfspace", "hull",
     "intersect_all", "overlay", "point", "polygon", "progress", "read", "read_tiles", "segment", "show",
     "tiles_from_mesh", "unite_all", "unite_in_tiles",

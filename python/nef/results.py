@@ -84,6 +84,28 @@ class Reach(NamedTuple):
     untouched: object
 
 
+class Measured(NamedTuple):
+    """A measure in floats, which is off by at most `error`; an infinite one has the error 0."""
+
+    value: float
+    error: float
+
+
+class ApproximateMoments(NamedTuple):
+    """Centroid and inertia of a solid of density one, in floats with proven bounds."""
+
+    #: three floats, each off by at most centroid_error
+    centroid: tuple
+    centroid_error: float
+    #: the inertia tensor about the centroid, array of shape (3, 3), each entry off by at most inertia_error
+    inertia: object
+    inertia_error: float
+    #: the eigenvalues of the tensor given here, smallest first, each off by 3 inertia_error and some units in the last place
+    principal_moments: object
+    #: unit vectors that belong to them, the rows of a rotation matrix
+    principal_axes: object
+
+
 class Moments(NamedTuple):
     """Integrals over a solid of density one. Without volume there is neither a centroid nor what follows from it."""
 

@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Queries against closed forms."""
+import json
 import math
+import os
 import random
+import subprocess
 from fractions import Fraction
 
 import numpy
@@ -43,6 +46,43 @@ def test_locate_and_ray():
     assert BOX.ray((-5, 1, 1), (-1, 0, 0)) is None
     with pytest.raises(nef.InputError):
         BOX.ray((0, 0, 0), (0, 0, 0))
+
+
+def turned_balls(count):
+    """Booleans of balls that are turned by rational rotations: coordinates of many digits."""
+    for i in range(count):
+        a, b = (nef.eval(f"rotate(sphere({r}, {6 + i}), [1, {i + 1}, 3], {17 * i + 5})") for r in (1, "9/8"))
+        yield a - b.translate((Fraction(1, 3), Fraction(i, 7), Fraction(1, 5)))
+
+
+def test_approximate_measures_hold_exact_ones():
+    for solid in (BOX, *turned_balls(4)):
+        value, error = solid.approximate_volume()
+        assert abs(Fraction(value) - solid.volume()) <= Fraction(error) < Fraction(1, 10**9)
+        assert solid.approximate_volume(threads=2) == (value, error)
+        area = solid.approximate_area()
+        assert abs(area.value - solid.surface_area()) <= area.error + 1e-14 * area.value and area.error < 1e-9
+        exact, floats = solid.moments(), solid.approximate_moments()
+        for i in range(3):
+            assert abs(Fraction(floats.centroid[i]) - exact.centroid[i]) <= Fraction(floats.centroid_error)
+            for j in range(3):
+                off = Fraction(floats.inertia[i][j]) - exact.inertia[i][j]
+                assert abs(off) <= Fraction(floats.inertia_error) < Fraction(1, 10**9)
+        assert numpy.allclose(floats.principal_moments, exact.principal_moments)
+    assert (~BOX).approximate_volume() == (math.inf, 0) and (~BOX).approximate_moments() is None
+    assert nef.halfspace(1, 0, 0, 0).approximate_area() == (math.inf, 0)
+
+
+def test_info_is_that_of_the_program(tmp_path):
+    folder = os.environ.get("NEF_PROGRAM_DIR")
+    if folder is None:
+        pytest.skip("NEF_PROGRAM_DIR does not say where the programs are")
+    for i, solid in enumerate((BOX, ~BOX, nef.point((1, 2, 3)), *turned_balls(2))):
+        path = tmp_path / f"{i}.nef"
+        solid.write(path)
+        for flags, exact in (([], False), (["--exact"], True)):
+            done = subprocess.run([os.path.join(folder, "nef"), "info", path, "--json", *flags], stdout=subprocess.PIPE, check=True)
+            assert solid.info(exact=exact) == json.loads(done.stdout)["result"]
 
 
 def test_measures():

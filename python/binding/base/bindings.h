@@ -35,6 +35,7 @@ using PolyhedronClass = py::class_<Polyhedron>;
 
 void bind_operations(PolyhedronClass& polyhedron);
 void bind_queries(py::module_& module, PolyhedronClass& polyhedron);
+void bind_measures(py::module_& module, PolyhedronClass& polyhedron);
 void bind_files(py::module_& module, PolyhedronClass& polyhedron);
 void bind_construction(py::module_& module);
 void bind_view(py::module_& module);

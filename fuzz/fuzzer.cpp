@@ -22,6 +22,8 @@ std::span<const Fuzzer> fuzzers() {
       Fuzzer{"dirty",
              "meshes with folds, slits, faces doubled, turned and missing, on 1, 2 and 4 threads, by volumes and rays",
              fuzz_dirty},
+      Fuzzer{"crossings", "soups of meshes that cross, double and undo each other, by winding numbers in fractions",
+             fuzz_crossings},
       Fuzzer{"stars", "cones of very many sides with an apex in common, point by point", fuzz_stars},
       Fuzzer{"files", "damaged files of every format", fuzz_files},
       Fuzzer{"written",

@@ -67,6 +67,7 @@ void fuzz_nested(const Case& the_case);
 void fuzz_voxels(const Case& the_case);
 void fuzz_stars(const Case& the_case);
 void fuzz_files(const Case& the_case);
+void fuzz_crossings(const Case& the_case);
 void fuzz_dirty(const Case& the_case);
 void fuzz_written(const Case& the_case);
 void fuzz_sums(const Case& the_case);

@@ -132,7 +132,8 @@ class Run {
   // The beginning of a job's text: all that decides which tasks there are, and what they give, but its inputs.
   [[nodiscard]] std::string job(const std::string& name) const {
     return "nef_mpi " NEF_VERSION " " + name + " " + std::to_string(session_.mesh.strict ? 1 : 0) +
-           std::to_string(session_.mesh.as_surface ? 1 : 0) + " " + flags_.tiles + "\n";
+           std::to_string(session_.mesh.as_surface ? 1 : 0) + nef::name(session_.mesh.crossings) + " " + flags_.tiles +
+           "\n";
   }
 
   [[nodiscard]] std::string sum_job() const {

@@ -176,6 +176,11 @@ class ComplexOverlay {
     for (const SFace& item : map.sfaces) marks_.push_back(item.mark);
     std::sort(marks_.begin(), marks_.end());
     marks_.erase(std::unique(marks_.begin(), marks_.end()), marks_.end());
+    // What f leaves as it is keeps its links, too.
+    if (std::all_of(marks_.begin(), marks_.end(), [&](LabelId mark) { return image(mark) == mark; })) {
+      result_.copy(x, v, nullptr);
+      return true;
+    }
     for (LabelId& mark : marks_) mark = image(mark);
     std::sort(marks_.begin(), marks_.end());
     if (std::adjacent_find(marks_.begin(), marks_.end()) != marks_.end()) return false;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "nef/base/monitor.h"
+#include "nef/construct/crossings.h"
 #include "nef/forward.h"
 #include "nef/mesh/mesh.h"
 
@@ -44,8 +45,9 @@ struct MeshOptions {
   bool check = true;        ///< look for faces that meet otherwise than in common vertices and edges. Precondition of
                             ///< false: there are none. All else is checked; where such faces keep vertices from
                             ///< fitting together they are looked for nevertheless (InputError), others go unseen
-  unsigned threads = 1;     ///< to use at most; 0: as many as the machine has. The result does not depend on them
-  Monitor monitor = {};     ///< who watches; what it refers to must outlive the call
+  Crossings crossings = Crossings::kRefuse;  ///< what to do where faces cross or enclose something several times
+  unsigned threads = 1;  ///< to use at most; 0: as many as the machine has. The result does not depend on them
+  Monitor monitor = {};  ///< who watches; what it refers to must outlive the call
 };
 
 /// Notes about what was done to the input (faces that were triangulated).
@@ -55,7 +57,9 @@ using Messages = std::vector<std::string>;
 /// polygons of any shape, nested cavities by orientation. Vertices at equal coordinates are one.
 /// A mesh that touches itself is legal. A mesh without vertices and faces bounds the empty set, which is noted.
 /// Throws InputError for a mesh that is open, inconsistently oriented or crosses itself, or has vertices but no faces,
-/// naming the first guilty elements.
+/// naming the first guilty elements. With a rule for crossings, meshes that cross themselves become the closure of the
+/// interior of what the rule takes (which is noted); they still must be closed, and oriented consistently where the
+/// rule needs that. Only faces that meet others are arranged: O(n log n) for n faces with few contacts.
 Polyhedron from_mesh(const Mesh& mesh, const MeshOptions& options = {}, Messages* messages = nullptr);
 
 }  // namespace nef

@@ -65,6 +65,7 @@ class SolidBuilder {
     PlaneId first;     // planes of faces around the edge; second differs from first
     PlaneId second;
     std::uint32_t arcs = 0;
+    bool turns = false;       // faces in one plane, turned differently, meet here
     LabelId mark = kOutside;  // none yet
   };
 
@@ -143,14 +144,21 @@ class SolidBuilder {
     const std::uint32_t n = place_of_spoke(w);
     if (n == spokes_.size()) {
       spokes_.push_back({w, plane, PlaneId()});
-    } else if (!spokes_[n].second.valid() && spokes_[n].first.row() != plane.row()) {
+    } else if (spokes_[n].first.row() == plane.row()) {
+      spokes_[n].turns = spokes_[n].turns || spokes_[n].first.flipped() != plane.flipped();
+    } else if (!spokes_[n].second.valid()) {
       spokes_[n].second = plane;
     }
     ++spokes_[n].arcs;
     return n;
   }
 
-  // The border of a surface lies in one face only. Its direction needs a second plane: the one across the face.
+  // The border of a surface lies in one face only, and faces with different marks may meet within one plane. The
+  // direction of such an edge needs a second plane: the one across the face.
+  [[nodiscard]] bool needs_plane_across(const Spoke& spoke) const {
+    return spoke.arcs == 1 || (!spoke.second.valid() && spoke.turns && marks_.boundary != marks_.flipped_boundary);
+  }
+
   PlaneId plane_across(std::uint32_t v, const Spoke& spoke) {
     const Direction along = vector_between(f_.points, PointId{v}, PointId{spoke.to});
     const Direction up = Direction::normal(f_.planes, spoke.first);
@@ -212,7 +220,7 @@ class SolidBuilder {
     }
     drawing_.nodes.resize(spokes_.size());
     for (std::size_t n = 0; n < spokes_.size(); ++n) {
-      if (spokes_[n].arcs == 1) spokes_[n].second = plane_across(v, spokes_[n]);
+      if (needs_plane_across(spokes_[n])) spokes_[n].second = plane_across(v, spokes_[n]);
       drawing_.nodes[n].direction = direction_along(v, spokes_[n]);
       drawing_.nodes[n].mark = spokes_[n].mark;
     }

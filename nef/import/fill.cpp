@@ -1,63 +1,58 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The faces of a mesh whose edges balance are a cycle, so the number of faces that cover a point of a plane (with
-// signs) changes only along edges at which faces of other planes end. These are edges of the union of the faces. So the
-// number is the same all over a facet, and one point of it tells.
+// The arrangement of the faces tells for each facet how many faces cover it one way less those that cover it the other
+// way, which is what the winding number changes by from one side of the facet to the other. So the winding numbers of
+// all volumes follow from that of the outer one, 0, breadth first. Then volumes are marked by the rule, all else by the
+// volumes around it, which gives the closure of the interior: what has the same volumes all around gets a mark of its
+// own, which an overlay with nothing then makes that of the volumes. It looks at such items only and copies the rest
+// with its links.
 #include "nef/import/fill.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "nef/base/error.h"
+#include "nef/complex/local_pyramid.h"
 #include "nef/complex/rewrite_sphere_maps.h"
-#include "nef/geometry/box_tree.h"
 #include "nef/import/mesh_faces.h"
 #include "nef/mesh/polygon/perturbed_turn.h"
 #include "nef/mesh/polygon/triangulate.h"
 #include "nef/polyhedron.h"
+#include "nef/query/measure.h"
 
 namespace nef {
 namespace {
 
+// Marks of items with the same volumes all around: these and the mark of the volumes.
+constexpr LabelId kIdle = 2;
+
+LabelId without_idle(LabelId mark, LabelId /*of nothing*/) { return mark % kIdle; }
+
 class WindingFiller {
  public:
-  WindingFiller(const Polyhedron& faces, const Mesh& mesh, const MeshSurface& surface, const Monitor& monitor)
-      : c_(faces.complex()), mesh_(mesh), surface_(surface), monitor_(monitor) {}
+  WindingFiller(const Polyhedron& faces, const Mesh& mesh, const MeshSurface& surface, const FillOptions& options)
+      : c_(faces.complex()), mesh_(mesh), surface_(surface), options_(options) {}
 
-  Polyhedron run(Messages* messages) {
-    if (c_.facet_count() == 0) throw InputError(kEnclosesNothing);
-    count_coverings();
+  FilledMesh run() {
     find_windings();
     const auto [low, high] = std::minmax_element(winding_.begin(), winding_.end());
-    if (*low < 0 && *high > 0) refuse([](int w) { return w < 0; });
-    if (*high > 1) refuse([](int w) { return w > 1; });
-    if (*low < -1) refuse([](int w) { return w < -1; });
+    FilledMesh result;
+    result.lowest = *low;
+    result.highest = *high;
     if (*low == 0 && *high == 0) throw InputError(kEnclosesNothing);
-    if (*low < 0 && messages != nullptr) {
-      messages->push_back(kTurnedOver);
-    }
-    return fill();
+    if (options_.rule == Crossings::kRefuse) check_windings(*low, *high);
+    if (options_.measure) result.volumes = volumes();
+    result.set = fill();
+    if (result.set.is_empty()) throw InputError(kEnclosesNothing);
+    return result;
   }
 
  private:
-  void count_coverings() {
-    std::vector<Box> boxes;
-    boxes.reserve(surface_.triangles.size());
-    for (const auto& t : surface_.triangles) {
-      Box& box = boxes.emplace_back();
-      for (const std::uint32_t v : t) box.add_rounded(rounded(mesh_.vertices[v]));
-    }
-    const BoxTree tree(boxes);
-    const MeshPoints points(c_.points);
-    Triangulator triangulator(points, monitor_);
-    coverings_.resize(c_.facet_count());
-    for (const FacetId f : c_.facets.ids()) count_coverings(tree, f, inner_point(f, triangulator));
+  void check_windings(int low, int high) const {
+    if (low < 0 && high > 0) refuse([](int w) { return w < 0; });
+    if (high > 1) refuse([](int w) { return w > 1; });
+    if (low < -1) refuse([](int w) { return w < -1; });
   }
-
-  static std::array<double, 3> rounded(const Rational3& p) {
-    return {nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2])};
-  }
-
   // The middle of one of the triangles that a facet can be cut into.
   [[nodiscard]] Rational3 inner_point(FacetId f, Triangulator& triangulator) const {
     const Facet& facet = c_.facets[f];
@@ -79,22 +74,24 @@ class WindingFiller {
     return middle;
   }
 
-  void count_coverings(const BoxTree& tree, FacetId f, const Rational3& point) {
+  // A face that covers a facet, to name in a message. O(n).
+  [[nodiscard]] std::uint32_t face_on(FacetId f) const {
     const PlaneId plane = c_.facets[f].plane;
     const std::size_t axis = largest_component(plane);
-    const int up = c_.planes.coefficient(plane, axis).sign();
-    Box query;
-    query.add_rounded(rounded(point));
-    tree.for_each_overlap(query, [&](std::uint32_t t) {
+    const MeshPoints points(c_.points);
+    Triangulator triangulator(points, options_.monitor);
+    const Rational3 point = inner_point(f, triangulator);
+    for (std::uint32_t t = 0; t < surface_.triangles.size(); ++t) {
       const Rational3& a = mesh_.vertices[surface_.triangles[t][0]];
       const Rational3& b = mesh_.vertices[surface_.triangles[t][1]];
       const Rational3& c = mesh_.vertices[surface_.triangles[t][2]];
-      if (!on_plane(plane, a) || !on_plane(plane, b) || !on_plane(plane, c)) return;
+      if (!on_plane(plane, a) || !on_plane(plane, b) || !on_plane(plane, c)) continue;
       const int first = perturbed_turn(a, b, point, axis);
-      if (perturbed_turn(b, c, point, axis) != first || perturbed_turn(c, a, point, axis) != first) return;
-      coverings_[f].net += first * up;
-      coverings_[f].face = surface_.face_of[t];
-    });
+      if (perturbed_turn(b, c, point, axis) == first && perturbed_turn(c, a, point, axis) == first) {
+        return surface_.face_of[t];
+      }
+    }
+    throw std::logic_error("internal error, please report: a facet that no face covers");
   }
 
   [[nodiscard]] std::size_t largest_component(PlaneId plane) const {
@@ -112,35 +109,69 @@ class WindingFiller {
     return sum == 0;
   }
 
+  // How often the volume below a facet is wound around more than the one above.
+  [[nodiscard]] int change(const Facet& facet) const {
+    return options_.covering == Covering::kSigned ? net_of_mark(facet.mark) : 1;
+  }
+
+  [[nodiscard]] int beyond(int winding, int change) const {
+    switch (options_.covering) {
+      case Covering::kSigned:
+        return winding + change;
+      case Covering::kParity:
+        return 1 - winding;
+      case Covering::kAny:
+        break;
+    }
+    return 1;
+  }
+
   // Breadth first through the facets, from the outer volume.
   void find_windings() {
     struct Step {
       VolumeId to;
       int change = 0;
     };
-    IndexedVector<VolumeId, std::vector<Step>> beyond(c_.volumes.size());
-    for (const FacetId f : c_.facets.ids()) {
-      const Facet& facet = c_.facets[f];
-      beyond[facet.volume_above].push_back({facet.volume_below, coverings_[f].net});
-      beyond[facet.volume_below].push_back({facet.volume_above, -coverings_[f].net});
+    IndexedVector<VolumeId, std::vector<Step>> steps(c_.volumes.size());
+    for (const Facet& facet : c_.facets) {
+      if (facet.volume_above == facet.volume_below) continue;
+      steps[facet.volume_above].push_back({facet.volume_below, change(facet)});
+      steps[facet.volume_below].push_back({facet.volume_above, -change(facet)});
     }
     IndexedVector<VolumeId, bool> known(c_.volumes.size(), false);
     winding_.assign(c_.volumes.size(), 0);
     known[kOuterVolume] = true;
     std::vector<VolumeId> queue{kOuterVolume};
     for (std::size_t i = 0; i < queue.size(); ++i) {
-      for (const auto& [to, change] : beyond[queue[i]]) {
-        const int winding = winding_[queue[i]] + change;
+      for (const auto& [to, change] : steps[queue[i]]) {
+        const int winding = beyond(winding_[queue[i]], change);
         if (!known[to]) {
           known[to] = true;
           winding_[to] = winding;
           queue.push_back(to);
-        } else if (winding_[to] != winding) {
+        } else if (winding_[to] != winding && options_.covering != Covering::kAny) {
           throw InputError("the mesh is not closed: its faces do not separate inside from outside");
         }
       }
     }
     NEF_ASSERT(queue.size() == c_.volumes.size());  // only facets separate volumes
+    if (options_.inside_out) {
+      for (int& winding : winding_) winding = -winding;
+    }
+  }
+
+  [[nodiscard]] bool is_inside(int winding) const {
+    switch (options_.rule) {
+      case Crossings::kUnion:
+        return winding > 0;
+      case Crossings::kOdd:
+        return winding % 2 != 0;
+      case Crossings::kRefuse:
+      case Crossings::kNonzero:
+      case Crossings::kOutside:
+        break;
+    }
+    return winding != 0;
   }
 
   // Names a face that bounds a volume of a winding number that must not be.
@@ -151,7 +182,7 @@ class WindingFiller {
       const int above = winding_[facet.volume_above];
       const int below = winding_[facet.volume_below];
       if (wrong(above) == wrong(below)) continue;
-      const std::string face = std::to_string(coverings_[f].face);
+      const std::string face = std::to_string(face_on(f));
       const int bad = wrong(above) ? above : below;
       if (bad < 0 && *std::max_element(winding_.begin(), winding_.end()) > 0) {
         throw InputError(
@@ -165,42 +196,99 @@ class WindingFiller {
     throw std::logic_error("internal error, please report: a winding number that no facet bounds");
   }
 
+  [[nodiscard]] std::map<int, WindingVolume> volumes() const {
+    std::map<int, WindingVolume> result;
+    for (const int winding : winding_) ++result[winding].parts;
+    --result[0].parts;  // the outer volume
+    Complex marked = c_;
+    for (auto& [winding, entry] : result) {
+      for (const VolumeId v : marked.volumes.ids()) {
+        marked.volumes[v].mark = v != kOuterVolume && winding_[v] == winding ? 1 : 0;
+      }
+      entry.volume = nef::volume(marked).value();
+    }
+    return result;
+  }
+
   Polyhedron fill() {
     Complex filled = c_;
-    bool idle = false;  // facets with the same on both sides, or edges without facets
-    for (const VolumeId v : filled.volumes.ids()) filled.volumes[v].mark = winding_[v] != 0 ? 1 : 0;
-    rewrite_sphere_maps(filled, [&filled, &idle](VertexId v, SphereMapBuffer& map) {
+    idle_ = false;
+    for (const VolumeId v : filled.volumes.ids()) {
+      filled.volumes[v].mark = v != kOuterVolume && is_inside(winding_[v]) ? 1 : 0;
+    }
+    rewrite_sphere_maps(filled, [this, &filled](VertexId v, SphereMapBuffer& map) {
       for (std::uint32_t f = 0; f < map.sfaces.size(); ++f) {
         map.sfaces[f].mark = filled.volumes[filled.sface_volume(filled.vertices[v].sfaces + f)].mark;
       }
-      for (const SVertex& end : map.svertices) idle = idle || end.out == kNone;
+      mark_between(map);
     });
-    for (const Facet& facet : filled.facets) {
-      idle = idle || filled.volumes[facet.volume_above].mark == filled.volumes[facet.volume_below].mark;
-    }
-    // Where every facet has different marks on its sides, everything that was needed still is.
-    Polyhedron result(std::move(filled));
-    return idle ? regularize(result, monitor_) : result;
+    filled.facets.assign_marks([&filled](FacetId f) {
+      const FacetSides sides = filled.facets.sides_of(f);
+      return between(filled.volumes[sides.volume_above].mark, filled.volumes[sides.volume_below].mark);
+    });
+    filled.label_count = idle_ ? 2 * kIdle : 2;
+    const Polyhedron marked(std::move(filled));
+    if (!idle_) return marked;
+    return overlay(marked, Polyhedron(), without_idle, options_.threads, options_.monitor);
   }
 
-  struct Covering {
-    int net = 0;  // faces that look up less those that look down
-    std::uint32_t face = 0;
-  };
+  static LabelId between(LabelId a, LabelId b) { return a == b ? kIdle + a : 1; }
+
+  // Gives all that lies between the sfaces its mark.
+  void mark_between(SphereMapBuffer& map) {
+    for (std::uint32_t e = 0; e < map.shalfedges.size(); e += 2) {
+      const LabelId mark =
+          between(map.sfaces[map.shalfedges[e].sface].mark, map.sfaces[map.shalfedges[e + 1].sface].mark);
+      map.shalfedges[e].mark = map.shalfedges[e + 1].mark = mark;
+      idle_ = idle_ || mark >= kIdle;
+    }
+    for (std::uint32_t l = 0; l < map.sloops.size(); l += 2) {
+      map.sloops[l].mark = map.sloops[l + 1].mark =
+          between(map.sfaces[map.sloops[l].sface].mark, map.sfaces[map.sloops[l + 1].sface].mark);
+    }
+    for (SVertex& node : map.svertices) {
+      node.mark = mark_of_node(map, node);
+      idle_ = idle_ || node.mark >= kIdle;
+    }
+    map.mark = map.sfaces[0].mark;
+    for (const SFace& face : map.sfaces) map.mark = map.mark == face.mark ? map.mark : LabelId{kIdle};
+    map.mark = map.mark == kIdle ? 1 : kIdle + map.mark;
+    if (map.mark == 1 && !is_vertex(c_.planes, map.view(), options_.monitor)) map.mark = kIdle + 1;
+    idle_ = idle_ || map.mark >= kIdle;
+  }
+
+  // An edge between two facets in one plane is idle like one that has the same volume all around.
+  static LabelId mark_of_node(const SphereMapBuffer& map, const SVertex& node) {
+    if (node.out == kNone) return kIdle + map.sfaces[node.sface].mark;
+    const SphereMapView view = map.view();
+    const LabelId first = map.sfaces[map.shalfedges[node.out].sface].mark;
+    bool one_mark = true;
+    bool one_plane = true;
+    std::uint32_t arcs = 0;
+    std::uint32_t e = node.out;
+    do {
+      ++arcs;
+      one_mark = one_mark && map.sfaces[map.shalfedges[e].sface].mark == first;
+      one_plane = one_plane && map.shalfedges[e].plane.row() == map.shalfedges[node.out].plane.row();
+      e = view.next_around(e);
+    } while (e != node.out);
+    if (one_mark) return kIdle + first;
+    return arcs == 2 && one_plane ? kIdle + 1 : 1;
+  }
 
   const Complex& c_;
   const Mesh& mesh_;
   const MeshSurface& surface_;
-  Monitor monitor_;
-  IndexedVector<FacetId, Covering> coverings_;
+  FillOptions options_;
   IndexedVector<VolumeId, int> winding_;
+  bool idle_ = false;  // there is something with the same on all sides
 };
 
 }  // namespace
 
-Polyhedron fill_by_winding(const Polyhedron& faces, const Mesh& mesh, const MeshSurface& surface, Messages* messages,
-                           const Monitor& monitor) {
-  return WindingFiller(faces, mesh, surface, monitor).run(messages);
+FilledMesh fill_by_winding(const Polyhedron& faces, const Mesh& mesh, const MeshSurface& surface,
+                           const FillOptions& options) {
+  return WindingFiller(faces, mesh, surface, options).run();
 }
 
 }  // namespace nef

@@ -1,21 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Solids from the arrangement of a mesh's faces, by winding numbers.
 #pragma once
 
+#include <map>
+
 #include "nef/base/monitor.h"
-#include "nef/construct/construct.h"
-#include "nef/mesh/surface/mesh_surface.h"
+#include "nef/import/face_arrangement.h"
+#include "nef/import/winding_volume.h"
+#include "nef/polyhedron.h"
 
 namespace nef {
 
 /// Why a mesh is refused whose faces cancel each other.
 inline constexpr const char* kEnclosesNothing = "the faces of the mesh enclose nothing";
 
-/// The solid that a closed mesh encloses once, given the union of its faces as a two-dimensional set: faces may touch
-/// and cover each other in any way. Each volume of the surface has a winding number; it changes at a facet by the
-/// number of faces that cover it one way less those that cover it the other way. The numbers have to be 0 and 1, or 0
-/// and -1: then the mesh is inside out as a whole and is turned over, which `messages` (may be null) is told.
-/// Throws InputError naming a face where they are not. O(n log n) for n triangles and facets.
-Polyhedron fill_by_winding(const Polyhedron& faces, const Mesh& mesh, const MeshSurface& surface, Messages* messages,
-                           const Monitor& monitor);
+struct FillOptions {
+  Crossings rule = Crossings::kRefuse;
+  Covering covering = Covering::kSigned;  ///< what the marks of the arrangement count
+  bool inside_out = false;                ///< the faces count as if they were turned over
+  bool measure = false;                   ///< find the volumes of FilledMesh
+  unsigned threads = 1;
+  Monitor monitor = {};
+};
+
+struct FilledMesh {
+  Polyhedron set;
+  int lowest = 0;  ///< winding number
+  int highest = 0;
+  std::map<int, WindingVolume> volumes;  ///< by winding number, that of the outer volume left out; if asked for
+};
+
+/// The solid that a mesh encloses by a rule, given the arrangement of its faces (arrange_faces): the closure of its
+/// interior. With kParity and kAny, winding numbers are 0 and 1. Throws InputError if nothing is enclosed, if the faces
+/// are not closed, and for Crossings::kRefuse naming a face where the winding numbers are not 0 and 1.
+/// O(n log n) for n facets, and O(idle items) for what lies between volumes with equal marks.
+FilledMesh fill_by_winding(const Polyhedron& faces, const Mesh& mesh, const MeshSurface& surface,
+                           const FillOptions& options);
 
 }  // namespace nef

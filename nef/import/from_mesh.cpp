@@ -16,6 +16,8 @@
 #include "nef/import/fill.h"
 #include "nef/import/from_surface.h"
 #include "nef/import/mesh_faces.h"
+#include "nef/import/resolve_mesh.h"
+#include "nef/import/split_faces.h"
 #include "nef/import/try_from_mesh.h"
 #include "nef/polyhedron.h"
 
@@ -52,16 +54,17 @@ std::variant<Complex, Defect> try_solid(CheckedSurface& checked, const MeshOptio
     list += (list.empty() ? "" : ", ") + std::to_string(f);
   throw InputError("components of the mesh (which begin at faces " + list.substr(0, 60) +
                    ") contradict each other: one is turned like the one around it, or not like those beside it; "
-                   "turn its faces over");
+                   "turn its faces over" +
+                   advice_to_unite());
 }
 
-// Of a surface without contacts: only its components may not fit together.
-Polyhedron solid_of_clean(CheckedSurface&& checked, const MeshOptions& options, Messages* messages) {
+// Nothing if the components do not fit together.
+std::optional<Polyhedron> solid_of_clean(CheckedSurface& checked, const MeshOptions& options, Messages* messages) {
   std::variant<Complex, Defect> made = try_solid(checked, options, messages);
   if (Complex* complex = std::get_if<Complex>(&made)) return Polyhedron(std::move(*complex));
   Defect& defect = std::get<Defect>(made);
   if (defect.kind != Defect::Kind::kMarks) throw detail::BrokenInvariant(std::move(defect));
-  refuse_components(checked.mesh(), options.monitor);
+  return std::nullopt;
 }
 
 // Of a surface whose contacts nobody has looked for: nothing if it is not as clean as was promised.
@@ -75,10 +78,18 @@ std::optional<Polyhedron> solid_of_promised(CheckedSurface&& checked, const Mesh
   return std::nullopt;
 }
 
-// Faces meet in points that are no vertices of both; the union of the faces finds these.
-Polyhedron solid_in_contact(const CheckedSurface& checked, const MeshOptions& options, Messages* messages) {
-  return fill_by_winding(from_surface(checked.mesh(), checked.surface(), SurfaceUse::kBorder, options, messages),
-                         checked.mesh(), checked.surface(), messages, options.monitor);
+Covering covering_for(Crossings rule) {
+  switch (rule) {
+    case Crossings::kOdd:
+      return Covering::kParity;
+    case Crossings::kOutside:
+      return Covering::kAny;
+    case Crossings::kRefuse:
+    case Crossings::kUnion:
+    case Crossings::kNonzero:
+      break;
+  }
+  return Covering::kSigned;
 }
 
 void note_faces_without_area(const CheckedSurface& checked, Messages* messages) {
@@ -87,15 +98,70 @@ void note_faces_without_area(const CheckedSurface& checked, Messages* messages) 
   messages->push_back(std::to_string(count) + (count == 1 ? " face" : " faces") + " without area left out");
 }
 
-Polyhedron solid(CheckedSurface&& checked, const MeshOptions& options, Messages* messages) {
+// Whether the volumes of a ResolvedMesh are wanted.
+enum class Measured : std::uint8_t { kNo, kYes };
+
+// One line about what a rule had to decide.
+void note_rule(const ResolvedMesh& made, const FilledMesh& filled, Crossings rule, Messages* messages) {
+  if (messages == nullptr || rule == Crossings::kRefuse) return;
+  const std::size_t pairs = made.crossing_pairs;
+  if (pairs == 0 && filled.lowest >= 0 && filled.highest <= 1) return;
+  const std::string what = pairs == 0   ? "the mesh encloses parts of space several times or inside out"
+                           : pairs == 1 ? "1 pair of faces crosses"
+                                        : std::to_string(pairs) + " pairs of faces cross";
+  messages->push_back(what + ": " + taken_by(rule) + " was taken");
+}
+
+// By the winding numbers of the volumes between the faces.
+ResolvedMesh arranged(const Mesh& mesh, const MeshSurface& surface, std::span<const FaceContact> contacts,
+                      const FillOptions& fill, const MeshOptions& options, Messages* messages) {
+  if (const std::optional<Mesh> split = split_faces(mesh, surface, contacts)) {
+    const MeshSurface triangles(*split, options.monitor);
+    return arranged(*split, triangles, face_contacts(triangles, SurfaceContacts(triangles, options.monitor)), fill,
+                    options, messages);
+  }
+  FilledMesh filled =
+      fill_by_winding(arrange_faces(mesh, surface, contacts, fill.covering, options, messages), mesh, surface, fill);
+  ResolvedMesh result;
+  result.crossing_pairs = count_crossings(contacts);
+  // Without a rule, a mesh may be inside out as a whole and nothing else.
+  result.inside_out = fill.inside_out || (fill.rule == Crossings::kRefuse && filled.lowest < 0);
+  if (result.inside_out && messages != nullptr) messages->emplace_back(kTurnedOver);
+  note_rule(result, filled, fill.rule, messages);
+  result.set = std::move(filled.set);
+  result.volumes = std::move(filled.volumes);
+  return result;
+}
+
+ResolvedMesh solid(CheckedSurface&& checked, const MeshOptions& options, Messages* messages, Measured measured) {
   note_faces_without_area(checked, messages);
-  return checked.in_contact() ? solid_in_contact(checked, options, messages)
-                              : solid_of_clean(std::move(checked), options, messages);
+  const FillOptions fill{.rule = options.crossings,
+                         .covering = covering_for(options.crossings),
+                         .inside_out = checked.inside_out() && options.crossings != Crossings::kRefuse,
+                         .measure = measured == Measured::kYes,
+                         .threads = options.threads,
+                         .monitor = options.monitor};
+  if (checked.in_contact()) {
+    return arranged(checked.mesh(), checked.surface(), checked.contacts(), fill, options, messages);
+  }
+  ResolvedMesh result;
+  result.inside_out = checked.inside_out();
+  Messages notes;
+  std::optional<Polyhedron> clean = solid_of_clean(checked, options, &notes);
+  if (clean) {
+    if (messages != nullptr) messages->insert(messages->end(), notes.begin(), notes.end());
+    result.set = *std::move(clean);
+    if (measured == Measured::kYes)
+      result.volumes[1] = {result.set.complex().volume_count() - 1, volume(result.set).value()};
+    return result;
+  }
+  if (options.crossings == Crossings::kRefuse) refuse_components(checked.mesh(), options.monitor);
+  return arranged(checked.mesh(), MeshSurface(checked.mesh(), options.monitor), {}, fill, options, messages);
 }
 
 // Without the search for contacts, if that is enough.
 std::optional<Polyhedron> promised_solid(const Mesh& mesh, const MeshOptions& options, Messages* messages) {
-  CheckedSurface checked(mesh, CheckedSurface::Extent::kNoCrossings, options.monitor);
+  CheckedSurface checked(mesh, CheckedSurface::Extent::kNoCrossings, options.crossings, options.monitor);
   if (checked.in_contact()) return std::nullopt;
   return solid_of_promised(std::move(checked), options, messages);
 }
@@ -116,17 +182,29 @@ Polyhedron without_faces(const Mesh& mesh, Messages* messages) {
 Polyhedron from_mesh(const Mesh& mesh, const MeshOptions& options, Messages* messages) {
   if (mesh.face_count() == 0) return without_faces(mesh, messages);
   if (options.as_surface) {
-    return from_surface(mesh, MeshSurface(mesh, options.monitor), SurfaceUse::kSet, options, messages);
+    return from_surface(mesh, MeshSurface(mesh, options.monitor), options, messages);
   }
   Messages notes;
   std::optional<Polyhedron> result;
   if (!options.check) result = promised_solid(mesh, options, &notes);
   if (!result) {
     notes.clear();
-    result = solid(CheckedSurface(mesh, CheckedSurface::Extent::kAll, options.monitor), options, &notes);
+    result = solid(CheckedSurface(mesh, CheckedSurface::Extent::kAll, options.crossings, options.monitor), options,
+                   &notes, Measured::kNo)
+                 .set;
   }
   if (messages != nullptr) messages->insert(messages->end(), notes.begin(), notes.end());
   return *std::move(result);
+}
+
+ResolvedMesh resolve_mesh(const Mesh& mesh, const MeshOptions& options, Messages* messages) {
+  if (mesh.face_count() == 0) {
+    ResolvedMesh empty;
+    empty.set = without_faces(mesh, messages);
+    return empty;
+  }
+  return solid(CheckedSurface(mesh, CheckedSurface::Extent::kAll, options.crossings, options.monitor), options,
+               messages, Measured::kYes);
 }
 
 std::variant<Polyhedron, MeshRefusal> try_from_mesh(const Mesh& mesh, const MeshOptions& options, Messages* messages) {

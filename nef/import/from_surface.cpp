@@ -6,6 +6,7 @@
 
 #include "nef/base/error.h"
 #include "nef/geometry/vectors.h"
+#include "nef/import/contact_groups.h"
 #include "nef/import/mesh_faces.h"
 #include "nef/mesh/polygon/triangulate.h"
 #include "nef/mesh/surface/surface_contacts.h"
@@ -13,54 +14,6 @@
 
 namespace nef {
 namespace {
-
-// Faces in groups without improper contacts, and those that can not be in any.
-struct Groups {
-  std::vector<std::vector<std::uint32_t>> proper;
-  std::vector<std::uint32_t> single;
-};
-
-Groups group_faces(const Mesh& mesh, const MeshSurface& surface, SurfaceUse use, const Monitor& monitor) {
-  const std::size_t count = mesh.face_count();
-  std::vector<std::vector<std::uint32_t>> contacts(count);
-  std::vector<bool> single(count, false);
-  // What a face holds besides its area, sides that are walked out and back, is no border of a solid.
-  const bool areas_only = use == SurfaceUse::kBorder;
-  for (std::uint32_t f = 0; f < count; ++f) {
-    single[f] = surface.defects[f] != FaceDefect::kNone || (!areas_only && surface.irregular[f]);
-  }
-  SurfaceContacts(surface, monitor).for_each([&](SurfaceContacts::Kind /*kind*/, std::uint32_t t, std::uint32_t u) {
-    const std::uint32_t f = surface.face_of[t];
-    const std::uint32_t g = surface.face_of[u];
-    if (f == g) single[f] = true;
-    contacts[f].push_back(g);
-    contacts[g].push_back(f);
-    return true;
-  });
-  // Each face goes to the first group in which it touches nothing.
-  Groups groups;
-  std::vector<std::uint32_t> group_of(count, kNone);
-  std::vector<std::uint32_t> taken_by;  // the last face that found the group taken
-  for (std::uint32_t f = 0; f < count; ++f) {
-    if (areas_only && surface.defects[f] == FaceDefect::kNoArea) continue;
-    if (single[f]) {
-      groups.single.push_back(f);
-      continue;
-    }
-    for (const std::uint32_t g : contacts[f]) {
-      if (group_of[g] != kNone) taken_by[group_of[g]] = f;
-    }
-    std::uint32_t group = 0;
-    while (group < taken_by.size() && taken_by[group] == f) ++group;
-    if (group == taken_by.size()) {
-      taken_by.push_back(kNone);
-      groups.proper.emplace_back();
-    }
-    groups.proper[group].push_back(f);
-    group_of[f] = group;
-  }
-  return groups;
-}
 
 // Cuts a ring into triangles with union equal to the polygon, if it is one that touches itself at most from within.
 bool cut(const MeshPoints& points, const std::vector<std::uint32_t>& ring, std::vector<Triangulator::Triangle>& out,
@@ -127,8 +80,7 @@ void add_single(const Mesh& mesh, const MeshSurface& surface, std::uint32_t f, s
 
 }  // namespace
 
-Polyhedron from_surface(const Mesh& mesh, const MeshSurface& surface, SurfaceUse use, const MeshOptions& options,
-                        Messages* messages) {
+Polyhedron from_surface(const Mesh& mesh, const MeshSurface& surface, const MeshOptions& options, Messages* messages) {
   for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
     if (surface.defects[f] != FaceDefect::kBadIndex) continue;
     for (const std::uint32_t v : mesh.face(f)) {
@@ -136,11 +88,22 @@ Polyhedron from_surface(const Mesh& mesh, const MeshSurface& surface, SurfaceUse
       throw InputError("face " + std::to_string(f) + " names vertex " + std::to_string(v) + ", which does not exist");
     }
   }
-  const Groups groups = group_faces(mesh, surface, use, options.monitor);
+  const std::vector<FaceContact> contacts = face_contacts(surface, SurfaceContacts(surface, options.monitor));
+  std::vector<bool> single(mesh.face_count(), false);  // faces that cannot be in any group
+  for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+    single[f] = surface.defects[f] != FaceDefect::kNone || surface.irregular[f];
+  }
+  for (const FaceContact& contact : contacts) {
+    if (contact.f == contact.g) single[contact.f] = true;
+  }
   std::vector<Polyhedron> parts;
   MeshFaces faces(mesh, surface, options, messages);
-  for (const std::vector<std::uint32_t>& group : groups.proper) parts.emplace_back(faces.surface(group));
-  for (const std::uint32_t f : groups.single) add_single(mesh, surface, f, parts, options.monitor);
+  for (const std::vector<std::uint32_t>& group : contact_groups(contacts, single)) {
+    parts.emplace_back(faces.surface(group));
+  }
+  for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+    if (single[f]) add_single(mesh, surface, f, parts, options.monitor);
+  }
   return unite_all(parts, options.threads, options.monitor);
 }
 

@@ -39,7 +39,9 @@ Complex MeshFaces::surface(std::span<const std::uint32_t> faces) {
   return make_surface(collect(faces), 1, options_.monitor);
 }
 
-Complex MeshFaces::oriented_surface() { return make_oriented_surface(collect({}), options_.monitor); }
+Complex MeshFaces::oriented_surface(std::span<const std::uint32_t> faces) {
+  return make_oriented_surface(collect(faces), options_.monitor);
+}
 
 SolidFaces MeshFaces::collect(std::span<const std::uint32_t> faces) {
   f_ = {};

@@ -29,8 +29,11 @@ class MeshFaces {
   /// The union of the faces as a two-dimensional set. They must meet in common vertices and edges only. O(n log n).
   Complex surface(std::span<const std::uint32_t> faces);
 
-  /// The same of all faces, with marks that tell how they are turned (make_oriented_surface).
-  Complex oriented_surface();
+  /// The same with marks that tell how the faces are turned (make_oriented_surface).
+  Complex oriented_surface(std::span<const std::uint32_t> faces);
+
+  /// The same of all faces.
+  Complex oriented_surface() { return oriented_surface({}); }
 
   friend SolidFaces solid_faces(const CheckedSurface& checked, const MeshOptions& options, Messages* messages);
 

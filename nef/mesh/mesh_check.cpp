@@ -11,7 +11,7 @@
 #include <cstdio>
 #include <optional>
 #include <set>
-#include <tuple>
+#include <span>
 
 #include "nef/mesh/area_vector.h"
 #include "nef/mesh/edge_order.h"
@@ -36,7 +36,7 @@ std::string face_list(const std::vector<std::uint32_t>& faces) {
   return text;
 }
 
-// Gathers problems, at most so many of each kind, legal and illegal ones counted apart.
+// Gathers problems, at most so many of each kind, legal and illegal ones counted apart, and edges by their balance.
 class Report {
  public:
   explicit Report(std::size_t limit) : limit_(limit) {}
@@ -44,7 +44,8 @@ class Report {
   // False once the kind is full.
   bool add(MeshProblem problem) {
     is_legal_ = is_legal_ && problem.legal;
-    std::size_t& count = counts_[2 * static_cast<std::size_t>(problem.kind) + (problem.legal ? 1 : 0)];
+    std::size_t& count = counts_[6 * static_cast<std::size_t>(problem.kind) +
+                                 2 * static_cast<std::size_t>(problem.balance) + (problem.legal ? 1 : 0)];
     if (count < limit_) {
       ++count;
       problems_.push_back(std::move(problem));
@@ -64,7 +65,7 @@ class Report {
  private:
   std::size_t limit_;
   bool is_legal_ = true;
-  std::array<std::size_t, 32> counts_{};
+  std::array<std::size_t, 72> counts_{};
   std::vector<MeshProblem> problems_;
 };
 
@@ -232,6 +233,7 @@ bool check_edges(const Mesh& mesh, const MeshSurface& surface, const SurfaceCont
     problem.vertices = {edges[first].vertices[0], edges[first].vertices[1]};
     for (std::size_t i = first; i < last; ++i) problem.faces.push_back(edges[i].face);
     problem.text = edge_text(problem.edges[0]);
+    if (!even) problem.balance = count % 2 == 0 ? EdgeBalance::kEven : EdgeBalance::kOdd;
     if (count == 1) {
       problem.kind = MeshProblemKind::kOpenBorder;
       problem.text += " belongs to " + face_list(problem.faces) + " only: the surface is open there";
@@ -278,29 +280,15 @@ MeshProblem contact_problem(SurfaceContacts::Kind kind, std::uint32_t f, std::ui
   return problem;
 }
 
-void check_contacts(const MeshSurface& surface, const SurfaceContacts& contacts, Report& report) {
+void check_contacts(const MeshSurface& surface, std::span<const FaceContact> found, Report& report) {
   using Contact = SurfaceContacts::Kind;
-  struct Found {
-    std::uint32_t f = 0, g = 0;
-    Contact kind = Contact::kNone;
-  };
-  // Triangles of one face meet others' many times; each pair of faces is told once, by its worst contact.
-  std::vector<Found> found;
   std::vector<bool> covered;  // of each face: another one lies on it, back to back
-  contacts.for_each([&](Contact kind, std::uint32_t t, std::uint32_t u) {
-    const auto [f, g] = std::minmax(surface.face_of[t], surface.face_of[u]);
-    found.push_back({f, g, kind});
-    if (kind == Contact::kCover) {
-      covered.resize(surface.defects.size(), false);
-      covered[f] = covered[g] = true;
-    }
-    return true;
-  });
-  std::sort(found.begin(), found.end(),
-            [](const Found& a, const Found& b) { return std::tie(a.f, a.g, b.kind) < std::tie(b.f, b.g, a.kind); });
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    const Found& contact = found[i];
-    if (i > 0 && contact.f == found[i - 1].f && contact.g == found[i - 1].g) continue;
+  for (const FaceContact& contact : found) {
+    if (!contact.covers) continue;
+    covered.resize(surface.defects.size(), false);
+    covered[contact.f] = covered[contact.g] = true;
+  }
+  for (const FaceContact& contact : found) {
     MeshProblem problem = contact_problem(contact.kind, contact.f, contact.g);
     if (contact.kind == Contact::kOverlap && !covered.empty() && (covered[contact.f] || covered[contact.g])) {
       // A third face may undo one of the two; the winding numbers will tell.
@@ -418,7 +406,7 @@ std::vector<MeshProblem> check_mesh(const Mesh& mesh, const MeshCheckOptions& op
 }
 
 std::vector<MeshProblem> check_mesh(const Mesh& mesh, const MeshSurface& surface, const MeshCheckOptions& options,
-                                    const Monitor& monitor) {
+                                    const Monitor& monitor, std::vector<FaceContact>* found) {
   Report report(options.max_per_kind);
   const SurfaceContacts contacts(surface, monitor);
   check_faces(mesh, surface, report);
@@ -428,7 +416,11 @@ std::vector<MeshProblem> check_mesh(const Mesh& mesh, const MeshSurface& surface
     closed = check_edges(mesh, surface, contacts, report);
   }
   const bool decided = options.only_verdict && !report.is_legal();
-  if (options.self_intersections && !decided) check_contacts(surface, contacts, report);
+  if (options.self_intersections && !decided) {
+    std::vector<FaceContact> meeting = face_contacts(surface, contacts);
+    check_contacts(surface, meeting, report);
+    if (found != nullptr) *found = std::move(meeting);
+  }
   check_planarity(mesh, surface, report);
   check_vertices(mesh, surface, report);
   if (closed && !surface.triangles.empty() && volume_sign(mesh, surface) < 0) {

@@ -33,6 +33,14 @@ enum class MeshProblemKind : std::uint8_t {
 const char* name(MeshProblemKind kind);
 
 struct MeshSurface;  // nef/mesh/surface/mesh_surface.h
+struct FaceContact;  // nef/mesh/surface/surface_contacts.h
+
+/// How the faces of an edge run through it.
+enum class EdgeBalance : std::uint8_t {
+  kBalanced,  ///< equally often in both directions, as in all closed surfaces
+  kEven,      ///< an even number of times
+  kOdd,       ///< an odd number of times: the surface is open there
+};
 
 struct MeshProblem {
   MeshProblemKind kind = MeshProblemKind::kBadIndex;
@@ -40,6 +48,7 @@ struct MeshProblem {
   std::vector<std::uint32_t> vertices;              ///< as numbered in the mesh, from 0
   std::vector<std::array<std::uint32_t, 2>> edges;  ///< each as its two vertices
   std::vector<std::uint32_t> faces;                 ///< as numbered in the mesh, from 0
+  EdgeBalance balance = EdgeBalance::kBalanced;     ///< of the edge, where the problem is one
   std::string text;                                 ///< one line for people
 };
 
@@ -50,7 +59,7 @@ struct MeshProblem {
 bool is_strictly_legal(const MeshProblem& problem);
 
 struct MeshCheckOptions {
-  /// Report no more than these of each kind, legal and illegal ones counted apart.
+  /// Report no more than these of each kind, legal and illegal ones and edges of each balance counted apart.
   std::size_t max_per_kind = std::numeric_limits<std::size_t>::max();
   bool self_intersections = true;  ///< the expensive part
   bool only_verdict = false;       ///< leave that part out, too, where something before it is illegal already
@@ -63,9 +72,10 @@ struct MeshCheckOptions {
 /// exact. O(n log n) for meshes whose faces meet few others; 20000 triangles take about 50 ms.
 std::vector<MeshProblem> check_mesh(const Mesh& mesh, const MeshCheckOptions& options = {},
                                     const Monitor& monitor = {});
-/// The same for a mesh whose surface is there already.
+/// The same for a mesh whose surface is there already. `contacts`, if given, receives all contacts of faces, if these
+/// were looked for (face_contacts).
 std::vector<MeshProblem> check_mesh(const Mesh& mesh, const MeshSurface& surface, const MeshCheckOptions& options,
-                                    const Monitor& monitor);
+                                    const Monitor& monitor, std::vector<FaceContact>* contacts = nullptr);
 
 /// How far the corners of a face are from the plane through their centroid whose normal is the area vector of the
 /// face: the largest distance. Zero iff the face is planar and not degenerate, or has no area vector.

@@ -2,6 +2,9 @@
 #include "nef/program/common_options.h"
 
 #include <CLI/CLI.hpp>
+#include <map>
+
+#include "nef/construct/construct.h"
 
 #include "nef/base/error.h"
 
@@ -34,9 +37,19 @@ void add_run_options(CLI::App& app, bool& json, bool& quiet, unsigned& threads) 
       ->capture_default_str();
 }
 
-void add_mesh_input_options(CLI::App& app, bool& strict, bool& as_surface) {
-  app.add_flag("--strict", strict, "Refuse meshes with faces that are not exactly planar");
-  app.add_flag("--as-surface", as_surface, "Take meshes as two-dimensional sets; they may be open");
+void add_mesh_input_options(CLI::App& app, MeshOptions& options) {
+  app.add_flag("--strict", options.strict, "Refuse meshes with faces that are not exactly planar");
+  app.add_flag("--as-surface", options.as_surface, "Take meshes as two-dimensional sets; they may be open");
+  options.crossings = Crossings::kUnion;
+  std::map<std::string, Crossings> rules;
+  for (const Crossings rule : kAllCrossings) rules.emplace(name(rule), rule);
+  app.add_option("--crossings", options.crossings,
+                 "What is inside of a mesh that crosses itself: refuse (an error), union (what is enclosed at least "
+                 "once; default), nonzero (also what is inside out), odd (overlaps are cavities), outside (what cannot "
+                 "be reached from outside)")
+      ->type_name("RULE")
+      ->transform(CLI::CheckedTransformer(rules).description(""))
+      ->default_str("union");
 }
 
 void add_manifold_option(CLI::App& app, bool& manifold) {

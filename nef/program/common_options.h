@@ -12,6 +12,8 @@ class Validator;
 
 namespace nef {
 
+struct MeshOptions;
+
 /// Checks of numbers, which say what is needed rather than where doubles end.
 CLI::Validator positive();
 CLI::Validator not_negative();
@@ -19,8 +21,9 @@ CLI::Validator not_negative();
 /// --json, -q and --threads.
 void add_run_options(CLI::App& app, bool& json, bool& quiet, unsigned& threads);
 
-/// --strict and --as-surface: how meshes are read.
-void add_mesh_input_options(CLI::App& app, bool& strict, bool& as_surface);
+/// --strict, --as-surface and --crossings: how meshes are read. Sets the rule for crossings that programs have unless
+/// told otherwise: union.
+void add_mesh_input_options(CLI::App& app, MeshOptions& options);
 
 /// How meshes are written, whatever the format (see PolyhedronWriteOptions).
 struct MeshFileFlags {

@@ -140,7 +140,7 @@ void add_run_flags(CLI::App* command, Session& session) {
 }
 
 void add_input_flags(CLI::App* command, Session& session) {
-  add_mesh_input_options(*command, session.mesh.strict, session.mesh.as_surface);
+  add_mesh_input_options(*command, session.mesh);
   command->add_flag(
       "--no-check", session.no_check,
       "Taken for the sake of old scripts: meshes are always checked, which is a fourth of the time of reading them");

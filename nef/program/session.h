@@ -102,7 +102,7 @@ class Session {
 
 /// Flags that all programs have: --json, --quiet, --threads.
 void add_run_flags(CLI::App* command, Session& session);
-/// Flags about reading meshes: --strict, --as-surface, --no-check.
+/// Flags about reading meshes: --strict, --as-surface, --crossings, --no-check.
 void add_input_flags(CLI::App* command, Session& session);
 /// -o and flags about writing: --format, --exact, --binary, --text, --polygons, --manifold, --recenter, --lenient.
 CLI::Option* add_output_flags(CLI::App* command, Session& session);

@@ -37,9 +37,10 @@ Polyhedron polygon(const py::list& rings) {
   return make_polygon(held);
 }
 
-Polyhedron solid_from_mesh(py::handle vertices, py::handle faces, bool strict, bool surface, bool check) {
+Polyhedron solid_from_mesh(py::handle vertices, py::handle faces, bool strict, bool surface, bool check,
+                           const std::string& crossings) {
   const auto mesh = std::make_shared<const Mesh>(mesh_from_arrays(vertices, faces));
-  MeshOptions options{strict, surface, check};
+  MeshOptions options{strict, surface, check, crossings_from_text(crossings)};
   using Made = std::pair<Polyhedron, Messages>;
   const Made made =
       call(mesh->vertices.size() + mesh->face_count(), [mesh, options](const Monitor& monitor) mutable -> Made {
@@ -136,7 +137,7 @@ points: an array of shape (N, 3) of floats, integers or Fractions, or a sequence
 rings: a list of arrays of shape (N, 3). Raises InputError if the points do not lie in one plane exactly, or a ring
 touches or crosses itself.)");
   m.def("_from_mesh", &solid_from_mesh, py::arg("vertices"), py::arg("faces"), py::arg("strict"), py::arg("surface"),
-        py::arg("check"));
+        py::arg("check"), py::arg("crossings"));
   m.def("eval", &evaluate, py::arg("text"),
         R"doc(The set that an expression of ``nef eval`` spells: ``nef.eval("box(0,0,0, 2,2,2) - point(1, 1, 0.1)")``.
 

@@ -25,12 +25,14 @@ std::string path_text(py::handle path) {
 
 namespace {
 
-Polyhedron read(py::handle path, bool strict, bool surface) {
+Polyhedron read(py::handle path, bool strict, bool surface, const std::string& crossings) {
   using Made = std::pair<Polyhedron, Messages>;
   const std::string file = path_text(path);
+  const Crossings rule = crossings_from_text(crossings);
   const Made made = call(kSmallCall, [=](const Monitor& monitor) -> Made {
     Messages messages;
     MeshOptions options;
+    options.crossings = rule;
     options.strict = strict;
     options.as_surface = surface;
     options.monitor = monitor;
@@ -132,10 +134,10 @@ Polyhedron from_bytes(const std::string& bytes) {
 
 void bind_files(py::module_& m, PolyhedronClass& c) {
   m.def("read", &read, py::arg("path"), py::arg("strict") = false, py::arg("surface") = false,
-        R"(Reads a set from a file: .nef, .nef3 (CGAL's), .off, .obj, .stl, .ply.
+        py::arg("crossings") = "refuse", R"(Reads a set from a file: .nef, .nef3 (CGAL's), .off, .obj, .stl, .ply.
 
 strict: refuse faces of meshes that are not exactly planar instead of triangulating them. surface: take a mesh as the
-union of its faces. What was done to the input is told by warnings; InputError names file, line and cause.)");
+union of its faces. crossings: what is inside of a mesh that crosses itself, as of from_mesh. What was done to the input is told by warnings; InputError names file, line and cause.)");
   m.def("from_bytes", &from_bytes, py::arg("bytes"),
         "The set that Polyhedron.to_bytes wrote, of this or an earlier version. Raises InputError for damaged bytes.");
   m.def("_core_times", &core_times, py::arg("vertices"), py::arg("faces"));

@@ -59,12 +59,13 @@ TiledPolyhedron unite_in_tiles(const std::vector<Polyhedron>& sets, std::size_t 
 }
 
 TiledPolyhedron cut_mesh(py::handle vertices, py::handle faces, bool strict, bool surface, std::size_t limit,
-                         unsigned threads) {
+                         unsigned threads, const std::string& crossings) {
   const Tiling tiling = tiling_of(limit, threads);
   auto mesh = std::make_shared<const Mesh>(mesh_from_arrays(vertices, faces));
   MeshOptions options;
   options.strict = strict;
   options.as_surface = surface;
+  options.crossings = crossings_from_text(crossings);
   using Made = std::pair<TiledPolyhedron, Messages>;
   const Made made = call(mesh->face_count(), [=](const Monitor& monitor) mutable -> Made {
     if (mesh->vertices.empty() && mesh->face_count() == 0) return {TiledPolyhedron(Polyhedron(), tiling), {}};
@@ -230,9 +231,10 @@ operand may be a Polyhedron. Labels other than 0 are taken as 1. Not hashable.)"
         py::arg("threads") = 1, "The union of many sets, region by region: a TiledPolyhedron.");
   m.def("tiles_from_mesh", &cut_mesh, py::arg("vertices"), py::arg("faces"), py::arg("strict") = false,
         py::arg("surface") = false, py::arg("limit") = Tiling().limit, py::arg("threads") = 1,
+        py::arg("crossings") = "refuse",
         R"(The solid that a mesh bounds, cut before it is made a complex: a TiledPolyhedron.
 
-vertices, faces, strict and surface: as of from_mesh.)");
+vertices, faces, strict, surface and crossings: as of from_mesh.)");
   m.def("read_tiles", &read_folder, py::arg("path"), py::arg("memory") = py::none(), py::arg("threads") = 1,
         R"(Reads a folder that TiledPolyhedron.write, or the program `nef`, wrote.
 

@@ -56,7 +56,7 @@ def _indices(faces):
 
 
 def from_mesh(vertices: Any, faces: Any = None, *, strict: bool = False, surface: bool = False,
-              check: bool = True) -> Polyhedron:
+              check: bool = True, crossings: str = "refuse") -> Polyhedron:
     """The closed solid that a closed orientable mesh bounds.
 
     - vertices: array of shape (N, 3) of floats, integers or Fractions (dtype object); or, without `faces`, a mesh object:
@@ -68,6 +68,10 @@ def from_mesh(vertices: Any, faces: Any = None, *, strict: bool = False, surface
     - check: look for faces that meet otherwise than in common vertices and edges, which is a fourth of the time.
       Precondition of False: there are none. All else is checked as ever, and where such faces keep vertices from fitting
       together they are looked for nevertheless; others may go unseen and give a set that means nothing
+    - crossings: what is inside of a closed mesh whose faces cross, or that encloses something several times, by winding
+      numbers: "refuse" (an InputError), "union" (what is enclosed at least once), "nonzero" (also what is inside out),
+      "odd" (overlaps are cavities), "outside" (what cannot be reached from outside); a warning tells what was done.
+      "odd" and "outside" take faces that are turned in any way
 
     A mesh that touches itself is legal; one without vertices and faces is the empty set (which a warning tells). Raises
     InputError for one that is open, inconsistently oriented or crosses itself, or has vertices but no faces; its
@@ -79,7 +83,7 @@ def from_mesh(vertices: Any, faces: Any = None, *, strict: bool = False, surface
         faces = _indices(faces)
     if not isinstance(vertices, numpy.ndarray):
         vertices = list(vertices)
-    return _nef._from_mesh(vertices, faces, strict, surface, check)
+    return _nef._from_mesh(vertices, faces, strict, surface, check, crossings)
 
 
 def _with_offset(mesh, offset):

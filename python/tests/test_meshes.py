@@ -106,6 +106,39 @@ def test_warnings_of_files(tmp_path):
         planner.read(tmp_path / "scene.json")
 
 
+def test_crossings():
+    corners = CORNERS + [[x + Fraction(1, 2) for x in v] for v in CORNERS]
+    squares = SQUARES + [[v + 8 for v in face] for face in SQUARES]
+    overlap = Fraction(1, 8)
+    with pytest.raises(nef.InputError, match='crossings="union" takes what is enclosed at least once'):
+        nef.from_mesh(corners, squares)
+    for rule, volume in (("union", 2 - overlap), ("nonzero", 2 - overlap), ("odd", 2 - 2 * overlap),
+                         ("outside", 2 - overlap)):
+        with pytest.warns(UserWarning, match="6 pairs of faces cross"):
+            assert nef.from_mesh(corners, squares, crossings=rule).volume() == volume
+    with pytest.raises(nef.InputError, match="refuse, union, nonzero, odd, outside; not 'both'"):
+        nef.from_mesh(corners, squares, crossings="both")
+
+
+def test_crossings_of_files(tmp_path):
+    two = tmp_path / "two.off"
+    lines = [" ".join(str(x) for x in v) for v in CORNERS] + [" ".join(str(x + 3) for x in v) for v in CORNERS]
+    lines += [f"4 {' '.join(str(v) for v in face)}" for face in SQUARES]
+    lines += [f"4 {' '.join(str(v + 8) for v in face[::-1])}" for face in SQUARES]
+    two.write_text("OFF\n16 12 0\n" + "\n".join(lines) + "\n")
+    # The second one is far away and inside out: nothing is enclosed twice, and nothing in it once.
+    with pytest.raises(nef.InputError):
+        nef.read(two)
+    with pytest.warns(UserWarning, match="inside out"):
+        assert nef.read(two, crossings="union") == nef.box((0, 0, 0), (1, 1, 1))
+    with pytest.warns(UserWarning, match="inside out"):
+        assert nef.read(two, crossings="nonzero").volume() == 2
+    with pytest.warns(UserWarning, match="inside out"):
+        vertices = CORNERS + [[x + 3 for x in v] for v in CORNERS]
+        faces = SQUARES + [[v + 8 for v in face[::-1]] for face in SQUARES]
+        assert nef.tiles_from_mesh(vertices, faces, crossings="nonzero").volume() == 2
+
+
 def test_guilty_elements():
     with pytest.raises(nef.InputError) as caught:
         nef.from_mesh(VERTICES, FACES[:3])

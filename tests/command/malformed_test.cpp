@@ -131,8 +131,13 @@ TEST_CASE("meshes that bound no solid are refused, with the guilty elements") {
     }
     return text.str();
   }());
-  const Outcome crossing = here.nef("info crossing.obj");
-  check_refused(crossing, "face");
+  check_refused(here.nef("info crossing.obj --crossings refuse"), "crossings=\"union\" takes what is enclosed");
+  const Outcome crossing = here.nef("info crossing.obj --json");
+  CHECK(crossing.code == 0);
+  CHECK(crossing.err.find("6 pairs of faces cross: what is enclosed at least once was taken") != std::string::npos);
+  CHECK(crossing.json()["result"]["volume"] == "15");
+  CHECK(here.nef("info crossing.obj --json -q --crossings odd").json()["result"]["volume"] == "14");
+  check_refused(here.nef("info crossing.obj --crossings both"), "both");
   const Outcome checked = here.nef("check crossing.obj --json");
   CHECK(checked.code == 1);
   CHECK(checked.json()["ok"] == false);
@@ -204,11 +209,16 @@ TEST_CASE("components that contradict each other are refused") {
   here.write("turned.off", boxes(0, 3, 5, 9, true));
   for (const std::string file : {"nested.off", "turned.off"}) {
     CAPTURE(file);
-    check_refused(here.nef("info " + file), "begin at faces 0, 6");
+    check_refused(here.nef("info " + file + " --crossings refuse"), "begin at faces 0, 6");
     const Outcome checked = here.nef("check " + file + " --json");
     CHECK(checked.code == 1);
     CHECK(checked.json()["problems"].back()["name"] == "inconsistent orientation");
+    CHECK(here.nef("info " + file).err.find("what is enclosed at least once was taken") != std::string::npos);
   }
+  CHECK(here.nef("info nested.off --json").json()["result"]["volume"] == "729");
+  // The larger box decides that the mesh is inside out; the smaller one is so then.
+  CHECK(here.nef("info turned.off --json").json()["result"]["volume"] == "64");
+  CHECK(here.nef("info turned.off --crossings nonzero --json").json()["result"]["volume"] == "91");
 }
 
 TEST_CASE("two cubes that share an edge or a vertex are legal") {

@@ -170,7 +170,7 @@ void declare(CLI::App& app, Arguments& a) {
                  "How sums of cells are united: auto (default), trivial, queue, priority, nary, convolution")
       ->check(CLI::IsMember(strategy_names()));
   declare_tasks(app, a);
-  add_mesh_input_options(app, a.strict, a.as_surface);
+  add_mesh_input_options(app, a.mesh);
   add_file_output_options(app, a.exact, a.binary, a.text);
   add_manifold_option(app, a.mesh_file.manifold);
   add_mesh_file_options(app, a.mesh_file);

@@ -11,6 +11,7 @@
 
 #include "apps/minkowski/minkowski.h"
 #include "apps/minkowski/morphology.h"
+#include "nef/construct/construct.h"
 #include "nef/program/common_options.h"
 
 namespace nef::minkowski {
@@ -37,7 +38,7 @@ struct Arguments {
   std::string output, report, preview;
   std::string union_name = "auto";
   bool open_a = false, open_b = false, negate_b = false, hull_b = false;
-  bool as_surface = false, strict = false;
+  MeshOptions mesh;
   unsigned threads = 0;  ///< 0: as many as the machine has
   MeshFileFlags mesh_file;
   bool exact = false, binary = false, text = false, quiet = false, json = false;

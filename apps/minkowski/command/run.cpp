@@ -58,10 +58,7 @@ class Run {
   Polyhedron load(const std::string& path) {
     const Stopwatch watch;
     Messages messages;
-    MeshOptions options;
-    options.strict = a_.strict;
-    options.as_surface = a_.as_surface;
-    Polyhedron set = read_polyhedron(path, options, &messages);
+    Polyhedron set = read_polyhedron(path, a_.mesh, &messages);
     load_s_ += watch.seconds();
     notes_.note(messages);
     return set;

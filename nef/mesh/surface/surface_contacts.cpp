@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "nef/geometry/vectors.h"
 #include "nef/mesh/edge_order.h"
@@ -503,6 +504,35 @@ void SurfaceContacts::for_each(const std::function<bool(Kind, std::uint32_t, std
   for (const Contact& contact : contacts) {
     if (!visit(contact.kind, contact.t, contact.u)) return;
   }
+}
+
+std::vector<FaceContact> face_contacts(const MeshSurface& surface, const SurfaceContacts& contacts) {
+  // Triangles of one face meet others' many times.
+  std::vector<FaceContact> found;
+  contacts.for_each([&](SurfaceContacts::Kind kind, std::uint32_t t, std::uint32_t u) {
+    const auto [f, g] = std::minmax(surface.face_of[t], surface.face_of[u]);
+    found.push_back({f, g, kind, kind == SurfaceContacts::Kind::kCover});
+    return true;
+  });
+  std::sort(found.begin(), found.end(), [](const FaceContact& a, const FaceContact& b) {
+    return std::tie(a.f, a.g, b.kind) < std::tie(b.f, b.g, a.kind);
+  });
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (kept > 0 && found[kept - 1].f == found[i].f && found[kept - 1].g == found[i].g) {
+      found[kept - 1].covers = found[kept - 1].covers || found[i].covers;
+    } else {
+      found[kept++] = found[i];
+    }
+  }
+  found.resize(kept);
+  return found;
+}
+
+std::size_t count_crossings(std::span<const FaceContact> contacts) {
+  return static_cast<std::size_t>(std::count_if(contacts.begin(), contacts.end(), [](const FaceContact& contact) {
+    return contact.kind == SurfaceContacts::Kind::kCross || contact.kind == SurfaceContacts::Kind::kOverlap;
+  }));
 }
 
 }  // namespace nef

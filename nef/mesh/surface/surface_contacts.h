@@ -96,4 +96,18 @@ class SurfaceContacts {
   mutable std::vector<HalfEdge> half_edges_;  // sorted by key; made when first asked for
 };
 
+/// Two faces that meet otherwise than in common vertices and edges, f < g, or one that meets itself, f == g.
+struct FaceContact {
+  std::uint32_t f = 0;
+  std::uint32_t g = 0;
+  SurfaceContacts::Kind kind = SurfaceContacts::Kind::kNone;  ///< the worst of those between their triangles
+  bool covers = false;                                        ///< two of their triangles cover each other
+};
+
+/// All contacts of a surface, each pair of faces once, in lexicographic order.
+std::vector<FaceContact> face_contacts(const MeshSurface& surface, const SurfaceContacts& contacts);
+
+/// How many of them are crossings or overlaps.
+std::size_t count_crossings(std::span<const FaceContact> contacts);
+
 }  // namespace nef

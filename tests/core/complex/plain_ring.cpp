@@ -83,7 +83,7 @@ TEST_CASE("Solids with rings that are read are those with rings that are drawn, 
   std::mt19937 random(4);
   for (int round = 0; round < 40; ++round) {
     const Mesh mesh = star(random);
-    const CheckedSurface checked(mesh, CheckedSurface::Extent::kAll, {});
+    const CheckedSurface checked(mesh, CheckedSurface::Extent::kAll, Crossings::kRefuse, {});
     REQUIRE_FALSE(checked.in_contact());
     const auto bytes = [&](SphereMaps maps) {
       std::variant<Complex, Defect> made = try_make_solid(solid_faces(checked, {}, nullptr), {1, 1, 0}, {}, maps);

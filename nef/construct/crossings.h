@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What becomes of a mesh that crosses itself.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace nef {
+
+/// Which points belong to the solid of a mesh whose faces cross or overlap. The winding number of a point is how often
+/// the faces go around it counterclockwise as seen from outside: 0 far away, 1 inside a box, 2 where two boxes overlap,
+/// -1 inside a box that is inside out.
+enum class Crossings : std::uint8_t {
+  kRefuse,   ///< the mesh is an error unless all winding numbers are 0 and 1
+  kUnion,    ///< points whose winding number is positive: what is enclosed at least once
+  kNonzero,  ///< points whose winding number is not 0: parts that are inside out count, too
+  kOdd,      ///< points whose winding number is odd: overlaps become cavities. Faces may be turned in any way
+  kOutside,  ///< points that cannot be reached from far away without crossing a face. Faces may be turned in any way
+};
+
+/// All rules, in the order above.
+inline constexpr std::array kAllCrossings{Crossings::kRefuse, Crossings::kUnion, Crossings::kNonzero, Crossings::kOdd,
+                                          Crossings::kOutside};
+
+/// The name as options spell it: refuse, union, nonzero, odd, outside.
+const char* name(Crossings rule);
+
+/// The rule of that name, if there is one.
+std::optional<Crossings> crossings_of_name(std::string_view name);
+
+/// What a rule takes, as a message says it: "what is enclosed at least once".
+const char* taken_by(Crossings rule);
+
+}  // namespace nef

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <csignal>
 #include <fstream>
 #include <string_view>
 #include <utility>
@@ -41,10 +42,18 @@ void limit_memory(std::size_t bytes) {
 #endif
 }
 
-void set_bounds(std::size_t bytes, unsigned seconds) {
+void set_bounds(const ParserLimits& limits) {
   limit(RLIMIT_CORE, 0);
-  limit(RLIMIT_CPU, seconds);
-  limit_memory(bytes);
+  limit(RLIMIT_CPU, limits.seconds);
+  limit_memory(limits.bytes);
+  // An alarm ends the process unless somebody handles or blocks it.
+  constexpr unsigned kWaiting = 4;
+  sigset_t alarm_only;
+  sigemptyset(&alarm_only);
+  sigaddset(&alarm_only, SIGALRM);
+  static_cast<void>(signal(SIGALRM, SIG_DFL));
+  pthread_sigmask(SIG_UNBLOCK, &alarm_only, nullptr);
+  alarm(kWaiting * limits.seconds);
 }
 
 bool write_all(int descriptor, std::string_view text) {
@@ -57,8 +66,8 @@ bool write_all(int descriptor, std::string_view text) {
   return true;
 }
 
-[[noreturn]] void be_child(int out, std::size_t bytes, unsigned seconds, const std::function<std::string()>& work) {
-  set_bounds(bytes, seconds);
+[[noreturn]] void be_child(int out, const ParserLimits& limits, const std::function<std::string()>& work) {
+  set_bounds(limits);
   bool sent = false;
   try {
     sent = write_all(out, kResult + work());
@@ -82,13 +91,17 @@ std::string read_all(int descriptor) {
 
 }  // namespace
 
-std::optional<std::string> run_bounded(std::size_t bytes, unsigned seconds, const std::function<std::string()>& work) {
+std::string limits_text(const ParserLimits& limits) {
+  return std::to_string(limits.bytes >> 20U) + " MB and " + std::to_string(limits.seconds) + " s";
+}
+
+std::optional<std::string> run_bounded(const ParserLimits& limits, const std::function<std::string()>& work) {
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0) throw InputError("no pipe to another process could be made");
   const pid_t child = fork();
   if (child == 0) {
     close(ends[0]);
-    be_child(ends[1], bytes, seconds, work);
+    be_child(ends[1], limits, work);
   }
   close(ends[1]);
   if (child < 0) {

@@ -3,6 +3,8 @@
 
 #include <zip.h>
 
+#include <ctime>
+
 #include <algorithm>
 #include <array>
 
@@ -20,8 +22,22 @@ struct ZipArchive::Handle {
   }
 };
 
-ZipArchive::ZipArchive(std::string_view bytes, const std::string& path)
-    : handle_(new Handle{nullptr, path}), left_(std::max(std::size_t{64} << 20U, kMostGrowth * bytes.size())) {
+namespace {
+
+// Of this thread, of which a loaded machine does not use up more.
+std::chrono::nanoseconds processor_time() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return std::chrono::seconds(now.tv_sec) + std::chrono::nanoseconds(now.tv_nsec);
+}
+
+}  // namespace
+
+ZipArchive::ZipArchive(std::string_view bytes, const std::string& path, unsigned seconds)
+    : handle_(new Handle{nullptr, path}),
+      left_(std::max(std::size_t{64} << 20U, kMostGrowth * bytes.size())),
+      seconds_(seconds),
+      begin_(processor_time()) {
   zip_error_t error;
   zip_error_init(&error);
   zip_source_t* source = zip_source_buffer_create(bytes.data(), bytes.size(), 0, &error);
@@ -63,6 +79,10 @@ void ZipArchive::read(const std::string& name, const std::function<void(std::str
     const auto size = static_cast<std::size_t>(count);
     if (size > left_) handle_->fail(FileProblem::kUnsupported, file + "is suspiciously large; unpack and repack it");
     left_ -= size;
+    if (processor_time() - begin_ > std::chrono::seconds(seconds_)) {
+      handle_->fail(FileProblem::kUnsupported, file + "takes more than " + std::to_string(seconds_) +
+                                                   " s to unpack and parse; it is damaged, or else split it");
+    }
     sink({buffer.data(), size});
   }
 }

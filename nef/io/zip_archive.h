@@ -3,6 +3,7 @@
 // Zip archives in memory, through libzip.
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <string>
@@ -10,13 +11,17 @@
 #include <utility>
 #include <vector>
 
+#include "nef/io/bounded_process.h"
+
 namespace nef {
 
 /// The files in the bytes of a zip archive. Throws FileError for bytes that are none.
 class ZipArchive {
  public:
-  /// `bytes` and `path`, which is for error messages only, must outlive the archive.
-  ZipArchive(std::string_view bytes, const std::string& path);
+  /// `bytes` and `path`, which is for error messages only, must outlive the archive. `seconds`: see read.
+  ZipArchive(std::string_view bytes, const std::string& path, unsigned seconds);
+  ZipArchive(std::string_view bytes, const std::string& path)
+      : ZipArchive(bytes, path, parser_limits(bytes.size()).seconds) {}
   ~ZipArchive();
   ZipArchive(const ZipArchive&) = delete;
   ZipArchive& operator=(const ZipArchive&) = delete;
@@ -26,7 +31,8 @@ class ZipArchive {
   /// Gives the file of this name to `sink`, piece after piece in order. Throws FileError if there is none, if it is
   /// damaged (its checksum differs), encrypted, or packed by another method than deflate, or if all that was read from
   /// this archive is more than kMostGrowth times the archive, 64 MiB at least: such archives are made to exhaust
-  /// memory.
+  /// memory. Throws it, too, if this thread has used more than `seconds` of processor time since the archive was
+  /// opened, be it here or in `sink`.
   void read(const std::string& name, const std::function<void(std::string_view piece)>& sink);
 
   static constexpr std::size_t kMostGrowth = 200;
@@ -35,6 +41,8 @@ class ZipArchive {
   struct Handle;
   std::unique_ptr<Handle> handle_;
   std::size_t left_;  // bytes that may still be read
+  unsigned seconds_;
+  std::chrono::nanoseconds begin_;  // of processor time
 };
 
 /// A zip archive with these files (name and content), the same bytes for the same files at any time.

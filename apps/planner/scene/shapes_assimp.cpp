@@ -130,17 +130,15 @@ Triangles read_triangles(const std::string& path) {
 Triangles read_triangles_bounded(const std::string& path) {
   std::error_code ignored;
   const std::uintmax_t size = std::filesystem::file_size(path, ignored);
-  const std::size_t megabytes = 512 + (ignored ? 0 : static_cast<std::size_t>(size >> 12U));  // 256 bytes a byte
-  const auto seconds = static_cast<unsigned>(20 + megabytes / 16);
+  const ParserLimits limits = parser_limits(ignored ? 0 : static_cast<std::size_t>(size));
   try {
-    const std::optional<std::string> bytes =
-        run_bounded(megabytes << 20U, seconds, [&] { return to_bytes(read_triangles(path)); });
+    const std::optional<std::string> bytes = run_bounded(limits, [&] { return to_bytes(read_triangles(path)); });
     if (bytes) return from_bytes(*bytes);
   } catch (const InputError& error) {
     throw InputError(path + ": " + error.what());
   }
-  throw InputError(path + ": assimp could not read the file within " + std::to_string(megabytes) + " MB and " +
-                   std::to_string(seconds) + " s; it is damaged, or else convert it to OFF, OBJ, STL or PLY");
+  throw InputError(path + ": assimp could not read the file within " + limits_text(limits) +
+                   "; it is damaged, or else convert it to OFF, OBJ, STL or PLY");
 }
 
 }  // namespace

@@ -75,16 +75,13 @@ Scene scene_of(const std::string& bytes) {
 
 Scene read_with_limits(const std::filesystem::path& file, const std::string& parser, std::size_t bytes,
                        const std::function<Scene()>& read) {
-  // Far more than sound files take.
-  const std::size_t megabytes = 256 + (bytes >> 14U);  // 64 bytes a byte
-  const auto seconds = static_cast<unsigned>(10 + megabytes / 16);
-  const std::optional<std::string> scene =
-      nef::run_bounded(megabytes << 20U, seconds, [&] { return to_bytes(read()); });
+  const nef::ParserLimits limits = nef::parser_limits(bytes);
+  const std::optional<std::string> scene = nef::run_bounded(limits, [&] { return to_bytes(read()); });
   if (scene) return scene_of(*scene);
   throw nef::InputError(
-      fmt::format("{}: {} could not read the file within {} MB and {} s: it is damaged or nested too "
+      fmt::format("{}: {} could not read the file within {}: it is damaged or nested too "
                   "deeply; write its matrices to a text file, a name and twelve numbers a line",
-                  file.string(), parser, megabytes, seconds));
+                  file.string(), parser, nef::limits_text(limits)));
 }
 
 }  // namespace visual_hull

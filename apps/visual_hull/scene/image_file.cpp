@@ -28,7 +28,8 @@ namespace visual_hull {
 namespace {
 
 constexpr std::size_t kMostBytes = std::size_t{2} << 30U;  // of pixels: far more than any camera gives
-constexpr unsigned kMostSeconds = 120;                     // for other decoders, of processor time
+// For decoders of other formats, which keep a few copies of the pixels.
+constexpr nef::ParserLimits kDecoderLimits{.bytes = 3 * kMostBytes, .seconds = 120};
 
 using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
@@ -42,6 +43,7 @@ class PngReader {
             [](png_structp, png_const_charp) {})) {
     if (png_ != nullptr) info_ = png_create_info_struct(png_);
     if (info_ == nullptr) throw std::bad_alloc();
+    png_set_chunk_cache_max(png_, 1);  // texts and the like are skipped: each unpacks to megabytes
   }
   PngReader(const PngReader&) = delete;
   PngReader& operator=(const PngReader&) = delete;
@@ -144,8 +146,7 @@ cv::Mat image_of(const std::string& bytes) {
 
 cv::Mat read_other(const std::filesystem::path& file, int flags) {
   static const Imread imread = load_imread();
-  // Decoders keep a few copies of the pixels.
-  const std::optional<std::string> bytes = nef::run_bounded(3 * kMostBytes, kMostSeconds, [&]() -> std::string {
+  const std::optional<std::string> bytes = nef::run_bounded(kDecoderLimits, [&]() -> std::string {
     try {
       return to_bytes(imread(file.string(), flags));
     } catch (const cv::Exception&) {

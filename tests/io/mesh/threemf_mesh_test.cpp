@@ -149,6 +149,20 @@ TEST_CASE("3MF: damaged and malicious files are refused", "[threemf]") {
       "nested too deeply");
 }
 
+TEST_CASE("3MF: an archive that takes too long is refused", "[threemf]") {
+  const std::string bytes = zip_bytes({{"a", std::string(1 << 20U, 'a')}});
+  std::size_t pieces = 0;
+  const std::string path = "x.3mf";
+  ZipArchive patient(bytes, path);
+  patient.read("a", [&](std::string_view) { ++pieces; });
+  CHECK(pieces > 2);
+  ZipArchive impatient(bytes, path, 0);
+  pieces = 0;
+  const auto read = [&] { impatient.read("a", [&](std::string_view) { ++pieces; }); };
+  CHECK_THROWS_WITH(read(), Catch::Contains("x.3mf: ") && Catch::Contains("more than 0 s"));
+  CHECK(pieces == 0);
+}
+
 TEST_CASE("3MF: archives and components that explode are refused", "[threemf]") {
   check_refused(archive("<model>" + std::string(std::size_t{70} << 20U, ' ') + "</model>"), "suspiciously large");
   // An attribute that takes quadratic time.

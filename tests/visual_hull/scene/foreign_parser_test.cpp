@@ -88,7 +88,7 @@ TEST_CASE("A scene comes through the process with limits as it is") {
                                        static_cast<void>(raise(SIGKILL));
                                        return {};
                                      }),
-                    Contains("file: a parser could not read the file within 256 MB"));
+                    Contains("file: a parser could not read the file within 512 MB"));
 }
 
 }  // namespace

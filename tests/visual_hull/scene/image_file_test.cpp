@@ -9,6 +9,7 @@
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 
+#include "nef/io/bounded_process.h"
 #include "tests/visual_hull/scratch.h"
 
 namespace visual_hull::testing {
@@ -51,7 +52,47 @@ void write_png(const std::string& file, std::uint32_t format) {
   REQUIRE(png_image_write_to_file(&image, file.c_str(), 0, pixels.data(), 0, palette.data()) != 0);
 }
 
+// A white pixel with so many texts of 7 MB, each packed to a thousandth.
+std::string png_with_texts(std::size_t count) {
+  std::string bytes;
+  const auto append = [](png_structp png, png_bytep data, std::size_t size) {
+    static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<const char*>(data), size);
+  };
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+  png_infop info = png_create_info_struct(png);
+  png_set_write_fn(png, &bytes, append, nullptr);
+  png_set_IHDR(png, info, 1, 1, 8, PNG_COLOR_TYPE_GRAY, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+               PNG_FILTER_TYPE_DEFAULT);
+  std::string key = "Comment";
+  std::string long_text(7'000'000, 'a');
+  png_text text{};
+  text.compression = PNG_TEXT_COMPRESSION_zTXt;
+  text.key = key.data();
+  text.text = long_text.data();
+  text.text_length = long_text.size();
+  png_set_text(png, info, &text, 1);
+  png_write_info(png, info);
+  const std::size_t begin = bytes.find("zTXt") - 4;  // the chunk's length comes first
+  const std::string chunk = bytes.substr(begin);
+  for (std::size_t i = 1; i < count; ++i) bytes += chunk;
+  const png_byte white = 255;
+  png_write_row(png, &white);
+  png_write_end(png, nullptr);
+  png_destroy_write_struct(&png, &info);
+  return bytes;
+}
+
 }  // namespace
+
+TEST_CASE("Texts in a PNG are not unpacked") {
+  const Scratch scratch;
+  const auto file = scratch.write("texts.png", png_with_texts(200));
+  const auto brightness = [&]() -> std::string {
+    const cv::Mat image = read_pixels(file);
+    return image.empty() ? "none" : std::to_string(image.at<std::uint8_t>(0, 0));
+  };
+  CHECK(nef::run_bounded({.bytes = std::size_t{256} << 20U, .seconds = 10}, brightness) == "255");
+}
 
 TEST_CASE("PNG of every kind is read as OpenCV does") {
   const Scratch scratch;

@@ -227,7 +227,7 @@ class WindingFiller {
       return between(filled.volumes[sides.volume_above].mark, filled.volumes[sides.volume_below].mark);
     });
     filled.label_count = idle_ ? 2 * kIdle : 2;
-    const Polyhedron marked(std::move(filled));
+    Polyhedron marked(std::move(filled));
     if (!idle_) return marked;
     return overlay(marked, Polyhedron(), without_idle, options_.threads, options_.monitor);
   }

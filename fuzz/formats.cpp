@@ -6,6 +6,8 @@
 #include <cstdint>
 
 #include "apps/planner/path/path_file.h"
+#include "apps/planner/proofs/proof_file.h"
+#include "apps/planner/rigid/pose_file.h"
 #include "apps/planner/scene/scene.h"
 #include "apps/visual_hull/formats/colmap.h"
 #include "apps/visual_hull/formats/matlab.h"
@@ -237,6 +239,40 @@ void read_waypoints_file(const std::string& text) {
   static_cast<void>(planner::read_waypoints(folder.file("path.json")));
 }
 
+std::string rigid_path(const Polyhedron& /*set*/, const std::string& /*text*/) {
+  return R"({"path": [{"position": [0, "1/3", 0.5], "quaternion": [1, 1, 0, 0]},
+  {"position": [1e1, 0, 0], "quaternion": [1, 0, 0.5, "-2"]}]})";
+}
+
+void read_rigid_path(const std::string& text) {
+  const test::TemporaryFolder folder;
+  write_file(folder.file("path.json"), text);
+  static_cast<void>(planner::read_poses(folder.file("path.json")));
+}
+
+std::string proof_of_path(const Polyhedron& /*set*/, const std::string& /*text*/) {
+  return R"({"claim": {"box": [["-9", "-9", "-9"], ["9", "9", "9"]], "contact": "allow",
+  "obstacles": [[["-3", "3/2", "-3"], ["3", "3", "-3"], ["3", "3", "3"]]],
+  "path": [{"position": ["0", "0", "0"], "quaternion": ["1", "0", "0", "0"]},
+           {"position": ["0", "1/2", "0"], "quaternion": ["3", "0", "0", "1"]}],
+  "robot": [[["0", "0", "0"], ["1", "0", "0"], ["0", "1", "0"], ["0", "0", "1"]]], "status": "path"}, "nef_proof": 1,
+  "witness": {"motions": [[{"planes": [], "until": "1/2"},
+                           {"planes": [{"normal": ["-1", "4", "0"], "obstacle": 0, "robot": 0}], "until": "1"}]]}})";
+}
+
+std::string proof_of_collision(const Polyhedron& /*set*/, const std::string& /*text*/) {
+  return R"({"claim": {"box": null, "contact": "forbid", "obstacles": [[["0", "0", "0"], ["2", "0", "0"]]],
+  "path": [{"position": ["0", "0", "0"], "quaternion": ["1", "0", "0", "1/2"]}],
+  "robot": [[["1", "0", "0"]], [["0", "0", "0"]]], "status": "blocked"}, "nef_proof": 1,
+  "witness": {"collision": {"common": [{"obstacle": ["1", "0"], "robot": ["1"]}, {"obstacle": ["1", "0"], "robot": ["1"]}],
+  "motion": 0, "obstacle": 0, "parameter": "0", "robot": 1, "times": ["0", "1"]}}})";
+}
+
+// Whatever the file says, the check of the proof must end.
+void read_proof_file(const std::string& text) {
+  static_cast<void>(planner::complaint_about(planner::parse_proof(text, "file")));
+}
+
 constexpr std::array kFormats{
     Format{"off", mesh_bytes<off_bytes, false>, read_mesh_bytes<read_off>},
     Format{"obj", mesh_bytes<obj_bytes, false>, read_mesh_bytes<read_obj>},
@@ -267,6 +303,9 @@ constexpr std::array kFormats{
     Format{"planner-scene", planner_scene, read_planner_scene},
     Format{"cfg", ompl_problem, read_ompl_problem},
     Format{"waypoints", waypoints, read_waypoints_file},
+    Format{"rigid-path", rigid_path, read_rigid_path},
+    Format{"path-proof", proof_of_path, read_proof_file},
+    Format{"collision-proof", proof_of_collision, read_proof_file},
     Format{"hull-scene", hull_scene,
            [](const std::string& text) {
              static_cast<void>(visual_hull::read_json_scene(text, "/nonexistent/scene.json"));

@@ -11,7 +11,8 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 FOLDERS = ["nef/io", "nef/io/mesh", "nef/io/native", "nef/io/cgal", "nef/program/expression", "nef/program", "nef/command/apply",
-           "apps/visual_hull/formats", "apps/planner/scene", "apps/planner/path"]
+           "apps/visual_hull/formats", "apps/planner/scene", "apps/planner/path",
+           "apps/planner/proofs", "apps/planner/rigid"]
 
 # Readers that another one calls, and what reads no format of its own.
 THROUGH = {

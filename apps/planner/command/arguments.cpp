@@ -29,6 +29,8 @@ Examples:
   planner scene.json --page scene.html -o scene.glb
   planner scene.json --prefer roomy --json
   planner scene.json --queries questions.txt --json
+  planner scene.json --path given.path --proof given.proof
+  planner scene.json --check-proof given.proof
   planner --assembly parts.json --page apart.html
   planner scene.json --widest --precision 1/100
   planner scene.json --keep-clear 0.1 --speed 2 --acceleration 5 -o path.csv
@@ -101,8 +103,11 @@ void declare(CLI::App& app, Arguments& a) {
   app.add_flag("--clearance", a.path.clearance, "Way-points inside volumes rather than in contact");
   app.add_flag("--se3", a.se3, "Path matrix with seven columns x y z qx qy qz qw");
   app.add_option("--max-cells", a.max_cells, "A robot that turns: cut its angles into so many cells at most");
+  app.add_option("--proof", a.proof, "Write a proof that the path is free, or that it collides (.proof)")
+      ->type_name("FILE");
   app.add_option("--check-proof", a.check_proof,
-                 "A robot that turns: verify the proof in this report (exit code 0: it holds, 1: it does not)")
+                 "Verify a .proof file, or of a robot that turns the proof in a report, against the scene (exit code "
+                 "0: it holds, 1: it does not)")
       ->type_name("FILE");
   declare_clearance(app, a);
   declare_ompl(app, a);

@@ -26,6 +26,7 @@ struct Arguments {
   std::string prefer = "short";
   std::string given_path;
   std::string queries;
+  std::string proof;
   std::string check_proof;
   std::string keep_clear;
   std::string precision = "1/1000";

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "apps/planner/command/proof_run.h"
 #include "apps/planner/rigid/certified_path.h"
 #include "nef/base/error.h"
 #include "nef/base/timing/stopwatch.h"
@@ -97,11 +98,14 @@ int run_certify(const Arguments& a, const Scene& scene, const std::vector<RigidP
   const Scene unturned = with_robot_as_in_its_file(scene);
   const MotionChecker checker = MotionChecker::of_scene(unturned);
   const double setup_s = watch.seconds();
-  const CertifiedPath path = certify(checker, poses);
+  CheckLimits limits;
+  limits.keep_parts = !a.proof.empty();
+  const CertifiedPath path = certify(checker, poses, MotionTiming::kSlerp, limits);
   const std::string text =
       report_text(run_report("certify", certified_json(path, poses, scene),
                              {{"setup", setup_s, {}}, {"op", watch.seconds() - setup_s, {}}}, scene.messages));
   for (const std::string& file : a.outputs) write_file(file, text);
+  write_path_proof(a, checker, poses, path);
   if (a.json) {
     std::cout << text;
   } else if (!a.quiet) {

@@ -18,6 +18,7 @@
 #include "apps/planner/command/clearance_run.h"
 #include "apps/planner/command/notes.h"
 #include "apps/planner/command/ompl_runs.h"
+#include "apps/planner/command/proof_run.h"
 #include "apps/planner/command/scene_view.h"
 #include "apps/planner/command/turning_run.h"
 #include "apps/planner/ompl/ompl_planners.h"
@@ -77,6 +78,7 @@ void check_usage(const Arguments& a) {
     }
   }
   check_clearance_usage(a);
+  check_proof_usage(a);
   for (const std::string& name : a.planners) require_ompl_planner(name);
   if (!a.ompl.empty()) require_ompl_planner(a.ompl);
 }
@@ -123,11 +125,13 @@ std::optional<std::string> rendered(const Arguments& a, const std::string& file,
   return path_text(*answer.path);
 }
 
-void write_answer(const Arguments& a, const Answer& answer, const Asked& asked,
-                  const nlohmann::json& widest = nullptr) {
+// `given` are the points of a path that is checked.
+void write_answer(const Arguments& a, const Answer& answer, const Asked& asked, const nlohmann::json& widest = nullptr,
+                  const std::vector<Rational3>& given = {}) {
   write_outputs(
       a, asked.scene.name, [&](const std::string& file) { return rendered(a, file, answer, asked, widest); },
       [&] { return view_layers(answer, asked.scene, asked.free); });
+  write_translation_proof(a, asked.scene, answer, given);
 }
 
 void print_path(const Arguments& a, const Answer& answer) {
@@ -166,8 +170,9 @@ void print(const Arguments& a, const Answer& answer, const Asked& asked, const n
 }
 
 int check_given_path(const Arguments& a, const Problem& problem) {
-  const Answer answer = problem.check(read_waypoints(a.given_path));
-  write_answer(a, answer, problem);
+  const std::vector<Rational3> points = read_waypoints(a.given_path);
+  const Answer answer = problem.check(points);
+  write_answer(a, answer, problem, nullptr, points);
   print(a, answer, problem);
   if (answer.path && a.tight && !a.json && !a.quiet) {
     std::cout << passages_text(problem.free_space()) << "uses passages:";
@@ -295,6 +300,7 @@ int run(const Arguments& a) {
   if (!a.keep_clear.empty()) keep_clear(scene, parse_rational(a.keep_clear));
   bar.clear();
   print_notes(a, scene.messages);
+  if (const std::optional<int> code = run_check_proof(a, scene)) return *code;
   if (!a.given_path.empty()) {
     if (const auto poses = read_poses(a.given_path)) return run_certify(a, scene, *poses);
   }
@@ -304,7 +310,8 @@ int run(const Arguments& a) {
     bar.clear();
     return run_turning(a, scene, widest);
   }
-  if (!a.check_proof.empty()) throw InputError("--check-proof is about robots that turn; the scene has no rotation");
+  if (!a.check_proof.empty())
+    throw InputError("--check-proof " + a.check_proof + ": no .proof file, and the scene has no rotation");
   if (const std::optional<int> code = answer_invalid_end(a, scene, widest, bar)) return *code;
   if (const std::optional<int> code = answer_without_tight_passages(a, scene, build, widest, bar)) return *code;
   const Problem problem(std::move(scene), build);

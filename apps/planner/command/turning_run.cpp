@@ -20,7 +20,7 @@ namespace {
 void check_turning_options(const Arguments& a) {
   const bool other = a.tight || !a.given_path.empty() || !a.queries.empty() || !a.benchmark.empty() ||
                      a.path.min_dimension > 0 || a.path.clearance || a.path.raw || !a.path.thorough ||
-                     a.prefer != "short" || a.se3;
+                     a.prefer != "short" || a.se3 || !a.proof.empty();
   if (other) {
     throw InputError(
         "a scene with a rotation knows --json, --quiet, --page, -o, --max-cells, --time, --digits, --ompl and "

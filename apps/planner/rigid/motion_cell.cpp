@@ -25,6 +25,19 @@ Eigen::Matrix3d matrix_between(const std::array<double, 4>& p, const std::array<
   return m / whole;
 }
 
+std::vector<Rational3> images_by(const std::vector<Matrix3>& turns, const std::vector<Rational3>& positions,
+                                 std::span<const Rational3> points) {
+  std::vector<Rational3> images;
+  for (const Rational3& v : points) {
+    for (const Matrix3& turn : turns) {
+      Rational3 turned;
+      for (std::size_t k = 0; k < 3; ++k) turned[k] = turn[k][0] * v[0] + turn[k][1] * v[1] + turn[k][2] * v[2];
+      for (const Rational3& at : positions) images.push_back({turned[0] + at[0], turned[1] + at[1], turned[2] + at[2]});
+    }
+  }
+  return images;
+}
+
 }  // namespace
 
 MotionCells::MotionCells(const RigidMotion& motion)
@@ -45,6 +58,13 @@ MotionCells::Double4 MotionCells::quaternion(double s) const {
 }
 
 Vector3d MotionCells::position(double time) const { return (1 - time) * from_ + time * to_; }
+
+Rational3 MotionCells::exact_position(double time) const {
+  const Rational t = exact_rational(time);
+  const Rational3& from = motion_->from().position;
+  const Rational3& to = motion_->to().position;
+  return {from[0] + t * (to[0] - from[0]), from[1] + t * (to[1] - from[1]), from[2] + t * (to[2] - from[2])};
+}
 
 std::array<double, 2> MotionCells::times(double a, double b) const {
   const double slack = position_error_ > 0 ? RigidMotion::kTimeError : 0;
@@ -101,22 +121,15 @@ std::vector<Rational3> MotionCells::exact_images(double a, double b, std::span<c
   std::vector<Rational3> positions;
   const std::array<double, 2> ends = a == b ? std::array{motion_->time_of(a), motion_->time_of(a)} : times(a, b);
   for (const double time : ends) {
-    const Rational t = exact_rational(time);
-    const Rational3& from = motion_->from().position;
-    const Rational3& to = motion_->to().position;
-    positions.push_back(
-        {from[0] + t * (to[0] - from[0]), from[1] + t * (to[1] - from[1]), from[2] + t * (to[2] - from[2])});
+    positions.push_back(exact_position(time));
     if (a == b || !motion_->moves()) break;
   }
-  std::vector<Rational3> images;
-  for (const Rational3& v : points) {
-    for (const Matrix3& turn : turns) {
-      Rational3 turned;
-      for (std::size_t k = 0; k < 3; ++k) turned[k] = turn[k][0] * v[0] + turn[k][1] * v[1] + turn[k][2] * v[2];
-      for (const Rational3& at : positions) images.push_back({turned[0] + at[0], turned[1] + at[1], turned[2] + at[2]});
-    }
-  }
-  return images;
+  return images_by(turns, positions, points);
+}
+
+std::vector<Rational3> MotionCells::exact_images_at(double s, double time, std::span<const Rational3> points) const {
+  const Quaternion q = motion_->quaternion(exact_rational(s));
+  return images_by({rotation_between(q, q)}, {exact_position(time)}, points);
 }
 
 }  // namespace nef::planner

@@ -59,6 +59,11 @@ class MotionCells {
 
   /// The images of points in a part of the motion, exactly: the hull is that of part(a, b).
   [[nodiscard]] std::vector<Rational3> exact_images(double a, double b, std::span<const Rational3> points) const;
+  /// The images of points by the rotation at a parameter, with the position at a time, exactly.
+  [[nodiscard]] std::vector<Rational3> exact_images_at(double s, double time, std::span<const Rational3> points) const;
+  /// How far the position has gone from parameter a to b: an interval that holds the true one, although times are
+  /// rounded.
+  [[nodiscard]] std::array<double, 2> times(double a, double b) const;
 
   [[nodiscard]] const RigidMotion& motion() const { return *motion_; }
 
@@ -66,7 +71,7 @@ class MotionCells {
   using Double4 = std::array<double, 4>;
   [[nodiscard]] Double4 quaternion(double s) const;
   [[nodiscard]] Vector3d position(double time) const;
-  [[nodiscard]] std::array<double, 2> times(double a, double b) const;
+  [[nodiscard]] Rational3 exact_position(double time) const;
 
   const RigidMotion* motion_;  // outlives this
   Double4 p_;

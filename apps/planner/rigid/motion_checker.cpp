@@ -47,6 +47,7 @@ class MotionExamination {
       limits_.in_order ? parts_.pop_back() : parts_.pop_front();
       if (!examine(part)) return verdict_;
     }
+    std::sort(verdict_.parts.begin(), verdict_.parts.end());
     if (!verdict_.undecided.empty()) {
       verdict_.status = MotionVerdict::Status::kUndecided;
       std::sort(verdict_.undecided.begin(), verdict_.undecided.end());
@@ -92,7 +93,11 @@ class MotionExamination {
     const MotionCell cell = cells_.part(part.from, part.to);
     const bool last = part.depth >= limits_.depth || verdict_.cells >= limits_.max_cells;
     std::vector<Pair> rest = cell.wide ? part.pairs : not_apart(part, cell, last);
-    if (rest.empty()) return true;
+    // A part that turns far has no images, so it is no part of a proof although there is nothing to hit.
+    if (rest.empty() && !(limits_.keep_parts && cell.wide)) {
+      if (limits_.keep_parts) verdict_.parts.push_back({part.from, part.to});
+      return true;
+    }
     const double middle = (part.from + part.to) / 2;
     if (!limits_.in_order || last) {
       if (collides_at(middle, rest, last && exact_tests_ < limits_.max_exact)) {
@@ -174,32 +179,11 @@ class MotionExamination {
     return false;
   }
 
-  void place(const MotionCell& cell, const RigidBody::Piece& piece) {
-    rough_robot_.clear();
-    for (const Vector3d& p : piece.points) {
-      cell.for_each_image(p, [&](const Vector3d& image) { rough_robot_.points.push_back(image); });
-    }
-    for (const Vector3d& n : piece.normals) {
-      rough_robot_.normals.emplace_back(cell.turns[0] * n);
-      if (piece.flat) rough_robot_.normals.emplace_back(-rough_robot_.normals.back());
-    }
-    rough_robot_.reach = piece.reach + cell.position_reach;
-  }
-
-  void place(const RigidBody::Piece& piece) {
-    rough_obstacle_.points = piece.points;
-    rough_obstacle_.normals = piece.normals;
-    if (piece.flat) {
-      for (const Vector3d& n : piece.normals) rough_obstacle_.normals.emplace_back(-n);
-    }
-    rough_obstacle_.reach = piece.reach;
-  }
-
   bool leaves_apart(const Part& part, const MotionCell& cell, std::uint32_t robot, std::uint32_t obstacle) {
     const RigidBody::Piece& a = checker_.robot_.pieces()[robot];
     const RigidBody::Piece& b = checker_.obstacles_.pieces()[obstacle];
-    place(cell, a);
-    place(b);
+    place(a, cell, rough_robot_);
+    place(b, rough_obstacle_);
     const Separation separation = plane_between(rough_robot_, rough_obstacle_);
     if (separation == Separation::kApart) return true;
     if (separation != Separation::kPerhaps || exact_tests_ >= limits_.max_exact) return false;
@@ -240,8 +224,8 @@ class MotionExamination {
   bool collide(double s, const MotionCell& cell, std::uint32_t robot, std::uint32_t obstacle, bool exact) {
     const RigidBody::Piece& a = checker_.robot_.pieces()[robot];
     const RigidBody::Piece& b = checker_.obstacles_.pieces()[obstacle];
-    place(cell, a);
-    place(b);
+    place(a, cell, rough_robot_);
+    place(b, rough_obstacle_);
     if (plane_between(rough_robot_, rough_obstacle_) == Separation::kApart) return false;
     rough_robot_.normals.clear();
     for (const Vector3d& n : a.normals) rough_robot_.normals.emplace_back(cell.turns[0] * n);

@@ -37,6 +37,9 @@ struct MotionVerdict {
   std::vector<std::array<double, 2>> undecided;
   /// The motion is proved free up to this parameter. Meaningful if it was asked for (CheckLimits::in_order).
   double free_until = 1;
+  /// kFree: in each of these parts, in order, all pairs of pieces are apart as MotionCells encloses them. Empty unless
+  /// it was asked for (CheckLimits::keep_parts).
+  std::vector<std::array<double, 2>> parts;
   std::size_t cells = 0;  ///< parts of the motion that were looked at
 };
 
@@ -48,6 +51,7 @@ struct CheckLimits {
   /// Examine parts in the order of time and stop at the first one that is not free, so that free_until is meaningful.
   /// The default order finds collisions sooner.
   bool in_order = false;
+  bool keep_parts = false;  ///< fill MotionVerdict::parts
 };
 
 /// Answers whether poses and motions of a rigid robot among rigid obstacles collide. Contact rule: with kAllow two
@@ -77,10 +81,13 @@ class MotionChecker {
 
   [[nodiscard]] const RigidBody& robot() const { return robot_; }
   [[nodiscard]] const RigidBody& obstacles() const { return obstacles_; }
+  [[nodiscard]] ContactRule contact() const { return contact_; }
+  [[nodiscard]] const std::optional<std::array<Rational3, 2>>& box() const { return box_; }
+  /// Whether the box, if there is one, holds a position.
+  [[nodiscard]] bool in_box(const Rational3& position) const;
 
  private:
   friend class MotionExamination;
-  [[nodiscard]] bool in_box(const Rational3& position) const;
   [[nodiscard]] bool closed(const RigidBody::Piece& a, const RigidBody::Piece& b) const {
     return contact_ == ContactRule::kForbid || a.flat || b.flat;
   }

@@ -111,7 +111,28 @@ bool enters(const Placed& a, const Placed& b, double distance_error, double volu
 
 }  // namespace
 
-Separation plane_between(const RoughPolytope& a, const RoughPolytope& b) {
+void place(const RigidBody::Piece& piece, const MotionCell& cell, RoughPolytope& result) {
+  result.clear();
+  for (const Vector3d& p : piece.points) {
+    cell.for_each_image(p, [&](const Vector3d& image) { result.points.push_back(image); });
+  }
+  for (const Vector3d& n : piece.normals) {
+    result.normals.emplace_back(cell.turns[0] * n);
+    if (piece.flat) result.normals.emplace_back(-result.normals.back());
+  }
+  result.reach = piece.reach + cell.position_reach;
+}
+
+void place(const RigidBody::Piece& piece, RoughPolytope& result) {
+  result.points = piece.points;
+  result.normals = piece.normals;
+  if (piece.flat) {
+    for (const Vector3d& n : piece.normals) result.normals.emplace_back(-n);
+  }
+  result.reach = piece.reach;
+}
+
+Separation plane_between(const RoughPolytope& a, const RoughPolytope& b, Vector3d* normal) {
   const double reach = a.reach + b.reach;
   bool perhaps = false;
   Supports last;
@@ -119,6 +140,7 @@ Separation plane_between(const RoughPolytope& a, const RoughPolytope& b) {
     last = supports(a, b, n);
     const double error = kPlaneError * reach * n.lpNorm<1>();
     perhaps = perhaps || last.gap >= -error;
+    if (last.gap > error && normal != nullptr) *normal = n;
     return last.gap > error;
   };
   for (const Vector3d& n : b.normals) {

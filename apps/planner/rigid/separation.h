@@ -33,8 +33,13 @@ struct RoughPolytope {
   }
 };
 
-/// Looks for a plane between two polytopes: kApart, kPerhaps or kUnknown.
-Separation plane_between(const RoughPolytope& a, const RoughPolytope& b);
+/// Makes the rough polytope of what a piece sweeps in a part of a motion, or of a piece that stays.
+void place(const RigidBody::Piece& piece, const MotionCell& cell, RoughPolytope& result);
+void place(const RigidBody::Piece& piece, RoughPolytope& result);
+
+/// Looks for a plane between two polytopes: kApart, kPerhaps or kUnknown. If kApart, `normal`, if it is given, receives
+/// the normal of the plane, which points from a to b.
+Separation plane_between(const RoughPolytope& a, const RoughPolytope& b, Vector3d* normal = nullptr);
 
 /// Do two pieces overlap, the first one moved? Its points are given as `a`, its normals turned with it. kOverlapping
 /// only if they do wherever the first one is moved by `slack` or less; otherwise kUnknown.

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Proofs of translations are those of a rigid path whose poses are not turned: the path is certified anew, pair by
+// pair, and what was found must agree with the answer.
+#include "apps/planner/command/proof_run.h"
+
+#include <iostream>
+
+#include "apps/planner/path/path_file.h"
+#include "apps/planner/proofs/proof_file.h"
+#include "apps/planner/rigid/pose_file.h"
+#include "nef/base/error.h"
+#include "nef/base/timing/stopwatch.h"
+#include "nef/io/file_bytes.h"
+#include "nef/program/run_report.h"
+
+namespace nef::planner {
+namespace {
+
+std::vector<RigidPose> poses_of(const std::vector<Rational3>& points) {
+  std::vector<RigidPose> poses;
+  for (const Rational3& point : points) poses.push_back({point, {1, 0, 0, 0}});
+  return poses;
+}
+
+// The points of a path that an answer is about; no points if the answer is about something else.
+std::vector<Rational3> points_about(const Scene& scene, const Answer& answer, const std::vector<Rational3>& points) {
+  switch (answer.status) {
+    case Answer::Status::kPath:
+      return answer.path->points;
+    case Answer::Status::kBlocked:
+      return points;
+    case Answer::Status::kInvalidStart:
+      return {*scene.start};
+    case Answer::Status::kInvalidGoal:
+      return {*scene.goal};
+    default:
+      return {};
+  }
+}
+
+// The poses in the file of --path.
+std::vector<RigidPose> given_poses(const std::string& file) {
+  if (auto poses = read_poses(file)) return *std::move(poses);
+  return poses_of(read_waypoints(file));
+}
+
+bool same_poses(const std::vector<RigidPose>& a, const std::vector<RigidPose>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const RigidPose& p, const RigidPose& q) {
+    return p.position == q.position && p.quaternion == q.quaternion;
+  });
+}
+
+}  // namespace
+
+void check_proof_usage(const Arguments& a) {
+  if (a.proof.empty()) return;
+  if (!a.queries.empty() || !a.benchmark.empty() || !a.assembly.empty() || !a.check_proof.empty()) {
+    throw InputError("--proof excludes --queries, --benchmark, --assembly and --check-proof");
+  }
+}
+
+void write_path_proof(const Arguments& a, const MotionChecker& checker, const std::vector<RigidPose>& poses,
+                      const CertifiedPath& known) {
+  if (a.proof.empty()) return;
+  const std::optional<PathProof> proof = make_path_proof(checker, poses, known);
+  if (proof) {
+    write_file(a.proof, proof_text(*proof));
+  } else {
+    std::cerr << "planner: " << a.proof << " is not written, since the path is undecided\n";
+  }
+}
+
+void write_translation_proof(const Arguments& a, const Scene& scene, const Answer& answer,
+                             const std::vector<Rational3>& points) {
+  if (a.proof.empty()) return;
+  const std::vector<RigidPose> poses = poses_of(points_about(scene, answer, points));
+  if (poses.empty()) throw InputError("--proof " + a.proof + ": there is a proof only of a path, free or blocked");
+  const MotionChecker checker = MotionChecker::of_scene(scene);
+  CheckLimits limits;
+  limits.keep_parts = true;
+  const CertifiedPath known = certify(checker, poses, MotionTiming::kSlerp, limits);
+  const bool free = answer.status == Answer::Status::kPath;
+  if (known.status != (free ? MotionVerdict::Status::kFree : MotionVerdict::Status::kCollides)) {
+    throw InputError("--proof " + a.proof +
+                     ": robot and obstacles touch where one of them is a surface, of which there is no proof");
+  }
+  write_path_proof(a, checker, poses, known);
+}
+
+std::optional<int> run_check_proof(const Arguments& a, const Scene& scene) {
+  if (a.check_proof.empty()) return std::nullopt;
+  const std::string text = read_file(a.check_proof);
+  if (!is_proof_text(text)) return std::nullopt;
+  const Stopwatch watch;
+  const PathProof proof = parse_proof(text, a.check_proof);
+  std::optional<std::string> complaint = complaint_about(proof);
+  if (!complaint) complaint = complaint_about(proof.claim, scene);
+  if (!complaint && !a.given_path.empty() && !same_poses(proof.claim.path, given_poses(a.given_path))) {
+    complaint = "it is about another path than " + a.given_path;
+  }
+  const std::string claim = proof.claim.free ? "path" : "blocked";
+  if (a.json) {
+    nlohmann::json report{{"scene", scene.name}, {"holds", !complaint}, {"claim", claim}};
+    if (complaint) report["complaint"] = *complaint;
+    std::cout << report_text(run_report("check_proof", report, {{"op", watch.seconds(), {}}}, scene.messages));
+  } else if (!a.quiet) {
+    std::cout << (complaint ? "the proof does not hold: " + *complaint : "the proof holds: " + claim) << '\n';
+  }
+  return complaint ? 1 : 0;
+}
+
+}  // namespace nef::planner

@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// 1. The parts of each motion follow each other from 0 to 1.
+// 2. Over a part, the images of a vertex by the rotations at both ends and by the mixed matrix between them
+//    (rigid_motion.h), moved to both ends of an interval that holds the positions, enclose it.
+// 3. Each pair of pieces has its boxes apart, or a plane of the proof between the images and the obstacle's vertices.
+// 4. A collision is a common point of two pieces at both ends of an interval that holds the position. Pairs (position,
+//    common point) of two convex pieces are a convex set, so there is one at the position itself.
+// 5. The pieces of a claim are the scene's sets if their unions are, those of the solid pieces and of the flat ones.
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <utility>
+
+#include "apps/planner/proofs/arc_time.h"
+#include "apps/planner/proofs/path_proof.h"
+#include "apps/planner/turning/reachable_part.h"
+#include "nef/base/error.h"
+#include "nef/construct/construct.h"
+#include "nef/geometry/vectors.h"
+
+namespace nef::planner {
+namespace {
+
+using Points = std::vector<Rational3>;
+
+// What does not hold; nothing if all does.
+using Complaint = std::optional<std::string>;
+
+bool is_flat(const Points& piece) {
+  std::vector<Rational3> sides;
+  for (const Rational3& p : piece) sides.push_back(minus(p, piece.front()));
+  Rational3 normal{};
+  for (const Rational3& first : sides) {
+    for (const Rational3& second : sides) {
+      if (is_zero(normal)) normal = cross(first, second);
+    }
+  }
+  return std::all_of(sides.begin(), sides.end(), [&](const Rational3& side) { return dot(normal, side) == 0; });
+}
+
+Rational3 moved(const Matrix3& turn, const Rational3& v, const Rational3& position) {
+  Rational3 result;
+  for (std::size_t k = 0; k < 3; ++k) result[k] = dot(turn[k], v) + position[k];
+  return result;
+}
+
+// The arc of one motion: between rotations that are the same, q is p.
+struct Arc {
+  Quaternion p;
+  Quaternion q;
+  Rational3 from;
+  Rational3 to;
+  bool turns = true;
+
+  Arc(const RigidPose& a, const RigidPose& b) : p(a.quaternion), q(b.quaternion), from(a.position), to(b.position) {
+    const Rational product = scalar_product(p, q);
+    turns = product * product != scalar_product(p, p) * scalar_product(q, q);
+    if (!turns) q = p;
+    if (turns && product < 0) {
+      for (Rational& x : q) x = -x;
+    }
+  }
+
+  [[nodiscard]] Quaternion quaternion(const Rational& s) const {
+    Quaternion result;
+    for (std::size_t k = 0; k < 4; ++k) result[k] = (1 - s) * p[k] + s * q[k];
+    return result;
+  }
+  [[nodiscard]] std::array<Rational, 2> times(const Rational& s) const {
+    return turns ? time_bounds(p, q, s) : std::array<Rational, 2>{s, s};
+  }
+  [[nodiscard]] Rational3 position(const Rational& time) const {
+    Rational3 result;
+    for (std::size_t k = 0; k < 3; ++k) result[k] = (1 - time) * from[k] + time * to[k];
+    return result;
+  }
+};
+
+class PathCheck {
+ public:
+  explicit PathCheck(const PathProof& proof) : proof_(proof), claim_(proof.claim) {}
+
+  Complaint run() {
+    if (Complaint complaint = check_shape()) return complaint;
+    for (const Points& piece : claim_.robot) robot_flat_.push_back(is_flat(piece));
+    for (const Points& piece : claim_.obstacles) obstacle_flat_.push_back(is_flat(piece));
+    return claim_.free ? check_free() : check_collision();
+  }
+
+ private:
+  [[nodiscard]] Complaint check_shape() const {
+    if (claim_.path.empty()) return "the path has no pose";
+    if (claim_.robot.empty()) return "the robot has no pieces";
+    for (const ProofPieces* pieces : {&claim_.robot, &claim_.obstacles}) {
+      if (std::any_of(pieces->begin(), pieces->end(), [](const Points& piece) { return piece.empty(); })) {
+        return "a piece has no vertices";
+      }
+    }
+    for (const RigidPose& pose : claim_.path) {
+      if (scalar_product(pose.quaternion, pose.quaternion) == 0) return "the quaternion of a pose is zero";
+    }
+    if (claim_.free && (proof_.collision || proof_.outside)) return "a free path has a collision";
+    if (!claim_.free && !proof_.motions.empty()) return "a path that collides has parts that are free";
+    if (!claim_.free && proof_.collision.has_value() == proof_.outside.has_value()) {
+      return "a path that collides needs either a collision or a pose outside the box";
+    }
+    return std::nullopt;
+  }
+
+  [[nodiscard]] std::size_t motion_count() const { return std::max<std::size_t>(claim_.path.size() - 1, 1); }
+  [[nodiscard]] Arc arc(std::size_t motion) const {
+    return {claim_.path[motion], claim_.path[std::min(motion + 1, claim_.path.size() - 1)]};
+  }
+  [[nodiscard]] bool in_box(const Rational3& position) const {
+    if (!claim_.box) return true;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (position[k] < (*claim_.box)[0][k] || position[k] > (*claim_.box)[1][k]) return false;
+    }
+    return true;
+  }
+  // Whether two pieces may touch.
+  [[nodiscard]] bool may_touch(std::size_t i, std::size_t j) const {
+    return claim_.contact == ContactRule::kAllow && !robot_flat_[i] && !obstacle_flat_[j];
+  }
+
+  Complaint check_free() {
+    for (const RigidPose& pose : claim_.path) {
+      if (!in_box(pose.position)) return "a pose is outside the box";
+    }
+    if (proof_.motions.size() != motion_count()) return "a motion has no parts, or there are too many";
+    for (std::size_t m = 0; m < proof_.motions.size(); ++m) {
+      const Arc motion = arc(m);
+      Rational from = 0;
+      for (const PathProof::Part& part : proof_.motions[m]) {
+        const std::string where = "motion " + std::to_string(m) + ", part until " + to_string(part.until) + ": ";
+        if (part.until <= from || part.until > 1) return where + "parts must go up to 1";
+        if (Complaint complaint = check_part(motion, from, part)) return where + *complaint;
+        from = part.until;
+      }
+      if (from != 1) return "the parts of motion " + std::to_string(m) + " do not go up to 1";
+    }
+    return std::nullopt;
+  }
+
+  Complaint check_part(const Arc& motion, const Rational& from, const PathProof::Part& part) const {
+    std::map<std::pair<std::size_t, std::size_t>, Rational3> planes;
+    for (const PathProof::Plane& plane : part.planes) {
+      if (plane.robot >= claim_.robot.size() || plane.obstacle >= claim_.obstacles.size()) {
+        return "a plane is between pieces that there are not";
+      }
+      planes[{plane.robot, plane.obstacle}] = plane.normal;
+    }
+    const Quaternion p = motion.quaternion(from);
+    const Quaternion q = motion.quaternion(part.until);
+    if (scalar_product(p, q) <= 0) return "it turns too far";
+    const std::array<Matrix3, 3> turns{rotation_between(p, p), rotation_between(p, q), rotation_between(q, q)};
+    const std::array<Rational3, 2> positions{motion.position(motion.times(from)[0]),
+                                             motion.position(motion.times(part.until)[1])};
+    for (std::size_t i = 0; i < claim_.robot.size(); ++i) {
+      Points swept;
+      for (const Rational3& v : claim_.robot[i]) {
+        for (const Matrix3& turn : turns) {
+          for (const Rational3& position : positions) swept.push_back(moved(turn, v, position));
+        }
+      }
+      for (std::size_t j = 0; j < claim_.obstacles.size(); ++j) {
+        const auto plane = planes.find({i, j});
+        if (are_apart(swept, claim_.obstacles[j], may_touch(i, j), plane == planes.end() ? nullptr : &plane->second)) {
+          continue;
+        }
+        return "nothing separates piece " + std::to_string(i) + " of the robot from piece " + std::to_string(j) +
+               " of the obstacles";
+      }
+    }
+    return std::nullopt;
+  }
+
+  static bool are_apart(const Points& a, const Points& b, bool may_touch, const Rational3* plane) {
+    const auto between = [&](const std::function<Rational(const Rational3&)>& height) {
+      Rational top = height(a.front());
+      for (const Rational3& p : a) top = std::max(top, height(p));
+      return std::all_of(b.begin(), b.end(), [&](const Rational3& p) {
+        const Rational at = height(p);
+        return at > top || (may_touch && at == top);
+      });
+    };
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (between([k](const Rational3& p) { return p[k]; })) return true;
+      if (between([k](const Rational3& p) { return Rational(-p[k]); })) return true;
+    }
+    return plane != nullptr && !is_zero(*plane) && between([plane](const Rational3& p) { return dot(*plane, p); });
+  }
+
+  [[nodiscard]] Complaint check_collision() const {
+    if (proof_.outside) {
+      if (*proof_.outside >= claim_.path.size()) return "there is no such pose";
+      if (in_box(claim_.path[*proof_.outside].position)) return "the pose is in the box";
+      return std::nullopt;
+    }
+    const PathProof::Collision& c = *proof_.collision;
+    if (c.motion >= motion_count()) return "there is no such motion";
+    if (c.robot >= claim_.robot.size() || c.obstacle >= claim_.obstacles.size()) return "there is no such piece";
+    if (c.parameter < 0 || c.parameter > 1) return "the parameter is not between 0 and 1";
+    const Arc motion = arc(c.motion);
+    const std::array<Rational, 2> known = motion.times(c.parameter);
+    if (c.times[0] > known[0] || c.times[1] < known[1]) return "the position is not where the proof says";
+    const Quaternion q = motion.quaternion(c.parameter);
+    const Matrix3 turn = rotation_between(q, q);
+    for (std::size_t end = 0; end < 2; ++end) {
+      Points placed;
+      for (const Rational3& v : claim_.robot[c.robot]) {
+        placed.push_back(moved(turn, v, motion.position(c.times[end])));
+      }
+      const bool inside = may_touch(c.robot, c.obstacle);
+      const auto a = weighted_sum(placed, c.common[end].robot, inside);
+      const auto b = weighted_sum(claim_.obstacles[c.obstacle], c.common[end].obstacle, inside);
+      if (!a || !b) return "weights must be positive and add up to 1";
+      if (*a != *b) return "the two pieces have not the point in common";
+    }
+    return std::nullopt;
+  }
+
+  static std::optional<Rational3> weighted_sum(const Points& points, const std::vector<Rational>& weights,
+                                               bool positive) {
+    if (weights.size() != points.size()) return std::nullopt;
+    Rational3 sum;
+    Rational all = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (weights[i] < 0 || (positive && weights[i] == 0)) return std::nullopt;
+      all += weights[i];
+      for (std::size_t k = 0; k < 3; ++k) sum[k] += weights[i] * points[i][k];
+    }
+    if (all != 1) return std::nullopt;
+    return sum;
+  }
+
+  const PathProof& proof_;
+  const PathProof::Claim& claim_;
+  std::vector<bool> robot_flat_;
+  std::vector<bool> obstacle_flat_;
+};
+
+// The union of the pieces that are flat, or of those that are not.
+Polyhedron united(const ProofPieces& pieces, bool flat, const Monitor& monitor) {
+  std::vector<Polyhedron> hulls;
+  for (const Points& piece : pieces) {
+    if (is_flat(piece) == flat) hulls.push_back(convex_hull(piece, monitor));
+  }
+  return unite_all(hulls, 1, monitor);
+}
+
+// Compares the solid pieces with the solid parts of sets, and the flat ones with what sticks out of these.
+Complaint compare(const ProofPieces& pieces, const std::vector<Polyhedron>& sets, const std::string& what,
+                  const Monitor& monitor) {
+  std::vector<Polyhedron> solid;
+  std::vector<Polyhedron> rest;
+  for (const Polyhedron& set : sets) {
+    solid.push_back(regularize(set, monitor));
+    rest.push_back(closure(subtract(set, solid.back(), 1, monitor), monitor));
+  }
+  for (const bool flat : {false, true}) {
+    if (equal(united(pieces, flat, monitor), unite_all(flat ? rest : solid, 1, monitor))) continue;
+    return std::string("the ") + (flat ? "flat" : "solid") + " pieces of the " + what + " are not those of the scene";
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Complaint complaint_about(const PathProof& proof) { return PathCheck(proof).run(); }
+
+Complaint complaint_about(const PathProof::Claim& claim, const Scene& scene, const Monitor& monitor) {
+  if (claim.contact != scene.contact) return "the scene has another rule of contact";
+  if (claim.box != scene.box) return "the scene has another box";
+  const bool turned = std::any_of(claim.path.begin(), claim.path.end(), [](const RigidPose& pose) {
+    return pose.quaternion[1] != 0 || pose.quaternion[2] != 0 || pose.quaternion[3] != 0;
+  });
+  const Scene meant = turned ? with_robot_as_in_its_file(scene, monitor) : scene;
+  if (Complaint complaint = compare(claim.robot, {closure(meant.robot, monitor)}, "robot", monitor)) return complaint;
+  std::vector<Polyhedron> obstacles;
+  for (const Polyhedron& obstacle : meant.obstacles) {
+    obstacles.push_back(closure(reachable_part(obstacle, meant, monitor), monitor));
+  }
+  return compare(claim.obstacles, obstacles, "obstacles", monitor);
+}
+
+}  // namespace nef::planner

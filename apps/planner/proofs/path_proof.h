@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Proofs that a path is free, or that it collides, as data that anybody can check (docs/proofs.md).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "apps/planner/rigid/certified_path.h"
+#include "apps/planner/rigid/rigid_motion.h"
+#include "apps/planner/scene/scene.h"
+#include "nef/base/monitor.h"
+
+namespace nef::planner {
+
+/// Convex pieces by their vertices. A piece whose vertices lie in one plane is flat: part of a surface, or thinner.
+using ProofPieces = std::vector<std::vector<Rational3>>;
+
+/// Numbers that show that two hulls have a point in common, by one weight for each vertex. The weights of each hull are
+/// not negative and add up to 1, and both weighted sums are the same point. If no weight is zero, the point is in the
+/// relative interior of both hulls.
+struct CommonPoint {
+  std::vector<Rational> robot;
+  std::vector<Rational> obstacle;
+};
+
+/// A claim about a path, and what shows that it holds. The motion between two poses is that of docs/rigid.md: the
+/// position goes straight and evenly with the angle of the rotation, the rotation along the shorter arc.
+struct PathProof {
+  /// What is claimed: robot and obstacles are the unions of these pieces. Solid pieces collide if their interiors
+  /// overlap, or, with kForbid, if they touch. A flat piece collides with whatever it touches. Positions outside the
+  /// box collide, too.
+  struct Claim {
+    bool free = true;  ///< no pose of the path collides; otherwise one does
+    ContactRule contact = ContactRule::kAllow;
+    std::optional<std::array<Rational3, 2>> box;
+    ProofPieces robot;
+    ProofPieces obstacles;
+    std::vector<RigidPose> path;  ///< a path of one pose stays there
+  };
+  /// A plane with this normal lies between what a piece of the robot sweeps, on the lower side, and an obstacle's.
+  struct Plane {
+    std::uint32_t robot = 0;
+    std::uint32_t obstacle = 0;
+    Rational3 normal;
+  };
+  /// A part of a motion, up to this parameter of the arc of quaternions (1 - s) p + s q; it begins where the part
+  /// before ends, and the last one ends at 1. Pairs whose boxes are apart have no plane.
+  struct Part {
+    Rational until;
+    std::vector<Plane> planes;
+  };
+  /// Two pieces that collide at a parameter of a motion.
+  struct Collision {
+    std::size_t motion = 0;
+    Rational parameter;
+    std::array<Rational, 2> times;  ///< the position has gone a part of its way that lies between these
+    std::uint32_t robot = 0;
+    std::uint32_t obstacle = 0;
+    std::array<CommonPoint, 2> common;  ///< with the position at each of the two times
+  };
+
+  Claim claim;
+  std::vector<std::vector<Part>> motions;  ///< of a free path: each cut into parts
+  std::optional<Collision> collision;      ///< of a path that collides
+  std::optional<std::size_t> outside;      ///< of a path that collides: the number of a pose outside the box
+};
+
+/// The proof of what is known of a path; nothing if that is kUndecided. `known` must come from `checker` with the
+/// timing kSlerp and CheckLimits::keep_parts. O(parts pieces of the robot times pieces of obstacles), and some
+/// milliseconds for each pair and part in which they touch.
+std::optional<PathProof> make_path_proof(const MotionChecker& checker, std::span<const RigidPose> poses,
+                                         const CertifiedPath& known);
+
+/// What is wrong with a proof; nothing if its claim holds. Everything is rational, and nothing of the search is used:
+/// no doubles, no tree, no hulls. O(parts pieces of the robot times pieces of obstacles).
+std::optional<std::string> complaint_about(const PathProof& proof);
+
+/// What is different between a claim and a scene; nothing if the claim is about the scene. The pieces are united and
+/// compared with the sets of the scene, exactly. If a pose of the claim is turned, the robot is that in the scene's own
+/// file (with_robot_as_in_its_file).
+std::optional<std::string> complaint_about(const PathProof::Claim& claim, const Scene& scene,
+                                           const Monitor& monitor = {});
+
+}  // namespace nef::planner

@@ -1,0 +1,295 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Replays a .proof file of the planner in exact arithmetic, with Python's standard library alone.
+
+    check.py FILE [--claim SHA256]
+
+Prints what is proved and the SHA-256 of the claim, and exits with 0; with 1 if the proof does not hold, or if --claim
+names another claim; with 2 if the file cannot be read. docs/proofs.md says what a claim means and why this proves it.
+"""
+import argparse
+import hashlib
+import json
+import math
+import re
+import sys
+from fractions import Fraction
+
+
+class Refused(Exception):
+    """The proof does not hold; the message says where."""
+
+
+def require(condition, complaint):
+    if not condition:
+        raise Refused(complaint)
+
+
+# Reading: every object has exactly the keys that are expected, every number is a string, every index is in range.
+
+def unique_keys(pairs):
+    require(len(dict(pairs)) == len(pairs), "a key occurs twice")
+    return dict(pairs)
+
+
+def fields(value, *keys):
+    require(isinstance(value, dict) and set(value) == set(keys), f"expected an object with the keys {', '.join(keys)}")
+    return [value[key] for key in keys]
+
+
+def items(value, count=None):
+    require(isinstance(value, list) and count in (None, len(value)), f"expected a list of {count or 'any number'}")
+    return value
+
+
+def number(value):
+    """Each number has one spelling, a fraction in lowest terms, so that equal claims have equal digests."""
+    well_formed = isinstance(value, str) and re.fullmatch("-?[0-9]+(/[1-9][0-9]*)?", value)
+    require(well_formed and str(Fraction(value)) == value, f"numbers are strings such as '1/3', not {value!r}")
+    return Fraction(value)
+
+
+def numbers(value, count=None):
+    return [number(x) for x in items(value, count)]
+
+
+def index(value, count):
+    require(type(value) is int and 0 <= value < count, f"there is no item {value!r} of {count}")
+    return value
+
+
+def pieces(value):
+    result = [[numbers(vertex, 3) for vertex in items(piece)] for piece in items(value)]
+    require(all(result), "a piece has no vertices")
+    return result
+
+
+# Vectors and rotations. A quaternion is w, x, y, z, of any length.
+
+def dot(a, b):
+    return sum(x * y for x, y in zip(a, b))
+
+
+def minus(a, b):
+    return [x - y for x, y in zip(a, b)]
+
+
+def cross(a, b):
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+
+def between(a, b, s):
+    return [(1 - s) * x + s * y for x, y in zip(a, b)]
+
+
+def mixed_rotation(p, q):
+    """B(p, q) / <p, q>, where B(q, q) / <q, q> is the rotation matrix of q and B is symmetric and bilinear."""
+    def m(i, j):
+        return (p[i] * q[j] + p[j] * q[i]) / 2
+    w, x, y, z = (m(i, i) for i in range(4))
+    rows = [[w + x - y - z, 2 * (m(1, 2) - m(0, 3)), 2 * (m(1, 3) + m(0, 2))],
+            [2 * (m(1, 2) + m(0, 3)), w - x + y - z, 2 * (m(2, 3) - m(0, 1))],
+            [2 * (m(1, 3) - m(0, 2)), 2 * (m(2, 3) + m(0, 1)), w - x - y + z]]
+    return [[entry / dot(p, q) for entry in row] for row in rows]
+
+
+def placed(turn, vertex, position):
+    return [dot(row, vertex) + at for row, at in zip(turn, position)]
+
+
+def is_flat(piece):
+    """Whether all vertices lie in one plane."""
+    sides = [minus(vertex, piece[0]) for vertex in piece[1:]]
+    normals = (cross(a, b) for i, a in enumerate(sides) for b in sides[:i])
+    normal = next((n for n in normals if any(n)), [0, 0, 0])
+    return all(dot(normal, side) == 0 for side in sides)
+
+
+# How far a motion has come when its rotation is at a parameter of the arc: angles, enclosed by rational numbers.
+
+def root(x, upper):
+    """A bound of the square root."""
+    shift = max(0, 200 - x.numerator.bit_length() + x.denominator.bit_length()) // 2 + 1
+    return Fraction(math.isqrt((x.numerator << 2 * shift) // x.denominator) + upper, 1 << shift)
+
+
+def arc_tangent(x, upper):
+    """A bound of the arcus tangent, 0 <= x <= 1: the angle is halved twice, and then the series alternates."""
+    for _ in range(2):
+        x = x / (1 + root(1 + x * x, not upper))
+    return 4 * sum((-1) ** k * x ** (2 * k + 1) / (2 * k + 1) for k in range(19 if upper else 18))
+
+
+def half_angle(p, r, upper):
+    """A bound of half the angle between two quaternions, <p, r> >= 0."""
+    lengths = dot(p, p) * dot(r, r)
+    tangent = root(lengths - dot(p, r) ** 2, upper) / (root(lengths, not upper) + dot(p, r))
+    return arc_tangent(min(tangent, Fraction(1)), upper)
+
+
+class Motion:
+    """From one pose to the next: position and angle go evenly together, the rotation along the shorter arc."""
+
+    def __init__(self, start, end):
+        (self.start, self.p), (self.end, self.q) = start, end
+        product = dot(self.p, self.q)
+        self.turns = product ** 2 != dot(self.p, self.p) * dot(self.q, self.q)
+        if not self.turns:
+            self.q = self.p
+        elif product < 0:
+            self.q = [-x for x in self.q]
+
+    def quaternion(self, s):
+        return between(self.p, self.q, s)
+
+    def position(self, time):
+        return between(self.start, self.end, time)
+
+    def times(self, s):
+        """Two bounds of the part of the way that is done when the rotation is at parameter s."""
+        if not self.turns or s in (0, 1):
+            return s, s
+        r, least = self.quaternion(s), half_angle(self.p, self.q, False)
+        low = half_angle(self.p, r, False) / half_angle(self.p, self.q, True)
+        return low, min(1, half_angle(self.p, r, True) / least) if least else 1
+
+
+# Paths.
+
+class PathClaim:
+    def __init__(self, value):
+        status, contact, box, robot, obstacles, path = fields(value, "status", "contact", "box", "robot", "obstacles", "path")
+        require(status in ("path", "blocked") and contact in ("allow", "forbid"), "unknown status, or rule of contact")
+        self.free, self.contact_allowed = status == "path", contact == "allow"
+        self.box = None if box is None else [numbers(corner, 3) for corner in items(box, 2)]
+        self.robot, self.obstacles = pieces(robot), pieces(obstacles)
+        require(self.robot, "the robot has no pieces")
+        self.poses = [(numbers(position, 3), numbers(quaternion, 4))
+                      for position, quaternion in (fields(pose, "position", "quaternion") for pose in items(path))]
+        require(self.poses, "the path has no pose")
+        require(all(any(q) for _, q in self.poses), "the quaternion of a pose is zero")
+        ends = self.poses[1:] or self.poses  # a path of one pose has one motion, which stays
+        self.motions = [Motion(start, end) for start, end in zip(self.poses, ends)]
+        self.flat = [is_flat(piece) for piece in self.robot], [is_flat(piece) for piece in self.obstacles]
+
+    def in_box(self, position):
+        return self.box is None or all(a <= x <= b for a, x, b in zip(self.box[0], position, self.box[1]))
+
+    def may_touch(self, i, j):
+        """Solid pieces may touch, if contact is allowed; flat ones never."""
+        return self.contact_allowed and not self.flat[0][i] and not self.flat[1][j]
+
+
+def are_apart(a, b, may_touch, planes):
+    """Whether one of the planes, given by their normals, has a below it and b above it."""
+    for normal in planes:
+        top, bottom = max(dot(normal, v) for v in a), min(dot(normal, v) for v in b)
+        if any(normal) and (top < bottom or may_touch and top == bottom):
+            return True
+    return False
+
+
+AXES = [[sign if k == axis else 0 for k in range(3)] for axis in range(3) for sign in (1, -1)]
+
+
+def check_part(claim, motion, start, end, given):
+    """Every pair of pieces is apart from parameter start to end: enclosed by the images of each vertex by the rotations
+    at both ends and the mixed one between them, at both ends of an interval that has the positions."""
+    planes = {}
+    for plane in items(given):
+        i, j, normal = fields(plane, "robot", "obstacle", "normal")
+        planes[index(i, len(claim.robot)), index(j, len(claim.obstacles))] = numbers(normal, 3)
+    p, q = motion.quaternion(start), motion.quaternion(end)
+    require(dot(p, q) > 0, "a part turns too far")
+    turns = [mixed_rotation(p, p), mixed_rotation(p, q), mixed_rotation(q, q)]
+    positions = [motion.position(motion.times(start)[0]), motion.position(motion.times(end)[1])]
+    for i, piece in enumerate(claim.robot):
+        swept = [placed(turn, vertex, position) for vertex in piece for turn in turns for position in positions]
+        for j, obstacle in enumerate(claim.obstacles):
+            normals = AXES + [planes[i, j]] if (i, j) in planes else AXES
+            require(are_apart(swept, obstacle, claim.may_touch(i, j), normals), f"nothing separates pieces {i} and {j}")
+
+
+def check_free_path(claim, witness):
+    require(all(claim.in_box(position) for position, _ in claim.poses), "a pose is outside the box")
+    motions = items(fields(witness, "motions")[0], len(claim.motions))
+    for motion, parts in zip(claim.motions, motions):
+        start = Fraction(0)
+        for part in items(parts):
+            until, planes = fields(part, "until", "planes")
+            end = number(until)
+            require(start < end <= 1, "the parts of a motion do not go up to 1")
+            check_part(claim, motion, start, end, planes)
+            start = end
+        require(start == 1, "the parts of a motion do not go up to 1")
+    return f"path: all {len(motions)} motions are free"
+
+
+def weighted_sum(points, weights, positive):
+    require(all(w > 0 if positive else w >= 0 for w in weights) and sum(weights) == 1,
+            "weights must be positive and add up to 1")
+    return [dot(weights, coordinates) for coordinates in zip(*points)]
+
+
+def check_blocked_path(claim, witness):
+    if isinstance(witness, dict) and "outside" in witness:
+        pose = index(fields(witness, "outside")[0], len(claim.poses))
+        require(not claim.in_box(claim.poses[pose][0]), "the pose is in the box")
+        return f"blocked: pose {pose} is outside the box"
+    m, parameter, times, i, j, common = fields(fields(witness, "collision")[0], "motion", "parameter", "times", "robot",
+                                               "obstacle", "common")
+    motion = claim.motions[index(m, len(claim.motions))]
+    piece, obstacle = claim.robot[index(i, len(claim.robot))], claim.obstacles[index(j, len(claim.obstacles))]
+    s = number(parameter)
+    require(0 <= s <= 1, "the parameter is not between 0 and 1")
+    times = numbers(times, 2)
+    low, high = motion.times(s)
+    require(times[0] <= low and high <= times[1], "the position is not where the proof says")
+    turn = mixed_rotation(motion.quaternion(s), motion.quaternion(s))
+    for time, point in zip(times, items(common, 2)):
+        ours, theirs = fields(point, "robot", "obstacle")
+        here = [placed(turn, vertex, motion.position(time)) for vertex in piece]
+        inside = claim.may_touch(i, j)
+        require(weighted_sum(here, numbers(ours, len(here)), inside) ==
+                weighted_sum(obstacle, numbers(theirs, len(obstacle)), inside), "the pieces have not the point in common")
+    return f"blocked: motion {m} collides at parameter {parameter}"
+
+
+def check(text, claim_digest=None):
+    """What is proved, and the digest of the claim. Raises Refused."""
+    try:
+        root = json.loads(text, object_pairs_hook=unique_keys)
+    except (ValueError, RecursionError) as error:
+        raise Refused(f"this is no JSON: {error}") from None
+    version, claim, witness = fields(root, "nef_proof", "claim", "witness")
+    require(type(version) is int and version == 1, "unknown version of the format")
+    digest = hashlib.sha256(json.dumps(claim, sort_keys=True, separators=(",", ":")).encode()).hexdigest()
+    require(claim_digest in (None, digest), f"this proves another claim, {digest}")
+    path = PathClaim(claim)
+    return (check_free_path if path.free else check_blocked_path)(path, witness), digest
+
+
+def main():
+    if hasattr(sys, "set_int_max_str_digits"):
+        sys.set_int_max_str_digits(0)  # numbers of a proof may be long
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("file")
+    parser.add_argument("--claim", metavar="SHA256", help="the claim that is expected")
+    arguments = parser.parse_args()
+    try:
+        with open(arguments.file, encoding="utf-8") as file:
+            text = file.read()
+    except (OSError, ValueError) as error:
+        print(f"check.py: {error}", file=sys.stderr)
+        return 2
+    try:
+        proved, digest = check(text, arguments.claim)
+    except Refused as refused:
+        print(f"refused: {refused}")
+        return 1
+    print(f"{proved}\nclaim {digest}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

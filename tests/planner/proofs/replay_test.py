@@ -1,0 +1,168 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Proofs that the planner writes, replayed by python/proofs/check.py: all hold; thousands of copies with one thing changed
+do not, or prove the same claim; and the planner says the same of each.
+
+Usage: replay_test.py PLANNER CHECK_PY WORK_DIRECTORY
+"""
+import copy
+import importlib.util
+import json
+import os
+import random
+import re
+import subprocess
+import sys
+import unittest
+from fractions import Fraction
+
+PLANNER, CHECKER, WORK = sys.argv[1:4]
+
+spec = importlib.util.spec_from_file_location("check", CHECKER)
+check = importlib.util.module_from_spec(spec)
+spec.loader.exec_module(check)
+
+SLOT = {"robot": "box(-2,-1/4,-1/2, 2,1/4,1/2)", "obstacles": ["box(-6,4,-6, 6,5,6) - box(-3,4,-1/2, 3,5,1/2)"],
+        "start": [0, 0, 0], "goal": [0, 9, 0]}
+SHEET = {"robot": "hull(-1,-1,-1, 1,0,0, 0,1,0, 0,0,1)", "obstacles": ["polygon((-3,3,-3),(3,3,-3),(3,3,3),(-3,3,3))"],
+         "box": [[-4, -4, -4], [4, 6, 4]]}
+
+# A name, a scene, a path (or none: it is looked for), what is proved.
+CASES = [
+    ("turning", SLOT, "0 0 0 0 0 1 1\n0 1 0 0 0 0 1\n0 9 0 0 0 0 1\n0 12 0 1 0 2 2\n", "path: all 3 motions are free"),
+    ("tilted", SLOT, "0 0 0 1 0 0 9\n0 9 0 1 0 2 9\n", "blocked: motion 0"),
+    ("found", SLOT, None, "path: all"),
+    ("sheet", SHEET, "0 0 0 0 0 1 3\n0 5 0 0 0 0 1\n", "blocked: motion 0"),
+    ("outside", SHEET, "0 0 0 0 0 1 3\n0 0 9 0 0 0 1\n", "blocked: pose 1 is outside"),
+    ("apart", dict(SHEET, contact="forbid"), "0 0 0 0 0 1 3\n2 1 1 1 2 -1 3\n", "path: all 1 motions are free"),
+]
+TAMPERED = 1700  # of each
+
+# What may change in a proof that still holds: it has other numbers that show the same.
+IRRELEVANT = re.compile(r"/witness/(motions/\d+(/\d+(/planes(/\d+(/(normal|robot|obstacle)(/\d)?)?)?|/until)?)?|collision/times(/\d)?)$")
+
+
+def planner(*arguments):
+    return subprocess.run([PLANNER, *arguments], capture_output=True, text=True, check=False)
+
+
+def places(value, where=""):
+    """The addresses of all values below one."""
+    entries = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
+    for key, entry in list(entries):
+        yield value, key, f"{where}/{key}"
+        yield from places(entry, f"{where}/{key}")
+
+
+def other(chance, value):
+    """Another value of the same kind."""
+    if isinstance(value, bool) or value is None:
+        return chance.choice(["0", {}, []])
+    if isinstance(value, int):
+        return chance.choice([value + 1, value - 1, -1, 0, 10 ** 12, str(value), float(value)])
+    if isinstance(value, str):
+        try:
+            number = Fraction(value)
+        except ValueError:
+            return chance.choice([word for word in ("path", "blocked", "allow", "forbid", "") if word != value])
+        return chance.choice([str(number + Fraction(1, chance.randint(1, 10 ** 6))), str(-number), "0", "1", float(number),
+                              str(number * Fraction(1001, 1000)), value + "/0", "nan"])
+    return chance.choice([[], {}, None, "0"])
+
+
+def tampered(chance, proof):
+    """A copy with one value changed, dropped, written twice or exchanged with another one; and where."""
+    result = copy.deepcopy(proof)
+    parent, key, where = chance.choice(list(places(result)))
+    kind = chance.randrange(4)
+    if kind == 0:
+        parent[key] = other(chance, parent[key])
+    elif kind == 1:
+        del parent[key]
+    elif kind == 2 and isinstance(parent, list):
+        parent.insert(key, copy.deepcopy(parent[key]))
+    else:
+        elsewhere, place, address = chance.choice(list(places(result)))
+        if address.startswith(where) or where.startswith(address):
+            return result, [where]
+        parent[key], elsewhere[place] = elsewhere[place], parent[key]
+        return result, [where, address]
+    return result, [where]
+
+
+class Replay(unittest.TestCase):
+    def setUp(self):
+        os.makedirs(WORK, exist_ok=True)
+
+    def file(self, name):
+        return os.path.join(WORK, name)
+
+    def write(self, name, text):
+        with open(self.file(name), "w", encoding="utf-8") as file:
+            file.write(text)
+        return self.file(name)
+
+    def prove(self, name, scene, path):
+        arguments = [self.write(name + ".json", json.dumps(scene))]
+        if path is not None:
+            arguments += ["--path", self.write(name + ".path", path)]
+        proof = self.file(name + ".proof")
+        run = planner(*arguments, "--proof", proof)
+        self.assertIn(run.returncode, (0, 1), run.stderr)
+        with open(proof, encoding="utf-8") as file:
+            return arguments, file.read()
+
+    def test_proofs_hold(self):
+        for name, scene, path, proved in CASES:
+            with self.subTest(name):
+                arguments, text = self.prove(name, scene, path)
+                said, digest = check.check(text)
+                self.assertTrue(said.startswith(proved), said)
+                self.assertEqual(check.check(text, digest), (said, digest))
+                run = subprocess.run([sys.executable, "-B", CHECKER, self.file(name + ".proof")], capture_output=True,
+                                     text=True, check=True)
+                self.assertEqual(run.stdout, f"{said}\nclaim {digest}\n")
+                self.assertEqual(planner(*arguments, "--check-proof", self.file(name + ".proof")).returncode, 0)
+
+    def test_tampered_proofs_are_refused(self):
+        chance = random.Random(5)
+        held = 0
+        for name, scene, path, _ in CASES:
+            arguments, text = self.prove(name, scene, path)
+            _, digest = check.check(text)
+            proof = json.loads(text)
+            for _ in range(TAMPERED):
+                changed, where = tampered(chance, proof)
+                if changed == proof:
+                    continue
+                try:
+                    check.check(json.dumps(changed), digest)
+                except check.Refused:
+                    continue
+                held += 1
+                self.assertTrue(all(IRRELEVANT.search(address) for address in where), (name, where))
+        self.assertLess(held, len(CASES) * TAMPERED / 20)
+
+    def test_both_checkers_agree(self):
+        chance = random.Random(6)
+        for name, scene, path, _ in CASES:
+            arguments, text = self.prove(name, scene, path)
+            _, digest = check.check(text)
+            proof = json.loads(text)
+            for _ in range(40):
+                changed, where = tampered(chance, proof)
+                file = self.write("tampered.proof", json.dumps(changed))
+                try:
+                    check.check(json.dumps(changed), digest)
+                    code = [0]
+                except check.Refused:
+                    code = [1, 2]
+                # A vertex may change without the set, which the planner compares, but not the digest of the claim.
+                if all(re.search("/claim/(robot|obstacles)", address) for address in where):
+                    code = [0, 1, 2]
+                run = planner(*arguments, "--check-proof", file)
+                self.assertIn(run.returncode, code, (name, where, run.stdout, run.stderr))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

@@ -20,11 +20,9 @@ constexpr const char* kInputLimits =
     "Input: regular files, and standard input (-), of at most a quarter of the machine's memory; other devices and "
     "named\n"
     "pipes are refused, and so are files that unfold to very many copies or unpack to more than 200 times their size.\n"
-    "What other libraries parse (images, OpenCV's and MATLAB's files, shapes that Assimp reads) is read in a process "
-    "of\n"
-    "its own, within 512 MB and 256 times the file, and 20 s and 1 s more for each 256 KB of it; images within 6 GB "
-    "and\n"
-    "120 s, 3MF within the same time.";
+    "What other libraries parse (OpenCV's and MATLAB's files, shapes that Assimp reads) is read in a process of\n"
+    "its own, within 512 MB and 256 times the file, and 20 s and 1 s more for each 256 KB of it, 3MF within the same\n"
+    "time; images other than PNG are read within 6 GB and 120 s.";
 
 // What an exception says to a user; broken invariants say so themselves.
 std::string text_of(const std::exception& error) {

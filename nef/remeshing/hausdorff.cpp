@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <queue>
 #include <string>
@@ -212,6 +213,44 @@ double largest_coordinate(const Mesh& mesh) {
   return size;
 }
 
+// The exponent of the largest coordinate: about its logarithm to base 2.
+long exponent_of(const Mesh& mesh) {
+  long exponent = std::numeric_limits<long>::min();
+  for (const Rational3& p : mesh.vertices) {
+    for (const Rational& x : p) {
+      if (x == 0) continue;
+      const auto bits = static_cast<long>(mpz_sizeinbase(x.get_num_mpz_t(), 2));
+      exponent = std::max(exponent, bits - static_cast<long>(mpz_sizeinbase(x.get_den_mpz_t(), 2)));
+    }
+  }
+  return exponent;
+}
+
+// Times 2^exponent.
+Mesh scaled(Mesh mesh, long exponent) {
+  const auto bits = static_cast<mp_bitcnt_t>(std::labs(exponent));
+  for (Rational3& p : mesh.vertices) {
+    for (Rational& x : p) {
+      if (exponent > 0) {
+        mpq_mul_2exp(x.get_mpq_t(), x.get_mpq_t(), bits);
+      } else {
+        mpq_div_2exp(x.get_mpq_t(), x.get_mpq_t(), bits);
+      }
+    }
+  }
+  return mesh;
+}
+
+// Times 2^exponent. Where a bound leaves the range of normal doubles, it is the next one that holds.
+DistanceBounds scaled(const DistanceBounds& bounds, long exponent) {
+  const auto power = static_cast<int>(std::clamp(exponent, -100000L, 100000L));
+  DistanceBounds result{std::ldexp(bounds.low, power), std::ldexp(bounds.high, power)};
+  if (result.low < std::numeric_limits<double>::min()) result.low = std::nextafter(result.low, -1.0);
+  if (result.high < std::numeric_limits<double>::min()) result.high = std::nextafter(result.high, 1.0);
+  result.low = std::clamp(result.low, 0.0, std::numeric_limits<double>::max());
+  return result;
+}
+
 void require_triangles(const Mesh& mesh) {
   if (mesh.face_count() == 0) throw InputError("a mesh without faces is at no distance from another");
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {
@@ -224,6 +263,13 @@ void require_triangles(const Mesh& mesh) {
 DistanceBounds hausdorff_distance(const Mesh& a, const Mesh& b, std::size_t splits) {
   require_triangles(a);
   require_triangles(b);
+  // In this range products of four coordinates, which weights are made of, do not overflow, nor vanish beside the
+  // slack, a part of 2^-48 of the largest.
+  constexpr long kModerate = 200;
+  const long exponent = std::max(exponent_of(a), exponent_of(b));
+  if (std::labs(exponent) > kModerate && exponent != std::numeric_limits<long>::min()) {
+    return scaled(hausdorff_distance(scaled(a, -exponent), scaled(b, -exponent), splits), exponent);
+  }
   const double size = std::max(largest_coordinate(a), largest_coordinate(b));
   const Surface first(a, size);
   const Surface second(b, size);

@@ -17,7 +17,8 @@ struct DistanceBounds {
 
 /// Bounds of the Hausdorff distance of two surfaces, given as meshes of triangles (at least one each): the least D so
 /// that each point of one is within D of the other. low is reached at some point up to rounding. Triangles in question
-/// are halved until the two bounds are within a hundredth, or `splits` times. Rounding is part of the bounds.
+/// are halved until the two bounds are within a hundredth, or `splits` times. Rounding is part of the bounds,
+/// also for coordinates beyond the range of doubles, where high may be infinite.
 /// Throws InputError for faces that are not triangles. O((n + splits) log n) expected.
 DistanceBounds hausdorff_distance(const Mesh& a, const Mesh& b, std::size_t splits);
 

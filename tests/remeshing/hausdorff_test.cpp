@@ -9,6 +9,7 @@
 #include "nef/construct/construct.h"
 #include "nef/distance/distance.h"
 #include "nef/polyhedron.h"
+#include "tests/support/magnitudes.h"
 
 namespace nef {
 namespace {
@@ -113,6 +114,25 @@ TEST_CASE("No point of random surfaces is farther from the other than the upper 
     CHECK(bounds.high <= 1.011 * bounds.low);
     // Samples are at most a quarter of a side away from any point, so that the lower bound can be told from too much.
     CHECK(bounds.low <= farthest + 45);
+  }
+}
+
+// Two squares of side 4 and 1 at heights 0 and 1: a corner of the large one is sqrt(9 + 9 + 1) from the small one.
+TEST_CASE("Squares of any magnitude", "[bounds]") {
+  const Mesh large = square(4, 0, false);
+  const Mesh small = square(1, 1, true);
+  for (const long exponent : test::kExponents) {
+    INFO("times 2^" << exponent);
+    const Rational factor = test::power_of_two(exponent);
+    const DistanceBounds bounds = hausdorff_distance(test::scaled(large, factor), test::scaled(small, factor), kSplits);
+    const Rational squared = 19 * factor * factor;
+    CHECK(exact_rational(bounds.low) * exact_rational(bounds.low) <= squared);
+    if (std::isinf(bounds.high)) {
+      CHECK(exponent > 1020);
+      continue;
+    }
+    CHECK(exact_rational(bounds.high) * exact_rational(bounds.high) >= squared);
+    if (std::labs(exponent) <= 1020) CHECK(bounds.high <= 1.011 * bounds.low);
   }
 }
 

@@ -376,7 +376,7 @@ class Corpus:
     def sums(self) -> None:
         folder = self.data / "minkowski"
         pairs = (("tripod.off", "cube.off"), ("P.off", "tripod.off"), ("tripod.off", "tripod.off"))
-        for (a, b), way in itertools.product(pairs, ("auto", "queue", "priority", "nary", "convolution")):
+        for (a, b), way in itertools.product(pairs, ("auto", "queue", "convolution")):
             self.add(f"sum {a} {b} {way}", f"minkowski {folder / a} {folder / b} --union {way} -o s.nef")
         self.add("sum mushroom.off cube.off", f"minkowski {folder / 'mushroom.off'} {folder / 'cube.off'} -o s.nef")
         self.add(

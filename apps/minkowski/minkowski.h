@@ -25,23 +25,16 @@ namespace nef::minkowski {
 
 /// How sums are made: how the sums of the pairs of cells are united, or without cells. The set is the same for each.
 enum class UnionStrategy : std::uint8_t {
-  kAuto,        ///< as kConvolution, kNary or kQueue, whichever is likely to be the fastest
-  kTrivial,     ///< one after the other onto one growing result
-  kQueue,       ///< always the two oldest [Hachenberger 2009], in bounded memory
-  kPriority,    ///< always the two smallest, by number of vertices
-  kNary,        ///< all at once, in batches of bounded size; explodes where many faces nearly coincide
-  kConvolution  ///< no cells: the facets of the reduced convolution are arranged; bounded sets that lie in the closure
-                ///< of their interiors, others (and some rare ones of these) are united as for kAuto
+  kAuto,         ///< as kConvolution or kQueue, whichever is likely to be the faster
+  kConvolution,  ///< no cells: the facets of the reduced convolution are arranged; bounded sets that lie in the closure
+                 ///< of their interiors, others (and some rare ones of these) as for kQueue
+  kQueue         ///< the sums of cells are united: many at once where few of their faces nearly coincide, and by the
+                 ///< queue of [Hachenberger 2009] elsewhere, in bounded memory
 };
 
 /// All strategies, as the program spells them.
-inline constexpr std::array<std::pair<std::string_view, UnionStrategy>, 6> kUnionStrategies{
-    {{"auto", UnionStrategy::kAuto},
-     {"trivial", UnionStrategy::kTrivial},
-     {"queue", UnionStrategy::kQueue},
-     {"priority", UnionStrategy::kPriority},
-     {"nary", UnionStrategy::kNary},
-     {"convolution", UnionStrategy::kConvolution}}};
+inline constexpr std::array<std::pair<std::string_view, UnionStrategy>, 3> kUnionStrategies{
+    {{"auto", UnionStrategy::kAuto}, {"convolution", UnionStrategy::kConvolution}, {"queue", UnionStrategy::kQueue}}};
 
 struct MinkowskiOptions {
   UnionStrategy strategy = UnionStrategy::kAuto;
@@ -53,8 +46,8 @@ struct MinkowskiOptions {
   Monitor monitor = {};  ///< who watches; what it refers to must outlive the call
 };
 
-/// How a sum was made, in words: a strategy by its name in the program (`nary, queue`: one, then the other), `none`
-/// if nothing had to be united, `planes` for unbounded operands; and why that.
+/// How a sum was made, in words: a strategy by its name in the program, `none` if nothing had to be united, `planes`
+/// for unbounded operands; and why that.
 struct StrategyChoice {
   std::string chosen;
   std::string why;

@@ -15,6 +15,7 @@
 #include "nef/base/timing/stopwatch.h"
 #include "nef/io/mesh/mesh_reader.h"
 #include "tests/support/minkowski_shapes.h"
+#include "tests/support/union_orders.h"
 #ifdef NEF_BENCH_CGAL
 #include "bench/minkowski/cgal_peer.h"
 #include "nef/base/freed_memory.h"
@@ -99,10 +100,23 @@ void run_case(const Case& test, const Settings& settings) {
   if (!settings.wants(test.name)) return;
   const Polyhedron a = nef::from_mesh(test.a);
   const Polyhedron b = nef::from_mesh(test.b);
-  const double closed = time_sum(test.name, a, b, UnionStrategy::kNary, settings);
-  const double open = time_sum(test.name + ", B open", a, nef::interior(b), UnionStrategy::kNary, settings);
+  const double closed = time_sum(test.name, a, b, UnionStrategy::kQueue, settings);
+  const double open = time_sum(test.name + ", B open", a, nef::interior(b), UnionStrategy::kQueue, settings);
   std::printf("%-34s %9.2f\n", "  open / closed", open / closed);
   run_peer(test, settings);
+}
+
+void time_order(const std::string& name, const Polyhedron& a, const Polyhedron& b, nef::test::UnionOrder order,
+                const Settings& settings) {
+  double best = 1e300;
+  Polyhedron sum;
+  for (int i = 0; i < settings.repeat; ++i) {
+    const nef::ThreadStopwatch watch;
+    sum = united(nef::test::sums_of_cells(a, b), order);
+    best = std::min(best, watch.seconds());
+  }
+  std::printf("  %-32s %9.4f s  %zu/%zu\n", name.c_str(), best, nef::counts(sum).vertices, nef::counts(sum).facets);
+  std::fflush(stdout);
 }
 
 void run_table(const Settings& settings) {
@@ -110,10 +124,8 @@ void run_table(const Settings& settings) {
   std::printf("Table 10.1: the generated mushroom plus a cube, by union strategy\n");
   const Polyhedron a = nef::from_mesh(nef::test::mushroom());
   const Polyhedron b = nef::from_mesh(cube(Rational(1, 10)));
-  time_sum("  trivial", a, b, UnionStrategy::kTrivial, settings);
-  time_sum("  queue", a, b, UnionStrategy::kQueue, settings);
-  time_sum("  priority", a, b, UnionStrategy::kPriority, settings);
-  time_sum("  nary", a, b, UnionStrategy::kNary, settings);
+  for (const auto& [name, order] : nef::test::kUnionOrders) time_order(std::string(name), a, b, order, settings);
+  time_sum("  many at once", a, b, UnionStrategy::kQueue, settings);
 }
 
 void run_decomposition(const std::string& name, const Mesh& mesh, const Settings& settings) {

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Sums that make unions explode: makes the operands, runs `minkowski` on each, prints CPU seconds and peak memory.
 
-    bench/minkowski/stress.py [--bin DIR] [--cases NAME ...] [--unions auto queue nary] [--limit SECONDS] [--keep DIR]
+    bench/minkowski/stress.py [--bin DIR] [--cases NAME ...] [--unions auto queue] [--limit SECONDS] [--keep DIR]
     bench/minkowski/stress.py --cgal --manifold PREFIX ...      peers beside, where they are there
     bench/minkowski/stress.py --growth                          families that grow, with exponents
 
@@ -249,7 +249,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--bin", default=os.path.join(HERE, "..", "..", "build", "release", "bin"))
     parser.add_argument("--cases", nargs="*", help="run cases whose names hold one of these")
-    parser.add_argument("--unions", nargs="*", default=["default", "convolution", "queue", "nary"])
+    parser.add_argument("--unions", nargs="*", default=["default", "convolution", "queue"])
     parser.add_argument("--growth", action="store_true", help="instead: families of operands that grow, with exponents")
     parser.add_argument("--cgal", action="store_true", help="CGAL's minkowski_sum_3 (the program sum_peer) beside ours")
     parser.add_argument("--manifold", metavar="PREFIX", help="the Manifold library installed there beside ours (doubles)")

@@ -28,7 +28,7 @@ void fuzz_sums(const Case& the_case) {
   const GridPolyhedron b = random_grid_set(choices, 2, false);
   const AffineMap map = random_shear(choices);
   minkowski::MinkowskiOptions options;
-  options.strategy = static_cast<minkowski::UnionStrategy>(choices.below(6));
+  options.strategy = static_cast<minkowski::UnionStrategy>(choices.below(3));
   the_case.tell("a = " + a.text);
   the_case.tell("b = " + b.text);
   const Polyhedron sum =

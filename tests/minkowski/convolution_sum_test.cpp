@@ -283,7 +283,7 @@ TEST_CASE("convolution: the default takes it for turned parts, and cells for two
     return report.choices[0].chosen;
   };
   CHECK(chosen(ring, other) == "convolution");
-  CHECK(chosen(gear, gear) == "nary");
+  CHECK(chosen(gear, gear) == "queue");
 }
 
 }  // namespace

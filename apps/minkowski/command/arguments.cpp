@@ -167,7 +167,7 @@ void declare(CLI::App& app, Arguments& a) {
   app.add_option("--box-tool", a.box_tool, "x,y,z: a box of these extents about the origin stands in for B")
       ->type_name("X,Y,Z");
   app.add_option("--union", a.union_name,
-                 "How sums of cells are united: auto (default), trivial, queue, priority, nary, convolution")
+                 "How a sum is made: auto (default), convolution (without cells), queue (of sums of cells)")
       ->check(CLI::IsMember(strategy_names()));
   declare_tasks(app, a);
   add_mesh_input_options(app, a.mesh);

@@ -86,7 +86,7 @@ bool FixedObstacles::matters(const Box& a, const Box& b) const {
 
 Polyhedron FixedObstacles::free_positions(std::span<const Mesh> robot, const Monitor& monitor) const {
   const auto poll = [&monitor](double) { monitor.check_interruption(); };
-  UnionBuilder forbidden(UnionStrategy::kAuto, 1, 0, poll, monitor);
+  UnionBuilder forbidden(1, 0, poll, monitor);
   const Operand pieces(reflected(robot, may_touch_));
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const Box box = box_of(pieces.cell(i).mesh);

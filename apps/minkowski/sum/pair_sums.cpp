@@ -59,7 +59,7 @@ Polyhedron union_of_pair_sums(std::span<const Product> products, const Minkowski
   };
   double seconds = 0;  // of the sums of pairs, too; seconds_union gets those of the union only
   const PhaseTimer union_phase(seconds, report.predicates_union, options.monitor);
-  UnionBuilder builder(options.strategy, options.threads, all, poll_union, union_phase.monitor());
+  UnionBuilder builder(options.threads, all, poll_union, union_phase.monitor());
   for (const Product& product : products) {
     const std::size_t pairs = product.a.size() * product.b.size();
     for (std::size_t first = 0; first < pairs; first += kBlock) {

@@ -12,21 +12,13 @@
 namespace nef::minkowski {
 namespace {
 
-std::string_view name_of(UnionStrategy strategy) {
-  const auto* const found = std::find_if(kUnionStrategies.begin(), kUnionStrategies.end(),
-                                         [strategy](const auto& entry) { return entry.second == strategy; });
-  return found->first;
-}
-
-// The strategy that united cells, after the reason why there are any.
-StrategyChoice choice_of_cells(UnionStrategy strategy, std::size_t at_once, std::size_t two_by_two, std::string why) {
-  if (strategy != UnionStrategy::kAuto && strategy != UnionStrategy::kConvolution) {
-    return {std::string(name_of(strategy)), std::move(why)};
+// After the reason why there are cells at all.
+StrategyChoice choice_of_cells(std::size_t two_by_two, std::string why) {
+  if (two_by_two != 0) {
+    why += "; " + std::to_string(two_by_two) + (two_by_two == 1 ? " sum of cells is" : " sums of cells are") +
+           " flat, have many vertices, or nearly coincide with others";
   }
-  if (two_by_two == 0) return {"nary", std::move(why)};
-  why += "; " + std::to_string(two_by_two) + (two_by_two == 1 ? " sum of cells is" : " sums of cells are") +
-         " flat, have many vertices, or nearly coincide with others";
-  return {at_once == 0 ? "queue" : "nary, queue", std::move(why)};
+  return {"queue", std::move(why)};
 }
 
 }  // namespace
@@ -59,11 +51,9 @@ std::optional<Polyhedron> sum_by_convolution(const Polyhedron& a, const Polyhedr
 
 Polyhedron union_of_pair_sums_for(std::string why, std::span<const Product> products, const MinkowskiOptions& options,
                                   MinkowskiReport& report) {
-  const std::size_t at_once = report.united_at_once;
   const std::size_t two_by_two = report.united_two_by_two;
   Polyhedron sum = union_of_pair_sums(products, options, report);
-  report.choices.push_back(choice_of_cells(options.strategy, report.united_at_once - at_once,
-                                           report.united_two_by_two - two_by_two, std::move(why)));
+  report.choices.push_back(choice_of_cells(report.united_two_by_two - two_by_two, std::move(why)));
   return sum;
 }
 

@@ -3,12 +3,10 @@
 // Cells are collected in batches, each united at once by `try_unite_solids` within a budget of work; if it exceeds the
 // budget, this batch and all later cells go through the queue. The queue of [Hachenberger 2009] is a binary counter:
 // level i is empty or has the union of 2^i pieces, and a new piece is carried upward, so neighbours are united in a
-// balanced tree and only O(log n) unions are held. The priority strategy holds a heap, and unites the two smallest
-// sets.
+// balanced tree and only O(log n) unions are held.
 #include "apps/minkowski/union/union_builder.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "apps/minkowski/union/containment.h"
@@ -20,7 +18,6 @@ namespace {
 // Sizes that keep a batch within some ten megabytes.
 constexpr std::size_t kBatchCells = 4096;
 constexpr std::size_t kBatchVertices = 80000;
-constexpr std::size_t kHeapPieces = 512;
 constexpr std::size_t kGroupCells = 64;
 constexpr std::size_t kGroupVertices = 2500;
 
@@ -30,21 +27,14 @@ constexpr std::size_t kLargeCell = 128;
 // What the queue takes for a vertex of a cell, in evaluations of a form: 10 to 30 microseconds against 3 nanoseconds.
 constexpr std::uint64_t kQueueWorkOfVertex = 4000;
 
-bool larger(const Polyhedron& a, const Polyhedron& b) {
-  return a.complex().vertex_count() > b.complex().vertex_count();
-}
-
 }  // namespace
 
-UnionBuilder::UnionBuilder(UnionStrategy strategy, unsigned threads, std::size_t expected,
-                           std::function<void(double)> poll, const Monitor& monitor)
-    : strategy_(strategy),
-      threads_(threads),
+UnionBuilder::UnionBuilder(unsigned threads, std::size_t expected, std::function<void(double)> poll,
+                           const Monitor& monitor)
+    : threads_(threads),
       poll_(std::move(poll)),
       monitor_(monitor),
-      expected_(std::max(1.0, static_cast<double>(expected))) {
-  if (strategy == UnionStrategy::kQueue) merges_of_piece_ = std::max(1.0, std::log2(expected_));
-}
+      expected_(std::max(1.0, static_cast<double>(expected))) {}
 
 void UnionBuilder::settle(double pieces) {
   settled_ += pieces;
@@ -57,30 +47,11 @@ void UnionBuilder::poll(double more) {
 }
 
 void UnionBuilder::add(ConvexCell cell) {
-  switch (strategy_) {
-    case UnionStrategy::kAuto:
-    case UnionStrategy::kConvolution:
-      if (gave_up_ || cell.mesh.vertices.size() > kLargeCell) {
-        add_to_group(cell);
-      } else {
-        add_to_batch(std::move(cell));
-      }
-      return;
-    case UnionStrategy::kNary:
-      add_to_batch(std::move(cell));
-      return;
-    case UnionStrategy::kTrivial:
-      result_ = unite(result_, to_polyhedron(cell, monitor_), 1, monitor_);
-      settle((2 * static_cast<double>(two_by_two_) + 1) / expected_);  // of squares
-      break;
-    case UnionStrategy::kPriority:
-      add_ranked(to_polyhedron(cell, monitor_));
-      break;
-    case UnionStrategy::kQueue:
-      add_queued(to_polyhedron(cell, monitor_));
-      break;
+  if (gave_up_ || cell.mesh.vertices.size() > kLargeCell) {
+    add_to_group(cell);
+  } else {
+    add_to_batch(std::move(cell));
   }
-  ++two_by_two_;
 }
 
 void UnionBuilder::add_to_batch(ConvexCell cell) {
@@ -112,27 +83,10 @@ void UnionBuilder::add_queued(Polyhedron piece) {
   std::size_t level = 0;
   for (; level < levels_.size() && !levels_[level].is_empty(); ++level) {
     piece = unite(levels_[level], piece, 1, monitor_);
-    settle(strategy_ == UnionStrategy::kQueue ? std::ldexp(1, static_cast<int>(level) + 1) / merges_of_piece_ : 0);
     levels_[level] = Polyhedron();
   }
   if (level == levels_.size()) levels_.emplace_back();
   levels_[level] = std::move(piece);
-}
-
-void UnionBuilder::add_ranked(Polyhedron piece) {
-  ranked_.push_back(std::move(piece));
-  std::push_heap(ranked_.begin(), ranked_.end(), larger);
-  if (ranked_.size() > kHeapPieces) merge_smallest();
-}
-
-void UnionBuilder::merge_smallest() {
-  settle(1);
-  std::pop_heap(ranked_.begin(), ranked_.end(), larger);
-  const Polyhedron a = std::move(ranked_.back());
-  ranked_.pop_back();
-  std::pop_heap(ranked_.begin(), ranked_.end(), larger);
-  ranked_.back() = unite(a, ranked_.back(), 1, monitor_);
-  std::push_heap(ranked_.begin(), ranked_.end(), larger);
 }
 
 void UnionBuilder::flush() {
@@ -162,7 +116,7 @@ void UnionBuilder::unite_batch_of_solids() {
   options.monitor = monitor_;
   const auto all = static_cast<double>(batch_.size());
   options.poll = [this, all](double share) { poll(share * all); };
-  if (strategy_ != UnionStrategy::kNary) options.budget = kQueueWorkOfVertex * batch_vertices_;
+  options.budget = kQueueWorkOfVertex * batch_vertices_;
   std::optional<Polyhedron> sum = try_unite_solids(batch_, options, &dropped_);
   if (sum) {
     at_once_ += batch_.size();
@@ -177,12 +131,7 @@ void UnionBuilder::unite_batch_of_solids() {
 Polyhedron UnionBuilder::finish() {
   flush();
   flush_group();
-  while (ranked_.size() > 1) merge_smallest();
-  if (!ranked_.empty()) result_ = std::move(ranked_[0]);
-  if (result_.is_empty()) return unite_all(levels_, threads_, monitor_);
-  // Oldest last: the sets at higher levels were there first.
-  for (const Polyhedron& level : levels_) result_ = unite(result_, level, 1, monitor_);
-  return std::move(result_);
+  return unite_all(levels_, threads_, monitor_);
 }
 
 }  // namespace nef::minkowski

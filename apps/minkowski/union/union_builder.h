@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Unites a stream of sets in bounded memory, by one of several strategies with the same result.
+// Unites a stream of convex cells in bounded memory.
 #pragma once
 
 #include <cstddef>
@@ -14,18 +14,17 @@
 
 namespace nef::minkowski {
 
-/// Takes pieces one by one. At any time it holds O(log(pieces)) intermediate unions and, for the strategies that need
-/// several pieces at once, a batch of bounded size.
+/// Takes pieces one by one. At any time it holds O(log(pieces)) intermediate unions and a batch of bounded size.
 ///
-/// kAuto unites a batch at once within a budget of about what the queue is likely to take for it. If the budget does
-/// not suffice, this batch and all that follows go through the queue: so no input takes much more than twice the time
-/// of the better of the two.
+/// A batch is united at once within a budget of about what the queue is likely to take for it. If the budget does not
+/// suffice, this batch and all that follows go through the queue: so no input takes much more than twice the time of
+/// the better of the two.
 class UnionBuilder {
  public:
   /// Adds up to `expected` pieces. `poll`, if given, is called now and then while they are united, with the share of
-  /// that work that is done, which is an estimate from how the strategy's cost grows. It may throw.
-  explicit UnionBuilder(UnionStrategy strategy, unsigned threads = 1, std::size_t expected = 0,
-                        std::function<void(double)> poll = {}, const Monitor& monitor = {});
+  /// that work that is done, which is an estimate. It may throw.
+  explicit UnionBuilder(unsigned threads = 1, std::size_t expected = 0, std::function<void(double)> poll = {},
+                        const Monitor& monitor = {});
 
   void add(ConvexCell cell);
   /// The union of everything added. Call once.
@@ -44,26 +43,20 @@ class UnionBuilder {
   void add_queued(Polyhedron piece);
   void add_to_group(const ConvexCell& cell);
   void flush_group();
-  void add_ranked(Polyhedron piece);
   void flush();
   void unite_batch_of_solids();
-  void merge_smallest();
 
-  UnionStrategy strategy_;
   unsigned threads_;
   std::function<void(double)> poll_;
   Monitor monitor_;
   double expected_ = 1;             // pieces
-  double merges_of_piece_ = 1;      // queue: unions that each piece goes through
   double settled_ = 0;              // pieces by which the work is done
-  Polyhedron result_;               // trivial
-  std::vector<Polyhedron> levels_;  // queue: level i is empty or the union of 2^i pieces
-  std::vector<Polyhedron> ranked_;  // priority: a heap, the smallest on top
-  std::vector<Polyhedron> group_;   // auto: the next pieces for the queue
+  std::vector<Polyhedron> levels_;  // level i is empty or the union of 2^i pieces
+  std::vector<Polyhedron> group_;   // the next pieces for the queue
   std::size_t group_vertices_ = 0;
   std::vector<ConvexCell> batch_;  // all at once
   std::size_t batch_vertices_ = 0;
-  bool gave_up_ = false;  // kAuto: no more batches
+  bool gave_up_ = false;  // no more batches
   std::size_t dropped_ = 0;
   std::size_t at_once_ = 0;
   std::size_t two_by_two_ = 0;

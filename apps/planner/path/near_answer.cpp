@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "apps/minkowski/minkowski.h"
-#include "apps/minkowski/union/union_builder.h"
 #include "apps/planner/free_space/vectors.h"
 #include "nef/base/error.h"
 #include "nef/base/monitor.h"
@@ -162,16 +161,14 @@ class NearSearch {
  private:
   // The positions that some pieces forbid: those at which the inside of the robot meets one.
   [[nodiscard]] Polyhedron forbidden_by(const std::vector<std::size_t>& pieces) const {
-    // Measured: pieces of a surface nearly coincide too often for one union of all.
-    minkowski::UnionBuilder forbidden(
-        minkowski::UnionStrategy::kQueue, build_.threads, pieces.size(),
-        [this](double) { monitor_.check_interruption(); }, monitor_);
+    // Two by two: pieces of a surface nearly coincide too often for a union of all at once (measured).
+    std::vector<Polyhedron> forbidden;
     for (const std::size_t i : pieces) {
       for (const minkowski::ConvexCell& part : robot_.inside) {
-        forbidden.add(convex_sum(pieces_[i].cell, part, monitor_));
+        forbidden.push_back(to_polyhedron(convex_sum(pieces_[i].cell, part, monitor_), monitor_));
       }
     }
-    return forbidden.finish();
+    return unite_all(forbidden, build_.threads, monitor_);
   }
 
   // Pieces that the robot may touch on its way, and those around; none if it touches none. Nothing if there is no way.

@@ -83,10 +83,19 @@ class BoundaryWriter {
                                 ? "the mesh"
                                 : "rounded to " + std::string(single_ ? "single" : "double") + " precision the mesh";
     written_.problem = path_ + ": " + how + " is not legal (" + problem + ")";
-    if (options_.lenient) return;
-    throw UnsupportedError(written_.problem +
-                           " and could not be repaired, so no file is written; write .nef, or OFF, OBJ or PLY with "
-                           "--exact, or move it to the origin (--recenter); --lenient writes it as it is");
+    refuse_unless_lenient(" and could not be repaired");
+    const std::string merged = options_.exact ? "" : merged_vertices(mesh, single_);
+    if (!merged.empty()) notes_.push_back(merged);
+  }
+
+  /// Throws where vertices of a surface, of lines or of points become one by rounding, unless lenient.
+  void require_apart(const Mesh& mesh) {
+    if (options_.exact) return;
+    refuse_infinite(mesh, extension_, file_);
+    const std::string merged = merged_vertices(mesh, single_);
+    if (merged.empty()) return;
+    written_.problem = path_ + ": " + merged;
+    refuse_unless_lenient("");
   }
 
   /// Gives the vertices the colours that the options have for them.
@@ -100,12 +109,19 @@ class BoundaryWriter {
   }
 
   WrittenFile write(const Mesh& mesh) {
-    write_mesh(path_, mesh, file_, &notes_);
+    write_mesh(path_, mesh, file_);
     written_.offset = file_.offset;
     return written_;
   }
 
  private:
+  void refuse_unless_lenient(const std::string& more) const {
+    if (options_.lenient) return;
+    throw UnsupportedError(written_.problem + more +
+                           ", so no file is written; write .nef, or OFF, OBJ or PLY with --exact, or move it to the "
+                           "origin (--recenter); --lenient writes it as it is");
+  }
+
   [[nodiscard]] bool all_kept(const Mesh& mesh) const {
     return std::all_of(mesh.vertices.begin(), mesh.vertices.end(), [&](const Rational3& p) {
       return std::all_of(p.begin(), p.end(), [&](const Rational& x) { return is_kept(x, rounding_); });
@@ -205,7 +221,11 @@ WrittenBoundary write_boundary(const std::string& path, const Polyhedron& polyhe
     report_wires(result, notes);
   }
   if (options.recenter) writer.recenter(result.mesh);
-  if (result.closed) writer.settle(result.mesh, true);
+  if (result.closed) {
+    writer.settle(result.mesh, true);
+  } else {
+    writer.require_apart(result.mesh);
+  }
   writer.color(result.mesh);
   if (groups != nullptr && !has_groups(writer.extension())) {
     notes.push_back("groups of faces are not in the file: the format has none; write OBJ, OFF, PLY or GLB");

@@ -56,10 +56,10 @@ std::string offset_note(const std::string& path, const Rational3& offset);
 /// of the bounded solid parts: convex faces as they are where rounding leaves them planar, all others as triangles.
 /// Coordinates are rounded to the nearest numbers of the format; if the result is not strictly legal
 /// (is_strictly_legal) it is repaired by going to other numbers nearby. Sets without solid parts are written as
-/// surfaces, and to OBJ as lines and points. `messages` gets a line for what was repaired and for everything that the
-/// file does not hold. Throws FileError for an unknown extension or a file that cannot be written, and UnsupportedError
-/// for an unbounded set in .nef3 or a mesh that cannot be repaired, unless the options are lenient; then no file is
-/// written.
+/// surfaces, and to OBJ as lines and points, if their vertices stay apart. `messages` gets a line for what was repaired
+/// and for everything that the file does not hold. Throws FileError for an unknown extension or a file that cannot be
+/// written, and UnsupportedError for an unbounded set in .nef3 or a mesh that cannot be repaired, unless the options
+/// are lenient; then no file is written.
 WrittenFile write_polyhedron(const std::string& path, const Polyhedron& polyhedron,
                              const PolyhedronWriteOptions& options = {}, Messages* messages = nullptr);
 

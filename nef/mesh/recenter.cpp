@@ -34,7 +34,7 @@ Rational3 middle_of_few_digits(std::span<const Rational3> points) {
 }
 
 Rational3 recenter(Mesh& mesh) {
-  const Rational3 middle = middle_of_few_digits(mesh.vertices);
+  Rational3 middle = middle_of_few_digits(mesh.vertices);
   for (Rational3& p : mesh.vertices) p = minus(p, middle);
   return middle;
 }

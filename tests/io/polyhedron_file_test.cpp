@@ -176,6 +176,16 @@ TEST_CASE("Losses and merged vertices are reported") {
         std::string::npos);
   REQUIRE(messages.size() == 1);
   CHECK(messages[0].find("4 vertices lie where another one does") != std::string::npos);
+  // A surface, too: a triangle whose side is shorter than the distance of doubles there.
+  const Polyhedron far = set("polygon(1000000000,0,0, 1000000000.00000001,0,0, 1000000000,1,0)");
+  CHECK_THROWS_WITH(write_polyhedron(folder.file("d.off"), far),
+                    Catch::Contains("1 vertex lies where another one does") && Catch::Contains("--recenter"));
+  CHECK_FALSE(std::filesystem::exists(folder.file("d.off")));
+  CHECK(write_polyhedron(folder.file("d.off"), far, {.lenient = true}).problem.find("1 vertex lies") !=
+        std::string::npos);
+  CHECK(write_polyhedron(folder.file("e.off"), far, {.recenter = true}).problem.empty());
+  CHECK(write_polyhedron(folder.file("f.off"), far, {.exact = true}).problem.empty());
+  CHECK(equal(read_polyhedron(folder.file("f.off"), {.as_surface = true}), far));
   CHECK_THROWS_AS(write_polyhedron(folder.file("c.nef3"), set("halfspace(1,0,0,0)")), UnsupportedError);
   CHECK_THROWS_AS(write_polyhedron(folder.file("c.xyz"), set("nothing")), FileError);
 }

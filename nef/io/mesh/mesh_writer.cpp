@@ -133,26 +133,6 @@ std::string binary_stl(const Mesh& mesh, const MeshSurface& surface, const Ratio
   throw FileError(FileProblem::kUnreadable, path + ": " + what);
 }
 
-// Tells where rounding makes one vertex of two: faces may have become degenerate there.
-void report_merged_vertices(const Mesh& mesh, bool single, Messages& messages) {
-  std::vector<Rational3> rounded;
-  rounded.reserve(mesh.vertices.size());
-  for (const Rational3& p : mesh.vertices) {
-    Rational3& q = rounded.emplace_back();
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double x = single ? static_cast<double>(nearest_float(p[axis])) : nearest_double(p[axis]);
-      q[axis] = x;
-    }
-  }
-  const std::vector<std::uint32_t> exact_place = merge_equal(mesh.vertices);
-  const std::vector<std::uint32_t> place = merge_equal(rounded);
-  std::size_t merged = 0;
-  for (std::size_t v = 0; v < place.size(); ++v) merged += place[v] != exact_place[v] ? 1 : 0;
-  if (merged == 0) return;
-  messages.push_back(std::to_string(merged) + (merged == 1 ? " vertex lies" : " vertices lie") +
-                     " where another one does after rounding; write .nef or exact OFF to keep them apart");
-}
-
 }  // namespace
 
 std::string off_bytes(const Mesh& mesh, const MeshWriteOptions& options) {
@@ -309,7 +289,26 @@ bool survives_writing(const Rational3& point, const std::string& extension, cons
   return true;
 }
 
-void write_mesh(const std::string& path, const Mesh& mesh, const MeshWriteOptions& options, Messages* messages) {
+std::string merged_vertices(const Mesh& mesh, bool single) {
+  std::vector<Rational3> rounded;
+  rounded.reserve(mesh.vertices.size());
+  for (const Rational3& p : mesh.vertices) {
+    Rational3& q = rounded.emplace_back();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double x = single ? static_cast<double>(nearest_float(p[axis])) : nearest_double(p[axis]);
+      q[axis] = x;
+    }
+  }
+  const std::vector<std::uint32_t> exact_place = merge_equal(mesh.vertices);
+  const std::vector<std::uint32_t> place = merge_equal(rounded);
+  std::size_t merged = 0;
+  for (std::size_t v = 0; v < place.size(); ++v) merged += place[v] != exact_place[v] ? 1 : 0;
+  if (merged == 0) return "";
+  return std::to_string(merged) + (merged == 1 ? " vertex lies" : " vertices lie") +
+         " where another one does after rounding to " + (single ? "single" : "double") + " precision";
+}
+
+void write_mesh(const std::string& path, const Mesh& mesh, const MeshWriteOptions& options) {
   const std::string extension = options.format.empty() ? lower_extension(path) : options.format;
   if (options.exact && (options.binary || extension == "stl" || extension == "glb" || extension == "3mf")) {
     refuse_format(path, "exact coordinates need OFF, OBJ or text PLY");
@@ -334,9 +333,6 @@ void write_mesh(const std::string& path, const Mesh& mesh, const MeshWriteOption
     bytes = threemf_bytes(mesh, options.offset, options.monitor);
   } else {
     refuse_format(path, "the extension names no mesh format; use off, obj, stl, ply, glb or 3mf");
-  }
-  if (messages != nullptr && !options.exact) {
-    report_merged_vertices(mesh, is_single_precision(extension, options), *messages);
   }
   write_file(path, bytes);
 }

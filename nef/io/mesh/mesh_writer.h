@@ -39,11 +39,14 @@ struct MeshWriteOptions {
 
 /// Writes a mesh in the format that the extension names (off, obj, stl, ply, glb, 3mf), beside the target first and
 /// then renamed into place. Coordinates are rounded once, to the nearest double (the nearest float in binary STL and
-/// GLB), and written with the fewest digits that give it back. STL holds triangles only: polygons are cut. Adds a line
-/// to `messages` where different vertices become one by rounding. Throws FileError for an unknown extension, options
-/// that the format does not have, coordinates beyond the range of its numbers, or a file that cannot be written.
-void write_mesh(const std::string& path, const Mesh& mesh, const MeshWriteOptions& options = {},
-                Messages* messages = nullptr);
+/// GLB), and written with the fewest digits that give it back. STL holds triangles only: polygons are cut. Throws
+/// FileError for an unknown extension, options that the format does not have, coordinates beyond the range of its
+/// numbers, or a file that cannot be written.
+void write_mesh(const std::string& path, const Mesh& mesh, const MeshWriteOptions& options = {});
+
+/// How many different vertices become one by rounding to single or double precision, in words; empty if none does.
+/// Faces may be degenerate then. O(n log n).
+std::string merged_vertices(const Mesh& mesh, bool single);
 
 /// True if a format holds colours of vertices.
 bool has_vertex_colors(const std::string& extension);

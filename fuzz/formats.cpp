@@ -268,6 +268,16 @@ std::string proof_of_collision(const Polyhedron& /*set*/, const std::string& /*t
   "motion": 0, "obstacle": 0, "parameter": "0", "robot": 1, "times": ["0", "1"]}}})";
 }
 
+std::string proof_of_barrier(const Polyhedron& /*set*/, const std::string& /*text*/) {
+  return R"({"claim": {"box": [["-1", "-1", "-1"], ["1", "1", "1"]], "contact": "forbid",
+  "obstacles": [[["0", "-9", "-9"], ["0", "9", "-9"], ["0", "0", "9"]]], "robot": [[["0", "0", "0"]]],
+  "path": [{"position": ["-1", "0", "0"], "quaternion": ["1", "0", "0", "0"]},
+           {"position": ["1", "0", "0"], "quaternion": ["1", "0", "0", "0"]}], "status": "infeasible"}, "nef_proof": 1,
+  "witness": {"barrier": {"points": [["0", "-9", "-9"], ["0", "9", "-9"], ["0", "0", "9"], ["9", "0", "9"]],
+  "triangles": [{"corners": [0, 1, 2], "robot": 0, "obstacle": 0, "common": [{"robot": ["1"], "obstacle": ["1", "0", "0"]},
+  {"robot": ["1"], "obstacle": ["0", "1", "0"]}, {"robot": ["1"], "obstacle": ["0", "0", "1"]}]}, {"corners": [3, 1, 0]}]}}})";
+}
+
 // Whatever the file says, the check of the proof must end.
 void read_proof_file(const std::string& text) {
   static_cast<void>(planner::complaint_about(planner::parse_proof(text, "file")));
@@ -306,6 +316,7 @@ constexpr std::array kFormats{
     Format{"rigid-path", rigid_path, read_rigid_path},
     Format{"path-proof", proof_of_path, read_proof_file},
     Format{"collision-proof", proof_of_collision, read_proof_file},
+    Format{"barrier-proof", proof_of_barrier, read_proof_file},
     Format{"hull-scene", hull_scene,
            [](const std::string& text) {
              static_cast<void>(visual_hull::read_json_scene(text, "/nonexistent/scene.json"));

@@ -8,6 +8,7 @@ Prints what is proved and the SHA-256 of the claim, and exits with 0; with 1 if 
 names another claim; with 2 if the file cannot be read. docs/proofs.md says what a claim means and why this proves it.
 """
 import argparse
+import collections
 import hashlib
 import json
 import math
@@ -159,8 +160,8 @@ class Motion:
 class PathClaim:
     def __init__(self, value):
         status, contact, box, robot, obstacles, path = fields(value, "status", "contact", "box", "robot", "obstacles", "path")
-        require(status in ("path", "blocked") and contact in ("allow", "forbid"), "unknown status, or rule of contact")
-        self.free, self.contact_allowed = status == "path", contact == "allow"
+        require(status in list(CHECKS) and contact in ("allow", "forbid"), "unknown status, or rule of contact")
+        self.status, self.contact_allowed = status, contact == "allow"
         self.box = None if box is None else [numbers(corner, 3) for corner in items(box, 2)]
         self.robot, self.obstacles = pieces(robot), pieces(obstacles)
         require(self.robot, "the robot has no pieces")
@@ -255,6 +256,73 @@ def check_blocked_path(claim, witness):
     return f"blocked: motion {m} collides at parameter {parameter}"
 
 
+# That there is no path: a barrier of triangles.
+
+def beyond_a_side(box, corners):
+    return box is not None and any(all(p[k] < box[0][k] for p in corners) or all(p[k] > box[1][k] for p in corners)
+                                   for k in range(3))
+
+
+def check_triangle(claim, points, triangle):
+    """No position on the triangle is free: it lies beyond a side of the box, or two pieces overlap at its corners, and so
+    on all of it. Returns the numbers of the corners."""
+    if isinstance(triangle, dict) and set(triangle) == {"corners"}:
+        corners = [index(c, len(points)) for c in items(triangle["corners"], 3)]
+        require(beyond_a_side(claim.box, [points[c] for c in corners]), "a triangle may be passed")
+        return corners
+    given, i, j, common = fields(triangle, "corners", "robot", "obstacle", "common")
+    corners = [index(c, len(points)) for c in items(given, 3)]
+    piece, obstacle = claim.robot[index(i, len(claim.robot))], claim.obstacles[index(j, len(claim.obstacles))]
+    require(not claim.contact_allowed or claim.may_touch(i, j), "a flat piece bars nothing where contact is allowed")
+    for corner, point in zip(corners, items(common, 3)):
+        ours, theirs = fields(point, "robot", "obstacle")
+        require(minus(weighted_sum(obstacle, numbers(theirs, len(obstacle)), claim.contact_allowed),
+                      weighted_sum(piece, numbers(ours, len(piece)), claim.contact_allowed)) == points[corner],
+                "the pieces have not the point in common")
+    return corners
+
+
+def sign(x):
+    return (x > 0) - (x < 0)
+
+
+def crosses(corners, origin, direction):
+    """Whether a ray crosses a triangle; None if it comes too close to tell."""
+    a, b, c = (minus(corner, origin) for corner in corners)
+    sides = {sign(dot(direction, cross(p, q))) for p, q in ((a, b), (b, c), (c, a))}
+    if {1, -1} <= sides:
+        return False
+    normal = cross(minus(b, a), minus(c, a))
+    height = sign(dot(normal, a))
+    return None if 0 in sides or height == 0 else height == sign(dot(normal, direction))
+
+
+def crosses_odd(triangles, origin):
+    """Whether a ray crosses an odd number of triangles: a ray that meets no edge, of some that are tried."""
+    for ray in range(100):
+        crossed = [crosses(corners, origin, [1000, 7 + 13 * ray, 11 + 17 * ray * ray]) for corners in triangles]
+        if None not in crossed:
+            return sum(crossed) % 2
+    raise Refused("no ray misses the edges, or start or goal is on the barrier")
+
+
+def check_infeasible(claim, witness):
+    """Triangles whose edges occur an even number of times are a cycle modulo 2; what it separates is told by rays."""
+    points, triangles = fields(fields(witness, "barrier")[0], "points", "triangles")
+    points = [numbers(point, 3) for point in items(points)]
+    require(len(claim.poses) == 2 and all(q == [1, 0, 0, 0] for _, q in claim.poses), "expected start and goal, not turned")
+    found = [check_triangle(claim, points, triangle) for triangle in items(triangles)]
+    edges = collections.Counter(tuple(sorted(edge)) for a, b, c in found for edge in ((a, b), (b, c), (c, a)))
+    require(all(count % 2 == 0 for count in edges.values()), "an edge is one of an odd number of triangles")
+    placed_triangles = [[points[c] for c in corners] for corners in found]
+    sides = [crosses_odd(placed_triangles, position) for position, _ in claim.poses]
+    require(sides[0] != sides[1], "start and goal are on the same side of the barrier")
+    return f"infeasible: {len(found)} triangles separate start and goal"
+
+
+CHECKS = {"path": check_free_path, "blocked": check_blocked_path, "infeasible": check_infeasible}
+
+
 def check(text, claim_digest=None):
     """What is proved, and the digest of the claim. Raises Refused."""
     try:
@@ -266,7 +334,7 @@ def check(text, claim_digest=None):
     digest = hashlib.sha256(json.dumps(claim, sort_keys=True, separators=(",", ":")).encode()).hexdigest()
     require(claim_digest in (None, digest), f"this proves another claim, {digest}")
     path = PathClaim(claim)
-    return (check_free_path if path.free else check_blocked_path)(path, witness), digest
+    return CHECKS[path.status](path, witness), digest
 
 
 def main():

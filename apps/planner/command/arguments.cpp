@@ -103,7 +103,8 @@ void declare(CLI::App& app, Arguments& a) {
   app.add_flag("--clearance", a.path.clearance, "Way-points inside volumes rather than in contact");
   app.add_flag("--se3", a.se3, "Path matrix with seven columns x y z qx qy qz qw");
   app.add_option("--max-cells", a.max_cells, "A robot that turns: cut its angles into so many cells at most");
-  app.add_option("--proof", a.proof, "Write a proof that the path is free, or that it collides (.proof)")
+  app.add_option("--proof", a.proof,
+                 "Write a proof that the path is free, that it collides, or that there is none (.proof)")
       ->type_name("FILE");
   app.add_option("--check-proof", a.check_proof,
                  "Verify a .proof file, or of a robot that turns the proof in a report, against the scene (exit code "

@@ -71,11 +71,19 @@ void write_path_proof(const Arguments& a, const MotionChecker& checker, const st
   }
 }
 
-void write_translation_proof(const Arguments& a, const Scene& scene, const Answer& answer,
+void write_translation_proof(const Arguments& a, const Scene& scene, const Polyhedron& positions, const Answer& answer,
                              const std::vector<Rational3>& points) {
   if (a.proof.empty()) return;
+  if (answer.status == Answer::Status::kInfeasible) {
+    const std::optional<PathProof> proof = make_barrier_proof(scene, positions, *scene.start, *scene.goal);
+    if (!proof) {
+      throw InputError("--proof " + a.proof + ": no barrier of solid pieces separates start and goal by a distance");
+    }
+    write_file(a.proof, proof_text(*proof));
+    return;
+  }
   const std::vector<RigidPose> poses = poses_of(points_about(scene, answer, points));
-  if (poses.empty()) throw InputError("--proof " + a.proof + ": there is a proof only of a path, free or blocked");
+  if (poses.empty()) throw InputError("--proof " + a.proof + ": the scene has no question; give it a start and a goal");
   const MotionChecker checker = MotionChecker::of_scene(scene);
   CheckLimits limits;
   limits.keep_parts = true;
@@ -99,7 +107,7 @@ std::optional<int> run_check_proof(const Arguments& a, const Scene& scene) {
   if (!complaint && !a.given_path.empty() && !same_poses(proof.claim.path, given_poses(a.given_path))) {
     complaint = "it is about another path than " + a.given_path;
   }
-  const std::string claim = proof.claim.free ? "path" : "blocked";
+  const std::string claim = status_word(proof.claim.status);
   if (a.json) {
     nlohmann::json report{{"scene", scene.name}, {"holds", !complaint}, {"claim", claim}};
     if (complaint) report["complaint"] = *complaint;

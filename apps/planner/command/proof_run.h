@@ -22,9 +22,9 @@ void check_proof_usage(const Arguments& a);
 void write_path_proof(const Arguments& a, const MotionChecker& checker, const std::vector<RigidPose>& poses,
                       const CertifiedPath& known);
 
-/// Writes the proof of an answer about translations, if --proof asks for it: of its path, or else of the given points.
-/// Throws InputError if there is none.
-void write_translation_proof(const Arguments& a, const Scene& scene, const Answer& answer,
+/// Writes the proof of an answer about translations, if --proof asks for it: of its path, or else of the given points,
+/// or that the free `positions` have no path. Throws InputError if there is no proof.
+void write_translation_proof(const Arguments& a, const Scene& scene, const Polyhedron& positions, const Answer& answer,
                              const std::vector<Rational3>& points = {});
 
 /// Checks the .proof file that --check-proof names against the scene, and the path of --path, and prints what was

@@ -131,7 +131,7 @@ void write_answer(const Arguments& a, const Answer& answer, const Asked& asked, 
   write_outputs(
       a, asked.scene.name, [&](const std::string& file) { return rendered(a, file, answer, asked, widest); },
       [&] { return view_layers(answer, asked.scene, asked.free); });
-  write_translation_proof(a, asked.scene, answer, given);
+  write_translation_proof(a, asked.scene, asked.free.set(), answer, given);
 }
 
 void print_path(const Arguments& a, const Answer& answer) {

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "apps/planner/proofs/arc_time.h"
+#include "apps/planner/proofs/check_parts.h"
 #include "apps/planner/proofs/path_proof.h"
 #include "apps/planner/turning/reachable_part.h"
 #include "nef/base/error.h"
@@ -26,18 +27,6 @@ using Points = std::vector<Rational3>;
 
 // What does not hold; nothing if all does.
 using Complaint = std::optional<std::string>;
-
-bool is_flat(const Points& piece) {
-  std::vector<Rational3> sides;
-  for (const Rational3& p : piece) sides.push_back(minus(p, piece.front()));
-  Rational3 normal{};
-  for (const Rational3& first : sides) {
-    for (const Rational3& second : sides) {
-      if (is_zero(normal)) normal = cross(first, second);
-    }
-  }
-  return std::all_of(sides.begin(), sides.end(), [&](const Rational3& side) { return dot(normal, side) == 0; });
-}
 
 Rational3 moved(const Matrix3& turn, const Rational3& v, const Rational3& position) {
   Rational3 result;
@@ -77,6 +66,8 @@ struct Arc {
   }
 };
 
+using Status = PathProof::Claim::Status;
+
 class PathCheck {
  public:
   explicit PathCheck(const PathProof& proof) : proof_(proof), claim_(proof.claim) {}
@@ -85,7 +76,14 @@ class PathCheck {
     if (Complaint complaint = check_shape()) return complaint;
     for (const Points& piece : claim_.robot) robot_flat_.push_back(is_flat(piece));
     for (const Points& piece : claim_.obstacles) obstacle_flat_.push_back(is_flat(piece));
-    return claim_.free ? check_free() : check_collision();
+    switch (claim_.status) {
+      case Status::kFree:
+        return check_free();
+      case Status::kBlocked:
+        return check_collision();
+      default:
+        return complaint_about_barrier(proof_);
+    }
   }
 
  private:
@@ -100,10 +98,13 @@ class PathCheck {
     for (const RigidPose& pose : claim_.path) {
       if (scalar_product(pose.quaternion, pose.quaternion) == 0) return "the quaternion of a pose is zero";
     }
-    if (claim_.free && (proof_.collision || proof_.outside)) return "a free path has a collision";
-    if (!claim_.free && !proof_.motions.empty()) return "a path that collides has parts that are free";
-    if (!claim_.free && proof_.collision.has_value() == proof_.outside.has_value()) {
-      return "a path that collides needs either a collision or a pose outside the box";
+    if (claim_.status != Status::kFree && !proof_.motions.empty()) return "only a free path has parts that are free";
+    const int reasons = (proof_.collision ? 1 : 0) + (proof_.outside ? 1 : 0);
+    if (reasons != (claim_.status == Status::kBlocked ? 1 : 0)) {
+      return "a path that collides, and no other, has either a collision or a pose outside the box";
+    }
+    if (proof_.barrier.has_value() != (claim_.status == Status::kInfeasible)) {
+      return "a barrier shows that there is no path, and nothing else";
     }
     return std::nullopt;
   }
@@ -219,20 +220,6 @@ class PathCheck {
       if (*a != *b) return "the two pieces have not the point in common";
     }
     return std::nullopt;
-  }
-
-  static std::optional<Rational3> weighted_sum(const Points& points, const std::vector<Rational>& weights,
-                                               bool positive) {
-    if (weights.size() != points.size()) return std::nullopt;
-    Rational3 sum;
-    Rational all = 0;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      if (weights[i] < 0 || (positive && weights[i] == 0)) return std::nullopt;
-      all += weights[i];
-      for (std::size_t k = 0; k < 3; ++k) sum[k] += weights[i] * points[i][k];
-    }
-    if (all != 1) return std::nullopt;
-    return sum;
   }
 
   const PathProof& proof_;

@@ -83,7 +83,8 @@ class PathProver {
  public:
   PathProver(const MotionChecker& checker, std::span<const RigidPose> poses, const CertifiedPath& known)
       : checker_(checker), known_(known) {
-    proof_.claim.free = known.status == MotionVerdict::Status::kFree;
+    proof_.claim.status = known.status == MotionVerdict::Status::kFree ? PathProof::Claim::Status::kFree
+                                                                       : PathProof::Claim::Status::kBlocked;
     proof_.claim.contact = checker.contact();
     proof_.claim.box = checker.box();
     for (const RigidBody::Piece& piece : checker.robot().pieces()) proof_.claim.robot.push_back(piece.mesh.vertices);
@@ -95,7 +96,7 @@ class PathProver {
   }
 
   PathProof run() {
-    if (!proof_.claim.free) {
+    if (proof_.claim.status == PathProof::Claim::Status::kBlocked) {
       prove_collision();
       return std::move(proof_);
     }

@@ -36,7 +36,12 @@ struct PathProof {
   /// overlap, or, with kForbid, if they touch. A flat piece collides with whatever it touches. Positions outside the
   /// box collide, too.
   struct Claim {
-    bool free = true;  ///< no pose of the path collides; otherwise one does
+    enum class Status : std::uint8_t {
+      kFree,       ///< no pose of the path collides
+      kBlocked,    ///< one pose of the path collides
+      kInfeasible  ///< the path is two poses, not turned, and every path of translations between them collides
+    };
+    Status status = Status::kFree;
     ContactRule contact = ContactRule::kAllow;
     std::optional<std::array<Rational3, 2>> box;
     ProofPieces robot;
@@ -65,10 +70,29 @@ struct PathProof {
     std::array<CommonPoint, 2> common;  ///< with the position at each of the two times
   };
 
+  /// A triangle of a barrier. Every position on it is outside the box, beyond one of its sides, or collides: the
+  /// robot's piece at each of the three corners overlaps the obstacle's.
+  struct Triangle {
+    std::array<std::uint32_t, 3> corners{};  ///< numbers of points
+    struct Hit {
+      std::uint32_t robot = 0;
+      std::uint32_t obstacle = 0;
+      std::array<CommonPoint, 3> common;
+    };
+    std::optional<Hit> hit;  ///< nothing for one outside the box
+  };
+  /// Triangles of positions that a path from start to goal has to cross: each edge is one of an even number of them,
+  /// and a ray from the start crosses an odd number if one from the goal crosses an even one, or the other way round.
+  struct Barrier {
+    std::vector<Rational3> points;
+    std::vector<Triangle> triangles;
+  };
+
   Claim claim;
   std::vector<std::vector<Part>> motions;  ///< of a free path: each cut into parts
   std::optional<Collision> collision;      ///< of a path that collides
   std::optional<std::size_t> outside;      ///< of a path that collides: the number of a pose outside the box
+  std::optional<Barrier> barrier;          ///< if there is no path
 };
 
 /// The proof of what is known of a path; nothing if that is kUndecided. `known` must come from `checker` with the
@@ -76,6 +100,13 @@ struct PathProof {
 /// milliseconds for each pair and part in which they touch.
 std::optional<PathProof> make_path_proof(const MotionChecker& checker, std::span<const RigidPose> poses,
                                          const CertifiedPath& known);
+
+/// The proof that start and goal lie in different components of the free positions; nothing if there is none: both are
+/// in one component, the components have no distance, or only surfaces are in the way. The barrier is the boundary of
+/// the sum of a bounded component and a small cube, cut until each triangle is in the way of one pair of pieces. Costs
+/// the sum, and for every triangle a search through the pairs of pieces.
+std::optional<PathProof> make_barrier_proof(const Scene& scene, const Polyhedron& free, const Rational3& start,
+                                            const Rational3& goal, const Monitor& monitor = {});
 
 /// What is wrong with a proof; nothing if its claim holds. Everything is rational, and nothing of the search is used:
 /// no doubles, no tree, no hulls. O(parts pieces of the robot times pieces of obstacles).

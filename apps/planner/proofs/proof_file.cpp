@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <limits>
+#include <span>
 
 #include "nef/base/error.h"
 #include "nef/base/in_quotes.h"
@@ -37,13 +38,17 @@ json pieces_json(const ProofPieces& pieces) {
   return result;
 }
 
+using Status = PathProof::Claim::Status;
+
+constexpr std::array kStatusNames{"path", "blocked", "infeasible"};  // in the order of Status
+
 json claim_json(const PathProof::Claim& claim) {
   json path = json::array();
   for (const RigidPose& pose : claim.path) {
     path.push_back({{"position", exact_json(pose.position)},
                     {"quaternion", numbers_json({pose.quaternion.begin(), pose.quaternion.end()})}});
   }
-  return {{"status", claim.free ? "path" : "blocked"},
+  return {{"status", status_word(claim.status)},
           {"contact", claim.contact == ContactRule::kAllow ? "allow" : "forbid"},
           {"box", claim.box ? json::array({exact_json((*claim.box)[0]), exact_json((*claim.box)[1])}) : json()},
           {"robot", pieces_json(claim.robot)},
@@ -63,17 +68,37 @@ json motion_json(const std::vector<PathProof::Part>& parts) {
   return result;
 }
 
-json collision_json(const PathProof::Collision& collision) {
+json common_json(std::span<const CommonPoint> points) {
   json common = json::array();
-  for (const CommonPoint& point : collision.common) {
+  for (const CommonPoint& point : points) {
     common.push_back({{"robot", numbers_json(point.robot)}, {"obstacle", numbers_json(point.obstacle)}});
   }
+  return common;
+}
+
+json collision_json(const PathProof::Collision& collision) {
   return {{"motion", collision.motion},
           {"parameter", to_string(collision.parameter)},
           {"times", numbers_json({collision.times.begin(), collision.times.end()})},
           {"robot", collision.robot},
           {"obstacle", collision.obstacle},
-          {"common", std::move(common)}};
+          {"common", common_json(collision.common)}};
+}
+
+json barrier_json(const PathProof::Barrier& barrier) {
+  json points = json::array();
+  for (const Rational3& p : barrier.points) points.push_back(exact_json(p));
+  json triangles = json::array();
+  for (const PathProof::Triangle& triangle : barrier.triangles) {
+    json entry{{"corners", triangle.corners}};
+    if (triangle.hit) {
+      entry["robot"] = triangle.hit->robot;
+      entry["obstacle"] = triangle.hit->obstacle;
+      entry["common"] = common_json(triangle.hit->common);
+    }
+    triangles.push_back(std::move(entry));
+  }
+  return {{"points", std::move(points)}, {"triangles", std::move(triangles)}};
 }
 
 // A value of a proof, and where it stands.
@@ -108,7 +133,7 @@ class Reader {
   [[nodiscard]] auto exactly(Make&& make) const {
     const auto all = list(make);
     if (all.size() != kSize) fail("expected a list of " + std::to_string(kSize));
-    std::array<decltype(make(*this)), kSize> result;
+    std::array<decltype(make(*this)), kSize> result{};
     std::copy(all.begin(), all.end(), result.begin());
     return result;
   }
@@ -130,17 +155,17 @@ class Reader {
     }
     return value_.get<std::uint32_t>();
   }
-  // True for the first of two words.
-  [[nodiscard]] bool word(const char* first, const char* second) const {
-    if (value_ != first && value_ != second) {
-      fail("expected \"" + std::string(first) + "\" or \"" + second + "\", not " + spelled(value_));
-    }
-    return value_ == first;
+  // The number of one of these words.
+  [[nodiscard]] std::size_t word(std::span<const char* const> words) const {
+    const auto found = std::find_if(words.begin(), words.end(), [&](const char* word) { return value_ == word; });
+    if (found == words.end()) fail("unknown word " + spelled(value_));
+    return static_cast<std::size_t>(found - words.begin());
   }
   [[noreturn]] void fail(const std::string& what) const { throw InputError(where_ + ": " + what); }
 
   static Rational number_of(const Reader& reader) { return reader.number(); }
   static Rational3 point_of(const Reader& reader) { return reader.point(); }
+  static std::uint32_t index_of(const Reader& reader) { return reader.index(); }
 
  private:
   const json& value_;
@@ -155,8 +180,8 @@ RigidPose read_pose(const Reader& pose) {
 PathProof::Claim read_claim(const Reader& claim) {
   claim.require_keys({"status", "contact", "box", "robot", "obstacles", "path"});
   PathProof::Claim result;
-  result.free = claim["status"].word("path", "blocked");
-  result.contact = claim["contact"].word("allow", "forbid") ? ContactRule::kAllow : ContactRule::kForbid;
+  result.status = static_cast<Status>(claim["status"].word(kStatusNames));
+  result.contact = static_cast<ContactRule>(claim["contact"].word(std::array{"allow", "forbid"}));
   if (!claim["box"].is_null()) result.box = claim["box"].exactly<2>(&Reader::point_of);
   result.robot = claim["robot"].pieces();
   result.obstacles = claim["obstacles"].pieces();
@@ -172,6 +197,28 @@ PathProof::Part read_part(const Reader& part) {
           })};
 }
 
+CommonPoint read_common(const Reader& point) {
+  point.require_keys({"robot", "obstacle"});
+  return {point["robot"].numbers(), point["obstacle"].numbers()};
+}
+
+PathProof::Triangle read_triangle(const Reader& triangle) {
+  PathProof::Triangle result;
+  if (triangle.has("robot")) {
+    triangle.require_keys({"corners", "robot", "obstacle", "common"});
+    result.hit = {triangle["robot"].index(), triangle["obstacle"].index(), triangle["common"].exactly<3>(read_common)};
+  } else {
+    triangle.require_keys({"corners"});
+  }
+  result.corners = triangle["corners"].exactly<3>(&Reader::index_of);
+  return result;
+}
+
+PathProof::Barrier read_barrier(const Reader& barrier) {
+  barrier.require_keys({"points", "triangles"});
+  return {barrier["points"].list(&Reader::point_of), barrier["triangles"].list(read_triangle)};
+}
+
 PathProof::Collision read_collision(const Reader& collision) {
   collision.require_keys({"motion", "parameter", "times", "robot", "obstacle", "common"});
   PathProof::Collision result;
@@ -180,23 +227,23 @@ PathProof::Collision read_collision(const Reader& collision) {
   result.times = collision["times"].exactly<2>(&Reader::number_of);
   result.robot = collision["robot"].index();
   result.obstacle = collision["obstacle"].index();
-  result.common = collision["common"].exactly<2>([](const Reader& point) {
-    point.require_keys({"robot", "obstacle"});
-    return CommonPoint{point["robot"].numbers(), point["obstacle"].numbers()};
-  });
+  result.common = collision["common"].exactly<2>(read_common);
   return result;
 }
 
 }  // namespace
 
+const char* status_word(PathProof::Claim::Status status) { return kStatusNames.at(static_cast<std::size_t>(status)); }
+
 std::string proof_text(const PathProof& proof) {
   json witness;
-  if (proof.claim.free) {
+  if (proof.claim.status == Status::kFree) {
     witness["motions"] = json::array();
     for (const std::vector<PathProof::Part>& parts : proof.motions) witness["motions"].push_back(motion_json(parts));
   }
   if (proof.collision) witness["collision"] = collision_json(*proof.collision);
   if (proof.outside) witness["outside"] = *proof.outside;
+  if (proof.barrier) witness["barrier"] = barrier_json(*proof.barrier);
   const json root{{"nef_proof", kVersion}, {"claim", claim_json(proof.claim)}, {"witness", std::move(witness)}};
   return root.dump() + "\n";
 }
@@ -211,9 +258,12 @@ PathProof parse_proof(const std::string& text, const std::string& name) {
   PathProof proof;
   proof.claim = read_claim(root["claim"]);
   const Reader witness = root["witness"];
-  if (proof.claim.free) {
+  if (proof.claim.status == Status::kFree) {
     witness.require_keys({"motions"});
     proof.motions = witness["motions"].list([](const Reader& motion) { return motion.list(read_part); });
+  } else if (proof.claim.status == Status::kInfeasible) {
+    witness.require_keys({"barrier"});
+    proof.barrier = read_barrier(witness["barrier"]);
   } else if (witness.has("outside")) {
     witness.require_keys({"outside"});
     proof.outside = witness["outside"].index();

@@ -9,6 +9,9 @@
 
 namespace nef::planner {
 
+/// The word for a status: path, blocked or infeasible.
+const char* status_word(PathProof::Claim::Status status);
+
 /// The text of a .proof file.
 std::string proof_text(const PathProof& proof);
 

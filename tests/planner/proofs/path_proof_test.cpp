@@ -18,7 +18,7 @@ namespace nef::planner::test::path_proof {
 namespace {
 
 using nlohmann::json;
-using Status = MotionVerdict::Status;
+using ClaimStatus = PathProof::Claim::Status;
 
 // What the program does with --path and --proof.
 std::optional<PathProof> proof_of(const Scene& scene, const std::vector<RigidPose>& poses) {
@@ -85,7 +85,7 @@ void check_truth(const PathProof& proof, const Scene& scene) {
       CHECK(truly_collides(scene, rotation_between(q, q), position));
     }
   }
-  if (!proof.claim.free) return;
+  if (proof.claim.status != ClaimStatus::kFree) return;
   for (std::size_t i = 0; i + 1 < path.size(); ++i) {
     const RigidMotion motion(path[i], path[i + 1], MotionTiming::kSlerp);
     for (const double s : {0.0, 0.3, 0.5, 0.8, 1.0}) {
@@ -117,10 +117,10 @@ TEST_CASE("Proofs of random paths hold, and what they claim is true", "[proofs]"
     CHECK(proof_text(read) == proof_text(*proof));
     CHECK(complaint(read, scene, poses) == std::nullopt);
     check_truth(read, scene);
-    ++(read.claim.free ? free : blocked);
+    ++(read.claim.status == ClaimStatus::kFree ? free : blocked);
     // The opposite claim has no proof of these parts.
     PathProof opposite = read;
-    opposite.claim.free = !opposite.claim.free;
+    opposite.claim.status = read.claim.status == ClaimStatus::kFree ? ClaimStatus::kBlocked : ClaimStatus::kFree;
     CHECK(complaint_about(opposite));
   }
   CHECK(free > 5);
@@ -245,9 +245,13 @@ TEST_CASE("planner writes proofs of paths and checks them", "[proofs]") {
   // An end that is not free; no answer.
   CHECK(planner(folder, scene + " --goal 0,4,2 --proof " + proof).code == 3);
   CHECK(planner(folder, scene + " --check-proof " + proof).out == "the proof holds: blocked\n");
-  const Run none = planner(folder, planner::test::scene("s1_narrower") + " --proof " + proof);
-  CHECK(none.code == 2);
-  CHECK_THAT(none.err, Catch::Contains("only of a path"));
+  // No path, although the hole is too low by a billionth only.
+  const std::string narrower = planner::test::scene("s1_narrower");
+  CHECK(planner(folder, narrower + " --proof " + proof).code == 1);
+  CHECK(planner(folder, narrower + " --check-proof " + proof).out == "the proof holds: infeasible\n");
+  const Run wider = planner(folder, planner::test::scene("s1_tight_hole") + " --check-proof " + proof);
+  CHECK(wider.code == 1);
+  CHECK_THAT(wider.out, Catch::Contains("not those of the scene"));
   const Run bad = planner(folder, scene + " --check-proof " + folder.write("b.proof", R"({"claim": 1})"));
   CHECK(bad.code == 2);
   CHECK_THAT(bad.err, Catch::Contains("'nef_proof' is missing"));

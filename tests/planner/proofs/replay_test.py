@@ -27,6 +27,9 @@ SLOT = {"robot": "box(-2,-1/4,-1/2, 2,1/4,1/2)", "obstacles": ["box(-6,4,-6, 6,5
 SHEET = {"robot": "hull(-1,-1,-1, 1,0,0, 0,1,0, 0,0,1)", "obstacles": ["polygon((-3,3,-3),(3,3,-3),(3,3,3),(-3,3,3))"],
          "box": [[-4, -4, -4], [4, 6, 4]]}
 
+NARROW = {"robot": "box(0,0,0, 1,1,1)", "obstacles": ["box(4,0,0, 5,3,3) - box(4,1,1, 5,2,19/10)"],
+          "box": [[0, 0, 0], [8, 2, 2]], "start": [1, 1, 1], "goal": [7, 1, 1]}
+
 # A name, a scene, a path (or none: it is looked for), what is proved.
 CASES = [
     ("turning", SLOT, "0 0 0 0 0 1 1\n0 1 0 0 0 0 1\n0 9 0 0 0 0 1\n0 12 0 1 0 2 2\n", "path: all 3 motions are free"),
@@ -34,12 +37,14 @@ CASES = [
     ("found", SLOT, None, "path: all"),
     ("sheet", SHEET, "0 0 0 0 0 1 3\n0 5 0 0 0 0 1\n", "blocked: motion 0"),
     ("outside", SHEET, "0 0 0 0 0 1 3\n0 0 9 0 0 0 1\n", "blocked: pose 1 is outside"),
+    ("narrower", NARROW, None, "infeasible: "),
     ("apart", dict(SHEET, contact="forbid"), "0 0 0 0 0 1 3\n2 1 1 1 2 -1 3\n", "path: all 1 motions are free"),
 ]
 TAMPERED = 1700  # of each
 
 # What may change in a proof that still holds: it has other numbers that show the same.
-IRRELEVANT = re.compile(r"/witness/(motions/\d+(/\d+(/planes(/\d+(/(normal|robot|obstacle)(/\d)?)?)?|/until)?)?|collision/times(/\d)?)$")
+IRRELEVANT = re.compile(r"/witness/(motions/\d+(/\d+(/planes(/\d+(/(normal|robot|obstacle)(/\d)?)?)?|/until)?)?|collision/times(/\d)?|barrier/points(/\d+(/\d)?)?|"
+                        r"barrier/triangles(/\d+(/corners(/\d)?|/robot|/obstacle)?)?)$")
 
 
 def planner(*arguments):

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// 1. Triangles whose edges occur an even number of times each are a cycle modulo 2: a path that does not meet it has
+// both
+//    ends on the same side, which a ray tells by the parity of its crossings.
+// 2. Positions at which two convex pieces overlap are a convex set; if it has the corners of a triangle, it has all of
+// it.
+//    So is what lies beyond one side of the box.
+// 3. A ray through an edge or a corner tells nothing: another direction is taken.
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "apps/planner/proofs/check_parts.h"
+#include "nef/geometry/vectors.h"
+
+namespace nef::planner {
+
+bool is_flat(std::span<const Rational3> piece) {
+  std::vector<Rational3> sides;
+  for (const Rational3& p : piece) sides.push_back(minus(p, piece.front()));
+  Rational3 normal{};
+  for (const Rational3& first : sides) {
+    for (const Rational3& second : sides) {
+      if (is_zero(normal)) normal = cross(first, second);
+    }
+  }
+  return std::all_of(sides.begin(), sides.end(), [&](const Rational3& side) { return dot(normal, side) == 0; });
+}
+
+std::optional<Rational3> weighted_sum(std::span<const Rational3> points, std::span<const Rational> weights,
+                                      bool positive) {
+  if (weights.size() != points.size()) return std::nullopt;
+  Rational3 sum;
+  Rational all = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (weights[i] < 0 || (positive && weights[i] == 0)) return std::nullopt;
+    all += weights[i];
+    for (std::size_t k = 0; k < 3; ++k) sum[k] += weights[i] * points[i][k];
+  }
+  if (all != 1) return std::nullopt;
+  return sum;
+}
+
+namespace {
+
+using BarrierComplaint = std::optional<std::string>;
+using Corners = std::array<Rational3, 3>;
+
+class BarrierCheck {
+ public:
+  explicit BarrierCheck(const PathProof& proof) : claim_(proof.claim), barrier_(*proof.barrier) {}
+
+  BarrierComplaint run() {
+    if (claim_.path.size() != 2) return "the path must be two poses, start and goal";
+    for (const RigidPose& pose : claim_.path) {
+      if (pose.quaternion != Quaternion{1, 0, 0, 0}) return "start and goal must not be turned";
+    }
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> edges;
+    for (std::size_t t = 0; t < barrier_.triangles.size(); ++t) {
+      const PathProof::Triangle& triangle = barrier_.triangles[t];
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (triangle.corners[k] >= barrier_.points.size()) return "a triangle has a corner that is no point";
+        ++edges[std::minmax(triangle.corners[k], triangle.corners[(k + 1) % 3])];
+      }
+      if (!is_closed(triangle)) return "triangle " + std::to_string(t) + " may be passed";
+    }
+    for (const auto& [edge, count] : edges) {
+      if (count % 2 != 0) return "an edge is one of an odd number of triangles";
+    }
+    const std::optional<bool> start = crosses_odd(claim_.path.front().position);
+    const std::optional<bool> goal = crosses_odd(claim_.path.back().position);
+    if (!start || !goal) return "no ray misses the edges, or start or goal is on the barrier";
+    if (*start == *goal) return "start and goal are on the same side of the barrier";
+    return std::nullopt;
+  }
+
+ private:
+  [[nodiscard]] Corners corners_of(const PathProof::Triangle& triangle) const {
+    return {barrier_.points[triangle.corners[0]], barrier_.points[triangle.corners[1]],
+            barrier_.points[triangle.corners[2]]};
+  }
+
+  // Whether no position on the triangle is free.
+  [[nodiscard]] bool is_closed(const PathProof::Triangle& triangle) const {
+    const Corners corners = corners_of(triangle);
+    if (!triangle.hit) return is_beyond_a_side(corners);
+    const PathProof::Triangle::Hit& hit = *triangle.hit;
+    if (hit.robot >= claim_.robot.size() || hit.obstacle >= claim_.obstacles.size()) return false;
+    const std::vector<Rational3>& robot = claim_.robot[hit.robot];
+    const std::vector<Rational3>& obstacle = claim_.obstacles[hit.obstacle];
+    const bool open = claim_.contact == ContactRule::kAllow;
+    if (open && (is_flat(robot) || is_flat(obstacle))) return false;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto a = weighted_sum(robot, hit.common[k].robot, open);
+      const auto b = weighted_sum(obstacle, hit.common[k].obstacle, open);
+      if (!a || !b || minus(*b, *a) != corners[k]) return false;
+    }
+    return true;
+  }
+
+  [[nodiscard]] bool is_beyond_a_side(const Corners& corners) const {
+    if (!claim_.box) return false;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto below = [&](const Rational3& p) { return p[k] < (*claim_.box)[0][k]; };
+      const auto above = [&](const Rational3& p) { return p[k] > (*claim_.box)[1][k]; };
+      if (std::all_of(corners.begin(), corners.end(), below)) return true;
+      if (std::all_of(corners.begin(), corners.end(), above)) return true;
+    }
+    return false;
+  }
+
+  // Whether a ray crosses an odd number of triangles; nothing if no ray that is tried can tell.
+  [[nodiscard]] std::optional<bool> crosses_odd(const Rational3& from) const {
+    constexpr int kRays = 100;
+    for (int ray = 0; ray < kRays; ++ray) {
+      const Rational3 direction{1000, 7 + 13 * ray, 11 + 17 * ray * ray};
+      bool odd = false;
+      const bool told =
+          std::all_of(barrier_.triangles.begin(), barrier_.triangles.end(), [&](const PathProof::Triangle& triangle) {
+            const std::optional<bool> crossed = crosses(corners_of(triangle), from, direction);
+            if (crossed && *crossed) odd = !odd;
+            return crossed.has_value();
+          });
+      if (told) return odd;
+    }
+    return std::nullopt;
+  }
+
+  static std::optional<bool> crosses(const Corners& corners, const Rational3& from, const Rational3& direction) {
+    std::array<int, 3> sides{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      sides[k] = sgn(dot(direction, cross(minus(corners[k], from), minus(corners[(k + 1) % 3], from))));
+    }
+    if (*std::min_element(sides.begin(), sides.end()) < 0 && *std::max_element(sides.begin(), sides.end()) > 0) {
+      return false;  // the line misses the triangle
+    }
+    if (std::any_of(sides.begin(), sides.end(), [](int side) { return side == 0; })) return std::nullopt;
+    const Rational3 normal = cross(minus(corners[1], corners[0]), minus(corners[2], corners[0]));
+    const int height = sgn(dot(normal, minus(corners[0], from)));
+    if (height == 0) return std::nullopt;
+    return height == sgn(dot(normal, direction));
+  }
+
+  const PathProof::Claim& claim_;
+  const PathProof::Barrier& barrier_;
+};
+
+}  // namespace
+
+std::optional<std::string> complaint_about_barrier(const PathProof& proof) { return BarrierCheck(proof).run(); }
+
+}  // namespace nef::planner

@@ -26,6 +26,20 @@ std::optional<Crossings> crossings_of_name(std::string_view wanted) {
   return std::nullopt;
 }
 
+bool is_taken(Crossings rule, int winding) {
+  switch (rule) {
+    case Crossings::kUnion:
+      return winding > 0;
+    case Crossings::kOdd:
+      return winding % 2 != 0;
+    case Crossings::kRefuse:
+    case Crossings::kNonzero:
+    case Crossings::kOutside:
+      break;
+  }
+  return winding != 0;
+}
+
 const char* taken_by(Crossings rule) {
   switch (rule) {
     case Crossings::kRefuse:

@@ -31,6 +31,10 @@ const char* name(Crossings rule);
 /// The rule of that name, if there is one.
 std::optional<Crossings> crossings_of_name(std::string_view name);
 
+/// Whether a point of this winding number belongs to the solid. By kOdd and kOutside, which do without orientation,
+/// winding numbers are 0 and 1.
+bool is_taken(Crossings rule, int winding);
+
 /// What a rule takes, as a message says it: "what is enclosed at least once".
 const char* taken_by(Crossings rule);
 

@@ -41,7 +41,7 @@ class WindingFiller {
     result.highest = *high;
     if (*low == 0 && *high == 0) throw InputError(kEnclosesNothing);
     if (options_.rule == Crossings::kRefuse) check_windings(*low, *high);
-    if (options_.measure) result.volumes = volumes();
+    if (options_.measure != Measure::kNot) result.volumes = volumes();
     result.set = fill();
     if (result.set.is_empty()) throw InputError(kEnclosesNothing);
     return result;
@@ -160,20 +160,6 @@ class WindingFiller {
     }
   }
 
-  [[nodiscard]] bool is_inside(int winding) const {
-    switch (options_.rule) {
-      case Crossings::kUnion:
-        return winding > 0;
-      case Crossings::kOdd:
-        return winding % 2 != 0;
-      case Crossings::kRefuse:
-      case Crossings::kNonzero:
-      case Crossings::kOutside:
-        break;
-    }
-    return winding != 0;
-  }
-
   // Names a face that bounds a volume of a winding number that must not be.
   template <typename Wrong>
   [[noreturn]] void refuse(Wrong wrong) const {
@@ -205,7 +191,11 @@ class WindingFiller {
       for (const VolumeId v : marked.volumes.ids()) {
         marked.volumes[v].mark = v != kOuterVolume && winding_[v] == winding ? 1 : 0;
       }
-      entry.volume = nef::volume(marked).value();
+      if (options_.measure == Measure::kExactly) {
+        entry.volume = nef::volume(marked).value();
+      } else {
+        entry.measured = approximate_volume(Polyhedron(Complex(marked)), options_.threads, options_.monitor);
+      }
     }
     return result;
   }
@@ -214,7 +204,7 @@ class WindingFiller {
     Complex filled = c_;
     idle_ = false;
     for (const VolumeId v : filled.volumes.ids()) {
-      filled.volumes[v].mark = v != kOuterVolume && is_inside(winding_[v]) ? 1 : 0;
+      filled.volumes[v].mark = v != kOuterVolume && is_taken(options_.rule, winding_[v]) ? 1 : 0;
     }
     rewrite_sphere_maps(filled, [this, &filled](VertexId v, SphereMapBuffer& map) {
       for (std::uint32_t f = 0; f < map.sfaces.size(); ++f) {

@@ -19,7 +19,7 @@ struct FillOptions {
   Crossings rule = Crossings::kRefuse;
   Covering covering = Covering::kSigned;  ///< what the marks of the arrangement count
   bool inside_out = false;                ///< the faces count as if they were turned over
-  bool measure = false;                   ///< find the volumes of FilledMesh
+  Measure measure = Measure::kNot;        ///< of the volumes of FilledMesh
   unsigned threads = 1;
   Monitor monitor = {};
 };
@@ -33,8 +33,8 @@ struct FilledMesh {
 
 /// The solid that a mesh encloses by a rule, given the arrangement of its faces (arrange_faces): the closure of its
 /// interior. With kParity and kAny, winding numbers are 0 and 1. Throws InputError if nothing is enclosed, if the faces
-/// are not closed, and for Crossings::kRefuse naming a face where the winding numbers are not 0 and 1.
-/// O(n log n) for n facets, and O(idle items) for what lies between volumes with equal marks.
+/// are not closed, and for Crossings::kRefuse naming a face where the winding numbers are not 0 and 1. O(n log n) for n
+/// facets, and O(idle items) for what lies between volumes with equal marks.
 FilledMesh fill_by_winding(const Polyhedron& faces, const Mesh& mesh, const MeshSurface& surface,
                            const FillOptions& options);
 

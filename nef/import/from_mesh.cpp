@@ -98,9 +98,6 @@ void note_faces_without_area(const CheckedSurface& checked, Messages* messages) 
   messages->push_back(std::to_string(count) + (count == 1 ? " face" : " faces") + " without area left out");
 }
 
-// Whether the volumes of a ResolvedMesh are wanted.
-enum class Measured : std::uint8_t { kNo, kYes };
-
 // One line about what a rule had to decide.
 void note_rule(const ResolvedMesh& made, const FilledMesh& filled, Crossings rule, Messages* messages) {
   if (messages == nullptr || rule == Crossings::kRefuse) return;
@@ -133,12 +130,24 @@ ResolvedMesh arranged(const Mesh& mesh, const MeshSurface& surface, std::span<co
   return result;
 }
 
-ResolvedMesh solid(CheckedSurface&& checked, const MeshOptions& options, Messages* messages, Measured measured) {
+// Of a solid by itself.
+WindingVolume measured(const Polyhedron& set, Measure measure, const MeshOptions& options) {
+  WindingVolume result;
+  for (const Volume& each : set.complex().volumes) result.parts += each.mark != 0 ? 1 : 0;
+  if (measure == Measure::kExactly) {
+    result.volume = volume(set).value();
+  } else {
+    result.measured = approximate_volume(set, options.threads, options.monitor);
+  }
+  return result;
+}
+
+ResolvedMesh solid(CheckedSurface&& checked, const MeshOptions& options, Messages* messages, Measure measure) {
   note_faces_without_area(checked, messages);
   const FillOptions fill{.rule = options.crossings,
                          .covering = covering_for(options.crossings),
                          .inside_out = checked.inside_out() && options.crossings != Crossings::kRefuse,
-                         .measure = measured == Measured::kYes,
+                         .measure = measure,
                          .threads = options.threads,
                          .monitor = options.monitor};
   if (checked.in_contact()) {
@@ -151,8 +160,7 @@ ResolvedMesh solid(CheckedSurface&& checked, const MeshOptions& options, Message
   if (clean) {
     if (messages != nullptr) messages->insert(messages->end(), notes.begin(), notes.end());
     result.set = *std::move(clean);
-    if (measured == Measured::kYes)
-      result.volumes[1] = {result.set.complex().volume_count() - 1, volume(result.set).value()};
+    if (measure != Measure::kNot) result.volumes[1] = measured(result.set, measure, options);
     return result;
   }
   if (options.crossings == Crossings::kRefuse) refuse_components(checked.mesh(), options.monitor);
@@ -190,21 +198,21 @@ Polyhedron from_mesh(const Mesh& mesh, const MeshOptions& options, Messages* mes
   if (!result) {
     notes.clear();
     result = solid(CheckedSurface(mesh, CheckedSurface::Extent::kAll, options.crossings, options.monitor), options,
-                   &notes, Measured::kNo)
+                   &notes, Measure::kNot)
                  .set;
   }
   if (messages != nullptr) messages->insert(messages->end(), notes.begin(), notes.end());
   return *std::move(result);
 }
 
-ResolvedMesh resolve_mesh(const Mesh& mesh, const MeshOptions& options, Messages* messages) {
+ResolvedMesh resolve_mesh(const Mesh& mesh, const MeshOptions& options, Messages* messages, Measure measure) {
   if (mesh.face_count() == 0) {
     ResolvedMesh empty;
     empty.set = without_faces(mesh, messages);
     return empty;
   }
   return solid(CheckedSurface(mesh, CheckedSurface::Extent::kAll, options.crossings, options.monitor), options,
-               messages, Measured::kYes);
+               messages, measure);
 }
 
 std::variant<Polyhedron, MeshRefusal> try_from_mesh(const Mesh& mesh, const MeshOptions& options, Messages* messages) {

@@ -2,14 +2,15 @@
 //
 // A sequence of steps on rings of vertices, each of which keeps what the steps before have done: merge equal vertices,
 // drop copies, drop faces without area, make corners where a vertex of the border lies in an open side, turn faces to
-// fit their neighbours (breadth first; the larger part of a component keeps its direction), fill planar holes, turn
-// components by how many others contain them. The result is imported once to say whether it bounds a solid. No vertex
-// is moved or made.
+// fit their neighbours (breadth first; the larger part of a component keeps its direction), put lids on holes, turn
+// components by how many others contain them. The result is imported once to say whether it bounds a solid, by the rule
+// for crossings if there is one. No vertex is moved, and none is made but by that rule.
 #include "nef/import/repair.h"
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstdio>
 #include <map>
 #include <optional>
 #include <set>
@@ -18,11 +19,13 @@
 
 #include "nef/base/error.h"
 #include "nef/base/union_find.h"
-#include "nef/geometry/vectors.h"
 #include "nef/import/doubled_faces.h"
+#include "nef/import/lids.h"
 #include "nef/import/try_from_mesh.h"
+#include "nef/import/winding_report.h"
 #include "nef/mesh/edge_order.h"
 #include "nef/mesh/surface/mesh_surface.h"
+#include "nef/mesh/surface/surface_contacts.h"
 #include "nef/mesh/vertex_merger.h"
 #include "nef/polyhedron.h"
 
@@ -78,16 +81,40 @@ class Repairer {
     drop_faces_without_area();
     split_sides();
     turn_to_neighbours();
-    fill_holes();
-    turn_components();
     RepairedMesh result;
+    close_holes(result);
+    turn_components();
     result.mesh = mesh_of(vertices_, rings_);
     result.done = std::move(done_);
-    result.problem = rings_.empty() ? "no face is left of the mesh" : refusal(result.mesh, monitor_);
+    if (rings_.empty()) {
+      result.problem = "no face is left of the mesh";
+    } else if (options_.crossings == Crossings::kRefuse) {
+      result.problem = refusal(result.mesh, monitor_);
+    } else {
+      resolve(result);
+    }
     return result;
   }
 
  private:
+  void resolve(RepairedMesh& result) const {
+    const MeshOptions options{.crossings = options_.crossings, .threads = options_.threads, .monitor = monitor_};
+    try {
+      ResolvedMesh resolved = resolve_mesh(result.mesh, options, nullptr, Measure::kDoubles);
+      if (resolved.crossing_pairs == 0 && is_plain(resolved)) return;
+      for (std::string& line : lines_about(resolved, options_.crossings)) result.done.push_back(std::move(line));
+      result.resolved = std::move(resolved);
+    } catch (const InputError& error) {
+      result.problem = error.what();
+    }
+  }
+
+  // Whether everything is enclosed once or not at all.
+  static bool is_plain(const ResolvedMesh& resolved) {
+    return std::all_of(resolved.volumes.begin(), resolved.volumes.end(),
+                       [](const auto& entry) { return entry.first == 0 || entry.first == 1; });
+  }
+
   void note(std::size_t count, const char* one, const char* many, const char* what) {
     if (count > 0) done_.push_back(counted(count, one, many) + " " + what);
   }
@@ -193,13 +220,14 @@ class Repairer {
     return uses;
   }
 
-  // Breadth first over sides of two faces; the larger part of a component keeps its direction.
-  // A wall between two solids has both directions, and the faces beside it are each other's neighbours.
+  // Breadth first over sides of two faces; the larger part of a component keeps its direction. A wall between two
+  // solids has both directions, and the faces beside it are each other's neighbours.
   void turn_to_neighbours() {
     const std::vector<bool> is_wall = doubled(rings_);
     const Uses uses = uses_of_sides(is_wall);
     enum class State : std::uint8_t { kUnknown, kKept, kTurned };
     std::vector<State> state(rings_.size(), State::kUnknown);
+    turned_.assign(rings_.size(), false);
     std::size_t turned = 0;
     for (std::uint32_t first = 0; first < rings_.size(); ++first) {
       if (state[first] != State::kUnknown || is_wall[first]) continue;
@@ -226,46 +254,43 @@ class Repairer {
       for (const std::uint32_t f : part) {
         if (state[f] != to_turn) continue;
         std::reverse(rings_[f].begin(), rings_[f].end());
+        turned_[f] = true;
         ++turned;
       }
     }
     note(turned, "face", "faces", "turned to fit the neighbours");
   }
 
-  // The border as loops, against the direction of the faces along it.
-  [[nodiscard]] std::vector<Ring> border_loops() const {
-    std::multimap<std::uint32_t, std::uint32_t> next;
-    for (const auto& [key, list] : uses_of_sides()) {
-      if (list.size() != 1) continue;
-      const auto low = static_cast<std::uint32_t>(key >> 32U);
-      const auto high = static_cast<std::uint32_t>(key & 0xffffffffU);
-      next.emplace(list[0].forward ? high : low, list[0].forward ? low : high);
+  void close_holes(RepairedMesh& result) {
+    if (options_.fill_holes) {
+      const Lids flat = lids_for(vertices_, rings_, LidShape::kFlat, monitor_);
+      put_on(flat);
+      note(flat.holes, "planar hole", "planar holes", "filled");
     }
-    std::vector<Ring> loops;
-    while (!next.empty()) {
-      Ring loop;
-      std::uint32_t at = next.begin()->first;
-      for (auto step = next.find(at); step != next.end(); step = next.find(at)) {
-        loop.push_back(at);
-        at = step->second;
-        next.erase(step);
-      }
-      if (at == loop.front()) loops.push_back(std::move(loop));
+    if (options_.close_percent <= 0) {
+      result.holes = border_loops(rings_).size();
+      return;
     }
-    return loops;
+    const Lids lids = lids_for(vertices_, rings_, LidShape::kAny, monitor_);
+    result.holes = lids.holes;
+    result.flat_holes = lids.flat;
+    result.lid_share = lids.share;
+    result.has_lids = lids.holes > 0 && 100 * lids.share <= options_.close_percent;
+    if (!result.has_lids) return;
+    put_on(lids);
+    done_.push_back(counted(lids.holes, "hole", "holes") + " closed by lids of " + percent_text(lids.share) +
+                    " of the area, " + std::to_string(lids.flat) + " of them flat: a guess");
   }
 
-  void fill_holes() {
-    if (!options_.fill_holes) return;
-    std::size_t filled = 0;
-    for (Ring& loop : border_loops()) {
-      const Mesh lid = mesh_of(vertices_, {loop});
-      const MeshSurface surface(lid, monitor_);
-      if (surface.defects[0] != FaceDefect::kNone || !surface.planar[0]) continue;
-      rings_.push_back(std::move(loop));
-      ++filled;
-    }
-    note(filled, "planar hole", "planar holes", "filled");
+  static std::string percent_text(double share) {
+    std::array<char, 32> text{};
+    static_cast<void>(std::snprintf(text.data(), text.size(), "%.2g %%", 100 * share));
+    return text.data();
+  }
+
+  void put_on(const Lids& lids) {
+    rings_.insert(rings_.end(), lids.faces.begin(), lids.faces.end());
+    turned_.resize(rings_.size(), false);
   }
 
   struct Component {
@@ -273,6 +298,8 @@ class Repairer {
     std::optional<Polyhedron> solid;  // nothing if it bounds none
     std::array<Rational3, 2> box;     // of the solid
     bool inward = false;
+    bool apart = true;    // crosses no other
+    bool turned = false;  // some faces were turned, so how it was turned says little
   };
 
   // Faces that share sides.
@@ -288,41 +315,57 @@ class Repairer {
     return result;
   }
 
-  [[nodiscard]] Rational signed_volume(const Component& component) const {
-    Rational sum;
-    for (const std::uint32_t f : component.faces) {
-      const Ring& ring = rings_[f];
-      for (std::size_t i = 1; i + 1 < ring.size(); ++i) {
-        sum += dot(vertices_[ring[0]], cross(vertices_[ring[i]], vertices_[ring[i + 1]]));
-      }
-    }
-    return sum;
-  }
-
   void turn_components() {
     std::vector<Component> list = components();
-    for (Component& component : list) {
-      std::vector<Ring> rings;
-      for (const std::uint32_t f : component.faces) rings.push_back(rings_[f]);
-      std::variant<Polyhedron, MeshRefusal> made = try_from_mesh(mesh_of(vertices_, rings), {.monitor = monitor_});
-      auto* solid = std::get_if<Polyhedron>(&made);
-      if (solid == nullptr) continue;
-      component.solid = std::move(*solid);
-      component.box = bounding_box(*component.solid, monitor_).value();
-      component.inward = signed_volume(component) < 0;
-    }
+    if (list.size() > 1) find_crossing(list);
+    for (Component& component : list) make_solid(component);
     std::size_t turned = 0;
     for (const Component& component : list) {
-      if (!component.solid) continue;
+      if (!component.solid || !component.apart) continue;
       std::size_t around = 0;
       for (const Component& other : list) {
         if (&other != &component && other.solid && encloses(other, component)) ++around;
       }
       if (component.inward == (around % 2 == 1)) continue;
+      if (!component.inward && !component.turned && options_.crossings != Crossings::kRefuse) continue;
       ++turned;
       for (const std::uint32_t f : component.faces) std::reverse(rings_[f].begin(), rings_[f].end());
     }
     note(turned, "component", "components", "turned over");
+  }
+
+  // By winding numbers other than 0, if they have the same sign everywhere.
+  void make_solid(Component& component) const {
+    std::vector<Ring> rings;
+    for (const std::uint32_t f : component.faces) {
+      rings.push_back(rings_[f]);
+      component.turned = component.turned || turned_[f];
+    }
+    const MeshOptions options{.crossings = Crossings::kNonzero, .threads = options_.threads, .monitor = monitor_};
+    try {
+      ResolvedMesh resolved = resolve_mesh(mesh_of(vertices_, rings), options, nullptr, Measure::kDoubles);
+      if (resolved.volumes.begin()->first < 0) return;
+      component.solid = std::move(resolved.set);
+      component.box = bounding_box(*component.solid, monitor_).value();
+      component.inward = resolved.inside_out;
+    } catch (const InputError&) {
+      // It bounds nothing.
+    }
+  }
+
+  // Which components cross others.
+  void find_crossing(std::vector<Component>& list) const {
+    std::vector<std::uint32_t> number(rings_.size());
+    for (std::uint32_t c = 0; c < list.size(); ++c) {
+      for (const std::uint32_t f : list[c].faces) number[f] = c;
+    }
+    const MeshSurface surface(mesh_of(vertices_, rings_), monitor_);
+    for (const FaceContact& contact : face_contacts(surface, SurfaceContacts(surface, monitor_))) {
+      // Faces overlap, too, where a component that is inside out stands on another one.
+      const bool crosses = contact.kind == SurfaceContacts::Kind::kCross;
+      if (!crosses || number[contact.f] == number[contact.g]) continue;
+      list[number[contact.f]].apart = list[number[contact.g]].apart = false;
+    }
   }
 
   static bool in_box(const Rational3& p, const std::array<Rational3, 2>& box) {
@@ -348,13 +391,18 @@ class Repairer {
   RepairOptions options_;
   Monitor monitor_;
   std::vector<Ring> rings_;
+  std::vector<bool> turned_;  // of each ring: to fit its neighbours
   std::vector<std::string> done_;
 };
 
 }  // namespace
 
 RepairedMesh repair_mesh(const Mesh& mesh, const RepairOptions& options, const Monitor& monitor) {
-  if (refusal(mesh, monitor).empty()) return {mesh, {}, ""};
+  if (refusal(mesh, monitor).empty()) {
+    RepairedMesh sound;
+    sound.mesh = mesh;
+    return sound;
+  }
   return Repairer(mesh, options, monitor).run();
 }
 

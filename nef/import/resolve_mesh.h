@@ -21,7 +21,8 @@ struct ResolvedMesh {
 /// What from_mesh makes of a mesh, without its shortcuts, and the volume for each winding number: the sum of number
 /// times volume is the volume that the faces enclose with their signs. By Crossings::kOdd and kOutside, which do
 /// without orientation, the numbers are 0 and 1. Throws InputError like from_mesh; `as_surface` and `check` are not
-/// read. O(n log n) for few contacts, with exact rational sums over the faces.
-ResolvedMesh resolve_mesh(const Mesh& mesh, const MeshOptions& options, Messages* messages = nullptr);
+/// read. O(n log n) for few contacts, and what measuring takes.
+ResolvedMesh resolve_mesh(const Mesh& mesh, const MeshOptions& options, Messages* messages = nullptr,
+                          Measure measure = Measure::kExactly);
 
 }  // namespace nef

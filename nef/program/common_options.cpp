@@ -37,19 +37,23 @@ void add_run_options(CLI::App& app, bool& json, bool& quiet, unsigned& threads) 
       ->capture_default_str();
 }
 
-void add_mesh_input_options(CLI::App& app, MeshOptions& options) {
-  app.add_flag("--strict", options.strict, "Refuse meshes with faces that are not exactly planar");
-  app.add_flag("--as-surface", options.as_surface, "Take meshes as two-dimensional sets; they may be open");
-  options.crossings = Crossings::kUnion;
+void add_crossings_option(CLI::App& app, Crossings& rule) {
+  rule = Crossings::kUnion;
   std::map<std::string, Crossings> rules;
-  for (const Crossings rule : kAllCrossings) rules.emplace(name(rule), rule);
-  app.add_option("--crossings", options.crossings,
+  for (const Crossings each : kAllCrossings) rules.emplace(name(each), each);
+  app.add_option("--crossings", rule,
                  "What is inside of a mesh that crosses itself: refuse (an error), union (what is enclosed at least "
                  "once; default), nonzero (also what is inside out), odd (overlaps are cavities), outside (what cannot "
                  "be reached from outside)")
       ->type_name("RULE")
       ->transform(CLI::CheckedTransformer(rules).description(""))
       ->default_str("union");
+}
+
+void add_mesh_input_options(CLI::App& app, MeshOptions& options) {
+  app.add_flag("--strict", options.strict, "Refuse meshes with faces that are not exactly planar");
+  app.add_flag("--as-surface", options.as_surface, "Take meshes as two-dimensional sets; they may be open");
+  add_crossings_option(app, options.crossings);
 }
 
 void add_manifold_option(CLI::App& app, bool& manifold) {

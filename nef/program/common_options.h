@@ -3,6 +3,7 @@
 // Options that all programs have, in the same words.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 namespace CLI {
@@ -13,6 +14,7 @@ class Validator;
 namespace nef {
 
 struct MeshOptions;
+enum class Crossings : std::uint8_t;
 
 /// Checks of numbers, which say what is needed rather than where doubles end.
 CLI::Validator positive();
@@ -21,8 +23,10 @@ CLI::Validator not_negative();
 /// --json, -q and --threads.
 void add_run_options(CLI::App& app, bool& json, bool& quiet, unsigned& threads);
 
-/// --strict, --as-surface and --crossings: how meshes are read. Sets the rule for crossings that programs have unless
-/// told otherwise: union.
+/// --crossings: the rule for faces that cross. Sets the one that programs have unless told otherwise: union.
+void add_crossings_option(CLI::App& app, Crossings& rule);
+
+/// --strict, --as-surface and --crossings: how meshes are read.
 void add_mesh_input_options(CLI::App& app, MeshOptions& options);
 
 /// How meshes are written, whatever the format (see PolyhedronWriteOptions).

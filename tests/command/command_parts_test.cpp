@@ -106,6 +106,44 @@ TEST_CASE("repair says what it did, and whether that was enough") {
   CHECK(read_mesh(here.file("c.off")).face_count() == 5);
   CHECK(here.nef("repair open.off -o c.off --fill-holes").code == 0);
   CHECK(here.nef("info c.off --json").json()["result"]["volume"] == "8");
+  // A side is a sixth of the area.
+  const Outcome large = here.nef("repair open.off -o d.off --close");
+  CHECK(large.code == 1);
+  CHECK(large.out.find("lids for its hole are more than 10 % of the area, --close=17 accepts them") !=
+        std::string::npos);
+  const Outcome closed = here.nef("repair open.off -o d.nef --close=17 --json");
+  CHECK(closed.code == 0);
+  CHECK(closed.json()["holes"]["count"] == 1);
+  CHECK(closed.json()["holes"]["flat"] == 1);
+  CHECK(closed.json()["holes"]["closed"] == true);
+  CHECK(closed.json()["crossings"].is_null());
+  CHECK(here.nef("equal c.off d.nef").code == 0);
+  CHECK(here.nef("repair open.off -o e.nef").code == 1);
+  CHECK_FALSE(std::filesystem::exists(here / "e.nef"));
+  check_refused(here.nef("repair open.off -o e.off --close=200"), "--close");
+}
+
+TEST_CASE("repair resolves faces that cross by a rule, and reports what it counted") {
+  const Workplace here;
+  here.write(
+      "two.off",
+      "OFF\n8 8 0\n0 0 0\n4 0 0\n0 4 0\n0 0 4\n1 1 -1\n5 1 -1\n1 5 -1\n1 1 3\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n"
+      "3 4 6 5\n3 4 5 7\n3 5 6 7\n3 4 7 6\n");
+  CHECK(here.nef("repair two.off -o refused.off --crossings refuse").code == 1);
+  const Outcome outcome = here.nef("repair two.off -o two.nef --json");
+  REQUIRE(outcome.code == 0);
+  test::check_report_shape(outcome.json(), "repair");
+  // Corners of edge 4, of which the second is shifted by 1, 1, -1: they have one of edge 2 in common.
+  const nlohmann::json crossings = outcome.json()["crossings"];
+  CHECK(crossings["rule"] == "union");
+  CHECK(crossings["pairs"] == 4);
+  REQUIRE(crossings["volumes"].size() == 2);
+  CHECK(crossings["volumes"][1]["winding_number"] == 2);
+  CHECK(crossings["volumes"][1]["parts"] == 1);
+  CHECK(crossings["volumes"][1]["volume"].get<double>() == Approx(4.0 / 3));
+  CHECK(here.nef("info two.nef --json").json()["result"]["volume"] == "20");  // 2 * 64 / 6 - 8 / 6
+  REQUIRE(here.nef("repair two.off -o odd.off --crossings odd").code == 0);
+  CHECK(here.nef("info odd.off --json").json()["result"]["volume"] == "56/3");
 }
 
 TEST_CASE("drawings and STL files of nothing are such that other programs read them") {

@@ -179,6 +179,164 @@ TEST_CASE("Planar holes are filled when asked", "[repair]") {
   check_repaired(open, set, fill);
 }
 
+namespace {
+
+// The meshes of some solids as one.
+Mesh together(const std::vector<Polyhedron>& sets) {
+  Mesh result;
+  for (const Polyhedron& set : sets) {
+    const Mesh mesh = mesh_of(set);
+    const auto first = static_cast<std::uint32_t>(result.vertices.size());
+    result.vertices.insert(result.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
+    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+      std::vector<std::uint32_t> ring;
+      for (const std::uint32_t v : mesh.face(f)) ring.push_back(first + v);
+      result.push_face(ring);
+    }
+  }
+  return result;
+}
+
+// Turns the faces from `first` on.
+Mesh turned_over(const Mesh& mesh, std::size_t first) {
+  return changed(mesh, [&](auto& rings) {
+    for (std::size_t f = first; f < rings.size(); ++f) std::reverse(rings[f].begin(), rings[f].end());
+  });
+}
+
+constexpr RepairOptions kUniting{.crossings = Crossings::kUnion};
+
+}  // namespace
+
+TEST_CASE("Faces that cross are resolved by the rule, and it is said what is counted how", "[repair][crossings]") {
+  const Polyhedron a = make_box({0, 0, 0}, {2, 2, 2});
+  const Polyhedron b = make_box({1, 1, 1}, {3, 3, 3});
+  const Polyhedron apart = make_box({7, 0, 0}, {8, 1, 1});
+  const std::size_t faces = mesh_of(a).face_count();
+
+  const RepairedMesh both = repair_mesh(together({a, b}), kUniting);
+  REQUIRE(both.resolved);
+  CHECK(both.problem.empty());
+  CHECK(equal(both.resolved->set, unite(a, b)));
+  REQUIRE(both.done.size() == 2);
+  CHECK(both.done[0].find("pairs of faces cross: what is enclosed at least once is taken") != std::string::npos);
+  CHECK(both.done[1] == "1 part (volume 1, 6.67 %) is enclosed twice and counts once");
+  CHECK(both.resolved->volumes.at(2).measured.value == Approx(1));
+  CHECK_FALSE(repair_mesh(together({a, b})).problem.empty());
+
+  // What crosses nothing and is inside out is turned over, what crosses others is left as it is.
+  const RepairedMesh three = repair_mesh(turned_over(together({a, b, apart}), 2 * faces), kUniting);
+  REQUIRE(three.resolved);
+  CHECK(three.done[0] == "1 component turned over");
+  CHECK(equal(three.resolved->set, unite(unite(a, b), apart)));
+  const RepairedMesh less = repair_mesh(turned_over(together({make_box({0, 0, 0}, {4, 4, 4}), b}), faces), kUniting);
+  CHECK(less.resolved.has_value() == false);  // b lies in the other box: a cavity
+  const RepairedMesh minus = repair_mesh(turned_over(together({make_box({0, 0, 0}, {5, 2, 2}), b}), faces), kUniting);
+  REQUIRE(minus.resolved);
+  CHECK(equal(minus.resolved->set, regularize(subtract(make_box({0, 0, 0}, {5, 2, 2}), b))));
+  CHECK(minus.done.back() == "1 part (volume 6, 33.3 %) is inside out and is left out");
+
+  // A skin that is doubled is dropped before faces are counted.
+  const Mesh doubled = changed(together({a, b}), [](auto& rings) {
+    for (std::size_t f = 0, n = rings.size(); f < n; ++f) rings.emplace_back(rings[f].rbegin(), rings[f].rend());
+  });
+  const RepairedMesh once = repair_mesh(doubled, kUniting);
+  REQUIRE(once.resolved);
+  CHECK(equal(once.resolved->set, unite(a, b)));
+}
+
+TEST_CASE("A component that stands on another one is turned over", "[repair][crossings]") {
+  const Polyhedron a = make_box({0, 0, 0}, {4, 4, 1});
+  const Polyhedron b = make_box({1, 1, 1}, {2, 2, 2});
+  const Mesh mesh = turned_over(together({a, b}), mesh_of(a).face_count());
+  for (const RepairOptions& options : {RepairOptions(), kUniting}) check_repaired(mesh, unite(a, b), options);
+}
+
+TEST_CASE("A component inside of another one is a cavity if it is turned like one", "[repair][crossings]") {
+  const Polyhedron outer = make_box({0, 0, 0}, {9, 9, 9});
+  const Polyhedron inner = make_box({2, 2, 2}, {5, 5, 5});
+  const std::size_t faces = mesh_of(outer).face_count();
+  const RepairedMesh filled = repair_mesh(together({outer, inner}), kUniting);
+  REQUIRE(filled.resolved);
+  CHECK(equal(filled.resolved->set, outer));
+  CHECK(filled.done.back() == "1 part (volume 27, 3.7 %) is enclosed twice and counts once");
+  check_repaired(together({outer, inner}), regularize(subtract(outer, inner)));  // without a rule
+  // With some faces turned, how it is turned says nothing.
+  const Mesh mixed =
+      changed(together({outer, inner}), [&](auto& rings) { std::reverse(rings[faces].begin(), rings[faces].end()); });
+  check_repaired(mixed, regularize(subtract(outer, inner)), kUniting);
+}
+
+TEST_CASE("Soups of tetrahedra with faces turned and doubled become their union", "[repair][crossings]") {
+  std::mt19937 random(5);
+  int resolved = 0;
+  for (int round = 0; round < 40; ++round) {
+    std::vector<Polyhedron> sets;
+    while (sets.size() < 4) {
+      std::vector<Rational3> corners;
+      for (int i = 0; i < 4; ++i) {
+        corners.push_back({static_cast<long>(random() % 1000), static_cast<long>(random() % 1000),
+                           static_cast<long>(random() % 1000)});
+      }
+      const Polyhedron set = convex_hull(corners);
+      const bool nested = std::any_of(sets.begin(), sets.end(), [&](const Polyhedron& other) {
+        return subtract(set, other).is_empty() || subtract(other, set).is_empty();
+      });
+      if (set.is_regular() && !nested) sets.push_back(set);
+    }
+    const Mesh damaged = changed(together(sets), [&](auto& rings) {
+      for (std::size_t f = 0, n = rings.size(); f < n; f += 4) {
+        std::vector<std::uint32_t>& ring = rings[f + random() % 4];
+        std::vector<std::uint32_t> copy = ring;
+        if (random() % 2 == 0) std::reverse(ring.begin(), ring.end());
+        if (random() % 2 == 0) rings.push_back(std::move(copy));
+      }
+    });
+    CAPTURE(round);
+    const RepairedMesh repaired = repair_mesh(damaged, kUniting);
+    CHECK(repaired.problem == "");
+    resolved += repaired.resolved ? 1 : 0;
+    CHECK(equal(repaired.resolved ? repaired.resolved->set : from_mesh(repaired.mesh), regularize(unite_all(sets))));
+  }
+  CHECK(resolved > 20);
+}
+
+TEST_CASE("Holes get lids if these are small", "[repair][lids]") {
+  const Polyhedron cube = make_box({0, 0, 0}, {2, 2, 2});
+  MeshExportOptions polygons;
+  polygons.keep_polygons = true;
+  const Mesh open = changed(to_mesh(cube, polygons).mesh, [](auto& rings) { rings.pop_back(); });
+  const RepairedMesh kept = repair_mesh(open, {.close_percent = 10});
+  CHECK_FALSE(kept.problem.empty());
+  CHECK_FALSE(kept.has_lids);
+  CHECK(kept.holes == 1);
+  CHECK(kept.lid_share == Approx(1.0 / 6));
+  const RepairedMesh closed = repair_mesh(open, {.close_percent = 17});
+  CHECK(closed.has_lids);
+  CHECK(closed.flat_holes == 1);
+  CHECK(closed.done.back() == "1 hole closed by lids of 17 % of the area, 1 of them flat: a guess");
+  CHECK(equal(from_mesh(closed.mesh), cube));
+
+  // A corner of a cube is missing: the least lid is the triangle, and the cube loses a tetrahedron.
+  const Mesh corner = changed(mesh_of(cube), [](auto& rings) {
+    rings.erase(std::remove_if(rings.begin(), rings.end(),
+                               [](const auto& ring) { return std::find(ring.begin(), ring.end(), 0U) != ring.end(); }),
+                rings.end());
+  });
+  const RepairedMesh cut = repair_mesh(corner, {.close_percent = 60});
+  INFO(cut.problem);
+  REQUIRE(cut.problem.empty());
+  const Polyhedron less = from_mesh(cut.mesh);
+  CHECK(subtract(less, cube).is_empty());
+  CHECK(volume(less) < 8);
+  CHECK(less.complex().vertex_count() == 7);
+
+  // A sheet lies between its lid and itself.
+  const Mesh sheet = read_off("OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n", "sheet.off");
+  CHECK(repair_mesh(sheet, {.close_percent = 100, .crossings = Crossings::kUnion}).problem ==
+        "the faces of the mesh enclose nothing");
+}
+
 TEST_CASE("What can not be repaired is told", "[repair]") {
   const Mesh crossing = read_off(
       "OFF\n8 8 0\n0 0 0\n4 0 0\n0 4 0\n0 0 4\n1 1 -1\n5 1 -1\n1 5 -1\n1 1 3\n"

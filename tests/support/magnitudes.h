@@ -20,6 +20,9 @@ inline constexpr std::array kExponents{-1400L, -1074L, -1060L, -1030L, -700L, -6
                                        265L,   268L,   300L,   341L,   342L,  343L,  346L,  350L,  355L,  400L,  512L,
                                        516L,   530L,   664L,   900L,   1015L, 1022L, 1025L, 1400L};
 
+/// Some of these, for what takes long.
+inline constexpr std::array kFewExponents{-1074L, -1030L, -520L, -350L, 172L, 342L, 348L, 513L, 530L, 1025L};
+
 inline Rational power_of_two(long exponent) {
   Rational result = 1;
   if (exponent >= 0) {

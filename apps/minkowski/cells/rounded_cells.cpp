@@ -10,7 +10,8 @@ namespace nef::minkowski {
 // For vertices within 2u*size (nearest doubles are within u relative), two edges a, b of a face of
 // extent L have components within e = 8u*size of the truth, so a component of a x b is within
 // 2 (2 L e + e^2) + 6u L^2; a third vector of extent M, within e likewise, gives a form within
-// 3 (M (4.1 L e + 6u L^2) + 2 L^2 e) + 12u * 6 L^2 M. M is at most 2 size. Any e > L/8 is refused.
+// 3 (M (4.1 L e + 6u L^2) + 2 L^2 e) + 12u * 6 L^2 M. M is at most 2 size. Any e > L/8 is refused. For moderate sizes
+// L is above 2^-250 then: nothing overflows, and what vanishes is far below the last term.
 RoundedFace rounded_plane(const Double3& o, const Double3& p, const Double3& q, double size) {
   Double3 a{};
   Double3 b{};
@@ -25,7 +26,7 @@ RoundedFace rounded_plane(const Double3& o, const Double3& p, const Double3& q, 
   RoundedFace face;
   face.origin = o;
   face.normal = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-  face.slack = e * 8 > extent
+  face.slack = e * 8 > extent || !has_moderate_size(size)
                    ? std::numeric_limits<double>::infinity()
                    : 1.1 * (3 * (reach * (4.5 * extent * e + 6 * kUnit * extent * extent) + 2 * extent * extent * e) +
                             72 * kUnit * extent * extent * reach) +

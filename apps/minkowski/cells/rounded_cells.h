@@ -17,6 +17,11 @@ namespace nef::minkowski {
 /// The unit of roundoff of doubles.
 inline constexpr double kUnit = 0x1p-53;
 
+/// True if products of three coordinates of sets of this size neither overflow nor lose digits that matter: what lies
+/// in a set is only computed to parts of 2^-53 of its size, so what is below 2^-1022 there is far below that. The
+/// bounds of this folder, of unions and of convolutions hold for such sizes; others are left to exact ways.
+inline bool has_moderate_size(double size) { return size > 0x1p-200 && size < 0x1p200; }
+
 /// True if `inner` lies in `outer`.
 inline bool box_holds(const Box& outer, const Box& inner) {
   for (std::size_t k = 0; k < 3; ++k) {
@@ -38,7 +43,8 @@ struct RoundedFace {
 };
 
 /// The plane of three points that turn counterclockwise from outside, each within 2u `size` of the truth in every
-/// coordinate, and none larger than `size`. Its slack is infinite if they are too close to tell.
+/// coordinate, and none larger than `size`. Its slack is infinite if they are too close to tell, or the size is not
+/// moderate.
 RoundedFace rounded_plane(const Double3& o, const Double3& p, const Double3& q, double size);
 
 /// Vertices, faces and boxes of a set of cells, flat. O(n) to build.

@@ -145,6 +145,7 @@ std::optional<Polyhedron> convolution_sum(const Polyhedron& set_a, const Polyhed
   // Shares of the time are measured, for the bar only.
   constexpr double kOfIntervals = 0.2;
   const RoundedFacets rounded(facets);
+  if (!rounded.are_proven()) return decline("coordinates are too large or too small for doubles");
   IntervalOptions how;
   how.passages = !is_closed;
   how.threads = options.threads;

@@ -39,10 +39,10 @@ struct ConvolutionOptions {
 /// A + B for two such sets; nothing if the options ask for that. The facets
 /// of the reduced convolution are arranged, without what is surely inside; what regions they leave is inside if it is
 /// just behind a facet, and the others are tested: x is in A + B iff A meets x - B. If A or B lacks something of its
-/// boundary, so may the sum, and passages as narrow as what passes (BoundaryMarker). Nothing also for these, all rare,
-/// of sets that are not closed: edges with more than one wedge where neither set is convex; a single point in a facet
-/// that is marked unlike it; a facet that is not in the set with an edge or vertex that is, and something parallel to
-/// it.
+/// boundary, so may the sum, and passages as narrow as what passes (BoundaryMarker). Nothing also for sums whose size
+/// is not between 2^-200 and 2^200 (has_moderate_size), and for these, all rare, of sets that are not closed: edges
+/// with more than one wedge where neither set is convex; a single point in a facet that is marked unlike it; a facet
+/// that is not in the set with an edge or vertex that is, and something parallel to it.
 std::optional<Polyhedron> convolution_sum(const Polyhedron& a, const Polyhedron& b, const ConvolutionOptions& options,
                                           ConvolutionReport& report);
 

@@ -17,7 +17,8 @@
 namespace nef::minkowski {
 namespace {
 
-// A height in doubles, with a bound of its error. All inputs are within 4 units of roundoff (2^-53).
+// A height in doubles, with a bound of its error. All inputs are within 4 units of roundoff (2^-53), and within 2^-1074
+// if they are below 2^-1022, which the last terms cover.
 struct Estimate {
   double value = 0;
   double error = 0;
@@ -33,8 +34,8 @@ Estimate estimate(const std::array<double, 2>& u, const std::array<double, 2>& h
   const double share_error = 18 * kUnit * largest / span + 4 * kUnit;
   Estimate result;
   result.value = h[0] + rise * share;
-  result.error = 2 * (std::fabs(rise) * share_error + 24 * kUnit * height);
-  if (!(span > 32 * kUnit * largest)) result.error = std::numeric_limits<double>::infinity();
+  result.error = 2 * (std::fabs(rise) * share_error + 24 * kUnit * height) + 1e-290;
+  if (!(span > 32 * kUnit * largest + 1e-250)) result.error = std::numeric_limits<double>::infinity();
   return result;
 }
 

@@ -336,6 +336,7 @@ std::optional<Polyhedron> try_unite_solids(std::span<const ConvexCell> cells, co
   std::size_t& count = dropped != nullptr ? *dropped : unused;
   if (cells.empty()) return Polyhedron();
   const RoundedCells rounded(cells);
+  if (!has_moderate_size(rounded.extent())) return std::nullopt;
   const std::vector<bool> repeated = repeated_cells(cells, rounded);
   const auto repeats = static_cast<std::size_t>(std::count(repeated.begin(), repeated.end(), true));
   if (repeats == 0) return unite_different(cells, rounded, options, count);
@@ -355,8 +356,11 @@ Polyhedron unite_solids(std::span<const ConvexCell> cells, std::size_t* dropped,
   options.threads = threads;
   options.monitor = monitor;
   std::optional<Polyhedron> result = try_unite_solids(cells, options, dropped);
-  NEF_ASSERT(result.has_value());
-  return *std::move(result);
+  if (result) return *std::move(result);
+  std::vector<Polyhedron> sets;
+  sets.reserve(cells.size());
+  for (const ConvexCell& cell : cells) sets.push_back(to_polyhedron(cell, monitor));
+  return unite_all(sets, threads, monitor);
 }
 
 }  // namespace nef::minkowski

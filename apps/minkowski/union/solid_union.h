@@ -27,15 +27,16 @@ struct SolidUnionOptions {
   Monitor monitor = {};              ///< who watches; what it refers to must outlive the call
 };
 
-/// The union of convex cells of dimension 3, with their marks; nothing if the budget did not suffice. Facets inside of
-/// other cells, or of the union of facets in their plane, are dropped by filters before anything exact exists, so the
-/// time goes with what is left: O(n log n + m k) for n faces, m of them not hidden, each of which k others meet. Where
-/// many faces nearly coincide, m and k are n, and candidates are their triples: that is what the budget is for.
-/// Adds the number of cells that lie inside of others to `dropped` if it is given.
+/// The union of convex cells of dimension 3, with their marks; nothing if the budget did not suffice, or the size of
+/// all is not between 2^-200 and 2^200 (has_moderate_size). Facets inside of other cells, or of the union of facets in
+/// their plane, are dropped by filters before anything exact exists, so the time goes with what is left: O(n log n + m
+/// k) for n faces, m of them not hidden, each of which k others meet. Where many faces nearly coincide, m and k are n,
+/// and candidates are their triples: that is what the budget is for. Adds the number of cells that lie inside of others
+/// to `dropped` if it is given.
 std::optional<Polyhedron> try_unite_solids(std::span<const ConvexCell> cells, const SolidUnionOptions& options,
                                            std::size_t* dropped = nullptr);
 
-/// The same without a budget.
+/// The same without a budget; of other sizes by unions of two.
 Polyhedron unite_solids(std::span<const ConvexCell> cells, std::size_t* dropped = nullptr, unsigned threads = 1,
                         const Monitor& monitor = {});
 

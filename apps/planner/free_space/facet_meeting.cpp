@@ -8,8 +8,8 @@
 namespace nef::planner {
 namespace {
 
-// A coordinate of a vertex or of a given point, which is within 4u of the truth.
-Approximation coordinate(double value) { return {value, 4 * kRoundingUnit * std::fabs(value)}; }
+// A coordinate of a vertex or of a given point, which is within 4u of the truth, or within 2^-1074 where it is tiny.
+Approximation coordinate(double value) { return {value, 4 * kRoundingUnit * std::fabs(value) + 1e-300}; }
 
 }  // namespace
 

@@ -214,12 +214,14 @@ class NearSearch {
   }
 
   // True if the closed robot, on its way from a to b, surely keeps this distance from a piece (in each direction that
-  // is tried). Corners and products are off by less than some 2^-50 of the largest coordinate each; 2^-40 leave room.
+  // is tried). Directions have a largest component of at most 1. Corners are off by u of the largest coordinate, a
+  // product of three terms by 3u + 3u for each of the robot's corner, the way-point and the piece's corner, and the
+  // sums by 2u of twice as much: some 24u, 2^-48; 2^-40 leave room. What is tiny is off by 2^-1074.
   [[nodiscard]] bool is_apart(const Piece& piece, const Vector3d& a, const Vector3d& b, double distance) const {
     const auto apart = [&](const Vector3d& direction, const Extent& robot, const Extent& other) {
       const double from = direction.dot(a);
       const double to = direction.dot(b);
-      const double needed = distance * direction.norm() + 0x1p-40 * scale_;
+      const double needed = distance * direction.norm() + 0x1p-40 * scale_ + 1e-300;
       return std::min(from, to) + robot.low > other.high + needed ||
              std::max(from, to) + robot.high < other.low - needed;
     };

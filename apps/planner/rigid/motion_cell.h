@@ -18,13 +18,16 @@
 namespace nef::planner {
 
 /// The images of points in a part of a motion, in doubles. A coordinate of an image of a point p that was rounded to
-/// doubles is off by at most kImageError (|p|_1 + position_reach).
+/// doubles is off by at most kImageError (|p|_1 + position_reach) + kVanished.
 struct MotionCell {
   /// With u = 2^-53 and quaternions of length 1 or less (and 0.7 or more): the ends' components are off by u, those of
   /// p and q at a parameter by 5 u, entries of B and the scalar product by 25 u each. The scalar product is at least
   /// 0.35 and the entries of M at most 1.42 unless the cell is wide, so these are off by 180 u; an image is off by that
   /// times |p|_1, by 9 u of it for rounding p and three products, and by 7 u of the position. 256 u is more than that.
   static constexpr double kImageError = 0x1p-45;
+  /// More than all that may vanish: what is below 2^-1022, a coordinate or a product, is off by 2^-1074, and factors
+  /// are at most 2.
+  static constexpr double kVanished = 1e-300;
 
   std::array<Eigen::Matrix3d, 3> turns;
   std::size_t turn_count = 1;  ///< 1 if the rotation stays, else 3

@@ -19,7 +19,8 @@
 namespace nef::planner {
 namespace {
 
-// As in separation.cpp: two images, and the sums and products around them.
+// As in separation.cpp: two images, and the sums and products around them. An infinite sum is not above an infinite
+// error.
 constexpr double kBoxError = 2 * MotionCell::kImageError;
 
 }  // namespace
@@ -157,7 +158,7 @@ class MotionExamination {
 
   // The box of a node of the robot, turned, lies in that about M centre with the halves |M| half.
   static bool boxes_apart(const MotionCell& cell, const RigidBody::Node& a, const RigidBody::Node& b) {
-    const double error = kBoxError * (2 * a.reach + b.reach + cell.position_reach);
+    const double error = kBoxError * (2 * a.reach + b.reach + cell.position_reach) + MotionCell::kVanished;
     Vector3d low = Vector3d::Constant(HUGE_VAL);
     Vector3d high = Vector3d::Constant(-HUGE_VAL);
     for (std::size_t i = 0; i < cell.turn_count; ++i) {

@@ -13,13 +13,6 @@
 namespace nef::planner {
 namespace {
 
-// The direction of an exact normal. It is scaled first, so that those of huge and tiny faces are doubles, too.
-Vector3d direction_of(const Rational3& normal) {
-  Rational largest = 0;
-  for (const Rational& x : normal) largest = std::max(largest, Rational(abs(x)));
-  return to_vector(Rational3{normal[0] / largest, normal[1] / largest, normal[2] / largest}).normalized();
-}
-
 RigidBody::Piece piece_of(const Mesh& mesh, bool flat) {
   RigidBody::Piece piece;
   piece.flat = flat;

@@ -18,8 +18,12 @@ namespace {
 // three roundings, 2^-51 of the same: together and for two points less than twice kImageError.
 constexpr double kPlaneError = 2 * MotionCell::kImageError;
 
+// Beyond, sums of three products may overflow.
+constexpr double kLargestReach = 1e300;
+
 // Turned normals of length 1 are off by 256 roundings in each coordinate; differences to a point of the face are at
-// most 2 reach long.
+// most 2 reach long. That makes 3 kImageError 2 reach at most, and the points' own errors 2 sqrt(3) / 2 kImageError
+// reach.
 constexpr double kSideError = 8 * MotionCell::kImageError;
 
 // Whatever stands in the way of a plane with normal n most, seen from each side.
@@ -132,13 +136,19 @@ void place(const RigidBody::Piece& piece, RoughPolytope& result) {
   result.reach = piece.reach;
 }
 
+double plane_error(const RoughPolytope& a, const RoughPolytope& b) {
+  return kPlaneError * (a.reach + b.reach) + MotionCell::kVanished;
+}
+
 Separation plane_between(const RoughPolytope& a, const RoughPolytope& b, Vector3d* normal) {
   const double reach = a.reach + b.reach;
+  if (!(reach < kLargestReach)) return Separation::kPerhaps;
+  const double error_of_unit = plane_error(a, b);
   bool perhaps = false;
   Supports last;
   const auto separates = [&](const Vector3d& n) {
     last = supports(a, b, n);
-    const double error = kPlaneError * reach * n.lpNorm<1>();
+    const double error = error_of_unit * n.lpNorm<1>() + MotionCell::kVanished;
     perhaps = perhaps || last.gap >= -error;
     if (last.gap > error && normal != nullptr) *normal = n;
     return last.gap > error;
@@ -168,16 +178,19 @@ Separation plane_between(const RoughPolytope& a, const RoughPolytope& b, Vector3
 // Errors: a point is off by kImageError reach in each coordinate, and by the slack as a whole. A distance to a plane is
 // off by sqrt(3) times that and by kSideError for the normal. A volume (q - p) x y of vectors no longer than L is off
 // by 3 L^2 times the error of a difference, which is less than 4 kImageError reach + slack; its own roundings are far
-// less.
+// less. Below 1e100 no volume overflows; in one of vectors below 1 some 2^-1074 may vanish, in one of longer ones that
+// is far below the roundings.
 Separation overlap(const RigidBody::Piece& piece_a, const RoughPolytope& a, const RigidBody::Piece& piece_b,
                    double slack) {
   const double reach = a.reach + piece_b.reach;
-  const double distance_error = kSideError * reach + slack;
+  const double distance_error = kSideError * reach + slack + MotionCell::kVanished;
   const Placed placed_a{piece_a.mesh, a.points, a.normals, piece_a.flat};
   const Placed placed_b{piece_b.mesh, piece_b.points, piece_b.normals, piece_b.flat};
   // The boxes of pieces that are asked about overlap: no two vertices are farther apart than both diameters together.
   const double length = 2 * (piece_a.diameter + piece_b.diameter) + distance_error;
-  const double volume_error = 4 * length * length * (4 * MotionCell::kImageError * reach + slack);
+  if (!(length < 1e100 && reach < kLargestReach)) return Separation::kUnknown;
+  const double volume_error =
+      4 * length * length * (4 * MotionCell::kImageError * reach + slack) + MotionCell::kVanished;
   if (enters(placed_a, placed_b, distance_error, volume_error) ||
       enters(placed_b, placed_a, distance_error, volume_error)) {
     return Separation::kOverlapping;

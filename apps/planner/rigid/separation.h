@@ -21,12 +21,12 @@ enum class Separation : std::uint8_t {
   kUnknown       ///< no such plane was found
 };
 
-/// One of two polytopes in doubles: points whose coordinates are off by kImageError reach at most, and directions in
-/// which a separating plane is looked for first.
+/// One of two polytopes in doubles: points whose coordinates are off by kImageError reach + kVanished at most, and
+/// directions of length 1 or less in which a separating plane is looked for first.
 struct RoughPolytope {
   std::vector<Vector3d> points;
   std::vector<Vector3d> normals;
-  double reach = 0;
+  double reach = 0;  ///< no coordinate of a point is larger
   void clear() {
     points.clear();
     normals.clear();
@@ -36,6 +36,10 @@ struct RoughPolytope {
 /// Makes the rough polytope of what a piece sweeps in a part of a motion, or of a piece that stays.
 void place(const RigidBody::Piece& piece, const MotionCell& cell, RoughPolytope& result);
 void place(const RigidBody::Piece& piece, RoughPolytope& result);
+
+/// What the difference of two products n p, p one of either's points, is off by at most, for a direction n in doubles
+/// with |n|_1 = 1.
+double plane_error(const RoughPolytope& a, const RoughPolytope& b);
 
 /// Looks for a plane between two polytopes: kApart, kPerhaps or kUnknown. If kApart, `normal`, if it is given, receives
 /// the normal of the plane, which points from a to b.

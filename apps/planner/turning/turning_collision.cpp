@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // For each pair of a robot's piece and an obstacle's, both swept over the motion: a separating plane is searched in
-// doubles among the faces' normals and by a few steps towards a common normal; the bound on rounding errors stands
-// beside `kError`. If it is found, the two are apart. If none comes close, a point inside both, by a margin, proves a
-// collision. Otherwise the exact hull of differences decides. A motion that turns encloses the arc of each vertex by
-// three corners, and is halved until every part is surely free or the depth is used up.
+// doubles (rigid/separation.h). If it is found, the two are apart. If none comes close, a point inside both, by a
+// margin, proves a collision. Otherwise the exact hull of differences decides. A motion that turns encloses the arc of
+// each vertex by three corners, and is halved until every part is surely free or the depth is used up.
 #include "apps/planner/turning/turning_collision.h"
 
 #include <algorithm>
@@ -18,13 +17,6 @@
 #include "nef/geometry/vectors.h"
 
 namespace nef::planner {
-namespace {
-
-// See plane_between.
-constexpr double kError = 2e-14;
-
-}  // namespace
-
 TurningCollision::TurningCollision(const Scene& scene, const TurningAxis& axis, const Monitor& monitor)
     : robot_(scene.robot, axis, monitor), box_(scene.box), contact_(scene.contact) {
   for (const TurningRobot::Piece& piece : robot_.pieces()) {
@@ -33,7 +25,9 @@ TurningCollision::TurningCollision(const Scene& scene, const TurningAxis& axis, 
       shape.points.push_back(to_vector(v));
       shape.reach = std::max(shape.reach, shape.points.back().lpNorm<1>());
     }
-    for (const TurningRobot::Face& face : piece.faces) shape.normals.push_back(to_vector(face.normal));
+    for (const TurningRobot::Face& face : piece.faces) {
+      if (!is_zero(face.normal)) shape.normals.push_back(direction_of(face.normal));
+    }
   }
   for (const Polyhedron& obstacle : scene.obstacles) {
     const Polyhedron bounded = reachable_part(obstacle, scene, monitor);
@@ -42,24 +36,25 @@ TurningCollision::TurningCollision(const Scene& scene, const TurningAxis& axis, 
       if (cell.dimension < 3 && solid_everywhere) continue;  // walls between solid cells
       Solid& solid = obstacles_.emplace_back();
       solid.vertices = cell.mesh.vertices;
-      for (const Rational3& v : solid.vertices) solid.points.push_back(to_vector(v));
+      for (const Rational3& v : solid.vertices) {
+        solid.rough.points.push_back(to_vector(v));
+        solid.rough.reach = std::max(solid.rough.reach, solid.rough.points.back().lpNorm<Eigen::Infinity>());
+      }
       for (std::size_t f = 0; f < cell.mesh.face_count(); ++f) {
-        const auto ring = cell.mesh.face(f);
-        const Rational3& p = solid.vertices[ring[0]];
-        const Rational3 n = cross(minus(solid.vertices[ring[1]], p), minus(solid.vertices[ring[2]], p));
-        solid.normals.push_back(to_vector(n));
-        if (cell.dimension < 3) solid.normals.push_back(-solid.normals.back());
+        std::vector<Rational3> corners;
+        for (const std::uint32_t corner : cell.mesh.face(f)) corners.push_back(solid.vertices[corner]);
+        solid.rough.normals.push_back(direction_of(normal_of(std::span<const Rational3>(corners))));
+        if (cell.dimension < 3) solid.rough.normals.push_back(-solid.rough.normals.back());
       }
       solid.flat = cell.dimension < 3;
       measure(solid);
-      solid.size = std::max({solid.size, solid.low.lpNorm<Eigen::Infinity>(), solid.high.lpNorm<Eigen::Infinity>()});
     }
   }
 }
 
 void TurningCollision::measure(Solid& solid) {
-  solid.low = solid.high = solid.points.front();
-  for (const Vector3d& p : solid.points) {
+  solid.low = solid.high = solid.rough.points.front();
+  for (const Vector3d& p : solid.rough.points) {
     solid.low = solid.low.cwiseMin(p);
     solid.high = solid.high.cwiseMax(p);
   }
@@ -73,52 +68,22 @@ bool TurningCollision::in_box(const Rational3& position) const {
   return true;
 }
 
-// A direction in doubles is exact. Points are off by less than 32 roundings of the size M of what they were made of (a
-// matrix of rounded entries, a few sums and products), and a product of them by 4 more: 2^-53 * 36 * |n|_1 M, less than
-// half of the bound, for each of the two extremes.
-TurningCollision::Plane TurningCollision::plane_between(const Solid& a, const Solid& b) {
-  const double largest = std::max(a.size, b.size);
-  bool perhaps = false;
-  const auto separates = [&](const Vector3d& n) {
-    double most = -HUGE_VAL;
-    double least = HUGE_VAL;
-    for (const Vector3d& p : a.points) most = std::max(most, n.dot(p));
-    for (const Vector3d& p : b.points) least = std::min(least, n.dot(p));
-    const double error = kError * largest * n.lpNorm<1>();
-    perhaps = perhaps || least - most >= -error;
-    return least - most > error;
-  };
+Separation TurningCollision::separation(const Solid& a, const Solid& b) {
+  const double error = plane_error(a.rough, b.rough);
   for (Eigen::Index k = 0; k < 3; ++k) {
-    if (a.high[k] + kError * largest < b.low[k] || b.high[k] + kError * largest < a.low[k]) return Plane::kSurely;
+    if (a.high[k] + error < b.low[k] || b.high[k] + error < a.low[k]) return Separation::kApart;
   }
-  for (const Vector3d& n : b.normals) {
-    if (separates(-n)) return Plane::kSurely;
-  }
-  for (const Vector3d& n : a.normals) {
-    if (separates(n)) return Plane::kSurely;
-  }
-  if (perhaps) return Plane::kPerhaps;
-  // Towards each other, corrected a few times by the two vertices that stand in the way most.
-  Vector3d n = b.low + b.high - a.low - a.high;
-  for (int round = 0; round < 8; ++round) {
-    if (separates(n)) return Plane::kSurely;
-    const auto foremost = [&](const std::vector<Vector3d>& points, double sign) {
-      return *std::max_element(points.begin(), points.end(),
-                               [&](const Vector3d& p, const Vector3d& q) { return sign * n.dot(p) < sign * n.dot(q); });
-    };
-    const Vector3d between = foremost(b.points, -1) - foremost(a.points, 1);
-    const double size = n.norm();
-    const double length = between.norm();
-    if (!(size > 0) || !(length > 0)) break;
-    n = n / size + between / length;
-  }
-  return perhaps ? Plane::kPerhaps : Plane::kNone;
+  return plane_between(a.rough, b.rough);
 }
 
-// Rounded normals tilt faces by some 2^-50 of the size, far less than the margin behind them that is asked for.
-// A point moves to the other side of the plane that it is farthest beyond, again and again, until it is behind all.
+// A point moves to the other side of the plane that it is farthest beyond, again and again, until it is behind all by a
+// margin m = 2 plane_error, 1024u of the reach R of both. Let n be a rounded normal, within 8u of the true one N in
+// each coordinate (4u, and 4u more of a rotation of rounded entries). With the plane through the foremost rounded
+// vertex q, N p - N q for a true vertex is at most n p - n q and 24u R for each of p and q, 3 kImageError R for q's
+// error and 6u R for the roundings of the products, p being no farther out than R: below m.
 bool TurningCollision::surely_overlap(const Solid& a, const Solid& b) {
-  const double margin = kError * std::max(a.size, b.size);
+  const double reach = a.rough.reach + b.rough.reach;
+  const double margin = 2 * plane_error(a.rough, b.rough);
   struct Side {
     Vector3d normal;
     double offset;
@@ -126,15 +91,15 @@ bool TurningCollision::surely_overlap(const Solid& a, const Solid& b) {
   std::vector<Side> sides;
   Vector3d p = (a.low + a.high + b.low + b.high) / 4;
   for (const Solid* solid : {&a, &b}) {
-    for (const Vector3d& n : solid->normals) {
-      const Vector3d unit = n / n.norm();
+    for (const Vector3d& n : solid->rough.normals) {
       double most = -HUGE_VAL;
-      for (const Vector3d& q : solid->points) most = std::max(most, unit.dot(q));
-      sides.push_back({unit, most - 2 * margin});
+      for (const Vector3d& q : solid->rough.points) most = std::max(most, n.dot(q));
+      sides.push_back({n, most - margin});
     }
   }
   constexpr int kRounds = 20;
   for (int round = 0; round < kRounds; ++round) {
+    if (!(p.lpNorm<Eigen::Infinity>() <= reach && reach < 1e300)) return false;
     const Side* worst = nullptr;
     double beyond = 0;
     for (const Side& side : sides) {
@@ -145,7 +110,7 @@ bool TurningCollision::surely_overlap(const Solid& a, const Solid& b) {
       }
     }
     if (beyond < 0) return true;
-    const double step = 1.5 * beyond + 1e-6 * std::max(a.size, b.size);
+    const double step = 1.5 * beyond + 1e-6 * reach;
     p -= step * worst->normal;
   }
   return false;
@@ -199,19 +164,24 @@ TurningCollision::Swept TurningCollision::sweep(const Pose& from, const Pose& to
     const AffineMap map = axis().rotation(pose->turn);
     for (std::size_t i = 0; i < 3; ++i) end->rotation.row(static_cast<Eigen::Index>(i)) = to_vector(map.linear[i]);
     end->position = to_vector(pose->position);
-    swept.size = std::max(swept.size, end->position.lpNorm<Eigen::Infinity>());
+    swept.position_reach = std::max(swept.position_reach, end->position.lpNorm<Eigen::Infinity>());
   }
   swept.tangent = nearest_double(axis().half_tangent_between(from.turn, to.turn));
   return swept;
 }
 
+// The images are off by less than kImageError of this reach. u = 2^-53, L the sum of a vertex's coordinates. A turned
+// vertex p is off by u for the entries of the matrix, u for the vertex, and 3u for products and sums: 5u L. The corner
+// of its arc adds t n x p, where t |n| is at most 1 and a little (a quarter turn) and |n|_1 below 1.8 |n|: off by 5u
+// for p and 6u more for t, n, products and their difference, of 1.8 L. With the sums below 32u L in all, of 2.8 L and
+// the position.
 TurningCollision::Solid TurningCollision::swept(std::size_t piece, const Swept& sweep) const {
   const Shape& shape = shapes_[piece];
   Solid solid;
-  solid.size = 4 * shape.reach + sweep.size;
+  solid.rough.reach = 4 * shape.reach + sweep.position_reach;
   const auto add = [&](const Vector3d& p) {
-    solid.points.push_back(p + sweep.from.position);
-    if (sweep.moves) solid.points.push_back(p + sweep.to.position);
+    solid.rough.points.push_back(p + sweep.from.position);
+    if (sweep.moves) solid.rough.points.push_back(p + sweep.to.position);
   };
   const Vector3d n = to_vector(axis().direction());
   for (const Vector3d& v : shape.points) {
@@ -222,8 +192,8 @@ TurningCollision::Solid TurningCollision::swept(std::size_t piece, const Swept& 
     add(sweep.to.rotation * v);
   }
   for (const Vector3d& normal : shape.normals) {
-    solid.normals.emplace_back(sweep.from.rotation * normal);
-    if (sweep.turns) solid.normals.emplace_back(sweep.to.rotation * normal);
+    solid.rough.normals.emplace_back(sweep.from.rotation * normal);
+    if (sweep.turns) solid.rough.normals.emplace_back(sweep.to.rotation * normal);
   }
   measure(solid);
   return solid;
@@ -238,9 +208,9 @@ bool TurningCollision::is_free_at(const Turn& turn, const Rational3& from, const
   for (std::size_t i = 0; i < shapes_.size(); ++i) {
     const Solid solid = swept(i, way);
     for (const Solid& obstacle : obstacles_) {
-      const Plane plane = plane_between(solid, obstacle);
-      if (plane == Plane::kSurely) continue;
-      if (plane == Plane::kNone && surely_hits(i, way, obstacle)) return false;
+      const Separation plane = separation(solid, obstacle);
+      if (plane == Separation::kApart) continue;
+      if (plane == Separation::kUnknown && surely_hits(i, way, obstacle)) return false;
       if (!exactly_apart(exactly_swept(robot_.pieces()[i], begin, end), obstacle.vertices)) return false;
       if (obstacle.flat) touched.push_back(&obstacle);
     }
@@ -268,11 +238,11 @@ bool TurningCollision::is_free(const Pose& from, const Pose& to, int depth) cons
     for (std::size_t i = 0; i < shapes_.size(); ++i) {
       const Solid solid = swept(i, way);
       for (const Solid& obstacle : obstacles_) {
-        const Plane plane = plane_between(solid, obstacle);
-        if (plane == Plane::kSurely) continue;
+        const Separation plane = separation(solid, obstacle);
+        if (plane == Separation::kApart) continue;
         // What slides along a floor as it turns is free, too.
         const bool sure_contact = !obstacle.flat || robot_.pieces().size() == 1;
-        if (plane == Plane::kNone || !sure_contact) return false;
+        if (plane == Separation::kUnknown || !sure_contact) return false;
         if (!exactly_apart(exactly_swept(robot_.pieces()[i], from, to), obstacle.vertices)) return false;
       }
     }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "apps/planner/free_space/vectors.h"
+#include "apps/planner/rigid/separation.h"
 #include "apps/planner/turning/turning_question.h"
 #include "apps/planner/turning/turning_robot.h"
 #include "nef/base/monitor.h"
@@ -31,11 +32,9 @@ class TurningCollision {
  private:
   struct Solid {
     std::vector<Rational3> vertices;  // of obstacles
-    std::vector<Vector3d> points;
-    std::vector<Vector3d> normals;  // directions in which to look for a plane first
-    Vector3d low = Vector3d::Zero();
+    RoughPolytope rough;              // with the normals of all faces
+    Vector3d low = Vector3d::Zero();  // of its points
     Vector3d high = Vector3d::Zero();
-    double size = 0;  // no less than any number that the points were made of
     bool flat = false;
   };
   // A piece of the robot in doubles.
@@ -52,15 +51,14 @@ class TurningCollision {
     };
     End from, to;
     double tangent = 0;
-    double size = 0;
+    double position_reach = 0;  // no coordinate of a position is larger
     bool turns = false;
     bool moves = false;
   };
   static void measure(Solid& solid);
   [[nodiscard]] bool in_box(const Rational3& position) const;
-  // What doubles find: a plane between the two with room to spare, one that may just do, none.
-  enum class Plane : std::uint8_t { kSurely, kPerhaps, kNone };
-  static Plane plane_between(const Solid& a, const Solid& b);
+  // What doubles find: see Separation.
+  static Separation separation(const Solid& a, const Solid& b);
   // True if doubles find a point that is inside both with room to spare; the normals must be those of all faces.
   static bool surely_overlap(const Solid& a, const Solid& b);
   [[nodiscard]] bool surely_hits(std::size_t piece, const Swept& way, const Solid& obstacle) const;

@@ -203,8 +203,8 @@ class ProvenOptimum {
         size += std::abs(rounded_[k].a[i] * at[i]);
       }
       // Rounded are each coefficient (twice, and the length once more), the coordinates, products and sums: less than
-      // 16 roundings of 2^-53 on each term.
-      if (rest > size * 0x1p-48) continue;
+      // 16 roundings of 2^-53 on each term. What vanishes is 2^-1074, times at most kLimit.
+      if (rest > size * 0x1p-48 + 1e-250) continue;
       Rational exact = exact_[k].b;
       for (std::size_t i = 0; i < 3; ++i) exact -= exact_[k].a[i] * x[i];
       if (sgn(exact) < 0) return false;

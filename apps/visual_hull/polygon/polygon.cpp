@@ -28,7 +28,8 @@ int exact_orientation(const Point2& a, const Point2& b, const Point2& c) {
 }  // namespace
 
 Point2::Point2(const Rational& x, const Rational& y) : approximate{nef::nearest_double(x), nef::nearest_double(y)} {
-  if (x == approximate[0] && y == approximate[1]) {
+  const bool finite = std::isfinite(approximate[0]) && std::isfinite(approximate[1]);
+  if (finite && x == approximate[0] && y == approximate[1]) {
     lattice = is_lattice(approximate[0]) && is_lattice(approximate[1]);
   } else {
     lattice = false;

@@ -88,7 +88,7 @@ class InsideCheck {
       for (std::size_t i = 0; i < 2; ++i) result.at[i] = x[i] / x[2];
       const double largest = std::max(std::abs(result.at[0]), std::abs(result.at[1]));
       const double numerator = std::max(magnitude[0], magnitude[1]);
-      result.error = (numerator + magnitude[2] * largest) / least * 1.0001 + largest * 0x1p-51;
+      result.error = (numerator + magnitude[2] * largest) / least * 1.0001 + largest * 0x1p-51 + 1e-300;
       return result;
     }
     const Rational3 point = complex_.points.rational(nef::point_of(v));
@@ -127,9 +127,11 @@ class InsideCheck {
       largest = std::max({largest, std::abs(low), std::abs(high)});
     }
     // Each difference is below `extent` and off by at most e = 2 error + 2^-51 largest: two products of
-    // two such differences are off by at most 4 extent e + 2 e^2 and their rounding.
+    // two such differences are off by at most 4 extent e + 2 e^2 and their rounding; nothing may overflow, and what
+    // vanishes is a few times 2^-1074.
+    if (!(extent < 1e140)) return false;
     const double e = 2 * error + largest * 0x1p-51;
-    const double bound = 4 * extent * e + 2 * e * e + extent * extent * 0x1p-50;
+    const double bound = 4 * extent * e + 2 * e * e + extent * extent * 0x1p-50 + 1e-290;
     const double ca = cross(c.approximate, d.approximate, a.at);
     const double cb = cross(c.approximate, d.approximate, b.at);
     if ((ca > bound && cb > bound) || (ca < -bound && cb < -bound)) return true;

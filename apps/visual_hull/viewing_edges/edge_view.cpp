@@ -76,8 +76,22 @@ std::optional<EdgeView> EdgeView::make(const Camera& camera, const Silhouette& s
                                        std::uint32_t first, const Double3& reach, std::span<ViewingEdge> edges) {
   EdgeView view(camera, first, reach, edges);
   view.collect_edges(silhouette, index);
-  if (!view.join_places() || !view.build_grid()) return std::nullopt;
+  if (!view.has_moderate_sizes(reach) || !view.join_places() || !view.build_grid()) return std::nullopt;
   return view;
+}
+
+// Of the box, of the image, and of each edge's plane in the box: then products of three planes' sizes, those in small
+// parts of the box included, are far from where doubles overflow or lose digits.
+bool EdgeView::has_moderate_sizes(const Double3& reach) const {
+  const auto moderate = [](double size) { return size > 0x1p-150 && size < 0x1p150; };
+  double image = 0;
+  for (std::uint32_t e = first_; e < first_ + count_; ++e) {
+    double size = std::abs(edges_[e].offset);
+    for (std::size_t k = 0; k < 3; ++k) size += std::abs(edges_[e].normal.at[k]) * reach[k];
+    if (!moderate(size)) return false;
+    for (const double x : edges_[e].from->approximate) image = std::max(image, std::abs(x));
+  }
+  return moderate(image) && moderate(std::max({reach[0], reach[1], reach[2]}));
 }
 
 EdgeView::EdgeView(const Camera& camera, std::uint32_t first, const Double3& reach, std::span<ViewingEdge> edges)
@@ -305,7 +319,6 @@ bool EdgeView::mark_cells() {
   cell_inside_.assign(static_cast<std::size_t>(width_ * height_), false);
   std::vector<double> crossings;
   std::vector<std::uint32_t> edges;
-  const double safe = side_ * 1e-9;  // far above rounding
   for (std::int64_t row = 0; row < height_; ++row) {
     const double v = reference(0, row)[1];
     edges.assign(cell_edges_.begin() + cell_begin_[static_cast<std::size_t>(row * width_)],
@@ -313,11 +326,21 @@ bool EdgeView::mark_cells() {
     std::sort(edges.begin(), edges.end());
     edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
     crossings.clear();
+    // So far from u or v is what is on a known side of them; more than rounding only costs grids.
+    double safe = side_ * 1e-9;
     for (const std::uint32_t e : edges) {
       const auto& a = edges_[e].from->approximate;
       const auto& b = edges_[e].to->approximate;
-      if (std::abs(a[1] - v) < safe || std::abs(b[1] - v) < safe) return false;
-      if ((a[1] < v) != (b[1] < v)) crossings.push_back(a[0] + (v - a[1]) / (b[1] - a[1]) * (b[0] - a[0]));
+      const double error = std::max(ends_[e - first_][0].error, ends_[e - first_][1].error);
+      if (std::abs(a[1] - v) < safe + 3 * error || std::abs(b[1] - v) < safe + 3 * error) return false;
+      if ((a[1] < v) == (b[1] < v)) continue;
+      crossings.push_back(a[0] + (v - a[1]) / (b[1] - a[1]) * (b[0] - a[0]));
+      // Ends that are moved by an error move the crossing by that and by its multiple with the slope, which is larger
+      // by half at most, as the ends' difference is above 6 errors. The quotient is at most 1 and, with the
+      // differences, rounds by 4u of itself, u = 2^-53, the product by u more, the sum by u of the larger end.
+      const double slope = std::abs(b[0] - a[0]) / std::abs(b[1] - a[1]);
+      const double largest = std::max(std::abs(a[0]), std::abs(b[0]));
+      safe = std::max(safe, 4 * error * (1 + slope) + 16 * nef::kRoundingUnit * largest);
     }
     std::sort(crossings.begin(), crossings.end());
     std::size_t passed = 0;

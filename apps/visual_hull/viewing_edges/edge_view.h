@@ -63,7 +63,8 @@ class EdgeView {
  public:
   /// Makes the view's edges, which are numbered from `first` on in `edges`, the list of all views' edges. Keeps
   /// references to camera and edges. Coordinates of spots to be projected are at most `reach`. Nothing if vertices are
-  /// equal but for rounding, the silhouette is flat, or lies on points of its grid.
+  /// equal but for rounding, the silhouette is flat, or lies on points of its grid, or numbers are so large or small
+  /// that bounds of rounding errors do not hold (has_moderate_sizes).
   static std::optional<EdgeView> make(const Camera& camera, const Silhouette& silhouette, std::uint32_t index,
                                       std::uint32_t first, const Double3& reach, std::span<ViewingEdge> edges);
 
@@ -103,6 +104,7 @@ class EdgeView {
  private:
   EdgeView(const Camera& camera, std::uint32_t first, const Double3& reach, std::span<ViewingEdge> edges);
   void collect_edges(const Silhouette& silhouette, std::uint32_t index);
+  [[nodiscard]] bool has_moderate_sizes(const Double3& reach) const;
   [[nodiscard]] bool join_places();
   void prepare_edge(ViewingEdge& edge) const;
   [[nodiscard]] bool build_grid();

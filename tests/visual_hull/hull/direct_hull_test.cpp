@@ -6,6 +6,7 @@
 #include "apps/visual_hull/cones/bounds.h"
 #include "apps/visual_hull/cones/intersection.h"
 #include "nef/polyhedron.h"
+#include "tests/support/magnitudes.h"
 #include "tests/support/paths.h"
 #include "tests/visual_hull/helpers.h"
 
@@ -136,6 +137,48 @@ TEST_CASE("Many views, of many vertices or few, with holes or without: the direc
       CHECK(nef::equal(*hull, by_cones(views, box)));
     }
   }
+}
+
+// A camera's matrix times a number is the same camera; a scene may be small or large, its images, too.
+TEST_CASE("Matrices, scenes and images of any magnitude: the direct way gives up, or agrees", "[bounds]") {
+  constexpr std::size_t kViews = 7;
+  std::vector<TestView> views;
+  for (std::size_t i = 0; i < kViews; ++i) views.push_back({spiral_camera(i, kViews), bumpy(i, 9, i % 2 == 1)});
+  const WorldBox box = enclosing_box(views).value();
+  const nef::Polyhedron expected = by_cones(views, box);
+  std::size_t used = 0;
+  for (const long exponent : nef::test::kExponents) {
+    const Rational factor = nef::test::power_of_two(exponent);
+    const auto times = [&](const Rational& matrix, const Rational& scene, const Rational& image) {
+      std::vector<TestView> changed;
+      for (const TestView& view : views) {
+        Matrix34 m = view.camera.matrix();
+        for (std::size_t row = 0; row < 3; ++row) {
+          for (std::size_t k = 0; k < 4; ++k) {
+            m[row][k] *= matrix;
+            if (k == 3) m[row][k] *= scene;
+            if (row < 2) m[row][k] *= image;
+          }
+        }
+        Silhouette silhouette = view.silhouette;
+        for (Ring& ring : silhouette.rings) {
+          for (Point2& p : ring) p = Point2(p.x() * image, p.y() * image);
+        }
+        changed.push_back({Camera(view.camera.name(), m), silhouette});
+      }
+      const WorldBox large{nef::test::scaled(box.low, scene), nef::test::scaled(box.high, scene)};
+      const std::optional<nef::Polyhedron> hull = directly(changed, large);
+      if (!hull) return;
+      ++used;
+      CHECK(nef::equal(*hull, nef::test::scaled(expected, scene)));
+    };
+    INFO("times 2^" << exponent);
+    times(factor, 1, 1);
+    times(1, factor, 1);
+    times(1, 1, factor);
+    times(1 / factor, factor, 1);
+  }
+  CHECK(used > 20);
 }
 
 TEST_CASE("The views of a real scene go the direct way, on any number of threads", "[threads]") {

@@ -48,7 +48,7 @@ std::array<std::size_t, 2> RoundedFacets::far_corners(std::uint32_t f) const {
 
 // Corners are within e = 4u extent of the truth, with room, so a side has components within 2.5 e, and x - origin, at
 // most 2 extent in each coordinate, is within 1.1 e if x is exact. Two products and a sum round by 4u of the
-// magnitudes.
+// magnitudes. Nothing overflows for moderate extents, and what vanishes is far below e extent.
 void RoundedFacets::add_sides(std::uint32_t f) {
   const auto [axis, turn] = projection_axis(facets_.planes, facets_.plane[f]);
   const auto ring = facets_.ring(f);

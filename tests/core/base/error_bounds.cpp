@@ -6,55 +6,16 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <functional>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "nef/geometry/direction_error.h"
 #include "nef/geometry/predicates.h"
+#include "tests/support/worst_error.h"
 
 namespace nef::test {
 namespace {
-
-using Genes = std::vector<Integer>;
-
-Integer random_gene(std::mt19937_64& random, unsigned bits) {
-  std::uint64_t value = random() >> (64 - bits);
-  // Long runs of ones and zeros are what is cut off most, and least.
-  if (random() % 3 == 0) value |= random() >> (64 - bits) | random() >> (64 - bits) | random() >> (64 - bits);
-  value |= std::uint64_t{1} << (bits - 1);
-  const Integer size(std::to_string(value));
-  return random() % 2 == 0 ? size : Integer(-size);
-}
-
-// The largest value of `part` that restarts and mutations find.
-double worst(std::uint64_t seed, std::size_t genes, unsigned bits, const std::function<double(const Genes&)>& part) {
-  constexpr int kStarts = 25;
-  constexpr int kSteps = 200;
-  std::mt19937_64 random(seed);
-  double all = 0;
-  for (int start = 0; start < kStarts; ++start) {
-    Genes best;
-    for (std::size_t i = 0; i < genes; ++i) best.push_back(random_gene(random, bits));
-    double score = part(best);
-    for (int step = 0; step < kSteps; ++step) {
-      Genes next = best;
-      Integer& gene = next[random() % genes];
-      if (random() % 4 == 0) {
-        gene = random_gene(random, bits);
-      } else {
-        mpz_combit(gene.get_mpz_t(), random() % (bits - 1));
-      }
-      const double its = part(next);
-      if (!(its >= score)) continue;
-      score = its;
-      best = std::move(next);
-    }
-    all = std::max(all, score);
-  }
-  return all;
-}
 
 Rational two_to(long exponent) {
   Rational result = 1;
@@ -78,8 +39,6 @@ Rational coefficient(const PlaneTable& planes, PlaneId plane, std::size_t i) {
   mpz_set(value.get_mpz_t(), planes.coefficient(plane, i));
   return Rational(value);
 }
-
-double part_of(const Rational& off, double bound) { return nearest_double(Rational(abs(off) / exact_rational(bound))); }
 
 }  // namespace
 

@@ -89,8 +89,7 @@ py::tuple mesh_of(const Polyhedron& a, bool polygons, bool exact, bool manifold,
           a, {.polygons = polygons, .manifold = manifold, .recenter = recenter, .repair = repair, .monitor = monitor});
     });
     warn(made.notes);
-    const py::tuple arrays =
-        exact ? mesh_to_arrays(made.mesh, !polygons) : mesh_to_arrays(nearest(made.mesh), !polygons);
+    py::tuple arrays = exact ? mesh_to_arrays(made.mesh, !polygons) : mesh_to_arrays(nearest(made.mesh), !polygons);
     if (!recenter) return arrays;
     return py::make_tuple(arrays[0], arrays[1], exact ? from_triple(made.offset) : floats_of(made.offset));
   }

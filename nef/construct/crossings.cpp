@@ -2,21 +2,28 @@
 #include "nef/construct/crossings.h"
 
 namespace nef {
+namespace {
 
-const char* name(Crossings rule) {
-  switch (rule) {
-    case Crossings::kRefuse:
-      return "refuse";
-    case Crossings::kUnion:
-      return "union";
-    case Crossings::kNonzero:
-      return "nonzero";
-    case Crossings::kOdd:
-      return "odd";
-    case Crossings::kOutside:
-      return "outside";
-  }
-  return "unknown";
+struct Words {
+  const char* name;
+  const char* takes;
+};
+
+// In the order of the rules.
+constexpr std::array<Words, kAllCrossings.size()> kWords{{{"refuse", "nothing"},
+                                                          {"union", "what is enclosed at least once"},
+                                                          {"nonzero", "what has a winding number other than 0"},
+                                                          {"odd", "what is enclosed an odd number of times"},
+                                                          {"outside", "what cannot be reached from outside"}}};
+
+}  // namespace
+
+const char* name(Crossings rule) { return kWords[static_cast<std::size_t>(rule)].name; }
+
+const char* taken_by(Crossings rule) { return kWords[static_cast<std::size_t>(rule)].takes; }
+
+std::string crossing_text(std::size_t pairs) {
+  return pairs == 1 ? "1 pair of faces crosses" : std::to_string(pairs) + " pairs of faces cross";
 }
 
 std::optional<Crossings> crossings_of_name(std::string_view wanted) {
@@ -38,22 +45,6 @@ bool is_taken(Crossings rule, int winding) {
       break;
   }
   return winding != 0;
-}
-
-const char* taken_by(Crossings rule) {
-  switch (rule) {
-    case Crossings::kRefuse:
-      return "nothing";
-    case Crossings::kUnion:
-      return "what is enclosed at least once";
-    case Crossings::kNonzero:
-      return "what has a winding number other than 0";
-    case Crossings::kOdd:
-      return "what is enclosed an odd number of times";
-    case Crossings::kOutside:
-      return "what cannot be reached from outside";
-  }
-  return "nothing";
 }
 
 }  // namespace nef

@@ -4,8 +4,10 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace nef {
@@ -37,5 +39,8 @@ bool is_taken(Crossings rule, int winding);
 
 /// What a rule takes, as a message says it: "what is enclosed at least once".
 const char* taken_by(Crossings rule);
+
+/// "81 pairs of faces cross", or "1 pair of faces crosses".
+std::string crossing_text(std::size_t pairs);
 
 }  // namespace nef

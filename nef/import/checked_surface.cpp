@@ -36,7 +36,7 @@ std::string with_advice(const MeshProblem& refused, const Mesh& mesh, const Mesh
   }
   const std::size_t pairs = count_crossings(contacts);
   std::string text = refused.text;
-  if (pairs > 1) text += "; " + std::to_string(pairs) + " pairs of faces cross";
+  if (pairs > 1) text += "; " + crossing_text(pairs);
   return text + advice_to_unite();
 }
 

@@ -53,6 +53,7 @@ class WindingFiller {
     if (high > 1) refuse([](int w) { return w > 1; });
     if (low < -1) refuse([](int w) { return w < -1; });
   }
+
   // The middle of one of the triangles that a facet can be cut into.
   [[nodiscard]] Rational3 inner_point(FacetId f, Triangulator& triangulator) const {
     const Facet& facet = c_.facets[f];

@@ -103,9 +103,8 @@ void note_rule(const ResolvedMesh& made, const FilledMesh& filled, Crossings rul
   if (messages == nullptr || rule == Crossings::kRefuse) return;
   const std::size_t pairs = made.crossing_pairs;
   if (pairs == 0 && filled.lowest >= 0 && filled.highest <= 1) return;
-  const std::string what = pairs == 0   ? "the mesh encloses parts of space several times or inside out"
-                           : pairs == 1 ? "1 pair of faces crosses"
-                                        : std::to_string(pairs) + " pairs of faces cross";
+  const std::string what =
+      pairs == 0 ? "the mesh encloses parts of space several times or inside out" : crossing_text(pairs);
   messages->push_back(what + ": " + taken_by(rule) + " was taken");
 }
 

@@ -43,10 +43,7 @@ std::string line_about(int winding, const WindingVolume& entry, bool taken, doub
 std::vector<std::string> lines_about(const ResolvedMesh& resolved, Crossings rule) {
   std::vector<std::string> result;
   if (resolved.crossing_pairs > 0) {
-    result.push_back((resolved.crossing_pairs == 1
-                          ? "1 pair of faces crosses"
-                          : std::to_string(resolved.crossing_pairs) + " pairs of faces cross") +
-                     std::string(": ") + taken_by(rule) + " is taken");
+    result.push_back(crossing_text(resolved.crossing_pairs) + ": " + taken_by(rule) + " is taken");
   }
   double total = 0;
   for (const auto& [winding, entry] : resolved.volumes) {

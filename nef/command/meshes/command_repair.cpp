@@ -64,10 +64,10 @@ std::string advice(const RepairedMesh& repaired, const RepairOptions& options) {
 }  // namespace
 
 void add_repair_command(CLI::App& app, Session& session) {
-  CLI::App* command = add_subcommand(app, session, "repair",
-                                     "Make a mesh that nearly bounds a solid bound one, and say how. Exit code 0 if it "
-                                     "does then, 1 if not; then a file "
-                                     "is written with --lenient only");
+  CLI::App* command =
+      add_subcommand(app, session, "repair",
+                     "Make a mesh that nearly bounds a solid bound one, and say how. Exit code 0 if it does then, 1 if "
+                     "not; then a file is written with --lenient only");
   const auto options = std::make_shared<RepairOptions>();
   command->add_option("input", session.input, "The mesh, as a file")->required();
   command->add_flag("--fill-holes", options->fill_holes, "Close planar holes with a face");

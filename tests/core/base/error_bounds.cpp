@@ -12,26 +12,17 @@
 
 #include "nef/geometry/direction_error.h"
 #include "nef/geometry/predicates.h"
+#include "tests/support/magnitudes.h"
 #include "tests/support/worst_error.h"
 
 namespace nef::test {
 namespace {
 
-Rational two_to(long exponent) {
-  Rational result = 1;
-  if (exponent >= 0) {
-    mpq_mul_2exp(result.get_mpq_t(), result.get_mpq_t(), static_cast<mp_bitcnt_t>(exponent));
-  } else {
-    mpq_div_2exp(result.get_mpq_t(), result.get_mpq_t(), static_cast<mp_bitcnt_t>(-exponent));
-  }
-  return result;
-}
-
 // What the doubles of a plane are scaled by.
 Rational scale_of(const PlaneTable& planes, PlaneId plane) {
   std::size_t top = 0;
   for (std::size_t i = 0; i < 3; ++i) top = std::max(top, mpz_sizeinbase(planes.coefficient(plane, i), 2));
-  return two_to(-static_cast<long>(top));
+  return power_of_two(-static_cast<long>(top));
 }
 
 Rational coefficient(const PlaneTable& planes, PlaneId plane, std::size_t i) {
